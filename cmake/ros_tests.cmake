@@ -1,0 +1,2 @@
+# Unit tests of the ROS floor, rostests and launch file checks.
+find_package(rostest REQUIRED)

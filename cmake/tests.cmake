@@ -1,0 +1,30 @@
+# One gtest binary a floor, from test/<floor>/*_test.cpp. Truth figures live in test/truth, see its README.
+find_package(GTest REQUIRED)
+
+function(curtain_add_tests floor)
+  file(GLOB sources CONFIGURE_DEPENDS test/${floor}/*_test.cpp)
+  if(NOT sources)
+    return()
+  endif()
+  set(target test_${floor})
+  if(catkin_FOUND)
+    catkin_add_gtest(${target} ${sources} TIMEOUT 600)
+    target_link_libraries(${target} GTest::gtest_main)
+  else()
+    add_executable(${target} ${sources})
+    target_link_libraries(${target} GTest::gtest_main)
+    add_test(NAME ${target} COMMAND ${target})
+  endif()
+  target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src ${CMAKE_CURRENT_SOURCE_DIR}/test)
+  target_compile_definitions(${target} PRIVATE
+    CURTAIN_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}" CURTAIN_BATCH="$<TARGET_FILE:curtain_batch>")
+  target_link_libraries(${target} curtain_engine curtain_warnings ${ARGN})
+endfunction()
+
+foreach(floor scene cloth forces solver contact simulator batch)
+  curtain_add_tests(${floor})
+endforeach()
+
+if(catkin_FOUND)
+  include(cmake/ros_tests.cmake)
+endif()

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Floor 1: the triangulated mesh of both layers of nodes, for display, export and (later) contact.
+//
+//   fine column   0   1   2 … k-1   k   k+1 …          first-layer nodes at multiples of k,
+//   row i         o---.---.-- … .---o---.-- …           second-layer nodes between them
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "curtain_sim/scene.h"
+
+namespace curtain {
+
+/// What does not change while a cloth lives.
+struct FineMeshTopology {
+  int rows = 0;     ///< of the grid
+  int columns = 0;  ///< fine columns: links * folds + 1, closed cloth: links * folds
+  int folds = 1;    ///< rods per weft link
+  bool closed = false;
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into FineMesh::positions, same winding all over
+};
+
+/// What does: shape [rows * columns] row-major.
+struct FineMesh {
+  std::vector<Vec3> positions;  ///< [m]
+};
+
+FineMeshTopology makeFineMeshTopology(const ClothParams& cloth);
+
+/// Unit normals of the fine mesh's nodes (area-weighted mean of the faces at the node); out is resized.
+void fineMeshNormals(const FineMeshTopology& topology, const FineMesh& mesh, std::vector<Vec3>& out);
+
+}  // namespace curtain

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Floor 0: everything a scene can say, as plain values with defaults and units (SI throughout).
+// A Scene is judged by validate() and read from or written to YAML by scene_yaml.h; the same keys
+// are a file for curtain_batch and the node's ~scene parameter tree.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace curtain {
+
+using Vec3 = Eigen::Vector3d;
+
+/// One thing wrong with an input: the dotted key it is about and what is wrong, with the allowed range.
+struct Problem {
+  std::string key;   ///< e.g. "cloth.rows" or "wind[0].radius"
+  std::string text;  ///< e.g. "must be an integer in [2, 4096], is 1"
+};
+
+/// All problems, one per line, each as "source: key: text" (without source when that is empty).
+std::string describe(const std::vector<Problem>& problems, const std::string& source = "");
+
+/// A rigid pose; orientation is a unit quaternion.
+struct Pose {
+  Vec3 position = Vec3::Zero();                                   ///< [m]
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< unit
+};
+
+/// A node of the grid: row 0 is the hung edge, columns run along it.
+struct NodeIndex {
+  int row = 0;
+  int column = 0;
+};
+
+enum class Lumping {
+  kArea,    ///< every node has the mass of its share of the cloth's area
+  kUniform  ///< every node has total mass / node count
+};
+
+struct ClothParams {
+  int rows = 0;     ///< nodes along the warp, hung edge first [2..4096]; no default
+  int columns = 0;  ///< nodes along the weft [2..4096] (closed cloth: [3..4096]); no default
+  double height = 2.0;              ///< warp length [m], > 0
+  double width = 1.0;               ///< weft length of the top row [m], > 0
+  std::optional<double> hem_width;  ///< weft length of the bottom row [m], > 0; default: width
+  double surface_density = 0.2;     ///< [kg/m^2], > 0
+  Lumping lumping = Lumping::kArea;
+  bool closed = false;    ///< the weft closes to a ring (skirt, canopy)
+  int folds = 6;          ///< rods per weft link [1..64]; 1 = no second-layer nodes
+  double porosity = 0.0;  ///< share of the air that passes through [0..1]
+  /// Relative lengths of the rows-1 warp rods, top first, each > 0; scaled to height. Empty: all equal.
+  std::vector<double> row_spacing;
+  /// Relative lengths of the weft links of a row (columns-1, closed: columns), each > 0; scaled to the
+  /// row's width. Empty: all equal.
+  std::vector<double> column_spacing;
+  /// Mass factor of each row (rows entries, > 0), e.g. a heavy hem. Empty: 1.
+  std::vector<double> row_mass;
+  /// Mass factor of each column (columns entries, > 0). Empty: 1.
+  std::vector<double> column_mass;
+};
+
+struct HangParams {
+  Vec3 from = Vec3(0.0, 0.0, 2.2);  ///< [m]; closed cloth: the ring's centre
+  Vec3 to = Vec3(1.0, 0.0, 2.2);    ///< [m], |to - from| <= width; not used by closed cloth
+  /// Radius of the hung ring [m], closed cloth only; default: width / (2 pi). The chord between
+  /// neighbours must not be longer than their weft link.
+  std::optional<double> radius;
+  /// [rad] The flat cloth turned about its hung edge out of the vertical; pi/2 = horizontal, towards the
+  /// normal (to - from) x up. Closed cloth: the half-angle of the cone that the cloth starts as.
+  double tilt = 0.0;
+};
+
+enum class PinKind { kTop, kLeft, kTopCorners, kNone, kList };
+
+struct PinParams {
+  PinKind kind = PinKind::kTop;
+  std::vector<NodeIndex> nodes;  ///< for kList
+};
+
+enum class DampingLaw {
+  kContinuous,  ///< quadratic branch divided by the threshold, so that the law has no jump
+  kPrinted      ///< Cheng 2000, Eq. (4) to the letter
+};
+
+/// Air damping, Cheng 2000, Eq. (4): force against the velocity, per area of cloth.
+/// c_r is one of inside / border / corner by the node's place, times (1 + fast_gain * |v|).
+struct AirParams {
+  double density = 1.2;  ///< rho [kg/m^3], >= 0
+  DampingLaw law = DampingLaw::kContinuous;
+  double threshold = 1.0;  ///< speed at which the law turns from linear to quadratic [m/s], > 0
+  double inside = 0.0;     ///< c_r of nodes with four neighbours [m/s], >= 0
+  double border = 0.0;     ///< c_r of border nodes [m/s], >= 0
+  double corner = 0.0;     ///< c_r of corner nodes [m/s], >= 0
+  double fast_gain = 0.0;  ///< growth of c_r with speed [s/m], >= 0
+};
+
+/// A cone wind source, Cheng 2000, Eq. (2)(3).
+struct WindParams {
+  std::string id;                      ///< unique among the winds, not empty
+  Vec3 position = Vec3::Zero();        ///< centre of the disc [m]
+  Vec3 direction = Vec3::UnitX();      ///< axis, any length > 0
+  double radius = 1.0;                 ///< of the disc [m], > 0
+  double half_angle = 0.0;             ///< of the cone [rad], [0, 1.5]; 0 = parallel wind
+  double pressure = 0.0;               ///< at the disc's centre [Pa], >= 0
+  double node_force = 0.0;             ///< the paper's own form: a force per node [N], >= 0, added to the pressure's
+  double porosity_weight = 1.0;        ///< c_mu of Eq. (3), [0..1]
+  double distance_weight = 1.0;        ///< c_d of Eq. (3), > 0
+  double unsteadiness = 0.0;           ///< standard deviation of each component of the gusts [Pa], >= 0
+  double correlation_time = 0.2;       ///< of the gusts [s], > 0
+  double correlation_length = 0.25;    ///< of the gusts along the cloth [m], > 0
+  double start = 0.0;                  ///< [s]
+  double end = std::numeric_limits<double>::infinity();  ///< [s], > start
+};
+
+/// A user force on a node and its neighbourhood.
+struct DragParams {
+  std::string id;                   ///< unique among the drags, not empty
+  std::optional<NodeIndex> node;    ///< the grasped node; exactly one of node and point is given
+  std::optional<Vec3> point;        ///< [m] grasp the node nearest to this point when the drag starts
+  Vec3 force = Vec3::Zero();        ///< [N], shared by the neighbourhood
+  std::optional<Vec3> target;       ///< [m] pull the node to this point with a critically damped spring
+  double stiffness = 100.0;         ///< of that spring [N/m], > 0
+  double radius = 0.0;              ///< of the neighbourhood along the cloth [m], >= 0; 0 = the node alone
+  double start = 0.0;               ///< [s]
+  double end = std::numeric_limits<double>::infinity();  ///< [s], > start
+};
+
+enum class ShapeKind { kSphere, kBox, kCylinder, kCapsule, kPlane, kMesh };
+
+/// A pose at a time, of an obstacle's scripted motion.
+struct PoseKey {
+  double time = 0.0;  ///< [s], strictly increasing along a motion
+  Pose pose;
+};
+
+struct ObstacleParams {
+  std::string name;            ///< unique among the obstacles, not empty
+  std::string frame = "world"; ///< tf2 frame it is fixed to; not used offline
+  ShapeKind shape = ShapeKind::kSphere;
+  double radius = 0.0;         ///< sphere, cylinder, capsule [m], > 0
+  double length = 0.0;         ///< cylinder: whole, capsule: between the caps' centres, along z [m], > 0
+  Vec3 size = Vec3::Zero();    ///< box: edges [m], each > 0
+  std::string mesh;            ///< mesh: URL, package://, file:// or a plain path; STL, OBJ or DAE
+  Vec3 scale = Vec3::Ones();   ///< mesh: factor to metres, each != 0 (a single number in YAML: all three)
+  Pose pose;                   ///< offline: in the world; in the node: in its frame
+  double friction = std::numeric_limits<double>::quiet_NaN();  ///< [0..10]; NaN: contact.friction
+  std::vector<PoseKey> motion;  ///< offline only: linear in position, slerp in orientation, held at both ends
+};
+
+struct ContactParams {
+  double thickness = 0.004;  ///< half gap kept between cloth and obstacle [m], > 0
+  double friction = 0.3;     ///< Coulomb coefficient of cloth on obstacles that name none [0..10]
+  bool self = false;         ///< self-contact (not available yet: must be false)
+  int zone_iterations = 8;   ///< bound of the collision-zone iterations [1..1000]
+};
+
+enum class Method {
+  kAuto,      ///< leapfrog with substeps from the tensions, implicit where their number reaches its cap
+  kLeapfrog,  ///< constraint forces along the links' directions at the start of the step; order 2
+  kImplicit,  ///< along their directions at the end of the step; order 1, stable at any step, damps
+  kPaper      ///< Cheng 2000, Sect. 3 as printed
+};
+
+struct SolverParams {
+  Method method = Method::kAuto;
+  double frame_rate = 60.0;         ///< published steps per second [1..10000]
+  int substeps = 0;                 ///< per frame [1..10000]; 0 = auto
+  double stretch_tolerance = 1e-3;  ///< relative overlength allowed to any link [1e-12..0.1]
+  int max_substeps = 128;           ///< cap of auto per frame [1..10000]; beyond it: the implicit scheme
+  int max_sweeps = 60;              ///< cap of warp/weft/contact sweeps per substep [1..10000]
+  std::uint64_t seed = 1;           ///< of every random number
+};
+
+struct Scene {
+  ClothParams cloth;
+  HangParams hang;
+  PinParams pins;
+  Vec3 gravity = Vec3(0.0, 0.0, -9.81);  ///< [m/s^2]
+  AirParams air;
+  std::vector<WindParams> wind;
+  std::vector<DragParams> drag;
+  std::vector<ObstacleParams> obstacles;
+  ContactParams contact;
+  SolverParams solver;
+};
+
+/// Everything wrong with the scene's values; empty when it can be simulated. Does not open mesh files.
+std::vector<Problem> validate(const Scene& scene);
+
+/// The same for one wind source, drag force or obstacle; key is the prefix of the problems' keys.
+std::vector<Problem> validate(const WindParams& wind, const std::string& key);
+std::vector<Problem> validate(const DragParams& drag, const ClothParams& cloth, const std::string& key);
+std::vector<Problem> validate(const ObstacleParams& obstacle, const std::string& key);
+
+/// Names of the methods as scene files and --method spell them, in the order of the enum.
+const std::vector<std::string>& methodNames();
+std::string toString(Method method);
+std::optional<Method> methodFromName(const std::string& name);
+
+/// Weft links in a row: columns - 1, or columns for closed cloth.
+inline int weftLinkCount(const ClothParams& cloth) { return cloth.closed ? cloth.columns : cloth.columns - 1; }
+
+}  // namespace curtain

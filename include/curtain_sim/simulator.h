@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Floor 4: the simulator, scene in, state out. What most users of the engine need.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "curtain_sim/fine_mesh.h"
+#include "curtain_sim/obstacle_shape.h"
+#include "curtain_sim/scene.h"
+#include "curtain_sim/statistics.h"
+
+namespace curtain {
+
+/// A curtain. Not thread-safe: one thread at a time; any number of simulators may live side by side.
+/// Same scene, same calls: same bits. step() allocates nothing, throws nothing and locks nothing.
+class Simulator {
+ public:
+  /// Builds the cloth at its start. Throws std::invalid_argument with every problem of the scene, or a mesh's.
+  explicit Simulator(const Scene& scene, const MeshResolver& resolve = resolveMeshUrl);
+  ~Simulator();
+  Simulator(Simulator&&) noexcept;
+  Simulator& operator=(Simulator&&) noexcept;
+
+  const Scene& scene() const;
+
+  /// Back to the scene's start: time 0, its winds and drags, statistics zero. Obstacles go back to their
+  /// scene poses and are all present.
+  void reset();
+
+  /// One frame of 1 / solver.frame_rate seconds. Obstacles with a scripted motion follow it.
+  void step();
+
+  double time() const;  ///< simulated time [s]
+  int rows() const;
+  int columns() const;
+
+  /// Node state, row-major, shape [rows * columns]; out is resized.
+  void copyPositions(std::vector<Vec3>& out) const;   ///< [m]
+  void copyVelocities(std::vector<Vec3>& out) const;  ///< [m/s], at the same instant as the positions
+  /// External force on each node in the last substep [N]: gravity, wind, damping, drag and contact, without
+  /// the links' tensions. Zero before the first step.
+  void copyForces(std::vector<Vec3>& out) const;
+
+  Vec3 position(NodeIndex node) const;  ///< [m]
+  double mass(NodeIndex node) const;    ///< [kg]
+  bool pinned(NodeIndex node) const;
+  NodeIndex nearestNode(const Vec3& point) const;
+
+  /// Adds a wind source, or replaces the one of the same id, from now on; start and end are simulated times.
+  /// Returns what is wrong with it; then nothing changed.
+  std::vector<Problem> setWind(const WindParams& wind);
+  bool removeWind(const std::string& id);  ///< false: no such id
+  void clearWinds();
+  const std::vector<WindParams>& winds() const;
+
+  /// The same for user forces. A drag given by a point grasps the nearest node when it first acts, and one
+  /// that replaces another of the same id and gives a point again keeps the node grasped.
+  std::vector<Problem> setDrag(const DragParams& drag);
+  bool removeDrag(const std::string& id);
+  void clearDrags();
+  const std::vector<DragParams>& drags() const;
+
+  /// Obstacles, in the scene's order. A pose given here is where the obstacle will be at the end of the next
+  /// step, moving there evenly from where it was; it takes the place of the scene's motion. `jump`: it is
+  /// there at once, without a velocity (first pose, teleport).
+  int obstacleCount() const;
+  void setObstaclePose(int index, const Pose& pose, bool jump = false);
+  /// An absent obstacle touches nothing. One that comes back must be given its pose with jump.
+  void setObstaclePresent(int index, bool present);
+  bool obstaclePresent(int index) const;
+  const Pose& obstaclePose(int index) const;
+  const ObstacleShape& obstacleShape(int index) const;
+
+  /// The mesh that the eye sees: both layers of nodes, outside the obstacles. Positions [m] in out.positions
+  /// (resized), per row all nodes of both layers; triangles are the same for ever (fineMeshTriangles()).
+  void copyFineMesh(FineMesh& out) const;
+  const FineMeshTopology& fineMeshTopology() const;
+
+  const Statistics& statistics() const;
+  Energy energy() const;
+
+  /// Pairs of an edge and a triangle of the first layer's mesh that intersect, by brute force (slow).
+  std::int64_t selfCrossings() const;
+
+  /// Hash of the bits of positions and velocities (FNV-1a, 64 bits).
+  std::uint64_t stateHash() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace curtain

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Floor 4: what a simulator says of its own work.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace curtain {
+
+/// The stages of a frame, in their order (as in the loop of Cheng 2000, Sect. 1.3).
+enum class Stage { kForces, kPredict, kWarp, kWeft, kContact, kFinish, kStageCount };
+constexpr int kStageCount = static_cast<int>(Stage::kStageCount);
+const char* stageName(Stage stage);
+
+/// Counters since construction or reset(); values of the last frame where it says so.
+struct Statistics {
+  std::int64_t frames = 0;            ///< steps made
+  double time = 0.0;                  ///< simulated time [s]
+  std::int64_t substeps = 0;          ///< accepted, all frames
+  int substeps_last = 0;              ///< in the last frame
+  std::int64_t sweeps = 0;            ///< warp/weft/contact sweeps, all frames
+  int sweeps_last = 0;                ///< in the last frame
+  std::int64_t rejected = 0;          ///< substeps done again with half the step
+  std::int64_t implicit = 0;          ///< substeps by the implicit scheme under method auto
+  std::int64_t unsettled = 0;         ///< substeps that ended above stretch_tolerance
+  double warp_stretch = 0.0;          ///< largest relative overlength of a warp rod at the last frame's end
+  double weft_stretch = 0.0;          ///< the same of a weft link
+  double warp_compression = 0.0;      ///< largest relative underlength of a warp rod, last frame's end
+  double warp_stretch_max = 0.0;      ///< the largest of these at any frame's end
+  double weft_stretch_max = 0.0;
+  double warp_compression_max = 0.0;
+  int contacts = 0;                   ///< nodes in contact at the last frame's end
+  int contacts_max = 0;
+  double penetration_max = 0.0;       ///< deepest any node was inside an obstacle at any frame's end [m]
+  double step_seconds = 0.0;          ///< computing time of the last frame [s]
+  double step_seconds_max = 0.0;
+  double step_seconds_sum = 0.0;
+  std::array<double, kStageCount> stage_seconds{};  ///< computing time by stage, all frames [s]
+  bool finite = true;                 ///< the state holds no NaN or infinity
+};
+
+/// Energy of the cloth; potential is of gravity, zero at the world's origin.
+struct Energy {
+  double kinetic = 0.0;    ///< [J]
+  double potential = 0.0;  ///< [J]
+};
+
+}  // namespace curtain
