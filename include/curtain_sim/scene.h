@@ -125,7 +125,8 @@ struct DragParams {
   std::optional<Vec3> point;        ///< [m] grasp the node nearest to this point when the drag starts
   Vec3 force = Vec3::Zero();        ///< [N], shared by the neighbourhood
   std::optional<Vec3> target;       ///< [m] pull the node to this point with a critically damped spring
-  double stiffness = 100.0;         ///< of that spring [N/m], > 0
+  double stiffness = 20.0;          ///< of that spring [N/m], > 0
+  double max_force = 10.0;          ///< the spring never pulls harder [N], > 0
   double radius = 0.0;              ///< of the neighbourhood along the cloth [m], >= 0; 0 = the node alone
   double start = 0.0;               ///< [s]
   double end = std::numeric_limits<double>::infinity();  ///< [s], > start

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The cloth of Cheng 2000, Sect. 1.1: a grid of nodes with rest lengths, areas and masses (ClothPattern, fixed after
+// construction) and what moves (ClothState).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cloth/field.h"
+#include "curtain_sim/scene.h"
+
+namespace curtain {
+
+/// What does not change while the cloth moves.
+struct ClothPattern {
+  Grid grid;
+  Field warp_rest;     ///< rest length of the rod from node (i-1, j) to (i, j) [m]; row 0 and padding: 1
+  Field weft_rest;     ///< rest length of the link from node (i, j-1) to (i, j) [m]; closed: column 0 closes the ring
+  Field area;          ///< the node's share of the cloth [m^2]
+  Field mass;          ///< [kg]; padding: 0
+  Field inverse_mass;  ///< [1/kg]; pinned and padding: 0
+  std::vector<std::uint8_t> pinned;
+  Field warp_coordinate;  ///< of each row, length along the warp from the hung edge [m], shape [rows]
+  Field weft_coordinate;  ///< of each column, length along the weft of the top row [m], shape [columns]
+
+  bool isPinned(NodeIndex node) const { return pinned[grid.index(node)] != 0; }
+};
+
+/// What moves. Velocities may be older than positions: leapfrog keeps them half a substep behind.
+struct ClothState {
+  Field3 position;            ///< [m]
+  Field3 velocity;            ///< [m/s], at the time of the positions minus velocity_age
+  double velocity_age = 0.0;  ///< [s], >= 0
+};
+
+/// Rest lengths, masses and pins of a validated scene.
+ClothPattern makePattern(const Scene& scene);
+
+/// The cloth at rest where scene.hang says. Throws std::invalid_argument when the hem tapers faster than the
+/// rods are long.
+ClothState makeInitialState(const Scene& scene, const ClothPattern& pattern);
+
+/// Area-weighted normals of the nodes: the sum, over the faces at a node, of the corner triangles' area vectors
+/// [m^2], not normalised; out has the grid's size. Cheng 2000, Sect. 2.2.2 (mean of the normals of the faces).
+void nodeAreaVectors(const Grid& grid, const Field3& position, Field3& out);
+
+}  // namespace curtain

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "cloth/cloth.h"
+
+namespace curtain {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+// Axes of the flat cloth: along the hung edge, down the warp (turned by tilt).
+struct HangFrame {
+  Vec3 along;
+  Vec3 down;
+};
+
+HangFrame hangFrame(const HangParams& hang) {
+  HangFrame frame;
+  frame.along = (hang.to - hang.from).normalized();
+  Vec3 normal = frame.along.cross(Vec3::UnitZ());
+  // A hung edge that runs up or down leaves the normal open: any horizontal one will do.
+  normal = normal.norm() > 1e-9 ? Vec3(normal.normalized()) : Vec3::UnitX();
+  const Vec3 plumb = frame.along.cross(normal);
+  frame.down = std::cos(hang.tilt) * plumb + std::sin(hang.tilt) * normal;
+  return frame;
+}
+
+// A row starts as wide as the hung edge is, or as its own weft if that is shorter; the rods keep their lengths.
+void placeFlat(const Scene& scene, const ClothPattern& pattern, Field3& position) {
+  const Grid& grid = pattern.grid;
+  const HangFrame frame = hangFrame(scene.hang);
+  const double span = (scene.hang.to - scene.hang.from).norm();
+  const Vec3 middle = 0.5 * (scene.hang.from + scene.hang.to);
+  const double top_width = pattern.weft_coordinate.back();
+  const double hem_width = scene.cloth.hem_width.value_or(scene.cloth.width);
+  for (int j = 0; j < grid.columns; ++j) {
+    const double share = pattern.weft_coordinate[static_cast<std::size_t>(j)] / top_width - 0.5;
+    double down = 0.0;
+    double last_across = 0.0;
+    for (int i = 0; i < grid.rows; ++i) {
+      const double depth = pattern.warp_coordinate[static_cast<std::size_t>(i)] / scene.cloth.height;
+      const double row_width = scene.cloth.width + (hem_width - scene.cloth.width) * depth;
+      const double across = share * std::min(span, row_width);
+      if (i > 0) {
+        const double rest = pattern.warp_rest[grid.index(i, j)];
+        const double slant = across - last_across;
+        if (std::abs(slant) > 0.9 * rest) {
+          throw std::invalid_argument("cloth.hem_width: the cloth tapers faster than its warp rods are long (row " +
+                                      std::to_string(i) + ")");
+        }
+        down += std::sqrt(rest * rest - slant * slant);
+      }
+      last_across = across;
+      position.set(grid.index(i, j), middle + across * frame.along + down * frame.down);
+    }
+  }
+}
+
+// Closed cloth starts as a cone around the vertical through hang.from; outside = the side of positive normals.
+void placeRing(const Scene& scene, const ClothPattern& pattern, Field3& position) {
+  const Grid& grid = pattern.grid;
+  const double radius = scene.hang.radius.value_or(scene.cloth.width / (2.0 * kPi));
+  for (int i = 0; i < grid.rows; ++i) {
+    const double along = pattern.warp_coordinate[static_cast<std::size_t>(i)];
+    const double ring = radius + along * std::sin(scene.hang.tilt);
+    const double height = -along * std::cos(scene.hang.tilt);
+    for (int j = 0; j < grid.columns; ++j) {
+      const double angle = 2.0 * kPi * pattern.weft_coordinate[static_cast<std::size_t>(j)] / scene.cloth.width;
+      position.set(grid.index(i, j), scene.hang.from + Vec3(ring * std::cos(angle), ring * std::sin(angle), height));
+    }
+  }
+}
+
+}  // namespace
+
+ClothState makeInitialState(const Scene& scene, const ClothPattern& pattern) {
+  const Grid& grid = pattern.grid;
+  ClothState state;
+  state.position.assign(grid.size(), 0.0);
+  state.velocity.assign(grid.size(), 0.0);
+  if (scene.cloth.closed) {
+    placeRing(scene, pattern, state.position);
+  } else {
+    placeFlat(scene, pattern, state.position);
+  }
+  // Padding hangs plumb with rods of length 1 (its rest length), so that no kernel meets a zero there.
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = grid.columns; j < grid.stride; ++j) state.position.set(grid.index(i, j), Vec3(0.0, 0.0, -i));
+  }
+  return state;
+}
+
+}  // namespace curtain

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <numeric>
+
+#include "cloth/cloth.h"
+
+namespace curtain {
+namespace {
+
+// Lengths that add up to total, proportional to weights (empty: all equal).
+std::vector<double> shareLength(const std::vector<double>& weights, int count, double total) {
+  const auto size = static_cast<std::size_t>(count);
+  if (weights.empty()) return std::vector<double>(size, total / count);
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  std::vector<double> lengths(size);
+  for (std::size_t i = 0; i < size; ++i) lengths[i] = weights[i] / sum * total;
+  return lengths;
+}
+
+double factor(const std::vector<double>& factors, int i) {
+  return factors.empty() ? 1.0 : factors[static_cast<std::size_t>(i)];
+}
+
+void fillRestLengths(const ClothParams& cloth, ClothPattern& pattern) {
+  const Grid& grid = pattern.grid;
+  const std::vector<double> rods = shareLength(cloth.row_spacing, grid.rows - 1, cloth.height);
+  pattern.warp_coordinate.assign(static_cast<std::size_t>(grid.rows), 0.0);
+  for (int i = 1; i < grid.rows; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    pattern.warp_coordinate[row] = pattern.warp_coordinate[row - 1] + rods[row - 1];
+    for (int j = 0; j < grid.columns; ++j) pattern.warp_rest[grid.index(i, j)] = rods[row - 1];
+  }
+  const double hem_width = cloth.hem_width.value_or(cloth.width);
+  for (int i = 0; i < grid.rows; ++i) {
+    const double down = pattern.warp_coordinate[static_cast<std::size_t>(i)] / cloth.height;
+    const double width = cloth.width + (hem_width - cloth.width) * down;
+    const std::vector<double> links = shareLength(cloth.column_spacing, grid.linkCount(), width);
+    for (int j = 1; j < grid.columns; ++j) pattern.weft_rest[grid.index(i, j)] = links[static_cast<std::size_t>(j - 1)];
+    if (grid.closed) pattern.weft_rest[grid.index(i, 0)] = links.back();
+  }
+  pattern.weft_coordinate.assign(static_cast<std::size_t>(grid.columns), 0.0);
+  for (int j = 1; j < grid.columns; ++j) {
+    const auto column = static_cast<std::size_t>(j);
+    pattern.weft_coordinate[column] = pattern.weft_coordinate[column - 1] + pattern.weft_rest[column];
+  }
+}
+
+// Half of every rest length at the node, along the warp times along the weft.
+double nodeArea(const ClothPattern& pattern, int i, int j) {
+  const Grid& grid = pattern.grid;
+  double along_warp = 0.0;
+  if (i > 0) along_warp += 0.5 * pattern.warp_rest[grid.index(i, j)];
+  if (i + 1 < grid.rows) along_warp += 0.5 * pattern.warp_rest[grid.index(i + 1, j)];
+  double along_weft = 0.0;
+  if (j > 0 || grid.closed) along_weft += 0.5 * pattern.weft_rest[grid.index(i, j)];
+  if (j + 1 < grid.columns) along_weft += 0.5 * pattern.weft_rest[grid.index(i, j + 1)];
+  else if (grid.closed) along_weft += 0.5 * pattern.weft_rest[grid.index(i, 0)];
+  return along_warp * along_weft;
+}
+
+void fillMasses(const ClothParams& cloth, ClothPattern& pattern) {
+  const Grid& grid = pattern.grid;
+  double total_area = 0.0;
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) total_area += pattern.area[grid.index(i, j)] = nodeArea(pattern, i, j);
+  }
+  const double uniform_mass = cloth.surface_density * total_area / static_cast<double>(grid.nodeCount());
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) {
+      const std::size_t node = grid.index(i, j);
+      const double base =
+          cloth.lumping == Lumping::kUniform ? uniform_mass : cloth.surface_density * pattern.area[node];
+      pattern.mass[node] = base * factor(cloth.row_mass, i) * factor(cloth.column_mass, j);
+      pattern.inverse_mass[node] = 1.0 / pattern.mass[node];
+    }
+  }
+}
+
+std::vector<NodeIndex> pinnedNodes(const Scene& scene) {
+  std::vector<NodeIndex> nodes;
+  switch (scene.pins.kind) {
+    case PinKind::kTop:
+      for (int j = 0; j < scene.cloth.columns; ++j) nodes.push_back({0, j});
+      break;
+    case PinKind::kLeft:
+      for (int i = 0; i < scene.cloth.rows; ++i) nodes.push_back({i, 0});
+      break;
+    case PinKind::kTopCorners:
+      nodes = {{0, 0}, {0, scene.cloth.columns - 1}};
+      break;
+    case PinKind::kList:
+      nodes = scene.pins.nodes;
+      break;
+    case PinKind::kNone:
+      break;
+  }
+  return nodes;
+}
+
+}  // namespace
+
+ClothPattern makePattern(const Scene& scene) {
+  ClothPattern pattern;
+  pattern.grid = Grid(scene.cloth.rows, scene.cloth.columns, scene.cloth.closed);
+  const std::size_t size = pattern.grid.size();
+  pattern.warp_rest.assign(size, 1.0);
+  pattern.weft_rest.assign(size, 1.0);
+  pattern.area.assign(size, 0.0);
+  pattern.mass.assign(size, 0.0);
+  pattern.inverse_mass.assign(size, 0.0);
+  pattern.pinned.assign(size, 0);
+  fillRestLengths(scene.cloth, pattern);
+  fillMasses(scene.cloth, pattern);
+  for (const NodeIndex& node : pinnedNodes(scene)) {
+    pattern.pinned[pattern.grid.index(node)] = 1;
+    pattern.inverse_mass[pattern.grid.index(node)] = 0.0;
+  }
+  return pattern;
+}
+
+}  // namespace curtain

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "contact/obstacle_set.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace curtain {
+namespace {
+
+// Between two poses of one frame: the angle is small, so the normalised chord does for the arc (error angle^3 / 100).
+Pose between(const Pose& a, const Pose& b, double share) {
+  Pose pose;
+  pose.position = a.position + share * (b.position - a.position);
+  const double sign = a.orientation.dot(b.orientation) < 0.0 ? -1.0 : 1.0;
+  pose.orientation.coeffs() = (1.0 - share) * a.orientation.coeffs() + (sign * share) * b.orientation.coeffs();
+  pose.orientation.normalize();
+  return pose;
+}
+
+Eigen::AlignedBox3d moved(const Eigen::AlignedBox3d& box, const Transform& transform) {
+  const Vec3 middle = transform.toWorld(box.center());
+  const Vec3 half = transform.rotation.cwiseAbs() * (0.5 * box.sizes());
+  return {middle - half, middle + half};
+}
+
+}  // namespace
+
+Pose poseAt(const std::vector<PoseKey>& motion, double time) noexcept {
+  if (time <= motion.front().time) return motion.front().pose;
+  for (std::size_t k = 1; k < motion.size(); ++k) {
+    const PoseKey& a = motion[k - 1];
+    const PoseKey& b = motion[k];
+    if (time > b.time) continue;
+    const double share = (time - a.time) / (b.time - a.time);
+    return {a.pose.position + share * (b.pose.position - a.pose.position),
+            a.pose.orientation.slerp(share, b.pose.orientation)};
+  }
+  return motion.back().pose;
+}
+
+Eigen::AlignedBox3d MovingObstacle::sweptBounds() const noexcept {
+  if (!std::isfinite(bounds.min().sum()) || !std::isfinite(bounds.max().sum())) return bounds;  // a plane is everywhere
+  return moved(bounds, before).merged(moved(bounds, after));
+}
+
+ObstacleSet::ObstacleSet(const Scene& scene, const MeshResolver& resolve) {
+  for (const ObstacleParams& params : scene.obstacles) {
+    Item item;
+    item.shape = makeObstacleShape(params, resolve);
+    item.motion = params.motion;
+    item.initial = params.motion.empty() ? params.pose : poseAt(params.motion, 0.0);
+    MovingObstacle moving;
+    moving.shape = item.shape.get();
+    moving.bounds = item.shape->bounds();
+    moving.friction = std::isnan(params.friction) ? scene.contact.friction : params.friction;
+    items_.push_back(std::move(item));
+    moving_.push_back(moving);
+  }
+  reset();
+}
+
+bool ObstacleSet::anyPresent() const noexcept {
+  return std::any_of(moving_.begin(), moving_.end(), [](const MovingObstacle& m) { return m.present; });
+}
+
+void ObstacleSet::reset() noexcept {
+  for (std::size_t n = 0; n < items_.size(); ++n) {
+    items_[n].begin = items_[n].end = items_[n].initial;
+    items_[n].scripted = !items_[n].motion.empty();
+    moving_[n].present = true;
+  }
+}
+
+void ObstacleSet::setPose(int index, const Pose& pose, bool jump) noexcept {
+  Item& item = items_[at(index)];
+  item.scripted = false;
+  item.end = pose;
+  if (jump) item.begin = pose;
+}
+
+void ObstacleSet::beginFrame(double end_time) noexcept {
+  for (Item& item : items_) {
+    if (item.scripted) item.end = poseAt(item.motion, end_time);
+  }
+}
+
+void ObstacleSet::setSubstep(double from, double to) noexcept {
+  for (std::size_t n = 0; n < items_.size(); ++n) {
+    if (!moving_[n].present) continue;
+    moving_[n].before = Transform(between(items_[n].begin, items_[n].end, from));
+    moving_[n].after = Transform(between(items_[n].begin, items_[n].end, to));
+  }
+}
+
+void ObstacleSet::endFrame() noexcept {
+  for (Item& item : items_) item.begin = item.end;
+}
+
+}  // namespace curtain

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The obstacles of a scene and where they are: a pose at the start and at the end of the frame, and in between.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "curtain_sim/obstacle_shape.h"
+#include "curtain_sim/scene.h"
+
+namespace curtain {
+
+/// A rigid transform ready for use on many points.
+struct Transform {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Vec3 translation = Vec3::Zero();
+
+  Transform() = default;
+  explicit Transform(const Pose& pose)
+      : rotation(pose.orientation.toRotationMatrix()), translation(pose.position) {}
+  Vec3 toWorld(const Vec3& local) const { return rotation * local + translation; }
+  Vec3 toLocal(const Vec3& world) const { return rotation.transpose() * (world - translation); }
+};
+
+/// An obstacle as it is during one substep.
+struct MovingObstacle {
+  const ObstacleShape* shape = nullptr;
+  double friction = 0.0;
+  bool present = true;
+  Eigen::AlignedBox3d bounds;  ///< of the shape, its own frame
+  Transform before;            ///< at the substep's start
+  Transform after;             ///< at its end
+
+  /// Box around the obstacle over the substep, world frame.
+  Eigen::AlignedBox3d sweptBounds() const noexcept;
+};
+
+class ObstacleSet {
+ public:
+  /// Throws std::invalid_argument for a mesh that can't be used.
+  ObstacleSet(const Scene& scene, const MeshResolver& resolve);
+
+  int count() const { return static_cast<int>(items_.size()); }
+  bool anyPresent() const noexcept;
+  const Pose& pose(int index) const { return items_[at(index)].end; }
+  const ObstacleShape& shape(int index) const { return *items_[at(index)].shape; }
+  bool present(int index) const { return moving_[at(index)].present; }
+  void setPresent(int index, bool present) noexcept { moving_[at(index)].present = present; }
+
+  void reset() noexcept;
+  /// Where the obstacle will be at the end of the coming frame, or (jump) is from now on.
+  void setPose(int index, const Pose& pose, bool jump) noexcept;
+
+  /// Starts a frame that ends at this time [s]: scripted obstacles take their pose from their motion.
+  void beginFrame(double end_time) noexcept;
+  /// Sets the substep, as shares of the frame in [0, 1].
+  void setSubstep(double from, double to) noexcept;
+  /// Ends the frame: obstacles rest where they are until they are told otherwise.
+  void endFrame() noexcept;
+
+  const std::vector<MovingObstacle>& moving() const { return moving_; }
+
+ private:
+  struct Item {
+    std::unique_ptr<const ObstacleShape> shape;
+    std::vector<PoseKey> motion;
+    Pose initial;
+    Pose begin;
+    Pose end;
+    bool scripted = false;  // still follows its motion
+  };
+  static std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+  std::vector<Item> items_;
+  std::vector<MovingObstacle> moving_;
+};
+
+/// A motion's pose at a time: linear in position, slerp in orientation, held at both ends.
+Pose poseAt(const std::vector<PoseKey>& motion, double time) noexcept;
+
+}  // namespace curtain

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What a triangle mesh is apart from its distances: closed or open, and the normals that tell inside from outside.
+// Angle-weighted pseudonormals (Baerentzen, Aanaes 2005, "Signed distance computation using the angle weighted
+// pseudonormal") give the right sign at faces, edges and corners of any closed mesh.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "curtain_sim/obstacle_shape.h"
+
+namespace curtain {
+
+/// Triangles lower than this share of their longest edge have no normal worth the name: below it, rounding turns
+/// the normal by more than 1e-4 rad. They count as degenerate.
+constexpr double kDegenerateHeight = 1e-12;
+
+bool isDegenerate(const Vec3& a, const Vec3& b, const Vec3& c) noexcept;
+
+/// Triangles of nonzero area with their normals. For the three edges ab, bc, ca of each triangle and for each corner
+/// a unit pseudonormal.
+struct MeshTopology {
+  ShapeTriangles mesh;  ///< degenerate triangles dropped; outward if watertight
+  bool watertight = false;
+  std::vector<Vec3> face_normals;
+  std::vector<std::array<Vec3, 3>> edge_normals;
+  std::vector<Vec3> corner_normals;
+};
+
+/// mesh: corners finite, equal corners shared, at least one triangle that is not degenerate. Degenerate ones
+/// still join their neighbours: a mesh closed with them stays closed without.
+MeshTopology analyseMesh(ShapeTriangles mesh);
+
+}  // namespace curtain

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Static tree of axis-aligned boxes over triangles: nearest triangle to a point, first triangle hit by a segment.
+// Built once by halving along the longest side, so its depth is log2(triangle count) and a fixed stack is enough;
+// nodes lie in one array, siblings side by side, corners in the order of the leaves.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "curtain_sim/obstacle_shape.h"
+
+namespace curtain {
+
+/// The part of a triangle (a, b, c) that a nearest point lies on.
+enum class TriangleFeature : std::uint8_t { kFace, kEdgeAb, kEdgeBc, kEdgeCa, kCornerA, kCornerB, kCornerC };
+
+struct NearestTriangle {
+  double distance_squared = 0.0;  ///< [m^2]
+  Vec3 point = Vec3::Zero();      ///< on the triangle [m]
+  std::uint32_t triangle = 0;     ///< index in the tree's input
+  TriangleFeature feature = TriangleFeature::kFace;
+};
+
+struct TriangleHit {
+  double fraction = 0.0;       ///< of the segment [0..1]
+  std::uint32_t triangle = 0;  ///< index in the tree's input
+};
+
+/// Nearest point of the triangle (a, b, c), which may not have zero area; fills all but `triangle`.
+NearestTriangle nearestOnTriangle(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c) noexcept;
+
+class TriangleMeshTree {
+ public:
+  /// Finite triangles of nonzero area, at least one. O(n log n).
+  explicit TriangleMeshTree(const ShapeTriangles& mesh);
+
+  /// Nearest triangle not further than sqrt(limit_squared); false: none. Allocates nothing.
+  bool nearest(const Vec3& point, double limit_squared, NearestTriangle& out) const noexcept;
+
+  /// First triangle on the way from -> to, both sides count; false: none. Does not slip through between
+  /// triangles that share an edge. Triangles the segment touches at less than `least_fraction` do not count.
+  bool firstHit(const Vec3& from, const Vec3& to, double least_fraction, TriangleHit& out) const noexcept;
+
+  Eigen::AlignedBox3d bounds() const { return Eigen::AlignedBox3d(nodes_[0].low, nodes_[0].high); }
+
+ private:
+  struct Node {
+    Vec3 low;
+    Vec3 high;
+    std::uint32_t first;  // leaf: first triangle; else: first of two children
+    std::uint32_t count;  // triangles of a leaf, 0: not a leaf
+  };
+  struct Triangle {
+    std::array<Vec3, 3> corners;
+    std::uint32_t index;
+  };
+
+  void split(std::uint32_t node, std::uint32_t first, std::uint32_t count, const std::vector<Vec3>& centres,
+             std::vector<std::uint32_t>& order, const ShapeTriangles& mesh);
+
+  std::vector<Node> nodes_;
+  std::vector<Triangle> triangles_;
+  double margin_ = 0.0;  // widens boxes for segments, so that rounding never prunes a hit [m]
+};
+
+}  // namespace curtain

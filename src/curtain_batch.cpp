@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// curtain_batch: the engine without ROS, for measuring, sweeps and tests.
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <stdexcept>
+
+#include "curtain_sim/scene_yaml.h"
+#include "simulator/export.h"
+
+namespace {
+
+constexpr int kBadInput = 2;
+constexpr int kNotFinite = 3;
+
+const char* const kUsage =
+    "usage: curtain_batch SCENE.yaml [options]\n"
+    "  --duration S       simulated time [s] (default 1)\n"
+    "  --method NAME      instead of the scene's solver.method\n"
+    "  --substeps N       instead of the scene's solver.substeps\n"
+    "  --rows N           instead of the scene's cloth.rows\n"
+    "  --columns N        instead of the scene's cloth.columns\n"
+    "  --out FILE.csv     states t,row,column,x,y,z,vx,vy,vz of the first-layer nodes\n"
+    "  --sample T,T,...   times of these states [s], each at the first frame not before it (default: the end)\n"
+    "  --mesh FILE        fine mesh at the end, .ply or .obj\n"
+    "  --stats FILE.json  what it took and how well it went\n"
+    "  --progress         a line a simulated second on stderr\n"
+    "  --list-methods     names for --method, then exit\n"
+    "exit code: 0; 2 = bad input, nothing written; 3 = the state became non-finite\n";
+
+struct Options {
+  std::string scene;
+  double duration = 1.0;
+  std::string method, out, mesh, stats;
+  int substeps = 0, rows = 0, columns = 0;
+  std::vector<double> samples;
+  bool progress = false;
+  bool list_methods = false;
+  bool help = false;
+};
+
+double readNumber(const std::string& option, const std::string& text) {
+  std::size_t used = 0;
+  double value = std::nan("");
+  try {
+    value = std::stod(text, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  if (used == 0 || used != text.size() || !std::isfinite(value) || value < 0.0) {
+    throw std::invalid_argument(option + ": must be a finite number >= 0, is '" + text + "'");
+  }
+  return value;
+}
+
+int readCount(const std::string& option, const std::string& text) {
+  const double value = readNumber(option, text);
+  if (value != std::floor(value) || value < 1.0 || value > 1e6) {
+    throw std::invalid_argument(option + ": must be a whole number in [1, 1000000], is '" + text + "'");
+  }
+  return static_cast<int>(value);
+}
+
+std::vector<double> readSamples(const std::string& option, const std::string& text) {
+  std::vector<double> samples;
+  std::istringstream list(text);
+  for (std::string item; std::getline(list, item, ',');) {
+    samples.push_back(readNumber(option, item));
+    if (samples.size() > 1 && samples[samples.size() - 2] > samples.back()) {
+      throw std::invalid_argument(option + ": times must not decrease, are '" + text + "'");
+    }
+  }
+  if (samples.empty()) throw std::invalid_argument(option + ": needs at least one time");
+  return samples;
+}
+
+void checkFolder(const std::string& option, const std::string& path) {
+  if (path.empty()) return;
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+    throw std::invalid_argument(option + ": there is no folder '" + folder.string() + "'");
+  }
+}
+
+Options readOptions(int argc, char** argv) {
+  Options options;
+  for (int a = 1; a < argc; ++a) {
+    const std::string option = argv[a];
+    const auto value = [&]() -> std::string {
+      if (a + 1 >= argc) throw std::invalid_argument(option + ": needs a value");
+      return argv[++a];
+    };
+    if (option == "--duration") options.duration = readNumber(option, value());
+    else if (option == "--method") options.method = value();
+    else if (option == "--substeps") options.substeps = readCount(option, value());
+    else if (option == "--rows") options.rows = readCount(option, value());
+    else if (option == "--columns") options.columns = readCount(option, value());
+    else if (option == "--out") options.out = value();
+    else if (option == "--sample") options.samples = readSamples(option, value());
+    else if (option == "--mesh") options.mesh = value();
+    else if (option == "--stats") options.stats = value();
+    else if (option == "--progress") options.progress = true;
+    else if (option == "--list-methods") options.list_methods = true;
+    else if (option == "--help" || option == "-h") options.help = true;
+    else if (option.size() > 1 && option[0] == '-') throw std::invalid_argument(option + ": unknown option");
+    else if (options.scene.empty()) options.scene = option;
+    else throw std::invalid_argument(option + ": one scene at a time");
+  }
+  if (options.list_methods || options.help) return options;
+  if (options.scene.empty()) throw std::invalid_argument("a scene file is needed");
+  const bool mesh_known = options.mesh.empty() || options.mesh.find(".ply") == options.mesh.size() - 4 ||
+                          options.mesh.find(".obj") == options.mesh.size() - 4;
+  if (!mesh_known) throw std::invalid_argument("--mesh: must end in .ply or .obj, is '" + options.mesh + "'");
+  checkFolder("--out", options.out);
+  checkFolder("--mesh", options.mesh);
+  checkFolder("--stats", options.stats);
+  return options;
+}
+
+curtain::Scene readScene(const Options& options) {
+  curtain::SceneReading reading = curtain::readSceneFile(options.scene);
+  if (!reading.problems.empty()) throw std::invalid_argument(curtain::describe(reading.problems, options.scene));
+  curtain::Scene scene = reading.scene;
+  if (!options.method.empty()) {
+    const auto method = curtain::methodFromName(options.method);
+    if (!method) throw std::invalid_argument("--method: no method '" + options.method + "'; see --list-methods");
+    scene.solver.method = *method;
+  }
+  if (options.substeps > 0) scene.solver.substeps = options.substeps;
+  if (options.rows > 0) scene.cloth.rows = options.rows;
+  if (options.columns > 0) scene.cloth.columns = options.columns;
+  return scene;  // the simulator judges the whole
+}
+
+// Steps through the duration; writes the samples as their times come.
+std::vector<double> run(curtain::Simulator& simulator, const Options& options, std::ostream* samples) {
+  const double rate = simulator.scene().solver.frame_rate;
+  const auto frames = static_cast<long>(std::ceil(options.duration * rate - 1e-6));
+  std::vector<double> frame_seconds;
+  frame_seconds.reserve(static_cast<std::size_t>(frames));
+  std::size_t next = 0;
+  const auto sample = [&]() {
+    for (; next < options.samples.size() && options.samples[next] <= simulator.time() + 1e-6 / rate; ++next) {
+      if (samples != nullptr) curtain::writeState(simulator, *samples);
+    }
+  };
+  sample();
+  for (long frame = 0; frame < frames && simulator.statistics().finite; ++frame) {
+    simulator.step();
+    frame_seconds.push_back(simulator.statistics().step_seconds);
+    sample();
+    if (options.progress && (frame + 1) % static_cast<long>(std::max(1.0, rate)) == 0) {
+      std::cerr << "t = " << simulator.time() << " s, " << simulator.statistics().substeps_last << " substeps\n";
+    }
+  }
+  if (samples != nullptr && options.samples.empty()) curtain::writeState(simulator, *samples);
+  return frame_seconds;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const Options options = readOptions(argc, argv);
+    if (options.help) {
+      std::cout << kUsage;
+      return EXIT_SUCCESS;
+    }
+    if (options.list_methods) {
+      for (const std::string& name : curtain::methodNames()) std::cout << name << '\n';
+      return EXIT_SUCCESS;
+    }
+    curtain::Simulator simulator(readScene(options));
+    const curtain::Energy initial = simulator.energy();
+    std::ofstream states;
+    if (!options.out.empty()) {
+      states.open(options.out);
+      curtain::writeStateHeader(states);
+    }
+    const std::vector<double> seconds = run(simulator, options, options.out.empty() ? nullptr : &states);
+    if (!options.out.empty() && !states.flush()) throw std::runtime_error(options.out + ": cannot be written");
+    if (!options.mesh.empty()) curtain::writeMesh(simulator, options.mesh);
+    if (!options.stats.empty()) {
+      std::ofstream stats(options.stats);
+      stats << curtain::statisticsJson(simulator, initial, seconds);
+      if (!stats.flush()) throw std::runtime_error(options.stats + ": cannot be written");
+    }
+    if (!simulator.statistics().finite) {
+      std::cerr << "curtain_batch: the state became non-finite at t = " << simulator.time() << " s\n";
+      return kNotFinite;
+    }
+    return EXIT_SUCCESS;
+  } catch (const std::exception& error) {
+    std::cerr << "curtain_batch: " << error.what() << '\n';
+    return kBadInput;
+  }
+}

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Air damping, Cheng 2000, Eq. (4), per area of cloth, and the velocity update that carries it: stable and never
+// past zero for any coefficient.
+#pragma once
+
+#include "cloth/cloth.h"
+#include "curtain_sim/scene.h"
+
+namespace curtain {
+
+/// Damping coefficients of the nodes [kg/s]: force = -coefficient * velocity.
+class AirDamping {
+ public:
+  AirDamping(const AirParams& air, const ClothPattern& pattern);
+
+  /// False: no coefficient is above zero and there is nothing to do.
+  bool active() const { return active_; }
+
+  /// Adds the coefficients at the nodes' present speeds to out, shape [grid.size()].
+  void addCoefficients(const Grid& grid, const Field3& velocity, Field& out) const noexcept;
+
+ private:
+  AirParams air_;
+  Field linear_;  // rho * c_r * area of every node [kg/s]
+  bool active_ = false;
+};
+
+/// How a node with damping coefficient c and inverse mass w moves over a time dt: v' = keep * v + gain * w * impulse.
+/// The exact factors are e^-z and (1 - e^-z) / z with z = c w dt; these rational ones agree to second order, are
+/// positive for every z, and leave the exact terminal velocity F / c a fixed point:
+///   keep = 1 / (1 + z + z^2/2),  gain = (1 + z/2) / (1 + z + z^2/2).
+struct DampedStep {
+  double keep;
+  double gain;
+};
+
+inline DampedStep dampedStep(double coefficient, double inverse_mass, double dt) {
+  const double z = coefficient * inverse_mass * dt;
+  const double denominator = 1.0 + z + 0.5 * z * z;
+  return {1.0 / denominator, (1.0 + 0.5 * z) / denominator};
+}
+
+/// Coefficient of Eq. (4) at a speed over its value for small speeds.
+double dampingGrowth(const AirParams& air, double speed);
+
+}  // namespace curtain

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// User forces on a node and its neighbourhood (Cheng 2000, end of Sect. 2.2: dragging with the mouse).
+#pragma once
+
+#include <vector>
+
+#include "cloth/cloth.h"
+#include "curtain_sim/scene.h"
+
+namespace curtain {
+
+class DragForce {
+ public:
+  /// drag must be valid (validate()).
+  DragForce(const DragParams& drag, const ClothPattern& pattern);
+
+  const DragParams& params() const { return drag_; }
+  bool actsAt(double time) const { return time >= drag_.start && time < drag_.end; }
+
+  /// The node grasped; none before a drag by point first acted.
+  const std::optional<NodeIndex>& node() const { return node_; }
+
+  /// Takes hold of a node (used by a drag by point, and by one that takes over from another of its id).
+  void grasp(NodeIndex node, const ClothPattern& pattern) noexcept;
+
+  /// Adds its force on the nodes [N]. dt: the time the force will act [s]; the spring looks that far ahead, which
+  /// makes it stable at any stiffness. Allocates nothing.
+  void addForces(const ClothPattern& pattern, const Field3& position, const Field3& velocity, double dt,
+                 Field3& force) noexcept;
+
+ private:
+  struct Share {
+    std::size_t node;
+    double weight;
+  };
+  Vec3 springForce(const Field3& position, const Field3& velocity, double dt) const noexcept;
+
+  DragParams drag_;
+  std::optional<NodeIndex> node_;
+  std::vector<Share> shares_;        // weights add up to one; room for every node is kept from the start
+  double spring_damping_ = 0.0;      // [kg/s]
+  double grasp_inverse_mass_ = 0.0;  // sum of weight^2 / mass: how the grasped nodes answer a force [1/kg]
+};
+
+/// The node nearest to a point.
+NodeIndex nearestNode(const Grid& grid, const Field3& position, const Vec3& point) noexcept;
+
+}  // namespace curtain

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "forces/gust_noise.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace curtain {
+namespace {
+
+// Finaliser of splitmix64 (Steele, Lea, Flood 2014).
+std::uint64_t mix(std::uint64_t value) {
+  value += 0x9e3779b97f4a7c15ULL;
+  value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  value = (value ^ (value >> 27)) * 0x94d049bb133111ebULL;
+  return value ^ (value >> 31);
+}
+
+double smoothStep(double t) { return t * t * (3.0 - 2.0 * t); }
+
+int latticeCells(double length, double correlation_length, int most) {
+  const double cells = std::ceil(length / correlation_length);
+  return static_cast<int>(std::clamp(cells, 1.0, static_cast<double>(most)));
+}
+
+}  // namespace
+
+double hashedNormal(std::uint64_t seed, std::int64_t a, std::int64_t b, std::int64_t c) {
+  std::uint64_t bits = mix(seed);
+  bits = mix(bits ^ static_cast<std::uint64_t>(a));
+  bits = mix(bits ^ static_cast<std::uint64_t>(b));
+  bits = mix(bits ^ static_cast<std::uint64_t>(c));
+  double sum = 0.0;
+  for (int part = 0; part < 4; ++part) {
+    sum += (static_cast<double>(bits & 0xffffU) + 0.5) / 65536.0;
+    bits >>= 16U;
+  }
+  return (sum - 2.0) * std::sqrt(3.0);  // four uniform numbers: mean 2, variance 4/12
+}
+
+GustNoise::Place GustNoise::place(double coordinate) {
+  Place place;
+  place.low = static_cast<int>(coordinate);
+  place.high = place.low + 1;
+  const double fraction = smoothStep(coordinate - place.low);
+  const double size = std::sqrt(fraction * fraction + (1.0 - fraction) * (1.0 - fraction));
+  place.low_weight = (1.0 - fraction) / size;
+  place.high_weight = fraction / size;
+  return place;
+}
+
+GustNoise::GustNoise(std::uint64_t seed, double correlation_length, double correlation_time,
+                     const ClothPattern& pattern)
+    : seed_(seed), correlation_time_(correlation_time) {
+  const Grid& grid = pattern.grid;
+  const double height = pattern.warp_coordinate.back();
+  const double width =
+      pattern.weft_coordinate.back() + (grid.closed ? pattern.weft_rest[grid.index(0, 0)] : 0.0);
+  const int row_cells = latticeCells(height, correlation_length, grid.rows);
+  const int column_cells = latticeCells(width, correlation_length, grid.columns);
+  for (const double v : pattern.warp_coordinate) row_place_.push_back(place(v / height * row_cells));
+  for (const double u : pattern.weft_coordinate) column_place_.push_back(place(u / width * column_cells));
+  if (grid.closed) {
+    for (Place& p : column_place_) p.high %= column_cells;  // the lattice closes with the ring
+  }
+  lattice_columns_ = column_cells + 2;
+  lattice_.assign(static_cast<std::size_t>(row_cells + 2) * static_cast<std::size_t>(lattice_columns_), Vec3::Zero());
+}
+
+void GustNoise::setTime(double time) noexcept {
+  const double slab_time = time / correlation_time_;
+  const double slab_floor = std::floor(slab_time);
+  const auto slab = static_cast<std::int64_t>(slab_floor);
+  const double fraction = smoothStep(slab_time - slab_floor);
+  const double size = std::sqrt(fraction * fraction + (1.0 - fraction) * (1.0 - fraction));
+  const double old_weight = (1.0 - fraction) / size;
+  const double new_weight = fraction / size;
+  for (std::size_t point = 0; point < lattice_.size(); ++point) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto where = static_cast<std::int64_t>(point);
+      lattice_[point][axis] = old_weight * hashedNormal(seed_, where, axis, slab) +
+                              new_weight * hashedNormal(seed_, where, axis, slab + 1);
+    }
+  }
+}
+
+Vec3 GustNoise::at(int row, int column) const noexcept {
+  const Place& v = row_place_[static_cast<std::size_t>(row)];
+  const Place& u = column_place_[static_cast<std::size_t>(column)];
+  const auto point = [&](int i, int j) -> const Vec3& {
+    return lattice_[static_cast<std::size_t>(i * lattice_columns_ + j)];
+  };
+  return v.low_weight * (u.low_weight * point(v.low, u.low) + u.high_weight * point(v.low, u.high)) +
+         v.high_weight * (u.low_weight * point(v.high, u.low) + u.high_weight * point(v.high, u.high));
+}
+
+}  // namespace curtain

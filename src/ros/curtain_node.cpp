@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/curtain_node.h"
+
+#include <ros/console.h>
+#include <ros/init.h>
+
+#include <chrono>
+#include <utility>
+
+namespace curtain_ros {
+
+namespace {
+
+// How often a clock that others drive is looked at.
+constexpr auto kSimulatedClockPoll = std::chrono::milliseconds(1);
+constexpr double kFactorPeriod = 1.0;  // [s] that the real-time factor is measured over
+
+curtain::Simulator makeSimulator(const curtain::Scene& scene, const std::string& private_space) {
+  try {
+    return curtain::Simulator(scene);
+  } catch (const std::invalid_argument& e) {
+    throw ParameterError("can't start, problem(s) with " + private_space + "/scene:\n  " + e.what());
+  }
+}
+
+}  // namespace
+
+CurtainNode::CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
+    : CurtainNode(node, private_node, readParameters(private_node)) {}
+
+CurtainNode::CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node, ParameterReading reading)
+    : simulator_(makeSimulator(reading.scene, private_node.getNamespace())),
+      frames_(node, reading.node.world_frame),
+      inputs_(node, frames_),
+      obstacles_(reading.scene, reading.node.obstacle_timeout, frames_),
+      outputs_(private_node, reading.node, reading.scene),
+      step_clock_(reading.scene.solver.frame_rate, reading.node.max_catch_up) {
+  if (reading.node.handles) handles_ = std::make_unique<Handles>(private_node, reading.node, simulator_, inputs_);
+  obstacles_.restart(simulator_);
+  const curtain::Scene& scene = simulator_.scene();
+  ROS_INFO_STREAM("curtain of " << simulator_.rows() << " x " << simulator_.columns() << " nodes, "
+                                << scene.obstacles.size() << " obstacle(s), method "
+                                << curtain::toString(scene.solver.method) << ", " << scene.solver.frame_rate
+                                << " frames/s in '" << frames_.world() << "'");
+  thread_ = std::thread([this] { run(); });
+}
+
+CurtainNode::~CurtainNode() {
+  {
+    const std::lock_guard<std::mutex> lock(stop_mutex_);
+    stop_ = true;
+  }
+  stop_signal_.notify_all();
+  thread_.join();
+}
+
+void CurtainNode::run() {
+  measured_since_ = ros::SteadyTime::now();
+  while (!stopping()) {
+    const std::int64_t now = clock_.now();
+    if (now > 0) {
+      const StepClock::Due due = step_clock_.update(now);
+      if (due.restarted) {
+        ROS_WARN("the clock jumped back: the curtain goes back to its start");
+        restart();
+      }
+      for (int i = 0; i < due.frames && !stopping(); ++i) {
+        makeFrame(clock_.stampOf(step_clock_.take()), i + 1 == due.frames);
+      }
+    }
+    waitForNextFrame();
+  }
+}
+
+void CurtainNode::makeFrame(const ros::Time& stamp, bool latest) {
+  inputs_.apply(simulator_);
+  obstacles_.update(simulator_, ros::Time::now());
+  simulator_.step();
+  if (!simulator_.statistics().finite) {
+    ROS_ERROR("the state is not finite any more: the curtain goes back to its start");
+    restart();
+    return;
+  }
+  outputs_.publish(simulator_, stamp, nodeStatistics(), latest);
+  if (handles_) handles_->update(simulator_);
+}
+
+void CurtainNode::restart() {
+  ++restarts_;
+  simulator_.reset();
+  frames_.clear();
+  obstacles_.restart(simulator_);
+  measured_frames_ = 0;
+  measured_since_ = ros::SteadyTime::now();
+  real_time_factor_ = 0.0;
+}
+
+curtain_sim::Statistics CurtainNode::nodeStatistics() {
+  ++measured_frames_;
+  const double wall = (ros::SteadyTime::now() - measured_since_).toSec();
+  if (wall >= kFactorPeriod) {
+    real_time_factor_ = static_cast<double>(measured_frames_) / simulator_.scene().solver.frame_rate / wall;
+    measured_frames_ = 0;
+    measured_since_ = ros::SteadyTime::now();
+  }
+  curtain_sim::Statistics statistics;
+  statistics.real_time_factor = real_time_factor_;
+  statistics.dropped_frames = step_clock_.dropped();
+  statistics.restarts = restarts_;
+  statistics.dropped_invalid = inputs_.invalid();
+  statistics.dropped_untransformed = inputs_.untransformed();
+  statistics.dropped_overflow = inputs_.overflowed();
+  statistics.absent_obstacles = obstacles_.absent();
+  return statistics;
+}
+
+void CurtainNode::waitForNextFrame() {
+  std::unique_lock<std::mutex> lock(stop_mutex_);
+  const auto stop = [this] { return stop_; };
+  if (clock_.simulated()) {
+    stop_signal_.wait_for(lock, kSimulatedClockPoll, stop);
+    return;
+  }
+  const std::int64_t left = step_clock_.next() - clock_.now();
+  if (left > 0) stop_signal_.wait_for(lock, std::chrono::nanoseconds(left), stop);
+}
+
+bool CurtainNode::stopping() {
+  const std::lock_guard<std::mutex> lock(stop_mutex_);
+  return stop_;
+}
+
+}  // namespace curtain_ros

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Floor 5: the wiring of a curtain in ROS. A thread of its own makes the frames:
+//
+//   wait for the clock -> letters -> obstacle frames -> step -> publish
+//
+// Callbacks run in whoever spins the given handles' queue and only leave letters; no lock is held while solving or
+// publishing. The same class serves the node program and the nodelet.
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "curtain_sim/Statistics.h"
+#include "curtain_sim/simulator.h"
+#include "ros/frames.h"
+#include "ros/handles.h"
+#include "ros/inputs.h"
+#include "ros/node_clock.h"
+#include "ros/obstacle_tracker.h"
+#include "ros/outputs.h"
+#include "ros/parameters.h"
+#include "ros/step_clock.h"
+
+namespace curtain_ros {
+
+class CurtainNode {
+ public:
+  /// Reads the parameters, builds the curtain and starts.
+  ///   node          wind_source and drag_force are in its namespace
+  ///   private_node  parameters, ~state, ~mesh, ~markers, ~handles
+  /// Throws ParameterError with every problem.
+  CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
+
+  /// Stops within a frame's computing time.
+  ~CurtainNode();
+
+  CurtainNode(const CurtainNode&) = delete;
+  CurtainNode& operator=(const CurtainNode&) = delete;
+
+ private:
+  CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node, ParameterReading reading);
+
+  void run();
+  void makeFrame(const ros::Time& stamp, bool latest);
+  void restart();
+  void waitForNextFrame();
+  bool stopping();
+  curtain_sim::Statistics nodeStatistics();
+
+  curtain::Simulator simulator_;
+  Frames frames_;
+  Inputs inputs_;
+  ObstacleTracker obstacles_;
+  Outputs outputs_;
+  std::unique_ptr<Handles> handles_;  // none unless ~handles
+  NodeClock clock_;
+  StepClock step_clock_;
+
+  std::uint32_t restarts_ = 0;
+  // Real-time factor: simulated and monotonic time at the start of the stretch that is measured now.
+  std::int64_t measured_frames_ = 0;
+  ros::SteadyTime measured_since_;
+  double real_time_factor_ = 0.0;
+
+  std::mutex stop_mutex_;
+  std::condition_variable stop_signal_;
+  bool stop_ = false;
+  std::thread thread_;
+};
+
+}  // namespace curtain_ros

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/frames.h"
+
+#include <tf2/exceptions.h>
+
+namespace curtain_ros {
+
+namespace {
+
+// Long enough for static and slow (10 Hz) frames to reach a new listener, short enough to call a wrong name wrong.
+const ros::WallDuration kYouth(1.0);
+
+std::string withoutSlash(const std::string& frame) {
+  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
+}
+
+}  // namespace
+
+Frames::Frames(const ros::NodeHandle& node, const std::string& world_frame)
+    : node_(node), world_(withoutSlash(world_frame)) {}
+
+bool Frames::isWorld(const std::string& frame) const { return frame.empty() || withoutSlash(frame) == world_; }
+
+void Frames::listen() {
+  if (listener_) return;
+  buffer_ = std::make_unique<tf2_ros::Buffer>();
+  listener_ = std::make_unique<tf2_ros::TransformListener>(*buffer_, node_, true, ros::TransportHints().tcpNoDelay());
+  listening_since_ = ros::SteadyTime::now();
+}
+
+FrameLookup Frames::lookup(const std::string& frame) {
+  FrameLookup result;
+  if (isWorld(frame)) {
+    result.known = true;
+    return result;
+  }
+  listen();
+  try {
+    const geometry_msgs::TransformStamped t = buffer_->lookupTransform(world_, withoutSlash(frame), ros::Time(0));
+    const auto& p = t.transform.translation;
+    const auto& q = t.transform.rotation;
+    result.pose.position = curtain::Vec3(p.x, p.y, p.z);
+    result.pose.orientation = Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
+    result.stamp = t.header.stamp;
+    result.known = result.pose.position.allFinite() && result.pose.orientation.coeffs().allFinite();
+    if (!result.known) result.error = "its transform is not finite";
+  } catch (const tf2::TransformException& e) {
+    result.error = e.what();
+    result.may_come = ros::SteadyTime::now() - listening_since_ < kYouth;
+  }
+  return result;
+}
+
+void Frames::clear() {
+  if (buffer_) buffer_->clear();
+}
+
+curtain::Pose compose(const curtain::Pose& frame, const curtain::Pose& pose) {
+  curtain::Pose result;
+  result.position = transformPoint(frame, pose.position);
+  result.orientation = (frame.orientation * pose.orientation).normalized();
+  return result;
+}
+
+curtain::Vec3 transformPoint(const curtain::Pose& frame, const curtain::Vec3& point) {
+  return frame.position + frame.orientation * point;
+}
+
+}  // namespace curtain_ros

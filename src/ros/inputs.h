@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Floor 5: wind sources and user forces that come as messages. Callbacks only leave the message in a mailbox; the
+// simulation thread judges, transforms and applies them at the start of a frame. A bad message is dropped, counted
+// and warned of (throttled), and the node goes on.
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/subscriber.h>
+
+#include <cstdint>
+#include <deque>
+
+#include "curtain_sim/DragForce.h"
+#include "curtain_sim/WindSource.h"
+#include "curtain_sim/simulator.h"
+#include "ros/frames.h"
+#include "ros/mailbox.h"
+
+namespace curtain_ros {
+
+class Inputs {
+ public:
+  /// Subscribes wind_source and drag_force. frames must outlive this.
+  Inputs(ros::NodeHandle node, Frames& frames);
+
+  /// Leaves a user force as if it came on the topic. Any thread.
+  void post(const curtain_sim::DragForce::ConstPtr& message) { drags_.post(message); }
+
+  /// Applies what arrived, in order, and takes away what is over. Simulation thread.
+  void apply(curtain::Simulator& simulator);
+
+  /// Messages dropped since construction. Simulation thread.
+  std::uint32_t invalid() const { return invalid_; }
+  std::uint32_t untransformed() const { return untransformed_; }
+  std::uint32_t overflowed() const { return static_cast<std::uint32_t>(winds_.lost() + drags_.lost()); }
+
+ private:
+  /// False: not yet, try again next frame.
+  bool handle(const curtain_sim::WindSource& message, curtain::Simulator& simulator);
+  bool handle(const curtain_sim::DragForce& message, curtain::Simulator& simulator);
+
+  template <typename Message>
+  void work(std::deque<boost::shared_ptr<const Message>>& waiting, std::deque<boost::shared_ptr<const Message>> arrived,
+            curtain::Simulator& simulator);
+  void drop(const char* topic, const std::string& id, const std::vector<curtain::Problem>& problems);
+  bool findFrame(const char* topic, const std::string& id, const std::string& frame, FrameLookup& lookup);
+
+  Frames& frames_;
+  Mailbox<curtain_sim::WindSource::ConstPtr> winds_;
+  Mailbox<curtain_sim::DragForce::ConstPtr> drags_;
+  // Messages whose frame may still arrive, and those behind them: only while the tf2 listener is young.
+  std::deque<curtain_sim::WindSource::ConstPtr> waiting_winds_;
+  std::deque<curtain_sim::DragForce::ConstPtr> waiting_drags_;
+  std::uint32_t invalid_ = 0;
+  std::uint32_t untransformed_ = 0;
+  ros::Subscriber wind_subscriber_;
+  ros::Subscriber drag_subscriber_;
+};
+
+}  // namespace curtain_ros

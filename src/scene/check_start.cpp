@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Whether the cloth can start where hang puts it. Flat cloth hangs from a straight line, each row as wide as that line
+// or as its own weft if that is shorter; closed cloth starts as a cone around the vertical:
+//
+//        r_0 ______                  row i, at s_i along the warp, is a ring of radius r_0 + s_i sin(tilt);
+//           /      |                 the chord between neighbours must not be longer than their weft link.
+//      s_i /  tilt |
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "scene/checks.h"
+#include "scene/range_checker.h"
+
+namespace curtain {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kSlack = 1e-9;  // relative; lengths are typed with rounding, and the solver takes up as much at once
+
+// Shares of the whole, from relative lengths; empty: all equal.
+std::vector<double> shares(const std::vector<double>& weights, int count) {
+  const auto size = static_cast<std::size_t>(count);
+  if (weights.empty()) return std::vector<double>(size, 1.0 / count);
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  std::vector<double> result(size);
+  std::transform(weights.begin(), weights.end(), result.begin(), [sum](double weight) { return weight / sum; });
+  return result;
+}
+
+bool clothIsGood(const ClothParams& cloth, const ProblemLog& log) {
+  for (const char* key : {"cloth.closed", "cloth.rows", "cloth.columns", "cloth.height", "cloth.width",
+                          "cloth.hem_width", "cloth.row_spacing", "cloth.column_spacing"}) {
+    if (!log.good(key)) return false;
+  }
+  // The log may be about something else; what follows divides by these.
+  return cloth.rows >= 2 && cloth.columns >= 2;
+}
+
+double hemWidth(const ClothParams& cloth) { return cloth.hem_width.value_or(cloth.width); }
+
+void checkFlat(const Scene& scene, ProblemLog& log) {
+  const ClothParams& cloth = scene.cloth;
+  const HangParams& hang = scene.hang;
+  const double span = (hang.to - hang.from).norm();
+  const std::string line = "from " + formatVector(hang.from) + " to " + formatVector(hang.to);
+  if (!(span > 0.0)) {
+    log.add("hang.to", "must differ from hang.from, is " + formatVector(hang.to));
+    return;
+  }
+  if (!(span <= cloth.width * (1.0 + kSlack))) {
+    log.add("hang.to", "must be no further from hang.from than cloth.width = " + formatNumber(cloth.width) +
+                           " m, is " + formatNumber(span) + " m away (" + line + ")");
+    return;
+  }
+  // Rows narrower than the line make the warp rods slant; the outermost column slants most.
+  constexpr double kSteepest = 0.9;
+  const std::vector<double> rods = shares(cloth.row_spacing, cloth.rows - 1);
+  const auto rowSpan = [&](double depth) {
+    return std::min(span, cloth.width + (hemWidth(cloth) - cloth.width) * depth);
+  };
+  double down = 0.0;
+  for (std::size_t i = 0; i < rods.size(); ++i) {
+    const double slant = 0.5 * std::abs(rowSpan(down + rods[i]) - rowSpan(down));
+    if (slant > kSteepest * (1.0 - kSlack) * rods[i] * cloth.height) {
+      log.add("cloth.hem_width", "must taper the cloth by less than its warp rods are long: is " +
+                                     formatNumber(hemWidth(cloth)) + ", so that the outer rod to row " +
+                                     std::to_string(i + 1) + " would have to slant by more than 0.9 of its length");
+      return;
+    }
+    down += rods[i];
+  }
+}
+
+void checkRing(const Scene& scene, ProblemLog& log) {
+  const ClothParams& cloth = scene.cloth;
+  const double top_radius = scene.hang.radius.value_or(cloth.width / (2.0 * kPi));
+  const double slope = std::sin(scene.hang.tilt);
+  const std::vector<double> rods = shares(cloth.row_spacing, cloth.rows - 1);
+  const std::vector<double> links = shares(cloth.column_spacing, cloth.columns);
+  double down = 0.0;
+  for (int i = 0; i < cloth.rows; ++i) {
+    if (i > 0) down += rods[static_cast<std::size_t>(i - 1)];
+    const double radius = top_radius + down * cloth.height * slope;
+    const double width = cloth.width + (hemWidth(cloth) - cloth.width) * down;
+    const std::string key = i == 0 ? "hang.radius" : "hang.tilt";
+    const std::string is = i == 0 ? formatNumber(top_radius) : formatNumber(scene.hang.tilt);
+    if (!(radius > 0.0)) {
+      log.add(key, "must leave every row a ring of radius > 0, is " + is + ": row " + std::to_string(i) +
+                       " would have radius " + formatNumber(radius) + " m");
+      return;
+    }
+    for (std::size_t j = 0; j < links.size(); ++j) {
+      const double chord = 2.0 * radius * std::sin(kPi * links[j]);
+      if (chord <= width * links[j] * (1.0 + kSlack)) continue;
+      log.add(key, "must not start weft links longer than they are, is " + is + ": in row " + std::to_string(i) +
+                       " (radius " + formatNumber(radius) + " m) link " + std::to_string(j) + " would be " +
+                       formatNumber(chord) + " m long, at most " + formatNumber(width * links[j]) + " m are allowed");
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+void checkStart(const Scene& scene, ProblemLog& log) {
+  if (!scene.cloth.closed && scene.hang.radius && log.good("cloth.closed")) {
+    log.add("hang.radius", "is for closed cloth only (cloth.closed: true), is " + formatNumber(*scene.hang.radius));
+  }
+  if (!clothIsGood(scene.cloth, log)) return;
+  if (scene.cloth.closed) {
+    if (log.good("hang.radius") && log.good("hang.tilt")) checkRing(scene, log);
+  } else if (log.good("hang.from") && log.good("hang.to")) {
+    checkFlat(scene, log);
+  }
+}
+
+}  // namespace curtain

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The table of a scene's keys: every key once, with its member and its range. The reader, the range checker, the
+// writer and the list of known keys are visitors that walk this one table, so they cannot disagree about a key.
+//
+// A visitor has these members; key is relative to the map that is visited:
+//   integer, integerOr (a word stands for one value), seed, number, optionalNumber, numberOrUnset (NaN: not given),
+//   flag, text, choice, vector, optionalVector, scale (one number or three), rotation, node, numbers, pins,
+//   map (a struct below), list (a list of structs), belongs (false: the key is not for this value).
+#pragma once
+
+#include <type_traits>
+
+#include "curtain_sim/scene.h"
+#include "scene/names.h"
+#include "scene/ranges.h"
+
+namespace curtain {
+
+/// Name of a key; a required one has no default.
+struct Key {
+  Key(const char* key_name, bool is_required = false) : name(key_name), required(is_required) {}
+  const char* name;
+  bool required;
+};
+
+inline Key required(const char* name) { return {name, true}; }
+
+template <typename T>
+struct Fields;
+
+/// Shows every key of a struct to the visitor.
+template <typename Visitor, typename T>
+void visitFields(Visitor& visitor, T& value) {
+  Fields<std::remove_const_t<T>>::visit(visitor, value);
+}
+
+template <>
+struct Fields<ClothParams> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& cloth) {
+    v.flag("closed", cloth.closed);  // first: the least number of columns depends on it
+    v.integer(required("rows"), cloth.rows, IntRange{2, 4096});
+    v.integer(required("columns"), cloth.columns, IntRange{cloth.closed ? 3 : 2, 4096});
+    v.number("height", cloth.height, positive());
+    v.number("width", cloth.width, positive());
+    v.optionalNumber("hem_width", cloth.hem_width, positive());
+    v.number("surface_density", cloth.surface_density, positive());
+    v.choice("lumping", cloth.lumping, lumpingNames());
+    v.integer("folds", cloth.folds, IntRange{1, 64});
+    v.number("porosity", cloth.porosity, between(0.0, 1.0));
+    v.numbers("row_spacing", cloth.row_spacing, positive());
+    v.numbers("column_spacing", cloth.column_spacing, positive());
+    v.numbers("row_mass", cloth.row_mass, positive());
+    v.numbers("column_mass", cloth.column_mass, positive());
+  }
+};
+
+template <>
+struct Fields<HangParams> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& hang) {
+    v.vector("from", hang.from, finite());
+    v.vector("to", hang.to, finite());
+    v.optionalNumber("radius", hang.radius, positive());
+    v.number("tilt", hang.tilt, finite());
+  }
+};
+
+template <>
+struct Fields<AirParams> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& air) {
+    v.number("density", air.density, notNegative());
+    v.choice("law", air.law, dampingLawNames());
+    v.number("threshold", air.threshold, positive());
+    v.number("inside", air.inside, notNegative());
+    v.number("border", air.border, notNegative());
+    v.number("corner", air.corner, notNegative());
+    v.number("fast_gain", air.fast_gain, notNegative());
+  }
+};
+
+template <>
+struct Fields<WindParams> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& wind) {
+    v.text(required("id"), wind.id);
+    v.vector("position", wind.position, finite());
+    v.vector("direction", wind.direction, finite());
+    v.number("radius", wind.radius, positive());
+    v.number("half_angle", wind.half_angle, between(0.0, 1.5));
+    v.number("pressure", wind.pressure, notNegative());
+    v.number("node_force", wind.node_force, notNegative());
+    v.number("porosity_weight", wind.porosity_weight, between(0.0, 1.0));
+    v.number("distance_weight", wind.distance_weight, positive());
+    v.number("unsteadiness", wind.unsteadiness, notNegative());
+    v.number("correlation_time", wind.correlation_time, positive());
+    v.number("correlation_length", wind.correlation_length, positive());
+    v.number("start", wind.start, finite());
+    v.number("end", wind.end, orInfinite());
+  }
+};
+
+template <>
+struct Fields<DragParams> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& drag) {
+    v.text(required("id"), drag.id);
+    v.node("node", drag.node);
+    v.optionalVector("point", drag.point, finite());
+    v.vector("force", drag.force, finite());
+    v.optionalVector("target", drag.target, finite());
+    v.number("stiffness", drag.stiffness, positive());
+    v.number("radius", drag.radius, notNegative());
+    v.number("start", drag.start, finite());
+    v.number("end", drag.end, orInfinite());
+  }
+};
+
+template <>
+struct Fields<PoseKey> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& key) {
+    v.number(required("time"), key.time, finite());
+    v.vector("position", key.pose.position, finite());
+    v.rotation("orientation", key.pose.orientation);
+  }
+};
+
+template <>
+struct Fields<ObstacleParams> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& obstacle) {
+    v.text(required("name"), obstacle.name);
+    v.text("frame", obstacle.frame);
+    v.choice(required("shape"), obstacle.shape, shapeNames());
+    visitShape(v, obstacle);
+    v.vector("position", obstacle.pose.position, finite());
+    v.rotation("orientation", obstacle.pose.orientation);
+    v.numberOrUnset("friction", obstacle.friction, between(0.0, 10.0));
+    v.list("motion", obstacle.motion);
+  }
+
+ private:
+  template <typename Visitor, typename T>
+  static void visitShape(Visitor& v, T& obstacle) {
+    const ShapeKind shape = obstacle.shape;
+    const bool long_shape = shape == ShapeKind::kCylinder || shape == ShapeKind::kCapsule;
+    const bool box = shape == ShapeKind::kBox;
+    const bool mesh = shape == ShapeKind::kMesh;
+    if (v.belongs("radius", long_shape || shape == ShapeKind::kSphere, shape)) {
+      v.number(required("radius"), obstacle.radius, positive());
+    }
+    if (v.belongs("length", long_shape, shape)) v.number(required("length"), obstacle.length, positive());
+    if (v.belongs("size", box, shape)) v.vector(required("size"), obstacle.size, positive());
+    if (v.belongs("mesh", mesh, shape)) v.text(required("mesh"), obstacle.mesh);
+    if (v.belongs("scale", mesh, shape)) v.scale("scale", obstacle.scale, notZero());
+  }
+};
+
+template <>
+struct Fields<ContactParams> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& contact) {
+    v.number("thickness", contact.thickness, positive());
+    v.number("friction", contact.friction, between(0.0, 10.0));
+    v.flag("self", contact.self);
+    v.integer("zone_iterations", contact.zone_iterations, IntRange{1, 1000});
+  }
+};
+
+template <>
+struct Fields<SolverParams> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& solver) {
+    v.choice("method", solver.method, methodNames());
+    v.number("frame_rate", solver.frame_rate, between(1.0, 10000.0));
+    v.integerOr("substeps", solver.substeps, IntRange{1, 10000}, "auto", 0);
+    v.number("stretch_tolerance", solver.stretch_tolerance, between(1e-12, 0.1));
+    v.integer("max_substeps", solver.max_substeps, IntRange{1, 10000});
+    v.integer("max_sweeps", solver.max_sweeps, IntRange{1, 10000});
+    v.seed("seed", solver.seed);
+  }
+};
+
+template <>
+struct Fields<Scene> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& scene) {
+    v.map("cloth", scene.cloth);
+    v.map("hang", scene.hang);
+    v.pins("pins", scene.pins);
+    v.vector("gravity", scene.gravity, finite());
+    v.map("air", scene.air);
+    v.list("wind", scene.wind);
+    v.list("drag", scene.drag);
+    v.list("obstacles", scene.obstacles);
+    v.map("contact", scene.contact);
+    v.map("solver", scene.solver);
+  }
+};
+
+}  // namespace curtain

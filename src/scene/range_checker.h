@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The visitor of fields.h that judges every value by itself. What values mean together is validate.cpp's.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene/fields.h"
+#include "scene/problem_log.h"
+
+namespace curtain {
+
+/// "[x, y, z]"
+std::string formatVector(const Vec3& vector);
+
+class RangeChecker {
+ public:
+  RangeChecker(std::string key, ProblemLog& log) : prefix_(std::move(key)), log_(log) {}
+
+  void integer(Key key, const int& value, IntRange range);
+  void integerOr(Key key, const int& value, IntRange range, const char* word, int word_value);
+  void seed(Key, const std::uint64_t&) {}
+  void number(Key key, const double& value, Range range);
+  void optionalNumber(Key key, const std::optional<double>& value, Range range);
+  void numberOrUnset(Key key, const double& value, Range range);
+  void flag(Key, const bool&) {}
+  void text(Key key, const std::string& value);
+  void vector(Key key, const Vec3& value, Range range);
+  void optionalVector(Key key, const std::optional<Vec3>& value, Range range);
+  void scale(Key key, const Vec3& value, Range range) { vector(key, value, range); }
+  void rotation(Key key, const Eigen::Quaterniond& value);
+  void node(Key, const std::optional<NodeIndex>&) {}  // its range is the cloth's size
+  void numbers(Key key, const std::vector<double>& values, Range range);
+  void pins(Key, const PinParams&) {}  // the same
+  bool belongs(Key, bool yes, ShapeKind) { return yes; }
+
+  template <typename Enum>
+  void choice(Key key, const Enum& value, const std::vector<std::string>& names) {
+    // Only a value that a program made up can be outside.
+    if (static_cast<std::size_t>(value) >= names.size()) log_.add(keyOf(key), "must be " + alternatives(names));
+  }
+
+  template <typename T>
+  void map(Key key, const T& value) {
+    RangeChecker checker(keyOf(key), log_);
+    visitFields(checker, value);
+  }
+
+  template <typename T>
+  void list(Key key, const std::vector<T>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      RangeChecker checker(itemKey(keyOf(key), i), log_);
+      visitFields(checker, values[i]);
+    }
+  }
+
+ private:
+  std::string keyOf(Key key) const { return joinKey(prefix_, key.name); }
+  void check(const std::string& key, double value, const Range& range);
+
+  std::string prefix_;
+  ProblemLog& log_;
+};
+
+}  // namespace curtain

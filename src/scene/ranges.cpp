@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/ranges.h"
+
+#include <cmath>
+#include <locale>
+#include <sstream>
+
+namespace curtain {
+
+bool Range::contains(double value) const {
+  if (or_infinite && std::isinf(value) && value > 0.0) return true;
+  if (!std::isfinite(value) || value < low || value > high) return false;
+  return !(low_open && value == low) && !(not_zero && value == 0.0);
+}
+
+std::string Range::text() const {
+  if (or_infinite) return "a number or .inf";
+  if (not_zero) return "a finite number other than 0";
+  const bool has_low = std::isfinite(low);
+  const bool has_high = std::isfinite(high);
+  if (has_low && has_high) {
+    return std::string("a number in ") + (low_open ? "(" : "[") + formatNumber(low) + ", " + formatNumber(high) + "]";
+  }
+  if (has_low) return std::string("a finite number ") + (low_open ? "> " : ">= ") + formatNumber(low);
+  if (has_high) return "a finite number <= " + formatNumber(high);
+  return "a finite number";
+}
+
+std::string IntRange::text() const {
+  return "an integer in [" + std::to_string(low) + ", " + std::to_string(high) + "]";
+}
+
+std::string formatNumber(double value) {
+  if (std::isnan(value)) return ".nan";
+  if (std::isinf(value)) return value > 0.0 ? ".inf" : "-.inf";
+  // Streams with the classic locale: printf would write a decimal comma under some users' locales.
+  std::string text;
+  for (int digits = 1; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out.precision(digits);
+    out << value;
+    text = out.str();
+    std::istringstream in(text);
+    in.imbue(std::locale::classic());
+    double back = 0.0;
+    in >> back;
+    if (back == value) break;
+  }
+  return text;
+}
+
+std::string formatYamlNumber(double value) {
+  std::string text = formatNumber(value);
+  if (!std::isfinite(value) || text.find('.') != std::string::npos) return text;
+  const std::size_t exponent = text.find('e');
+  return exponent == std::string::npos ? text + ".0" : text.insert(exponent, ".0");
+}
+
+}  // namespace curtain

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Scenes from a YAML tree, text or file: types first (StrictReader), then values (checkScene), all problems at once.
+#include <yaml-cpp/yaml.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "curtain_sim/scene_yaml.h"
+#include "scene/checks.h"
+#include "scene/strict_reader.h"
+
+namespace curtain {
+namespace {
+
+SceneReading failed(const std::string& text) {
+  SceneReading reading;
+  reading.problems.push_back({"", text});
+  return reading;
+}
+
+// Paths as a user types them are meant from the file they stand in; URLs and absolute paths are left alone.
+std::string resolvePath(const std::string& mesh, const std::filesystem::path& folder) {
+  if (mesh.empty() || mesh.find("://") != std::string::npos || std::filesystem::path(mesh).is_absolute()) return mesh;
+  return (folder / mesh).lexically_normal().string();
+}
+
+}  // namespace
+
+SceneReading readScene(const YAML::Node& root) {
+  try {
+    if (!root.IsDefined() || root.IsNull()) return failed("is empty, must be a map with at least cloth: rows, columns");
+    if (!root.IsMap()) return failed("must be a map with at least cloth: rows, columns, is " + describeValue(root));
+    SceneReading reading;
+    ProblemLog log;
+    StrictReader::readMap(root, "", reading.scene, log);
+    checkScene(reading.scene, log);
+    reading.problems = log.problems();
+    return reading;
+  } catch (const YAML::Exception& error) {
+    return failed(std::string("can't be read: ") + error.what());
+  }
+}
+
+SceneReading readSceneText(const std::string& text) {
+  std::vector<YAML::Node> documents;
+  try {
+    documents = YAML::LoadAll(text);
+  } catch (const YAML::Exception& error) {
+    return failed("line " + std::to_string(error.mark.line + 1) + ", column " + std::to_string(error.mark.column + 1) +
+                  ": not YAML: " + error.msg);
+  }
+  if (documents.size() > 1) {
+    return failed("must be one YAML document, is " + std::to_string(documents.size()) + " (split by ---)");
+  }
+  return readScene(documents.empty() ? YAML::Node() : documents.front());
+}
+
+SceneReading readSceneFile(const std::string& path) {
+  std::error_code ignored;  // what can't be looked at can't be opened either, and that is reported
+  const bool is_folder = std::filesystem::is_directory(path, ignored);
+  std::ifstream file(path, std::ios::binary);
+  if (is_folder || !file) return failed("can't open " + path + (is_folder ? ": is a folder" : ""));
+  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  SceneReading reading = readSceneText(text);
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  for (ObstacleParams& obstacle : reading.scene.obstacles) obstacle.mesh = resolvePath(obstacle.mesh, folder);
+  return reading;
+}
+
+}  // namespace curtain

@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/strict_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scene/orientation.h"
+#include "scene/spelling.h"
+
+namespace curtain {
+namespace {
+
+std::string lines(const YAML::Node& first, const YAML::Node& second) {
+  if (first.Mark().is_null() || second.Mark().is_null()) return "";
+  return " (lines " + std::to_string(first.Mark().line + 1) + " and " + std::to_string(second.Mark().line + 1) + ")";
+}
+
+}  // namespace
+
+StrictReader::StrictReader(const YAML::Node& map, std::string key, ProblemLog& log)
+    : prefix_(std::move(key)), log_(log) {
+  for (const auto& entry : map) {
+    if (!entry.first.IsScalar()) {
+      log_.add(joinKey(prefix_, "?"), "a key must be text, is " + describeValue(entry.first));
+      continue;
+    }
+    const std::string& name = entry.first.Scalar();
+    // yaml-cpp keeps both; which one counts would be luck.
+    const auto same = [&name](const auto& other) { return other.first == name; };
+    const auto first = std::find_if(entries_.begin(), entries_.end(), same);
+    if (first != entries_.end()) {
+      log_.add(joinKey(prefix_, name), "is given more than once" + lines(first->second, entry.second));
+      continue;
+    }
+    entries_.emplace_back(name, entry.second);
+  }
+}
+
+// The value of the key, or null when it is not given or empty; wanted says what it must be.
+const YAML::Node* StrictReader::find(Key key, const std::string& wanted) {
+  asked_.emplace_back(key.name);
+  const auto same = [&key](const auto& entry) { return entry.first == key.name; };
+  const auto found = std::find_if(entries_.begin(), entries_.end(), same);
+  if (found == entries_.end()) {
+    if (key.required) log_.add(keyOf(key), "is missing, must be " + wanted);
+    return nullptr;
+  }
+  if (!found->second.IsDefined() || found->second.IsNull()) {
+    log_.add(keyOf(key), "must be " + wanted + ", is empty");
+    return nullptr;
+  }
+  return &found->second;
+}
+
+void StrictReader::reportUnknown() const {
+  for (const auto& [name, value] : entries_) {
+    if (std::find(asked_.begin(), asked_.end(), name) != asked_.end()) continue;
+    const std::optional<std::string> near = nearestWord(name, asked_);
+    log_.add(joinKey(prefix_, name),
+             "is not a known key, " + (near ? "did you mean " + *near + "?" : "known are " + listWords(asked_)));
+  }
+}
+
+YAML::Node StrictReader::mapUnder(Key key) {
+  const YAML::Node* found = find(key, "a map");
+  if (found && found->IsMap()) return *found;
+  if (found) log_.add(keyOf(key), "must be a map, is " + describeValue(*found));
+  return YAML::Node(YAML::NodeType::Map);  // not given: all defaults, and what is required is reported
+}
+
+bool StrictReader::checkSequence(const YAML::Node& node, const std::string& key, const std::string& wanted) {
+  if (node.IsSequence()) return true;
+  log_.add(key, "must be " + wanted + ", is " + describeValue(node));
+  return false;
+}
+
+bool StrictReader::readNumber(const YAML::Node& node, const std::string& key, Range range, double& value) {
+  if (node.IsScalar()) {
+    const ScalarValue scalar = scalarValue(node);
+    if (scalar.kind == ScalarKind::kInteger || scalar.kind == ScalarKind::kReal) {
+      value = scalar.number;
+      return true;
+    }
+  }
+  log_.add(key, "must be " + range.text() + ", is " + describeValue(node));
+  return false;
+}
+
+bool StrictReader::readInteger(const YAML::Node& node, const std::string& key, const std::string& wanted, int& value) {
+  if (node.IsScalar()) {
+    const ScalarValue scalar = scalarValue(node);
+    const bool fits = !scalar.overflow && scalar.magnitude <= std::uint64_t{std::numeric_limits<int>::max()};
+    if (scalar.kind == ScalarKind::kInteger && fits) {
+      value = (scalar.negative ? -1 : 1) * static_cast<int>(scalar.magnitude);
+      return true;
+    }
+  }
+  log_.add(key, "must be " + wanted + ", is " + describeValue(node));
+  return false;
+}
+
+bool StrictReader::readVector(const YAML::Node& node, const std::string& key, Range range, Vec3& value) {
+  const std::string wanted = "a list of 3 numbers";
+  if (!checkSequence(node, key, wanted)) return false;
+  if (node.size() != 3) {
+    log_.add(key, "must be " + wanted + ", is " + describeValue(node));
+    return false;
+  }
+  Vec3 read = Vec3::Zero();
+  bool all = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    all = readNumber(node[i], itemKey(key, i), range, read[static_cast<Eigen::Index>(i)]) && all;
+  }
+  if (all) value = read;
+  return all;
+}
+
+bool StrictReader::readNode(const YAML::Node& node, const std::string& key, NodeIndex& value) {
+  const std::string wanted = "[row, column], two integers";
+  if (!checkSequence(node, key, wanted)) return false;
+  if (node.size() != 2) {
+    log_.add(key, "must be " + wanted + ", is " + describeValue(node));
+    return false;
+  }
+  NodeIndex read;
+  const bool row = readInteger(node[0], itemKey(key, 0), "an integer", read.row);
+  const bool column = readInteger(node[1], itemKey(key, 1), "an integer", read.column);
+  if (row && column) value = read;
+  return row && column;
+}
+
+std::optional<std::size_t> StrictReader::choiceIndex(Key key, const std::vector<std::string>& names) {
+  const YAML::Node* found = find(key, alternatives(names));
+  if (!found) return std::nullopt;
+  if (found->IsScalar()) {
+    const auto name = std::find(names.begin(), names.end(), found->Scalar());
+    if (name != names.end()) return static_cast<std::size_t>(name - names.begin());
+  }
+  log_.add(keyOf(key), "must be " + alternatives(names) + ", is " + describeValue(*found));
+  return std::nullopt;
+}
+
+void StrictReader::integer(Key key, int& value, IntRange range) {
+  if (const YAML::Node* found = find(key, range.text())) readInteger(*found, keyOf(key), range.text(), value);
+}
+
+void StrictReader::integerOr(Key key, int& value, IntRange range, const char* word, int word_value) {
+  const std::string wanted = std::string(word) + " or " + range.text();
+  const YAML::Node* found = find(key, wanted);
+  if (!found) return;
+  if (found->IsScalar() && found->Scalar() == word) {
+    value = word_value;
+    return;
+  }
+  int read = 0;
+  if (!readInteger(*found, keyOf(key), wanted, read)) return;
+  // Checked here: the number that stands for the word in the struct is not for files.
+  if (range.contains(read)) {
+    value = read;
+  } else {
+    log_.add(keyOf(key), "must be " + wanted + ", is " + describeValue(*found));
+  }
+}
+
+void StrictReader::seed(Key key, std::uint64_t& value) {
+  const std::string wanted = "an integer in [0, " + std::to_string(std::numeric_limits<std::uint64_t>::max()) + "]";
+  const YAML::Node* found = find(key, wanted);
+  if (!found) return;
+  if (found->IsScalar()) {
+    const ScalarValue scalar = scalarValue(*found);
+    const bool fits = !scalar.overflow && (!scalar.negative || scalar.magnitude == 0);
+    if (scalar.kind == ScalarKind::kInteger && fits) {
+      value = scalar.magnitude;
+      return;
+    }
+  }
+  log_.add(keyOf(key), "must be " + wanted + ", is " + describeValue(*found));
+}
+
+void StrictReader::number(Key key, double& value, Range range) {
+  if (const YAML::Node* found = find(key, range.text())) readNumber(*found, keyOf(key), range, value);
+}
+
+void StrictReader::optionalNumber(Key key, std::optional<double>& value, Range range) {
+  const YAML::Node* found = find(key, range.text());
+  double read = 0.0;
+  if (found && readNumber(*found, keyOf(key), range, read)) value = read;
+}
+
+void StrictReader::numberOrUnset(Key key, double& value, Range range) {
+  const YAML::Node* found = find(key, range.text());
+  double read = 0.0;
+  if (!found || !readNumber(*found, keyOf(key), range, read)) return;
+  // NaN means "not given" in the struct; a file that says it has a mistake.
+  if (std::isnan(read)) {
+    log_.add(keyOf(key), "must be " + range.text() + ", is " + describeValue(*found));
+  } else {
+    value = read;
+  }
+}
+
+void StrictReader::flag(Key key, bool& value) {
+  const std::string wanted = "true or false";
+  const YAML::Node* found = find(key, wanted);
+  if (!found) return;
+  if (found->IsScalar()) {
+    const ScalarValue scalar = scalarValue(*found);
+    if (scalar.kind == ScalarKind::kBool) {
+      value = scalar.flag;
+      return;
+    }
+  }
+  log_.add(keyOf(key), "must be " + wanted + ", is " + describeValue(*found));
+}
+
+void StrictReader::text(Key key, std::string& value) {
+  const YAML::Node* found = find(key, "text");
+  if (!found) return;
+  const bool scalar = found->IsScalar();
+  if (scalar && scalarValue(*found).kind == ScalarKind::kText) {
+    value = found->Scalar();
+    return;
+  }
+  log_.add(keyOf(key), "must be text, is " + describeValue(*found) + (scalar ? " (write it in quotes)" : ""));
+}
+
+void StrictReader::vector(Key key, Vec3& value, Range range) {
+  if (const YAML::Node* found = find(key, "a list of 3 numbers")) readVector(*found, keyOf(key), range, value);
+}
+
+void StrictReader::optionalVector(Key key, std::optional<Vec3>& value, Range range) {
+  const YAML::Node* found = find(key, "a list of 3 numbers");
+  Vec3 read = Vec3::Zero();
+  if (found && readVector(*found, keyOf(key), range, read)) value = read;
+}
+
+void StrictReader::scale(Key key, Vec3& value, Range range) {
+  const YAML::Node* found = find(key, "a number or a list of 3 numbers");
+  if (!found) return;
+  if (found->IsSequence()) {
+    readVector(*found, keyOf(key), range, value);
+    return;
+  }
+  double read = 1.0;
+  if (!readNumber(*found, keyOf(key), range, read)) return;
+  // Checked here, so that one number brings one problem and not three.
+  if (range.contains(read)) {
+    value = Vec3::Constant(read);
+  } else {
+    log_.add(keyOf(key), "must be " + range.text() + ", is " + describeValue(*found));
+  }
+}
+
+void StrictReader::rotation(Key key, Eigen::Quaterniond& value) {
+  const std::string wanted = "a list of 4 numbers [x, y, z, w]";
+  const YAML::Node* found = find(key, wanted);
+  if (!found || !checkSequence(*found, keyOf(key), wanted)) return;
+  if (found->size() != 4) {
+    log_.add(keyOf(key), "must be " + wanted + ", is " + describeValue(*found));
+    return;
+  }
+  Eigen::Vector4d read = Eigen::Vector4d::Zero();
+  bool all = true;
+  for (std::size_t i = 0; i < 4; ++i) {
+    all = readNumber((*found)[i], itemKey(keyOf(key), i), finite(), read[static_cast<Eigen::Index>(i)]) && all;
+  }
+  if (all) value = nearlyUnit(Eigen::Quaterniond(read));
+}
+
+void StrictReader::node(Key key, std::optional<NodeIndex>& value) {
+  const YAML::Node* found = find(key, "[row, column], two integers");
+  NodeIndex read;
+  if (found && readNode(*found, keyOf(key), read)) value = read;
+}
+
+void StrictReader::numbers(Key key, std::vector<double>& values, Range range) {
+  const YAML::Node* found = find(key, "a list of numbers");
+  if (!found || !checkSequence(*found, keyOf(key), "a list of numbers")) return;
+  values.assign(found->size(), 1.0);
+  for (std::size_t i = 0; i < values.size(); ++i) readNumber((*found)[i], itemKey(keyOf(key), i), range, values[i]);
+}
+
+void StrictReader::pins(Key key, PinParams& value) {
+  const std::string wanted = alternatives(pinNames()) + ", or a list of [row, column]";
+  const YAML::Node* found = find(key, wanted);
+  if (!found) return;
+  if (found->IsSequence()) {
+    value.kind = PinKind::kList;
+    value.nodes.assign(found->size(), NodeIndex{});
+    for (std::size_t i = 0; i < value.nodes.size(); ++i) readNode((*found)[i], itemKey(keyOf(key), i), value.nodes[i]);
+    return;
+  }
+  const auto& names = pinNames();
+  const auto name = found->IsScalar() ? std::find(names.begin(), names.end(), found->Scalar()) : names.end();
+  if (name == names.end()) {
+    log_.add(keyOf(key), "must be " + wanted + ", is " + describeValue(*found));
+    return;
+  }
+  value.kind = static_cast<PinKind>(name - names.begin());
+}
+
+bool StrictReader::belongs(Key key, bool yes, ShapeKind shape) {
+  // While the shape is not known, nothing is known about what belongs to it: the key counts as asked for.
+  const bool given = std::any_of(entries_.begin(), entries_.end(),
+                                 [&key](const auto& entry) { return entry.first == key.name; });
+  asked_.emplace_back(key.name);
+  if (!log_.good(joinKey(prefix_, "shape"))) return false;
+  if (given && !yes) {
+    log_.add(keyOf(key), "does not belong to shape " + shapeNames().at(static_cast<std::size_t>(shape)));
+  }
+  return yes;
+}
+
+}  // namespace curtain

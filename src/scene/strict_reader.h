@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Reads one YAML map strictly: a visitor of fields.h that takes values of the right type, reports all others, and at
+// the end the keys that nobody asked for. Ranges are the range checker's; here they only serve the messages. A value
+// that could not be read keeps its default.
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene/fields.h"
+#include "scene/problem_log.h"
+#include "scene/scalar.h"
+
+namespace curtain {
+
+class StrictReader {
+ public:
+  /// map must be a map; key is where it stands, "" for the root.
+  StrictReader(const YAML::Node& map, std::string key, ProblemLog& log);
+
+  void integer(Key key, int& value, IntRange range);
+  void integerOr(Key key, int& value, IntRange range, const char* word, int word_value);
+  void seed(Key key, std::uint64_t& value);
+  void number(Key key, double& value, Range range);
+  void optionalNumber(Key key, std::optional<double>& value, Range range);
+  void numberOrUnset(Key key, double& value, Range range);
+  void flag(Key key, bool& value);
+  void text(Key key, std::string& value);
+  void vector(Key key, Vec3& value, Range range);
+  void optionalVector(Key key, std::optional<Vec3>& value, Range range);
+  void scale(Key key, Vec3& value, Range range);
+  void rotation(Key key, Eigen::Quaterniond& value);
+  void node(Key key, std::optional<NodeIndex>& value);
+  void numbers(Key key, std::vector<double>& values, Range range);
+  void pins(Key key, PinParams& value);
+  bool belongs(Key key, bool yes, ShapeKind shape);
+
+  template <typename Enum>
+  void choice(Key key, Enum& value, const std::vector<std::string>& names) {
+    if (const auto index = choiceIndex(key, names)) value = static_cast<Enum>(*index);
+  }
+
+  template <typename T>
+  void map(Key key, T& value) {
+    readMap(mapUnder(key), keyOf(key), value, log_);
+  }
+
+  template <typename T>
+  void list(Key key, std::vector<T>& values) {
+    const YAML::Node* found = find(key, "a list");
+    if (!found || !checkSequence(*found, keyOf(key), "a list")) return;
+    for (std::size_t i = 0; i < found->size(); ++i) {
+      // Items that can't be read still take a place: the later ones keep their index.
+      values.emplace_back();
+      const std::string item_key = itemKey(keyOf(key), i);
+      const YAML::Node item = (*found)[i];
+      if (item.IsMap()) {
+        readMap(item, item_key, values.back(), log_);
+      } else {
+        log_.add(item_key, "must be a map, is " + describeValue(item));
+      }
+    }
+  }
+
+  /// Reports the keys of the map that were never asked for.
+  void reportUnknown() const;
+
+  template <typename T>
+  static void readMap(const YAML::Node& map, const std::string& key, T& value, ProblemLog& log) {
+    StrictReader reader(map, key, log);
+    visitFields(reader, value);
+    reader.reportUnknown();
+  }
+
+ private:
+  std::string keyOf(Key key) const { return joinKey(prefix_, key.name); }
+  const YAML::Node* find(Key key, const std::string& wanted);
+  YAML::Node mapUnder(Key key);
+  std::optional<std::size_t> choiceIndex(Key key, const std::vector<std::string>& names);
+  bool checkSequence(const YAML::Node& node, const std::string& key, const std::string& wanted);
+  bool readNumber(const YAML::Node& node, const std::string& key, Range range, double& value);
+  bool readInteger(const YAML::Node& node, const std::string& key, const std::string& wanted, int& value);
+  bool readVector(const YAML::Node& node, const std::string& key, Range range, Vec3& value);
+  bool readNode(const YAML::Node& node, const std::string& key, NodeIndex& value);
+
+  std::string prefix_;
+  ProblemLog& log_;
+  std::vector<std::pair<std::string, YAML::Node>> entries_;
+  std::vector<std::string> asked_;
+};
+
+}  // namespace curtain

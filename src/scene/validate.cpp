@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What is wrong with a scene's values: each by itself (RangeChecker) and together (here and check_start.cpp).
+#include <cmath>
+#include <map>
+
+#include "scene/checks.h"
+#include "scene/range_checker.h"
+#include "scene/scalar.h"
+
+namespace curtain {
+namespace {
+
+std::string formatNode(const NodeIndex& node) {
+  return "[" + std::to_string(node.row) + ", " + std::to_string(node.column) + "]";
+}
+
+void checkCount(const std::string& key, const std::vector<double>& values, int count, const std::string& of_what,
+                ProblemLog& log) {
+  if (values.empty() || values.size() == static_cast<std::size_t>(count) || !log.good(key)) return;
+  log.add(key, "must have " + std::to_string(count) + " entries (" + of_what + ") or none, has " +
+                   std::to_string(values.size()));
+}
+
+void checkCloth(const ClothParams& cloth, ProblemLog& log) {
+  if (log.good("cloth.rows")) {
+    checkCount("cloth.row_spacing", cloth.row_spacing, cloth.rows - 1, "rows - 1", log);
+    checkCount("cloth.row_mass", cloth.row_mass, cloth.rows, "rows", log);
+  }
+  if (log.good("cloth.columns") && log.good("cloth.closed")) {
+    checkCount("cloth.column_spacing", cloth.column_spacing, weftLinkCount(cloth),
+               cloth.closed ? "columns" : "columns - 1", log);
+    checkCount("cloth.column_mass", cloth.column_mass, cloth.columns, "columns", log);
+  }
+}
+
+void checkPins(const Scene& scene, ProblemLog& log) {
+  if (scene.pins.kind != PinKind::kList) return;
+  for (std::size_t i = 0; i < scene.pins.nodes.size(); ++i) {
+    checkNodeOnGrid(scene.pins.nodes[i], scene.cloth, itemKey("pins", i), log);
+  }
+}
+
+void checkTimes(double start, double end, const std::string& key, ProblemLog& log) {
+  if (!log.good(joinKey(key, "start")) || !log.good(joinKey(key, "end")) || end > start) return;
+  log.add(joinKey(key, "end"), "must be > start = " + formatNumber(start) + ", is " + formatNumber(end));
+}
+
+void checkWind(const WindParams& wind, const std::string& key, ProblemLog& log) {
+  const std::string direction_key = joinKey(key, "direction");
+  // Outside of this the squared length is no normal number, and normalising gives nonsense.
+  const double length = wind.direction.norm();
+  if (log.good(direction_key) && !(length >= 1e-150 && length <= 1e150)) {
+    log.add(direction_key, "must have a length > 0 (1e-150 to 1e+150), is " + formatVector(wind.direction));
+  }
+  checkTimes(wind.start, wind.end, key, log);
+}
+
+void checkDrag(const DragParams& drag, const ClothParams& cloth, const std::string& key, ProblemLog& log) {
+  const std::string node_key = joinKey(key, "node");
+  checkTimes(drag.start, drag.end, key, log);
+  if (drag.node) checkNodeOnGrid(*drag.node, cloth, node_key, log);
+  // Last: a problem of the whole entry hides what else is wrong under it.
+  const bool readable = log.good(node_key) && log.good(joinKey(key, "point"));
+  if (drag.node.has_value() == drag.point.has_value() && (drag.node.has_value() || readable)) {
+    log.add(key, std::string("must give exactly one of node and point, gives ") + (drag.node ? "both" : "neither"));
+  }
+}
+
+void checkObstacle(const ObstacleParams& obstacle, const std::string& key, ProblemLog& log) {
+  for (std::size_t i = 1; i < obstacle.motion.size(); ++i) {
+    const std::string time_key = joinKey(itemKey(joinKey(key, "motion"), i), "time");
+    const std::string before_key = joinKey(itemKey(joinKey(key, "motion"), i - 1), "time");
+    const double before = obstacle.motion[i - 1].time;
+    const double time = obstacle.motion[i].time;
+    if (!log.good(time_key) || !log.good(before_key) || time > before) continue;
+    log.add(time_key, "must be > the time before it = " + formatNumber(before) + ", is " + formatNumber(time));
+  }
+}
+
+// name gives an entry's id; two of the same would be one to setWind() and the topics.
+template <typename T>
+void checkUnique(const std::vector<T>& entries, const std::string& list, const std::string& key,
+                 std::string T::*name, ProblemLog& log) {
+  std::map<std::string, std::size_t> seen;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const std::string& value = entries[i].*name;
+    const std::string name_key = joinKey(itemKey(list, i), key);
+    if (value.empty() || !log.good(name_key)) continue;
+    const auto [first, inserted] = seen.emplace(value, i);
+    if (!inserted) {
+      log.add(name_key, "must be unique, " + quoted(value) + " is taken by " + itemKey(list, first->second));
+    }
+  }
+}
+
+}  // namespace
+
+void checkNodeOnGrid(const NodeIndex& node, const ClothParams& cloth, const std::string& key, ProblemLog& log) {
+  if (!log.good("cloth.rows") || !log.good("cloth.columns") || !log.good(key)) return;
+  if (node.row >= 0 && node.row < cloth.rows && node.column >= 0 && node.column < cloth.columns) return;
+  log.add(key, "must be [row, column] with row in [0, " + std::to_string(cloth.rows - 1) + "] and column in [0, " +
+                   std::to_string(cloth.columns - 1) + "], is " + formatNode(node));
+}
+
+void checkScene(const Scene& scene, ProblemLog& log) {
+  RangeChecker checker("", log);
+  visitFields(checker, scene);
+  checkCloth(scene.cloth, log);
+  checkStart(scene, log);
+  checkPins(scene, log);
+  checkUnique(scene.wind, "wind", "id", &WindParams::id, log);
+  checkUnique(scene.drag, "drag", "id", &DragParams::id, log);
+  checkUnique(scene.obstacles, "obstacles", "name", &ObstacleParams::name, log);
+  for (std::size_t i = 0; i < scene.wind.size(); ++i) checkWind(scene.wind[i], itemKey("wind", i), log);
+  for (std::size_t i = 0; i < scene.drag.size(); ++i) checkDrag(scene.drag[i], scene.cloth, itemKey("drag", i), log);
+  for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
+    checkObstacle(scene.obstacles[i], itemKey("obstacles", i), log);
+  }
+  if (scene.contact.self) {
+    log.add("contact.self", "self-contact is not available yet: must be false, is true");
+  }
+}
+
+std::vector<Problem> validate(const Scene& scene) {
+  ProblemLog log;
+  checkScene(scene, log);
+  return log.problems();
+}
+
+std::vector<Problem> validate(const WindParams& wind, const std::string& key) {
+  ProblemLog log;
+  RangeChecker checker(key, log);
+  visitFields(checker, wind);
+  checkWind(wind, key, log);
+  return log.problems();
+}
+
+std::vector<Problem> validate(const DragParams& drag, const ClothParams& cloth, const std::string& key) {
+  ProblemLog log;
+  RangeChecker checker(key, log);
+  visitFields(checker, drag);
+  checkDrag(drag, cloth, key, log);
+  return log.problems();
+}
+
+std::vector<Problem> validate(const ObstacleParams& obstacle, const std::string& key) {
+  ProblemLog log;
+  RangeChecker checker(key, log);
+  visitFields(checker, obstacle);
+  checkObstacle(obstacle, key, log);
+  return log.problems();
+}
+
+}  // namespace curtain

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Scenes to YAML text, by a visitor of fields.h. Numbers have as many digits as it takes to read the same bits back,
+// and text is always quoted, so that YAML 1.1 reads neither as something else. Not written: values that are not given
+// (empty optionals, NaN friction) and those that do not belong to the obstacle's shape.
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+
+#include "curtain_sim/scene_yaml.h"
+#include "scene/fields.h"
+
+namespace curtain {
+namespace {
+
+class SceneWriter {
+ public:
+  explicit SceneWriter(YAML::Emitter& out) : out_(out) {}
+
+  void integer(Key key, const int& value, IntRange) { plain(key, std::to_string(value)); }
+  void integerOr(Key key, const int& value, IntRange, const char* word, int word_value) {
+    plain(key, value == word_value ? word : std::to_string(value));
+  }
+  void seed(Key key, const std::uint64_t& value) { plain(key, std::to_string(value)); }
+  void number(Key key, const double& value, Range) { plain(key, formatYamlNumber(value)); }
+  void optionalNumber(Key key, const std::optional<double>& value, Range range) {
+    if (value) number(key, *value, range);
+  }
+  void numberOrUnset(Key key, const double& value, Range range) {
+    if (!std::isnan(value)) number(key, value, range);
+  }
+  void flag(Key key, const bool& value) { plain(key, value ? "true" : "false"); }
+  void text(Key key, const std::string& value) {
+    out_ << YAML::Key << key.name << YAML::Value << YAML::DoubleQuoted << value;
+  }
+  void vector(Key key, const Vec3& value, Range) { flow(key, {value.x(), value.y(), value.z()}); }
+  void optionalVector(Key key, const std::optional<Vec3>& value, Range range) {
+    if (value) vector(key, *value, range);
+  }
+  void scale(Key key, const Vec3& value, Range range) { vector(key, value, range); }
+  void rotation(Key key, const Eigen::Quaterniond& value) {
+    flow(key, {value.x(), value.y(), value.z(), value.w()});
+  }
+  void node(Key key, const std::optional<NodeIndex>& value) {
+    if (!value) return;
+    out_ << YAML::Key << key.name << YAML::Value;
+    writeNode(*value);
+  }
+  void numbers(Key key, const std::vector<double>& values, Range) { flow(key, values); }
+  bool belongs(Key, bool yes, ShapeKind) { return yes; }
+
+  void pins(Key key, const PinParams& value) {
+    if (value.kind != PinKind::kList) {
+      plain(key, pinNames().at(static_cast<std::size_t>(value.kind)));
+      return;
+    }
+    out_ << YAML::Key << key.name << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    for (const NodeIndex& node : value.nodes) writeNode(node);
+    out_ << YAML::EndSeq;
+  }
+
+  template <typename Enum>
+  void choice(Key key, const Enum& value, const std::vector<std::string>& names) {
+    plain(key, names.at(static_cast<std::size_t>(value)));
+  }
+
+  template <typename T>
+  void map(Key key, const T& value) {
+    out_ << YAML::Key << key.name << YAML::Value << YAML::BeginMap;
+    visitFields(*this, value);
+    out_ << YAML::EndMap;
+  }
+
+  template <typename T>
+  void list(Key key, const std::vector<T>& values) {
+    out_ << YAML::Key << key.name << YAML::Value;
+    if (values.empty()) out_ << YAML::Flow;
+    out_ << YAML::BeginSeq;
+    for (const T& value : values) {
+      out_ << YAML::BeginMap;
+      visitFields(*this, value);
+      out_ << YAML::EndMap;
+    }
+    out_ << YAML::EndSeq;
+  }
+
+ private:
+  void plain(Key key, const std::string& value) { out_ << YAML::Key << key.name << YAML::Value << value; }
+
+  void flow(Key key, const std::vector<double>& values) {
+    out_ << YAML::Key << key.name << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    for (const double value : values) out_ << formatYamlNumber(value);
+    out_ << YAML::EndSeq;
+  }
+
+  void writeNode(const NodeIndex& node) {
+    out_ << YAML::Flow << YAML::BeginSeq << node.row << node.column << YAML::EndSeq;
+  }
+
+  YAML::Emitter& out_;
+};
+
+}  // namespace
+
+std::string writeScene(const Scene& scene) {
+  YAML::Emitter out;
+  out << YAML::BeginMap;
+  SceneWriter writer(out);
+  visitFields(writer, scene);
+  out << YAML::EndMap;
+  return std::string(out.c_str()) + "\n";
+}
+
+}  // namespace curtain

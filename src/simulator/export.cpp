@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulator/export.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <iomanip>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace curtain {
+namespace {
+
+bool endsWith(const std::string& text, const std::string& ending) {
+  return text.size() >= ending.size() && text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+void writePly(const FineMesh& mesh, const FineMeshTopology& topology, std::ostream& out) {
+  out << "ply\nformat ascii 1.0\nelement vertex " << mesh.positions.size()
+      << "\nproperty double x\nproperty double y\nproperty double z\nelement face " << topology.triangles.size()
+      << "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const Vec3& p : mesh.positions) out << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
+  for (const auto& t : topology.triangles) out << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
+}
+
+void writeObj(const FineMesh& mesh, const FineMeshTopology& topology, std::ostream& out) {
+  for (const Vec3& p : mesh.positions) out << "v " << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
+  for (const auto& t : topology.triangles) out << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
+}
+
+// The value below which the given share of the samples lies.
+double quantile(std::vector<double> samples, double share) {
+  if (samples.empty()) return 0.0;
+  std::sort(samples.begin(), samples.end());
+  const auto index = static_cast<std::size_t>(share * static_cast<double>(samples.size() - 1) + 0.5);
+  return samples[index];
+}
+
+}  // namespace
+
+void writeStateHeader(std::ostream& out) { out << "t,row,column,x,y,z,vx,vy,vz\n"; }
+
+void writeState(const Simulator& simulator, std::ostream& out) {
+  std::vector<Vec3> positions, velocities;
+  simulator.copyPositions(positions);
+  simulator.copyVelocities(velocities);
+  out << std::setprecision(17);
+  std::size_t n = 0;
+  for (int i = 0; i < simulator.rows(); ++i) {
+    for (int j = 0; j < simulator.columns(); ++j, ++n) {
+      const Vec3& x = positions[n];
+      const Vec3& v = velocities[n];
+      out << simulator.time() << ',' << i << ',' << j << ',' << x.x() << ',' << x.y() << ',' << x.z() << ',' << v.x()
+          << ',' << v.y() << ',' << v.z() << '\n';
+    }
+  }
+}
+
+void writeMesh(const Simulator& simulator, const std::string& path) {
+  const bool ply = endsWith(path, ".ply");
+  if (!ply && !endsWith(path, ".obj")) throw std::invalid_argument(path + ": a mesh file must end in .ply or .obj");
+  std::ofstream out(path);
+  FineMesh mesh;
+  simulator.copyFineMesh(mesh);
+  out << std::setprecision(9);
+  (ply ? writePly : writeObj)(mesh, simulator.fineMeshTopology(), out);
+  out.flush();
+  if (!out) throw std::runtime_error(path + ": cannot be written");
+}
+
+std::string statisticsJson(const Simulator& simulator, const Energy& initial, const std::vector<double>& frame_seconds) {
+  const Statistics& s = simulator.statistics();
+  const Energy energy = simulator.energy();
+  nlohmann::ordered_json json;
+  json["nodes"] = simulator.rows() * simulator.columns();
+  json["frames"] = s.frames;
+  json["simulated_s"] = s.time;
+  json["wall_s"] = s.step_seconds_sum;
+  json["ms_per_frame"] = {{"median", 1e3 * quantile(frame_seconds, 0.5)},
+                          {"p99", 1e3 * quantile(frame_seconds, 0.99)},
+                          {"max", 1e3 * quantile(frame_seconds, 1.0)}};
+  json["substeps_mean"] = s.frames > 0 ? static_cast<double>(s.substeps) / static_cast<double>(s.frames) : 0.0;
+  json["sweeps_mean"] = s.substeps > 0 ? static_cast<double>(s.sweeps) / static_cast<double>(s.substeps) : 0.0;
+  json["substeps_rejected"] = s.rejected;
+  json["substeps_implicit"] = s.implicit;
+  json["substeps_unsettled"] = s.unsettled;
+  json["stretch_max"] = {{"warp", s.warp_stretch_max}, {"weft", s.weft_stretch_max}};
+  json["compression_max"] = {{"warp", s.warp_compression_max}};
+  json["energy"] = {{"initial", initial.kinetic + initial.potential},
+                    {"final", energy.kinetic + energy.potential},
+                    {"kinetic", energy.kinetic},
+                    {"potential", energy.potential}};
+  json["contacts_max"] = s.contacts_max;
+  json["penetration_max"] = s.penetration_max;
+  json["self_crossings"] = simulator.selfCrossings();
+  nlohmann::ordered_json stages;
+  for (int stage = 0; stage < kStageCount; ++stage) {
+    stages[stageName(static_cast<Stage>(stage))] = 1e3 * s.stage_seconds[static_cast<std::size_t>(stage)];
+  }
+  json["stages"] = stages;
+  json["finite"] = s.finite;
+  char hash[17];
+  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(simulator.stateHash()));
+  json["state_hash"] = hash;
+  return json.dump(2) + "\n";
+}
+
+}  // namespace curtain

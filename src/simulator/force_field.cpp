@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulator/force_field.h"
+
+#include <algorithm>
+
+namespace curtain {
+namespace {
+
+template <typename Item>
+auto findId(std::vector<Item>& items, const std::string& id) {
+  return std::find_if(items.begin(), items.end(), [&id](const Item& item) { return item.params().id == id; });
+}
+
+template <typename Item, typename Params>
+void listParams(const std::vector<Item>& items, std::vector<Params>& out) {
+  out.clear();
+  for (const Item& item : items) out.push_back(item.params());
+}
+
+template <typename Item>
+bool eraseId(std::vector<Item>& items, const std::string& id) {
+  const auto found = findId(items, id);
+  if (found == items.end()) return false;
+  items.erase(found);
+  return true;
+}
+
+}  // namespace
+
+ForceField::ForceField(const Scene& scene, const ClothPattern& pattern)
+    : scene_(scene), pattern_(pattern), air_damping_(scene.air, pattern) {
+  const std::size_t size = pattern.grid.size();
+  weight_.assign(size, 0.0);
+  for (std::size_t n = 0; n < size; ++n) weight_.set(n, pattern.mass[n] * scene.gravity);
+  area_vectors_.assign(size, 0.0);
+  forces_.force.assign(size, 0.0);
+  forces_.damping.assign(size, 0.0);
+  forces_.has_damping = air_damping_.active();
+  reset();
+}
+
+void ForceField::reset() {
+  winds_.clear();
+  drags_.clear();
+  for (const WindParams& wind : scene_.wind) winds_.emplace_back(wind, pattern_, scene_.cloth.porosity, scene_.solver.seed);
+  for (const DragParams& drag : scene_.drag) drags_.emplace_back(drag, pattern_);
+  listParams(winds_, wind_params_);
+  listParams(drags_, drag_params_);
+  forces_.force.assign(pattern_.grid.size(), 0.0);
+}
+
+std::vector<Problem> ForceField::setWind(const WindParams& wind) {
+  std::vector<Problem> problems = validate(wind, "wind");
+  if (!problems.empty()) return problems;
+  WindSource source(wind, pattern_, scene_.cloth.porosity, scene_.solver.seed);
+  const auto found = findId(winds_, wind.id);
+  if (found == winds_.end()) {
+    winds_.push_back(std::move(source));
+  } else {
+    *found = std::move(source);
+  }
+  listParams(winds_, wind_params_);
+  return problems;
+}
+
+bool ForceField::removeWind(const std::string& id) {
+  const bool removed = eraseId(winds_, id);
+  listParams(winds_, wind_params_);
+  return removed;
+}
+
+void ForceField::clearWinds() {
+  winds_.clear();
+  wind_params_.clear();
+}
+
+std::vector<Problem> ForceField::setDrag(const DragParams& drag) {
+  std::vector<Problem> problems = validate(drag, scene_.cloth, "drag");
+  if (!problems.empty()) return problems;
+  DragForce force(drag, pattern_);
+  const auto found = findId(drags_, drag.id);
+  if (found == drags_.end()) {
+    drags_.push_back(std::move(force));
+  } else {
+    // A hand that already holds a node keeps it, wherever the node has gone since.
+    if (!force.node() && found->node()) force.grasp(*found->node(), pattern_);
+    *found = std::move(force);
+  }
+  listParams(drags_, drag_params_);
+  return problems;
+}
+
+bool ForceField::removeDrag(const std::string& id) {
+  const bool removed = eraseId(drags_, id);
+  listParams(drags_, drag_params_);
+  return removed;
+}
+
+void ForceField::clearDrags() {
+  drags_.clear();
+  drag_params_.clear();
+}
+
+const NodeForces& ForceField::evaluate(const ClothState& state, double time, double dt) noexcept {
+  forces_.force = weight_;
+  const auto blows = [time](const WindSource& wind) { return wind.blowsAt(time); };
+  if (std::any_of(winds_.begin(), winds_.end(), blows)) {
+    nodeAreaVectors(pattern_.grid, state.position, area_vectors_);
+    for (WindSource& wind : winds_) {
+      if (blows(wind)) wind.addForces(pattern_, state.position, area_vectors_, time, forces_.force);
+    }
+  }
+  for (DragForce& drag : drags_) {
+    if (drag.actsAt(time)) drag.addForces(pattern_, state.position, state.velocity, dt, forces_.force);
+  }
+  if (forces_.has_damping) {
+    std::fill(forces_.damping.begin(), forces_.damping.end(), 0.0);
+    air_damping_.addCoefficients(pattern_.grid, state.velocity, forces_.damping);
+  }
+  return forces_;
+}
+
+}  // namespace curtain

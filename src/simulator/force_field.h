@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The winds and drags that act on a cloth, by id, and the forces of everything at one instant.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "forces/air_damping.h"
+#include "forces/drag_force.h"
+#include "forces/wind_source.h"
+#include "solver/substep.h"
+
+namespace curtain {
+
+class ForceField {
+ public:
+  ForceField(const Scene& scene, const ClothPattern& pattern);
+
+  /// Back to the scene's winds and drags.
+  void reset();
+
+  std::vector<Problem> setWind(const WindParams& wind);
+  bool removeWind(const std::string& id);
+  void clearWinds();
+  const std::vector<WindParams>& winds() const { return wind_params_; }
+
+  std::vector<Problem> setDrag(const DragParams& drag);
+  bool removeDrag(const std::string& id);
+  void clearDrags();
+  const std::vector<DragParams>& drags() const { return drag_params_; }
+
+  /// Forces at a time [s] on the cloth as it is; dt: how long they will act [s]. Allocates nothing.
+  const NodeForces& evaluate(const ClothState& state, double time, double dt) noexcept;
+  const NodeForces& last() const { return forces_; }
+
+ private:
+  const Scene& scene_;
+  const ClothPattern& pattern_;
+  AirDamping air_damping_;
+  std::vector<WindSource> winds_;
+  std::vector<WindParams> wind_params_;
+  std::vector<DragForce> drags_;
+  std::vector<DragParams> drag_params_;
+  Field3 weight_;
+  Field3 area_vectors_;
+  NodeForces forces_;
+};
+
+}  // namespace curtain

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulator/self_crossings.h"
+
+#include <Eigen/Geometry>
+#include <array>
+#include <vector>
+
+namespace curtain {
+namespace {
+
+struct CoarseMesh {
+  std::vector<std::array<std::size_t, 3>> triangles;
+  std::vector<std::array<std::size_t, 2>> edges;
+};
+
+CoarseMesh makeMesh(const Grid& grid) {
+  CoarseMesh mesh;
+  const int faces = grid.linkCount();
+  const auto node = [&grid](int i, int j) { return grid.index(i, j % grid.columns); };
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < faces; ++j) {
+      mesh.edges.push_back({node(i, j), node(i, j + 1)});
+      if (i + 1 == grid.rows) continue;
+      mesh.edges.push_back({node(i, j + 1), node(i + 1, j)});
+      mesh.triangles.push_back({node(i, j), node(i + 1, j), node(i, j + 1)});
+      mesh.triangles.push_back({node(i, j + 1), node(i + 1, j), node(i + 1, j + 1)});
+    }
+    if (i + 1 == grid.rows) continue;
+    for (int j = 0; j < grid.columns; ++j) mesh.edges.push_back({node(i, j), node(i + 1, j)});
+  }
+  return mesh;
+}
+
+double volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) { return (b - a).cross(c - a).dot(d - a); }
+
+bool pierces(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double side_p = volume(a, b, c, p);
+  const double side_q = volume(a, b, c, q);
+  if (side_p * side_q >= 0.0) return false;
+  const double s1 = volume(p, q, a, b);
+  const double s2 = volume(p, q, b, c);
+  const double s3 = volume(p, q, c, a);
+  return (s1 > 0.0 && s2 > 0.0 && s3 > 0.0) || (s1 < 0.0 && s2 < 0.0 && s3 < 0.0);
+}
+
+}  // namespace
+
+std::int64_t countSelfCrossings(const Grid& grid, const Field3& position) {
+  const CoarseMesh mesh = makeMesh(grid);
+  std::vector<Eigen::AlignedBox3d> edge_boxes;
+  for (const auto& edge : mesh.edges) {
+    Eigen::AlignedBox3d box(position.at(edge[0]));
+    edge_boxes.push_back(box.extend(position.at(edge[1])));
+  }
+  std::int64_t crossings = 0;
+  for (const auto& triangle : mesh.triangles) {
+    const Vec3 a = position.at(triangle[0]), b = position.at(triangle[1]), c = position.at(triangle[2]);
+    Eigen::AlignedBox3d box(a);
+    box.extend(b).extend(c);
+    for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+      if (!box.intersects(edge_boxes[e])) continue;
+      const auto& edge = mesh.edges[e];
+      bool shared = false;
+      for (const std::size_t corner : triangle) shared = shared || corner == edge[0] || corner == edge[1];
+      if (!shared && pierces(position.at(edge[0]), position.at(edge[1]), a, b, c)) ++crossings;
+    }
+  }
+  return crossings;
+}
+
+}  // namespace curtain

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Brute-force oracle: does the cloth pierce itself?
+#pragma once
+
+#include <cstdint>
+
+#include "cloth/cloth.h"
+
+namespace curtain {
+
+/// Pairs of an edge and a triangle of the first layer's mesh (every face cut along one diagonal) that intersect and
+/// share no node. Every pair with overlapping boxes is tested.
+std::int64_t countSelfCrossings(const Grid& grid, const Field3& position);
+
+}  // namespace curtain

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "curtain_sim/simulator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+#include "contact/obstacle_contact.h"
+#include "simulator/fine_surface.h"
+#include "simulator/force_field.h"
+#include "simulator/self_crossings.h"
+#include "solver/exact_solver.h"
+#include "solver/paper_solver.h"
+#include "solver/step_control.h"
+
+namespace curtain {
+
+const char* stageName(Stage stage) {
+  switch (stage) {
+    case Stage::kForces: return "forces";
+    case Stage::kPredict: return "predict";
+    case Stage::kWarp: return "warp";
+    case Stage::kWeft: return "weft";
+    case Stage::kContact: return "contact";
+    case Stage::kFinish: return "finish";
+    case Stage::kStageCount: break;
+  }
+  return "";
+}
+
+namespace {
+
+const Scene& judged(const Scene& scene) {
+  const std::vector<Problem> problems = validate(scene);
+  if (!problems.empty()) throw std::invalid_argument(describe(problems));
+  return scene;
+}
+
+std::uint64_t hashBits(std::uint64_t hash, double value) {
+  unsigned char bytes[sizeof value];
+  std::memcpy(bytes, &value, sizeof value);
+  for (const unsigned char byte : bytes) hash = (hash ^ byte) * 1099511628211ULL;  // FNV-1a
+  return hash;
+}
+
+}  // namespace
+
+struct Simulator::Impl {
+  Impl(const Scene& given, const MeshResolver& resolve)
+      : scene(judged(given)),
+        pattern(makePattern(scene)),
+        initial(makeInitialState(scene, pattern)),
+        state(initial),
+        forces(scene, pattern),
+        obstacles(scene, resolve),
+        contact(pattern, scene.contact, obstacles),
+        exact(pattern, scene.solver.stretch_tolerance, scene.solver.max_sweeps),
+        paper(pattern),
+        control(scene.solver, pattern, scene.gravity),
+        surface(scene.cloth, pattern) {
+    velocities.assign(pattern.grid.size(), 0.0);
+  }
+
+  void reset();
+  void step();
+  double makeSubstep(double done);
+  void measure();
+  const Field3& currentVelocities();
+
+  const Scene scene;
+  const ClothPattern pattern;
+  const ClothState initial;
+  ClothState state;
+  ForceField forces;
+  ObstacleSet obstacles;
+  ObstacleContact contact;
+  ExactSolver exact;
+  PaperSolver paper;
+  StepControl control;
+  FineSurface surface;
+  Statistics statistics;
+  StageClock clock;
+  std::int64_t frame = 0;
+  double contact_scale = 0.0;  // h * kick of the last substep [s^2]; 0 = none yet
+  Field3 velocities;           // at the time of the positions
+  bool velocities_fresh = false;
+};
+
+void Simulator::Impl::reset() {
+  state = initial;
+  forces.reset();
+  obstacles.reset();
+  contact.forget();
+  exact.reset();
+  control.reset();
+  clock.reset();
+  statistics = Statistics();
+  frame = 0;
+  contact_scale = 0.0;
+  velocities_fresh = false;
+}
+
+// One substep from `done` seconds into the frame. Returns how far it came: 0 when it was rejected.
+double Simulator::Impl::makeSubstep(double done) {
+  const double frame_length = 1.0 / scene.solver.frame_rate;
+  const StepControl::Plan plan = control.next(frame_length - done);
+  PositionConstraints* const constraints = obstacles.anyPresent() ? &contact : nullptr;
+  clock.start();
+  if (constraints != nullptr) obstacles.setSubstep(done / frame_length, (done + plan.h) / frame_length);
+  const NodeForces& now = forces.evaluate(state, statistics.time + done, plan.h);
+  clock.lap(Stage::kForces);
+  const SubstepOutcome outcome =
+      scene.solver.method == Method::kPaper
+          ? paper.substep(now, plan.h, constraints, state, clock)
+          : exact.substep(plan.scheme, now, plan.h, plan.must_accept, constraints, state, clock);
+  statistics.sweeps += outcome.sweeps;
+  statistics.sweeps_last += outcome.sweeps;
+  if (!outcome.accepted) {
+    ++statistics.rejected;
+    control.rejected(plan);
+    if (!plan.must_accept) return 0.0;
+    statistics.finite = false;  // not even finite: the state stays as it was, and this says so
+    return plan.h;
+  }
+  control.accepted(plan, outcome.omega_squared);
+  contact_scale = outcome.scale;
+  ++statistics.substeps;
+  ++statistics.substeps_last;
+  if (plan.scheme == Scheme::kImplicit && scene.solver.method == Method::kAuto) ++statistics.implicit;
+  if (!outcome.settled) ++statistics.unsettled;
+  return plan.h;
+}
+
+void Simulator::Impl::step() {
+  const auto begin = std::chrono::steady_clock::now();
+  const double frame_length = 1.0 / scene.solver.frame_rate;
+  statistics.time = static_cast<double>(frame) * frame_length;
+  statistics.substeps_last = 0;
+  statistics.sweeps_last = 0;
+  velocities_fresh = false;
+  obstacles.beginFrame(static_cast<double>(frame + 1) * frame_length);
+  double done = 0.0;
+  while (frame_length - done > 1e-9 * frame_length) done += makeSubstep(done);
+  obstacles.endFrame();
+  ++frame;
+  statistics.frames = frame;
+  statistics.time = static_cast<double>(frame) * frame_length;
+  measure();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  statistics.step_seconds = seconds;
+  statistics.step_seconds_max = std::max(statistics.step_seconds_max, seconds);
+  statistics.step_seconds_sum += seconds;
+  statistics.stage_seconds = clock.seconds();
+}
+
+void Simulator::Impl::measure() {
+  clock.start();
+  Statistics& s = statistics;
+  const Stretch warp = warpStretch(pattern, state.position);
+  s.warp_stretch = warp.longer;
+  s.warp_compression = warp.shorter;
+  s.weft_stretch = weftStretch(pattern, state.position);
+  s.warp_stretch_max = std::max(s.warp_stretch_max, s.warp_stretch);
+  s.weft_stretch_max = std::max(s.weft_stretch_max, s.weft_stretch);
+  s.warp_compression_max = std::max(s.warp_compression_max, s.warp_compression);
+  const bool near = obstacles.anyPresent() && contact.any();
+  s.contacts = near ? contact.contactCount() : 0;
+  s.contacts_max = std::max(s.contacts_max, s.contacts);
+  if (near) s.penetration_max = std::max(s.penetration_max, contact.deepestPenetration(state.position));
+  const double sum = s.warp_stretch + s.warp_compression + s.weft_stretch;
+  if (!std::isfinite(sum)) s.finite = false;
+  clock.lap(Stage::kFinish);
+}
+
+const Field3& Simulator::Impl::currentVelocities() {
+  if (velocities_fresh) return velocities;
+  if (frame == 0 || state.velocity_age == 0.0) {
+    velocities = state.velocity;
+  } else {
+    exact.currentVelocities(state, forces.last(), obstacles.anyPresent() ? &contact : nullptr, velocities);
+  }
+  velocities_fresh = true;
+  return velocities;
+}
+
+Simulator::Simulator(const Scene& scene, const MeshResolver& resolve) : impl_(std::make_unique<Impl>(scene, resolve)) {}
+Simulator::~Simulator() = default;
+Simulator::Simulator(Simulator&&) noexcept = default;
+Simulator& Simulator::operator=(Simulator&&) noexcept = default;
+
+const Scene& Simulator::scene() const { return impl_->scene; }
+void Simulator::reset() { impl_->reset(); }
+void Simulator::step() { impl_->step(); }
+double Simulator::time() const { return impl_->statistics.time; }
+int Simulator::rows() const { return impl_->pattern.grid.rows; }
+int Simulator::columns() const { return impl_->pattern.grid.columns; }
+
+namespace {
+
+void copyField(const Grid& grid, const Field3& field, std::vector<Vec3>& out) {
+  out.resize(grid.nodeCount());
+  std::size_t n = 0;
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) out[n++] = field.at(grid.index(i, j));
+  }
+}
+
+}  // namespace
+
+void Simulator::copyPositions(std::vector<Vec3>& out) const {
+  copyField(impl_->pattern.grid, impl_->state.position, out);
+}
+
+void Simulator::copyVelocities(std::vector<Vec3>& out) const {
+  copyField(impl_->pattern.grid, impl_->currentVelocities(), out);
+}
+
+void Simulator::copyForces(std::vector<Vec3>& out) const {
+  const Impl& im = *impl_;
+  const Grid& grid = im.pattern.grid;
+  Field3 total = im.forces.last().force;
+  if (im.forces.last().has_damping) {
+    const Field3& velocity = impl_->currentVelocities();
+    for (std::size_t n = 0; n < grid.size(); ++n) total.add(n, -im.forces.last().damping[n] * velocity.at(n));
+  }
+  if (im.contact_scale > 0.0 && im.obstacles.anyPresent()) im.contact.addForces(im.pattern, im.contact_scale, total);
+  copyField(grid, total, out);
+}
+
+Vec3 Simulator::position(NodeIndex node) const { return impl_->state.position.at(impl_->pattern.grid.index(node)); }
+double Simulator::mass(NodeIndex node) const { return impl_->pattern.mass[impl_->pattern.grid.index(node)]; }
+bool Simulator::pinned(NodeIndex node) const { return impl_->pattern.isPinned(node); }
+NodeIndex Simulator::nearestNode(const Vec3& point) const {
+  return curtain::nearestNode(impl_->pattern.grid, impl_->state.position, point);
+}
+
+std::vector<Problem> Simulator::setWind(const WindParams& wind) { return impl_->forces.setWind(wind); }
+bool Simulator::removeWind(const std::string& id) { return impl_->forces.removeWind(id); }
+void Simulator::clearWinds() { impl_->forces.clearWinds(); }
+const std::vector<WindParams>& Simulator::winds() const { return impl_->forces.winds(); }
+
+std::vector<Problem> Simulator::setDrag(const DragParams& drag) { return impl_->forces.setDrag(drag); }
+bool Simulator::removeDrag(const std::string& id) { return impl_->forces.removeDrag(id); }
+void Simulator::clearDrags() { impl_->forces.clearDrags(); }
+const std::vector<DragParams>& Simulator::drags() const { return impl_->forces.drags(); }
+
+int Simulator::obstacleCount() const { return impl_->obstacles.count(); }
+void Simulator::setObstaclePose(int index, const Pose& pose, bool jump) { impl_->obstacles.setPose(index, pose, jump); }
+void Simulator::setObstaclePresent(int index, bool present) { impl_->obstacles.setPresent(index, present); }
+bool Simulator::obstaclePresent(int index) const { return impl_->obstacles.present(index); }
+const Pose& Simulator::obstaclePose(int index) const { return impl_->obstacles.pose(index); }
+const ObstacleShape& Simulator::obstacleShape(int index) const { return impl_->obstacles.shape(index); }
+
+void Simulator::copyFineMesh(FineMesh& out) const {
+  impl_->surface.build(impl_->state.position, impl_->obstacles, impl_->scene.contact.thickness, out);
+}
+const FineMeshTopology& Simulator::fineMeshTopology() const { return impl_->surface.topology(); }
+
+const Statistics& Simulator::statistics() const { return impl_->statistics; }
+
+Energy Simulator::energy() const {
+  const Impl& im = *impl_;
+  const Field3& velocity = impl_->currentVelocities();
+  Energy energy;
+  for (std::size_t n = 0; n < im.pattern.grid.size(); ++n) {
+    energy.kinetic += 0.5 * im.pattern.mass[n] * velocity.at(n).squaredNorm();
+    energy.potential -= im.pattern.mass[n] * im.scene.gravity.dot(im.state.position.at(n));
+  }
+  return energy;
+}
+
+std::int64_t Simulator::selfCrossings() const {
+  return countSelfCrossings(impl_->pattern.grid, impl_->state.position);
+}
+
+std::uint64_t Simulator::stateHash() const {
+  const Grid& grid = impl_->pattern.grid;
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) {
+      const std::size_t n = grid.index(i, j);
+      for (const Field3* field : {&impl_->state.position, &impl_->state.velocity}) {
+        hash = hashBits(hashBits(hashBits(hash, field->x[n]), field->y[n]), field->z[n]);
+      }
+    }
+  }
+  return hash;
+}
+
+}  // namespace curtain

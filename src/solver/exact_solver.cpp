@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/exact_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "forces/air_damping.h"
+
+namespace curtain {
+namespace {
+
+// The tolerance inside: what the last half-sweep stirs up again must still fit below the user's.
+constexpr double kInnerTolerance = 0.4;
+// Newton converges quadratically: an iteration that starts this close ends near the square of it, times a factor that
+// grows with the column's height.
+constexpr double kNewtonStop = 1e-4;
+constexpr int kNewtonIterations = 12;
+// A relative violation beyond this is a step that failed, not one that converges slowly.
+constexpr double kDiverged = 4.0;
+// Sweeps that must at least bring this improvement, or the alternation has stalled.
+constexpr int kStallWindow = 8;
+constexpr double kStallFactor = 0.9;
+// Alternations of the linear velocity projection; each gains about cos^2 of the angle between warp and weft.
+constexpr int kVelocitySweeps = 6;
+
+double smallestRest(const ClothPattern& pattern) {
+  const Grid& grid = pattern.grid;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) {
+      if (i > 0) smallest = std::min(smallest, pattern.warp_rest[grid.index(i, j)]);
+      if (j > 0 || grid.closed) smallest = std::min(smallest, pattern.weft_rest[grid.index(i, j)]);
+    }
+  }
+  return smallest;
+}
+
+bool allFinite(const Field3& field) {
+  double sum = 0.0;  // 0 * x is NaN for NaN and infinity alike
+  for (const Field* component : {&field.x, &field.y, &field.z}) {
+    const double* const p = component->data();
+    const std::size_t size = component->size();
+    for (std::size_t n = 0; n < size; ++n) sum += 0.0 * p[n];
+  }
+  return sum == 0.0;
+}
+
+}  // namespace
+
+ExactSolver::ExactSolver(const ClothPattern& pattern, double stretch_tolerance, int max_sweeps)
+    : pattern_(pattern),
+      tolerance_(kInnerTolerance * stretch_tolerance),
+      contact_tolerance_(kInnerTolerance * stretch_tolerance * smallestRest(pattern)),
+      max_sweeps_(max_sweeps),
+      weft_solver_(pattern.grid),
+      last_warp_(pattern.grid.size() + static_cast<std::size_t>(pattern.grid.stride), 0.0),
+      last_weft_(last_warp_),
+      damped_inertia_(pattern.inverse_mass) {
+  scratch_.assign(pattern.grid);
+  warp_.assign(pattern.grid);
+  weft_.assign(pattern.grid);
+  next_.assign(pattern.grid.size(), 0.0);
+}
+
+void ExactSolver::reset() noexcept {
+  std::fill(last_warp_.begin(), last_warp_.end(), 0.0);
+  std::fill(last_weft_.begin(), last_weft_.end(), 0.0);
+  last_scale_ = 0.0;
+}
+
+void ExactSolver::predict(const NodeForces& forces, double kick, double h, const ClothState& state) noexcept {
+  const std::size_t size = pattern_.grid.size();
+  const double* const w = pattern_.inverse_mass.data();
+  if (forces.has_damping) {
+    for (std::size_t n = 0; n < size; ++n) damped_inertia_[n] = dampedStep(forces.damping[n], w[n], kick).gain * w[n];
+  }
+  inertia_ = forces.has_damping ? &damped_inertia_ : &pattern_.inverse_mass;
+  const double* const gain = inertia_->data();
+  const double* const c = forces.has_damping ? forces.damping.data() : nullptr;
+  const auto component = [&](const Field& force, const Field& velocity, const Field& position, Field& next) {
+    const double* const f = force.data();
+    const double* const v = velocity.data();
+    const double* const x = position.data();
+    double* const out = next.data();
+    if (c != nullptr) {
+      for (std::size_t n = 0; n < size; ++n) {
+        out[n] = x[n] + h * (dampedStep(c[n], w[n], kick).keep * v[n] + kick * gain[n] * f[n]);
+      }
+    } else {
+#pragma omp simd
+      for (std::size_t n = 0; n < size; ++n) out[n] = x[n] + h * (v[n] + kick * gain[n] * f[n]);
+    }
+  };
+  component(forces.force.x, state.velocity.x, state.position.x, next_.x);
+  component(forces.force.y, state.velocity.y, state.position.y, next_.y);
+  component(forces.force.z, state.velocity.z, state.position.z, next_.z);
+}
+
+// Multipliers grow with h * kick at the same tensions.
+void ExactSolver::warmStart(double scale, const LineSolve& warp, const LineSolve& weft) noexcept {
+  const double ratio = last_scale_ > 0.0 ? scale / last_scale_ : 0.0;
+  const std::size_t size = pattern_.grid.size();
+  for (std::size_t n = 0; n < size; ++n) warp_.multiplier[n] = ratio * last_warp_[n];
+  for (std::size_t n = 0; n < size; ++n) weft_.multiplier[n] = ratio * last_weft_[n];
+  if (ratio == 0.0) return;
+  applyWarpMultipliers(warp);
+  WeftSolver::applyMultipliers(weft);
+}
+
+// Newton on all columns; false when it does not converge. first_residual: before the first iteration.
+bool ExactSolver::solveWarp(Scheme scheme, const LineSolve& warp, double& first_residual) noexcept {
+  for (int iteration = 0; iteration < kNewtonIterations; ++iteration) {
+    if (scheme == Scheme::kImplicit) setWarpDirections(pattern_.grid, next_, warp_.direction);
+    const LineOutcome outcome = warpNewton(warp, scratch_);
+    if (iteration == 0) first_residual = outcome.residual;
+    if (!outcome.sound || !(outcome.residual < kDiverged)) return false;
+    if (outcome.residual <= kNewtonStop) return true;
+  }
+  return false;
+}
+
+ExactSolver::Progress ExactSolver::solveConstraints(Scheme scheme, bool must_accept, PositionConstraints* constraints,
+                                                    StageClock& clock) noexcept {
+  const LineSolve warp{pattern_, *inertia_, warp_, next_};
+  const LineSolve weft{pattern_, *inertia_, weft_, next_};
+  Progress progress;
+  double window_residual = std::numeric_limits<double>::infinity();
+  while (progress.sweeps < max_sweeps_) {
+    double warp_residual = 0.0;
+    const bool warp_sound = solveWarp(scheme, warp, warp_residual);
+    clock.lap(Stage::kWarp);
+    if (!warp_sound && !must_accept) {
+      progress.sound = false;
+      return progress;
+    }
+    ++progress.sweeps;
+    // Weft and contact were just solved when this sweep's rods were found in order: all is settled.
+    if (progress.sweeps > 1 && warp_sound && warp_residual <= tolerance_) {
+      progress.settled = true;
+      return progress;
+    }
+    const LineOutcome weft_outcome = weft_solver_.solve(weft, tolerance_, scheme == Scheme::kImplicit);
+    clock.lap(Stage::kWeft);
+    double contact_move = 0.0;
+    if (constraints != nullptr) {
+      contact_move = constraints->project(next_);
+      clock.lap(Stage::kContact);
+    }
+    if (warp_sound && weft_outcome.residual <= tolerance_ && contact_move <= contact_tolerance_) {
+      progress.settled = true;
+      return progress;
+    }
+    if (!must_accept && progress.sweeps % kStallWindow == 0) {
+      const double residual = std::max(warp_residual, weft_outcome.residual);
+      if (!(residual < kStallFactor * window_residual)) {
+        progress.sound = false;
+        return progress;
+      }
+      window_residual = residual;
+    }
+  }
+  return progress;
+}
+
+// Gershgorin bound on the transverse oscillations of the taut net: omega^2 <= max_i 2 w_i sum |s_k| / (h kick).
+double ExactSolver::omegaSquared(double scale) const noexcept {
+  const Grid& grid = pattern_.grid;
+  const auto stride = static_cast<std::size_t>(grid.stride);
+  double worst = 0.0;
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) {
+      const std::size_t n = grid.index(i, j);
+      const std::size_t right = j + 1 < grid.columns ? n + 1 : grid.row(i);
+      const double right_pull = j + 1 < grid.columns || grid.closed ? weft_.multiplier[right] : 0.0;
+      const double sum = std::abs(warp_.multiplier[n]) + std::abs(warp_.multiplier[n + stride]) +
+                         weft_.multiplier[n] + right_pull;
+      worst = std::max(worst, sum * pattern_.inverse_mass[n]);
+    }
+  }
+  return 2.0 * worst / scale;
+}
+
+void ExactSolver::commit(double h, double velocity_age, ClothState& state) noexcept {
+  const std::size_t size = pattern_.grid.size();
+  const double per_h = 1.0 / h;
+  const auto component = [&](const Field& next, const Field& position, Field& velocity) {
+    const double* const to = next.data();
+    const double* const from = position.data();
+    double* const v = velocity.data();
+#pragma omp simd
+    for (std::size_t n = 0; n < size; ++n) v[n] = (to[n] - from[n]) * per_h;
+  };
+  component(next_.x, state.position.x, state.velocity.x);
+  component(next_.y, state.position.y, state.velocity.y);
+  component(next_.z, state.position.z, state.velocity.z);
+  std::swap(state.position, next_);
+  std::swap(last_warp_, warp_.multiplier);
+  std::swap(last_weft_, weft_.multiplier);
+  state.velocity_age = velocity_age;
+}
+
+SubstepOutcome ExactSolver::substep(Scheme scheme, const NodeForces& forces, double h, bool must_accept,
+                                    PositionConstraints* constraints, ClothState& state, StageClock& clock) noexcept {
+  const bool leapfrog = scheme == Scheme::kLeapfrog;
+  const double kick = state.velocity_age + (leapfrog ? 0.5 * h : h);
+  const double scale = h * kick;
+  predict(forces, kick, h, state);
+  setWarpDirections(pattern_.grid, state.position, warp_.direction);
+  WeftSolver::setDirections(pattern_.grid, state.position, weft_.direction);
+  warmStart(scale, {pattern_, *inertia_, warp_, next_}, {pattern_, *inertia_, weft_, next_});
+  clock.lap(Stage::kPredict);
+  if (constraints != nullptr) {
+    constraints->begin(pattern_, state.position, next_, h);
+    clock.lap(Stage::kContact);
+  }
+  const Progress progress = solveConstraints(scheme, must_accept, constraints, clock);
+  SubstepOutcome outcome;
+  outcome.sweeps = progress.sweeps;
+  outcome.settled = progress.settled;
+  outcome.accepted = (progress.settled || must_accept) && allFinite(next_);
+  if (outcome.accepted) {
+    outcome.omega_squared = omegaSquared(scale);
+    outcome.scale = last_scale_ = scale;
+    commit(h, leapfrog ? 0.5 * h : 0.0, state);
+  }
+  clock.lap(Stage::kFinish);
+  return outcome;
+}
+
+void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& forces,
+                                    PositionConstraints* constraints, Field3& out) noexcept {
+  const double age = state.velocity_age;
+  const std::size_t size = pattern_.grid.size();
+  for (std::size_t n = 0; n < size; ++n) {
+    const double w = pattern_.inverse_mass[n];
+    const DampedStep step = forces.has_damping ? dampedStep(forces.damping[n], w, age) : DampedStep{1.0, 1.0};
+    out.set(n, step.keep * state.velocity.at(n) + age * step.gain * w * forces.force.at(n));
+  }
+  if (age == 0.0) return;
+  setWarpDirections(pattern_.grid, state.position, warp_.direction);
+  WeftSolver::setDirections(pattern_.grid, state.position, weft_.direction);
+  std::copy(last_weft_.begin(), last_weft_.end(), weft_.multiplier.begin());  // which links pull
+  const LineSolve warp{pattern_, pattern_.inverse_mass, warp_, out};
+  const LineSolve weft{pattern_, pattern_.inverse_mass, weft_, out};
+  for (int sweep = 0; sweep < kVelocitySweeps; ++sweep) {
+    if (weft_solver_.projectVelocity(weft).residual == 0.0 && constraints == nullptr) {
+      warpProjectVelocity(warp, scratch_);
+      return;
+    }
+    if (constraints != nullptr) constraints->projectVelocity(out);
+    warpProjectVelocity(warp, scratch_);
+  }
+}
+
+}  // namespace curtain

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What the warp and weft solvers share: the links' directions and multipliers.
+//
+// A link between nodes a (above / left) and b (below / right) with direction d = x_b - x_a (not normalised, taken at
+// some instant) and multiplier s moves its nodes by
+//     x_a += w_a s d,   x_b -= w_b s d,
+// so s > 0 is tension. Over a substep of length h whose forces act for a time `kick`, the tension is
+// s |d| / (h kick) [N]. Every link is stored at its node b; the row of zeros after the last one lets the sweeps along
+// the warp run without asking where the column ends.
+#pragma once
+
+#include "cloth/cloth.h"
+
+namespace curtain {
+
+struct LinkSet {
+  Field3 direction;  ///< [m], shape [(rows + 1) * stride]
+  Field multiplier;  ///< [kg], shape [(rows + 1) * stride]
+
+  void assign(const Grid& grid) {
+    const std::size_t size = grid.size() + static_cast<std::size_t>(grid.stride);
+    direction.assign(size, 0.0);
+    multiplier.assign(size, 0.0);
+  }
+};
+
+/// What a line solver works on: nodal values (positions or velocities) moved along the links' directions.
+struct LineSolve {
+  const ClothPattern& pattern;
+  const Field& inverse_inertia;  ///< how a node answers an impulse in this substep [1/kg]
+  LinkSet& links;
+  Field3& value;  ///< positions [m], or velocities [m/s]
+};
+
+/// Scratch of a line solver.
+struct LineScratch {
+  Field elimination;
+  Field solution;
+  void assign(const Grid& grid) {
+    const std::size_t size = grid.size() + static_cast<std::size_t>(grid.stride);
+    elimination.assign(size, 0.0);
+    solution.assign(size, 0.0);
+  }
+};
+
+/// Outcome of one Newton iteration over all lines.
+struct LineOutcome {
+  double residual = 0.0;  ///< largest relative violation before the iteration; velocities: [1/s]
+  bool sound = true;      ///< false: a pivot vanished; some link turned too far from its direction
+};
+
+}  // namespace curtain

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The scheme of Cheng 2000, Sect. 3, as printed: per column, from the lowest node up, each node as a pendulum on the
+// node above it, Eqs. (5)-(8), one pass, explicit; then, along the rows, two neighbours that are too far apart are moved
+// together. No equation is solved, nothing is iterated. Kept to be read and measured against; the rods drift off their
+// lengths because Eq. (5) takes the node above for a fixed point.
+#pragma once
+
+#include "solver/substep.h"
+
+namespace curtain {
+
+class PaperSolver {
+ public:
+  explicit PaperSolver(const ClothPattern& pattern);
+
+  /// One substep of length h > 0 [s]; constraints may be null. Always accepted.
+  SubstepOutcome substep(const NodeForces& forces, double h, PositionConstraints* constraints, ClothState& state,
+                         StageClock& clock) noexcept;
+
+ private:
+  void moveColumn(int column, const NodeForces& forces, double h, ClothState& state) const noexcept;
+  void adjustRow(int row, ClothState& state) const noexcept;
+
+  const ClothPattern& pattern_;
+  Field3 start_;
+};
+
+}  // namespace curtain

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Times the stages of a frame.
+#pragma once
+
+#include <array>
+#include <chrono>
+
+#include "curtain_sim/statistics.h"
+
+namespace curtain {
+
+class StageClock {
+ public:
+  /// Time since the last call (or start()) belongs to this stage.
+  void lap(Stage stage) noexcept {
+    const auto now = Clock::now();
+    seconds_[static_cast<std::size_t>(stage)] += std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+  }
+  void start() noexcept { last_ = Clock::now(); }
+  void reset() noexcept { seconds_.fill(0.0); }
+  const std::array<double, kStageCount>& seconds() const noexcept { return seconds_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last_ = Clock::now();
+  std::array<double, kStageCount> seconds_{};
+};
+
+}  // namespace curtain

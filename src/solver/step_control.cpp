@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/step_control.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace curtain {
+namespace {
+
+// dt * omega_max that substeps are chosen for. Leapfrog is stable below 2; at 1.2 the fastest oscillation is still
+// followed and tensions may grow by 1.6 squared within a frame.
+constexpr double kPhasePerStep = 1.2;
+constexpr double kGrowth = 1.4;
+constexpr int kGoodToGrow = 8;
+// A rejected step is halved at most so far below the cap of substeps; then it is taken as it comes out.
+constexpr int kHalvingsBelowCap = 3;
+// The paper's scheme has no estimate of its own error.
+constexpr int kPaperSubsteps = 16;
+
+// Hanging free, the uppermost rod carries the column: T / (m l) of the longest column of equal nodes.
+double hangingOmega(const ClothPattern& pattern, const Vec3& gravity) {
+  const Grid& grid = pattern.grid;
+  double worst = 0.0;
+  for (int j = 0; j < grid.columns; ++j) {
+    double mass_below = 0.0;
+    for (int i = grid.rows - 1; i > 0; --i) {
+      mass_below += pattern.mass[grid.index(i, j)];
+      worst = std::max(worst, 4.0 * mass_below / (pattern.mass[grid.index(i, j)] * pattern.warp_rest[grid.index(i, j)]));
+    }
+  }
+  return std::sqrt(worst * gravity.norm());
+}
+
+}  // namespace
+
+StepControl::StepControl(const SolverParams& params, const ClothPattern& pattern, const Vec3& gravity)
+    : frame_(1.0 / params.frame_rate),
+      fixed_substeps_(params.substeps > 0 ? params.substeps : (params.method == Method::kPaper ? kPaperSubsteps : 0)),
+      max_substeps_(std::max(params.max_substeps, params.substeps)),
+      method_(params.method),
+      initial_omega_(hangingOmega(pattern, gravity)) {
+  reset();
+}
+
+void StepControl::reset() noexcept {
+  omega_ = initial_omega_;
+  limit_ = frame_;
+  good_ = 0;
+}
+
+StepControl::Plan StepControl::next(double remaining) const noexcept {
+  Plan plan;
+  const double smallest = frame_ / max_substeps_;
+  double wanted = fixed_substeps_ > 0 ? frame_ / fixed_substeps_ : frame_;
+  plan.scheme = method_ == Method::kImplicit ? Scheme::kImplicit : Scheme::kLeapfrog;
+  if (fixed_substeps_ == 0 && plan.scheme == Scheme::kLeapfrog) {
+    const double for_phase = omega_ > 0.0 ? kPhasePerStep / omega_ : frame_;
+    if (for_phase < smallest && method_ == Method::kAuto) plan.scheme = Scheme::kImplicit;
+    wanted = std::clamp(for_phase, smallest, frame_);
+  }
+  const double floor_step = smallest / (1 << kHalvingsBelowCap);
+  if (limit_ <= floor_step && method_ == Method::kAuto) plan.scheme = Scheme::kImplicit;
+  plan.must_accept = plan.scheme == Scheme::kImplicit || limit_ <= floor_step || method_ == Method::kPaper;
+  const double step = std::min(wanted, std::max(limit_, floor_step));
+  // Equal shares of what is left; the small slack keeps rounding from adding a substep.
+  plan.h = remaining / std::max(1.0, std::ceil(remaining / step - 1e-6));
+  return plan;
+}
+
+void StepControl::accepted(const Plan& plan, double omega_squared) noexcept {
+  (void)plan;
+  omega_ = std::sqrt(omega_squared);
+  if (limit_ < frame_ && ++good_ >= kGoodToGrow) {
+    limit_ = std::min(frame_, limit_ * kGrowth);
+    good_ = 0;
+  }
+}
+
+void StepControl::rejected(const Plan& plan) noexcept {
+  limit_ = 0.5 * plan.h;
+  good_ = 0;
+}
+
+}  // namespace curtain

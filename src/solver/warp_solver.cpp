@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/warp_solver.h"
+
+#include <cmath>
+
+namespace curtain {
+namespace {
+
+// A pivot below this share of (w_a + w_b) l^2 means the rod has turned by nearly 90 degrees from its direction.
+constexpr double kSmallestPivot = 1e-9;
+
+struct View {
+  double *x, *y, *z;
+  View(Field3& field, std::size_t offset)
+      : x(field.x.data() + offset), y(field.y.data() + offset), z(field.z.data() + offset) {}
+};
+struct ConstView {
+  const double *x, *y, *z;
+  ConstView(const Field3& field, std::size_t offset)
+      : x(field.x.data() + offset), y(field.y.data() + offset), z(field.z.data() + offset) {}
+};
+
+// How a rod's violation and gradient come from the nodal values.
+struct PositionLevel {
+  // C = (|r|^2 - l^2) / 2, its gradient r.
+  static double violation(double rx, double ry, double rz, double, double, double, double rest_squared) {
+    return 0.5 * (rx * rx + ry * ry + rz * rz - rest_squared);
+  }
+  static double gradient(double r, double) { return r; }
+};
+struct VelocityLevel {
+  // dC/dt = d . (v_b - v_a), its gradient d.
+  static double violation(double rx, double ry, double rz, double dx, double dy, double dz, double) {
+    return rx * dx + ry * dy + rz * dz;
+  }
+  static double gradient(double, double d) { return d; }
+};
+
+// Forward elimination of row i of the columns' tridiagonal systems
+//   -w_a (g.d_above) s_(i-1) + (w_a + w_b)(g.d) s_i - w_b (g.d_below) s_(i+1) = C,   g = gradient of C.
+template <typename Level>
+void eliminateRow(const LineSolve& line, LineScratch& scratch, int i, double& residual, double& unsound) {
+  const ClothPattern& pattern = line.pattern;
+  const Grid& grid = pattern.grid;
+  const auto stride = static_cast<std::size_t>(grid.stride);
+  const std::size_t here = grid.row(i);
+  const std::size_t above = here - stride;
+  const ConstView va(line.value, above), vb(line.value, here);
+  const ConstView d_above(line.links.direction, above), d(line.links.direction, here);
+  const ConstView d_below(line.links.direction, here + stride);
+  const double* const wa = line.inverse_inertia.data() + above;
+  const double* const wb = line.inverse_inertia.data() + here;
+  const double* const rest = pattern.warp_rest.data() + here;
+  const double* const e_above = scratch.elimination.data() + above;
+  const double* const s_above = scratch.solution.data() + above;
+  double* const e = scratch.elimination.data() + here;
+  double* const s = scratch.solution.data() + here;
+  double worst = residual;
+  double bad = unsound;
+#pragma omp simd reduction(max : worst, bad)
+  for (std::size_t j = 0; j < stride; ++j) {
+    const double rx = vb.x[j] - va.x[j], ry = vb.y[j] - va.y[j], rz = vb.z[j] - va.z[j];
+    const double rest_squared = rest[j] * rest[j];
+    const double c = Level::violation(rx, ry, rz, d.x[j], d.y[j], d.z[j], rest_squared);
+    const double gx = Level::gradient(rx, d.x[j]), gy = Level::gradient(ry, d.y[j]), gz = Level::gradient(rz, d.z[j]);
+    const double w = wa[j] + wb[j];
+    const double diagonal = w * (gx * d.x[j] + gy * d.y[j] + gz * d.z[j]);
+    const double lower = -wa[j] * (gx * d_above.x[j] + gy * d_above.y[j] + gz * d_above.z[j]);
+    const double upper = -wb[j] * (gx * d_below.x[j] + gy * d_below.y[j] + gz * d_below.z[j]);
+    const double pivot = diagonal - lower * e_above[j];
+    const double smallest = kSmallestPivot * w * rest_squared;
+    const double inverse = pivot > smallest ? 1.0 / pivot : 0.0;  // both ends pinned: 0, the rod stays as it is
+    e[j] = upper * inverse;
+    s[j] = (c - lower * s_above[j]) * inverse;
+    const double relative = w > 0.0 ? std::abs(c) / rest_squared : 0.0;
+    worst = worst > relative ? worst : relative;
+    const double failed = (w > 0.0) & !(pivot > smallest) ? 1.0 : 0.0;
+    bad = bad > failed ? bad : failed;
+  }
+  residual = worst;
+  unsound = bad;
+}
+
+// Back substitution of row i, and the move of its nodes.
+void substituteRow(const LineSolve& line, LineScratch& scratch, int i) {
+  const Grid& grid = line.pattern.grid;
+  const auto stride = static_cast<std::size_t>(grid.stride);
+  const std::size_t here = grid.row(i);
+  const View v(line.value, here);
+  const ConstView d(line.links.direction, here), d_below(line.links.direction, here + stride);
+  const double* const w = line.inverse_inertia.data() + here;
+  const double* const e = scratch.elimination.data() + here;
+  double* const s = scratch.solution.data() + here;
+  const double* const s_below = s + stride;
+  double* const multiplier = line.links.multiplier.data() + here;
+#pragma omp simd
+  for (std::size_t j = 0; j < stride; ++j) {
+    const double change = s[j] - e[j] * s_below[j];
+    s[j] = change;
+    multiplier[j] += change;
+    v.x[j] -= w[j] * (change * d.x[j] - s_below[j] * d_below.x[j]);
+    v.y[j] -= w[j] * (change * d.y[j] - s_below[j] * d_below.y[j]);
+    v.z[j] -= w[j] * (change * d.z[j] - s_below[j] * d_below.z[j]);
+  }
+}
+
+// Row 0 of the scratch and the row after the last one are zero and stay so: no rod above, none below.
+template <typename Level>
+LineOutcome newton(const LineSolve& line, LineScratch& scratch) {
+  LineOutcome outcome;
+  double unsound = 0.0;
+  for (int i = 1; i < line.pattern.grid.rows; ++i) eliminateRow<Level>(line, scratch, i, outcome.residual, unsound);
+  for (int i = line.pattern.grid.rows - 1; i >= 0; --i) substituteRow(line, scratch, i);
+  outcome.sound = unsound == 0.0;
+  return outcome;
+}
+
+}  // namespace
+
+void setWarpDirections(const Grid& grid, const Field3& position, Field3& direction) noexcept {
+  const auto stride = static_cast<std::size_t>(grid.stride);
+  const std::size_t size = grid.size();
+  const auto difference = [stride, size](const Field& from, Field& to) {
+    const double* const p = from.data();
+    double* const out = to.data();
+#pragma omp simd
+    for (std::size_t n = stride; n < size; ++n) out[n] = p[n] - p[n - stride];
+  };
+  difference(position.x, direction.x);
+  difference(position.y, direction.y);
+  difference(position.z, direction.z);
+}
+
+void applyWarpMultipliers(const LineSolve& line) noexcept {
+  const auto stride = static_cast<std::size_t>(line.pattern.grid.stride);
+  const std::size_t size = line.pattern.grid.size();
+  const double* const w = line.inverse_inertia.data();
+  const double* const s = line.links.multiplier.data();
+  const auto apply = [=](const Field& direction, Field& value) {
+    const double* const d = direction.data();
+    double* const v = value.data();
+#pragma omp simd
+    for (std::size_t n = 0; n < size; ++n) v[n] -= w[n] * (s[n] * d[n] - s[n + stride] * d[n + stride]);
+  };
+  apply(line.links.direction.x, line.value.x);
+  apply(line.links.direction.y, line.value.y);
+  apply(line.links.direction.z, line.value.z);
+}
+
+LineOutcome warpNewton(const LineSolve& line, LineScratch& scratch) noexcept {
+  return newton<PositionLevel>(line, scratch);
+}
+
+LineOutcome warpProjectVelocity(const LineSolve& line, LineScratch& scratch) noexcept {
+  return newton<VelocityLevel>(line, scratch);
+}
+
+Stretch warpStretch(const ClothPattern& pattern, const Field3& position) noexcept {
+  const Grid& grid = pattern.grid;
+  const auto stride = static_cast<std::size_t>(grid.stride);
+  Stretch stretch;
+  for (std::size_t n = stride; n < grid.size(); ++n) {
+    if (pattern.inverse_mass[n] + pattern.inverse_mass[n - stride] <= 0.0) continue;
+    const double relative = (position.at(n) - position.at(n - stride)).norm() / pattern.warp_rest[n] - 1.0;
+    stretch.longer = std::max(stretch.longer, relative);
+    stretch.shorter = std::max(stretch.shorter, -relative);
+  }
+  return stretch;
+}
+
+}  // namespace curtain

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/weft_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace curtain {
+namespace {
+
+constexpr double kSmallestPivot = 1e-9;  // as in the warp: share of (w_a + w_b) l^2
+constexpr int kRowIterations = 4;        // Newton iterations on one row per sweep; the sweeps go on anyway
+
+Vec3 across(const Field3& value, std::size_t left, std::size_t right) { return value.at(right) - value.at(left); }
+
+// Violation C = (|r|^2 - l^2) / 2 of a link less what its compliance allows, over l^2; a slack link gives 0.
+double linkViolation(const LineSolve& line, std::size_t left, std::size_t right) {
+  const double w = line.inverse_inertia[left] + line.inverse_inertia[right];
+  const double s = line.links.multiplier[right];
+  const double rest = line.pattern.weft_rest[right];
+  const double c = 0.5 * (across(line.value, left, right).squaredNorm() / (rest * rest) - 1.0) - kWeftCompliance * w * s;
+  return w > 0.0 && (c > 0.0 || s > 0.0) ? c : 0.0;
+}
+
+}  // namespace
+
+WeftSolver::WeftSolver(const Grid& grid) : system_(static_cast<std::size_t>(grid.columns)) {
+  links_.reserve(static_cast<std::size_t>(grid.columns));
+  active_.assign(static_cast<std::size_t>(grid.columns), 0.0);
+}
+
+void WeftSolver::setDirections(const Grid& grid, const Field3& position, Field3& direction) noexcept {
+  const auto difference = [&grid](const Field& from, Field& to) {
+    for (int i = 0; i < grid.rows; ++i) {
+      const double* const p = from.data() + grid.row(i);
+      double* const out = to.data() + grid.row(i);
+#pragma omp simd
+      for (int j = 1; j < grid.columns; ++j) out[j] = p[j] - p[j - 1];
+      if (grid.closed) out[0] = p[0] - p[grid.columns - 1];
+    }
+  };
+  difference(position.x, direction.x);
+  difference(position.y, direction.y);
+  difference(position.z, direction.z);
+}
+
+void WeftSolver::applyMultipliers(const LineSolve& line) noexcept {
+  const Grid& grid = line.pattern.grid;
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = grid.closed ? 0 : 1; j < grid.columns; ++j) {
+      const std::size_t right = grid.index(i, j);
+      const double s = line.links.multiplier[right];
+      if (s == 0.0) continue;
+      const std::size_t left = grid.index(i, j > 0 ? j - 1 : grid.columns - 1);
+      const Vec3 pull = s * line.links.direction.at(right);
+      line.value.add(left, line.inverse_inertia[left] * pull);
+      line.value.add(right, -line.inverse_inertia[right] * pull);
+    }
+  }
+}
+
+void WeftSolver::listLinks(const Grid& grid, int row) noexcept {
+  links_.clear();
+  const std::size_t first = grid.row(row);
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  for (std::size_t j = grid.closed ? 0 : 1; j < columns; ++j) {
+    links_.push_back({first + (j > 0 ? j - 1 : columns - 1), first + j});
+  }
+}
+
+double WeftSolver::measurePositions(const LineSolve& line) noexcept {
+  double worst = 0.0;
+  for (std::size_t p = 0; p < links_.size(); ++p) {
+    const Link& link = links_[p];
+    const double violation = linkViolation(line, link.left, link.right);
+    const double rest = line.pattern.weft_rest[link.right];
+    active_[p] = violation != 0.0 || line.links.multiplier[link.right] > 0.0 ? 1.0 : 0.0;
+    system_.rhs[p] = violation * rest * rest;
+    worst = std::max(worst, std::abs(violation));
+  }
+  return worst;
+}
+
+double WeftSolver::measureVelocities(const LineSolve& line) noexcept {
+  double worst = 0.0;
+  for (std::size_t p = 0; p < links_.size(); ++p) {
+    const Link& link = links_[p];
+    const double rest = line.pattern.weft_rest[link.right];
+    const bool active = line.links.multiplier[link.right] > 0.0;
+    active_[p] = active ? 1.0 : 0.0;
+    const double rate =
+        active ? line.links.direction.at(link.right).dot(across(line.value, link.left, link.right)) : 0.0;
+    system_.rhs[p] = rate;
+    worst = std::max(worst, std::abs(rate) / (rest * rest));
+  }
+  return worst;
+}
+
+// Row p: link p against the links that share its left and its right node. In an open row the first has none on its
+// left and the last none on its right; the system never looks at those entries.
+void WeftSolver::buildMatrix(const LineSolve& line, bool velocity_level) noexcept {
+  const std::size_t count = links_.size();
+  const Field& w = line.inverse_inertia;
+  for (std::size_t p = 0; p < count; ++p) {
+    if (active_[p] == 0.0) {
+      system_.diagonal[p] = 1.0;
+      system_.lower[p] = system_.upper[p] = system_.smallest[p] = 0.0;
+      continue;
+    }
+    const Link& link = links_[p];
+    const Vec3 d = line.links.direction.at(link.right);
+    const Vec3 gradient = velocity_level ? d : across(line.value, link.left, link.right);
+    const double rest = line.pattern.weft_rest[link.right];
+    const double scale = (w[link.left] + w[link.right]) * rest * rest;
+    const std::size_t before = p > 0 ? p - 1 : count - 1;
+    const std::size_t after = p + 1 < count ? p + 1 : 0;
+    system_.diagonal[p] = (w[link.left] + w[link.right]) * gradient.dot(d) + kWeftCompliance * scale;
+    system_.lower[p] = -w[link.left] * gradient.dot(line.links.direction.at(links_[before].right)) * active_[before];
+    system_.upper[p] = -w[link.right] * gradient.dot(line.links.direction.at(links_[after].right)) * active_[after];
+    system_.smallest[p] = kSmallestPivot * scale;
+  }
+}
+
+void WeftSolver::movePositions(const LineSolve& line) noexcept {
+  const Field& w = line.inverse_inertia;
+  for (std::size_t p = 0; p < links_.size(); ++p) {
+    if (active_[p] == 0.0) continue;
+    const Link& link = links_[p];
+    double& s = line.links.multiplier[link.right];
+    const double change = std::max(system_.rhs[p], -s);  // a string only pulls
+    s += change;
+    const Vec3 pull = change * line.links.direction.at(link.right);
+    line.value.add(link.left, w[link.left] * pull);
+    line.value.add(link.right, -w[link.right] * pull);
+  }
+}
+
+void WeftSolver::moveVelocities(const LineSolve& line) noexcept {
+  for (std::size_t p = 0; p < links_.size(); ++p) {
+    if (active_[p] == 0.0) continue;
+    const Link& link = links_[p];
+    const Vec3 pull = system_.rhs[p] * line.links.direction.at(link.right);
+    line.value.add(link.left, line.inverse_inertia[link.left] * pull);
+    line.value.add(link.right, -line.inverse_inertia[link.right] * pull);
+  }
+}
+
+LineOutcome WeftSolver::solve(const LineSolve& line, double tolerance, bool follow_directions) noexcept {
+  const Grid& grid = line.pattern.grid;
+  LineOutcome outcome;
+  for (int i = 0; i < grid.rows; ++i) {
+    double row_residual = 0.0;
+    const std::size_t row = grid.row(i);
+    const auto columns = static_cast<std::size_t>(grid.columns);
+    for (std::size_t j = 1; j < columns; ++j) {
+      row_residual = std::max(row_residual, std::abs(linkViolation(line, row + j - 1, row + j)));
+    }
+    if (grid.closed) row_residual = std::max(row_residual, std::abs(linkViolation(line, row + columns - 1, row)));
+    outcome.residual = std::max(outcome.residual, row_residual);
+    if (!(row_residual > tolerance)) continue;
+    listLinks(grid, i);
+    for (int iteration = 0; iteration < kRowIterations; ++iteration) {
+      if (!(measurePositions(line) > tolerance)) break;
+      if (follow_directions) {
+        for (const Link& link : links_) line.links.direction.set(link.right, across(line.value, link.left, link.right));
+      }
+      buildMatrix(line, false);
+      outcome.sound = system_.solve(links_.size(), grid.closed) && outcome.sound;
+      movePositions(line);
+    }
+  }
+  return outcome;
+}
+
+LineOutcome WeftSolver::projectVelocity(const LineSolve& line) noexcept {
+  const Grid& grid = line.pattern.grid;
+  LineOutcome outcome;
+  for (int i = 0; i < grid.rows; ++i) {
+    listLinks(grid, i);
+    const double rate = measureVelocities(line);
+    outcome.residual = std::max(outcome.residual, rate);
+    if (rate == 0.0) continue;
+    buildMatrix(line, true);
+    outcome.sound = system_.solve(links_.size(), grid.closed) && outcome.sound;
+    moveVelocities(line);
+  }
+  return outcome;
+}
+
+double weftStretch(const ClothPattern& pattern, const Field3& position) noexcept {
+  const Grid& grid = pattern.grid;
+  double longest = 0.0;
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = grid.closed ? 0 : 1; j < grid.columns; ++j) {
+      const std::size_t right = grid.index(i, j);
+      const std::size_t left = grid.index(i, j > 0 ? j - 1 : grid.columns - 1);
+      if (pattern.inverse_mass[left] + pattern.inverse_mass[right] <= 0.0) continue;
+      const double relative = across(position, left, right).norm() / pattern.weft_rest[right] - 1.0;
+      longest = std::max(longest, relative);
+    }
+  }
+  return longest;
+}
+
+}  // namespace curtain
