@@ -21,10 +21,19 @@ target_link_libraries(curtain_node PRIVATE curtain_ros curtain_warnings)
 add_library(curtain_nodelet MODULE src/curtain_nodelet.cpp)
 target_link_libraries(curtain_nodelet PRIVATE curtain_ros curtain_warnings)
 
+# Where rosrun and rostest look in the devel space. The engine's targets are older than catkin_package(), which
+# sets this for those that follow it.
+set_target_properties(curtain_batch PROPERTIES
+  RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
+set_target_properties(curtain_engine PROPERTIES
+  ARCHIVE_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_LIB_DESTINATION}
+  LIBRARY_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_LIB_DESTINATION})
+
 install(TARGETS curtain_engine curtain_ros curtain_nodelet
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
 install(TARGETS curtain_node curtain_batch RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+catkin_install_python(PROGRAMS scripts/demo_motion DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/curtain_sim/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
 install(DIRECTORY launch config DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 install(FILES nodelet_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

@@ -62,6 +62,7 @@ void CurtainNode::run() {
       const StepClock::Due due = step_clock_.update(now);
       if (due.restarted) {
         ROS_WARN("the clock jumped back: the curtain goes back to its start");
+        frames_.clear();
         restart();
       }
       for (int i = 0; i < due.frames && !stopping(); ++i) {
@@ -77,7 +78,7 @@ void CurtainNode::makeFrame(const ros::Time& stamp, bool latest) {
   obstacles_.update(simulator_, ros::Time::now());
   simulator_.step();
   if (!simulator_.statistics().finite) {
-    ROS_ERROR("the state is not finite any more: the curtain goes back to its start");
+    ROS_ERROR_THROTTLE(2.0, "the state is not finite any more: the curtain goes back to its start");
     restart();
     return;
   }
@@ -88,7 +89,6 @@ void CurtainNode::makeFrame(const ros::Time& stamp, bool latest) {
 void CurtainNode::restart() {
   ++restarts_;
   simulator_.reset();
-  frames_.clear();
   obstacles_.restart(simulator_);
   measured_frames_ = 0;
   measured_since_ = ros::SteadyTime::now();

@@ -50,8 +50,8 @@ void checkFlat(const Scene& scene, ProblemLog& log) {
     return;
   }
   if (!(span <= cloth.width * (1.0 + kSlack))) {
-    log.add("hang.to", "must be no further from hang.from than cloth.width = " + formatNumber(cloth.width) +
-                           " m, is " + formatNumber(span) + " m away (" + line + ")");
+    log.add("hang.to", "must be no further from hang.from than cloth.width = " + formatNumber(cloth.width) + " m, is " +
+                           formatNumber(span) + " m away (" + line + ")");
     return;
   }
   // Rows narrower than the line make the warp rods slant; the outermost column slants most.

@@ -112,6 +112,7 @@ struct Fields<DragParams> {
     v.vector("force", drag.force, finite());
     v.optionalVector("target", drag.target, finite());
     v.number("stiffness", drag.stiffness, positive());
+    v.number("max_force", drag.max_force, positive());
     v.number("radius", drag.radius, notNegative());
     v.number("start", drag.start, finite());
     v.number("end", drag.end, orInfinite());
@@ -122,7 +123,7 @@ template <>
 struct Fields<PoseKey> {
   template <typename Visitor, typename T>
   static void visit(Visitor& v, T& key) {
-    v.number(required("time"), key.time, finite());
+    v.number("time", key.time, finite());
     v.vector("position", key.pose.position, finite());
     v.rotation("orientation", key.pose.orientation);
   }
@@ -134,7 +135,7 @@ struct Fields<ObstacleParams> {
   static void visit(Visitor& v, T& obstacle) {
     v.text(required("name"), obstacle.name);
     v.text("frame", obstacle.frame);
-    v.choice(required("shape"), obstacle.shape, shapeNames());
+    v.choice("shape", obstacle.shape, shapeNames());
     visitShape(v, obstacle);
     v.vector("position", obstacle.pose.position, finite());
     v.rotation("orientation", obstacle.pose.orientation);

@@ -36,7 +36,9 @@ class RangeChecker {
   void node(Key, const std::optional<NodeIndex>&) {}  // its range is the cloth's size
   void numbers(Key key, const std::vector<double>& values, Range range);
   void pins(Key, const PinParams&) {}  // the same
-  bool belongs(Key, bool yes, ShapeKind) { return yes; }
+  bool belongs(Key, bool yes, ShapeKind) {
+    return yes && log_.good(joinKey(prefix_, "shape"));  // while the shape is not known, neither is what it needs
+  }
 
   template <typename Enum>
   void choice(Key key, const Enum& value, const std::vector<std::string>& names) {

@@ -1,11 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/ranges.h"
 
+#include <algorithm>
 #include <cmath>
 #include <locale>
 #include <sstream>
 
 namespace curtain {
+namespace {
+
+// Streams with the classic locale: printf and strtod would use a decimal comma under some users' locales.
+std::string print(double value, int digits) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(digits);
+  out << value;
+  return out.str();
+}
+
+double readBack(const std::string& text) {
+  std::istringstream in(text);
+  in.imbue(std::locale::classic());
+  double value = 0.0;
+  in >> value;
+  // Rounded up beyond the largest double: the stream clamps to it, others read infinity.
+  return in.fail() ? std::numeric_limits<double>::infinity() : value;
+}
+
+}  // namespace
 
 bool Range::contains(double value) const {
   if (or_infinite && std::isinf(value) && value > 0.0) return true;
@@ -33,21 +55,13 @@ std::string IntRange::text() const {
 std::string formatNumber(double value) {
   if (std::isnan(value)) return ".nan";
   if (std::isinf(value)) return value > 0.0 ? ".inf" : "-.inf";
-  // Streams with the classic locale: printf would write a decimal comma under some users' locales.
-  std::string text;
-  for (int digits = 1; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out.precision(digits);
-    out << value;
-    text = out.str();
-    std::istringstream in(text);
-    in.imbue(std::locale::classic());
-    double back = 0.0;
-    in >> back;
-    if (back == value) break;
-  }
-  return text;
+  constexpr int kMostDigits = std::numeric_limits<double>::max_digits10;
+  int digits = 1;
+  while (digits < kMostDigits && readBack(print(value, digits)) != value) ++digits;
+  // Streams turn to exponents where there are more places before the dot than digits: 1e+02. Not for people.
+  int places = 1;
+  for (double rest = std::abs(value); rest >= 10.0 && places < kMostDigits; rest /= 10.0) ++places;
+  return print(value, places < kMostDigits ? std::max(digits, places) : digits);
 }
 
 std::string formatYamlNumber(double value) {

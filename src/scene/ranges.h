@@ -21,11 +21,33 @@ struct Range {
 };
 
 inline Range finite() { return {}; }
-inline Range positive() { Range range; range.low = 0.0; range.low_open = true; return range; }
-inline Range notNegative() { Range range; range.low = 0.0; return range; }
-inline Range between(double low, double high) { Range range; range.low = low; range.high = high; return range; }
-inline Range notZero() { Range range; range.not_zero = true; return range; }
-inline Range orInfinite() { Range range; range.or_infinite = true; return range; }
+inline Range positive() {
+  Range range;
+  range.low = 0.0;
+  range.low_open = true;
+  return range;
+}
+inline Range notNegative() {
+  Range range;
+  range.low = 0.0;
+  return range;
+}
+inline Range between(double low, double high) {
+  Range range;
+  range.low = low;
+  range.high = high;
+  return range;
+}
+inline Range notZero() {
+  Range range;
+  range.not_zero = true;
+  return range;
+}
+inline Range orInfinite() {
+  Range range;
+  range.or_infinite = true;
+  return range;
+}
 
 /// Integers from low to high, both included.
 struct IntRange {

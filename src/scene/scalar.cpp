@@ -71,9 +71,8 @@ std::string yaml11Spelling(const NumberParts& parts) {
 }
 
 std::string lowerCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   return text;
 }
 
@@ -136,9 +135,7 @@ std::string hintFor(const std::string& text, bool in_quotes) {
   return splitNumber(text, parts) ? "write " + yaml11Spelling(parts) + how : "";
 }
 
-bool isNumberTag(const std::string& tag) {
-  return tag == "tag:yaml.org,2002:float" || tag == "tag:yaml.org,2002:int";
-}
+bool isNumberTag(const std::string& tag) { return tag == "tag:yaml.org,2002:float" || tag == "tag:yaml.org,2002:int"; }
 
 }  // namespace
 

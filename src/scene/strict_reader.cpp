@@ -302,8 +302,8 @@ void StrictReader::pins(Key key, PinParams& value) {
 
 bool StrictReader::belongs(Key key, bool yes, ShapeKind shape) {
   // While the shape is not known, nothing is known about what belongs to it: the key counts as asked for.
-  const bool given = std::any_of(entries_.begin(), entries_.end(),
-                                 [&key](const auto& entry) { return entry.first == key.name; });
+  const bool given =
+      std::any_of(entries_.begin(), entries_.end(), [&key](const auto& entry) { return entry.first == key.name; });
   asked_.emplace_back(key.name);
   if (!log_.good(joinKey(prefix_, "shape"))) return false;
   if (given && !yes) {

@@ -80,8 +80,8 @@ void checkObstacle(const ObstacleParams& obstacle, const std::string& key, Probl
 
 // name gives an entry's id; two of the same would be one to setWind() and the topics.
 template <typename T>
-void checkUnique(const std::vector<T>& entries, const std::string& list, const std::string& key,
-                 std::string T::*name, ProblemLog& log) {
+void checkUnique(const std::vector<T>& entries, const std::string& list, const std::string& key, std::string T::*name,
+                 ProblemLog& log) {
   std::map<std::string, std::size_t> seen;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const std::string& value = entries[i].*name;

@@ -14,12 +14,18 @@ constexpr double kInnerTolerance = 0.4;
 // Newton converges quadratically: an iteration that starts this close ends near the square of it, times a factor that
 // grows with the column's height.
 constexpr double kNewtonStop = 1e-4;
+// In later sweeps the next one looks again, so a start this close is left at that.
+constexpr double kNewtonStopLater = 1e-2;
 constexpr int kNewtonIterations = 12;
 // A relative violation beyond this is a step that failed, not one that converges slowly.
 constexpr double kDiverged = 4.0;
 // Sweeps that must at least bring this improvement, or the alternation has stalled.
 constexpr int kStallWindow = 8;
 constexpr double kStallFactor = 0.9;
+// Implicit scheme: share of a link's tension, as s (w_a + w_b), that may act along its direction at the start of the
+// step. It keeps that part's dt * omega at 1, so it adds accuracy and never instability.
+constexpr double kExplicitShare = 0.5;
+constexpr double kTinyInertia = 1e-300;
 // Alternations of the linear velocity projection; each gains about cos^2 of the angle between warp and weft.
 constexpr int kVelocitySweeps = 6;
 
@@ -97,24 +103,39 @@ void ExactSolver::predict(const NodeForces& forces, double kick, double h, const
 }
 
 // Multipliers grow with h * kick at the same tensions.
-void ExactSolver::warmStart(double scale, const LineSolve& warp, const LineSolve& weft) noexcept {
+void ExactSolver::warmStart(Scheme scheme, double scale, const LineSolve& warp, const LineSolve& weft) noexcept {
   const double ratio = last_scale_ > 0.0 ? scale / last_scale_ : 0.0;
   const std::size_t size = pattern_.grid.size();
   for (std::size_t n = 0; n < size; ++n) warp_.multiplier[n] = ratio * last_warp_[n];
   for (std::size_t n = 0; n < size; ++n) weft_.multiplier[n] = ratio * last_weft_[n];
   if (ratio == 0.0) return;
+  if (scheme == Scheme::kImplicit) {
+    const Grid& grid = pattern_.grid;
+    for (int i = 0; i < grid.rows; ++i) {
+      for (int j = 0; j < grid.columns; ++j) {
+        const std::size_t n = grid.index(i, j);
+        const std::size_t above = i > 0 ? grid.index(i - 1, j) : n;
+        const std::size_t left = grid.index(i, j > 0 ? j - 1 : grid.columns - 1);
+        const Field& w = *inertia_;
+        const double most_warp = kExplicitShare / std::max(w[n] + w[above], kTinyInertia);
+        const double most_weft = kExplicitShare / std::max(w[n] + w[left], kTinyInertia);
+        warp_.multiplier[n] = std::clamp(warp_.multiplier[n], -most_warp, most_warp);
+        weft_.multiplier[n] = std::min(weft_.multiplier[n], most_weft);
+      }
+    }
+  }
   applyWarpMultipliers(warp);
   WeftSolver::applyMultipliers(weft);
 }
 
 // Newton on all columns; false when it does not converge. first_residual: before the first iteration.
-bool ExactSolver::solveWarp(Scheme scheme, const LineSolve& warp, double& first_residual) noexcept {
+bool ExactSolver::solveWarp(Scheme scheme, const LineSolve& warp, double stop, double& first_residual) noexcept {
   for (int iteration = 0; iteration < kNewtonIterations; ++iteration) {
     if (scheme == Scheme::kImplicit) setWarpDirections(pattern_.grid, next_, warp_.direction);
     const LineOutcome outcome = warpNewton(warp, scratch_);
     if (iteration == 0) first_residual = outcome.residual;
     if (!outcome.sound || !(outcome.residual < kDiverged)) return false;
-    if (outcome.residual <= kNewtonStop) return true;
+    if (outcome.residual <= stop) return true;
   }
   return false;
 }
@@ -125,17 +146,21 @@ ExactSolver::Progress ExactSolver::solveConstraints(Scheme scheme, bool must_acc
   const LineSolve weft{pattern_, *inertia_, weft_, next_};
   Progress progress;
   double window_residual = std::numeric_limits<double>::infinity();
+  bool rest_solved = false;
   while (progress.sweeps < max_sweeps_) {
     double warp_residual = 0.0;
-    const bool warp_sound = solveWarp(scheme, warp, warp_residual);
+    const double stop = progress.sweeps == 0 ? kNewtonStop : kNewtonStopLater;
+    const bool warp_sound = solveWarp(scheme, warp, stop, warp_residual);
     clock.lap(Stage::kWarp);
     if (!warp_sound && !must_accept) {
       progress.sound = false;
       return progress;
     }
     ++progress.sweeps;
-    // Weft and contact were just solved when this sweep's rods were found in order: all is settled.
-    if (progress.sweeps > 1 && warp_sound && warp_residual <= tolerance_) {
+    // The rest had just been solved and the rods were still found in order: if this last iteration on them did the
+    // weft no harm, all is settled.
+    if (rest_solved && warp_sound && warp_residual <= tolerance_ &&
+        WeftSolver::residual(weft) <= tolerance_ / kInnerTolerance) {
       progress.settled = true;
       return progress;
     }
@@ -146,6 +171,7 @@ ExactSolver::Progress ExactSolver::solveConstraints(Scheme scheme, bool must_acc
       contact_move = constraints->project(next_);
       clock.lap(Stage::kContact);
     }
+    rest_solved = weft_outcome.solved && contact_move <= contact_tolerance_;
     if (warp_sound && weft_outcome.residual <= tolerance_ && contact_move <= contact_tolerance_) {
       progress.settled = true;
       return progress;
@@ -207,7 +233,7 @@ SubstepOutcome ExactSolver::substep(Scheme scheme, const NodeForces& forces, dou
   predict(forces, kick, h, state);
   setWarpDirections(pattern_.grid, state.position, warp_.direction);
   WeftSolver::setDirections(pattern_.grid, state.position, weft_.direction);
-  warmStart(scale, {pattern_, *inertia_, warp_, next_}, {pattern_, *inertia_, weft_, next_});
+  warmStart(scheme, scale, {pattern_, *inertia_, warp_, next_}, {pattern_, *inertia_, weft_, next_});
   clock.lap(Stage::kPredict);
   if (constraints != nullptr) {
     constraints->begin(pattern_, state.position, next_, h);

@@ -44,9 +44,9 @@ class ExactSolver {
     int sweeps = 0;
   };
   void predict(const NodeForces& forces, double kick, double h, const ClothState& state) noexcept;
-  void warmStart(double scale, const LineSolve& warp, const LineSolve& weft) noexcept;
+  void warmStart(Scheme scheme, double scale, const LineSolve& warp, const LineSolve& weft) noexcept;
   Progress solveConstraints(Scheme scheme, bool must_accept, PositionConstraints* constraints, StageClock& clock) noexcept;
-  bool solveWarp(Scheme scheme, const LineSolve& warp, double& first_residual) noexcept;
+  bool solveWarp(Scheme scheme, const LineSolve& warp, double stop, double& first_residual) noexcept;
   double omegaSquared(double scale) const noexcept;
   void commit(double h, double velocity_age, ClothState& state) noexcept;
 

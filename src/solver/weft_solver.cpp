@@ -21,6 +21,18 @@ double linkViolation(const LineSolve& line, std::size_t left, std::size_t right)
   return w > 0.0 && (c > 0.0 || s > 0.0) ? c : 0.0;
 }
 
+double rowResidual(const LineSolve& line, int i) {
+  const Grid& grid = line.pattern.grid;
+  const std::size_t row = grid.row(i);
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  double worst = 0.0;
+  for (std::size_t j = 1; j < columns; ++j) {
+    worst = std::max(worst, std::abs(linkViolation(line, row + j - 1, row + j)));
+  }
+  if (grid.closed) worst = std::max(worst, std::abs(linkViolation(line, row + columns - 1, row)));
+  return worst;
+}
+
 }  // namespace
 
 WeftSolver::WeftSolver(const Grid& grid) : system_(static_cast<std::size_t>(grid.columns)) {
@@ -148,18 +160,16 @@ LineOutcome WeftSolver::solve(const LineSolve& line, double tolerance, bool foll
   const Grid& grid = line.pattern.grid;
   LineOutcome outcome;
   for (int i = 0; i < grid.rows; ++i) {
-    double row_residual = 0.0;
-    const std::size_t row = grid.row(i);
-    const auto columns = static_cast<std::size_t>(grid.columns);
-    for (std::size_t j = 1; j < columns; ++j) {
-      row_residual = std::max(row_residual, std::abs(linkViolation(line, row + j - 1, row + j)));
-    }
-    if (grid.closed) row_residual = std::max(row_residual, std::abs(linkViolation(line, row + columns - 1, row)));
+    const double row_residual = rowResidual(line, i);
     outcome.residual = std::max(outcome.residual, row_residual);
     if (!(row_residual > tolerance)) continue;
     listLinks(grid, i);
-    for (int iteration = 0; iteration < kRowIterations; ++iteration) {
+    for (int iteration = 0;; ++iteration) {
       if (!(measurePositions(line) > tolerance)) break;
+      if (iteration == kRowIterations) {
+        outcome.solved = false;
+        break;
+      }
       if (follow_directions) {
         for (const Link& link : links_) line.links.direction.set(link.right, across(line.value, link.left, link.right));
       }
@@ -169,6 +179,12 @@ LineOutcome WeftSolver::solve(const LineSolve& line, double tolerance, bool foll
     }
   }
   return outcome;
+}
+
+double WeftSolver::residual(const LineSolve& line) noexcept {
+  double worst = 0.0;
+  for (int i = 0; i < line.pattern.grid.rows; ++i) worst = std::max(worst, rowResidual(line, i));
+  return worst;
 }
 
 LineOutcome WeftSolver::projectVelocity(const LineSolve& line) noexcept {

@@ -1,0 +1,135 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Under use_sim_time the curtain follows /clock: it stands with it, counts what it drops, and starts again with it."""
+import sys
+import time
+import unittest
+
+import rospy
+import rostest
+from curtain_sim.msg import WindSource
+from curtain_testing import Curtain, billow, publisher, wait_until, wind_message
+from geometry_msgs.msg import TransformStamped
+from rosgraph_msgs.msg import Clock
+from tf2_msgs.msg import TFMessage
+
+FRAME = 0.02  # s
+
+
+class ClockTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("clock_test")
+        cls.clock = publisher("/clock", Clock)
+        wait_until(lambda: cls.clock.get_num_connections() > 1, "the node listens to the clock, not only this test")
+        cls.wind = publisher("/wind_source", WindSource)
+        cls.tf = publisher("/tf", TFMessage)
+        cls.curtain = Curtain("/curtain")
+        wait_until(lambda: cls.curtain._subscriber.get_num_connections() > 0, "the node is there")
+        cls.now = 0.0
+
+    @classmethod
+    def set_clock(cls, now):
+        cls.now = now
+        cls.clock.publish(Clock(clock=rospy.Time.from_sec(now)))
+
+    def run_until(self, end):
+        """Drives the clock frame by frame; each is made before the next is asked for."""
+        while self.now < end - 1e-9:
+            goal = self.now + FRAME
+            self.set_clock(goal)
+            self.curtain.wait_for(lambda s: abs(s.header.stamp.to_sec() - goal) < 1e-6, "the frame of %g s" % goal)
+
+    def begin(self, start):
+        """Starts a run of the clock and drives it up to its first frame, which is returned."""
+        self.curtain.clear()
+        self.set_clock(start)
+        while self.curtain.last() is None:
+            # A node that was held up may see a later time first: then its first frame is as much later.
+            patience = time.monotonic() + 0.1
+            while self.curtain.last() is None and time.monotonic() < patience:
+                time.sleep(0.002)
+            if self.curtain.last() is None:
+                self.assertLess(self.now, start + 5.0, "no frame comes")
+                self.set_clock(self.now + FRAME)
+        first = self.curtain.messages()[0]
+        self.assertEqual(first.statistics.frame, 1)
+        self.assertGreaterEqual(first.header.stamp.to_sec(), start + FRAME - 1e-6)
+        return first
+
+    def test_1_frames_follow_the_clock(self):
+        """Fifty frames a simulated second, stamped with the clock, however fast it runs."""
+        first = self.begin(100.0)
+        self.run_until(self.now + 1.0)
+        state = self.curtain.last()
+        self.assertEqual(state.statistics.frame, 51)
+        self.assertAlmostEqual((state.header.stamp - first.header.stamp).to_sec(), 1.0, delta=1e-6)
+        self.assertAlmostEqual(state.statistics.simulated_time, 51 * FRAME, delta=1e-9)
+        self.assertEqual(state.statistics.dropped_frames, 0)
+
+    def test_2_paused_clock_is_a_pause(self):
+        """The same time again and again, for half a second: no frame."""
+        count = self.curtain.count()
+        end = time.monotonic() + 0.5
+        while time.monotonic() < end:
+            self.set_clock(self.now)
+            time.sleep(0.01)
+        self.assertEqual(self.curtain.count(), count)
+
+    def test_3_too_late_is_dropped_and_counted(self):
+        """A clock that leaps ahead by a second: four frames are made up for, 46 are dropped."""
+        frame = self.curtain.last().statistics.frame
+        self.set_clock(self.now + 1.0)
+        goal = self.now
+        state = self.curtain.wait_for(lambda s: abs(s.header.stamp.to_sec() - goal) < 1e-6, "the last frame is made")
+        self.assertEqual(state.statistics.dropped_frames, 46)
+        self.assertEqual(state.statistics.frame, frame + 4)
+
+    def test_4_clock_that_jumps_back_resets(self):
+        """A new run: the cloth and its time start again, the wind of the old run is gone, stamps are of the new run."""
+        self.wind.publish(wind_message())
+        end = self.now + 1.0
+        while self.now < end and not billow(self.curtain.last()) > 0.05:
+            self.run_until(self.now + FRAME)
+        self.assertGreater(billow(self.curtain.last()), 0.05)
+        dropped = self.curtain.last().statistics.dropped_frames
+        first = self.begin(50.0)
+        self.assertEqual(first.statistics.restarts, 1)
+        self.assertLess(first.header.stamp.to_sec(), 55.0)
+        self.run_until(self.now + 1.0)
+        last = self.curtain.last()
+        self.assertEqual(last.statistics.frame, 51)
+        self.assertLess(billow(last), 0.01)
+        self.assertEqual(last.statistics.dropped_frames, dropped, "counted since the node's start")
+
+    def ball_at(self, stamp, y):
+        transform = TransformStamped()
+        transform.header.stamp = rospy.Time.from_sec(stamp)
+        transform.header.frame_id = "world"
+        transform.child_frame_id = "ball"
+        transform.transform.translation.x = 0.35
+        transform.transform.translation.y = y
+        transform.transform.translation.z = 1.4
+        transform.transform.rotation.w = 1.0
+        self.tf.publish(TFMessage([transform]))
+
+    def test_5_obstacles_start_again_with_the_clock(self):
+        """A transform of the old run's future places nothing in the new run; the new run's does."""
+        def drive_with_ball(condition, y, what):
+            end = self.now + 4.0
+            while self.now < end:
+                self.ball_at(self.now, y)
+                self.run_until(self.now + FRAME)
+                if condition(self.curtain.last()):
+                    return self.curtain.last()
+            raise AssertionError(what)
+        drive_with_ball(lambda s: s.statistics.absent_obstacles == 0, -0.6, "the ball comes")
+        first = self.begin(20.0)
+        self.assertEqual(first.statistics.restarts, 2)
+        self.run_until(self.now + 0.2)
+        self.assertEqual(self.curtain.last().statistics.absent_obstacles, 1, "its transform is of another run")
+        drive_with_ball(lambda s: s.statistics.absent_obstacles == 0, -0.6, "the ball comes back")
+
+
+if __name__ == "__main__":
+    rostest.rosrun("curtain_sim", "clock", ClockTest, sys.argv)

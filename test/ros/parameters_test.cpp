@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The node's parameters are read strictly: wrong types, text for numbers, unknown keys and values out of range are
+// all named at once; a parameter tree and a scene file of the same text give the same scene.
+#include "ros/parameters.h"
+
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "curtain_sim/scene_yaml.h"
+#include "ros/xmlrpc_yaml.h"
+
+namespace curtain_ros {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+// XmlRpc's constructors are explicit enough to need help with literals.
+XmlRpcValue value(int number) { return XmlRpcValue(number); }
+XmlRpcValue value(double number) { return XmlRpcValue(number); }
+XmlRpcValue value(const char* text) { return XmlRpcValue(std::string(text)); }
+XmlRpcValue flag(bool on) { return XmlRpcValue(on); }
+
+XmlRpcValue smallScene() {
+  XmlRpcValue scene;
+  scene["cloth"]["rows"] = value(10);
+  scene["cloth"]["columns"] = value(8);
+  return scene;
+}
+
+ParameterReading readWith(const std::string& key, const XmlRpcValue& content) {
+  XmlRpcValue tree;
+  tree["scene"] = smallScene();
+  tree[key] = content;
+  return readParameters(tree, "/stage/curtain");
+}
+
+ParameterReading readScene(const XmlRpcValue& scene) { return readWith("scene", scene); }
+
+::testing::AssertionResult names(const std::vector<std::string>& lines, const std::string& what) {
+  for (const std::string& line : lines) {
+    if (line.find(what) != std::string::npos) return ::testing::AssertionSuccess();
+  }
+  auto result = ::testing::AssertionFailure() << "nothing names '" << what << "' among:";
+  for (const std::string& line : lines) result << "\n  " << line;
+  return result;
+}
+
+TEST(XmlRpcToYaml, KeepsTypesAndBits) {
+  EXPECT_EQ(yamlText(1.0), "1.0");
+  EXPECT_EQ(yamlText(-0.0), "-0.0");
+  EXPECT_EQ(yamlText(1e300), "1.0000000000000001e+300");
+  EXPECT_EQ(yamlText(std::numeric_limits<double>::infinity()), ".inf");
+  EXPECT_EQ(yamlText(-std::numeric_limits<double>::infinity()), "-.inf");
+  EXPECT_EQ(yamlText(std::numeric_limits<double>::quiet_NaN()), ".nan");
+  EXPECT_EQ(toYaml(value(0.1)).as<double>(), 0.1);
+  EXPECT_EQ(toYaml(value(0.1)).Tag(), "?");
+  EXPECT_EQ(toYaml(value("1.0e-6")).Tag(), "!") << "text must stay text";
+  EXPECT_TRUE(toYaml(flag(true)).as<bool>());
+}
+
+// Every key that a scene file can hold goes through the parameter tree unchanged.
+TEST(Parameters, TreeAndFileGiveTheSameScene) {
+  XmlRpcValue scene = smallScene();
+  scene["cloth"]["height"] = value(1.7);
+  scene["cloth"]["width"] = value(2);
+  scene["gravity"][0] = value(0);
+  scene["gravity"][1] = value(0.1);
+  scene["gravity"][2] = value(-9.8);
+  scene["wind"][0]["id"] = value("1");
+  scene["wind"][0]["end"] = value(std::numeric_limits<double>::infinity());
+  const ParameterReading reading = readScene(scene);
+  EXPECT_TRUE(reading.problems.empty()) << reading.problems.front();
+  const curtain::SceneReading file = curtain::readSceneText(
+      "cloth: {rows: 10, columns: 8, height: 1.7, width: 2}\n"
+      "gravity: [0, 0.1, -9.8]\n"
+      "wind: [{id: '1', end: .inf}]\n");
+  EXPECT_TRUE(file.problems.empty());
+  EXPECT_EQ(curtain::writeScene(reading.scene), curtain::writeScene(file.scene));
+}
+
+TEST(Parameters, DefaultsNeedOnlyAScene) {
+  XmlRpcValue tree;
+  tree["scene"] = smallScene();
+  const ParameterReading reading = readParameters(tree, "/stage/curtain");
+  EXPECT_TRUE(reading.problems.empty());
+  EXPECT_TRUE(reading.warnings.empty());
+  EXPECT_EQ(reading.node.world_frame, "world");
+  EXPECT_EQ(reading.scene.cloth.rows, 10);
+}
+
+TEST(Parameters, MissingSceneIsAProblem) {
+  EXPECT_TRUE(names(readParameters(XmlRpcValue(), "/stage/curtain").problems, "/stage/curtain/scene: missing"));
+  EXPECT_TRUE(names(readScene(value("curtain.yaml")).problems, "/stage/curtain/scene: must be a dictionary"));
+}
+
+TEST(Parameters, WrongTypesAndRangesOfTheNodesOwnAreNamed) {
+  EXPECT_TRUE(names(readWith("mesh_rate", value("1e-6")).problems, "/stage/curtain/mesh_rate: must be a number"));
+  EXPECT_TRUE(names(readWith("mesh_rate", value(0.0)).problems, "mesh_rate"));
+  EXPECT_TRUE(names(readWith("mesh_rate", value(std::nan(""))).problems, "mesh_rate"));
+  EXPECT_TRUE(names(readWith("obstacle_timeout", value(-1.0)).problems, "obstacle_timeout"));
+  EXPECT_TRUE(names(readWith("max_catch_up", value(7.6)).problems, "max_catch_up: must be an integer"));
+  EXPECT_TRUE(names(readWith("max_catch_up", value(0)).problems, "max_catch_up"));
+  EXPECT_TRUE(names(readWith("handles", value(1)).problems, "handles: must be true or false"));
+  EXPECT_TRUE(names(readWith("world_frame", value("")).problems, "world_frame"));
+  EXPECT_TRUE(names(readWith("world_frame", value(3)).problems, "world_frame"));
+  EXPECT_TRUE(readWith("mesh_rate", value(25)).problems.empty()) << "an integer is a number";
+}
+
+TEST(Parameters, UnknownOnesAreWarnedOf) {
+  const ParameterReading reading = readWith("mesh_rat", value(10.0));
+  EXPECT_TRUE(reading.problems.empty());
+  EXPECT_TRUE(names(reading.warnings, "/stage/curtain/mesh_rat: unknown"));
+}
+
+// All problems at once, with the scene's dotted keys behind the parameter's name.
+TEST(Parameters, SceneProblemsAreAllNamed) {
+  XmlRpcValue scene = smallScene();
+  scene["cloth"]["rows"] = value(1);
+  scene["cloth"]["columns"] = value(8.0);
+  scene["cloth"]["width"] = value("1e-6");
+  scene["cloth"]["heigth"] = value(1.0);
+  scene["gravity"] = value(std::nan(""));
+  const std::vector<std::string> problems = readScene(scene).problems;
+  for (const char* key : {"cloth.rows", "cloth.columns", "cloth.width", "cloth.heigth", "gravity"}) {
+    EXPECT_TRUE(names(problems, std::string("/stage/curtain/scene: ") + key));
+  }
+}
+
+// Obstacles that name no frame stand in the node's world frame, whatever its name; motions are not for the node.
+TEST(Parameters, ObstaclesStandInTheWorldFrame) {
+  XmlRpcValue scene = smallScene();
+  scene["obstacles"][0]["name"] = value("ball");
+  scene["obstacles"][0]["shape"] = value("sphere");
+  scene["obstacles"][0]["radius"] = value(0.3);
+  XmlRpcValue tree;
+  tree["scene"] = scene;
+  tree["world_frame"] = value("map");
+  const ParameterReading reading = readParameters(tree, "/stage/curtain");
+  ASSERT_TRUE(reading.problems.empty()) << reading.problems.front();
+  EXPECT_EQ(reading.scene.obstacles.at(0).frame, "map");
+  EXPECT_TRUE(reading.warnings.empty());
+}
+
+TEST(Parameters, MotionInTheWorldFrameIsWarnedOf) {
+  XmlRpcValue scene = smallScene();
+  XmlRpcValue& ball = scene["obstacles"][0];
+  ball["name"] = value("ball");
+  ball["shape"] = value("sphere");
+  ball["radius"] = value(0.3);
+  for (int i = 0; i < 3; ++i) ball["motion"][0]["position"][i] = value(0.0);
+  ball["motion"][0]["time"] = value(0.0);
+  const ParameterReading reading = readScene(scene);
+  ASSERT_TRUE(reading.problems.empty()) << reading.problems.front();
+  EXPECT_TRUE(names(reading.warnings, "ball"));
+  EXPECT_TRUE(reading.scene.obstacles.at(0).motion.empty());
+}
+
+// config/curtain.yaml is the manual: it names exactly the parameters that the node reads.
+TEST(Parameters, TemplateNamesEveryOneOfThem) {
+  const YAML::Node manual = YAML::LoadFile(std::string(CURTAIN_SOURCE_DIR) + "/config/curtain.yaml");
+  std::set<std::string> documented;
+  for (const auto& entry : manual) documented.insert(entry.first.as<std::string>());
+  documented.erase("scene");
+  const std::vector<std::string> names = nodeParameterNames();
+  EXPECT_EQ(documented, std::set<std::string>(names.begin(), names.end()));
+}
+
+// … with the values that the node has without it.
+TEST(Parameters, TemplateGivesTheDefaults) {
+  const YAML::Node manual = YAML::LoadFile(std::string(CURTAIN_SOURCE_DIR) + "/config/curtain.yaml");
+  const NodeParams defaults;
+  EXPECT_EQ(manual["world_frame"].as<std::string>(), defaults.world_frame);
+  EXPECT_EQ(manual["obstacle_timeout"].as<double>(), defaults.obstacle_timeout);
+  EXPECT_EQ(manual["mesh_rate"].as<double>(), defaults.mesh_rate);
+  EXPECT_EQ(manual["markers_rate"].as<double>(), defaults.markers_rate);
+  EXPECT_EQ(manual["max_catch_up"].as<int>(), defaults.max_catch_up);
+  EXPECT_EQ(manual["state_folds"].as<bool>(), defaults.state_folds);
+  EXPECT_EQ(manual["handles"].as<bool>(), defaults.handles);
+  EXPECT_EQ(manual["handle_stiffness"].as<double>(), defaults.handle_stiffness);
+}
+
+}  // namespace
+}  // namespace curtain_ros

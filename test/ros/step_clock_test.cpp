@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Frames lie on a fixed grid of times; late ones are made up for up to a cap and counted beyond it; a clock that
+// jumps back starts a new grid.
+#include "ros/step_clock.h"
+
+#include <gtest/gtest.h>
+
+namespace curtain_ros {
+namespace {
+
+constexpr std::int64_t kSecond = 1000000000;
+
+// The first look starts the grid; its first frame is due one period later, not at once.
+TEST(StepClock, StartsOnePeriodBeforeItsFirstFrame) {
+  StepClock clock(100.0, 4);
+  EXPECT_EQ(clock.update(5 * kSecond).frames, 0);
+  EXPECT_EQ(clock.next(), 5 * kSecond + kSecond / 100);
+  EXPECT_EQ(clock.update(5 * kSecond + kSecond / 100 - 1).frames, 0);
+  EXPECT_EQ(clock.update(5 * kSecond + kSecond / 100).frames, 1);
+  EXPECT_EQ(clock.take(), 5 * kSecond + kSecond / 100);
+}
+
+// 60 frames a second do not drift, although 1/60 s is no whole number of nanoseconds.
+TEST(StepClock, DoesNotDrift) {
+  StepClock clock(60.0, 4);
+  clock.update(kSecond);
+  std::int64_t frames = 0;
+  std::int64_t last = 0;
+  for (std::int64_t now = kSecond; now <= 3601 * kSecond; now += kSecond / 100) {
+    const int due = clock.update(now).frames;
+    for (int i = 0; i < due; ++i, ++frames) last = clock.take();
+  }
+  EXPECT_EQ(frames, 3600 * 60);
+  EXPECT_EQ(last, 3601 * kSecond);
+  EXPECT_EQ(clock.dropped(), 0U);
+}
+
+// Ten frames late with a cap of four: the last four of the grid are made, six are counted as dropped.
+TEST(StepClock, CapsCatchUpAndCountsWhatItDrops) {
+  StepClock clock(10.0, 4);
+  clock.update(kSecond);
+  EXPECT_EQ(clock.update(2 * kSecond).frames, 4);
+  EXPECT_EQ(clock.dropped(), 6U);
+  EXPECT_EQ(clock.take(), kSecond + 7 * kSecond / 10);
+  for (int i = 0; i < 3; ++i) clock.take();
+  EXPECT_EQ(clock.next(), 2 * kSecond + kSecond / 10);
+  EXPECT_EQ(clock.update(2 * kSecond).frames, 0);
+}
+
+// A clock that jumps back is a new run from there on; what was dropped before stays counted.
+TEST(StepClock, StartsAgainWhenTheClockJumpsBack) {
+  StepClock clock(10.0, 1);
+  clock.update(kSecond);
+  clock.update(2 * kSecond);
+  clock.take();
+  const StepClock::Due due = clock.update(kSecond / 2);
+  EXPECT_TRUE(due.restarted);
+  EXPECT_EQ(due.frames, 0);
+  EXPECT_EQ(clock.next(), kSecond / 2 + kSecond / 10);
+  EXPECT_EQ(clock.dropped(), 9U);
+  EXPECT_FALSE(clock.update(kSecond / 2).restarted);
+}
+
+// A clock that stands still asks for nothing.
+TEST(StepClock, PausesWithTheClock) {
+  StepClock clock(10.0, 1);
+  clock.update(kSecond);
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(clock.update(kSecond).frames, 0);
+}
+
+}  // namespace
+}  // namespace curtain_ros

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Every mistake one can make in a scene file is reported under its key, with what was given and what is allowed.
+#include <algorithm>
+
+#include "scene/scene_testing.h"
+
+namespace curtain {
+namespace {
+
+// The scene with one more top-level text after the cloth.
+std::string with(const std::string& text) { return smallScene() + text + "\n"; }
+std::string cloth(const std::string& text) { return "cloth: {rows: 4, columns: 3, " + text + "}\n"; }
+std::string wind(const std::string& text) { return with("wind: [{id: fan, " + text + "}]"); }
+std::string drag(const std::string& text) { return with("drag: [{id: hand, " + text + "}]"); }
+std::string obstacle(const std::string& text) { return with("obstacles: [{name: thing, " + text + "}]"); }
+
+TEST(BadInput, NothingToRead) {
+  for (const char* text : {"", "# only a comment\n", "---\n", "~"}) expectProblem(text, "", {"is empty", "map"});
+  expectProblem("[1, 2]", "", {"must be a map", "is a list of 2"});
+  expectProblem("hello", "", {"must be a map", "is the text \"hello\""});
+  expectProblem("cloth: {rows: 4, columns: 3}\n---\ncloth: {rows: 4, columns: 3}\n", "", {"one YAML document", "is 2"});
+}
+
+TEST(BadInput, SyntaxErrorsNameLineAndColumn) {
+  expectProblem("cloth: {rows: 4, columns: 3}\nwind: [1,\nair: }\n", "", {"line 3, column 6", "not YAML"});
+  expectProblem("gravity: *nowhere\n", "", {"line 1", "not YAML"});
+}
+
+TEST(BadInput, DeepNestingIsReportedNotACrash) {
+  const SceneReading reading = readSceneText(std::string(100000, '['));
+  ASSERT_EQ(reading.problems.size(), 1u);
+  EXPECT_EQ(reading.problems[0].key, "");
+}
+
+TEST(BadInput, FileThatCantBeOpenedIsNamed) {
+  for (const std::string path : {"/no/such/folder/scene.yaml", "/tmp"}) {
+    const SceneReading reading = readSceneFile(path);
+    ASSERT_EQ(reading.problems.size(), 1u);
+    EXPECT_EQ(reading.problems[0].key, "");
+    EXPECT_NE(reading.problems[0].text.find(path), std::string::npos) << reading.problems[0].text;
+  }
+}
+
+TEST(BadInput, MissingSize) {
+  expectProblem("cloth: {columns: 3}", "cloth.rows", {"is missing", "an integer in [2, 4096]"});
+  expectProblem("cloth: {rows: 3}", "cloth.columns", {"is missing", "an integer in [2, 4096]"});
+  const std::vector<Problem> problems = readSceneText("gravity: [0, 0, -9.81]").problems;
+  ASSERT_EQ(problems.size(), 2u) << describe(problems);
+  EXPECT_EQ(problems[0].key, "cloth.rows");
+  EXPECT_EQ(problems[1].key, "cloth.columns");
+}
+
+TEST(BadInput, Integers) {
+  const std::string range = "must be an integer in [2, 4096], is ";
+  expectProblem("cloth: {rows: 1, columns: 3}", "cloth.rows", {range + "1"});
+  expectProblem("cloth: {rows: 4097, columns: 3}", "cloth.rows", {range + "4097"});
+  expectProblem("cloth: {rows: 7.6, columns: 3}", "cloth.rows", {range + "7.6"});
+  expectProblem("cloth: {rows: -4, columns: 3}", "cloth.rows", {range + "-4"});
+  expectProblem("cloth: {rows: 99999999999999999999999, columns: 3}", "cloth.rows", {range + "99999"});
+  expectProblem("cloth: {rows: '4', columns: 3}", "cloth.rows", {range + "the text \"4\"", "write 4 without quotes"});
+  expectProblem("cloth: {rows: true, columns: 3}", "cloth.rows", {range + "true"});
+  expectProblem("cloth: {rows: [4], columns: 3}", "cloth.rows", {range + "a list of 1"});
+  expectProblem("cloth: {rows: , columns: 3}", "cloth.rows", {"an integer in [2, 4096], is empty"});
+  expectProblem("cloth: {rows: 010, columns: 3}", "cloth.rows", {range, "write 10"});  // octal in YAML 1.1
+  expectProblem(cloth("folds: 0"), "cloth.folds", {"an integer in [1, 64], is 0"});
+  expectProblem(cloth("folds: 65"), "cloth.folds", {"an integer in [1, 64], is 65"});
+  expectProblem("cloth: {rows: 4, columns: 2, closed: true}", "cloth.columns", {"an integer in [3, 4096], is 2"});
+}
+
+TEST(BadInput, NumbersGivenAsText) {
+  const std::string key = "solver.stretch_tolerance";
+  const auto tolerance = [](const std::string& value) { return with("solver: {stretch_tolerance: " + value + "}"); };
+  expectProblem(tolerance("1e-6"), key, {"a number in [1e-12, 0.1]", "is the text \"1e-6\"", "write 1.0e-6"});
+  expectProblem(tolerance("1.0e6"), key, {"is the text \"1.0e6\"", "write 1.0e+6"});
+  expectProblem(tolerance("-.5"), key, {"is the text \"-.5\"", "write -0.5"});
+  expectProblem(tolerance("\"1.0e-6\""), key, {"is the text", "write 1.0e-6 without quotes"});
+  expectProblem(tolerance("\"1e-6\""), key, {"is the text", "write 1.0e-6 without quotes"});
+  expectProblem(tolerance("!!str 1.0e-6"), key, {"is the text", "write 1.0e-6"});
+  expectProblem(tolerance("small"), key, {"a number in [1e-12, 0.1], is the text \"small\""});
+  expectProblem(tolerance("yes"), key, {"a number in [1e-12, 0.1], is yes"});
+  expectProblem(wind("end: inf"), "wind[0].end", {"a number or .inf", "is the text \"inf\"", "write .inf"});
+  expectProblem(wind("end: '.inf'"), "wind[0].end", {"write .inf without quotes"});
+}
+
+TEST(BadInput, NumbersOutOfRange) {
+  expectProblem(cloth("width: 0.0, hem_width: 1.0"), "cloth.width", {"a finite number > 0, is 0"});
+  expectProblem(cloth("height: -2"), "cloth.height", {"a finite number > 0, is -2"});
+  expectProblem(cloth("height: .inf"), "cloth.height", {"a finite number > 0, is .inf"});
+  expectProblem(cloth("height: .nan"), "cloth.height", {"a finite number > 0, is .nan"});
+  expectProblem(cloth("height: 1.0e+999"), "cloth.height", {"a finite number > 0, is .inf"});
+  expectProblem(cloth("hem_width: 0"), "cloth.hem_width", {"a finite number > 0, is 0"});
+  expectProblem(cloth("surface_density: 0"), "cloth.surface_density", {"a finite number > 0, is 0"});
+  expectProblem(cloth("porosity: 1.5"), "cloth.porosity", {"a number in [0, 1], is 1.5"});
+  expectProblem(with("air: {density: -1}"), "air.density", {"a finite number >= 0, is -1"});
+  expectProblem(with("air: {threshold: 0}"), "air.threshold", {"a finite number > 0, is 0"});
+  expectProblem(with("air: {fast_gain: .inf}"), "air.fast_gain", {"a finite number >= 0, is .inf"});
+  expectProblem(with("contact: {thickness: 0}"), "contact.thickness", {"a finite number > 0, is 0"});
+  expectProblem(with("contact: {friction: 10.5}"), "contact.friction", {"a number in [0, 10], is 10.5"});
+  expectProblem(with("contact: {zone_iterations: 0}"), "contact.zone_iterations", {"an integer in [1, 1000], is 0"});
+  expectProblem(with("solver: {frame_rate: 0.5}"), "solver.frame_rate", {"a number in [1, 10000], is 0.5"});
+  expectProblem(with("solver: {stretch_tolerance: 0.2}"), "solver.stretch_tolerance", {"is 0.2"});
+  expectProblem(with("solver: {max_sweeps: 0}"), "solver.max_sweeps", {"an integer in [1, 10000], is 0"});
+  expectProblem(with("solver: {max_substeps: 10001}"), "solver.max_substeps", {"[1, 10000], is 10001"});
+  expectProblem(with("hang: {tilt: .nan}"), "hang.tilt", {"a finite number, is .nan"});
+}
+
+TEST(BadInput, Substeps) {
+  const std::string wanted = "auto or an integer in [1, 10000], is ";
+  expectProblem(with("solver: {substeps: 0}"), "solver.substeps", {wanted + "0"});
+  expectProblem(with("solver: {substeps: 2.5}"), "solver.substeps", {wanted + "2.5"});
+  expectProblem(with("solver: {substeps: many}"), "solver.substeps", {wanted + "the text \"many\""});
+  Scene scene = expectScene(smallScene());
+  scene.solver.substeps = -1;  // programs can reach what files can't
+  ASSERT_EQ(validate(scene).size(), 1u);
+  EXPECT_EQ(validate(scene)[0].key, "solver.substeps");
+}
+
+TEST(BadInput, Seed) {
+  for (const char* seed : {"-1", "1.5", "18446744073709551616", "'1'"}) {
+    expectProblem(with(std::string("solver: {seed: ") + seed + "}"), "solver.seed",
+                  {"an integer in [0, 18446744073709551615]"});
+  }
+}
+
+TEST(BadInput, WordsAndFlags) {
+  expectProblem(cloth("lumping: even"), "cloth.lumping", {"area or uniform, is the text \"even\""});
+  expectProblem(cloth("closed: 'true'"), "cloth.closed", {"true or false, is the text \"true\""});
+  expectProblem(cloth("closed: 1"), "cloth.closed", {"true or false, is 1"});
+  expectProblem(cloth("closed: maybe"), "cloth.closed", {"true or false, is the text \"maybe\""});
+  expectProblem(with("air: {law: 3}"), "air.law", {"continuous or printed, is 3"});
+  expectProblem(with("solver: {method: magic}"), "solver.method", {"auto, leapfrog, implicit or paper", "\"magic\""});
+  expectProblem(with("contact: {self: 0}"), "contact.self", {"true or false, is 0"});
+  expectProblem(with("contact: {self: true}"), "contact.self", {"not available yet", "must be false, is true"});
+  expectProblem(with("wind: [{id: 5}]"), "wind[0].id", {"must be text, is 5", "quotes"});
+  expectProblem(with("wind: [{id: on}]"), "wind[0].id", {"must be text, is on", "quotes"});
+  expectProblem(with("wind: [{id: ''}]"), "wind[0].id", {"not empty"});
+  expectProblem(with("wind: [{radius: 1.0}]"), "wind[0].id", {"is missing", "text"});
+}
+
+TEST(BadInput, UnknownKeys) {
+  expectProblem(cloth("heigth: 2.0"), "cloth.heigth", {"not a known key", "did you mean height?"});
+  expectProblem(with("obstacle: []"), "obstacle", {"did you mean obstacles?"});
+  expectProblem(wind("raduis: 2.0"), "wind[0].raduis", {"did you mean radius?"});
+  expectProblem(with("contact: {zzzzzz: 1}"), "contact.zzzzzz",
+                {"not a known key", "known are thickness, friction, self, zone_iterations"});
+  expectProblem(with("? [1, 2]\n: 3"), "?", {"a key must be text"});
+  expectProblem(obstacle("shape: sphere, radius: 1.0, motion: [{time: 0.0, pos: [0, 0, 0]}]"),
+                "obstacles[0].motion[0].pos", {"not a known key"});
+}
+
+TEST(BadInput, DuplicateKeys) {
+  expectProblem("cloth:\n  rows: 4\n  columns: 3\n  rows: 5\n", "cloth.rows", {"more than once", "lines 2 and 4"});
+  expectProblem(with("gravity: [0, 0, -1]\ngravity: [0, 0, -1]"), "gravity", {"more than once"});
+  expectProblem(wind("radius: 1.0, radius: 1.0"), "wind[0].radius", {"more than once"});
+}
+
+TEST(BadInput, MapsAndLists) {
+  expectProblem(with("air: 5"), "air", {"must be a map, is 5"});
+  expectProblem(with("hang: [1]"), "hang", {"must be a map, is a list of 1"});
+  expectProblem("cloth: 5", "cloth", {"must be a map, is 5"});
+  expectProblem(with("wind: {id: fan}"), "wind", {"must be a list, is a map"});
+  expectProblem(with("wind:"), "wind", {"must be a list, is empty"});
+  expectProblem(with("wind: [5]"), "wind[0]", {"must be a map, is 5"});
+  expectProblem(with("drag: [hand]"), "drag[0]", {"must be a map, is the text \"hand\""});
+  expectProblem(obstacle("shape: sphere, radius: 1.0, motion: [0.0]"), "obstacles[0].motion[0]", {"must be a map"});
+  expectProblem(cloth("row_mass: 2.0"), "cloth.row_mass", {"must be a list of numbers, is 2.0"});
+}
+
+TEST(BadInput, Vectors) {
+  expectProblem(with("gravity: -9.81"), "gravity", {"a list of 3 numbers, is -9.81"});
+  expectProblem(with("gravity: [0, -9.81]"), "gravity", {"a list of 3 numbers, is a list of 2"});
+  expectProblem(with("gravity: [0, 0, down]"), "gravity[2]", {"a finite number, is the text \"down\""});
+  expectProblem(with("gravity: [0, .inf, 0]"), "gravity[1]", {"a finite number, is .inf"});
+  expectProblem(wind("position: [0, 0, .nan]"), "wind[0].position[2]", {"a finite number, is .nan"});
+  expectProblem(wind("direction: [0, 0.0, 0]"), "wind[0].direction", {"a length > 0", "is [0, 0, 0]"});
+  expectProblem(wind("direction: [0, 0.0, 1.0e-200]"), "wind[0].direction", {"a length > 0"});
+}
+
+TEST(BadInput, PerNodeLists) {
+  expectProblem(cloth("row_spacing: [1, 2]"), "cloth.row_spacing", {"3 entries (rows - 1)", "has 2"});
+  expectProblem(cloth("column_spacing: [1, 2, 3]"), "cloth.column_spacing", {"2 entries (columns - 1)", "has 3"});
+  expectProblem(cloth("closed: true, column_spacing: [1, 2]"), "cloth.column_spacing",
+                {"3 entries (columns)", "has 2"});
+  expectProblem(cloth("row_mass: [1, 2, 3]"), "cloth.row_mass", {"4 entries (rows)", "has 3"});
+  expectProblem(cloth("column_mass: [1]"), "cloth.column_mass", {"3 entries (columns)", "has 1"});
+  expectProblem(cloth("row_mass: [1, 2, 0, 1]"), "cloth.row_mass[2]", {"a finite number > 0, is 0"});
+  expectProblem(cloth("row_mass: [1, x, 1, 1]"), "cloth.row_mass[1]", {"a finite number > 0, is the text \"x\""});
+}
+
+TEST(BadInput, Pins) {
+  expectProblem(with("pins: bottom"), "pins", {"top, left, top_corners or none, or a list", "\"bottom\""});
+  expectProblem(with("pins: 3"), "pins", {"or a list of [row, column], is 3"});
+  expectProblem(with("pins: [[0, 0], [4, 0]]"), "pins[1]", {"row in [0, 3] and column in [0, 2], is [4, 0]"});
+  expectProblem(with("pins: [[0, 3]]"), "pins[0]", {"column in [0, 2], is [0, 3]"});
+  expectProblem(with("pins: [[-1, 0]]"), "pins[0]", {"is [-1, 0]"});
+  expectProblem(with("pins: [[0, 0, 0]]"), "pins[0]", {"[row, column], two integers, is a list of 3"});
+  expectProblem(with("pins: [0]"), "pins[0]", {"two integers, is 0"});
+  expectProblem(with("pins: [[0, 1.5]]"), "pins[0][1]", {"an integer, is 1.5"});
+}
+
+TEST(BadInput, HangLine) {
+  expectProblem(with("hang: {from: [0, 0, 2], to: [1.1, 0, 2]}"), "hang.to",
+                {"no further from hang.from than cloth.width = 1 m", "is 1.1 m away"});
+  expectProblem(with("hang: {from: [0, 0, 2], to: [0, 0, 2]}"), "hang.to", {"must differ from hang.from"});
+  expectProblem(with("hang: {radius: 0.1}"), "hang.radius", {"closed cloth only", "is 0.1"});
+  // Rounding of typed coordinates is no mistake.
+  expectScene(with("hang: {from: [0.1, 0, 2], to: [1.1000000000000001, 0, 2]}"));
+}
+
+TEST(BadInput, HemTapersFasterThanTheRodsAreLong) {
+  // Rods of 2/3 m; the outer one would have to lean over by half of the rows' difference, 1 m.
+  const std::string text =
+      "cloth: {rows: 4, columns: 3, width: 7.0, hem_width: 1.0}\nhang: {from: [0, 0, 2], to: [7, 0, 2]}";
+  expectProblem(text, "cloth.hem_width", {"taper", "is 1", "row 1"});
+  // Hung from a line as short as the hem nothing slants; a hem wider than the line does not either.
+  expectScene("cloth: {rows: 4, columns: 3, width: 7.0, hem_width: 1.0}");
+  expectScene("cloth: {rows: 4, columns: 3, hem_width: 9.0}");
+}
+
+TEST(BadInput, RingWiderThanItsWeft) {
+  // 6 links of 1/6 m: the hexagon's radius is 1/6 m, the circle's 1/(2 pi) = 0.159 m.
+  const std::string ring = "cloth: {rows: 5, columns: 6, closed: true";
+  expectScene(ring + "}\n");
+  expectScene(ring + "}\nhang: {radius: 0.16666666666666}\n");
+  expectProblem(ring + "}\nhang: {radius: 0.16666667}\n", "hang.radius", {"row 0", "at most 0.1666666666666666"});
+  expectProblem(ring + "}\nhang: {tilt: 0.01}\n", "hang.tilt", {"is 0.01", "row 2", "m are allowed"});
+  expectProblem(ring + ", hem_width: 0.5}\n", "hang.tilt", {"is 0", "m long"});
+  // A hem as much narrower as the cone: r_i shrinks with the weft. sin(tilt) = (0.5 - 1) / (2 pi 2 m).
+  expectScene(ring + ", hem_width: 0.5}\nhang: {tilt: -0.0398}\n");
+  expectScene(ring + ", hem_width: 2.0}\nhang: {tilt: 0.0796}\n");
+  expectProblem(ring + "}\nhang: {tilt: -1.0}\n", "hang.tilt", {"radius > 0", "row 1"});
+  expectProblem(ring + "}\nhang: {radius: 0}\n", "hang.radius", {"a finite number > 0, is 0"});
+}
+
+TEST(BadInput, RingOfUnevenLinks) {
+  // A long link bulges least: its chord is the shortest for its length, so the short ones decide. 12 m around, links
+  // 1, 1, 10: for links of 1/12 of the way around the largest radius is (1/2) / sin(pi / 12) = 1.9319 m.
+  const std::string ring = "cloth: {rows: 3, columns: 3, width: 12.0, closed: true, column_spacing: [1, 1, 10]}\n";
+  expectScene(ring + "hang: {radius: 1.931}\n");
+  expectProblem(ring + "hang: {radius: 1.932}\n", "hang.radius", {"row 0", "link 0", "at most 1 m"});
+}
+
+TEST(BadInput, Times) {
+  expectProblem(wind("start: 2.0, end: 1.0"), "wind[0].end", {"> start = 2, is 1"});
+  expectProblem(wind("start: 2.0, end: 2.0"), "wind[0].end", {"> start = 2, is 2"});
+  expectProblem(wind("start: .inf"), "wind[0].start", {"a finite number, is .inf"});
+  expectProblem(wind("end: -.inf"), "wind[0].end", {"a number or .inf, is -.inf"});
+  expectProblem(wind("end: .nan"), "wind[0].end", {"a number or .inf, is .nan"});
+  expectProblem(drag("node: [0, 0], start: 2.0, end: 1.0"), "drag[0].end", {"> start = 2, is 1"});
+}
+
+TEST(BadInput, Wind) {
+  expectProblem(wind("radius: 0"), "wind[0].radius", {"a finite number > 0, is 0"});
+  expectProblem(wind("half_angle: 1.6"), "wind[0].half_angle", {"a number in [0, 1.5], is 1.6"});
+  expectProblem(wind("pressure: -1"), "wind[0].pressure", {"a finite number >= 0, is -1"});
+  expectProblem(wind("node_force: -1"), "wind[0].node_force", {"a finite number >= 0, is -1"});
+  expectProblem(wind("porosity_weight: 2"), "wind[0].porosity_weight", {"a number in [0, 1], is 2"});
+  expectProblem(wind("distance_weight: 0"), "wind[0].distance_weight", {"a finite number > 0, is 0"});
+  expectProblem(wind("unsteadiness: -1"), "wind[0].unsteadiness", {">= 0, is -1"});
+  expectProblem(wind("correlation_time: 0"), "wind[0].correlation_time", {"> 0, is 0"});
+  expectProblem(wind("correlation_length: 0"), "wind[0].correlation_length", {"> 0, is 0"});
+  expectProblem(with("wind: [{id: a}, {id: b}, {id: a}]"), "wind[2].id", {"unique", "\"a\" is taken by wind[0]"});
+}
+
+TEST(BadInput, Drag) {
+  expectProblem(drag("force: [0, 0, 1]"), "drag[0]", {"exactly one of node and point, gives neither"});
+  expectProblem(drag("node: [0, 0], point: [0, 0, 0]"), "drag[0]", {"exactly one of node and point, gives both"});
+  expectProblem(drag("node: [4, 0]"), "drag[0].node", {"row in [0, 3]", "is [4, 0]"});
+  expectProblem(drag("node: [0, -1]"), "drag[0].node", {"column in [0, 2]", "is [0, -1]"});
+  expectProblem(drag("node: 5"), "drag[0].node", {"two integers, is 5"});  // and nothing about "neither"
+  expectProblem(drag("node: [0, 0], stiffness: 0"), "drag[0].stiffness", {"> 0, is 0"});
+  expectProblem(drag("node: [0, 0], max_force: 0"), "drag[0].max_force", {"> 0, is 0"});
+  expectProblem(drag("node: [0, 0], radius: -1"), "drag[0].radius", {">= 0, is -1"});
+  expectProblem(drag("node: [0, 0], target: [0, 0]"), "drag[0].target", {"a list of 3 numbers, is a list of 2"});
+  expectProblem(with("drag: [{id: a, node: [0, 0]}, {id: a, node: [0, 0]}]"), "drag[1].id", {"taken by drag[0]"});
+}
+
+TEST(BadInput, ObstacleShapes) {
+  expectProblem(obstacle("shape: cone"), "obstacles[0].shape",
+                {"sphere, box, cylinder, capsule, plane or mesh", "is the text \"cone\""});
+  expectProblem(obstacle("shape: box, size: [1, 1, 1], radius: 1.0"), "obstacles[0].radius",
+                {"does not belong to shape box"});
+  expectProblem(obstacle("shape: sphere, radius: 1.0, length: 1.0"), "obstacles[0].length", {"belong to shape sphere"});
+  expectProblem(obstacle("shape: sphere, radius: 1.0, size: [1, 1, 1]"), "obstacles[0].size", {"shape sphere"});
+  expectProblem(obstacle("shape: plane, mesh: a.stl"), "obstacles[0].mesh", {"belong to shape plane"});
+  expectProblem(obstacle("shape: capsule, radius: 1.0, length: 1.0, scale: 1.0"), "obstacles[0].scale", {"capsule"});
+  expectProblem(obstacle("shape: mesh, mesh: a.stl, radius: 1.0"), "obstacles[0].radius", {"belong to shape mesh"});
+}
+
+TEST(BadInput, ObstacleSizes) {
+  expectProblem(obstacle("shape: sphere"), "obstacles[0].radius", {"is missing", "a finite number > 0"});
+  expectProblem(obstacle("shape: cylinder, radius: 1.0"), "obstacles[0].length", {"is missing"});
+  expectProblem(obstacle("shape: box"), "obstacles[0].size", {"is missing"});
+  expectProblem(obstacle("shape: mesh"), "obstacles[0].mesh", {"is missing"});
+  expectProblem(obstacle("shape: mesh, mesh: ''"), "obstacles[0].mesh", {"not empty"});
+  expectProblem(obstacle("shape: sphere, radius: -1"), "obstacles[0].radius", {"> 0, is -1"});
+  expectProblem(obstacle("shape: capsule, radius: 1.0, length: 0"), "obstacles[0].length", {"> 0, is 0"});
+  expectProblem(obstacle("shape: box, size: [1, 0, 1]"), "obstacles[0].size[1]", {"> 0, is 0"});
+  expectProblem(obstacle("shape: mesh, mesh: a.stl, scale: 0.0"), "obstacles[0].scale", {"other than 0, is 0"});
+  expectProblem(obstacle("shape: mesh, mesh: a.stl, scale: [1, 1, 0]"), "obstacles[0].scale[2]",
+                {"other than 0, is 0"});
+  expectProblem(obstacle("shape: mesh, mesh: a.stl, scale: .inf"), "obstacles[0].scale", {"other than 0, is .inf"});
+}
+
+TEST(BadInput, ObstacleRest) {
+  const auto ball = [](const std::string& text) { return obstacle("shape: sphere, radius: 1.0, " + text); };
+  const std::string key = "obstacles[0].orientation";
+  expectProblem(ball("orientation: [0, 0, 0, 0]"), key, {"unit quaternion", "is [0, 0, 0, 0] (norm 0)"});
+  expectProblem(ball("orientation: [0, 0, 0, 1.002]"), key, {"unit quaternion", "norm 1.002"});
+  expectProblem(ball("orientation: [0, 0, 1]"), key, {"a list of 4 numbers", "is a list of 3"});
+  expectProblem(ball("orientation: [0, 0, 0, .nan]"), key, {"unit quaternion", ".nan"});
+  expectProblem(ball("orientation: [0, 0, 0, one]"), key + "[3]", {"is the text \"one\""});
+  expectProblem(ball("friction: -1"), "obstacles[0].friction", {"a number in [0, 10], is -1"});
+  expectProblem(ball("friction: .nan"), "obstacles[0].friction", {"a number in [0, 10], is .nan"});
+  expectProblem(ball("frame: ''"), "obstacles[0].frame", {"not empty"});
+  expectProblem(ball("motion: [{time: 0.0}, {time: 1.0}, {time: 1.0}]"), "obstacles[0].motion[2].time",
+                {"> the time before it = 1, is 1"});
+  expectProblem(ball("motion: [{time: 0.0, orientation: [0, 0, 0, 2]}]"), "obstacles[0].motion[0].orientation",
+                {"unit quaternion"});
+  expectProblem(with("obstacles: [{name: a, shape: plane}, {name: a, shape: plane}]"), "obstacles[1].name",
+                {"\"a\" is taken by obstacles[0]"});
+}
+
+TEST(BadInput, AllProblemsAtOnce) {
+  const std::string text =
+      "cloth: {rows: 1, columns: x, widht: 2.0}\nair: {density: -1}\nwind: [{id: a, radius: 0}, {id: a}]\n"
+      "drag: [{id: hand}]\npins: [[90, 90]]\nsolver: {seed: -3}\n";
+  std::vector<std::string> keys;
+  for (const Problem& problem : readSceneText(text).problems) keys.push_back(problem.key);
+  std::sort(keys.begin(), keys.end());
+  // Not the pins: the grid that they would lie on is not known.
+  const std::vector<std::string> expected = {"air.density", "cloth.columns", "cloth.rows",     "cloth.widht",
+                                             "drag[0]",     "solver.seed",   "wind[0].radius", "wind[1].id"};
+  EXPECT_EQ(keys, expected);
+}
+
+// A width that can't be read keeps its default; that the line is longer than the default is no news.
+TEST(BadInput, WhatOnlyFollowsIsNotReported) {
+  expectProblem("cloth: {rows: 4, columns: 3, width: '5.0'}\nhang: {from: [0, 0, 2], to: [4, 0, 2]}\n", "cloth.width",
+                {"write 5.0 without quotes"});
+}
+
+TEST(Describe, OneLineAProblemWithItsSource) {
+  const std::vector<Problem> problems = {{"cloth.rows", "is 1"}, {"", "is empty"}};
+  EXPECT_EQ(describe(problems, "a.yaml"), "a.yaml: cloth.rows: is 1\na.yaml: is empty");
+  EXPECT_EQ(describe(problems), "cloth.rows: is 1\nis empty");
+  EXPECT_EQ(describe({}, "a.yaml"), "");
+}
+
+}  // namespace
+}  // namespace curtain
