@@ -39,7 +39,10 @@ Pose poseAt(const std::vector<PoseKey>& motion, double time) noexcept {
 }
 
 Eigen::AlignedBox3d MovingObstacle::sweptBounds() const noexcept {
-  if (!std::isfinite(bounds.min().sum()) || !std::isfinite(bounds.max().sum())) return bounds;  // a plane is everywhere
+  if (!std::isfinite(bounds.min().sum()) || !std::isfinite(bounds.max().sum())) {  // a plane is everywhere
+    return {Vec3::Constant(-std::numeric_limits<double>::infinity()),
+            Vec3::Constant(std::numeric_limits<double>::infinity())};
+  }
   return moved(bounds, before).merged(moved(bounds, after));
 }
 

@@ -19,8 +19,8 @@ enum Slot { kWires, kNodes, kFolds, kWind, kFirstObstacle };
 constexpr double kWireWidth = 0.002;
 constexpr double kNodeSize = 0.012;
 constexpr double kFoldSize = 0.006;
-constexpr double kWindWidth = 0.008;
-constexpr double kWindLength = 1.0;  // of the drawn part of a cone
+constexpr double kWindWidth = 0.004;
+constexpr double kWindLength = 0.5;  // of the drawn part of a cone
 constexpr int kWindSpokes = 12;
 
 std_msgs::ColorRGBA colour(float r, float g, float b) {

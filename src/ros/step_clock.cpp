@@ -5,6 +5,12 @@
 
 namespace curtain_ros {
 
+namespace {
+// A frame is due this much early [ns]: clocks that tick in frames, written as floating-point seconds, come a
+// nanosecond short, and would otherwise be a whole tick late now and then.
+constexpr std::int64_t kRounding = 1000;
+}  // namespace
+
 StepClock::StepClock(double frame_rate, int max_catch_up) : period_(1e9 / frame_rate), max_catch_up_(max_catch_up) {}
 
 StepClock::Due StepClock::update(std::int64_t now) {
@@ -21,8 +27,8 @@ StepClock::Due StepClock::update(std::int64_t now) {
 
   // The quotient may be off by one where it rounds; the grid's own times decide.
   auto latest = static_cast<std::int64_t>(std::floor(static_cast<double>(now - start_) / period_));
-  while (timeOf(latest + 1) <= now) ++latest;
-  while (latest > 0 && timeOf(latest) > now) --latest;
+  while (timeOf(latest + 1) <= now + kRounding) ++latest;
+  while (latest > 0 && timeOf(latest) > now + kRounding) --latest;
 
   const std::int64_t late = latest - frame_;
   if (late > max_catch_up_) {

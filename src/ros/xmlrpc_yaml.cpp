@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/xmlrpc_yaml.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 namespace curtain_ros {
 
@@ -28,10 +30,15 @@ YAML::Node plain(const std::string& text) {
 std::string yamlText(double number) {
   if (std::isnan(number)) return ".nan";
   if (std::isinf(number)) return number > 0.0 ? ".inf" : "-.inf";
+  // The shortest of those that give the same bits back.
   char text[40];
-  std::snprintf(text, sizeof text, "%.17g", number);
+  for (int digits = 15; digits <= 17; ++digits) {
+    std::snprintf(text, sizeof text, "%.*g", digits, number);
+    if (std::strtod(text, nullptr) == number) break;
+  }
   std::string result(text);
-  if (result.find_first_of(".e") == std::string::npos) result += ".0";
+  // YAML 1.1 takes 1e+22 for text and 1 for an integer.
+  if (result.find('.') == std::string::npos) result.insert(std::min(result.find('e'), result.size()), ".0");
   return result;
 }
 

@@ -22,10 +22,6 @@ constexpr double kDiverged = 4.0;
 // Sweeps that must at least bring this improvement, or the alternation has stalled.
 constexpr int kStallWindow = 8;
 constexpr double kStallFactor = 0.9;
-// Implicit scheme: share of a link's tension, as s (w_a + w_b), that may act along its direction at the start of the
-// step. It keeps that part's dt * omega at 1, so it adds accuracy and never instability.
-constexpr double kExplicitShare = 0.5;
-constexpr double kTinyInertia = 1e-300;
 // Alternations of the linear velocity projection; each gains about cos^2 of the angle between warp and weft.
 constexpr int kVelocitySweeps = 6;
 
@@ -102,42 +98,34 @@ void ExactSolver::predict(const NodeForces& forces, double kick, double h, const
   component(forces.force.z, state.velocity.z, state.position.z, next_.z);
 }
 
-// Multipliers grow with h * kick at the same tensions.
+// Multipliers grow with h * kick at the same tensions. The implicit scheme starts from none: what acts along the
+// directions at the start of the step is an explicit part, and unstable at the steps that scheme is for (a quarter of the
+// tension was already too much at 100 rows).
 void ExactSolver::warmStart(Scheme scheme, double scale, const LineSolve& warp, const LineSolve& weft) noexcept {
-  const double ratio = last_scale_ > 0.0 ? scale / last_scale_ : 0.0;
+  const double ratio = last_scale_ > 0.0 && scheme == Scheme::kLeapfrog ? scale / last_scale_ : 0.0;
   const std::size_t size = pattern_.grid.size();
   for (std::size_t n = 0; n < size; ++n) warp_.multiplier[n] = ratio * last_warp_[n];
   for (std::size_t n = 0; n < size; ++n) weft_.multiplier[n] = ratio * last_weft_[n];
   if (ratio == 0.0) return;
-  if (scheme == Scheme::kImplicit) {
-    const Grid& grid = pattern_.grid;
-    for (int i = 0; i < grid.rows; ++i) {
-      for (int j = 0; j < grid.columns; ++j) {
-        const std::size_t n = grid.index(i, j);
-        const std::size_t above = i > 0 ? grid.index(i - 1, j) : n;
-        const std::size_t left = grid.index(i, j > 0 ? j - 1 : grid.columns - 1);
-        const Field& w = *inertia_;
-        const double most_warp = kExplicitShare / std::max(w[n] + w[above], kTinyInertia);
-        const double most_weft = kExplicitShare / std::max(w[n] + w[left], kTinyInertia);
-        warp_.multiplier[n] = std::clamp(warp_.multiplier[n], -most_warp, most_warp);
-        weft_.multiplier[n] = std::min(weft_.multiplier[n], most_weft);
-      }
-    }
-  }
   applyWarpMultipliers(warp);
   WeftSolver::applyMultipliers(weft);
 }
 
-// Newton on all columns; false when it does not converge. first_residual: before the first iteration.
-bool ExactSolver::solveWarp(Scheme scheme, const LineSolve& warp, double stop, double& first_residual) noexcept {
+// Newton on all columns until an iteration starts with a residual of at most stop.
+ExactSolver::WarpProgress ExactSolver::solveWarp(Scheme scheme, const LineSolve& warp, double stop) noexcept {
+  WarpProgress progress;
   for (int iteration = 0; iteration < kNewtonIterations; ++iteration) {
     if (scheme == Scheme::kImplicit) setWarpDirections(pattern_.grid, next_, warp_.direction);
     const LineOutcome outcome = warpNewton(warp, scratch_);
-    if (iteration == 0) first_residual = outcome.residual;
-    if (!outcome.sound || !(outcome.residual < kDiverged)) return false;
-    if (outcome.residual <= stop) return true;
+    if (iteration == 0) progress.first_residual = outcome.residual;
+    progress.last_residual = outcome.residual;
+    if (!outcome.sound || !(outcome.residual < kDiverged)) return progress;
+    if (outcome.residual <= stop) {
+      progress.converged = true;
+      return progress;
+    }
   }
-  return false;
+  return progress;
 }
 
 ExactSolver::Progress ExactSolver::solveConstraints(Scheme scheme, bool must_accept, PositionConstraints* constraints,
@@ -148,18 +136,16 @@ ExactSolver::Progress ExactSolver::solveConstraints(Scheme scheme, bool must_acc
   double window_residual = std::numeric_limits<double>::infinity();
   bool rest_solved = false;
   while (progress.sweeps < max_sweeps_) {
-    double warp_residual = 0.0;
-    const double stop = progress.sweeps == 0 ? kNewtonStop : kNewtonStopLater;
-    const bool warp_sound = solveWarp(scheme, warp, stop, warp_residual);
+    const WarpProgress rods = solveWarp(scheme, warp, progress.sweeps == 0 ? kNewtonStop : kNewtonStopLater);
     clock.lap(Stage::kWarp);
-    if (!warp_sound && !must_accept) {
+    if (!rods.converged && !must_accept) {
       progress.sound = false;
       return progress;
     }
     ++progress.sweeps;
     // The rest had just been solved and the rods were still found in order: if this last iteration on them did the
     // weft no harm, all is settled.
-    if (rest_solved && warp_sound && warp_residual <= tolerance_ &&
+    if (rest_solved && rods.converged && rods.first_residual <= tolerance_ &&
         WeftSolver::residual(weft) <= tolerance_ / kInnerTolerance) {
       progress.settled = true;
       return progress;
@@ -172,12 +158,13 @@ ExactSolver::Progress ExactSolver::solveConstraints(Scheme scheme, bool must_acc
       clock.lap(Stage::kContact);
     }
     rest_solved = weft_outcome.solved && contact_move <= contact_tolerance_;
-    if (warp_sound && weft_outcome.residual <= tolerance_ && contact_move <= contact_tolerance_) {
+    if (rods.converged && rods.last_residual <= kNewtonStop && weft_outcome.residual <= tolerance_ &&
+        contact_move <= contact_tolerance_) {
       progress.settled = true;
       return progress;
     }
     if (!must_accept && progress.sweeps % kStallWindow == 0) {
-      const double residual = std::max(warp_residual, weft_outcome.residual);
+      const double residual = std::max(rods.first_residual, weft_outcome.residual);
       if (!(residual < kStallFactor * window_residual)) {
         progress.sound = false;
         return progress;

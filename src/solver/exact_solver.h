@@ -46,7 +46,12 @@ class ExactSolver {
   void predict(const NodeForces& forces, double kick, double h, const ClothState& state) noexcept;
   void warmStart(Scheme scheme, double scale, const LineSolve& warp, const LineSolve& weft) noexcept;
   Progress solveConstraints(Scheme scheme, bool must_accept, PositionConstraints* constraints, StageClock& clock) noexcept;
-  bool solveWarp(Scheme scheme, const LineSolve& warp, double stop, double& first_residual) noexcept;
+  struct WarpProgress {
+    bool converged = false;
+    double first_residual = 0.0;  // before the first iteration
+    double last_residual = 0.0;   // before the last one
+  };
+  WarpProgress solveWarp(Scheme scheme, const LineSolve& warp, double stop) noexcept;
   double omegaSquared(double scale) const noexcept;
   void commit(double h, double velocity_age, ClothState& state) noexcept;
 

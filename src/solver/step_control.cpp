@@ -12,10 +12,15 @@ namespace {
 constexpr double kPhasePerStep = 1.2;
 constexpr double kGrowth = 1.4;
 constexpr int kGoodToGrow = 8;
-// A rejected step is halved at most so far below the cap of substeps; then it is taken as it comes out.
-constexpr int kHalvingsBelowCap = 3;
-// The paper's scheme has no estimate of its own error.
+// Substeps of the schemes whose step nothing but accuracy limits, when the scene leaves the choice.
+constexpr int kImplicitSubsteps = 8;
 constexpr int kPaperSubsteps = 16;
+
+int fixedSubsteps(const SolverParams& params) {
+  if (params.substeps > 0) return params.substeps;
+  if (params.method == Method::kPaper) return kPaperSubsteps;
+  return params.method == Method::kImplicit ? kImplicitSubsteps : 0;
+}
 
 // Hanging free, the uppermost rod carries the column: T / (m l) of the longest column of equal nodes.
 double hangingOmega(const ClothPattern& pattern, const Vec3& gravity) {
@@ -35,7 +40,7 @@ double hangingOmega(const ClothPattern& pattern, const Vec3& gravity) {
 
 StepControl::StepControl(const SolverParams& params, const ClothPattern& pattern, const Vec3& gravity)
     : frame_(1.0 / params.frame_rate),
-      fixed_substeps_(params.substeps > 0 ? params.substeps : (params.method == Method::kPaper ? kPaperSubsteps : 0)),
+      fixed_substeps_(fixedSubsteps(params)),
       max_substeps_(std::max(params.max_substeps, params.substeps)),
       method_(params.method),
       initial_omega_(hangingOmega(pattern, gravity)) {
@@ -58,10 +63,13 @@ StepControl::Plan StepControl::next(double remaining) const noexcept {
     if (for_phase < smallest && method_ == Method::kAuto) plan.scheme = Scheme::kImplicit;
     wanted = std::clamp(for_phase, smallest, frame_);
   }
-  const double floor_step = smallest / (1 << kHalvingsBelowCap);
-  if (limit_ <= floor_step && method_ == Method::kAuto) plan.scheme = Scheme::kImplicit;
-  plan.must_accept = plan.scheme == Scheme::kImplicit || limit_ <= floor_step || method_ == Method::kPaper;
-  const double step = std::min(wanted, std::max(limit_, floor_step));
+  // Rejections have come down to the cap: where smaller steps don't help the implicit scheme takes over for a while, at
+  // steps that bound the work; elsewhere the smallest step is taken as it comes out.
+  const bool at_floor = limit_ <= smallest;
+  if (at_floor && method_ == Method::kAuto) plan.scheme = Scheme::kImplicit;
+  plan.must_accept = plan.scheme == Scheme::kImplicit || at_floor || method_ == Method::kPaper;
+  double step = std::min(wanted, std::max(limit_, smallest));
+  if (plan.scheme == Scheme::kImplicit && method_ == Method::kAuto) step = std::max(smallest, frame_ / kImplicitSubsteps);
   // Equal shares of what is left; the small slack keeps rounding from adding a substep.
   plan.h = remaining / std::max(1.0, std::ceil(remaining / step - 1e-6));
   return plan;

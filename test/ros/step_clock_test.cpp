@@ -16,7 +16,7 @@ TEST(StepClock, StartsOnePeriodBeforeItsFirstFrame) {
   StepClock clock(100.0, 4);
   EXPECT_EQ(clock.update(5 * kSecond).frames, 0);
   EXPECT_EQ(clock.next(), 5 * kSecond + kSecond / 100);
-  EXPECT_EQ(clock.update(5 * kSecond + kSecond / 100 - 1).frames, 0);
+  EXPECT_EQ(clock.update(5 * kSecond + kSecond / 100 - 2000).frames, 0);
   EXPECT_EQ(clock.update(5 * kSecond + kSecond / 100).frames, 1);
   EXPECT_EQ(clock.take(), 5 * kSecond + kSecond / 100);
 }
@@ -60,6 +60,16 @@ TEST(StepClock, StartsAgainWhenTheClockJumpsBack) {
   EXPECT_EQ(clock.next(), kSecond / 2 + kSecond / 10);
   EXPECT_EQ(clock.dropped(), 9U);
   EXPECT_FALSE(clock.update(kSecond / 2).restarted);
+}
+
+// Clocks written as floating-point seconds come a nanosecond short: that is not late by a tick.
+TEST(StepClock, ForgivesRounding) {
+  StepClock clock(50.0, 1);
+  clock.update(100 * kSecond);
+  for (int i = 1; i <= 100; ++i) {
+    EXPECT_EQ(clock.update(100 * kSecond + i * kSecond / 50 - 1).frames, 1);
+    clock.take();
+  }
 }
 
 // A clock that stands still asks for nothing.

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The simulator as a whole: it conserves what it must, repeats itself to the bit, allocates nothing in a step, and holds
+// its links however the cloth is pinned.
+#include "curtain_sim/simulator.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <new>
+#include <stdexcept>
+
+#include "curtain_sim/scene_yaml.h"
+
+namespace {
+std::atomic<long> allocations{0};
+}  // namespace
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  void* const memory = std::malloc(size > 0 ? size : 1);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace curtain {
+namespace {
+
+Scene sceneOf(int rows, int columns) {
+  Scene scene;
+  scene.cloth.rows = rows;
+  scene.cloth.columns = columns;
+  return scene;
+}
+
+Scene shippedScene(const std::string& name) {
+  const SceneReading reading = readSceneFile(std::string(CURTAIN_SOURCE_DIR) + "/config/scenes/" + name + ".yaml");
+  EXPECT_TRUE(reading.problems.empty()) << describe(reading.problems);
+  return reading.scene;
+}
+
+void run(Simulator& simulator, int frames) {
+  for (int frame = 0; frame < frames; ++frame) simulator.step();
+}
+
+TEST(Simulator, RefusesABadSceneNamingEveryProblem) {
+  Scene scene = sceneOf(1, 5);
+  scene.cloth.height = -1.0;
+  try {
+    const Simulator simulator(scene);
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("cloth.rows"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("cloth.height"), std::string::npos) << error.what();
+  }
+}
+
+// Leapfrog is exact for a constant force: z = -g t^2 / 2 to rounding, a few ulps a substep of a number of size 10.
+TEST(Simulator, AFreeSheetFallsFreely) {
+  Scene scene = sceneOf(8, 7);
+  scene.pins.kind = PinKind::kNone;
+  scene.hang.tilt = 0.3;
+  Simulator simulator(scene);
+  std::vector<Vec3> start, end, velocity;
+  simulator.copyPositions(start);
+  run(simulator, 60);
+  simulator.copyPositions(end);
+  simulator.copyVelocities(velocity);
+  for (std::size_t n = 0; n < start.size(); ++n) {
+    EXPECT_LT((end[n] - start[n] - Vec3(0.0, 0.0, -0.5 * 9.81)).norm(), 1e-11);
+    EXPECT_LT((velocity[n] - Vec3(0.0, 0.0, -9.81)).norm(), 1e-11);
+  }
+}
+
+// A free cloth in still air keeps its momentum: forces between nodes come in pairs. The wind's push is taken back out by
+// comparing with the sum of the forces it reports; rounding only.
+TEST(Simulator, AFreeClothKeepsItsMomentum) {
+  Scene scene = sceneOf(12, 9);
+  scene.pins.kind = PinKind::kNone;
+  scene.gravity = Vec3::Zero();
+  DragParams pull;
+  pull.id = "pull";
+  pull.node = NodeIndex{3, 2};
+  pull.force = Vec3(0.02, 0.05, -0.01);
+  pull.end = 0.25;
+  scene.drag.push_back(pull);
+  Simulator simulator(scene);
+  run(simulator, 90);
+  std::vector<Vec3> velocity;
+  simulator.copyVelocities(velocity);
+  Vec3 momentum = Vec3::Zero();
+  for (int i = 0; i < 12; ++i) {
+    for (int j = 0; j < 9; ++j) {
+      momentum += simulator.mass({i, j}) * velocity[static_cast<std::size_t>(i * 9 + j)];
+    }
+  }
+  // The force acted for 0.25 s, up to the substep in which it ended (at most 1/60 s).
+  EXPECT_NEAR(momentum.norm() / (0.25 * pull.force.norm()), 1.0, 1.0 / 15.0);
+  EXPECT_LT(momentum.cross(pull.force).norm(), 1e-12);
+}
+
+// A symplectic scheme has no drift of energy: over 20 s of undamped swing at 8 substeps it only wavers with the square
+// of the step. Scale: the energy that goes to and fro, m g L (1 - cos 45) / 2.
+TEST(Simulator, UndampedSwingKeepsItsEnergy) {
+  Scene scene = readSceneFile(std::string(CURTAIN_SOURCE_DIR) + "/test/scenes/swing.yaml").scene;
+  scene.cloth.columns = 2;
+  scene.solver.substeps = 8;
+  Simulator simulator(scene);
+  const double start = simulator.energy().potential;
+  run(simulator, 1200);
+  const Energy end = simulator.energy();
+  const double scale = 0.4 * 9.81 * 2.0 * (1.0 - std::cos(0.785)) / 2.0;
+  std::printf("energy drift over 20 s: %.2e of the swing's energy\n", (end.kinetic + end.potential - start) / scale);
+  EXPECT_LT(std::abs(end.kinetic + end.potential - start), 1e-3 * scale);
+}
+
+TEST(Simulator, RepeatsItselfToTheBit) {
+  for (const char* name : {"curtain", "flag", "skirt", "parachute", "sheet"}) {
+    const Scene scene = shippedScene(name);
+    Simulator first(scene), second(scene);
+    run(first, 40);
+    run(second, 40);
+    EXPECT_EQ(first.stateHash(), second.stateHash()) << name;
+    second.reset();
+    EXPECT_NE(first.stateHash(), second.stateHash()) << name;
+    run(second, 40);
+    EXPECT_EQ(first.stateHash(), second.stateHash()) << name << " after reset";
+    Scene other = scene;
+    other.solver.seed += 1;
+    Simulator third(other);
+    run(third, 40);
+    EXPECT_NE(first.stateHash(), third.stateHash()) << name << ": the seed changes nothing";
+  }
+}
+
+TEST(Simulator, ReadingTheStateDoesNotChangeTheMotion) {
+  Simulator read(shippedScene("curtain")), unread(shippedScene("curtain"));
+  std::vector<Vec3> out;
+  FineMesh mesh;
+  for (int frame = 0; frame < 30; ++frame) {
+    read.step();
+    unread.step();
+    read.copyVelocities(out);
+    read.copyForces(out);
+    read.copyFineMesh(mesh);
+    read.energy();
+  }
+  EXPECT_EQ(read.stateHash(), unread.stateHash());
+}
+
+TEST(Simulator, AStepAllocatesNothing) {
+  for (const char* name : {"curtain", "flag", "skirt", "sheet"}) {
+    Simulator simulator(shippedScene(name));
+    DragParams pull;
+    pull.id = "pull";
+    pull.point = Vec3(0.3, 0.0, 1.0);
+    pull.radius = 0.2;
+    pull.target = Vec3(0.3, 0.4, 1.0);
+    ASSERT_TRUE(simulator.setDrag(pull).empty());
+    const long before = allocations;
+    run(simulator, 30);
+    EXPECT_EQ(allocations - before, 0) << name;
+  }
+}
+
+// A scene that is its own mirror image moves like it. The rows' solves run from left to right, so only rounding differs:
+// 1e-16, growing by e a tenth of a second at most (the fastest free motion) over the half second looked at.
+TEST(Simulator, KeepsMirrorSymmetry) {
+  Scene scene = sceneOf(20, 15);
+  scene.hang.from = Vec3(-0.4, 0.0, 2.2);
+  scene.hang.to = Vec3(0.4, 0.0, 2.2);
+  WindParams wind;
+  wind.id = "fan";
+  wind.position = Vec3(0.0, -1.0, 1.2);
+  wind.direction = Vec3::UnitY();
+  wind.half_angle = 0.2;
+  wind.pressure = 20.0;
+  scene.wind.push_back(wind);
+  Simulator simulator(scene);
+  run(simulator, 30);
+  double worst = 0.0;
+  for (int i = 0; i < 20; ++i) {
+    for (int j = 0; j < 15; ++j) {
+      const Vec3 here = simulator.position({i, j});
+      const Vec3 there = simulator.position({i, 14 - j});
+      worst = std::max(worst, (here - Vec3(-there.x(), there.y(), there.z())).norm());
+    }
+  }
+  EXPECT_LT(worst, 1e-12);
+  EXPECT_GT(simulator.position({19, 7}).y(), 0.05);
+}
+
+struct PinCase {
+  const char* name;
+  PinKind kind;
+  bool closed;
+  std::vector<NodeIndex> nodes;
+};
+
+class Pinning : public ::testing::TestWithParam<PinCase> {};
+
+// However it is pinned: links within the tolerance at every frame's end, pins where they were, nothing blows up.
+TEST_P(Pinning, HoldsItsLinksInWind) {
+  const PinCase& pins = GetParam();
+  Scene scene = sceneOf(16, 16);
+  scene.cloth.height = 1.0;
+  scene.cloth.closed = pins.closed;
+  scene.pins.kind = pins.kind;
+  scene.pins.nodes = pins.nodes;
+  scene.hang.to = Vec3(0.9, 0.0, 2.2);
+  scene.air.inside = scene.air.border = scene.air.corner = 0.3;
+  WindParams wind;
+  wind.id = "gusty";
+  wind.position = Vec3(0.3, -2.0, 1.7);
+  wind.direction = Vec3(0.2, 1.0, 0.1);
+  wind.radius = 3.0;
+  wind.pressure = 30.0;
+  wind.unsteadiness = 10.0;
+  scene.wind.push_back(wind);
+  Simulator simulator(scene);
+  std::vector<Vec3> start, end;
+  simulator.copyPositions(start);
+  run(simulator, 300);
+  simulator.copyPositions(end);
+  const Statistics& s = simulator.statistics();
+  EXPECT_TRUE(s.finite);
+  EXPECT_LE(s.warp_stretch_max, 1e-3);
+  EXPECT_LE(s.warp_compression_max, 1e-3);
+  EXPECT_LE(s.weft_stretch_max, 1e-3);
+  EXPECT_EQ(s.unsettled, 0);
+  int pinned = 0;
+  for (int i = 0; i < 16; ++i) {
+    for (int j = 0; j < 16; ++j) {
+      const auto n = static_cast<std::size_t>(i * 16 + j);
+      if (!simulator.pinned({i, j})) continue;
+      ++pinned;
+      EXPECT_EQ(start[n], end[n]);
+    }
+  }
+  EXPECT_EQ(pinned == 0, pins.kind == PinKind::kNone);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Everyway, Pinning,
+    ::testing::Values(PinCase{"Top", PinKind::kTop, false, {}}, PinCase{"Left", PinKind::kLeft, false, {}},
+                      PinCase{"TwoCorners", PinKind::kTopCorners, false, {}}, PinCase{"None", PinKind::kNone, false, {}},
+                      PinCase{"Listed", PinKind::kList, false, {{0, 0}, {0, 7}, {8, 15}}},
+                      PinCase{"OneNode", PinKind::kList, false, {{5, 5}}},
+                      PinCase{"ClosedTop", PinKind::kTop, true, {}}, PinCase{"ClosedNone", PinKind::kNone, true, {}},
+                      PinCase{"ClosedListed", PinKind::kList, true, {{0, 0}, {0, 8}}}),
+    [](const auto& test) { return test.param.name; });
+
+// The least-step safety net: at one substep a frame the leapfrog solve of a tall cloth fails, is done again with smaller
+// steps, and is counted.
+TEST(Simulator, ASubstepThatFailsIsDoneAgainSmaller) {
+  Scene scene = readSceneFile(std::string(CURTAIN_SOURCE_DIR) + "/test/scenes/swing.yaml").scene;
+  scene.cloth.rows = 100;
+  scene.cloth.columns = 3;
+  scene.solver.substeps = 1;
+  Simulator simulator(scene);
+  run(simulator, 60);
+  EXPECT_GT(simulator.statistics().rejected, 0);
+  EXPECT_TRUE(simulator.statistics().finite);
+  EXPECT_LE(simulator.statistics().warp_stretch_max, 1e-3);
+}
+
+// The implicit scheme is stable at any step: 200 rows at one substep a frame (dt * omega about 9) only lose energy.
+TEST(Simulator, ImplicitIsStableFarBeyondTheLeapfrogLimit) {
+  Scene scene = readSceneFile(std::string(CURTAIN_SOURCE_DIR) + "/test/scenes/swing.yaml").scene;
+  scene.cloth.rows = 200;
+  scene.cloth.columns = 3;
+  scene.solver.method = Method::kImplicit;
+  scene.solver.substeps = 1;
+  Simulator simulator(scene);
+  double last = simulator.energy().potential;
+  for (int frame = 0; frame < 300; ++frame) {
+    simulator.step();
+    const Energy energy = simulator.energy();
+    // It may waver by the tolerance's share of the potential energy, no more.
+    ASSERT_LT(energy.kinetic + energy.potential, last + 1e-3 * 0.4 * 9.81 * 2.0) << "frame " << frame;
+    last = energy.kinetic + energy.potential;
+  }
+}
+
+// At the cap of substeps, auto goes over to the implicit scheme rather than on with a step too large.
+TEST(Simulator, AutoFallsBackToImplicitAtTheCap) {
+  Scene scene = readSceneFile(std::string(CURTAIN_SOURCE_DIR) + "/test/scenes/swing.yaml").scene;
+  scene.cloth.rows = 200;
+  scene.cloth.columns = 3;
+  scene.solver.max_substeps = 4;
+  Simulator simulator(scene);
+  run(simulator, 60);
+  EXPECT_GT(simulator.statistics().implicit, 200);
+  EXPECT_TRUE(simulator.statistics().finite);
+  EXPECT_LE(simulator.statistics().warp_stretch_max, 1e-3);
+}
+
+}  // namespace
+}  // namespace curtain
