@@ -123,7 +123,7 @@ double Simulator::Impl::makeSubstep(double done) {
     statistics.finite = false;  // not even finite: the state stays as it was, and this says so
     return plan.h;
   }
-  control.accepted(plan, outcome.omega_squared);
+  control.accepted(plan, outcome);
   contact_scale = outcome.scale;
   ++statistics.substeps;
   ++statistics.substeps_last;

@@ -20,7 +20,7 @@ constexpr int kNewtonIterations = 12;
 // A relative violation beyond this is a step that failed, not one that converges slowly.
 constexpr double kDiverged = 4.0;
 // Sweeps that must at least bring this improvement, or the alternation has stalled.
-constexpr int kStallWindow = 8;
+constexpr int kStallWindow = 16;
 constexpr double kStallFactor = 0.9;
 // Alternations of the linear velocity projection; each gains about cos^2 of the angle between warp and weft.
 constexpr int kVelocitySweeps = 6;

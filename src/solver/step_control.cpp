@@ -50,6 +50,7 @@ StepControl::StepControl(const SolverParams& params, const ClothPattern& pattern
 void StepControl::reset() noexcept {
   omega_ = initial_omega_;
   limit_ = frame_;
+  implicit_step_ = frame_ / max_substeps_;
   good_ = 0;
 }
 
@@ -63,21 +64,27 @@ StepControl::Plan StepControl::next(double remaining) const noexcept {
     if (for_phase < smallest && method_ == Method::kAuto) plan.scheme = Scheme::kImplicit;
     wanted = std::clamp(for_phase, smallest, frame_);
   }
-  // Rejections have come down to the cap: where smaller steps don't help the implicit scheme takes over for a while, at
-  // steps that bound the work; elsewhere the smallest step is taken as it comes out.
+  // Rejections have come down to the cap: the implicit scheme takes over for a while; with a method that is fixed the
+  // smallest step is taken as it comes out.
   const bool at_floor = limit_ <= smallest;
   if (at_floor && method_ == Method::kAuto) plan.scheme = Scheme::kImplicit;
   plan.must_accept = plan.scheme == Scheme::kImplicit || at_floor || method_ == Method::kPaper;
   double step = std::min(wanted, std::max(limit_, smallest));
-  if (plan.scheme == Scheme::kImplicit && method_ == Method::kAuto) step = std::max(smallest, frame_ / kImplicitSubsteps);
+  if (plan.scheme == Scheme::kImplicit && method_ == Method::kAuto) step = implicit_step_;
   // Equal shares of what is left; the small slack keeps rounding from adding a substep.
   plan.h = remaining / std::max(1.0, std::ceil(remaining / step - 1e-6));
   return plan;
 }
 
-void StepControl::accepted(const Plan& plan, double omega_squared) noexcept {
-  (void)plan;
-  omega_ = std::sqrt(omega_squared);
+void StepControl::accepted(const Plan& plan, const SubstepOutcome& outcome) noexcept {
+  omega_ = std::sqrt(outcome.omega_squared);
+  if (plan.scheme == Scheme::kImplicit) {
+    // Where not even that settles (cloth jammed between what can't give way) small steps are wasted: larger ones bound
+    // the work of a frame.
+    const double smallest = frame_ / max_substeps_;
+    const double largest = std::max(smallest, frame_ / kImplicitSubsteps);
+    implicit_step_ = outcome.settled ? std::max(smallest, 0.5 * implicit_step_) : std::min(largest, 2.0 * implicit_step_);
+  }
   if (limit_ < frame_ && ++good_ >= kGoodToGrow) {
     limit_ = std::min(frame_, limit_ * kGrowth);
     good_ = 0;

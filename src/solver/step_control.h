@@ -22,7 +22,7 @@ class StepControl {
   };
   /// remaining: what is left of the frame [s], > 0.
   Plan next(double remaining) const noexcept;
-  void accepted(const Plan& plan, double omega_squared) noexcept;
+  void accepted(const Plan& plan, const SubstepOutcome& outcome) noexcept;
   void rejected(const Plan& plan) noexcept;
 
  private:
@@ -33,6 +33,7 @@ class StepControl {
   double initial_omega_;  // of the cloth hanging by its own weight [1/s]
   double omega_;          // from the last tensions [1/s]
   double limit_;          // largest step that the rejections leave [s]
+  double implicit_step_;  // of the implicit scheme as auto's fall-back [s]
   int good_ = 0;          // accepted substeps since the limit last changed
 };
 
