@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Floor 6: the node program.
+#include "ros/curtain_node.h"
+
 #include <ros/console.h>
 #include <ros/init.h>
 #include <ros/spinner.h>
-
-#include "ros/curtain_node.h"
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "curtain_node");

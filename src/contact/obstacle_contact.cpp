@@ -8,6 +8,9 @@ namespace {
 
 // Planes kept per node of the grid: a node may touch so many obstacles at once all over the cloth.
 constexpr std::size_t kPerNode = 4;
+// A node that is inside when the substep starts (an obstacle appeared there or jumped) is brought out at this speed
+// [m/s], not at once: the way out must not become a blow.
+constexpr double kRecoverySpeed = 2.0;
 
 // Box around the way of all free nodes.
 Eigen::AlignedBox3d sweptBox(const ClothPattern& pattern, const Field3& start, const Field3& predicted) {
@@ -71,6 +74,10 @@ void ObstacleContact::collect(const ClothPattern& pattern, const Field3& start, 
       plane.obstacle = obstacle;
       plane.normal = moving.after.rotation * surface.normal;
       plane.offset = plane.normal.dot(to) - surface.distance + thickness_;
+      SurfacePoint before;
+      if (moving.shape->query(local_from, local_from, 0.0, before) && before.distance < 0.0) {
+        plane.offset -= std::max(0.0, thickness_ - before.distance - kRecoverySpeed * h);
+      }
       plane.carried = moving.after.toWorld(local_from);
       plane.surface_velocity = (plane.carried - from) / h;
       plane.friction = moving.friction;

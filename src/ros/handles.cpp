@@ -77,8 +77,9 @@ Handles::Handles(ros::NodeHandle private_node, const NodeParams& params, const c
   for (const int column : handleColumns(simulator.scene().cloth)) {
     const Handle handle{"handle_" + std::to_string(column), {simulator.rows() - 1, column}};
     handles_.push_back(handle);
-    server_.insert(makeHandle(params.world_frame, handle.name, simulator.position(handle.node)),
-                   [this, handle](const InteractiveMarkerFeedback::ConstPtr& feedback) { onFeedback(handle, *feedback); });
+    server_.insert(
+        makeHandle(params.world_frame, handle.name, simulator.position(handle.node)),
+        [this, handle](const InteractiveMarkerFeedback::ConstPtr& feedback) { onFeedback(handle, *feedback); });
   }
   server_.applyChanges();
   update_watch_ = private_node.advertise<visualization_msgs::InteractiveMarkerUpdate>("handles/update", 100);

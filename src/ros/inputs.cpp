@@ -102,8 +102,8 @@ bool Inputs::findFrame(const char* topic, const std::string& id, const std::stri
   if (lookup.may_come) return false;
   ++untransformed_;
   ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "dropped a message on " << topic << ", id '" << id << "': header.frame_id: '"
-                                                               << frame << "' is not known in '" << frames_.world()
-                                                               << "': " << lookup.error);
+                                                                << frame << "' is not known in '" << frames_.world()
+                                                                << "': " << lookup.error);
   return false;
 }
 

@@ -26,8 +26,7 @@ class NodeClock {
   ros::Time stampOf(std::int64_t time) const {
     if (simulated_) return ros::Time().fromNSec(static_cast<std::uint64_t>(time));
     const std::int64_t ago = now() - time;
-    return ros::Time().fromNSec(
-        static_cast<std::uint64_t>(static_cast<std::int64_t>(ros::Time::now().toNSec()) - ago));
+    return ros::Time().fromNSec(static_cast<std::uint64_t>(static_cast<std::int64_t>(ros::Time::now().toNSec()) - ago));
   }
 
  private:

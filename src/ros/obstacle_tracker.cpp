@@ -65,12 +65,12 @@ void ObstacleTracker::follow(Tracked& obstacle, curtain::Simulator& simulator, c
   if (frame.may_come) return;  // the listener has just begun: too early to complain
   if (frame.known) {
     ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "obstacle '" << obstacle.name << "' left out: its frame '" << obstacle.frame
-                                                      << "' is " << age << " s old (~obstacle_timeout is " << timeout_
-                                                      << " s)");
+                                                       << "' is " << age << " s old (~obstacle_timeout is " << timeout_
+                                                       << " s)");
   } else {
     ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "obstacle '" << obstacle.name << "' left out: its frame '" << obstacle.frame
-                                                      << "' is not known in '" << frames_.world()
-                                                      << "': " << frame.error);
+                                                       << "' is not known in '" << frames_.world()
+                                                       << "': " << frame.error);
   }
 }
 

@@ -42,8 +42,8 @@ class Outputs {
   /// Publishes a frame.
   ///   statistics  the node's own fields are filled in; the engine's and the counters of what was sent are added here
   ///   latest      false: another frame follows at once, so that pictures of this one are not worth building
-  void publish(const curtain::Simulator& simulator, const ros::Time& stamp,
-               const curtain_sim::Statistics& statistics, bool latest);
+  void publish(const curtain::Simulator& simulator, const ros::Time& stamp, const curtain_sim::Statistics& statistics,
+               bool latest);
 
  private:
   void publishState(const curtain::Simulator& simulator, const ros::Time& stamp,

@@ -104,8 +104,9 @@ void readSceneTree(const XmlRpcValue& tree, const std::string& name, ParameterRe
   // would silently stand still.
   for (curtain::ObstacleParams& obstacle : scene.scene.obstacles) {
     if (!obstacle.motion.empty() && obstacle.frame == reading.node.world_frame) {
-      reading.warnings.push_back(name + ": obstacle '" + obstacle.name +
-                                 "': motion is for curtain_batch and not used here; give the obstacle a frame to move it");
+      reading.warnings.push_back(
+          name + ": obstacle '" + obstacle.name +
+          "': motion is for curtain_batch and not used here; give the obstacle a frame to move it");
     }
     obstacle.motion.clear();
   }
@@ -141,8 +142,9 @@ ParameterReading readParameters(const XmlRpcValue& tree, const std::string& priv
   }
   const std::string scene_name = private_space + "/" + kScene;
   if (scene == nullptr) {
-    reading.problems.push_back(scene_name + ": missing; load a scene file there: <rosparam command=\"load\" ns=\"scene\" "
-                                            "file=\"…\"/>");
+    reading.problems.push_back(scene_name +
+                               ": missing; load a scene file there: <rosparam command=\"load\" ns=\"scene\" "
+                               "file=\"…\"/>");
   } else if (scene->getType() != XmlRpcValue::TypeStruct) {
     reading.problems.push_back(scene_name + ": must be a dictionary, is " + describeValue(*scene));
   } else {

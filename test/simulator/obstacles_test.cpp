@@ -32,6 +32,10 @@ Scene curtainAnd(const ObstacleParams& obstacle) {
   return scene;
 }
 
+// Links may cut a sharp edge (only nodes touch), and a node just beyond it is then pulled into its face; with more
+// friction than this it can lock there, whatever the edge does next.
+constexpr double kEdgeFriction = 0.1;
+
 ObstacleParams obstacleOf(ShapeKind shape) {
   ObstacleParams obstacle;
   obstacle.name = "obstacle";
@@ -42,8 +46,11 @@ ObstacleParams obstacleOf(ShapeKind shape) {
       break;
     case ShapeKind::kBox:
       obstacle.size = Vec3(0.4, 0.3, 0.5);
+      obstacle.friction = kEdgeFriction;
       break;
     case ShapeKind::kCylinder:
+      obstacle.friction = kEdgeFriction;
+      [[fallthrough]];
     case ShapeKind::kCapsule:
       obstacle.radius = 0.15;
       obstacle.length = 0.4;
