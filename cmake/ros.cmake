@@ -6,7 +6,7 @@ generate_messages(DEPENDENCIES std_msgs geometry_msgs)
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES curtain_engine
-  CATKIN_DEPENDS roscpp message_runtime std_msgs geometry_msgs visualization_msgs)
+  CATKIN_DEPENDS roscpp message_runtime nodelet std_msgs geometry_msgs visualization_msgs)
 
 file(GLOB CURTAIN_ROS_SOURCES CONFIGURE_DEPENDS src/ros/*.cpp)
 add_library(curtain_ros ${CURTAIN_ROS_SOURCES})

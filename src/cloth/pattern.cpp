@@ -38,6 +38,9 @@ void fillRestLengths(const ClothParams& cloth, ClothPattern& pattern) {
     for (int j = 1; j < grid.columns; ++j) pattern.weft_rest[grid.index(i, j)] = links[static_cast<std::size_t>(j - 1)];
     if (grid.closed) pattern.weft_rest[grid.index(i, 0)] = links.back();
   }
+  for (std::size_t n = 0; n < grid.size(); ++n) {
+    pattern.weft_per_square[n] = 1.0 / (pattern.weft_rest[n] * pattern.weft_rest[n]);
+  }
   pattern.weft_coordinate.assign(static_cast<std::size_t>(grid.columns), 0.0);
   for (int j = 1; j < grid.columns; ++j) {
     const auto column = static_cast<std::size_t>(j);
@@ -105,6 +108,7 @@ ClothPattern makePattern(const Scene& scene) {
   const std::size_t size = pattern.grid.size();
   pattern.warp_rest.assign(size, 1.0);
   pattern.weft_rest.assign(size, 1.0);
+  pattern.weft_per_square.assign(size, 1.0);
   pattern.area.assign(size, 0.0);
   pattern.mass.assign(size, 0.0);
   pattern.inverse_mass.assign(size, 0.0);

@@ -17,6 +17,8 @@ constexpr double kNewtonStop = 1e-4;
 // In later sweeps the next one looks again, so a start this close is left at that.
 constexpr double kNewtonStopLater = 1e-2;
 constexpr int kNewtonIterations = 12;
+// Share of the tolerance below which a block of columns is not solved again in a later sweep.
+constexpr double kLeaveAlone = 0.1;
 // A relative violation beyond this is a step that failed, not one that converges slowly.
 constexpr double kDiverged = 4.0;
 // Sweeps that must at least bring this improvement, or the alternation has stalled.
@@ -111,19 +113,35 @@ void ExactSolver::warmStart(Scheme scheme, double scale, const LineSolve& warp, 
   WeftSolver::applyMultipliers(weft);
 }
 
-// Newton on all columns until an iteration starts with a residual of at most stop.
-ExactSolver::WarpProgress ExactSolver::solveWarp(Scheme scheme, const LineSolve& warp, double stop) noexcept {
-  WarpProgress progress;
+// Newton on one block of columns until an iteration starts with a residual of at most stop.
+bool ExactSolver::solveBlock(Scheme scheme, const LineSolve& warp, int block, double stop, WarpProgress& progress) noexcept {
   for (int iteration = 0; iteration < kNewtonIterations; ++iteration) {
-    if (scheme == Scheme::kImplicit) setWarpDirections(pattern_.grid, next_, warp_.direction);
-    const LineOutcome outcome = warpNewton(warp, scratch_);
-    if (iteration == 0) progress.first_residual = outcome.residual;
-    progress.last_residual = outcome.residual;
-    if (!outcome.sound || !(outcome.residual < kDiverged)) return progress;
+    if (scheme == Scheme::kImplicit) setWarpDirections(pattern_.grid, block, next_, warp_.direction);
+    const LineOutcome outcome = warpNewton(warp, scratch_, block);
+    if (iteration == 0) progress.first_residual = std::max(progress.first_residual, outcome.residual);
+    if (!outcome.sound || !(outcome.residual < kDiverged)) return false;
     if (outcome.residual <= stop) {
-      progress.converged = true;
-      return progress;
+      progress.last_residual = std::max(progress.last_residual, outcome.residual);
+      return true;
     }
+  }
+  return false;
+}
+
+// All blocks; in sweeps after the first, those whose rods are in order are left alone.
+ExactSolver::WarpProgress ExactSolver::solveWarp(Scheme scheme, const LineSolve& warp, bool first_sweep) noexcept {
+  WarpProgress progress;
+  progress.converged = true;
+  const double stop = first_sweep ? kNewtonStop : kNewtonStopLater;
+  for (int block = 0; block < warpBlockCount(pattern_.grid); ++block) {
+    if (!first_sweep) {
+      const double residual = warpResidual(warp, block);
+      if (residual <= kLeaveAlone * tolerance_) {
+        progress.first_residual = std::max(progress.first_residual, residual);
+        continue;
+      }
+    }
+    if (!solveBlock(scheme, warp, block, stop, progress)) progress.converged = false;
   }
   return progress;
 }
@@ -136,7 +154,7 @@ ExactSolver::Progress ExactSolver::solveConstraints(Scheme scheme, bool must_acc
   double window_residual = std::numeric_limits<double>::infinity();
   bool rest_solved = false;
   while (progress.sweeps < max_sweeps_) {
-    const WarpProgress rods = solveWarp(scheme, warp, progress.sweeps == 0 ? kNewtonStop : kNewtonStopLater);
+    const WarpProgress rods = solveWarp(scheme, warp, progress.sweeps == 0);
     clock.lap(Stage::kWarp);
     if (!rods.converged && !must_accept) {
       progress.sound = false;
@@ -255,13 +273,13 @@ void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& f
   std::copy(last_weft_.begin(), last_weft_.end(), weft_.multiplier.begin());  // which links pull
   const LineSolve warp{pattern_, pattern_.inverse_mass, warp_, out};
   const LineSolve weft{pattern_, pattern_.inverse_mass, weft_, out};
-  for (int sweep = 0; sweep < kVelocitySweeps; ++sweep) {
+  bool last = false;
+  for (int sweep = 0; sweep < kVelocitySweeps && !last; ++sweep) {
     if (weft_solver_.projectVelocity(weft).residual == 0.0 && constraints == nullptr) {
-      warpProjectVelocity(warp, scratch_);
-      return;
+      last = true;
     }
     if (constraints != nullptr) constraints->projectVelocity(out);
-    warpProjectVelocity(warp, scratch_);
+    for (int block = 0; block < warpBlockCount(pattern_.grid); ++block) warpProjectVelocity(warp, scratch_, block);
   }
 }
 

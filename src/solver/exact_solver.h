@@ -51,7 +51,8 @@ class ExactSolver {
     double first_residual = 0.0;  // before the first iteration
     double last_residual = 0.0;   // before the last one
   };
-  WarpProgress solveWarp(Scheme scheme, const LineSolve& warp, double stop) noexcept;
+  bool solveBlock(Scheme scheme, const LineSolve& warp, int block, double stop, WarpProgress& progress) noexcept;
+  WarpProgress solveWarp(Scheme scheme, const LineSolve& warp, bool first_sweep) noexcept;
   double omegaSquared(double scale) const noexcept;
   void commit(double h, double velocity_age, ClothState& state) noexcept;
 

@@ -36,29 +36,27 @@ struct VelocityLevel {
   static double gradient(double, double d) { return d; }
 };
 
-// Forward elimination of row i of the columns' tridiagonal systems
+// Forward elimination of row i of a block of columns, from offset first on, of the tridiagonal systems
 //   -w_a (g.d_above) s_(i-1) + (w_a + w_b)(g.d) s_i - w_b (g.d_below) s_(i+1) = C,   g = gradient of C.
 template <typename Level>
-void eliminateRow(const LineSolve& line, LineScratch& scratch, int i, double& residual, double& unsound) {
+void eliminateRow(const LineSolve& line, LineScratch& scratch, std::size_t first, double& residual, double& unsound) {
   const ClothPattern& pattern = line.pattern;
-  const Grid& grid = pattern.grid;
-  const auto stride = static_cast<std::size_t>(grid.stride);
-  const std::size_t here = grid.row(i);
-  const std::size_t above = here - stride;
-  const ConstView va(line.value, above), vb(line.value, here);
-  const ConstView d_above(line.links.direction, above), d(line.links.direction, here);
-  const ConstView d_below(line.links.direction, here + stride);
+  const auto stride = static_cast<std::size_t>(pattern.grid.stride);
+  const std::size_t above = first - stride;
+  const ConstView va(line.value, above), vb(line.value, first);
+  const ConstView d_above(line.links.direction, above), d(line.links.direction, first);
+  const ConstView d_below(line.links.direction, first + stride);
   const double* const wa = line.inverse_inertia.data() + above;
-  const double* const wb = line.inverse_inertia.data() + here;
-  const double* const rest = pattern.warp_rest.data() + here;
+  const double* const wb = line.inverse_inertia.data() + first;
+  const double* const rest = pattern.warp_rest.data() + first;
   const double* const e_above = scratch.elimination.data() + above;
   const double* const s_above = scratch.solution.data() + above;
-  double* const e = scratch.elimination.data() + here;
-  double* const s = scratch.solution.data() + here;
+  double* const e = scratch.elimination.data() + first;
+  double* const s = scratch.solution.data() + first;
   double worst = residual;
   double bad = unsound;
 #pragma omp simd reduction(max : worst, bad)
-  for (std::size_t j = 0; j < stride; ++j) {
+  for (int j = 0; j < kLane; ++j) {
     const double rx = vb.x[j] - va.x[j], ry = vb.y[j] - va.y[j], rz = vb.z[j] - va.z[j];
     const double rest_squared = rest[j] * rest[j];
     const double c = Level::violation(rx, ry, rz, d.x[j], d.y[j], d.z[j], rest_squared);
@@ -81,20 +79,18 @@ void eliminateRow(const LineSolve& line, LineScratch& scratch, int i, double& re
   unsound = bad;
 }
 
-// Back substitution of row i, and the move of its nodes.
-void substituteRow(const LineSolve& line, LineScratch& scratch, int i) {
-  const Grid& grid = line.pattern.grid;
-  const auto stride = static_cast<std::size_t>(grid.stride);
-  const std::size_t here = grid.row(i);
-  const View v(line.value, here);
-  const ConstView d(line.links.direction, here), d_below(line.links.direction, here + stride);
-  const double* const w = line.inverse_inertia.data() + here;
-  const double* const e = scratch.elimination.data() + here;
-  double* const s = scratch.solution.data() + here;
+// Back substitution of the same row, and the move of its nodes.
+void substituteRow(const LineSolve& line, LineScratch& scratch, std::size_t first) {
+  const auto stride = static_cast<std::size_t>(line.pattern.grid.stride);
+  const View v(line.value, first);
+  const ConstView d(line.links.direction, first), d_below(line.links.direction, first + stride);
+  const double* const w = line.inverse_inertia.data() + first;
+  const double* const e = scratch.elimination.data() + first;
+  double* const s = scratch.solution.data() + first;
   const double* const s_below = s + stride;
-  double* const multiplier = line.links.multiplier.data() + here;
+  double* const multiplier = line.links.multiplier.data() + first;
 #pragma omp simd
-  for (std::size_t j = 0; j < stride; ++j) {
+  for (int j = 0; j < kLane; ++j) {
     const double change = s[j] - e[j] * s_below[j];
     s[j] = change;
     multiplier[j] += change;
@@ -104,13 +100,16 @@ void substituteRow(const LineSolve& line, LineScratch& scratch, int i) {
   }
 }
 
-// Row 0 of the scratch and the row after the last one are zero and stay so: no rod above, none below.
+// One Newton iteration on a block of columns. Row 0 of the scratch and the row after the last one are zero and stay so:
+// no rod above, none below.
 template <typename Level>
-LineOutcome newton(const LineSolve& line, LineScratch& scratch) {
+LineOutcome newton(const LineSolve& line, LineScratch& scratch, int block) {
+  const Grid& grid = line.pattern.grid;
+  const auto offset = static_cast<std::size_t>(block) * kLane;
   LineOutcome outcome;
   double unsound = 0.0;
-  for (int i = 1; i < line.pattern.grid.rows; ++i) eliminateRow<Level>(line, scratch, i, outcome.residual, unsound);
-  for (int i = line.pattern.grid.rows - 1; i >= 0; --i) substituteRow(line, scratch, i);
+  for (int i = 1; i < grid.rows; ++i) eliminateRow<Level>(line, scratch, grid.row(i) + offset, outcome.residual, unsound);
+  for (int i = grid.rows - 1; i >= 0; --i) substituteRow(line, scratch, grid.row(i) + offset);
   outcome.sound = unsound == 0.0;
   return outcome;
 }
@@ -118,17 +117,22 @@ LineOutcome newton(const LineSolve& line, LineScratch& scratch) {
 }  // namespace
 
 void setWarpDirections(const Grid& grid, const Field3& position, Field3& direction) noexcept {
+  for (int block = 0; block < warpBlockCount(grid); ++block) setWarpDirections(grid, block, position, direction);
+}
+
+void setWarpDirections(const Grid& grid, int block, const Field3& position, Field3& direction) noexcept {
   const auto stride = static_cast<std::size_t>(grid.stride);
-  const std::size_t size = grid.size();
-  const auto difference = [stride, size](const Field& from, Field& to) {
-    const double* const p = from.data();
-    double* const out = to.data();
+  for (int i = 1; i < grid.rows; ++i) {
+    const std::size_t first = grid.row(i) + static_cast<std::size_t>(block) * kLane;
+    const View d(direction, first);
+    const ConstView below(position, first), above(position, first - stride);
 #pragma omp simd
-    for (std::size_t n = stride; n < size; ++n) out[n] = p[n] - p[n - stride];
-  };
-  difference(position.x, direction.x);
-  difference(position.y, direction.y);
-  difference(position.z, direction.z);
+    for (int j = 0; j < kLane; ++j) {
+      d.x[j] = below.x[j] - above.x[j];
+      d.y[j] = below.y[j] - above.y[j];
+      d.z[j] = below.z[j] - above.z[j];
+    }
+  }
 }
 
 void applyWarpMultipliers(const LineSolve& line) noexcept {
@@ -147,12 +151,34 @@ void applyWarpMultipliers(const LineSolve& line) noexcept {
   apply(line.links.direction.z, line.value.z);
 }
 
-LineOutcome warpNewton(const LineSolve& line, LineScratch& scratch) noexcept {
-  return newton<PositionLevel>(line, scratch);
+LineOutcome warpNewton(const LineSolve& line, LineScratch& scratch, int block) noexcept {
+  return newton<PositionLevel>(line, scratch, block);
 }
 
-LineOutcome warpProjectVelocity(const LineSolve& line, LineScratch& scratch) noexcept {
-  return newton<VelocityLevel>(line, scratch);
+LineOutcome warpProjectVelocity(const LineSolve& line, LineScratch& scratch, int block) noexcept {
+  return newton<VelocityLevel>(line, scratch, block);
+}
+
+double warpResidual(const LineSolve& line, int block) noexcept {
+  const Grid& grid = line.pattern.grid;
+  const auto stride = static_cast<std::size_t>(grid.stride);
+  double worst = 0.0;
+  for (int i = 1; i < grid.rows; ++i) {
+    const std::size_t first = grid.row(i) + static_cast<std::size_t>(block) * kLane;
+    const ConstView above(line.value, first - stride), below(line.value, first);
+    const double* const wa = line.inverse_inertia.data() + first - stride;
+    const double* const wb = line.inverse_inertia.data() + first;
+    const double* const rest = line.pattern.warp_rest.data() + first;
+#pragma omp simd reduction(max : worst)
+    for (int j = 0; j < kLane; ++j) {
+      const double rx = below.x[j] - above.x[j], ry = below.y[j] - above.y[j], rz = below.z[j] - above.z[j];
+      const double rest_squared = rest[j] * rest[j];
+      const double relative = 0.5 * std::abs(rx * rx + ry * ry + rz * rz - rest_squared) / rest_squared;
+      const double counted = wa[j] + wb[j] > 0.0 ? relative : 0.0;
+      worst = worst > counted ? worst : counted;
+    }
+  }
+  return worst;
 }
 
 Stretch warpStretch(const ClothPattern& pattern, const Field3& position) noexcept {

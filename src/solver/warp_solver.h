@@ -1,24 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The warp: two-sided constraints |x_ij - x_(i-1)j| = l. A column's rods couple neighbours only, so a Newton iteration
-// is one tridiagonal solve per column; all columns are swept side by side, row by row.
+// is one tridiagonal solve per column. The columns of a block (a cache line wide) are swept side by side, row by row;
+// blocks know nothing of each other.
 #pragma once
 
 #include "solver/links.h"
 
 namespace curtain {
 
-/// Directions of the rods at the given positions.
+/// Blocks of kLane columns that a row holds, padding included.
+inline int warpBlockCount(const Grid& grid) { return grid.stride / kLane; }
+
+/// Directions of the rods at the given positions: of all, or of one block of columns.
 void setWarpDirections(const Grid& grid, const Field3& position, Field3& direction) noexcept;
+void setWarpDirections(const Grid& grid, int block, const Field3& position, Field3& direction) noexcept;
 
 /// Moves the positions by the multipliers there are (warm start).
 void applyWarpMultipliers(const LineSolve& line) noexcept;
 
-/// One Newton iteration on the rods' lengths: moves positions and adds to the multipliers.
-LineOutcome warpNewton(const LineSolve& line, LineScratch& scratch) noexcept;
+/// One Newton iteration on the lengths of a block's rods: moves positions and adds to the multipliers.
+LineOutcome warpNewton(const LineSolve& line, LineScratch& scratch, int block) noexcept;
 
-/// Makes velocities keep the rods' lengths to first order (one linear solve; the links' multipliers are spent on it).
-LineOutcome warpProjectVelocity(const LineSolve& line, LineScratch& scratch) noexcept;
+/// The residual that warpNewton would start from. Changes nothing.
+double warpResidual(const LineSolve& line, int block) noexcept;
+
+/// Makes velocities keep the lengths of a block's rods to first order (one linear solve; the links' multipliers are
+/// spent on it).
+LineOutcome warpProjectVelocity(const LineSolve& line, LineScratch& scratch, int block) noexcept;
 
 /// Largest relative over- and underlength of any rod with a free end.
 struct Stretch {

@@ -16,8 +16,8 @@ Vec3 across(const Field3& value, std::size_t left, std::size_t right) { return v
 double linkViolation(const LineSolve& line, std::size_t left, std::size_t right) {
   const double w = line.inverse_inertia[left] + line.inverse_inertia[right];
   const double s = line.links.multiplier[right];
-  const double rest = line.pattern.weft_rest[right];
-  const double c = 0.5 * (across(line.value, left, right).squaredNorm() / (rest * rest) - 1.0) - kWeftCompliance * w * s;
+  const double c = 0.5 * (across(line.value, left, right).squaredNorm() * line.pattern.weft_per_square[right] - 1.0) -
+                   kWeftCompliance * w * s;
   return w > 0.0 && (c > 0.0 || s > 0.0) ? c : 0.0;
 }
 
@@ -31,14 +31,14 @@ double rowResidual(const LineSolve& line, int i) {
   const double* const z = line.value.z.data() + row;
   const double* const w = line.inverse_inertia.data() + row;
   const double* const s = line.links.multiplier.data() + row;
-  const double* const rest = line.pattern.weft_rest.data() + row;
+  const double* const per_square = line.pattern.weft_per_square.data() + row;
   double worst = 0.0;
 #pragma omp simd reduction(max : worst)
   for (std::size_t j = 1; j < columns; ++j) {
     const double rx = x[j] - x[j - 1], ry = y[j] - y[j - 1], rz = z[j] - z[j - 1];
     const double both = w[j] + w[j - 1];
     const double c =
-        0.5 * ((rx * rx + ry * ry + rz * rz) / (rest[j] * rest[j]) - 1.0) - kWeftCompliance * both * s[j];
+        0.5 * ((rx * rx + ry * ry + rz * rz) * per_square[j] - 1.0) - kWeftCompliance * both * s[j];
     const double held = s[j] > 0.0 ? std::abs(c) : 0.0;  // pulls: both ways
     const double size = c > held ? c : held;             // slack: only when too long
     const double counted = both > 0.0 ? size : 0.0;
@@ -97,12 +97,17 @@ void WeftSolver::listLinks(const Grid& grid, int row) noexcept {
 double WeftSolver::measurePositions(const LineSolve& line) noexcept {
   double worst = 0.0;
   for (std::size_t p = 0; p < links_.size(); ++p) {
-    const Link& link = links_[p];
-    const double violation = linkViolation(line, link.left, link.right);
-    const double rest = line.pattern.weft_rest[link.right];
-    active_[p] = violation != 0.0 || line.links.multiplier[link.right] > 0.0 ? 1.0 : 0.0;
-    system_.rhs[p] = violation * rest * rest;
-    worst = std::max(worst, std::abs(violation));
+    const auto [left, right] = links_[p];
+    const double rest = line.pattern.weft_rest[right];
+    const double rest_squared = rest * rest;
+    const double w = line.inverse_inertia[left] + line.inverse_inertia[right];
+    const double s = line.links.multiplier[right];
+    const double c = 0.5 * (across(line.value, left, right).squaredNorm() - rest_squared) -
+                     kWeftCompliance * w * s * rest_squared;
+    const bool active = w > 0.0 && (c > 0.0 || s > 0.0);
+    active_[p] = active ? 1.0 : 0.0;
+    system_.rhs[p] = active ? c : 0.0;
+    if (active) worst = std::max(worst, std::abs(c) * line.pattern.weft_per_square[right]);
   }
   return worst;
 }

@@ -74,7 +74,7 @@ class ObstaclesTest(unittest.TestCase):
         self.assertGreater(len(markers[0].points), 0)
 
     def test_5_late_frame_keeps_then_leaves(self):
-        """A frame that falls silent keeps its obstacle for the timeout; then it is left out and the curtain comes back."""
+        """A silent frame keeps its obstacle for the timeout; then it is left out and the curtain comes back."""
         self.assertEqual(self.curtain.next().statistics.absent_obstacles, 0)
         self.ball.stop()
         silent_since = rospy.Time.now()

@@ -160,7 +160,8 @@ class RvizHandleTest(unittest.TestCase):
         self.assertEqual(len({m.marker_name for m in updates}), 1, "one handle in the hand")
 
         mouse("mouseup", 1)
-        curtain.wait_for(lambda s: distance(node_position(s, HEM, column), before) < 0.03, "let go, the hem swings back", 30.0)
+        curtain.wait_for(lambda s: distance(node_position(s, HEM, column), before) < 0.03,
+                         "let go, the hem swings back", 30.0)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Where a cloth starts: at rest, its rods exactly as long as they are, on the line or ring that scene.hang gives, turned
+// out of the vertical by its tilt.
+#include <gtest/gtest.h>
+
+#include "testing.h"
+
+namespace curtain {
+namespace {
+
+using curtain_test::flatScene;
+using curtain_test::kEps;
+using curtain_test::kPi;
+using curtain_test::Random;
+using curtain_test::ringScene;
+
+struct Start {
+  explicit Start(const Scene& scene) : pattern(makePattern(scene)), state(makeInitialState(scene, pattern)) {}
+  Vec3 at(int i, int j) const { return state.position.at(pattern.grid.index(i, j)); }
+  ClothPattern pattern;
+  ClothState state;
+};
+
+// Positions are rounded to eps of their size (below 8 m here) at both ends of a link, after at most `rows` additions.
+constexpr double kRounding = 64.0 * 8.0 * kEps;  // [m] 1.1e-13
+
+void expectRodsKeepTheirLength(const Start& start) {
+  const Grid& grid = start.pattern.grid;
+  for (int i = 1; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) {
+      ASSERT_NEAR((start.at(i, j) - start.at(i - 1, j)).norm(), start.pattern.warp_rest[grid.index(i, j)], kRounding)
+          << "rod to " << i << ", " << j;
+    }
+  }
+}
+
+TEST(InitialState, IsAtRest) {
+  const Start start(flatScene(4, 5));
+  EXPECT_EQ(start.state.velocity_age, 0.0);
+  for (const Field* axis : {&start.state.velocity.x, &start.state.velocity.y, &start.state.velocity.z}) {
+    ASSERT_EQ(axis->size(), start.pattern.grid.size());
+    for (const double v : *axis) EXPECT_EQ(v, 0.0);
+  }
+}
+
+TEST(InitialState, FlatSheetHasEveryLinkAtItsRestLength) {
+  Scene scene = flatScene(6, 9, 1.5, 2.0);
+  scene.hang.from = {1.0, -2.0, 3.0};
+  scene.hang.to = scene.hang.from + 2.0 * Vec3(0.6, 0.8, 0.0);
+  scene.hang.tilt = 0.4;
+  scene.cloth.row_spacing = {1.0, 2.0, 1.0, 3.0, 0.5};
+  scene.cloth.column_spacing = {1.0, 2.0, 1.0, 2.0, 1.0, 2.0, 3.0, 4.0};
+  const Start start(scene);
+  expectRodsKeepTheirLength(start);
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 1; j < 9; ++j) {
+      EXPECT_NEAR((start.at(i, j) - start.at(i, j - 1)).norm(), start.pattern.weft_rest[start.pattern.grid.index(i, j)],
+                  kRounding);
+    }
+  }
+  EXPECT_LE((start.at(0, 0) - scene.hang.from).norm(), kRounding);
+  EXPECT_LE((start.at(0, 8) - scene.hang.to).norm(), kRounding);
+}
+
+TEST(InitialState, GatheredSheetLiesEvenlyOnTheLine) {
+  Scene scene = flatScene(5, 11, 1.0, 2.0);
+  scene.hang.to = scene.hang.from + Vec3(1.2, 0.0, 0.0);
+  const Start start(scene);
+  expectRodsKeepTheirLength(start);
+  for (int i = 0; i < 5; ++i) {
+    for (int j = 0; j < 11; ++j) {
+      EXPECT_LE((start.at(i, j) - Vec3(0.12 * j, 0.0, 1.0 - 0.25 * i)).norm(), kRounding) << i << ", " << j;
+    }
+  }
+}
+
+TEST(InitialState, TiltTurnsTheClothTowardsTheLineCrossUp) {
+  Random random(11);
+  for (int trial = 0; trial < 50; ++trial) {
+    Scene scene = flatScene(3, 4, 1.0, 1.0);
+    const double heading = random.between(0.0, 2.0 * kPi);
+    const Vec3 along(std::cos(heading), std::sin(heading), 0.0);
+    scene.hang.to = scene.hang.from + along;
+    scene.hang.tilt = random.between(-kPi, kPi);
+    const Start start(scene);
+    const Vec3 down = start.at(2, 1) - start.at(0, 1);
+    const Vec3 towards = along.cross(Vec3::UnitZ());
+    const Vec3 expected = std::cos(scene.hang.tilt) * -Vec3::UnitZ() + std::sin(scene.hang.tilt) * towards;
+    EXPECT_LE((down - expected).norm(), kRounding) << "tilt " << scene.hang.tilt;
+  }
+  Scene scene = flatScene(3, 4);
+  scene.hang.tilt = 0.5 * kPi;
+  const Start start(scene);
+  EXPECT_LE((start.at(2, 0) - (scene.hang.from + Vec3(0.0, -1.0, 0.0))).norm(), kRounding) << "x cross z is -y";
+}
+
+TEST(InitialState, SlopingAndUprightHungEdgesStillHangAsRodsOfTheirLength) {
+  for (const Vec3& along : {Vec3(0.6, 0.0, 0.8), Vec3(0.0, 0.0, 1.0), Vec3(0.0, 0.0, -1.0)}) {
+    Scene scene = flatScene(4, 5);
+    scene.hang.to = scene.hang.from + along;
+    const Start start(scene);
+    expectRodsKeepTheirLength(start);
+    const Vec3 down = start.at(3, 2) - start.at(0, 2);
+    EXPECT_NEAR(down.dot(along), 0.0, kRounding) << "warp and weft are square to each other";
+  }
+  Scene scene = flatScene(4, 5);
+  scene.hang.to = scene.hang.from + Vec3(0.6, 0.0, 0.8);
+  EXPECT_LT(Start(scene).at(3, 2).z(), Start(scene).at(0, 2).z()) << "and down is down";
+}
+
+TEST(InitialState, TaperedSheetKeepsItsRodsAndNoWeftIsOverlong) {
+  for (const double hem : {0.4, 1.7}) {
+    Scene scene = flatScene(21, 9, 2.0, 1.0);
+    scene.cloth.hem_width = hem;
+    const Start start(scene);
+    expectRodsKeepTheirLength(start);
+    const Grid& grid = start.pattern.grid;
+    for (int i = 0; i < grid.rows; ++i) {
+      // Slanting rods lift the outer columns of narrowing cloth, so a row is no straight line; its span still is the
+      // smaller of the hung line and its own weft.
+      const double row_width = 1.0 + (hem - 1.0) * i / 20.0;
+      EXPECT_NEAR(start.at(i, 8).x() - start.at(i, 0).x(), std::min(1.0, row_width), kRounding);
+      EXPECT_NEAR(0.5 * (start.at(i, 8).x() + start.at(i, 0).x()), 0.5, kRounding) << "symmetric";
+    }
+  }
+}
+
+TEST(InitialState, TooSteepATaperIsRefusedByName) {
+  Scene scene = flatScene(3, 3, 0.2, 4.0);
+  scene.cloth.hem_width = 0.1;
+  const ClothPattern pattern = makePattern(scene);
+  try {
+    makeInitialState(scene, pattern);
+    FAIL() << "rods of 0.1 m cannot bridge 1 m of taper";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("cloth.hem_width"), std::string::npos) << error.what();
+  }
+}
+
+TEST(InitialState, RingHangsAroundItsCentre) {
+  Scene scene = ringScene(4, 12, 0.9, 1.5);
+  const Start start(scene);
+  expectRodsKeepTheirLength(start);
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 12; ++j) {
+      const Vec3 from_centre = start.at(i, j) - scene.hang.from;
+      EXPECT_NEAR(std::hypot(from_centre.x(), from_centre.y()), 1.5 / (2.0 * kPi), kRounding) << "default radius";
+      EXPECT_NEAR(from_centre.z(), -0.3 * i, kRounding);
+    }
+  }
+  EXPECT_NEAR(start.at(0, 3).x(), 0.0, kRounding) << "columns run counter-clockwise as seen from above";
+  EXPECT_GT(start.at(0, 3).y(), 0.0);
+}
+
+TEST(InitialState, RingOfGivenRadiusOpensAsACone) {
+  Scene scene = ringScene(6, 16, 1.0, 0.8);
+  scene.cloth.hem_width = 3.0;
+  scene.hang.radius = 0.1;
+  scene.hang.tilt = 0.3;
+  const Start start(scene);
+  expectRodsKeepTheirLength(start);
+  for (int i = 0; i < 6; ++i) {
+    const double along = 0.2 * i;
+    for (int j = 0; j < 16; ++j) {
+      const Vec3 from_centre = start.at(i, j) - scene.hang.from;
+      EXPECT_NEAR(std::hypot(from_centre.x(), from_centre.y()), 0.1 + along * std::sin(0.3), kRounding);
+      EXPECT_NEAR(from_centre.z(), -along * std::cos(0.3), kRounding);
+      const Vec3 left = start.at(i, (j + 15) % 16);
+      EXPECT_LE((start.at(i, j) - left).norm(), start.pattern.weft_rest[start.pattern.grid.index(i, j)] + kRounding);
+    }
+  }
+}
+
+TEST(InitialState, UnevenRingPutsItsColumnsAtTheirShareOfTheTurn) {
+  Scene scene = ringScene(2, 4, 1.0, 1.0);
+  scene.cloth.column_spacing = {1.0, 2.0, 3.0, 4.0};
+  const Start start(scene);
+  const double shares[] = {0.0, 0.1, 0.3, 0.6};
+  for (int j = 0; j < 4; ++j) {
+    const Vec3 from_centre = start.at(0, j) - scene.hang.from;
+    const double radius = 1.0 / (2.0 * kPi);
+    const Vec3 expected(radius * std::cos(2.0 * kPi * shares[j]), radius * std::sin(2.0 * kPi * shares[j]), 0.0);
+    EXPECT_LE((from_centre - expected).norm(), kRounding);
+  }
+}
+
+}  // namespace
+}  // namespace curtain

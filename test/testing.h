@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Small helpers of the tests: rounding units, scenes to start from, random numbers that are the same everywhere.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+
+#include "cloth/cloth.h"
+
+namespace curtain_test {
+
+constexpr double kEps = std::numeric_limits<double>::epsilon();  // two units of rounding of a number near one
+constexpr double kPi = 3.14159265358979323846;
+
+/// Numbers from the bits of std::mt19937_64, which the standard fixes (its distributions it does not).
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : bits_(seed) {}
+  double between(double low, double high) {
+    return low + (high - low) * (static_cast<double>(bits_() >> 11U) * 0x1.0p-53);
+  }
+  curtain::Vec3 inBox(double half_edge) {
+    const double x = between(-half_edge, half_edge);
+    const double y = between(-half_edge, half_edge);
+    return {x, y, between(-half_edge, half_edge)};
+  }
+  curtain::Vec3 direction() {
+    for (;;) {
+      const curtain::Vec3 v = inBox(1.0);
+      if (v.norm() > 0.1 && v.norm() <= 1.0) return v.normalized();
+    }
+  }
+
+ private:
+  std::mt19937_64 bits_;
+};
+
+/// Flat cloth of width x height [m] in the plane y = 0, its top row from (0, 0, height) along +x.
+inline curtain::Scene flatScene(int rows, int columns, double height = 1.0, double width = 1.0) {
+  curtain::Scene scene;
+  scene.cloth.rows = rows;
+  scene.cloth.columns = columns;
+  scene.cloth.height = height;
+  scene.cloth.width = width;
+  scene.hang.from = {0.0, 0.0, height};
+  scene.hang.to = {width, 0.0, height};
+  return scene;
+}
+
+/// Closed cloth around the vertical through (0, 0, 2).
+inline curtain::Scene ringScene(int rows, int columns, double height = 1.0, double width = 1.0) {
+  curtain::Scene scene = flatScene(rows, columns, height, width);
+  scene.cloth.closed = true;
+  scene.hang.from = {0.0, 0.0, 2.0};
+  return scene;
+}
+
+/// A grid of nodes anywhere in a box.
+inline curtain::Field3 randomPositions(const curtain::Grid& grid, Random& random, double half_edge) {
+  curtain::Field3 position;
+  position.assign(grid.size(), 0.0);
+  for (std::size_t n = 0; n < grid.size(); ++n) position.set(n, random.inBox(half_edge));
+  return position;
+}
+
+}  // namespace curtain_test
