@@ -6,6 +6,7 @@
 namespace curtain {
 namespace {
 
+constexpr double kTinySquared = 1e-300;  // keeps a division by a length from being one by zero; changes no other value
 constexpr double kParallel = 1e-6;  // [rad] half-angles below it are parallel wind: the apex would be 1e6 radii away
 
 std::uint64_t seedOf(std::uint64_t seed, const std::string& id) {
@@ -28,46 +29,84 @@ WindSource::WindSource(const WindParams& wind, const ClothPattern& pattern, doub
   }
 }
 
+inline WindSource::Sample WindSource::sample(double x, double y, double z) const noexcept {
+  const double px = x - wind_.position[0], py = y - wind_.position[1], pz = z - wind_.position[2];
+  const double depth = px * axis_[0] + py * axis_[1] + pz * axis_[2];
+  // B lies where the line AC meets the disc's plane: the part of C across the axis, shrunk towards the apex.
+  const double before = depth >= 0.0 ? depth : 0.0;
+  const double shrink = apex_distance_ > 0.0 ? apex_distance_ / (apex_distance_ + before) : 1.0;
+  const double bx = (px - depth * axis_[0]) * shrink, by = (py - depth * axis_[1]) * shrink,
+               bz = (pz - depth * axis_[2]) * shrink;
+  const double dx = px - bx, dy = py - by, dz = pz - bz;  // d = C - B
+  // Its direction is that of the line AC (on the disc itself d is zero); parallel wind has the axis for a line.
+  const double apart = apex_distance_ > 0.0 ? 1.0 : 0.0;
+  const double reach = apex_distance_ > 0.0 ? apex_distance_ : 1.0;
+  const double lx = apart * px + reach * axis_[0], ly = apart * py + reach * axis_[1], lz = apart * pz + reach * axis_[2];
+  const double per_line = 1.0 / std::sqrt(lx * lx + ly * ly + lz * lz + kTinySquared);
+  const bool reached = (depth >= 0.0) & (bx * bx + by * by + bz * bz <= wind_.radius * wind_.radius);
+  Sample air;
+  air.dx = lx * per_line;
+  air.dy = ly * per_line;
+  air.dz = lz * per_line;
+  air.along = air.dx * axis_[0] + air.dy * axis_[1] + air.dz * axis_[2];
+  const double factor = 1.0 / (wind_.distance_weight * (1.0 + dx * dx + dy * dy + dz * dz));
+  air.distance_factor = reached ? factor : 0.0;
+  return air;
+}
+
 WindAtPoint WindSource::at(const Vec3& point) const noexcept {
+  const Sample here = sample(point.x(), point.y(), point.z());
   WindAtPoint air;
-  const Vec3 from_centre = point - wind_.position;
-  const double depth = from_centre.dot(axis_);
-  if (depth < 0.0) return air;  // behind the disc
-  // Offset of B from the centre, and d = C - B.
-  const Vec3 across = from_centre - depth * axis_;
-  const Vec3 disc_offset = apex_distance_ > 0.0 ? Vec3(across * (apex_distance_ / (apex_distance_ + depth))) : across;
-  if (disc_offset.squaredNorm() > wind_.radius * wind_.radius) return air;
-  const Vec3 d = from_centre - disc_offset;
-  const double distance_squared = d.squaredNorm();
-  // On the disc itself d is zero; its direction is that of the line AC.
-  const Vec3 line = apex_distance_ > 0.0 ? Vec3(from_centre + apex_distance_ * axis_) : axis_;
-  air.direction = line.normalized();
-  air.reached = true;
-  air.along_axis = air.direction.dot(axis_);
-  air.distance_factor = 1.0 / (wind_.distance_weight * (1.0 + distance_squared));
+  air.reached = here.distance_factor > 0.0;
+  if (!air.reached) return air;
+  air.direction = Vec3(here.dx, here.dy, here.dz);
+  air.along_axis = here.along;
+  air.distance_factor = here.distance_factor;
   return air;
 }
 
 void WindSource::addForces(const ClothPattern& pattern, const Field3& position, const Field3& area_vectors,
                            double time, Field3& force) noexcept {
   const Grid& grid = pattern.grid;
-  const bool gusty = wind_.unsteadiness > 0.0;
-  if (gusty) gusts_.setTime(time - wind_.start);
+  const double ax = axis_[0], ay = axis_[1], az = axis_[2];
+  for (int i = 0; i < grid.rows; ++i) {
+    const std::size_t row = grid.row(i);
+    const double* const x = position.x.data() + row;
+    const double* const y = position.y.data() + row;
+    const double* const z = position.z.data() + row;
+    const double* const nx = area_vectors.x.data() + row;
+    const double* const ny = area_vectors.y.data() + row;
+    const double* const nz = area_vectors.z.data() + row;
+    const double* const area = pattern.area.data() + row;
+    double* const fx = force.x.data() + row;
+    double* const fy = force.y.data() + row;
+    double* const fz = force.z.data() + row;
+#pragma omp simd
+    for (int j = 0; j < grid.columns; ++j) {
+      const Sample air = sample(x[j], y[j], z[j]);
+      const double normal_size = std::sqrt(nx[j] * nx[j] + ny[j] * ny[j] + nz[j] * nz[j] + kTinySquared);
+      // The cloth has two sides, so |cos psi|; a node crushed to no area catches no wind.
+      const double cos_psi = std::abs(nx[j] * ax + ny[j] * ay + nz[j] * az) / normal_size;
+      const double centre_force = wind_.pressure * area[j] + wind_.node_force;
+      // Cheng 2000, Eq. (2): (f_w . d) d / |d|^2, with f_w along the axis; then Eq. (3).
+      const double push = porosity_factor_ * centre_force * air.along * cos_psi * air.distance_factor;
+      fx[j] += push * air.dx;
+      fy[j] += push * air.dy;
+      fz[j] += push * air.dz;
+    }
+  }
+  if (wind_.unsteadiness > 0.0) addGusts(pattern, position, time, force);
+}
+
+void WindSource::addGusts(const ClothPattern& pattern, const Field3& position, double time, Field3& force) noexcept {
+  const Grid& grid = pattern.grid;
+  gusts_.setTime(time - wind_.start);
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = 0; j < grid.columns; ++j) {
       const std::size_t node = grid.index(i, j);
-      const WindAtPoint air = at(position.at(node));
-      if (!air.reached) continue;
-      const double share = porosity_factor_ * air.distance_factor;
-      const Vec3 normal = area_vectors.at(node);
-      const double normal_size = normal.norm();
-      // The cloth has two sides, so |cos psi|; a node crushed to no area catches no wind.
-      const double cos_psi = normal_size > 0.0 ? std::abs(normal.dot(axis_)) / normal_size : 0.0;
-      const double centre_force = wind_.pressure * pattern.area[node] + wind_.node_force;
-      // Cheng 2000, Eq. (2): (f_w . d) d / |d|^2, with f_w along the axis; then Eq. (3).
-      Vec3 push = (centre_force * air.along_axis * cos_psi * share) * air.direction;
-      if (gusty) push += (wind_.unsteadiness * pattern.area[node] * share) * gusts_.at(i, j);
-      force.add(node, push);
+      const double factor = sample(position.x[node], position.y[node], position.z[node]).distance_factor;
+      if (factor == 0.0) continue;
+      force.add(node, (wind_.unsteadiness * porosity_factor_ * pattern.area[node] * factor) * gusts_.at(i, j));
     }
   }
 }

@@ -38,6 +38,15 @@ class WindSource {
                  Field3& force) noexcept;
 
  private:
+  // One place, without a branch, so that loops over nodes widen.
+  struct Sample {
+    double dx, dy, dz;  // unit d
+    double along;       // cosine between d and the axis
+    double distance_factor;  // of Eq. (3); 0 where nothing is reached
+  };
+  Sample sample(double x, double y, double z) const noexcept;
+  void addGusts(const ClothPattern& pattern, const Field3& position, double time, Field3& force) noexcept;
+
   WindParams wind_;
   Vec3 axis_;
   Vec3 apex_ = Vec3::Zero();

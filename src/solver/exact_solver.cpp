@@ -164,7 +164,7 @@ ExactSolver::Progress ExactSolver::solveConstraints(Scheme scheme, bool must_acc
     // The rest had just been solved and the rods were still found in order: if this last iteration on them did the
     // weft no harm, all is settled.
     if (rest_solved && rods.converged && rods.first_residual <= tolerance_ &&
-        WeftSolver::residual(weft) <= tolerance_ / kInnerTolerance) {
+        weft_solver_.residual(weft) <= tolerance_ / kInnerTolerance) {
       progress.settled = true;
       return progress;
     }

@@ -12,40 +12,17 @@ constexpr int kRowIterations = 4;        // Newton iterations on one row per swe
 
 Vec3 across(const Field3& value, std::size_t left, std::size_t right) { return value.at(right) - value.at(left); }
 
-// Violation C = (|r|^2 - l^2) / 2 of a link less what its compliance allows, over l^2; a slack link gives 0.
-double linkViolation(const LineSolve& line, std::size_t left, std::size_t right) {
+// Violation C = (|r|^2 - l^2) / 2 of one link, less what its compliance allows, over l^2.
+double violation(const LineSolve& line, std::size_t left, std::size_t right) {
   const double w = line.inverse_inertia[left] + line.inverse_inertia[right];
-  const double s = line.links.multiplier[right];
-  const double c = 0.5 * (across(line.value, left, right).squaredNorm() * line.pattern.weft_per_square[right] - 1.0) -
-                   kWeftCompliance * w * s;
-  return w > 0.0 && (c > 0.0 || s > 0.0) ? c : 0.0;
+  return 0.5 * (across(line.value, left, right).squaredNorm() * line.pattern.weft_per_square[right] - 1.0) -
+         kWeftCompliance * w * line.links.multiplier[right];
 }
 
-// The largest |linkViolation| of a row; the same arithmetic, written so that it widens.
-double rowResidual(const LineSolve& line, int i) {
-  const Grid& grid = line.pattern.grid;
-  const std::size_t row = grid.row(i);
-  const auto columns = static_cast<std::size_t>(grid.columns);
-  const double* const x = line.value.x.data() + row;
-  const double* const y = line.value.y.data() + row;
-  const double* const z = line.value.z.data() + row;
-  const double* const w = line.inverse_inertia.data() + row;
-  const double* const s = line.links.multiplier.data() + row;
-  const double* const per_square = line.pattern.weft_per_square.data() + row;
-  double worst = 0.0;
-#pragma omp simd reduction(max : worst)
-  for (std::size_t j = 1; j < columns; ++j) {
-    const double rx = x[j] - x[j - 1], ry = y[j] - y[j - 1], rz = z[j] - z[j - 1];
-    const double both = w[j] + w[j - 1];
-    const double c =
-        0.5 * ((rx * rx + ry * ry + rz * rz) * per_square[j] - 1.0) - kWeftCompliance * both * s[j];
-    const double held = s[j] > 0.0 ? std::abs(c) : 0.0;  // pulls: both ways
-    const double size = c > held ? c : held;             // slack: only when too long
-    const double counted = both > 0.0 ? size : 0.0;
-    worst = worst > counted ? worst : counted;
-  }
-  if (grid.closed) worst = std::max(worst, std::abs(linkViolation(line, row + columns - 1, row)));
-  return worst;
+// A link takes part when it is too long or still pulls, and has an end that can move.
+bool takesPart(const LineSolve& line, std::size_t left, std::size_t right, double c) {
+  return line.inverse_inertia[left] + line.inverse_inertia[right] > 0.0 &&
+         (c > 0.0 || line.links.multiplier[right] > 0.0);
 }
 
 }  // namespace
@@ -53,6 +30,7 @@ double rowResidual(const LineSolve& line, int i) {
 WeftSolver::WeftSolver(const Grid& grid) : system_(static_cast<std::size_t>(grid.columns)) {
   links_.reserve(static_cast<std::size_t>(grid.columns));
   active_.assign(static_cast<std::size_t>(grid.columns), 0.0);
+  violation_ = active_;
 }
 
 void WeftSolver::setDirections(const Grid& grid, const Field3& position, Field3& direction) noexcept {
@@ -94,34 +72,52 @@ void WeftSolver::listLinks(const Grid& grid, int row) noexcept {
   }
 }
 
-double WeftSolver::measurePositions(const LineSolve& line) noexcept {
+// The links of a row between neighbouring columns are one loop without a branch, so that it widens.
+double WeftSolver::measurePositions(const LineSolve& line, int i) noexcept {
+  const Grid& grid = line.pattern.grid;
+  const std::size_t row = grid.row(i);
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  const double* const x = line.value.x.data() + row;
+  const double* const y = line.value.y.data() + row;
+  const double* const z = line.value.z.data() + row;
+  const double* const w = line.inverse_inertia.data() + row;
+  const double* const s = line.links.multiplier.data() + row;
+  const double* const rest = line.pattern.weft_rest.data() + row;
+  const double* const per_square = line.pattern.weft_per_square.data() + row;
+  double* const c_out = violation_.data();
+  double* const active_out = active_.data();
   double worst = 0.0;
-  for (std::size_t p = 0; p < links_.size(); ++p) {
-    const auto [left, right] = links_[p];
-    const double rest = line.pattern.weft_rest[right];
-    const double rest_squared = rest * rest;
-    const double w = line.inverse_inertia[left] + line.inverse_inertia[right];
-    const double s = line.links.multiplier[right];
-    const double c = 0.5 * (across(line.value, left, right).squaredNorm() - rest_squared) -
-                     kWeftCompliance * w * s * rest_squared;
-    const bool active = w > 0.0 && (c > 0.0 || s > 0.0);
-    active_[p] = active ? 1.0 : 0.0;
-    system_.rhs[p] = active ? c : 0.0;
-    if (active) worst = std::max(worst, std::abs(c) * line.pattern.weft_per_square[right]);
+#pragma omp simd reduction(max : worst)
+  for (std::size_t j = 1; j < columns; ++j) {
+    const double rx = x[j] - x[j - 1], ry = y[j] - y[j - 1], rz = z[j] - z[j - 1];
+    const double both = w[j] + w[j - 1];
+    const double c =
+        0.5 * ((rx * rx + ry * ry + rz * rz) * per_square[j] - 1.0) - kWeftCompliance * both * s[j];
+    const double active = (both > 0.0) & ((c > 0.0) | (s[j] > 0.0)) ? 1.0 : 0.0;
+    const double size = active * std::abs(c);
+    active_out[j] = active;
+    c_out[j] = active * c * rest[j] * rest[j];
+    worst = worst > size ? worst : size;
+  }
+  if (grid.closed) {
+    const double c = violation(line, row + columns - 1, row);
+    active_[0] = takesPart(line, row + columns - 1, row, c) ? 1.0 : 0.0;
+    violation_[0] = active_[0] * c * rest[0] * rest[0];
+    worst = std::max(worst, active_[0] * std::abs(c));
   }
   return worst;
 }
 
-double WeftSolver::measureVelocities(const LineSolve& line) noexcept {
+double WeftSolver::measureVelocities(const LineSolve& line, int i) noexcept {
   double worst = 0.0;
-  for (std::size_t p = 0; p < links_.size(); ++p) {
-    const Link& link = links_[p];
+  for (const Link& link : links_) {
+    const std::size_t j = link.right - line.pattern.grid.row(i);
     const double rest = line.pattern.weft_rest[link.right];
     const bool active = line.links.multiplier[link.right] > 0.0;
-    active_[p] = active ? 1.0 : 0.0;
+    active_[j] = active ? 1.0 : 0.0;
     const double rate =
         active ? line.links.direction.at(link.right).dot(across(line.value, link.left, link.right)) : 0.0;
-    system_.rhs[p] = rate;
+    violation_[j] = rate;
     worst = std::max(worst, std::abs(rate) / (rest * rest));
   }
   return worst;
@@ -132,8 +128,12 @@ double WeftSolver::measureVelocities(const LineSolve& line) noexcept {
 void WeftSolver::buildMatrix(const LineSolve& line, bool velocity_level) noexcept {
   const std::size_t count = links_.size();
   const Field& w = line.inverse_inertia;
+  // Links are listed by their columns, from this one on.
+  const double* const active = active_.data() + (line.pattern.grid.closed ? 0 : 1);
+  const double* const violation = violation_.data() + (line.pattern.grid.closed ? 0 : 1);
   for (std::size_t p = 0; p < count; ++p) {
-    if (active_[p] == 0.0) {
+    system_.rhs[p] = violation[p];
+    if (active[p] == 0.0) {
       system_.diagonal[p] = 1.0;
       system_.lower[p] = system_.upper[p] = system_.smallest[p] = 0.0;
       continue;
@@ -146,8 +146,8 @@ void WeftSolver::buildMatrix(const LineSolve& line, bool velocity_level) noexcep
     const std::size_t before = p > 0 ? p - 1 : count - 1;
     const std::size_t after = p + 1 < count ? p + 1 : 0;
     system_.diagonal[p] = (w[link.left] + w[link.right]) * gradient.dot(d) + kWeftCompliance * scale;
-    system_.lower[p] = -w[link.left] * gradient.dot(line.links.direction.at(links_[before].right)) * active_[before];
-    system_.upper[p] = -w[link.right] * gradient.dot(line.links.direction.at(links_[after].right)) * active_[after];
+    system_.lower[p] = -w[link.left] * gradient.dot(line.links.direction.at(links_[before].right)) * active[before];
+    system_.upper[p] = -w[link.right] * gradient.dot(line.links.direction.at(links_[after].right)) * active[after];
     system_.smallest[p] = kSmallestPivot * scale;
   }
 }
@@ -155,7 +155,7 @@ void WeftSolver::buildMatrix(const LineSolve& line, bool velocity_level) noexcep
 void WeftSolver::movePositions(const LineSolve& line) noexcept {
   const Field& w = line.inverse_inertia;
   for (std::size_t p = 0; p < links_.size(); ++p) {
-    if (active_[p] == 0.0) continue;
+    if (system_.rhs[p] == 0.0) continue;  // does not take part
     const Link& link = links_[p];
     double& s = line.links.multiplier[link.right];
     const double change = std::max(system_.rhs[p], -s);  // a string only pulls
@@ -168,7 +168,7 @@ void WeftSolver::movePositions(const LineSolve& line) noexcept {
 
 void WeftSolver::moveVelocities(const LineSolve& line) noexcept {
   for (std::size_t p = 0; p < links_.size(); ++p) {
-    if (active_[p] == 0.0) continue;
+    if (system_.rhs[p] == 0.0) continue;  // does not pull
     const Link& link = links_[p];
     const Vec3 pull = system_.rhs[p] * line.links.direction.at(link.right);
     line.value.add(link.left, line.inverse_inertia[link.left] * pull);
@@ -180,30 +180,27 @@ LineOutcome WeftSolver::solve(const LineSolve& line, double tolerance, bool foll
   const Grid& grid = line.pattern.grid;
   LineOutcome outcome;
   for (int i = 0; i < grid.rows; ++i) {
-    const double row_residual = rowResidual(line, i);
-    outcome.residual = std::max(outcome.residual, row_residual);
-    if (!(row_residual > tolerance)) continue;
+    double residual = measurePositions(line, i);
+    outcome.residual = std::max(outcome.residual, residual);
+    if (!(residual > tolerance)) continue;
     listLinks(grid, i);
-    for (int iteration = 0;; ++iteration) {
-      if (!(measurePositions(line) > tolerance)) break;
-      if (iteration == kRowIterations) {
-        outcome.solved = false;
-        break;
-      }
+    for (int iteration = 0; iteration < kRowIterations && residual > tolerance; ++iteration) {
       if (follow_directions) {
         for (const Link& link : links_) line.links.direction.set(link.right, across(line.value, link.left, link.right));
       }
       buildMatrix(line, false);
       outcome.sound = system_.solve(links_.size(), grid.closed) && outcome.sound;
       movePositions(line);
+      residual = measurePositions(line, i);
     }
+    outcome.solved = outcome.solved && residual <= tolerance;
   }
   return outcome;
 }
 
 double WeftSolver::residual(const LineSolve& line) noexcept {
   double worst = 0.0;
-  for (int i = 0; i < line.pattern.grid.rows; ++i) worst = std::max(worst, rowResidual(line, i));
+  for (int i = 0; i < line.pattern.grid.rows; ++i) worst = std::max(worst, measurePositions(line, i));
   return worst;
 }
 
@@ -212,7 +209,7 @@ LineOutcome WeftSolver::projectVelocity(const LineSolve& line) noexcept {
   LineOutcome outcome;
   for (int i = 0; i < grid.rows; ++i) {
     listLinks(grid, i);
-    const double rate = measureVelocities(line);
+    const double rate = measureVelocities(line, i);
     outcome.residual = std::max(outcome.residual, rate);
     if (rate == 0.0) continue;
     buildMatrix(line, true);

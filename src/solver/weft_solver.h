@@ -31,7 +31,7 @@ class WeftSolver {
   LineOutcome solve(const LineSolve& line, double tolerance, bool follow_directions) noexcept;
 
   /// Largest relative violation of any link, as solve() judges it. Changes nothing.
-  static double residual(const LineSolve& line) noexcept;
+  double residual(const LineSolve& line) noexcept;
 
   /// Makes velocities keep the lengths of the links that pull (multiplier > 0), to first order: one pass over the
   /// rows. The multipliers stay as they are.
@@ -44,14 +44,15 @@ class WeftSolver {
     std::size_t right;
   };
   void listLinks(const Grid& grid, int row) noexcept;
-  double measurePositions(const LineSolve& line) noexcept;
-  double measureVelocities(const LineSolve& line) noexcept;
+  double measurePositions(const LineSolve& line, int row) noexcept;
+  double measureVelocities(const LineSolve& line, int row) noexcept;
   void buildMatrix(const LineSolve& line, bool velocity_level) noexcept;
   void movePositions(const LineSolve& line) noexcept;
   void moveVelocities(const LineSolve& line) noexcept;
 
   std::vector<Link> links_;  // of the row at hand
-  Field active_;             // 1 or 0 for each of them
+  Field active_;             // 1 or 0, by the column of the link's right node
+  Field violation_;          // of the links that take part [m^2], 0 of the others; velocities: its rate [m^2/s]
   TridiagonalSystem system_;
 };
 
