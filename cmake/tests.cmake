@@ -28,3 +28,10 @@ endforeach()
 if(catkin_FOUND)
   include(cmake/ros_tests.cmake)
 endif()
+
+# The batch tests run the program itself and read what it writes; the structure tests read the checkout.
+if(TARGET test_batch)
+  add_dependencies(test_batch curtain_batch)
+  target_link_libraries(test_batch nlohmann_json::nlohmann_json)
+endif()
+curtain_add_tests(structure)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // curtain_batch: the engine without ROS, for measuring, sweeps and tests.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -16,6 +17,7 @@ namespace {
 
 constexpr int kBadInput = 2;
 constexpr int kNotFinite = 3;
+constexpr double kLongest = 1e8;  // s; three years, and few enough frames to keep each one's time
 
 const char* const kUsage =
     "usage: curtain_batch SCENE.yaml [options]\n"
@@ -57,6 +59,12 @@ double readNumber(const std::string& option, const std::string& text) {
   return value;
 }
 
+double readDuration(const std::string& option, const std::string& text) {
+  const double value = readNumber(option, text);
+  if (value > kLongest) throw std::invalid_argument(option + ": must be at most 1e8 s, is '" + text + "'");
+  return value;
+}
+
 int readCount(const std::string& option, const std::string& text) {
   const double value = readNumber(option, text);
   if (value != std::floor(value) || value < 1.0 || value > 1e6) {
@@ -78,11 +86,20 @@ std::vector<double> readSamples(const std::string& option, const std::string& te
   return samples;
 }
 
-void checkFolder(const std::string& option, const std::string& path) {
+// An output must have a folder to lie in and not be one itself, before anything is written.
+void checkOutput(const std::string& option, const std::string& path) {
   if (path.empty()) return;
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   if (!folder.empty() && !std::filesystem::is_directory(folder)) {
     throw std::invalid_argument(option + ": there is no folder '" + folder.string() + "'");
+  }
+  if (std::filesystem::is_directory(path)) throw std::invalid_argument(option + ": '" + path + "' is a folder");
+}
+
+void checkMeshName(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (!path.empty() && ending != ".ply" && ending != ".obj") {
+    throw std::invalid_argument("--mesh: must end in .ply or .obj, is '" + path + "'");
   }
 }
 
@@ -94,7 +111,7 @@ Options readOptions(int argc, char** argv) {
       if (a + 1 >= argc) throw std::invalid_argument(option + ": needs a value");
       return argv[++a];
     };
-    if (option == "--duration") options.duration = readNumber(option, value());
+    if (option == "--duration") options.duration = readDuration(option, value());
     else if (option == "--method") options.method = value();
     else if (option == "--substeps") options.substeps = readCount(option, value());
     else if (option == "--rows") options.rows = readCount(option, value());
@@ -112,12 +129,10 @@ Options readOptions(int argc, char** argv) {
   }
   if (options.list_methods || options.help) return options;
   if (options.scene.empty()) throw std::invalid_argument("a scene file is needed");
-  const bool mesh_known = options.mesh.empty() || options.mesh.find(".ply") == options.mesh.size() - 4 ||
-                          options.mesh.find(".obj") == options.mesh.size() - 4;
-  if (!mesh_known) throw std::invalid_argument("--mesh: must end in .ply or .obj, is '" + options.mesh + "'");
-  checkFolder("--out", options.out);
-  checkFolder("--mesh", options.mesh);
-  checkFolder("--stats", options.stats);
+  checkMeshName(options.mesh);
+  checkOutput("--out", options.out);
+  checkOutput("--mesh", options.mesh);
+  checkOutput("--stats", options.stats);
   return options;
 }
 
@@ -141,7 +156,7 @@ std::vector<double> run(curtain::Simulator& simulator, const Options& options, s
   const double rate = simulator.scene().solver.frame_rate;
   const auto frames = static_cast<long>(std::ceil(options.duration * rate - 1e-6));
   std::vector<double> frame_seconds;
-  frame_seconds.reserve(static_cast<std::size_t>(frames));
+  frame_seconds.reserve(static_cast<std::size_t>(std::min(frames, 1000000L)));
   std::size_t next = 0;
   const auto sample = [&]() {
     for (; next < options.samples.size() && options.samples[next] <= simulator.time() + 1e-6 / rate; ++next) {

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Runs curtain_batch in a folder of its own and keeps what it said.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace curtain_test {
+
+inline std::string readFile(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+inline std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> result;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) result.push_back(line);
+  return result;
+}
+
+struct Outcome {
+  int exit_code = -1;
+  std::string out, err;
+};
+
+/// A folder that is removed with the test, and the program run in it.
+class BatchTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::temp_directory_path() /
+              ("curtain_batch_" + std::to_string(getpid()) + "_" + info->name());
+    std::filesystem::create_directories(folder_);
+    said_ = folder_.string() + ".said";
+  }
+  void TearDown() override {
+    std::filesystem::remove_all(folder_);
+    std::filesystem::remove(said_ + ".out");
+    std::filesystem::remove(said_ + ".err");
+  }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  std::string scene(const std::string& text, const std::string& name = "scene.yaml") const {
+    std::ofstream(path(name)) << text;
+    return path(name);
+  }
+
+  /// Small and quick: 5 x 4 nodes, two substeps a frame.
+  std::string smallScene(const std::string& more = "") const {
+    return scene("cloth: {rows: 5, columns: 4, folds: 3}\nsolver: {method: leapfrog, substeps: 8}\n" + more);
+  }
+
+  Outcome batch(const std::vector<std::string>& arguments) const {
+    std::string command = "cd '" + folder_.string() + "' && timeout 300 '" CURTAIN_BATCH "'";
+    for (const std::string& argument : arguments) command += " '" + argument + "'";
+    command += " > '" + said_ + ".out' 2> '" + said_ + ".err' < /dev/null";
+    const int status = std::system(command.c_str());
+    Outcome run;
+    run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    run.out = readFile(said_ + ".out");
+    run.err = readFile(said_ + ".err");
+    return run;
+  }
+
+  /// Names of the files in the folder.
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_)) {
+      names.push_back(std::filesystem::relative(entry.path(), folder_).string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+  std::filesystem::path folder_;
+  std::string said_;  // beside the folder: what is written into that is the program's own
+};
+
+}  // namespace curtain_test

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The house keeps its floors: a file includes only its own floor or a lower one, only the top knows ROS, and every public
+// header has its floor in the list below.
+//
+//   0 scene < 1 cloth < 2 forces < 3 solver, contact < 4 simulator < 5 ros < 6 programs
+#include <gtest/gtest.h>
+
+#include <map>
+#include <optional>
+#include <set>
+
+#include "structure/source_files.h"
+
+namespace {
+
+using curtain_test::lines;
+using curtain_test::sourceFiles;
+using curtain_test::SourceFile;
+
+const std::map<std::string, int> kFolders = {{"scene", 0},  {"cloth", 1},     {"forces", 2}, {"solver", 3},
+                                             {"contact", 3}, {"simulator", 4}, {"ros", 5}};
+constexpr int kRos = 5;
+constexpr int kPrograms = 6;
+
+// Complete: a public header that is not here fails the test. statistics.h is a plain struct that solvers fill.
+const std::map<std::string, int> kPublicHeaders = {{"scene.h", 0},     {"scene_yaml.h", 0},     {"statistics.h", 0},
+                                                   {"fine_mesh.h", 1}, {"obstacle_shape.h", 3}, {"simulator.h", 4}};
+
+// What only the floors from ros up may include, by the first folder of the name.
+const std::set<std::string> kRosFolders = {"ros",      "tf2",      "tf2_ros",             "xmlrpcpp", "pluginlib",
+                                           "nodelet",  "rosgraph_msgs", "interactive_markers", "catkin", "class_loader",
+                                           "roslib",   "message_filters", "dynamic_reconfigure", "rospack"};
+
+bool isMessage(const std::string& header) {
+  const std::string name = header.substr(0, header.size() - 2);
+  return std::filesystem::exists(std::filesystem::path(CURTAIN_SOURCE_DIR) / "msg" / (name + ".msg"));
+}
+
+struct Include {
+  std::string file;  ///< as written
+  bool quoted = false;
+};
+
+std::vector<Include> includesOf(const SourceFile& source) {
+  std::vector<Include> includes;
+  for (const std::string& line : lines(source.text)) {
+    const std::size_t hash = line.find_first_not_of(" \t");
+    if (hash == std::string::npos || line[hash] != '#') continue;
+    const std::size_t word = line.find_first_not_of(" \t", hash + 1);
+    if (word == std::string::npos || line.compare(word, 7, "include") != 0) continue;
+    const std::size_t open = line.find_first_of("\"<", word);
+    const std::size_t close = open == std::string::npos ? open : line.find_first_of("\">", open + 1);
+    EXPECT_NE(close, std::string::npos) << source.name << ": " << line;
+    if (close == std::string::npos) continue;
+    includes.push_back({line.substr(open + 1, close - open - 1), line[open] == '"'});
+  }
+  return includes;
+}
+
+std::string firstFolder(const std::string& name) {
+  const std::size_t slash = name.find('/');
+  return slash == std::string::npos ? "" : name.substr(0, slash);
+}
+
+/// Floor of a file of src/ or include/; none: unknown.
+std::optional<int> floorOfFile(const std::string& name) {
+  if (name.rfind("include/curtain_sim/", 0) == 0) {
+    const auto found = kPublicHeaders.find(name.substr(20));
+    return found == kPublicHeaders.end() ? std::nullopt : std::optional<int>(found->second);
+  }
+  const std::string inside = name.substr(4);  // "src/"
+  const std::string folder = firstFolder(inside);
+  if (folder.empty()) return kPrograms;
+  const auto found = kFolders.find(folder);
+  return found == kFolders.end() ? std::nullopt : std::optional<int>(found->second);
+}
+
+/// Floor of what an include names, when that is ours.
+std::optional<int> floorOfInclude(const Include& include) {
+  const std::string folder = firstFolder(include.file);
+  if (folder == "curtain_sim") {
+    const std::string header = include.file.substr(12);
+    if (const auto found = kPublicHeaders.find(header); found != kPublicHeaders.end()) return found->second;
+    if (isMessage(header)) return kRos;
+    return std::nullopt;
+  }
+  if (!include.quoted) return std::nullopt;
+  const auto found = kFolders.find(folder);
+  return found == kFolders.end() ? std::nullopt : std::optional<int>(found->second);
+}
+
+std::vector<SourceFile> houseFiles() {
+  std::vector<SourceFile> files = sourceFiles("src");
+  for (SourceFile& file : sourceFiles("include")) files.push_back(std::move(file));
+  return files;
+}
+
+TEST(Floors, EveryFileHasOne) {
+  const auto files = houseFiles();
+  EXPECT_GT(files.size(), 50u) << "looked in the wrong place";
+  std::set<std::string> headers;
+  for (const SourceFile& file : files) {
+    EXPECT_TRUE(floorOfFile(file.name).has_value()) << file.name << " is on no floor that this test knows";
+    if (file.name.rfind("include/curtain_sim/", 0) == 0) headers.insert(file.name.substr(20));
+  }
+  for (const auto& entry : kPublicHeaders) EXPECT_EQ(headers.count(entry.first), 1u) << entry.first << " is gone";
+}
+
+TEST(Floors, NoFileIncludesAHigherOne) {
+  int checked = 0;
+  for (const SourceFile& file : houseFiles()) {
+    const std::optional<int> floor = floorOfFile(file.name);
+    if (!floor) continue;
+    for (const Include& include : includesOf(file)) {
+      const bool ours = include.quoted || firstFolder(include.file) == "curtain_sim";
+      if (!ours) continue;
+      const std::optional<int> below = floorOfInclude(include);
+      ASSERT_TRUE(below.has_value()) << file.name << " includes " << include.file << ": not ours, or no floor is known";
+      EXPECT_LE(*below, *floor) << file.name << " (floor " << *floor << ") includes " << include.file << " (floor " << *below
+                                << ")";
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 100);
+}
+
+TEST(Floors, PublicHeadersIncludeNoPrivateOnes) {
+  for (const SourceFile& file : sourceFiles("include")) {
+    for (const Include& include : includesOf(file)) {
+      if (include.quoted) { EXPECT_EQ(firstFolder(include.file), "curtain_sim") << file.name << ": " << include.file; }
+    }
+  }
+}
+
+TEST(Floors, OnlyTheTopKnowsRos) {
+  int ros_includes = 0;
+  for (const SourceFile& file : houseFiles()) {
+    const bool top = file.name.rfind("src/ros/", 0) == 0 || file.name == "src/curtain_node.cpp" ||
+                     file.name == "src/curtain_nodelet.cpp";
+    for (const Include& include : includesOf(file)) {
+      const std::string folder = firstFolder(include.file);
+      const bool message_package = folder.size() > 5 && folder.compare(folder.size() - 5, 5, "_msgs") == 0;
+      const bool message = folder == "curtain_sim" && kPublicHeaders.count(include.file.substr(12)) == 0;
+      const bool of_ros = kRosFolders.count(folder) > 0 || message_package || message;
+      if (of_ros) ++ros_includes;
+      EXPECT_TRUE(top || !of_ros) << file.name << " includes " << include.file;
+    }
+  }
+  EXPECT_GT(ros_includes, 10) << "the test must recognise them";
+}
+
+}  // namespace
