@@ -45,6 +45,16 @@ Marker makeMarker(const std::string& frame, const std::string& name_space, int t
   return marker;
 }
 
+const std_msgs::ColorRGBA kCloth = colour(0.85F, 0.20F, 0.24F);
+const Vec3 kLight = Vec3(0.45, -0.75, 0.5).normalized();
+constexpr float kAmbient = 0.25F;
+
+// brightness: cosine between light and normal, either side.
+std_msgs::ColorRGBA shaded(const std_msgs::ColorRGBA& c, double brightness) {
+  const float light = kAmbient + (1.0F - kAmbient) * static_cast<float>(brightness);
+  return colour(light * c.r, light * c.g, light * c.b);
+}
+
 // rviz complains about markers without points: an empty one is taken away instead.
 void showUnlessEmpty(Marker& marker) { marker.action = marker.points.empty() ? Marker::DELETE : Marker::ADD; }
 
@@ -94,16 +104,23 @@ void addTriangles(const std::vector<Vec3>& corners, const std::vector<Eigen::Vec
 }  // namespace
 
 MeshMarker::MeshMarker(const std::string& world_frame)
-    : marker_(makeMarker(world_frame, "mesh", Marker::TRIANGLE_LIST, 1.0, colour(0.78F, 0.16F, 0.20F))) {}
+    : marker_(makeMarker(world_frame, "mesh", Marker::TRIANGLE_LIST, 1.0, kCloth)) {}
 
+// rviz lights triangles from one side, flat, and would show the back of the cloth black; so the light is in the vertices'
+// colours, smooth and the same on both sides.
 const Marker& MeshMarker::build(const curtain::Simulator& simulator, const ros::Time& stamp) {
+  const curtain::FineMeshTopology& topology = simulator.fineMeshTopology();
   simulator.copyFineMesh(mesh_);
-  const auto& triangles = simulator.fineMeshTopology().triangles;
+  curtain::fineMeshNormals(topology, mesh_, normals_);
   marker_.header.stamp = stamp;
-  marker_.points.resize(3 * triangles.size());
-  geometry_msgs::Point* to = marker_.points.data();
-  for (const auto& triangle : triangles) {
-    for (const std::uint32_t node : triangle) *to++ = toPoint(mesh_.positions[node]);
+  marker_.points.resize(3 * topology.triangles.size());
+  marker_.colors.resize(marker_.points.size());
+  std::size_t to = 0;
+  for (const auto& triangle : topology.triangles) {
+    for (const std::uint32_t node : triangle) {
+      marker_.points[to] = toPoint(mesh_.positions[node]);
+      marker_.colors[to++] = shaded(kCloth, std::abs(normals_[node].dot(kLight)));
+    }
   }
   return marker_;
 }

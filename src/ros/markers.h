@@ -29,6 +29,7 @@ class MeshMarker {
  private:
   visualization_msgs::Marker marker_;
   curtain::FineMesh mesh_;
+  std::vector<curtain::Vec3> normals_;
 };
 
 /// Everything else. One thread at a time.
