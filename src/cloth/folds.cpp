@@ -60,6 +60,7 @@ double FoldShape::turning(double chord_ratio) const noexcept {
 }
 
 void FoldShape::place(const FoldArc& arc, Vec3* inner) const noexcept {
+  if (rod_count_ < 2) return;
   const Vec3 chord = arc.second - arc.first;
   const double length = chord.norm();
   const double ratio = length / arc.rest;

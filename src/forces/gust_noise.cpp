@@ -17,9 +17,11 @@ std::uint64_t mix(std::uint64_t value) {
 
 double smoothStep(double t) { return t * t * (3.0 - 2.0 * t); }
 
-int latticeCells(double length, double correlation_length, int most) {
-  const double cells = std::ceil(length / correlation_length);
-  return static_cast<int>(std::clamp(cells, 1.0, static_cast<double>(most)));
+// Cells no longer than the correlation length. The slack keeps the rounding of a length, itself a sum of rods, from
+// making one more; fewer than `least` make no lattice.
+int latticeCells(double length, double correlation_length, int least, int most) {
+  const double cells = std::ceil(length / correlation_length - 1e-9);
+  return static_cast<int>(std::clamp(cells, static_cast<double>(least), static_cast<double>(most)));
 }
 
 }  // namespace
@@ -55,8 +57,9 @@ GustNoise::GustNoise(std::uint64_t seed, double correlation_length, double corre
   const double height = pattern.warp_coordinate.back();
   const double width =
       pattern.weft_coordinate.back() + (grid.closed ? pattern.weft_rest[grid.index(0, 0)] : 0.0);
-  const int row_cells = latticeCells(height, correlation_length, grid.rows);
-  const int column_cells = latticeCells(width, correlation_length, grid.columns);
+  const int row_cells = latticeCells(height, correlation_length, 1, grid.rows);
+  // Around a ring a single cell would have one lattice point for both its ends.
+  const int column_cells = latticeCells(width, correlation_length, grid.closed ? 2 : 1, grid.columns);
   for (const double v : pattern.warp_coordinate) row_place_.push_back(place(v / height * row_cells));
   for (const double u : pattern.weft_coordinate) column_place_.push_back(place(u / width * column_cells));
   if (grid.closed) {

@@ -86,11 +86,15 @@ TEST_F(BadInput, ADurationThatNoMemoryHoldsIsNamed) {
   for (const char* value : {"1e12", "1e300"}) expectRefused({smallScene(), "--duration", value}, {"--duration", value});
 }
 
-TEST_F(BadInput, OutputsThatCannotBe) {
+TEST_F(BadInput, OutputsInFoldersThatAreNotThere) {
   const std::string good = smallScene();
   expectRefused({good, "--out", "nowhere/out.csv"}, {"--out", "nowhere"});
   expectRefused({good, "--mesh", "nowhere/mesh.ply"}, {"--mesh", "nowhere"});
   expectRefused({good, "--stats", "nowhere/stats.json"}, {"--stats", "nowhere"});
+}
+
+TEST_F(BadInput, OutputsThatAreFolders) {
+  const std::string good = smallScene();
   std::filesystem::create_directories(folder_ / "folder.ply");
   expectRefused({good, "--out", "folder.ply"}, {"folder.ply"});
   expectRefused({good, "--stats", "folder.ply"}, {"folder.ply"});
