@@ -17,6 +17,7 @@ struct ClothPattern {
   Grid grid;
   Field warp_rest;     ///< rest length of the rod from node (i-1, j) to (i, j) [m]; row 0 and padding: 1
   Field weft_rest;     ///< rest length of the link from node (i, j-1) to (i, j) [m]; closed: column 0 closes the ring
+  Field warp_per_square;  ///< 1 / warp_rest^2 [1/m^2]
   Field weft_per_square;  ///< 1 / weft_rest^2 [1/m^2]
   Field area;          ///< the node's share of the cloth [m^2]
   Field mass;          ///< [kg]; padding: 0

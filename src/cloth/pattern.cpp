@@ -39,6 +39,7 @@ void fillRestLengths(const ClothParams& cloth, ClothPattern& pattern) {
     if (grid.closed) pattern.weft_rest[grid.index(i, 0)] = links.back();
   }
   for (std::size_t n = 0; n < grid.size(); ++n) {
+    pattern.warp_per_square[n] = 1.0 / (pattern.warp_rest[n] * pattern.warp_rest[n]);
     pattern.weft_per_square[n] = 1.0 / (pattern.weft_rest[n] * pattern.weft_rest[n]);
   }
   pattern.weft_coordinate.assign(static_cast<std::size_t>(grid.columns), 0.0);
@@ -108,6 +109,7 @@ ClothPattern makePattern(const Scene& scene) {
   const std::size_t size = pattern.grid.size();
   pattern.warp_rest.assign(size, 1.0);
   pattern.weft_rest.assign(size, 1.0);
+  pattern.warp_per_square.assign(size, 1.0);
   pattern.weft_per_square.assign(size, 1.0);
   pattern.area.assign(size, 0.0);
   pattern.mass.assign(size, 0.0);

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "cloth/wide.h"
+
 namespace curtain {
 namespace {
 
@@ -22,14 +24,15 @@ WindSource::WindSource(const WindParams& wind, const ClothPattern& pattern, doub
       axis_(wind.direction.normalized()),
       porosity_factor_(1.0 - wind.porosity_weight * porosity),
       strength_(wind.pressure + wind.node_force + wind.unsteadiness),
-      gusts_(seedOf(seed, wind.id), wind.correlation_length, wind.correlation_time, pattern) {
+      gusts_(seedOf(seed, wind.id), wind.correlation_length, wind.correlation_time, pattern),
+      distance_factor_(pattern.grid.size(), 0.0) {
   if (wind.half_angle > kParallel) {
     apex_distance_ = wind.radius / std::tan(wind.half_angle);
     apex_ = wind.position - apex_distance_ * axis_;
   }
 }
 
-inline WindSource::Sample WindSource::sample(double x, double y, double z) const noexcept {
+CURTAIN_INTO_WIDE WindSource::Sample WindSource::sample(double x, double y, double z) const noexcept {
   const double px = x - wind_.position[0], py = y - wind_.position[1], pz = z - wind_.position[2];
   const double depth = px * axis_[0] + py * axis_[1] + pz * axis_[2];
   // B lies where the line AC meets the disc's plane: the part of C across the axis, shrunk towards the apex.
@@ -65,7 +68,7 @@ WindAtPoint WindSource::at(const Vec3& point) const noexcept {
   return air;
 }
 
-void WindSource::addForces(const ClothPattern& pattern, const Field3& position, const Field3& area_vectors,
+CURTAIN_WIDE void WindSource::addForces(const ClothPattern& pattern, const Field3& position, const Field3& area_vectors,
                            double time, Field3& force) noexcept {
   const Grid& grid = pattern.grid;
   const double ax = axis_[0], ay = axis_[1], az = axis_[2];
@@ -81,6 +84,7 @@ void WindSource::addForces(const ClothPattern& pattern, const Field3& position, 
     double* const fx = force.x.data() + row;
     double* const fy = force.y.data() + row;
     double* const fz = force.z.data() + row;
+    double* const reach = distance_factor_.data() + row;
 #pragma omp simd
     for (int j = 0; j < grid.columns; ++j) {
       const Sample air = sample(x[j], y[j], z[j]);
@@ -89,22 +93,24 @@ void WindSource::addForces(const ClothPattern& pattern, const Field3& position, 
       const double cos_psi = std::abs(nx[j] * ax + ny[j] * ay + nz[j] * az) / normal_size;
       const double centre_force = wind_.pressure * area[j] + wind_.node_force;
       // Cheng 2000, Eq. (2): (f_w . d) d / |d|^2, with f_w along the axis; then Eq. (3).
+      reach[j] = air.distance_factor;
       const double push = porosity_factor_ * centre_force * air.along * cos_psi * air.distance_factor;
       fx[j] += push * air.dx;
       fy[j] += push * air.dy;
       fz[j] += push * air.dz;
     }
   }
-  if (wind_.unsteadiness > 0.0) addGusts(pattern, position, time, force);
+  if (wind_.unsteadiness > 0.0) addGusts(pattern, time, force);
 }
 
-void WindSource::addGusts(const ClothPattern& pattern, const Field3& position, double time, Field3& force) noexcept {
+// On the nodes that addForces just found in reach.
+void WindSource::addGusts(const ClothPattern& pattern, double time, Field3& force) noexcept {
   const Grid& grid = pattern.grid;
   gusts_.setTime(time - wind_.start);
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = 0; j < grid.columns; ++j) {
       const std::size_t node = grid.index(i, j);
-      const double factor = sample(position.x[node], position.y[node], position.z[node]).distance_factor;
+      const double factor = distance_factor_[node];
       if (factor == 0.0) continue;
       force.add(node, (wind_.unsteadiness * porosity_factor_ * pattern.area[node] * factor) * gusts_.at(i, j));
     }

@@ -45,7 +45,7 @@ class WindSource {
     double distance_factor;  // of Eq. (3); 0 where nothing is reached
   };
   Sample sample(double x, double y, double z) const noexcept;
-  void addGusts(const ClothPattern& pattern, const Field3& position, double time, Field3& force) noexcept;
+  void addGusts(const ClothPattern& pattern, double time, Field3& force) noexcept;
 
   WindParams wind_;
   Vec3 axis_;
@@ -54,6 +54,7 @@ class WindSource {
   double porosity_factor_;      // 1 - c_mu mu
   double strength_;             // of everything it does; 0 = the source is there but still
   GustNoise gusts_;
+  Field distance_factor_;  // of every node, from the last call of addForces
 };
 
 }  // namespace curtain

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "cloth/wide.h"
+
 namespace curtain {
 namespace {
 
@@ -39,7 +41,7 @@ struct VelocityLevel {
 // Forward elimination of row i of a block of columns, from offset first on, of the tridiagonal systems
 //   -w_a (g.d_above) s_(i-1) + (w_a + w_b)(g.d) s_i - w_b (g.d_below) s_(i+1) = C,   g = gradient of C.
 template <typename Level>
-void eliminateRow(const LineSolve& line, LineScratch& scratch, std::size_t first, double& residual, double& unsound) {
+CURTAIN_INTO_WIDE void eliminateRow(const LineSolve& line, LineScratch& scratch, std::size_t first, double& residual, double& unsound) {
   const ClothPattern& pattern = line.pattern;
   const auto stride = static_cast<std::size_t>(pattern.grid.stride);
   const std::size_t above = first - stride;
@@ -49,6 +51,7 @@ void eliminateRow(const LineSolve& line, LineScratch& scratch, std::size_t first
   const double* const wa = line.inverse_inertia.data() + above;
   const double* const wb = line.inverse_inertia.data() + first;
   const double* const rest = pattern.warp_rest.data() + first;
+  const double* const per_square = pattern.warp_per_square.data() + first;
   const double* const e_above = scratch.elimination.data() + above;
   const double* const s_above = scratch.solution.data() + above;
   double* const e = scratch.elimination.data() + first;
@@ -70,7 +73,7 @@ void eliminateRow(const LineSolve& line, LineScratch& scratch, std::size_t first
     const double inverse = pivot > smallest ? 1.0 / pivot : 0.0;  // both ends pinned: 0, the rod stays as it is
     e[j] = upper * inverse;
     s[j] = (c - lower * s_above[j]) * inverse;
-    const double relative = w > 0.0 ? std::abs(c) / rest_squared : 0.0;
+    const double relative = w > 0.0 ? std::abs(c) * per_square[j] : 0.0;
     worst = worst > relative ? worst : relative;
     const double failed = (w > 0.0) & !(pivot > smallest) ? 1.0 : 0.0;
     bad = bad > failed ? bad : failed;
@@ -80,7 +83,7 @@ void eliminateRow(const LineSolve& line, LineScratch& scratch, std::size_t first
 }
 
 // Back substitution of the same row, and the move of its nodes.
-void substituteRow(const LineSolve& line, LineScratch& scratch, std::size_t first) {
+CURTAIN_INTO_WIDE void substituteRow(const LineSolve& line, LineScratch& scratch, std::size_t first) {
   const auto stride = static_cast<std::size_t>(line.pattern.grid.stride);
   const View v(line.value, first);
   const ConstView d(line.links.direction, first), d_below(line.links.direction, first + stride);
@@ -103,7 +106,7 @@ void substituteRow(const LineSolve& line, LineScratch& scratch, std::size_t firs
 // One Newton iteration on a block of columns. Row 0 of the scratch and the row after the last one are zero and stay so:
 // no rod above, none below.
 template <typename Level>
-LineOutcome newton(const LineSolve& line, LineScratch& scratch, int block) {
+CURTAIN_INTO_WIDE LineOutcome newton(const LineSolve& line, LineScratch& scratch, int block) {
   const Grid& grid = line.pattern.grid;
   const auto offset = static_cast<std::size_t>(block) * kLane;
   LineOutcome outcome;
@@ -151,7 +154,7 @@ void applyWarpMultipliers(const LineSolve& line) noexcept {
   apply(line.links.direction.z, line.value.z);
 }
 
-LineOutcome warpNewton(const LineSolve& line, LineScratch& scratch, int block) noexcept {
+CURTAIN_WIDE LineOutcome warpNewton(const LineSolve& line, LineScratch& scratch, int block) noexcept {
   return newton<PositionLevel>(line, scratch, block);
 }
 
@@ -159,7 +162,7 @@ LineOutcome warpProjectVelocity(const LineSolve& line, LineScratch& scratch, int
   return newton<VelocityLevel>(line, scratch, block);
 }
 
-double warpResidual(const LineSolve& line, int block) noexcept {
+CURTAIN_WIDE double warpResidual(const LineSolve& line, int block) noexcept {
   const Grid& grid = line.pattern.grid;
   const auto stride = static_cast<std::size_t>(grid.stride);
   double worst = 0.0;
@@ -168,12 +171,11 @@ double warpResidual(const LineSolve& line, int block) noexcept {
     const ConstView above(line.value, first - stride), below(line.value, first);
     const double* const wa = line.inverse_inertia.data() + first - stride;
     const double* const wb = line.inverse_inertia.data() + first;
-    const double* const rest = line.pattern.warp_rest.data() + first;
+    const double* const per_square = line.pattern.warp_per_square.data() + first;
 #pragma omp simd reduction(max : worst)
     for (int j = 0; j < kLane; ++j) {
       const double rx = below.x[j] - above.x[j], ry = below.y[j] - above.y[j], rz = below.z[j] - above.z[j];
-      const double rest_squared = rest[j] * rest[j];
-      const double relative = 0.5 * std::abs(rx * rx + ry * ry + rz * rz - rest_squared) / rest_squared;
+      const double relative = 0.5 * std::abs((rx * rx + ry * ry + rz * rz) * per_square[j] - 1.0);
       const double counted = wa[j] + wb[j] > 0.0 ? relative : 0.0;
       worst = worst > counted ? worst : counted;
     }

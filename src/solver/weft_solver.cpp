@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth/wide.h"
+
 namespace curtain {
 namespace {
 
@@ -31,6 +33,7 @@ WeftSolver::WeftSolver(const Grid& grid) : system_(static_cast<std::size_t>(grid
   links_.reserve(static_cast<std::size_t>(grid.columns));
   active_.assign(static_cast<std::size_t>(grid.columns), 0.0);
   violation_ = active_;
+  before_ = active_;
 }
 
 void WeftSolver::setDirections(const Grid& grid, const Field3& position, Field3& direction) noexcept {
@@ -73,7 +76,7 @@ void WeftSolver::listLinks(const Grid& grid, int row) noexcept {
 }
 
 // The links of a row between neighbouring columns are one loop without a branch, so that it widens.
-double WeftSolver::measurePositions(const LineSolve& line, int i) noexcept {
+CURTAIN_WIDE double WeftSolver::measurePositions(const LineSolve& line, int i) noexcept {
   const Grid& grid = line.pattern.grid;
   const std::size_t row = grid.row(i);
   const auto columns = static_cast<std::size_t>(grid.columns);
@@ -176,7 +179,23 @@ void WeftSolver::moveVelocities(const LineSolve& line) noexcept {
   }
 }
 
-LineOutcome WeftSolver::solve(const LineSolve& line, double tolerance, bool follow_directions) noexcept {
+// Takes the row's last solve so much further than it went, as far as strings that only pull allow.
+void WeftSolver::relaxFurther(const LineSolve& line, double share) noexcept {
+  const Field& w = line.inverse_inertia;
+  for (std::size_t p = 0; p < links_.size(); ++p) {
+    const Link& link = links_[p];
+    double& s = line.links.multiplier[link.right];
+    const double change = std::max(share * (s - before_[p]), -s);
+    if (change == 0.0) continue;
+    s += change;
+    const Vec3 pull = change * line.links.direction.at(link.right);
+    line.value.add(link.left, w[link.left] * pull);
+    line.value.add(link.right, -w[link.right] * pull);
+  }
+}
+
+LineOutcome WeftSolver::solve(const LineSolve& line, double tolerance, bool follow_directions,
+                              double further) noexcept {
   const Grid& grid = line.pattern.grid;
   LineOutcome outcome;
   for (int i = 0; i < grid.rows; ++i) {
@@ -184,6 +203,7 @@ LineOutcome WeftSolver::solve(const LineSolve& line, double tolerance, bool foll
     outcome.residual = std::max(outcome.residual, residual);
     if (!(residual > tolerance)) continue;
     listLinks(grid, i);
+    for (std::size_t p = 0; p < links_.size(); ++p) before_[p] = line.links.multiplier[links_[p].right];
     for (int iteration = 0; iteration < kRowIterations && residual > tolerance; ++iteration) {
       if (follow_directions) {
         for (const Link& link : links_) line.links.direction.set(link.right, across(line.value, link.left, link.right));
@@ -194,6 +214,7 @@ LineOutcome WeftSolver::solve(const LineSolve& line, double tolerance, bool foll
       residual = measurePositions(line, i);
     }
     outcome.solved = outcome.solved && residual <= tolerance;
+    if (further > 0.0) relaxFurther(line, further);
   }
   return outcome;
 }

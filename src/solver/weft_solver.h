@@ -27,8 +27,9 @@ class WeftSolver {
 
   /// Solves every row whose links are not within tolerance, with a bounded number of Newton iterations: moves
   /// positions, adds to the multipliers, never below zero. With follow_directions the links' directions are those of
-  /// the present positions (implicit scheme). residual: the largest before the solve.
-  LineOutcome solve(const LineSolve& line, double tolerance, bool follow_directions) noexcept;
+  /// the present positions (implicit scheme). further: share of each row's change that is added on top
+  /// (over-relaxation of the alternation with the warp), [0..1). residual: the largest before the solve.
+  LineOutcome solve(const LineSolve& line, double tolerance, bool follow_directions, double further = 0.0) noexcept;
 
   /// Largest relative violation of any link, as solve() judges it. Changes nothing.
   double residual(const LineSolve& line) noexcept;
@@ -48,11 +49,13 @@ class WeftSolver {
   double measureVelocities(const LineSolve& line, int row) noexcept;
   void buildMatrix(const LineSolve& line, bool velocity_level) noexcept;
   void movePositions(const LineSolve& line) noexcept;
+  void relaxFurther(const LineSolve& line, double share) noexcept;
   void moveVelocities(const LineSolve& line) noexcept;
 
   std::vector<Link> links_;  // of the row at hand
   Field active_;             // 1 or 0, by the column of the link's right node
   Field violation_;          // of the links that take part [m^2], 0 of the others; velocities: its rate [m^2/s]
+  Field before_;             // multipliers before the row was solved
   TridiagonalSystem system_;
 };
 
