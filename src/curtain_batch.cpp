@@ -129,6 +129,10 @@ Options readOptions(int argc, char** argv) {
   }
   if (options.list_methods || options.help) return options;
   if (options.scene.empty()) throw std::invalid_argument("a scene file is needed");
+  if (!options.samples.empty() && options.samples.back() > options.duration) {
+    throw std::invalid_argument("--sample: " + std::to_string(options.samples.back()) + " is after the end, --duration " +
+                                std::to_string(options.duration));
+  }
   checkMeshName(options.mesh);
   checkOutput("--out", options.out);
   checkOutput("--mesh", options.mesh);

@@ -75,7 +75,7 @@ CURTAIN_INTO_WIDE void eliminateRow(const LineSolve& line, LineScratch& scratch,
     s[j] = (c - lower * s_above[j]) * inverse;
     const double relative = w > 0.0 ? std::abs(c) * per_square[j] : 0.0;
     worst = worst > relative ? worst : relative;
-    const double failed = (w > 0.0) & !(pivot > smallest) ? 1.0 : 0.0;
+    const double failed = ((w > 0.0) & !(pivot > smallest)) ? 1.0 : 0.0;
     bad = bad > failed ? bad : failed;
   }
   residual = worst;

@@ -96,7 +96,7 @@ CURTAIN_WIDE double WeftSolver::measurePositions(const LineSolve& line, int i) n
     const double both = w[j] + w[j - 1];
     const double c =
         0.5 * ((rx * rx + ry * ry + rz * rz) * per_square[j] - 1.0) - kWeftCompliance * both * s[j];
-    const double active = (both > 0.0) & ((c > 0.0) | (s[j] > 0.0)) ? 1.0 : 0.0;
+    const double active = ((both > 0.0) & ((c > 0.0) | (s[j] > 0.0))) ? 1.0 : 0.0;
     const double size = active * std::abs(c);
     active_out[j] = active;
     c_out[j] = active * c * rest[j] * rest[j];
