@@ -22,8 +22,9 @@ struct Statistics {
   std::int64_t sweeps = 0;            ///< warp/weft/contact sweeps, all frames
   int sweeps_last = 0;                ///< in the last frame
   std::int64_t rejected = 0;          ///< substeps done again with half the step
-  std::int64_t implicit = 0;          ///< substeps by the implicit scheme under method auto
+  std::int64_t implicit = 0;          ///< substeps by the implicit scheme as the fall-back of another
   std::int64_t unsettled = 0;         ///< substeps that ended above stretch_tolerance
+  std::int64_t stops = 0;             ///< substeps whose forces were beyond numbers: the cloth was stopped instead
   double warp_stretch = 0.0;          ///< largest relative overlength of a warp rod at the last frame's end
   double weft_stretch = 0.0;          ///< the same of a weft link
   double warp_compression = 0.0;      ///< largest relative underlength of a warp rod, last frame's end

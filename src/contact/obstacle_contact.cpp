@@ -8,9 +8,10 @@ namespace {
 
 // Planes kept per node of the grid: a node may touch so many obstacles at once all over the cloth.
 constexpr std::size_t kPerNode = 4;
-// A node that is inside when the substep starts (an obstacle appeared there or jumped) is brought out at this speed
-// [m/s], not at once: the way out must not become a blow.
+// A node that is too close when the substep starts (an obstacle appeared there or jumped) is brought out at these speeds
+// [m/s], not at once: the way out must not become a blow. Inside the obstacle, and inside the gap around it.
 constexpr double kRecoverySpeed = 2.0;
+constexpr double kGapRecoverySpeed = 0.1;
 
 // Box around the way of all free nodes.
 Eigen::AlignedBox3d sweptBox(const ClothPattern& pattern, const Field3& start, const Field3& predicted) {
@@ -75,8 +76,9 @@ void ObstacleContact::collect(const ClothPattern& pattern, const Field3& start, 
       plane.normal = moving.after.rotation * surface.normal;
       plane.offset = plane.normal.dot(to) - surface.distance + thickness_;
       SurfacePoint before;
-      if (moving.shape->query(local_from, local_from, 0.0, before) && before.distance < 0.0) {
-        plane.offset -= std::max(0.0, thickness_ - before.distance - kRecoverySpeed * h);
+      if (moving.shape->query(local_from, local_from, thickness_, before)) {
+        const double speed = before.distance < 0.0 ? kRecoverySpeed : kGapRecoverySpeed;
+        plane.offset -= std::max(0.0, thickness_ - before.distance - speed * h);
       }
       plane.carried = moving.after.toWorld(local_from);
       plane.surface_velocity = (plane.carried - from) / h;
@@ -140,9 +142,9 @@ double ObstacleContact::deepestPenetration(const Field3& position) const noexcep
   return deepest;
 }
 
-void ObstacleContact::addForces(const ClothPattern& pattern, double scale, Field3& force) const noexcept {
+void ObstacleContact::addForces(const Field& inverse_inertia, double scale, Field3& force) const noexcept {
   for (const Plane& plane : planes_) {
-    force.add(plane.node, (plane.push * plane.normal + plane.slide_back) * (pattern.mass[plane.node] / scale));
+    force.add(plane.node, (plane.push * plane.normal + plane.slide_back) / (inverse_inertia[plane.node] * scale));
   }
 }
 

@@ -28,8 +28,9 @@ class ObstacleContact : public PositionConstraints {
   int contactCount() const noexcept;
   /// How deep the deepest node is inside an obstacle [m]; 0: none is.
   double deepestPenetration(const Field3& position) const noexcept;
-  /// Adds the contact forces of the last substep [N]; scale: its h * kick [s^2].
-  void addForces(const ClothPattern& pattern, double scale, Field3& force) const noexcept;
+  /// Adds the contact forces of the last substep [N]; inverse_inertia: how its nodes answered [1/kg], scale: its
+  /// h * kick [s^2].
+  void addForces(const Field& inverse_inertia, double scale, Field3& force) const noexcept;
   /// Substeps in which a contact found no room (more than kPerNode obstacles at one node, everywhere).
   std::int64_t overflowCount() const { return overflow_; }
   void forget() noexcept { planes_.clear(); }

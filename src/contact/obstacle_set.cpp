@@ -72,13 +72,16 @@ void ObstacleSet::reset() noexcept {
     items_[n].scripted = !items_[n].motion.empty();
     moving_[n].present = true;
   }
+  setSubstep(1.0, 1.0);
 }
 
 void ObstacleSet::setPose(int index, const Pose& pose, bool jump) noexcept {
   Item& item = items_[at(index)];
   item.scripted = false;
   item.end = pose;
-  if (jump) item.begin = pose;
+  if (!jump) return;
+  item.begin = pose;
+  moving_[at(index)].before = moving_[at(index)].after = Transform(pose);
 }
 
 void ObstacleSet::beginFrame(double end_time) noexcept {

@@ -84,6 +84,7 @@ std::string statisticsJson(const Simulator& simulator, const Energy& initial, co
   json["substeps_rejected"] = s.rejected;
   json["substeps_implicit"] = s.implicit;
   json["substeps_unsettled"] = s.unsettled;
+  json["substeps_stopped"] = s.stops;
   json["stretch_max"] = {{"warp", s.warp_stretch_max}, {"weft", s.weft_stretch_max}};
   json["compression_max"] = {{"warp", s.warp_compression_max}};
   json["energy"] = {{"initial", initial.kinetic + initial.potential},

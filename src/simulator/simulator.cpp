@@ -120,14 +120,18 @@ double Simulator::Impl::makeSubstep(double done) {
     ++statistics.rejected;
     control.rejected(plan);
     if (!plan.must_accept) return 0.0;
-    statistics.finite = false;  // not even finite: the state stays as it was, and this says so
+    // Not even finite: forces beyond all numbers. The cloth stays where it is, at rest, until they are over.
+    state.velocity.assign(pattern.grid.size(), 0.0);
+    state.velocity_age = 0.0;
+    exact.reset();
+    ++statistics.stops;
     return plan.h;
   }
   control.accepted(plan, outcome);
   contact_scale = outcome.scale;
   ++statistics.substeps;
   ++statistics.substeps_last;
-  if (plan.scheme == Scheme::kImplicit && scene.solver.method == Method::kAuto) ++statistics.implicit;
+  if (plan.scheme == Scheme::kImplicit && scene.solver.method != Method::kImplicit) ++statistics.implicit;
   if (!outcome.settled) ++statistics.unsettled;
   return plan.h;
 }
@@ -224,7 +228,9 @@ void Simulator::copyForces(std::vector<Vec3>& out) const {
     const Field3& velocity = impl_->currentVelocities();
     for (std::size_t n = 0; n < grid.size(); ++n) total.add(n, -im.forces.last().damping[n] * velocity.at(n));
   }
-  if (im.contact_scale > 0.0 && im.obstacles.anyPresent()) im.contact.addForces(im.pattern, im.contact_scale, total);
+  if (im.contact_scale > 0.0 && im.obstacles.anyPresent()) {
+    im.contact.addForces(im.exact.inverseInertia(), im.contact_scale, total);
+  }
   copyField(grid, total, out);
 }
 

@@ -32,6 +32,9 @@ class ExactSolver {
   SubstepOutcome substep(Scheme scheme, const NodeForces& forces, double h, bool must_accept,
                          PositionConstraints* constraints, ClothState& state, StageClock& clock) noexcept;
 
+  /// How nodes answered impulses in the last substep [1/kg].
+  const Field& inverseInertia() const noexcept { return inertia_ != nullptr ? *inertia_ : pattern_.inverse_mass; }
+
   /// Velocities at the time of the positions (leapfrog keeps them half a substep behind): advanced by the forces and
   /// made to agree with the links that pull.
   void currentVelocities(const ClothState& state, const NodeForces& forces, PositionConstraints* constraints,
@@ -39,20 +42,23 @@ class ExactSolver {
 
  private:
   struct Progress {
-    bool settled = false;
-    bool sound = true;
+    bool settled = false;    // every link is within the user's tolerance
+    bool left_over = false;  // but not within what the step's length asks for
     int sweeps = 0;
   };
   void predict(const NodeForces& forces, double kick, double h, const ClothState& state) noexcept;
   void warmStart(Scheme scheme, double scale, const LineSolve& warp, const LineSolve& weft) noexcept;
-  Progress solveConstraints(Scheme scheme, bool must_accept, PositionConstraints* constraints, StageClock& clock) noexcept;
+  Progress solveConstraints(Scheme scheme, double h, bool must_accept, PositionConstraints* constraints,
+                            StageClock& clock) noexcept;
+  bool withinTolerance(const LineSolve& warp, const LineSolve& weft, double tolerance) noexcept;
+  void projectVelocity(const Field3& position, PositionConstraints* constraints, Field3& out) noexcept;
   struct WarpProgress {
     bool converged = false;
     double first_residual = 0.0;  // before the first iteration
     double last_residual = 0.0;   // before the last one
   };
   bool solveBlock(Scheme scheme, const LineSolve& warp, int block, double stop, WarpProgress& progress) noexcept;
-  WarpProgress solveWarp(Scheme scheme, const LineSolve& warp, bool first_sweep) noexcept;
+  WarpProgress solveWarp(Scheme scheme, const LineSolve& warp, double tolerance, bool first_sweep) noexcept;
   double omegaSquared(double scale) const noexcept;
   void commit(double h, double velocity_age, ClothState& state) noexcept;
 

@@ -16,6 +16,9 @@ constexpr int kGoodToGrow = 8;
 constexpr int kImplicitSubsteps = 8;
 constexpr int kPaperSubsteps = 16;
 
+// A fixed step that fails may be divided so far before the implicit scheme takes over.
+constexpr int kRoomBelowFixed = 16;
+
 int fixedSubsteps(const SolverParams& params) {
   if (params.substeps > 0) return params.substeps;
   if (params.method == Method::kPaper) return kPaperSubsteps;
@@ -41,7 +44,7 @@ double hangingOmega(const ClothPattern& pattern, const Vec3& gravity) {
 StepControl::StepControl(const SolverParams& params, const ClothPattern& pattern, const Vec3& gravity)
     : frame_(1.0 / params.frame_rate),
       fixed_substeps_(fixedSubsteps(params)),
-      max_substeps_(std::max(params.max_substeps, params.substeps)),
+      max_substeps_(std::max(params.max_substeps, kRoomBelowFixed * params.substeps)),
       method_(params.method),
       initial_omega_(hangingOmega(pattern, gravity)) {
   reset();
@@ -64,13 +67,11 @@ StepControl::Plan StepControl::next(double remaining) const noexcept {
     if (for_phase < smallest && method_ == Method::kAuto) plan.scheme = Scheme::kImplicit;
     wanted = std::clamp(for_phase, smallest, frame_);
   }
-  // Rejections have come down to the cap: the implicit scheme takes over for a while; with a method that is fixed the
-  // smallest step is taken as it comes out.
-  const bool at_floor = limit_ <= smallest;
-  if (at_floor && method_ == Method::kAuto) plan.scheme = Scheme::kImplicit;
-  plan.must_accept = plan.scheme == Scheme::kImplicit || at_floor || method_ == Method::kPaper;
+  // Rejections have come down to the cap: the implicit scheme takes over for a while.
+  if (limit_ <= smallest && method_ != Method::kPaper) plan.scheme = Scheme::kImplicit;
+  plan.must_accept = plan.scheme == Scheme::kImplicit || method_ == Method::kPaper;
   double step = std::min(wanted, std::max(limit_, smallest));
-  if (plan.scheme == Scheme::kImplicit && method_ == Method::kAuto) step = implicit_step_;
+  if (plan.scheme == Scheme::kImplicit && method_ != Method::kImplicit) step = std::min(wanted, implicit_step_);
   // Equal shares of what is left; the small slack keeps rounding from adding a substep.
   plan.h = remaining / std::max(1.0, std::ceil(remaining / step - 1e-6));
   return plan;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/warp_solver.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "cloth/wide.h"
@@ -103,8 +104,8 @@ CURTAIN_INTO_WIDE void substituteRow(const LineSolve& line, LineScratch& scratch
   }
 }
 
-// One Newton iteration on a block of columns. Row 0 of the scratch and the row after the last one are zero and stay so:
-// no rod above, none below.
+// One Newton iteration on a block of columns. Row 0 of the scratch and the row after the last one are zero: no rod above,
+// none below.
 template <typename Level>
 CURTAIN_INTO_WIDE LineOutcome newton(const LineSolve& line, LineScratch& scratch, int block) {
   const Grid& grid = line.pattern.grid;
@@ -113,6 +114,8 @@ CURTAIN_INTO_WIDE LineOutcome newton(const LineSolve& line, LineScratch& scratch
   double unsound = 0.0;
   for (int i = 1; i < grid.rows; ++i) eliminateRow<Level>(line, scratch, grid.row(i) + offset, outcome.residual, unsound);
   for (int i = grid.rows - 1; i >= 0; --i) substituteRow(line, scratch, grid.row(i) + offset);
+  // A solve that failed leaves 0 * NaN there: it must not reach the next one.
+  std::fill_n(scratch.solution.begin() + static_cast<std::ptrdiff_t>(offset), kLane, 0.0);
   outcome.sound = unsound == 0.0;
   return outcome;
 }

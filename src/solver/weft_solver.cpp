@@ -194,17 +194,17 @@ void WeftSolver::relaxFurther(const LineSolve& line, double share) noexcept {
   }
 }
 
-LineOutcome WeftSolver::solve(const LineSolve& line, double tolerance, bool follow_directions,
+LineOutcome WeftSolver::solve(const LineSolve& line, double tolerance, double leave_alone, bool follow_directions,
                               double further) noexcept {
   const Grid& grid = line.pattern.grid;
   LineOutcome outcome;
   for (int i = 0; i < grid.rows; ++i) {
     double residual = measurePositions(line, i);
     outcome.residual = std::max(outcome.residual, residual);
-    if (!(residual > tolerance)) continue;
+    if (!(residual > leave_alone)) continue;
     listLinks(grid, i);
     for (std::size_t p = 0; p < links_.size(); ++p) before_[p] = line.links.multiplier[links_[p].right];
-    for (int iteration = 0; iteration < kRowIterations && residual > tolerance; ++iteration) {
+    for (int iteration = 0; iteration < kRowIterations && (iteration == 0 || residual > tolerance); ++iteration) {
       if (follow_directions) {
         for (const Link& link : links_) line.links.direction.set(link.right, across(line.value, link.left, link.right));
       }

@@ -29,7 +29,9 @@ class WeftSolver {
   /// positions, adds to the multipliers, never below zero. With follow_directions the links' directions are those of
   /// the present positions (implicit scheme). further: share of each row's change that is added on top
   /// (over-relaxation of the alternation with the warp), [0..1). residual: the largest before the solve.
-  LineOutcome solve(const LineSolve& line, double tolerance, bool follow_directions, double further = 0.0) noexcept;
+  /// leave_alone: residual up to which a row is not touched at all, <= tolerance.
+  LineOutcome solve(const LineSolve& line, double tolerance, double leave_alone, bool follow_directions,
+                    double further = 0.0) noexcept;
 
   /// Largest relative violation of any link, as solve() judges it. Changes nothing.
   double residual(const LineSolve& line) noexcept;

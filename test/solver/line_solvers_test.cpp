@@ -132,7 +132,7 @@ TEST_P(WeftSolverOf, ShortensLongLinksAndLeavesSlackOnes) {
   bench.shake(0.004, 8);
   const Field3 before = bench.state.position;
   EXPECT_GT(weftStretch(bench.pattern, bench.state.position), 1e-2);
-  for (int sweep = 0; sweep < 20; ++sweep) bench.weft_solver.solve(bench.weftLine(), 1e-12, false);
+  for (int sweep = 0; sweep < 20; ++sweep) bench.weft_solver.solve(bench.weftLine(), 1e-12, 1e-12, false);
   // Strings may keep the compliance's share of their load s (w_a + w_b): at most the strain shaken in, 0.2, summed over
   // the 24 links of a row.
   EXPECT_LT(weftStretch(bench.pattern, bench.state.position), kWeftCompliance * 0.2 * 24);
@@ -151,7 +151,7 @@ TEST_P(WeftSolverOf, DoesNotTouchAClothWithoutATautLink) {
   scene.hang.radius = 0.1;
   Bench bench(scene);
   const Field3 before = bench.state.position;
-  const LineOutcome outcome = bench.weft_solver.solve(bench.weftLine(), 1e-12, false);
+  const LineOutcome outcome = bench.weft_solver.solve(bench.weftLine(), 1e-12, 1e-12, false);
   EXPECT_EQ(outcome.residual, 0.0);
   EXPECT_EQ(bench.state.position.x, before.x);
   EXPECT_EQ(bench.state.position.y, before.y);
@@ -167,7 +167,7 @@ TEST(WeftSolver, TakesBackAPullThatIsNotNeeded) {
   const Field3 before = bench.state.position;
   bench.weft.multiplier[bench.pattern.grid.index(0, 2)] = 0.01;
   WeftSolver::applyMultipliers(bench.weftLine());
-  for (int sweep = 0; sweep < 10; ++sweep) bench.weft_solver.solve(bench.weftLine(), 1e-13, false);
+  for (int sweep = 0; sweep < 10; ++sweep) bench.weft_solver.solve(bench.weftLine(), 1e-13, 1e-13, false);
   EXPECT_NEAR(bench.weft.multiplier[bench.pattern.grid.index(0, 2)], 0.0, 1e-9);
   for (int j = 0; j < 4; ++j) {
     const std::size_t n = bench.pattern.grid.index(0, j);
@@ -180,7 +180,7 @@ TEST(WeftSolver, SurvivesAStraightRowBetweenPins) {
   Bench bench(sceneOf(2, 30, PinKind::kTopCorners));
   for (int j = 1; j < 29; ++j) bench.state.position.add(bench.pattern.grid.index(0, j), Vec3(1e-4, 0.0, -1e-3));
   for (int sweep = 0; sweep < 30; ++sweep) {
-    EXPECT_TRUE(bench.weft_solver.solve(bench.weftLine(), 1e-6, false).sound);
+    EXPECT_TRUE(bench.weft_solver.solve(bench.weftLine(), 1e-6, 1e-6, false).sound);
   }
   EXPECT_LT(weftStretch(bench.pattern, bench.state.position), 1e-3);
 }
