@@ -112,7 +112,7 @@ struct WindParams {
   double porosity_weight = 1.0;        ///< c_mu of Eq. (3), [0..1]
   double distance_weight = 1.0;        ///< c_d of Eq. (3), > 0
   double unsteadiness = 0.0;           ///< standard deviation of each component of the gusts [Pa], >= 0
-  double correlation_time = 0.2;       ///< of the gusts [s], > 0
+  double correlation_time = 0.2;       ///< of the gusts [s], [1e-6..1e6]
   double correlation_length = 0.25;    ///< of the gusts along the cloth [m], > 0
   double start = 0.0;                  ///< [s]
   double end = std::numeric_limits<double>::infinity();  ///< [s], > start

@@ -59,34 +59,31 @@ void DragForce::grasp(NodeIndex node, const ClothPattern& pattern) noexcept {
     }
     for (Share& share : shares_) share.weight /= sum;
   }
-  grasp_inverse_mass_ = 0.0;
-  for (const Share& share : shares_) {
-    grasp_inverse_mass_ += share.weight * share.weight * pattern.inverse_mass[share.node];
-  }
 }
 
-// Implicit Euler for the grasped nodes alone: v' = v + dt W F with F = k (target - x - dt v') - c v'. The rest of the
-// cloth only makes them heavier, hence steadier.
-Vec3 DragForce::springForce(const Field3& position, const Field3& velocity, double dt) const noexcept {
+// The pull of the spring as it is. Its damper, and the look ahead that makes it stable at any stiffness (implicit Euler:
+// k (target - x - dt v')), are coefficients against the nodes' velocities; the solver puts them into the nodes' inertia,
+// where the rest of the cloth is felt too. At its limit the spring is a softer one.
+void DragForce::addSpring(const Field3& position, double dt, Field3& force, Field& damping) const noexcept {
   Vec3 x = Vec3::Zero();
-  Vec3 v = Vec3::Zero();
+  for (const Share& share : shares_) x += share.weight * position.at(share.node);
+  const Vec3 way = *drag_.target - x;
+  const double distance = way.norm();
+  const double k = distance * drag_.stiffness > drag_.max_force ? drag_.max_force / distance : drag_.stiffness;
   for (const Share& share : shares_) {
-    x += share.weight * position.at(share.node);
-    v += share.weight * velocity.at(share.node);
+    force.add(share.node, (share.weight * k) * way);
+    damping[share.node] += share.weight * (spring_damping_ + k * dt);
   }
-  const double k = drag_.stiffness;
-  const double c = spring_damping_;
-  Vec3 pull = (k * (*drag_.target - x) - (c + k * dt) * v) / (1.0 + grasp_inverse_mass_ * dt * (c + k * dt));
-  const double size = pull.norm();
-  if (size > drag_.max_force) pull *= drag_.max_force / size;
-  return pull;
 }
 
-void DragForce::addForces(const ClothPattern& pattern, const Field3& position, const Field3& velocity, double dt,
-                          Field3& force) noexcept {
+void DragForce::addForces(const ClothPattern& pattern, const Field3& position, double dt, Field3& force,
+                          Field& damping) noexcept {
   if (!node_) grasp(nearestNode(pattern.grid, position, *drag_.point), pattern);
-  const Vec3 pull = drag_.target ? springForce(position, velocity, dt) : drag_.force;
-  for (const Share& share : shares_) force.add(share.node, share.weight * pull);
+  if (drag_.target) {
+    addSpring(position, dt, force, damping);
+  } else {
+    for (const Share& share : shares_) force.add(share.node, share.weight * drag_.force);
+  }
 }
 
 }  // namespace curtain

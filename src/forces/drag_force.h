@@ -24,23 +24,25 @@ class DragForce {
   /// Takes hold of a node (used by a drag by point, and by one that takes over from another of its id).
   void grasp(NodeIndex node, const ClothPattern& pattern) noexcept;
 
-  /// Adds its force on the nodes [N]. dt: the time the force will act [s]; the spring looks that far ahead, which
-  /// makes it stable at any stiffness. Allocates nothing.
-  void addForces(const ClothPattern& pattern, const Field3& position, const Field3& velocity, double dt,
-                 Field3& force) noexcept;
+  /// True for a spring, which also damps.
+  bool damps() const { return drag_.target.has_value(); }
+
+  /// Adds its force on the nodes [N], and for a spring its damping coefficients [kg/s]. dt: how long the force will act
+  /// [s]. Allocates nothing.
+  void addForces(const ClothPattern& pattern, const Field3& position, double dt, Field3& force,
+                 Field& damping) noexcept;
 
  private:
   struct Share {
     std::size_t node;
     double weight;
   };
-  Vec3 springForce(const Field3& position, const Field3& velocity, double dt) const noexcept;
+  void addSpring(const Field3& position, double dt, Field3& force, Field& damping) const noexcept;
 
   DragParams drag_;
   std::optional<NodeIndex> node_;
   std::vector<Share> shares_;        // weights add up to one; room for every node is kept from the start
   double spring_damping_ = 0.0;      // [kg/s]
-  double grasp_inverse_mass_ = 0.0;  // sum of weight^2 / mass: how the grasped nodes answer a force [1/kg]
 };
 
 /// The node nearest to a point.

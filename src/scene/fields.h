@@ -95,7 +95,7 @@ struct Fields<WindParams> {
     v.number("porosity_weight", wind.porosity_weight, between(0.0, 1.0));
     v.number("distance_weight", wind.distance_weight, positive());
     v.number("unsteadiness", wind.unsteadiness, notNegative());
-    v.number("correlation_time", wind.correlation_time, positive());
+    v.number("correlation_time", wind.correlation_time, between(1e-6, 1e6));
     v.number("correlation_length", wind.correlation_length, positive());
     v.number("start", wind.start, finite());
     v.number("end", wind.end, orInfinite());

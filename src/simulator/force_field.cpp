@@ -110,12 +110,14 @@ const NodeForces& ForceField::evaluate(const ClothState& state, double time, dou
       if (blows(wind)) wind.addForces(pattern_, state.position, area_vectors_, time, forces_.force);
     }
   }
+  const auto damps = [time](const DragForce& drag) { return drag.damps() && drag.actsAt(time); };
+  forces_.has_damping = air_damping_.active() || std::any_of(drags_.begin(), drags_.end(), damps);
+  if (forces_.has_damping) std::fill(forces_.damping.begin(), forces_.damping.end(), 0.0);
+  if (air_damping_.active()) air_damping_.addCoefficients(pattern_.grid, state.velocity, forces_.damping);
   for (DragForce& drag : drags_) {
-    if (drag.actsAt(time)) drag.addForces(pattern_, state.position, state.velocity, dt, forces_.force);
-  }
-  if (forces_.has_damping) {
-    std::fill(forces_.damping.begin(), forces_.damping.end(), 0.0);
-    air_damping_.addCoefficients(pattern_.grid, state.velocity, forces_.damping);
+    if (drag.actsAt(time)) {
+      drag.addForces(pattern_, state.position, dt + state.velocity_age, forces_.force, forces_.damping);
+    }
   }
   return forces_;
 }

@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "forces/air_damping.h"
 #include "testing.h"
 
 namespace curtain {
@@ -26,14 +27,16 @@ struct Cloth {
     position = makeInitialState(scene, pattern).position;
     velocity.assign(pattern.grid.size(), 0.0);
   }
-  Field3 pull(DragForce& drag, double dt = 0.01) const {
+  Field3 pull(DragForce& drag, double dt = 0.01) {
     Field3 force;
     force.assign(pattern.grid.size(), 0.0);
-    drag.addForces(pattern, position, velocity, dt, force);
+    damping.assign(pattern.grid.size(), 0.0);
+    drag.addForces(pattern, position, dt, force, damping);
     return force;
   }
   ClothPattern pattern;
   Field3 position, velocity;
+  Field damping;
 };
 
 DragParams dragOf(NodeIndex node, double radius = 0.0) {
@@ -46,7 +49,7 @@ DragParams dragOf(NodeIndex node, double radius = 0.0) {
 }
 
 TEST(DragForce, WithoutRadiusActsOnItsNodeAlone) {
-  const Cloth cloth(flatScene(4, 5));
+  Cloth cloth(flatScene(4, 5));
   DragForce drag(dragOf({2, 3}), cloth.pattern);
   const Field3 force = cloth.pull(drag);
   for (std::size_t n = 0; n < cloth.pattern.grid.size(); ++n) {
@@ -56,7 +59,7 @@ TEST(DragForce, WithoutRadiusActsOnItsNodeAlone) {
 
 TEST(DragForce, SharedByTheNeighbourhoodAddsUpToTheForce) {
   for (const bool closed : {false, true}) {
-    const Cloth cloth(closed ? ringScene(12, 14) : flatScene(12, 14));
+    Cloth cloth(closed ? ringScene(12, 14) : flatScene(12, 14));
     const Grid& grid = cloth.pattern.grid;
     for (const NodeIndex node : {NodeIndex{0, 0}, NodeIndex{6, 7}, NodeIndex{11, 13}, NodeIndex{5, 0}}) {
       for (const double radius : {1e-6, 0.11, 0.3, 10.0}) {
@@ -87,7 +90,7 @@ TEST(DragForce, SharedByTheNeighbourhoodAddsUpToTheForce) {
 }
 
 TEST(DragForce, NeighbourhoodGoesAroundARingEvenly) {
-  const Cloth cloth(ringScene(5, 10));
+  Cloth cloth(ringScene(5, 10));
   DragForce drag(dragOf({2, 0}, 0.35), cloth.pattern);
   const Field3 force = cloth.pull(drag);
   for (int i = 0; i < 5; ++i) {
@@ -101,7 +104,7 @@ TEST(DragForce, NeighbourhoodGoesAroundARingEvenly) {
 }
 
 TEST(DragForce, ActsFromStartUntilBeforeEnd) {
-  const Cloth cloth(flatScene(3, 3));
+  Cloth cloth(flatScene(3, 3));
   DragParams params = dragOf({1, 1});
   params.start = 1.0;
   params.end = 2.0;
@@ -153,7 +156,9 @@ struct FreeNode {
   Vec3 offset() const { return cloth.position.at(n) - *drag.params().target; }
   void step(double dt) {
     const Vec3 force = cloth.pull(drag, dt).at(n);
-    cloth.velocity.add(n, dt * inverse_mass * force);
+    // As the solver moves it: the damping is part of the node's inertia.
+    const DampedStep factors = dampedStep(cloth.damping[n], inverse_mass, dt);
+    cloth.velocity.set(n, factors.keep * cloth.velocity.at(n) + dt * factors.gain * inverse_mass * force);
     cloth.position.add(n, dt * cloth.velocity.at(n));
   }
   Cloth cloth;
@@ -256,7 +261,8 @@ TEST(DragSpring, HoldsAPinnedNodeWithoutDividingByZero) {
   DragForce drag(springOf(1e9, 5.0), pattern);
   Field3 force;
   force.assign(pattern.grid.size(), 0.0);
-  drag.addForces(pattern, state.position, state.velocity, 0.01, force);
+  Field damping(pattern.grid.size(), 0.0);
+  drag.addForces(pattern, state.position, 0.01, force, damping);
   EXPECT_NEAR(force.at(pattern.grid.index(0, 0)).norm(), 5.0, 5.0 * 8.0 * kEps);
 }
 

@@ -258,7 +258,7 @@ TEST(BadInput, Wind) {
   expectProblem(wind("porosity_weight: 2"), "wind[0].porosity_weight", {"a number in [0, 1], is 2"});
   expectProblem(wind("distance_weight: 0"), "wind[0].distance_weight", {"a finite number > 0, is 0"});
   expectProblem(wind("unsteadiness: -1"), "wind[0].unsteadiness", {">= 0, is -1"});
-  expectProblem(wind("correlation_time: 0"), "wind[0].correlation_time", {"> 0, is 0"});
+  expectProblem(wind("correlation_time: 0"), "wind[0].correlation_time", {"[1e-06, 1000000]", "is 0"});
   expectProblem(wind("correlation_length: 0"), "wind[0].correlation_length", {"> 0, is 0"});
   expectProblem(with("wind: [{id: a}, {id: b}, {id: a}]"), "wind[2].id", {"unique", "\"a\" is taken by wind[0]"});
 }

@@ -195,6 +195,87 @@ TEST(Simulator, KeepsMirrorSymmetry) {
   EXPECT_GT(simulator.position({19, 7}).y(), 0.05);
 }
 
+// What the tolerance leaves over must not become motion: a sheet dropped from its corners only loses energy (gravity is
+// counted in it). Bound: what a stretch of 1e-3 in the whole cloth is worth, m g L / 1000.
+TEST(Simulator, ADroppedSheetGainsNoEnergy) {
+  for (const int n : {5, 8, 12, 20}) {
+    Scene scene = sceneOf(n, n);
+    scene.cloth.height = 1.0;
+    scene.hang.from = Vec3::Zero();
+    scene.hang.to = Vec3(0.9, 0.0, 0.0);
+    scene.hang.tilt = 1.5707963267948966;
+    scene.pins.kind = PinKind::kTopCorners;
+    Simulator simulator(scene);
+    const double start = simulator.energy().potential;
+    for (int frame = 0; frame < 180; ++frame) {
+      simulator.step();
+      const Energy energy = simulator.energy();
+      ASSERT_LT(energy.kinetic + energy.potential - start, 0.2 * 9.81 * 1e-3) << n << " rows, frame " << frame;
+    }
+    EXPECT_EQ(simulator.statistics().unsettled, 0) << n << " rows";
+  }
+}
+
+// At rest the spring pulls with stiffness times way, whatever the substeps: its force is the one that holds the cloth.
+TEST(Simulator, ASpringHoldsWithItsStiffness) {
+  Vec3 first = Vec3::Zero();
+  for (const int substeps : {1, 16, 64}) {
+    Scene scene = sceneOf(12, 12);
+    scene.cloth.height = 1.0;
+    scene.air.inside = scene.air.border = scene.air.corner = 1.0;
+    scene.solver.substeps = substeps;
+    DragParams hand;
+    hand.id = "hand";
+    hand.node = NodeIndex{11, 6};
+    hand.target = Vec3(0.5, -0.5, 1.4);
+    hand.stiffness = 20.0;
+    scene.drag.push_back(hand);
+    Simulator simulator(scene);
+    run(simulator, 900);
+    // Means over two seconds: the node trembles by what the tolerance leaves over, and its damping answers that.
+    Vec3 way = Vec3::Zero(), pull = Vec3::Zero();
+    std::vector<Vec3> force;
+    for (int frame = 0; frame < 120; ++frame) {
+      simulator.step();
+      simulator.copyForces(force);
+      way += (*hand.target - simulator.position({11, 6})) / 120.0;
+      // The node's own weight is in the force too.
+      pull += (force[11 * 12 + 6] + Vec3(0.0, 0.0, 9.81 * simulator.mass({11, 6}))) / 120.0;
+    }
+    std::printf("substeps %d: %.4f N, stiffness times way %.4f N\n", substeps, pull.norm(), hand.stiffness * way.norm());
+    EXPECT_NEAR(pull.norm(), hand.stiffness * way.norm(), 0.05 * hand.stiffness * way.norm()) << substeps;
+    EXPECT_GT(hand.stiffness * way.norm(), 0.1);
+    // And the place does not depend on the substeps, but for the links' tolerance of 1 mm in the metre.
+    if (substeps == 1) first = simulator.position({11, 6});
+    EXPECT_LT((simulator.position({11, 6}) - first).norm(), 2e-3) << substeps;
+  }
+}
+
+// Forces beyond all numbers stop the cloth for as long as they last; then it goes on.
+TEST(Simulator, AForceBeyondNumbersIsSurvived) {
+  Scene scene = sceneOf(10, 8);
+  DragParams blow;
+  blow.id = "blow";
+  blow.node = NodeIndex{9, 4};
+  blow.force = Vec3(0.0, 1e200, 0.0);
+  blow.start = 0.1;
+  blow.end = 0.11;
+  scene.drag.push_back(blow);
+  Simulator simulator(scene);
+  run(simulator, 12);
+  EXPECT_GT(simulator.statistics().stops, 0);
+  DragParams pull;
+  pull.id = "pull";
+  pull.node = NodeIndex{9, 0};
+  pull.force = Vec3(0.0, 0.5, 0.0);
+  simulator.clearDrags();
+  ASSERT_TRUE(simulator.setDrag(pull).empty());
+  run(simulator, 30);
+  EXPECT_TRUE(simulator.statistics().finite);
+  EXPECT_TRUE(std::isfinite(simulator.energy().kinetic));
+  EXPECT_GT(simulator.position({9, 0}).y(), 0.01);
+}
+
 struct PinCase {
   const char* name;
   PinKind kind;
