@@ -225,7 +225,7 @@ void Simulator::copyForces(std::vector<Vec3>& out) const {
   const Grid& grid = im.pattern.grid;
   Field3 total = im.forces.last().force;
   if (im.forces.last().has_damping) {
-    const Field3& velocity = impl_->currentVelocities();
+    const Field3& velocity = im.state.velocity;  // that substep's own
     for (std::size_t n = 0; n < grid.size(); ++n) total.add(n, -im.forces.last().damping[n] * velocity.at(n));
   }
   if (im.contact_scale > 0.0 && im.obstacles.anyPresent()) {
