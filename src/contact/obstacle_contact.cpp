@@ -79,6 +79,8 @@ void ObstacleContact::collect(const ClothPattern& pattern, const Field3& start, 
       if (moving.shape->query(local_from, local_from, thickness_, before)) {
         const double speed = before.distance < 0.0 ? kRecoverySpeed : kGapRecoverySpeed;
         plane.offset -= std::max(0.0, thickness_ - before.distance - speed * h);
+        // Nothing holds a node back on its way out: friction there could lock cloth around an edge for good.
+        if (before.distance < 0.0) plane.friction = 0.0;
       }
       plane.carried = moving.after.toWorld(local_from);
       plane.surface_velocity = (plane.carried - from) / h;

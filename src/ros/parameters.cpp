@@ -144,7 +144,7 @@ ParameterReading readParameters(const XmlRpcValue& tree, const std::string& priv
   if (scene == nullptr) {
     reading.problems.push_back(scene_name +
                                ": missing; load a scene file there: <rosparam command=\"load\" ns=\"scene\" "
-                               "file=\"…\"/>");
+                               "file=\"...\"/>");
   } else if (scene->getType() != XmlRpcValue::TypeStruct) {
     reading.problems.push_back(scene_name + ": must be a dictionary, is " + describeValue(*scene));
   } else {

@@ -60,7 +60,8 @@ void StepControl::reset() noexcept {
 StepControl::Plan StepControl::next(double remaining) const noexcept {
   Plan plan;
   const double smallest = frame_ / max_substeps_;
-  double wanted = fixed_substeps_ > 0 ? frame_ / fixed_substeps_ : frame_;
+  const double most = fixed_substeps_ > 0 ? frame_ / fixed_substeps_ : frame_;
+  double wanted = most;
   plan.scheme = method_ == Method::kImplicit ? Scheme::kImplicit : Scheme::kLeapfrog;
   if (fixed_substeps_ == 0 && plan.scheme == Scheme::kLeapfrog) {
     const double for_phase = omega_ > 0.0 ? kPhasePerStep / omega_ : frame_;
@@ -71,7 +72,7 @@ StepControl::Plan StepControl::next(double remaining) const noexcept {
   if (limit_ <= smallest && method_ != Method::kPaper) plan.scheme = Scheme::kImplicit;
   plan.must_accept = plan.scheme == Scheme::kImplicit || method_ == Method::kPaper;
   double step = std::min(wanted, std::max(limit_, smallest));
-  if (plan.scheme == Scheme::kImplicit && method_ != Method::kImplicit) step = std::min(wanted, implicit_step_);
+  if (plan.scheme == Scheme::kImplicit && method_ != Method::kImplicit) step = std::min(most, implicit_step_);
   // Equal shares of what is left; the small slack keeps rounding from adding a substep.
   plan.h = remaining / std::max(1.0, std::ceil(remaining / step - 1e-6));
   return plan;
