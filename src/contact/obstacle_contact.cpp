@@ -13,6 +13,9 @@ constexpr std::size_t kPerNode = 4;
 constexpr double kRecoverySpeed = 2.0;
 constexpr double kGapRecoverySpeed = 0.1;
 
+// Substeps without friction after one whose links could not be brought to their lengths.
+constexpr int kSlipperySubsteps = 64;
+
 // Box around the way of all free nodes.
 Eigen::AlignedBox3d sweptBox(const ClothPattern& pattern, const Field3& start, const Field3& predicted) {
   Eigen::AlignedBox3d box;
@@ -84,7 +87,7 @@ void ObstacleContact::collect(const ClothPattern& pattern, const Field3& start, 
       }
       plane.carried = moving.after.toWorld(local_from);
       plane.surface_velocity = (plane.carried - from) / h;
-      plane.friction = moving.friction;
+      plane.friction = slippery_ > 0 ? 0.0 : moving.friction;
       planes_.push_back(plane);
     }
   }
@@ -127,6 +130,11 @@ void ObstacleContact::projectVelocity(Field3& velocity) noexcept {
     const double approach = (v - plane.surface_velocity).dot(plane.normal);
     if (approach < 0.0) velocity.set(plane.node, v - approach * plane.normal);
   }
+}
+
+void ObstacleContact::afterSubstep(bool settled) noexcept {
+  if (!settled) slippery_ = kSlipperySubsteps;
+  else if (slippery_ > 0) --slippery_;
 }
 
 int ObstacleContact::contactCount() const noexcept {

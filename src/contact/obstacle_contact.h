@@ -33,7 +33,13 @@ class ObstacleContact : public PositionConstraints {
   void addForces(const Field& inverse_inertia, double scale, Field3& force) const noexcept;
   /// Substeps in which a contact found no room (more than kPerNode obstacles at one node, everywhere).
   std::int64_t overflowCount() const { return overflow_; }
-  void forget() noexcept { planes_.clear(); }
+  void forget() noexcept {
+    planes_.clear();
+    slippery_ = 0;
+  }
+  /// After every substep: whether the links could be brought to their lengths. Where they could not, cloth is locked on
+  /// something; friction is left out for the next substeps, so that it can slip off.
+  void afterSubstep(bool settled) noexcept;
 
  private:
   struct Plane {
@@ -55,6 +61,7 @@ class ObstacleContact : public PositionConstraints {
   std::vector<Plane> planes_;  // room is reserved at construction
   std::size_t capacity_;
   std::int64_t overflow_ = 0;
+  int slippery_ = 0;  // substeps still to go without friction
 };
 
 }  // namespace curtain

@@ -133,6 +133,7 @@ double Simulator::Impl::makeSubstep(double done) {
   ++statistics.substeps_last;
   if (plan.scheme == Scheme::kImplicit && scene.solver.method != Method::kImplicit) ++statistics.implicit;
   if (!outcome.settled) ++statistics.unsettled;
+  contact.afterSubstep(outcome.settled);
   return plan.h;
 }
 
