@@ -162,10 +162,12 @@ struct ContactParams {
 };
 
 enum class Method {
-  kAuto,      ///< leapfrog with substeps from the tensions, implicit where their number reaches its cap
-  kLeapfrog,  ///< constraint forces along the links' directions at the start of the step; order 2
-  kImplicit,  ///< along their directions at the end of the step; order 1, stable at any step, damps
-  kPaper      ///< Cheng 2000, Sect. 3 as printed
+  kAuto,       ///< leapfrog with substeps from the tensions, implicit where their number reaches its cap
+  kLeapfrog,   ///< constraint forces along the links' directions at the start of the step; order 2, symplectic
+  kLeapfrog4,  ///< five leapfrog steps to a substep, composed to order 4; order 2 where a string is taut or contact is near
+  kBdf2,       ///< along the directions at the end of the step, from two steps; order 2, stable at any step
+  kImplicit,   ///< the same from one step; order 1, stable at any step, damps
+  kPaper       ///< Cheng 2000, Sect. 3 as printed
 };
 
 struct SolverParams {
@@ -173,6 +175,9 @@ struct SolverParams {
   double frame_rate = 60.0;         ///< published steps per second [1..10000]
   int substeps = 0;                 ///< per frame [1..10000]; 0 = auto
   double stretch_tolerance = 1e-3;  ///< relative overlength allowed to any link [1e-12..0.1]
+  double position_tolerance = 0.0;  ///< error of positions to aim at [m per simulated second, RMS over the nodes], [0..1];
+                                    ///< 0 = none asked for: substeps from stability alone
+  int threads = 0;                  ///< that step one cloth [1..256]; 0 = auto: one for small cloth, else all there are
   int max_substeps = 128;           ///< cap of auto per frame [1..10000]; beyond it: the implicit scheme
   int max_sweeps = 60;              ///< cap of warp/weft/contact sweeps per substep [1..10000]
   std::uint64_t seed = 1;           ///< of every random number

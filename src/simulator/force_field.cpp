@@ -33,7 +33,7 @@ ForceField::ForceField(const Scene& scene, const ClothPattern& pattern)
   weight_.assign(size, 0.0);
   for (std::size_t n = 0; n < size; ++n) weight_.set(n, pattern.mass[n] * scene.gravity);
   area_vectors_.assign(size, 0.0);
-  forces_.force.assign(size, 0.0);
+  sum_.assign(size, 0.0);
   forces_.damping.assign(size, 0.0);
   forces_.has_damping = air_damping_.active();
   reset();
@@ -46,7 +46,8 @@ void ForceField::reset() {
   for (const DragParams& drag : scene_.drag) drags_.emplace_back(drag, pattern_);
   listParams(winds_, wind_params_);
   listParams(drags_, drag_params_);
-  forces_.force.assign(pattern_.grid.size(), 0.0);
+  sum_.assign(pattern_.grid.size(), 0.0);
+  forces_.force = &sum_;
 }
 
 std::vector<Problem> ForceField::setWind(const WindParams& wind) {
@@ -102,22 +103,27 @@ void ForceField::clearDrags() {
 }
 
 const NodeForces& ForceField::evaluate(const ClothState& state, double time, double dt) noexcept {
-  forces_.force = weight_;
   const auto blows = [time](const WindSource& wind) { return wind.blowsAt(time); };
-  if (std::any_of(winds_.begin(), winds_.end(), blows)) {
+  const auto acts = [time](const DragForce& drag) { return drag.actsAt(time); };
+  const bool windy = std::any_of(winds_.begin(), winds_.end(), blows);
+  const bool dragged = std::any_of(drags_.begin(), drags_.end(), acts);
+  forces_.force = &weight_;
+  if (windy || dragged) {
+    sum_ = weight_;
+    forces_.force = &sum_;
+  }
+  if (windy) {
     nodeAreaVectors(pattern_.grid, state.position, area_vectors_);
     for (WindSource& wind : winds_) {
-      if (blows(wind)) wind.addForces(pattern_, state.position, area_vectors_, time, forces_.force);
+      if (blows(wind)) wind.addForces(pattern_, state.position, area_vectors_, time, sum_);
     }
   }
-  const auto damps = [time](const DragForce& drag) { return drag.damps() && drag.actsAt(time); };
+  const auto damps = [&acts](const DragForce& drag) { return drag.damps() && acts(drag); };
   forces_.has_damping = air_damping_.active() || std::any_of(drags_.begin(), drags_.end(), damps);
   if (forces_.has_damping) std::fill(forces_.damping.begin(), forces_.damping.end(), 0.0);
   if (air_damping_.active()) air_damping_.addCoefficients(pattern_.grid, state.velocity, forces_.damping);
   for (DragForce& drag : drags_) {
-    if (drag.actsAt(time)) {
-      drag.addForces(pattern_, state.position, dt + state.velocity_age, forces_.force, forces_.damping);
-    }
+    if (acts(drag)) drag.addForces(pattern_, state.position, dt + state.velocity_age, sum_, forces_.damping);
   }
   return forces_;
 }

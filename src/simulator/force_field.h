@@ -43,6 +43,7 @@ class ForceField {
   std::vector<DragForce> drags_;
   std::vector<DragParams> drag_params_;
   Field3 weight_;
+  Field3 sum_;  // with winds and drags, when any acts
   Field3 area_vectors_;
   NodeForces forces_;
 };

@@ -55,7 +55,8 @@ struct Simulator::Impl {
         forces(scene, pattern),
         obstacles(scene, resolve),
         contact(pattern, scene.contact, obstacles),
-        exact(pattern, scene.solver.stretch_tolerance, scene.solver.max_sweeps),
+        workers(threadsFor(scene.solver.threads, pattern.grid.nodeCount())),
+        exact(pattern, scene.solver.stretch_tolerance, scene.solver.max_sweeps, workers),
         paper(pattern),
         control(scene.solver, pattern, scene.gravity),
         surface(scene.cloth, pattern) {
@@ -75,6 +76,7 @@ struct Simulator::Impl {
   ForceField forces;
   ObstacleSet obstacles;
   ObstacleContact contact;
+  Workers workers;
   ExactSolver exact;
   PaperSolver paper;
   StepControl control;
@@ -104,7 +106,7 @@ void Simulator::Impl::reset() {
 // One substep from `done` seconds into the frame. Returns how far it came: 0 when it was rejected.
 double Simulator::Impl::makeSubstep(double done) {
   const double frame_length = 1.0 / scene.solver.frame_rate;
-  const StepControl::Plan plan = control.next(frame_length - done);
+  const SubstepPlan plan = control.next(frame_length - done, exact);
   PositionConstraints* const constraints = obstacles.anyPresent() ? &contact : nullptr;
   clock.start();
   if (constraints != nullptr) obstacles.setSubstep(done / frame_length, (done + plan.h) / frame_length);
@@ -113,7 +115,7 @@ double Simulator::Impl::makeSubstep(double done) {
   const SubstepOutcome outcome =
       scene.solver.method == Method::kPaper
           ? paper.substep(now, plan.h, constraints, state, clock)
-          : exact.substep(plan.scheme, now, plan.h, plan.must_accept, constraints, state, clock);
+          : exact.substep(plan, now, constraints, state, clock);
   statistics.sweeps += outcome.sweeps;
   statistics.sweeps_last += outcome.sweeps;
   if (!outcome.accepted) {
@@ -224,7 +226,7 @@ void Simulator::copyVelocities(std::vector<Vec3>& out) const {
 void Simulator::copyForces(std::vector<Vec3>& out) const {
   const Impl& im = *impl_;
   const Grid& grid = im.pattern.grid;
-  Field3 total = im.forces.last().force;
+  Field3 total = *im.forces.last().force;
   if (im.forces.last().has_damping) {
     const Field3& velocity = im.state.velocity;  // that substep's own
     for (std::size_t n = 0; n < grid.size(); ++n) total.add(n, -im.forces.last().damping[n] * velocity.at(n));

@@ -3,19 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "cloth/wide.h"
 #include "forces/air_damping.h"
 
 namespace curtain {
 namespace {
 
 // The tolerance inside: what the last half-sweep stirs up again must still fit below the user's.
-constexpr double kInnerTolerance = 0.4;
-// What is left over at the end of a substep becomes a velocity of (left over) / h, so shorter substeps leave less: the
-// tolerance goes down with h below this one [s].
-constexpr double kToleranceStep = 0.004;
-// Share of the tolerance below which a row of the weft is not touched in a substep's first sweep. Far smaller than 1:
-// a link left to drift through the tolerance and then pulled back at once would be kicked.
+constexpr double kInnerTolerance = 0.5;
+// Share of the tolerance below which the weft is not touched in a substep's first sweep. Far smaller than 1: a link left
+// to drift through the tolerance and then pulled back at once would be kicked.
 constexpr double kFirstSweepShare = 1e-4;
 // Newton converges quadratically: an iteration that starts this close ends near the square of it, times a factor that
 // grows with the column's height.
@@ -27,15 +26,29 @@ constexpr int kNewtonIterations = 12;
 constexpr double kLeaveAlone = 0.1;
 // A relative violation beyond this is a step that failed, not one that converges slowly.
 constexpr double kDiverged = 4.0;
-// Alternating exact solves of two blocks gain a factor rho a sweep; taking the weft this much further gains more where
-// rho is near 1 (sheared cloth), and is not worth it where a few sweeps do. Measured: 0.8 diverges at times.
-constexpr int kPlainSweeps = 3;
-constexpr double kOverRelaxation = 0.5;
-// Sweeps that must at least bring this improvement, or the alternation has stalled.
-constexpr int kStallWindow = 16;
-constexpr double kStallFactor = 0.9;
-// Alternations of the linear velocity projection; each gains about cos^2 of the angle between warp and weft.
-constexpr int kVelocitySweeps = 6;
+// Conjugate gradients go on until the residual is a share of the tolerance, but at most to the same share of itself: past
+// that the first-order picture they solve in is no longer true, and what the last digits ask for throws nodes about.
+// Measured on sheets hung by two corners: 0.03 rejects six times as many substeps.
+constexpr double kLeastReduction = 0.3;
+constexpr double kMostReduction = 0.5;
+constexpr int kGradientIterations = 12;
+// A sweep that moves a node by more than this share of a link at once is cut back to it [1].
+constexpr double kLargestMove = 0.2;
+// Sweeps along the given directions must bring at least this reduction, or what is left is corrected along the present
+// ones: where a flat net shears, forces along the directions at the start may have no solution at all.
+constexpr double kWatchMoves = 1e-3;  // relative violation below which none can
+constexpr double kFollowFactor = 0.2;
+// Sweeps that must bring at least this improvement, or the iteration has stalled.
+constexpr int kStallWindow = 8;
+constexpr double kStallFactor = 0.5;
+// Rounds of the linear velocity projection.
+constexpr int kVelocityRounds = 2;
+// Levenberg-Marquardt term of the weft's solve, over the diagonal: in proportion to the residual, so that it vanishes as
+// the solve ends. Constant, it leaves combinations that hardly move anything to creep by a few percent a sweep.
+constexpr double kDampingPerResidual = 0.05;
+constexpr double kLargestDamping = 1e-2;
+constexpr double kVelocityDamping = 1e-4;
+constexpr int kRowsPerBlock = 8;
 
 double smallestRest(const ClothPattern& pattern) {
   const Grid& grid = pattern.grid;
@@ -49,235 +62,403 @@ double smallestRest(const ClothPattern& pattern) {
   return smallest;
 }
 
-bool allFinite(const Field3& field) {
-  double sum = 0.0;  // 0 * x is NaN for NaN and infinity alike
-  for (const Field* component : {&field.x, &field.y, &field.z}) {
-    const double* const p = component->data();
-    const std::size_t size = component->size();
-    for (std::size_t n = 0; n < size; ++n) sum += 0.0 * p[n];
+double freeMass(const ClothPattern& pattern) {
+  double sum = 0.0;
+  for (std::size_t n = 0; n < pattern.grid.size(); ++n) {
+    if (pattern.inverse_mass[n] > 0.0) sum += pattern.mass[n];
   }
-  return sum == 0.0;
+  return sum;
 }
 
 }  // namespace
 
-ExactSolver::ExactSolver(const ClothPattern& pattern, double stretch_tolerance, int max_sweeps)
+ExactSolver::ExactSolver(const ClothPattern& pattern, double stretch_tolerance, int max_sweeps, const Workers& workers)
     : pattern_(pattern),
+      workers_(workers),
       tolerance_(kInnerTolerance * stretch_tolerance),
       contact_tolerance_(kInnerTolerance * stretch_tolerance * smallestRest(pattern)),
       max_sweeps_(max_sweeps),
-      weft_solver_(pattern.grid),
-      last_warp_(pattern.grid.size() + static_cast<std::size_t>(pattern.grid.stride), 0.0),
-      last_weft_(last_warp_),
-      damped_inertia_(pattern.inverse_mass) {
+      net_(pattern, workers),
+      mean_rest_(pattern.weft_rest[1]),
+      free_mass_(freeMass(pattern)) {
+  const std::size_t size = pattern.grid.size();
+  const std::size_t links = size + static_cast<std::size_t>(pattern.grid.stride);
   scratch_.assign(pattern.grid);
   warp_.assign(pattern.grid);
   weft_.assign(pattern.grid);
-  next_.assign(pattern.grid.size(), 0.0);
+  last_warp_.assign(links, 0.0);
+  last_weft_.assign(links, 0.0);
+  for (Field* field : {&load_, &keep_, &violation_, &active_, &change_}) field->assign(size, 0.0);
+  answer_ = pattern.inverse_mass;
+  next_.assign(size, 0.0);
+  for (Field3* field : {&base_.position, &base_.velocity, &older_position_, &older_velocity_}) field->assign(size, 0.0);
+  block_progress_.resize(static_cast<std::size_t>(warpBlockCount(pattern.grid)));
+  row_worst_.resize(static_cast<std::size_t>((pattern.grid.rows + kRowsPerBlock - 1) / kRowsPerBlock));
 }
 
 void ExactSolver::reset() noexcept {
   std::fill(last_warp_.begin(), last_warp_.end(), 0.0);
   std::fill(last_weft_.begin(), last_weft_.end(), 0.0);
+  std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0);
+  std::fill(load_.begin(), load_.end(), 0.0);
   last_scale_ = 0.0;
+  weft_pulls_ = false;
+  older_h_ = 0.0;
   scratch_.assign(pattern_.grid);
 }
 
-void ExactSolver::predict(const NodeForces& forces, double kick, double h, const ClothState& state) noexcept {
-  const std::size_t size = pattern_.grid.size();
-  const double* const w = pattern_.inverse_mass.data();
-  if (forces.has_damping) {
-    for (std::size_t n = 0; n < size; ++n) damped_inertia_[n] = dampedStep(forces.damping[n], w[n], kick).gain * w[n];
-  }
-  inertia_ = forces.has_damping ? &damped_inertia_ : &pattern_.inverse_mass;
-  const double* const gain = inertia_->data();
-  const double* const c = forces.has_damping ? forces.damping.data() : nullptr;
-  const auto component = [&](const Field& force, const Field& velocity, const Field& position, Field& next) {
-    const double* const f = force.data();
-    const double* const v = velocity.data();
-    const double* const x = position.data();
-    double* const out = next.data();
-    if (c != nullptr) {
-      for (std::size_t n = 0; n < size; ++n) {
-        out[n] = x[n] + h * (dampedStep(c[n], w[n], kick).keep * v[n] + kick * gain[n] * f[n]);
-      }
-    } else {
-#pragma omp simd
-      for (std::size_t n = 0; n < size; ++n) out[n] = x[n] + h * (v[n] + kick * gain[n] * f[n]);
-    }
-  };
-  component(forces.force.x, state.velocity.x, state.position.x, next_.x);
-  component(forces.force.y, state.velocity.y, state.position.y, next_.y);
-  component(forces.force.z, state.velocity.z, state.position.z, next_.z);
+void ExactSolver::save(Memory& memory) const {
+  memory.warp = last_warp_;
+  memory.weft = last_weft_;
+  memory.older_position = older_position_;
+  memory.older_velocity = older_velocity_;
+  memory.scale = last_scale_;
+  memory.older_h = older_h_;
+  memory.weft_pulls = weft_pulls_;
 }
 
-// Multipliers grow with h * kick at the same tensions. The implicit scheme starts from none: what acts along the
-// directions at the start of the step is an explicit part, and unstable at the steps that scheme is for (a quarter of the
-// tension was already too much at 100 rows).
-void ExactSolver::warmStart(Scheme scheme, double scale, const LineSolve& warp, const LineSolve& weft) noexcept {
-  const double ratio = last_scale_ > 0.0 && scheme == Scheme::kLeapfrog ? scale / last_scale_ : 0.0;
+void ExactSolver::restore(const Memory& memory) {
+  last_warp_ = memory.warp;
+  last_weft_ = memory.weft;
+  older_position_ = memory.older_position;
+  older_velocity_ = memory.older_velocity;
+  last_scale_ = memory.scale;
+  older_h_ = memory.older_h;
+  weft_pulls_ = memory.weft_pulls;
+}
+
+// Calls look(row) for all rows; the largest of what it returns.
+template <typename Look>
+double ExactSolver::worstOfRows(const Look& look) noexcept {
+  const int rows = pattern_.grid.rows;
+  workers_.run(static_cast<int>(row_worst_.size()), [&](int b) {
+    double worst = 0.0;
+    const int end = std::min((b + 1) * kRowsPerBlock, rows);
+    for (int i = b * kRowsPerBlock; i < end; ++i) worst = std::max(worst, look(i));
+    row_worst_[static_cast<std::size_t>(b)] = worst;
+  });
+  return *std::max_element(row_worst_.begin(), row_worst_.end());
+}
+
+// How nodes answer an impulse: damping takes a share (gain), and nodes that the tensions would make swing too fast for
+// the step are heavier. h^2 omega^2 <= 2 w sum |s| by Gershgorin, s scaled to this step.
+void ExactSolver::setInertia(const NodeForces& forces, double kick, double scale, double most_phase) noexcept {
+  inertia_ = &pattern_.inverse_mass;
   const std::size_t size = pattern_.grid.size();
-  for (std::size_t n = 0; n < size; ++n) warp_.multiplier[n] = ratio * last_warp_[n];
+  if (forces.has_damping) {
+    inertia_ = &answer_;
+    for (std::size_t n = 0; n < size; ++n) {
+      const DampedStep step = dampedStep(forces.damping[n], pattern_.inverse_mass[n], kick);
+      answer_[n] = step.gain * pattern_.inverse_mass[n];
+      keep_[n] = step.keep;
+    }
+  }
+  if (most_phase <= 0.0 || last_scale_ == 0.0) return;
+  const double per_phase = 2.0 * std::abs(scale / last_scale_) / (most_phase * most_phase);
+  if (!(per_phase * heaviest_load_ > 1.0)) return;
+  const double* const w = inertia_->data();
+  for (std::size_t n = 0; n < size; ++n) {
+    const double needed = per_phase * load_[n];
+    answer_[n] = needed * w[n] > 1.0 ? 1.0 / needed : w[n];
+  }
+  inertia_ = &answer_;
+}
+
+double ExactSolver::stepForPhase(double most_phase, double heavier_share) const noexcept {
+  if (last_scale_ == 0.0) return std::numeric_limits<double>::infinity();
+  const std::size_t size = pattern_.grid.size();
+  // In units of 2 / (scale phase^2): a node needs a mass of u load, u = h^2 in these units.
+  const double largest = heaviest_load_;
+  if (!(largest > 0.0)) return std::numeric_limits<double>::infinity();
+  double u = 1.0 / largest;  // no node is heavier
+  const auto heavier = [&](double trial) {
+    double sum = 0.0;
+    for (std::size_t n = 0; n < size; ++n) {
+      const double extra = trial * load_[n] - pattern_.mass[n];
+      sum += pattern_.inverse_mass[n] > 0.0 && extra > 0.0 ? extra : 0.0;
+    }
+    return sum;
+  };
+  if (heavier_share > 0.0) {
+    const double allowed = heavier_share * free_mass_;
+    double factor = 2.0;
+    for (int halving = 0; halving < 6; ++halving) {  // to within 2^(1/32)
+      while (factor > 1.5 && u * largest < 1e4 && heavier(u * factor) <= allowed) u *= factor;
+      if (factor <= 1.5 && heavier(u * factor) <= allowed) u *= factor;
+      factor = std::sqrt(factor);
+    }
+  }
+  return most_phase * std::sqrt(0.5 * std::abs(last_scale_) * u);
+}
+
+// Where the step starts from: leapfrog and implicit, the state itself; bdf2, what its formula makes of the last two
+// (variable steps: ratio r = h / h_before; y' = (1+r)^2/(1+2r) y - r^2/(1+2r) y_before + (1+r)/(1+2r) h f).
+const ClothState& ExactSolver::setBase(Scheme scheme, double h, const ClothState& state, double& step) noexcept {
+  step = h;
+  if (scheme != Scheme::kBdf2 || older_h_ == 0.0) return state;
+  const double r = h / older_h_;
+  const double now = (1.0 + r) * (1.0 + r) / (1.0 + 2.0 * r);
+  const double before = r * r / (1.0 + 2.0 * r);
+  step = (1.0 + r) / (1.0 + 2.0 * r) * h;
+  const auto combine = [&](const Field& y, const Field& older, Field& out) {
+    for (std::size_t n = 0; n < y.size(); ++n) out[n] = now * y[n] - before * older[n];
+  };
+  combine(state.position.x, older_position_.x, base_.position.x);
+  combine(state.position.y, older_position_.y, base_.position.y);
+  combine(state.position.z, older_position_.z, base_.position.z);
+  combine(state.velocity.x, older_velocity_.x, base_.velocity.x);
+  combine(state.velocity.y, older_velocity_.y, base_.velocity.y);
+  combine(state.velocity.z, older_velocity_.z, base_.velocity.z);
+  return base_;
+}
+
+// Predicts and starts the multipliers where the last substep left them. Not when forces follow the directions: its
+// iteration blows up when the old tensions act along the new directions of rods that have turned much since.
+void ExactSolver::begin(const SubstepPlan& plan, const SubstepStart& start, double scale) noexcept {
+  const bool warm = plan.scheme == Scheme::kLeapfrog && last_scale_ != 0.0;
+  const double ratio = warm ? scale / last_scale_ : 0.0;
+  const LineSolve warp{pattern_, *inertia_, warp_, next_};
+  const LineSolve weft{pattern_, *inertia_, weft_, next_};
+  workers_.run(warpBlockCount(pattern_.grid), [&](int block) { warpBegin(start, warp, last_warp_, ratio, block); });
+  directions_set_ = false;
+  if (!weft_pulls_) return;  // all multipliers are zero, in weft_ too
+  const std::size_t size = pattern_.grid.size();
   for (std::size_t n = 0; n < size; ++n) weft_.multiplier[n] = ratio * last_weft_[n];
   if (ratio == 0.0) return;
-  applyWarpMultipliers(warp);
-  WeftSolver::applyMultipliers(weft);
+  directions_set_ = true;
+  worstOfRows([&](int i) {
+    setWeftDirections(pattern_.grid, i, start.state.position, weft_.direction);
+    pullWeft(weft, i, weft_.multiplier);
+    return 0.0;
+  });
 }
 
-// Newton on one block of columns until an iteration starts with a residual of at most stop.
-bool ExactSolver::solveBlock(Scheme scheme, const LineSolve& warp, int block, double stop, WarpProgress& progress) noexcept {
+// Newton on one block of columns until an iteration starts with a residual small enough.
+ExactSolver::WarpProgress ExactSolver::solveBlock(bool follow, const LineSolve& warp, int block, bool first_sweep,
+                                                  double tolerance) noexcept {
+  WarpProgress progress;
+  if (!first_sweep) {
+    const double residual = warpResidual(warp, block);
+    progress.first_residual = residual;
+    if (residual <= kLeaveAlone * tolerance) return progress;
+  }
+  const double stop = first_sweep && !weft_pulls_ ? kNewtonStop : kNewtonStopLater;
   for (int iteration = 0; iteration < kNewtonIterations; ++iteration) {
-    if (scheme == Scheme::kImplicit) setWarpDirections(pattern_.grid, block, next_, warp_.direction);
+    if (follow) setWarpDirections(pattern_.grid, block, next_, warp_.direction);
     const LineOutcome outcome = warpNewton(warp, scratch_, block);
     if (iteration == 0) progress.first_residual = std::max(progress.first_residual, outcome.residual);
-    if (!outcome.sound || !(outcome.residual < kDiverged)) return false;
+    if (!outcome.sound || !(outcome.residual < kDiverged)) break;
     if (outcome.residual <= stop) {
-      progress.last_residual = std::max(progress.last_residual, outcome.residual);
-      return true;
+      progress.last_residual = outcome.residual;
+      return progress;
     }
   }
-  return false;
-}
-
-// All blocks; in sweeps after the first, those whose rods are in order are left alone.
-ExactSolver::WarpProgress ExactSolver::solveWarp(Scheme scheme, const LineSolve& warp, double tolerance,
-                                                bool first_sweep) noexcept {
-  WarpProgress progress;
-  progress.converged = true;
-  const double stop = first_sweep ? kNewtonStop : kNewtonStopLater;
-  for (int block = 0; block < warpBlockCount(pattern_.grid); ++block) {
-    if (!first_sweep) {
-      const double residual = warpResidual(warp, block);
-      if (residual <= kLeaveAlone * tolerance) {
-        progress.first_residual = std::max(progress.first_residual, residual);
-        continue;
-      }
-    }
-    if (!solveBlock(scheme, warp, block, stop, progress)) progress.converged = false;
-  }
+  progress.converged = false;
   return progress;
 }
 
-// Looks at every link as it is now.
-bool ExactSolver::withinTolerance(const LineSolve& warp, const LineSolve& weft, double tolerance) noexcept {
-  const double allowed = tolerance / kInnerTolerance;
-  for (int block = 0; block < warpBlockCount(pattern_.grid); ++block) {
-    if (!(warpResidual(warp, block) <= allowed)) return false;
+ExactSolver::WarpProgress ExactSolver::solveWarp(bool follow, const LineSolve& warp, double tolerance,
+                                                 bool first_sweep) noexcept {
+  workers_.run(static_cast<int>(block_progress_.size()), [&](int block) {
+    block_progress_[static_cast<std::size_t>(block)] = solveBlock(follow, warp, block, first_sweep, tolerance);
+  });
+  WarpProgress all;
+  for (const WarpProgress& block : block_progress_) {
+    all.converged = all.converged && block.converged;
+    all.first_residual = std::max(all.first_residual, block.first_residual);
+    all.last_residual = std::max(all.last_residual, block.last_residual);
   }
-  return weft_solver_.residual(weft) <= allowed;
+  return all;
 }
 
-ExactSolver::Progress ExactSolver::solveConstraints(Scheme scheme, double h, bool must_accept,
+double ExactSolver::weftResidualNow(const LineSolve& weft) noexcept {
+  return worstOfRows([&](int i) { return weftResidual(weft, i); });
+}
+
+double ExactSolver::warpResidualNow(const LineSolve& warp) noexcept {
+  double worst = 0.0;
+  for (int block = 0; block < warpBlockCount(pattern_.grid); ++block) worst = std::max(worst, warpResidual(warp, block));
+  return worst;
+}
+
+bool ExactSolver::withinTolerance(const LineSolve& warp, const LineSolve& weft, double tolerance) noexcept {
+  const double allowed = tolerance / kInnerTolerance;
+  return warpResidualNow(warp) <= allowed && weftResidualNow(weft) <= allowed;
+}
+
+// Directions of all links are those of the positions as they are now.
+void ExactSolver::followDirections() noexcept {
+  workers_.run(warpBlockCount(pattern_.grid),
+               [&](int block) { setWarpDirections(pattern_.grid, block, next_, warp_.direction); });
+  worstOfRows([&](int i) {
+    setWeftDirections(pattern_.grid, i, next_, weft_.direction);
+    return 0.0;
+  });
+  net_.begin(next_, *inertia_);
+}
+
+// All taut links of the weft, with the rods' answer in view. The nodes move by the weft's part of it; the rods' own
+// solve comes next.
+void ExactSolver::solveWeft(const LineSolve& weft, double residual, double tolerance) noexcept {
+  const double reduction = std::clamp(kLeastReduction * tolerance / residual, kLeastReduction, kMostReduction);
+  const double damping = std::min(kLargestDamping, kDampingPerResidual * residual);
+  if (!measured_) worstOfRows([&](int i) { return measureWeft(weft, i, violation_, active_); });
+  net_.solve(violation_, active_, residual * mean_rest_, damping, reduction, kGradientIterations, change_);
+  const double move = residual > kWatchMoves
+                          ? std::sqrt(worstOfRows([&](int i) { return weftMoveSquared(weft, i, change_); }))
+                          : 0.0;
+  if (move > kLargestMove) {
+    const double share = kLargestMove / move;
+    for (double& change : change_) change *= share;
+  }
+  worstOfRows([&](int i) {
+    takeUpWeft(weft_, pattern_.grid, i, change_);
+    pullWeft(weft, i, change_);
+    return 0.0;
+  });
+}
+
+ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, const Field3& start,
                                                     PositionConstraints* constraints, StageClock& clock) noexcept {
-  const double tolerance = tolerance_ * std::min(1.0, h / kToleranceStep);
+  const double tolerance = tolerance_;
   const LineSolve warp{pattern_, *inertia_, warp_, next_};
   const LineSolve weft{pattern_, *inertia_, weft_, next_};
   Progress progress;
-  double window_residual = std::numeric_limits<double>::infinity();
-  bool rest_solved = false;
-  double contact_move = 0.0;
+  bool follow = plan.scheme != Scheme::kLeapfrog;
+  bool net_ready = false;
+  double contact_move = std::numeric_limits<double>::infinity();
+  double last_residual = std::numeric_limits<double>::infinity();
+  double window_residual = last_residual;
   while (progress.sweeps < max_sweeps_) {
-    const WarpProgress rods = solveWarp(scheme, warp, tolerance, progress.sweeps == 0);
+    const bool first = progress.sweeps == 0;
+    const WarpProgress rods = solveWarp(follow, warp, tolerance, first);
     clock.lap(Stage::kWarp);
-    if (!rods.converged && !must_accept) return progress;
+    if (!rods.converged && !plan.must_accept) return progress;
     ++progress.sweeps;
-    // The rest had just been solved and the rods were still found in order.
-    if (rest_solved && rods.converged && rods.first_residual <= tolerance && withinTolerance(warp, weft, tolerance)) {
+    measured_ = weft_pulls_ || !first;
+    const double residual = measured_ ? worstOfRows([&](int i) { return measureWeft(weft, i, violation_, active_); })
+                                      : weftResidualNow(weft);
+    const bool at_rest = constraints == nullptr || (contact_move <= contact_tolerance_ && rods.first_residual <= tolerance);
+    if (rods.converged && at_rest && residual <= (first ? kFirstSweepShare : 1.0) * tolerance &&
+        ((first && !weft_pulls_) || rods.last_residual <= kNewtonStop || warpResidualNow(warp) <= tolerance / kInnerTolerance)) {
       progress.settled = true;
+      clock.lap(Stage::kWeft);
       return progress;
     }
-    const bool slow = progress.sweeps > kPlainSweeps && progress.sweeps < max_sweeps_;
-    const LineOutcome weft_outcome =
-        weft_solver_.solve(weft, tolerance, progress.sweeps == 1 ? kFirstSweepShare * tolerance : tolerance,
-                           scheme == Scheme::kImplicit, slow ? kOverRelaxation : 0.0);
+    if (!std::isfinite(residual)) return progress;
+    if (residual > (first ? kFirstSweepShare : kLeaveAlone) * tolerance) {
+      if (follow || residual > kFollowFactor * last_residual) {
+        follow = true;
+        followDirections();
+        directions_set_ = net_ready = true;
+      } else if (!net_ready) {
+        if (!directions_set_) worstOfRows([&](int i) { setWeftDirections(pattern_.grid, i, start, weft_.direction); return 0.0; });
+        directions_set_ = net_ready = true;
+        net_.begin(start, *inertia_);
+      }
+      solveWeft(weft, residual, tolerance);
+    }
+    last_residual = residual;
     clock.lap(Stage::kWeft);
-    contact_move = 0.0;
     if (constraints != nullptr) {
       contact_move = constraints->project(next_);
       clock.lap(Stage::kContact);
     }
-    rest_solved = weft_outcome.solved && contact_move <= contact_tolerance_;
-    if (rods.converged && rods.last_residual <= kNewtonStop && weft_outcome.residual <= tolerance &&
-        contact_move <= contact_tolerance_ && withinTolerance(warp, weft, tolerance)) {
-      progress.settled = true;
-      return progress;
-    }
     if (progress.sweeps % kStallWindow == 0) {
-      const double residual = std::max(rods.first_residual, weft_outcome.residual);
-      const bool stalled = !(residual < kStallFactor * window_residual);
-      if (stalled && (!must_accept || withinTolerance(warp, weft, tolerance_))) break;
-      window_residual = residual;
+      const double left = std::max(rods.first_residual, residual);
+      if (!(left < kStallFactor * window_residual) && (!plan.must_accept || withinTolerance(warp, weft, tolerance_))) break;
+      window_residual = left;
     }
   }
   // Slower than it should, but what was asked for may be reached all the same.
   progress.settled = withinTolerance(warp, weft, tolerance_) && contact_move <= contact_tolerance_;
+  if (constraints == nullptr) progress.settled = withinTolerance(warp, weft, tolerance_);
   progress.left_over = true;
   return progress;
 }
 
-// Gershgorin bound on the transverse oscillations of the taut net: omega^2 <= max_i 2 w_i sum |s_k| / (h kick).
-double ExactSolver::omegaSquared(double scale) const noexcept {
+// Sum of the tensions at every node; returns the largest over its mass. With it the frequencies are bounded
+// (Gershgorin, on the transverse oscillations of the taut net): omega^2 <= max 2 w sum |s| / (h kick).
+CURTAIN_WIDE double ExactSolver::loadNodes() noexcept {
   const Grid& grid = pattern_.grid;
   const auto stride = static_cast<std::size_t>(grid.stride);
+  const auto last = static_cast<std::size_t>(grid.columns) - 1;
   double worst = 0.0;
   for (int i = 0; i < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j) {
-      const std::size_t n = grid.index(i, j);
-      const std::size_t right = j + 1 < grid.columns ? n + 1 : grid.row(i);
-      const double right_pull = j + 1 < grid.columns || grid.closed ? weft_.multiplier[right] : 0.0;
-      const double sum = std::abs(warp_.multiplier[n]) + std::abs(warp_.multiplier[n + stride]) +
-                         weft_.multiplier[n] + right_pull;
-      worst = std::max(worst, sum * pattern_.inverse_mass[n]);
+    const std::size_t row = grid.row(i);
+    const double* const s = warp_.multiplier.data() + row;
+    const double* const f = weft_.multiplier.data() + row;
+    const double* const w = pattern_.inverse_mass.data() + row;
+    double* const load = load_.data() + row;
+#pragma omp simd reduction(max : worst)
+    for (std::size_t j = 0; j < last; ++j) {
+      load[j] = std::abs(s[j]) + std::abs(s[j + stride]) + f[j] + f[j + 1];
+      const double heaviest = load[j] * w[j];
+      worst = worst > heaviest ? worst : heaviest;
     }
+    load[last] = std::abs(s[last]) + std::abs(s[last + stride]) + f[last] + (grid.closed ? f[0] : 0.0);
+    worst = std::max(worst, load[last] * w[last]);
   }
-  return 2.0 * worst / scale;
+  return worst;
 }
 
-void ExactSolver::commit(double h, double velocity_age, ClothState& state) noexcept {
+CURTAIN_WIDE void ExactSolver::commit(const ClothState& base, double step, double velocity_age, ClothState& state) noexcept {
   const std::size_t size = pattern_.grid.size();
-  const double per_h = 1.0 / h;
-  const auto component = [&](const Field& next, const Field& position, Field& velocity) {
+  const double per_step = 1.0 / step;
+  const auto component = [&](const Field& next, const Field& from, Field& velocity) {
     const double* const to = next.data();
-    const double* const from = position.data();
+    const double* const at = from.data();
     double* const v = velocity.data();
 #pragma omp simd
-    for (std::size_t n = 0; n < size; ++n) v[n] = (to[n] - from[n]) * per_h;
+    for (std::size_t n = 0; n < size; ++n) v[n] = (to[n] - at[n]) * per_step;
   };
-  component(next_.x, state.position.x, state.velocity.x);
-  component(next_.y, state.position.y, state.velocity.y);
-  component(next_.z, state.position.z, state.velocity.z);
+  component(next_.x, base.position.x, state.velocity.x);
+  component(next_.y, base.position.y, state.velocity.y);
+  component(next_.z, base.position.z, state.velocity.z);
   std::swap(state.position, next_);
   std::swap(last_warp_, warp_.multiplier);
-  std::swap(last_weft_, weft_.multiplier);
   state.velocity_age = velocity_age;
 }
 
-SubstepOutcome ExactSolver::substep(Scheme scheme, const NodeForces& forces, double h, bool must_accept,
-                                    PositionConstraints* constraints, ClothState& state, StageClock& clock) noexcept {
-  const bool leapfrog = scheme == Scheme::kLeapfrog;
-  const double kick = state.velocity_age + (leapfrog ? 0.5 * h : h);
-  const double scale = h * kick;
-  predict(forces, kick, h, state);
-  setWarpDirections(pattern_.grid, state.position, warp_.direction);
-  WeftSolver::setDirections(pattern_.grid, state.position, weft_.direction);
-  warmStart(scheme, scale, {pattern_, *inertia_, warp_, next_}, {pattern_, *inertia_, weft_, next_});
+SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& forces, PositionConstraints* constraints,
+                                    ClothState& state, StageClock& clock) noexcept {
+  const bool leapfrog = plan.scheme == Scheme::kLeapfrog;
+  double step = plan.h;
+  const ClothState& base = setBase(plan.scheme, plan.h, state, step);
+  const double kick = leapfrog ? state.velocity_age + 0.5 * step : step + state.velocity_age;
+  const double scale = step * kick;
+  setInertia(forces, kick, scale, plan.most_phase);
+  begin(plan, {base, *forces.force, forces.has_damping ? &keep_ : nullptr, kick, step}, scale);
   clock.lap(Stage::kPredict);
   if (constraints != nullptr) {
-    constraints->begin(pattern_, state.position, next_, h);
+    constraints->begin(pattern_, state.position, next_, plan.h);
     clock.lap(Stage::kContact);
   }
-  const Progress progress = solveConstraints(scheme, h, must_accept, constraints, clock);
+  const Progress progress = solveConstraints(plan, base.position, constraints, clock);
   SubstepOutcome outcome;
   outcome.sweeps = progress.sweeps;
   outcome.settled = progress.settled;
-  outcome.accepted = (progress.settled || must_accept) && allFinite(next_);
+  const LineSolve weft{pattern_, *inertia_, weft_, next_};
+  outcome.accepted = progress.settled || (plan.must_accept && std::isfinite(weftResidualNow(weft)));
   if (outcome.accepted) {
-    outcome.omega_squared = omegaSquared(scale);
+    heaviest_load_ = loadNodes();
+    outcome.omega_squared = 2.0 * heaviest_load_ / std::abs(scale);
     outcome.scale = last_scale_ = scale;
-    commit(h, leapfrog ? 0.5 * h : 0.0, state);
+    if (plan.scheme == Scheme::kBdf2) {
+      older_position_ = state.position;
+      older_velocity_ = state.velocity;
+      older_h_ = plan.h;
+    } else {
+      older_h_ = 0.0;
+    }
+    commit(base, step, leapfrog ? 0.5 * step : 0.0, state);
+    weft_pulls_ = directions_set_ &&
+                  std::any_of(weft_.multiplier.begin(), weft_.multiplier.end(), [](double s) { return s != 0.0; });
+    if (weft_pulls_) last_weft_ = weft_.multiplier;
     // The way such a substep has gone is not all motion: what pulls its links further is taken out.
     if (progress.left_over) projectVelocity(state.position, constraints, state.velocity);
   }
+  if (directions_set_ && (!outcome.accepted || !weft_pulls_)) std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0);
   clock.lap(Stage::kFinish);
   return outcome;
 }
@@ -289,26 +470,38 @@ void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& f
   for (std::size_t n = 0; n < size; ++n) {
     const double w = pattern_.inverse_mass[n];
     const DampedStep step = forces.has_damping ? dampedStep(forces.damping[n], w, age) : DampedStep{1.0, 1.0};
-    out.set(n, step.keep * state.velocity.at(n) + age * step.gain * w * forces.force.at(n));
+    out.set(n, step.keep * state.velocity.at(n) + age * step.gain * w * forces.force->at(n));
   }
-  if (age > 0.0) projectVelocity(state.position, constraints, out);
+  if (age != 0.0) projectVelocity(state.position, constraints, out);
 }
 
 // Takes out of the velocities what would change the lengths of rods and of links that pull.
 void ExactSolver::projectVelocity(const Field3& position, PositionConstraints* constraints, Field3& out) noexcept {
   setWarpDirections(pattern_.grid, position, warp_.direction);
-  WeftSolver::setDirections(pattern_.grid, position, weft_.direction);
-  std::copy(last_weft_.begin(), last_weft_.end(), weft_.multiplier.begin());  // which links pull
   const LineSolve warp{pattern_, pattern_.inverse_mass, warp_, out};
-  const LineSolve weft{pattern_, pattern_.inverse_mass, weft_, out};
-  bool last = false;
-  for (int sweep = 0; sweep < kVelocitySweeps && !last; ++sweep) {
-    if (weft_solver_.projectVelocity(weft).residual == 0.0 && constraints == nullptr) {
-      last = true;
+  const auto solveRods = [&] {
+    for (int block = 0; block < warpBlockCount(pattern_.grid); ++block) warpProjectVelocity(warp, scratch_, block);
+  };
+  solveRods();
+  if (!weft_pulls_ && constraints == nullptr) return;
+  LinkSet& links = weft_;
+  const LineSolve weft{pattern_, pattern_.inverse_mass, links, out};
+  std::copy(last_weft_.begin(), last_weft_.end(), links.multiplier.begin());  // which links pull
+  for (int i = 0; i < pattern_.grid.rows; ++i) setWeftDirections(pattern_.grid, i, position, links.direction);
+  if (weft_pulls_) net_.begin(position, pattern_.inverse_mass);
+  const int rounds = constraints != nullptr ? 3 * kVelocityRounds : kVelocityRounds;
+  for (int round = 0; round < rounds; ++round) {
+    if (weft_pulls_) {
+      const double rate = worstOfRows([&](int i) { return measureWeftRates(weft, i, violation_, active_); });
+      if (rate == 0.0) break;
+      net_.solve(violation_, active_, rate * mean_rest_, kVelocityDamping, 1e-3, 2 * kGradientIterations, change_);
+      for (int i = 0; i < pattern_.grid.rows; ++i) pullWeft(weft, i, change_);
     }
     if (constraints != nullptr) constraints->projectVelocity(out);
-    for (int block = 0; block < warpBlockCount(pattern_.grid); ++block) warpProjectVelocity(warp, scratch_, block);
+    solveRods();
   }
+  if (!weft_pulls_) return;
+  std::fill(links.multiplier.begin(), links.multiplier.end(), 0.0);
 }
 
 }  // namespace curtain

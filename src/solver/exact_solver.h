@@ -1,36 +1,47 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The exact schemes: one substep of point masses, two-sided warp rods and one-sided weft links, whose constraint
-// forces are solved for (not approached by relaxation): per column one tridiagonal system for the rod tensions, per row
-// one for the weft, the two (and contact) alternated until every link is within tolerance. On unsheared cloth warp and
-// weft forces are orthogonal and one sweep does; shear makes it a few.
+// forces are solved for (not approached by relaxation). A sweep is: Newton on the rods, one tridiagonal system a column;
+// then all taut weft links at once with the rods' answer taken into account (NetSolver); then contact; until every link
+// is within tolerance. Cloth without a taut string never leaves the first half of the first sweep.
 //
 //   leapfrog  forces act along the links' directions at the start of the step, velocities live half a step behind
 //             (SHAKE: Ryckaert, Ciccotti, Berendsen 1977): order 2, symplectic, needs dt * omega_max < 2
-//   implicit  along the directions at the end of the step: order 1, damps, stable at any step
+//   bdf2      along the directions at the end of the step, two steps remembered (Gear 1971): order 2, damps what it can't
+//             follow, stable at any step
+//   implicit  the same with one step (backward Euler): order 1, damps, stable at any step
 #pragma once
 
+#include "solver/net_solver.h"
 #include "solver/substep.h"
 #include "solver/warp_solver.h"
-#include "solver/weft_solver.h"
+#include "solver/weft_links.h"
 
 namespace curtain {
 
-enum class Scheme { kLeapfrog, kImplicit };
+enum class Scheme { kLeapfrog, kBdf2, kImplicit };
+
+/// A substep to be made.
+struct SubstepPlan {
+  Scheme scheme = Scheme::kLeapfrog;
+  double h = 0.0;            ///< [s], != 0; negative only for leapfrog
+  bool must_accept = false;  ///< taken even when links are left above the tolerance, unless it is not finite
+  double most_phase = 0.0;   ///< nodes whose tensions ask for a larger h * omega answer forces as if they were heavier,
+                             ///< so that theirs is this; 0: none does. Vanishes with the step.
+};
 
 class ExactSolver {
  public:
   /// stretch_tolerance  relative overlength allowed to a link
-  /// max_sweeps         bound of the warp/weft/contact sweeps in a substep
-  ExactSolver(const ClothPattern& pattern, double stretch_tolerance, int max_sweeps);
+  /// max_sweeps         bound of the sweeps in a substep
+  ExactSolver(const ClothPattern& pattern, double stretch_tolerance, int max_sweeps, const Workers& workers);
 
   /// Forgets the tensions of the last substep.
   void reset() noexcept;
 
-  /// One substep of length h > 0 [s]. constraints may be null. With must_accept the step is taken even when links
-  /// are left above the tolerance, unless the result is not finite. Allocates nothing.
-  SubstepOutcome substep(Scheme scheme, const NodeForces& forces, double h, bool must_accept,
-                         PositionConstraints* constraints, ClothState& state, StageClock& clock) noexcept;
+  /// One substep. constraints may be null. Allocates nothing.
+  SubstepOutcome substep(const SubstepPlan& plan, const NodeForces& forces, PositionConstraints* constraints,
+                         ClothState& state, StageClock& clock) noexcept;
 
   /// How nodes answered impulses in the last substep [1/kg].
   const Field& inverseInertia() const noexcept { return inertia_ != nullptr ? *inertia_ : pattern_.inverse_mass; }
@@ -40,40 +51,78 @@ class ExactSolver {
   void currentVelocities(const ClothState& state, const NodeForces& forces, PositionConstraints* constraints,
                          Field3& out) noexcept;
 
+  /// Largest step whose phase h * omega stays within most_phase when nodes may be heavier by so much altogether, as a
+  /// share of the cloth's mass; from the tensions of the last substep, infinite when there is none.
+  double stepForPhase(double most_phase, double heavier_share) const noexcept;
+
+  /// A string pulled in the last substep.
+  bool weftPulls() const noexcept { return weft_pulls_; }
+
+  /// What a substep leaves to the next, to be put back when substeps are made again.
+  struct Memory {
+    Field warp, weft;
+    Field3 older_position, older_velocity;
+    double scale = 0.0, older_h = 0.0;
+    bool weft_pulls = false;
+  };
+  void save(Memory& memory) const;
+  void restore(const Memory& memory);
+
  private:
   struct Progress {
     bool settled = false;    // every link is within the user's tolerance
     bool left_over = false;  // but not within what the step's length asks for
     int sweeps = 0;
   };
-  void predict(const NodeForces& forces, double kick, double h, const ClothState& state) noexcept;
-  void warmStart(Scheme scheme, double scale, const LineSolve& warp, const LineSolve& weft) noexcept;
-  Progress solveConstraints(Scheme scheme, double h, bool must_accept, PositionConstraints* constraints,
-                            StageClock& clock) noexcept;
-  bool withinTolerance(const LineSolve& warp, const LineSolve& weft, double tolerance) noexcept;
-  void projectVelocity(const Field3& position, PositionConstraints* constraints, Field3& out) noexcept;
   struct WarpProgress {
-    bool converged = false;
+    bool converged = true;
     double first_residual = 0.0;  // before the first iteration
     double last_residual = 0.0;   // before the last one
   };
-  bool solveBlock(Scheme scheme, const LineSolve& warp, int block, double stop, WarpProgress& progress) noexcept;
-  WarpProgress solveWarp(Scheme scheme, const LineSolve& warp, double tolerance, bool first_sweep) noexcept;
-  double omegaSquared(double scale) const noexcept;
-  void commit(double h, double velocity_age, ClothState& state) noexcept;
+  void setInertia(const NodeForces& forces, double kick, double scale, double most_phase) noexcept;
+  const ClothState& setBase(Scheme scheme, double h, const ClothState& state, double& step) noexcept;
+  void begin(const SubstepPlan& plan, const SubstepStart& start, double scale) noexcept;
+  Progress solveConstraints(const SubstepPlan& plan, const Field3& start, PositionConstraints* constraints,
+                            StageClock& clock) noexcept;
+  WarpProgress solveBlock(bool follow, const LineSolve& warp, int block, bool first_sweep, double tolerance) noexcept;
+  WarpProgress solveWarp(bool follow, const LineSolve& warp, double tolerance, bool first_sweep) noexcept;
+  double weftResidualNow(const LineSolve& weft) noexcept;
+  void solveWeft(const LineSolve& weft, double residual, double tolerance) noexcept;
+  void followDirections() noexcept;
+  double warpResidualNow(const LineSolve& warp) noexcept;
+  bool withinTolerance(const LineSolve& warp, const LineSolve& weft, double tolerance) noexcept;
+  void projectVelocity(const Field3& position, PositionConstraints* constraints, Field3& out) noexcept;
+  double loadNodes() noexcept;
+  void commit(const ClothState& base, double step, double velocity_age, ClothState& state) noexcept;
+  template <typename Look>
+  double worstOfRows(const Look& look) noexcept;
 
   const ClothPattern& pattern_;
+  const Workers& workers_;
   double tolerance_;          // relative, inside the solver
   double contact_tolerance_;  // [m]
   int max_sweeps_;
-  WeftSolver weft_solver_;
+  NetSolver net_;
   LineScratch scratch_;
   LinkSet warp_, weft_;
   Field last_warp_, last_weft_;  // multipliers of the last accepted substep
   double last_scale_ = 0.0;      // its h * kick [s^2]; 0 = none yet
-  Field damped_inertia_;
+  bool weft_pulls_ = false;      // a multiplier of last_weft_ is not zero
+  bool directions_set_ = false;  // of the weft, in this substep
+  bool measured_ = false;        // violation_ and active_ are of the positions as they are
+  double mean_rest_ = 1.0;       // of the weft [m]
+  Field load_;                   // sum of |multiplier| of each node's links, last substep [kg]
+  double heaviest_load_ = 0.0;   // the largest of it over the node's mass
+  double free_mass_ = 0.0;       // [kg]
+  Field answer_, keep_;          // inverse inertia and what damping keeps, when not the pattern's
   const Field* inertia_ = nullptr;
+  Field violation_, active_, change_;
+  std::vector<WarpProgress> block_progress_;
+  std::vector<double> row_worst_;
   Field3 next_;
+  ClothState base_;             // what bdf2 starts from
+  Field3 older_position_, older_velocity_;
+  double older_h_ = 0.0;        // length of the step between these and the present; 0 = none
 };
 
 }  // namespace curtain

@@ -44,11 +44,10 @@ struct LineScratch {
   }
 };
 
-/// Outcome of one Newton iteration over all lines.
+/// Outcome of one Newton iteration over lines.
 struct LineOutcome {
   double residual = 0.0;  ///< largest relative violation before the iteration; velocities: [1/s]
   bool sound = true;      ///< false: a pivot vanished; some link turned too far from its direction
-  bool solved = true;     ///< weft: false when a row reached its bound of iterations
 };
 
 }  // namespace curtain

@@ -19,7 +19,7 @@ void PaperSolver::moveColumn(int column, const NodeForces& forces, double h, Clo
     const double m = pattern_.mass[node];
     const double c = forces.has_damping ? forces.damping[node] : 0.0;
     const DampedStep damped = dampedStep(c, w, h);
-    Vec3 acceleration = (forces.force.at(node) + pull_from_below) * w;
+    Vec3 acceleration = (forces.force->at(node) + pull_from_below) * w;
     if (i > 0) {
       // (2) the node above is the origin; the rod's direction is the local normal axis n, and the local x-y plane is
       // the one the rod turns in, so that Eq. (6) sees the whole of the tangential motion.
@@ -30,7 +30,7 @@ void PaperSolver::moveColumn(int column, const NodeForces& forces, double h, Clo
       const Vec3 relative_velocity = state.velocity.at(node) - state.velocity.at(above);
       const Vec3 tangential = relative_velocity - relative_velocity.dot(n) * n;
       // (3) the sum of forces, along the rod and across it.
-      const Vec3 sum = forces.force.at(node) + pull_from_below;
+      const Vec3 sum = forces.force->at(node) + pull_from_below;
       const double along = sum.dot(n);
       // (4) Eq. (6): omega l = dx^t/dt; Eq. (5): f^n = m omega^2 l, towards the origin.
       const double omega = tangential.norm() / length;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Chooses the substeps of a frame: from the last tensions first (dt * omega_max), and as the safety net by halving a
+// Chooses the substeps of a frame: from the last tensions first (h * omega_max), and as the safety net by halving a
 // substep whose solve failed and growing again after good ones.
 #pragma once
 
@@ -15,23 +15,22 @@ class StepControl {
 
   void reset() noexcept;
 
-  struct Plan {
-    double h = 0.0;                      ///< [s], a whole share of what is left of the frame
-    Scheme scheme = Scheme::kLeapfrog;
-    bool must_accept = false;            ///< no smaller step is to be tried
-  };
-  /// remaining: what is left of the frame [s], > 0.
-  Plan next(double remaining) const noexcept;
-  void accepted(const Plan& plan, const SubstepOutcome& outcome) noexcept;
-  void rejected(const Plan& plan) noexcept;
+  /// The next substep; remaining: what is left of the frame [s], > 0; its whole length when a frame begins. h is a whole
+  /// share of it.
+  SubstepPlan next(double remaining, const ExactSolver& solver) noexcept;
+  void accepted(const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept;
+  void rejected(const SubstepPlan& plan) noexcept;
 
  private:
+  double stepFromTensions(bool frame_begins, const ExactSolver& solver) noexcept;
+
   double frame_;
   int fixed_substeps_;
   int max_substeps_;
   Method method_;
   double initial_omega_;  // of the cloth hanging by its own weight [1/s]
   double omega_;          // from the last tensions [1/s]
+  double heavier_step_;   // what the phase allows where few nodes may be heavier, found when the frame began [s]; 0: not asked
   double limit_;          // largest step that the rejections leave [s]
   double implicit_step_;  // of the implicit scheme as auto's fall-back [s]
   int good_ = 0;          // accepted substeps since the limit last changed

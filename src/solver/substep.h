@@ -10,8 +10,8 @@ namespace curtain {
 
 /// Forces at the start of a substep.
 struct NodeForces {
-  Field3 force;          ///< [N], all but damping
-  Field damping;         ///< force = -damping * velocity [kg/s]; only read when has_damping
+  const Field3* force = nullptr;  ///< [N], all but damping
+  Field damping;                  ///< force = -damping * velocity [kg/s]; only read when has_damping
   bool has_damping = false;
 };
 

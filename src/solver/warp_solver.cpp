@@ -126,7 +126,7 @@ void setWarpDirections(const Grid& grid, const Field3& position, Field3& directi
   for (int block = 0; block < warpBlockCount(grid); ++block) setWarpDirections(grid, block, position, direction);
 }
 
-void setWarpDirections(const Grid& grid, int block, const Field3& position, Field3& direction) noexcept {
+CURTAIN_WIDE void setWarpDirections(const Grid& grid, int block, const Field3& position, Field3& direction) noexcept {
   const auto stride = static_cast<std::size_t>(grid.stride);
   for (int i = 1; i < grid.rows; ++i) {
     const std::size_t first = grid.row(i) + static_cast<std::size_t>(block) * kLane;
@@ -141,27 +141,90 @@ void setWarpDirections(const Grid& grid, int block, const Field3& position, Fiel
   }
 }
 
-void applyWarpMultipliers(const LineSolve& line) noexcept {
-  const auto stride = static_cast<std::size_t>(line.pattern.grid.stride);
-  const std::size_t size = line.pattern.grid.size();
-  const double* const w = line.inverse_inertia.data();
-  const double* const s = line.links.multiplier.data();
-  const auto apply = [=](const Field& direction, Field& value) {
-    const double* const d = direction.data();
-    double* const v = value.data();
+// A row's nodes are moved by their two rods as soon as the direction of the lower one is known.
+CURTAIN_WIDE void warpBegin(const SubstepStart& start, const LineSolve& line, const Field& last, double ratio,
+                            int block) noexcept {
+  const Grid& grid = line.pattern.grid;
+  const auto stride = static_cast<std::size_t>(grid.stride);
+  const double h = start.h, kick = start.kick;
+  for (int i = 0; i < grid.rows; ++i) {
+    const std::size_t first = grid.row(i) + static_cast<std::size_t>(block) * kLane;
+    const ConstView x(start.state.position, first), v(start.state.velocity, first), f(start.force, first);
+    const View next(line.value, first), d(line.links.direction, first);
+    const double* const w = line.inverse_inertia.data() + first;
+    if (start.keep != nullptr) {
+      const double* const keep = start.keep->data() + first;
 #pragma omp simd
-    for (std::size_t n = 0; n < size; ++n) v[n] -= w[n] * (s[n] * d[n] - s[n + stride] * d[n + stride]);
-  };
-  apply(line.links.direction.x, line.value.x);
-  apply(line.links.direction.y, line.value.y);
-  apply(line.links.direction.z, line.value.z);
+      for (int j = 0; j < kLane; ++j) {
+        next.x[j] = x.x[j] + h * (keep[j] * v.x[j] + kick * w[j] * f.x[j]);
+        next.y[j] = x.y[j] + h * (keep[j] * v.y[j] + kick * w[j] * f.y[j]);
+        next.z[j] = x.z[j] + h * (keep[j] * v.z[j] + kick * w[j] * f.z[j]);
+      }
+    } else {
+#pragma omp simd
+      for (int j = 0; j < kLane; ++j) {
+        next.x[j] = x.x[j] + h * (v.x[j] + kick * w[j] * f.x[j]);
+        next.y[j] = x.y[j] + h * (v.y[j] + kick * w[j] * f.y[j]);
+        next.z[j] = x.z[j] + h * (v.z[j] + kick * w[j] * f.z[j]);
+      }
+    }
+    if (i == 0) continue;
+    const ConstView above(start.state.position, first - stride), d_above(line.links.direction, first - stride);
+    const View next_above(line.value, first - stride);
+    double* const s = line.links.multiplier.data() + first;
+    const double* const s_above = s - stride;
+    const double* const s_last = last.data() + first;
+    const double* const w_above = w - stride;
+#pragma omp simd
+    for (int j = 0; j < kLane; ++j) {
+      const double dx = x.x[j] - above.x[j], dy = x.y[j] - above.y[j], dz = x.z[j] - above.z[j];
+      const double pull = ratio * s_last[j];
+      d.x[j] = dx;
+      d.y[j] = dy;
+      d.z[j] = dz;
+      s[j] = pull;
+      next_above.x[j] -= w_above[j] * (s_above[j] * d_above.x[j] - pull * dx);
+      next_above.y[j] -= w_above[j] * (s_above[j] * d_above.y[j] - pull * dy);
+      next_above.z[j] -= w_above[j] * (s_above[j] * d_above.z[j] - pull * dz);
+    }
+  }
+  const std::size_t hem = grid.row(grid.rows - 1) + static_cast<std::size_t>(block) * kLane;
+  const View next(line.value, hem);
+  const ConstView d(line.links.direction, hem);
+  const double* const w = line.inverse_inertia.data() + hem;
+  const double* const s = line.links.multiplier.data() + hem;
+#pragma omp simd
+  for (int j = 0; j < kLane; ++j) {
+    next.x[j] -= w[j] * (s[j] * d.x[j]);
+    next.y[j] -= w[j] * (s[j] * d.y[j]);
+    next.z[j] -= w[j] * (s[j] * d.z[j]);
+  }
+}
+
+CURTAIN_WIDE void applyWarpMultipliers(const LineSolve& line, int block) noexcept {
+  const Grid& grid = line.pattern.grid;
+  const auto stride = static_cast<std::size_t>(grid.stride);
+  for (int i = 0; i < grid.rows; ++i) {
+    const std::size_t first = grid.row(i) + static_cast<std::size_t>(block) * kLane;
+    const View v(line.value, first);
+    const ConstView d(line.links.direction, first), d_below(line.links.direction, first + stride);
+    const double* const w = line.inverse_inertia.data() + first;
+    const double* const s = line.links.multiplier.data() + first;
+    const double* const s_below = s + stride;
+#pragma omp simd
+    for (int j = 0; j < kLane; ++j) {
+      v.x[j] -= w[j] * (s[j] * d.x[j] - s_below[j] * d_below.x[j]);
+      v.y[j] -= w[j] * (s[j] * d.y[j] - s_below[j] * d_below.y[j]);
+      v.z[j] -= w[j] * (s[j] * d.z[j] - s_below[j] * d_below.z[j]);
+    }
+  }
 }
 
 CURTAIN_WIDE LineOutcome warpNewton(const LineSolve& line, LineScratch& scratch, int block) noexcept {
   return newton<PositionLevel>(line, scratch, block);
 }
 
-LineOutcome warpProjectVelocity(const LineSolve& line, LineScratch& scratch, int block) noexcept {
+CURTAIN_WIDE LineOutcome warpProjectVelocity(const LineSolve& line, LineScratch& scratch, int block) noexcept {
   return newton<VelocityLevel>(line, scratch, block);
 }
 
@@ -186,17 +249,24 @@ CURTAIN_WIDE double warpResidual(const LineSolve& line, int block) noexcept {
   return worst;
 }
 
-Stretch warpStretch(const ClothPattern& pattern, const Field3& position) noexcept {
+CURTAIN_WIDE Stretch warpStretch(const ClothPattern& pattern, const Field3& position) noexcept {
   const Grid& grid = pattern.grid;
   const auto stride = static_cast<std::size_t>(grid.stride);
-  Stretch stretch;
-  for (std::size_t n = stride; n < grid.size(); ++n) {
-    if (pattern.inverse_mass[n] + pattern.inverse_mass[n - stride] <= 0.0) continue;
-    const double relative = (position.at(n) - position.at(n - stride)).norm() / pattern.warp_rest[n] - 1.0;
-    stretch.longer = std::max(stretch.longer, relative);
-    stretch.shorter = std::max(stretch.shorter, -relative);
+  double longest = 1.0, shortest = 1.0;  // squared, over the rest length's square
+  for (std::size_t row = stride; row < grid.size(); row += stride) {
+    const ConstView above(position, row - stride), below(position, row);
+    const double* const w = pattern.inverse_mass.data() + row;
+    const double* const w_above = w - stride;
+    const double* const per_square = pattern.warp_per_square.data() + row;
+#pragma omp simd reduction(max : longest) reduction(min : shortest)
+    for (std::size_t j = 0; j < stride; ++j) {
+      const double rx = below.x[j] - above.x[j], ry = below.y[j] - above.y[j], rz = below.z[j] - above.z[j];
+      const double square = w[j] + w_above[j] > 0.0 ? (rx * rx + ry * ry + rz * rz) * per_square[j] : 1.0;
+      longest = longest > square ? longest : square;
+      shortest = shortest < square ? shortest : square;
+    }
   }
-  return stretch;
+  return {std::sqrt(longest) - 1.0, 1.0 - std::sqrt(shortest)};
 }
 
 }  // namespace curtain

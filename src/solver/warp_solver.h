@@ -16,8 +16,22 @@ inline int warpBlockCount(const Grid& grid) { return grid.stride / kLane; }
 void setWarpDirections(const Grid& grid, const Field3& position, Field3& direction) noexcept;
 void setWarpDirections(const Grid& grid, int block, const Field3& position, Field3& direction) noexcept;
 
-/// Moves the positions by the multipliers there are (warm start).
-void applyWarpMultipliers(const LineSolve& line) noexcept;
+/// Where a substep starts from.
+struct SubstepStart {
+  const ClothState& state;
+  const Field3& force;  ///< [N]
+  const Field* keep;    ///< share of its velocity that damping leaves a node; null: all of it
+  double kick;          ///< how long the forces act [s]
+  double h;             ///< [s]
+};
+
+/// For a block of columns: predicts x + h (keep v + kick w F) into line.value, sets the rods' directions from the
+/// positions at the start, and moves the prediction by the multipliers `last` times `ratio`, which become the rods'
+/// (warm start).
+void warpBegin(const SubstepStart& start, const LineSolve& line, const Field& last, double ratio, int block) noexcept;
+
+/// Moves a block's nodes by the multipliers there are.
+void applyWarpMultipliers(const LineSolve& line, int block) noexcept;
 
 /// One Newton iteration on the lengths of a block's rods: moves positions and adds to the multipliers.
 LineOutcome warpNewton(const LineSolve& line, LineScratch& scratch, int block) noexcept;

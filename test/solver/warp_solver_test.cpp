@@ -1,35 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The line solvers alone: rods come to their lengths along their directions, strings only pull, nothing that is in
-// order is touched.
+// The rods alone come to their lengths, along the directions given.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
 #include "solver/warp_solver.h"
-#include "solver/weft_solver.h"
 
 namespace curtain {
 namespace {
 
-Scene sceneOf(int rows, int columns, PinKind pins, bool closed = false) {
+Scene sceneOf(int rows, int columns, PinKind pins) {
   Scene scene;
   scene.cloth.rows = rows;
   scene.cloth.columns = columns;
-  scene.cloth.closed = closed;
   scene.pins.kind = pins;
   return scene;
 }
 
 struct Bench {
   explicit Bench(const Scene& scene)
-      : pattern(makePattern(scene)), state(makeInitialState(scene, pattern)), weft_solver(pattern.grid) {
+      : pattern(makePattern(scene)), state(makeInitialState(scene, pattern)) {
     warp.assign(pattern.grid);
-    weft.assign(pattern.grid);
     scratch.assign(pattern.grid);
     setWarpDirections(pattern.grid, state.position, warp.direction);
-    WeftSolver::setDirections(pattern.grid, state.position, weft.direction);
   }
   void shake(double size, unsigned seed) {
     std::mt19937 random(seed);
@@ -50,7 +45,6 @@ struct Bench {
     }
     return all;
   }
-  LineSolve weftLine() { return {pattern, pattern.inverse_mass, weft, state.position}; }
   Vec3 momentum(const Field3& before) const {
     Vec3 sum = Vec3::Zero();
     for (std::size_t n = 0; n < pattern.grid.size(); ++n) {
@@ -61,9 +55,8 @@ struct Bench {
 
   ClothPattern pattern;
   ClothState state;
-  LinkSet warp, weft;
+  LinkSet warp;
   LineScratch scratch;
-  WeftSolver weft_solver;
 };
 
 // Newton ends quadratically: from a relative violation of 1e-1 five iterations leave rounding, 1e-16 * rows, times
@@ -97,7 +90,7 @@ TEST(WarpSolver, MovesAlongTheGivenDirections) {
   for (int iteration = 0; iteration < 3; ++iteration) bench.newton();
   const Field3 solved = bench.state.position;
   bench.state.position = before;
-  applyWarpMultipliers(bench.warpLine());
+  for (int block = 0; block < warpBlockCount(bench.pattern.grid); ++block) applyWarpMultipliers(bench.warpLine(), block);
   for (std::size_t n = 0; n < bench.pattern.grid.size(); ++n) {
     EXPECT_LT((bench.state.position.at(n) - solved.at(n)).norm(), 1e-14);
   }
@@ -123,66 +116,6 @@ TEST(WarpSolver, ProjectedVelocitiesKeepTheRodsLengths) {
   warpProjectVelocity(line, bench.scratch, 0);
   // A second solve finds nothing left but rounding: 1e-16 / rest, times the column's condition.
   EXPECT_LT(warpProjectVelocity(line, bench.scratch, 0).residual, 1e-11);
-}
-
-class WeftSolverOf : public ::testing::TestWithParam<bool> {};
-
-TEST_P(WeftSolverOf, ShortensLongLinksAndLeavesSlackOnes) {
-  Bench bench(sceneOf(6, 24, PinKind::kNone, GetParam()));
-  bench.shake(0.004, 8);
-  const Field3 before = bench.state.position;
-  EXPECT_GT(weftStretch(bench.pattern, bench.state.position), 1e-2);
-  for (int sweep = 0; sweep < 20; ++sweep) bench.weft_solver.solve(bench.weftLine(), 1e-12, 1e-12, false);
-  // Strings may keep the compliance's share of their load s (w_a + w_b): at most the strain shaken in, 0.2, summed over
-  // the 24 links of a row.
-  EXPECT_LT(weftStretch(bench.pattern, bench.state.position), kWeftCompliance * 0.2 * 24);
-  EXPECT_LT(bench.momentum(before).norm(), 1e-15);
-  int slack = 0;
-  for (std::size_t n = 0; n < bench.pattern.grid.size(); ++n) {
-    EXPECT_GE(bench.weft.multiplier[n], 0.0);
-    if (bench.weft.multiplier[n] == 0.0) ++slack;
-  }
-  EXPECT_GT(slack, 0);
-}
-
-TEST_P(WeftSolverOf, DoesNotTouchAClothWithoutATautLink) {
-  Scene scene = sceneOf(6, 24, PinKind::kNone, GetParam());
-  scene.hang.to = Vec3(0.6, 0.0, 2.2);
-  scene.hang.radius = 0.1;
-  Bench bench(scene);
-  const Field3 before = bench.state.position;
-  const LineOutcome outcome = bench.weft_solver.solve(bench.weftLine(), 1e-12, 1e-12, false);
-  EXPECT_EQ(outcome.residual, 0.0);
-  EXPECT_EQ(bench.state.position.x, before.x);
-  EXPECT_EQ(bench.state.position.y, before.y);
-  EXPECT_EQ(bench.state.position.z, before.z);
-}
-
-INSTANTIATE_TEST_SUITE_P(OpenAndClosed, WeftSolverOf, ::testing::Bool(),
-                         [](const auto& test) { return test.param ? "Closed" : "Open"; });
-
-// A string that pulled and has become too short lets go, and what it pulled is given back.
-TEST(WeftSolver, TakesBackAPullThatIsNotNeeded) {
-  Bench bench(sceneOf(2, 4, PinKind::kNone));
-  const Field3 before = bench.state.position;
-  bench.weft.multiplier[bench.pattern.grid.index(0, 2)] = 0.01;
-  WeftSolver::applyMultipliers(bench.weftLine());
-  for (int sweep = 0; sweep < 10; ++sweep) bench.weft_solver.solve(bench.weftLine(), 1e-13, 1e-13, false);
-  EXPECT_NEAR(bench.weft.multiplier[bench.pattern.grid.index(0, 2)], 0.0, 1e-9);
-  for (int j = 0; j < 4; ++j) {
-    const std::size_t n = bench.pattern.grid.index(0, j);
-    EXPECT_LT((bench.state.position.at(n) - before.at(n)).norm(), 1e-8);
-  }
-}
-
-// Between two pins a straight row's constraint matrix is singular; the compliance keeps the solve finite and small.
-TEST(WeftSolver, SurvivesAStraightRowBetweenPins) {
-  Bench bench(sceneOf(2, 30, PinKind::kTopCorners));
-  for (int j = 1; j < 29; ++j) bench.state.position.add(bench.pattern.grid.index(0, j), Vec3(1e-4, 0.0, -1e-3));
-  for (int sweep = 0; sweep < 30; ++sweep) {
-    EXPECT_TRUE(bench.weft_solver.solve(bench.weftLine(), 1e-6, 1e-6, false).sound);
-  }
-  EXPECT_LT(weftStretch(bench.pattern, bench.state.position), 1e-3);
 }
 
 }  // namespace

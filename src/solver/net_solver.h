@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// All taut links at once, to first order. With the rods eliminated (a tridiagonal system a column) what is left for the
+// taut strings' multipliers t is the Schur complement
+//     S t = g,   S = A_ff - A_fw A_ww^-1 A_wf,   A = N W N^T   (f: weft, w: warp; N: directions, W: inverse inertia),
+// solved by conjugate gradients, preconditioned with the rows' own tridiagonal systems A_ff. An iteration is one warp
+// and one weft sweep. Alternating the two without conjugation converges as cos^2 of the angle between warp and weft;
+// where they are sheared this takes about the square root of that number of sweeps.
+//
+// All in single precision: a solve is a step of an iteration whose residual is measured in double, so rounding costs
+// nothing but that the next step has a little more to do. Directions are over the rest lengths and inertia over its
+// largest, so that numbers are near one.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cloth/cloth.h"
+#include "solver/workers.h"
+
+namespace curtain {
+
+class NetSolver {
+ public:
+  /// pattern and workers must outlive this.
+  NetSolver(const ClothPattern& pattern, const Workers& workers);
+
+  /// Takes the links' directions from these positions, and how nodes answer impulses [1/kg].
+  void begin(const Field3& position, const Field& inverse_inertia) noexcept;
+
+  struct Outcome {
+    int iterations = 0;
+    double reduction = 0.0;  ///< largest residual left over the largest at the start
+  };
+  /// violation        C = (|r|^2 - l^2) / 2 [m^2] (or its rate) of the links that take part, 0 of the others; shape of the
+  ///                  grid, stored at the right node
+  /// active           1 for the links that take part, 0 for the others
+  /// largest          about the largest violation over a rest length [m] (sets the scale of the numbers), > 0
+  /// damping          Levenberg-Marquardt term over the diagonal, [0..1): a flat net has about as many links as freedoms in
+  ///                  its plane, so some combinations of multipliers hardly move anything and would grow without bound
+  /// reduction        of the residual that is enough, (0..1)
+  /// most_iterations  > 0
+  /// change           of the multipliers [kg] (or its rate), that takes the violation away while the rods keep theirs
+  Outcome solve(const Field& violation, const Field& active, double largest, double damping, double reduction, int most_iterations,
+                Field& change) noexcept;
+
+ private:
+  using Real = float;
+  using Values = std::vector<Real>;
+  struct Values3 {
+    Values x, y, z;
+  };
+
+  void takeRow(const Field3& position, const Field& inverse_inertia, int row) noexcept;
+  void factorWarp(int block) noexcept;
+  void factorWeft(int row_block) noexcept;
+  void load(const Field& violation, const Field& active, int row_block) noexcept;
+  void unload(int row_block, double scale, Field& change) noexcept;
+  void answerOfRods(int block) noexcept;
+  double schurProduct(int row_block) noexcept;
+  double advance(int row_block, Real alpha) noexcept;
+  double precondition(int row_block) noexcept;
+  void conjugate(int row_block, Real beta) noexcept;
+  void closeRows(Values& links) noexcept;
+  template <typename Block>
+  double sumOverRowBlocks(const Block& block) noexcept;
+
+  std::size_t row(int i) const { return static_cast<std::size_t>(i) * stride_; }
+
+  const ClothPattern& pattern_;
+  const Workers& workers_;
+  std::size_t stride_;  // a row's nodes, one more link, padding
+  int column_blocks_;
+  int row_blocks_;
+  double inertia_scale_ = 1.0;  // the largest inverse inertia [1/kg]
+  double violation_scale_ = 1.0;
+  Real damping_ = 0.0F;
+  Field per_warp_rest_, per_weft_rest_;  // [1/m]
+  Values weight_;                      // inverse inertia over the largest
+  Values3 warp_, weft_;                // directions over rest lengths; weft: one more link closes the ring
+  Values warp_inverse_, warp_lower_;   // A_ww = L D L^T by column: 1 / D, and L below the diagonal
+  Values weft_diagonal_, weft_off_;    // A_ff: diagonal, entry towards the next link
+  Values weft_inverse_, weft_lower_;   // A_ff = L D L^T by row; interleaved over the rows of a block
+  Values rods_;                        // multipliers of the rods
+  Values3 move_;                       // of the nodes
+  Values mask_, residual_, preconditioned_, pull_, product_, solution_;
+  Values interleaved_;                 // scratch of precondition()
+  std::vector<std::uint8_t> taut_;     // row blocks with a link that takes part
+  std::vector<double> partial_;        // sums of the row blocks
+};
+
+}  // namespace curtain

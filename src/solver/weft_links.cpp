@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/weft_links.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cloth/wide.h"
+
+namespace curtain {
+namespace {
+
+struct Row {
+  const double *x, *y, *z, *w, *s, *per_square;
+  Row(const LineSolve& line, int i) {
+    const std::size_t row = line.pattern.grid.row(i);
+    x = line.value.x.data() + row;
+    y = line.value.y.data() + row;
+    z = line.value.z.data() + row;
+    w = line.inverse_inertia.data() + row;
+    s = line.links.multiplier.data() + row;
+    per_square = line.pattern.weft_per_square.data() + row;
+  }
+};
+
+struct Link {
+  double violation;  // relative; 0 when it takes no part
+  double active;
+};
+
+// A link takes part when it is too long or still pulls, and has an end that can move.
+CURTAIN_INTO_WIDE Link look(const Row& row, std::size_t left, std::size_t right) {
+  const double rx = row.x[right] - row.x[left], ry = row.y[right] - row.y[left], rz = row.z[right] - row.z[left];
+  const double both = row.w[right] + row.w[left];
+  const double c = 0.5 * ((rx * rx + ry * ry + rz * rz) * row.per_square[right] - 1.0) - kWeftCompliance * both * row.s[right];
+  const double active = ((both > 0.0) & ((c > 0.0) | (row.s[right] > 0.0))) ? 1.0 : 0.0;
+  return {active * c, active};
+}
+
+}  // namespace
+
+CURTAIN_WIDE void setWeftDirections(const Grid& grid, int row, const Field3& position, Field3& direction) noexcept {
+  const auto difference = [&](const Field& from, Field& to) {
+    const double* const p = from.data() + grid.row(row);
+    double* const out = to.data() + grid.row(row);
+#pragma omp simd
+    for (int j = 1; j < grid.columns; ++j) out[j] = p[j] - p[j - 1];
+    if (grid.closed) out[0] = p[0] - p[grid.columns - 1];
+  };
+  difference(position.x, direction.x);
+  difference(position.y, direction.y);
+  difference(position.z, direction.z);
+}
+
+CURTAIN_WIDE double weftResidual(const LineSolve& line, int i) noexcept {
+  const Grid& grid = line.pattern.grid;
+  const Row row(line, i);
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  double worst = 0.0;
+  double finite = 0.0;  // 0 * x is NaN for NaN and infinity alike
+#pragma omp simd reduction(max : worst) reduction(+ : finite)
+  for (std::size_t j = 1; j < columns; ++j) {
+    const double size = std::abs(look(row, j - 1, j).violation);
+    worst = worst > size ? worst : size;
+    finite += 0.0 * ((row.x[j] - row.x[j - 1]) + (row.y[j] - row.y[j - 1]) + (row.z[j] - row.z[j - 1]));
+  }
+  if (grid.closed) worst = std::max(worst, std::abs(look(row, columns - 1, 0).violation));
+  return finite == 0.0 ? worst : std::numeric_limits<double>::infinity();
+}
+
+CURTAIN_WIDE double measureWeft(const LineSolve& line, int i, Field& violation, Field& active) noexcept {
+  const Grid& grid = line.pattern.grid;
+  const Row row(line, i);
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  const double* const rest = line.pattern.weft_rest.data() + grid.row(i);
+  double* const c_out = violation.data() + grid.row(i);
+  double* const active_out = active.data() + grid.row(i);
+  double worst = 0.0;
+  double finite = 0.0;  // 0 * x is NaN for NaN and infinity alike
+#pragma omp simd reduction(max : worst) reduction(+ : finite)
+  for (std::size_t j = 1; j < columns; ++j) {
+    const Link link = look(row, j - 1, j);
+    active_out[j] = link.active;
+    c_out[j] = link.violation * rest[j] * rest[j];
+    const double size = std::abs(link.violation);
+    worst = worst > size ? worst : size;
+    finite += 0.0 * c_out[j] + 0.0 * ((row.x[j] + row.x[j - 1]) + (row.y[j] + row.y[j - 1]) + (row.z[j] + row.z[j - 1]));
+  }
+  if (grid.closed) {
+    const Link link = look(row, columns - 1, 0);
+    active_out[0] = link.active;
+    c_out[0] = link.violation * rest[0] * rest[0];
+    worst = std::max(worst, std::abs(link.violation));
+  }
+  return finite == 0.0 ? worst : std::numeric_limits<double>::infinity();
+}
+
+double measureWeftRates(const LineSolve& line, int i, Field& violation, Field& active) noexcept {
+  const Grid& grid = line.pattern.grid;
+  double worst = 0.0;
+  for (int j = grid.closed ? 0 : 1; j < grid.columns; ++j) {
+    const std::size_t right = grid.index(i, j);
+    const std::size_t left = grid.index(i, j > 0 ? j - 1 : grid.columns - 1);
+    const bool pulls = line.links.multiplier[right] > 0.0;
+    active[right] = pulls ? 1.0 : 0.0;
+    violation[right] = pulls ? line.links.direction.at(right).dot(line.value.at(right) - line.value.at(left)) : 0.0;
+    worst = std::max(worst, std::abs(violation[right]) * line.pattern.weft_per_square[right]);
+  }
+  return worst;
+}
+
+CURTAIN_WIDE void takeUpWeft(LinkSet& links, const Grid& grid, int i, Field& change) noexcept {
+  double* const s = links.multiplier.data() + grid.row(i);
+  double* const ds = change.data() + grid.row(i);
+#pragma omp simd
+  for (int j = 0; j < grid.columns; ++j) {
+    const double most = -s[j];
+    ds[j] = ds[j] > most ? ds[j] : most;
+    s[j] += ds[j];
+  }
+}
+
+// Node j is the right end of link j and the left end of link j + 1.
+CURTAIN_WIDE void pullWeft(const LineSolve& line, int i, const Field& multiplier) noexcept {
+  const Grid& grid = line.pattern.grid;
+  const std::size_t row = grid.row(i);
+  const auto last = static_cast<std::size_t>(grid.columns) - 1;
+  const double* const w = line.inverse_inertia.data() + row;
+  const double* const s = multiplier.data() + row;
+  const auto pull = [&](const Field& direction, Field& value) {
+    const double* const d = direction.data() + row;
+    double* const v = value.data() + row;
+#pragma omp simd
+    for (std::size_t j = 0; j < last; ++j) v[j] += w[j] * (s[j + 1] * d[j + 1] - s[j] * d[j]);
+    v[last] += w[last] * ((grid.closed ? s[0] * d[0] : 0.0) - s[last] * d[last]);
+  };
+  pull(line.links.direction.x, line.value.x);
+  pull(line.links.direction.y, line.value.y);
+  pull(line.links.direction.z, line.value.z);
+}
+
+CURTAIN_WIDE double weftMoveSquared(const LineSolve& line, int i, const Field& multiplier) noexcept {
+  const Grid& grid = line.pattern.grid;
+  const std::size_t row = grid.row(i);
+  const auto last = static_cast<std::size_t>(grid.columns) - 1;
+  const double* const w = line.inverse_inertia.data() + row;
+  const double* const s = multiplier.data() + row;
+  const double* const dx = line.links.direction.x.data() + row;
+  const double* const dy = line.links.direction.y.data() + row;
+  const double* const dz = line.links.direction.z.data() + row;
+  const double* const per_square = line.pattern.weft_per_square.data() + row;
+  double worst = 0.0;
+#pragma omp simd reduction(max : worst)
+  for (std::size_t j = 0; j < last; ++j) {
+    const double x = w[j] * (s[j + 1] * dx[j + 1] - s[j] * dx[j]);
+    const double y = w[j] * (s[j + 1] * dy[j + 1] - s[j] * dy[j]);
+    const double z = w[j] * (s[j + 1] * dz[j + 1] - s[j] * dz[j]);
+    const double size = (x * x + y * y + z * z) * per_square[j + 1];
+    worst = worst > size ? worst : size;
+  }
+  return worst;
+}
+
+CURTAIN_WIDE double weftStretch(const ClothPattern& pattern, const Field3& position) noexcept {
+  const Grid& grid = pattern.grid;
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  double longest = 1.0;  // squared, over the rest length's square
+  for (int i = 0; i < grid.rows; ++i) {
+    const double* const x = position.x.data() + grid.row(i);
+    const double* const y = position.y.data() + grid.row(i);
+    const double* const z = position.z.data() + grid.row(i);
+    const double* const w = pattern.inverse_mass.data() + grid.row(i);
+    const double* const per_square = pattern.weft_per_square.data() + grid.row(i);
+    const auto square = [=](std::size_t left, std::size_t right) {
+      const double rx = x[right] - x[left], ry = y[right] - y[left], rz = z[right] - z[left];
+      return w[left] + w[right] > 0.0 ? (rx * rx + ry * ry + rz * rz) * per_square[right] : 1.0;
+    };
+#pragma omp simd reduction(max : longest)
+    for (std::size_t j = 1; j < columns; ++j) {
+      const double size = square(j - 1, j);
+      longest = longest > size ? longest : size;
+    }
+    if (grid.closed) longest = std::max(longest, square(columns - 1, 0));
+  }
+  return std::sqrt(longest) - 1.0;
+}
+
+}  // namespace curtain

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The threads a simulator may use: loops over blocks that know nothing of each other. What a block computes does not
+// depend on who computes it, and reductions are made over the blocks in their order: the bits are the same for every
+// number of threads.
+#pragma once
+
+#include <memory>
+
+namespace curtain {
+
+class Workers {
+ public:
+  /// threads >= 1; 1 runs everything on the caller's thread.
+  explicit Workers(int threads);
+  ~Workers();
+  Workers(const Workers&) = delete;
+  Workers& operator=(const Workers&) = delete;
+
+  int threads() const { return threads_; }
+
+  /// Calls block(0) … block(count - 1), each once; returns when all are done. block must not throw.
+  template <typename Block>
+  void run(int count, const Block& block) const {
+    if (threads_ == 1 || count == 1) {
+      for (int b = 0; b < count; ++b) block(b);
+      return;
+    }
+    spread(count, [](const void* self, int b) { (*static_cast<const Block*>(self))(b); }, &block);
+  }
+
+ private:
+  void spread(int count, void (*call)(const void*, int), const void* block) const;
+
+  struct Arena;
+  int threads_;
+  std::unique_ptr<Arena> arena_;
+};
+
+/// Threads for a cloth of so many nodes when `asked` is 0 (auto): one below the size from which more pay, else as many
+/// as the machine has.
+int threadsFor(int asked, std::size_t node_count);
+
+}  // namespace curtain

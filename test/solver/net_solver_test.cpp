@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The weft's links and the solve over all taut ones: what the conjugate gradients give is what a dense solve gives,
+// strings only pull, slack cloth is not touched.
+#include "solver/net_solver.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <random>
+
+#include "solver/warp_solver.h"
+#include "solver/weft_links.h"
+
+namespace curtain {
+namespace {
+
+Scene sceneOf(int rows, int columns, PinKind pins, bool closed) {
+  Scene scene;
+  scene.cloth.rows = rows;
+  scene.cloth.columns = columns;
+  scene.cloth.closed = closed;
+  scene.pins.kind = pins;
+  return scene;
+}
+
+struct Net {
+  explicit Net(const Scene& scene, int threads = 1)
+      : pattern(makePattern(scene)), state(makeInitialState(scene, pattern)), workers(threads), solver(pattern, workers) {
+    warp.assign(pattern.grid);
+    weft.assign(pattern.grid);
+    violation.assign(pattern.grid.size(), 0.0);
+    active = change = violation;
+    setDirections();
+  }
+  void setDirections() {
+    setWarpDirections(pattern.grid, state.position, warp.direction);
+    for (int i = 0; i < pattern.grid.rows; ++i) setWeftDirections(pattern.grid, i, state.position, weft.direction);
+    solver.begin(state.position, pattern.inverse_mass);
+  }
+  void shake(double size, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> move(-size, size);
+    for (std::size_t n = 0; n < pattern.grid.size(); ++n) {
+      const Vec3 step(move(random), move(random), move(random));
+      if (pattern.inverse_mass[n] > 0.0) state.position.add(n, step);
+    }
+  }
+  LineSolve line() { return {pattern, pattern.inverse_mass, weft, state.position}; }
+  double measure() {
+    double worst = 0.0;
+    for (int i = 0; i < pattern.grid.rows; ++i) worst = std::max(worst, measureWeft(line(), i, violation, active));
+    return worst;
+  }
+  void take() {
+    for (int i = 0; i < pattern.grid.rows; ++i) {
+      takeUpWeft(weft, pattern.grid, i, change);
+      pullWeft(line(), i, change);
+    }
+  }
+  std::size_t left(int i, int j) const { return pattern.grid.index(i, j > 0 ? j - 1 : pattern.grid.columns - 1); }
+
+  ClothPattern pattern;
+  ClothState state;
+  Workers workers;
+  NetSolver solver;
+  LinkSet warp, weft;
+  Field violation, active, change;
+};
+
+// A S t = g of all taut links by a dense matrix, rods and strings together.
+Eigen::VectorXd denseSolution(const Net& net, std::vector<std::size_t>& strings) {
+  struct Link {
+    std::size_t a, b;
+    Vec3 d;
+    double c;
+  };
+  std::vector<Link> links;
+  const Grid& grid = net.pattern.grid;
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = grid.closed ? 0 : 1; j < grid.columns; ++j) {
+      const std::size_t n = grid.index(i, j);
+      if (net.active[n] == 0.0) continue;
+      links.push_back({net.left(i, j), n, net.weft.direction.at(n), net.violation[n]});
+      strings.push_back(n);
+    }
+  }
+  for (int i = 1; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) {
+      const std::size_t n = grid.index(i, j);
+      links.push_back({n - static_cast<std::size_t>(grid.stride), n, net.warp.direction.at(n), 0.0});
+    }
+  }
+  const auto count = static_cast<Eigen::Index>(links.size());
+  Eigen::MatrixXd matrix(count, count);
+  Eigen::VectorXd rhs(count);
+  const Field& w = net.pattern.inverse_mass;
+  for (Eigen::Index p = 0; p < count; ++p) {
+    const Link& k = links[static_cast<std::size_t>(p)];
+    rhs[p] = k.c;
+    for (Eigen::Index q = 0; q < count; ++q) {
+      const Link& l = links[static_cast<std::size_t>(q)];
+      const double shared = (k.a == l.a ? w[k.a] : 0.0) + (k.b == l.b ? w[k.b] : 0.0) - (k.a == l.b ? w[k.a] : 0.0) -
+                            (k.b == l.a ? w[k.b] : 0.0);
+      matrix(p, q) = shared * k.d.dot(l.d);
+    }
+  }
+  return matrix.fullPivLu().solve(rhs);
+}
+
+class NetSolverOf : public ::testing::TestWithParam<bool> {};
+
+// Single precision, 1e-7, times the matrix's condition number, some 1e3 on this crumpled cloth.
+TEST_P(NetSolverOf, GivesWhatADenseSolveGives) {
+  Scene scene = sceneOf(7, 9, PinKind::kTop, GetParam());
+  if (GetParam()) scene.hang.radius = 0.12;
+  Net net(scene);
+  net.shake(0.02, 8);
+  net.setDirections();
+  const double worst = net.measure();
+  ASSERT_GT(worst, 1e-3);
+  std::vector<std::size_t> strings;
+  const Eigen::VectorXd expected = denseSolution(net, strings);
+  ASSERT_GT(strings.size(), 10U);
+  ASSERT_LT(strings.size(), net.pattern.grid.nodeCount() - 7);
+  const double rest = net.pattern.weft_rest[1];
+  const NetSolver::Outcome outcome = net.solver.solve(net.violation, net.active, worst * rest, 0.0, 1e-7, 200, net.change);
+  EXPECT_LT(outcome.reduction, 1e-5);
+  const double size = expected.head(static_cast<Eigen::Index>(strings.size())).cwiseAbs().maxCoeff();
+  for (std::size_t p = 0; p < strings.size(); ++p) {
+    EXPECT_NEAR(net.change[strings[p]], expected[static_cast<Eigen::Index>(p)], 1e-3 * size) << "string " << p;
+  }
+}
+
+TEST_P(NetSolverOf, GivesTheSameBitsWithAnyNumberOfThreads) {
+  const Scene scene = sceneOf(60, 50, PinKind::kTop, GetParam());
+  Field first;
+  for (const int threads : {1, 2, 3}) {
+    Net net(scene, threads);
+    net.shake(0.004, 9);
+    net.setDirections();
+    const double worst = net.measure();
+    net.solver.solve(net.violation, net.active, worst * net.pattern.weft_rest[1], 1e-3, 1e-3, 20, net.change);
+    if (first.empty()) first = net.change;
+    EXPECT_EQ(net.change, first) << threads << " threads";
+  }
+}
+
+// Strings and rods in turn, along the present directions: Gauss-Newton, which ends quadratically once the set of taut
+// strings is found. What remains is the compliance's share of a load of at most the strain shaken in, 0.2, over the 24
+// links of a row.
+TEST_P(NetSolverOf, ShortensLongLinksAndOnlyPulls) {
+  Net net(sceneOf(6, 24, PinKind::kNone, GetParam()));
+  net.shake(0.004, 8);
+  EXPECT_GT(weftStretch(net.pattern, net.state.position), 1e-2);
+  LineScratch scratch;
+  scratch.assign(net.pattern.grid);
+  const Field3 before = net.state.position;
+  const LineSolve rods{net.pattern, net.pattern.inverse_mass, net.warp, net.state.position};
+  for (int sweep = 0; sweep < 40; ++sweep) {
+    net.setDirections();
+    for (int block = 0; block < warpBlockCount(net.pattern.grid); ++block) warpNewton(rods, scratch, block);
+    const double worst = net.measure();
+    if (worst < 1e-9) break;
+    net.solver.solve(net.violation, net.active, worst * net.pattern.weft_rest[1], 0.05 * worst, 0.1, 20, net.change);
+    net.take();
+  }
+  EXPECT_LT(weftStretch(net.pattern, net.state.position), kWeftCompliance * 0.2 * 24);
+  EXPECT_LT(warpStretch(net.pattern, net.state.position).longer, 1e-6);
+  Vec3 momentum = Vec3::Zero();
+  int slack = 0;
+  for (std::size_t n = 0; n < net.pattern.grid.size(); ++n) {
+    momentum += net.pattern.mass[n] * (net.state.position.at(n) - before.at(n));
+    EXPECT_GE(net.weft.multiplier[n], 0.0);
+    if (net.weft.multiplier[n] == 0.0) ++slack;
+  }
+  EXPECT_LT(momentum.norm(), 1e-14);  // forces come in pairs: rounding of 144 nodes and 40 sweeps
+  EXPECT_GT(slack, 0);
+}
+
+TEST_P(NetSolverOf, FindsNothingToDoInSlackCloth) {
+  Scene scene = sceneOf(6, 24, PinKind::kNone, GetParam());
+  scene.hang.to = Vec3(0.6, 0.0, 2.2);
+  scene.hang.radius = 0.1;
+  Net net(scene);
+  EXPECT_EQ(net.measure(), 0.0);
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(weftResidual(net.line(), i), 0.0);
+  EXPECT_EQ(*std::max_element(net.active.begin(), net.active.end()), 0.0);
+}
+
+TEST_P(NetSolverOf, NoticesAPositionThatIsNotFinite) {
+  Net net(sceneOf(3, 5, PinKind::kNone, GetParam()));
+  net.state.position.y[net.pattern.grid.index(1, 4)] = std::nan("");
+  EXPECT_TRUE(std::isinf(weftResidual(net.line(), 1)));
+  EXPECT_TRUE(std::isinf(net.measure()));
+}
+
+INSTANTIATE_TEST_SUITE_P(OpenAndClosed, NetSolverOf, ::testing::Bool(),
+                         [](const auto& test) { return test.param ? "Closed" : "Open"; });
+
+// A string that pulled and has become too short lets go, and what it pulled is given back.
+TEST(WeftLinks, TakeBackAPullThatIsNotNeeded) {
+  Net net(sceneOf(2, 4, PinKind::kNone, false));
+  const Field3 before = net.state.position;
+  net.weft.multiplier[net.pattern.grid.index(0, 2)] = 0.01;
+  for (int i = 0; i < 2; ++i) pullWeft(net.line(), i, net.weft.multiplier);
+  for (int sweep = 0; sweep < 20; ++sweep) {
+    const double worst = net.measure();
+    if (worst == 0.0) break;
+    net.solver.solve(net.violation, net.active, worst * net.pattern.weft_rest[1], 0.0, 1e-6, 20, net.change);
+    net.take();
+  }
+  EXPECT_NEAR(net.weft.multiplier[net.pattern.grid.index(0, 2)], 0.0, 1e-9);
+  for (int j = 0; j < 4; ++j) {
+    const std::size_t n = net.pattern.grid.index(0, j);
+    EXPECT_LT((net.state.position.at(n) - before.at(n)).norm(), 1e-8);
+  }
+}
+
+}  // namespace
+}  // namespace curtain
