@@ -1,30 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloth/cloth.h"
+#include "cloth/wide.h"
 
 namespace curtain {
+namespace {
+
+struct Rows {
+  const double *x, *y, *z;
+  Rows(const Field3& field, std::size_t row) : x(field.x.data() + row), y(field.y.data() + row), z(field.z.data() + row) {}
+};
+
+}  // namespace
 
 // The corner triangles of the (up to four) faces at a node add up to one cross product of differences:
 //   sum over quadrants of (warp edge) x (weft edge) = (x_below - x_above) x (x_right - x_left),
 // with the node itself in place of a neighbour that is missing.
-void nodeAreaVectors(const Grid& grid, const Field3& position, Field3& out) {
+CURTAIN_WIDE void nodeAreaVectors(const Grid& grid, const Field3& position, Field3& out) {
+  const auto last = static_cast<std::size_t>(grid.columns) - 1;
   for (int i = 0; i < grid.rows; ++i) {
-    const int above = i > 0 ? i - 1 : i;
-    const int below = i + 1 < grid.rows ? i + 1 : i;
-    for (int j = 0; j < grid.columns; ++j) {
-      int left = j - 1;
-      int right = j + 1;
-      if (left < 0) left = grid.closed ? grid.columns - 1 : 0;
-      if (right == grid.columns) right = grid.closed ? 0 : j;
-      const std::size_t a = grid.index(above, j), b = grid.index(below, j);
-      const std::size_t l = grid.index(i, left), r = grid.index(i, right);
-      const double px = position.x[b] - position.x[a], qx = position.x[r] - position.x[l];
-      const double py = position.y[b] - position.y[a], qy = position.y[r] - position.y[l];
-      const double pz = position.z[b] - position.z[a], qz = position.z[r] - position.z[l];
-      const std::size_t node = grid.index(i, j);
-      out.x[node] = 0.5 * (py * qz - pz * qy);
-      out.y[node] = 0.5 * (pz * qx - px * qz);
-      out.z[node] = 0.5 * (px * qy - py * qx);
-    }
+    const Rows above(position, grid.row(i > 0 ? i - 1 : i));
+    const Rows below(position, grid.row(i + 1 < grid.rows ? i + 1 : i));
+    const Rows here(position, grid.row(i));
+    double* const ox = out.x.data() + grid.row(i);
+    double* const oy = out.y.data() + grid.row(i);
+    double* const oz = out.z.data() + grid.row(i);
+    const auto node = [=](std::size_t j, std::size_t left, std::size_t right) {
+      const double px = below.x[j] - above.x[j], qx = here.x[right] - here.x[left];
+      const double py = below.y[j] - above.y[j], qy = here.y[right] - here.y[left];
+      const double pz = below.z[j] - above.z[j], qz = here.z[right] - here.z[left];
+      ox[j] = 0.5 * (py * qz - pz * qy);
+      oy[j] = 0.5 * (pz * qx - px * qz);
+      oz[j] = 0.5 * (px * qy - py * qx);
+    };
+    node(0, grid.closed ? last : 0, 1);
+#pragma omp simd
+    for (std::size_t j = 1; j < last; ++j) node(j, j - 1, j + 1);
+    node(last, last - 1, grid.closed ? 0 : last);
   }
 }
 

@@ -3,16 +3,9 @@
 
 #include <cmath>
 
-namespace curtain {
+#include "cloth/wide.h"
 
-double dampingGrowth(const AirParams& air, double speed) {
-  double growth = 1.0 + air.fast_gain * speed;
-  if (speed > air.threshold) {
-    // Cheng 2000, Eq. (4), second branch. Printed it jumps at the threshold; divided by the threshold it does not.
-    growth *= air.law == DampingLaw::kPrinted ? speed : speed / air.threshold;
-  }
-  return growth;
-}
+namespace curtain {
 
 AirDamping::AirDamping(const AirParams& air, const ClothPattern& pattern) : air_(air) {
   const Grid& grid = pattern.grid;
@@ -31,12 +24,18 @@ AirDamping::AirDamping(const AirParams& air, const ClothPattern& pattern) : air_
   }
 }
 
-void AirDamping::addCoefficients(const Grid& grid, const Field3& velocity, Field& out) const noexcept {
+CURTAIN_WIDE void AirDamping::addCoefficients(const Grid& grid, const Field3& velocity, Field& out) const noexcept {
   const std::size_t size = grid.size();
+  const double* const x = velocity.x.data();
+  const double* const y = velocity.y.data();
+  const double* const z = velocity.z.data();
+  const double* const linear = linear_.data();
+  double* const sum = out.data();
+  const AirParams air = air_;
+#pragma omp simd
   for (std::size_t n = 0; n < size; ++n) {
-    const double speed = std::sqrt(velocity.x[n] * velocity.x[n] + velocity.y[n] * velocity.y[n] +
-                                   velocity.z[n] * velocity.z[n]);
-    out[n] += linear_[n] * dampingGrowth(air_, speed);
+    const double speed = std::sqrt(x[n] * x[n] + y[n] * y[n] + z[n] * z[n]);
+    sum[n] += linear[n] * dampingGrowth(air, speed);
   }
 }
 

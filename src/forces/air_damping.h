@@ -42,6 +42,11 @@ inline DampedStep dampedStep(double coefficient, double inverse_mass, double dt)
 }
 
 /// Coefficient of Eq. (4) at a speed over its value for small speeds.
-double dampingGrowth(const AirParams& air, double speed);
+/// (second branch, beyond the threshold). Printed, that branch jumps at the threshold; divided by the threshold it
+/// does not.
+inline double dampingGrowth(const AirParams& air, double speed) {
+  const double beyond = air.law == DampingLaw::kPrinted ? speed : speed / air.threshold;
+  return (1.0 + air.fast_gain * speed) * (speed > air.threshold ? beyond : 1.0);
+}
 
 }  // namespace curtain

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth/wide.h"
+
 namespace curtain {
 namespace {
 
@@ -94,6 +96,23 @@ Vec3 GustNoise::at(int row, int column) const noexcept {
   };
   return v.low_weight * (u.low_weight * point(v.low, u.low) + u.high_weight * point(v.low, u.high)) +
          v.high_weight * (u.low_weight * point(v.high, u.low) + u.high_weight * point(v.high, u.high));
+}
+
+CURTAIN_WIDE void GustNoise::rowOf(int row, int component, double* out) const noexcept {
+  const Place& v = row_place_[static_cast<std::size_t>(row)];
+  const Vec3* const low = lattice_.data() + static_cast<std::ptrdiff_t>(v.low) * lattice_columns_;
+  const Vec3* const high = lattice_.data() + static_cast<std::ptrdiff_t>(v.high) * lattice_columns_;
+  std::size_t j = 0;
+  const std::size_t columns = column_place_.size();
+  while (j < columns) {
+    // The columns of one cell of the lattice share its corners.
+    const int left = column_place_[j].low, right = column_place_[j].high;
+    const double at_left = v.low_weight * low[left][component] + v.high_weight * high[left][component];
+    const double at_right = v.low_weight * low[right][component] + v.high_weight * high[right][component];
+    for (; j < columns && column_place_[j].low == left; ++j) {
+      out[j] = column_place_[j].low_weight * at_left + column_place_[j].high_weight * at_right;
+    }
+  }
 }
 
 }  // namespace curtain

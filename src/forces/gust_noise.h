@@ -25,6 +25,9 @@ class GustNoise {
   /// The field at a node at the time set.
   Vec3 at(int row, int column) const noexcept;
 
+  /// The field along a row: one component (0..2) of all columns into out, shape [columns].
+  void rowOf(int row, int component, double* out) const noexcept;
+
  private:
   // A place between two lattice points; weights of unit sum of squares keep the variance at one everywhere.
   struct Place {

@@ -25,7 +25,8 @@ WindSource::WindSource(const WindParams& wind, const ClothPattern& pattern, doub
       porosity_factor_(1.0 - wind.porosity_weight * porosity),
       strength_(wind.pressure + wind.node_force + wind.unsteadiness),
       gusts_(seedOf(seed, wind.id), wind.correlation_length, wind.correlation_time, pattern),
-      distance_factor_(pattern.grid.size(), 0.0) {
+      distance_factor_(pattern.grid.size(), 0.0),
+      gust_row_(static_cast<std::size_t>(pattern.grid.columns), 0.0) {
   if (wind.half_angle > kParallel) {
     apex_distance_ = wind.radius / std::tan(wind.half_angle);
     apex_ = wind.position - apex_distance_ * axis_;
@@ -104,15 +105,21 @@ CURTAIN_WIDE void WindSource::addForces(const ClothPattern& pattern, const Field
 }
 
 // On the nodes that addForces just found in reach.
-void WindSource::addGusts(const ClothPattern& pattern, double time, Field3& force) noexcept {
+CURTAIN_WIDE void WindSource::addGusts(const ClothPattern& pattern, double time, Field3& force) noexcept {
   const Grid& grid = pattern.grid;
   gusts_.setTime(time - wind_.start);
+  const double strength = wind_.unsteadiness * porosity_factor_;
+  double* const gust = gust_row_.data();
   for (int i = 0; i < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j) {
-      const std::size_t node = grid.index(i, j);
-      const double factor = distance_factor_[node];
-      if (factor == 0.0) continue;
-      force.add(node, (wind_.unsteadiness * porosity_factor_ * pattern.area[node] * factor) * gusts_.at(i, j));
+    const std::size_t row = grid.row(i);
+    const double* const factor = distance_factor_.data() + row;
+    const double* const area = pattern.area.data() + row;
+    int component = 0;
+    for (Field* const field : {&force.x, &force.y, &force.z}) {
+      gusts_.rowOf(i, component++, gust);
+      double* const f = field->data() + row;
+#pragma omp simd
+      for (int j = 0; j < grid.columns; ++j) f[j] += strength * area[j] * factor[j] * gust[j];
     }
   }
 }

@@ -55,6 +55,7 @@ class WindSource {
   double strength_;             // of everything it does; 0 = the source is there but still
   GustNoise gusts_;
   Field distance_factor_;  // of every node, from the last call of addForces
+  Field gust_row_;         // scratch: a component of the gusts along a row
 };
 
 }  // namespace curtain

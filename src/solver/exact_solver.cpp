@@ -36,11 +36,18 @@ constexpr int kGradientIterations = 12;
 constexpr double kLargestMove = 0.2;
 // Sweeps along the given directions must bring at least this reduction, or what is left is corrected along the present
 // ones: where a flat net shears, forces along the directions at the start may have no solution at all.
+// Contact takes turns with the links; from this sweep on the weft goes so much further than its solve says, which gains
+// where the turns are many and is not worth it where a few do.
+constexpr int kPlainSweeps = 3;
+constexpr double kOverRelaxation = 1.5;
 constexpr double kWatchMoves = 1e-3;  // relative violation below which none can
 constexpr double kFollowFactor = 0.2;
 // Sweeps that must bring at least this improvement, or the iteration has stalled.
 constexpr int kStallWindow = 8;
-constexpr double kStallFactor = 0.5;
+constexpr double kStallFactor = 0.8;
+// With contact, which takes turns with the links and gains a constant factor a turn.
+constexpr int kContactStallWindow = 16;
+constexpr double kContactStallFactor = 0.9;
 // Rounds of the linear velocity projection.
 constexpr int kVelocityRounds = 2;
 // Levenberg-Marquardt term of the weft's solve, over the diagonal: in proportion to the residual, so that it vanishes as
@@ -103,7 +110,9 @@ void ExactSolver::reset() noexcept {
   std::fill(load_.begin(), load_.end(), 0.0);
   last_scale_ = 0.0;
   weft_pulls_ = false;
+  heaviest_load_ = 0.0;
   older_h_ = 0.0;
+  net_.reset();
   scratch_.assign(pattern_.grid);
 }
 
@@ -299,7 +308,7 @@ void ExactSolver::followDirections() noexcept {
 
 // All taut links of the weft, with the rods' answer in view. The nodes move by the weft's part of it; the rods' own
 // solve comes next.
-void ExactSolver::solveWeft(const LineSolve& weft, double residual, double tolerance) noexcept {
+void ExactSolver::solveWeft(const LineSolve& weft, double residual, double tolerance, double share) noexcept {
   const double reduction = std::clamp(kLeastReduction * tolerance / residual, kLeastReduction, kMostReduction);
   const double damping = std::min(kLargestDamping, kDampingPerResidual * residual);
   if (!measured_) worstOfRows([&](int i) { return measureWeft(weft, i, violation_, active_); });
@@ -307,8 +316,8 @@ void ExactSolver::solveWeft(const LineSolve& weft, double residual, double toler
   const double move = residual > kWatchMoves
                           ? std::sqrt(worstOfRows([&](int i) { return weftMoveSquared(weft, i, change_); }))
                           : 0.0;
-  if (move > kLargestMove) {
-    const double share = kLargestMove / move;
+  if (move > kLargestMove) share = kLargestMove / move;
+  if (share != 1.0) {
     for (double& change : change_) change *= share;
   }
   worstOfRows([&](int i) {
@@ -347,7 +356,7 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
     }
     if (!std::isfinite(residual)) return progress;
     if (residual > (first ? kFirstSweepShare : kLeaveAlone) * tolerance) {
-      if (follow || residual > kFollowFactor * last_residual) {
+      if (follow || (residual > kFollowFactor * last_residual && constraints == nullptr)) {
         follow = true;
         followDirections();
         directions_set_ = net_ready = true;
@@ -356,7 +365,7 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
         directions_set_ = net_ready = true;
         net_.begin(start, *inertia_);
       }
-      solveWeft(weft, residual, tolerance);
+      solveWeft(weft, residual, tolerance, constraints != nullptr && progress.sweeps > kPlainSweeps ? kOverRelaxation : 1.0);
     }
     last_residual = residual;
     clock.lap(Stage::kWeft);
@@ -364,9 +373,10 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
       contact_move = constraints->project(next_);
       clock.lap(Stage::kContact);
     }
-    if (progress.sweeps % kStallWindow == 0) {
+    if (progress.sweeps % (constraints != nullptr ? kContactStallWindow : kStallWindow) == 0) {
+      const double factor = constraints != nullptr ? kContactStallFactor : kStallFactor;
       const double left = std::max(rods.first_residual, residual);
-      if (!(left < kStallFactor * window_residual) && (!plan.must_accept || withinTolerance(warp, weft, tolerance_))) break;
+      if (!(left < factor * window_residual) && (!plan.must_accept || withinTolerance(warp, weft, tolerance_))) break;
       window_residual = left;
     }
   }

@@ -87,7 +87,7 @@ class ExactSolver {
   WarpProgress solveBlock(bool follow, const LineSolve& warp, int block, bool first_sweep, double tolerance) noexcept;
   WarpProgress solveWarp(bool follow, const LineSolve& warp, double tolerance, bool first_sweep) noexcept;
   double weftResidualNow(const LineSolve& weft) noexcept;
-  void solveWeft(const LineSolve& weft, double residual, double tolerance) noexcept;
+  void solveWeft(const LineSolve& weft, double residual, double tolerance, double share) noexcept;
   void followDirections() noexcept;
   double warpResidualNow(const LineSolve& warp) noexcept;
   bool withinTolerance(const LineSolve& warp, const LineSolve& weft, double tolerance) noexcept;

@@ -41,6 +41,13 @@ NetSolver::NetSolver(const ClothPattern& pattern, const Workers& workers)
   partial_.assign(static_cast<std::size_t>(row_blocks_), 0.0);
 }
 
+void NetSolver::reset() noexcept {
+  for (Values* values : {&rods_, &move_.x, &move_.y, &move_.z, &residual_, &preconditioned_, &pull_, &product_, &solution_,
+                         &interleaved_}) {
+    std::fill(values->begin(), values->end(), 0.0F);
+  }
+}
+
 template <typename Block>
 double NetSolver::sumOverRowBlocks(const Block& block) noexcept {
   workers_.run(row_blocks_, [&](int b) { partial_[static_cast<std::size_t>(b)] = taut_[static_cast<std::size_t>(b)] ? block(b) : 0.0; });
@@ -341,6 +348,7 @@ void NetSolver::closeRows(Values& links) noexcept {
   for (int i = 0; i < pattern_.grid.rows; ++i) links[row(i) + columns] = links[row(i)];
 }
 
+// Numbers that are not finite end the iteration before they reach the vectors.
 NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active, double largest, double damping,
                                     double reduction, int most_iterations, Field& change) noexcept {
   Outcome outcome;
@@ -359,8 +367,8 @@ NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active,
     closeRows(pull_);
     workers_.run(column_blocks_, [&](int b) { answerOfRods(b); });
     const double curvature = sumOverRowBlocks([&](int b) { return schurProduct(b); });
-    if (!(curvature > 0.0)) break;
     const auto alpha = static_cast<float>(aligned / curvature);
+    if (!(curvature > 0.0) || !std::isfinite(alpha)) break;
     workers_.run(row_blocks_, [&](int b) {
       partial_[static_cast<std::size_t>(b)] = taut_[static_cast<std::size_t>(b)] ? advance(b, alpha) : 0.0;
     });

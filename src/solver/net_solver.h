@@ -28,6 +28,9 @@ class NetSolver {
   /// Takes the links' directions from these positions, and how nodes answer impulses [1/kg].
   void begin(const Field3& position, const Field& inverse_inertia) noexcept;
 
+  /// Forgets all numbers (after one that was not finite).
+  void reset() noexcept;
+
   struct Outcome {
     int iterations = 0;
     double reduction = 0.0;  ///< largest residual left over the largest at the start

@@ -116,6 +116,7 @@ CURTAIN_INTO_WIDE LineOutcome newton(const LineSolve& line, LineScratch& scratch
   for (int i = grid.rows - 1; i >= 0; --i) substituteRow(line, scratch, grid.row(i) + offset);
   // A solve that failed leaves 0 * NaN there: it must not reach the next one.
   std::fill_n(scratch.solution.begin() + static_cast<std::ptrdiff_t>(offset), kLane, 0.0);
+  std::fill_n(line.links.multiplier.begin() + static_cast<std::ptrdiff_t>(offset), kLane, 0.0);
   outcome.sound = unsound == 0.0;
   return outcome;
 }

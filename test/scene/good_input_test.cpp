@@ -99,7 +99,7 @@ TEST(GoodInput, EveryWordHasItsMeaning) {
 }
 
 TEST(GoodInput, MethodNames) {
-  const std::vector<std::string> expected = {"auto", "leapfrog", "implicit", "paper"};
+  const std::vector<std::string> expected = {"auto", "leapfrog", "leapfrog4", "bdf2", "implicit", "paper"};
   EXPECT_EQ(methodNames(), expected);
   EXPECT_EQ(toString(Method::kAuto), "auto");
   EXPECT_EQ(toString(Method::kPaper), "paper");

@@ -168,8 +168,9 @@ TEST(Simulator, AStepAllocatesNothing) {
   }
 }
 
-// A scene that is its own mirror image moves like it. The rows' solves run from left to right, so only rounding differs:
-// 1e-16, growing by e a tenth of a second at most (the fastest free motion) over the half second looked at.
+// A scene that is its own mirror image moves like it. The rows' solves run from left to right, so only rounding differs. The
+// strings' corrections are made in single precision: 6e-8 of moves of at most a hundredth of a link (4e-11 m), in some 100
+// substeps, growing by e a tenth of a second at most (the fastest free motion) over the half second looked at: 6e-8 m.
 TEST(Simulator, KeepsMirrorSymmetry) {
   Scene scene = sceneOf(20, 15);
   scene.hang.from = Vec3(-0.4, 0.0, 2.2);
@@ -191,7 +192,7 @@ TEST(Simulator, KeepsMirrorSymmetry) {
       worst = std::max(worst, (here - Vec3(-there.x(), there.y(), there.z())).norm());
     }
   }
-  EXPECT_LT(worst, 1e-12);
+  EXPECT_LT(worst, 1e-7);
   EXPECT_GT(simulator.position({19, 7}).y(), 0.05);
 }
 
@@ -342,6 +343,7 @@ TEST(Simulator, ASubstepThatFailsIsDoneAgainSmaller) {
   Scene scene = readSceneFile(std::string(CURTAIN_SOURCE_DIR) + "/test/scenes/swing.yaml").scene;
   scene.cloth.rows = 100;
   scene.cloth.columns = 3;
+  scene.solver.method = Method::kLeapfrog;  // auto makes nodes heavier instead
   scene.solver.substeps = 1;
   Simulator simulator(scene);
   run(simulator, 60);
