@@ -55,7 +55,7 @@ void addExplicit(std::vector<Entry>& entries, bool thin) {
 void addImplicit(std::vector<Entry>& entries, bool thin) {
   for (const int substeps : pick<int>({1, 2, 4, 8, 16, 32, 64, 128}, thin)) {
     for (const double stiffness : pick<double>({1e2, 1e3, 1e4, 1e5}, thin)) {
-      for (const double tolerance : pick<double>({1e-2, 1e-4}, thin)) {
+      for (const double tolerance : pick<double>({1e-2, 1e-1, 1e-4}, thin)) {
         add(entries, "Baraff-Witkin", text("stiffness", stiffness) + " N/m; " + text("tolerance", tolerance),
             ImplicitSettings{substeps, stiffness, tolerance, 400}, makeBaraffWitkin);
       }

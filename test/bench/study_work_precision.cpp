@@ -41,12 +41,15 @@ Run runOnce(const Entry& entry, const curtain::Scene& scene, const ClothStart& s
   return run(start, *contestant, static_cast<int>(std::lround(kSeconds * scene.solver.frame_rate)), kBudget);
 }
 
-// True: no other setting of the method is both truer and, by more than `slower`, faster.
-bool onFront(const Result& result, const std::vector<Result>& all, double slower) {
+// True: no other setting of the method is truer in less time. With `doubt` above 1 a setting is kept that a time so much
+// more or less would put there, unless another one is much truer for the same time.
+bool onFront(const Result& result, const std::vector<Result>& all, double doubt) {
   if (!std::isfinite(result.error)) return false;
   return std::none_of(all.begin(), all.end(), [&](const Result& other) {
-    return other.entry->method == result.entry->method && other.error < result.error &&
-           slower * other.least() < result.least();
+    if (other.entry->method != result.entry->method) return false;
+    const bool beaten = other.error < result.error && doubt * other.least() < result.least();
+    const bool far_beaten = doubt * other.error < result.error && other.least() < result.least() * std::sqrt(doubt);
+    return beaten || far_beaten;
   });
 }
 

@@ -15,12 +15,14 @@ namespace {
 
 double dot(const Triple& a, const Triple& b) {
   double sum = 0.0;
+#pragma omp simd reduction(+ : sum)
   for (std::size_t n = 0; n < a.x.size(); ++n) sum += a.x[n] * b.x[n] + a.y[n] * b.y[n] + a.z[n] * b.z[n];
   return sum;
 }
 
 // to = a + factor * b
 void combine(const Triple& a, double factor, const Triple& b, Triple& to) {
+#pragma omp simd
   for (std::size_t n = 0; n < a.x.size(); ++n) {
     to.x[n] = a.x[n] + factor * b.x[n];
     to.y[n] = a.y[n] + factor * b.y[n];
@@ -52,6 +54,7 @@ class BaraffWitkin : public Contestant {
     matrix_.linearise(state_, settings_.stiffness, h_);
     // h^2 df/dx v is minus the matrix' link part on v.
     matrix_.multiplyLinks(state_, state_.velocity, product_);
+#pragma omp simd
     for (std::size_t n = 0; n < state_.count(); ++n) {
       right_.x[n] = state_.free[n] * (h_ * force_.x[n] - product_.x[n]);
       right_.y[n] = state_.free[n] * (h_ * force_.y[n] - product_.y[n]);
@@ -59,6 +62,7 @@ class BaraffWitkin : public Contestant {
     }
     solve();
     const double keep = std::exp(-state_.damping * h_);
+#pragma omp simd
     for (std::size_t n = 0; n < state_.count(); ++n) {
       state_.velocity.x[n] = keep * (state_.velocity.x[n] + change_.x[n]);
       state_.velocity.y[n] = keep * (state_.velocity.y[n] + change_.y[n]);

@@ -41,6 +41,7 @@ class ProjectionContestant : public Contestant {
  private:
   void predict() {
     const double keep = std::exp(-state_.damping * h_);
+#pragma omp simd
     for (std::size_t n = 0; n < state_.count(); ++n) {
       const double h = h_ * state_.free[n];
       previous_.x[n] = state_.position.x[n];
@@ -54,6 +55,7 @@ class ProjectionContestant : public Contestant {
 
   void takeVelocities() {
     const double per_h = 1.0 / h_;
+#pragma omp simd
     for (std::size_t n = 0; n < state_.count(); ++n) {
       state_.velocity.x[n] = per_h * (state_.position.x[n] - previous_.x[n]);
       state_.velocity.y[n] = per_h * (state_.position.y[n] - previous_.y[n]);

@@ -14,6 +14,7 @@ void combine(const std::vector<double>& base, const std::vector<double>& slope, 
   const double* const b = base.data();
   const double* const s = slope.data();
   double* const t = to.data();
+#pragma omp simd
   for (std::size_t n = 0; n < base.size(); ++n) t[n] = b[n] + factor * s[n];
 }
 
@@ -64,6 +65,7 @@ class RungeKutta : public Contestant {
 
   void accelerations() {
     springForces(state_, stage_x_, stage_v_, stiffness_, dashpot_, slope_v_);
+#pragma omp simd
     for (std::size_t n = 0; n < state_.count(); ++n) {
       const double w = state_.inverse_mass[n], c = state_.damping;
       slope_v_.x[n] = w * slope_v_.x[n] - c * stage_v_.x[n];

@@ -65,6 +65,7 @@ void addDashpots(const GridState& state, const Triple& position, const Triple& v
 void springForces(const GridState& state, const Triple& position, const Triple& velocity, double stiffness,
                   double dashpot, Triple& force) {
   const std::size_t count = state.count();
+#pragma omp simd
   for (std::size_t n = 0; n < count; ++n) {
     force.x[n] = state.mass[n] * state.gravity[0];
     force.y[n] = state.mass[n] * state.gravity[1];

@@ -94,6 +94,7 @@ void SpringMatrix::invertDiagonal(const GridState& state) {
       for (std::size_t k = 0; k < batch.count; ++k) to_b[k] += entry[k];
     }
   }
+#pragma omp simd
   for (std::size_t n = 0; n < state.count(); ++n) {
     const double xx = inverse_[0][n], xy = inverse_[1][n], xz = inverse_[2][n], yy = inverse_[3][n], yz = inverse_[4][n],
                  zz = inverse_[5][n];
@@ -119,6 +120,7 @@ void SpringMatrix::multiplyLinks(const GridState& state, const Triple& in, Tripl
 
 void SpringMatrix::multiply(const GridState& state, const Triple& in, Triple& out) const {
   multiplyLinks(state, in, out);
+#pragma omp simd
   for (std::size_t n = 0; n < state.count(); ++n) {
     out.x[n] = state.free[n] * (out.x[n] + state.mass[n] * in.x[n]);
     out.y[n] = state.free[n] * (out.y[n] + state.mass[n] * in.y[n]);
@@ -127,6 +129,7 @@ void SpringMatrix::multiply(const GridState& state, const Triple& in, Triple& ou
 }
 
 void SpringMatrix::precondition(const GridState& state, const Triple& in, Triple& out) const {
+#pragma omp simd
   for (std::size_t n = 0; n < state.count(); ++n) {
     const double x = in.x[n], y = in.y[n], z = in.z[n];
     out.x[n] = inverse_[0][n] * x + inverse_[1][n] * y + inverse_[2][n] * z;

@@ -47,6 +47,7 @@ class SymplecticEuler : public Contestant {
  private:
   void kick(double h) {
     const double keep = std::exp(-state_.damping * h);
+#pragma omp simd
     for (std::size_t n = 0; n < state_.count(); ++n) {
       const double w = h * state_.inverse_mass[n];
       state_.velocity.x[n] = keep * state_.velocity.x[n] + w * force_.x[n];
@@ -56,6 +57,7 @@ class SymplecticEuler : public Contestant {
   }
 
   void drift() {
+#pragma omp simd
     for (std::size_t n = 0; n < state_.count(); ++n) {
       state_.position.x[n] += h_ * state_.velocity.x[n];
       state_.position.y[n] += h_ * state_.velocity.y[n];
