@@ -12,7 +12,10 @@
 namespace curtain_bench {
 
 const std::vector<Study>& studies() {
-  static const std::vector<Study> all = {{"work_precision", studyWorkPrecision}};
+  static const std::vector<Study> all = {{"work_precision", studyWorkPrecision},
+                                         {"slopes", studySlopes},
+                                         {"energy", studyEnergy},
+                                         {"modes", studyModes}};
   return all;
 }
 
