@@ -15,7 +15,13 @@ const std::vector<Study>& studies() {
   static const std::vector<Study> all = {{"work_precision", studyWorkPrecision},
                                          {"slopes", studySlopes},
                                          {"energy", studyEnergy},
-                                         {"modes", studyModes}};
+                                         {"modes", studyModes},
+                                         {"nets", studyNets},
+                                         {"wind", studyWind},
+                                         {"hard_spot", studyHardSpot},
+                                         {"gusts", studyGusts},
+                                         {"scaling", studyScaling},
+                                         {"stages", studyStages}};
   return all;
 }
 

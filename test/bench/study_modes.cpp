@@ -95,8 +95,8 @@ void measure(const Entry& entry, const curtain::Scene& scene, const ClothStart& 
     const bool near = std::abs(rough.frequency / modes[m].frequency - 1.0) < 0.1;
     const Oscillation fine = near ? fit(q[m], modes[m].frequency, start.frame_seconds, 5) : rough;
     const Oscillation& best = std::isfinite(fine.frequency) ? fine : rough;
-    table.row({entry.method, entry.setting, number(static_cast<int>(m) + 1), number(modes[m].frequency),
-               number(best.frequency), number(best.frequency / modes[m].frequency - 1.0), number(best.decay)});
+    table.row({entry.method, entry.setting, number(static_cast<int>(m) + 1), number(modes[m].frequency, 8),
+               number(best.frequency, 8), number(best.frequency / modes[m].frequency - 1.0), number(best.decay)});
   }
 }
 
@@ -111,8 +111,8 @@ std::vector<Entry> entriesOfModes() {
   });
   add("Runge-Kutta 4", "substeps 64; dt*omega 2.4",
       [](const Scene&, const ClothStart& start) { return makeRungeKutta(start, {64, 2.4, 0.0}); });
-  add("Baraff-Witkin", "substeps 8; stiffness 1000 N/m; tolerance 0.0001",
-      [](const Scene&, const ClothStart& start) { return makeBaraffWitkin(start, {8, 1e3, 1e-4, 400}); });
+  add("Baraff-Witkin", "substeps 8; stiffness 10000 N/m; tolerance 1e-08",
+      [](const Scene&, const ClothStart& start) { return makeBaraffWitkin(start, {8, 1e4, 1e-8, 400}); });
   add("XPBD", "substeps 64; iterations 1; compliance 0 m/N",
       [](const Scene&, const ClothStart& start) { return makeXpbd(start, {64, 1, 0.0}); });
   if (bulletInstalled()) {

@@ -7,10 +7,10 @@
 
 namespace curtain_bench {
 
-std::string number(double value) {
+std::string number(double value, int figures) {
   if (!std::isfinite(value)) return "nan";
   char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
+  std::snprintf(text, sizeof text, "%.*g", figures, value);
   return text;
 }
 

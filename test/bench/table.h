@@ -9,8 +9,8 @@
 
 namespace curtain_bench {
 
-/// A number as CSV and gnuplot read it, four figures; "nan" where there is none.
-std::string number(double value);
+/// A number as CSV and gnuplot read it; "nan" where there is none.
+std::string number(double value, int figures = 4);
 std::string number(int value);
 
 class Table {
