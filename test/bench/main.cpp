@@ -8,6 +8,7 @@
 
 #include "bench/rivals/rivals.h"
 #include "bench/studies.h"
+#include "curtain_sim/scene.h"
 
 namespace curtain_bench {
 
@@ -28,7 +29,7 @@ const std::vector<Study>& studies() {
 namespace {
 
 int usage() {
-  std::fprintf(stderr, "usage: curtain_bench [--out FOLDER] [--quick] [--repeats N] [--about] [STUDY…]\nstudies:");
+  std::fprintf(stderr, "usage: curtain_bench [--out FOLDER] [--quick] [--repeats N] [--bullet] [--methods] [STUDY…]\nstudies:");
   for (const Study& study : studies()) std::fprintf(stderr, " %s", study.name.c_str());
   std::fprintf(stderr, "\n");
   return 2;
@@ -48,8 +49,12 @@ int benchMain(int count, char** words) {
     const std::string word = words[w];
     if (word == "--quick") {
       options.quick = true;
-    } else if (word == "--about") {
+    } else if (word == "--bullet") {
       std::printf("%s\n", bulletDescription().c_str());
+      return 0;
+    } else if (word == "--methods") {
+      for (const std::string& method : curtain::methodNames()) std::printf("%s ", method.c_str());
+      std::printf("\n");
       return 0;
     } else if (word == "--out" && w + 1 < count) {
       options.folder = words[++w];

@@ -74,19 +74,21 @@ std::vector<Entry> entriesOfSheet(const Sheet& sheet, bool large) {
   if (large) return entries;
   add("XPBD", "substeps 256; iterations 1; compliance 0 m/N",
       [](const Scene&, const ClothStart& start) { return makeXpbd(start, {256, 1, 0.0}); });
+  add("XPBD", "substeps 1024; iterations 1; compliance 0 m/N",
+      [](const Scene&, const ClothStart& start) { return makeXpbd(start, {1024, 1, 0.0}); });
   add("PBD", "substeps 4; iterations 30",
       [](const Scene&, const ClothStart& start) { return makePbd(start, {4, 30, 0.0}); });
   add("PBD", "substeps 16; iterations 30",
       [](const Scene&, const ClothStart& start) { return makePbd(start, {16, 30, 0.0}); });
   add("Baraff-Witkin", "substeps 8; stiffness 1000 N/m; tolerance 0.01",
       [](const Scene&, const ClothStart& start) { return makeBaraffWitkin(start, {8, 1e3, 1e-2, 400}); });
-  add("Baraff-Witkin", "substeps 16; stiffness 10000 N/m; tolerance 0.01",
-      [](const Scene&, const ClothStart& start) { return makeBaraffWitkin(start, {16, 1e4, 1e-2, 400}); });
-  add("symplectic Euler", "substeps 256; dt*omega 1; dashpot 0", [](const Scene&, const ClothStart& start) {
-    return makeSymplecticEuler(start, {256, 1.0, 0.0});
+  add("Baraff-Witkin", "substeps 16; stiffness 10000 N/m; tolerance 0.001",
+      [](const Scene&, const ClothStart& start) { return makeBaraffWitkin(start, {16, 1e4, 1e-3, 400}); });
+  add("symplectic Euler", "substeps 256; dt*omega 1; dashpot 0.2", [](const Scene&, const ClothStart& start) {
+    return makeSymplecticEuler(start, {256, 1.0, 0.2});
   });
-  add("symplectic Euler", "substeps 1024; dt*omega 1; dashpot 0", [](const Scene&, const ClothStart& start) {
-    return makeSymplecticEuler(start, {1024, 1.0, 0.0});
+  add("symplectic Euler", "substeps 1024; dt*omega 1; dashpot 0.2", [](const Scene&, const ClothStart& start) {
+    return makeSymplecticEuler(start, {1024, 1.0, 0.2});
   });
   return entries;
 }
