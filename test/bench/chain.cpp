@@ -20,8 +20,7 @@ curtain::Scene chainScene(int rods, double angle) {
 // The truth's chain turns towards +x with y up, the cloth towards -y with z up; columns keep their places along x.
 Points chainTruth(const ClothStart& start, int degrees, double time) {
   const int rods = start.rows - 1;
-  const auto table =
-      curtain_test::readTruth("traj_N" + std::to_string(rods) + "_A" + std::to_string(degrees) + ".csv");
+  const auto table = curtain_test::readTruth("traj_N" + std::to_string(rods) + "_A" + std::to_string(degrees) + ".csv");
   for (const auto& row : table) {
     if (std::abs(std::stod(row.at("t")) - time) > 1e-9) continue;
     Points truth = start.positions;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What the benchmark asks of a method, ours or a rival's: start from the same grid, make frames, show the nodes. Free of
-// Eigen, so that rivals may be built for the instruction set of this machine without a change of anyone's memory layout.
+// What the benchmark asks of a method, ours or a rival's: start from the same grid, make frames, show the nodes. Free
+// of Eigen, so that rivals may be built for the instruction set of this machine without a change of anyone's memory
+// layout.
 #pragma once
 
 #include <array>
@@ -25,13 +26,13 @@ struct Points {
 struct ClothStart {
   int rows = 0;
   int columns = 0;
-  Points positions;            ///< [m], at rest
-  std::vector<double> mass;    ///< [kg], row-major
-  std::vector<char> pinned;    ///< row-major
-  double warp_rest = 0.0;      ///< [m] of every rod along a column: held both ways
-  double weft_rest = 0.0;      ///< [m] of every link along a row: held against stretch only
+  Points positions;                 ///< [m], at rest
+  std::vector<double> mass;         ///< [kg], row-major
+  std::vector<char> pinned;         ///< row-major
+  double warp_rest = 0.0;           ///< [m] of every rod along a column: held both ways
+  double weft_rest = 0.0;           ///< [m] of every link along a row: held against stretch only
   std::array<double, 3> gravity{};  ///< [m/s^2]
-  double damping = 0.0;        ///< [1/s] velocities go with e^(-damping t); 0 but where a study wants the state of rest
+  double damping = 0.0;  ///< [1/s] velocities go with e^(-damping t); 0 but where a study wants the state of rest
   double frame_seconds = 1.0 / 60.0;
 
   std::size_t count() const { return static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The rivals' sweeps. Each ends where the method blows up, takes three times real time, or more of the same no longer pays.
+// The rivals' sweeps. Each ends where the method blows up, takes three times real time, or more of the same no longer
+// pays.
 #include "bench/line_up.h"
 
 #include <cstdio>

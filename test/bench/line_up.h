@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Who takes part, at which settings: our methods by their names, so that new ones take part by themselves, and the rivals
-// over the settings that matter to each.
+// Who takes part, at which settings: our methods by their names, so that new ones take part by themselves, and the
+// rivals over the settings that matter to each.
 #pragma once
 
 #include <functional>
@@ -14,8 +14,8 @@
 
 namespace curtain_bench {
 
-/// The start of a scene as the simulator makes it. The scene must be open, of equal links, without wind and drags: that is
-/// what the rivals know. `damping` is theirs, ours have the scene's air.
+/// The start of a scene as the simulator makes it. The scene must be open, of equal links, without wind and drags: that
+/// is what the rivals know. `damping` is theirs, ours have the scene's air.
 ClothStart clothStart(const curtain::Scene& scene, double damping = 0.0);
 
 /// The simulator itself, at the scene's own solver settings.

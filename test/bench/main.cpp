@@ -29,7 +29,8 @@ const std::vector<Study>& studies() {
 namespace {
 
 int usage() {
-  std::fprintf(stderr, "usage: curtain_bench [--out FOLDER] [--quick] [--repeats N] [--bullet] [--methods] [STUDY…]\nstudies:");
+  std::fprintf(stderr,
+               "usage: curtain_bench [--out FOLDER] [--quick] [--repeats N] [--bullet] [--methods] [STUDY…]\nstudies:");
   for (const Study& study : studies()) std::fprintf(stderr, " %s", study.name.c_str());
   std::fprintf(stderr, "\n");
   return 2;

@@ -67,8 +67,9 @@ double kineticEnergy(const ClothStart& start, const Points& velocities) {
   double energy = 0.0;
   for (std::size_t n = 0; n < start.count(); ++n) {
     if (start.pinned[n] != 0) continue;
-    energy += 0.5 * start.mass[n] * (velocities.x[n] * velocities.x[n] + velocities.y[n] * velocities.y[n] +
-                                     velocities.z[n] * velocities.z[n]);
+    energy +=
+        0.5 * start.mass[n] *
+        (velocities.x[n] * velocities.x[n] + velocities.y[n] * velocities.y[n] + velocities.z[n] * velocities.z[n]);
   }
   return energy;
 }

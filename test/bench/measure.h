@@ -25,7 +25,7 @@ double median(std::vector<double> values);
 
 /// What a run gave.
 struct Run {
-  double ms = 0.0;           ///< computing time of all frames
+  double ms = 0.0;            ///< computing time of all frames
   double frame_median = 0.0;  ///< [ms]
   double frame_max = 0.0;     ///< [ms]
   double stretch = 0.0;       ///< largest at any frame's end
@@ -39,8 +39,8 @@ struct Run {
 /// Called after every frame (from 1), outside of what is timed.
 using FrameCall = std::function<void(int frame, const Contestant& contestant, const Points& positions)>;
 
-/// Makes frames, each timed by itself with the steady clock. Ends early at a state that is not sound or past the budget of
-/// computing time [s].
+/// Makes frames, each timed by itself with the steady clock. Ends early at a state that is not sound or past the budget
+/// of computing time [s].
 Run run(const ClothStart& start, Contestant& contestant, int frames, double budget_seconds,
         const FrameCall& call = nullptr);
 

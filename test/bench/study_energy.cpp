@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Energy of the undamped swing over a minute. Drift is (E(t) - E(0)) / (E(0) - E(rest)): E of motion, gravity and springs,
-// E(rest) = -m g L / 2 of the cloth that hangs straight down; so 0 is none and -1 is all that can be lost.
+// Energy of the undamped swing over a minute. Drift is (E(t) - E(0)) / (E(0) - E(rest)): E of motion, gravity and
+// springs, E(rest) = -m g L / 2 of the cloth that hangs straight down; so 0 is none and -1 is all that can be lost.
 #include <cmath>
 
 #include "bench/chain.h"
@@ -41,17 +41,22 @@ std::vector<Entry> entriesOfEnergy() {
   add("symplectic Euler", "substeps 64; dt*omega 1.5; dashpot 0", [](const Scene&, const ClothStart& start) {
     return makeSymplecticEuler(start, {64, 1.5, 0.0});
   });
-  add("Runge-Kutta 4", "substeps 64; dt*omega 1.8",
-      [](const Scene&, const ClothStart& start) { return makeRungeKutta(start, {64, 1.8, 0.0}); });
-  add("Baraff-Witkin", "substeps 8; stiffness 1000 N/m; tolerance 0.0001",
-      [](const Scene&, const ClothStart& start) { return makeBaraffWitkin(start, {8, 1e3, 1e-4, 400}); });
-  add("XPBD", "substeps 8; iterations 10; compliance 0 m/N",
-      [](const Scene&, const ClothStart& start) { return makeXpbd(start, {8, 10, 0.0}); });
-  add("XPBD", "substeps 64; iterations 1; compliance 0 m/N",
-      [](const Scene&, const ClothStart& start) { return makeXpbd(start, {64, 1, 0.0}); });
+  add("Runge-Kutta 4", "substeps 64; dt*omega 1.8", [](const Scene&, const ClothStart& start) {
+    return makeRungeKutta(start, {64, 1.8, 0.0});
+  });
+  add("Baraff-Witkin", "substeps 8; stiffness 1000 N/m; tolerance 0.0001", [](const Scene&, const ClothStart& start) {
+    return makeBaraffWitkin(start, {8, 1e3, 1e-4, 400});
+  });
+  add("XPBD", "substeps 8; iterations 10; compliance 0 m/N", [](const Scene&, const ClothStart& start) {
+    return makeXpbd(start, {8, 10, 0.0});
+  });
+  add("XPBD", "substeps 64; iterations 1; compliance 0 m/N", [](const Scene&, const ClothStart& start) {
+    return makeXpbd(start, {64, 1, 0.0});
+  });
   if (bulletInstalled()) {
-    add("btSoftBody", "substeps 8; piterations 10; viterations 0",
-        [](const Scene&, const ClothStart& start) { return makeBullet(start, {8, 10, 0}); });
+    add("btSoftBody", "substeps 8; piterations 10; viterations 0", [](const Scene&, const ClothStart& start) {
+      return makeBullet(start, {8, 10, 0});
+    });
   }
   return entries;
 }

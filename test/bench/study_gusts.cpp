@@ -31,7 +31,8 @@ ClothStart startOf(curtain::Scene scene) {
   return clothStart(scene);
 }
 
-void compare(const std::string& name, const curtain::Scene& scene, const Options& options, Table& figures, Table& motion) {
+void compare(const std::string& name, const curtain::Scene& scene, const Options& options, Table& figures,
+             Table& motion) {
   const ClothStart start = startOf(scene);
   const int frames = options.quick ? 120 : 300;
   const int finest = options.quick ? 64 : 256;
@@ -57,8 +58,8 @@ void compare(const std::string& name, const curtain::Scene& scene, const Options
       medians.push_back(made.frame_median);
     }
     figures.row({name, entry.method, entry.setting, number(*std::min_element(medians.begin(), medians.end())),
-                 number(median(medians)), number(made.frame_max),
-                 number(made.sound ? made.stretch : std::nan("")), number(static_cast<double>(made.substeps) / made.frames)});
+                 number(median(medians)), number(made.frame_max), number(made.sound ? made.stretch : std::nan("")),
+                 number(static_cast<double>(made.substeps) / made.frames)});
   }
 }
 

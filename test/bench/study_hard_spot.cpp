@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The hard spot: a sheet hung by two corners at 0.9 of its width and dropped flat. The tension gathers at the pins, and the
-// falling sheet is caught by them with a snap, after which no two methods, nor two steps of one, agree in detail. So motion
-// is compared with that of the finest run up to the first snap: the first frame at which the finest run has lost a
-// hundredth of m g L of its energy, which is kept exactly until rods are caught.
+// The hard spot: a sheet hung by two corners at 0.9 of its width and dropped flat. The tension gathers at the pins, and
+// the falling sheet is caught by them with a snap, after which no two methods, nor two steps of one, agree in detail.
+// So motion is compared with that of the finest run up to the first snap: the first frame at which the finest run has
+// lost a hundredth of m g L of its energy, which is kept exactly until rods are caught.
 #include <cmath>
 #include <cstdio>
 
@@ -69,21 +69,28 @@ std::vector<Entry> entriesOfSheet(const Sheet& sheet, bool large) {
     entries.push_back({method, setting, make, true});
   };
   using curtain::Scene;
-  add("XPBD", "substeps 64; iterations 1; compliance 0 m/N",
-      [](const Scene&, const ClothStart& start) { return makeXpbd(start, {64, 1, 0.0}); });
+  add("XPBD", "substeps 64; iterations 1; compliance 0 m/N", [](const Scene&, const ClothStart& start) {
+    return makeXpbd(start, {64, 1, 0.0});
+  });
   if (large) return entries;
-  add("XPBD", "substeps 256; iterations 1; compliance 0 m/N",
-      [](const Scene&, const ClothStart& start) { return makeXpbd(start, {256, 1, 0.0}); });
-  add("XPBD", "substeps 1024; iterations 1; compliance 0 m/N",
-      [](const Scene&, const ClothStart& start) { return makeXpbd(start, {1024, 1, 0.0}); });
-  add("PBD", "substeps 4; iterations 30",
-      [](const Scene&, const ClothStart& start) { return makePbd(start, {4, 30, 0.0}); });
-  add("PBD", "substeps 16; iterations 30",
-      [](const Scene&, const ClothStart& start) { return makePbd(start, {16, 30, 0.0}); });
-  add("Baraff-Witkin", "substeps 8; stiffness 1000 N/m; tolerance 0.01",
-      [](const Scene&, const ClothStart& start) { return makeBaraffWitkin(start, {8, 1e3, 1e-2, 400}); });
-  add("Baraff-Witkin", "substeps 16; stiffness 10000 N/m; tolerance 0.001",
-      [](const Scene&, const ClothStart& start) { return makeBaraffWitkin(start, {16, 1e4, 1e-3, 400}); });
+  add("XPBD", "substeps 256; iterations 1; compliance 0 m/N", [](const Scene&, const ClothStart& start) {
+    return makeXpbd(start, {256, 1, 0.0});
+  });
+  add("XPBD", "substeps 1024; iterations 1; compliance 0 m/N", [](const Scene&, const ClothStart& start) {
+    return makeXpbd(start, {1024, 1, 0.0});
+  });
+  add("PBD", "substeps 4; iterations 30", [](const Scene&, const ClothStart& start) {
+    return makePbd(start, {4, 30, 0.0});
+  });
+  add("PBD", "substeps 16; iterations 30", [](const Scene&, const ClothStart& start) {
+    return makePbd(start, {16, 30, 0.0});
+  });
+  add("Baraff-Witkin", "substeps 8; stiffness 1000 N/m; tolerance 0.01", [](const Scene&, const ClothStart& start) {
+    return makeBaraffWitkin(start, {8, 1e3, 1e-2, 400});
+  });
+  add("Baraff-Witkin", "substeps 16; stiffness 10000 N/m; tolerance 0.001", [](const Scene&, const ClothStart& start) {
+    return makeBaraffWitkin(start, {16, 1e4, 1e-3, 400});
+  });
   add("symplectic Euler", "substeps 256; dt*omega 1; dashpot 0.2", [](const Scene&, const ClothStart& start) {
     return makeSymplecticEuler(start, {256, 1.0, 0.2});
   });
@@ -104,18 +111,18 @@ void drop(const Sheet& sheet, Table& figures, Table& motion) {
     double at_snap = std::nan("");
     double rise = 0.0;
     const double first = gravityEnergy(start, start.positions);
-    const Run made = run(start, *contestant, sheet.frames, 40.0,
-                         [&](int frame, const Contestant& now, const Points& positions) {
-                           rise = std::max(rise, totalEnergy(start, now) - first);
-                           if (frame > static_cast<int>(reference.frames.size())) return;
-                           const double error =
-                               rmsDistance(start, positions, reference.frames[static_cast<std::size_t>(frame - 1)]);
-                           if (frame == reference.snap) at_snap = error;
-                           motion.row({name, entry.method, entry.setting, number(frame * start.frame_seconds), number(error)});
-                         });
+    const Run made =
+        run(start, *contestant, sheet.frames, 40.0, [&](int frame, const Contestant& now, const Points& positions) {
+          rise = std::max(rise, totalEnergy(start, now) - first);
+          if (frame > static_cast<int>(reference.frames.size())) return;
+          const double error = rmsDistance(start, positions, reference.frames[static_cast<std::size_t>(frame - 1)]);
+          if (frame == reference.snap) at_snap = error;
+          motion.row({name, entry.method, entry.setting, number(frame * start.frame_seconds), number(error)});
+        });
     figures.row({name, entry.method, entry.setting, number(made.frame_median), number(made.frame_max),
-                 number(made.sound ? made.stretch : std::nan("")), number(static_cast<double>(made.substeps) / made.frames),
-                 number(rise), number(reference.snap * start.frame_seconds), number(at_snap), number(made.frames)});
+                 number(made.sound ? made.stretch : std::nan("")),
+                 number(static_cast<double>(made.substeps) / made.frames), number(rise),
+                 number(reference.snap * start.frame_seconds), number(at_snap), number(made.frames)});
     std::fprintf(stderr, "hard_spot %s %s, %s: %.1f s\n", name.c_str(), entry.method.c_str(), entry.setting.c_str(),
                  1e-3 * made.ms);
   }
@@ -125,8 +132,8 @@ void drop(const Sheet& sheet, Table& figures, Table& motion) {
 
 void studyHardSpot(const Options& options) {
   Table figures(options.folder, "hard_spot.csv",
-                {"sheet", "method", "setting", "ms_median", "ms_max", "stretch", "substeps", "energy_rise_J", "t_snap_s",
-                 "error_at_snap_m", "frames"});
+                {"sheet", "method", "setting", "ms_median", "ms_max", "stretch", "substeps", "energy_rise_J",
+                 "t_snap_s", "error_at_snap_m", "frames"});
   Table motion(options.folder, "hard_spot_motion.csv", {"sheet", "method", "setting", "t_s", "error_m"});
   drop({20, 20, options.quick ? 60 : 180, {4, 8, 16, 32, 64}, 256}, figures, motion);
   drop({44, 40, options.quick ? 30 : 120, {16, 32, 64, 128}, 256}, figures, motion);

@@ -90,7 +90,8 @@ void measure(const Entry& entry, const curtain::Scene& scene, const ClothStart& 
     }
   });
   for (std::size_t m = 0; m < kModes; ++m) {
-    // A quarter period tells decay and a rough frequency; five quarters, the frequency, if the rough one leaves no doubt.
+    // A quarter period tells decay and a rough frequency; five quarters, the frequency, if the rough one leaves no
+    // doubt.
     const Oscillation rough = fit(q[m], modes[m].frequency, start.frame_seconds, 1);
     const bool near = std::abs(rough.frequency / modes[m].frequency - 1.0) < 0.1;
     const Oscillation fine = near ? fit(q[m], modes[m].frequency, start.frame_seconds, 5) : rough;
@@ -109,15 +110,19 @@ std::vector<Entry> entriesOfModes() {
   add("symplectic Euler", "substeps 64; dt*omega 1.8; dashpot 0.05", [](const Scene&, const ClothStart& start) {
     return makeSymplecticEuler(start, {64, 1.8, 0.05});
   });
-  add("Runge-Kutta 4", "substeps 64; dt*omega 2.4",
-      [](const Scene&, const ClothStart& start) { return makeRungeKutta(start, {64, 2.4, 0.0}); });
-  add("Baraff-Witkin", "substeps 8; stiffness 10000 N/m; tolerance 1e-08",
-      [](const Scene&, const ClothStart& start) { return makeBaraffWitkin(start, {8, 1e4, 1e-8, 400}); });
-  add("XPBD", "substeps 64; iterations 1; compliance 0 m/N",
-      [](const Scene&, const ClothStart& start) { return makeXpbd(start, {64, 1, 0.0}); });
+  add("Runge-Kutta 4", "substeps 64; dt*omega 2.4", [](const Scene&, const ClothStart& start) {
+    return makeRungeKutta(start, {64, 2.4, 0.0});
+  });
+  add("Baraff-Witkin", "substeps 8; stiffness 10000 N/m; tolerance 1e-08", [](const Scene&, const ClothStart& start) {
+    return makeBaraffWitkin(start, {8, 1e4, 1e-8, 400});
+  });
+  add("XPBD", "substeps 64; iterations 1; compliance 0 m/N", [](const Scene&, const ClothStart& start) {
+    return makeXpbd(start, {64, 1, 0.0});
+  });
   if (bulletInstalled()) {
-    add("btSoftBody", "substeps 16; piterations 3; viterations 0",
-        [](const Scene&, const ClothStart& start) { return makeBullet(start, {16, 3, 0}); });
+    add("btSoftBody", "substeps 16; piterations 3; viterations 0", [](const Scene&, const ClothStart& start) {
+      return makeBullet(start, {16, 3, 0});
+    });
   }
   return entries;
 }

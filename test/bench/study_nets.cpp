@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Two-corner nets settle under damping; their potential energy is held against the least there is (net_exact.csv). A method
-// whose links give way rests below it.
+// Two-corner nets settle under damping; their potential energy is held against the least there is (net_exact.csv). A
+// method whose links give way rests below it.
 #include <cmath>
 
 #include "bench/line_up.h"
@@ -15,7 +15,8 @@
 namespace curtain_bench {
 namespace {
 
-// The table's nets, hung by two corners or by a hook at every third column: 1 m x 1 m, 1 kg in equal node masses. Damping: c_r = 1 m/s of Eq. (4) is 1.2 / s at 1 kg/m^2.
+// The table's nets, hung by two corners or by a hook at every third column: 1 m x 1 m, 1 kg in equal node masses.
+// Damping: c_r = 1 m/s of Eq. (4) is 1.2 / s at 1 kg/m^2.
 constexpr double kDamping = 1.2;
 
 curtain::Scene netScene(int n, double span, bool hooks) {
@@ -42,13 +43,16 @@ std::vector<Entry> entriesOfNets(bool quick) {
     entries.push_back({method, setting, make, true});
   };
   using curtain::Scene;
-  add("XPBD", "substeps 64; iterations 1; compliance 0 m/N",
-      [](const Scene&, const ClothStart& start) { return makeXpbd(start, {64, 1, 0.0}); });
+  add("XPBD", "substeps 64; iterations 1; compliance 0 m/N", [](const Scene&, const ClothStart& start) {
+    return makeXpbd(start, {64, 1, 0.0});
+  });
   if (quick) return entries;
-  add("PBD", "substeps 8; iterations 30",
-      [](const Scene&, const ClothStart& start) { return makePbd(start, {8, 30, 0.0}); });
-  add("Baraff-Witkin", "substeps 8; stiffness 100000 N/m; tolerance 0.0001",
-      [](const Scene&, const ClothStart& start) { return makeBaraffWitkin(start, {8, 1e5, 1e-4, 400}); });
+  add("PBD", "substeps 8; iterations 30", [](const Scene&, const ClothStart& start) {
+    return makePbd(start, {8, 30, 0.0});
+  });
+  add("Baraff-Witkin", "substeps 8; stiffness 100000 N/m; tolerance 0.0001", [](const Scene&, const ClothStart& start) {
+    return makeBaraffWitkin(start, {8, 1e5, 1e-4, 400});
+  });
   add("symplectic Euler", "substeps 128; dt*omega 1; dashpot 0.05", [](const Scene&, const ClothStart& start) {
     return makeSymplecticEuler(start, {128, 1.0, 0.05});
   });
@@ -59,8 +63,9 @@ std::vector<Entry> entriesOfNets(bool quick) {
 
 void studyNets(const Options& options) {
   constexpr int kFrames = 900;
-  Table table(options.folder, "nets.csv",
-              {"case", "n", "D", "method", "setting", "energy_J", "exact_J", "relative_error", "stretch", "ms_per_frame"});
+  Table table(
+      options.folder, "nets.csv",
+      {"case", "n", "D", "method", "setting", "energy_J", "exact_J", "relative_error", "stretch", "ms_per_frame"});
   for (const auto& row : curtain_test::readTruth("net_exact.csv")) {
     const int n = std::stoi(row.at("n"));
     const bool hooks = row.at("case") == "hooks3";
@@ -72,9 +77,9 @@ void studyNets(const Options& options) {
       const auto contestant = entry.make(scene, start);
       const Run made = run(start, *contestant, kFrames, 20.0);
       const double energy = made.sound ? gravityEnergy(start, made.end) : std::nan("");
-      table.row({row.at("case"), number(n), row.at("D"), entry.method, entry.setting, number(energy, 8), number(exact, 8),
-                 number((energy - exact) / -exact), number(made.sound ? largestStretch(start, made.end) : std::nan("")),
-                 number(made.ms / made.frames)});
+      table.row({row.at("case"), number(n), row.at("D"), entry.method, entry.setting, number(energy, 8),
+                 number(exact, 8), number((energy - exact) / -exact),
+                 number(made.sound ? largestStretch(start, made.end) : std::nan("")), number(made.ms / made.frames)});
     }
   }
 }

@@ -25,10 +25,9 @@ struct Size {
 };
 
 const std::vector<Size> kSizes = {
-    {"both", 16, 15},   {"both", 44, 40},    {"both", 112, 90},   {"both", 400, 250},
-    {"columns", 44, 10}, {"columns", 44, 40}, {"columns", 44, 160}, {"columns", 44, 640}, {"columns", 44, 2560},
-    {"rows", 11, 40},   {"rows", 22, 40},    {"rows", 44, 40},    {"rows", 88, 40},     {"rows", 176, 40},
-    {"rows", 352, 40}};
+    {"both", 16, 15},    {"both", 44, 40},     {"both", 112, 90},    {"both", 400, 250},    {"columns", 44, 10},
+    {"columns", 44, 40}, {"columns", 44, 160}, {"columns", 44, 640}, {"columns", 44, 2560}, {"rows", 11, 40},
+    {"rows", 22, 40},    {"rows", 44, 40},     {"rows", 88, 40},     {"rows", 176, 40},     {"rows", 352, 40}};
 
 curtain::Scene sceneOf(const std::string& name, const Size& size) {
   curtain::Scene scene = chainScene(size.rows - 1, 0.25 * std::acos(-1.0));
@@ -53,13 +52,16 @@ std::vector<Entry> rivalsOfScaling() {
   add("symplectic Euler", "substeps 64; dt*omega 1.8; dashpot 0", [](const Scene&, const ClothStart& start) {
     return makeSymplecticEuler(start, {64, 1.8, 0.0});
   });
-  add("XPBD", "substeps 64; iterations 1; compliance 0 m/N",
-      [](const Scene&, const ClothStart& start) { return makeXpbd(start, {64, 1, 0.0}); });
-  add("Baraff-Witkin", "substeps 16; stiffness 1000 N/m; tolerance 0.001",
-      [](const Scene&, const ClothStart& start) { return makeBaraffWitkin(start, {16, 1e3, 1e-3, 400}); });
+  add("XPBD", "substeps 64; iterations 1; compliance 0 m/N", [](const Scene&, const ClothStart& start) {
+    return makeXpbd(start, {64, 1, 0.0});
+  });
+  add("Baraff-Witkin", "substeps 16; stiffness 1000 N/m; tolerance 0.001", [](const Scene&, const ClothStart& start) {
+    return makeBaraffWitkin(start, {16, 1e3, 1e-3, 400});
+  });
   if (bulletInstalled()) {
-    add("btSoftBody", "substeps 16; piterations 3; viterations 0",
-        [](const Scene&, const ClothStart& start) { return makeBullet(start, {16, 3, 0}); });
+    add("btSoftBody", "substeps 16; piterations 3; viterations 0", [](const Scene&, const ClothStart& start) {
+      return makeBullet(start, {16, 3, 0});
+    });
   }
   return entries;
 }

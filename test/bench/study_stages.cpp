@@ -20,8 +20,7 @@ struct NamedScene {
 std::vector<NamedScene> scenesOfStages() {
   std::vector<NamedScene> scenes;
   for (const char* name : {"curtain", "flag", "skirt", "parachute", "sheet"}) {
-    const auto reading =
-        curtain::readSceneFile(std::string(CURTAIN_SOURCE_DIR) + "/config/scenes/" + name + ".yaml");
+    const auto reading = curtain::readSceneFile(std::string(CURTAIN_SOURCE_DIR) + "/config/scenes/" + name + ".yaml");
     if (!reading.problems.empty()) throw std::runtime_error(curtain::describe(reading.problems));
     scenes.push_back({name, reading.scene});
   }

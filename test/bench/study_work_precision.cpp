@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Error after one second against computing time, everyone on the same scenes. First every setting runs once; then the
-// settings that are the best of their method at some time (or nearly) run again, round robin, so that a slow minute of the
-// machine falls on all of them.
+// settings that are the best of their method at some time (or nearly) run again, round robin, so that a slow minute of
+// the machine falls on all of them.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -41,8 +41,8 @@ Run runOnce(const Entry& entry, const curtain::Scene& scene, const ClothStart& s
   return run(start, *contestant, static_cast<int>(std::lround(kSeconds * scene.solver.frame_rate)), kBudget);
 }
 
-// True: no other setting of the method is truer in less time. With `doubt` above 1 a setting is kept that a time so much
-// more or less would put there, unless another one is much truer for the same time.
+// True: no other setting of the method is truer in less time. With `doubt` above 1 a setting is kept that a time so
+// much more or less would put there, unless another one is much truer for the same time.
 bool onFront(const Result& result, const std::vector<Result>& all, double doubt) {
   if (!std::isfinite(result.error)) return false;
   return std::none_of(all.begin(), all.end(), [&](const Result& other) {

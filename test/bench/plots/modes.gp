@@ -12,7 +12,7 @@ set xtics 1
 set xlabel "mode"
 set ylabel "relative error of the frequency"
 set title "small oscillations of the swing's chain"
-plot for [i=1:words(C)] rows(T, is(1, first(word(C, i)))." && ".is(2, second(word(C, i))), 3) using 3:(abs($6)) \
+plot for [i=words(C):1:-1] rows(T, is(1, first(word(C, i)))." && ".is(2, second(word(C, i))), 3) using 3:(abs($6)) \
        with linespoints pt mark(first(word(C, i)), i) ps 1.2 lw width(first(word(C, i))) \
        dashtype 1 + (second(word(C, i)) eq "default") lc rgb colour(first(word(C, i)), i) \
        title label(first(word(C, i))).", ".second(word(C, i))

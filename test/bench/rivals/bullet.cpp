@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// btSoftBody of Bullet Physics as its package installs it. The soft body is stepped by itself, without a world around it:
-// no broad phase, no contacts, nothing that the other rivals need not pay for. Its links hold both ways, so it takes part
-// only where the weft is never slack.
+// btSoftBody of Bullet Physics as its package installs it. The soft body is stepped by itself, without a world around
+// it: no broad phase, no contacts, nothing that the other rivals need not pay for. Its links hold both ways, so it
+// takes part only where the weft is never slack.
 #include <cmath>
 
 #include "BulletSoftBody/btSoftBody.h"

@@ -24,7 +24,7 @@ std::unique_ptr<Contestant> makeRungeKutta(const ClothStart& start, const Explic
 /// Baraff, Witkin 1998: one linearised backward Euler step by conjugate gradients.
 struct ImplicitSettings {
   int substeps = 1;
-  double stiffness = 1e4;  ///< [N/m] of every spring
+  double stiffness = 1e4;   ///< [N/m] of every spring
   double tolerance = 1e-4;  ///< of the residual, relative to the right-hand side's
   int iterations = 400;     ///< cap
 };

@@ -10,7 +10,8 @@ namespace curtain_bench {
 namespace {
 
 // to = base + factor * slope, for pinned nodes too: their slopes are zero.
-void combine(const std::vector<double>& base, const std::vector<double>& slope, double factor, std::vector<double>& to) {
+void combine(const std::vector<double>& base, const std::vector<double>& slope, double factor,
+             std::vector<double>& to) {
   const double* const b = base.data();
   const double* const s = slope.data();
   double* const t = to.data();

@@ -21,8 +21,8 @@ struct Spring {
 void addBatch(const double* CURTAIN_RESTRICT ax, const double* CURTAIN_RESTRICT ay, const double* CURTAIN_RESTRICT az,
               const double* CURTAIN_RESTRICT bx, const double* CURTAIN_RESTRICT by, const double* CURTAIN_RESTRICT bz,
               double* CURTAIN_RESTRICT fax, double* CURTAIN_RESTRICT fay, double* CURTAIN_RESTRICT faz,
-              double* CURTAIN_RESTRICT fbx, double* CURTAIN_RESTRICT fby, double* CURTAIN_RESTRICT fbz, std::size_t count,
-              const Spring spring) {
+              double* CURTAIN_RESTRICT fbx, double* CURTAIN_RESTRICT fby, double* CURTAIN_RESTRICT fbz,
+              std::size_t count, const Spring spring) {
   for (std::size_t k = 0; k < count; ++k) {
     const double dx = bx[k] - ax[k], dy = by[k] - ay[k], dz = bz[k] - az[k];
     const double length = std::sqrt(dx * dx + dy * dy + dz * dz + kTiny);
@@ -39,7 +39,8 @@ void addBatch(const double* CURTAIN_RESTRICT ax, const double* CURTAIN_RESTRICT 
 }
 
 // The dashpots, apart: most settings have none. They act where the spring does.
-void addDashpots(const GridState& state, const Triple& position, const Triple& velocity, double dashpot, Triple& force) {
+void addDashpots(const GridState& state, const Triple& position, const Triple& velocity, double dashpot,
+                 Triple& force) {
   for (const LinkBatch& batch : state.batches) {
     for (std::size_t k = 0; k < batch.count; ++k) {
       const std::size_t a = batch.a + k, b = batch.b + k;
@@ -73,8 +74,8 @@ void springForces(const GridState& state, const Triple& position, const Triple& 
   }
   for (const LinkBatch& batch : state.batches) {
     const std::size_t a = batch.a, b = batch.b;
-    addBatch(&position.x[a], &position.y[a], &position.z[a], &position.x[b], &position.y[b], &position.z[b], &force.x[a],
-             &force.y[a], &force.z[a], &force.x[b], &force.y[b], &force.z[b], batch.count,
+    addBatch(&position.x[a], &position.y[a], &position.z[a], &position.x[b], &position.y[b], &position.z[b],
+             &force.x[a], &force.y[a], &force.z[a], &force.x[b], &force.y[b], &force.z[b], batch.count,
              {batch.rest, stiffness, 0.0, batch.two_sided ? -INFINITY : 0.0});
   }
   if (dashpot > 0.0) addDashpots(state, position, velocity, dashpot, force);

@@ -96,8 +96,8 @@ void SpringMatrix::invertDiagonal(const GridState& state) {
   }
 #pragma omp simd
   for (std::size_t n = 0; n < state.count(); ++n) {
-    const double xx = inverse_[0][n], xy = inverse_[1][n], xz = inverse_[2][n], yy = inverse_[3][n], yz = inverse_[4][n],
-                 zz = inverse_[5][n];
+    const double xx = inverse_[0][n], xy = inverse_[1][n], xz = inverse_[2][n], yy = inverse_[3][n],
+                 yz = inverse_[4][n], zz = inverse_[5][n];
     const double cx = yy * zz - yz * yz, cy = xz * yz - xy * zz, cz = xy * yz - xz * yy;
     const double scale = state.free[n] / (xx * cx + xy * cy + xz * cz);
     inverse_[0][n] = scale * cx;
