@@ -38,7 +38,7 @@ def figure(number, digits=2):
         return '–'
     if number != 0 and not 1e-3 <= abs(number) < 1e5:
         return f'{number:.{digits - 1}e}'
-    return f'{number:.{digits}g}' if abs(number) < 10 ** digits else f'{number:.0f}'
+    return f'{number:.{digits}g}' if abs(number) < 10 ** digits - 0.5 else f'{number:.0f}'
 
 
 def name(method):

@@ -6,6 +6,7 @@ set logscale xy
 misfit(m, s) = ours(m) ? "" : sprintf("%.1g", s)
 set format y "10^{%T}"
 set ylabel "RMS distance from the finest run at the first snap [m]"
+set yrange [5e-5:0.5]
 set xlabel "computing time a frame, median over the whole drop [ms]"
 do for [k=1:words(S)] {
   s = word(S, k)

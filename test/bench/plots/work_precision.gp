@@ -27,10 +27,12 @@ unset title
 set key off
 set xlabel "ms for one second"
 set ylabel "RMS error [m]" offset 1.5, 0
-set xrange [*:*]
+set xrange [0.02:3000]
+set xtics 100
+set format x "10^{%T}"
 set yrange [1e-9:10]
 set ytics 100
-S = values(T, "$1 ~ /^chain_/ || $1==\"swing\"", 1)
+S = values(T, "$1 ~ /^chain_/", 1)." swing"
 M = values(T, "1", 2)
 panel(s) = s eq "swing" ? "43 rods (swing)" : substr(s, 7, strlen(s))." rods"
 set multiplot layout 2, (words(S) + 2) / 2
