@@ -2,6 +2,7 @@
 //
 // The gathered curtain of config/scenes/curtain.yaml without its ball, in its gusting fan and in the same fan without
 // gusts: time a frame, and how far a run is from our finest one as time goes on. Ours only: the rivals have no wind.
+#include <algorithm>
 #include <cmath>
 
 #include "bench/line_up.h"
@@ -45,20 +46,25 @@ void compare(const std::string& name, const curtain::Scene& scene, const Options
   const auto finest_run = makeOurs(fine);
   run(start, *finest_run, frames, 120.0,
       [&](int, const Contestant&, const Points& positions) { reference.push_back(positions); });
-  for (const Entry& entry : ourEntries({4, 8, 16, 32, 64})) {
-    std::vector<double> medians;
-    Run made;
-    for (int repeat = 0; repeat < std::min(options.repeats, 3); ++repeat) {
-      const auto contestant = entry.make(scene, start);
-      made = run(start, *contestant, frames, 60.0, [&](int frame, const Contestant&, const Points& positions) {
+  const std::vector<Entry> entries = ourEntries({4, 8, 16, 32, 64});
+  std::vector<Run> runs(entries.size());
+  std::vector<std::vector<double>> medians(entries.size());
+  for (int repeat = 0; repeat < std::min(options.repeats, 3); ++repeat) {
+    for (std::size_t e = 0; e < entries.size(); ++e) {
+      const auto contestant = entries[e].make(scene, start);
+      runs[e] = run(start, *contestant, frames, 60.0, [&](int frame, const Contestant&, const Points& positions) {
         if (repeat > 0 || frame % 3 != 0 || frame > static_cast<int>(reference.size())) return;
         const double error = rmsDistance(start, positions, reference[static_cast<std::size_t>(frame - 1)]);
-        motion.row({name, entry.method, entry.setting, number(frame * start.frame_seconds), number(error)});
+        motion.row({name, entries[e].method, entries[e].setting, number(frame * start.frame_seconds), number(error)});
       });
-      medians.push_back(made.frame_median);
+      medians[e].push_back(runs[e].frame_median);
     }
-    figures.row({name, entry.method, entry.setting, number(*std::min_element(medians.begin(), medians.end())),
-                 number(median(medians)), number(made.frame_max), number(made.sound ? made.stretch : std::nan("")),
+  }
+  for (std::size_t e = 0; e < entries.size(); ++e) {
+    const Run& made = runs[e];
+    figures.row({name, entries[e].method, entries[e].setting,
+                 number(*std::min_element(medians[e].begin(), medians[e].end())), number(median(medians[e])),
+                 number(made.frame_max), number(made.sound ? made.stretch : std::nan("")),
                  number(static_cast<double>(made.substeps) / made.frames)});
   }
 }
