@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The studies of the benchmark, each writing its tables into a folder.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace curtain_bench {
+
+struct Options {
+  std::string folder = ".";  ///< where the tables go
+  bool quick = false;        ///< fewer settings and sizes, shorter runs
+  int repeats = 5;           ///< of the runs whose time counts
+};
+
+struct Study {
+  std::string name;
+  void (*run)(const Options& options);
+};
+
+void studyWorkPrecision(const Options& options);
+void studySlopes(const Options& options);
+void studyEnergy(const Options& options);
+void studyModes(const Options& options);
+void studyNets(const Options& options);
+void studyHardSpot(const Options& options);
+void studyWind(const Options& options);
+void studyGusts(const Options& options);
+void studyScaling(const Options& options);
+void studyStages(const Options& options);
+
+/// All of them, in the order of the page.
+const std::vector<Study>& studies();
+
+}  // namespace curtain_bench
