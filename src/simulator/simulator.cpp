@@ -10,6 +10,7 @@
 #include "simulator/fine_surface.h"
 #include "simulator/force_field.h"
 #include "simulator/self_crossings.h"
+#include "solver/composition.h"
 #include "solver/exact_solver.h"
 #include "solver/paper_solver.h"
 #include "solver/step_control.h"
@@ -61,11 +62,15 @@ struct Simulator::Impl {
         control(scene.solver, pattern, scene.gravity),
         surface(scene.cloth, pattern) {
     velocities.assign(pattern.grid.size(), 0.0);
+    before.state = initial;
+    exact.save(before.memory);
   }
 
   void reset();
   void step();
   double makeSubstep(double done);
+  bool makeComposed(const SubstepPlan& plan, double done);
+  SubstepOutcome attempt(const SubstepPlan& plan, double done);
   void measure();
   const Field3& currentVelocities();
 
@@ -81,6 +86,11 @@ struct Simulator::Impl {
   PaperSolver paper;
   StepControl control;
   FineSurface surface;
+  // What a substep of several stages goes back to.
+  struct {
+    ClothState state;
+    ExactSolver::Memory memory;
+  } before;
   Statistics statistics;
   StageClock clock;
   std::int64_t frame = 0;
@@ -103,21 +113,59 @@ void Simulator::Impl::reset() {
   velocities_fresh = false;
 }
 
-// One substep from `done` seconds into the frame. Returns how far it came: 0 when it was rejected.
-double Simulator::Impl::makeSubstep(double done) {
+// One attempt at a substep from `done` seconds into the frame.
+SubstepOutcome Simulator::Impl::attempt(const SubstepPlan& plan, double done) {
   const double frame_length = 1.0 / scene.solver.frame_rate;
-  const SubstepPlan plan = control.next(frame_length - done, exact);
   PositionConstraints* const constraints = obstacles.anyPresent() ? &contact : nullptr;
   clock.start();
   if (constraints != nullptr) obstacles.setSubstep(done / frame_length, (done + plan.h) / frame_length);
   const NodeForces& now = forces.evaluate(state, statistics.time + done, plan.h);
   clock.lap(Stage::kForces);
-  const SubstepOutcome outcome =
-      scene.solver.method == Method::kPaper
-          ? paper.substep(now, plan.h, constraints, state, clock)
-          : exact.substep(plan, now, constraints, state, clock);
+  const SubstepOutcome outcome = scene.solver.method == Method::kPaper
+                                     ? paper.substep(now, plan.h, constraints, state, clock)
+                                     : exact.substep(plan, now, constraints, state, clock);
   statistics.sweeps += outcome.sweeps;
   statistics.sweeps_last += outcome.sweeps;
+  return outcome;
+}
+
+// A substep of five stages. False, and nothing changed: a string pulls or something touches, which forbids to go back in
+// time.
+bool Simulator::Impl::makeComposed(const SubstepPlan& plan, double done) {
+  if (exact.weftPulls()) return false;
+  exact.save(before.memory);
+  before.state = state;
+  double at = done;
+  for (const double gamma : kStages) {
+    SubstepPlan stage = plan;
+    stage.h = gamma * plan.h;
+    stage.must_accept = false;
+    const SubstepOutcome outcome = attempt(stage, at);
+    if (!outcome.accepted || exact.weftPulls() || (obstacles.anyPresent() && contact.any())) {
+      state = before.state;
+      exact.restore(before.memory);
+      return false;
+    }
+    control.accepted(stage, outcome);
+    contact_scale = outcome.scale;
+    at += stage.h;
+  }
+  return true;
+}
+
+// One substep from `done` seconds into the frame. Returns how far it came: 0 when it was rejected.
+double Simulator::Impl::makeSubstep(double done) {
+  const double frame_length = 1.0 / scene.solver.frame_rate;
+  SubstepPlan plan = control.next(frame_length - done, exact);
+  if (scene.solver.method == Method::kLeapfrog4 && plan.scheme == Scheme::kLeapfrog) {
+    if (makeComposed(plan, done)) {
+      ++statistics.substeps;
+      ++statistics.substeps_last;
+      return plan.h;
+    }
+    plan.h /= static_cast<double>(kStages.size());
+  }
+  const SubstepOutcome outcome = attempt(plan, done);
   if (!outcome.accepted) {
     ++statistics.rejected;
     control.rejected(plan);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 
 #include "cloth/wide.h"
@@ -18,18 +20,22 @@ constexpr double kInnerTolerance = 0.5;
 constexpr double kFirstSweepShare = 1e-4;
 // Newton converges quadratically: an iteration that starts this close ends near the square of it, times a factor that
 // grows with the column's height.
-constexpr double kNewtonStop = 1e-4;
+constexpr double kNewtonStop = 1e-3;
 // In later sweeps the next one looks again, so a start this close is left at that.
 constexpr double kNewtonStopLater = 1e-2;
+// For what is left to be rounding.
+constexpr double kPreciseStop = 1e-7;
 constexpr int kNewtonIterations = 12;
 // Share of the tolerance below which a block of columns is not solved again in a later sweep.
 constexpr double kLeaveAlone = 0.1;
 // A relative violation beyond this is a step that failed, not one that converges slowly.
 constexpr double kDiverged = 4.0;
-// Conjugate gradients go on until the residual is a share of the tolerance, but at most to the same share of itself: past
-// that the first-order picture they solve in is no longer true, and what the last digits ask for throws nodes about.
-// Measured on sheets hung by two corners: 0.03 rejects six times as many substeps.
-constexpr double kLeastReduction = 0.3;
+// Conjugate gradients go on until the residual is a share of the tolerance, but at most to a share of itself: past that the
+// first-order picture they solve in is no longer true. Where directions must be followed what the last digits ask for throws
+// nodes about: measured on sheets hung by two corners, 0.03 rejects six times as many substeps.
+constexpr double kReductionShare = 0.3;
+constexpr double kLeastReduction = 0.05;
+constexpr double kFollowReduction = 0.3;
 constexpr double kMostReduction = 0.5;
 constexpr int kGradientIterations = 12;
 // A sweep that moves a node by more than this share of a link at once is cut back to it [1].
@@ -242,16 +248,16 @@ void ExactSolver::begin(const SubstepPlan& plan, const SubstepStart& start, doub
   });
 }
 
-// Newton on one block of columns until an iteration starts with a residual small enough.
-ExactSolver::WarpProgress ExactSolver::solveBlock(bool follow, const LineSolve& warp, int block, bool first_sweep,
-                                                  double tolerance) noexcept {
+// Newton on one block of columns until an iteration starts with a residual of at most stop. A block whose rods are within
+// leave_alone already is not touched.
+ExactSolver::WarpProgress ExactSolver::solveBlock(bool follow, const LineSolve& warp, int block, double stop,
+                                                  double leave_alone) noexcept {
   WarpProgress progress;
-  if (!first_sweep) {
+  if (leave_alone > 0.0) {
     const double residual = warpResidual(warp, block);
     progress.first_residual = residual;
-    if (residual <= kLeaveAlone * tolerance) return progress;
+    if (residual <= leave_alone) return progress;
   }
-  const double stop = first_sweep && !weft_pulls_ ? kNewtonStop : kNewtonStopLater;
   for (int iteration = 0; iteration < kNewtonIterations; ++iteration) {
     if (follow) setWarpDirections(pattern_.grid, block, next_, warp_.direction);
     const LineOutcome outcome = warpNewton(warp, scratch_, block);
@@ -266,10 +272,10 @@ ExactSolver::WarpProgress ExactSolver::solveBlock(bool follow, const LineSolve& 
   return progress;
 }
 
-ExactSolver::WarpProgress ExactSolver::solveWarp(bool follow, const LineSolve& warp, double tolerance,
-                                                 bool first_sweep) noexcept {
+ExactSolver::WarpProgress ExactSolver::solveWarp(bool follow, const LineSolve& warp, double stop,
+                                                 double leave_alone) noexcept {
   workers_.run(static_cast<int>(block_progress_.size()), [&](int block) {
-    block_progress_[static_cast<std::size_t>(block)] = solveBlock(follow, warp, block, first_sweep, tolerance);
+    block_progress_[static_cast<std::size_t>(block)] = solveBlock(follow, warp, block, stop, leave_alone);
   });
   WarpProgress all;
   for (const WarpProgress& block : block_progress_) {
@@ -308,11 +314,12 @@ void ExactSolver::followDirections() noexcept {
 
 // All taut links of the weft, with the rods' answer in view. The nodes move by the weft's part of it; the rods' own
 // solve comes next.
-void ExactSolver::solveWeft(const LineSolve& weft, double residual, double tolerance, double share) noexcept {
-  const double reduction = std::clamp(kLeastReduction * tolerance / residual, kLeastReduction, kMostReduction);
+void ExactSolver::solveWeft(const LineSolve& weft, double residual, double tolerance, double share, double least) noexcept {
+  const double reduction = std::clamp(kReductionShare * tolerance / residual, least, kMostReduction);
   const double damping = std::min(kLargestDamping, kDampingPerResidual * residual);
   if (!measured_) worstOfRows([&](int i) { return measureWeft(weft, i, violation_, active_); });
-  net_.solve(violation_, active_, residual * mean_rest_, damping, reduction, kGradientIterations, change_);
+  auto o = net_.solve(violation_, active_, residual * mean_rest_, damping, reduction, kGradientIterations, change_);
+  if (getenv("TALK")) fprintf(stderr, "   cg %d red %.2e want %.2e\n", o.iterations, o.reduction, reduction);
   const double move = residual > kWatchMoves
                           ? std::sqrt(worstOfRows([&](int i) { return weftMoveSquared(weft, i, change_); }))
                           : 0.0;
@@ -340,13 +347,16 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
   double window_residual = last_residual;
   while (progress.sweeps < max_sweeps_) {
     const bool first = progress.sweeps == 0;
-    const WarpProgress rods = solveWarp(follow, warp, tolerance, first);
+    const double stop = plan.precise ? kPreciseStop : first && !weft_pulls_ ? kNewtonStop : kNewtonStopLater;
+    const WarpProgress rods = solveWarp(follow, warp, stop, first ? 0.0 : kLeaveAlone * tolerance);
     clock.lap(Stage::kWarp);
     if (!rods.converged && !plan.must_accept) return progress;
     ++progress.sweeps;
     measured_ = weft_pulls_ || !first;
     const double residual = measured_ ? worstOfRows([&](int i) { return measureWeft(weft, i, violation_, active_); })
                                       : weftResidualNow(weft);
+    static const bool talk = getenv("TALK") != nullptr;
+    if (talk) { double na = 0; if (measured_) for (double a : active_) na += a; fprintf(stderr, "h %.2e sch %d sweep %d rods %.1e %.1e weft %.2e move %.1e follow %d active %g\n", plan.h, int(plan.scheme), progress.sweeps, rods.first_residual, rods.last_residual, residual, contact_move, follow, na); }
     const bool at_rest = constraints == nullptr || (contact_move <= contact_tolerance_ && rods.first_residual <= tolerance);
     if (rods.converged && at_rest && residual <= (first ? kFirstSweepShare : 1.0) * tolerance &&
         ((first && !weft_pulls_) || rods.last_residual <= kNewtonStop || warpResidualNow(warp) <= tolerance / kInnerTolerance)) {
@@ -365,7 +375,7 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
         directions_set_ = net_ready = true;
         net_.begin(start, *inertia_);
       }
-      solveWeft(weft, residual, tolerance, constraints != nullptr && progress.sweeps > kPlainSweeps ? kOverRelaxation : 1.0);
+      solveWeft(weft, residual, tolerance, constraints != nullptr && progress.sweeps > kPlainSweeps ? kOverRelaxation : 1.0, follow ? kFollowReduction : kLeastReduction);
     }
     last_residual = residual;
     clock.lap(Stage::kWeft);

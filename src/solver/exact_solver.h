@@ -26,6 +26,7 @@ struct SubstepPlan {
   Scheme scheme = Scheme::kLeapfrog;
   double h = 0.0;            ///< [s], != 0; negative only for leapfrog
   bool must_accept = false;  ///< taken even when links are left above the tolerance, unless it is not finite
+  bool precise = false;      ///< rods are solved to rounding
   double most_phase = 0.0;   ///< nodes whose tensions ask for a larger h * omega answer forces as if they were heavier,
                              ///< so that theirs is this; 0: none does. Vanishes with the step.
 };
@@ -84,10 +85,10 @@ class ExactSolver {
   void begin(const SubstepPlan& plan, const SubstepStart& start, double scale) noexcept;
   Progress solveConstraints(const SubstepPlan& plan, const Field3& start, PositionConstraints* constraints,
                             StageClock& clock) noexcept;
-  WarpProgress solveBlock(bool follow, const LineSolve& warp, int block, bool first_sweep, double tolerance) noexcept;
-  WarpProgress solveWarp(bool follow, const LineSolve& warp, double tolerance, bool first_sweep) noexcept;
+  WarpProgress solveBlock(bool follow, const LineSolve& warp, int block, double stop, double leave_alone) noexcept;
+  WarpProgress solveWarp(bool follow, const LineSolve& warp, double stop, double leave_alone) noexcept;
   double weftResidualNow(const LineSolve& weft) noexcept;
-  void solveWeft(const LineSolve& weft, double residual, double tolerance, double share) noexcept;
+  void solveWeft(const LineSolve& weft, double residual, double tolerance, double share, double least) noexcept;
   void followDirections() noexcept;
   double warpResidualNow(const LineSolve& warp) noexcept;
   bool withinTolerance(const LineSolve& warp, const LineSolve& weft, double tolerance) noexcept;

@@ -4,17 +4,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/composition.h"
+
 namespace curtain {
 namespace {
 
-// h * omega_max that substeps are chosen for. Leapfrog is stable below 2; at 1.2 the fastest oscillation is still
-// followed and tensions may grow by 1.6 squared within a frame.
-constexpr double kPhasePerStep = 1.2;
+// h * omega_max that substeps are chosen for. Leapfrog is stable below 2; from 1.5 tensions may grow by
+// 1.8 within a substep, and what outgrows even that is caught by heavier nodes.
+constexpr double kPhasePerStep = 1.5;
 // Where a few nodes alone ask for short substeps (the corners a sheet hangs by), they are made heavier instead: by so
 // much altogether, as a share of the cloth's mass, and only beyond this phase. A share of 0.5 % takes a third to half of the
 // substeps of such sheets, and one part in two hundred is less than what the grid itself gets wrong.
 constexpr double kHeavierShare = 0.02;
-constexpr double kHeavierPhase = 1.4;
+constexpr double kHeavierPhase = 1.7;
 // Fixed substeps are the user's word: nodes are heavier only where leapfrog would blow up.
 constexpr double kStablePhase = 1.9;
 // Looking for such a step costs as much as a sweep; substeps longer than this share of a frame are left alone.
@@ -55,7 +57,8 @@ StepControl::StepControl(const SolverParams& params, const ClothPattern& pattern
       fixed_substeps_(fixedSubsteps(params)),
       max_substeps_(std::max(params.max_substeps, kRoomBelowFixed * params.substeps)),
       method_(params.method),
-      initial_omega_(hangingOmega(pattern, gravity)) {
+      initial_omega_(hangingOmega(pattern, gravity)),
+      composed_(params.method == Method::kLeapfrog4) {
   reset();
 }
 
@@ -68,7 +71,8 @@ void StepControl::reset() noexcept {
 }
 
 double StepControl::stepFromTensions(bool frame_begins, const ExactSolver& solver) noexcept {
-  const double for_phase = omega_ > 0.0 ? kPhasePerStep / omega_ : frame_;
+  const double longest_stage = composed_ ? kLongestStage : 1.0;
+  const double for_phase = omega_ > 0.0 ? kPhasePerStep / (longest_stage * omega_) : frame_;
   if (method_ != Method::kAuto || for_phase > kWorthLooking * frame_) return for_phase;
   if (frame_begins) heavier_step_ = solver.stepForPhase(kPhasePerStep, kHeavierShare);
   return std::max(for_phase, heavier_step_);
@@ -78,6 +82,7 @@ SubstepPlan StepControl::next(double remaining, const ExactSolver& solver) noexc
   const bool frame_begins = remaining > (1.0 - 1e-6) * frame_;
   if (frame_begins) heavier_step_ = 0.0;
   SubstepPlan plan;
+  plan.precise = composed_;
   const double smallest = frame_ / max_substeps_;
   const double most = fixed_substeps_ > 0 ? frame_ / fixed_substeps_ : frame_;
   double wanted = most;

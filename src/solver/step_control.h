@@ -33,6 +33,7 @@ class StepControl {
   double heavier_step_;   // what the phase allows where few nodes may be heavier, found when the frame began [s]; 0: not asked
   double limit_;          // largest step that the rejections leave [s]
   double implicit_step_;  // of the implicit scheme as auto's fall-back [s]
+  bool composed_;         // substeps are made of stages (composition.h)
   int good_ = 0;          // accepted substeps since the limit last changed
 };
 
