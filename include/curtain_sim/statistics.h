@@ -9,7 +9,7 @@
 namespace curtain {
 
 /// The stages of a frame, in their order (as in the loop of Cheng 2000, Sect. 1.3).
-enum class Stage { kForces, kPredict, kWarp, kWeft, kContact, kFinish, kStageCount };
+enum class Stage { kForces, kPredict, kWarp, kWeft, kContact, kFinish, kEstimate, kStageCount };
 constexpr int kStageCount = static_cast<int>(Stage::kStageCount);
 const char* stageName(Stage stage);
 
@@ -38,6 +38,7 @@ struct Statistics {
   double step_seconds_max = 0.0;
   double step_seconds_sum = 0.0;
   std::array<double, kStageCount> stage_seconds{};  ///< computing time by stage, all frames [s]
+  double position_error = 0.0;        ///< estimated, a second of motion adds [m], RMS; 0: solver.position_tolerance not asked for
   bool finite = true;                 ///< the state holds no NaN or infinity
 };
 

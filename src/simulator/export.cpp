@@ -81,6 +81,7 @@ std::string statisticsJson(const Simulator& simulator, const Energy& initial, co
                           {"max", 1e3 * quantile(frame_seconds, 1.0)}};
   json["substeps_mean"] = s.frames > 0 ? static_cast<double>(s.substeps) / static_cast<double>(s.frames) : 0.0;
   json["sweeps_mean"] = s.substeps > 0 ? static_cast<double>(s.sweeps) / static_cast<double>(s.substeps) : 0.0;
+  json["position_error"] = s.position_error;
   json["substeps_rejected"] = s.rejected;
   json["substeps_implicit"] = s.implicit;
   json["substeps_unsettled"] = s.unsettled;

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "contact/obstacle_contact.h"
+#include "simulator/error_estimate.h"
 #include "simulator/fine_surface.h"
 #include "simulator/force_field.h"
 #include "simulator/self_crossings.h"
@@ -25,6 +26,7 @@ const char* stageName(Stage stage) {
     case Stage::kWeft: return "weft";
     case Stage::kContact: return "contact";
     case Stage::kFinish: return "finish";
+    case Stage::kEstimate: return "estimate";
     case Stage::kStageCount: break;
   }
   return "";
@@ -64,10 +66,20 @@ struct Simulator::Impl {
     velocities.assign(pattern.grid.size(), 0.0);
     before.state = initial;
     exact.save(before.memory);
+    if (scene.solver.position_tolerance > 0.0 && ErrorEstimate::knows(scene.solver.method)) {
+      const int order = scene.solver.method == Method::kLeapfrog4 ? 4 : 2;
+      estimate = std::make_unique<ErrorEstimate>(pattern, 1.0 / scene.solver.frame_rate, scene.solver.position_tolerance, order);
+      companion = rehearsal = {initial, before.memory, 0, false, false};
+    }
   }
 
   void reset();
   void step();
+  void makeFrame();
+  bool makeEvenFrame(int substeps);
+  void rehearse();
+  void moveCompanion();
+  void synchronise();
   double makeSubstep(double done);
   bool makeComposed(const SubstepPlan& plan, double done);
   SubstepOutcome attempt(const SubstepPlan& plan, double done);
@@ -91,6 +103,16 @@ struct Simulator::Impl {
     ClothState state;
     ExactSolver::Memory memory;
   } before;
+  // With a position tolerance: the estimate, the motion's companion, and what to go back to.
+  struct Held {
+    ClothState state;
+    ExactSolver::Memory memory;
+    int substeps = 0;
+    bool lost = false;  // a substep failed
+    bool in_finer_steps = false;
+  };
+  std::unique_ptr<ErrorEstimate> estimate;
+  Held companion, rehearsal;
   Statistics statistics;
   StageClock clock;
   std::int64_t frame = 0;
@@ -101,6 +123,7 @@ struct Simulator::Impl {
 
 void Simulator::Impl::reset() {
   state = initial;
+  if (estimate != nullptr) estimate->reset();
   forces.reset();
   obstacles.reset();
   contact.forget();
@@ -187,16 +210,117 @@ double Simulator::Impl::makeSubstep(double done) {
   return plan.h;
 }
 
+void Simulator::Impl::makeFrame() {
+  const double frame_length = 1.0 / scene.solver.frame_rate;
+  double done = 0.0;
+  while (frame_length - done > 1e-9 * frame_length) done += makeSubstep(done);
+}
+
+// A frame in so many equal leapfrog (or composed) substeps. False: one of them failed.
+bool Simulator::Impl::makeEvenFrame(int substeps) {
+  SubstepPlan plan;
+  plan.h = 1.0 / scene.solver.frame_rate / substeps;
+  for (int k = 0; k < substeps; ++k) {
+    const double done = k * plan.h;
+    if (scene.solver.method == Method::kLeapfrog4) {
+      plan.precise = true;
+      if (!makeComposed(plan, done)) return false;
+    } else if (!attempt(plan, done).accepted) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Velocities at the time of the positions. A step of another length than the last one's would else start from a velocity
+// half the difference off.
+void Simulator::Impl::synchronise() {
+  if (state.velocity_age == 0.0) return;
+  exact.currentVelocities(state, forces.last(), obstacles.anyPresent() ? &contact : nullptr, velocities);
+  state.velocity = velocities;
+  state.velocity_age = 0.0;
+  velocities_fresh = false;
+}
+
+// Before the motion begins: some frames of it, twice, to find the substeps it needs.
+void Simulator::Impl::rehearse() {
+  const Statistics before_all = statistics;
+  const double omega_step = control.longestStableStep();
+  const int substeps = std::max(1, static_cast<int>(std::ceil(1.0 / (scene.solver.frame_rate * omega_step))));
+  const auto play = [&](int count) {
+    rehearsal.state = state;
+    exact.save(rehearsal.memory);
+    bool made = true;
+    for (int f = 0; f < estimate->rehearsalFrames() && made; ++f) {
+      made = makeEvenFrame(count);
+      statistics.time += 1.0 / scene.solver.frame_rate;
+    }
+    statistics = before_all;
+    return made;
+  };
+  const auto goBack = [&] {
+    state = rehearsal.state;
+    exact.restore(rehearsal.memory);
+  };
+  const bool coarse_made = play(substeps);
+  companion.state.position = state.position;
+  goBack();
+  const bool fine_made = play(2 * substeps);
+  if (coarse_made && fine_made) estimate->rehearsed(companion.state.position, substeps, state.position, 2 * substeps);
+  goBack();
+}
+
+// Moves the companion by the coming frame. It goes first, so that forces and contacts stay those of the motion.
+void Simulator::Impl::moveCompanion() {
+  if (estimate->companionStarts()) {
+    const int least = static_cast<int>(std::ceil(1.0 / (scene.solver.frame_rate * control.longestStableStep())));
+    estimate->atLeast(least);
+    companion.in_finer_steps = !estimate->halfWillDo(least);
+  }
+  if (estimate->companionStarts() || companion.lost) {
+    synchronise();
+    companion.state = state;
+    exact.save(companion.memory);
+  }
+  const Statistics published = statistics;
+  rehearsal.state = state;
+  exact.save(rehearsal.memory);
+  std::swap(state, companion.state);
+  exact.restore(companion.memory);
+  const int substeps = estimate->companionSubsteps(companion.in_finer_steps);
+  if (substeps != companion.substeps) synchronise();
+  companion.substeps = substeps;
+  companion.lost = !makeEvenFrame(substeps);
+  companion.in_finer_steps = companion.in_finer_steps || companion.lost;
+  exact.save(companion.memory);
+  std::swap(state, companion.state);
+  exact.restore(rehearsal.memory);
+  statistics = published;
+  clock.lap(Stage::kEstimate);
+}
+
 void Simulator::Impl::step() {
   const auto begin = std::chrono::steady_clock::now();
   const double frame_length = 1.0 / scene.solver.frame_rate;
   statistics.time = static_cast<double>(frame) * frame_length;
+  obstacles.beginFrame(static_cast<double>(frame + 1) * frame_length);
+  if (estimate != nullptr) {
+    if (frame == 0) rehearse();
+    const bool compares = estimate->companionMoves();
+    if (compares) moveCompanion();
+    if (control.askFor(estimate->substeps())) synchronise();
+  }
   statistics.substeps_last = 0;
   statistics.sweeps_last = 0;
   velocities_fresh = false;
-  obstacles.beginFrame(static_cast<double>(frame + 1) * frame_length);
-  double done = 0.0;
-  while (frame_length - done > 1e-9 * frame_length) done += makeSubstep(done);
+  makeFrame();
+  if (estimate != nullptr) {
+    const bool compares = estimate->companionMoves() && !companion.lost;
+    estimate->frameMade(state.position, statistics.substeps_last, compares ? &companion.state.position : nullptr,
+                        companion.substeps);
+    statistics.position_error = estimate->perSecond();
+    clock.lap(Stage::kEstimate);
+  }
   obstacles.endFrame();
   ++frame;
   statistics.frames = frame;

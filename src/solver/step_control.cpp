@@ -19,6 +19,8 @@ constexpr double kHeavierShare = 0.02;
 constexpr double kHeavierPhase = 1.7;
 // Fixed substeps are the user's word: nodes are heavier only where leapfrog would blow up.
 constexpr double kStablePhase = 1.9;
+// What a motion that is only compared with may use.
+constexpr double kLongestPhase = 1.8;
 // Looking for such a step costs as much as a sweep; substeps longer than this share of a frame are left alone.
 constexpr double kWorthLooking = 0.25;
 constexpr double kGrowth = 1.4;
@@ -93,7 +95,7 @@ SubstepPlan StepControl::next(double remaining, const ExactSolver& solver) noexc
   if (leapfrog && fixed_substeps_ == 0) {
     const double for_phase = stepFromTensions(frame_begins, solver);
     if (for_phase < smallest && method_ == Method::kAuto) plan.scheme = Scheme::kImplicit;
-    wanted = std::clamp(for_phase, smallest, frame_);
+    wanted = std::max(smallest, std::min(for_phase, frame_ / asked_));
   }
   // Rejections have come down to the cap: the implicit scheme takes over for a while.
   if (limit_ <= smallest && method_ != Method::kPaper) plan.scheme = Scheme::kImplicit;
@@ -103,6 +105,16 @@ SubstepPlan StepControl::next(double remaining, const ExactSolver& solver) noexc
   // Equal shares of what is left; the small slack keeps rounding from adding a substep.
   plan.h = remaining / std::max(1.0, std::ceil(remaining / step - 1e-6));
   return plan;
+}
+
+double StepControl::longestStableStep() const noexcept {
+  return omega_ > 0.0 ? kLongestPhase / ((composed_ ? kLongestStage : 1.0) * omega_) : frame_;
+}
+
+bool StepControl::askFor(int substeps) noexcept {
+  const bool changed = substeps != asked_;
+  asked_ = std::clamp(substeps, 1, max_substeps_);
+  return changed;
 }
 
 void StepControl::accepted(const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept {

@@ -18,6 +18,10 @@ class StepControl {
   /// The next substep; remaining: what is left of the frame [s], > 0; its whole length when a frame begins. h is a whole
   /// share of it.
   SubstepPlan next(double remaining, const ExactSolver& solver) noexcept;
+  /// From the last tensions (before the first: of the cloth hanging by its own weight) [s].
+  double longestStableStep() const noexcept;
+  /// At least so many substeps a frame. True when that is not what was asked for before.
+  bool askFor(int substeps) noexcept;
   void accepted(const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept;
   void rejected(const SubstepPlan& plan) noexcept;
 
@@ -32,6 +36,7 @@ class StepControl {
   double omega_;          // from the last tensions [1/s]
   double heavier_step_;   // what the phase allows where few nodes may be heavier, found when the frame began [s]; 0: not asked
   double limit_;          // largest step that the rejections leave [s]
+  int asked_ = 1;         // substeps a frame
   double implicit_step_;  // of the implicit scheme as auto's fall-back [s]
   bool composed_;         // substeps are made of stages (composition.h)
   int good_ = 0;          // accepted substeps since the limit last changed

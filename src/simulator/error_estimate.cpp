@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulator/error_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace curtain {
+namespace {
+
+// Substeps are chosen for this share of the tolerance; fewer only when half the tolerance would do.
+constexpr double kAim = 0.7;
+constexpr double kFewer = 0.35;
+constexpr int kMostSubsteps = 4096;
+constexpr double kRehearsal = 0.25;  // [s]
+// Within a second errors grow about with the square of time: velocities' errors move the nodes.
+constexpr double kGrowth = 2.0;
+
+}  // namespace
+
+ErrorEstimate::ErrorEstimate(const ClothPattern& pattern, double frame_length, double tolerance, int order)
+    : pattern_(pattern),
+      frame_length_(frame_length),
+      tolerance_(tolerance),
+      order_(order),
+      window_(std::max(1, static_cast<int>(std::lround(1.0 / frame_length)))) {}
+
+void ErrorEstimate::reset() noexcept {
+  substeps_ = 1;
+  frames_ = 0;
+  compared_ = 0;
+  substeps_sum_ = companion_sum_ = 0.0;
+  now_ = last_second_ = 0.0;
+}
+
+int ErrorEstimate::rehearsalFrames() const noexcept {
+  return std::max(1, static_cast<int>(std::lround(kRehearsal / frame_length_)));
+}
+
+double ErrorEstimate::error(const Field3& a, double n, const Field3& b, double m) const noexcept {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < pattern_.grid.size(); ++k) {
+    if (pattern_.inverse_mass[k] <= 0.0) continue;
+    sum += (a.at(k) - b.at(k)).squaredNorm();
+    ++count;
+  }
+  const double part = std::abs(1.0 - std::pow(n / m, order_));
+  return count > 0 && part > 0.0 ? std::sqrt(sum / static_cast<double>(count)) / part : 0.0;
+}
+
+void ErrorEstimate::aimAt(double error_per_second, double substeps) noexcept {
+  if (!std::isfinite(error_per_second)) return;
+  if (error_per_second <= kAim * tolerance_ && error_per_second >= kFewer * tolerance_) return;
+  const double wanted = substeps * std::pow(error_per_second / (kAim * tolerance_), 1.0 / order_);
+  substeps_ = static_cast<int>(std::clamp(std::ceil(wanted), 1.0, static_cast<double>(kMostSubsteps)));
+}
+
+void ErrorEstimate::rehearsed(const Field3& position, int substeps, const Field3& finer_position,
+                              int finer_substeps) noexcept {
+  const double growth = std::pow(1.0 / (rehearsalFrames() * frame_length_), kGrowth);
+  substeps_ = substeps;
+  aimAt(growth * error(position, substeps, finer_position, finer_substeps), substeps);
+}
+
+void ErrorEstimate::frameMade(const Field3& position, int substeps, const Field3* companion,
+                              int companion_substeps) noexcept {
+  const bool in_window = companionMoves();
+  ++frames_;
+  if (!in_window) return;
+  if (companion == nullptr) {  // it starts anew with the next frame
+    compared_ = 0;
+    substeps_sum_ = companion_sum_ = 0.0;
+  } else {
+    ++compared_;
+    substeps_sum_ += substeps;
+    companion_sum_ += companion_substeps;
+    now_ = error(position, substeps_sum_ / compared_, *companion, companion_sum_ / compared_);
+  }
+  const bool over = !companionMoves();
+  if (over && compared_ > 0) {
+    // A companion that was lost on the way tells of the time it was there.
+    last_second_ = now_ * std::pow(static_cast<double>(window_) / compared_, kGrowth);
+    aimAt(last_second_, substeps_sum_ / compared_);
+  }
+  if (!over) return;
+  now_ = 0.0;
+  compared_ = 0;
+  substeps_sum_ = companion_sum_ = 0.0;
+}
+
+double ErrorEstimate::perSecond() const noexcept { return std::max(now_, last_second_); }
+
+}  // namespace curtain

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// How far the computed motion is off the exact one, and how many substeps bring it to a tolerance.
+//
+// For one second out of four a companion moves along, from the same start in half (or twice) as many substeps. By the
+// scheme's order p the error of the motion is what the two differ by over |1 - (n/m)^p|, n and m being their substeps
+// (Richardson 1911): no assumption on how errors grow enters. Before the first second a quarter of one is rehearsed with a
+// first guess, so that the motion starts with about the substeps it needs. RMS over the nodes that can move.
+#pragma once
+
+#include "cloth/cloth.h"
+
+namespace curtain {
+
+class ErrorEstimate {
+ public:
+  /// tolerance  [m per simulated second], > 0
+  /// order      of the scheme
+  ErrorEstimate(const ClothPattern& pattern, double frame_length, double tolerance, int order);
+
+  /// Methods whose error it can tell: those that are made of leapfrog steps.
+  static bool knows(Method method) {
+    return method == Method::kAuto || method == Method::kLeapfrog || method == Method::kLeapfrog4;
+  }
+
+  void reset() noexcept;
+
+  /// The companion sets out with the coming frame (from the motion's own state), or is on its way.
+  bool companionStarts() const noexcept { return frames_ % (kEverySeconds * window_) == 0; }
+  bool companionMoves() const noexcept { return frames_ % (kEverySeconds * window_) < window_; }
+
+  /// Substeps a frame of the motion, at least.
+  int substeps() const noexcept { return substeps_; }
+  /// Stability needs so many.
+  void atLeast(int least) noexcept { substeps_ = substeps_ > least ? substeps_ : least; }
+  /// A companion in half as many is stable when the motion needs `least` for that.
+  bool halfWillDo(int least) const noexcept { return (substeps_ + 1) / 2 >= least && substeps_ > 1; }
+  /// Half as many, or twice as many.
+  int companionSubsteps(bool finer) const noexcept { return finer ? 2 * substeps_ : (substeps_ + 1) / 2; }
+
+  /// Frames to rehearse, and what came of it: makes the first choice of substeps.
+  int rehearsalFrames() const noexcept;
+  void rehearsed(const Field3& position, int substeps, const Field3& finer_position, int finer_substeps) noexcept;
+
+  /// A frame has gone by in so many substeps. companion: null when it is not on its way or has failed.
+  void frameMade(const Field3& position, int substeps, const Field3* companion, int companion_substeps) noexcept;
+
+  /// Estimated error of the positions that a second of motion adds [m].
+  double perSecond() const noexcept;
+
+ private:
+  static constexpr int kEverySeconds = 4;
+  double error(const Field3& a, double n, const Field3& b, double m) const noexcept;
+  void aimAt(double error_per_second, double substeps) noexcept;
+
+  const ClothPattern& pattern_;
+  double frame_length_, tolerance_;
+  int order_;
+  int window_;  // frames of a second
+  int substeps_ = 1;
+  long frames_ = 0;
+  int compared_ = 0;        // frames of the present window
+  double substeps_sum_ = 0.0, companion_sum_ = 0.0;
+  double now_ = 0.0, last_second_ = 0.0;
+};
+
+}  // namespace curtain
