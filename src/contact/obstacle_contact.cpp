@@ -38,10 +38,10 @@ ObstacleContact::ObstacleContact(const ClothPattern& pattern, const ContactParam
   planes_.reserve(capacity_);
 }
 
-void ObstacleContact::begin(const ClothPattern& pattern, const Field3& start, const Field3& predicted, double h) noexcept {
+bool ObstacleContact::begin(const ClothPattern& pattern, const Field3& start, const Field3& predicted, double h) noexcept {
   planes_.clear();
   const std::vector<MovingObstacle>& moving = obstacles_.moving();
-  if (moving.empty()) return;
+  if (moving.empty()) return false;
   const Eigen::AlignedBox3d cloth = sweptBox(pattern, start, predicted);
   // The solve may move nodes beyond their predicted way by about as much again.
   const double reach = 2.0 * thickness_ + 0.25 * cloth.diagonal().norm() / pattern.grid.rows;
@@ -52,6 +52,7 @@ void ObstacleContact::begin(const ClothPattern& pattern, const Field3& start, co
     box.max().array() += reach;
     if (box.intersects(cloth)) collect(pattern, start, predicted, h, static_cast<int>(n), box);
   }
+  return !planes_.empty();
 }
 
 void ObstacleContact::collect(const ClothPattern& pattern, const Field3& start, const Field3& predicted, double h,

@@ -18,7 +18,7 @@ class ObstacleContact : public PositionConstraints {
   /// obstacles must outlive this.
   ObstacleContact(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles);
 
-  void begin(const ClothPattern& pattern, const Field3& start, const Field3& predicted, double h) noexcept override;
+  bool begin(const ClothPattern& pattern, const Field3& start, const Field3& predicted, double h) noexcept override;
   double project(Field3& position) noexcept override;
   void projectVelocity(Field3& velocity) noexcept override;
 

@@ -108,6 +108,8 @@ const NodeForces& ForceField::evaluate(const ClothState& state, double time, dou
   const bool windy = std::any_of(winds_.begin(), winds_.end(), blows);
   const bool dragged = std::any_of(drags_.begin(), drags_.end(), acts);
   forces_.force = &weight_;
+  forces_.weight_only = !windy && !dragged;
+  forces_.gravity = scene_.gravity;
   if (windy || dragged) {
     sum_ = weight_;
     forces_.force = &sum_;

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 
 #include "cloth/wide.h"
@@ -39,15 +37,12 @@ constexpr double kFollowReduction = 0.3;
 constexpr double kMostReduction = 0.5;
 constexpr int kGradientIterations = 12;
 // A sweep that moves a node by more than this share of a link at once is cut back to it [1].
-constexpr double kLargestMove = 0.2;
-// Sweeps along the given directions must bring at least this reduction, or what is left is corrected along the present
-// ones: where a flat net shears, forces along the directions at the start may have no solution at all.
+constexpr double kLargestMove = 0.1;
 // Contact takes turns with the links; from this sweep on the weft goes so much further than its solve says, which gains
 // where the turns are many and is not worth it where a few do.
 constexpr int kPlainSweeps = 3;
 constexpr double kOverRelaxation = 1.5;
-constexpr double kWatchMoves = 1e-3;  // relative violation below which none can
-constexpr double kFollowFactor = 0.2;
+constexpr double kWatchMoves = 1e-3;  // relative violation below which no solve moves a node too far
 // Sweeps that must bring at least this improvement, or the iteration has stalled.
 constexpr int kStallWindow = 8;
 constexpr double kStallFactor = 0.8;
@@ -59,7 +54,10 @@ constexpr int kVelocityRounds = 2;
 // Levenberg-Marquardt term of the weft's solve, over the diagonal: in proportion to the residual, so that it vanishes as
 // the solve ends. Constant, it leaves combinations that hardly move anything to creep by a few percent a sweep.
 constexpr double kDampingPerResidual = 0.05;
-constexpr double kLargestDamping = 1e-2;
+constexpr double kLargestDamping = 0.1;
+constexpr double kPoorSweep = 0.8;
+constexpr double kMoreCaution = 8.0;
+constexpr double kLessCaution = 2.0;
 constexpr double kVelocityDamping = 1e-4;
 constexpr int kRowsPerBlock = 8;
 
@@ -103,8 +101,11 @@ ExactSolver::ExactSolver(const ClothPattern& pattern, double stretch_tolerance, 
   last_weft_.assign(links, 0.0);
   for (Field* field : {&load_, &keep_, &violation_, &active_, &change_}) field->assign(size, 0.0);
   answer_ = pattern.inverse_mass;
+  free_per_square_ = freeWeft(pattern);
   next_.assign(size, 0.0);
   for (Field3* field : {&base_.position, &base_.velocity, &older_position_, &older_velocity_}) field->assign(size, 0.0);
+  block_begun_.resize(static_cast<std::size_t>(warpBlockCount(pattern.grid)));
+  block_load_.resize(block_begun_.size());
   block_progress_.resize(static_cast<std::size_t>(warpBlockCount(pattern.grid)));
   row_worst_.resize(static_cast<std::size_t>((pattern.grid.rows + kRowsPerBlock - 1) / kRowsPerBlock));
 }
@@ -234,8 +235,17 @@ void ExactSolver::begin(const SubstepPlan& plan, const SubstepStart& start, doub
   const double ratio = warm ? scale / last_scale_ : 0.0;
   const LineSolve warp{pattern_, *inertia_, warp_, next_};
   const LineSolve weft{pattern_, *inertia_, weft_, next_};
-  workers_.run(warpBlockCount(pattern_.grid), [&](int block) { warpBegin(start, warp, last_warp_, ratio, block); });
   directions_set_ = false;
+  newton_begun_ = plan.scheme == Scheme::kLeapfrog && !weft_pulls_;
+  workers_.run(warpBlockCount(pattern_.grid), [&](int block) {
+    if (newton_begun_) {
+      const LineOutcome outcome = warpBeginNewton(start, warp, last_warp_, ratio, scratch_, block);
+      block_begun_[static_cast<std::size_t>(block)] = outcome;
+      warpEndNewton(warp, scratch_, block);
+    } else {
+      warpBegin(start, warp, last_warp_, ratio, block);
+    }
+  });
   if (!weft_pulls_) return;  // all multipliers are zero, in weft_ too
   const std::size_t size = pattern_.grid.size();
   for (std::size_t n = 0; n < size; ++n) weft_.multiplier[n] = ratio * last_weft_[n];
@@ -249,9 +259,9 @@ void ExactSolver::begin(const SubstepPlan& plan, const SubstepStart& start, doub
 }
 
 // Newton on one block of columns until an iteration starts with a residual of at most stop. A block whose rods are within
-// leave_alone already is not touched.
+// leave_alone already is not touched. begun: begin() has made the first iteration.
 ExactSolver::WarpProgress ExactSolver::solveBlock(bool follow, const LineSolve& warp, int block, double stop,
-                                                  double leave_alone) noexcept {
+                                                  double leave_alone, bool begun) noexcept {
   WarpProgress progress;
   if (leave_alone > 0.0) {
     const double residual = warpResidual(warp, block);
@@ -260,7 +270,8 @@ ExactSolver::WarpProgress ExactSolver::solveBlock(bool follow, const LineSolve& 
   }
   for (int iteration = 0; iteration < kNewtonIterations; ++iteration) {
     if (follow) setWarpDirections(pattern_.grid, block, next_, warp_.direction);
-    const LineOutcome outcome = warpNewton(warp, scratch_, block);
+    const LineOutcome outcome =
+        begun && iteration == 0 ? block_begun_[static_cast<std::size_t>(block)] : warpNewton(warp, scratch_, block);
     if (iteration == 0) progress.first_residual = std::max(progress.first_residual, outcome.residual);
     if (!outcome.sound || !(outcome.residual < kDiverged)) break;
     if (outcome.residual <= stop) {
@@ -273,9 +284,9 @@ ExactSolver::WarpProgress ExactSolver::solveBlock(bool follow, const LineSolve& 
 }
 
 ExactSolver::WarpProgress ExactSolver::solveWarp(bool follow, const LineSolve& warp, double stop,
-                                                 double leave_alone) noexcept {
+                                                 double leave_alone, bool begun) noexcept {
   workers_.run(static_cast<int>(block_progress_.size()), [&](int block) {
-    block_progress_[static_cast<std::size_t>(block)] = solveBlock(follow, warp, block, stop, leave_alone);
+    block_progress_[static_cast<std::size_t>(block)] = solveBlock(follow, warp, block, stop, leave_alone, begun);
   });
   WarpProgress all;
   for (const WarpProgress& block : block_progress_) {
@@ -288,6 +299,12 @@ ExactSolver::WarpProgress ExactSolver::solveWarp(bool follow, const LineSolve& w
 
 double ExactSolver::weftResidualNow(const LineSolve& weft) noexcept {
   return worstOfRows([&](int i) { return weftResidual(weft, i); });
+}
+
+// The same where no string pulls.
+double ExactSolver::slackResidual() noexcept {
+  const double longest = worstOfRows([&](int i) { return weftSquare(pattern_.grid, i, next_, free_per_square_); });
+  return longest > 1.0 ? 0.5 * (longest - 1.0) : 0.0;
 }
 
 double ExactSolver::warpResidualNow(const LineSolve& warp) noexcept {
@@ -305,25 +322,26 @@ bool ExactSolver::withinTolerance(const LineSolve& warp, const LineSolve& weft, 
 void ExactSolver::followDirections() noexcept {
   workers_.run(warpBlockCount(pattern_.grid),
                [&](int block) { setWarpDirections(pattern_.grid, block, next_, warp_.direction); });
+  setAllWeftDirections(next_);
+  net_.begin(next_, *inertia_);
+}
+
+void ExactSolver::setAllWeftDirections(const Field3& position) noexcept {
   worstOfRows([&](int i) {
-    setWeftDirections(pattern_.grid, i, next_, weft_.direction);
+    setWeftDirections(pattern_.grid, i, position, weft_.direction);
     return 0.0;
   });
-  net_.begin(next_, *inertia_);
 }
 
 // All taut links of the weft, with the rods' answer in view. The nodes move by the weft's part of it; the rods' own
 // solve comes next.
-void ExactSolver::solveWeft(const LineSolve& weft, double residual, double tolerance, double share, double least) noexcept {
-  const double reduction = std::clamp(kReductionShare * tolerance / residual, least, kMostReduction);
-  const double damping = std::min(kLargestDamping, kDampingPerResidual * residual);
+void ExactSolver::solveWeft(const LineSolve& weft, double residual, const WeftStep& step) noexcept {
   if (!measured_) worstOfRows([&](int i) { return measureWeft(weft, i, violation_, active_); });
-  auto o = net_.solve(violation_, active_, residual * mean_rest_, damping, reduction, kGradientIterations, change_);
-  if (getenv("TALK")) fprintf(stderr, "   cg %d red %.2e want %.2e\n", o.iterations, o.reduction, reduction);
+  net_.solve(violation_, active_, residual * mean_rest_, step.damping, step.enough, kGradientIterations, change_);
   const double move = residual > kWatchMoves
                           ? std::sqrt(worstOfRows([&](int i) { return weftMoveSquared(weft, i, change_); }))
                           : 0.0;
-  if (move > kLargestMove) share = kLargestMove / move;
+  const double share = move > kLargestMove ? kLargestMove / move : step.share;
   if (share != 1.0) {
     for (double& change : change_) change *= share;
   }
@@ -343,20 +361,20 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
   bool follow = plan.scheme != Scheme::kLeapfrog;
   bool net_ready = false;
   double contact_move = std::numeric_limits<double>::infinity();
-  double last_residual = std::numeric_limits<double>::infinity();
-  double window_residual = last_residual;
+  double window_residual = contact_move;
+  double last_residual = contact_move;
+  double caution = 1.0;
   while (progress.sweeps < max_sweeps_) {
     const bool first = progress.sweeps == 0;
     const double stop = plan.precise ? kPreciseStop : first && !weft_pulls_ ? kNewtonStop : kNewtonStopLater;
-    const WarpProgress rods = solveWarp(follow, warp, stop, first ? 0.0 : kLeaveAlone * tolerance);
+    const WarpProgress rods = solveWarp(follow, warp, stop, first ? 0.0 : kLeaveAlone * tolerance,
+                                        first && newton_begun_);
     clock.lap(Stage::kWarp);
     if (!rods.converged && !plan.must_accept) return progress;
     ++progress.sweeps;
     measured_ = weft_pulls_ || !first;
     const double residual = measured_ ? worstOfRows([&](int i) { return measureWeft(weft, i, violation_, active_); })
-                                      : weftResidualNow(weft);
-    static const bool talk = getenv("TALK") != nullptr;
-    if (talk) { double na = 0; if (measured_) for (double a : active_) na += a; fprintf(stderr, "h %.2e sch %d sweep %d rods %.1e %.1e weft %.2e move %.1e follow %d active %g\n", plan.h, int(plan.scheme), progress.sweeps, rods.first_residual, rods.last_residual, residual, contact_move, follow, na); }
+                                      : slackResidual();
     const bool at_rest = constraints == nullptr || (contact_move <= contact_tolerance_ && rods.first_residual <= tolerance);
     if (rods.converged && at_rest && residual <= (first ? kFirstSweepShare : 1.0) * tolerance &&
         ((first && !weft_pulls_) || rods.last_residual <= kNewtonStop || warpResidualNow(warp) <= tolerance / kInnerTolerance)) {
@@ -365,19 +383,28 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
       return progress;
     }
     if (!std::isfinite(residual)) return progress;
+    // A sweep that has not brought the links nearer went too far where hardly anything holds: the next one is damped more.
+    caution = residual > kPoorSweep * last_residual ? caution * kMoreCaution : std::max(1.0, caution / kLessCaution);
+    last_residual = residual;
     if (residual > (first ? kFirstSweepShare : kLeaveAlone) * tolerance) {
-      if (follow || (residual > kFollowFactor * last_residual && constraints == nullptr)) {
-        follow = true;
+      // What the first sweep leaves is corrected along the present directions, all of it: forces along the directions at
+      // the start may have no solution at all where a flat net shears, and a correction along one set of directions taken
+      // back along another is a force that does work. Contact, which takes turns, settles better along given ones.
+      follow = follow || constraints == nullptr;
+      if (follow) {
         followDirections();
         directions_set_ = net_ready = true;
       } else if (!net_ready) {
-        if (!directions_set_) worstOfRows([&](int i) { setWeftDirections(pattern_.grid, i, start, weft_.direction); return 0.0; });
+        if (!directions_set_) setAllWeftDirections(start);
         directions_set_ = net_ready = true;
         net_.begin(start, *inertia_);
       }
-      solveWeft(weft, residual, tolerance, constraints != nullptr && progress.sweeps > kPlainSweeps ? kOverRelaxation : 1.0, follow ? kFollowReduction : kLeastReduction);
+      const bool further = constraints != nullptr && progress.sweeps > kPlainSweeps;
+      const double least = follow ? kFollowReduction : kLeastReduction;
+      solveWeft(weft, residual, {std::clamp(kReductionShare * tolerance / residual, least, kMostReduction),
+                                 std::min(kLargestDamping, caution * kDampingPerResidual * residual),
+                                 further ? kOverRelaxation : 1.0});
     }
-    last_residual = residual;
     clock.lap(Stage::kWeft);
     if (constraints != nullptr) {
       contact_move = constraints->project(next_);
@@ -397,44 +424,43 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
   return progress;
 }
 
-// Sum of the tensions at every node; returns the largest over its mass. With it the frequencies are bounded
-// (Gershgorin, on the transverse oscillations of the taut net): omega^2 <= max 2 w sum |s| / (h kick).
-CURTAIN_WIDE double ExactSolver::loadNodes() noexcept {
+// Adds what the strings pull to the nodes' loads; returns the largest load over its mass.
+CURTAIN_WIDE double ExactSolver::loadStrings() noexcept {
   const Grid& grid = pattern_.grid;
-  const auto stride = static_cast<std::size_t>(grid.stride);
   const auto last = static_cast<std::size_t>(grid.columns) - 1;
   double worst = 0.0;
   for (int i = 0; i < grid.rows; ++i) {
     const std::size_t row = grid.row(i);
-    const double* const s = warp_.multiplier.data() + row;
     const double* const f = weft_.multiplier.data() + row;
     const double* const w = pattern_.inverse_mass.data() + row;
     double* const load = load_.data() + row;
+    load[last] += grid.closed ? f[last] + f[0] : f[last];
+    worst = std::max(worst, load[last] * w[last]);
 #pragma omp simd reduction(max : worst)
     for (std::size_t j = 0; j < last; ++j) {
-      load[j] = std::abs(s[j]) + std::abs(s[j + stride]) + f[j] + f[j + 1];
+      load[j] += f[j] + f[j + 1];
       const double heaviest = load[j] * w[j];
       worst = worst > heaviest ? worst : heaviest;
     }
-    load[last] = std::abs(s[last]) + std::abs(s[last + stride]) + f[last] + (grid.closed ? f[0] : 0.0);
-    worst = std::max(worst, load[last] * w[last]);
   }
   return worst;
 }
 
-CURTAIN_WIDE void ExactSolver::commit(const ClothState& base, double step, double velocity_age, ClothState& state) noexcept {
-  const std::size_t size = pattern_.grid.size();
-  const double per_step = 1.0 / step;
-  const auto component = [&](const Field& next, const Field& from, Field& velocity) {
-    const double* const to = next.data();
-    const double* const at = from.data();
-    double* const v = velocity.data();
-#pragma omp simd
-    for (std::size_t n = 0; n < size; ++n) v[n] = (to[n] - at[n]) * per_step;
-  };
-  component(next_.x, base.position.x, state.velocity.x);
-  component(next_.y, base.position.y, state.velocity.y);
-  component(next_.z, base.position.z, state.velocity.z);
+// The substep is taken. load_ / mass bounds the frequencies (Gershgorin, on the transverse oscillations of the taut net):
+// omega^2 <= max 2 w sum |s| / (h kick).
+void ExactSolver::commit(const ClothState& base, double step, double velocity_age, ClothState& state) noexcept {
+  const LineSolve warp{pattern_, *inertia_, warp_, next_};
+  workers_.run(warpBlockCount(pattern_.grid), [&](int block) {
+    block_load_[static_cast<std::size_t>(block)] =
+        warpFinish(warp, base.position, 1.0 / step, state.velocity, load_, block);
+  });
+  heaviest_load_ = *std::max_element(block_load_.begin(), block_load_.end());
+  weft_pulls_ = directions_set_ &&
+                std::any_of(weft_.multiplier.begin(), weft_.multiplier.end(), [](double s) { return s != 0.0; });
+  if (weft_pulls_) {
+    heaviest_load_ = loadStrings();
+    last_weft_ = weft_.multiplier;
+  }
   std::swap(state.position, next_);
   std::swap(last_warp_, warp_.multiplier);
   state.velocity_age = velocity_age;
@@ -448,10 +474,13 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   const double kick = leapfrog ? state.velocity_age + 0.5 * step : step + state.velocity_age;
   const double scale = step * kick;
   setInertia(forces, kick, scale, plan.most_phase);
-  begin(plan, {base, *forces.force, forces.has_damping ? &keep_ : nullptr, kick, step}, scale);
+  const bool falls = forces.weight_only && inertia_ == &pattern_.inverse_mass;
+  begin(plan, {base, *forces.force, falls ? &forces.gravity : nullptr, forces.has_damping ? &keep_ : nullptr, kick, step},
+        scale);
   clock.lap(Stage::kPredict);
   if (constraints != nullptr) {
-    constraints->begin(pattern_, state.position, next_, plan.h);
+    // Where nothing can touch there is nothing to take turns with.
+    if (!constraints->begin(pattern_, state.position, next_, plan.h)) constraints = nullptr;
     clock.lap(Stage::kContact);
   }
   const Progress progress = solveConstraints(plan, base.position, constraints, clock);
@@ -461,8 +490,6 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   const LineSolve weft{pattern_, *inertia_, weft_, next_};
   outcome.accepted = progress.settled || (plan.must_accept && std::isfinite(weftResidualNow(weft)));
   if (outcome.accepted) {
-    heaviest_load_ = loadNodes();
-    outcome.omega_squared = 2.0 * heaviest_load_ / std::abs(scale);
     outcome.scale = last_scale_ = scale;
     if (plan.scheme == Scheme::kBdf2) {
       older_position_ = state.position;
@@ -472,9 +499,7 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
       older_h_ = 0.0;
     }
     commit(base, step, leapfrog ? 0.5 * step : 0.0, state);
-    weft_pulls_ = directions_set_ &&
-                  std::any_of(weft_.multiplier.begin(), weft_.multiplier.end(), [](double s) { return s != 0.0; });
-    if (weft_pulls_) last_weft_ = weft_.multiplier;
+    outcome.omega_squared = 2.0 * heaviest_load_ / std::abs(scale);
     // The way such a substep has gone is not all motion: what pulls its links further is taken out.
     if (progress.left_over) projectVelocity(state.position, constraints, state.velocity);
   }
@@ -507,7 +532,7 @@ void ExactSolver::projectVelocity(const Field3& position, PositionConstraints* c
   LinkSet& links = weft_;
   const LineSolve weft{pattern_, pattern_.inverse_mass, links, out};
   std::copy(last_weft_.begin(), last_weft_.end(), links.multiplier.begin());  // which links pull
-  for (int i = 0; i < pattern_.grid.rows; ++i) setWeftDirections(pattern_.grid, i, position, links.direction);
+  setAllWeftDirections(position);
   if (weft_pulls_) net_.begin(position, pattern_.inverse_mass);
   const int rounds = constraints != nullptr ? 3 * kVelocityRounds : kVelocityRounds;
   for (int round = 0; round < rounds; ++round) {

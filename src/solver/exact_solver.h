@@ -75,6 +75,12 @@ class ExactSolver {
     bool left_over = false;  // but not within what the step's length asks for
     int sweeps = 0;
   };
+  // How a solve of the weft is to be made.
+  struct WeftStep {
+    double enough;   // reduction of the residual to stop at
+    double damping;  // Levenberg-Marquardt
+    double share;    // of its result that is taken
+  };
   struct WarpProgress {
     bool converged = true;
     double first_residual = 0.0;  // before the first iteration
@@ -85,15 +91,18 @@ class ExactSolver {
   void begin(const SubstepPlan& plan, const SubstepStart& start, double scale) noexcept;
   Progress solveConstraints(const SubstepPlan& plan, const Field3& start, PositionConstraints* constraints,
                             StageClock& clock) noexcept;
-  WarpProgress solveBlock(bool follow, const LineSolve& warp, int block, double stop, double leave_alone) noexcept;
-  WarpProgress solveWarp(bool follow, const LineSolve& warp, double stop, double leave_alone) noexcept;
+  WarpProgress solveBlock(bool follow, const LineSolve& warp, int block, double stop, double leave_alone,
+                          bool begun) noexcept;
+  WarpProgress solveWarp(bool follow, const LineSolve& warp, double stop, double leave_alone, bool begun) noexcept;
+  double slackResidual() noexcept;
   double weftResidualNow(const LineSolve& weft) noexcept;
-  void solveWeft(const LineSolve& weft, double residual, double tolerance, double share, double least) noexcept;
+  void solveWeft(const LineSolve& weft, double residual, const WeftStep& step) noexcept;
   void followDirections() noexcept;
+  void setAllWeftDirections(const Field3& position) noexcept;
   double warpResidualNow(const LineSolve& warp) noexcept;
   bool withinTolerance(const LineSolve& warp, const LineSolve& weft, double tolerance) noexcept;
   void projectVelocity(const Field3& position, PositionConstraints* constraints, Field3& out) noexcept;
-  double loadNodes() noexcept;
+  double loadStrings() noexcept;
   void commit(const ClothState& base, double step, double velocity_age, ClothState& state) noexcept;
   template <typename Look>
   double worstOfRows(const Look& look) noexcept;
@@ -110,6 +119,7 @@ class ExactSolver {
   double last_scale_ = 0.0;      // its h * kick [s^2]; 0 = none yet
   bool weft_pulls_ = false;      // a multiplier of last_weft_ is not zero
   bool directions_set_ = false;  // of the weft, in this substep
+  bool newton_begun_ = false;    // begin() has made the first iteration on the rods
   bool measured_ = false;        // violation_ and active_ are of the positions as they are
   double mean_rest_ = 1.0;       // of the weft [m]
   Field load_;                   // sum of |multiplier| of each node's links, last substep [kg]
@@ -118,6 +128,9 @@ class ExactSolver {
   Field answer_, keep_;          // inverse inertia and what damping keeps, when not the pattern's
   const Field* inertia_ = nullptr;
   Field violation_, active_, change_;
+  Field free_per_square_;  // of weft links with an end that can move: 1 / rest length^2 [1/m^2]; others: 0
+  std::vector<LineOutcome> block_begun_;
+  std::vector<double> block_load_;
   std::vector<WarpProgress> block_progress_;
   std::vector<double> row_worst_;
   Field3 next_;

@@ -49,7 +49,7 @@ class NetSolver {
 
  private:
   using Real = float;
-  using Values = std::vector<Real>;
+  using Values = std::vector<Real, CacheAligned<Real>>;
   struct Values3 {
     Values x, y, z;
   };

@@ -11,6 +11,8 @@ namespace curtain {
 /// Forces at the start of a substep.
 struct NodeForces {
   const Field3* force = nullptr;  ///< [N], all but damping
+  bool weight_only = true;        ///< force is mass times gravity
+  Vec3 gravity = Vec3::Zero();    ///< [m/s^2]
   Field damping;                  ///< force = -damping * velocity [kg/s]; only read when has_damping
   bool has_damping = false;
 };
@@ -20,8 +22,9 @@ class PositionConstraints {
  public:
   virtual ~PositionConstraints() = default;
 
-  /// Finds what may touch on the way from start to predicted, over a substep of length h [s]. Allocates nothing.
-  virtual void begin(const ClothPattern& pattern, const Field3& start, const Field3& predicted, double h) noexcept = 0;
+  /// Finds what may touch on the way from start to predicted, over a substep of length h [s]. False: nothing. Allocates
+  /// nothing.
+  virtual bool begin(const ClothPattern& pattern, const Field3& start, const Field3& predicted, double h) noexcept = 0;
 
   /// Moves nodes so that the constraints hold; returns the largest move [m].
   virtual double project(Field3& position) noexcept = 0;

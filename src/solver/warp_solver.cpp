@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cloth/wide.h"
 
@@ -11,6 +12,8 @@ namespace {
 
 // A pivot below this share of (w_a + w_b) l^2 means the rod has turned by nearly 90 degrees from its direction.
 constexpr double kSmallestPivot = 1e-9;
+// Stands for the violation of such a rod.
+constexpr double kUnsound = std::numeric_limits<double>::infinity();
 
 struct View {
   double *x, *y, *z;
@@ -39,10 +42,21 @@ struct VelocityLevel {
   static double gradient(double, double d) { return d; }
 };
 
+// Of a block's columns, side by side: brought together once a block, not once a row.
+struct Worst {
+  double of[kLane] = {};
+  LineOutcome outcome() const {
+    LineOutcome all;
+    for (const double one : of) all.residual = std::max(all.residual, one);
+    all.sound = all.residual < kUnsound;
+    return all;
+  }
+};
+
 // Forward elimination of row i of a block of columns, from offset first on, of the tridiagonal systems
 //   -w_a (g.d_above) s_(i-1) + (w_a + w_b)(g.d) s_i - w_b (g.d_below) s_(i+1) = C,   g = gradient of C.
 template <typename Level>
-CURTAIN_INTO_WIDE void eliminateRow(const LineSolve& line, LineScratch& scratch, std::size_t first, double& residual, double& unsound) {
+CURTAIN_INTO_WIDE void eliminateRow(const LineSolve& line, LineScratch& scratch, std::size_t first, Worst& worst) {
   const ClothPattern& pattern = line.pattern;
   const auto stride = static_cast<std::size_t>(pattern.grid.stride);
   const std::size_t above = first - stride;
@@ -57,9 +71,7 @@ CURTAIN_INTO_WIDE void eliminateRow(const LineSolve& line, LineScratch& scratch,
   const double* const s_above = scratch.solution.data() + above;
   double* const e = scratch.elimination.data() + first;
   double* const s = scratch.solution.data() + first;
-  double worst = residual;
-  double bad = unsound;
-#pragma omp simd reduction(max : worst, bad)
+#pragma omp simd
   for (int j = 0; j < kLane; ++j) {
     const double rx = vb.x[j] - va.x[j], ry = vb.y[j] - va.y[j], rz = vb.z[j] - va.z[j];
     const double rest_squared = rest[j] * rest[j];
@@ -74,13 +86,10 @@ CURTAIN_INTO_WIDE void eliminateRow(const LineSolve& line, LineScratch& scratch,
     const double inverse = pivot > smallest ? 1.0 / pivot : 0.0;  // both ends pinned: 0, the rod stays as it is
     e[j] = upper * inverse;
     s[j] = (c - lower * s_above[j]) * inverse;
-    const double relative = w > 0.0 ? std::abs(c) * per_square[j] : 0.0;
-    worst = worst > relative ? worst : relative;
-    const double failed = ((w > 0.0) & !(pivot > smallest)) ? 1.0 : 0.0;
-    bad = bad > failed ? bad : failed;
+    const double relative = pivot > smallest ? std::abs(c) * per_square[j] : kUnsound;
+    const double counted = w > 0.0 ? relative : 0.0;
+    worst.of[j] = worst.of[j] > counted ? worst.of[j] : counted;
   }
-  residual = worst;
-  unsound = bad;
 }
 
 // Back substitution of the same row, and the move of its nodes.
@@ -104,21 +113,22 @@ CURTAIN_INTO_WIDE void substituteRow(const LineSolve& line, LineScratch& scratch
   }
 }
 
+// The top row has no rod above it. A solve that failed leaves 0 * NaN there: it must not reach the next one.
+CURTAIN_INTO_WIDE void forgetTop(const LineSolve& line, LineScratch& scratch, std::size_t offset) {
+  for (std::size_t j = offset; j < offset + kLane; ++j) scratch.solution[j] = line.links.multiplier[j] = 0.0;
+}
+
 // One Newton iteration on a block of columns. Row 0 of the scratch and the row after the last one are zero: no rod above,
 // none below.
 template <typename Level>
 CURTAIN_INTO_WIDE LineOutcome newton(const LineSolve& line, LineScratch& scratch, int block) {
   const Grid& grid = line.pattern.grid;
   const auto offset = static_cast<std::size_t>(block) * kLane;
-  LineOutcome outcome;
-  double unsound = 0.0;
-  for (int i = 1; i < grid.rows; ++i) eliminateRow<Level>(line, scratch, grid.row(i) + offset, outcome.residual, unsound);
+  Worst worst;
+  for (int i = 1; i < grid.rows; ++i) eliminateRow<Level>(line, scratch, grid.row(i) + offset, worst);
   for (int i = grid.rows - 1; i >= 0; --i) substituteRow(line, scratch, grid.row(i) + offset);
-  // A solve that failed leaves 0 * NaN there: it must not reach the next one.
-  std::fill_n(scratch.solution.begin() + static_cast<std::ptrdiff_t>(offset), kLane, 0.0);
-  std::fill_n(line.links.multiplier.begin() + static_cast<std::ptrdiff_t>(offset), kLane, 0.0);
-  outcome.sound = unsound == 0.0;
-  return outcome;
+  forgetTop(line, scratch, offset);
+  return worst.outcome();
 }
 
 }  // namespace
@@ -142,64 +152,140 @@ CURTAIN_WIDE void setWarpDirections(const Grid& grid, int block, const Field3& p
   }
 }
 
-// A row's nodes are moved by their two rods as soon as the direction of the lower one is known.
-CURTAIN_WIDE void warpBegin(const SubstepStart& start, const LineSolve& line, const Field& last, double ratio,
-                            int block) noexcept {
-  const Grid& grid = line.pattern.grid;
-  const auto stride = static_cast<std::size_t>(grid.stride);
+// Prediction of a row's nodes.
+CURTAIN_INTO_WIDE void predictRow(const SubstepStart& start, const LineSolve& line, std::size_t first) {
+  const ConstView x(start.state.position, first), v(start.state.velocity, first), f(start.force, first);
+  const View next(line.value, first);
+  const double* const w = line.inverse_inertia.data() + first;
   const double h = start.h, kick = start.kick;
-  for (int i = 0; i < grid.rows; ++i) {
-    const std::size_t first = grid.row(i) + static_cast<std::size_t>(block) * kLane;
-    const ConstView x(start.state.position, first), v(start.state.velocity, first), f(start.force, first);
-    const View next(line.value, first), d(line.links.direction, first);
-    const double* const w = line.inverse_inertia.data() + first;
-    if (start.keep != nullptr) {
-      const double* const keep = start.keep->data() + first;
-#pragma omp simd
-      for (int j = 0; j < kLane; ++j) {
-        next.x[j] = x.x[j] + h * (keep[j] * v.x[j] + kick * w[j] * f.x[j]);
-        next.y[j] = x.y[j] + h * (keep[j] * v.y[j] + kick * w[j] * f.y[j]);
-        next.z[j] = x.z[j] + h * (keep[j] * v.z[j] + kick * w[j] * f.z[j]);
-      }
-    } else {
-#pragma omp simd
-      for (int j = 0; j < kLane; ++j) {
-        next.x[j] = x.x[j] + h * (v.x[j] + kick * w[j] * f.x[j]);
-        next.y[j] = x.y[j] + h * (v.y[j] + kick * w[j] * f.y[j]);
-        next.z[j] = x.z[j] + h * (v.z[j] + kick * w[j] * f.z[j]);
-      }
-    }
-    if (i == 0) continue;
-    const ConstView above(start.state.position, first - stride), d_above(line.links.direction, first - stride);
-    const View next_above(line.value, first - stride);
-    double* const s = line.links.multiplier.data() + first;
-    const double* const s_above = s - stride;
-    const double* const s_last = last.data() + first;
-    const double* const w_above = w - stride;
+  if (start.uniform != nullptr) {
+    const double gx = kick * start.uniform->x(), gy = kick * start.uniform->y(), gz = kick * start.uniform->z();
 #pragma omp simd
     for (int j = 0; j < kLane; ++j) {
-      const double dx = x.x[j] - above.x[j], dy = x.y[j] - above.y[j], dz = x.z[j] - above.z[j];
-      const double pull = ratio * s_last[j];
-      d.x[j] = dx;
-      d.y[j] = dy;
-      d.z[j] = dz;
-      s[j] = pull;
-      next_above.x[j] -= w_above[j] * (s_above[j] * d_above.x[j] - pull * dx);
-      next_above.y[j] -= w_above[j] * (s_above[j] * d_above.y[j] - pull * dy);
-      next_above.z[j] -= w_above[j] * (s_above[j] * d_above.z[j] - pull * dz);
+      next.x[j] = x.x[j] + h * (v.x[j] + (w[j] > 0.0 ? gx : 0.0));
+      next.y[j] = x.y[j] + h * (v.y[j] + (w[j] > 0.0 ? gy : 0.0));
+      next.z[j] = x.z[j] + h * (v.z[j] + (w[j] > 0.0 ? gz : 0.0));
+    }
+  } else if (start.keep != nullptr) {
+    const double* const keep = start.keep->data() + first;
+#pragma omp simd
+    for (int j = 0; j < kLane; ++j) {
+      next.x[j] = x.x[j] + h * (keep[j] * v.x[j] + kick * w[j] * f.x[j]);
+      next.y[j] = x.y[j] + h * (keep[j] * v.y[j] + kick * w[j] * f.y[j]);
+      next.z[j] = x.z[j] + h * (keep[j] * v.z[j] + kick * w[j] * f.z[j]);
+    }
+  } else {
+#pragma omp simd
+    for (int j = 0; j < kLane; ++j) {
+      next.x[j] = x.x[j] + h * (v.x[j] + kick * w[j] * f.x[j]);
+      next.y[j] = x.y[j] + h * (v.y[j] + kick * w[j] * f.y[j]);
+      next.z[j] = x.z[j] + h * (v.z[j] + kick * w[j] * f.z[j]);
     }
   }
-  const std::size_t hem = grid.row(grid.rows - 1) + static_cast<std::size_t>(block) * kLane;
-  const View next(line.value, hem);
-  const ConstView d(line.links.direction, hem);
-  const double* const w = line.inverse_inertia.data() + hem;
-  const double* const s = line.links.multiplier.data() + hem;
+}
+
+// Direction and first multiplier of a row's rods, and what these two rods, its own and this one, do to the row above.
+CURTAIN_INTO_WIDE void hangRow(const SubstepStart& start, const LineSolve& line, const Field& last, double ratio,
+                               std::size_t first, std::size_t stride) {
+  const ConstView x(start.state.position, first), above(start.state.position, first - stride);
+  const ConstView d_above(line.links.direction, first - stride);
+  const View d(line.links.direction, first), next_above(line.value, first - stride);
+  double* const s = line.links.multiplier.data() + first;
+  const double* const s_above = s - stride;
+  const double* const s_last = last.data() + first;
+  const double* const w_above = line.inverse_inertia.data() + first - stride;
+#pragma omp simd
+  for (int j = 0; j < kLane; ++j) {
+    const double dx = x.x[j] - above.x[j], dy = x.y[j] - above.y[j], dz = x.z[j] - above.z[j];
+    const double pull = ratio * s_last[j];
+    d.x[j] = dx;
+    d.y[j] = dy;
+    d.z[j] = dz;
+    s[j] = pull;
+    next_above.x[j] -= w_above[j] * (s_above[j] * d_above.x[j] - pull * dx);
+    next_above.y[j] -= w_above[j] * (s_above[j] * d_above.y[j] - pull * dy);
+    next_above.z[j] -= w_above[j] * (s_above[j] * d_above.z[j] - pull * dz);
+  }
+}
+
+// The lowest row has no rod below.
+CURTAIN_INTO_WIDE void hangHem(const LineSolve& line, std::size_t first) {
+  const View next(line.value, first);
+  const ConstView d(line.links.direction, first);
+  const double* const w = line.inverse_inertia.data() + first;
+  const double* const s = line.links.multiplier.data() + first;
 #pragma omp simd
   for (int j = 0; j < kLane; ++j) {
     next.x[j] -= w[j] * (s[j] * d.x[j]);
     next.y[j] -= w[j] * (s[j] * d.y[j]);
     next.z[j] -= w[j] * (s[j] * d.z[j]);
   }
+}
+
+// Down a block of columns once: what a row needs of its neighbours is still at hand.
+template <bool kWithElimination>
+CURTAIN_INTO_WIDE LineOutcome beginBlock(const SubstepStart& start, const LineSolve& line, const Field& last,
+                                         double ratio, LineScratch* scratch, int block) {
+  const Grid& grid = line.pattern.grid;
+  const auto stride = static_cast<std::size_t>(grid.stride);
+  const std::size_t offset = static_cast<std::size_t>(block) * kLane;
+  Worst worst;
+  predictRow(start, line, offset);
+  for (int i = 1; i < grid.rows; ++i) {
+    const std::size_t first = grid.row(i) + offset;
+    predictRow(start, line, first);
+    hangRow(start, line, last, ratio, first, stride);
+    if (kWithElimination && i > 1) {
+      eliminateRow<PositionLevel>(line, *scratch, first - stride, worst);
+    }
+  }
+  const std::size_t hem = grid.row(grid.rows - 1) + offset;
+  hangHem(line, hem);
+  if (kWithElimination) eliminateRow<PositionLevel>(line, *scratch, hem, worst);
+  return worst.outcome();
+}
+
+CURTAIN_WIDE void warpBegin(const SubstepStart& start, const LineSolve& line, const Field& last, double ratio,
+                            int block) noexcept {
+  beginBlock<false>(start, line, last, ratio, nullptr, block);
+}
+
+CURTAIN_WIDE LineOutcome warpBeginNewton(const SubstepStart& start, const LineSolve& line, const Field& last,
+                                         double ratio, LineScratch& scratch, int block) noexcept {
+  return beginBlock<true>(start, line, last, ratio, &scratch, block);
+}
+
+CURTAIN_WIDE void warpEndNewton(const LineSolve& line, LineScratch& scratch, int block) noexcept {
+  const Grid& grid = line.pattern.grid;
+  const std::size_t offset = static_cast<std::size_t>(block) * kLane;
+  for (int i = grid.rows - 1; i >= 0; --i) substituteRow(line, scratch, grid.row(i) + offset);
+  forgetTop(line, scratch, offset);
+}
+
+CURTAIN_WIDE double warpFinish(const LineSolve& line, const Field3& from, double per_step, Field3& velocity, Field& load,
+                               int block) noexcept {
+  const Grid& grid = line.pattern.grid;
+  const auto stride = static_cast<std::size_t>(grid.stride);
+  Worst worst;
+  for (int i = 0; i < grid.rows; ++i) {
+    const std::size_t first = grid.row(i) + static_cast<std::size_t>(block) * kLane;
+    const ConstView to(line.value, first), at(from, first);
+    const View v(velocity, first);
+    const double* const s = line.links.multiplier.data() + first;
+    const double* const s_below = s + stride;
+    const double* const w = line.pattern.inverse_mass.data() + first;
+    double* const sum = load.data() + first;
+#pragma omp simd
+    for (int j = 0; j < kLane; ++j) {
+      v.x[j] = (to.x[j] - at.x[j]) * per_step;
+      v.y[j] = (to.y[j] - at.y[j]) * per_step;
+      v.z[j] = (to.z[j] - at.z[j]) * per_step;
+      sum[j] = std::abs(s[j]) + std::abs(s_below[j]);
+      const double heaviest = sum[j] * w[j];
+      worst.of[j] = worst.of[j] > heaviest ? worst.of[j] : heaviest;
+    }
+  }
+  return worst.outcome().residual;
 }
 
 CURTAIN_WIDE void applyWarpMultipliers(const LineSolve& line, int block) noexcept {
@@ -232,22 +318,22 @@ CURTAIN_WIDE LineOutcome warpProjectVelocity(const LineSolve& line, LineScratch&
 CURTAIN_WIDE double warpResidual(const LineSolve& line, int block) noexcept {
   const Grid& grid = line.pattern.grid;
   const auto stride = static_cast<std::size_t>(grid.stride);
-  double worst = 0.0;
+  Worst worst;
   for (int i = 1; i < grid.rows; ++i) {
     const std::size_t first = grid.row(i) + static_cast<std::size_t>(block) * kLane;
     const ConstView above(line.value, first - stride), below(line.value, first);
     const double* const wa = line.inverse_inertia.data() + first - stride;
     const double* const wb = line.inverse_inertia.data() + first;
     const double* const per_square = line.pattern.warp_per_square.data() + first;
-#pragma omp simd reduction(max : worst)
+#pragma omp simd
     for (int j = 0; j < kLane; ++j) {
       const double rx = below.x[j] - above.x[j], ry = below.y[j] - above.y[j], rz = below.z[j] - above.z[j];
       const double relative = 0.5 * std::abs((rx * rx + ry * ry + rz * rz) * per_square[j] - 1.0);
       const double counted = wa[j] + wb[j] > 0.0 ? relative : 0.0;
-      worst = worst > counted ? worst : counted;
+      worst.of[j] = worst.of[j] > counted ? worst.of[j] : counted;
     }
   }
-  return worst;
+  return worst.outcome().residual;
 }
 
 CURTAIN_WIDE Stretch warpStretch(const ClothPattern& pattern, const Field3& position) noexcept {

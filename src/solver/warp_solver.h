@@ -20,6 +20,7 @@ void setWarpDirections(const Grid& grid, int block, const Field3& position, Fiel
 struct SubstepStart {
   const ClothState& state;
   const Field3& force;  ///< [N]
+  const Vec3* uniform;  ///< acceleration of every free node [m/s^2], instead of what force and inertia make; or null
   const Field* keep;    ///< share of its velocity that damping leaves a node; null: all of it
   double kick;          ///< how long the forces act [s]
   double h;             ///< [s]
@@ -29,6 +30,17 @@ struct SubstepStart {
 /// positions at the start, and moves the prediction by the multipliers `last` times `ratio`, which become the rods'
 /// (warm start).
 void warpBegin(const SubstepStart& start, const LineSolve& line, const Field& last, double ratio, int block) noexcept;
+
+/// The same and, in the same way down the columns, the first half of a Newton iteration on the rods; warpEndNewton makes
+/// the other half.
+LineOutcome warpBeginNewton(const SubstepStart& start, const LineSolve& line, const Field& last, double ratio,
+                            LineScratch& scratch, int block) noexcept;
+void warpEndNewton(const LineSolve& line, LineScratch& scratch, int block) noexcept;
+
+/// Velocities of a block's nodes, from where they were to line.value, and the sum of |multiplier| of their rods [kg];
+/// returns the largest of these over the node's mass.
+double warpFinish(const LineSolve& line, const Field3& from, double per_step, Field3& velocity, Field& load,
+                  int block) noexcept;
 
 /// Moves a block's nodes by the multipliers there are.
 void applyWarpMultipliers(const LineSolve& line, int block) noexcept;

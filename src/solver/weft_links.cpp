@@ -26,6 +26,7 @@ struct Row {
 struct Link {
   double violation;  // relative; 0 when it takes no part
   double active;
+  double not_finite;  // 0, or NaN when a position at its ends is not finite
 };
 
 // A link takes part when it is too long or still pulls, and has an end that can move.
@@ -34,7 +35,7 @@ CURTAIN_INTO_WIDE Link look(const Row& row, std::size_t left, std::size_t right)
   const double both = row.w[right] + row.w[left];
   const double c = 0.5 * ((rx * rx + ry * ry + rz * rz) * row.per_square[right] - 1.0) - kWeftCompliance * both * row.s[right];
   const double active = ((both > 0.0) & ((c > 0.0) | (row.s[right] > 0.0))) ? 1.0 : 0.0;
-  return {active * c, active};
+  return {active * c, active, 0.0 * c};  // 0 * x is NaN for NaN and infinity alike
 }
 
 }  // namespace
@@ -57,14 +58,50 @@ CURTAIN_WIDE double weftResidual(const LineSolve& line, int i) noexcept {
   const Row row(line, i);
   const auto columns = static_cast<std::size_t>(grid.columns);
   double worst = 0.0;
-  double finite = 0.0;  // 0 * x is NaN for NaN and infinity alike
+  double finite = 0.0;
 #pragma omp simd reduction(max : worst) reduction(+ : finite)
   for (std::size_t j = 1; j < columns; ++j) {
-    const double size = std::abs(look(row, j - 1, j).violation);
+    const Link link = look(row, j - 1, j);
+    const double size = std::abs(link.violation);
     worst = worst > size ? worst : size;
-    finite += 0.0 * ((row.x[j] - row.x[j - 1]) + (row.y[j] - row.y[j - 1]) + (row.z[j] - row.z[j - 1]));
+    finite += link.not_finite;
   }
   if (grid.closed) worst = std::max(worst, std::abs(look(row, columns - 1, 0).violation));
+  return finite == 0.0 ? worst : std::numeric_limits<double>::infinity();
+}
+
+Field freeWeft(const ClothPattern& pattern) {
+  const Grid& grid = pattern.grid;
+  Field out(grid.size(), 0.0);
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = grid.closed ? 0 : 1; j < grid.columns; ++j) {
+      const std::size_t right = grid.index(i, j), left = grid.index(i, j > 0 ? j - 1 : grid.columns - 1);
+      const bool free = pattern.inverse_mass[left] + pattern.inverse_mass[right] > 0.0;
+      out[right] = free ? pattern.weft_per_square[right] : 0.0;
+    }
+  }
+  return out;
+}
+
+CURTAIN_WIDE double weftSquare(const Grid& grid, int i, const Field3& position, const Field& free_per_square) noexcept {
+  const double* const x = position.x.data() + grid.row(i);
+  const double* const y = position.y.data() + grid.row(i);
+  const double* const z = position.z.data() + grid.row(i);
+  const double* const per_square = free_per_square.data() + grid.row(i);
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  double worst = 0.0;
+  double finite = 0.0;
+  const auto square = [=](std::size_t left, std::size_t right) {
+    const double rx = x[right] - x[left], ry = y[right] - y[left], rz = z[right] - z[left];
+    return (rx * rx + ry * ry + rz * rz) * per_square[right];
+  };
+#pragma omp simd reduction(max : worst) reduction(+ : finite)
+  for (std::size_t j = 1; j < columns; ++j) {
+    const double size = square(j - 1, j);
+    worst = worst > size ? worst : size;
+    finite += 0.0 * size;
+  }
+  if (grid.closed) worst = std::max(worst, square(columns - 1, 0));
   return finite == 0.0 ? worst : std::numeric_limits<double>::infinity();
 }
 
@@ -76,7 +113,7 @@ CURTAIN_WIDE double measureWeft(const LineSolve& line, int i, Field& violation, 
   double* const c_out = violation.data() + grid.row(i);
   double* const active_out = active.data() + grid.row(i);
   double worst = 0.0;
-  double finite = 0.0;  // 0 * x is NaN for NaN and infinity alike
+  double finite = 0.0;
 #pragma omp simd reduction(max : worst) reduction(+ : finite)
   for (std::size_t j = 1; j < columns; ++j) {
     const Link link = look(row, j - 1, j);
@@ -84,7 +121,7 @@ CURTAIN_WIDE double measureWeft(const LineSolve& line, int i, Field& violation, 
     c_out[j] = link.violation * rest[j] * rest[j];
     const double size = std::abs(link.violation);
     worst = worst > size ? worst : size;
-    finite += 0.0 * c_out[j] + 0.0 * ((row.x[j] + row.x[j - 1]) + (row.y[j] + row.y[j - 1]) + (row.z[j] + row.z[j - 1]));
+    finite += link.not_finite;
   }
   if (grid.closed) {
     const Link link = look(row, columns - 1, 0);

@@ -20,7 +20,14 @@ void setWeftDirections(const Grid& grid, int row, const Field3& position, Field3
 /// Largest relative violation of the links of a row that take part; infinite when a position is not finite.
 double weftResidual(const LineSolve& line, int row) noexcept;
 
-/// The same, and for every link of the row: whether it takes part (1 or 0) and its violation C = (|r|^2 - l^2) / 2 less
+/// 1 / rest length^2 of the links with an end that can move, 0 of the others [1/m^2].
+Field freeWeft(const ClothPattern& pattern);
+
+/// Largest square of a link's length over that of its rest length, of a row's links with an end that can move; infinite when
+/// a position is not finite.
+double weftSquare(const Grid& grid, int row, const Field3& position, const Field& free_per_square) noexcept;
+
+/// The residual, and for every link of the row: whether it takes part (1 or 0) and its violation C = (|r|^2 - l^2) / 2 less
 /// what its compliance allows [m^2], 0 where it does not.
 double measureWeft(const LineSolve& line, int row, Field& violation, Field& active) noexcept;
 
