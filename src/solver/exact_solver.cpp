@@ -424,6 +424,30 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
   return progress;
 }
 
+// Twice the kinetic energy the nodes would have without links [J].
+double ExactSolver::predictedKinetic(const SubstepStart& start) const noexcept {
+  double sum = 0.0;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    const double w = (*inertia_)[n];
+    const double keep = start.keep != nullptr ? (*start.keep)[n] : 1.0;
+    const Vec3 velocity = keep * start.state.velocity.at(n) + start.kick * w * start.force.at(n);
+    sum += pattern_.inverse_mass[n] > 0.0 ? pattern_.mass[n] * velocity.squaredNorm() : 0.0;
+  }
+  return sum;
+}
+
+// Links that hold do no work; where they can't hold (a straight row between two pins under load) what is left over would
+// become motion.
+void ExactSolver::boundKinetic(double most, Field3& velocity) const noexcept {
+  double sum = 0.0;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) sum += pattern_.mass[n] * velocity.at(n).squaredNorm();
+  if (!(sum > most)) return;
+  const double share = std::sqrt(most / sum);
+  for (Field* component : {&velocity.x, &velocity.y, &velocity.z}) {
+    for (double& v : *component) v *= share;
+  }
+}
+
 // Adds what the strings pull to the nodes' loads; returns the largest load over its mass.
 CURTAIN_WIDE double ExactSolver::loadStrings() noexcept {
   const Grid& grid = pattern_.grid;
@@ -475,8 +499,9 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   const double scale = step * kick;
   setInertia(forces, kick, scale, plan.most_phase);
   const bool falls = forces.weight_only && inertia_ == &pattern_.inverse_mass;
-  begin(plan, {base, *forces.force, falls ? &forces.gravity : nullptr, forces.has_damping ? &keep_ : nullptr, kick, step},
-        scale);
+  const SubstepStart start{base, *forces.force, falls ? &forces.gravity : nullptr, forces.has_damping ? &keep_ : nullptr, kick,
+                           step};
+  begin(plan, start, scale);
   clock.lap(Stage::kPredict);
   if (constraints != nullptr) {
     // Where nothing can touch there is nothing to take turns with.
@@ -498,7 +523,10 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
     } else {
       older_h_ = 0.0;
     }
+    const bool bounded = plan.scheme == Scheme::kImplicit && constraints == nullptr;
+    const double most_kinetic = bounded ? predictedKinetic(start) : 0.0;
     commit(base, step, leapfrog ? 0.5 * step : 0.0, state);
+    if (bounded) boundKinetic(most_kinetic, state.velocity);
     outcome.omega_squared = 2.0 * heaviest_load_ / std::abs(scale);
     // The way such a substep has gone is not all motion: what pulls its links further is taken out.
     if (progress.left_over) projectVelocity(state.position, constraints, state.velocity);

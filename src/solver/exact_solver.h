@@ -102,6 +102,8 @@ class ExactSolver {
   double warpResidualNow(const LineSolve& warp) noexcept;
   bool withinTolerance(const LineSolve& warp, const LineSolve& weft, double tolerance) noexcept;
   void projectVelocity(const Field3& position, PositionConstraints* constraints, Field3& out) noexcept;
+  double predictedKinetic(const SubstepStart& start) const noexcept;
+  void boundKinetic(double most, Field3& velocity) const noexcept;
   double loadStrings() noexcept;
   void commit(const ClothState& base, double step, double velocity_age, ClothState& state) noexcept;
   template <typename Look>
