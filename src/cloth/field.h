@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <new>
 #include <vector>
 
@@ -12,18 +13,30 @@
 
 namespace curtain {
 
-/// Puts the first element at the start of a cache line: else every other wide load crosses into the next one.
+/// Puts the first element at the start of a cache line (else every other wide load crosses into the next one), and not of
+/// the same line of a page for every large field: what lies side by side in a sweep would share one set of the cache.
 template <typename T>
 struct CacheAligned {
   using value_type = T;
-  static constexpr std::align_val_t kAlignment{64};
   CacheAligned() = default;
   template <typename U>
   CacheAligned(const CacheAligned<U>&) noexcept {}
-  T* allocate(std::size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), kAlignment)); }
-  void deallocate(T* pointer, std::size_t) noexcept { ::operator delete(pointer, kAlignment); }
+  T* allocate(std::size_t count) {
+    char* const block = static_cast<char*>(::operator new(count * sizeof(T) + (kLines + 2) * kLine));
+    const auto address = reinterpret_cast<std::uintptr_t>(block);
+    const std::size_t to_line = kLine - address % kLine;
+    const std::size_t spread = (address / 4096U * 13U) % kLines;  // pages differ, and so do the lines
+    char* const first = block + to_line + spread * kLine;
+    reinterpret_cast<char**>(first)[-1] = block;
+    return reinterpret_cast<T*>(first);
+  }
+  void deallocate(T* pointer, std::size_t) noexcept { ::operator delete(reinterpret_cast<char**>(pointer)[-1]); }
   friend bool operator==(const CacheAligned&, const CacheAligned&) noexcept { return true; }
   friend bool operator!=(const CacheAligned&, const CacheAligned&) noexcept { return false; }
+
+ private:
+  static constexpr std::size_t kLine = 64;
+  static constexpr std::size_t kLines = 61;
 };
 
 using Field = std::vector<double, CacheAligned<double>>;
@@ -40,7 +53,10 @@ struct Grid {
 
   Grid() = default;
   Grid(int row_count, int column_count, bool is_closed)
-      : rows(row_count), columns(column_count), stride((column_count + kLane - 1) / kLane * kLane), closed(is_closed) {}
+      : rows(row_count), columns(column_count), stride(strideFor(column_count)), closed(is_closed) {}
+
+  /// An odd number of cache lines: the same column of successive rows falls into different sets of the cache.
+  static int strideFor(int column_count) { return ((column_count + kLane - 1) / kLane | 1) * kLane; }
 
   std::size_t size() const { return static_cast<std::size_t>(rows) * static_cast<std::size_t>(stride); }
   std::size_t row(int i) const { return static_cast<std::size_t>(i) * static_cast<std::size_t>(stride); }

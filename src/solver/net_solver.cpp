@@ -20,7 +20,7 @@ constexpr float kSmallestPivot = 1e-6F;  // of single precision's rounding, over
 NetSolver::NetSolver(const ClothPattern& pattern, const Workers& workers)
     : pattern_(pattern),
       workers_(workers),
-      stride_(static_cast<std::size_t>((pattern.grid.columns + kColumns) / kColumns) * kColumns),
+      stride_((static_cast<std::size_t>((pattern.grid.columns + kColumns) / kColumns) | 1U) * kColumns),
       column_blocks_((pattern.grid.columns + kColumns - 1) / kColumns),
       row_blocks_((pattern.grid.rows + kRows - 1) / kRows) {
   // Whole row blocks, and a row of zeros below the last one.
