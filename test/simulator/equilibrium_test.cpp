@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Where the cloth comes to rest: least energy of nets hung by two corners, the straight line of a chain in the wind.
+// Where a chain in the wind comes to rest: the straight line. Nets: nets_test.cpp.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,49 +10,6 @@
 
 namespace curtain {
 namespace {
-
-Scene net(int n, double span) {
-  Scene scene;
-  scene.cloth.rows = scene.cloth.columns = n;
-  scene.cloth.height = scene.cloth.width = 1.0;
-  scene.cloth.surface_density = 1.0;
-  scene.cloth.lumping = Lumping::kUniform;
-  scene.hang.from = Vec3::Zero();
-  scene.hang.to = Vec3(span, 0.0, 0.0);
-  scene.pins.kind = PinKind::kTopCorners;
-  scene.air.inside = scene.air.border = scene.air.corner = 1.0;
-  return scene;
-}
-
-class TwoCornerNet : public ::testing::TestWithParam<std::tuple<int, double>> {};
-
-// At rest the potential energy is the least there is. Bound: the one asked of the package, 1e-3 relative; the links'
-// tolerance of 1e-3 moves it by less than that.
-TEST_P(TwoCornerNet, RestsAtLeastEnergy) {
-  const auto [n, span] = GetParam();
-  double exact = 0.0;
-  for (const auto& row : curtain_test::readTruth("net_exact.csv")) {
-    if (row.at("case") == "corners2" && std::stoi(row.at("n")) == n && std::abs(std::stod(row.at("D")) - span) < 1e-9) {
-      exact = std::stod(row.at("E_min_J (1 kg, 1 m x 1 m, g 9.81)"));
-    }
-  }
-  ASSERT_LT(exact, 0.0);
-  Simulator simulator(net(n, span));
-  for (int frame = 0; frame < 600; ++frame) simulator.step();
-  const Energy energy = simulator.energy();
-  const Statistics& s = simulator.statistics();
-  std::printf("n %d D %.2f: energy %.6f J, exact %.6f J, relative %.1e, %.1f substeps a frame, %.2f ms\n", n, span,
-              energy.potential, exact, (energy.potential - exact) / -exact,
-              static_cast<double>(s.substeps) / static_cast<double>(s.frames),
-              1e3 * s.step_seconds_sum / static_cast<double>(s.frames));
-  EXPECT_LT(energy.kinetic, 1e-3 * -exact);
-  EXPECT_NEAR(energy.potential, exact, 1e-3 * -exact);
-  EXPECT_LE(s.weft_stretch_max, 1e-3);
-  EXPECT_LE(s.warp_stretch_max, 1e-3);
-}
-
-INSTANTIATE_TEST_SUITE_P(Sizes, TwoCornerNet,
-                         ::testing::Combine(::testing::Values(3, 5, 10), ::testing::Values(0.98, 0.9, 0.7, 0.5)));
 
 class WindEquilibrium : public ::testing::TestWithParam<double> {};
 
