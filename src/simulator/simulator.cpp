@@ -76,6 +76,7 @@ struct Simulator::Impl {
   void reset();
   void step();
   void makeFrame();
+  bool makeEvenSubstep(const SubstepPlan& plan, double done, int divisions);
   bool makeEvenFrame(int substeps);
   void rehearse();
   void moveCompanion();
@@ -216,17 +217,30 @@ void Simulator::Impl::makeFrame() {
   while (frame_length - done > 1e-9 * frame_length) done += makeSubstep(done);
 }
 
+// A substep of the motion that is only compared with: what fails is divided, up to `divisions` times.
+bool Simulator::Impl::makeEvenSubstep(const SubstepPlan& plan, double done, int divisions) {
+  if (attempt(plan, done).accepted) return true;
+  if (divisions == 0) return false;
+  SubstepPlan half = plan;
+  half.h = 0.5 * plan.h;
+  return makeEvenSubstep(half, done, divisions - 1) && makeEvenSubstep(half, done + half.h, divisions - 1);
+}
+
 // A frame in so many equal leapfrog (or composed) substeps. False: one of them failed.
 bool Simulator::Impl::makeEvenFrame(int substeps) {
+  constexpr int kDivisions = 5;
   SubstepPlan plan;
   plan.h = 1.0 / scene.solver.frame_rate / substeps;
+  if (scene.solver.method == Method::kAuto) plan.most_phase = control.stablePhase();
+  plan.precise = scene.solver.method == Method::kLeapfrog4;
   for (int k = 0; k < substeps; ++k) {
     const double done = k * plan.h;
-    if (scene.solver.method == Method::kLeapfrog4) {
-      plan.precise = true;
-      if (!makeComposed(plan, done)) return false;
-    } else if (!attempt(plan, done).accepted) {
-      return false;
+    if (scene.solver.method == Method::kLeapfrog4 && makeComposed(plan, done)) continue;
+    const int parts = scene.solver.method == Method::kLeapfrog4 ? static_cast<int>(kStages.size()) : 1;
+    SubstepPlan part = plan;
+    part.h = plan.h / parts;
+    for (int p = 0; p < parts; ++p) {
+      if (!makeEvenSubstep(part, done + p * part.h, kDivisions)) return false;
     }
   }
   return true;
@@ -245,6 +259,7 @@ void Simulator::Impl::synchronise() {
 // Before the motion begins: some frames of it, twice, to find the substeps it needs.
 void Simulator::Impl::rehearse() {
   const Statistics before_all = statistics;
+  const StageClock stages = clock;
   const double omega_step = control.longestStableStep();
   const int substeps = std::max(1, static_cast<int>(std::ceil(1.0 / (scene.solver.frame_rate * omega_step))));
   const auto play = [&](int count) {
@@ -268,6 +283,7 @@ void Simulator::Impl::rehearse() {
   const bool fine_made = play(2 * substeps);
   if (coarse_made && fine_made) estimate->rehearsed(companion.state.position, substeps, state.position, 2 * substeps);
   goBack();
+  clock = stages;
 }
 
 // Moves the companion by the coming frame. It goes first, so that forces and contacts stay those of the motion.
@@ -283,6 +299,7 @@ void Simulator::Impl::moveCompanion() {
     exact.save(companion.memory);
   }
   const Statistics published = statistics;
+  const StageClock stages = clock;
   rehearsal.state = state;
   exact.save(rehearsal.memory);
   std::swap(state, companion.state);
@@ -296,7 +313,7 @@ void Simulator::Impl::moveCompanion() {
   std::swap(state, companion.state);
   exact.restore(rehearsal.memory);
   statistics = published;
-  clock.lap(Stage::kEstimate);
+  clock = stages;
 }
 
 void Simulator::Impl::step() {
@@ -305,10 +322,11 @@ void Simulator::Impl::step() {
   statistics.time = static_cast<double>(frame) * frame_length;
   obstacles.beginFrame(static_cast<double>(frame + 1) * frame_length);
   if (estimate != nullptr) {
+    clock.start();
     if (frame == 0) rehearse();
-    const bool compares = estimate->companionMoves();
-    if (compares) moveCompanion();
+    if (estimate->companionMoves()) moveCompanion();
     if (control.askFor(estimate->substeps())) synchronise();
+    clock.lap(Stage::kEstimate);
   }
   statistics.substeps_last = 0;
   statistics.sweeps_last = 0;

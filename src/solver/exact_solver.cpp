@@ -19,6 +19,8 @@ constexpr double kFirstSweepShare = 1e-4;
 // Newton converges quadratically: an iteration that starts this close ends near the square of it, times a factor that
 // grows with the column's height.
 constexpr double kNewtonStop = 1e-3;
+// From this close it certainly ends within any tolerance; from further off the rods are looked at again.
+constexpr double kSureStop = 1e-4;
 // In later sweeps the next one looks again, so a start this close is left at that.
 constexpr double kNewtonStopLater = 1e-2;
 // For what is left to be rounding.
@@ -377,7 +379,7 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
                                       : slackResidual();
     const bool at_rest = constraints == nullptr || (contact_move <= contact_tolerance_ && rods.first_residual <= tolerance);
     if (rods.converged && at_rest && residual <= (first ? kFirstSweepShare : 1.0) * tolerance &&
-        ((first && !weft_pulls_) || rods.last_residual <= kNewtonStop || warpResidualNow(warp) <= tolerance / kInnerTolerance)) {
+        (rods.last_residual <= kSureStop || warpResidualNow(warp) <= tolerance)) {
       progress.settled = true;
       clock.lap(Stage::kWeft);
       return progress;

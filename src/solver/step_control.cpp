@@ -111,6 +111,8 @@ double StepControl::longestStableStep() const noexcept {
   return omega_ > 0.0 ? kLongestPhase / ((composed_ ? kLongestStage : 1.0) * omega_) : frame_;
 }
 
+double StepControl::stablePhase() noexcept { return kStablePhase; }
+
 bool StepControl::askFor(int substeps) noexcept {
   const bool changed = substeps != asked_;
   asked_ = std::clamp(substeps, 1, max_substeps_);

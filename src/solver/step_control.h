@@ -20,6 +20,8 @@ class StepControl {
   SubstepPlan next(double remaining, const ExactSolver& solver) noexcept;
   /// From the last tensions (before the first: of the cloth hanging by its own weight) [s].
   double longestStableStep() const noexcept;
+  /// h * omega from which nodes are heavier rather than the step unstable.
+  static double stablePhase() noexcept;
   /// At least so many substeps a frame. True when that is not what was asked for before.
   bool askFor(int substeps) noexcept;
   void accepted(const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept;

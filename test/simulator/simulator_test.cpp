@@ -199,21 +199,23 @@ TEST(Simulator, KeepsMirrorSymmetry) {
 // What the tolerance leaves over must not become motion: a sheet dropped from its corners never has more energy than at
 // first (gravity is counted in it; what its snaps take out hides small rises from frame to frame). Bound: what a stretch of 1e-3 in the whole cloth is worth, m g L / 1000.
 TEST(Simulator, ADroppedSheetNeverHasMoreEnergyThanAtFirst) {
-  for (const int n : {5, 8, 12, 20}) {
-    Scene scene = sceneOf(n, n);
-    scene.cloth.height = 1.0;
-    scene.hang.from = Vec3::Zero();
-    scene.hang.to = Vec3(0.9, 0.0, 0.0);
-    scene.hang.tilt = 1.5707963267948966;
-    scene.pins.kind = PinKind::kTopCorners;
-    Simulator simulator(scene);
-    const double start = simulator.energy().potential;
-    for (int frame = 0; frame < 180; ++frame) {
-      simulator.step();
-      const Energy energy = simulator.energy();
-      ASSERT_LT(energy.kinetic + energy.potential - start, 0.2 * 9.81 * 1e-3) << n << " rows, frame " << frame;
+  for (const int n : {5, 8, 12, 20, 30}) {
+    for (const double turn : {0.0, -0.01, 0.01}) {  // one motion may be good by luck
+      Scene scene = sceneOf(n, n);
+      scene.cloth.height = 1.0;
+      scene.hang.from = Vec3::Zero();
+      scene.hang.to = Vec3(0.9, 0.0, 0.0);
+      scene.hang.tilt = 1.5707963267948966 + turn;
+      scene.pins.kind = PinKind::kTopCorners;
+      Simulator simulator(scene);
+      const double start = simulator.energy().potential;
+      for (int frame = 0; frame < 180; ++frame) {
+        simulator.step();
+        const Energy energy = simulator.energy();
+        ASSERT_LT(energy.kinetic + energy.potential - start, 0.2 * 9.81 * 1e-3) << n << " rows, frame " << frame;
+      }
+      EXPECT_EQ(simulator.statistics().unsettled, 0) << n << " rows";
     }
-    EXPECT_EQ(simulator.statistics().unsettled, 0) << n << " rows";
   }
 }
 
