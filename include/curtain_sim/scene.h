@@ -164,7 +164,7 @@ struct ContactParams {
 enum class Method {
   kAuto,       ///< leapfrog with substeps from the tensions, implicit where their number reaches its cap
   kLeapfrog,   ///< constraint forces along the links' directions at the start of the step; order 2, symplectic
-  kLeapfrog4,  ///< five leapfrog steps to a substep, composed to order 4; order 2 where a string is taut or contact is near
+  kLeapfrog4,  ///< five leapfrog steps to a substep, composed to order 4 (with damping: 2); as auto where a string is taut or contact is near
   kBdf2,       ///< along the directions at the end of the step, from two steps; order 2, stable at any step
   kImplicit,   ///< the same from one step; order 1, stable at any step, damps
   kPaper       ///< Cheng 2000, Sect. 3 as printed

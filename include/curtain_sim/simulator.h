@@ -16,7 +16,8 @@
 namespace curtain {
 
 /// A curtain. Not thread-safe: one thread at a time; any number of simulators may live side by side.
-/// Same scene, same calls: same bits. step() allocates nothing, throws nothing and locks nothing.
+/// Same scene, same calls: same bits. step() throws nothing and, with one thread, allocates nothing and locks
+/// nothing (with more, oneTBB does what it needs).
 class Simulator {
  public:
   /// Builds the cloth at its start. Throws std::invalid_argument with every problem of the scene, or a mesh's.

@@ -33,7 +33,7 @@ struct ClothPattern {
 struct ClothState {
   Field3 position;            ///< [m]
   Field3 velocity;            ///< [m/s], at the time of the positions minus velocity_age
-  double velocity_age = 0.0;  ///< [s], >= 0
+  double velocity_age = 0.0;  ///< [s], >= 0 between substeps
 };
 
 /// Rest lengths, masses and pins of a validated scene.

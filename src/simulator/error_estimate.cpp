@@ -11,6 +11,8 @@ namespace {
 constexpr double kAim = 0.7;
 constexpr double kFewer = 0.35;
 constexpr int kMostSubsteps = 4096;
+// Of the error that the difference must be: of steps nearly alike it tells nothing.
+constexpr double kLeastPart = 0.3;
 constexpr double kRehearsal = 0.5;  // [s]
 // Within a second errors grow at least with the square of time, since errors of velocities move the nodes; from the half
 // second of a rehearsal on with the cube, as measured on chains released at 45 degrees (power 1.5 to 2.2) and 90 (2.8 to 3.2):
@@ -20,18 +22,21 @@ constexpr double kGrowthOfGuess = 3.0;
 
 }  // namespace
 
-ErrorEstimate::ErrorEstimate(const ClothPattern& pattern, double frame_length, double tolerance, int order)
+ErrorEstimate::ErrorEstimate(const ClothPattern& pattern, double frame_length, double tolerance, int order,
+                             int steps_per_substep)
     : pattern_(pattern),
       frame_length_(frame_length),
       tolerance_(tolerance),
       order_(order),
+      steps_per_substep_(steps_per_substep),
       window_(std::max(1, static_cast<int>(std::lround(1.0 / frame_length)))) {}
 
 void ErrorEstimate::reset() noexcept {
   substeps_ = 1;
   frames_ = 0;
   compared_ = 0;
-  substeps_sum_ = companion_sum_ = 0.0;
+  steps_sum_ = companion_sum_ = 0.0;
+  of_stages_ = true;
   now_ = last_second_ = 0.0;
 }
 
@@ -39,7 +44,8 @@ int ErrorEstimate::rehearsalFrames() const noexcept {
   return std::max(1, static_cast<int>(std::lround(kRehearsal / frame_length_)));
 }
 
-double ErrorEstimate::error(const Field3& a, double n, const Field3& b, double m) const noexcept {
+double ErrorEstimate::error(const Field3& a, double n, const Field3& b, double m,
+                            int order) const noexcept {
   double sum = 0.0;
   std::size_t count = 0;
   for (std::size_t k = 0; k < pattern_.grid.size(); ++k) {
@@ -47,8 +53,8 @@ double ErrorEstimate::error(const Field3& a, double n, const Field3& b, double m
     sum += (a.at(k) - b.at(k)).squaredNorm();
     ++count;
   }
-  const double part = std::abs(1.0 - std::pow(n / m, order_));
-  return count > 0 && part > 0.0 ? std::sqrt(sum / static_cast<double>(count)) / part : 0.0;
+  const double part = std::abs(1.0 - std::pow(n / m, order));
+  return count > 0 && part > kLeastPart ? std::sqrt(sum / static_cast<double>(count)) / part : 0.0;
 }
 
 void ErrorEstimate::aimAt(double error_per_second, double substeps) noexcept {
@@ -62,33 +68,35 @@ void ErrorEstimate::rehearsed(const Field3& position, int substeps, const Field3
                               int finer_substeps) noexcept {
   const double growth = std::pow(1.0 / (rehearsalFrames() * frame_length_), kGrowthOfGuess);
   substeps_ = substeps;
-  aimAt(growth * error(position, substeps, finer_position, finer_substeps), substeps);
+  aimAt(growth * error(position, substeps, finer_position, finer_substeps, order_), substeps);
 }
 
-void ErrorEstimate::frameMade(const Field3& position, int substeps, const Field3* companion,
-                              int companion_substeps) noexcept {
+void ErrorEstimate::frameMade(const Field3& position, int steps, const Field3* companion, int companion_steps,
+                              bool of_stages) noexcept {
   const bool in_window = companionMoves();
   ++frames_;
   if (!in_window) return;
   if (companion == nullptr) {  // it starts anew with the next frame
     compared_ = 0;
-    substeps_sum_ = companion_sum_ = 0.0;
+    steps_sum_ = companion_sum_ = 0.0;
   } else {
     ++compared_;
-    substeps_sum_ += substeps;
-    companion_sum_ += companion_substeps;
-    now_ = error(position, substeps_sum_ / compared_, *companion, companion_sum_ / compared_);
+    of_stages_ = of_stages_ && of_stages;
+    steps_sum_ += steps;
+    companion_sum_ += companion_steps;
+    now_ = error(position, steps_sum_, *companion, companion_sum_, of_stages_ ? order_ : 2);
   }
   const bool over = !companionMoves();
-  if (over && compared_ > 0) {
+  if (over && compared_ > 0 && now_ > 0.0) {
     // A companion that was lost on the way tells of the time it was there.
     last_second_ = now_ * std::pow(static_cast<double>(window_) / compared_, kGrowth);
-    aimAt(last_second_, substeps_sum_ / compared_);
+    aimAt(last_second_, steps_sum_ / (compared_ * steps_per_substep_));
   }
   if (!over) return;
   now_ = 0.0;
   compared_ = 0;
-  substeps_sum_ = companion_sum_ = 0.0;
+  of_stages_ = true;
+  steps_sum_ = companion_sum_ = 0.0;
 }
 
 double ErrorEstimate::perSecond() const noexcept { return std::max(now_, last_second_); }

@@ -4,7 +4,7 @@
 //
 // For one second out of four a companion moves along, from the same start in half (or twice) as many substeps. By the
 // scheme's order p the error of the motion is what the two differ by over |1 - (n/m)^p|, n and m being their substeps
-// (Richardson 1911): no assumption on how errors grow enters. Before the first second a quarter of one is rehearsed with a
+// (Richardson 1911): no assumption on how errors grow enters. Before the first second half of one is rehearsed with a
 // first guess, so that the motion starts with about the substeps it needs. RMS over the nodes that can move.
 #pragma once
 
@@ -15,8 +15,9 @@ namespace curtain {
 class ErrorEstimate {
  public:
   /// tolerance  [m per simulated second], > 0
-  /// order      of the scheme
-  ErrorEstimate(const ClothPattern& pattern, double frame_length, double tolerance, int order);
+  /// order      of the scheme; where its stages could not be made in the window, it is taken for 2
+  /// steps_per_substep  leapfrog steps that a substep is made of
+  ErrorEstimate(const ClothPattern& pattern, double frame_length, double tolerance, int order, int steps_per_substep);
 
   /// Methods whose error it can tell: those that are made of leapfrog steps.
   static bool knows(Method method) {
@@ -42,25 +43,28 @@ class ErrorEstimate {
   int rehearsalFrames() const noexcept;
   void rehearsed(const Field3& position, int substeps, const Field3& finer_position, int finer_substeps) noexcept;
 
-  /// A frame has gone by in so many substeps. companion: null when it is not on its way or has failed.
-  void frameMade(const Field3& position, int substeps, const Field3* companion, int companion_substeps) noexcept;
+  /// A frame has gone by in so many leapfrog steps. companion: null when it is not on its way or has failed. of_stages: all
+  /// steps were stages of whole substeps.
+  void frameMade(const Field3& position, int steps, const Field3* companion, int companion_steps, bool of_stages) noexcept;
 
   /// Estimated error of the positions that a second of motion adds [m].
   double perSecond() const noexcept;
 
  private:
   static constexpr int kEverySeconds = 4;
-  double error(const Field3& a, double n, const Field3& b, double m) const noexcept;
+  double error(const Field3& a, double n, const Field3& b, double m, int order) const noexcept;
   void aimAt(double error_per_second, double substeps) noexcept;
 
   const ClothPattern& pattern_;
   double frame_length_, tolerance_;
   int order_;
+  int steps_per_substep_;
+  bool of_stages_ = true;  // in the present window
   int window_;  // frames of a second
   int substeps_ = 1;
   long frames_ = 0;
   int compared_ = 0;        // frames of the present window
-  double substeps_sum_ = 0.0, companion_sum_ = 0.0;
+  double steps_sum_ = 0.0, companion_sum_ = 0.0;
   double now_ = 0.0, last_second_ = 0.0;
 };
 

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "cloth/wide.h"
-#include "forces/air_damping.h"
 
 namespace curtain {
 namespace {
@@ -19,8 +18,6 @@ constexpr double kFirstSweepShare = 1e-4;
 // Newton converges quadratically: an iteration that starts this close ends near the square of it, times a factor that
 // grows with the column's height.
 constexpr double kNewtonStop = 1e-3;
-// From this close it certainly ends within any tolerance; from further off the rods are looked at again.
-constexpr double kSureStop = 1e-4;
 // In later sweeps the next one looks again, so a start this close is left at that.
 constexpr double kNewtonStopLater = 1e-2;
 // For what is left to be rounding.
@@ -51,8 +48,6 @@ constexpr double kStallFactor = 0.8;
 // With contact, which takes turns with the links and gains a constant factor a turn.
 constexpr int kContactStallWindow = 16;
 constexpr double kContactStallFactor = 0.9;
-// Rounds of the linear velocity projection.
-constexpr int kVelocityRounds = 2;
 // Levenberg-Marquardt term of the weft's solve, over the diagonal: in proportion to the residual, so that it vanishes as
 // the solve ends. Constant, it leaves combinations that hardly move anything to creep by a few percent a sweep.
 constexpr double kDampingPerResidual = 0.05;
@@ -60,8 +55,6 @@ constexpr double kLargestDamping = 0.1;
 constexpr double kPoorSweep = 0.8;
 constexpr double kMoreCaution = 8.0;
 constexpr double kLessCaution = 2.0;
-constexpr double kVelocityDamping = 1e-4;
-constexpr int kRowsPerBlock = 8;
 
 double smallestRest(const ClothPattern& pattern) {
   const Grid& grid = pattern.grid;
@@ -75,14 +68,6 @@ double smallestRest(const ClothPattern& pattern) {
   return smallest;
 }
 
-double freeMass(const ClothPattern& pattern) {
-  double sum = 0.0;
-  for (std::size_t n = 0; n < pattern.grid.size(); ++n) {
-    if (pattern.inverse_mass[n] > 0.0) sum += pattern.mass[n];
-  }
-  return sum;
-}
-
 }  // namespace
 
 ExactSolver::ExactSolver(const ClothPattern& pattern, double stretch_tolerance, int max_sweeps, const Workers& workers)
@@ -91,9 +76,10 @@ ExactSolver::ExactSolver(const ClothPattern& pattern, double stretch_tolerance, 
       tolerance_(kInnerTolerance * stretch_tolerance),
       contact_tolerance_(kInnerTolerance * stretch_tolerance * smallestRest(pattern)),
       max_sweeps_(max_sweeps),
+      sure_stop_(std::sqrt(tolerance_) / pattern.grid.rows),
+      inertia_(pattern),
       net_(pattern, workers),
-      mean_rest_(pattern.weft_rest[1]),
-      free_mass_(freeMass(pattern)) {
+      mean_rest_(pattern.weft_rest[1]) {
   const std::size_t size = pattern.grid.size();
   const std::size_t links = size + static_cast<std::size_t>(pattern.grid.stride);
   scratch_.assign(pattern.grid);
@@ -101,25 +87,22 @@ ExactSolver::ExactSolver(const ClothPattern& pattern, double stretch_tolerance, 
   weft_.assign(pattern.grid);
   last_warp_.assign(links, 0.0);
   last_weft_.assign(links, 0.0);
-  for (Field* field : {&load_, &keep_, &violation_, &active_, &change_}) field->assign(size, 0.0);
-  answer_ = pattern.inverse_mass;
+  for (Field* field : {&violation_, &active_, &change_}) field->assign(size, 0.0);
   free_per_square_ = freeWeft(pattern);
   next_.assign(size, 0.0);
   for (Field3* field : {&base_.position, &base_.velocity, &older_position_, &older_velocity_}) field->assign(size, 0.0);
   block_begun_.resize(static_cast<std::size_t>(warpBlockCount(pattern.grid)));
   block_load_.resize(block_begun_.size());
   block_progress_.resize(static_cast<std::size_t>(warpBlockCount(pattern.grid)));
-  row_worst_.resize(static_cast<std::size_t>((pattern.grid.rows + kRowsPerBlock - 1) / kRowsPerBlock));
+  row_worst_.resize(static_cast<std::size_t>((pattern.grid.rows + kRowsAtOnce - 1) / kRowsAtOnce));
 }
 
 void ExactSolver::reset() noexcept {
   std::fill(last_warp_.begin(), last_warp_.end(), 0.0);
   std::fill(last_weft_.begin(), last_weft_.end(), 0.0);
   std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0);
-  std::fill(load_.begin(), load_.end(), 0.0);
-  last_scale_ = 0.0;
+  inertia_.forget();
   weft_pulls_ = false;
-  heaviest_load_ = 0.0;
   older_h_ = 0.0;
   net_.reset();
   scratch_.assign(pattern_.grid);
@@ -130,7 +113,7 @@ void ExactSolver::save(Memory& memory) const {
   memory.weft = last_weft_;
   memory.older_position = older_position_;
   memory.older_velocity = older_velocity_;
-  memory.scale = last_scale_;
+  memory.tensions = inertia_.tensions();
   memory.older_h = older_h_;
   memory.weft_pulls = weft_pulls_;
 }
@@ -140,73 +123,10 @@ void ExactSolver::restore(const Memory& memory) {
   last_weft_ = memory.weft;
   older_position_ = memory.older_position;
   older_velocity_ = memory.older_velocity;
-  last_scale_ = memory.scale;
+  inertia_.tensions() = memory.tensions;
   older_h_ = memory.older_h;
   weft_pulls_ = memory.weft_pulls;
-}
-
-// Calls look(row) for all rows; the largest of what it returns.
-template <typename Look>
-double ExactSolver::worstOfRows(const Look& look) noexcept {
-  const int rows = pattern_.grid.rows;
-  workers_.run(static_cast<int>(row_worst_.size()), [&](int b) {
-    double worst = 0.0;
-    const int end = std::min((b + 1) * kRowsPerBlock, rows);
-    for (int i = b * kRowsPerBlock; i < end; ++i) worst = std::max(worst, look(i));
-    row_worst_[static_cast<std::size_t>(b)] = worst;
-  });
-  return *std::max_element(row_worst_.begin(), row_worst_.end());
-}
-
-// How nodes answer an impulse: damping takes a share (gain), and nodes that the tensions would make swing too fast for
-// the step are heavier. h^2 omega^2 <= 2 w sum |s| by Gershgorin, s scaled to this step.
-void ExactSolver::setInertia(const NodeForces& forces, double kick, double scale, double most_phase) noexcept {
-  inertia_ = &pattern_.inverse_mass;
-  const std::size_t size = pattern_.grid.size();
-  if (forces.has_damping) {
-    inertia_ = &answer_;
-    for (std::size_t n = 0; n < size; ++n) {
-      const DampedStep step = dampedStep(forces.damping[n], pattern_.inverse_mass[n], kick);
-      answer_[n] = step.gain * pattern_.inverse_mass[n];
-      keep_[n] = step.keep;
-    }
-  }
-  if (most_phase <= 0.0 || last_scale_ == 0.0) return;
-  const double per_phase = 2.0 * std::abs(scale / last_scale_) / (most_phase * most_phase);
-  if (!(per_phase * heaviest_load_ > 1.0)) return;
-  const double* const w = inertia_->data();
-  for (std::size_t n = 0; n < size; ++n) {
-    const double needed = per_phase * load_[n];
-    answer_[n] = needed * w[n] > 1.0 ? 1.0 / needed : w[n];
-  }
-  inertia_ = &answer_;
-}
-
-double ExactSolver::stepForPhase(double most_phase, double heavier_share) const noexcept {
-  if (last_scale_ == 0.0) return std::numeric_limits<double>::infinity();
-  const std::size_t size = pattern_.grid.size();
-  // In units of 2 / (scale phase^2): a node needs a mass of u load, u = h^2 in these units.
-  const double largest = heaviest_load_;
-  if (!(largest > 0.0)) return std::numeric_limits<double>::infinity();
-  double u = 1.0 / largest;  // no node is heavier
-  const auto heavier = [&](double trial) {
-    double sum = 0.0;
-    for (std::size_t n = 0; n < size; ++n) {
-      const double extra = trial * load_[n] - pattern_.mass[n];
-      sum += pattern_.inverse_mass[n] > 0.0 && extra > 0.0 ? extra : 0.0;
-    }
-    return sum;
-  };
-  if (heavier_share > 0.0) {
-    const double allowed = heavier_share * free_mass_;
-    double factor = 2.0;
-    for (int halving = 0; halving < 6; ++halving) {  // to within 2^(1/32)
-      while (factor > 1.5 && u * largest < 1e4 && heavier(u * factor) <= allowed) u *= factor;
-      if (factor <= 1.5 && heavier(u * factor) <= allowed) u *= factor;
-      factor = std::sqrt(factor);
-    }
-  }
-  return most_phase * std::sqrt(0.5 * std::abs(last_scale_) * u);
+  if (!weft_pulls_) std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0);  // as begin() relies on
 }
 
 // Where the step starts from: leapfrog and implicit, the state itself; bdf2, what its formula makes of the last two
@@ -233,10 +153,10 @@ const ClothState& ExactSolver::setBase(Scheme scheme, double h, const ClothState
 // Predicts and starts the multipliers where the last substep left them. Not when forces follow the directions: its
 // iteration blows up when the old tensions act along the new directions of rods that have turned much since.
 void ExactSolver::begin(const SubstepPlan& plan, const SubstepStart& start, double scale) noexcept {
-  const bool warm = plan.scheme == Scheme::kLeapfrog && last_scale_ != 0.0;
-  const double ratio = warm ? scale / last_scale_ : 0.0;
-  const LineSolve warp{pattern_, *inertia_, warp_, next_};
-  const LineSolve weft{pattern_, *inertia_, weft_, next_};
+  const bool warm = plan.scheme == Scheme::kLeapfrog && inertia_.tensions().scale != 0.0;
+  const double ratio = warm ? scale / inertia_.tensions().scale : 0.0;
+  const LineSolve warp{pattern_, inertia_.inverse(), warp_, next_};
+  const LineSolve weft{pattern_, inertia_.inverse(), weft_, next_};
   directions_set_ = false;
   newton_begun_ = plan.scheme == Scheme::kLeapfrog && !weft_pulls_;
   workers_.run(warpBlockCount(pattern_.grid), [&](int block) {
@@ -325,7 +245,7 @@ void ExactSolver::followDirections() noexcept {
   workers_.run(warpBlockCount(pattern_.grid),
                [&](int block) { setWarpDirections(pattern_.grid, block, next_, warp_.direction); });
   setAllWeftDirections(next_);
-  net_.begin(next_, *inertia_);
+  net_.begin(next_, inertia_.inverse());
 }
 
 void ExactSolver::setAllWeftDirections(const Field3& position) noexcept {
@@ -357,8 +277,8 @@ void ExactSolver::solveWeft(const LineSolve& weft, double residual, const WeftSt
 ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, const Field3& start,
                                                     PositionConstraints* constraints, StageClock& clock) noexcept {
   const double tolerance = tolerance_;
-  const LineSolve warp{pattern_, *inertia_, warp_, next_};
-  const LineSolve weft{pattern_, *inertia_, weft_, next_};
+  const LineSolve warp{pattern_, inertia_.inverse(), warp_, next_};
+  const LineSolve weft{pattern_, inertia_.inverse(), weft_, next_};
   Progress progress;
   bool follow = plan.scheme != Scheme::kLeapfrog;
   bool net_ready = false;
@@ -379,7 +299,7 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
                                       : slackResidual();
     const bool at_rest = constraints == nullptr || (contact_move <= contact_tolerance_ && rods.first_residual <= tolerance);
     if (rods.converged && at_rest && residual <= (first ? kFirstSweepShare : 1.0) * tolerance &&
-        (rods.last_residual <= kSureStop || warpResidualNow(warp) <= tolerance)) {
+        (rods.last_residual <= sure_stop_ || warpResidualNow(warp) <= tolerance)) {
       progress.settled = true;
       clock.lap(Stage::kWeft);
       return progress;
@@ -399,7 +319,7 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
       } else if (!net_ready) {
         if (!directions_set_) setAllWeftDirections(start);
         directions_set_ = net_ready = true;
-        net_.begin(start, *inertia_);
+        net_.begin(start, inertia_.inverse());
       }
       const bool further = constraints != nullptr && progress.sweeps > kPlainSweeps;
       const double least = follow ? kFollowReduction : kLeastReduction;
@@ -426,30 +346,6 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
   return progress;
 }
 
-// Twice the kinetic energy the nodes would have without links [J].
-double ExactSolver::predictedKinetic(const SubstepStart& start) const noexcept {
-  double sum = 0.0;
-  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    const double w = (*inertia_)[n];
-    const double keep = start.keep != nullptr ? (*start.keep)[n] : 1.0;
-    const Vec3 velocity = keep * start.state.velocity.at(n) + start.kick * w * start.force.at(n);
-    sum += pattern_.inverse_mass[n] > 0.0 ? pattern_.mass[n] * velocity.squaredNorm() : 0.0;
-  }
-  return sum;
-}
-
-// Links that hold do no work; where they can't hold (a straight row between two pins under load) what is left over would
-// become motion.
-void ExactSolver::boundKinetic(double most, Field3& velocity) const noexcept {
-  double sum = 0.0;
-  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) sum += pattern_.mass[n] * velocity.at(n).squaredNorm();
-  if (!(sum > most)) return;
-  const double share = std::sqrt(most / sum);
-  for (Field* component : {&velocity.x, &velocity.y, &velocity.z}) {
-    for (double& v : *component) v *= share;
-  }
-}
-
 // Adds what the strings pull to the nodes' loads; returns the largest load over its mass.
 CURTAIN_WIDE double ExactSolver::loadStrings() noexcept {
   const Grid& grid = pattern_.grid;
@@ -459,7 +355,7 @@ CURTAIN_WIDE double ExactSolver::loadStrings() noexcept {
     const std::size_t row = grid.row(i);
     const double* const f = weft_.multiplier.data() + row;
     const double* const w = pattern_.inverse_mass.data() + row;
-    double* const load = load_.data() + row;
+    double* const load = inertia_.tensions().load.data() + row;
     load[last] += grid.closed ? f[last] + f[0] : f[last];
     worst = std::max(worst, load[last] * w[last]);
 #pragma omp simd reduction(max : worst)
@@ -472,19 +368,19 @@ CURTAIN_WIDE double ExactSolver::loadStrings() noexcept {
   return worst;
 }
 
-// The substep is taken. load_ / mass bounds the frequencies (Gershgorin, on the transverse oscillations of the taut net):
-// omega^2 <= max 2 w sum |s| / (h kick).
+// The substep is taken.
 void ExactSolver::commit(const ClothState& base, double step, double velocity_age, ClothState& state) noexcept {
-  const LineSolve warp{pattern_, *inertia_, warp_, next_};
+  NodeInertia::Tensions& tensions = inertia_.tensions();
+  const LineSolve warp{pattern_, inertia_.inverse(), warp_, next_};
   workers_.run(warpBlockCount(pattern_.grid), [&](int block) {
     block_load_[static_cast<std::size_t>(block)] =
-        warpFinish(warp, base.position, 1.0 / step, state.velocity, load_, block);
+        warpFinish(warp, base.position, 1.0 / step, state.velocity, tensions.load, block);
   });
-  heaviest_load_ = *std::max_element(block_load_.begin(), block_load_.end());
+  tensions.heaviest = *std::max_element(block_load_.begin(), block_load_.end());
   weft_pulls_ = directions_set_ &&
                 std::any_of(weft_.multiplier.begin(), weft_.multiplier.end(), [](double s) { return s != 0.0; });
   if (weft_pulls_) {
-    heaviest_load_ = loadStrings();
+    tensions.heaviest = loadStrings();
     last_weft_ = weft_.multiplier;
   }
   std::swap(state.position, next_);
@@ -499,9 +395,9 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   const ClothState& base = setBase(plan.scheme, plan.h, state, step);
   const double kick = leapfrog ? state.velocity_age + 0.5 * step : step + state.velocity_age;
   const double scale = step * kick;
-  setInertia(forces, kick, scale, plan.most_phase);
-  const bool falls = forces.weight_only && inertia_ == &pattern_.inverse_mass;
-  const SubstepStart start{base, *forces.force, falls ? &forces.gravity : nullptr, forces.has_damping ? &keep_ : nullptr, kick,
+  inertia_.set(forces, kick, scale, plan.most_phase, !leapfrog);
+  const bool falls = forces.weight_only && inertia_.massesAlone();
+  const SubstepStart start{base, *forces.force, falls ? &forces.gravity : nullptr, inertia_.keep(), kick,
                            step};
   begin(plan, start, scale);
   clock.lap(Stage::kPredict);
@@ -514,10 +410,10 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   SubstepOutcome outcome;
   outcome.sweeps = progress.sweeps;
   outcome.settled = progress.settled;
-  const LineSolve weft{pattern_, *inertia_, weft_, next_};
+  const LineSolve weft{pattern_, inertia_.inverse(), weft_, next_};
   outcome.accepted = progress.settled || (plan.must_accept && std::isfinite(weftResidualNow(weft)));
   if (outcome.accepted) {
-    outcome.scale = last_scale_ = scale;
+    outcome.scale = inertia_.tensions().scale = scale;
     if (plan.scheme == Scheme::kBdf2) {
       older_position_ = state.position;
       older_velocity_ = state.velocity;
@@ -529,54 +425,13 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
     const double most_kinetic = bounded ? predictedKinetic(start) : 0.0;
     commit(base, step, leapfrog ? 0.5 * step : 0.0, state);
     if (bounded) boundKinetic(most_kinetic, state.velocity);
-    outcome.omega_squared = 2.0 * heaviest_load_ / std::abs(scale);
+    outcome.omega_squared = inertia_.omegaSquared();
     // The way such a substep has gone is not all motion: what pulls its links further is taken out.
     if (progress.left_over) projectVelocity(state.position, constraints, state.velocity);
   }
   if (directions_set_ && (!outcome.accepted || !weft_pulls_)) std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0);
   clock.lap(Stage::kFinish);
   return outcome;
-}
-
-void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& forces,
-                                    PositionConstraints* constraints, Field3& out) noexcept {
-  const double age = state.velocity_age;
-  const std::size_t size = pattern_.grid.size();
-  for (std::size_t n = 0; n < size; ++n) {
-    const double w = pattern_.inverse_mass[n];
-    const DampedStep step = forces.has_damping ? dampedStep(forces.damping[n], w, age) : DampedStep{1.0, 1.0};
-    out.set(n, step.keep * state.velocity.at(n) + age * step.gain * w * forces.force->at(n));
-  }
-  if (age != 0.0) projectVelocity(state.position, constraints, out);
-}
-
-// Takes out of the velocities what would change the lengths of rods and of links that pull.
-void ExactSolver::projectVelocity(const Field3& position, PositionConstraints* constraints, Field3& out) noexcept {
-  setWarpDirections(pattern_.grid, position, warp_.direction);
-  const LineSolve warp{pattern_, pattern_.inverse_mass, warp_, out};
-  const auto solveRods = [&] {
-    for (int block = 0; block < warpBlockCount(pattern_.grid); ++block) warpProjectVelocity(warp, scratch_, block);
-  };
-  solveRods();
-  if (!weft_pulls_ && constraints == nullptr) return;
-  LinkSet& links = weft_;
-  const LineSolve weft{pattern_, pattern_.inverse_mass, links, out};
-  std::copy(last_weft_.begin(), last_weft_.end(), links.multiplier.begin());  // which links pull
-  setAllWeftDirections(position);
-  if (weft_pulls_) net_.begin(position, pattern_.inverse_mass);
-  const int rounds = constraints != nullptr ? 3 * kVelocityRounds : kVelocityRounds;
-  for (int round = 0; round < rounds; ++round) {
-    if (weft_pulls_) {
-      const double rate = worstOfRows([&](int i) { return measureWeftRates(weft, i, violation_, active_); });
-      if (rate == 0.0) break;
-      net_.solve(violation_, active_, rate * mean_rest_, kVelocityDamping, 1e-3, 2 * kGradientIterations, change_);
-      for (int i = 0; i < pattern_.grid.rows; ++i) pullWeft(weft, i, change_);
-    }
-    if (constraints != nullptr) constraints->projectVelocity(out);
-    solveRods();
-  }
-  if (!weft_pulls_) return;
-  std::fill(links.multiplier.begin(), links.multiplier.end(), 0.0);
 }
 
 }  // namespace curtain

@@ -12,7 +12,11 @@
 //   implicit  the same with one step (backward Euler): order 1, damps, stable at any step
 #pragma once
 
+#include <algorithm>
+#include <vector>
+
 #include "solver/net_solver.h"
+#include "solver/node_inertia.h"
 #include "solver/substep.h"
 #include "solver/warp_solver.h"
 #include "solver/weft_links.h"
@@ -45,16 +49,15 @@ class ExactSolver {
                          ClothState& state, StageClock& clock) noexcept;
 
   /// How nodes answered impulses in the last substep [1/kg].
-  const Field& inverseInertia() const noexcept { return inertia_ != nullptr ? *inertia_ : pattern_.inverse_mass; }
+  const Field& inverseInertia() const noexcept { return inertia_.inverse(); }
 
   /// Velocities at the time of the positions (leapfrog keeps them half a substep behind): advanced by the forces and
   /// made to agree with the links that pull.
   void currentVelocities(const ClothState& state, const NodeForces& forces, PositionConstraints* constraints,
                          Field3& out) noexcept;
 
-  /// Largest step whose phase h * omega stays within most_phase when nodes may be heavier by so much altogether, as a
-  /// share of the cloth's mass; from the tensions of the last substep, infinite when there is none.
-  double stepForPhase(double most_phase, double heavier_share) const noexcept;
+  /// The last substep's tensions, and how nodes answered in it.
+  const NodeInertia& inertia() const noexcept { return inertia_; }
 
   /// A string pulled in the last substep.
   bool weftPulls() const noexcept { return weft_pulls_; }
@@ -63,7 +66,8 @@ class ExactSolver {
   struct Memory {
     Field warp, weft;
     Field3 older_position, older_velocity;
-    double scale = 0.0, older_h = 0.0;
+    NodeInertia::Tensions tensions;
+    double older_h = 0.0;
     bool weft_pulls = false;
   };
   void save(Memory& memory) const;
@@ -86,7 +90,6 @@ class ExactSolver {
     double first_residual = 0.0;  // before the first iteration
     double last_residual = 0.0;   // before the last one
   };
-  void setInertia(const NodeForces& forces, double kick, double scale, double most_phase) noexcept;
   const ClothState& setBase(Scheme scheme, double h, const ClothState& state, double& step) noexcept;
   void begin(const SubstepPlan& plan, const SubstepStart& start, double scale) noexcept;
   Progress solveConstraints(const SubstepPlan& plan, const Field3& start, PositionConstraints* constraints,
@@ -109,26 +112,24 @@ class ExactSolver {
   template <typename Look>
   double worstOfRows(const Look& look) noexcept;
 
+  static constexpr int kRowsAtOnce = 8;
+
   const ClothPattern& pattern_;
   const Workers& workers_;
   double tolerance_;          // relative, inside the solver
   double contact_tolerance_;  // [m]
   int max_sweeps_;
+  double sure_stop_;          // Newton from this close ends within the tolerance: it leaves at most (rows * this)^2
+  NodeInertia inertia_;
   NetSolver net_;
   LineScratch scratch_;
   LinkSet warp_, weft_;
   Field last_warp_, last_weft_;  // multipliers of the last accepted substep
-  double last_scale_ = 0.0;      // its h * kick [s^2]; 0 = none yet
   bool weft_pulls_ = false;      // a multiplier of last_weft_ is not zero
   bool directions_set_ = false;  // of the weft, in this substep
   bool newton_begun_ = false;    // begin() has made the first iteration on the rods
   bool measured_ = false;        // violation_ and active_ are of the positions as they are
-  double mean_rest_ = 1.0;       // of the weft [m]
-  Field load_;                   // sum of |multiplier| of each node's links, last substep [kg]
-  double heaviest_load_ = 0.0;   // the largest of it over the node's mass
-  double free_mass_ = 0.0;       // [kg]
-  Field answer_, keep_;          // inverse inertia and what damping keeps, when not the pattern's
-  const Field* inertia_ = nullptr;
+  double mean_rest_ = 1.0;       // of a weft link, for scale [m]
   Field violation_, active_, change_;
   Field free_per_square_;  // of weft links with an end that can move: 1 / rest length^2 [1/m^2]; others: 0
   std::vector<LineOutcome> block_begun_;
@@ -140,5 +141,18 @@ class ExactSolver {
   Field3 older_position_, older_velocity_;
   double older_h_ = 0.0;        // length of the step between these and the present; 0 = none
 };
+
+// Calls look(row) for all rows; the largest of what it returns.
+template <typename Look>
+double ExactSolver::worstOfRows(const Look& look) noexcept {
+  const int rows = pattern_.grid.rows;
+  workers_.run(static_cast<int>(row_worst_.size()), [&](int b) {
+    double worst = 0.0;
+    const int end = std::min((b + 1) * kRowsAtOnce, rows);
+    for (int i = b * kRowsAtOnce; i < end; ++i) worst = std::max(worst, look(i));
+    row_worst_[static_cast<std::size_t>(b)] = worst;
+  });
+  return *std::max_element(row_worst_.begin(), row_worst_.end());
+}
 
 }  // namespace curtain

@@ -155,7 +155,7 @@ CURTAIN_WIDE void NetSolver::factorWeft(int b) noexcept {
       const float pivot = diagonal[r] * (1.0F + damping_) - off_before[r] * lower_before[r];
       const float smallest = kSmallestPivot * diagonal[r];
       const float safe = pivot > smallest ? pivot : smallest;
-      const float inverted = on[r] > 0.0F ? 1.0F / safe : 0.0F;
+      const float inverted = on[r] > 0.0F ? 1.0F / (safe > 0.0F ? safe : 1.0F) : 0.0F;
       const float coupling = on[r] * off[r];
       inverse[r] = inverted;
       lower[r] = coupling * inverted;
@@ -229,6 +229,8 @@ CURTAIN_WIDE void NetSolver::answerOfRods(int block) noexcept {
       s[j] = nx[j] * (ux[j] - ax[j]) + ny[j] * (uy[j] - ay[j]) + nz[j] * (uz[j] - az[j]) - lower_above[j] * s_above[j];
     }
   }
+  // No rod ends at the top row; after numbers that were not finite it must not remember them.
+  std::fill_n(rods_.begin() + static_cast<std::ptrdiff_t>(first), kColumns, 0.0F);
   for (int i = rows - 1; i >= 0; --i) {
     const std::size_t k = row(i) + first;
     const float* const w = &weight_[k];

@@ -76,8 +76,8 @@ double StepControl::stepFromTensions(bool frame_begins, const ExactSolver& solve
   const double longest_stage = composed_ ? kLongestStage : 1.0;
   const double for_phase = omega_ > 0.0 ? kPhasePerStep / (longest_stage * omega_) : frame_;
   if (method_ != Method::kAuto || for_phase > kWorthLooking * frame_) return for_phase;
-  if (frame_begins) heavier_step_ = solver.stepForPhase(kPhasePerStep, kHeavierShare);
-  return std::max(for_phase, heavier_step_);
+  if (frame_begins) heavier_step_ = solver.inertia().stepForPhase(kPhasePerStep, kHeavierShare);
+  return std::isfinite(heavier_step_) ? std::max(for_phase, heavier_step_) : for_phase;
 }
 
 SubstepPlan StepControl::next(double remaining, const ExactSolver& solver) noexcept {
@@ -102,6 +102,7 @@ SubstepPlan StepControl::next(double remaining, const ExactSolver& solver) noexc
   plan.must_accept = plan.scheme == Scheme::kImplicit || method_ == Method::kPaper;
   double step = std::min(wanted, std::max(limit_, smallest));
   if (plan.scheme == Scheme::kImplicit && method_ != Method::kImplicit) step = std::min(most, implicit_step_);
+  if (plan.scheme != Scheme::kLeapfrog) plan.most_phase = 0.0;  // stable at any step
   // Equal shares of what is left; the small slack keeps rounding from adding a substep.
   plan.h = remaining / std::max(1.0, std::ceil(remaining / step - 1e-6));
   return plan;
@@ -114,13 +115,15 @@ double StepControl::longestStableStep() const noexcept {
 double StepControl::stablePhase() noexcept { return kStablePhase; }
 
 bool StepControl::askFor(int substeps) noexcept {
-  const bool changed = substeps != asked_;
+  const int before = asked_;
   asked_ = std::clamp(substeps, 1, max_substeps_);
-  return changed;
+  return asked_ != before;
 }
 
+void StepControl::watch(const SubstepOutcome& outcome) noexcept { omega_ = std::sqrt(outcome.omega_squared); }
+
 void StepControl::accepted(const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept {
-  omega_ = std::sqrt(outcome.omega_squared);
+  watch(outcome);
   if (plan.scheme == Scheme::kImplicit) {
     // Where not even that settles (cloth jammed between what can't give way) small steps are wasted: larger ones bound
     // the work of a frame.

@@ -24,6 +24,8 @@ class StepControl {
   static double stablePhase() noexcept;
   /// At least so many substeps a frame. True when that is not what was asked for before.
   bool askFor(int substeps) noexcept;
+  /// Takes note of the tensions of a substep that was not its own.
+  void watch(const SubstepOutcome& outcome) noexcept;
   void accepted(const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept;
   void rejected(const SubstepPlan& plan) noexcept;
 

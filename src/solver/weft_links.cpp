@@ -195,7 +195,9 @@ CURTAIN_WIDE double weftMoveSquared(const LineSolve& line, int i, const Field& m
     const double size = (x * x + y * y + z * z) * per_square[j + 1];
     worst = worst > size ? worst : size;
   }
-  return worst;
+  const auto wrapped = [&](const double* d) { return w[last] * ((grid.closed ? s[0] * d[0] : 0.0) - s[last] * d[last]); };
+  const double x = wrapped(dx), y = wrapped(dy), z = wrapped(dz);
+  return std::max(worst, (x * x + y * y + z * z) * per_square[last]);
 }
 
 CURTAIN_WIDE double weftStretch(const ClothPattern& pattern, const Field3& position) noexcept {

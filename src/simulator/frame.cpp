@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Frames and their substeps: the loop of Cheng 2000, Sect. 1.3.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "simulator/simulator_impl.h"
+#include "solver/composition.h"
+
+namespace curtain {
+
+// One attempt at a substep from `done` seconds into the frame.
+SubstepOutcome Simulator::Impl::attempt(const SubstepPlan& plan, double done) {
+  const double frame_length = 1.0 / scene.solver.frame_rate;
+  PositionConstraints* const constraints = obstacles.anyPresent() ? &contact : nullptr;
+  clock.start();
+  if (constraints != nullptr) obstacles.setSubstep(done / frame_length, (done + plan.h) / frame_length);
+  const NodeForces& now = forces.evaluate(state, statistics.time + done, plan.h);
+  clock.lap(Stage::kForces);
+  const SubstepOutcome outcome = scene.solver.method == Method::kPaper
+                                     ? paper.substep(now, plan.h, constraints, state, clock)
+                                     : exact.substep(plan, now, constraints, state, clock);
+  statistics.sweeps += outcome.sweeps;
+  statistics.sweeps_last += outcome.sweeps;
+  return outcome;
+}
+
+// A substep of five stages. False, and nothing changed: a string pulls or something touches, which forbids to go back in
+// time.
+bool Simulator::Impl::makeComposed(const SubstepPlan& plan, double done) {
+  if (exact.weftPulls()) return false;
+  exact.save(before.memory);
+  before.state = state;
+  double at = done;
+  for (const double gamma : kStages) {
+    SubstepPlan stage = plan;
+    stage.h = gamma * plan.h;
+    stage.must_accept = false;
+    const SubstepOutcome outcome = attempt(stage, at);
+    if (!outcome.accepted || exact.weftPulls() || (obstacles.anyPresent() && contact.any())) {
+      state = before.state;
+      exact.restore(before.memory);
+      return false;
+    }
+    control.accepted(stage, outcome);
+    plain_control.watch(outcome);
+    contact_scale = outcome.scale;
+    at += stage.h;
+  }
+  steps_made += static_cast<int>(kStages.size());
+  return true;
+}
+
+// One substep from `done` seconds into the frame. Returns how far it came: 0 when it was rejected.
+double Simulator::Impl::makeSubstep(double done) {
+  const double frame_length = 1.0 / scene.solver.frame_rate;
+  StepControl* steps = &control;
+  SubstepPlan plan = control.next(frame_length - done, exact);
+  if (scene.solver.method == Method::kLeapfrog4) {
+    if (plain_frames == 0 && makeComposed(plan, done)) {
+      ++statistics.substeps;
+      ++statistics.substeps_last;
+      return plan.h;
+    }
+    // As auto would, for a second: strings that pull now and then would else change the scheme all the time, and every change
+    // shakes them.
+    if (plain_frames == 0) plain_frames = static_cast<int>(std::ceil(scene.solver.frame_rate));
+    steps = &plain_control;
+    plan = plain_control.next(frame_length - done, exact);
+  }
+  const SubstepOutcome outcome = attempt(plan, done);
+  if (!outcome.accepted) {
+    ++statistics.rejected;
+    steps->rejected(plan);
+    if (!plan.must_accept) return 0.0;
+    // Not even finite: forces beyond all numbers. The cloth stays where it is, at rest, until they are over.
+    state.velocity.assign(pattern.grid.size(), 0.0);
+    state.velocity_age = 0.0;
+    exact.reset();
+    ++statistics.stops;
+    return plan.h;
+  }
+  steps->accepted(plan, outcome);
+  ++steps_made;
+  of_stages = of_stages && steps == &control;
+  if (steps != &control) control.watch(outcome);
+  contact_scale = outcome.scale;
+  ++statistics.substeps;
+  ++statistics.substeps_last;
+  if (plan.scheme == Scheme::kImplicit && scene.solver.method != Method::kImplicit) ++statistics.implicit;
+  if (!outcome.settled) ++statistics.unsettled;
+  contact.afterSubstep(outcome.settled);
+  return plan.h;
+}
+
+void Simulator::Impl::makeFrame() {
+  const double frame_length = 1.0 / scene.solver.frame_rate;
+  double done = 0.0;
+  while (frame_length - done > 1e-9 * frame_length) done += makeSubstep(done);
+}
+
+void Simulator::Impl::step() {
+  const auto begin = std::chrono::steady_clock::now();
+  const double frame_length = 1.0 / scene.solver.frame_rate;
+  statistics.time = static_cast<double>(frame) * frame_length;
+  obstacles.beginFrame(static_cast<double>(frame + 1) * frame_length);
+  if (estimate != nullptr) {
+    clock.start();
+    if (frame == 0) rehearse();
+    if (estimate->companionMoves()) moveCompanion();
+    if (control.askFor(estimate->substeps())) synchronise();
+    clock.lap(Stage::kEstimate);
+  }
+  statistics.substeps_last = 0;
+  statistics.sweeps_last = 0;
+  velocities_fresh = false;
+  steps_made = 0;
+  of_stages = true;
+  if (plain_frames > 0) --plain_frames;
+  makeFrame();
+  if (estimate != nullptr) {
+    const bool compares = estimate->companionMoves() && !companion.lost;
+    estimate->frameMade(state.position, steps_made, compares ? &companion.state.position : nullptr, companion.steps,
+                        of_stages && companion.of_stages);
+    statistics.position_error = estimate->perSecond();
+    clock.lap(Stage::kEstimate);
+  }
+  obstacles.endFrame();
+  ++frame;
+  statistics.frames = frame;
+  statistics.time = static_cast<double>(frame) * frame_length;
+  measure();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  statistics.step_seconds = seconds;
+  statistics.step_seconds_max = std::max(statistics.step_seconds_max, seconds);
+  statistics.step_seconds_sum += seconds;
+  statistics.stage_seconds = clock.seconds();
+}
+
+void Simulator::Impl::measure() {
+  clock.start();
+  Statistics& s = statistics;
+  const Stretch warp = warpStretch(pattern, state.position);
+  s.warp_stretch = warp.longer;
+  s.warp_compression = warp.shorter;
+  s.weft_stretch = weftStretch(pattern, state.position);
+  s.warp_stretch_max = std::max(s.warp_stretch_max, s.warp_stretch);
+  s.weft_stretch_max = std::max(s.weft_stretch_max, s.weft_stretch);
+  s.warp_compression_max = std::max(s.warp_compression_max, s.warp_compression);
+  const bool near = obstacles.anyPresent() && contact.any();
+  s.contacts = near ? contact.contactCount() : 0;
+  s.contacts_max = std::max(s.contacts_max, s.contacts);
+  if (near) s.penetration_max = std::max(s.penetration_max, contact.deepestPenetration(state.position));
+  const double sum = s.warp_stretch + s.warp_compression + s.weft_stretch;
+  if (!std::isfinite(sum)) s.finite = false;
+  clock.lap(Stage::kFinish);
+}
+
+const Field3& Simulator::Impl::currentVelocities() {
+  if (velocities_fresh) return velocities;
+  if (frame == 0 || state.velocity_age == 0.0) {
+    velocities = state.velocity;
+  } else {
+    exact.currentVelocities(state, forces.last(), obstacles.anyPresent() ? &contact : nullptr, velocities);
+  }
+  velocities_fresh = true;
+  return velocities;
+}
+
+}  // namespace curtain

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What a simulator is made of. simulator.cpp: what users call; frame.cpp: frames and their substeps; companion.cpp: the
+// position tolerance.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "contact/obstacle_contact.h"
+#include "curtain_sim/simulator.h"
+#include "simulator/error_estimate.h"
+#include "simulator/fine_surface.h"
+#include "simulator/force_field.h"
+#include "solver/exact_solver.h"
+#include "solver/paper_solver.h"
+#include "solver/step_control.h"
+
+namespace curtain {
+
+struct Simulator::Impl {
+  Impl(const Scene& given, const MeshResolver& resolve);
+
+  void reset();
+  void step();
+  void makeFrame();
+  bool makeEvenSubstep(const SubstepPlan& plan, double done, int divisions);
+  bool makeEvenFrame(int substeps);
+  void rehearse();
+  void moveCompanion();
+  void synchronise();
+  double makeSubstep(double done);
+  bool makeComposed(const SubstepPlan& plan, double done);
+  SubstepOutcome attempt(const SubstepPlan& plan, double done);
+  void measure();
+  const Field3& currentVelocities();
+
+  const Scene scene;
+  const ClothPattern pattern;
+  const ClothState initial;
+  ClothState state;
+  ForceField forces;
+  ObstacleSet obstacles;
+  ObstacleContact contact;
+  Workers workers;
+  ExactSolver exact;
+  PaperSolver paper;
+  StepControl control;
+  int plain_frames = 0;       // to go before leapfrog4 composes again
+  StepControl plain_control;  // for leapfrog4, where its stages can't be made
+  FineSurface surface;
+  // What a substep of several stages goes back to.
+  struct {
+    ClothState state;
+    ExactSolver::Memory memory;
+  } before;
+  // With a position tolerance: the estimate, the motion's companion, and what to go back to.
+  struct Held {
+    ClothState state;
+    ExactSolver::Memory memory;
+    int substeps = 0;   // a frame
+    int steps = 0;      // leapfrog steps in the last frame
+    bool of_stages = true;
+    bool lost = false;  // a substep failed
+    bool in_finer_steps = false;
+  };
+  std::unique_ptr<ErrorEstimate> estimate;
+  Held companion, rehearsal;
+  int steps_made = 0;      // leapfrog steps of the present frame, for the estimate
+  bool of_stages = true;   // all of them were stages of whole substeps
+  Statistics statistics;
+  StageClock clock;
+  std::int64_t frame = 0;
+  double contact_scale = 0.0;  // h * kick of the last substep [s^2]; 0 = none yet
+  Field3 velocities;           // at the time of the positions
+  bool velocities_fresh = false;
+};
+
+}  // namespace curtain

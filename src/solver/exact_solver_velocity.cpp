@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The solver's velocities: at the time of the positions, free of what would change the links' lengths, and bounded where
+// links can't hold.
+#include <cmath>
+
+#include "forces/air_damping.h"
+#include "solver/exact_solver.h"
+
+namespace curtain {
+namespace {
+
+// Rounds of the linear velocity projection.
+constexpr int kVelocityRounds = 2;
+constexpr double kVelocityDamping = 1e-4;
+constexpr double kVelocityReduction = 1e-3;
+constexpr int kVelocityIterations = 24;
+
+}  // namespace
+
+// Twice the kinetic energy the nodes would have without links [J].
+double ExactSolver::predictedKinetic(const SubstepStart& start) const noexcept {
+  double sum = 0.0;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    const double w = inertia_.inverse()[n];
+    const double keep = start.keep != nullptr ? (*start.keep)[n] : 1.0;
+    const Vec3 velocity = keep * start.state.velocity.at(n) + start.kick * w * start.force.at(n);
+    sum += pattern_.inverse_mass[n] > 0.0 ? pattern_.mass[n] * velocity.squaredNorm() : 0.0;
+  }
+  return sum;
+}
+
+// Links that hold do no work; where they can't hold (a straight row between two pins under load) what is left over would
+// become motion.
+void ExactSolver::boundKinetic(double most, Field3& velocity) const noexcept {
+  double sum = 0.0;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) sum += pattern_.mass[n] * velocity.at(n).squaredNorm();
+  if (!(sum > most)) return;
+  const double share = std::sqrt(most / sum);
+  for (Field* component : {&velocity.x, &velocity.y, &velocity.z}) {
+    for (double& v : *component) v *= share;
+  }
+}
+
+void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& forces,
+                                    PositionConstraints* constraints, Field3& out) noexcept {
+  const double age = state.velocity_age;
+  const std::size_t size = pattern_.grid.size();
+  for (std::size_t n = 0; n < size; ++n) {
+    const double w = pattern_.inverse_mass[n];
+    const DampedStep step = forces.has_damping ? dampedStep(forces.damping[n], w, age) : DampedStep{1.0, 1.0};
+    out.set(n, step.keep * state.velocity.at(n) + age * step.gain * w * forces.force->at(n));
+  }
+  if (age != 0.0) projectVelocity(state.position, constraints, out);
+}
+
+// Takes out of the velocities what would change the lengths of rods and of links that pull.
+void ExactSolver::projectVelocity(const Field3& position, PositionConstraints* constraints, Field3& out) noexcept {
+  setWarpDirections(pattern_.grid, position, warp_.direction);
+  const LineSolve warp{pattern_, pattern_.inverse_mass, warp_, out};
+  const auto solveRods = [&] {
+    for (int block = 0; block < warpBlockCount(pattern_.grid); ++block) warpProjectVelocity(warp, scratch_, block);
+  };
+  solveRods();
+  if (!weft_pulls_ && constraints == nullptr) return;
+  LinkSet& links = weft_;
+  const LineSolve weft{pattern_, pattern_.inverse_mass, links, out};
+  if (weft_pulls_) {
+    std::copy(last_weft_.begin(), last_weft_.end(), links.multiplier.begin());  // which links pull
+    setAllWeftDirections(position);
+    net_.begin(position, pattern_.inverse_mass);
+  }
+  const int rounds = constraints != nullptr ? 3 * kVelocityRounds : kVelocityRounds;
+  for (int round = 0; round < rounds; ++round) {
+    if (weft_pulls_) {
+      const double rate = worstOfRows([&](int i) { return measureWeftRates(weft, i, violation_, active_); });
+      if (rate == 0.0) break;
+      net_.solve(violation_, active_, rate * mean_rest_, kVelocityDamping, kVelocityReduction,
+                 kVelocityIterations, change_);
+      for (int i = 0; i < pattern_.grid.rows; ++i) pullWeft(weft, i, change_);
+    }
+    if (constraints != nullptr) constraints->projectVelocity(out);
+    solveRods();
+  }
+  if (!weft_pulls_) return;
+  std::fill(links.multiplier.begin(), links.multiplier.end(), 0.0);
+}
+
+}  // namespace curtain

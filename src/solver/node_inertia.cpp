@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/node_inertia.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "forces/air_damping.h"
+
+namespace curtain {
+namespace {
+
+double freeMass(const ClothPattern& pattern) {
+  double sum = 0.0;
+  for (std::size_t n = 0; n < pattern.grid.size(); ++n) {
+    if (pattern.inverse_mass[n] > 0.0) sum += pattern.mass[n];
+  }
+  return sum;
+}
+
+}  // namespace
+
+NodeInertia::NodeInertia(const ClothPattern& pattern)
+    : pattern_(pattern),
+      free_mass_(freeMass(pattern)),
+      changed_(pattern.inverse_mass),
+      keep_(pattern.grid.size(), 1.0),
+      inverse_(&pattern.inverse_mass) {
+  tensions_.load.assign(pattern.grid.size(), 0.0);
+}
+
+void NodeInertia::forget() noexcept {
+  std::fill(tensions_.load.begin(), tensions_.load.end(), 0.0);
+  tensions_.heaviest = tensions_.scale = 0.0;
+}
+
+double NodeInertia::omegaSquared() const noexcept { return 2.0 * tensions_.heaviest / std::abs(tensions_.scale); }
+
+void NodeInertia::set(const NodeForces& forces, double kick, double scale, double most_phase, bool implicit) noexcept {
+  inverse_ = &pattern_.inverse_mass;
+  damped_ = forces.has_damping;
+  const std::size_t size = pattern_.grid.size();
+  if (damped_) {
+    inverse_ = &changed_;
+    for (std::size_t n = 0; n < size; ++n) {
+      const DampedStep step = implicit ? implicitlyDampedStep(forces.damping[n], pattern_.inverse_mass[n], kick)
+                                       : dampedStep(forces.damping[n], pattern_.inverse_mass[n], kick);
+      changed_[n] = step.gain * pattern_.inverse_mass[n];
+      keep_[n] = step.keep;
+    }
+  }
+  if (most_phase <= 0.0 || tensions_.scale == 0.0) return;
+  const double per_load = 2.0 * std::abs(scale / tensions_.scale) / (most_phase * most_phase);
+  if (!(per_load * tensions_.heaviest > 1.0)) return;
+  const double* const w = inverse_->data();
+  for (std::size_t n = 0; n < size; ++n) {
+    const double needed = per_load * tensions_.load[n];
+    changed_[n] = needed * w[n] > 1.0 ? 1.0 / needed : w[n];
+  }
+  inverse_ = &changed_;
+}
+
+// How much heavier nodes are altogether when each must weigh so much per load [kg].
+double NodeInertia::heavierBy(double per_load) const noexcept {
+  double sum = 0.0;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    const double extra = per_load * tensions_.load[n] - pattern_.mass[n];
+    sum += pattern_.inverse_mass[n] > 0.0 && extra > 0.0 ? extra : 0.0;
+  }
+  return sum;
+}
+
+double NodeInertia::stepForPhase(double most_phase, double heavier_share) const noexcept {
+  constexpr double kLargest = 1e4;  // times what no heavier node allows
+  if (tensions_.scale == 0.0 || !(tensions_.heaviest > 0.0)) return std::numeric_limits<double>::infinity();
+  double per_load = 1.0 / tensions_.heaviest;  // no node is heavier; in proportion to h^2
+  const double allowed = heavier_share * free_mass_;
+  double factor = 2.0;
+  for (int root = 0; root < 6 && heavier_share > 0.0; ++root) {  // to within 2^(1/32)
+    while (per_load * tensions_.heaviest < kLargest && heavierBy(per_load * factor) <= allowed) {
+      per_load *= factor;
+      if (root > 0) break;
+    }
+    factor = std::sqrt(factor);
+  }
+  return most_phase * std::sqrt(0.5 * std::abs(tensions_.scale) * per_load);
+}
+
+}  // namespace curtain
