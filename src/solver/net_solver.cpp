@@ -255,7 +255,8 @@ CURTAIN_WIDE void NetSolver::answerOfRods(int block) noexcept {
 // product_ = S pull_ of a block of rows, from move_; returns pull_ . product_.
 CURTAIN_WIDE double NetSolver::schurProduct(int b) noexcept {
   const auto columns = static_cast<std::size_t>(pattern_.grid.columns);
-  double sum = 0.0;
+  constexpr std::size_t kPartials = 8;  // divides the stride
+  float partials[kPartials] = {};
   const int end = std::min((b + 1) * kRows, pattern_.grid.rows);
   for (int i = b * kRows; i < end; ++i) {
     const std::size_t k = row(i);
@@ -263,22 +264,25 @@ CURTAIN_WIDE double NetSolver::schurProduct(int b) noexcept {
     const float *const ux = &move_.x[k], *const uy = &move_.y[k], *const uz = &move_.z[k];
     const float *const diagonal = &weft_diagonal_[k], *const p = &pull_[k], *const on = &mask_[k];
     float* const q = &product_[k];
-    float row_sum = 0.0F;
     if (pattern_.grid.closed) {
       const std::size_t last = columns - 1;
       q[0] = on[0] * (fx[0] * (ux[last] - ux[0]) + fy[0] * (uy[last] - uy[0]) + fz[0] * (uz[last] - uz[0]) +
                       damping_ * diagonal[0] * p[0]);
-      row_sum = q[0] * p[0];
     }
-#pragma omp simd reduction(+ : row_sum)
+#pragma omp simd
     for (std::size_t j = 1; j < columns; ++j) {
       const float value = on[j] * (fx[j] * (ux[j - 1] - ux[j]) + fy[j] * (uy[j - 1] - uy[j]) +
                                    fz[j] * (uz[j - 1] - uz[j]) + damping_ * diagonal[j] * p[j]);
       q[j] = value;
-      row_sum += value * p[j];
     }
-    sum += static_cast<double>(row_sum);
+    // Partial sums of its own making: the same whatever width the registers have.
+    for (std::size_t j = 0; j < stride_; j += kPartials) {
+#pragma omp simd
+      for (std::size_t l = 0; l < kPartials; ++l) partials[l] += q[j + l] * p[j + l];
+    }
   }
+  double sum = 0.0;
+  for (const float part : partials) sum += static_cast<double>(part);
   return sum;
 }
 
