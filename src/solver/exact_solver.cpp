@@ -340,8 +340,8 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
     }
   }
   // Slower than it should, but what was asked for may be reached all the same.
-  progress.settled = withinTolerance(warp, weft, tolerance_) && contact_move <= contact_tolerance_;
-  if (constraints == nullptr) progress.settled = withinTolerance(warp, weft, tolerance_);
+  const bool out_of_the_way = constraints == nullptr || contact_move <= contact_tolerance_;
+  progress.settled = out_of_the_way && withinTolerance(warp, weft, tolerance_);
   progress.left_over = true;
   return progress;
 }

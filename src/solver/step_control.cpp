@@ -13,8 +13,8 @@ namespace {
 // 1.8 within a substep, and what outgrows even that is caught by heavier nodes.
 constexpr double kPhasePerStep = 1.5;
 // Where a few nodes alone ask for short substeps (the corners a sheet hangs by), they are made heavier instead: by so
-// much altogether, as a share of the cloth's mass, and only beyond this phase. A share of 0.5 % takes a third to half of the
-// substeps of such sheets, and one part in two hundred is less than what the grid itself gets wrong.
+// much altogether, as a share of the cloth's mass, and only beyond this phase. A sheet of 44 x 40 hung by two corners takes 12
+// substeps a frame with it and 22 without.
 constexpr double kHeavierShare = 0.02;
 constexpr double kHeavierPhase = 1.7;
 // Fixed substeps are the user's word: nodes are heavier only where leapfrog would blow up.
