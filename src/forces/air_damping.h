@@ -48,9 +48,8 @@ inline DampedStep implicitlyDampedStep(double coefficient, double inverse_mass, 
   return {share, share};
 }
 
-/// Coefficient of Eq. (4) at a speed over its value for small speeds.
-/// (second branch, beyond the threshold). Printed, that branch jumps at the threshold; divided by the threshold it
-/// does not.
+/// Coefficient of Eq. (4) at a speed over its value for small speeds. Printed, its second branch (beyond the threshold)
+/// jumps there; divided by the threshold it does not.
 inline double dampingGrowth(const AirParams& air, double speed) {
   const double beyond = air.law == DampingLaw::kPrinted ? speed : speed / air.threshold;
   return (1.0 + air.fast_gain * speed) * (speed > air.threshold ? beyond : 1.0);

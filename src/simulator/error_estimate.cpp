@@ -10,7 +10,6 @@ namespace {
 // Substeps are chosen for this share of the tolerance; fewer only when half the tolerance would do.
 constexpr double kAim = 0.7;
 constexpr double kFewer = 0.35;
-constexpr int kMostSubsteps = 4096;
 // Of the error that the difference must be: of steps nearly alike it tells nothing.
 constexpr double kLeastPart = 0.3;
 constexpr double kRehearsal = 0.5;  // [s]
@@ -23,16 +22,19 @@ constexpr double kGrowthOfGuess = 3.0;
 }  // namespace
 
 ErrorEstimate::ErrorEstimate(const ClothPattern& pattern, double frame_length, double tolerance, int order,
-                             int steps_per_substep)
+                             int steps_per_substep, int fewest, int most)
     : pattern_(pattern),
       frame_length_(frame_length),
       tolerance_(tolerance),
       order_(order),
       steps_per_substep_(steps_per_substep),
-      window_(std::max(1, static_cast<int>(std::lround(1.0 / frame_length)))) {}
+      window_(std::max(1, static_cast<int>(std::lround(1.0 / frame_length)))),
+      fewest_(fewest),
+      most_(std::max(fewest, most)),
+      substeps_(fewest) {}
 
 void ErrorEstimate::reset() noexcept {
-  substeps_ = 1;
+  substeps_ = fewest_;
   frames_ = 0;
   compared_ = 0;
   steps_sum_ = companion_sum_ = 0.0;
@@ -61,13 +63,13 @@ void ErrorEstimate::aimAt(double error_per_second, double substeps) noexcept {
   if (!std::isfinite(error_per_second)) return;
   if (error_per_second <= kAim * tolerance_ && error_per_second >= kFewer * tolerance_) return;
   const double wanted = substeps * std::pow(error_per_second / (kAim * tolerance_), 1.0 / order_);
-  substeps_ = static_cast<int>(std::clamp(std::ceil(wanted), 1.0, static_cast<double>(kMostSubsteps)));
+  substeps_ = static_cast<int>(std::clamp<double>(std::ceil(wanted), fewest_, most_));
 }
 
 void ErrorEstimate::rehearsed(const Field3& position, int substeps, const Field3& finer_position,
                               int finer_substeps) noexcept {
   const double growth = std::pow(1.0 / (rehearsalFrames() * frame_length_), kGrowthOfGuess);
-  substeps_ = substeps;
+  substeps_ = std::clamp(substeps, fewest_, most_);
   aimAt(growth * error(position, substeps, finer_position, finer_substeps, order_), substeps);
 }
 

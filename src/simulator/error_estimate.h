@@ -8,6 +8,8 @@
 // first guess, so that the motion starts with about the substeps it needs. RMS over the nodes that can move.
 #pragma once
 
+#include <algorithm>
+
 #include "cloth/cloth.h"
 
 namespace curtain {
@@ -17,7 +19,9 @@ class ErrorEstimate {
   /// tolerance  [m per simulated second], > 0
   /// order      of the scheme; where its stages could not be made in the window, it is taken for 2
   /// steps_per_substep  leapfrog steps that a substep is made of
-  ErrorEstimate(const ClothPattern& pattern, double frame_length, double tolerance, int order, int steps_per_substep);
+  /// fewest, most       substeps a frame it may ask for; the same where they are fixed
+  ErrorEstimate(const ClothPattern& pattern, double frame_length, double tolerance, int order, int steps_per_substep,
+                int fewest, int most);
 
   /// Methods whose error it can tell: those that are made of leapfrog steps.
   static bool knows(Method method) {
@@ -33,7 +37,7 @@ class ErrorEstimate {
   /// Substeps a frame of the motion, at least.
   int substeps() const noexcept { return substeps_; }
   /// Stability needs so many.
-  void atLeast(int least) noexcept { substeps_ = substeps_ > least ? substeps_ : least; }
+  void atLeast(int least) noexcept { substeps_ = std::clamp(least, substeps_, most_); }
   /// A companion in half as many is stable when the motion needs `least` for that.
   bool halfWillDo(int least) const noexcept { return (substeps_ + 1) / 2 >= least && substeps_ > 1; }
   /// Half as many, or twice as many.
@@ -61,7 +65,8 @@ class ErrorEstimate {
   int steps_per_substep_;
   bool of_stages_ = true;  // in the present window
   int window_;  // frames of a second
-  int substeps_ = 1;
+  int fewest_, most_;
+  int substeps_;
   long frames_ = 0;
   int compared_ = 0;        // frames of the present window
   double steps_sum_ = 0.0, companion_sum_ = 0.0;

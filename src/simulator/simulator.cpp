@@ -68,8 +68,11 @@ Simulator::Impl::Impl(const Scene& given, const MeshResolver& resolve)
   exact.save(before.memory);
   if (scene.solver.position_tolerance > 0.0 && ErrorEstimate::knows(scene.solver.method)) {
     const int order = scene.solver.method == Method::kLeapfrog4 ? 4 : 2;
+    const bool fixed = scene.solver.substeps > 0;
     estimate = std::make_unique<ErrorEstimate>(pattern, 1.0 / scene.solver.frame_rate, scene.solver.position_tolerance, order,
-                                               order == 4 ? static_cast<int>(kStages.size()) : 1);
+                                               order == 4 ? static_cast<int>(kStages.size()) : 1,
+                                               std::max(1, scene.solver.substeps),
+                                               fixed ? scene.solver.substeps : scene.solver.max_substeps);
     companion = rehearsal = {initial, before.memory, 0, 0, true, false, false};
   }
 }

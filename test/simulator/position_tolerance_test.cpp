@@ -117,6 +117,21 @@ TEST_P(KeptTolerance, IsKeptInTheFirstSecond) {
 INSTANTIATE_TEST_SUITE_P(Chains, KeptTolerance, ::testing::Combine(kReleasedAt45, kMethods), nameOf);
 INSTANTIATE_TEST_SUITE_P(Horizontal, KeptTolerance, ::testing::Combine(kReleasedAt90, kMethods), nameOf);
 
+// Fixed substeps are the user's: the error that they make is told (to a factor of three, as above), nothing is changed.
+TEST(PositionToleranceFixed, TellsTheErrorOfFixedSubsteps) {
+  for (const int substeps : {4, 8}) {
+    Scene scene = chainScene(10, 45.0);
+    scene.solver.substeps = substeps;
+    scene.solver.position_tolerance = 1e-7;
+    Simulator simulator(scene);
+    makeFrames(simulator, 60);
+    const double error = chainError(simulator, 45).position;
+    EXPECT_LE(error, 3.0 * simulator.statistics().position_error) << substeps;
+    EXPECT_GE(error, simulator.statistics().position_error / 3.0) << substeps;
+    EXPECT_EQ(simulator.statistics().substeps, 60 * substeps);
+  }
+}
+
 // From the second second on the releases from the horizontal have what the first one told: by order 2 enough substeps
 // for the tolerance, and not more than twice as many (rounded up).
 TEST(PositionToleranceLater, SubstepsFollowWhatTheFirstSecondTold) {
