@@ -91,6 +91,23 @@ TEST(GustNoise, HasMean0AndVariance1Everywhere) {
   }
 }
 
+// A row at once is the field node by node; only the order of the four products differs, each at most some 4 in size.
+TEST(GustNoise, GivesARowAsItsNodes) {
+  for (const bool closed : {false, true}) {
+    Sheet sheet(closed ? ringScene(7, 16) : flatScene(7, 16));
+    sheet.gusts.setTime(0.37);
+    std::vector<double> row(16);
+    for (int i = 0; i < 7; ++i) {
+      for (int axis = 0; axis < 3; ++axis) {
+        sheet.gusts.rowOf(i, axis, row.data());
+        for (int j = 0; j < 16; ++j) {
+          EXPECT_NEAR(row[static_cast<std::size_t>(j)], sheet.gusts.at(i, j)[axis], 4.0 * 8.0 * kEps) << i << ", " << j;
+        }
+      }
+    }
+  }
+}
+
 TEST(GustNoise, HasVariance1AllAroundARing) {
   // A ring of one correlation length or less is the narrow case: its lattice closes upon itself.
   for (const double around : {1.0, 0.5, 0.4, 0.2}) {
