@@ -66,4 +66,13 @@ inline curtain::Field3 randomPositions(const curtain::Grid& grid, Random& random
   return position;
 }
 
+/// Moves every node that is free by up to `size` [m] in each direction.
+inline void shake(const curtain::ClothPattern& pattern, double size, std::uint64_t seed, curtain::Field3& position) {
+  Random random(seed);
+  for (std::size_t n = 0; n < pattern.grid.size(); ++n) {
+    const curtain::Vec3 step = random.inBox(size);
+    if (pattern.inverse_mass[n] > 0.0) position.add(n, step);
+  }
+}
+
 }  // namespace curtain_test

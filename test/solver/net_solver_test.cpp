@@ -8,10 +8,10 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <random>
 
 #include "solver/warp_solver.h"
 #include "solver/weft_links.h"
+#include "testing.h"
 
 namespace curtain {
 namespace {
@@ -39,14 +39,7 @@ struct Net {
     for (int i = 0; i < pattern.grid.rows; ++i) setWeftDirections(pattern.grid, i, state.position, weft.direction);
     solver.begin(state.position, pattern.inverse_mass);
   }
-  void shake(double size, unsigned seed) {
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<double> move(-size, size);
-    for (std::size_t n = 0; n < pattern.grid.size(); ++n) {
-      const Vec3 step(move(random), move(random), move(random));
-      if (pattern.inverse_mass[n] > 0.0) state.position.add(n, step);
-    }
-  }
+  void shake(double size, unsigned seed) { curtain_test::shake(pattern, size, seed, state.position); }
   LineSolve line() { return {pattern, pattern.inverse_mass, weft, state.position}; }
   double measure() {
     double worst = 0.0;

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "solver/warp_solver.h"
+#include "testing.h"
 
 namespace curtain {
 namespace {
@@ -26,14 +27,7 @@ struct Bench {
     scratch.assign(pattern.grid);
     setWarpDirections(pattern.grid, state.position, warp.direction);
   }
-  void shake(double size, unsigned seed) {
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<double> move(-size, size);
-    for (std::size_t n = 0; n < pattern.grid.size(); ++n) {
-      const Vec3 step(move(random), move(random), move(random));
-      if (pattern.inverse_mass[n] > 0.0) state.position.add(n, step);
-    }
-  }
+  void shake(double size, unsigned seed) { curtain_test::shake(pattern, size, seed, state.position); }
   LineSolve warpLine() { return {pattern, pattern.inverse_mass, warp, state.position}; }
   // One Newton iteration on all columns.
   LineOutcome newton() {
