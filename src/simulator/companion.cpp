@@ -47,7 +47,7 @@ bool Simulator::Impl::makeEvenFrame(int substeps) {
 // half the difference off.
 void Simulator::Impl::synchronise() {
   if (state.velocity_age == 0.0) return;
-  exact.currentVelocities(state, forces.last(), obstacles.anyPresent() ? &contact : nullptr, velocities);
+  exact.currentVelocities(state, forces.last(), contact.any() ? &contact.contacts() : nullptr, velocities);
   state.velocity = velocities;
   state.velocity_age = 0.0;
   velocities_fresh = false;

@@ -13,14 +13,14 @@ namespace curtain {
 // One attempt at a substep from `done` seconds into the frame.
 SubstepOutcome Simulator::Impl::attempt(const SubstepPlan& plan, double done) {
   const double frame_length = 1.0 / scene.solver.frame_rate;
-  PositionConstraints* const constraints = obstacles.anyPresent() ? &contact : nullptr;
+  ContactFinder* const finder = obstacles.anyPresent() ? &contact : nullptr;
   clock.start();
-  if (constraints != nullptr) obstacles.setSubstep(done / frame_length, (done + plan.h) / frame_length);
+  if (finder != nullptr) obstacles.setSubstep(done / frame_length, (done + plan.h) / frame_length);
   const NodeForces& now = forces.evaluate(state, statistics.time + done, plan.h);
   clock.lap(Stage::kForces);
   const SubstepOutcome outcome = scene.solver.method == Method::kPaper
-                                     ? paper.substep(now, plan.h, constraints, state, clock)
-                                     : exact.substep(plan, now, constraints, state, clock);
+                                     ? paper.substep(now, plan.h, finder, state, clock)
+                                     : exact.substep(plan, now, finder, state, clock);
   statistics.sweeps += outcome.sweeps;
   statistics.sweeps_last += outcome.sweeps;
   return outcome;
@@ -45,7 +45,7 @@ bool Simulator::Impl::makeComposed(const SubstepPlan& plan, double done) {
     }
     control.accepted(stage, outcome);
     plain_control.watch(outcome);
-    contact_scale = outcome.scale;
+    contact.afterSubstep(true, exact.inverseInertia(), outcome.scale);
     at += stage.h;
   }
   steps_made += static_cast<int>(kStages.size());
@@ -85,12 +85,11 @@ double Simulator::Impl::makeSubstep(double done) {
   ++steps_made;
   of_stages = of_stages && steps == &control;
   if (steps != &control) control.watch(outcome);
-  contact_scale = outcome.scale;
   ++statistics.substeps;
   ++statistics.substeps_last;
   if (plan.scheme == Scheme::kImplicit && scene.solver.method != Method::kImplicit) ++statistics.implicit;
   if (!outcome.settled) ++statistics.unsettled;
-  contact.afterSubstep(outcome.settled);
+  contact.afterSubstep(outcome.settled, exact.inverseInertia(), outcome.scale);
   return plan.h;
 }
 
@@ -162,7 +161,7 @@ const Field3& Simulator::Impl::currentVelocities() {
   if (frame == 0 || state.velocity_age == 0.0) {
     velocities = state.velocity;
   } else {
-    exact.currentVelocities(state, forces.last(), obstacles.anyPresent() ? &contact : nullptr, velocities);
+    exact.currentVelocities(state, forces.last(), contact.any() ? &contact.contacts() : nullptr, velocities);
   }
   velocities_fresh = true;
   return velocities;

@@ -63,6 +63,7 @@ Simulator::Impl::Impl(const Scene& given, const MeshResolver& resolve)
       control(scene.solver, pattern, scene.gravity),
       plain_control(asAuto(scene.solver), pattern, scene.gravity),
       surface(scene.cloth, pattern) {
+  exact.expectContacts(contact.capacity());
   velocities.assign(pattern.grid.size(), 0.0);
   before.state = initial;
   exact.save(before.memory);
@@ -90,7 +91,6 @@ void Simulator::Impl::reset() {
   clock.reset();
   statistics = Statistics();
   frame = 0;
-  contact_scale = 0.0;
   velocities_fresh = false;
 }
 
@@ -134,9 +134,7 @@ void Simulator::copyForces(std::vector<Vec3>& out) const {
     const Field3& velocity = im.state.velocity;  // that substep's own
     for (std::size_t n = 0; n < grid.size(); ++n) total.add(n, -im.forces.last().damping[n] * velocity.at(n));
   }
-  if (im.contact_scale > 0.0 && im.obstacles.anyPresent()) {
-    im.contact.addForces(im.exact.inverseInertia(), im.contact_scale, total);
-  }
+  if (im.obstacles.anyPresent()) im.contact.addForces(total);
   copyField(grid, total, out);
 }
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "contact/obstacle_contact.h"
+#include "contact/cloth_contact.h"
 #include "curtain_sim/simulator.h"
 #include "simulator/error_estimate.h"
 #include "simulator/fine_surface.h"
@@ -41,7 +41,7 @@ struct Simulator::Impl {
   ClothState state;
   ForceField forces;
   ObstacleSet obstacles;
-  ObstacleContact contact;
+  ClothContact contact;
   Workers workers;
   ExactSolver exact;
   PaperSolver paper;
@@ -71,7 +71,6 @@ struct Simulator::Impl {
   Statistics statistics;
   StageClock clock;
   std::int64_t frame = 0;
-  double contact_scale = 0.0;  // h * kick of the last substep [s^2]; 0 = none yet
   Field3 velocities;           // at the time of the positions
   bool velocities_fresh = false;
 };

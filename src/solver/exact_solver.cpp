@@ -37,11 +37,10 @@ constexpr double kMostReduction = 0.5;
 constexpr int kGradientIterations = 12;
 // A sweep that moves a node by more than this share of a link at once is cut back to it [1].
 constexpr double kLargestMove = 0.1;
-// Contact takes turns with the links; from this sweep on the weft goes so much further than its solve says, which gains
-// where the turns are many and is not worth it where a few do.
-constexpr int kPlainSweeps = 3;
-constexpr double kOverRelaxation = 1.5;
 constexpr double kWatchMoves = 1e-3;  // relative violation below which no solve moves a node too far
+// What friction may still move in the last sweep, over the tolerance of contact. It takes turns with the solve, so it settles
+// slowest; multipliers carry over, so that what sticks for long converges over the substeps.
+constexpr double kRubShare = 4.0;
 // Sweeps that must bring at least this improvement, or the iteration has stalled.
 constexpr int kStallWindow = 8;
 constexpr double kStallFactor = 0.8;
@@ -150,9 +149,9 @@ const ClothState& ExactSolver::setBase(Scheme scheme, double h, const ClothState
   return base_;
 }
 
-// Predicts and starts the multipliers where the last substep left them. Not when forces follow the directions: its
+// Predicts and starts the multipliers where the last substep left them (returns what they change by with the step). Not when forces follow the directions: its
 // iteration blows up when the old tensions act along the new directions of rods that have turned much since.
-void ExactSolver::begin(const SubstepPlan& plan, const SubstepStart& start, double scale) noexcept {
+double ExactSolver::begin(const SubstepPlan& plan, const SubstepStart& start, double scale) noexcept {
   const bool warm = plan.scheme == Scheme::kLeapfrog && inertia_.tensions().scale != 0.0;
   const double ratio = warm ? scale / inertia_.tensions().scale : 0.0;
   const LineSolve warp{pattern_, inertia_.inverse(), warp_, next_};
@@ -168,16 +167,17 @@ void ExactSolver::begin(const SubstepPlan& plan, const SubstepStart& start, doub
       warpBegin(start, warp, last_warp_, ratio, block);
     }
   });
-  if (!weft_pulls_) return;  // all multipliers are zero, in weft_ too
+  if (!weft_pulls_) return ratio;  // all multipliers are zero, in weft_ too
   const std::size_t size = pattern_.grid.size();
   for (std::size_t n = 0; n < size; ++n) weft_.multiplier[n] = ratio * last_weft_[n];
-  if (ratio == 0.0) return;
+  if (ratio == 0.0) return ratio;
   directions_set_ = true;
   worstOfRows([&](int i) {
     setWeftDirections(pattern_.grid, i, start.state.position, weft_.direction);
     pullWeft(weft, i, weft_.multiplier);
     return 0.0;
   });
+  return ratio;
 }
 
 // Newton on one block of columns until an iteration starts with a residual of at most stop. A block whose rods are within
@@ -255,15 +255,16 @@ void ExactSolver::setAllWeftDirections(const Field3& position) noexcept {
   });
 }
 
-// All taut links of the weft, with the rods' answer in view. The nodes move by the weft's part of it; the rods' own
-// solve comes next.
-void ExactSolver::solveWeft(const LineSolve& weft, double residual, const WeftStep& step) noexcept {
+// All taut links of the weft and all contacts, with the rods' answer in view. The nodes move by their part of it; the rods'
+// own solve comes next.
+void ExactSolver::solveNet(const LineSolve& weft, Contacts* contacts, double residual, const WeftStep& step) noexcept {
   if (!measured_) worstOfRows([&](int i) { return measureWeft(weft, i, violation_, active_); });
-  net_.solve(violation_, active_, residual * mean_rest_, step.damping, step.enough, kGradientIterations, change_);
+  net_.solve(violation_, active_, {contacts, &next_, false},
+             {residual * mean_rest_, step.damping, step.enough, kGradientIterations}, change_);
   const double move = residual > kWatchMoves
                           ? std::sqrt(worstOfRows([&](int i) { return weftMoveSquared(weft, i, change_); }))
                           : 0.0;
-  const double share = move > kLargestMove ? kLargestMove / move : step.share;
+  const double share = move > kLargestMove ? kLargestMove / move : 1.0;
   if (share != 1.0) {
     for (double& change : change_) change *= share;
   }
@@ -272,19 +273,24 @@ void ExactSolver::solveWeft(const LineSolve& weft, double residual, const WeftSt
     pullWeft(weft, i, change_);
     return 0.0;
   });
+  if (contacts == nullptr) return;
+  net_.forEachContactChange([&](std::uint32_t index, double push, const Vec3& slide) {
+    takeUpContact(inertia_.inverse(), share * push, share * slide, (*contacts)[index], next_);
+  });
 }
 
-ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, const Field3& start,
-                                                    PositionConstraints* constraints, StageClock& clock) noexcept {
+ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, const Field3& start, Contacts* contacts,
+                                                    StageClock& clock) noexcept {
   const double tolerance = tolerance_;
   const LineSolve warp{pattern_, inertia_.inverse(), warp_, next_};
   const LineSolve weft{pattern_, inertia_.inverse(), weft_, next_};
+  const bool touches = contacts != nullptr && !contacts->empty();
   Progress progress;
   bool follow = plan.scheme != Scheme::kLeapfrog;
   bool net_ready = false;
-  double contact_move = std::numeric_limits<double>::infinity();
-  double window_residual = contact_move;
-  double last_residual = contact_move;
+  double window_residual = std::numeric_limits<double>::infinity();
+  double last_residual = window_residual;
+  double touch = 0.0;
   double caution = 1.0;
   while (progress.sweeps < max_sweeps_) {
     const bool first = progress.sweeps == 0;
@@ -294,25 +300,30 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
     clock.lap(Stage::kWarp);
     if (!rods.converged && !plan.must_accept) return progress;
     ++progress.sweeps;
+    const double rubbed = touches ? rubContacts(inertia_.inverse(), *contacts, next_) : 0.0;
+    touch = touches ? contactResidual(*contacts, next_) : 0.0;
+    clock.lap(Stage::kContact);
     measured_ = weft_pulls_ || !first;
-    const double residual = measured_ ? worstOfRows([&](int i) { return measureWeft(weft, i, violation_, active_); })
-                                      : slackResidual();
-    const bool at_rest = constraints == nullptr || (contact_move <= contact_tolerance_ && rods.first_residual <= tolerance);
-    if (rods.converged && at_rest && residual <= (first ? kFirstSweepShare : 1.0) * tolerance &&
-        (rods.last_residual <= sure_stop_ || warpResidualNow(warp) <= tolerance)) {
+    const double strings = measured_ ? worstOfRows([&](int i) { return measureWeft(weft, i, violation_, active_); })
+                                     : slackResidual();
+    const double share = first ? kFirstSweepShare : 1.0;
+    if (rods.converged && strings <= share * tolerance && touch <= share * contact_tolerance_ && rubbed <= kRubShare * contact_tolerance_ &&
+        ((rods.last_residual <= sure_stop_ && rubbed == 0.0) || warpResidualNow(warp) <= tolerance)) {
       progress.settled = true;
       clock.lap(Stage::kWeft);
       return progress;
     }
+    const double residual = std::max(strings, touch / mean_rest_);
     if (!std::isfinite(residual)) return progress;
     // A sweep that has not brought the links nearer went too far where hardly anything holds: the next one is damped more.
     caution = residual > kPoorSweep * last_residual ? caution * kMoreCaution : std::max(1.0, caution / kLessCaution);
     last_residual = residual;
-    if (residual > (first ? kFirstSweepShare : kLeaveAlone) * tolerance) {
+    if (strings > (first ? kFirstSweepShare : kLeaveAlone) * tolerance ||
+        touch > (first ? kFirstSweepShare : kLeaveAlone) * contact_tolerance_) {
       // What the first sweep leaves is corrected along the present directions, all of it: forces along the directions at
       // the start may have no solution at all where a flat net shears, and a correction along one set of directions taken
-      // back along another is a force that does work. Contact, which takes turns, settles better along given ones.
-      follow = follow || constraints == nullptr;
+      // back along another is a force that does work. Contact settles better along given ones.
+      follow = follow || !touches;
       if (follow) {
         followDirections();
         directions_set_ = net_ready = true;
@@ -321,29 +332,56 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
         directions_set_ = net_ready = true;
         net_.begin(start, inertia_.inverse());
       }
-      const bool further = constraints != nullptr && progress.sweeps > kPlainSweeps;
       const double least = follow ? kFollowReduction : kLeastReduction;
-      solveWeft(weft, residual, {std::clamp(kReductionShare * tolerance / residual, least, kMostReduction),
-                                 std::min(kLargestDamping, caution * kDampingPerResidual * residual),
-                                 further ? kOverRelaxation : 1.0});
+      solveNet(weft, contacts, residual, {std::clamp(kReductionShare * tolerance / residual, least, kMostReduction),
+                                          std::min(kLargestDamping, caution * kDampingPerResidual * residual)});
     }
     clock.lap(Stage::kWeft);
-    if (constraints != nullptr) {
-      contact_move = constraints->project(next_);
-      clock.lap(Stage::kContact);
-    }
-    if (progress.sweeps % (constraints != nullptr ? kContactStallWindow : kStallWindow) == 0) {
-      const double factor = constraints != nullptr ? kContactStallFactor : kStallFactor;
+    if (progress.sweeps % (touches ? kContactStallWindow : kStallWindow) == 0) {
+      const double factor = touches ? kContactStallFactor : kStallFactor;
       const double left = std::max(rods.first_residual, residual);
       if (!(left < factor * window_residual) && (!plan.must_accept || withinTolerance(warp, weft, tolerance_))) break;
       window_residual = left;
     }
   }
   // Slower than it should, but what was asked for may be reached all the same.
-  const bool out_of_the_way = constraints == nullptr || contact_move <= contact_tolerance_;
-  progress.settled = out_of_the_way && withinTolerance(warp, weft, tolerance_);
+  progress.settled = touch <= contact_tolerance_ && withinTolerance(warp, weft, tolerance_);
   progress.left_over = true;
   return progress;
+}
+
+// Solves, and solves again with what the finder has to add, until nothing goes through anything or that does not help.
+ExactSolver::Progress ExactSolver::solveAndVerify(const SubstepPlan& plan, const Field3& start, const Field3& from, double ratio,
+                                                  ContactFinder* finder, StageClock& clock) noexcept {
+  Contacts* contacts = nullptr;
+  std::size_t known = 0;
+  if (finder != nullptr) {
+    contacts = finder->begin(pattern_, from, next_, plan.h);
+    clock.lap(Stage::kContact);
+  }
+  Progress all;
+  while (true) {
+    if (contacts != nullptr) {
+      if (beginContacts(inertia_.inverse(), ratio, known, *contacts, next_)) newton_begun_ = false;
+      known = contacts->size();
+    }
+    const Progress progress = solveConstraints(plan, start, contacts, clock);
+    all.sweeps += progress.sweeps;
+    all.settled = progress.settled;
+    all.left_over = progress.left_over;
+    all.contacts = contacts;
+    if (contacts == nullptr || !(progress.settled || plan.must_accept)) return all;
+    const ContactFinder::Verdict verdict = finder->verify(from, next_);
+    clock.lap(Stage::kContact);
+    if (verdict == ContactFinder::Verdict::kClear) return all;
+    newton_begun_ = false;
+    if (verdict == ContactFinder::Verdict::kMore) continue;
+    all.crossed = true;
+    all.settled = false;
+    if (plan.must_accept) finder->hold(from, next_);
+    clock.lap(Stage::kContact);
+    return all;
+  }
 }
 
 // Adds what the strings pull to the nodes' loads; returns the largest load over its mass.
@@ -388,7 +426,7 @@ void ExactSolver::commit(const ClothState& base, double step, double velocity_ag
   state.velocity_age = velocity_age;
 }
 
-SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& forces, PositionConstraints* constraints,
+SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder,
                                     ClothState& state, StageClock& clock) noexcept {
   const bool leapfrog = plan.scheme == Scheme::kLeapfrog;
   double step = plan.h;
@@ -399,14 +437,9 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   const bool falls = forces.weight_only && inertia_.massesAlone();
   const SubstepStart start{base, *forces.force, falls ? &forces.gravity : nullptr, inertia_.keep(), kick,
                            step};
-  begin(plan, start, scale);
+  const double ratio = begin(plan, start, scale);
   clock.lap(Stage::kPredict);
-  if (constraints != nullptr) {
-    // Where nothing can touch there is nothing to take turns with.
-    if (!constraints->begin(pattern_, state.position, next_, plan.h)) constraints = nullptr;
-    clock.lap(Stage::kContact);
-  }
-  const Progress progress = solveConstraints(plan, base.position, constraints, clock);
+  const Progress progress = solveAndVerify(plan, base.position, state.position, ratio, finder, clock);
   SubstepOutcome outcome;
   outcome.sweeps = progress.sweeps;
   outcome.settled = progress.settled;
@@ -421,13 +454,13 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
     } else {
       older_h_ = 0.0;
     }
-    const bool bounded = plan.scheme == Scheme::kImplicit && constraints == nullptr;
+    const bool bounded = plan.scheme == Scheme::kImplicit && progress.contacts == nullptr;
     const double most_kinetic = bounded ? predictedKinetic(start) : 0.0;
     commit(base, step, leapfrog ? 0.5 * step : 0.0, state);
     if (bounded) boundKinetic(most_kinetic, state.velocity);
     outcome.omega_squared = inertia_.omegaSquared();
     // The way such a substep has gone is not all motion: what pulls its links further is taken out.
-    if (progress.left_over) projectVelocity(state.position, constraints, state.velocity);
+    if (progress.left_over) projectVelocity(state.position, progress.contacts, state.velocity);
   }
   if (directions_set_ && (!outcome.accepted || !weft_pulls_)) std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0);
   clock.lap(Stage::kFinish);

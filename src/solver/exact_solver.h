@@ -2,8 +2,9 @@
 //
 // The exact schemes: one substep of point masses, two-sided warp rods and one-sided weft links, whose constraint
 // forces are solved for (not approached by relaxation). A sweep is: Newton on the rods, one tridiagonal system a column;
-// then all taut weft links at once with the rods' answer taken into account (NetSolver); then contact; until every link
-// is within tolerance. Cloth without a taut string never leaves the first half of the first sweep.
+// then all taut weft links and all contacts that push at once, with the rods' answer taken into account (NetSolver); until
+// every link is within tolerance and nothing enters. Cloth without a taut string that touches nothing never leaves the first
+// half of the first sweep.
 //
 //   leapfrog  forces act along the links' directions at the start of the step, velocities live half a step behind
 //             (SHAKE: Ryckaert, Ciccotti, Berendsen 1977): order 2, symplectic, needs dt * omega_max < 2
@@ -41,11 +42,14 @@ class ExactSolver {
   /// max_sweeps         bound of the sweeps in a substep
   ExactSolver(const ClothPattern& pattern, double stretch_tolerance, int max_sweeps, const Workers& workers);
 
+  /// Room for so many contacts; more would make a substep allocate.
+  void expectContacts(std::size_t count) { net_.expectContacts(count); }
+
   /// Forgets the tensions of the last substep.
   void reset() noexcept;
 
-  /// One substep. constraints may be null. Allocates nothing.
-  SubstepOutcome substep(const SubstepPlan& plan, const NodeForces& forces, PositionConstraints* constraints,
+  /// One substep. finder may be null: nothing to touch. Allocates nothing.
+  SubstepOutcome substep(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder,
                          ClothState& state, StageClock& clock) noexcept;
 
   /// How nodes answered impulses in the last substep [1/kg].
@@ -53,8 +57,8 @@ class ExactSolver {
 
   /// Velocities at the time of the positions (leapfrog keeps them half a substep behind): advanced by the forces and
   /// made to agree with the links that pull.
-  void currentVelocities(const ClothState& state, const NodeForces& forces, PositionConstraints* constraints,
-                         Field3& out) noexcept;
+  /// contacts: of the last substep, or null.
+  void currentVelocities(const ClothState& state, const NodeForces& forces, const Contacts* contacts, Field3& out) noexcept;
 
   /// The last substep's tensions, and how nodes answered in it.
   const NodeInertia& inertia() const noexcept { return inertia_; }
@@ -77,13 +81,14 @@ class ExactSolver {
   struct Progress {
     bool settled = false;    // every link is within the user's tolerance
     bool left_over = false;  // but not within what the step's length asks for
+    bool crossed = false;    // something would go through something
     int sweeps = 0;
+    const Contacts* contacts = nullptr;  // null: nothing can touch
   };
-  // How a solve of the weft is to be made.
+  // How a solve of the strings and contacts is to be made.
   struct WeftStep {
     double enough;   // reduction of the residual to stop at
     double damping;  // Levenberg-Marquardt
-    double share;    // of its result that is taken
   };
   struct WarpProgress {
     bool converged = true;
@@ -91,20 +96,21 @@ class ExactSolver {
     double last_residual = 0.0;   // before the last one
   };
   const ClothState& setBase(Scheme scheme, double h, const ClothState& state, double& step) noexcept;
-  void begin(const SubstepPlan& plan, const SubstepStart& start, double scale) noexcept;
-  Progress solveConstraints(const SubstepPlan& plan, const Field3& start, PositionConstraints* constraints,
-                            StageClock& clock) noexcept;
+  double begin(const SubstepPlan& plan, const SubstepStart& start, double scale) noexcept;
+  Progress solveConstraints(const SubstepPlan& plan, const Field3& start, Contacts* contacts, StageClock& clock) noexcept;
+  Progress solveAndVerify(const SubstepPlan& plan, const Field3& start, const Field3& from, double ratio, ContactFinder* finder,
+                          StageClock& clock) noexcept;
   WarpProgress solveBlock(bool follow, const LineSolve& warp, int block, double stop, double leave_alone,
                           bool begun) noexcept;
   WarpProgress solveWarp(bool follow, const LineSolve& warp, double stop, double leave_alone, bool begun) noexcept;
   double slackResidual() noexcept;
   double weftResidualNow(const LineSolve& weft) noexcept;
-  void solveWeft(const LineSolve& weft, double residual, const WeftStep& step) noexcept;
+  void solveNet(const LineSolve& weft, Contacts* contacts, double residual, const WeftStep& step) noexcept;
   void followDirections() noexcept;
   void setAllWeftDirections(const Field3& position) noexcept;
   double warpResidualNow(const LineSolve& warp) noexcept;
   bool withinTolerance(const LineSolve& warp, const LineSolve& weft, double tolerance) noexcept;
-  void projectVelocity(const Field3& position, PositionConstraints* constraints, Field3& out) noexcept;
+  void projectVelocity(const Field3& position, const Contacts* contacts, Field3& out) noexcept;
   double predictedKinetic(const SubstepStart& start) const noexcept;
   void boundKinetic(double most, Field3& velocity) const noexcept;
   double loadStrings() noexcept;

@@ -2,6 +2,7 @@
 //
 // The solver's velocities: at the time of the positions, free of what would change the links' lengths, and bounded where
 // links can't hold.
+#include <algorithm>
 #include <cmath>
 
 #include "forces/air_damping.h"
@@ -43,7 +44,7 @@ void ExactSolver::boundKinetic(double most, Field3& velocity) const noexcept {
 }
 
 void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& forces,
-                                    PositionConstraints* constraints, Field3& out) noexcept {
+                                    const Contacts* contacts, Field3& out) noexcept {
   const double age = state.velocity_age;
   const std::size_t size = pattern_.grid.size();
   for (std::size_t n = 0; n < size; ++n) {
@@ -51,39 +52,43 @@ void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& f
     const DampedStep step = forces.has_damping ? dampedStep(forces.damping[n], w, age) : DampedStep{1.0, 1.0};
     out.set(n, step.keep * state.velocity.at(n) + age * step.gain * w * forces.force->at(n));
   }
-  if (age != 0.0) projectVelocity(state.position, constraints, out);
+  if (age != 0.0) projectVelocity(state.position, contacts, out);
 }
 
 // Takes out of the velocities what would change the lengths of rods and of links that pull.
-void ExactSolver::projectVelocity(const Field3& position, PositionConstraints* constraints, Field3& out) noexcept {
+void ExactSolver::projectVelocity(const Field3& position, const Contacts* contacts, Field3& out) noexcept {
   setWarpDirections(pattern_.grid, position, warp_.direction);
   const LineSolve warp{pattern_, pattern_.inverse_mass, warp_, out};
   const auto solveRods = [&] {
     for (int block = 0; block < warpBlockCount(pattern_.grid); ++block) warpProjectVelocity(warp, scratch_, block);
   };
   solveRods();
-  if (!weft_pulls_ && constraints == nullptr) return;
+  const bool presses = contacts != nullptr && std::any_of(contacts->begin(), contacts->end(),
+                                                          [](const Contact& contact) { return contact.pushes(); });
+  if (!weft_pulls_ && !presses) return;
   LinkSet& links = weft_;
   const LineSolve weft{pattern_, pattern_.inverse_mass, links, out};
   if (weft_pulls_) {
     std::copy(last_weft_.begin(), last_weft_.end(), links.multiplier.begin());  // which links pull
-    setAllWeftDirections(position);
-    net_.begin(position, pattern_.inverse_mass);
   }
-  const int rounds = constraints != nullptr ? 3 * kVelocityRounds : kVelocityRounds;
-  for (int round = 0; round < rounds; ++round) {
-    if (weft_pulls_) {
-      const double rate = worstOfRows([&](int i) { return measureWeftRates(weft, i, violation_, active_); });
-      if (rate == 0.0) break;
-      net_.solve(violation_, active_, rate * mean_rest_, kVelocityDamping, kVelocityReduction,
-                 kVelocityIterations, change_);
-      for (int i = 0; i < pattern_.grid.rows; ++i) pullWeft(weft, i, change_);
+  setAllWeftDirections(position);
+  net_.begin(position, pattern_.inverse_mass);
+  for (int round = 0; round < kVelocityRounds; ++round) {
+    double rate = worstOfRows([&](int i) { return measureWeftRates(weft, i, violation_, active_); });
+    if (presses) rate = std::max(rate, contactRate(*contacts, out) / mean_rest_);
+    if (rate == 0.0) break;
+    net_.solve(violation_, active_, {presses ? contacts : nullptr, &out, true},
+               {rate * mean_rest_, kVelocityDamping, kVelocityReduction, kVelocityIterations}, change_);
+    for (int i = 0; i < pattern_.grid.rows; ++i) pullWeft(weft, i, change_);
+    if (presses) {
+      net_.forEachContactChange([&](std::uint32_t index, double push, const Vec3& slide) {
+        const Contact& contact = (*contacts)[index];
+        contact.move(pattern_.inverse_mass, push * contact.normal + slide, out);
+      });
     }
-    if (constraints != nullptr) constraints->projectVelocity(out);
     solveRods();
   }
-  if (!weft_pulls_) return;
-  std::fill(links.multiplier.begin(), links.multiplier.end(), 0.0);
+  if (weft_pulls_) std::fill(links.multiplier.begin(), links.multiplier.end(), 0.0);
 }
 
 }  // namespace curtain

@@ -27,7 +27,7 @@ NetSolver::NetSolver(const ClothPattern& pattern, const Workers& workers)
   const std::size_t size = (static_cast<std::size_t>(row_blocks_) * kRows + 1) * stride_;
   for (Values* values : {&weight_, &warp_.x, &warp_.y, &warp_.z, &weft_.x, &weft_.y, &weft_.z, &warp_inverse_,
                          &warp_lower_, &weft_diagonal_, &weft_off_, &weft_inverse_, &weft_lower_, &rods_, &move_.x, &move_.y, &move_.z, &mask_,
-                         &residual_, &preconditioned_, &pull_, &product_, &solution_, &interleaved_}) {
+                         &residual_, &preconditioned_, &pull_, &product_, &solution_, &interleaved_, &push_.x, &push_.y, &push_.z}) {
     values->assign(size, 0.0F);
   }
   const auto reciprocal = [](const Field& rest) {
@@ -43,7 +43,7 @@ NetSolver::NetSolver(const ClothPattern& pattern, const Workers& workers)
 
 void NetSolver::reset() noexcept {
   for (Values* values : {&rods_, &move_.x, &move_.y, &move_.z, &residual_, &preconditioned_, &pull_, &product_, &solution_,
-                         &interleaved_}) {
+                         &interleaved_, &push_.x, &push_.y, &push_.z}) {
     std::fill(values->begin(), values->end(), 0.0F);
   }
 }
@@ -203,7 +203,7 @@ CURTAIN_WIDE void NetSolver::unload(int b, double scale, Field& change) noexcept
 }
 
 // move_ = what the nodes of a block of columns do when the strings pull and the rods answer:
-// down with the strings' part and L's forward substitution, up with the backward one and the rods' part.
+// down with the strings' (and the contacts') part and L's forward substitution, up with the backward one and the rods' part.
 CURTAIN_WIDE void NetSolver::answerOfRods(int block) noexcept {
   const std::size_t first = static_cast<std::size_t>(block) * kColumns;
   const int rows = pattern_.grid.rows;
@@ -217,6 +217,15 @@ CURTAIN_WIDE void NetSolver::answerOfRods(int block) noexcept {
       ux[j] = w[j] * (p[j + 1] * fx[j + 1] - p[j] * fx[j]);
       uy[j] = w[j] * (p[j + 1] * fy[j + 1] - p[j] * fy[j]);
       uz[j] = w[j] * (p[j + 1] * fz[j + 1] - p[j] * fz[j]);
+    }
+    if (contacts_.any()) {
+      const float *const px = &push_.x[k], *const py = &push_.y[k], *const pz = &push_.z[k];
+#pragma omp simd
+      for (std::size_t j = 0; j < kColumns; ++j) {
+        ux[j] += w[j] * px[j];
+        uy[j] += w[j] * py[j];
+        uz[j] += w[j] * pz[j];
+      }
     }
     if (i == 0) continue;
     const float *const nx = &warp_.x[k], *const ny = &warp_.y[k], *const nz = &warp_.z[k];
@@ -355,11 +364,12 @@ void NetSolver::closeRows(Values& links) noexcept {
 }
 
 // Numbers that are not finite end the iteration before they reach the vectors.
-NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active, double largest, double damping,
-                                    double reduction, int most_iterations, Field& change) noexcept {
+NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active, const ContactValues& contacts, const Aim& aim,
+                                    Field& change) noexcept {
   Outcome outcome;
-  damping_ = static_cast<float>(damping);
-  violation_scale_ = largest;
+  damping_ = static_cast<float>(aim.damping);
+  violation_scale_ = aim.largest;
+  contacts_.load({pattern_.grid, stride_, weight_.data(), inertia_scale_, violation_scale_, damping_}, contacts);
   workers_.run(row_blocks_, [&](int b) { load(violation, active, b); });
   double aligned = sumOverRowBlocks([&](int b) {
     factorWeft(b);
@@ -367,28 +377,34 @@ NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active,
     conjugate(b, 0.0F);
     return sum;
   });
+  aligned += contacts_.precondition();
+  contacts_.conjugate(0.0F);
+  const NetNodes push{push_.x.data(), push_.y.data(), push_.z.data()};
+  const NetNodes move{move_.x.data(), move_.y.data(), move_.z.data()};
   outcome.reduction = 1.0;
-  while (outcome.iterations < most_iterations && aligned > 0.0) {
+  while (outcome.iterations < aim.most_iterations && aligned > 0.0) {
     ++outcome.iterations;
     closeRows(pull_);
+    contacts_.scatter(push);
     workers_.run(column_blocks_, [&](int b) { answerOfRods(b); });
-    const double curvature = sumOverRowBlocks([&](int b) { return schurProduct(b); });
+    contacts_.clear(push);
+    const double curvature = sumOverRowBlocks([&](int b) { return schurProduct(b); }) + contacts_.product(move);
     const auto alpha = static_cast<float>(aligned / curvature);
     if (!(curvature > 0.0) || !std::isfinite(alpha)) break;
     workers_.run(row_blocks_, [&](int b) {
       partial_[static_cast<std::size_t>(b)] = taut_[static_cast<std::size_t>(b)] ? advance(b, alpha) : 0.0;
     });
-    outcome.reduction = *std::max_element(partial_.begin(), partial_.end());
-    if (outcome.reduction <= reduction) break;
-    const double next = sumOverRowBlocks([&](int b) { return precondition(b); });
+    outcome.reduction = std::max(*std::max_element(partial_.begin(), partial_.end()), contacts_.advance(alpha));
+    if (outcome.reduction <= aim.reduction) break;
+    const double next = sumOverRowBlocks([&](int b) { return precondition(b); }) + contacts_.precondition();
     const auto beta = static_cast<float>(next / aligned);
     aligned = next;
     workers_.run(row_blocks_, [&](int b) {
       if (taut_[static_cast<std::size_t>(b)]) conjugate(b, beta);
     });
+    contacts_.conjugate(beta);
   }
-  const double scale = violation_scale_ / inertia_scale_;
-  workers_.run(row_blocks_, [&](int b) { unload(b, scale, change); });
+  workers_.run(row_blocks_, [&](int b) { unload(b, multiplierScale(), change); });
   return outcome;
 }
 

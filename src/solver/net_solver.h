@@ -3,7 +3,8 @@
 // All taut links at once, to first order. With the rods eliminated (a tridiagonal system a column) what is left for the
 // taut strings' multipliers t is the Schur complement
 //     S t = g,   S = A_ff - A_fw A_ww^-1 A_wf,   A = N W N^T   (f: weft, w: warp; N: directions, W: inverse inertia),
-// solved by conjugate gradients, preconditioned with the rows' own tridiagonal systems A_ff. An iteration is one warp
+// solved by conjugate gradients, preconditioned with the rows' own tridiagonal systems A_ff. Contacts that push are further
+// rows of f, with their normals (and, where they stick, two directions across) for the links' directions. An iteration is one warp
 // and one weft sweep. Alternating the two without conjugation converges as cos^2 of the angle between warp and weft;
 // where they are sheared this takes about the square root of that number of sweeps.
 //
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "cloth/cloth.h"
+#include "solver/net_contacts.h"
 #include "solver/workers.h"
 
 namespace curtain {
@@ -25,12 +27,24 @@ class NetSolver {
   /// pattern and workers must outlive this.
   NetSolver(const ClothPattern& pattern, const Workers& workers);
 
+  /// Room for so many contacts.
+  void expectContacts(std::size_t count) { contacts_.reserve(count); }
+
   /// Takes the links' directions from these positions, and how nodes answer impulses [1/kg].
   void begin(const Field3& position, const Field& inverse_inertia) noexcept;
 
   /// Forgets all numbers (after one that was not finite).
   void reset() noexcept;
 
+  /// What a solve is for and when it has done enough.
+  struct Aim {
+    double largest;       ///< about the largest violation over a rest length [m] (sets the scale of the numbers), > 0
+    double damping;       ///< Levenberg-Marquardt term over the diagonal, [0..1): a flat net has about as many links as
+                          ///< freedoms in its plane, so some combinations of multipliers hardly move anything and would grow
+                          ///< without bound
+    double reduction;     ///< of the residual that is enough, (0..1)
+    int most_iterations;  ///< > 0
+  };
   struct Outcome {
     int iterations = 0;
     double reduction = 0.0;  ///< largest residual left over the largest at the start
@@ -38,14 +52,15 @@ class NetSolver {
   /// violation        C = (|r|^2 - l^2) / 2 [m^2] (or its rate) of the links that take part, 0 of the others; shape of the
   ///                  grid, stored at the right node
   /// active           1 for the links that take part, 0 for the others
-  /// largest          about the largest violation over a rest length [m] (sets the scale of the numbers), > 0
-  /// damping          Levenberg-Marquardt term over the diagonal, [0..1): a flat net has about as many links as freedoms in
-  ///                  its plane, so some combinations of multipliers hardly move anything and would grow without bound
-  /// reduction        of the residual that is enough, (0..1)
-  /// most_iterations  > 0
-  /// change           of the multipliers [kg] (or its rate), that takes the violation away while the rods keep theirs
-  Outcome solve(const Field& violation, const Field& active, double largest, double damping, double reduction, int most_iterations,
-                Field& change) noexcept;
+  /// contacts         those that push or are entered take part
+  /// change           of the strings' multipliers [kg] (or its rate), that takes the violations away while the rods keep theirs
+  Outcome solve(const Field& violation, const Field& active, const ContactValues& contacts, const Aim& aim, Field& change) noexcept;
+
+  /// The same of the contacts, after solve(): take(index, change of push, change of slide).
+  template <typename Take>
+  void forEachContactChange(const Take& take) const {
+    contacts_.forEachChange(multiplierScale(), take);
+  }
 
  private:
   using Real = float;
@@ -68,6 +83,7 @@ class NetSolver {
   template <typename Block>
   double sumOverRowBlocks(const Block& block) noexcept;
 
+  double multiplierScale() const noexcept { return violation_scale_ / inertia_scale_; }
   std::size_t row(int i) const { return static_cast<std::size_t>(i) * stride_; }
 
   const ClothPattern& pattern_;
@@ -86,6 +102,8 @@ class NetSolver {
   Values weft_inverse_, weft_lower_;   // A_ff = L D L^T by row; interleaved over the rows of a block
   Values rods_;                        // multipliers of the rods
   Values3 move_;                       // of the nodes
+  Values3 push_;                       // the contacts' search direction on the nodes; zero outside a product
+  NetContacts contacts_;
   Values mask_, residual_, preconditioned_, pull_, product_, solution_;
   Values interleaved_;                 // scratch of precondition()
   std::vector<std::uint8_t> taut_;     // row blocks with a link that takes part

@@ -70,19 +70,29 @@ void PaperSolver::adjustRow(int row, ClothState& state) const noexcept {
   }
 }
 
-SubstepOutcome PaperSolver::substep(const NodeForces& forces, double h, PositionConstraints* constraints,
+// Contacts one by one, positions and then velocities; what still goes through something is held.
+void PaperSolver::touch(ContactFinder* finder, double h, ClothState& state) noexcept {
+  Contacts* const contacts = finder != nullptr ? finder->begin(pattern_, start_, state.position, h) : nullptr;
+  if (contacts == nullptr) return;
+  beginContacts(pattern_.inverse_mass, 0.0, 0, *contacts, state.position);
+  projectContacts(pattern_.inverse_mass, *contacts, state.position);
+  if (finder->verify(start_, state.position) != ContactFinder::Verdict::kClear) finder->hold(start_, state.position);
+  for (const Contact& contact : *contacts) {
+    if (!contact.pushes()) continue;
+    const double approach = contact.normal.dot(contact.point(state.velocity) - contact.surface_velocity);
+    if (approach < 0.0) contact.move(pattern_.inverse_mass, -approach / contact.mobility * contact.normal, state.velocity);
+  }
+}
+
+SubstepOutcome PaperSolver::substep(const NodeForces& forces, double h, ContactFinder* finder,
                                     ClothState& state, StageClock& clock) noexcept {
   start_ = state.position;
   for (int j = 0; j < pattern_.grid.columns; ++j) moveColumn(j, forces, h, state);
   clock.lap(Stage::kWarp);
   for (int i = 0; i < pattern_.grid.rows; ++i) adjustRow(i, state);
   clock.lap(Stage::kWeft);
-  if (constraints != nullptr) {
-    constraints->begin(pattern_, start_, state.position, h);
-    constraints->project(state.position);
-    constraints->projectVelocity(state.velocity);
-    clock.lap(Stage::kContact);
-  }
+  touch(finder, h, state);
+  clock.lap(Stage::kContact);
   state.velocity_age = 0.0;
   SubstepOutcome outcome;
   outcome.accepted = outcome.settled = true;

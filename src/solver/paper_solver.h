@@ -14,11 +14,12 @@ class PaperSolver {
  public:
   explicit PaperSolver(const ClothPattern& pattern);
 
-  /// One substep of length h > 0 [s]; constraints may be null. Always accepted.
-  SubstepOutcome substep(const NodeForces& forces, double h, PositionConstraints* constraints, ClothState& state,
+  /// One substep of length h > 0 [s]; finder may be null. Always accepted.
+  SubstepOutcome substep(const NodeForces& forces, double h, ContactFinder* finder, ClothState& state,
                          StageClock& clock) noexcept;
 
  private:
+  void touch(ContactFinder* finder, double h, ClothState& state) noexcept;
   void moveColumn(int column, const NodeForces& forces, double h, ClothState& state) const noexcept;
   void adjustRow(int row, ClothState& state) const noexcept;
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "cloth/cloth.h"
+#include "solver/contacts.h"
 #include "solver/stage_clock.h"
 
 namespace curtain {
@@ -17,20 +18,25 @@ struct NodeForces {
   bool has_damping = false;
 };
 
-/// Position constraints solved together with the links (contact).
-class PositionConstraints {
+/// Who finds what may touch, and judges what a substep has come to.
+class ContactFinder {
  public:
-  virtual ~PositionConstraints() = default;
+  virtual ~ContactFinder() = default;
 
-  /// Finds what may touch on the way from start to predicted, over a substep of length h [s]. False: nothing. Allocates
-  /// nothing.
-  virtual bool begin(const ClothPattern& pattern, const Field3& start, const Field3& predicted, double h) noexcept = 0;
+  /// What may touch on the way from start to predicted, over a substep of length h [s], with the multipliers of the last
+  /// substep. Null: nothing can, whatever the links do. Allocates nothing.
+  virtual Contacts* begin(const ClothPattern& pattern, const Field3& start, const Field3& predicted, double h) noexcept = 0;
 
-  /// Moves nodes so that the constraints hold; returns the largest move [m].
-  virtual double project(Field3& position) noexcept = 0;
+  enum class Verdict {
+    kClear,   ///< nothing has gone through anything
+    kMore,    ///< something would: contacts were added, solve again
+    kCrossed  ///< something would, and solving again has not helped
+  };
+  /// Looks at the way from start to end.
+  virtual Verdict verify(const Field3& start, const Field3& end) noexcept = 0;
 
-  /// The same for velocities: nodes that are pressed on neither enter nor leave.
-  virtual void projectVelocity(Field3& velocity) noexcept = 0;
+  /// The last resort: changes `end` so that nothing goes through anything, whatever it does to the links.
+  virtual void hold(const Field3& start, Field3& end) noexcept = 0;
 };
 
 /// How a substep went.

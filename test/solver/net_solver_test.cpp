@@ -116,7 +116,7 @@ TEST_P(NetSolverOf, GivesWhatADenseSolveGives) {
   ASSERT_GT(strings.size(), 10U);
   ASSERT_LT(strings.size(), net.pattern.grid.nodeCount() - 7);
   const double rest = net.pattern.weft_rest[1];
-  const NetSolver::Outcome outcome = net.solver.solve(net.violation, net.active, worst * rest, 0.0, 1e-7, 200, net.change);
+  const NetSolver::Outcome outcome = net.solver.solve(net.violation, net.active, {}, {worst * rest, 0.0, 1e-7, 200}, net.change);
   EXPECT_LT(outcome.reduction, 1e-5);
   const double size = expected.head(static_cast<Eigen::Index>(strings.size())).cwiseAbs().maxCoeff();
   for (std::size_t p = 0; p < strings.size(); ++p) {
@@ -132,7 +132,7 @@ TEST_P(NetSolverOf, GivesTheSameBitsWithAnyNumberOfThreads) {
     net.shake(0.004, 9);
     net.setDirections();
     const double worst = net.measure();
-    net.solver.solve(net.violation, net.active, worst * net.pattern.weft_rest[1], 1e-3, 1e-3, 20, net.change);
+    net.solver.solve(net.violation, net.active, {}, {worst * net.pattern.weft_rest[1], 1e-3, 1e-3, 20}, net.change);
     if (first.empty()) first = net.change;
     EXPECT_EQ(net.change, first) << threads << " threads";
   }
@@ -154,7 +154,7 @@ TEST_P(NetSolverOf, ShortensLongLinksAndOnlyPulls) {
     for (int block = 0; block < warpBlockCount(net.pattern.grid); ++block) warpNewton(rods, scratch, block);
     const double worst = net.measure();
     if (worst < 1e-9) break;
-    net.solver.solve(net.violation, net.active, worst * net.pattern.weft_rest[1], 0.05 * worst, 0.1, 20, net.change);
+    net.solver.solve(net.violation, net.active, {}, {worst * net.pattern.weft_rest[1], 0.05 * worst, 0.1, 20}, net.change);
     net.take();
   }
   EXPECT_LT(weftStretch(net.pattern, net.state.position), kWeftCompliance * 0.2 * 24);
@@ -199,7 +199,7 @@ TEST(WeftLinks, TakeBackAPullThatIsNotNeeded) {
   for (int sweep = 0; sweep < 20; ++sweep) {
     const double worst = net.measure();
     if (worst == 0.0) break;
-    net.solver.solve(net.violation, net.active, worst * net.pattern.weft_rest[1], 0.0, 1e-6, 20, net.change);
+    net.solver.solve(net.violation, net.active, {}, {worst * net.pattern.weft_rest[1], 0.0, 1e-6, 20}, net.change);
     net.take();
   }
   EXPECT_NEAR(net.weft.multiplier[net.pattern.grid.index(0, 2)], 0.0, 1e-9);

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace curtain {
+namespace {
+
+// Share of friction's bound below which a point that stuck in the last substep is solved for as held. Points near the bound
+// would change between sticking and slipping from sweep to sweep; they take turns.
+constexpr double kSticksBelow = 0.5;
+
+Vec3 across(const Vec3& normal, const Vec3& v) { return v - normal.dot(v) * normal; }
+
+// Coulomb's disc.
+Vec3 bounded(const Vec3& slide, double most) {
+  const double size = slide.norm();
+  return size > most ? Vec3(slide * (most / size)) : slide;
+}
+
+}  // namespace
+
+bool beginContacts(const Field& inverse_inertia, double ratio, std::size_t first, Contacts& contacts, Field3& position) noexcept {
+  bool any = false;
+  for (std::size_t n = first; n < contacts.size(); ++n) {
+    Contact& contact = contacts[n];
+    contact.mobility = 0.0;
+    for (int k = 0; k < contact.nodes; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      contact.mobility += contact.weight[at] * contact.weight[at] * inverse_inertia[contact.node[at]];
+    }
+    contact.push *= ratio;
+    contact.slide = bounded(ratio * across(contact.normal, contact.slide), contact.friction * contact.push);
+    contact.sticks = contact.pushes() && contact.slide.norm() < kSticksBelow * contact.friction * contact.push;
+    if (!contact.pushes()) continue;
+    contact.move(inverse_inertia, contact.push * contact.normal + contact.slide, position);
+    any = true;
+  }
+  return any;
+}
+
+double contactResidual(const Contacts& contacts, const Field3& position) noexcept {
+  double worst = 0.0;
+  for (const Contact& contact : contacts) {
+    const Vec3 point = contact.point(position);
+    const double entered = contact.offset - contact.normal.dot(point);
+    if (!std::isfinite(entered)) return std::numeric_limits<double>::infinity();
+    worst = std::max(worst, contact.pushes() ? std::abs(entered) : entered);
+    if (contact.sticks) worst = std::max(worst, across(contact.normal, point - contact.carried).norm());
+  }
+  return worst;
+}
+
+double contactRate(const Contacts& contacts, const Field3& velocity) noexcept {
+  double worst = 0.0;
+  for (const Contact& contact : contacts) {
+    if (!contact.pushes()) continue;
+    const Vec3 off = contact.point(velocity) - contact.surface_velocity;
+    worst = std::max(worst, contact.sticks ? off.norm() : std::abs(contact.normal.dot(off)));
+  }
+  return worst;
+}
+
+double rubContacts(const Field& inverse_inertia, Contacts& contacts, Field3& position) noexcept {
+  double largest = 0.0;
+  for (Contact& contact : contacts) {
+    if (contact.sticks || contact.friction == 0.0 || contact.mobility <= 0.0) continue;
+    if (!contact.pushes() && contact.slide.squaredNorm() == 0.0) continue;
+    const Vec3 slip = across(contact.normal, contact.point(position) - contact.carried);
+    const double most = contact.friction * contact.push;
+    const Vec3 wanted = contact.slide - slip / contact.mobility;
+    const Vec3 change = bounded(wanted, most) - contact.slide;
+    contact.slide += change;
+    contact.move(inverse_inertia, change, position);
+    largest = std::max(largest, contact.mobility * change.norm());
+  }
+  return largest;
+}
+
+void takeUpContact(const Field& inverse_inertia, double push, const Vec3& slide, Contact& contact, Field3& position) noexcept {
+  const double push_change = std::max(push, -contact.push);
+  contact.push += push_change;
+  Vec3 slide_change = slide;
+  const double most = contact.friction * contact.push;
+  const Vec3 wanted = contact.slide + slide;
+  if (contact.sticks && wanted.squaredNorm() > most * most) {
+    slide_change = bounded(wanted, most) - contact.slide;
+    contact.sticks = false;
+  }
+  contact.slide += slide_change;
+  contact.move(inverse_inertia, push_change * contact.normal + slide_change, position);
+}
+
+double projectContacts(const Field& inverse_inertia, Contacts& contacts, Field3& position) noexcept {
+  double largest = 0.0;
+  for (Contact& contact : contacts) {
+    if (contact.mobility <= 0.0) continue;
+    const double entered = contact.offset - contact.normal.dot(contact.point(position));
+    const double change = std::max(entered / contact.mobility, -contact.push);
+    contact.push += change;
+    contact.sticks = false;
+    contact.move(inverse_inertia, change * contact.normal, position);
+    largest = std::max(largest, contact.mobility * std::abs(change));
+  }
+  return std::max(largest, rubContacts(inverse_inertia, contacts, position));
+}
+
+}  // namespace curtain
