@@ -157,7 +157,7 @@ struct ObstacleParams {
 struct ContactParams {
   double thickness = 0.004;  ///< half gap kept between cloth and obstacle [m], > 0
   double friction = 0.3;     ///< Coulomb coefficient of cloth on obstacles that name none [0..10]
-  bool self = false;         ///< self-contact (not available yet: must be false)
+  bool self = false;         ///< contact of the cloth with itself
   int zone_iterations = 8;   ///< bound of the collision-zone iterations [1..1000]
 };
 

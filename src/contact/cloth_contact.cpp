@@ -2,14 +2,36 @@
 #include "contact/cloth_contact.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace curtain {
 namespace {
 
 // Substeps without friction after one whose links could not be brought to their lengths.
 constexpr int kSlipperySubsteps = 64;
+// Two parts of the cloth are not kept further apart than this share of its shortest link: thicker cloth would touch its
+// own next row.
+constexpr double kGapPerLink = 0.25;
+// The slack of a horizon, over the gap: at first and at least, at most. It grows where horizons end early.
+constexpr double kLeastSlack = 0.25;
+constexpr double kMostSlack = 1.0;
+constexpr double kSlackGrowth = 1.5;
+constexpr double kSlackDecay = 0.95;
 
-// Box around the way of all free nodes.
+double shortestLink(const ClothPattern& pattern) {
+  const Grid& grid = pattern.grid;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) {
+      if (i > 0) shortest = std::min(shortest, pattern.warp_rest[grid.index(i, j)]);
+      if (j > 0 || grid.closed) shortest = std::min(shortest, pattern.weft_rest[grid.index(i, j)]);
+    }
+  }
+  return shortest;
+}
+
+// Box around the way of all nodes.
 Eigen::AlignedBox3d sweptBox(const ClothPattern& pattern, const Field3& start, const Field3& predicted) {
   Eigen::AlignedBox3d box;
   const Grid& grid = pattern.grid;
@@ -29,17 +51,53 @@ bool before(const Contact& a, const Contact& b) {
 
 }  // namespace
 
-ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles)
-    : pattern_(pattern), obstacles_(obstacles), nodes_(pattern, params.thickness, obstacles), thickness_(params.thickness) {
-  if (obstacles.count() > 0) {
-    contacts_.reserve(4 * pattern.grid.nodeCount());
-    last_.reserve(4 * pattern.grid.nodeCount());
-  }
+ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& params, double frame_length,
+                           const ObstacleSet& obstacles)
+    : pattern_(pattern),
+      obstacles_(obstacles),
+      self_wanted_(params.self),
+      thickness_(params.thickness),
+      frame_length_(frame_length),
+      zone_iterations_(params.zone_iterations),
+      nodes_(pattern, params.thickness, obstacles),
+      self_(pattern, std::min(params.thickness, kGapPerLink * shortestLink(pattern)), params.friction),
+      tree_(pattern),
+      horizon_(pattern.grid),
+      slack_(kLeastSlack * self_.gap()),
+      zones_(pattern) {
+  if (obstacles.count() == 0 && !params.self) return;
+  contacts_.reserve(4 * pattern.grid.nodeCount());
+  last_.reserve(4 * pattern.grid.nodeCount());
+  if (params.self) tree_.reserve(candidates_);
+}
+
+// A new horizon.
+void ClothContact::look(const Field3& start, const Field3& predicted, double h) noexcept {
+  horizon_.set(start, predicted, h, std::max(frame_length_, h), slack_);
+  tree_.refit(horizon_.start(), horizon_.end());
+  candidates_.clear();
+  tree_.collectSelf(self_.gap() + 2.0 * slack_, candidates_);
+  self_.renew(candidates_, horizon_.start(), horizon_.end(), slack_);
 }
 
 Contacts* ClothContact::begin(const ClothPattern&, const Field3& start, const Field3& predicted, double h) noexcept {
   contacts_.clear();
-  if (!obstacles_.anyPresent()) return nullptr;
+  h_ = h;
+  looks_ = 0;
+  if (self_wanted_) {
+    // Room to stray for the solve, too.
+    if (!horizon_.reaches(h) || horizon_.strayed(predicted, h) > 0.5 * horizon_.slack()) {
+      look(start, predicted, h);
+    }
+  }
+  collect(start, predicted);
+  return contacts_.empty() && !self_wanted_ ? nullptr : &contacts_;
+}
+
+void ClothContact::collect(const Field3& start, const Field3& predicted) noexcept {
+  if (self_wanted_) self_.collect(start, predicted, h_, contacts_);
+  if (!obstacles_.anyPresent()) return;
+  const std::size_t first = contacts_.size();
   const Eigen::AlignedBox3d cloth = sweptBox(pattern_, start, predicted);
   // The solve may move nodes beyond their predicted way by about as much again.
   const double reach = 2.0 * thickness_ + 0.25 * cloth.diagonal().norm() / pattern_.grid.rows;
@@ -49,16 +107,58 @@ Contacts* ClothContact::begin(const ClothPattern&, const Field3& start, const Fi
     Eigen::AlignedBox3d box = moving.sweptBounds();
     box.min().array() -= reach;
     box.max().array() += reach;
-    if (box.intersects(cloth)) nodes_.collect(n, start, predicted, h, slippery_ > 0, contacts_);
+    if (box.intersects(cloth)) nodes_.collect(n, start, predicted, h_, slippery_ > 0, contacts_);
   }
-  recall();
-  return contacts_.empty() ? nullptr : &contacts_;
+  recall(first);
+}
+
+ContactFinder::Verdict ClothContact::verify(const Field3& start, const Field3& end) noexcept {
+  if (!self_wanted_) return Verdict::kClear;
+  if (!(horizon_.strayed(end, h_) <= horizon_.slack())) {
+    // The solve went where nobody looked. Contacts of the cloth itself name pairs of the old horizon: they go on with it.
+    self_.remember(contacts_);
+    slack_ = std::min(kMostSlack * self_.gap(), kSlackGrowth * slack_);
+    look(start, end, h_);
+    self_.carryOver(start, contacts_);
+  }
+  const int added = self_.verify(start, end, h_, contacts_);
+  if (added == 0) return Verdict::kClear;
+  return ++looks_ <= zone_iterations_ ? Verdict::kMore : Verdict::kCrossed;
+}
+
+void ClothContact::hold(const Field3& start, Field3& end) noexcept {
+  ++held_;
+  zones_.clear();
+  for (int round = 0; round < zone_iterations_; ++round) {
+    if (joinCrossings(start, end) == 0) return;
+    zones_.makeRigid(start, end);
+  }
+  for (int round = 0; round < zone_iterations_; ++round) {
+    if (joinCrossings(start, end) == 0) return;
+    zones_.stop(start, end);
+  }
+  if (joinCrossings(start, end) == 0) return;
+  for (std::size_t n = 1; n < pattern_.grid.size(); ++n) {
+    if (pattern_.mass[n] > 0.0) zones_.join(0, n);
+  }
+  zones_.stop(start, end);
+}
+
+// Nodes that would go through each other belong to one zone; returns how many pairs there were.
+int ClothContact::joinCrossings(const Field3& start, const Field3& end) noexcept {
+  int count = 0;
+  self_.forEachCrossing(start, end, [&](const NearPair& pair) {
+    for (std::size_t k = 1; k < 4; ++k) zones_.join(pair.node[0], pair.node[k]);
+    ++count;
+  });
+  return count;
 }
 
 // The multipliers of the last substep, for the contacts that are the same.
-void ClothContact::recall() noexcept {
+void ClothContact::recall(std::size_t first) noexcept {
   auto old = last_.begin();
-  for (Contact& contact : contacts_) {
+  for (std::size_t n = first; n < contacts_.size(); ++n) {
+    Contact& contact = contacts_[n];
     while (old != last_.end() && before(*old, contact)) ++old;
     if (old == last_.end()) return;
     if (before(contact, *old)) continue;
@@ -67,21 +167,17 @@ void ClothContact::recall() noexcept {
   }
 }
 
-ContactFinder::Verdict ClothContact::verify(const Field3&, const Field3&) noexcept { return Verdict::kClear; }
-void ClothContact::hold(const Field3&, Field3&) noexcept {}
-
-void ClothContact::afterSubstep(bool settled, const Field& inverse_inertia, double scale) noexcept {
+void ClothContact::afterSubstep(bool settled, double h, double scale) noexcept {
   if (!settled) slippery_ = kSlipperySubsteps;
   else if (slippery_ > 0) --slippery_;
+  horizon_.advance(h);
   last_.clear();
   for (const Contact& contact : contacts_) {
     if (contact.pushes()) last_.push_back(contact);
   }
   last_scale_ = scale;
-  static_cast<void>(inverse_inertia);
+  if (self_wanted_) self_.remember(contacts_);
 }
-
-int ClothContact::contactCount() const noexcept { return static_cast<int>(last_.size()); }
 
 void ClothContact::addForces(Field3& force) const noexcept {
   if (last_scale_ == 0.0) return;
@@ -99,6 +195,10 @@ void ClothContact::forget() noexcept {
   last_.clear();
   last_scale_ = 0.0;
   slippery_ = 0;
+  horizon_.forget();
+  self_.forget();
+  slack_ = kLeastSlack * self_.gap();
+  held_ = 0;
 }
 
 }  // namespace curtain

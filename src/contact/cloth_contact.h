@@ -1,50 +1,78 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // All contact of a cloth: what may touch within a substep, and whether anything went through anything after all.
+//
+//   horizon (about a frame)   candidates: pairs of elements near each other, parts of the cloth near an obstacle
+//   substep, begin            contacts: of those, what touches on the predicted way
+//            verify           what would go through something on the solved way becomes a contact too, and the solve goes on
+//            hold             what still would is moved as one body (zones.h)
 #pragma once
 
+#include "contact/cloth_tree.h"
+#include "contact/horizon.h"
 #include "contact/node_contacts.h"
 #include "contact/obstacle_set.h"
+#include "contact/self_contacts.h"
+#include "contact/zones.h"
 #include "solver/substep.h"
 
 namespace curtain {
 
 class ClothContact : public ContactFinder {
  public:
-  /// pattern and obstacles must outlive this.
-  ClothContact(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles);
+  /// frame_length [s]; pattern and obstacles must outlive this.
+  ClothContact(const ClothPattern& pattern, const ContactParams& params, double frame_length, const ObstacleSet& obstacles);
+
+  /// There is something to look for at all.
+  bool wanted() const noexcept { return self_wanted_ || obstacles_.anyPresent(); }
 
   Contacts* begin(const ClothPattern& pattern, const Field3& start, const Field3& predicted, double h) noexcept override;
   Verdict verify(const Field3& start, const Field3& end) noexcept override;
   void hold(const Field3& start, Field3& end) noexcept override;
 
-  /// After every accepted substep, whether all links could be brought to their lengths; inverse_inertia: how its nodes
-  /// answered [1/kg], scale: its h * kick [s^2].
-  void afterSubstep(bool settled, const Field& inverse_inertia, double scale) noexcept;
+  /// After every accepted substep of h [s], whether all links could be brought to their lengths; scale: its h * kick [s^2].
+  void afterSubstep(bool settled, double h, double scale) noexcept;
 
   /// Contacts that find room without an allocation.
   std::size_t capacity() const noexcept { return contacts_.capacity(); }
   /// Something of the last substep may touch.
   bool any() const { return !contacts_.empty(); }
   const Contacts& contacts() const { return contacts_; }
-  /// Nodes pressed on in the last substep.
-  int contactCount() const noexcept;
+  /// Contacts that were pressed on in the last substep.
+  int contactCount() const noexcept { return static_cast<int>(last_.size()); }
   /// How deep the deepest node is inside an obstacle [m]; 0: none is.
   double deepestPenetration(const Field3& position) const noexcept { return nodes_.deepest(contacts_, position); }
   /// Adds the contact forces of the last substep [N].
   void addForces(Field3& force) const noexcept;
+  /// Substeps whose end had to be held, since construction or forget().
+  std::int64_t held() const noexcept { return held_; }
   void forget() noexcept;
 
  private:
-  void recall() noexcept;
+  void look(const Field3& start, const Field3& predicted, double h) noexcept;
+  void collect(const Field3& start, const Field3& predicted) noexcept;
+  void recall(std::size_t first) noexcept;
+  int joinCrossings(const Field3& start, const Field3& end) noexcept;
 
   const ClothPattern& pattern_;
   const ObstacleSet& obstacles_;
-  NodeContacts nodes_;
+  bool self_wanted_;
   double thickness_;
+  double frame_length_;
+  int zone_iterations_;
+  NodeContacts nodes_;
+  SelfContacts self_;
+  ClothTree tree_;
+  Candidates candidates_;
+  Horizon horizon_;
+  double slack_;           // of the next horizon [m]
+  Zones zones_;
   Contacts contacts_, last_;  // of this substep; of the last accepted one, those that pushed
-  double last_scale_ = 0.0;   // of its multipliers [s^2]
+  double h_ = 0.0;            // of this substep [s]
+  double last_scale_ = 0.0;   // of the last one's multipliers [s^2]
+  int looks_ = 0;             // times that the present substep was verified
   int slippery_ = 0;          // substeps still to go without friction
+  std::int64_t held_ = 0;
 };
 
 }  // namespace curtain

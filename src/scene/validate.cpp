@@ -117,9 +117,6 @@ void checkScene(const Scene& scene, ProblemLog& log) {
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
     checkObstacle(scene.obstacles[i], itemKey("obstacles", i), log);
   }
-  if (scene.contact.self) {
-    log.add("contact.self", "self-contact is not available yet: must be false, is true");
-  }
 }
 
 std::vector<Problem> validate(const Scene& scene) {

@@ -13,7 +13,7 @@ namespace curtain {
 // One attempt at a substep from `done` seconds into the frame.
 SubstepOutcome Simulator::Impl::attempt(const SubstepPlan& plan, double done) {
   const double frame_length = 1.0 / scene.solver.frame_rate;
-  ContactFinder* const finder = obstacles.anyPresent() ? &contact : nullptr;
+  ContactFinder* const finder = contact.wanted() ? &contact : nullptr;
   clock.start();
   if (finder != nullptr) obstacles.setSubstep(done / frame_length, (done + plan.h) / frame_length);
   const NodeForces& now = forces.evaluate(state, statistics.time + done, plan.h);
@@ -38,14 +38,14 @@ bool Simulator::Impl::makeComposed(const SubstepPlan& plan, double done) {
     stage.h = gamma * plan.h;
     stage.must_accept = false;
     const SubstepOutcome outcome = attempt(stage, at);
-    if (!outcome.accepted || exact.weftPulls() || (obstacles.anyPresent() && contact.any())) {
+    if (!outcome.accepted || exact.weftPulls() || (contact.wanted() && contact.any())) {
       state = before.state;
       exact.restore(before.memory);
       return false;
     }
     control.accepted(stage, outcome);
     plain_control.watch(outcome);
-    contact.afterSubstep(true, exact.inverseInertia(), outcome.scale);
+    contact.afterSubstep(true, stage.h, outcome.scale);
     at += stage.h;
   }
   steps_made += static_cast<int>(kStages.size());
@@ -89,7 +89,7 @@ double Simulator::Impl::makeSubstep(double done) {
   ++statistics.substeps_last;
   if (plan.scheme == Scheme::kImplicit && scene.solver.method != Method::kImplicit) ++statistics.implicit;
   if (!outcome.settled) ++statistics.unsettled;
-  contact.afterSubstep(outcome.settled, exact.inverseInertia(), outcome.scale);
+  contact.afterSubstep(outcome.settled, plan.h, outcome.scale);
   return plan.h;
 }
 
@@ -147,7 +147,7 @@ void Simulator::Impl::measure() {
   s.warp_stretch_max = std::max(s.warp_stretch_max, s.warp_stretch);
   s.weft_stretch_max = std::max(s.weft_stretch_max, s.weft_stretch);
   s.warp_compression_max = std::max(s.warp_compression_max, s.warp_compression);
-  const bool near = obstacles.anyPresent() && contact.any();
+  const bool near = contact.wanted() && contact.any();
   s.contacts = near ? contact.contactCount() : 0;
   s.contacts_max = std::max(s.contacts_max, s.contacts);
   if (near) s.penetration_max = std::max(s.penetration_max, contact.deepestPenetration(state.position));

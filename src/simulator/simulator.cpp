@@ -56,7 +56,7 @@ Simulator::Impl::Impl(const Scene& given, const MeshResolver& resolve)
       state(initial),
       forces(scene, pattern),
       obstacles(scene, resolve),
-      contact(pattern, scene.contact, obstacles),
+      contact(pattern, scene.contact, 1.0 / scene.solver.frame_rate, obstacles),
       workers(threadsFor(scene.solver.threads, pattern.grid.nodeCount())),
       exact(pattern, scene.solver.stretch_tolerance, scene.solver.max_sweeps, workers),
       paper(pattern),
@@ -134,7 +134,7 @@ void Simulator::copyForces(std::vector<Vec3>& out) const {
     const Field3& velocity = im.state.velocity;  // that substep's own
     for (std::size_t n = 0; n < grid.size(); ++n) total.add(n, -im.forces.last().damping[n] * velocity.at(n));
   }
-  if (im.obstacles.anyPresent()) im.contact.addForces(total);
+  if (im.contact.wanted()) im.contact.addForces(total);
   copyField(grid, total, out);
 }
 

@@ -131,7 +131,6 @@ TEST(BadInput, WordsAndFlags) {
   expectProblem(with("air: {law: 3}"), "air.law", {"continuous or printed, is 3"});
   expectProblem(with("solver: {method: magic}"), "solver.method", {"auto, leapfrog, leapfrog4, bdf2, implicit or paper", "\"magic\""});
   expectProblem(with("contact: {self: 0}"), "contact.self", {"true or false, is 0"});
-  expectProblem(with("contact: {self: true}"), "contact.self", {"not available yet", "must be false, is true"});
   expectProblem(with("wind: [{id: 5}]"), "wind[0].id", {"must be text, is 5", "quotes"});
   expectProblem(with("wind: [{id: on}]"), "wind[0].id", {"must be text, is on", "quotes"});
   expectProblem(with("wind: [{id: ''}]"), "wind[0].id", {"not empty"});
