@@ -1,0 +1,441 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Edges and triangles of the cloth against the analytic convex obstacles.
+//
+// Nearest point: closed forms for plane, sphere and capsule (distance of the element to a corner, a point, a segment).
+// For box and cylinder a minimisation by tangents (Kelley 1960, "The cutting-plane method for solving convex programs",
+// in one dimension, twice nested). The signed distance is convex, so each tangent lies below it, and two tangents that
+// lean towards each other bound its minimum between them from below:
+//
+//      \       /          of a row of the triangle (s fixed, t free) the two tangent planes mix to one that is level
+//       \__ __/  distance along t: a tangent of the row's minimum as a function of s, which is convex again. So the
+//       \  v  /  tangents outer search works on tangents, too, and ends with a bound that holds for the whole triangle.
+//          ^ lower bound
+//
+// Time of impact: conservative advancement. The tangent plane at the nearest point bounds the distance of the whole
+// space from below, so nothing happens until a corner comes through it; nor before the fastest corner has gone the
+// distance. (The smallest distance is no convex function of time: a triangle that turns can come near twice.)
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "contact/shapes.h"
+
+namespace curtain {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+
+/// Evaluations of one row, or rows of a triangle, at most. Brackets halve at least every second time: 2^-30.
+constexpr int kMostTangents = 60;
+
+/// Triangles lower than this share of their longest edge have their nearest point on an edge, to that share.
+constexpr double kFlatTriangle = 1e-8;
+
+/// Steps of time below which an advance is no advance.
+constexpr double kLeastAdvance = 1e-7;
+
+template <std::size_t N>
+Vec3 pointAt(const std::array<Vec3, N>& corners, const std::array<double, 3>& weights) {
+  Vec3 point = weights[0] * corners[0];
+  for (std::size_t k = 1; k < N; ++k) point += weights[k] * corners[k];
+  return point;
+}
+
+template <std::size_t N>
+double largestCoordinate(const std::array<Vec3, N>& corners) {
+  double largest = 0.0;
+  for (const Vec3& corner : corners) largest = std::max(largest, corner.cwiseAbs().maxCoeff());
+  return largest;
+}
+
+/// Not smaller than the longest edge, not larger than 1.8 times it.
+template <std::size_t N>
+double longestEdge(const std::array<Vec3, N>& corners) {
+  double longest = 0.0;
+  for (std::size_t k = 0; k < N; ++k) longest = std::max(longest, (corners[(k + 1) % N] - corners[k]).template lpNorm<1>());
+  return longest;
+}
+
+// ---- minimisation by tangents --------------------------------------------------------------------------------
+
+/// A line below a convex function of one variable; `mixed`: slope of the same plane along the other variable.
+struct Tangent {
+  double at;
+  double value;
+  double slope;
+  double other_slope;
+};
+
+/// Where the search ended: two tangents whose lower envelope bounds the minimum (twice the same at an end).
+struct Valley {
+  Tangent left;
+  Tangent right;
+  double lower;
+};
+
+/// Searches the minimum on [0, end]. tangentAt(x) -> Tangent; enough(lower) says when a bound of the minimum will do.
+template <typename TangentAt, typename Enough>
+Valley searchValley(double end, TangentAt&& tangentAt, Enough&& enough) {
+  Tangent left = tangentAt(0.0);
+  if (left.slope >= 0.0) return {left, left, left.value};
+  Tangent right = tangentAt(end);
+  if (right.slope <= 0.0) return {right, right, right.value};
+  double width = end;  // of the bracket two tangents ago
+  for (int n = 0;; ++n) {
+    const double gap = right.at - left.at;
+    // In the bracket, not from the origin: that would cancel.
+    const double meet = std::clamp((right.value - left.value - right.slope * gap) / (left.slope - right.slope), 0.0, gap);
+    const double lower = left.value + left.slope * meet;
+    if (n == kMostTangents || enough(lower) || !(gap > kEps * end)) return {left, right, lower};
+    double next = std::clamp(meet, 0.05 * gap, 0.95 * gap);
+    if (n % 2 == 1) {
+      if (gap > 0.5 * width) next = 0.5 * gap;
+      width = gap;
+    }
+    const Tangent middle = tangentAt(left.at + next);
+    if (middle.slope == 0.0) return {middle, middle, middle.value};
+    (middle.slope < 0.0 ? left : right) = middle;
+  }
+}
+
+/// Best point so far, and the rules when to stop.
+class Search {
+ public:
+  Search(double tolerance, double reach) : tolerance_(tolerance), reach_(reach) {}
+
+  void offer(const std::array<double, 3>& weights, const SurfacePoint& surface) {
+    if (surface.distance < best_.surface.distance || !found_) {
+      best_.weights = weights;
+      best_.surface = surface;
+      found_ = true;
+    }
+  }
+  /// A bound this high can't hide a better point, or any within reach.
+  bool enough(double lower, double share) const {
+    return lower >= best_.surface.distance - share * tolerance_ || lower > reach_;
+  }
+  ElementPoint best(double lower, double rounding) const {
+    ElementPoint point = best_;
+    point.lower_bound = std::min(lower, point.surface.distance) - rounding;
+    return point;
+  }
+
+ private:
+  double tolerance_;
+  double reach_;
+  ElementPoint best_;
+  bool found_ = false;
+};
+
+template <typename Shape>
+void searchEdge(const Shape& shape, double size, const std::array<Vec3, 2>& ends, double reach, ElementPoint& out) {
+  const Vec3 along = ends[1] - ends[0];
+  const double rounding = 16.0 * kEps * (largestCoordinate(ends) + size);
+  Search search(0.5 * kElementAccuracy * longestEdge(ends) + rounding, reach + rounding);
+  const auto tangentAt = [&](double t) -> Tangent {
+    const SurfacePoint surface = shape.nearest(ends[0] + t * along);
+    search.offer({1.0 - t, t, 0.0}, surface);
+    return {t, surface.distance, surface.normal.dot(along), 0.0};
+  };
+  const Valley valley = searchValley(1.0, tangentAt, [&](double lower) { return search.enough(lower, 1.0); });
+  out = search.best(valley.lower, rounding);
+}
+
+template <typename Shape>
+void searchTriangle(const Shape& shape, double size, const std::array<Vec3, 3>& corners, double reach,
+                    ElementPoint& out) {
+  const Vec3 along_s = corners[1] - corners[0];
+  const Vec3 along_t = corners[2] - corners[0];
+  const double rounding = 16.0 * kEps * (largestCoordinate(corners) + size);
+  Search search(0.5 * kElementAccuracy * longestEdge(corners) + 4.0 * rounding, reach + rounding);
+  const auto rowTangent = [&](double s) -> Tangent {
+    const double end = std::max(1.0 - s, 0.0);
+    const Vec3 start = corners[0] + s * along_s;
+    const auto tangentAt = [&](double t) -> Tangent {
+      const SurfacePoint surface = shape.nearest(start + t * along_t);
+      search.offer({std::max(end - t, 0.0), s, t}, surface);
+      return {t, surface.distance, surface.normal.dot(along_t), surface.normal.dot(along_s)};
+    };
+    // A row that can't be better needs no exact minimum, only a tangent.
+    const Valley row = searchValley(end, tangentAt, [&](double lower) { return search.enough(lower, 0.25); });
+    const Tangent& left = row.left;
+    const Tangent& right = row.right;
+    if (left.slope < 0.0 && right.slope > 0.0) {
+      const double share = right.slope / (right.slope - left.slope);
+      return {s, row.lower, share * left.other_slope + (1.0 - share) * right.other_slope, 0.0};
+    }
+    // The minimum lies at the row's start, which all rows have at t = 0, or at its end, which moves by -1 with s.
+    const bool at_end = left.slope < 0.0;
+    return {s, row.lower, at_end ? left.other_slope - left.slope : left.other_slope, 0.0};
+  };
+  const Valley valley = searchValley(1.0, rowTangent, [&](double lower) { return search.enough(lower, 1.0); });
+  out = search.best(valley.lower, rounding);
+}
+
+// ---- closed forms --------------------------------------------------------------------------------------------
+
+/// A candidate for the nearest point; keeps the best.
+struct Candidate {
+  std::array<double, 3> weights{1.0, 0.0, 0.0};
+  double distance_squared = kInfinity;
+
+  void offer(const std::array<double, 3>& w, double squared) {
+    if (!(squared < distance_squared)) return;
+    weights = w;
+    distance_squared = squared;
+  }
+};
+
+std::array<double, 3> onEdge(std::size_t from, std::size_t to, double t) {
+  std::array<double, 3> weights{};
+  weights[from] += 1.0 - t;
+  weights[to] += t;
+  return weights;
+}
+
+/// Parameter [0..1] of the point of a segment nearest to a point.
+double footOn(const Vec3& start, const Vec3& along, const Vec3& point) {
+  const double square = along.squaredNorm();
+  return square > 0.0 ? std::clamp(along.dot(point - start) / square, 0.0, 1.0) : 0.0;
+}
+
+/// Barycentric coordinates of the foot of the perpendicular from a point, if it lies in the triangle.
+bool footIn(const std::array<Vec3, 3>& corners, const Vec3& point, std::array<double, 3>& weights) {
+  const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+  const double square = normal.squaredNorm();
+  const double longest = longestEdge(corners);
+  if (!(std::sqrt(square) > kFlatTriangle * longest * longest)) return false;
+  const std::array<Vec3, 3> d{corners[0] - point, corners[1] - point, corners[2] - point};
+  for (std::size_t k = 0; k < 3; ++k) {
+    weights[k] = normal.dot(d[(k + 1) % 3].cross(d[(k + 2) % 3])) / square;
+    if (!(weights[k] >= 0.0)) return false;
+  }
+  const double sum = weights[0] + weights[1] + weights[2];
+  for (double& weight : weights) weight /= sum;
+  return true;
+}
+
+void nearestToPoint(const std::array<Vec3, 3>& corners, const Vec3& point, Candidate& best) {
+  std::array<double, 3> weights{};
+  if (footIn(corners, point, weights)) {
+    best.offer(weights, (pointAt(corners, weights) - point).squaredNorm());
+    return;
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t next = (k + 1) % 3;
+    const Vec3 along = corners[next] - corners[k];
+    const double t = footOn(corners[k], along, point);
+    best.offer(onEdge(k, next, t), (corners[k] + t * along - point).squaredNorm());
+  }
+}
+
+/// Edge (from, to) of an element against the segment from `start` along `axis`: every pair of an end and a segment, and
+/// the common perpendicular if both its feet lie within.
+void nearestToSegment(const Vec3& a, const Vec3& b, std::size_t from, std::size_t to, const Vec3& start,
+                      const Vec3& axis, Candidate& best) {
+  const Vec3 along = b - a;
+  for (const double end : {0.0, 1.0}) {
+    const Vec3 tip = start + end * axis;
+    const double t = footOn(a, along, tip);
+    best.offer(onEdge(from, to, t), (a + t * along - tip).squaredNorm());
+    const Vec3 corner = a + end * along;
+    const double s = footOn(start, axis, corner);
+    best.offer(onEdge(from, to, end), (start + s * axis - corner).squaredNorm());
+  }
+  const double aa = along.squaredNorm();
+  const double bb = axis.squaredNorm();
+  const double ab = along.dot(axis);
+  const double determinant = aa * bb - ab * ab;
+  if (!(determinant > kEps * aa * bb)) return;  // parallel: an end does as well
+  const Vec3 between = start - a;
+  const double t = (along.dot(between) * bb - axis.dot(between) * ab) / determinant;
+  const double s = (along.dot(between) * ab - axis.dot(between) * aa) / determinant;
+  if (!(t > 0.0 && t < 1.0 && s > 0.0 && s < 1.0)) return;
+  best.offer(onEdge(from, to, t), (a + t * along - start - s * axis).squaredNorm());
+}
+
+/// Where the segment from `start` along `axis` goes through the triangle, if it does.
+void pierce(const std::array<Vec3, 3>& corners, const Vec3& start, const Vec3& axis, Candidate& best) {
+  const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+  const double slope = normal.dot(axis);
+  const double height = normal.dot(corners[0] - start);
+  if (slope == 0.0) return;
+  const double s = height / slope;
+  std::array<double, 3> weights{};
+  if (!(s >= 0.0 && s <= 1.0) || !footIn(corners, start + s * axis, weights)) return;
+  best.offer(weights, (pointAt(corners, weights) - start - s * axis).squaredNorm());
+}
+
+/// Corners by a power of two, so that no square over- or underflows and no digit is lost.
+template <std::size_t N>
+double normalise(std::array<Vec3, N>& corners, double size) {
+  const double factor = std::ldexp(1.0, -std::ilogb(std::max({largestCoordinate(corners), size, 1e-290})));
+  for (Vec3& corner : corners) corner *= factor;
+  return factor;
+}
+
+template <std::size_t N>
+void finish(const ConvexShape& shape, const std::array<Vec3, N>& corners, double size,
+            const std::array<double, 3>& weights, ElementPoint& out) {
+  out.weights = weights;
+  out.surface = shape.nearest(pointAt(corners, weights));
+  out.lower_bound = out.surface.distance - 2.0 * kFlatTriangle * longestEdge(corners) -
+                    16.0 * kEps * (largestCoordinate(corners) + size);
+}
+
+template <std::size_t N>
+std::array<double, 3> lowest(const std::array<Vec3, N>& corners) {
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < N; ++k) {
+    if (corners[k].z() < corners[best].z()) best = k;
+  }
+  std::array<double, 3> weights{};
+  weights[best] = 1.0;
+  return weights;
+}
+
+/// Whether the tangent plane at the middle of an element leaves all of it out of reach.
+template <std::size_t N>
+bool isFar(const ConvexShape& shape, const std::array<Vec3, N>& corners, double reach) {
+  Vec3 middle = corners[0] / static_cast<double>(N);
+  for (std::size_t k = 1; k < N; ++k) middle += corners[k] / static_cast<double>(N);
+  const SurfacePoint surface = shape.nearest(middle);
+  double lower = kInfinity;
+  for (const Vec3& corner : corners) lower = std::min(lower, surface.distance + surface.normal.dot(corner - middle));
+  return lower > reach;
+}
+
+/// How long none of the corners, on their ways, comes through the tangent plane at a point of the element [time].
+template <std::size_t N>
+double timeToPlane(const std::array<Vec3, N>& corners, const std::array<Vec3, N>& ways, const ElementPoint& nearest,
+                   double least_distance) {
+  const Vec3 point = pointAt(corners, nearest.weights);
+  double time = kInfinity;
+  for (std::size_t k = 0; k < N; ++k) {
+    const double height = nearest.surface.distance + nearest.surface.normal.dot(corners[k] - point) - least_distance;
+    const double rate = nearest.surface.normal.dot(ways[k]);
+    if (height <= 0.0) return 0.0;
+    if (rate < 0.0) time = std::min(time, height / -rate);
+  }
+  return time;
+}
+
+template <typename Nearest, std::size_t N>
+std::optional<double> advance(Nearest&& nearestOn, const std::array<Vec3, N>& start, const std::array<Vec3, N>& end,
+                              double min_distance) {
+  std::array<Vec3, N> ways;
+  double speed = 0.0;
+  for (std::size_t k = 0; k < N; ++k) {
+    ways[k] = end[k] - start[k];
+    speed = std::max(speed, ways[k].template lpNorm<1>());  // not less than the length, and cannot overflow
+  }
+  const double rounding = 32.0 * kEps * (largestCoordinate(start) + largestCoordinate(end) + std::abs(min_distance));
+  const double least_distance = min_distance + rounding;
+  double time = 0.0;
+  for (int n = 0; n < ConvexShape::kMostAdvances; ++n) {
+    std::array<Vec3, N> corners;
+    for (std::size_t k = 0; k < N; ++k) corners[k] = start[k] + time * ways[k];
+    ElementPoint nearest;
+    if (!nearestOn(corners, least_distance + (1.0 - time) * speed, nearest)) return std::nullopt;
+    const double free_way = nearest.lower_bound - least_distance;
+    if (!(free_way > 0.0)) return time;
+    const double step = std::max(free_way / speed, timeToPlane(corners, ways, nearest, least_distance));
+    if (!(time + step <= 1.0)) return std::nullopt;
+    time += step;
+    if (step < kLeastAdvance) return time;
+  }
+  return time;
+}
+
+}  // namespace
+
+bool ConvexShape::nearestOnTriangle(const std::array<Vec3, 3>& corners, double reach,
+                                    ElementPoint& out) const noexcept {
+  if (isFar(*this, corners, reach)) return false;
+  minimise(corners, reach, out);
+  return out.lower_bound <= reach;
+}
+
+bool ConvexShape::nearestOnEdge(const std::array<Vec3, 2>& ends, double reach, ElementPoint& out) const noexcept {
+  if (isFar(*this, ends, reach)) return false;
+  minimise(ends, reach, out);
+  return out.lower_bound <= reach;
+}
+
+std::optional<double> ConvexShape::timeOfImpact(const std::array<Vec3, 3>& start, const std::array<Vec3, 3>& end,
+                                                double min_distance) const noexcept {
+  return advance([this](const std::array<Vec3, 3>& corners, double reach,
+                        ElementPoint& out) { return nearestOnTriangle(corners, reach, out); },
+                 start, end, min_distance);
+}
+
+std::optional<double> ConvexShape::timeOfImpact(const std::array<Vec3, 2>& start, const std::array<Vec3, 2>& end,
+                                                double min_distance) const noexcept {
+  return advance([this](const std::array<Vec3, 2>& ends, double reach,
+                        ElementPoint& out) { return nearestOnEdge(ends, reach, out); },
+                 start, end, min_distance);
+}
+
+void SphereShape::minimise(const std::array<Vec3, 3>& corners, double, ElementPoint& out) const noexcept {
+  std::array<Vec3, 3> scaled = corners;
+  normalise(scaled, 0.0);
+  Candidate best;
+  nearestToPoint(scaled, Vec3::Zero(), best);
+  finish(*this, corners, radius_, best.weights, out);
+}
+
+void SphereShape::minimise(const std::array<Vec3, 2>& ends, double, ElementPoint& out) const noexcept {
+  std::array<Vec3, 2> scaled = ends;
+  normalise(scaled, 0.0);
+  finish(*this, ends, radius_, onEdge(0, 1, footOn(scaled[0], scaled[1] - scaled[0], Vec3::Zero())), out);
+}
+
+void CapsuleShape::minimise(const std::array<Vec3, 3>& corners, double, ElementPoint& out) const noexcept {
+  std::array<Vec3, 3> scaled = corners;
+  const Vec3 tip = normalise(scaled, half_) * half_ * Vec3::UnitZ();
+  Candidate best;
+  pierce(scaled, -tip, 2.0 * tip, best);
+  nearestToPoint(scaled, -tip, best);
+  nearestToPoint(scaled, tip, best);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t next = (k + 1) % 3;
+    nearestToSegment(scaled[k], scaled[next], k, next, -tip, 2.0 * tip, best);
+  }
+  finish(*this, corners, radius_ + half_, best.weights, out);
+}
+
+void CapsuleShape::minimise(const std::array<Vec3, 2>& ends, double, ElementPoint& out) const noexcept {
+  std::array<Vec3, 2> scaled = ends;
+  const Vec3 tip = normalise(scaled, half_) * half_ * Vec3::UnitZ();
+  Candidate best;
+  nearestToSegment(scaled[0], scaled[1], 0, 1, -tip, 2.0 * tip, best);
+  finish(*this, ends, radius_ + half_, best.weights, out);
+}
+
+void PlaneShape::minimise(const std::array<Vec3, 3>& corners, double, ElementPoint& out) const noexcept {
+  finish(*this, corners, 0.0, lowest(corners), out);
+}
+
+void PlaneShape::minimise(const std::array<Vec3, 2>& ends, double, ElementPoint& out) const noexcept {
+  finish(*this, ends, 0.0, lowest(ends), out);
+}
+
+void BoxShape::minimise(const std::array<Vec3, 3>& corners, double reach, ElementPoint& out) const noexcept {
+  searchTriangle(*this, half_.maxCoeff(), corners, reach, out);
+}
+
+void BoxShape::minimise(const std::array<Vec3, 2>& ends, double reach, ElementPoint& out) const noexcept {
+  searchEdge(*this, half_.maxCoeff(), ends, reach, out);
+}
+
+void CylinderShape::minimise(const std::array<Vec3, 3>& corners, double reach, ElementPoint& out) const noexcept {
+  searchTriangle(*this, radius_ + half_, corners, reach, out);
+}
+
+void CylinderShape::minimise(const std::array<Vec3, 2>& ends, double reach, ElementPoint& out) const noexcept {
+  searchEdge(*this, radius_ + half_, ends, reach, out);
+}
+
+}  // namespace curtain
