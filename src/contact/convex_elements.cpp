@@ -12,8 +12,8 @@
 //       \  v  /  tangents outer search works on tangents, too, and ends with a bound that holds for the whole triangle.
 //          ^ lower bound
 //
-// Time of impact: conservative advancement. The tangent plane at the nearest point bounds the distance of the whole
-// space from below, so nothing happens until a corner comes through it; nor before the fastest corner has gone the
+// Time of impact: conservative advancement. The plane that supports the nearest point (of two tangents, where the
+// distance has a kink) bounds the distance of the whole space from below, so nothing happens until a corner comes through it; nor before the fastest corner has gone the
 // distance. (The smallest distance is no convex function of time: a triangle that turns can come near twice.)
 #include <algorithm>
 #include <cmath>
@@ -60,13 +60,24 @@ double longestEdge(const std::array<Vec3, N>& corners) {
 
 // ---- minimisation by tangents --------------------------------------------------------------------------------
 
-/// A line below a convex function of one variable; `mixed`: slope of the same plane along the other variable.
+/// A line below a convex function of one variable, and the plane below the distance that it is cut from: distance(x) >=
+/// base + gradient . (x - first corner) everywhere.
 struct Tangent {
   double at;
   double value;
   double slope;
-  double other_slope;
+  Vec3 gradient;
+  double base;
 };
+
+/// The plane between two tangents that lean towards each other which is level along their variable, the only tangent of
+/// a search that ended at an end of its range.
+Tangent mixed(const Tangent& left, const Tangent& right) {
+  if (!(left.slope < 0.0 && right.slope > 0.0)) return left;
+  const double share = right.slope / (right.slope - left.slope);
+  return {left.at, left.value, 0.0, share * left.gradient + (1.0 - share) * right.gradient,
+          share * left.base + (1.0 - share) * right.base};
+}
 
 /// Where the search ended: two tangents whose lower envelope bounds the minimum (twice the same at an end).
 struct Valley {
@@ -116,10 +127,19 @@ class Search {
   bool enough(double lower, double share) const {
     return lower >= best_.surface.distance - share * tolerance_ || lower > reach_;
   }
-  ElementPoint best(double lower, double rounding) const {
-    ElementPoint point = best_;
-    point.lower_bound = std::min(lower, point.surface.distance) - rounding;
-    return point;
+  /// The best point, with the plane that shows that it is.
+  template <std::size_t N>
+  ElementMinimum best(const std::array<Vec3, N>& corners, const Tangent& plane, double rounding) const {
+    ElementMinimum minimum;
+    minimum.point = best_;
+    double lower = plane.base;
+    for (std::size_t k = 1; k < N; ++k) {
+      lower = std::min(lower, plane.base + plane.gradient.dot(corners[k] - corners[0]));
+    }
+    minimum.support = plane.gradient;
+    minimum.support_bound = lower - rounding;
+    minimum.point.lower_bound = std::min(lower, best_.surface.distance) - rounding;
+    return minimum;
   }
 
  private:
@@ -130,22 +150,23 @@ class Search {
 };
 
 template <typename Shape>
-void searchEdge(const Shape& shape, double size, const std::array<Vec3, 2>& ends, double reach, ElementPoint& out) {
+void searchEdge(const Shape& shape, double size, const std::array<Vec3, 2>& ends, double reach, ElementMinimum& out) {
   const Vec3 along = ends[1] - ends[0];
   const double rounding = 16.0 * kEps * (largestCoordinate(ends) + size);
   Search search(0.5 * kElementAccuracy * longestEdge(ends) + rounding, reach + rounding);
   const auto tangentAt = [&](double t) -> Tangent {
     const SurfacePoint surface = shape.nearest(ends[0] + t * along);
     search.offer({1.0 - t, t, 0.0}, surface);
-    return {t, surface.distance, surface.normal.dot(along), 0.0};
+    const double slope = surface.normal.dot(along);
+    return {t, surface.distance, slope, surface.normal, surface.distance - t * slope};
   };
   const Valley valley = searchValley(1.0, tangentAt, [&](double lower) { return search.enough(lower, 1.0); });
-  out = search.best(valley.lower, rounding);
+  out = search.best(ends, mixed(valley.left, valley.right), rounding);
 }
 
 template <typename Shape>
 void searchTriangle(const Shape& shape, double size, const std::array<Vec3, 3>& corners, double reach,
-                    ElementPoint& out) {
+                    ElementMinimum& out) {
   const Vec3 along_s = corners[1] - corners[0];
   const Vec3 along_t = corners[2] - corners[0];
   const double rounding = 16.0 * kEps * (largestCoordinate(corners) + size);
@@ -156,22 +177,20 @@ void searchTriangle(const Shape& shape, double size, const std::array<Vec3, 3>& 
     const auto tangentAt = [&](double t) -> Tangent {
       const SurfacePoint surface = shape.nearest(start + t * along_t);
       search.offer({std::max(end - t, 0.0), s, t}, surface);
-      return {t, surface.distance, surface.normal.dot(along_t), surface.normal.dot(along_s)};
+      const double slope = surface.normal.dot(along_t);
+      const double base = surface.distance - t * slope - s * surface.normal.dot(along_s);
+      return {t, surface.distance, slope, surface.normal, base};
     };
     // A row that can't be better needs no exact minimum, only a tangent.
     const Valley row = searchValley(end, tangentAt, [&](double lower) { return search.enough(lower, 0.25); });
-    const Tangent& left = row.left;
-    const Tangent& right = row.right;
-    if (left.slope < 0.0 && right.slope > 0.0) {
-      const double share = right.slope / (right.slope - left.slope);
-      return {s, row.lower, share * left.other_slope + (1.0 - share) * right.other_slope, 0.0};
-    }
-    // The minimum lies at the row's start, which all rows have at t = 0, or at its end, which moves by -1 with s.
-    const bool at_end = left.slope < 0.0;
-    return {s, row.lower, at_end ? left.other_slope - left.slope : left.other_slope, 0.0};
+    const Tangent level = mixed(row.left, row.right);
+    // The row's minimum lies where the plane is level, or at its start, which all rows have at t = 0, or at its end,
+    // which moves by -1 with s.
+    const Vec3 way = level.slope < 0.0 ? Vec3(along_s - along_t) : along_s;
+    return {s, row.lower, level.gradient.dot(way), level.gradient, level.base};
   };
   const Valley valley = searchValley(1.0, rowTangent, [&](double lower) { return search.enough(lower, 1.0); });
-  out = search.best(valley.lower, rounding);
+  out = search.best(corners, mixed(valley.left, valley.right), rounding);
 }
 
 // ---- closed forms --------------------------------------------------------------------------------------------
@@ -276,13 +295,26 @@ double normalise(std::array<Vec3, N>& corners, double size) {
   return factor;
 }
 
+/// The minimum from the weights of the nearest point; `least`: no distance to the shape is smaller (nor differentiable
+/// where it is that small).
 template <std::size_t N>
-void finish(const ConvexShape& shape, const std::array<Vec3, N>& corners, double size,
-            const std::array<double, 3>& weights, ElementPoint& out) {
-  out.weights = weights;
-  out.surface = shape.nearest(pointAt(corners, weights));
-  out.lower_bound = out.surface.distance - 2.0 * kFlatTriangle * longestEdge(corners) -
-                    16.0 * kEps * (largestCoordinate(corners) + size);
+void finish(const ConvexShape& shape, const std::array<Vec3, N>& corners, double least, double size,
+            const std::array<double, 3>& weights, ElementMinimum& out) {
+  const Vec3 point = pointAt(corners, weights);
+  const double rounding = 16.0 * kEps * (largestCoordinate(corners) + size);
+  out.point.weights = weights;
+  out.point.surface = shape.nearest(point);
+  const double distance = out.point.surface.distance;
+  if (distance <= least + rounding) {
+    out.support.setZero();
+    out.point.lower_bound = out.support_bound = least - rounding;
+    return;
+  }
+  out.support = out.point.surface.normal;
+  double lower = distance;
+  for (const Vec3& corner : corners) lower = std::min(lower, distance + out.support.dot(corner - point));
+  out.support_bound = lower - rounding;
+  out.point.lower_bound = std::max(lower, distance - 2.0 * kFlatTriangle * longestEdge(corners)) - rounding;
 }
 
 template <std::size_t N>
@@ -307,17 +339,19 @@ bool isFar(const ConvexShape& shape, const std::array<Vec3, N>& corners, double 
   return lower > reach;
 }
 
-/// How long none of the corners, on their ways, comes through the tangent plane at a point of the element [time].
+/// How long none of the corners, on their ways, comes through the plane that supports the element [time].
 template <std::size_t N>
-double timeToPlane(const std::array<Vec3, N>& corners, const std::array<Vec3, N>& ways, const ElementPoint& nearest,
+double timeToPlane(const std::array<Vec3, N>& corners, const std::array<Vec3, N>& ways, const ElementMinimum& nearest,
                    double least_distance) {
-  const Vec3 point = pointAt(corners, nearest.weights);
+  const double free_way = nearest.support_bound - least_distance;
+  if (!(free_way > 0.0)) return 0.0;
+  std::array<double, N> heights;
+  for (std::size_t k = 0; k < N; ++k) heights[k] = nearest.support.dot(corners[k] - corners[0]);
+  const double lowest = *std::min_element(heights.begin(), heights.end());
   double time = kInfinity;
   for (std::size_t k = 0; k < N; ++k) {
-    const double height = nearest.surface.distance + nearest.surface.normal.dot(corners[k] - point) - least_distance;
-    const double rate = nearest.surface.normal.dot(ways[k]);
-    if (height <= 0.0) return 0.0;
-    if (rate < 0.0) time = std::min(time, height / -rate);
+    const double rate = nearest.support.dot(ways[k]);
+    if (rate < 0.0) time = std::min(time, (heights[k] - lowest + free_way) / -rate);
   }
   return time;
 }
@@ -337,9 +371,9 @@ std::optional<double> advance(Nearest&& nearestOn, const std::array<Vec3, N>& st
   for (int n = 0; n < ConvexShape::kMostAdvances; ++n) {
     std::array<Vec3, N> corners;
     for (std::size_t k = 0; k < N; ++k) corners[k] = start[k] + time * ways[k];
-    ElementPoint nearest;
+    ElementMinimum nearest;
     if (!nearestOn(corners, least_distance + (1.0 - time) * speed, nearest)) return std::nullopt;
-    const double free_way = nearest.lower_bound - least_distance;
+    const double free_way = nearest.point.lower_bound - least_distance;
     if (!(free_way > 0.0)) return time;
     const double step = std::max(free_way / speed, timeToPlane(corners, ways, nearest, least_distance));
     if (!(time + step <= 1.0)) return std::nullopt;
@@ -351,48 +385,57 @@ std::optional<double> advance(Nearest&& nearestOn, const std::array<Vec3, N>& st
 
 }  // namespace
 
-bool ConvexShape::nearestOnTriangle(const std::array<Vec3, 3>& corners, double reach,
-                                    ElementPoint& out) const noexcept {
+template <std::size_t N>
+bool ConvexShape::findMinimum(const std::array<Vec3, N>& corners, double reach, ElementMinimum& out) const noexcept {
   if (isFar(*this, corners, reach)) return false;
   minimise(corners, reach, out);
-  return out.lower_bound <= reach;
+  return out.point.lower_bound <= reach;
+}
+
+bool ConvexShape::nearestOnTriangle(const std::array<Vec3, 3>& corners, double reach,
+                                    ElementPoint& out) const noexcept {
+  ElementMinimum minimum;
+  if (!findMinimum(corners, reach, minimum)) return false;
+  out = minimum.point;
+  return true;
 }
 
 bool ConvexShape::nearestOnEdge(const std::array<Vec3, 2>& ends, double reach, ElementPoint& out) const noexcept {
-  if (isFar(*this, ends, reach)) return false;
-  minimise(ends, reach, out);
-  return out.lower_bound <= reach;
+  ElementMinimum minimum;
+  if (!findMinimum(ends, reach, minimum)) return false;
+  out = minimum.point;
+  return true;
 }
 
 std::optional<double> ConvexShape::timeOfImpact(const std::array<Vec3, 3>& start, const std::array<Vec3, 3>& end,
                                                 double min_distance) const noexcept {
   return advance([this](const std::array<Vec3, 3>& corners, double reach,
-                        ElementPoint& out) { return nearestOnTriangle(corners, reach, out); },
+                        ElementMinimum& out) { return findMinimum(corners, reach, out); },
                  start, end, min_distance);
 }
 
 std::optional<double> ConvexShape::timeOfImpact(const std::array<Vec3, 2>& start, const std::array<Vec3, 2>& end,
                                                 double min_distance) const noexcept {
   return advance([this](const std::array<Vec3, 2>& ends, double reach,
-                        ElementPoint& out) { return nearestOnEdge(ends, reach, out); },
+                        ElementMinimum& out) { return findMinimum(ends, reach, out); },
                  start, end, min_distance);
 }
 
-void SphereShape::minimise(const std::array<Vec3, 3>& corners, double, ElementPoint& out) const noexcept {
+void SphereShape::minimise(const std::array<Vec3, 3>& corners, double, ElementMinimum& out) const noexcept {
   std::array<Vec3, 3> scaled = corners;
   normalise(scaled, 0.0);
   Candidate best;
   nearestToPoint(scaled, Vec3::Zero(), best);
-  finish(*this, corners, radius_, best.weights, out);
+  finish(*this, corners, -radius_, radius_, best.weights, out);
 }
 
-void SphereShape::minimise(const std::array<Vec3, 2>& ends, double, ElementPoint& out) const noexcept {
+void SphereShape::minimise(const std::array<Vec3, 2>& ends, double, ElementMinimum& out) const noexcept {
   std::array<Vec3, 2> scaled = ends;
   normalise(scaled, 0.0);
-  finish(*this, ends, radius_, onEdge(0, 1, footOn(scaled[0], scaled[1] - scaled[0], Vec3::Zero())), out);
+  finish(*this, ends, -radius_, radius_, onEdge(0, 1, footOn(scaled[0], scaled[1] - scaled[0], Vec3::Zero())), out);
 }
 
-void CapsuleShape::minimise(const std::array<Vec3, 3>& corners, double, ElementPoint& out) const noexcept {
+void CapsuleShape::minimise(const std::array<Vec3, 3>& corners, double, ElementMinimum& out) const noexcept {
   std::array<Vec3, 3> scaled = corners;
   const Vec3 tip = normalise(scaled, half_) * half_ * Vec3::UnitZ();
   Candidate best;
@@ -403,38 +446,38 @@ void CapsuleShape::minimise(const std::array<Vec3, 3>& corners, double, ElementP
     const std::size_t next = (k + 1) % 3;
     nearestToSegment(scaled[k], scaled[next], k, next, -tip, 2.0 * tip, best);
   }
-  finish(*this, corners, radius_ + half_, best.weights, out);
+  finish(*this, corners, -radius_, radius_ + half_, best.weights, out);
 }
 
-void CapsuleShape::minimise(const std::array<Vec3, 2>& ends, double, ElementPoint& out) const noexcept {
+void CapsuleShape::minimise(const std::array<Vec3, 2>& ends, double, ElementMinimum& out) const noexcept {
   std::array<Vec3, 2> scaled = ends;
   const Vec3 tip = normalise(scaled, half_) * half_ * Vec3::UnitZ();
   Candidate best;
   nearestToSegment(scaled[0], scaled[1], 0, 1, -tip, 2.0 * tip, best);
-  finish(*this, ends, radius_ + half_, best.weights, out);
+  finish(*this, ends, -radius_, radius_ + half_, best.weights, out);
 }
 
-void PlaneShape::minimise(const std::array<Vec3, 3>& corners, double, ElementPoint& out) const noexcept {
-  finish(*this, corners, 0.0, lowest(corners), out);
+void PlaneShape::minimise(const std::array<Vec3, 3>& corners, double, ElementMinimum& out) const noexcept {
+  finish(*this, corners, -kInfinity, 0.0, lowest(corners), out);
 }
 
-void PlaneShape::minimise(const std::array<Vec3, 2>& ends, double, ElementPoint& out) const noexcept {
-  finish(*this, ends, 0.0, lowest(ends), out);
+void PlaneShape::minimise(const std::array<Vec3, 2>& ends, double, ElementMinimum& out) const noexcept {
+  finish(*this, ends, -kInfinity, 0.0, lowest(ends), out);
 }
 
-void BoxShape::minimise(const std::array<Vec3, 3>& corners, double reach, ElementPoint& out) const noexcept {
+void BoxShape::minimise(const std::array<Vec3, 3>& corners, double reach, ElementMinimum& out) const noexcept {
   searchTriangle(*this, half_.maxCoeff(), corners, reach, out);
 }
 
-void BoxShape::minimise(const std::array<Vec3, 2>& ends, double reach, ElementPoint& out) const noexcept {
+void BoxShape::minimise(const std::array<Vec3, 2>& ends, double reach, ElementMinimum& out) const noexcept {
   searchEdge(*this, half_.maxCoeff(), ends, reach, out);
 }
 
-void CylinderShape::minimise(const std::array<Vec3, 3>& corners, double reach, ElementPoint& out) const noexcept {
+void CylinderShape::minimise(const std::array<Vec3, 3>& corners, double reach, ElementMinimum& out) const noexcept {
   searchTriangle(*this, radius_ + half_, corners, reach, out);
 }
 
-void CylinderShape::minimise(const std::array<Vec3, 2>& ends, double reach, ElementPoint& out) const noexcept {
+void CylinderShape::minimise(const std::array<Vec3, 2>& ends, double reach, ElementMinimum& out) const noexcept {
   searchEdge(*this, radius_ + half_, ends, reach, out);
 }
 

@@ -36,6 +36,14 @@ struct ElementPoint {
   double lower_bound = 0.0;         ///< no point of the element has a smaller distance, for certain [m]
 };
 
+/// The smallest distance of an element, with a plane that shows it: everywhere in space
+/// distance(x) >= support_bound + support . x - (the smallest of support . corner).
+struct ElementMinimum {
+  ElementPoint point;
+  Vec3 support = Vec3::Zero();  ///< length 1 at most
+  double support_bound = 0.0;   ///< [m]
+};
+
 /// Largest difference of ElementPoint's distance to the smallest one and to the lower bound, as a share of the element's
 /// longest edge; roundings of the coordinates come on top.
 constexpr double kElementAccuracy = 1e-7;
@@ -75,9 +83,11 @@ class ConvexShape : public ObstacleShape {
   static constexpr int kMostAdvances = 40;
 
  private:
-  /// Fill weights, surface and lower bound; once the lower bound is beyond reach they may stop.
-  virtual void minimise(const std::array<Vec3, 3>& corners, double reach, ElementPoint& out) const noexcept = 0;
-  virtual void minimise(const std::array<Vec3, 2>& ends, double reach, ElementPoint& out) const noexcept = 0;
+  template <std::size_t N>
+  bool findMinimum(const std::array<Vec3, N>& corners, double reach, ElementMinimum& out) const noexcept;
+  /// Once the lower bound is beyond reach they may stop.
+  virtual void minimise(const std::array<Vec3, 3>& corners, double reach, ElementMinimum& out) const noexcept = 0;
+  virtual void minimise(const std::array<Vec3, 2>& ends, double reach, ElementMinimum& out) const noexcept = 0;
   /// First point where the ray from `start` (not inside) along the unit `direction` goes into the solid.
   virtual bool enter(const Vec3& start, const Vec3& direction, SurfaceEntry& entry) const noexcept = 0;
 };
@@ -92,8 +102,8 @@ class SphereShape final : public ConvexShape {
 
  private:
   bool enter(const Vec3& start, const Vec3& direction, SurfaceEntry& entry) const noexcept override;
-  void minimise(const std::array<Vec3, 3>& corners, double reach, ElementPoint& out) const noexcept override;
-  void minimise(const std::array<Vec3, 2>& ends, double reach, ElementPoint& out) const noexcept override;
+  void minimise(const std::array<Vec3, 3>& corners, double reach, ElementMinimum& out) const noexcept override;
+  void minimise(const std::array<Vec3, 2>& ends, double reach, ElementMinimum& out) const noexcept override;
   double radius_;
 };
 
@@ -108,8 +118,8 @@ class BoxShape final : public ConvexShape {
 
  private:
   bool enter(const Vec3& start, const Vec3& direction, SurfaceEntry& entry) const noexcept override;
-  void minimise(const std::array<Vec3, 3>& corners, double reach, ElementPoint& out) const noexcept override;
-  void minimise(const std::array<Vec3, 2>& ends, double reach, ElementPoint& out) const noexcept override;
+  void minimise(const std::array<Vec3, 3>& corners, double reach, ElementMinimum& out) const noexcept override;
+  void minimise(const std::array<Vec3, 2>& ends, double reach, ElementMinimum& out) const noexcept override;
   MeshTopology topology() const;
   Vec3 half_;
   ObstacleFeatures features_;
@@ -125,8 +135,8 @@ class CylinderShape final : public ConvexShape {
 
  private:
   bool enter(const Vec3& start, const Vec3& direction, SurfaceEntry& entry) const noexcept override;
-  void minimise(const std::array<Vec3, 3>& corners, double reach, ElementPoint& out) const noexcept override;
-  void minimise(const std::array<Vec3, 2>& ends, double reach, ElementPoint& out) const noexcept override;
+  void minimise(const std::array<Vec3, 3>& corners, double reach, ElementMinimum& out) const noexcept override;
+  void minimise(const std::array<Vec3, 2>& ends, double reach, ElementMinimum& out) const noexcept override;
   double radius_;
   double half_;
 };
@@ -141,8 +151,8 @@ class CapsuleShape final : public ConvexShape {
 
  private:
   bool enter(const Vec3& start, const Vec3& direction, SurfaceEntry& entry) const noexcept override;
-  void minimise(const std::array<Vec3, 3>& corners, double reach, ElementPoint& out) const noexcept override;
-  void minimise(const std::array<Vec3, 2>& ends, double reach, ElementPoint& out) const noexcept override;
+  void minimise(const std::array<Vec3, 3>& corners, double reach, ElementMinimum& out) const noexcept override;
+  void minimise(const std::array<Vec3, 2>& ends, double reach, ElementMinimum& out) const noexcept override;
   double radius_;
   double half_;
 };
@@ -156,8 +166,8 @@ class PlaneShape final : public ConvexShape {
 
  private:
   bool enter(const Vec3& start, const Vec3& direction, SurfaceEntry& entry) const noexcept override;
-  void minimise(const std::array<Vec3, 3>& corners, double reach, ElementPoint& out) const noexcept override;
-  void minimise(const std::array<Vec3, 2>& ends, double reach, ElementPoint& out) const noexcept override;
+  void minimise(const std::array<Vec3, 3>& corners, double reach, ElementMinimum& out) const noexcept override;
+  void minimise(const std::array<Vec3, 2>& ends, double reach, ElementMinimum& out) const noexcept override;
 };
 
 }  // namespace curtain
