@@ -18,27 +18,42 @@ using Edge = std::array<Vec3, 2>;
 /// Places looked at between two crossings of a surface, where an edge may be inside a solid.
 constexpr int kProbes = 16;
 
+/// Half of a cloth face.
+struct Face {
+  Triangle corners;
+  std::array<std::size_t, 3> edges;  ///< warp, weft and diagonal
+};
+
 /// The first layer in the obstacle's frame.
 struct ClothMesh {
   std::vector<Vec3> nodes;
   std::vector<Edge> edges;
-  std::vector<Triangle> triangles;
+  std::vector<Face> faces;
 };
 
 ClothMesh makeMesh(const Transform& place, const Grid& grid, const Field3& position) {
   ClothMesh mesh;
+  const int links = grid.linkCount();
   const auto node = [&](int i, int j) { return place.toLocal(position.at(grid.index(i, j % grid.columns))); };
+  const auto count = [](int rows, int columns) { return static_cast<std::size_t>(rows * columns); };
   for (int i = 0; i < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j) {
-      mesh.nodes.push_back(node(i, j));
-      if (i + 1 < grid.rows) mesh.edges.push_back({node(i, j), node(i + 1, j)});
-    }
-    for (int j = 0; j < grid.linkCount(); ++j) {
-      mesh.edges.push_back({node(i, j), node(i, j + 1)});
-      if (i + 1 == grid.rows) continue;
+    for (int j = 0; j < grid.columns; ++j) mesh.nodes.push_back(node(i, j));
+    for (int j = 0; j < links; ++j) mesh.edges.push_back({node(i, j), node(i, j + 1)});
+  }
+  const auto weft = [&](int i, int j) { return count(i, links) + static_cast<std::size_t>(j); };
+  const auto warp = [&](int i, int j) {
+    return count(grid.rows, links) + count(i, grid.columns) + static_cast<std::size_t>(j % grid.columns);
+  };
+  for (int i = 0; i + 1 < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) mesh.edges.push_back({node(i, j), node(i + 1, j)});
+  }
+  for (int i = 0; i + 1 < grid.rows; ++i) {
+    for (int j = 0; j < links; ++j) {
+      const std::size_t diagonal = mesh.edges.size();
       mesh.edges.push_back({node(i, j + 1), node(i + 1, j)});
-      mesh.triangles.push_back({node(i, j), node(i + 1, j), node(i, j + 1)});
-      mesh.triangles.push_back({node(i, j + 1), node(i + 1, j), node(i + 1, j + 1)});
+      mesh.faces.push_back({{node(i, j), node(i + 1, j), node(i, j + 1)}, {warp(i, j), weft(i, j), diagonal}});
+      mesh.faces.push_back({{node(i, j + 1), node(i + 1, j), node(i + 1, j + 1)},
+                            {warp(i, j + 1), weft(i + 1, j), diagonal}});
     }
   }
   return mesh;
@@ -118,8 +133,27 @@ Piercings countInConvex(const ConvexShape& shape, const ClothMesh& mesh, double 
   for (const Edge& edge : mesh.edges) {
     count.edges += shape.nearestOnEdge(edge, -tolerance, deepest) && deepest.surface.distance < -tolerance;
   }
-  for (const Triangle& face : mesh.triangles) {
-    count.faces += shape.nearestOnTriangle(face, -tolerance, deepest) && deepest.surface.distance < -tolerance;
+  for (const Face& face : mesh.faces) {
+    count.faces += shape.nearestOnTriangle(face.corners, -tolerance, deepest) && deepest.surface.distance < -tolerance;
+  }
+  return count;
+}
+
+Piercings countInMesh(const ObstacleShape& shape, const ObstacleFeatures& features, const ClothMesh& mesh,
+                      double tolerance) {
+  Piercings count;
+  const bool closed = features.closed();
+  const Eigen::AlignedBox3d bounds = shape.bounds();
+  for (const Vec3& node : mesh.nodes) count.nodes += closed && isDeep(shape, node, tolerance);
+  std::vector<bool> counts;
+  for (const Edge& edge : mesh.edges) {
+    counts.push_back(bounds.intersects(boxOf(edge)) && (closed ? dipsInto(shape, features, edge, tolerance)
+                                                               : crossesShell(features, edge, tolerance)));
+    count.edges += counts.back();
+  }
+  for (const Face& face : mesh.faces) {
+    const bool by_edge = counts[face.edges[0]] || counts[face.edges[1]] || counts[face.edges[2]];
+    count.faces += by_edge || (bounds.intersects(boxOf(face.corners)) && isPierced(features, face.corners, tolerance));
   }
   return count;
 }
@@ -130,21 +164,7 @@ Piercings countPiercings(const ObstacleShape& shape, const Transform& place, con
                          double depth_tolerance) {
   const ClothMesh mesh = makeMesh(place, grid, position);
   if (shape.convex() != nullptr) return countInConvex(*shape.convex(), mesh, depth_tolerance);
-  Piercings count;
-  const ObstacleFeatures* const features = shape.features();
-  if (features == nullptr) return count;
-  const bool closed = features->closed();
-  const Eigen::AlignedBox3d bounds = shape.bounds();
-  for (const Vec3& node : mesh.nodes) count.nodes += closed && isDeep(shape, node, depth_tolerance);
-  for (const Edge& edge : mesh.edges) {
-    if (!bounds.intersects(boxOf(edge))) continue;
-    count.edges += closed ? dipsInto(shape, *features, edge, depth_tolerance)
-                          : crossesShell(*features, edge, depth_tolerance);
-  }
-  for (const Triangle& face : mesh.triangles) {
-    if (bounds.intersects(boxOf(face))) count.faces += isPierced(*features, face, depth_tolerance);
-  }
-  return count;
+  return shape.features() == nullptr ? Piercings() : countInMesh(shape, *shape.features(), mesh, depth_tolerance);
 }
 
 }  // namespace curtain
