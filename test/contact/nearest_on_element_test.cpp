@@ -135,12 +135,12 @@ TEST(NearestOnElement, HoldsOnALattice) {
 TEST(NearestOnElement, HoldsForElementsWithoutAreaOrLength) {
   Random random(4);
   for (const auto& [name, shape] : kSolids) {
-    for (int n = 0; n < 300 && !HasFailure(); ++n) {
+    for (int n = 0; n < 1000 && !HasFailure(); ++n) {
       const Vec3 a = random.inBox(1.5);
       const Vec3 b = random.inBox(1.5);
       const double t = random.between(-0.5, 1.5);
       const Vec3 on = a + t * (b - a);
-      const Vec3 beside = on + 1e-9 * random.inBox(1.0);
+      const Vec3 beside = on + std::pow(10.0, random.between(-17.0, -6.0)) * random.inBox(1.0);
       for (const Triangle& corners : {Triangle{a, a, a}, Triangle{a, b, a}, Triangle{a, b, on}, Triangle{on, b, a},
                                       Triangle{a, beside, b}, Triangle{a, a + 1e-200 * b, a + 1e-200 * on},
                                       Triangle{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}}) {

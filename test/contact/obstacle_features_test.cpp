@@ -248,6 +248,25 @@ TEST(ObstacleFeatures, SliversLeaveNoRims) {
   EXPECT_GE(ridges, 12.0 * side - 1e-9);  // an edge split by the sliver's corner may be there whole, too
 }
 
+// A T-junction in the middle of a face, closed by a triangle without area: the long edge beside it lost its neighbour.
+TEST(ObstacleFeatures, ATJunctionInAFaceIsFlat) {
+  ShapeTriangles cube = BoxShape(Vec3(2.0, 2.0, 2.0)).triangles();
+  ASSERT_EQ(cube.triangles[2], Eigen::Vector3i(4, 5, 7));
+  cube.corners.emplace_back(0.0, 0.0, 1.0);
+  cube.triangles[2] = {4, 5, 8};
+  cube.triangles.emplace_back(5, 7, 8);
+  cube.triangles.emplace_back(4, 8, 7);
+  const TriangleMeshShape solid(cube);
+  ASSERT_TRUE(solid.watertight());
+  const ObstacleFeatures& features = *solid.features();
+  checkConsistent(features);
+  EXPECT_EQ(features.triangles().size(), 13u);
+  EXPECT_EQ(countOf(features, EdgeBend::kConvex), 12);
+  EXPECT_EQ(countOf(features, EdgeBend::kFlat), 9);  // five diagonals, the sixth in one piece and in two, one across
+  EXPECT_EQ(touchableEdges(features), 12);
+  EXPECT_EQ(touchableVertices(features), 8);
+}
+
 // The bend of an edge against the solid itself: beside a convex edge the mean of its faces' middles is inside.
 TEST(ObstacleFeatures, BendsAgreeWithTheInsideOfTheSolid) {
   const TriangleMeshShape solid(bumpySphere(24, 40, 0.3));
