@@ -316,7 +316,8 @@ TEST(ObstacleFeatures, AreFoundInABoxOnceAndAll) {
       const double size = random.between(0.0, n % 2 == 0 ? 0.1 : 1.5);
       Eigen::AlignedBox3d box(random.inBox(1.2));
       box.extend(Vec3(box.min() + size * Vec3::Ones()));
-      if (n % 10 == 0) box = Eigen::AlignedBox3d(features->vertices()[static_cast<std::size_t>(n) % features->vertices().size()].position);
+      const std::size_t some = static_cast<std::size_t>(n) % features->vertices().size();
+      if (n % 10 == 0) box = Eigen::AlignedBox3d(features->vertices()[some].position);
       std::set<std::uint32_t> vertices, edges, triangles;
       features->forEachVertexIn(box, [&](std::uint32_t index, const ObstacleVertex& vertex) {
         EXPECT_TRUE(vertices.insert(index).second);
@@ -350,7 +351,8 @@ TEST(ObstacleFeatures, NoneInEmptyAndNanBoxesAllInInfiniteOnes) {
   const auto count = [&](std::uint32_t, const auto&) { ++found; };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
-  for (const Eigen::AlignedBox3d& box : {Eigen::AlignedBox3d(), Eigen::AlignedBox3d(Vec3(nan, nan, nan), Vec3(nan, nan, nan))}) {
+  const Vec3 no_place(nan, nan, nan);
+  for (const Eigen::AlignedBox3d& box : {Eigen::AlignedBox3d(), Eigen::AlignedBox3d(no_place, no_place)}) {
     shape.features()->forEachVertexIn(box, count);
     shape.features()->forEachEdgeIn(box, count);
     shape.features()->forEachTriangleIn(box, count);
