@@ -87,6 +87,10 @@ class Simulator {
   /// Pairs of an edge and a triangle of the first layer's mesh that intersect, by brute force (slow).
   std::int64_t selfCrossings() const;
 
+  /// Parts of the first layer's mesh that are deeper than the tolerance [m] in an obstacle where it is now, or stuck
+  /// through it, by brute force (slow). An absent obstacle is pierced by nothing.
+  Piercings piercings(int obstacle, double depth_tolerance = 1e-6) const;
+
   /// Hash of the bits of positions and velocities (FNV-1a, 64 bits).
   std::uint64_t stateHash() const;
 

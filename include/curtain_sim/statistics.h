@@ -42,6 +42,13 @@ struct Statistics {
   bool finite = true;                 ///< the state holds no NaN or infinity
 };
 
+/// Parts of the cloth that are inside an obstacle or stuck through it.
+struct Piercings {
+  int nodes = 0;
+  int edges = 0;  ///< warp, weft and the faces' diagonals
+  int faces = 0;  ///< halves of faces, cut along their diagonals
+};
+
 /// Energy of the cloth; potential is of gravity, zero at the world's origin.
 struct Energy {
   double kinetic = 0.0;    ///< [J]

@@ -70,6 +70,22 @@ ShapeTriangles BoxShape::triangles() const {
   return shape;
 }
 
+/// By construction, not by analysis: a box thinner than rounding has six faces, too.
+MeshTopology BoxShape::topology() const {
+  MeshTopology topology;
+  topology.mesh = triangles();
+  topology.watertight = true;
+  for (const int face : {-3, 3, -2, 2, -1, 1}) {  // axis and side, in the order of triangles()
+    const Vec3 normal = (face < 0 ? -1.0 : 1.0) * Vec3::Unit(std::abs(face) - 1);
+    topology.face_normals.insert(topology.face_normals.end(), 2, normal);
+    topology.edge_normals.insert(topology.edge_normals.end(), 2, {normal, normal, normal});
+  }
+  for (const Vec3& corner : topology.mesh.corners) {
+    topology.corner_normals.push_back(corner.cwiseSign().normalized());
+  }
+  return topology;
+}
+
 ShapeTriangles CylinderShape::triangles() const {
   return turnAboutZ({{0.0, -half_}, {radius_, -half_}, {radius_, half_}, {0.0, half_}});
 }

@@ -114,6 +114,8 @@ Eigen::AlignedBox3d SphereShape::bounds() const {
 
 // ---- box -----------------------------------------------------------------------------------------------------
 
+BoxShape::BoxShape(const Vec3& size) : half_(0.5 * size), features_(topology(), FlatEdges::kDrop) {}
+
 SurfacePoint BoxShape::nearest(const Vec3& point) const noexcept {
   const Vec3 beyond = point.cwiseAbs() - half_;
   SurfacePoint surface;

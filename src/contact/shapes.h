@@ -9,8 +9,15 @@
 //        ===========*===========    entry, normal up
 //        ____________\__________
 //                     o current
+//
+// The signed distance to a convex solid is a convex function, so there is one value it takes at the nearest (or deepest)
+// point of a cloth edge or triangle: convex_elements.cpp finds it, and when a moving one first comes near.
 #pragma once
 
+#include <array>
+#include <optional>
+
+#include "contact/obstacle_features.h"
 #include "curtain_sim/obstacle_shape.h"
 
 namespace curtain {
@@ -21,6 +28,25 @@ struct SurfaceEntry {
   Vec3 point = Vec3::Zero();    ///< on the surface [m]
   Vec3 normal = Vec3::UnitZ();  ///< unit, outward, against the way
 };
+
+/// The point of an edge or a triangle that is nearest to a solid, or deepest in it.
+struct ElementPoint {
+  std::array<double, 3> weights{};  ///< of its corners, each >= 0, together 1; the third of an edge is 0
+  SurfacePoint surface;             ///< there
+  double lower_bound = 0.0;         ///< no point of the element has a smaller distance, for certain [m]
+};
+
+/// The smallest distance of an element, with a plane that shows it: everywhere in space
+/// distance(x) >= support_bound + support . x - (the smallest of support . corner).
+struct ElementMinimum {
+  ElementPoint point;
+  Vec3 support = Vec3::Zero();  ///< length 1 at most
+  double support_bound = 0.0;   ///< [m]
+};
+
+/// Largest difference of ElementPoint's distance to the smallest one and to the lower bound, as a share of the element's
+/// longest edge; roundings of the coordinates come on top.
+constexpr double kElementAccuracy = 1e-7;
 
 /// Cosine between the normals of the nearest exit and of the entry, below which they count as different sides.
 /// 60 degrees: the faces of a box are always different sides, a sphere is left by the nearest exit unless the
@@ -36,7 +62,32 @@ class ConvexShape : public ObstacleShape {
   /// axis, medial planes) one of the nearest exits, always the same.
   virtual SurfacePoint nearest(const Vec3& point) const noexcept = 0;
 
+  const ConvexShape* convex() const noexcept final { return this; }
+
+  /// The point of a triangle (an edge) nearest to the solid or deepest in it, to kElementAccuracy; where many are, one of
+  /// them. false: the whole of it is further out than `reach` [m] (any number, infinity too), for certain. Corners in the
+  /// shape's frame [m], finite, below 1e150; elements without area or length are fine. Allocates nothing.
+  bool nearestOnTriangle(const std::array<Vec3, 3>& corners, double reach, ElementPoint& out) const noexcept;
+  bool nearestOnEdge(const std::array<Vec3, 2>& ends, double reach, ElementPoint& out) const noexcept;
+
+  /// When a triangle (an edge) whose corners go straight and evenly from `start` (time 0) to `end` (time 1), as seen from
+  /// the solid, first comes nearer than `min_distance` [m] (negative: deeper). Conservative: never later than the truth;
+  /// none only if it certainly never does. Early by the way that covers about kElementAccuracy, and where it would take
+  /// more than kMostAdvances looks to tell. An element that starts at the distance itself has time 0.
+  std::optional<double> timeOfImpact(const std::array<Vec3, 3>& start, const std::array<Vec3, 3>& end,
+                                     double min_distance) const noexcept;
+  std::optional<double> timeOfImpact(const std::array<Vec3, 2>& start, const std::array<Vec3, 2>& end,
+                                     double min_distance) const noexcept;
+
+  /// Looks at a moving element before it counts as touching.
+  static constexpr int kMostAdvances = 40;
+
  private:
+  template <std::size_t N>
+  bool findMinimum(const std::array<Vec3, N>& corners, double reach, ElementMinimum& out) const noexcept;
+  /// Once the lower bound is beyond reach they may stop.
+  virtual void minimise(const std::array<Vec3, 3>& corners, double reach, ElementMinimum& out) const noexcept = 0;
+  virtual void minimise(const std::array<Vec3, 2>& ends, double reach, ElementMinimum& out) const noexcept = 0;
   /// First point where the ray from `start` (not inside) along the unit `direction` goes into the solid.
   virtual bool enter(const Vec3& start, const Vec3& direction, SurfaceEntry& entry) const noexcept = 0;
 };
@@ -51,20 +102,27 @@ class SphereShape final : public ConvexShape {
 
  private:
   bool enter(const Vec3& start, const Vec3& direction, SurfaceEntry& entry) const noexcept override;
+  void minimise(const std::array<Vec3, 3>& corners, double reach, ElementMinimum& out) const noexcept override;
+  void minimise(const std::array<Vec3, 2>& ends, double reach, ElementMinimum& out) const noexcept override;
   double radius_;
 };
 
 /// Centred, edges along the axes; size [m], each > 0.
 class BoxShape final : public ConvexShape {
  public:
-  explicit BoxShape(const Vec3& size) : half_(0.5 * size) {}
+  explicit BoxShape(const Vec3& size);
   SurfacePoint nearest(const Vec3& point) const noexcept override;
   Eigen::AlignedBox3d bounds() const override;
   ShapeTriangles triangles() const override;
+  const ObstacleFeatures* features() const noexcept override { return &features_; }
 
  private:
   bool enter(const Vec3& start, const Vec3& direction, SurfaceEntry& entry) const noexcept override;
+  void minimise(const std::array<Vec3, 3>& corners, double reach, ElementMinimum& out) const noexcept override;
+  void minimise(const std::array<Vec3, 2>& ends, double reach, ElementMinimum& out) const noexcept override;
+  MeshTopology topology() const;
   Vec3 half_;
+  ObstacleFeatures features_;
 };
 
 /// Along z, centred, flat ends; radius and whole length [m], > 0.
@@ -77,6 +135,8 @@ class CylinderShape final : public ConvexShape {
 
  private:
   bool enter(const Vec3& start, const Vec3& direction, SurfaceEntry& entry) const noexcept override;
+  void minimise(const std::array<Vec3, 3>& corners, double reach, ElementMinimum& out) const noexcept override;
+  void minimise(const std::array<Vec3, 2>& ends, double reach, ElementMinimum& out) const noexcept override;
   double radius_;
   double half_;
 };
@@ -91,6 +151,8 @@ class CapsuleShape final : public ConvexShape {
 
  private:
   bool enter(const Vec3& start, const Vec3& direction, SurfaceEntry& entry) const noexcept override;
+  void minimise(const std::array<Vec3, 3>& corners, double reach, ElementMinimum& out) const noexcept override;
+  void minimise(const std::array<Vec3, 2>& ends, double reach, ElementMinimum& out) const noexcept override;
   double radius_;
   double half_;
 };
@@ -104,6 +166,8 @@ class PlaneShape final : public ConvexShape {
 
  private:
   bool enter(const Vec3& start, const Vec3& direction, SurfaceEntry& entry) const noexcept override;
+  void minimise(const std::array<Vec3, 3>& corners, double reach, ElementMinimum& out) const noexcept override;
+  void minimise(const std::array<Vec3, 2>& ends, double reach, ElementMinimum& out) const noexcept override;
 };
 
 }  // namespace curtain

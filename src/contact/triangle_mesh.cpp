@@ -22,7 +22,7 @@ constexpr double kTinyDistance = 1e-10;
 }  // namespace
 
 TriangleMeshShape::TriangleMeshShape(ShapeTriangles mesh)
-    : topology_(analyseMesh(std::move(mesh))), tree_(topology_.mesh) {
+    : topology_(analyseMesh(std::move(mesh))), features_(topology_, FlatEdges::kKeep), tree_(topology_.mesh) {
   const Eigen::AlignedBox3d box = tree_.bounds();
   tiny_ = kTinyDistance * std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
   const double cells = std::min(kMostCells, kCellsPerTriangle * static_cast<double>(topology_.mesh.triangles.size()));

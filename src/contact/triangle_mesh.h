@@ -6,6 +6,7 @@
 
 #include <memory>
 
+#include "contact/obstacle_features.h"
 #include "contact/triangle_mesh_grid.h"
 #include "contact/triangle_mesh_topology.h"
 #include "contact/triangle_mesh_tree.h"
@@ -20,6 +21,8 @@ class TriangleMeshShape final : public ObstacleShape {
   bool query(const Vec3& previous, const Vec3& current, double reach, SurfacePoint& out) const noexcept override;
   Eigen::AlignedBox3d bounds() const override { return tree_.bounds(); }
   ShapeTriangles triangles() const override { return topology_.mesh; }
+
+  const ObstacleFeatures* features() const noexcept override { return &features_; }
 
   /// Every edge has two triangles that agree on the outside, and there is an inside.
   bool watertight() const { return topology_.watertight; }
@@ -36,6 +39,7 @@ class TriangleMeshShape final : public ObstacleShape {
   double gridDistance(const Vec3& point, double bound) const;
 
   MeshTopology topology_;
+  ObstacleFeatures features_;
   TriangleMeshTree tree_;
   double tiny_ = 0.0;  // distance below which a direction to the surface is rounding [m]
   std::unique_ptr<const DistanceGrid> grid_;

@@ -95,6 +95,14 @@ std::string statisticsJson(const Simulator& simulator, const Energy& initial, co
   json["contacts_max"] = s.contacts_max;
   json["penetration_max"] = s.penetration_max;
   json["self_crossings"] = simulator.selfCrossings();
+  Piercings piercings;
+  for (int obstacle = 0; obstacle < simulator.obstacleCount(); ++obstacle) {
+    const Piercings own = simulator.piercings(obstacle);
+    piercings.nodes += own.nodes;
+    piercings.edges += own.edges;
+    piercings.faces += own.faces;
+  }
+  json["piercings"] = {{"nodes", piercings.nodes}, {"edges", piercings.edges}, {"faces", piercings.faces}};
   nlohmann::ordered_json stages;
   for (int stage = 0; stage < kStageCount; ++stage) {
     stages[stageName(static_cast<Stage>(stage))] = 1e3 * s.stage_seconds[static_cast<std::size_t>(stage)];

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "contact/piercings.h"
 #include "simulator/self_crossings.h"
 #include "simulator/simulator_impl.h"
 #include "solver/composition.h"
@@ -182,6 +183,13 @@ Energy Simulator::energy() const {
 
 std::int64_t Simulator::selfCrossings() const {
   return countSelfCrossings(impl_->pattern.grid, impl_->state.position);
+}
+
+Piercings Simulator::piercings(int obstacle, double depth_tolerance) const {
+  const ObstacleSet& obstacles = impl_->obstacles;
+  if (!obstacles.present(obstacle)) return {};
+  return countPiercings(obstacles.shape(obstacle), Transform(obstacles.pose(obstacle)), impl_->pattern.grid,
+                        impl_->state.position, depth_tolerance);
 }
 
 std::uint64_t Simulator::stateHash() const {

@@ -87,6 +87,7 @@ TEST_F(Options, StatisticsHaveTheKeysThatToolsRead) {
   EXPECT_EQ(json.at("contacts_max").get<int>(), 0);
   EXPECT_EQ(json.at("penetration_max").get<double>(), 0.0);
   EXPECT_EQ(json.at("self_crossings").get<int>(), 0);
+  for (const char* part : {"nodes", "edges", "faces"}) EXPECT_EQ(json.at("piercings").at(part).get<int>(), 0);
   std::set<std::string> stages;
   double stage_sum = 0.0;
   for (const auto& [name, ms] : json.at("stages").items()) {
