@@ -31,24 +31,6 @@ double shortestLink(const ClothPattern& pattern) {
   return shortest;
 }
 
-// Box around the way of all nodes.
-Eigen::AlignedBox3d sweptBox(const ClothPattern& pattern, const Field3& start, const Field3& predicted) {
-  Eigen::AlignedBox3d box;
-  const Grid& grid = pattern.grid;
-  for (int i = 0; i < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j) {
-      box.extend(start.at(grid.index(i, j)));
-      box.extend(predicted.at(grid.index(i, j)));
-    }
-  }
-  return box;
-}
-
-// The order in which contacts are found and kept.
-bool before(const Contact& a, const Contact& b) {
-  return a.obstacle != b.obstacle ? a.obstacle < b.obstacle : a.source < b.source;
-}
-
 }  // namespace
 
 ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& params, double frame_length,
@@ -56,10 +38,9 @@ ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& par
     : pattern_(pattern),
       obstacles_(obstacles),
       self_wanted_(params.self),
-      thickness_(params.thickness),
       frame_length_(frame_length),
       zone_iterations_(params.zone_iterations),
-      nodes_(pattern, params.thickness, obstacles),
+      touch_(pattern, params.thickness, obstacles),
       self_(pattern, std::min(params.thickness, kGapPerLink * shortestLink(pattern)), params.friction),
       tree_(pattern),
       horizon_(pattern.grid),
@@ -90,38 +71,22 @@ Contacts* ClothContact::begin(const ClothPattern&, const Field3& start, const Fi
       look(start, predicted, h);
     }
   }
-  collect(start, predicted);
-  return contacts_.empty() && !self_wanted_ ? nullptr : &contacts_;
-}
-
-void ClothContact::collect(const Field3& start, const Field3& predicted) noexcept {
-  if (self_wanted_) self_.collect(start, predicted, h_, contacts_);
-  if (!obstacles_.anyPresent()) return;
-  const std::size_t first = contacts_.size();
-  const Eigen::AlignedBox3d cloth = sweptBox(pattern_, start, predicted);
-  // The solve may move nodes beyond their predicted way by about as much again.
-  const double reach = 2.0 * thickness_ + 0.25 * cloth.diagonal().norm() / pattern_.grid.rows;
-  for (int n = 0; n < obstacles_.count(); ++n) {
-    const MovingObstacle& moving = obstacles_.moving()[static_cast<std::size_t>(n)];
-    if (!moving.present) continue;
-    Eigen::AlignedBox3d box = moving.sweptBounds();
-    box.min().array() -= reach;
-    box.max().array() += reach;
-    if (box.intersects(cloth)) nodes_.collect(n, start, predicted, h_, slippery_ > 0, contacts_);
-  }
-  recall(first);
+  if (self_wanted_) self_.collect(start, predicted, h, contacts_);
+  near_obstacle_ = obstacles_.anyPresent() && touch_.mayTouch(start, predicted);
+  if (near_obstacle_) touch_.collect(start, predicted, h, slippery_ > 0, contacts_);
+  return self_wanted_ || near_obstacle_ ? &contacts_ : nullptr;
 }
 
 ContactFinder::Verdict ClothContact::verify(const Field3& start, const Field3& end) noexcept {
-  if (!self_wanted_) return Verdict::kClear;
-  if (!(horizon_.strayed(end, h_) <= horizon_.slack())) {
+  if (self_wanted_ && !(horizon_.strayed(end, h_) <= horizon_.slack())) {
     // The solve went where nobody looked. Contacts of the cloth itself name pairs of the old horizon: they go on with it.
     self_.remember(contacts_);
     slack_ = std::min(kMostSlack * self_.gap(), kSlackGrowth * slack_);
     look(start, end, h_);
     self_.carryOver(start, contacts_);
   }
-  const int added = self_.verify(start, end, h_, contacts_);
+  int added = self_wanted_ ? self_.verify(start, end, h_, contacts_) : 0;
+  if (near_obstacle_) added += touch_.verify(start, end, h_, contacts_);
   if (added == 0) return Verdict::kClear;
   return ++looks_ <= zone_iterations_ ? Verdict::kMore : Verdict::kCrossed;
 }
@@ -154,19 +119,6 @@ int ClothContact::joinCrossings(const Field3& start, const Field3& end) noexcept
   return count;
 }
 
-// The multipliers of the last substep, for the contacts that are the same.
-void ClothContact::recall(std::size_t first) noexcept {
-  auto old = last_.begin();
-  for (std::size_t n = first; n < contacts_.size(); ++n) {
-    Contact& contact = contacts_[n];
-    while (old != last_.end() && before(*old, contact)) ++old;
-    if (old == last_.end()) return;
-    if (before(contact, *old)) continue;
-    contact.push = old->push;
-    contact.slide = old->slide;
-  }
-}
-
 void ClothContact::afterSubstep(bool settled, double h, double scale) noexcept {
   if (!settled) slippery_ = kSlipperySubsteps;
   else if (slippery_ > 0) --slippery_;
@@ -177,6 +129,7 @@ void ClothContact::afterSubstep(bool settled, double h, double scale) noexcept {
   }
   last_scale_ = scale;
   if (self_wanted_) self_.remember(contacts_);
+  touch_.remember(contacts_);
 }
 
 void ClothContact::addForces(Field3& force) const noexcept {
@@ -197,6 +150,7 @@ void ClothContact::forget() noexcept {
   slippery_ = 0;
   horizon_.forget();
   self_.forget();
+  touch_.forget();
   slack_ = kLeastSlack * self_.gap();
   held_ = 0;
 }

@@ -10,7 +10,7 @@
 
 #include "contact/cloth_tree.h"
 #include "contact/horizon.h"
-#include "contact/node_contacts.h"
+#include "contact/obstacle_contacts.h"
 #include "contact/obstacle_set.h"
 #include "contact/self_contacts.h"
 #include "contact/zones.h"
@@ -41,7 +41,7 @@ class ClothContact : public ContactFinder {
   /// Contacts that were pressed on in the last substep.
   int contactCount() const noexcept { return static_cast<int>(last_.size()); }
   /// How deep the deepest node is inside an obstacle [m]; 0: none is.
-  double deepestPenetration(const Field3& position) const noexcept { return nodes_.deepest(contacts_, position); }
+  double deepestPenetration(const Field3& position) const noexcept { return touch_.deepest(contacts_, position); }
   /// Adds the contact forces of the last substep [N].
   void addForces(Field3& force) const noexcept;
   /// Substeps whose end had to be held, since construction or forget().
@@ -50,17 +50,14 @@ class ClothContact : public ContactFinder {
 
  private:
   void look(const Field3& start, const Field3& predicted, double h) noexcept;
-  void collect(const Field3& start, const Field3& predicted) noexcept;
-  void recall(std::size_t first) noexcept;
   int joinCrossings(const Field3& start, const Field3& end) noexcept;
 
   const ClothPattern& pattern_;
   const ObstacleSet& obstacles_;
   bool self_wanted_;
-  double thickness_;
   double frame_length_;
   int zone_iterations_;
-  NodeContacts nodes_;
+  ObstacleContacts touch_;
   SelfContacts self_;
   ClothTree tree_;
   Candidates candidates_;
@@ -70,6 +67,7 @@ class ClothContact : public ContactFinder {
   Contacts contacts_, last_;  // of this substep; of the last accepted one, those that pushed
   double h_ = 0.0;            // of this substep [s]
   double last_scale_ = 0.0;   // of the last one's multipliers [s^2]
+  bool near_obstacle_ = false;
   int looks_ = 0;             // times that the present substep was verified
   int slippery_ = 0;          // substeps still to go without friction
   std::int64_t held_ = 0;

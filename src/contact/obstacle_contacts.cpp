@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "contact/node_contacts.h"
+#include "contact/obstacle_contacts.h"
 
 #include <algorithm>
 
@@ -11,9 +11,67 @@ namespace {
 constexpr double kRecoverySpeed = 2.0;
 constexpr double kGapRecoverySpeed = 0.1;
 
+// Box around the way of all nodes.
+Eigen::AlignedBox3d sweptBox(const ClothPattern& pattern, const Field3& start, const Field3& predicted) {
+  Eigen::AlignedBox3d box;
+  const Grid& grid = pattern.grid;
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) {
+      box.extend(start.at(grid.index(i, j)));
+      box.extend(predicted.at(grid.index(i, j)));
+    }
+  }
+  return box;
+}
+
+// The order in which contacts are found and kept.
+bool before(const Contact& a, const Contact& b) {
+  return a.obstacle != b.obstacle ? a.obstacle < b.obstacle : a.source < b.source;
+}
+
 }  // namespace
 
-void NodeContacts::collect(int obstacle, const Field3& start, const Field3& predicted, double h, bool slippery,
+bool ObstacleContacts::mayTouch(const Field3& start, const Field3& predicted) noexcept {
+  const Eigen::AlignedBox3d cloth = sweptBox(pattern_, start, predicted);
+  // The solve may move nodes beyond their predicted way by about as much again.
+  const double reach = 2.0 * thickness_ + 0.25 * cloth.diagonal().norm() / pattern_.grid.rows;
+  for (const MovingObstacle& moving : obstacles_.moving()) {
+    if (!moving.present) continue;
+    Eigen::AlignedBox3d box = moving.sweptBounds();
+    box.min().array() -= reach;
+    box.max().array() += reach;
+    if (box.intersects(cloth)) return true;
+  }
+  return false;
+}
+
+void ObstacleContacts::collect(const Field3& start, const Field3& predicted, double h, bool slippery,
+                               Contacts& contacts) noexcept {
+  const std::size_t first = contacts.size();
+  for (int n = 0; n < obstacles_.count(); ++n) {
+    if (obstacles_.present(n)) collectNodes(n, start, predicted, h, slippery, contacts);
+  }
+  auto old = last_.begin();
+  for (std::size_t n = first; n < contacts.size(); ++n) {
+    Contact& contact = contacts[n];
+    while (old != last_.end() && before(*old, contact)) ++old;
+    if (old == last_.end()) return;
+    if (before(contact, *old)) continue;
+    contact.push = old->push;
+    contact.slide = old->slide;
+  }
+}
+
+int ObstacleContacts::verify(const Field3&, const Field3&, double, Contacts&) noexcept { return 0; }
+
+void ObstacleContacts::remember(const Contacts& contacts) noexcept {
+  last_.clear();
+  for (const Contact& contact : contacts) {
+    if (contact.obstacle != Contact::kCloth && contact.pushes()) last_.push_back(contact);
+  }
+}
+
+void ObstacleContacts::collectNodes(int obstacle, const Field3& start, const Field3& predicted, double h, bool slippery,
                            Contacts& contacts) const {
   const MovingObstacle& moving = obstacles_.moving()[static_cast<std::size_t>(obstacle)];
   Eigen::AlignedBox3d box = moving.sweptBounds();
@@ -53,7 +111,7 @@ void NodeContacts::collect(int obstacle, const Field3& start, const Field3& pred
   }
 }
 
-double NodeContacts::deepest(const Contacts& contacts, const Field3& position) const noexcept {
+double ObstacleContacts::deepest(const Contacts& contacts, const Field3& position) const noexcept {
   double deepest = 0.0;
   for (const Contact& contact : contacts) {
     if (contact.obstacle == Contact::kCloth || contact.nodes > 1) continue;
