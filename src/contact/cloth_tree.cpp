@@ -2,8 +2,6 @@
 #include "contact/cloth_tree.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace curtain {
 namespace {
@@ -79,6 +77,8 @@ ClothTree::ClothTree(const ClothPattern& pattern) : grid_(pattern.grid) {
   boxes_.resize(nodes_.size());
   slopes_.resize(nodes_.size());
   node_boxes_.resize(grid_.size());
+  element_refits_.assign(quads, 0);
+  element_boxes_.resize(quads + 1);
   for (FloatBox& box : node_boxes_) box.low = box.high = Eigen::Array4f::Zero();
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     boxes_[n].low = boxes_[n].high = Eigen::Array4f::Zero();

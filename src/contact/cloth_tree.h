@@ -21,6 +21,7 @@
 #include "cloth/cloth.h"
 #include "cloth/coarse_mesh.h"
 #include "contact/candidates.h"
+#include "contact/element_boxes.h"
 #include "contact/flatness.h"
 
 namespace curtain {
@@ -77,7 +78,8 @@ class ClothTree {
     std::uint32_t node;
     bool filled;
   };
-  struct NearElements;
+  struct OpenQuad;
+  struct QuadPair;
 
   std::uint32_t split(const QuadRectangle& quads, std::uint32_t block);
   void copyPositions(const Field3& start, const Field3& end) noexcept;
@@ -105,8 +107,16 @@ class ClothTree {
   bool flatTogether(std::uint32_t one, std::uint32_t other) noexcept;
   bool mergeQuads(const QuadRectangle& hull, PatchSlopes& slopes) noexcept;
   bool mergeBlocks(const QuadRectangle& hull, PatchSlopes& slopes) const noexcept;
-  void add(std::uint32_t vertex, const MeshTriangle& triangle, Candidates& out) const;
-  void add(const MeshEdge& first, const MeshEdge& second, Candidates& out) const;
+  OpenQuad openQuad(std::uint32_t node) noexcept;
+  template <typename IsFlat>
+  void addLanes(const QuadPair& pair, std::size_t lane, std::uint32_t others, const IsFlat& is_flat,
+                Candidates& out) const;
+  bool isImmovable(std::uint32_t vertex, const MeshTriangle& t) const noexcept {
+    return (immovable_[vertex] & immovable_[t[0]] & immovable_[t[1]] & immovable_[t[2]]) != 0;
+  }
+  bool isImmovable(const MeshEdge& p, const MeshEdge& q) const noexcept {
+    return (immovable_[p[0]] & immovable_[p[1]] & immovable_[q[0]] & immovable_[q[1]]) != 0;
+  }
 
   Grid grid_;
   std::vector<std::uint8_t> immovable_;          // of nodes
@@ -130,6 +140,9 @@ class ClothTree {
   std::vector<FloatBox> boxes_;       // of tree nodes
   std::vector<PatchSlopes> slopes_;   // of tree nodes
   std::vector<FloatBox> node_boxes_;  // of the cloth's nodes, in blocks that are filled
+  std::uint32_t refits_ = 0;
+  std::vector<std::uint32_t> element_refits_;  // of quads: the refit that the boxes of their elements are of
+  std::vector<ElementBoxes> element_boxes_;    // of quads, and the second set of the last one
 };
 
 }  // namespace curtain

@@ -2,7 +2,6 @@
 //
 // Boxes and slopes of the tree: of whole blocks at every refit, of what lies below them on demand.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "cloth/wide.h"
@@ -16,8 +15,10 @@ using Eigen::Array4f;
 /// Largest error of a number rounded to single precision, relative to it.
 constexpr float kUnit = 0.5f * std::numeric_limits<float>::epsilon();
 
-CURTAIN_INTO_WIDE float lesser(float a, float b) { return a < b ? a : b; }
-CURTAIN_INTO_WIDE float greater(float a, float b) { return a > b ? a : b; }
+constexpr std::size_t kLanes = 8;
+
+float lesser(float a, float b) { return a < b ? a : b; }
+float greater(float a, float b) { return a > b ? a : b; }
 
 CURTAIN_WIDE void copyRow(const double* __restrict from, double origin, std::size_t count, float* __restrict to) {
 #pragma omp simd
@@ -38,40 +39,61 @@ struct Strip {
   float* __restrict v_low, * __restrict v_high;
 };
 
+/// Neighbouring columns side by side. Spelled out, for no compiler tried keeps the extremes of a column in registers
+/// down the rows when asked to vectorise across columns.
+using Lanes = float __attribute__((vector_size(kLanes * sizeof(float)), aligned(sizeof(float)), may_alias));
+
+CURTAIN_INTO_WIDE void lower(Lanes& least, const Lanes& value) { least = value < least ? value : least; }
+CURTAIN_INTO_WIDE void raise(Lanes& greatest, const Lanes& value) { greatest = value > greatest ? value : greatest; }
+CURTAIN_INTO_WIDE const Lanes& lanes(const float* from) { return *reinterpret_cast<const Lanes*>(from); }
+CURTAIN_INTO_WIDE void store(const Lanes& value, float* to) { *reinterpret_cast<Lanes*>(to) = value; }
+
 // Of every column: what its nodes, the links to the next column and its rods are within. The value of u in the last
 // column means nothing.
-CURTAIN_WIDE void columnRanges(const Strip& strip) {
-  const Strip s = strip;
-#pragma omp simd
-  for (std::size_t j = 0; j < s.columns; ++j) {
-    const float* __restrict start = s.start + j;
-    const float* __restrict end = s.end + j;
-    float p = start[0], q = end[0];
-    float low = lesser(p, q), high = greater(p, q);
-    float up = start[1] - p, uq = end[1] - q;
-    float u_low = lesser(up, uq), u_high = greater(up, uq);
-    float v_low = std::numeric_limits<float>::max(), v_high = -v_low;
+CURTAIN_WIDE void columnRanges(const Strip& s) {
+  for (std::size_t j = 0; j < s.columns; j += kLanes) {
+    const float *start = s.start + j, *end = s.end + j;
+    Lanes p = lanes(start), q = lanes(end);
+    Lanes low = p, high = p;
+    lower(low, q);
+    raise(high, q);
+    Lanes u = lanes(start + 1) - p;
+    Lanes u_low = u, u_high = u;
+    u = lanes(end + 1) - q;
+    lower(u_low, u);
+    raise(u_high, u);
+    Lanes v_low = (lanes(start + s.stride) - p) * s.per_spacing_v[0];
+    Lanes v_high = v_low;
     for (int i = 0; i < s.rows; ++i) {
       start += s.stride;
       end += s.stride;
-      const float vp = (start[0] - p) * s.per_spacing_v[i], vq = (end[0] - q) * s.per_spacing_v[i];
-      v_low = lesser(v_low, lesser(vp, vq));
-      v_high = greater(v_high, greater(vp, vq));
-      p = start[0];
-      q = end[0];
-      low = lesser(low, lesser(p, q));
-      high = greater(high, greater(p, q));
-      up = start[1] - p;
-      uq = end[1] - q;
-      u_low = lesser(u_low, lesser(up, uq));
-      u_high = greater(u_high, greater(up, uq));
+      const Lanes next_p = lanes(start), next_q = lanes(end);
+      Lanes v = (next_p - p) * s.per_spacing_v[i];
+      lower(v_low, v);
+      raise(v_high, v);
+      v = (next_q - q) * s.per_spacing_v[i];
+      lower(v_low, v);
+      raise(v_high, v);
+      p = next_p;
+      q = next_q;
+      lower(low, p);
+      raise(high, p);
+      lower(low, q);
+      raise(high, q);
+      u = lanes(start + 1) - p;
+      lower(u_low, u);
+      raise(u_high, u);
+      u = lanes(end + 1) - q;
+      lower(u_low, u);
+      raise(u_high, u);
     }
-    s.low[j] = low;
-    s.high[j] = high;
-    s.u_low[j] = u_low * s.per_spacing_u[j];
-    s.u_high[j] = u_high * s.per_spacing_u[j];
-    s.v_low[j] = v_low;
-    s.v_high[j] = v_high;
+    const Lanes per_spacing_u = lanes(s.per_spacing_u + j);
+    store(low, s.low + j);
+    store(high, s.high + j);
+    store(u_low * per_spacing_u, s.u_low + j);
+    store(u_high * per_spacing_u, s.u_high + j);
+    store(v_low, s.v_low + j);
+    store(v_high, s.v_high + j);
   }
 }
 
@@ -93,6 +115,7 @@ void ClothTree::refit(const Field3& start, const Field3& end) noexcept {
   copyPositions(start, end);
   for (std::size_t strip = 0; strip + 1 < row_bounds_.size(); ++strip) refitStrip(strip);
   for (Block& block : blocks_) block.filled = false;
+  ++refits_;
   for (const std::uint32_t node : upper_) mergeChildren(node);
   const FloatBox& all = boxes_[0];
   largest_ = all.low.abs().max(all.high.abs()).maxCoeff();
@@ -124,7 +147,7 @@ void ClothTree::copyPositions(const Field3& start, const Field3& end) noexcept {
 
 void ClothTree::refitStrip(std::size_t strip) noexcept {
   const auto row = static_cast<std::size_t>(row_bounds_[strip]);
-  const auto columns = (static_cast<std::size_t>(grid_.linkCount()) + kLane) / kLane * kLane;  // padding too
+  const auto columns = (static_cast<std::size_t>(grid_.linkCount()) + kLanes) / kLanes * kLanes;  // padding too
   for (std::size_t k = 0; k < 3; ++k) {
     const auto out = [&](std::size_t what) { return columns_[6 * k + what].data(); };
     columnRanges({start_[k].data() + row * stride_, end_[k].data() + row * stride_, stride_, columns,

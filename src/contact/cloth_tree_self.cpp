@@ -2,7 +2,6 @@
 //
 // Which elements of the cloth may come near each other: down the tree, past what is flat or far apart.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "contact/cloth_tree.h"
@@ -36,47 +35,24 @@ bool shareNode(const MeshEdge& p, const MeshEdge& q) {
   return p[0] == q[0] || p[0] == q[1] || p[1] == q[0] || p[1] == q[1];
 }
 
+std::size_t lowestLane(std::uint32_t lanes) { return static_cast<std::size_t>(__builtin_ctz(lanes)); }
+
 bool isCorner(std::uint32_t vertex, const MeshTriangle& t) {
   return vertex == t[0] || vertex == t[1] || vertex == t[2];
 }
 
 }  // namespace
 
-/// The elements of a quad that come near something, with their boxes.
-struct ClothTree::NearElements {
-  template <typename Element, std::size_t N>
-  struct List {
-    std::array<Element, N> elements;
-    std::array<FloatBox, N> boxes;
-    std::size_t count = 0;
-  };
-  List<std::uint32_t, 4> vertices;
-  List<MeshTriangle, 2> triangles;
-  List<MeshEdge, 5> edges;
+/// A quad that is looked at, with its elements' boxes.
+struct ClothTree::OpenQuad {
+  QuadElements elements;
+  std::array<const ElementBoxes*, 2> boxes;  // the second may be missing
+};
 
-  NearElements(const QuadElements& quad, const std::vector<FloatBox>& node_boxes, const FloatBox& near, float reach) {
-    const auto keep = [&](auto& list, const auto& element, const FloatBox& box) {
-      list.elements[list.count] = element;  // kept only if counted
-      list.boxes[list.count] = box;
-      list.count += box.meets(near, reach) ? 1U : 0U;
-    };
-    for (int k = 0; k < quad.vertex_count; ++k) {
-      const std::uint32_t vertex = quad.vertices[static_cast<std::size_t>(k)];
-      keep(vertices, vertex, node_boxes[vertex]);
-    }
-    for (int k = 0; k < quad.edge_count; ++k) {
-      const MeshEdge& edge = quad.edges[static_cast<std::size_t>(k)];
-      FloatBox box = node_boxes[edge[0]];
-      box.merge(node_boxes[edge[1]]);
-      keep(edges, edge, box);
-    }
-    for (const MeshTriangle& triangle : quad.triangles) {
-      FloatBox box = node_boxes[triangle[0]];
-      box.merge(node_boxes[triangle[1]]);
-      box.merge(node_boxes[triangle[2]]);
-      keep(triangles, triangle, box);
-    }
-  }
+/// Two sets of lanes.
+struct ClothTree::QuadPair {
+  const OpenQuad &p, &q;
+  bool p_second, q_second;
 };
 
 void ClothTree::collectSelf(double reach, Candidates& out) noexcept {
@@ -85,7 +61,7 @@ void ClothTree::collectSelf(double reach, Candidates& out) noexcept {
 }
 
 void ClothTree::self(std::uint32_t node, Candidates& out) noexcept {
-  if (leastDistance(slopes_[node], rounding_) > reach_) return;
+  if (isFlatBeyond(reach_, slopes_[node], rounding_)) return;
   const std::uint32_t second = nodes_[node].second;
   lookInto(node);
   if (second == kNone) {
@@ -134,7 +110,7 @@ bool ClothTree::flatTogether(std::uint32_t one, std::uint32_t other) noexcept {
     const bool blocks = !isBelowBlock(one) && !isBelowBlock(other);
     if (quads ? !mergeQuads(hull, slopes) : !(blocks && mergeBlocks(hull, slopes))) return false;
   }
-  return leastDistance(slopes, rounding_) > reach_;
+  return isFlatBeyond(reach_, slopes, rounding_);
 }
 
 bool ClothTree::mergeQuads(const QuadRectangle& hull, PatchSlopes& slopes) noexcept {
@@ -166,67 +142,84 @@ bool ClothTree::mergeBlocks(const QuadRectangle& hull, PatchSlopes& slopes) cons
   return true;
 }
 
-void ClothTree::quadSelf(std::uint32_t node, Candidates& out) noexcept {
+ClothTree::OpenQuad ClothTree::openQuad(std::uint32_t node) noexcept {
+  lookInto(node);
   const QuadRectangle& at = nodes_[node].quads;
-  const NearElements mine(quadElements(grid_, at.row, at.column), node_boxes_, boxes_[node], reach_);
-  for (std::size_t v = 0; v < mine.vertices.count; ++v) {
-    for (std::size_t t = 0; t < mine.triangles.count; ++t) {
-      const MeshTriangle& triangle = mine.triangles.elements[t];
-      if (isCorner(mine.vertices.elements[v], triangle)) continue;
-      if (mine.vertices.boxes[v].meets(mine.triangles.boxes[t], reach_)) add(mine.vertices.elements[v], triangle, out);
-    }
+  const auto quad = static_cast<std::size_t>(at.row * grid_.linkCount() + at.column);
+  OpenQuad open{quadElements(grid_, at.row, at.column), {&element_boxes_[quad], nullptr}};
+  const bool has_second = open.elements.vertex_count > 2;  // one quad at most: it lies behind the last
+  if (element_refits_[quad] != refits_) {
+    element_refits_[quad] = refits_;
+    element_boxes_[quad].fill(open.elements, false, node_boxes_);
+    if (has_second) element_boxes_.back().fill(open.elements, true, node_boxes_);
   }
-  for (std::size_t e = 0; e < mine.edges.count; ++e) {
-    for (std::size_t f = e + 1; f < mine.edges.count; ++f) {
-      const MeshEdge &edge = mine.edges.elements[e], &second = mine.edges.elements[f];
-      if (!shareNode(edge, second) && mine.edges.boxes[e].meets(mine.edges.boxes[f], reach_)) add(edge, second, out);
+  if (has_second) open.boxes[1] = &element_boxes_.back();
+  return open;
+}
+
+void ClothTree::quadSelf(std::uint32_t node, Candidates& out) noexcept {
+  const OpenQuad quad = openQuad(node);
+  const auto never = [] { return false; };  // flat: has been asked
+  for (const bool second : {false, true}) {
+    if (quad.boxes[second] == nullptr) continue;
+    for (std::size_t lane = 0; lane < 8; ++lane) {
+      const std::uint32_t later = ~0U << (lane + 1);
+      addLanes({quad, quad, second, second}, lane, later, never, out);
+      if (!second && quad.boxes[1] != nullptr) addLanes({quad, quad, false, true}, lane, ~0U, never, out);
     }
   }
 }
 
 void ClothTree::quadPair(std::uint32_t one, std::uint32_t other, Candidates& out) noexcept {
-  lookInto(one);
-  lookInto(other);
-  const QuadRectangle &p = nodes_[one].quads, &q = nodes_[other].quads;
-  const NearElements first(quadElements(grid_, p.row, p.column), node_boxes_, boxes_[other], reach_);
-  const NearElements second(quadElements(grid_, q.row, q.column), node_boxes_, boxes_[one], reach_);
+  const OpenQuad p = openQuad(one), q = openQuad(other);
   bool asked = false, flat = false;
   // Asked at the first pair that would be added, for most pairs of quads have none.
-  const auto isFlat = [&] {
+  const auto is_flat = [&] {
     if (!asked) flat = flatTogether(one, other);
     asked = true;
     return flat;
   };
-  const auto triangles = [&](const NearElements& a, const NearElements& b) {
-    for (std::size_t v = 0; v < a.vertices.count; ++v) {
-      for (std::size_t t = 0; t < b.triangles.count; ++t) {
-        if (!a.vertices.boxes[v].meets(b.triangles.boxes[t], reach_)) continue;
-        if (isCorner(a.vertices.elements[v], b.triangles.elements[t])) continue;
-        if (isFlat()) return;
-        add(a.vertices.elements[v], b.triangles.elements[t], out);
+  for (const bool p_second : {false, true}) {
+    for (const bool q_second : {false, true}) {
+      if (p.boxes[p_second] == nullptr || q.boxes[q_second] == nullptr) continue;
+      const std::uint32_t near_q = q.boxes[q_second]->meeting(boxes_[one], reach_);
+      if (near_q == 0) continue;
+      std::uint32_t near_p = p.boxes[p_second]->meeting(boxes_[other], reach_);
+      for (; near_p != 0 && !flat; near_p &= near_p - 1) {
+        addLanes({p, q, p_second, q_second}, lowestLane(near_p), near_q, is_flat, out);
       }
-    }
-  };
-  triangles(first, second);
-  if (!flat) triangles(second, first);
-  for (std::size_t e = 0; e < first.edges.count && !flat; ++e) {
-    for (std::size_t f = 0; f < second.edges.count; ++f) {
-      if (!first.edges.boxes[e].meets(second.edges.boxes[f], reach_)) continue;
-      if (shareNode(first.edges.elements[e], second.edges.elements[f])) continue;
-      if (isFlat()) break;
-      add(first.edges.elements[e], second.edges.elements[f], out);
     }
   }
 }
 
-void ClothTree::add(std::uint32_t vertex, const MeshTriangle& t, Candidates& out) const {
-  if (immovable_[vertex] & immovable_[t[0]] & immovable_[t[1]] & immovable_[t[2]]) return;
-  out.vertex_triangles.push_back({vertex, t});
-}
-
-void ClothTree::add(const MeshEdge& p, const MeshEdge& q, Candidates& out) const {
-  if (immovable_[p[0]] & immovable_[p[1]] & immovable_[q[0]] & immovable_[q[1]]) return;
-  out.edge_edges.push_back({p, q});
+template <typename IsFlat>
+void ClothTree::addLanes(const QuadPair& pair, std::size_t lane, std::uint32_t others, const IsFlat& is_flat,
+                         Candidates& out) const {
+  const std::uint32_t bit = 1U << lane;
+  others &= (bit & ElementBoxes::kEdges) != 0      ? ElementBoxes::kEdges
+            : (bit & ElementBoxes::kVertices) != 0 ? ElementBoxes::kTriangles
+                                                   : ElementBoxes::kVertices;
+  if (others == 0) return;
+  others &= pair.q.boxes[pair.q_second]->meeting(*pair.p.boxes[pair.p_second], lane, reach_);
+  const QuadElements &p = pair.p.elements, &q = pair.q.elements;
+  for (; others != 0; others &= others - 1) {
+    const std::size_t other = lowestLane(others);
+    if ((bit & ElementBoxes::kEdges) != 0) {
+      const MeshEdge& first = ElementBoxes::edge(p, pair.p_second, lane);
+      const MeshEdge& second = ElementBoxes::edge(q, pair.q_second, other);
+      if (shareNode(first, second) || isImmovable(first, second)) continue;
+      if (is_flat()) return;
+      out.edge_edges.push_back({first, second});
+    } else {
+      const bool vertex_first = (bit & ElementBoxes::kVertices) != 0;
+      const std::uint32_t vertex =
+          vertex_first ? ElementBoxes::vertex(p, pair.p_second, lane) : ElementBoxes::vertex(q, pair.q_second, other);
+      const MeshTriangle& triangle = vertex_first ? ElementBoxes::triangle(q, other) : ElementBoxes::triangle(p, lane);
+      if (isCorner(vertex, triangle) || isImmovable(vertex, triangle)) continue;
+      if (is_flat()) return;
+      out.vertex_triangles.push_back({vertex, triangle});
+    }
+  }
 }
 
 }  // namespace curtain

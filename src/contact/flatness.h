@@ -26,6 +26,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 namespace curtain {
 
@@ -40,7 +43,12 @@ struct FloatBox {
   }
   /// Whether the gap along every axis is at most reach [m].
   bool meets(const FloatBox& other, float reach) const noexcept {
-    return (low - other.high).max(other.low - high).maxCoeff() <= reach;
+    const Eigen::Array4f gap = (low - other.high).max(other.low - high);
+#ifdef __SSE2__
+    return _mm_movemask_ps(_mm_cmpgt_ps(_mm_loadu_ps(gap.data()), _mm_set1_ps(reach))) == 0;
+#else
+    return !(gap.maxCoeff() > reach);
+#endif
   }
 };
 
@@ -58,34 +66,41 @@ struct PatchSlopes {
   }
 };
 
-/// Lower bound of the distance [m] between any two elements of the patch that share no node, at any time between both
-/// positions; <= 0: none is known. `rounding` [m]: the most by which a difference of two coordinates was rounded.
-inline float leastDistance(const PatchSlopes& patch, float rounding) noexcept {
+/// Whether any two elements of the patch that share no node are further apart than `reach` [m] at all times between
+/// both positions, by the bound above; false: may be, or not. `rounding` [m]: the most by which a difference of two
+/// coordinates was rounded.
+inline bool isFlatBeyond(float reach, const PatchSlopes& patch, float rounding) noexcept {
   using Eigen::Array4f;
   constexpr float kUlps = 1e-6f;   // of a slope: of its quotient and of the box's centre and half edges
   constexpr float kSlack = 2e-5f;  // of lambda: U, V, a, b are rounded, by more where c is close to 1
   constexpr float kLeastSine = 0.1f;
   const Array4f mid_u = 0.5f * (patch.u.low + patch.u.high), mid_v = 0.5f * (patch.v.low + patch.v.high);
-  const float length_u = std::sqrt((mid_u * mid_u).sum()), length_v = std::sqrt((mid_v * mid_v).sum());
-  if (!(length_u > 1e-3f && length_v > 1e-3f)) return 0.0f;
-  const float per_u = 1.0f / length_u, per_v = 1.0f / length_v;
+  const Array4f half_u = 0.5f * (patch.u.high - patch.u.low), half_v = 0.5f * (patch.v.high - patch.v.low);
+  const float squared_u = (mid_u * mid_u).sum(), squared_v = (mid_v * mid_v).sum();
+  const float side_u = patch.spacing_u * patch.spacing_u * squared_u;  // [m^2]
+  const float side_v = patch.spacing_v * patch.spacing_v * squared_v;
+  // The altitude of flat cloth may be too little already, and deviations along U or V too large; neither takes a root.
+  const bool hopeless = !(side_u * side_v > reach * reach * (side_u + side_v)) ||
+                        !((mid_u.abs() * half_u).sum() < squared_u) || !((mid_v.abs() * half_v).sum() < squared_v) ||
+                        !(std::min(squared_u, squared_v) > 1e-6f);
+  if (hopeless) return false;
+  const float per_u = 1.0f / std::sqrt(squared_u), per_v = 1.0f / std::sqrt(squared_v);
   const Array4f unit_u = mid_u * per_u, unit_v = mid_v * per_v;
   const float cosine = (unit_u * unit_v).sum();
-  const float plus = std::sqrt(std::max(0.0f, 1.0f + cosine));
-  const float minus = std::sqrt(std::max(0.0f, 1.0f - cosine));
+  const float plus = std::sqrt(std::max(0.0f, 1.0f + cosine)), minus = std::sqrt(std::max(0.0f, 1.0f - cosine));
   const float lambda = std::min(plus, minus);
-  if (!(lambda > kLeastSine)) return 0.0f;
+  if (!(lambda > kLeastSine)) return false;
   const Array4f mean = (unit_u + unit_v) * (0.5f / plus), skew = (unit_u - unit_v) * (0.5f / minus);
   const Array4f a = (mean + skew).abs(), b = (mean - skew).abs();
-  const Array4f half_u = (0.5f * (patch.u.high - patch.u.low) + (rounding / patch.spacing_u + kUlps)) * per_u + kUlps;
-  const Array4f half_v = (0.5f * (patch.v.high - patch.v.low) + (rounding / patch.spacing_v + kUlps)) * per_v + kUlps;
-  const float along_a = (a * half_u).sum(), along_b = (b * half_v).sum();
-  const float across = 0.5f * ((b * half_u).sum() + (a * half_v).sum());
+  const Array4f most_u = (half_u + (rounding / patch.spacing_u + kUlps)) * per_u + kUlps;
+  const Array4f most_v = (half_v + (rounding / patch.spacing_v + kUlps)) * per_v + kUlps;
+  const float along_a = (a * most_u).sum(), along_b = (b * most_v).sum();
+  const float across = 0.5f * ((b * most_u).sum() + (a * most_v).sum());
   const float half = 0.5f * (along_a - along_b);
   const float deviation = 0.5f * (along_a + along_b) + std::sqrt(half * half + across * across);
-  const float side_u = patch.spacing_u * length_u, side_v = patch.spacing_v * length_v;
-  const float altitude = side_u * side_v / std::sqrt(side_u * side_u + side_v * side_v);
-  return (lambda - deviation - kSlack) * altitude * (1.0f - 1e-5f);
+  const float least = lambda - deviation - kSlack;
+  const float altitude_squared = side_u * side_v / (side_u + side_v);
+  return least > 0.0f && least * least * altitude_squared * (1.0f - 1e-5f) > reach * reach;
 }
 
 }  // namespace curtain

@@ -2,34 +2,12 @@
 #include "simulator/self_crossings.h"
 
 #include <Eigen/Geometry>
-#include <array>
 #include <vector>
+
+#include "cloth/coarse_mesh.h"
 
 namespace curtain {
 namespace {
-
-struct CoarseMesh {
-  std::vector<std::array<std::size_t, 3>> triangles;
-  std::vector<std::array<std::size_t, 2>> edges;
-};
-
-CoarseMesh makeMesh(const Grid& grid) {
-  CoarseMesh mesh;
-  const int faces = grid.linkCount();
-  const auto node = [&grid](int i, int j) { return grid.index(i, j % grid.columns); };
-  for (int i = 0; i < grid.rows; ++i) {
-    for (int j = 0; j < faces; ++j) {
-      mesh.edges.push_back({node(i, j), node(i, j + 1)});
-      if (i + 1 == grid.rows) continue;
-      mesh.edges.push_back({node(i, j + 1), node(i + 1, j)});
-      mesh.triangles.push_back({node(i, j), node(i + 1, j), node(i, j + 1)});
-      mesh.triangles.push_back({node(i, j + 1), node(i + 1, j), node(i + 1, j + 1)});
-    }
-    if (i + 1 == grid.rows) continue;
-    for (int j = 0; j < grid.columns; ++j) mesh.edges.push_back({node(i, j), node(i + 1, j)});
-  }
-  return mesh;
-}
 
 double volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) { return (b - a).cross(c - a).dot(d - a); }
 
@@ -46,7 +24,7 @@ bool pierces(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const V
 }  // namespace
 
 std::int64_t countSelfCrossings(const Grid& grid, const Field3& position) {
-  const CoarseMesh mesh = makeMesh(grid);
+  const CoarseMesh mesh = makeCoarseMesh(grid);
   std::vector<Eigen::AlignedBox3d> edge_boxes;
   for (const auto& edge : mesh.edges) {
     Eigen::AlignedBox3d box(position.at(edge[0]));
@@ -61,7 +39,7 @@ std::int64_t countSelfCrossings(const Grid& grid, const Field3& position) {
       if (!box.intersects(edge_boxes[e])) continue;
       const auto& edge = mesh.edges[e];
       bool shared = false;
-      for (const std::size_t corner : triangle) shared = shared || corner == edge[0] || corner == edge[1];
+      for (const std::uint32_t corner : triangle) shared = shared || corner == edge[0] || corner == edge[1];
       if (!shared && pierces(position.at(edge[0]), position.at(edge[1]), a, b, c)) ++crossings;
     }
   }
