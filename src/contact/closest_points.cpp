@@ -7,9 +7,11 @@
 namespace curtain {
 namespace {
 
-/// (height / longest edge)^4 under which the weights of a point in a triangle's plane are noise. Below it the triangle
-/// counts as its edges, which moves the closest point by less than 1e-12 of the longest edge.
-constexpr double kSliver = 1e-24;
+/// (height / longest edge)^2 under which a triangle counts as its edges: 1e-10 of the longest edge is no height.
+constexpr double kNoHeight = 1e-20;
+
+/// (height / longest edge)^2 under which the weights of a point in a triangle's plane need a second round.
+constexpr double kSliver = 1e-8;
 
 double clampedRatio(double part, double whole) { return whole > 0.0 ? std::clamp(part / whole, 0.0, 1.0) : 0.0; }
 
@@ -36,11 +38,17 @@ TriangleClosest closestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b, c
   const double longest = std::max(ab.squaredNorm(), ac.squaredNorm());
   // Weights of p's foot on the plane, times `area`, from cross products: they lose no digits to squares that cancel.
   const Vec3 turned = normal.cross(pa);
-  const double of_b = turned.dot(ac);
-  const double of_c = -turned.dot(ab);
+  double of_b = -turned.dot(ac);
+  double of_c = turned.dot(ab);
+  const bool no_height = !(area > kNoHeight * longest * longest);
+  if (!no_height && area < kSliver * longest * longest) {
+    // Along a sliver the foot is off by eps / height; the same formula for what is left of the way to it mends that.
+    const Vec3 left = normal.cross(pa + of_b / area * ab + of_c / area * ac);
+    of_b -= left.dot(ac);
+    of_c += left.dot(ab);
+  }
   const double of_a = area - of_b - of_c;
-  const bool sliver = !(area > kSliver * longest * longest);
-  if (!sliver && of_a >= 0.0 && of_b >= 0.0 && of_c >= 0.0) {
+  if (!no_height && of_a >= 0.0 && of_b >= 0.0 && of_c >= 0.0) {
     const double inverse = 1.0 / area;
     TriangleClosest face{{of_a * inverse, of_b * inverse, of_c * inverse}, 0.0};
     face.distance_squared = (pa + face.weights[1] * ab + face.weights[2] * ac).squaredNorm();
@@ -48,9 +56,9 @@ TriangleClosest closestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b, c
   }
   // The closest point lies on an edge that has the foot on its outer side.
   TriangleClosest best{{1.0, 0.0, 0.0}, pa.squaredNorm()};
-  if (sliver || of_c < 0.0) closestOnEdge(pa, ab, 0, 1, best);
-  if (sliver || of_b < 0.0) closestOnEdge(pa, ac, 0, 2, best);
-  if (sliver || of_a < 0.0) closestOnEdge(pa + ab, ac - ab, 1, 2, best);
+  if (no_height || of_c < 0.0) closestOnEdge(pa, ab, 0, 1, best);
+  if (no_height || of_b < 0.0) closestOnEdge(pa, ac, 0, 2, best);
+  if (no_height || of_a < 0.0) closestOnEdge(pa + ab, ac - ab, 1, 2, best);
   return best;
 }
 

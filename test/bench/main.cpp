@@ -22,7 +22,8 @@ const std::vector<Study>& studies() {
                                          {"hard_spot", studyHardSpot},
                                          {"gusts", studyGusts},
                                          {"scaling", studyScaling},
-                                         {"stages", studyStages}};
+                                         {"stages", studyStages},
+                                         {"ccd", studyCcd}};
   return all;
 }
 
