@@ -103,12 +103,14 @@ void ClothTree::pair(std::uint32_t one, std::uint32_t other, Candidates& out) no
 bool ClothTree::flatTogether(std::uint32_t one, std::uint32_t other) noexcept {
   const Node &p = nodes_[one], &q = nodes_[other];
   const QuadRectangle hull = hullOf(p.quads, q.quads, grid_.closed ? grid_.linkCount() : 0);
-  PatchSlopes slopes = slopes_[one];
-  slopes.merge(slopes_[other]);
-  if (area(hull) != area(p.quads) + area(q.quads)) {
-    const bool quads = p.second == kNone && q.second == kNone;
-    const bool blocks = !isBelowBlock(one) && !isBelowBlock(other);
-    if (quads ? !mergeQuads(hull, slopes) : !(blocks && mergeBlocks(hull, slopes))) return false;
+  PatchSlopes slopes;
+  if (area(hull) == area(p.quads) + area(q.quads)) {
+    slopes = slopes_[one];
+    slopes.merge(slopes_[other]);
+  } else if (p.second == kNone && q.second == kNone) {
+    if (!mergeQuads(hull, slopes)) return false;
+  } else if (isBelowBlock(one) || isBelowBlock(other) || !mergeBlocks(hull, slopes)) {
+    return false;
   }
   return isFlatBeyond(reach_, slopes, rounding_);
 }
@@ -116,11 +118,13 @@ bool ClothTree::flatTogether(std::uint32_t one, std::uint32_t other) noexcept {
 bool ClothTree::mergeQuads(const QuadRectangle& hull, PatchSlopes& slopes) noexcept {
   if (area(hull) > kMostInHull) return false;
   const int columns = grid_.linkCount();
+  const auto at = [&](int i, int j) { return quad_nodes_[static_cast<std::size_t>(i * columns + j % columns)]; };
+  lookInto(at(hull.row, hull.column));
+  slopes = slopes_[at(hull.row, hull.column)];
   for (int i = hull.row; i < hull.row_end; ++i) {
     for (int j = hull.column; j < hull.column_end; ++j) {
-      const std::uint32_t node = quad_nodes_[static_cast<std::size_t>(i * columns + j % columns)];
-      lookInto(node);
-      slopes.merge(slopes_[node]);
+      lookInto(at(i, j));
+      slopes.merge(slopes_[at(i, j)]);
     }
   }
   return true;
@@ -134,9 +138,11 @@ bool ClothTree::mergeBlocks(const QuadRectangle& hull, PatchSlopes& slopes) cons
   const int last = hull.column_end - 1;
   const int column_end = block_column_[static_cast<std::size_t>(last % columns)] + last / columns * across + 1;
   if ((row_end - row) * (column_end - column) > kMostInHull) return false;
+  const auto at = [&](int i, int j) { return blocks_[static_cast<std::size_t>(i * across + j % across)].node; };
+  slopes = slopes_[at(row, column)];
   for (int i = row; i < row_end; ++i) {
     for (int j = column; j < column_end; ++j) {
-      slopes.merge(slopes_[blocks_[static_cast<std::size_t>(i * across + j % across)].node]);
+      slopes.merge(slopes_[at(i, j)]);
     }
   }
   return true;

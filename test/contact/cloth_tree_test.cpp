@@ -65,6 +65,10 @@ ClothPattern squareCloth(int rows, int columns, double link = 0.025, bool closed
   return makePattern(scene);
 }
 
+Field3 flat(const Grid& grid, double link = 0.025) {
+  return placed(grid, [&](int i, int j) { return Vec3(j * link, 0.0, -i * link); });
+}
+
 Field3 rotated(Field3 position, double angle, const Vec3& away = Vec3::Zero()) {
   const Eigen::AngleAxisd turn(angle, Vec3(1.0, 2.0, 3.0).normalized());
   for (std::size_t n = 0; n < position.x.size(); ++n) position.set(n, turn * position.at(n) + away);
@@ -237,10 +241,6 @@ Candidates checked(const Motion& motion, int* left_out = nullptr) {
 
 bool isEmpty(const Candidates& c) { return c.vertex_triangles.empty() && c.edge_edges.empty(); }
 
-Field3 flat(const Grid& grid, double link = 0.025) {
-  return placed(grid, [&](int i, int j) { return Vec3(j * link, 0.0, -i * link); });
-}
-
 Field3 moved(const ClothPattern& pattern, Field3 position, double size, std::uint64_t seed) {
   shake(pattern, size, seed, position);
   return position;
@@ -274,6 +274,25 @@ TEST(ClothTree, MissesNoPairOfDeepPleats) {
     for (const double angle : {0.0, 0.7}) {
       checked({"deep pleats", pattern, rotated(pleats(pattern.grid, swing, 0.0), angle),
                rotated(pleats(pattern.grid, swing, 0.7), angle), 0.006});
+    }
+  }
+}
+
+// Three layers of eight quads, drifting apart by 6 mm a layer, along the warp or along the weft alone. The first and
+// the third are flat alike and only what lies between them is not.
+TEST(ClothTree, MissesNoPairOfClothFoldedInThree) {
+  const auto along = [](int k) { return 0.025 * (k <= 8 ? k : k <= 16 ? 16 - k : k - 16); };
+  for (const bool by_rows : {false, true}) {
+    const ClothPattern pattern = by_rows ? squareCloth(25, 9) : squareCloth(9, 25);
+    const Field3 folded = placed(pattern.grid, [&](int i, int j) {
+      return by_rows ? Vec3(0.025 * j, 0.00075 * i, -along(i)) : Vec3(along(j), 0.00075 * j, -0.025 * i);
+    });
+    const Field3 open = flat(pattern.grid);
+    for (const double angle : {0.0, 0.3}) {
+      const Field3 turned = rotated(folded, angle), turned_open = rotated(open, angle);
+      EXPECT_FALSE(isEmpty(checked({"folded", pattern, turned, turned, 0.015})));
+      EXPECT_FALSE(isEmpty(checked({"folding", pattern, turned_open, turned, 0.015})));
+      EXPECT_FALSE(isEmpty(checked({"unfolding", pattern, turned, turned_open, 0.015})));
     }
   }
 }
@@ -348,6 +367,8 @@ TEST(ClothTree, MissesNoPairOfTaperedClothWithUnequalSpacings) {
       const Field3 cloth = rotated(makeInitialState(scene, pattern).position, 0.6);
       const Candidates still = checked({"tapered", pattern, cloth, cloth, 0.001});
       EXPECT_TRUE(isEmpty(still)) << hem;
+      // Between the narrowest and the widest columns: flatness must not take one for the other.
+      for (const double reach : {0.004, 0.008, 0.016}) checked({"narrow columns", pattern, cloth, cloth, reach});
       checked({"tapered, rough", pattern, moved(pattern, cloth, 0.01, 1), moved(pattern, cloth, 0.01, 2), 0.006});
       checked({"tapered, in a heap", pattern, heap(pattern.grid, 5), heap(pattern.grid, 6), 0.006});
     }
@@ -376,7 +397,10 @@ TEST(ClothTree, MissesNoPairOfClosedCloth) {
 
 TEST(ClothTree, DropsPairsThatCannotMove) {
   Scene scene = flatScene(12, 12, 0.3, 0.3);
-  for (const PinKind kind : {PinKind::kTop, PinKind::kLeft}) {
+  for (int i = 0; i < 12; ++i) {
+    for (int j = 0; j < 3; ++j) scene.pins.nodes.push_back({i, j});  // whole triangles
+  }
+  for (const PinKind kind : {PinKind::kTop, PinKind::kLeft, PinKind::kList}) {
     scene.pins.kind = kind;
     const ClothPattern pattern = makePattern(scene);
     const Field3 cloth =
