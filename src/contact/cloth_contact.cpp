@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 
 namespace curtain {
@@ -18,6 +21,9 @@ constexpr double kLeastSlack = 0.25;
 constexpr double kMostSlack = 1.0;
 constexpr double kSlackGrowth = 1.5;
 constexpr double kSlackDecay = 0.95;
+// Its length, over what it was before: where nodes strayed, where it was reached.
+constexpr double kShorter = 0.5;
+constexpr double kLonger = 1.5;
 
 double shortestLink(const ClothPattern& pattern) {
   const Grid& grid = pattern.grid;
@@ -45,6 +51,7 @@ ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& par
       tree_(pattern),
       horizon_(pattern.grid),
       slack_(kLeastSlack * self_.gap()),
+      length_(frame_length),
       zones_(pattern) {
   if (obstacles.count() == 0 && !params.self) return;
   contacts_.reserve(4 * pattern.grid.nodeCount());
@@ -54,11 +61,17 @@ ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& par
 
 // A new horizon.
 void ClothContact::look(const Field3& start, const Field3& predicted, double h) noexcept {
-  horizon_.set(start, predicted, h, std::max(frame_length_, h), slack_);
+auto T0=std::chrono::steady_clock::now();
+  horizon_.set(start, predicted, h, std::max(length_, h), slack_);
   tree_.refit(horizon_.start(), horizon_.end());
+auto T1=std::chrono::steady_clock::now();
   candidates_.clear();
   tree_.collectSelf(self_.gap() + 2.0 * slack_, candidates_);
+auto T2=std::chrono::steady_clock::now();
   self_.renew(candidates_, horizon_.start(), horizon_.end(), slack_);
+auto T3=std::chrono::steady_clock::now();
+auto us=[](auto a, auto b){return std::chrono::duration<double>(b-a).count()*1e6;};
+if(getenv("DBGC")) printf("look h %.5f length %.5f slack %.5f refit %.1f collect %.1f renew %.1f us, cand %zu+%zu near %zu\n",h,length_,slack_,us(T0,T1),us(T1,T2),us(T2,T3),candidates_.vertex_triangles.size(),candidates_.edge_edges.size(),self_.nearCount());
 }
 
 Contacts* ClothContact::begin(const ClothPattern&, const Field3& start, const Field3& predicted, double h) noexcept {
@@ -67,7 +80,10 @@ Contacts* ClothContact::begin(const ClothPattern&, const Field3& start, const Fi
   looks_ = 0;
   if (self_wanted_) {
     // Room to stray for the solve, too.
-    if (!horizon_.reaches(h) || horizon_.strayed(predicted, h) > 0.5 * horizon_.slack()) {
+    const bool reached = !horizon_.reaches(h);
+    if (reached || horizon_.strayed(predicted, h) > 0.5 * horizon_.slack()) {
+      length_ = reached ? std::min(frame_length_, kLonger * length_) : std::max(h, kShorter * length_);
+      slack_ = std::max(kLeastSlack * self_.gap(), kSlackDecay * slack_);
       look(start, predicted, h);
     }
   }
@@ -113,7 +129,7 @@ void ClothContact::hold(const Field3& start, Field3& end) noexcept {
 int ClothContact::joinCrossings(const Field3& start, const Field3& end) noexcept {
   int count = 0;
   self_.forEachCrossing(start, end, [&](const NearPair& pair) {
-    for (std::size_t k = 1; k < 4; ++k) zones_.join(pair.node[0], pair.node[k]);
+    for (std::size_t k = 1; k < 4; ++k) zones_.join(pair.key.node[0], pair.key.node[k]);
     ++count;
   });
   return count;
@@ -152,6 +168,7 @@ void ClothContact::forget() noexcept {
   self_.forget();
   touch_.forget();
   slack_ = kLeastSlack * self_.gap();
+  length_ = frame_length_;
   held_ = 0;
 }
 

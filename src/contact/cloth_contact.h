@@ -63,6 +63,7 @@ class ClothContact : public ContactFinder {
   Candidates candidates_;
   Horizon horizon_;
   double slack_;           // of the next horizon [m]
+  double length_;          // of the next horizon [s]
   Zones zones_;
   Contacts contacts_, last_;  // of this substep; of the last accepted one, those that pushed
   double h_ = 0.0;            // of this substep [s]

@@ -17,25 +17,20 @@ constexpr double kLeastShare = 0.02;
 constexpr double kGapRecoverySpeed = 0.1;
 constexpr double kSlack = 0.1;
 
-bool sameNodes(const NearPair& a, const NearPair& b) { return a.edges == b.edges && a.node == b.node; }
-bool earlier(const NearPair& a, const NearPair& b) {
-  return a.edges != b.edges ? b.edges : a.node < b.node;
-}
-
 std::array<Vec3, 4> corners(const NearPair& pair, const Field3& position) {
-  return {position.at(pair.node[0]), position.at(pair.node[1]), position.at(pair.node[2]), position.at(pair.node[3])};
+  return {position.at(pair.key.node[0]), position.at(pair.key.node[1]), position.at(pair.key.node[2]), position.at(pair.key.node[3])};
 }
 
 Vec3 mix(const std::array<double, 4>& weight, const NearPair& pair, const Field3& value) {
-  return weight[0] * value.at(pair.node[0]) + weight[1] * value.at(pair.node[1]) + weight[2] * value.at(pair.node[2]) +
-         weight[3] * value.at(pair.node[3]);
+  return weight[0] * value.at(pair.key.node[0]) + weight[1] * value.at(pair.key.node[1]) + weight[2] * value.at(pair.key.node[2]) +
+         weight[3] * value.at(pair.key.node[3]);
 }
 
 // By how much two elements may come nearer when their nodes move from a to b: no more than the two nodes that approach most.
 double largestApproach(const NearPair& pair, const Field3& a, const Field3& b) {
   std::array<Vec3, 4> move;
-  for (std::size_t k = 0; k < 4; ++k) move[k] = b.at(pair.node[k]) - a.at(pair.node[k]);
-  const std::size_t split = pair.edges ? 2 : 1;
+  for (std::size_t k = 0; k < 4; ++k) move[k] = b.at(pair.key.node[k]) - a.at(pair.key.node[k]);
+  const std::size_t split = pair.key.edges ? 2 : 1;
   double worst = 0.0;
   for (std::size_t k = 0; k < split; ++k) {
     for (std::size_t l = split; l < 4; ++l) worst = std::max(worst, (move[k] - move[l]).squaredNorm());
@@ -65,41 +60,46 @@ ClosestPoints closestPoints(bool edges, const std::array<Vec3, 4>& at) noexcept 
 SelfContacts::SelfContacts(const ClothPattern& pattern, double gap, double friction)
     : pattern_(pattern), gap_(gap), friction_(friction) {
   near_.reserve(8 * pattern.grid.nodeCount());
-  before_.reserve(8 * pattern.grid.nodeCount());
+  pushed_.reserve(4 * pattern.grid.nodeCount());
 }
 
 void SelfContacts::renew(const Candidates& candidates, const Field3& start, const Field3& end, double slack) noexcept {
-  std::swap(near_, before_);
+  pushed_.clear();
+  for (const NearPair& pair : near_) {
+    if (pair.push > 0.0) pushed_.push_back(pair);
+  }
+  table_.clear(pushed_.size());
+  for (std::uint32_t n = 0; n < pushed_.size(); ++n) table_.insert(pushed_[n].key, n);
   near_.clear();
-  const auto take = [&](const NearPair& pair) {
-    const double nearest = closestPoints(pair.edges, corners(pair, start)).distance - largestApproach(pair, start, end);
-    if (nearest <= gap_ + 2.0 * slack) near_.push_back(pair);
+  const auto take = [&](const PairKey& key) {
+    NearPair pair{key};
+    const double nearest = closestPoints(key.edges, corners(pair, start)).distance - largestApproach(pair, start, end);
+    if (nearest > gap_ + 2.0 * slack) return;
+    const std::uint32_t old = table_.find(key);
+    if (old != PairTable::kNone) {
+      pair.push = pushed_[old].push;
+      pair.slide = pushed_[old].slide;
+    }
+    near_.push_back(pair);
   };
   for (const VertexTriangle& c : candidates.vertex_triangles) {
-    take({{c.vertex, c.triangle[0], c.triangle[1], c.triangle[2]}, false, 0.0, 0.0, Vec3::Zero()});
+    take({{c.vertex, c.triangle[0], c.triangle[1], c.triangle[2]}, false});
   }
-  for (const EdgeEdge& c : candidates.edge_edges) {
-    take({{c.first[0], c.first[1], c.second[0], c.second[1]}, true, 0.0, 0.0, Vec3::Zero()});
-  }
-  std::sort(near_.begin(), near_.end(), earlier);
-  auto old = before_.begin();
-  for (NearPair& pair : near_) {
-    while (old != before_.end() && earlier(*old, pair)) ++old;
-    if (old == before_.end()) break;
-    if (!sameNodes(*old, pair)) continue;
-    pair.push = old->push;
-    pair.slide = old->slide;
-  }
+  for (const EdgeEdge& c : candidates.edge_edges) take({{c.first[0], c.first[1], c.second[0], c.second[1]}, true});
 }
 
 void SelfContacts::carryOver(const Field3& start, Contacts& contacts) noexcept {
-  for (NearPair& pair : near_) pair.distance = closestPoints(pair.edges, corners(pair, start)).distance;
-  for (Contact& contact : contacts) {
+  table_.clear(contacts.size());
+  for (std::uint32_t n = 0; n < contacts.size(); ++n) {
+    Contact& contact = contacts[n];
     if (contact.obstacle != Contact::kCloth) continue;
-    const NearPair wanted{contact.node, contact.weight[1] > 0.0, 0.0, 0.0, Vec3::Zero()};
-    const auto found = std::lower_bound(near_.begin(), near_.end(), wanted, earlier);
-    const bool same = found != near_.end() && sameNodes(*found, wanted);
-    contact.source = same ? static_cast<std::uint32_t>(found - near_.begin()) : kNoPair;
+    contact.source = kNoPair;
+    table_.insert({contact.node, contact.weight[1] > 0.0}, n);
+  }
+  for (std::uint32_t n = 0; n < near_.size(); ++n) {
+    near_[n].distance = closestPoints(near_[n].key.edges, corners(near_[n], start)).distance;
+    const std::uint32_t contact = table_.find(near_[n].key);
+    if (contact != PairTable::kNone) contacts[contact].source = n;
   }
 }
 
@@ -112,7 +112,7 @@ double SelfContacts::offsetAt(double distance, double h) const noexcept {
 Contact SelfContacts::makeContact(const NearPair& pair, std::uint32_t source, const ClosestPoints& closest) const noexcept {
   Contact contact;
   contact.nodes = 4;
-  contact.node = pair.node;
+  contact.node = pair.key.node;
   contact.weight = closest.weight;
   contact.normal = closest.apart / closest.distance;
   contact.carried = closest.apart;
@@ -124,7 +124,7 @@ Contact SelfContacts::makeContact(const NearPair& pair, std::uint32_t source, co
 void SelfContacts::collect(const Field3& start, const Field3& predicted, double h, Contacts& contacts) noexcept {
   for (std::uint32_t n = 0; n < near_.size(); ++n) {
     NearPair& pair = near_[n];
-    const ClosestPoints closest = closestPoints(pair.edges, corners(pair, start));
+    const ClosestPoints closest = closestPoints(pair.key.edges, corners(pair, start));
     pair.distance = closest.distance;
     // Where two edges are closest at an end of one, the vertex there and the faces at the other one are a pair as well.
     if (!closest.inside || closest.distance <= 0.0) continue;
@@ -144,7 +144,7 @@ double SelfContacts::crossesAt(const NearPair& pair, const Field3& start, const 
   if (pair.distance - largestApproach(pair, start, end) > least) return 2.0;
   const std::array<Vec3, 4> a = corners(pair, start), b = corners(pair, end);
   const std::optional<double> time =
-      pair.edges ? edgeEdgeTimeOfImpact(a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3], least)
+      pair.key.edges ? edgeEdgeTimeOfImpact(a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3], least)
                  : vertexTriangleTimeOfImpact(a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3], least);
   return time.value_or(2.0);
 }
@@ -160,8 +160,8 @@ int SelfContacts::verify(const Field3& start, const Field3& end, double h, Conta
     std::array<Vec3, 4> at = corners(pair, start);
     const std::array<Vec3, 4> to = corners(pair, end);
     for (std::size_t k = 0; k < 4; ++k) at[k] += time * (to[k] - at[k]);
-    ClosestPoints closest = closestPoints(pair.edges, at);
-    if (!(closest.distance > 0.0)) closest = closestPoints(pair.edges, corners(pair, start));
+    ClosestPoints closest = closestPoints(pair.key.edges, at);
+    if (!(closest.distance > 0.0)) closest = closestPoints(pair.key.edges, corners(pair, start));
     if (!(closest.distance > 0.0)) continue;
     Contact contact = makeContact(pair, n, closest);
     contact.carried = mix(closest.weight, pair, start);

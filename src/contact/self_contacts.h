@@ -10,15 +10,15 @@
 
 #include "cloth/cloth.h"
 #include "contact/candidates.h"
+#include "contact/pair_table.h"
 #include "solver/contacts.h"
 
 namespace curtain {
 
 /// Two elements that share no node: vertex node[0] and triangle node[1..3], or edges node[0..1] and node[2..3].
 struct NearPair {
-  std::array<std::uint32_t, 4> node;
-  bool edges;
-  double distance;     ///< where the present substep starts [m]
+  PairKey key;
+  double distance = 0.0;  ///< where the present substep starts [m]
   double push = 0.0;   ///< multipliers of the last accepted substep [kg m]
   Vec3 slide = Vec3::Zero();
 };
@@ -36,7 +36,7 @@ ClosestPoints closestPoints(bool edges, const std::array<Vec3, 4>& at) noexcept;
 class SelfContacts {
  public:
   /// Source of a contact whose pair is near no more.
-  static constexpr std::uint32_t kNoPair = ~0u;
+  static constexpr std::uint32_t kNoPair = PairTable::kNone;
 
   /// gap: kept between two parts of the cloth [m]; pattern must outlive this.
   SelfContacts(const ClothPattern& pattern, double gap, double friction);
@@ -76,7 +76,9 @@ class SelfContacts {
 
   const ClothPattern& pattern_;
   double gap_, friction_;
-  std::vector<NearPair> near_, before_;
+  std::vector<NearPair> near_;
+  std::vector<NearPair> pushed_;  // pairs of the last horizon that pushed
+  PairTable table_;
 };
 
 }  // namespace curtain

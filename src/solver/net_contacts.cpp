@@ -4,8 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+
 namespace curtain {
 namespace {
+
+// Many contacts say nearly the same; solved to the last, some would pull so that others can push. Over the diagonal.
+constexpr float kLeastDamping = 0.2F;
 
 // Two directions across a normal, the same for the same normal.
 void tangents(const Vec3& normal, Vec3& first, Vec3& second) {
@@ -41,7 +45,7 @@ void NetContacts::addRow(const Frame& frame, std::uint32_t index, const Contact&
 void NetContacts::load(const Frame& frame, const ContactValues& values) {
   rows_.clear();
   if (values.contacts == nullptr) return;
-  damping_ = frame.damping;
+  damping_ = std::max(frame.damping, kLeastDamping);
   const Contacts& contacts = *values.contacts;
   const bool rates = values.rates;
   for (std::uint32_t index = 0; index < contacts.size(); ++index) {
