@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <limits>
 
+#include "cloth/wide.h"
+
 namespace curtain {
 namespace {
 
@@ -16,14 +18,6 @@ constexpr int kSlipperySubsteps = 64;
 // Two parts of the cloth are not kept further apart than this share of its shortest link: thicker cloth would touch its
 // own next row.
 constexpr double kGapPerLink = 0.25;
-// The slack of a horizon, over the gap: at first and at least, at most. It grows where horizons end early.
-constexpr double kLeastSlack = 0.25;
-constexpr double kMostSlack = 1.0;
-constexpr double kSlackGrowth = 1.5;
-constexpr double kSlackDecay = 0.95;
-// Its length, over what it was before: where nodes strayed, where it was reached.
-constexpr double kShorter = 0.5;
-constexpr double kLonger = 1.5;
 
 double shortestLink(const ClothPattern& pattern) {
   const Grid& grid = pattern.grid;
@@ -37,71 +31,75 @@ double shortestLink(const ClothPattern& pattern) {
   return shortest;
 }
 
+CURTAIN_WIDE void goOn(const Field& start, const Field& end, Field& ahead) noexcept {
+  const std::size_t size = start.size();
+  const double *const a = start.data(), *const b = end.data();
+  double* const out = ahead.data();
+#pragma omp simd
+  for (std::size_t n = 0; n < size; ++n) out[n] = 2.0 * b[n] - a[n];
+}
+
+void extrapolate(const Field3& start, const Field3& end, Field3& ahead) noexcept {
+  goOn(start.x, end.x, ahead.x);
+  goOn(start.y, end.y, ahead.y);
+  goOn(start.z, end.z, ahead.z);
+}
+
 }  // namespace
 
-ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& params, double frame_length,
+ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& params,
                            const ObstacleSet& obstacles)
     : pattern_(pattern),
       obstacles_(obstacles),
       self_wanted_(params.self),
-      frame_length_(frame_length),
       zone_iterations_(params.zone_iterations),
       touch_(pattern, params.thickness, obstacles),
       self_(pattern, std::min(params.thickness, kGapPerLink * shortestLink(pattern)), params.friction),
       tree_(pattern),
-      horizon_(pattern.grid),
-      slack_(kLeastSlack * self_.gap()),
-      length_(frame_length),
       zones_(pattern) {
   if (obstacles.count() == 0 && !params.self) return;
   contacts_.reserve(4 * pattern.grid.nodeCount());
   last_.reserve(4 * pattern.grid.nodeCount());
-  if (params.self) tree_.reserve(candidates_);
+  if (!params.self) return;
+  tree_.reserve(candidates_);
+  ahead_.assign(pattern.grid.size(), 0.0);
 }
 
-// A new horizon.
-void ClothContact::look(const Field3& start, const Field3& predicted, double h) noexcept {
+// Pairs that come near on the way from start to end, and on as far again: those that the next substep starts with.
+void ClothContact::look(const Field3& start, const Field3& end) noexcept {
 auto T0=std::chrono::steady_clock::now();
-  horizon_.set(start, predicted, h, std::max(length_, h), slack_);
-  tree_.refit(horizon_.start(), horizon_.end());
+  extrapolate(start, end, ahead_);
+  tree_.refit(start, ahead_);
 auto T1=std::chrono::steady_clock::now();
   candidates_.clear();
-  tree_.collectSelf(self_.gap() + 2.0 * slack_, candidates_);
+  tree_.collectSelf(self_.gap(), candidates_);
 auto T2=std::chrono::steady_clock::now();
-  self_.renew(candidates_, horizon_.start(), horizon_.end(), slack_);
+  self_.renew(candidates_, contacts_);
 auto T3=std::chrono::steady_clock::now();
 auto us=[](auto a, auto b){return std::chrono::duration<double>(b-a).count()*1e6;};
-if(getenv("DBGC")) printf("look h %.5f length %.5f slack %.5f refit %.1f collect %.1f renew %.1f us, cand %zu+%zu near %zu\n",h,length_,slack_,us(T0,T1),us(T1,T2),us(T2,T3),candidates_.vertex_triangles.size(),candidates_.edge_edges.size(),self_.nearCount());
+if(getenv("DBGC")) printf("look h %.5f refit %.1f collect %.1f renew %.1f us, cand %zu+%zu near %zu\n",h_,us(T0,T1),us(T1,T2),us(T2,T3),candidates_.vertex_triangles.size(),candidates_.edge_edges.size(),self_.nearCount());
+  looked_ = true;
 }
 
-Contacts* ClothContact::begin(const ClothPattern&, const Field3& start, const Field3& predicted, double h) noexcept {
+Contacts* ClothContact::begin(const Field3& start, const Field3& predicted, double h) noexcept {
   contacts_.clear();
   h_ = h;
   looks_ = 0;
   if (self_wanted_) {
-    // Room to stray for the solve, too.
-    const bool reached = !horizon_.reaches(h);
-    if (reached || horizon_.strayed(predicted, h) > 0.5 * horizon_.slack()) {
-      length_ = reached ? std::min(frame_length_, kLonger * length_) : std::max(h, kShorter * length_);
-      slack_ = std::max(kLeastSlack * self_.gap(), kSlackDecay * slack_);
-      look(start, predicted, h);
-    }
+    if (!looked_) look(start, predicted);
+    self_.collect(start, predicted, h, contacts_);
   }
-  if (self_wanted_) self_.collect(start, predicted, h, contacts_);
   near_obstacle_ = obstacles_.anyPresent() && touch_.mayTouch(start, predicted);
   if (near_obstacle_) touch_.collect(start, predicted, h, slippery_ > 0, contacts_);
   return self_wanted_ || near_obstacle_ ? &contacts_ : nullptr;
 }
 
 ContactFinder::Verdict ClothContact::verify(const Field3& start, const Field3& end) noexcept {
-  if (self_wanted_ && !(horizon_.strayed(end, h_) <= horizon_.slack())) {
-    // The solve went where nobody looked. Contacts of the cloth itself name pairs of the old horizon: they go on with it.
-    self_.remember(contacts_);
-    slack_ = std::min(kMostSlack * self_.gap(), kSlackGrowth * slack_);
-    look(start, end, h_);
-    self_.carryOver(start, contacts_);
+  int added = 0;
+  if (self_wanted_) {
+    look(start, end);
+    added = self_.verify(start, end, h_, contacts_);
   }
-  int added = self_wanted_ ? self_.verify(start, end, h_, contacts_) : 0;
   if (near_obstacle_) added += touch_.verify(start, end, h_, contacts_);
   if (added == 0) return Verdict::kClear;
   return ++looks_ <= zone_iterations_ ? Verdict::kMore : Verdict::kCrossed;
@@ -128,6 +126,8 @@ void ClothContact::hold(const Field3& start, Field3& end) noexcept {
 // Nodes that would go through each other belong to one zone; returns how many pairs there were.
 int ClothContact::joinCrossings(const Field3& start, const Field3& end) noexcept {
   int count = 0;
+  if (!self_wanted_) return count;
+  look(start, end);
   self_.forEachCrossing(start, end, [&](const NearPair& pair) {
     for (std::size_t k = 1; k < 4; ++k) zones_.join(pair.key.node[0], pair.key.node[k]);
     ++count;
@@ -135,10 +135,9 @@ int ClothContact::joinCrossings(const Field3& start, const Field3& end) noexcept
   return count;
 }
 
-void ClothContact::afterSubstep(bool settled, double h, double scale) noexcept {
+void ClothContact::afterSubstep(bool settled, double scale) noexcept {
   if (!settled) slippery_ = kSlipperySubsteps;
   else if (slippery_ > 0) --slippery_;
-  horizon_.advance(h);
   last_.clear();
   for (const Contact& contact : contacts_) {
     if (contact.pushes()) last_.push_back(contact);
@@ -164,11 +163,9 @@ void ClothContact::forget() noexcept {
   last_.clear();
   last_scale_ = 0.0;
   slippery_ = 0;
-  horizon_.forget();
+  looked_ = false;
   self_.forget();
   touch_.forget();
-  slack_ = kLeastSlack * self_.gap();
-  length_ = frame_length_;
   held_ = 0;
 }
 

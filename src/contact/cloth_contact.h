@@ -2,14 +2,12 @@
 //
 // All contact of a cloth: what may touch within a substep, and whether anything went through anything after all.
 //
-//   horizon (about a frame)   candidates: pairs of elements near each other, parts of the cloth near an obstacle
-//   substep, begin            contacts: of those, what touches on the predicted way
-//            verify           what would go through something on the solved way becomes a contact too, and the solve goes on
-//            hold             what still would is moved as one body (zones.h)
+//   begin    contacts: of what was near when the last substep ended, what touches on the predicted way
+//   verify   what would go through something on the solved way becomes a contact too, and the solve goes on
+//   hold     what still would is moved as one body (zones.h)
 #pragma once
 
 #include "contact/cloth_tree.h"
-#include "contact/horizon.h"
 #include "contact/obstacle_contacts.h"
 #include "contact/obstacle_set.h"
 #include "contact/self_contacts.h"
@@ -20,18 +18,18 @@ namespace curtain {
 
 class ClothContact : public ContactFinder {
  public:
-  /// frame_length [s]; pattern and obstacles must outlive this.
-  ClothContact(const ClothPattern& pattern, const ContactParams& params, double frame_length, const ObstacleSet& obstacles);
+  /// pattern and obstacles must outlive this.
+  ClothContact(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles);
 
   /// There is something to look for at all.
   bool wanted() const noexcept { return self_wanted_ || obstacles_.anyPresent(); }
 
-  Contacts* begin(const ClothPattern& pattern, const Field3& start, const Field3& predicted, double h) noexcept override;
+  Contacts* begin(const Field3& start, const Field3& predicted, double h) noexcept override;
   Verdict verify(const Field3& start, const Field3& end) noexcept override;
   void hold(const Field3& start, Field3& end) noexcept override;
 
-  /// After every accepted substep of h [s], whether all links could be brought to their lengths; scale: its h * kick [s^2].
-  void afterSubstep(bool settled, double h, double scale) noexcept;
+  /// After every accepted substep, whether all links could be brought to their lengths; scale: its h * kick [s^2].
+  void afterSubstep(bool settled, double scale) noexcept;
 
   /// Contacts that find room without an allocation.
   std::size_t capacity() const noexcept { return contacts_.capacity(); }
@@ -49,21 +47,19 @@ class ClothContact : public ContactFinder {
   void forget() noexcept;
 
  private:
-  void look(const Field3& start, const Field3& predicted, double h) noexcept;
+  void look(const Field3& start, const Field3& end) noexcept;
   int joinCrossings(const Field3& start, const Field3& end) noexcept;
 
   const ClothPattern& pattern_;
   const ObstacleSet& obstacles_;
   bool self_wanted_;
-  double frame_length_;
   int zone_iterations_;
   ObstacleContacts touch_;
   SelfContacts self_;
   ClothTree tree_;
   Candidates candidates_;
-  Horizon horizon_;
-  double slack_;           // of the next horizon [m]
-  double length_;          // of the next horizon [s]
+  Field3 ahead_;           // where nodes go on to from the last look [m]
+  bool looked_ = false;    // the pairs near each other now are known
   Zones zones_;
   Contacts contacts_, last_;  // of this substep; of the last accepted one, those that pushed
   double h_ = 0.0;            // of this substep [s]

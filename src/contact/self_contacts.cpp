@@ -17,20 +17,29 @@ constexpr double kLeastShare = 0.02;
 constexpr double kGapRecoverySpeed = 0.1;
 constexpr double kSlack = 0.1;
 
-std::array<Vec3, 4> corners(const NearPair& pair, const Field3& position) {
-  return {position.at(pair.key.node[0]), position.at(pair.key.node[1]), position.at(pair.key.node[2]), position.at(pair.key.node[3])};
+Vec3 mix(const std::array<double, 4>& weight, const std::array<Vec3, 4>& at) {
+  return weight[0] * at[0] + weight[1] * at[1] + weight[2] * at[2] + weight[3] * at[3];
 }
 
-Vec3 mix(const std::array<double, 4>& weight, const NearPair& pair, const Field3& value) {
-  return weight[0] * value.at(pair.key.node[0]) + weight[1] * value.at(pair.key.node[1]) + weight[2] * value.at(pair.key.node[2]) +
-         weight[3] * value.at(pair.key.node[3]);
+// Whether the boxes around the ways of two elements are further apart than reach.
+bool boxesApart(bool edges, const std::array<Vec3, 4>& from, const std::array<Vec3, 4>& to, double reach) {
+  Vec3 low_a = from[0].cwiseMin(to[0]), high_a = from[0].cwiseMax(to[0]);
+  Vec3 low_b = from[3].cwiseMin(to[3]), high_b = from[3].cwiseMax(to[3]);
+  const auto extend = [&](std::size_t k, Vec3& low, Vec3& high) {
+    low = low.cwiseMin(from[k]).cwiseMin(to[k]);
+    high = high.cwiseMax(from[k]).cwiseMax(to[k]);
+  };
+  extend(2, low_b, high_b);
+  if (edges) extend(1, low_a, high_a);
+  else extend(1, low_b, high_b);
+  return (low_a - high_b).cwiseMax(low_b - high_a).maxCoeff() > reach;
 }
 
-// By how much two elements may come nearer when their nodes move from a to b: no more than the two nodes that approach most.
-double largestApproach(const NearPair& pair, const Field3& a, const Field3& b) {
+// By how much two elements may come nearer on the way: no more than the two nodes that approach most.
+double largestApproach(bool edges, const std::array<Vec3, 4>& from, const std::array<Vec3, 4>& to) {
   std::array<Vec3, 4> move;
-  for (std::size_t k = 0; k < 4; ++k) move[k] = b.at(pair.key.node[k]) - a.at(pair.key.node[k]);
-  const std::size_t split = pair.key.edges ? 2 : 1;
+  for (std::size_t k = 0; k < 4; ++k) move[k] = to[k] - from[k];
+  const std::size_t split = edges ? 2 : 1;
   double worst = 0.0;
   for (std::size_t k = 0; k < split; ++k) {
     for (std::size_t l = split; l < 4; ++l) worst = std::max(worst, (move[k] - move[l]).squaredNorm());
@@ -63,32 +72,28 @@ SelfContacts::SelfContacts(const ClothPattern& pattern, double gap, double frict
   pushed_.reserve(4 * pattern.grid.nodeCount());
 }
 
-void SelfContacts::renew(const Candidates& candidates, const Field3& start, const Field3& end, double slack) noexcept {
+void SelfContacts::renew(const Candidates& candidates, Contacts& contacts) noexcept {
   pushed_.clear();
   for (const NearPair& pair : near_) {
     if (pair.push > 0.0) pushed_.push_back(pair);
   }
-  table_.clear(pushed_.size());
+  table_.clear(pushed_.size() + contacts.size());
   for (std::uint32_t n = 0; n < pushed_.size(); ++n) table_.insert(pushed_[n].key, n);
   near_.clear();
-  const auto take = [&](const PairKey& key) {
-    NearPair pair{key};
-    const double nearest = closestPoints(key.edges, corners(pair, start)).distance - largestApproach(pair, start, end);
-    if (nearest > gap_ + 2.0 * slack) return;
-    const std::uint32_t old = table_.find(key);
-    if (old != PairTable::kNone) {
+  for (const VertexTriangle& c : candidates.vertex_triangles) {
+    near_.push_back({{{c.vertex, c.triangle[0], c.triangle[1], c.triangle[2]}, false}});
+  }
+  for (const EdgeEdge& c : candidates.edge_edges) {
+    near_.push_back({{{c.first[0], c.first[1], c.second[0], c.second[1]}, true}});
+  }
+  if (!pushed_.empty()) {
+    for (NearPair& pair : near_) {
+      const std::uint32_t old = table_.find(pair.key);
+      if (old == PairTable::kNone) continue;
       pair.push = pushed_[old].push;
       pair.slide = pushed_[old].slide;
     }
-    near_.push_back(pair);
-  };
-  for (const VertexTriangle& c : candidates.vertex_triangles) {
-    take({{c.vertex, c.triangle[0], c.triangle[1], c.triangle[2]}, false});
   }
-  for (const EdgeEdge& c : candidates.edge_edges) take({{c.first[0], c.first[1], c.second[0], c.second[1]}, true});
-}
-
-void SelfContacts::carryOver(const Field3& start, Contacts& contacts) noexcept {
   table_.clear(contacts.size());
   for (std::uint32_t n = 0; n < contacts.size(); ++n) {
     Contact& contact = contacts[n];
@@ -96,8 +101,7 @@ void SelfContacts::carryOver(const Field3& start, Contacts& contacts) noexcept {
     contact.source = kNoPair;
     table_.insert({contact.node, contact.weight[1] > 0.0}, n);
   }
-  for (std::uint32_t n = 0; n < near_.size(); ++n) {
-    near_[n].distance = closestPoints(near_[n].key.edges, corners(near_[n], start)).distance;
+  for (std::uint32_t n = 0; n < near_.size() && !contacts.empty(); ++n) {
     const std::uint32_t contact = table_.find(near_[n].key);
     if (contact != PairTable::kNone) contacts[contact].source = n;
   }
@@ -124,11 +128,12 @@ Contact SelfContacts::makeContact(const NearPair& pair, std::uint32_t source, co
 void SelfContacts::collect(const Field3& start, const Field3& predicted, double h, Contacts& contacts) noexcept {
   for (std::uint32_t n = 0; n < near_.size(); ++n) {
     NearPair& pair = near_[n];
-    const ClosestPoints closest = closestPoints(pair.key.edges, corners(pair, start));
-    pair.distance = closest.distance;
+    const std::array<Vec3, 4> from = corners(pair, start), to = corners(pair, predicted);
+    if (pair.push == 0.0 && boxesApart(pair.key.edges, from, to, gap_)) continue;
+    const ClosestPoints closest = closestPoints(pair.key.edges, from);
     // Where two edges are closest at an end of one, the vertex there and the faces at the other one are a pair as well.
     if (!closest.inside || closest.distance <= 0.0) continue;
-    const double then = closest.apart.dot(mix(closest.weight, pair, predicted)) / closest.distance;
+    const double then = closest.apart.dot(mix(closest.weight, to)) / closest.distance;
     if (then >= gap_ && pair.push == 0.0) continue;
     Contact contact = makeContact(pair, n, closest);
     contact.offset = offsetAt(closest.distance, h);
@@ -138,34 +143,39 @@ void SelfContacts::collect(const Field3& start, const Field3& predicted, double 
   }
 }
 
-// The time of impact, beyond 1 when there is none.
-double SelfContacts::crossesAt(const NearPair& pair, const Field3& start, const Field3& end) const noexcept {
-  const double least = std::min(kLeastShare * gap_, 0.5 * pair.distance);
-  if (pair.distance - largestApproach(pair, start, end) > least) return 2.0;
-  const std::array<Vec3, 4> a = corners(pair, start), b = corners(pair, end);
+// The time of impact, beyond 1 when there is none; distance: at the start.
+double SelfContacts::crossesAt(const NearPair& pair, const std::array<Vec3, 4>& from, const std::array<Vec3, 4>& to,
+                               double& distance) const noexcept {
+  constexpr double kNever = 2.0;
+  if (boxesApart(pair.key.edges, from, to, kLeastShare * gap_)) return kNever;
+  distance = closestPoints(pair.key.edges, from).distance;
+  const double least = std::min(kLeastShare * gap_, 0.5 * distance);
+  if (distance - largestApproach(pair.key.edges, from, to) > least) return kNever;
   const std::optional<double> time =
-      pair.key.edges ? edgeEdgeTimeOfImpact(a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3], least)
-                 : vertexTriangleTimeOfImpact(a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3], least);
-  return time.value_or(2.0);
+      pair.key.edges
+          ? edgeEdgeTimeOfImpact(from[0], from[1], from[2], from[3], to[0], to[1], to[2], to[3], least)
+          : vertexTriangleTimeOfImpact(from[0], from[1], from[2], from[3], to[0], to[1], to[2], to[3], least);
+  return time.value_or(kNever);
 }
 
 int SelfContacts::verify(const Field3& start, const Field3& end, double h, Contacts& contacts) noexcept {
   int added = 0;
   for (std::uint32_t n = 0; n < near_.size(); ++n) {
     const NearPair& pair = near_[n];
-    const double time = crossesAt(pair, start, end);
+    const std::array<Vec3, 4> from = corners(pair, start), to = corners(pair, end);
+    double distance = 0.0;
+    const double time = crossesAt(pair, from, to, distance);
     if (time > 1.0) continue;
     ++added;
     // Held along the way between them where they meet.
-    std::array<Vec3, 4> at = corners(pair, start);
-    const std::array<Vec3, 4> to = corners(pair, end);
-    for (std::size_t k = 0; k < 4; ++k) at[k] += time * (to[k] - at[k]);
-    ClosestPoints closest = closestPoints(pair.key.edges, at);
-    if (!(closest.distance > 0.0)) closest = closestPoints(pair.key.edges, corners(pair, start));
+    std::array<Vec3, 4> there = from;
+    for (std::size_t k = 0; k < 4; ++k) there[k] += time * (to[k] - from[k]);
+    ClosestPoints closest = closestPoints(pair.key.edges, there);
+    if (!(closest.distance > 0.0)) closest = closestPoints(pair.key.edges, from);
     if (!(closest.distance > 0.0)) continue;
     Contact contact = makeContact(pair, n, closest);
-    contact.carried = mix(closest.weight, pair, start);
-    contact.offset = offsetAt(pair.distance, h);
+    contact.carried = mix(closest.weight, from);
+    contact.offset = offsetAt(distance, h);
     contacts.push_back(contact);
   }
   return added;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Contact of the cloth with itself: pairs of a vertex and a triangle, or of two edges, of the first layer's mesh that may
-// come near within the horizon, and which of them touch in a substep. The normal of a contact is the direction between the
+// come near, and which of them touch in a substep. The normal of a contact is the direction between the
 // closest points where the substep starts, so its force turns nothing: momentum and angular momentum are those before.
 #pragma once
 
@@ -18,8 +18,7 @@ namespace curtain {
 /// Two elements that share no node: vertex node[0] and triangle node[1..3], or edges node[0..1] and node[2..3].
 struct NearPair {
   PairKey key;
-  double distance = 0.0;  ///< where the present substep starts [m]
-  double push = 0.0;   ///< multipliers of the last accepted substep [kg m]
+  double push = 0.0;  ///< multipliers of the last accepted substep [kg m]
   Vec3 slide = Vec3::Zero();
 };
 
@@ -43,10 +42,9 @@ class SelfContacts {
 
   double gap() const noexcept { return gap_; }
 
-  /// A new horizon: of the candidates, those that may come within the gap. Pairs that were near before keep their multipliers.
-  void renew(const Candidates& candidates, const Field3& start, const Field3& end, double slack) noexcept;
-  /// After a renewal within a substep: its contacts name the new pairs, whose distances are those at the substep's start.
-  void carryOver(const Field3& start, Contacts& contacts) noexcept;
+  /// Takes new candidates; pairs that were near before keep their multipliers, and contacts of the present substep name the
+  /// new pairs.
+  void renew(const Candidates& candidates, Contacts& contacts) noexcept;
   void forget() noexcept { near_.clear(); }
   bool any() const noexcept { return !near_.empty(); }
   std::size_t nearCount() const noexcept { return near_.size(); }
@@ -54,15 +52,15 @@ class SelfContacts {
   /// Adds what may touch on the way from start to predicted, in a substep of h [s].
   void collect(const Field3& start, const Field3& predicted, double h, Contacts& contacts) noexcept;
 
-  /// Adds contacts for pairs that would go through each other on the way from start to end; returns how many. After collect
-  /// with the same start.
+  /// Adds contacts for pairs that would go through each other on the way from start to end; returns how many.
   int verify(const Field3& start, const Field3& end, double h, Contacts& contacts) noexcept;
 
   /// The pairs that would; f(pair).
   template <typename F>
   void forEachCrossing(const Field3& start, const Field3& end, const F& f) const noexcept {
     for (const NearPair& pair : near_) {
-      if (crossesAt(pair, start, end) <= 1.0) f(pair);
+      double distance = 0.0;
+      if (crossesAt(pair, corners(pair, start), corners(pair, end), distance) <= 1.0) f(pair);
     }
   }
 
@@ -70,14 +68,19 @@ class SelfContacts {
   void remember(const Contacts& contacts) noexcept;
 
  private:
-  double crossesAt(const NearPair& pair, const Field3& start, const Field3& end) const noexcept;
+  double crossesAt(const NearPair& pair, const std::array<Vec3, 4>& from, const std::array<Vec3, 4>& to,
+                   double& distance) const noexcept;
+  static std::array<Vec3, 4> corners(const NearPair& pair, const Field3& position) noexcept {
+    return {position.at(pair.key.node[0]), position.at(pair.key.node[1]), position.at(pair.key.node[2]),
+            position.at(pair.key.node[3])};
+  }
   Contact makeContact(const NearPair& pair, std::uint32_t source, const ClosestPoints& closest) const noexcept;
   double offsetAt(double distance, double h) const noexcept;
 
   const ClothPattern& pattern_;
   double gap_, friction_;
   std::vector<NearPair> near_;
-  std::vector<NearPair> pushed_;  // pairs of the last horizon that pushed
+  std::vector<NearPair> pushed_;  // pairs of the last candidates that pushed
   PairTable table_;
 };
 

@@ -356,7 +356,7 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const SubstepPlan& plan, const
   Contacts* contacts = nullptr;
   std::size_t known = 0;
   if (finder != nullptr) {
-    contacts = finder->begin(pattern_, from, next_, plan.h);
+    contacts = finder->begin(from, next_, plan.h);
     clock.lap(Stage::kContact);
   }
   Progress all;

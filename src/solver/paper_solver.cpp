@@ -72,7 +72,7 @@ void PaperSolver::adjustRow(int row, ClothState& state) const noexcept {
 
 // Contacts one by one, positions and then velocities; what still goes through something is held.
 void PaperSolver::touch(ContactFinder* finder, double h, ClothState& state) noexcept {
-  Contacts* const contacts = finder != nullptr ? finder->begin(pattern_, start_, state.position, h) : nullptr;
+  Contacts* const contacts = finder != nullptr ? finder->begin(start_, state.position, h) : nullptr;
   if (contacts == nullptr) return;
   beginContacts(pattern_.inverse_mass, 0.0, 0, *contacts, state.position);
   projectContacts(pattern_.inverse_mass, *contacts, state.position);

@@ -25,7 +25,7 @@ class ContactFinder {
 
   /// What may touch on the way from start to predicted, over a substep of length h [s], with the multipliers of the last
   /// substep. Null: nothing can, whatever the links do. Allocates nothing.
-  virtual Contacts* begin(const ClothPattern& pattern, const Field3& start, const Field3& predicted, double h) noexcept = 0;
+  virtual Contacts* begin(const Field3& start, const Field3& predicted, double h) noexcept = 0;
 
   enum class Verdict {
     kClear,   ///< nothing has gone through anything
