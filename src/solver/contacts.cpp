@@ -11,6 +11,8 @@ namespace {
 // Share of friction's bound below which a point that stuck in the last substep is solved for as held. Points near the bound
 // would change between sticking and slipping from sweep to sweep; they take turns.
 constexpr double kSticksBelow = 0.5;
+// What such a point may slip in a substep, as a share of what it may enter: the next substep takes it up.
+constexpr double kStickShare = 0.25;
 
 Vec3 across(const Vec3& normal, const Vec3& v) { return v - normal.dot(v) * normal; }
 
@@ -48,7 +50,7 @@ double contactResidual(const Contacts& contacts, const Field3& position) noexcep
     const double entered = contact.offset - contact.normal.dot(point);
     if (!std::isfinite(entered)) return std::numeric_limits<double>::infinity();
     worst = std::max(worst, contact.pushes() ? std::abs(entered) : entered);
-    if (contact.sticks) worst = std::max(worst, across(contact.normal, point - contact.carried).norm());
+    if (contact.sticks) worst = std::max(worst, kStickShare * across(contact.normal, point - contact.carried).norm());
   }
   return worst;
 }

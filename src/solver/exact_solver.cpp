@@ -38,8 +38,9 @@ constexpr int kGradientIterations = 12;
 // A sweep that moves a node by more than this share of a link at once is cut back to it [1].
 constexpr double kLargestMove = 0.1;
 constexpr double kWatchMoves = 1e-3;  // relative violation below which no solve moves a node too far
-// What friction may still move in the last sweep, over the tolerance of contact. It takes turns with the solve, so it settles
-// slowest; multipliers carry over, so that what sticks for long converges over the substeps.
+// Friction takes turns with the solve, for so many sweeps: what sticks under load converges over the substeps, its
+// multipliers carry over. And what it may still move in a substep's last sweep, over the tolerance of contact.
+constexpr int kRubSweeps = 3;
 constexpr double kRubShare = 4.0;
 // Sweeps that must bring at least this improvement, or the iteration has stalled.
 constexpr int kStallWindow = 8;
@@ -300,7 +301,8 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
     clock.lap(Stage::kWarp);
     if (!rods.converged && !plan.must_accept) return progress;
     ++progress.sweeps;
-    const double rubbed = touches ? rubContacts(inertia_.inverse(), *contacts, next_) : 0.0;
+    const double rubbed =
+        touches && progress.sweeps <= kRubSweeps ? rubContacts(inertia_.inverse(), *contacts, next_) : 0.0;
     touch = touches ? contactResidual(*contacts, next_) : 0.0;
     clock.lap(Stage::kContact);
     measured_ = weft_pulls_ || !first;

@@ -38,12 +38,15 @@ void NetContacts::addRow(const Frame& frame, std::uint32_t index, const Contact&
     row.diagonal += row.weight[at] * row.weight[at] * frame.weight[row.node[at]];
   }
   if (!(row.diagonal > 0.0F)) return;  // nothing of it can move
+  row.per_diagonal = 1.0F / (row.diagonal * (1.0F + damping_));
   row.residual = static_cast<float>(wanted / frame.violation_scale);
+  aligned_ += static_cast<double>(row.residual * row.residual * row.per_diagonal);
   rows_.push_back(row);
 }
 
 void NetContacts::load(const Frame& frame, const ContactValues& values) {
   rows_.clear();
+  aligned_ = 0.0;
   if (values.contacts == nullptr) return;
   damping_ = std::max(frame.damping, kLeastDamping);
   const Contacts& contacts = *values.contacts;
@@ -64,21 +67,9 @@ void NetContacts::load(const Frame& frame, const ContactValues& values) {
   }
 }
 
-double NetContacts::precondition() noexcept {
-  double sum = 0.0;
+void NetContacts::turn(float beta, NetNodes push) noexcept {
   for (Row& row : rows_) {
-    row.preconditioned = row.residual / (row.diagonal * (1.0F + damping_));
-    sum += static_cast<double>(row.preconditioned * row.residual);
-  }
-  return sum;
-}
-
-void NetContacts::conjugate(float beta) noexcept {
-  for (Row& row : rows_) row.pull = row.preconditioned + beta * row.pull;
-}
-
-void NetContacts::scatter(NetNodes push) const noexcept {
-  for (const Row& row : rows_) {
+    row.pull = row.residual * row.per_diagonal + beta * row.pull;
     for (int k = 0; k < row.nodes; ++k) {
       const auto at = static_cast<std::size_t>(k);
       const float share = row.pull * row.weight[at];
@@ -89,16 +80,7 @@ void NetContacts::scatter(NetNodes push) const noexcept {
   }
 }
 
-void NetContacts::clear(NetNodes push) const noexcept {
-  for (const Row& row : rows_) {
-    for (int k = 0; k < row.nodes; ++k) {
-      const std::uint32_t node = row.node[static_cast<std::size_t>(k)];
-      push.x[node] = push.y[node] = push.z[node] = 0.0F;
-    }
-  }
-}
-
-double NetContacts::product(NetNodes move) noexcept {
+double NetContacts::product(NetNodes move, NetNodes push) noexcept {
   double sum = 0.0;
   for (Row& row : rows_) {
     float along = damping_ * row.diagonal * row.pull;
@@ -106,6 +88,7 @@ double NetContacts::product(NetNodes move) noexcept {
       const auto at = static_cast<std::size_t>(k);
       const std::uint32_t node = row.node[at];
       along += row.weight[at] * (row.dx * move.x[node] + row.dy * move.y[node] + row.dz * move.z[node]);
+      push.x[node] = push.y[node] = push.z[node] = 0.0F;
     }
     row.product = along;
     sum += static_cast<double>(along * row.pull);
@@ -115,10 +98,12 @@ double NetContacts::product(NetNodes move) noexcept {
 
 double NetContacts::advance(float alpha) noexcept {
   float largest = 0.0F;
+  aligned_ = 0.0;
   for (Row& row : rows_) {
     row.solution += alpha * row.pull;
     row.residual -= alpha * row.product;
     largest = std::max(largest, std::abs(row.residual));
+    aligned_ += static_cast<double>(row.residual * row.residual * row.per_diagonal);
   }
   return static_cast<double>(largest);
 }

@@ -42,14 +42,12 @@ class NetContacts {
   void reserve(std::size_t contacts) { rows_.reserve(3 * contacts); }
   bool any() const noexcept { return !rows_.empty(); }
 
-  /// Residual over the diagonal; returns their product.
-  double precondition() noexcept;
-  void conjugate(float beta) noexcept;
-  /// The nodes' shares of the search direction, added to (or taken from) push.
-  void scatter(NetNodes push) const noexcept;
-  void clear(NetNodes push) const noexcept;
-  /// Search direction . its product, from the moves of the nodes.
-  double product(NetNodes move) noexcept;
+  /// Residual . residual over the diagonal.
+  double aligned() const noexcept { return aligned_; }
+  /// The next search direction, and the nodes' shares of it added to push.
+  void turn(float beta, NetNodes push) noexcept;
+  /// Search direction . its product, from the moves of the nodes; push is zero again.
+  double product(NetNodes move, NetNodes push) noexcept;
   /// A step along the search direction; returns the largest residual left.
   double advance(float alpha) noexcept;
 
@@ -65,7 +63,8 @@ class NetContacts {
     std::array<float, 4> weight;
     float dx, dy, dz;                   // direction of the multiplier
     bool normal;
-    float diagonal, residual, preconditioned, pull, product, solution;
+    float diagonal, per_diagonal;       // the second with the damping
+    float residual, pull, product, solution;
   };
 
   void addRow(const Frame& frame, std::uint32_t index, const Contact& contact, const Vec3& direction, double wanted,
@@ -73,6 +72,7 @@ class NetContacts {
 
   std::vector<Row> rows_;
   float damping_ = 0.0F;
+  double aligned_ = 0.0;
 };
 
 template <typename Take>

@@ -377,32 +377,32 @@ NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active,
     conjugate(b, 0.0F);
     return sum;
   });
-  aligned += contacts_.precondition();
-  contacts_.conjugate(0.0F);
+  aligned += contacts_.aligned();
   const NetNodes push{push_.x.data(), push_.y.data(), push_.z.data()};
   const NetNodes move{move_.x.data(), move_.y.data(), move_.z.data()};
   outcome.reduction = 1.0;
+  float beta = 0.0F;
   while (outcome.iterations < aim.most_iterations && aligned > 0.0) {
     ++outcome.iterations;
     closeRows(pull_);
-    contacts_.scatter(push);
+    contacts_.turn(beta, push);
     workers_.run(column_blocks_, [&](int b) { answerOfRods(b); });
-    contacts_.clear(push);
-    const double curvature = sumOverRowBlocks([&](int b) { return schurProduct(b); }) + contacts_.product(move);
+    const double touching = contacts_.product(move, push);
+    const double curvature = sumOverRowBlocks([&](int b) { return schurProduct(b); }) + touching;
     const auto alpha = static_cast<float>(aligned / curvature);
     if (!(curvature > 0.0) || !std::isfinite(alpha)) break;
     workers_.run(row_blocks_, [&](int b) {
       partial_[static_cast<std::size_t>(b)] = taut_[static_cast<std::size_t>(b)] ? advance(b, alpha) : 0.0;
     });
-    outcome.reduction = std::max(*std::max_element(partial_.begin(), partial_.end()), contacts_.advance(alpha));
+    const double left = contacts_.advance(alpha);
+    outcome.reduction = std::max(*std::max_element(partial_.begin(), partial_.end()), left);
     if (outcome.reduction <= aim.reduction) break;
-    const double next = sumOverRowBlocks([&](int b) { return precondition(b); }) + contacts_.precondition();
-    const auto beta = static_cast<float>(next / aligned);
+    const double next = sumOverRowBlocks([&](int b) { return precondition(b); }) + contacts_.aligned();
+    beta = static_cast<float>(next / aligned);
     aligned = next;
     workers_.run(row_blocks_, [&](int b) {
       if (taut_[static_cast<std::size_t>(b)]) conjugate(b, beta);
     });
-    contacts_.conjugate(beta);
   }
   workers_.run(row_blocks_, [&](int b) { unload(b, multiplierScale(), change); });
   return outcome;
