@@ -13,6 +13,9 @@ namespace {
 
 // Rounds of the linear velocity projection.
 constexpr int kVelocityRounds = 2;
+// With contacts, whose rows are damped; until the rate is this share of what it was.
+constexpr int kContactRounds = 8;
+constexpr double kContactRate = 1e-3;
 constexpr double kVelocityDamping = 1e-4;
 constexpr double kVelocityReduction = 1e-3;
 constexpr int kVelocityIterations = 24;
@@ -73,10 +76,12 @@ void ExactSolver::projectVelocity(const Field3& position, const Contacts* contac
   }
   setAllWeftDirections(position);
   net_.begin(position, pattern_.inverse_mass);
-  for (int round = 0; round < kVelocityRounds; ++round) {
+  double first_rate = 0.0;
+  for (int round = 0; round < (presses ? kContactRounds : kVelocityRounds); ++round) {
     double rate = worstOfRows([&](int i) { return measureWeftRates(weft, i, violation_, active_); });
     if (presses) rate = std::max(rate, contactRate(*contacts, out) / mean_rest_);
-    if (rate == 0.0) break;
+    if (round == 0) first_rate = rate;
+    if (rate == 0.0 || (presses && round > 0 && rate <= kContactRate * first_rate)) break;
     net_.solve(violation_, active_, {presses ? contacts : nullptr, &out, true},
                {rate * mean_rest_, kVelocityDamping, kVelocityReduction, kVelocityIterations}, change_);
     for (int i = 0; i < pattern_.grid.rows; ++i) pullWeft(weft, i, change_);
