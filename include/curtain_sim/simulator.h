@@ -65,6 +65,10 @@ class Simulator {
   void clearDrags();
   const std::vector<DragParams>& drags() const;
 
+  /// Takes a pinned node to this point [m], evenly within the next step; there it stays. False: it is not pinned, or the point
+  /// is not finite.
+  bool movePin(NodeIndex node, const Vec3& target);
+
   /// Obstacles, in the scene's order. A pose given here is where the obstacle will be at the end of the next
   /// step, moving there evenly from where it was; it takes the place of the scene's motion. `jump`: it is
   /// there at once, without a velocity (first pose, teleport).

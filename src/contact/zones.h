@@ -22,15 +22,16 @@ class Zones {
   /// Both nodes belong to one zone.
   void join(std::size_t a, std::size_t b) noexcept;
   /// Gives the nodes of every zone the motion of a body: x_end = x_start + T + theta x (x_start - centre), with their
-  /// momentum and angular momentum. A zone with a node that can't move stays where it is.
+  /// momentum and angular momentum. A zone with pinned nodes goes with them.
   void makeRigid(const Field3& start, Field3& end) noexcept;
-  /// Or no motion at all.
+  /// Or no motion but that of their pins.
   void stop(const Field3& start, Field3& end) const noexcept;
 
  private:
   struct Body {
     double mass = 0.0;
-    bool held = false;
+    double pins = 0.0;  // nodes that go their own way
+    Vec3 pin_move = Vec3::Zero();
     Vec3 centre = Vec3::Zero(), move = Vec3::Zero(), spin = Vec3::Zero(), turn = Vec3::Zero();
     Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   };

@@ -93,6 +93,21 @@ double Simulator::Impl::makeSubstep(double done) {
   return plan.h;
 }
 
+// Pinned nodes answer no force; those that are moved go with their velocity.
+void Simulator::Impl::startPins() {
+  for (const PinMove& move : pin_moves) {
+    state.velocity.set(move.node, (move.target - state.position.at(move.node)) * scene.solver.frame_rate);
+  }
+}
+
+void Simulator::Impl::stopPins() {
+  for (const PinMove& move : pin_moves) {
+    state.position.set(move.node, move.target);
+    state.velocity.set(move.node, Vec3::Zero());
+  }
+  pin_moves.clear();
+}
+
 void Simulator::Impl::makeFrame() {
   const double frame_length = 1.0 / scene.solver.frame_rate;
   double done = 0.0;
@@ -117,7 +132,9 @@ void Simulator::Impl::step() {
   steps_made = 0;
   of_stages = true;
   if (plain_frames > 0) --plain_frames;
+  startPins();
   makeFrame();
+  stopPins();
   if (estimate != nullptr) {
     const bool compares = estimate->companionMoves() && !companion.lost;
     estimate->frameMade(state.position, steps_made, compares ? &companion.state.position : nullptr, companion.steps,

@@ -92,6 +92,7 @@ void Simulator::Impl::reset() {
   clock.reset();
   statistics = Statistics();
   frame = 0;
+  pin_moves.clear();
   velocities_fresh = false;
 }
 
@@ -155,6 +156,21 @@ std::vector<Problem> Simulator::setDrag(const DragParams& drag) { return impl_->
 bool Simulator::removeDrag(const std::string& id) { return impl_->forces.removeDrag(id); }
 void Simulator::clearDrags() { impl_->forces.clearDrags(); }
 const std::vector<DragParams>& Simulator::drags() const { return impl_->forces.drags(); }
+
+bool Simulator::movePin(NodeIndex node, const Vec3& target) {
+  const Grid& grid = impl_->pattern.grid;
+  const bool inside = node.row >= 0 && node.row < grid.rows && node.column >= 0 && node.column < grid.columns;
+  if (!inside || !impl_->pattern.isPinned(node) || !target.allFinite()) return false;
+  const std::size_t at = grid.index(node);
+  for (Impl::PinMove& move : impl_->pin_moves) {
+    if (move.node == at) {
+      move.target = target;
+      return true;
+    }
+  }
+  impl_->pin_moves.push_back({at, target});
+  return true;
+}
 
 int Simulator::obstacleCount() const { return impl_->obstacles.count(); }
 void Simulator::setObstaclePose(int index, const Pose& pose, bool jump) { impl_->obstacles.setPose(index, pose, jump); }

@@ -23,6 +23,8 @@ struct Simulator::Impl {
 
   void reset();
   void step();
+  void startPins();
+  void stopPins();
   void makeFrame();
   bool makeEvenSubstep(const SubstepPlan& plan, double done, int divisions);
   bool makeEvenFrame(int substeps);
@@ -68,6 +70,11 @@ struct Simulator::Impl {
   Held companion, rehearsal;
   int steps_made = 0;      // leapfrog steps of the present frame, for the estimate
   bool of_stages = true;   // all of them were stages of whole substeps
+  struct PinMove {
+    std::size_t node;
+    Vec3 target;
+  };
+  std::vector<PinMove> pin_moves;  // of the coming frame
   Statistics statistics;
   StageClock clock;
   std::int64_t frame = 0;

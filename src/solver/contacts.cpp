@@ -65,6 +65,11 @@ double contactRate(const Contacts& contacts, const Field3& velocity) noexcept {
   return worst;
 }
 
+bool pressesOnObstacle(const Contacts& contacts) noexcept {
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [](const Contact& contact) { return contact.obstacle != Contact::kCloth && contact.pushes(); });
+}
+
 double rubContacts(const Field& inverse_inertia, Contacts& contacts, Field3& position) noexcept {
   double largest = 0.0;
   for (Contact& contact : contacts) {

@@ -71,6 +71,9 @@ double contactResidual(const Contacts& contacts, const Field3& position) noexcep
 /// Fastest that a point which is pressed on enters, leaves, or (sticking) slips [m/s].
 double contactRate(const Contacts& contacts, const Field3& velocity) noexcept;
 
+/// Something other than the cloth is pushed on.
+bool pressesOnObstacle(const Contacts& contacts) noexcept;
+
 /// Friction of the contacts that are not solved for as held, one after the other. Moves nodes; returns the largest move of a
 /// point [m].
 double rubContacts(const Field& inverse_inertia, Contacts& contacts, Field3& position) noexcept;

@@ -72,6 +72,7 @@ double smallestRest(const ClothPattern& pattern) {
 
 ExactSolver::ExactSolver(const ClothPattern& pattern, double stretch_tolerance, int max_sweeps, const Workers& workers)
     : pattern_(pattern),
+      free_(std::none_of(pattern.pinned.begin(), pattern.pinned.end(), [](std::uint8_t pin) { return pin != 0; })),
       workers_(workers),
       tolerance_(kInnerTolerance * stretch_tolerance),
       contact_tolerance_(kInnerTolerance * stretch_tolerance * smallestRest(pattern)),
@@ -353,8 +354,8 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
 }
 
 // Solves, and solves again with what the finder has to add, until nothing goes through anything or that does not help.
-ExactSolver::Progress ExactSolver::solveAndVerify(const SubstepPlan& plan, const Field3& start, const Field3& from, double ratio,
-                                                  ContactFinder* finder, StageClock& clock) noexcept {
+ExactSolver::Progress ExactSolver::solveAndVerify(const SubstepPlan& plan, const SubstepStart& start, const Field3& from,
+                                                  double ratio, ContactFinder* finder, StageClock& clock) noexcept {
   Contacts* contacts = nullptr;
   std::size_t known = 0;
   if (finder != nullptr) {
@@ -367,11 +368,12 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const SubstepPlan& plan, const
       if (beginContacts(inertia_.inverse(), ratio, known, *contacts, next_)) newton_begun_ = false;
       known = contacts->size();
     }
-    const Progress progress = solveConstraints(plan, start, contacts, clock);
+    const Progress progress = solveConstraints(plan, start.state.position, contacts, clock);
     all.sweeps += progress.sweeps;
     all.settled = progress.settled;
     all.left_over = progress.left_over;
     all.contacts = contacts;
+    if (free_ && contacts != nullptr && start.keep == nullptr && !pressesOnObstacle(*contacts)) keepMomentum(start);
     if (contacts == nullptr || !(progress.settled || plan.must_accept)) return all;
     const ContactFinder::Verdict verdict = finder->verify(from, next_);
     clock.lap(Stage::kContact);
@@ -441,7 +443,7 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
                            step};
   const double ratio = begin(plan, start, scale);
   clock.lap(Stage::kPredict);
-  const Progress progress = solveAndVerify(plan, base.position, state.position, ratio, finder, clock);
+  const Progress progress = solveAndVerify(plan, start, state.position, ratio, finder, clock);
   SubstepOutcome outcome;
   outcome.sweeps = progress.sweeps;
   outcome.settled = progress.settled;

@@ -98,8 +98,9 @@ class ExactSolver {
   const ClothState& setBase(Scheme scheme, double h, const ClothState& state, double& step) noexcept;
   double begin(const SubstepPlan& plan, const SubstepStart& start, double scale) noexcept;
   Progress solveConstraints(const SubstepPlan& plan, const Field3& start, Contacts* contacts, StageClock& clock) noexcept;
-  Progress solveAndVerify(const SubstepPlan& plan, const Field3& start, const Field3& from, double ratio, ContactFinder* finder,
-                          StageClock& clock) noexcept;
+  Progress solveAndVerify(const SubstepPlan& plan, const SubstepStart& start, const Field3& from, double ratio,
+                          ContactFinder* finder, StageClock& clock) noexcept;
+  void keepMomentum(const SubstepStart& start) noexcept;
   WarpProgress solveBlock(bool follow, const LineSolve& warp, int block, double stop, double leave_alone,
                           bool begun) noexcept;
   WarpProgress solveWarp(bool follow, const LineSolve& warp, double stop, double leave_alone, bool begun) noexcept;
@@ -121,6 +122,7 @@ class ExactSolver {
   static constexpr int kRowsAtOnce = 8;
 
   const ClothPattern& pattern_;
+  bool free_;                 // no node is pinned
   const Workers& workers_;
   double tolerance_;          // relative, inside the solver
   double contact_tolerance_;  // [m]

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth/free_body.h"
 #include "forces/air_damping.h"
 #include "solver/exact_solver.h"
 
@@ -46,6 +47,22 @@ void ExactSolver::boundKinetic(double most, Field3& velocity) const noexcept {
   }
 }
 
+// Of a cloth that nothing holds: what the solve has added to its momentum is taken out of the whole.
+void ExactSolver::keepMomentum(const SubstepStart& start) noexcept {
+  const Field3& from = start.state.position;
+  Momentum missing;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    const Vec3 wanted = start.state.velocity.at(n) + start.kick * pattern_.inverse_mass[n] * start.force.at(n);
+    const Vec3 p = pattern_.mass[n] * (wanted - (next_.at(n) - from.at(n)) / start.h);
+    missing.linear += p;
+    missing.angular += from.at(n).cross(p);
+  }
+  const RigidMotion motion = rigidMotion(pattern_, from, missing);
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    if (pattern_.mass[n] > 0.0) next_.add(n, start.h * motion.at(from.at(n)));
+  }
+}
+
 void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& forces,
                                     const Contacts* contacts, Field3& out) noexcept {
   const double age = state.velocity_age;
@@ -55,7 +72,17 @@ void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& f
     const DampedStep step = forces.has_damping ? dampedStep(forces.damping[n], w, age) : DampedStep{1.0, 1.0};
     out.set(n, step.keep * state.velocity.at(n) + age * step.gain * w * forces.force->at(n));
   }
-  if (age != 0.0) projectVelocity(state.position, contacts, out);
+  if (age == 0.0) return;
+  const bool keeps = free_ && (contacts == nullptr || !pressesOnObstacle(*contacts));
+  const Momentum before = keeps ? momentumOf(pattern_, state.position, out) : Momentum();
+  projectVelocity(state.position, contacts, out);
+  if (!keeps) return;
+  const Momentum after = momentumOf(pattern_, state.position, out);
+  const RigidMotion motion =
+      rigidMotion(pattern_, state.position, {before.linear - after.linear, before.angular - after.angular});
+  for (std::size_t n = 0; n < size; ++n) {
+    if (pattern_.mass[n] > 0.0) out.add(n, motion.at(state.position.at(n)));
+  }
 }
 
 // Takes out of the velocities what would change the lengths of rods and of links that pull.
