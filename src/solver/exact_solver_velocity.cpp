@@ -73,6 +73,13 @@ void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& f
     out.set(n, step.keep * state.velocity.at(n) + age * step.gain * w * forces.force->at(n));
   }
   if (age == 0.0) return;
+  if (contacts != nullptr) {
+    // Friction goes on as in the last substep; where it holds a point fast the projection below does.
+    const double share = age / inertia_.tensions().scale;
+    for (const Contact& contact : *contacts) {
+      if (contact.pushes() && !contact.sticks) contact.move(pattern_.inverse_mass, share * contact.slide, out);
+    }
+  }
   const bool keeps = free_ && (contacts == nullptr || !pressesOnObstacle(*contacts));
   const Momentum before = keeps ? momentumOf(pattern_, state.position, out) : Momentum();
   projectVelocity(state.position, contacts, out);
