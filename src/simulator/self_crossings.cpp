@@ -2,6 +2,7 @@
 #include "simulator/self_crossings.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <vector>
 
 #include "cloth/coarse_mesh.h"
@@ -25,22 +26,32 @@ bool pierces(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const V
 
 std::int64_t countSelfCrossings(const Grid& grid, const Field3& position) {
   const CoarseMesh mesh = makeCoarseMesh(grid);
-  std::vector<Eigen::AlignedBox3d> edge_boxes;
-  for (const auto& edge : mesh.edges) {
+  struct BoxedEdge {
+    Eigen::AlignedBox3d box;
+    MeshEdge edge;
+  };
+  std::vector<BoxedEdge> edges;
+  double longest = 0.0;  // along x
+  for (const MeshEdge& edge : mesh.edges) {
     Eigen::AlignedBox3d box(position.at(edge[0]));
-    edge_boxes.push_back(box.extend(position.at(edge[1])));
+    box.extend(position.at(edge[1]));
+    longest = std::max(longest, box.sizes().x());
+    edges.push_back({box, edge});
   }
+  std::sort(edges.begin(), edges.end(), [](const BoxedEdge& a, const BoxedEdge& b) { return a.box.min().x() < b.box.min().x(); });
+  const auto beginsBefore = [](const BoxedEdge& edge, double x) { return edge.box.min().x() < x; };
   std::int64_t crossings = 0;
-  for (const auto& triangle : mesh.triangles) {
+  for (const MeshTriangle& triangle : mesh.triangles) {
     const Vec3 a = position.at(triangle[0]), b = position.at(triangle[1]), c = position.at(triangle[2]);
     Eigen::AlignedBox3d box(a);
     box.extend(b).extend(c);
-    for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-      if (!box.intersects(edge_boxes[e])) continue;
-      const auto& edge = mesh.edges[e];
-      bool shared = false;
-      for (const std::uint32_t corner : triangle) shared = shared || corner == edge[0] || corner == edge[1];
-      if (!shared && pierces(position.at(edge[0]), position.at(edge[1]), a, b, c)) ++crossings;
+    auto edge = std::lower_bound(edges.begin(), edges.end(), box.min().x() - longest, beginsBefore);
+    for (; edge != edges.end() && edge->box.min().x() <= box.max().x(); ++edge) {
+      if (!box.intersects(edge->box)) continue;
+      const bool shared = std::any_of(triangle.begin(), triangle.end(), [&](std::uint32_t corner) {
+        return corner == edge->edge[0] || corner == edge->edge[1];
+      });
+      if (!shared && pierces(position.at(edge->edge[0]), position.at(edge->edge[1]), a, b, c)) ++crossings;
     }
   }
   return crossings;

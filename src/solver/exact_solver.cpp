@@ -464,7 +464,7 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
     if (bounded) boundKinetic(most_kinetic, state.velocity);
     outcome.omega_squared = inertia_.omegaSquared();
     // The way such a substep has gone is not all motion: what pulls its links further is taken out.
-    if (progress.left_over) projectVelocity(state.position, progress.contacts, state.velocity);
+    if (progress.left_over) projectVelocity(state.position, progress.contacts, 0.0, state.velocity);
   }
   if (directions_set_ && (!outcome.accepted || !weft_pulls_)) std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0);
   clock.lap(Stage::kFinish);

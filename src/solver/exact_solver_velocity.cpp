@@ -73,27 +73,31 @@ void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& f
     out.set(n, step.keep * state.velocity.at(n) + age * step.gain * w * forces.force->at(n));
   }
   if (age == 0.0) return;
-  if (contacts != nullptr) {
-    // Friction goes on as in the last substep; where it holds a point fast the projection below does.
-    const double share = age / inertia_.tensions().scale;
+  projectVelocity(state.position, contacts, age / inertia_.tensions().scale, out);
+}
+
+// Takes out of the velocities what would change the lengths of rods and of links that pull, and what contacts forbid, after
+// friction has acted for a share of the last substep's; a free cloth keeps its momentum.
+void ExactSolver::projectVelocity(const Field3& position, const Contacts* contacts, double slide_share, Field3& out) noexcept {
+  const bool keeps = free_ && (contacts == nullptr || !pressesOnObstacle(*contacts));
+  const Momentum before = keeps ? momentumOf(pattern_, position, out) : Momentum();
+  if (contacts != nullptr && slide_share > 0.0) {
+    // Friction goes on as in the last substep; where it holds a point fast the projection does.
     for (const Contact& contact : *contacts) {
-      if (contact.pushes() && !contact.sticks) contact.move(pattern_.inverse_mass, share * contact.slide, out);
+      if (contact.pushes() && !contact.sticks) contact.move(pattern_.inverse_mass, slide_share * contact.slide, out);
     }
   }
-  const bool keeps = free_ && (contacts == nullptr || !pressesOnObstacle(*contacts));
-  const Momentum before = keeps ? momentumOf(pattern_, state.position, out) : Momentum();
-  projectVelocity(state.position, contacts, out);
+  projectOnConstraints(position, contacts, out);
   if (!keeps) return;
-  const Momentum after = momentumOf(pattern_, state.position, out);
+  const Momentum after = momentumOf(pattern_, position, out);
   const RigidMotion motion =
-      rigidMotion(pattern_, state.position, {before.linear - after.linear, before.angular - after.angular});
-  for (std::size_t n = 0; n < size; ++n) {
-    if (pattern_.mass[n] > 0.0) out.add(n, motion.at(state.position.at(n)));
+      rigidMotion(pattern_, position, {before.linear - after.linear, before.angular - after.angular});
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    if (pattern_.mass[n] > 0.0) out.add(n, motion.at(position.at(n)));
   }
 }
 
-// Takes out of the velocities what would change the lengths of rods and of links that pull.
-void ExactSolver::projectVelocity(const Field3& position, const Contacts* contacts, Field3& out) noexcept {
+void ExactSolver::projectOnConstraints(const Field3& position, const Contacts* contacts, Field3& out) noexcept {
   setWarpDirections(pattern_.grid, position, warp_.direction);
   const LineSolve warp{pattern_, pattern_.inverse_mass, warp_, out};
   const auto solveRods = [&] {
