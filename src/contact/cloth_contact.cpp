@@ -17,6 +17,8 @@ constexpr double kGapPerLink = 0.25;
 constexpr double kLeastSlack = 0.25;
 constexpr double kMostSlack = 1.0;
 constexpr double kSlackGrowth = 1.5;
+// Parts that go along with an obstacle may take more with them: so many times at most.
+constexpr int kCarryRounds = 64;
 constexpr double kSlackDecay = 0.95;
 
 double shortestLink(const ClothPattern& pattern) {
@@ -34,13 +36,13 @@ double shortestLink(const ClothPattern& pattern) {
 }  // namespace
 
 ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& params, double frame_length,
-                           const ObstacleSet& obstacles)
+                           const ObstacleSet& obstacles, const Field3& position)
     : pattern_(pattern),
       obstacles_(obstacles),
       self_wanted_(params.self),
       frame_length_(frame_length),
       zone_iterations_(params.zone_iterations),
-      touch_(pattern, params.thickness, obstacles),
+      touch_(pattern, params.thickness, frame_length, obstacles, position),
       self_(pattern, std::min(params.thickness, kGapPerLink * shortestLink(pattern)), params.friction),
       tree_(pattern),
       horizon_(pattern.grid),
@@ -72,7 +74,7 @@ Contacts* ClothContact::begin(const ClothPattern&, const Field3& start, const Fi
     }
   }
   if (self_wanted_) self_.collect(start, predicted, h, contacts_);
-  near_obstacle_ = obstacles_.anyPresent() && touch_.mayTouch(start, predicted);
+  near_obstacle_ = obstacles_.anyPresent() && touch_.mayTouch(start, predicted, h);
   if (near_obstacle_) touch_.collect(start, predicted, h, slippery_ > 0, contacts_);
   return self_wanted_ || near_obstacle_ ? &contacts_ : nullptr;
 }
@@ -93,6 +95,25 @@ ContactFinder::Verdict ClothContact::verify(const Field3& start, const Field3& e
 
 void ClothContact::hold(const Field3& start, Field3& end) noexcept {
   ++held_;
+  if (self_wanted_) holdSelf(start, end);
+  if (near_obstacle_) holdToObstacles(start, end);
+}
+
+// What would go through an obstacle goes along with it, and what that would go through or be left behind by, too.
+void ClothContact::holdToObstacles(const Field3& start, Field3& end) noexcept {
+  for (int round = 0; round < kCarryRounds; ++round) {
+    int count = touch_.carry(start, end, h_);
+    if (self_wanted_) {
+      self_.forEachCrossing(start, end, [&](const NearPair& pair) {
+        for (const std::uint32_t node : pair.node) count += touch_.carryAlong(pair.node[0], node, start, end) ? 1 : 0;
+      });
+    }
+    if (count == 0) break;
+  }
+  touch_.endCarrying();
+}
+
+void ClothContact::holdSelf(const Field3& start, Field3& end) noexcept {
   zones_.clear();
   for (int round = 0; round < zone_iterations_; ++round) {
     if (joinCrossings(start, end) == 0) return;
@@ -119,7 +140,7 @@ int ClothContact::joinCrossings(const Field3& start, const Field3& end) noexcept
   return count;
 }
 
-void ClothContact::afterSubstep(bool settled, double h, double scale) noexcept {
+void ClothContact::afterSubstep(bool settled, double h, double scale, const Field3& position) noexcept {
   if (!settled) slippery_ = kSlipperySubsteps;
   else if (slippery_ > 0) --slippery_;
   horizon_.advance(h);
@@ -129,7 +150,7 @@ void ClothContact::afterSubstep(bool settled, double h, double scale) noexcept {
   }
   last_scale_ = scale;
   if (self_wanted_) self_.remember(contacts_);
-  touch_.remember(contacts_);
+  touch_.remember(contacts_, position, h, scale);
 }
 
 void ClothContact::addForces(Field3& force) const noexcept {
