@@ -183,6 +183,8 @@ void ObstacleContacts::remember(const Contacts& contacts, const Field3& position
     loads_[obstacle].angular += arm.cross(impulse);
     ++loads_[obstacle].contacts;
   }
+  // What is struck may be as fast as the obstacle.
+  if (!last_.empty()) box_time_ = 0.0;
   // Those that verify() added come last.
   if (!std::is_sorted(last_.begin(), last_.end(), before)) std::sort(last_.begin(), last_.end(), before);
 }

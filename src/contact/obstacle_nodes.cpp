@@ -22,8 +22,9 @@ constexpr double kSamePlace = 0.05;
 // Over the thickness: nearer than this at the end is through.
 constexpr double kLeast = 0.02;
 
-bool serves(const NodePlane& plane, const Vec3& p, double thickness) {
-  return plane.kind == NodePlane::Kind::kFound && plane.surface.distance > 0.0 &&
+bool serves(const Vicinity& near, const NodePlane& plane, const Vec3& p) {
+  const double thickness = near.thickness();
+  return near.shape().convex() == nullptr && plane.kind == NodePlane::Kind::kFound && plane.surface.distance > 0.0 &&
          (p - plane.at).squaredNorm() <= kSamePlace * kSamePlace * thickness * thickness;
 }
 
@@ -36,7 +37,7 @@ bool staysClear(const NodePlane& plane, const Vec3& from, const Vec3& to, double
 
 // Signed distance of p, or `reach` when it is further out.
 double distanceAt(const Vicinity& near, const NodePlane& plane, const Vec3& p, double reach) {
-  if (serves(plane, p, near.thickness())) return plane.height(p);
+  if (serves(near, plane, p)) return plane.height(p);
   if (plane.kind != NodePlane::Kind::kUnknown && plane.lowerBound(p) >= reach) return reach;
   SurfacePoint surface;
   return near.shape().query(p, p, reach, surface) ? surface.distance : reach;
@@ -99,7 +100,7 @@ void collectNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, V
     if (staysClear(plane, from, to, reach)) continue;
     const double distance = distanceAt(near, plane, from, thickness);
     SurfacePoint surface;
-    if (serves(plane, from, thickness) && serves(plane, to, thickness)) {
+    if (serves(near, plane, from) && serves(near, plane, to)) {
       surface = {plane.height(to), plane.surface.normal};
     } else {
       if (!near.shape().query(from, to, reach, surface)) continue;

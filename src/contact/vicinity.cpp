@@ -115,6 +115,7 @@ Vicinity::Vicinity(const ClothPattern& pattern, const ObstacleShape& shape, doub
 void Vicinity::forget() noexcept {
   length_ = 0.0;
   std::fill(planes_.begin(), planes_.end(), NodePlane());
+  std::fill(is_taken_.begin(), is_taken_.end(), std::uint8_t{0});
   for (auto* list : {&nodes_, &taken_}) list->clear();
   faces_.clear();
   pairs_.clear();
