@@ -3,6 +3,7 @@
 // Floor 4: what a simulator says of its own work.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 
@@ -47,6 +48,13 @@ struct Piercings {
   int nodes = 0;
   int edges = 0;  ///< warp, weft and the faces' diagonals
   int faces = 0;  ///< halves of faces, cut along their diagonals
+};
+
+/// What the cloth exerts on an obstacle by contact, pressure and friction; the world's axes.
+struct ContactWrench {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N]
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< about the origin of the obstacle's frame, where it was meanwhile [N m]
+  int contacts = 0;                                  ///< that pushed at the frame's end
 };
 
 /// Energy of the cloth; potential is of gravity, zero at the world's origin.
