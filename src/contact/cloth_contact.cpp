@@ -117,9 +117,12 @@ void ClothContact::hold(const Field3& start, Field3& end) noexcept {
 void ClothContact::holdToObstacles(const Field3& start, Field3& end) noexcept {
   for (int round = 0; round < kCarryRounds; ++round) {
     int count = touch_.carry(start, end, h_);
-    if (self_wanted_) {
+    if (self_wanted_ && count > 0) {
+      look(start, end);
       self_.forEachCrossing(start, end, [&](const NearPair& pair) {
-        for (const std::uint32_t node : pair.node) count += touch_.carryAlong(pair.node[0], node, start, end) ? 1 : 0;
+        for (const std::uint32_t node : pair.key.node) {
+          count += touch_.carryAlong(pair.key.node[0], node, start, end) ? 1 : 0;
+        }
       });
     }
     if (count == 0) break;
