@@ -32,7 +32,7 @@ struct Statistics {
   double warp_stretch_max = 0.0;      ///< the largest of these at any frame's end
   double weft_stretch_max = 0.0;
   double warp_compression_max = 0.0;
-  int contacts = 0;                   ///< nodes in contact at the last frame's end
+  int contacts = 0;                   ///< places that press on an obstacle or on the cloth itself at the last frame's end
   int contacts_max = 0;
   double penetration_max = 0.0;       ///< deepest any node was inside an obstacle at any frame's end [m]
   double step_seconds = 0.0;          ///< computing time of the last frame [s]
