@@ -39,6 +39,14 @@ double longestWay(const Corners& a, const Corners& b) {
   return std::sqrt(std::max({(b[0] - a[0]).squaredNorm(), (b[1] - a[1]).squaredNorm(), (b[2] - a[2]).squaredNorm()}));
 }
 
+// A node of it starts inside: on its way out it may cross whatever it meets, and the node's own contact lets it out.
+bool comesOut(const std::array<std::uint32_t, 3>& node, std::size_t nodes, const Vicinity& near) {
+  for (std::size_t k = 0; k < nodes; ++k) {
+    if (near.isInside(node[k])) return true;
+  }
+  return false;
+}
+
 // A tangent plane of a convex shape has the whole way of the face on its far side.
 bool staysClear(const Vicinity& near, const MeshTriangle& face, const Corners& start, const Corners& end, double reach) {
   for (const std::uint32_t node : face) {
@@ -136,6 +144,7 @@ void collectFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, c
   const ConvexShape& shape = *near.shape().convex();
   const double listed = kListed * near.thickness();
   for (const MeshTriangle& face : near.faces()) {
+    if (comesOut(face, 3, near)) continue;
     const Corners start = startOf(near, face), end = endOf(near, face);
     if (staysClear(near, face, start, end, listed)) continue;
     ElementPoint nearest;
@@ -159,6 +168,7 @@ void crossingFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, 
   const ConvexShape& shape = *near.shape().convex();
   const double most = kLeast * near.thickness();
   for (const MeshTriangle& face : near.faces()) {
+    if (comesOut(face, 3, near)) continue;
     const Corners start = startOf(near, face), end = endOf(near, face);
     if (staysClear(near, face, start, end, most)) continue;
     ElementPoint nearest;
@@ -183,6 +193,7 @@ void collectPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, c
   const ObstacleFeatures& features = *near.shape().features();
   const double listed = kListed * near.thickness();
   for (const FeaturePair& pair : near.pairs()) {
+    if (comesOut(pair.node, pair.edges ? 2 : 3, near)) continue;
     const Corners start = startOf(near, pair.node), end = endOf(near, pair.node);
     const PairPoint first = closest(pair, features, start);
     const double way = longestWay(start, end);
@@ -217,6 +228,7 @@ void crossingPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, 
   const ObstacleFeatures& features = *near.shape().features();
   const double most = kLeast * near.thickness();
   for (const FeaturePair& pair : near.pairs()) {
+    if (comesOut(pair.node, pair.edges ? 2 : 3, near)) continue;
     const Corners start = startOf(near, pair.node), end = endOf(near, pair.node);
     const PairPoint first = closest(pair, features, start);
     const double least = std::min(most, 0.5 * first.distance);

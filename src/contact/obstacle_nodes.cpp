@@ -97,8 +97,10 @@ void collectNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, V
   for (const std::uint32_t node : near.nodes()) {
     const Vec3 from = near.startOf(node), to = near.endOf(node);
     NodePlane& plane = near.plane(node);
+    near.setInside(node, false);
     if (staysClear(plane, from, to, reach)) continue;
     const double distance = distanceAt(near, plane, from, thickness);
+    near.setInside(node, distance < 0.0);
     SurfacePoint surface;
     if (serves(near, plane, from) && serves(near, plane, to)) {
       surface = {plane.height(to), plane.surface.normal};

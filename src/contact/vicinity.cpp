@@ -106,6 +106,7 @@ Vicinity::Vicinity(const ClothPattern& pattern, const ObstacleShape& shape, doub
   planes_.resize(size);
   bound_.assign(size, 0.0);
   is_taken_.assign(size, 0);
+  inside_.assign(size, 0);
   taken_.reserve(count);
   nodes_.reserve(count);
   if (shape.convex() != nullptr) faces_.reserve(elements_wanted_ ? 2 * count : 0);
@@ -116,6 +117,7 @@ void Vicinity::forget() noexcept {
   length_ = 0.0;
   std::fill(planes_.begin(), planes_.end(), NodePlane());
   std::fill(is_taken_.begin(), is_taken_.end(), std::uint8_t{0});
+  std::fill(inside_.begin(), inside_.end(), std::uint8_t{0});
   for (auto* list : {&nodes_, &taken_}) list->clear();
   faces_.clear();
   pairs_.clear();
@@ -172,6 +174,7 @@ void Vicinity::look(const MovingObstacle& moving, const Field3& start, const Fie
   }
   for (const std::uint32_t n : taken_) is_taken_[n] = 0;
   taken_.clear();
+  for (const std::uint32_t n : nodes_) inside_[n] = 0;
   lookAtNodes();
   if (elements_wanted_) lookAtElements();
 }

@@ -62,6 +62,10 @@ class Vicinity {
   NodePlane& plane(std::size_t node) noexcept { return planes_[node]; }
   const NodePlane& plane(std::size_t node) const noexcept { return planes_[node]; }
 
+  /// The node starts the substep inside the obstacle; what has such a node is on its way out, and nothing may stop it.
+  void setInside(std::size_t node, bool inside) noexcept { inside_[node] = inside ? 1 : 0; }
+  bool isInside(std::size_t node) const noexcept { return inside_[node] != 0; }
+
   const ObstacleShape& shape() const noexcept { return shape_; }
   double thickness() const noexcept { return thickness_; }
   double core() const noexcept { return core_; }
@@ -91,6 +95,7 @@ class Vicinity {
   Field3 start_, end_;                   // of this substep, of the nodes in taken_
   std::vector<NodePlane> planes_;        // by node
   std::vector<double> bound_;            // by node: nearest that it may come on its way [m]
+  std::vector<std::uint8_t> inside_;     // by node
   std::vector<std::uint8_t> is_taken_;   // by node
   std::vector<std::uint32_t> taken_;     // nodes whose positions are taken over
   std::vector<std::uint32_t> nodes_;
