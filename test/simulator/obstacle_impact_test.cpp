@@ -107,7 +107,7 @@ Scene fallingSheet(int rows, int columns, double side, double height) {
   scene.cloth.height = scene.cloth.width = side;
   scene.hang.from = Vec3(-0.5 * side, 0.5 * side, height);
   scene.hang.to = Vec3(0.5 * side, 0.5 * side, height);
-  scene.hang.tilt = -0.5 * kPi;
+  scene.hang.tilt = 0.5 * kPi;
   scene.pins.kind = PinKind::kNone;
   scene.air.inside = scene.air.border = scene.air.corner = 0.5;
   return scene;
