@@ -24,7 +24,9 @@ constexpr double kLeast = 0.02;
 
 bool serves(const Vicinity& near, const NodePlane& plane, const Vec3& p) {
   const double thickness = near.thickness();
-  return near.shape().convex() == nullptr && plane.kind == NodePlane::Kind::kFound && plane.surface.distance > 0.0 &&
+  // Close to an edge a tangent plane tells nothing of the sides.
+  return near.shape().convex() == nullptr && plane.kind == NodePlane::Kind::kFound &&
+         plane.surface.distance > 4.0 * kSamePlace * thickness &&
          (p - plane.at).squaredNorm() <= kSamePlace * kSamePlace * thickness * thickness;
 }
 

@@ -12,10 +12,19 @@
 namespace curtain {
 namespace {
 
-// Nodes may stray by this share of the thickness: what is looked for beyond the reach grows with it.
-constexpr double kSlack = 0.25;
+// Nodes may stray by this share of the thickness: what is looked for beyond the reach grows with it. At least, and where pairs
+// with a mesh are looked for, which become many soon; at most where faces are, and where nodes alone are. It grows where lists
+// end early.
+constexpr double kLeastSlack = 0.25;
+constexpr double kMostSlack = 1.0;
+constexpr double kMostSlackOfNodes = 4.0;
+constexpr double kSlackGrowth = 1.5;
+constexpr double kSlackDecay = 0.98;
+// A plane found within this share of the thickness tells enough of a node's distance.
+constexpr double kCloseBy = 0.25;
 // The expected way in the time that lists hold, over the cloth's longest edge: at most; over the thickness: so much is free.
 constexpr double kLongestWay = 1.0;
+constexpr double kLongestWayOfPairs = 0.5;  // over the thickness
 constexpr double kFreeWay = 0.25;
 // Lists hold for so many frames at most.
 constexpr double kMostFrames = 16.0;
@@ -95,7 +104,7 @@ double smoothRadius(const ObstacleShape& shape) {
 
 Vicinity::Vicinity(const ClothPattern& pattern, const ObstacleShape& shape, double thickness, double core)
     : pattern_(pattern), shape_(shape), thickness_(thickness), core_(core), longest_(longestEdge(pattern)),
-      slack_(kSlack * thickness) {
+      slack_(kLeastSlack * thickness) {
   // Sagitta of the longest edge between two nodes that keep the thickness, less the tenth of it that they may lack.
   const double radius = smoothRadius(shape) + 0.9 * thickness;
   const double half = 0.5 * longest_;
@@ -115,6 +124,7 @@ Vicinity::Vicinity(const ClothPattern& pattern, const ObstacleShape& shape, doub
 
 void Vicinity::forget() noexcept {
   length_ = 0.0;
+  slack_ = kLeastSlack * thickness_;
   std::fill(planes_.begin(), planes_.end(), NodePlane());
   std::fill(is_taken_.begin(), is_taken_.end(), std::uint8_t{0});
   std::fill(inside_.begin(), inside_.end(), std::uint8_t{0});
@@ -133,6 +143,7 @@ void Vicinity::prepare(const MovingObstacle& moving, const Field3& start, const 
   // Room to stray for the solve, too. Where the substep starts is where the last one was followed to, unless the obstacle
   // jumped.
   if (!reaches || !(strayed(moving.after, predicted, h) <= 0.5 * slack_) || !(strayed(moving.before, start, 0.0) <= slack_)) {
+    adaptSlack(reaches);
     look(moving, start, predicted, h, frame);
   }
   takeOver(moving, start, predicted);
@@ -140,11 +151,18 @@ void Vicinity::prepare(const MovingObstacle& moving, const Field3& start, const 
 
 void Vicinity::follow(const MovingObstacle& moving, const Field3& start, const Field3& end, double h) noexcept {
   if (!(strayed(moving.after, end, h) <= slack_)) {
+    adaptSlack(true);
     look(moving, start, end, h, h);
     takeOver(moving, start, end);
     return;
   }
   for (const std::uint32_t n : taken_) end_.set(n, moving.after.toLocal(end.at(n)));
+}
+
+// early: lists ended because a node strayed.
+void Vicinity::adaptSlack(bool early) noexcept {
+  const double most = shape_.convex() == nullptr ? kLeastSlack : elements_wanted_ ? kMostSlack : kMostSlackOfNodes;
+  slack_ = std::clamp((early ? kSlackGrowth : kSlackDecay) * slack_, kLeastSlack * thickness_, most * thickness_);
 }
 
 void Vicinity::takeOver(const MovingObstacle& moving, const Field3& start, const Field3& end) noexcept {
@@ -162,7 +180,8 @@ void Vicinity::look(const MovingObstacle& moving, const Field3& start, const Fie
   toLocal(moving.after, predicted, size, to_);
   // As long as the way is short for the cloth; when it hardly moves, for long.
   const double most = std::max(h, frame);
-  const double by_way = move > 0.0 ? h * kLongestWay * longest_ / move : most;
+  const double longest_way = shape_.convex() == nullptr ? kLongestWayOfPairs * thickness_ : kLongestWay * longest_;
+  const double by_way = move > 0.0 ? h * longest_way / move : most;
   const double free = move > 0.0 ? h * kFreeWay * thickness_ / move : kMostFrames * most;
   length_ = std::max(h, std::max(std::min(most, by_way), std::min(kMostFrames * most, free)));
   elapsed_ = 0.0;
@@ -195,7 +214,9 @@ void Vicinity::lookAtNodes() noexcept {
       const double outside = (box.min() - at).cwiseMax(at - box.max()).maxCoeff();
       if (outside > element_reach + way) continue;
       double bound = plane.kind == NodePlane::Kind::kUnknown ? -1.0 : plane.lowerBound(at) - way;
-      if (!(bound > element_reach)) {
+      const bool close = plane.kind != NodePlane::Kind::kUnknown && bound > 0.0 &&
+                         (at - plane.at).squaredNorm() <= kCloseBy * kCloseBy * thickness_ * thickness_;
+      if (!(bound > element_reach) && !close) {
         SurfacePoint surface;
         const double wanted = element_reach + way;
         const bool found = shape_.query(at, at, wanted, surface);

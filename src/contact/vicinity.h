@@ -74,6 +74,7 @@ class Vicinity {
 
  private:
   void look(const MovingObstacle& moving, const Field3& start, const Field3& predicted, double h, double frame) noexcept;
+  void adaptSlack(bool early) noexcept;
   void lookAtNodes() noexcept;
   void lookAtElements() noexcept;
   void addFace(const MeshTriangle& triangle) noexcept;
