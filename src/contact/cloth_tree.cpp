@@ -76,10 +76,10 @@ ClothTree::ClothTree(const ClothPattern& pattern) : grid_(pattern.grid) {
   split({0, rows, 0, columns}, kNone);
   boxes_.resize(nodes_.size());
   slopes_.resize(nodes_.size());
-  node_boxes_.resize(grid_.size());
+  ways_.resize(grid_.size());
   element_refits_.assign(quads, 0);
   element_boxes_.resize(quads + 1);
-  for (FloatBox& box : node_boxes_) box.low = box.high = Eigen::Array4f::Zero();
+  for (NodeWay& way : ways_) way.start = way.end = Eigen::Array4f::Zero();
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     boxes_[n].low = boxes_[n].high = Eigen::Array4f::Zero();
     slopes_[n].u = slopes_[n].v = boxes_[n];

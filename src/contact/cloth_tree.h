@@ -45,8 +45,8 @@ class ClothTree {
   void refit(const Field3& start, const Field3& end) noexcept;
 
   /// Appends every pair (vertex, triangle) and (edge, edge) that shares no node, has a node that can move, and whose
-  /// swept boxes come within `reach` [m, >= 0], once each; pairs that flatness keeps further apart than that at all
-  /// times between start and end are left out, some others are too near to tell and stay. Allocates only where `out`
+  /// elements come within `reach` [m, >= 0] on their ways, once each; some that stay further apart are too near to
+  /// tell and are named as well. Allocates only where `out`
   /// has less room than it needs; see reserve(). Rounding only ever adds pairs.
   void collectSelf(double reach, Candidates& out) noexcept;
 
@@ -104,6 +104,7 @@ class ClothTree {
   void pair(std::uint32_t one, std::uint32_t other, Candidates& out) noexcept;
   void quadSelf(std::uint32_t node, Candidates& out) noexcept;
   void quadPair(std::uint32_t one, std::uint32_t other, Candidates& out) noexcept;
+  void dropApart(std::size_t first_vertex, std::size_t first_edge, Candidates& out) const noexcept;
   bool flatTogether(std::uint32_t one, std::uint32_t other) noexcept;
   bool mergeQuads(const QuadRectangle& hull, PatchSlopes& slopes) noexcept;
   bool mergeBlocks(const QuadRectangle& hull, PatchSlopes& slopes) const noexcept;
@@ -139,7 +140,7 @@ class ClothTree {
 
   std::vector<FloatBox> boxes_;       // of tree nodes
   std::vector<PatchSlopes> slopes_;   // of tree nodes
-  std::vector<FloatBox> node_boxes_;  // of the cloth's nodes, in blocks that are filled
+  std::vector<NodeWay> ways_;         // of the cloth's nodes, in blocks that are filled
   std::uint32_t refits_ = 0;
   std::vector<std::uint32_t> element_refits_;  // of quads: the refit that the boxes of their elements are of
   std::vector<ElementBoxes> element_boxes_;    // of quads, and the second set of the last one

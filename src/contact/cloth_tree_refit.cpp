@@ -199,7 +199,7 @@ void ClothTree::fillBlock(std::uint32_t root) noexcept {
           static_cast<std::size_t>(i - whole.row) * kSide + static_cast<std::size_t>(j - whole.column);
       start[to] = Array4f(start_[0][from], start_[1][from], start_[2][from], 0.0f);
       end[to] = Array4f(end_[0][from], end_[1][from], end_[2][from], 0.0f);
-      node_boxes_[grid_.index(i, j < grid_.columns ? j : 0)] = {start[to].min(end[to]), start[to].max(end[to])};
+      ways_[grid_.index(i, j < grid_.columns ? j : 0)] = {start[to], end[to]};
     }
   }
   for (std::uint32_t node = nodes_[root].end; node-- > root;) {

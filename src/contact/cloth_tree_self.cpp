@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "contact/cloth_tree.h"
+#include "contact/staying_apart.h"
 
 namespace curtain {
 namespace {
@@ -41,6 +42,9 @@ bool isCorner(std::uint32_t vertex, const MeshTriangle& t) {
   return vertex == t[0] || vertex == t[1] || vertex == t[2];
 }
 
+FourNodes nodesOf(const VertexTriangle& c) { return {c.vertex, c.triangle[0], c.triangle[1], c.triangle[2]}; }
+FourNodes nodesOf(const EdgeEdge& c) { return {c.first[0], c.first[1], c.second[0], c.second[1]}; }
+
 }  // namespace
 
 /// A quad that is looked at, with its elements' boxes.
@@ -57,7 +61,29 @@ struct ClothTree::QuadPair {
 
 void ClothTree::collectSelf(double reach, Candidates& out) noexcept {
   reach_ = static_cast<float>(reach) * (1.0f + 2.0f * std::numeric_limits<float>::epsilon()) + rounding_;
+  const std::size_t first_vertex = out.vertex_triangles.size(), first_edge = out.edge_edges.size();
   self(0, out);
+  dropApart(first_vertex, first_edge, out);
+}
+
+// Boxes along the axes let through many times the pairs that come near.
+void ClothTree::dropApart(std::size_t first_vertex, std::size_t first_edge, Candidates& out) const noexcept {
+  const auto filter = [&](auto& pairs, std::size_t first, const auto& stay_apart) {
+    std::size_t kept = first;
+    for (std::size_t from = first; from < pairs.size(); from += 4) {
+      const std::size_t count = std::min<std::size_t>(4, pairs.size() - from);
+      std::array<FourNodes, 4> four;
+      for (std::size_t k = 0; k < 4; ++k) four[k] = nodesOf(pairs[from + std::min(k, count - 1)]);
+      const std::uint32_t apart = stay_apart(four, ways_.data(), reach_, rounding_);
+      for (std::size_t k = 0; k < count; ++k) {
+        pairs[kept] = pairs[from + k];
+        kept += (apart >> k & 1U) == 0 ? 1 : 0;
+      }
+    }
+    pairs.erase(pairs.begin() + static_cast<std::ptrdiff_t>(kept), pairs.end());
+  };
+  filter(out.vertex_triangles, first_vertex, vertexStaysApart);
+  filter(out.edge_edges, first_edge, edgesStayApart);
 }
 
 void ClothTree::self(std::uint32_t node, Candidates& out) noexcept {
@@ -156,8 +182,8 @@ ClothTree::OpenQuad ClothTree::openQuad(std::uint32_t node) noexcept {
   const bool has_second = open.elements.vertex_count > 2;  // one quad at most: it lies behind the last
   if (element_refits_[quad] != refits_) {
     element_refits_[quad] = refits_;
-    element_boxes_[quad].fill(open.elements, false, node_boxes_);
-    if (has_second) element_boxes_.back().fill(open.elements, true, node_boxes_);
+    element_boxes_[quad].fill(open.elements, false, ways_);
+    if (has_second) element_boxes_.back().fill(open.elements, true, ways_);
   }
   if (has_second) open.boxes[1] = &element_boxes_.back();
   return open;
