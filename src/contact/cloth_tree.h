@@ -23,6 +23,7 @@
 #include "contact/candidates.h"
 #include "contact/element_boxes.h"
 #include "contact/flatness.h"
+#include "contact/quad_ways.h"
 
 namespace curtain {
 
@@ -106,6 +107,10 @@ class ClothTree {
   void quadPair(std::uint32_t one, std::uint32_t other, Candidates& out) noexcept;
   void dropApart(std::size_t first_vertex, std::size_t first_edge, Candidates& out) const noexcept;
   bool flatTogether(std::uint32_t one, std::uint32_t other) noexcept;
+  enum class InWindow { kNone, kBent, kFlat };
+  InWindow inFlatWindow(const QuadRectangle& one, const QuadRectangle& other) noexcept;
+  bool isWindowFlat(int row, int column) noexcept;
+  std::uint32_t flatWindows(std::size_t row, std::size_t column) const noexcept;
   bool mergeQuads(const QuadRectangle& hull, PatchSlopes& slopes) noexcept;
   bool mergeBlocks(const QuadRectangle& hull, PatchSlopes& slopes) const noexcept;
   OpenQuad openQuad(std::uint32_t node) noexcept;
@@ -144,6 +149,11 @@ class ClothTree {
   std::uint32_t refits_ = 0;
   std::vector<std::uint32_t> element_refits_;  // of quads: the refit that the boxes of their elements are of
   std::vector<ElementBoxes> element_boxes_;    // of quads, and the second set of the last one
+  std::vector<QuadWays> quad_ways_;            // of quads whose elements' boxes are known
+  std::uint32_t queries_ = 0;
+  std::size_t window_groups_ = 0;              // of four windows of 2 x 2 quads, in a row of them
+  std::vector<std::uint32_t> window_queries_;  // of groups: the query that windows_flat_ is of
+  std::vector<std::uint8_t> windows_flat_;     // of groups: bits
 };
 
 }  // namespace curtain

@@ -51,6 +51,7 @@ FourNodes nodesOf(const EdgeEdge& c) { return {c.first[0], c.first[1], c.second[
 struct ClothTree::OpenQuad {
   QuadElements elements;
   std::array<const ElementBoxes*, 2> boxes;  // the second may be missing
+  const QuadWays* ways;
 };
 
 /// Two sets of lanes.
@@ -61,6 +62,7 @@ struct ClothTree::QuadPair {
 
 void ClothTree::collectSelf(double reach, Candidates& out) noexcept {
   reach_ = static_cast<float>(reach) * (1.0f + 2.0f * std::numeric_limits<float>::epsilon()) + rounding_;
+  ++queries_;
   const std::size_t first_vertex = out.vertex_triangles.size(), first_edge = out.edge_edges.size();
   self(0, out);
   dropApart(first_vertex, first_edge, out);
@@ -178,11 +180,12 @@ ClothTree::OpenQuad ClothTree::openQuad(std::uint32_t node) noexcept {
   lookInto(node);
   const QuadRectangle& at = nodes_[node].quads;
   const auto quad = static_cast<std::size_t>(at.row * grid_.linkCount() + at.column);
-  OpenQuad open{quadElements(grid_, at.row, at.column), {&element_boxes_[quad], nullptr}};
+  OpenQuad open{quadElements(grid_, at.row, at.column), {&element_boxes_[quad], nullptr}, &quad_ways_[quad]};
   const bool has_second = open.elements.vertex_count > 2;  // one quad at most: it lies behind the last
   if (element_refits_[quad] != refits_) {
     element_refits_[quad] = refits_;
     element_boxes_[quad].fill(open.elements, false, ways_);
+    quad_ways_[quad].fill(open.elements.corners, ways_);
     if (has_second) element_boxes_.back().fill(open.elements, true, ways_);
   }
   if (has_second) open.boxes[1] = &element_boxes_.back();
@@ -190,6 +193,7 @@ ClothTree::OpenQuad ClothTree::openQuad(std::uint32_t node) noexcept {
 }
 
 void ClothTree::quadSelf(std::uint32_t node, Candidates& out) noexcept {
+  if (inFlatWindow(nodes_[node].quads, nodes_[node].quads) == InWindow::kFlat) return;
   const OpenQuad quad = openQuad(node);
   const auto never = [] { return false; };  // flat: has been asked
   for (const bool second : {false, true}) {
@@ -203,8 +207,11 @@ void ClothTree::quadSelf(std::uint32_t node, Candidates& out) noexcept {
 }
 
 void ClothTree::quadPair(std::uint32_t one, std::uint32_t other, Candidates& out) noexcept {
+  const InWindow window = inFlatWindow(nodes_[one].quads, nodes_[other].quads);
+  if (window == InWindow::kFlat) return;
   const OpenQuad p = openQuad(one), q = openQuad(other);
-  bool asked = false, flat = false;
+  if (window == InWindow::kNone && p.ways->staysApart(*q.ways, reach_, rounding_)) return;
+  bool asked = window == InWindow::kBent, flat = false;
   // Asked at the first pair that would be added, for most pairs of quads have none.
   const auto is_flat = [&] {
     if (!asked) flat = flatTogether(one, other);
