@@ -79,6 +79,7 @@ ClothTree::ClothTree(const ClothPattern& pattern) : grid_(pattern.grid) {
   ways_.resize(grid_.size());
   element_refits_.assign(quads, 0);
   element_boxes_.resize(quads + 1);
+  quad_refits_.assign(quads, 0);
   quad_ways_.resize(quads);
   window_groups_ = (static_cast<std::size_t>(columns) + 3) / 4;
   window_queries_.assign(static_cast<std::size_t>(rows) * window_groups_, 0);

@@ -51,7 +51,6 @@ FourNodes nodesOf(const EdgeEdge& c) { return {c.first[0], c.first[1], c.second[
 struct ClothTree::OpenQuad {
   QuadElements elements;
   std::array<const ElementBoxes*, 2> boxes;  // the second may be missing
-  const QuadWays* ways;
 };
 
 /// Two sets of lanes.
@@ -108,7 +107,9 @@ void ClothTree::pair(std::uint32_t one, std::uint32_t other, Candidates& out) no
     quadPair(one, other, out);
     return;
   }
-  if (flatTogether(one, other)) return;
+  // Below blocks few that do not make up a rectangle are flat together; their quads' windows are asked.
+  const bool is_rectangle = area(hullOf(p.quads, q.quads, 0)) == area(p.quads) + area(q.quads);
+  if ((is_rectangle || !(isBelowBlock(one) || isBelowBlock(other))) && flatTogether(one, other)) return;
   const int area_p = area(p.quads), area_q = area(q.quads);
   const bool split_p = p.second != kNone && (area_p * 2 > area_q || q.second == kNone);
   const bool split_q = q.second != kNone && (area_q * 2 > area_p || p.second == kNone);
@@ -176,16 +177,26 @@ bool ClothTree::mergeBlocks(const QuadRectangle& hull, PatchSlopes& slopes) cons
   return true;
 }
 
+const QuadWays& ClothTree::quadWays(std::uint32_t node) noexcept {
+  const QuadRectangle& at = nodes_[node].quads;
+  const auto quad = static_cast<std::size_t>(at.row * grid_.linkCount() + at.column);
+  if (quad_refits_[quad] != refits_) {
+    quad_refits_[quad] = refits_;
+    lookInto(node);
+    quad_ways_[quad].fill(quadElements(grid_, at.row, at.column).corners, ways_);
+  }
+  return quad_ways_[quad];
+}
+
 ClothTree::OpenQuad ClothTree::openQuad(std::uint32_t node) noexcept {
   lookInto(node);
   const QuadRectangle& at = nodes_[node].quads;
   const auto quad = static_cast<std::size_t>(at.row * grid_.linkCount() + at.column);
-  OpenQuad open{quadElements(grid_, at.row, at.column), {&element_boxes_[quad], nullptr}, &quad_ways_[quad]};
+  OpenQuad open{quadElements(grid_, at.row, at.column), {&element_boxes_[quad], nullptr}};
   const bool has_second = open.elements.vertex_count > 2;  // one quad at most: it lies behind the last
   if (element_refits_[quad] != refits_) {
     element_refits_[quad] = refits_;
     element_boxes_[quad].fill(open.elements, false, ways_);
-    quad_ways_[quad].fill(open.elements.corners, ways_);
     if (has_second) element_boxes_.back().fill(open.elements, true, ways_);
   }
   if (has_second) open.boxes[1] = &element_boxes_.back();
@@ -209,10 +220,12 @@ void ClothTree::quadSelf(std::uint32_t node, Candidates& out) noexcept {
 void ClothTree::quadPair(std::uint32_t one, std::uint32_t other, Candidates& out) noexcept {
   const InWindow window = inFlatWindow(nodes_[one].quads, nodes_[other].quads);
   if (window == InWindow::kFlat) return;
+  if (window == InWindow::kNone && quadWays(one).staysApart(quadWays(other), reach_, rounding_)) return;
   const OpenQuad p = openQuad(one), q = openQuad(other);
-  if (window == InWindow::kNone && p.ways->staysApart(*q.ways, reach_, rounding_)) return;
-  bool asked = window == InWindow::kBent, flat = false;
+  // Boxes of slopes are for neighbours that no window holds: around the seam, and in cloth of a single row or column.
   // Asked at the first pair that would be added, for most pairs of quads have none.
+  const QuadRectangle hull = hullOf(nodes_[one].quads, nodes_[other].quads, grid_.closed ? grid_.linkCount() : 0);
+  bool asked = window == InWindow::kBent || area(hull) > 4, flat = false;
   const auto is_flat = [&] {
     if (!asked) flat = flatTogether(one, other);
     asked = true;

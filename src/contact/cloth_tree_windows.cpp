@@ -2,6 +2,8 @@
 //
 // Windows of 2 x 2 quads: flat or not, triangle by triangle (contact/flatness.h has the bound). Boxes of slopes along the
 // axes say of few folds that they are open; a window has so few triangles that each is looked at by itself.
+#include <algorithm>
+
 #include "contact/cloth_tree.h"
 #include "contact/lanes.h"
 
@@ -23,7 +25,7 @@ struct Projected {
 
 }  // namespace
 
-// Four windows from this one on: those that are flat, as bits.
+// Four windows side by side from this one on: those that are flat, as bits; what they hold beyond the cloth means nothing.
 std::uint32_t ClothTree::flatWindows(std::size_t row, std::size_t column) const noexcept {
   constexpr float kLeastSine = 0.01f;  // squared
   const Lanes per_u[2] = {loadLanes(&per_spacing_u_[column]), loadLanes(&per_spacing_u_[column + 1])};

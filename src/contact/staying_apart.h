@@ -17,7 +17,9 @@ using FourNodes = std::array<std::uint32_t, 4>;
 
 /// Bit k is set where the elements of pair k of four are certain to stay further apart than `reach` [m]. Differences of two
 /// places may be rounded by `rounding` [m].
-std::uint32_t edgesStayApart(const std::array<FourNodes, 4>& pairs, const NodeWay* ways, float reach, float rounding) noexcept;
-std::uint32_t vertexStaysApart(const std::array<FourNodes, 4>& pairs, const NodeWay* ways, float reach, float rounding) noexcept;
+std::uint32_t edgesStayApart(const std::array<FourNodes, 4>& pairs, const NodeWay* ways, float reach,
+                             float rounding) noexcept;
+std::uint32_t vertexStaysApart(const std::array<FourNodes, 4>& pairs, const NodeWay* ways, float reach,
+                               float rounding) noexcept;
 
 }  // namespace curtain
