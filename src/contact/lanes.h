@@ -7,18 +7,23 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 namespace curtain {
 
-using Lanes = float __attribute__((vector_size(16), may_alias));
-using UnalignedLanes = float __attribute__((vector_size(16), aligned(4), may_alias));
+using Lanes = float __attribute__((vector_size(16)));
 
 struct LaneVectors {
   Lanes x, y, z;
 };
 
 inline Lanes lanesOf(float value) { return Lanes{} + value; }
-inline Lanes loadLanes(const float* from) { return *reinterpret_cast<const UnalignedLanes*>(from); }
+// By a copy: clang takes a vector behind a pointer for aligned whatever its type says.
+inline Lanes loadLanes(const float* from) {
+  Lanes value;
+  std::memcpy(&value, from, sizeof value);
+  return value;
+}
 inline Lanes lesser(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
 inline Lanes greater(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
 inline Lanes rootOf(const Lanes& a) { return Lanes{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])}; }
