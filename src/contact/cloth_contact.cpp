@@ -3,9 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <chrono>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 
 #include "cloth/wide.h"
@@ -69,17 +66,11 @@ ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& par
 
 // Pairs that come near on the way from start to end, and on as far again: those that the next substep starts with.
 void ClothContact::look(const Field3& start, const Field3& end) noexcept {
-auto T0=std::chrono::steady_clock::now();
   extrapolate(start, end, ahead_);
   tree_.refit(start, ahead_);
-auto T1=std::chrono::steady_clock::now();
   candidates_.clear();
   tree_.collectSelf(self_.gap(), candidates_);
-auto T2=std::chrono::steady_clock::now();
   self_.renew(candidates_, contacts_);
-auto T3=std::chrono::steady_clock::now();
-auto us=[](auto a, auto b){return std::chrono::duration<double>(b-a).count()*1e6;};
-if(getenv("DBGC")) printf("look h %.5f refit %.1f collect %.1f renew %.1f us, cand %zu+%zu near %zu\n",h_,us(T0,T1),us(T1,T2),us(T2,T3),candidates_.vertex_triangles.size(),candidates_.edge_edges.size(),self_.nearCount());
   looked_ = true;
 }
 
