@@ -95,6 +95,9 @@ class Simulator {
   /// through it, by brute force (slow). An absent obstacle is pierced by nothing.
   Piercings piercings(int obstacle, double depth_tolerance = 1e-6) const;
 
+  /// The same of the fine mesh.
+  Piercings finePiercings(int obstacle, double depth_tolerance = 1e-6) const;
+
   /// Hash of the bits of positions and velocities (FNV-1a, 64 bits).
   std::uint64_t stateHash() const;
 

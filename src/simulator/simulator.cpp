@@ -208,6 +208,15 @@ Piercings Simulator::piercings(int obstacle, double depth_tolerance) const {
                         impl_->state.position, depth_tolerance);
 }
 
+Piercings Simulator::finePiercings(int obstacle, double depth_tolerance) const {
+  const ObstacleSet& obstacles = impl_->obstacles;
+  if (!obstacles.present(obstacle)) return {};
+  FineMesh mesh;
+  copyFineMesh(mesh);
+  return countPiercings(obstacles.shape(obstacle), Transform(obstacles.pose(obstacle)), mesh.positions,
+                        fineMeshTopology().triangles, depth_tolerance);
+}
+
 std::uint64_t Simulator::stateHash() const {
   const Grid& grid = impl_->pattern.grid;
   std::uint64_t hash = 14695981039346656037ULL;
