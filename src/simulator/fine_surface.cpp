@@ -125,14 +125,14 @@ void FineSurface::findStrips() {
   }
 }
 
-// What the strip can keep as its quad does: what is wanted, the least, or (negative) nothing.
+// What the strip can keep as its quad does: what is wanted, the least, just not to be inside, or (negative) nothing.
 double FineSurface::clearanceOf(int row, int link) {
   points_.clear();
   for (int i = row; i <= row + 1; ++i) {
     points_.push_back(node(i, link, 0));
     points_.push_back(node(i, link, topology_.folds));
   }
-  for (const double clearance : {wanted_, least_}) {
+  for (const double clearance : {wanted_, least_, 0.0}) {
     if (keeps(quad_triangles_, clearance)) return clearance;
   }
   return -1.0;
