@@ -194,11 +194,11 @@ class OverAPlane {
                  obstacles_(scene_, resolveMeshUrl) {
     position_.assign(pattern_.grid.size(), 0.0);
   }
-  /// tilt [rad]: of the cloth about its warp, over the plane z = 0.
+  /// tilt [rad]: of the cloth about its weft, over the plane z = 0.
   const FineMesh& seen(double tilt, FineMesh& mesh) {
-    const Eigen::AngleAxisd turned(tilt, Vec3::UnitY());
+    const Eigen::AngleAxisd turned(tilt, Vec3::UnitX());
     for (int i = 0; i < 6; ++i) {
-      for (int j = 0; j < 8; ++j) position_.set(pattern_.grid.index(i, j), turned * Vec3(0.06 * j - 0.21, -0.08 * i, 0.0) + kAbove);
+      for (int j = 0; j < 8; ++j) position_.set(pattern_.grid.index(i, j), turned * Vec3(0.06 * j, 0.2 - 0.08 * i, 0.0) + kAbove);
     }
     surface_.build(position_, obstacles_, scene_.contact.thickness, mesh);
     return mesh;
@@ -259,7 +259,7 @@ TEST(FineSurface, TurnsNoFurtherThanItMust) {
   for (int i = 0; i < topology.rows; ++i) {
     for (int f = 3; f < topology.columns; f += 6) {
       const Vec3& top = mesh.positions[static_cast<std::size_t>(i * topology.columns + f)];
-      const double row = -0.08 * i;
+      const double row = 0.2 - 0.08 * i;
       if (top.z() > 0.006) {
         ++up;
         EXPECT_NEAR(top.y(), row, 1e-12);
