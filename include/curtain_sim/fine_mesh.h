@@ -26,6 +26,9 @@ struct FineMeshTopology {
 /// What does: shape [rows * columns] row-major.
 struct FineMesh {
   std::vector<Vec3> positions;  ///< [m]
+  /// Folds that an obstacle left no room to lie in: their nodes were moved out of it, so their rods are longer or shorter
+  /// than rest / k. All others keep every rod's length (or, where the link is taut, lie evenly on it).
+  int flattened_folds = 0;
 };
 
 FineMeshTopology makeFineMeshTopology(const ClothParams& cloth);

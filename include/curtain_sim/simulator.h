@@ -95,6 +95,9 @@ class Simulator {
   /// through it, by brute force (slow). An absent obstacle is pierced by nothing.
   Piercings piercings(int obstacle, double depth_tolerance = 1e-6) const;
 
+  /// The same of the fine mesh.
+  Piercings finePiercings(int obstacle, double depth_tolerance = 1e-6) const;
+
   /// Force and torque that the cloth exerted on an obstacle, mean over the last frame; zero before the first one.
   ContactWrench contactWrench(int obstacle) const;
 

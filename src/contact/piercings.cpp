@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "cloth/coarse_mesh.h"
 #include "contact/obstacle_features.h"
 #include "contact/shapes.h"
 
@@ -18,43 +19,49 @@ using Edge = std::array<Vec3, 2>;
 /// Places looked at between two crossings of a surface, where an edge may be inside a solid.
 constexpr int kProbes = 16;
 
-/// Half of a cloth face.
+/// A face, and the mesh's edges around it.
 struct Face {
   Triangle corners;
-  std::array<std::size_t, 3> edges;  ///< warp, weft and diagonal
+  std::array<std::size_t, 3> edges;
 };
 
-/// The first layer in the obstacle's frame.
+/// The cloth in the obstacle's frame.
 struct ClothMesh {
   std::vector<Vec3> nodes;
   std::vector<Edge> edges;
   std::vector<Face> faces;
 };
 
-ClothMesh makeMesh(const Transform& place, const Grid& grid, const Field3& position) {
-  ClothMesh mesh;
-  const int links = grid.linkCount();
-  const auto node = [&](int i, int j) { return place.toLocal(position.at(grid.index(i, j % grid.columns))); };
-  const auto count = [](int rows, int columns) { return static_cast<std::size_t>(rows * columns); };
-  for (int i = 0; i < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j) mesh.nodes.push_back(node(i, j));
-    for (int j = 0; j < links; ++j) mesh.edges.push_back({node(i, j), node(i, j + 1)});
-  }
-  const auto weft = [&](int i, int j) { return count(i, links) + static_cast<std::size_t>(j); };
-  const auto warp = [&](int i, int j) {
-    return count(grid.rows, links) + count(i, grid.columns) + static_cast<std::size_t>(j % grid.columns);
+/// point(n) is where node n is, in the obstacle's frame.
+template <typename Point>
+ClothMesh makeMesh(const std::vector<MeshTriangle>& triangles, const Point& point) {
+  std::vector<std::uint32_t> nodes;
+  std::vector<MeshEdge> edges;
+  const auto side = [](const MeshTriangle& triangle, std::size_t k) {
+    const auto [low, high] = std::minmax(triangle[k], triangle[(k + 1) % 3]);
+    return MeshEdge{low, high};
   };
-  for (int i = 0; i + 1 < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j) mesh.edges.push_back({node(i, j), node(i + 1, j)});
+  const auto makeUnique = [](auto& list) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  };
+  for (const MeshTriangle& triangle : triangles) {
+    nodes.insert(nodes.end(), triangle.begin(), triangle.end());
+    for (std::size_t k = 0; k < 3; ++k) edges.push_back(side(triangle, k));
   }
-  for (int i = 0; i + 1 < grid.rows; ++i) {
-    for (int j = 0; j < links; ++j) {
-      const std::size_t diagonal = mesh.edges.size();
-      mesh.edges.push_back({node(i, j + 1), node(i + 1, j)});
-      mesh.faces.push_back({{node(i, j), node(i + 1, j), node(i, j + 1)}, {warp(i, j), weft(i, j), diagonal}});
-      mesh.faces.push_back({{node(i, j + 1), node(i + 1, j), node(i + 1, j + 1)},
-                            {warp(i, j + 1), weft(i + 1, j), diagonal}});
+  makeUnique(nodes);
+  makeUnique(edges);
+  ClothMesh mesh;
+  for (const std::uint32_t node : nodes) mesh.nodes.push_back(point(node));
+  for (const MeshEdge& edge : edges) mesh.edges.push_back({point(edge[0]), point(edge[1])});
+  for (const MeshTriangle& triangle : triangles) {
+    Face face;
+    for (std::size_t k = 0; k < 3; ++k) {
+      face.corners[k] = point(triangle[k]);
+      const auto found = std::lower_bound(edges.begin(), edges.end(), side(triangle, k));
+      face.edges[k] = static_cast<std::size_t>(found - edges.begin());
     }
+    mesh.faces.push_back(face);
   }
   return mesh;
 }
@@ -158,13 +165,23 @@ Piercings countInMesh(const ObstacleShape& shape, const ObstacleFeatures& featur
   return count;
 }
 
+Piercings judge(const ObstacleShape& shape, const ClothMesh& mesh, double tolerance) {
+  if (shape.convex() != nullptr) return countInConvex(*shape.convex(), mesh, tolerance);
+  return shape.features() == nullptr ? Piercings() : countInMesh(shape, *shape.features(), mesh, tolerance);
+}
+
 }  // namespace
 
 Piercings countPiercings(const ObstacleShape& shape, const Transform& place, const Grid& grid, const Field3& position,
                          double depth_tolerance) {
-  const ClothMesh mesh = makeMesh(place, grid, position);
-  if (shape.convex() != nullptr) return countInConvex(*shape.convex(), mesh, depth_tolerance);
-  return shape.features() == nullptr ? Piercings() : countInMesh(shape, *shape.features(), mesh, depth_tolerance);
+  const auto point = [&](std::uint32_t node) { return place.toLocal(position.at(node)); };
+  return judge(shape, makeMesh(makeCoarseMesh(grid).triangles, point), depth_tolerance);
+}
+
+Piercings countPiercings(const ObstacleShape& shape, const Transform& place, const std::vector<Vec3>& points,
+                         const std::vector<MeshTriangle>& triangles, double depth_tolerance) {
+  const auto point = [&](std::uint32_t node) { return place.toLocal(points[node]); };
+  return judge(shape, makeMesh(triangles, point), depth_tolerance);
 }
 
 }  // namespace curtain

@@ -3,7 +3,10 @@
 // Brute-force oracle: is any part of the cloth inside an obstacle, or stuck through it? For tests and statistics.
 #pragma once
 
+#include <vector>
+
 #include "cloth/cloth.h"
+#include "cloth/coarse_mesh.h"
 #include "contact/obstacle_set.h"
 #include "curtain_sim/statistics.h"
 
@@ -20,5 +23,10 @@ namespace curtain {
 /// Every element against every triangle whose box touches its own; allocates. Padding nodes are not looked at.
 Piercings countPiercings(const ObstacleShape& shape, const Transform& place, const Grid& grid, const Field3& position,
                          double depth_tolerance);
+
+/// The same for any triangle mesh; `triangles` are indices into `points` [m], world frame. Points that no triangle has
+/// are not looked at. Triangles without area are fine.
+Piercings countPiercings(const ObstacleShape& shape, const Transform& place, const std::vector<Vec3>& points,
+                         const std::vector<MeshTriangle>& triangles, double depth_tolerance);
 
 }  // namespace curtain

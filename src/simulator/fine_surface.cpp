@@ -4,98 +4,182 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulator/fold_turn.h"
+
 namespace curtain {
 namespace {
 
-// Shares of the turn towards the way out that are tried, the least that clears the obstacle wins.
-constexpr int kTurns = 4;
-
-// How far the deepest of the points is short of `clearance` outside the obstacle, and the way out there.
-double shortfall(const MovingObstacle& obstacle, const Vec3* points, int count, const Vec3& from, double clearance,
-                 Vec3& way_out) {
-  double worst = 0.0;
-  for (int p = 0; p < count; ++p) {
-    SurfacePoint surface;
-    const Vec3 local = obstacle.after.toLocal(points[p]);
-    if (!obstacle.shape->query(obstacle.after.toLocal(from), local, clearance, surface)) continue;
-    if (clearance - surface.distance <= worst) continue;
-    worst = clearance - surface.distance;
-    way_out = obstacle.after.rotation * surface.normal;
-  }
-  return worst;
-}
+// Of the thickness, kept by fine triangles: less than the first layer's own faces keep, else folds would have no room.
+constexpr double kShare = 0.1;
+// And what will do where that can't be had without changing the rods' lengths.
+constexpr double kLeastShare = 0.01;
 
 }  // namespace
 
 FineSurface::FineSurface(const ClothParams& cloth, const ClothPattern& pattern)
-    : pattern_(pattern), shape_(cloth.folds), topology_(makeFineMeshTopology(cloth)) {
+    : pattern_(pattern), shape_(cloth.folds), topology_(makeFineMeshTopology(cloth)), links_(pattern.grid.linkCount()),
+      quad_triangles_{{0, 2, 1}, {1, 2, 3}} {
   area_vectors_.assign(pattern.grid.size(), 0.0);
-}
-
-void FineSurface::placeFold(const Field3& position, const ObstacleSet& obstacles, double thickness, int row, int column,
-                            Vec3* inner) {
-  FoldArc arc = foldArc(pattern_, position, area_vectors_, row, column);
-  const int count = shape_.rodCount() - 1;
-  shape_.place(arc, inner);
-  const Vec3 chord = arc.second - arc.first;
-  const Vec3 middle = 0.5 * (arc.first + arc.second);
-  for (const int index : near_) {
-    const MovingObstacle& obstacle = obstacles.moving()[static_cast<std::size_t>(index)];
-    const double clearance = 0.5 * thickness;  // nodes keep the whole of it; the fold may lie closer
-    Vec3 way_out;
-    if (shortfall(obstacle, inner, count, middle, clearance, way_out) <= 0.0) continue;
-    Vec3 away = way_out;
-    if (chord.squaredNorm() > 0.0) away -= chord * (away.dot(chord) / chord.squaredNorm());
-    if (away.norm() < 1e-6) continue;  // the chord runs straight at the obstacle: no turn helps
-    away.normalize();
-    const Vec3 bow = arc.bow;
-    for (int turn = 1; turn <= kTurns; ++turn) {
-      const double share = static_cast<double>(turn) / kTurns;
-      const Vec3 turned = (1.0 - share) * bow + share * away;
-      if (turned.norm() < 1e-6) continue;
-      arc.bow = turned.normalized();
-      shape_.place(arc, inner);
-      Vec3 unused;
-      if (shortfall(obstacle, inner, count, middle, clearance, unused) <= 0.0) break;
-    }
+  const auto row_points = static_cast<std::uint32_t>(cloth.folds + 1);
+  for (std::uint32_t p = 0; p + 1 < row_points; ++p) {
+    strip_triangles_.push_back({p, row_points + p, p + 1});
+    strip_triangles_.push_back({p + 1, row_points + p, row_points + p + 1});
+    rods_.push_back({p, p + 1, p + 1});
   }
-  // Where a hollow leaves no turn that clears, the points themselves are set outside; their rods stretch for it.
-  for (const int index : near_) {
-    const MovingObstacle& obstacle = obstacles.moving()[static_cast<std::size_t>(index)];
-    for (int p = 0; p < count; ++p) {
-      SurfacePoint surface;
-      const Vec3 local = obstacle.after.toLocal(inner[p]);
-      if (!obstacle.shape->query(obstacle.after.toLocal(middle), local, 0.0, surface) || surface.distance >= 0.0) continue;
-      inner[p] += obstacle.after.rotation * (surface.normal * (0.1 * thickness - surface.distance));
-    }
-  }
+  const std::size_t count = static_cast<std::size_t>(pattern.grid.rows) * static_cast<std::size_t>(links_);
+  folds_.resize(count);
+  strip_at_.assign(count, -1);
+  strips_.reserve(count);
+  points_.reserve(2 * row_points);
+  kept_.reserve(2 * row_points);
 }
 
 void FineSurface::build(const Field3& position, const ObstacleSet& obstacles, double thickness, FineMesh& out) {
   const Grid& grid = pattern_.grid;
   out.positions.resize(static_cast<std::size_t>(topology_.rows) * static_cast<std::size_t>(topology_.columns));
-  near_.clear();
-  if (topology_.folds > 1) {
-    nodeAreaVectors(grid, position, area_vectors_);
-    Eigen::AlignedBox3d box;
-    for (int i = 0; i < grid.rows; ++i) {
-      for (int j = 0; j < grid.columns; ++j) box.extend(position.at(grid.index(i, j)));
-    }
-    const double widest = *std::max_element(pattern_.weft_rest.begin(), pattern_.weft_rest.end());
-    box.min().array() -= widest;
-    box.max().array() += widest;
-    for (int n = 0; n < obstacles.count(); ++n) {
-      const MovingObstacle& obstacle = obstacles.moving()[static_cast<std::size_t>(n)];
-      if (obstacle.present && obstacle.sweptBounds().intersects(box)) near_.push_back(n);
+  out.flattened_folds = 0;
+  position_ = &position;
+  mesh_ = &out;
+  wanted_ = kShare * thickness;
+  least_ = kLeastShare * thickness;
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) node(i, j, 0) = position.at(grid.index(i, j));
+  }
+  if (topology_.folds == 1) return;
+  nodeAreaVectors(grid, position, area_vectors_);
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int link = 0; link < links_; ++link) place(i, link, 0.0);
+  }
+  findNear(position, obstacles);
+  if (near_.empty()) return;
+  findStrips();
+  if (strips_.empty()) return;
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int link = 0; link < links_; ++link) {
+      if (fold(i, link).near) settleFold(i, link);
     }
   }
+  settleStrips();
+  for (const Fold& each : folds_) out.flattened_folds += each.stage != Stage::kFree;
+}
+
+Vec3& FineSurface::node(int row, int link, int p) {
+  const int column = (link * topology_.folds + p) % topology_.columns;
+  return mesh_->positions[static_cast<std::size_t>(row * topology_.columns + column)];
+}
+
+// Puts the fold where it lies turned by the angle.
+void FineSurface::place(int row, int link, double angle) {
+  const int column = (link + 1) % pattern_.grid.columns;
+  FoldArc arc = foldArc(pattern_, *position_, area_vectors_, row, column);
+  if (angle != 0.0) {
+    // Along x bow points down for a bow along the cloth's normal, up for the others.
+    const Vec3 across = (arc.second - arc.first).cross(arc.bow).normalized() * (column % 2 == 0 ? 1.0 : -1.0);
+    arc.bow = std::cos(angle) * arc.bow + std::sin(angle) * across;
+  }
+  shape_.place(arc, &node(row, link, 1));
+}
+
+void FineSurface::findNear(const Field3& position, const ObstacleSet& obstacles) {
+  near_.clear();
+  const Grid& grid = pattern_.grid;
+  Eigen::AlignedBox3d box;
   for (int i = 0; i < grid.rows; ++i) {
-    Vec3* const row = out.positions.data() + static_cast<std::size_t>(i * topology_.columns);
-    for (int j = 0; j < grid.columns; ++j) row[j * topology_.folds] = position.at(grid.index(i, j));
-    if (topology_.folds == 1) continue;
-    for (int j = grid.closed ? 0 : 1; j < grid.columns; ++j) {
-      const int left = j > 0 ? j - 1 : grid.columns - 1;
-      placeFold(position, obstacles, thickness, i, j, row + left * topology_.folds + 1);
+    for (int j = 0; j < grid.columns; ++j) box.extend(position.at(grid.index(i, j)));
+  }
+  const double reach = 0.5 * *std::max_element(pattern_.weft_rest.begin(), pattern_.weft_rest.end()) + wanted_;
+  box.min().array() -= reach;
+  box.max().array() += reach;
+  for (const MovingObstacle& obstacle : obstacles.moving()) {
+    if (obstacle.present && obstacle.sweptBounds().intersects(box)) near_.push_back(&obstacle);
+  }
+}
+
+// The strips that an obstacle could touch wherever their folds are turned: a fold lies in the ball of half its length
+// around its chord's middle.
+void FineSurface::findStrips() {
+  const Grid& grid = pattern_.grid;
+  strips_.clear();
+  for (Fold& each : folds_) each = Fold();
+  std::fill(strip_at_.begin(), strip_at_.end(), -1);
+  for (int i = 0; i + 1 < grid.rows; ++i) {
+    for (int link = 0; link < links_; ++link) {
+      const int right = (link + 1) % grid.columns;
+      const Vec3 upper = 0.5 * (node(i, link, 0) + node(i, link, topology_.folds));
+      const Vec3 lower = 0.5 * (node(i + 1, link, 0) + node(i + 1, link, topology_.folds));
+      const Vec3 middle = 0.5 * (upper + lower);
+      const double rest = std::max({pattern_.weft_rest[grid.index(i, right)], pattern_.weft_rest[grid.index(i + 1, right)],
+                                    (node(i, link, 0) - node(i, link, topology_.folds)).norm(),
+                                    (node(i + 1, link, 0) - node(i + 1, link, topology_.folds)).norm()});
+      const double reach = 0.5 * rest + (upper - middle).norm() + wanted_;
+      SurfacePoint surface;
+      const bool is_near = std::any_of(near_.begin(), near_.end(), [&](const MovingObstacle* obstacle) {
+        const Vec3 local = obstacle->after.toLocal(middle);
+        return obstacle->shape->query(local, local, reach, surface) && surface.distance < reach;
+      });
+      if (!is_near) continue;
+      fold(i, link).near = fold(i + 1, link).near = true;
+      strip_at_[static_cast<std::size_t>(i * links_ + link)] = static_cast<std::int32_t>(strips_.size());
+      strips_.push_back({i, link, clearanceOf(i, link)});
+    }
+  }
+}
+
+// What the strip can keep as its quad does: what is wanted, the least, just not to be inside, or (negative) nothing.
+double FineSurface::clearanceOf(int row, int link) {
+  points_.clear();
+  for (int i = row; i <= row + 1; ++i) {
+    points_.push_back(node(i, link, 0));
+    points_.push_back(node(i, link, topology_.folds));
+  }
+  for (const double clearance : {wanted_, least_, 0.0}) {
+    if (keeps(quad_triangles_, clearance)) return clearance;
+  }
+  return -1.0;
+}
+
+// Every point of points_ and of the triangles over them.
+bool FineSurface::keeps(const std::vector<MeshTriangle>& triangles, double clearance) {
+  return std::all_of(near_.begin(), near_.end(), [&](const MovingObstacle* obstacle) {
+    return clearance_.keeps(*obstacle->shape, obstacle->after, points_, triangles, clearance);
+  });
+}
+
+bool FineSurface::isClear(int row, int link, double clearance) {
+  points_.clear();
+  for (int i = row; i <= row + 1; ++i) {
+    for (int p = 0; p <= topology_.folds; ++p) points_.push_back(node(i, link, p));
+  }
+  return keeps(strip_triangles_, clearance);
+}
+
+bool FineSurface::isRodClear(int row, int link, double clearance) {
+  points_.clear();
+  for (int p = 0; p <= topology_.folds; ++p) points_.push_back(node(row, link, p));
+  return keeps(rods_, clearance);
+}
+
+// Turns the fold until its rods are clear; where its chord is in an obstacle itself, moves its nodes out.
+void FineSurface::settleFold(int row, int link) {
+  for (const double clearance : {wanted_, least_}) {
+    if (isRodClear(row, link, clearance)) return;
+    const auto angle = leastTurn([&](double turn) {
+      place(row, link, turn);
+      return isRodClear(row, link, clearance);
+    });
+    place(row, link, angle.value_or(0.0));
+    fold(row, link).turn = angle.value_or(0.0);
+    if (angle) return;
+  }
+  const Vec3 from = 0.5 * (node(row, link, 0) + node(row, link, topology_.folds));
+  for (int p = 1; p < topology_.folds; ++p) {
+    Vec3& moved = node(row, link, p);
+    for (const MovingObstacle* obstacle : near_) {
+      SurfacePoint surface;
+      const Vec3 local = obstacle->after.toLocal(moved);
+      if (!obstacle->shape->query(obstacle->after.toLocal(from), local, 0.0, surface) || surface.distance >= 0.0) continue;
+      moved += obstacle->after.rotation * (surface.normal * (wanted_ - surface.distance));
+      fold(row, link).stage = Stage::kLifted;
     }
   }
 }

@@ -208,6 +208,15 @@ Piercings Simulator::piercings(int obstacle, double depth_tolerance) const {
                         impl_->state.position, depth_tolerance);
 }
 
+Piercings Simulator::finePiercings(int obstacle, double depth_tolerance) const {
+  const ObstacleSet& obstacles = impl_->obstacles;
+  if (!obstacles.present(obstacle)) return {};
+  FineMesh mesh;
+  copyFineMesh(mesh);
+  return countPiercings(obstacles.shape(obstacle), Transform(obstacles.pose(obstacle)), mesh.positions,
+                        fineMeshTopology().triangles, depth_tolerance);
+}
+
 ContactWrench Simulator::contactWrench(int obstacle) const { return impl_->contact.wrench(obstacle); }
 
 std::uint64_t Simulator::stateHash() const {

@@ -11,6 +11,7 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "contact/shapes.h"
 #include "contact/triangle_mesh.h"
@@ -195,6 +196,11 @@ TEST(Piercings, AgreeWithSamplesOfTheCloth) {
         for (int j = 0; j < 2; ++j) moved.set(grid.index(i, j), Transform(pose).toWorld(node[i][j]));
       }
       const Piercings count = countPiercings(*shape, Transform(pose), grid, moved, kTolerance);
+      std::vector<Vec3> points;
+      for (std::size_t node_of_grid = 0; node_of_grid < grid.size(); ++node_of_grid) points.push_back(moved.at(node_of_grid));
+      const Piercings by_points =
+          countPiercings(*shape, Transform(pose), points, makeCoarseMesh(grid).triangles, kTolerance);
+      expectCount(by_points, count.nodes, count.edges, count.faces, name + ", given as a mesh");
       const auto deep = [&, &s = *shape](const Vec3& a, const Vec3& b, const Vec3& c, double limit) {
         return static_cast<int>(sampledDeep(s, a, b, c, limit));
       };

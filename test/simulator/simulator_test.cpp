@@ -168,6 +168,28 @@ TEST(Simulator, AStepAllocatesNothing) {
   }
 }
 
+// Nor does the mesh that the eye sees, near an obstacle, once it was made there.
+TEST(Simulator, AFineMeshAllocatesNothing) {
+  ObstacleParams obstacle;
+  obstacle.name = "obstacle";
+  obstacle.pose.position = Vec3(0.5, 0.0, 1.2);
+  for (const ShapeKind shape : {ShapeKind::kBox, ShapeKind::kMesh}) {
+    Scene scene = sceneOf(20, 15);
+    obstacle.shape = shape;
+    obstacle.size = Vec3(0.3, 0.3, 0.3);
+    obstacle.mesh = std::string(CURTAIN_SOURCE_DIR) + "/test/meshes/icosphere.stl";
+    if (shape == ShapeKind::kMesh) obstacle.scale = Vec3::Constant(0.2);
+    scene.obstacles.push_back(obstacle);
+    Simulator simulator(scene);
+    run(simulator, 10);
+    FineMesh mesh;
+    simulator.copyFineMesh(mesh);
+    const long before = allocations;
+    simulator.copyFineMesh(mesh);
+    EXPECT_EQ(allocations - before, 0);
+  }
+}
+
 // A scene that is its own mirror image moves like it. The rows' solves run from left to right, so only rounding differs. The
 // strings' corrections are made in single precision: 6e-8 of moves of at most a hundredth of a link (4e-11 m), in some 100
 // substeps, growing by e a tenth of a second at most (the fastest free motion) over the half second looked at: 6e-8 m.
