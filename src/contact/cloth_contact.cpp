@@ -57,8 +57,8 @@ ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& par
       tree_(pattern),
       zones_(pattern) {
   if (obstacles.count() == 0 && !params.self) return;
-  contacts_.reserve(4 * pattern.grid.nodeCount());
-  last_.reserve(4 * pattern.grid.nodeCount());
+  contacts_.reserve(8 * pattern.grid.nodeCount());
+  last_.reserve(8 * pattern.grid.nodeCount());
   if (!params.self) return;
   tree_.reserve(candidates_);
   ahead_.assign(pattern.grid.size(), 0.0);

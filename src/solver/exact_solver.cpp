@@ -299,7 +299,7 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
   double caution = 1.0;
   while (progress.sweeps < max_sweeps_) {
     const bool first = progress.sweeps == 0;
-    const double strict = touches && progress.sweeps < kStrictSweeps ? kStrictShare : 1.0;
+    const double strict = touches && !plan.must_accept && progress.sweeps < kStrictSweeps ? kStrictShare : 1.0;
     const double tolerance = strict * tolerance_;
     const double contact_tolerance = strict * contact_tolerance_;
     const double stop = plan.precise ? kPreciseStop : first && !weft_pulls_ ? kNewtonStop : kNewtonStopLater;

@@ -93,6 +93,7 @@ TEST(Template, StatesTheDefaults) {
   Scene defaults;
   defaults.cloth.rows = reading.scene.cloth.rows;
   defaults.cloth.columns = reading.scene.cloth.columns;
+  defaults.contact.self = true;  // what a user starts with; a scene file that does not say has none
   EXPECT_EQ(writeScene(reading.scene), writeScene(defaults));
 }
 
@@ -123,6 +124,7 @@ TEST(Template, EntriesAreReadableAndShowDefaults) {
   obstacle.friction = defaults.contact.friction;
   obstacle.motion = {PoseKey()};
   defaults.obstacles = {obstacle};
+  defaults.contact.self = true;
   EXPECT_EQ(writeScene(reading.scene), writeScene(defaults));
 }
 
