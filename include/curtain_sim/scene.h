@@ -155,10 +155,10 @@ struct ObstacleParams {
 };
 
 struct ContactParams {
-  double thickness = 0.004;  ///< half gap kept between cloth and obstacle [m], > 0
-  double friction = 0.3;     ///< Coulomb coefficient of cloth on obstacles that name none [0..10]
+  double thickness = 0.004;  ///< kept between cloth and obstacle, and (up to a quarter of the shortest link) cloth and cloth [m], > 0
+  double friction = 0.3;     ///< Coulomb coefficient of cloth on itself and on obstacles that name none [0..10]
   bool self = false;         ///< contact of the cloth with itself
-  int zone_iterations = 8;   ///< bound of the collision-zone iterations [1..1000]
+  int zone_iterations = 8;   ///< times a substep is solved again when something would go through [1..1000]
 };
 
 enum class Method {

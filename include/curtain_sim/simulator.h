@@ -98,6 +98,9 @@ class Simulator {
   /// The same of the fine mesh.
   Piercings finePiercings(int obstacle, double depth_tolerance = 1e-6) const;
 
+  /// Force and torque that the cloth exerted on an obstacle, mean over the last frame; zero before the first one.
+  ContactWrench contactWrench(int obstacle) const;
+
   /// Hash of the bits of positions and velocities (FNV-1a, 64 bits).
   std::uint64_t stateHash() const;
 

@@ -3,6 +3,7 @@
 // Floor 4: what a simulator says of its own work.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 
@@ -31,7 +32,7 @@ struct Statistics {
   double warp_stretch_max = 0.0;      ///< the largest of these at any frame's end
   double weft_stretch_max = 0.0;
   double warp_compression_max = 0.0;
-  int contacts = 0;                   ///< nodes in contact at the last frame's end
+  int contacts = 0;                   ///< places that press on an obstacle or on the cloth itself at the last frame's end
   int contacts_max = 0;
   double penetration_max = 0.0;       ///< deepest any node was inside an obstacle at any frame's end [m]
   double step_seconds = 0.0;          ///< computing time of the last frame [s]
@@ -47,6 +48,13 @@ struct Piercings {
   int nodes = 0;
   int edges = 0;  ///< warp, weft and the faces' diagonals
   int faces = 0;  ///< halves of faces, cut along their diagonals
+};
+
+/// What the cloth exerts on an obstacle by contact, pressure and friction; the world's axes.
+struct ContactWrench {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N]
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< about the origin of the obstacle's frame, where it was meanwhile [N m]
+  int contacts = 0;                                  ///< that pushed at the frame's end
 };
 
 /// Energy of the cloth; potential is of gravity, zero at the world's origin.

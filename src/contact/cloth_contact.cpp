@@ -3,9 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <chrono>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 
 #include "cloth/wide.h"
@@ -18,6 +15,8 @@ constexpr int kSlipperySubsteps = 64;
 // Two parts of the cloth are not kept further apart than this share of its shortest link: thicker cloth would touch its
 // own next row.
 constexpr double kGapPerLink = 0.25;
+// Parts that go along with an obstacle may take more with them: so many times at most.
+constexpr int kCarryRounds = 64;
 
 double shortestLink(const ClothPattern& pattern) {
   const Grid& grid = pattern.grid;
@@ -47,13 +46,13 @@ void extrapolate(const Field3& start, const Field3& end, Field3& ahead) noexcept
 
 }  // namespace
 
-ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& params,
-                           const ObstacleSet& obstacles)
+ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& params, double frame_length,
+                           const ObstacleSet& obstacles, const Field3& position)
     : pattern_(pattern),
       obstacles_(obstacles),
       self_wanted_(params.self),
       zone_iterations_(params.zone_iterations),
-      touch_(pattern, params.thickness, obstacles),
+      touch_(pattern, params.thickness, frame_length, obstacles, position),
       self_(pattern, std::min(params.thickness, kGapPerLink * shortestLink(pattern)), params.friction),
       tree_(pattern),
       zones_(pattern) {
@@ -67,17 +66,11 @@ ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& par
 
 // Pairs that come near on the way from start to end, and on as far again: those that the next substep starts with.
 void ClothContact::look(const Field3& start, const Field3& end) noexcept {
-auto T0=std::chrono::steady_clock::now();
   extrapolate(start, end, ahead_);
   tree_.refit(start, ahead_);
-auto T1=std::chrono::steady_clock::now();
   candidates_.clear();
   tree_.collectSelf(self_.gap(), candidates_);
-auto T2=std::chrono::steady_clock::now();
   self_.renew(candidates_, contacts_);
-auto T3=std::chrono::steady_clock::now();
-auto us=[](auto a, auto b){return std::chrono::duration<double>(b-a).count()*1e6;};
-if(getenv("DBGC")) printf("look h %.5f refit %.1f collect %.1f renew %.1f us, cand %zu+%zu near %zu\n",h_,us(T0,T1),us(T1,T2),us(T2,T3),candidates_.vertex_triangles.size(),candidates_.edge_edges.size(),self_.nearCount());
   looked_ = true;
 }
 
@@ -89,7 +82,7 @@ Contacts* ClothContact::begin(const Field3& start, const Field3& predicted, doub
     if (!looked_) look(start, predicted);
     self_.collect(start, predicted, h, contacts_);
   }
-  near_obstacle_ = obstacles_.anyPresent() && touch_.mayTouch(start, predicted);
+  near_obstacle_ = obstacles_.anyPresent() && touch_.mayTouch(start, predicted, h);
   if (near_obstacle_) touch_.collect(start, predicted, h, slippery_ > 0, contacts_);
   return self_wanted_ || near_obstacle_ ? &contacts_ : nullptr;
 }
@@ -107,6 +100,28 @@ ContactFinder::Verdict ClothContact::verify(const Field3& start, const Field3& e
 
 void ClothContact::hold(const Field3& start, Field3& end) noexcept {
   ++held_;
+  if (self_wanted_) holdSelf(start, end);
+  if (near_obstacle_) holdToObstacles(start, end);
+}
+
+// What would go through an obstacle goes along with it, and what that would go through or be left behind by, too.
+void ClothContact::holdToObstacles(const Field3& start, Field3& end) noexcept {
+  for (int round = 0; round < kCarryRounds; ++round) {
+    int count = touch_.carry(start, end, h_);
+    if (self_wanted_ && count > 0) {
+      look(start, end);
+      self_.forEachCrossing(start, end, [&](const NearPair& pair) {
+        for (const std::uint32_t node : pair.key.node) {
+          count += touch_.carryAlong(pair.key.node[0], node, start, end) ? 1 : 0;
+        }
+      });
+    }
+    if (count == 0) break;
+  }
+  touch_.endCarrying();
+}
+
+void ClothContact::holdSelf(const Field3& start, Field3& end) noexcept {
   zones_.clear();
   for (int round = 0; round < zone_iterations_; ++round) {
     if (joinCrossings(start, end) == 0) return;
@@ -135,7 +150,7 @@ int ClothContact::joinCrossings(const Field3& start, const Field3& end) noexcept
   return count;
 }
 
-void ClothContact::afterSubstep(bool settled, double scale) noexcept {
+void ClothContact::afterSubstep(bool settled, double h, double scale, const Field3& position) noexcept {
   if (!settled) slippery_ = kSlipperySubsteps;
   else if (slippery_ > 0) --slippery_;
   last_.clear();
@@ -144,7 +159,7 @@ void ClothContact::afterSubstep(bool settled, double scale) noexcept {
   }
   last_scale_ = scale;
   if (self_wanted_) self_.remember(contacts_);
-  touch_.remember(contacts_);
+  touch_.remember(contacts_, position, h, scale);
 }
 
 void ClothContact::addForces(Field3& force) const noexcept {

@@ -18,8 +18,9 @@ namespace curtain {
 
 class ClothContact : public ContactFinder {
  public:
-  /// pattern and obstacles must outlive this.
-  ClothContact(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles);
+  /// frame_length [s]; position: where the pinned nodes are [m]; pattern and obstacles must outlive this.
+  ClothContact(const ClothPattern& pattern, const ContactParams& params, double frame_length, const ObstacleSet& obstacles,
+               const Field3& position);
 
   /// There is something to look for at all.
   bool wanted() const noexcept { return self_wanted_ || obstacles_.anyPresent(); }
@@ -28,8 +29,11 @@ class ClothContact : public ContactFinder {
   Verdict verify(const Field3& start, const Field3& end) noexcept override;
   void hold(const Field3& start, Field3& end) noexcept override;
 
-  /// After every accepted substep, whether all links could be brought to their lengths; scale: its h * kick [s^2].
-  void afterSubstep(bool settled, double scale) noexcept;
+  /// After every accepted substep of h [s] that ended at position, whether all links could be brought to their lengths;
+  /// scale: its h * kick [s^2].
+  void afterSubstep(bool settled, double h, double scale, const Field3& position) noexcept;
+  /// Before the first substep of every frame.
+  void beginFrame() noexcept { touch_.beginFrame(); }
 
   /// Contacts that find room without an allocation.
   std::size_t capacity() const noexcept { return contacts_.capacity(); }
@@ -40,6 +44,8 @@ class ClothContact : public ContactFinder {
   int contactCount() const noexcept { return static_cast<int>(last_.size()); }
   /// How deep the deepest node is inside an obstacle [m]; 0: none is.
   double deepestPenetration(const Field3& position) const noexcept { return touch_.deepest(contacts_, position); }
+  /// Of the cloth on an obstacle, in the last frame.
+  ContactWrench wrench(int obstacle) const noexcept { return touch_.wrench(obstacle); }
   /// Adds the contact forces of the last substep [N].
   void addForces(Field3& force) const noexcept;
   /// Substeps whose end had to be held, since construction or forget().
@@ -49,6 +55,8 @@ class ClothContact : public ContactFinder {
  private:
   void look(const Field3& start, const Field3& end) noexcept;
   int joinCrossings(const Field3& start, const Field3& end) noexcept;
+  void holdSelf(const Field3& start, Field3& end) noexcept;
+  void holdToObstacles(const Field3& start, Field3& end) noexcept;
 
   const ClothPattern& pattern_;
   const ObstacleSet& obstacles_;

@@ -63,7 +63,7 @@ ClothTree::ClothTree(const ClothPattern& pattern) : grid_(pattern.grid) {
     floats->assign(static_cast<std::size_t>(grid_.rows) * stride_ + kBeyond, 0.0f);
   }
   for (Floats& floats : columns_) floats.assign(stride_, 0.0f);
-  per_spacing_u_.assign(stride_, 1.0f);
+  per_spacing_u_.assign(stride_ + kBeyond, 1.0f);
   per_spacing_v_.assign(static_cast<std::size_t>(rows), 1.0f);
   for (int j = 0; j < columns; ++j)
     per_spacing_u_[static_cast<std::size_t>(j)] = static_cast<float>(1.0 / meanWeft(pattern, j));
@@ -76,10 +76,15 @@ ClothTree::ClothTree(const ClothPattern& pattern) : grid_(pattern.grid) {
   split({0, rows, 0, columns}, kNone);
   boxes_.resize(nodes_.size());
   slopes_.resize(nodes_.size());
-  node_boxes_.resize(grid_.size());
+  ways_.resize(grid_.size());
   element_refits_.assign(quads, 0);
   element_boxes_.resize(quads + 1);
-  for (FloatBox& box : node_boxes_) box.low = box.high = Eigen::Array4f::Zero();
+  quad_refits_.assign(quads, 0);
+  quad_ways_.resize(quads);
+  window_groups_ = (static_cast<std::size_t>(columns) + 3) / 4;
+  window_queries_.assign(static_cast<std::size_t>(rows) * window_groups_, 0);
+  windows_flat_.assign(window_queries_.size(), 0);
+  for (NodeWay& way : ways_) way.start = way.end = Eigen::Array4f::Zero();
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     boxes_[n].low = boxes_[n].high = Eigen::Array4f::Zero();
     slopes_[n].u = slopes_[n].v = boxes_[n];

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Which parts of the moving cloth may come near each other, or near a box: a binary tree over rectangles of quads,
-// built once and refitted to every motion. A rectangle that is flat enough (contact/flatness.h) is not looked into.
+// built once and refitted to every motion. A rectangle that is flat enough (contact/flatness.h) is not looked into; single
+// quads that planes part (contact/quad_ways.h), neighbours in a window of 2 x 2 quads that is flat, and elements that stay
+// apart (contact/staying_apart.h) are left out.
 //
 // The tree's lower levels are those within blocks of up to kBlock x kBlock quads. A refit makes the boxes and slopes
 // of whole blocks, from sums over rows that vectorise; what lies below is made at the first look into a block.
@@ -23,6 +25,7 @@
 #include "contact/candidates.h"
 #include "contact/element_boxes.h"
 #include "contact/flatness.h"
+#include "contact/quad_ways.h"
 
 namespace curtain {
 
@@ -44,10 +47,10 @@ class ClothTree {
   /// Coordinates are kept in single precision relative to the first node. Allocates nothing.
   void refit(const Field3& start, const Field3& end) noexcept;
 
-  /// Appends every pair (vertex, triangle) and (edge, edge) that shares no node, has a node that can move, and whose
-  /// swept boxes come within `reach` [m, >= 0], once each; pairs that flatness keeps further apart than that at all
-  /// times between start and end are left out, some others are too near to tell and stay. Allocates only where `out`
-  /// has less room than it needs; see reserve(). Rounding only ever adds pairs.
+  /// Appends, once each, every pair (vertex, triangle) and (edge, edge) that shares no node, has a node that can move, and
+  /// comes within `reach` [m, >= 0] at some time between start and end; and some that do not, but are too near to tell.
+  /// Allocates only where `out` has less room than it needs, for what boxes alone do not part as well; see reserve().
+  /// Rounding only ever adds pairs.
   void collectSelf(double reach, Candidates& out) noexcept;
 
   /// Appends the quads (see quad()) whose swept box meets `box` [m].
@@ -104,9 +107,15 @@ class ClothTree {
   void pair(std::uint32_t one, std::uint32_t other, Candidates& out) noexcept;
   void quadSelf(std::uint32_t node, Candidates& out) noexcept;
   void quadPair(std::uint32_t one, std::uint32_t other, Candidates& out) noexcept;
+  void dropApart(std::size_t first_vertex, std::size_t first_edge, Candidates& out) const noexcept;
   bool flatTogether(std::uint32_t one, std::uint32_t other) noexcept;
+  enum class InWindow { kNone, kBent, kFlat };
+  InWindow inFlatWindow(const QuadRectangle& one, const QuadRectangle& other) noexcept;
+  bool isWindowFlat(int row, int column) noexcept;
+  std::uint32_t flatWindows(std::size_t row, std::size_t column) const noexcept;
   bool mergeQuads(const QuadRectangle& hull, PatchSlopes& slopes) noexcept;
   bool mergeBlocks(const QuadRectangle& hull, PatchSlopes& slopes) const noexcept;
+  const QuadWays& quadWays(std::uint32_t node) noexcept;
   OpenQuad openQuad(std::uint32_t node) noexcept;
   template <typename IsFlat>
   void addLanes(const QuadPair& pair, std::size_t lane, std::uint32_t others, const IsFlat& is_flat,
@@ -139,10 +148,16 @@ class ClothTree {
 
   std::vector<FloatBox> boxes_;       // of tree nodes
   std::vector<PatchSlopes> slopes_;   // of tree nodes
-  std::vector<FloatBox> node_boxes_;  // of the cloth's nodes, in blocks that are filled
+  std::vector<NodeWay> ways_;         // of the cloth's nodes, in blocks that are filled
   std::uint32_t refits_ = 0;
   std::vector<std::uint32_t> element_refits_;  // of quads: the refit that the boxes of their elements are of
   std::vector<ElementBoxes> element_boxes_;    // of quads, and the second set of the last one
+  std::vector<std::uint32_t> quad_refits_;     // of quads: the refit that their ways are of
+  std::vector<QuadWays> quad_ways_;
+  std::uint32_t queries_ = 0;
+  std::size_t window_groups_ = 0;              // of four windows of 2 x 2 quads, in a row of them
+  std::vector<std::uint32_t> window_queries_;  // of groups: the query that windows_flat_ is of
+  std::vector<std::uint8_t> windows_flat_;     // of groups: bits
 };
 
 }  // namespace curtain

@@ -2,6 +2,7 @@
 //
 // Boxes and slopes of the tree: of whole blocks at every refit, of what lies below them on demand.
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 #include "cloth/wide.h"
@@ -41,33 +42,38 @@ struct Strip {
 
 /// Neighbouring columns side by side. Spelled out, for no compiler tried keeps the extremes of a column in registers
 /// down the rows when asked to vectorise across columns.
-using Lanes = float __attribute__((vector_size(kLanes * sizeof(float)), aligned(sizeof(float)), may_alias));
+using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
 
 CURTAIN_INTO_WIDE void lower(Lanes& least, const Lanes& value) { least = value < least ? value : least; }
 CURTAIN_INTO_WIDE void raise(Lanes& greatest, const Lanes& value) { greatest = value > greatest ? value : greatest; }
-CURTAIN_INTO_WIDE const Lanes& lanes(const float* from) { return *reinterpret_cast<const Lanes*>(from); }
-CURTAIN_INTO_WIDE void store(const Lanes& value, float* to) { *reinterpret_cast<Lanes*>(to) = value; }
+// A copy: clang takes a vector behind a pointer for aligned whatever its type says. Not a function's result: vectors wider
+// than the machine's have no settled way of being returned.
+struct Loaded {
+  CURTAIN_INTO_WIDE explicit Loaded(const float* from) { std::memcpy(&value, from, sizeof value); }
+  Lanes value;
+};
+CURTAIN_INTO_WIDE void store(const Lanes& value, float* to) { std::memcpy(to, &value, sizeof value); }
 
 // Of every column: what its nodes, the links to the next column and its rods are within. The value of u in the last
 // column means nothing.
 CURTAIN_WIDE void columnRanges(const Strip& s) {
   for (std::size_t j = 0; j < s.columns; j += kLanes) {
     const float *start = s.start + j, *end = s.end + j;
-    Lanes p = lanes(start), q = lanes(end);
+    Lanes p = Loaded(start).value, q = Loaded(end).value;
     Lanes low = p, high = p;
     lower(low, q);
     raise(high, q);
-    Lanes u = lanes(start + 1) - p;
+    Lanes u = Loaded(start + 1).value - p;
     Lanes u_low = u, u_high = u;
-    u = lanes(end + 1) - q;
+    u = Loaded(end + 1).value - q;
     lower(u_low, u);
     raise(u_high, u);
-    Lanes v_low = (lanes(start + s.stride) - p) * s.per_spacing_v[0];
+    Lanes v_low = (Loaded(start + s.stride).value - p) * s.per_spacing_v[0];
     Lanes v_high = v_low;
     for (int i = 0; i < s.rows; ++i) {
       start += s.stride;
       end += s.stride;
-      const Lanes next_p = lanes(start), next_q = lanes(end);
+      const Lanes next_p = Loaded(start).value, next_q = Loaded(end).value;
       Lanes v = (next_p - p) * s.per_spacing_v[i];
       lower(v_low, v);
       raise(v_high, v);
@@ -80,14 +86,14 @@ CURTAIN_WIDE void columnRanges(const Strip& s) {
       raise(high, p);
       lower(low, q);
       raise(high, q);
-      u = lanes(start + 1) - p;
+      u = Loaded(start + 1).value - p;
       lower(u_low, u);
       raise(u_high, u);
-      u = lanes(end + 1) - q;
+      u = Loaded(end + 1).value - q;
       lower(u_low, u);
       raise(u_high, u);
     }
-    const Lanes per_spacing_u = lanes(s.per_spacing_u + j);
+    const Lanes per_spacing_u = Loaded(s.per_spacing_u + j).value;
     store(low, s.low + j);
     store(high, s.high + j);
     store(u_low * per_spacing_u, s.u_low + j);
@@ -199,7 +205,7 @@ void ClothTree::fillBlock(std::uint32_t root) noexcept {
           static_cast<std::size_t>(i - whole.row) * kSide + static_cast<std::size_t>(j - whole.column);
       start[to] = Array4f(start_[0][from], start_[1][from], start_[2][from], 0.0f);
       end[to] = Array4f(end_[0][from], end_[1][from], end_[2][from], 0.0f);
-      node_boxes_[grid_.index(i, j < grid_.columns ? j : 0)] = {start[to].min(end[to]), start[to].max(end[to])};
+      ways_[grid_.index(i, j < grid_.columns ? j : 0)] = {start[to], end[to]};
     }
   }
   for (std::uint32_t node = nodes_[root].end; node-- > root;) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "contact/cloth_tree.h"
+#include "contact/staying_apart.h"
 
 namespace curtain {
 namespace {
@@ -41,6 +42,9 @@ bool isCorner(std::uint32_t vertex, const MeshTriangle& t) {
   return vertex == t[0] || vertex == t[1] || vertex == t[2];
 }
 
+FourNodes nodesOf(const VertexTriangle& c) { return {c.vertex, c.triangle[0], c.triangle[1], c.triangle[2]}; }
+FourNodes nodesOf(const EdgeEdge& c) { return {c.first[0], c.first[1], c.second[0], c.second[1]}; }
+
 }  // namespace
 
 /// A quad that is looked at, with its elements' boxes.
@@ -57,7 +61,30 @@ struct ClothTree::QuadPair {
 
 void ClothTree::collectSelf(double reach, Candidates& out) noexcept {
   reach_ = static_cast<float>(reach) * (1.0f + 2.0f * std::numeric_limits<float>::epsilon()) + rounding_;
+  ++queries_;
+  const std::size_t first_vertex = out.vertex_triangles.size(), first_edge = out.edge_edges.size();
   self(0, out);
+  dropApart(first_vertex, first_edge, out);
+}
+
+// Boxes along the axes let through many times the pairs that come near.
+void ClothTree::dropApart(std::size_t first_vertex, std::size_t first_edge, Candidates& out) const noexcept {
+  const auto filter = [&](auto& pairs, std::size_t first, const auto& stay_apart) {
+    std::size_t kept = first;
+    for (std::size_t from = first; from < pairs.size(); from += 4) {
+      const std::size_t count = std::min<std::size_t>(4, pairs.size() - from);
+      std::array<FourNodes, 4> four;
+      for (std::size_t k = 0; k < 4; ++k) four[k] = nodesOf(pairs[from + std::min(k, count - 1)]);
+      const std::uint32_t apart = stay_apart(four, ways_.data(), reach_, rounding_);
+      for (std::size_t k = 0; k < count; ++k) {
+        pairs[kept] = pairs[from + k];
+        kept += (apart >> k & 1U) == 0 ? 1 : 0;
+      }
+    }
+    pairs.erase(pairs.begin() + static_cast<std::ptrdiff_t>(kept), pairs.end());
+  };
+  filter(out.vertex_triangles, first_vertex, vertexStaysApart);
+  filter(out.edge_edges, first_edge, edgesStayApart);
 }
 
 void ClothTree::self(std::uint32_t node, Candidates& out) noexcept {
@@ -80,7 +107,9 @@ void ClothTree::pair(std::uint32_t one, std::uint32_t other, Candidates& out) no
     quadPair(one, other, out);
     return;
   }
-  if (flatTogether(one, other)) return;
+  // Below blocks few that do not make up a rectangle are flat together; their quads' windows are asked.
+  const bool is_rectangle = area(hullOf(p.quads, q.quads, 0)) == area(p.quads) + area(q.quads);
+  if ((is_rectangle || !(isBelowBlock(one) || isBelowBlock(other))) && flatTogether(one, other)) return;
   const int area_p = area(p.quads), area_q = area(q.quads);
   const bool split_p = p.second != kNone && (area_p * 2 > area_q || q.second == kNone);
   const bool split_q = q.second != kNone && (area_q * 2 > area_p || p.second == kNone);
@@ -148,6 +177,17 @@ bool ClothTree::mergeBlocks(const QuadRectangle& hull, PatchSlopes& slopes) cons
   return true;
 }
 
+const QuadWays& ClothTree::quadWays(std::uint32_t node) noexcept {
+  const QuadRectangle& at = nodes_[node].quads;
+  const auto quad = static_cast<std::size_t>(at.row * grid_.linkCount() + at.column);
+  if (quad_refits_[quad] != refits_) {
+    quad_refits_[quad] = refits_;
+    lookInto(node);
+    quad_ways_[quad].fill(quadElements(grid_, at.row, at.column).corners, ways_);
+  }
+  return quad_ways_[quad];
+}
+
 ClothTree::OpenQuad ClothTree::openQuad(std::uint32_t node) noexcept {
   lookInto(node);
   const QuadRectangle& at = nodes_[node].quads;
@@ -156,14 +196,15 @@ ClothTree::OpenQuad ClothTree::openQuad(std::uint32_t node) noexcept {
   const bool has_second = open.elements.vertex_count > 2;  // one quad at most: it lies behind the last
   if (element_refits_[quad] != refits_) {
     element_refits_[quad] = refits_;
-    element_boxes_[quad].fill(open.elements, false, node_boxes_);
-    if (has_second) element_boxes_.back().fill(open.elements, true, node_boxes_);
+    element_boxes_[quad].fill(open.elements, false, ways_);
+    if (has_second) element_boxes_.back().fill(open.elements, true, ways_);
   }
   if (has_second) open.boxes[1] = &element_boxes_.back();
   return open;
 }
 
 void ClothTree::quadSelf(std::uint32_t node, Candidates& out) noexcept {
+  if (inFlatWindow(nodes_[node].quads, nodes_[node].quads) == InWindow::kFlat) return;
   const OpenQuad quad = openQuad(node);
   const auto never = [] { return false; };  // flat: has been asked
   for (const bool second : {false, true}) {
@@ -177,9 +218,14 @@ void ClothTree::quadSelf(std::uint32_t node, Candidates& out) noexcept {
 }
 
 void ClothTree::quadPair(std::uint32_t one, std::uint32_t other, Candidates& out) noexcept {
+  const InWindow window = inFlatWindow(nodes_[one].quads, nodes_[other].quads);
+  if (window == InWindow::kFlat) return;
+  if (window == InWindow::kNone && quadWays(one).staysApart(quadWays(other), reach_, rounding_)) return;
   const OpenQuad p = openQuad(one), q = openQuad(other);
-  bool asked = false, flat = false;
+  // Boxes of slopes are for neighbours that no window holds: around the seam, and in cloth of a single row or column.
   // Asked at the first pair that would be added, for most pairs of quads have none.
+  const QuadRectangle hull = hullOf(nodes_[one].quads, nodes_[other].quads, grid_.closed ? grid_.linkCount() : 0);
+  bool asked = window == InWindow::kBent || area(hull) > 4, flat = false;
   const auto is_flat = [&] {
     if (!asked) flat = flatTogether(one, other);
     asked = true;

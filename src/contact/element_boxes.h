@@ -21,26 +21,33 @@
 
 namespace curtain {
 
+/// Where a node is at both instants [m]; the fourth lane is 0.
+struct NodeWay {
+  Eigen::Array4f start, end;
+
+  FloatBox box() const noexcept { return {start.min(end), start.max(end)}; }
+};
+
 class ElementBoxes {
  public:
   static constexpr std::uint32_t kVertices = 0b01000001, kTriangles = 0b00000110, kEdges = 0b10111000;
 
-  /// Boxes of the nodes by their index in a Field; `second`: the second set.
-  void fill(const QuadElements& quad, bool second, const std::vector<FloatBox>& nodes) noexcept {
+  /// Ways of the nodes by their index in a Field; `second`: the second set.
+  void fill(const QuadElements& quad, bool second, const std::vector<NodeWay>& nodes) noexcept {
     using Eigen::Array4f;
     constexpr float kFar = 1e30f;
     FloatBox boxes[kLanes];
     for (FloatBox& box : boxes) box = {Array4f::Constant(kFar), Array4f::Constant(-kFar)};
     const std::uint32_t lanes = lanesOf(quad, second);
     const auto merged = [&nodes](const auto& element) {
-      FloatBox box = nodes[element[0]];
-      for (std::size_t k = 1; k < element.size(); ++k) box.merge(nodes[element[k]]);
+      FloatBox box = nodes[element[0]].box();
+      for (std::size_t k = 1; k < element.size(); ++k) box.merge(nodes[element[k]].box());
       return box;
     };
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       const std::uint32_t bit = 1U << lane;
       if ((lanes & bit) == 0) continue;
-      if ((kVertices & bit) != 0) boxes[lane] = nodes[vertex(quad, second, lane)];
+      if ((kVertices & bit) != 0) boxes[lane] = nodes[vertex(quad, second, lane)].box();
       if ((kTriangles & bit) != 0) boxes[lane] = merged(triangle(quad, lane));
       if ((kEdges & bit) != 0) boxes[lane] = merged(edge(quad, second, lane));
     }

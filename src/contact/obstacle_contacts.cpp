@@ -2,55 +2,104 @@
 #include "contact/obstacle_contacts.h"
 
 #include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "contact/cloth_reach.h"
 
 namespace curtain {
 namespace {
 
-// A node that is too close when the substep starts (an obstacle appeared there or jumped) is brought out at these speeds
-// [m/s], not at once: the way out must not become a blow. Inside the obstacle, and inside the gap around it.
-constexpr double kRecoverySpeed = 2.0;
-constexpr double kGapRecoverySpeed = 0.1;
+// Faces and edges are let come nearer than nodes, to this share of the thickness: few of them need a contact then.
+constexpr double kCore = 0.3;
+// What the cloth can move in a time, from what it moves now: so many times as fast, and faster by this acceleration [m/s^2]
+// (links snapping taut give nodes hundreds).
+constexpr double kFaster = 3.0;
+constexpr double kAcceleration = 500.0;
+// The box of the cloth holds for so many frames at most.
+constexpr double kMostFrames = 16.0;
 
-// Box around the way of all nodes.
-Eigen::AlignedBox3d sweptBox(const ClothPattern& pattern, const Field3& start, const Field3& predicted) {
-  Eigen::AlignedBox3d box;
-  const Grid& grid = pattern.grid;
-  for (int i = 0; i < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j) {
-      box.extend(start.at(grid.index(i, j)));
-      box.extend(predicted.at(grid.index(i, j)));
-    }
-  }
-  return box;
-}
-
-// The order in which contacts are found and kept.
-bool before(const Contact& a, const Contact& b) {
-  return a.obstacle != b.obstacle ? a.obstacle < b.obstacle : a.source < b.source;
-}
+// The order in which contacts are kept.
+auto orderOf(const Contact& c) { return std::tie(c.obstacle, c.nodes, c.node, c.source); }
+bool before(const Contact& a, const Contact& b) { return orderOf(a) < orderOf(b); }
+bool alike(const Contact& a, const Contact& b) { return orderOf(a) == orderOf(b); }
 
 }  // namespace
 
-bool ObstacleContacts::mayTouch(const Field3& start, const Field3& predicted) noexcept {
-  const Eigen::AlignedBox3d cloth = sweptBox(pattern_, start, predicted);
-  // The solve may move nodes beyond their predicted way by about as much again.
-  const double reach = 2.0 * thickness_ + 0.25 * cloth.diagonal().norm() / pattern_.grid.rows;
-  for (const MovingObstacle& moving : obstacles_.moving()) {
-    if (!moving.present) continue;
-    Eigen::AlignedBox3d box = moving.sweptBounds();
-    box.min().array() -= reach;
-    box.max().array() += reach;
-    if (box.intersects(cloth)) return true;
-  }
-  return false;
+ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, double thickness, double frame, const ObstacleSet& obstacles,
+                                   const Field3& position)
+    : pattern_(pattern), thickness_(thickness), frame_(frame), obstacles_(obstacles) {
+  const auto count = static_cast<std::size_t>(obstacles.count());
+  if (count == 0) return;
+  reach_ = reachOfCloth(pattern, position);
+  reach_.min().array() -= 2.0 * thickness;
+  reach_.max().array() += 2.0 * thickness;
+  near_.reserve(count);
+  for (const MovingObstacle& moving : obstacles.moving()) near_.emplace_back(pattern, *moving.shape, thickness, kCore * thickness);
+  active_.assign(count, 0);
+  loads_.assign(count, Load());
+  last_.reserve(4 * pattern.grid.nodeCount());
+  crossings_.reserve(pattern.grid.nodeCount());
+  carried_by_.assign(pattern.grid.size(), -1);
+  carried_.reserve(pattern.grid.nodeCount());
 }
 
-void ObstacleContacts::collect(const Field3& start, const Field3& predicted, double h, bool slippery,
-                               Contacts& contacts) noexcept {
-  const std::size_t first = contacts.size();
-  for (int n = 0; n < obstacles_.count(); ++n) {
-    if (obstacles_.present(n)) collectNodes(n, start, predicted, h, slippery, contacts);
+// Where the cloth can be for some time; the nearer the next obstacle, the sooner it looks again.
+void ObstacleContacts::lookAtCloth(const Field3& start, const Field3& predicted, double h) noexcept {
+  const ClothMotion cloth = motionOfCloth(pattern_.grid, start, predicted);
+  double gap = std::numeric_limits<double>::infinity();
+  for (const MovingObstacle& moving : obstacles_.moving()) {
+    if (!moving.present) continue;
+    const Eigen::AlignedBox3d box = moving.sweptBounds();
+    if (reach_.intersects(box)) gap = std::min(gap, std::sqrt(cloth.box.squaredExteriorDistance(box)));
   }
+  const double speed = kFaster * cloth.move / h;
+  const double room = std::isfinite(gap) ? 0.5 * gap : 0.0;
+  // speed t + acceleration t^2 / 2 = room
+  const double time = std::min(kMostFrames * frame_, 2.0 * room / (speed + std::sqrt(speed * speed + 2.0 * kAcceleration * room) + 1e-9));
+  box_ = cloth.box;
+  const double margin = 2.0 * thickness_ + std::max(cloth.move, time > h ? room : 0.0);
+  box_.min().array() -= margin;
+  box_.max().array() += margin;
+  box_time_ = std::isfinite(gap) ? time : frame_;
+}
+
+bool ObstacleContacts::mayTouch(const Field3& start, const Field3& predicted, double h) noexcept {
+  bool reachable = false;
+  for (const MovingObstacle& moving : obstacles_.moving()) {
+    reachable = reachable || (moving.present && reach_.intersects(moving.sweptBounds()));
+  }
+  std::fill(active_.begin(), active_.end(), std::uint8_t{0});
+  if (!reachable) return false;
+  if (!(box_time_ >= h)) lookAtCloth(start, predicted, h);
+  bool any = false;
+  for (std::size_t n = 0; n < near_.size(); ++n) {
+    const MovingObstacle& moving = obstacles_.moving()[n];
+    if (!moving.present || !box_.intersects(moving.sweptBounds())) continue;
+    near_[n].prepare(moving, start, predicted, h, frame_);
+    active_[n] = 1;
+    any = true;
+  }
+  return any;
+}
+
+void ObstacleContacts::collect(const Field3&, const Field3&, double h, bool slippery, Contacts& contacts) noexcept {
+  slippery_ = slippery;
+  const std::size_t first = contacts.size();
+  for (std::size_t n = 0; n < near_.size(); ++n) {
+    if (active_[n] == 0) continue;
+    const ObstacleSubstep substep = substepOf(n, h, slippery);
+    collectNodes(substep, pattern_, near_[n], contacts);
+    const auto elements = static_cast<std::ptrdiff_t>(contacts.size());
+    if (!near_[n].faces().empty()) collectFaces(substep, pattern_, near_[n], contacts);
+    if (!near_[n].pairs().empty()) collectPairs(substep, pattern_, near_[n], contacts);
+    std::sort(contacts.begin() + elements, contacts.end(), before);
+    contacts.erase(std::unique(contacts.begin() + elements, contacts.end(), alike), contacts.end());
+  }
+  warmStart(first, contacts);
+}
+
+void ObstacleContacts::warmStart(std::size_t first, Contacts& contacts) const noexcept {
   auto old = last_.begin();
   for (std::size_t n = first; n < contacts.size(); ++n) {
     Contact& contact = contacts[n];
@@ -62,63 +111,113 @@ void ObstacleContacts::collect(const Field3& start, const Field3& predicted, dou
   }
 }
 
-int ObstacleContacts::verify(const Field3&, const Field3&, double, Contacts&) noexcept { return 0; }
-
-void ObstacleContacts::remember(const Contacts& contacts) noexcept {
-  last_.clear();
-  for (const Contact& contact : contacts) {
-    if (contact.obstacle != Contact::kCloth && contact.pushes()) last_.push_back(contact);
+void ObstacleContacts::findCrossings(const Field3& start, const Field3& end, double h) noexcept {
+  crossings_.clear();
+  for (std::size_t n = 0; n < near_.size(); ++n) {
+    if (active_[n] == 0) continue;
+    const ObstacleSubstep substep = substepOf(n, h, slippery_);
+    near_[n].follow(substep.moving, start, end, h);
+    crossingNodes(substep, pattern_, near_[n], crossings_);
+    if (!near_[n].faces().empty()) crossingFaces(substep, pattern_, near_[n], crossings_);
+    if (!near_[n].pairs().empty()) crossingPairs(substep, pattern_, near_[n], crossings_);
   }
 }
 
-void ObstacleContacts::collectNodes(int obstacle, const Field3& start, const Field3& predicted, double h, bool slippery,
-                           Contacts& contacts) const {
-  const MovingObstacle& moving = obstacles_.moving()[static_cast<std::size_t>(obstacle)];
-  Eigen::AlignedBox3d box = moving.sweptBounds();
-  box.min().array() -= 2.0 * thickness_;
-  box.max().array() += 2.0 * thickness_;
-  const Grid& grid = pattern_.grid;
-  for (int i = 0; i < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j) {
-      const std::size_t node = grid.index(i, j);
-      if (pattern_.inverse_mass[node] <= 0.0) continue;
-      const Vec3 from = start.at(node);
-      const Vec3 to = predicted.at(node);
-      if (!box.intersects(Eigen::AlignedBox3d(from.cwiseMin(to), from.cwiseMax(to)))) continue;
-      SurfacePoint surface;
-      const Vec3 local_from = moving.before.toLocal(from);
-      const double reach = 2.0 * thickness_ + (to - from).norm();
-      if (!moving.shape->query(local_from, moving.after.toLocal(to), reach, surface)) continue;
-      Contact contact;
-      contact.node[0] = static_cast<std::uint32_t>(node);
-      contact.weight[0] = 1.0;
-      contact.obstacle = obstacle;
-      contact.normal = moving.after.rotation * surface.normal;
-      contact.offset = contact.normal.dot(to) - surface.distance + thickness_;
-      contact.friction = slippery ? 0.0 : moving.friction;
-      SurfacePoint before;
-      if (moving.shape->query(local_from, local_from, thickness_, before)) {
-        const double speed = before.distance < 0.0 ? kRecoverySpeed : kGapRecoverySpeed;
-        contact.offset -= std::max(0.0, thickness_ - before.distance - speed * h);
-        // Nothing holds a node back on its way out: friction there could lock cloth around an edge for good.
-        if (before.distance < 0.0) contact.friction = 0.0;
-      }
-      contact.carried = moving.after.toWorld(local_from);
-      contact.surface_velocity = (contact.carried - from) / h;
-      contact.source = contact.node[0];
-      contacts.push_back(contact);
+int ObstacleContacts::verify(const Field3& start, const Field3& end, double h, Contacts& contacts) noexcept {
+  findCrossings(start, end, h);
+  for (const Crossing& crossing : crossings_) contacts.push_back(crossing.contact);
+  return static_cast<int>(crossings_.size());
+}
+
+int ObstacleContacts::carry(const Field3& start, Field3& end, double h) noexcept {
+  findCrossings(start, end, h);
+  int count = 0;
+  for (const Crossing& crossing : crossings_) {
+    const MovingObstacle& moving = obstacles_.moving()[static_cast<std::size_t>(crossing.contact.obstacle)];
+    bool news = false;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(crossing.nodes); ++k) {
+      const std::uint32_t node = crossing.node[k];
+      if (carried_by_[node] >= 0 || pattern_.inverse_mass[node] <= 0.0) continue;
+      carried_by_[node] = crossing.contact.obstacle;
+      carried_.push_back(node);
+      end.set(node, moving.after.toWorld(moving.before.toLocal(start.at(node))));
+      news = true;
     }
+    count += news ? 1 : 0;
   }
+  return count;
+}
+
+bool ObstacleContacts::carryAlong(std::size_t a, std::size_t b, const Field3& start, Field3& end) noexcept {
+  if (carried_by_.empty() || (carried_by_[a] < 0) == (carried_by_[b] < 0)) return false;
+  const std::size_t other = carried_by_[a] < 0 ? a : b;
+  if (pattern_.inverse_mass[other] <= 0.0) return false;
+  const std::int32_t obstacle = std::max(carried_by_[a], carried_by_[b]);
+  const MovingObstacle& moving = obstacles_.moving()[static_cast<std::size_t>(obstacle)];
+  carried_by_[other] = obstacle;
+  carried_.push_back(static_cast<std::uint32_t>(other));
+  end.set(other, moving.after.toWorld(moving.before.toLocal(start.at(other))));
+  return true;
+}
+
+void ObstacleContacts::endCarrying() noexcept {
+  for (const std::uint32_t node : carried_) carried_by_[node] = -1;
+  carried_.clear();
+}
+
+void ObstacleContacts::remember(const Contacts& contacts, const Field3& position, double h, double scale) noexcept {
+  last_.clear();
+  box_time_ -= h;
+  loaded_for_ += h;
+  for (std::size_t n = 0; n < near_.size(); ++n) {
+    if (active_[n] != 0) near_[n].advance(h);
+    loads_[n].contacts = 0;
+  }
+  for (const Contact& contact : contacts) {
+    if (contact.obstacle == Contact::kCloth || !contact.pushes()) continue;
+    last_.push_back(contact);
+    const auto obstacle = static_cast<std::size_t>(contact.obstacle);
+    const Vec3 impulse = (-h / scale) * (contact.push * contact.normal + contact.slide);
+    const Vec3 arm = contact.point(position) - obstacles_.moving()[obstacle].after.translation;
+    loads_[obstacle].impulse += impulse;
+    loads_[obstacle].angular += arm.cross(impulse);
+    ++loads_[obstacle].contacts;
+  }
+  // What is struck may be as fast as the obstacle.
+  if (!last_.empty()) box_time_ = 0.0;
+  // Those that verify() added come last.
+  if (!std::is_sorted(last_.begin(), last_.end(), before)) std::sort(last_.begin(), last_.end(), before);
+}
+
+void ObstacleContacts::forget() noexcept {
+  last_.clear();
+  for (Vicinity& vicinity : near_) vicinity.forget();
+  std::fill(active_.begin(), active_.end(), std::uint8_t{0});
+  box_time_ = 0.0;
+  beginFrame();
+}
+
+void ObstacleContacts::beginFrame() noexcept {
+  std::fill(loads_.begin(), loads_.end(), Load());
+  loaded_for_ = 0.0;
+}
+
+ContactWrench ObstacleContacts::wrench(int obstacle) const noexcept {
+  const Load& load = loads_[static_cast<std::size_t>(obstacle)];
+  if (!(loaded_for_ > 0.0)) return {};
+  return {load.impulse / loaded_for_, load.angular / loaded_for_, load.contacts};
 }
 
 double ObstacleContacts::deepest(const Contacts& contacts, const Field3& position) const noexcept {
   double deepest = 0.0;
   for (const Contact& contact : contacts) {
     if (contact.obstacle == Contact::kCloth || contact.nodes > 1) continue;
-    const MovingObstacle& moving = obstacles_.moving()[static_cast<std::size_t>(contact.obstacle)];
-    const Vec3 local = moving.after.toLocal(position.at(contact.node[0]));
+    const auto obstacle = static_cast<std::size_t>(contact.obstacle);
+    const Vec3 local = obstacles_.moving()[obstacle].after.toLocal(position.at(contact.node[0]));
+    const NodePlane& plane = near_[obstacle].plane(contact.node[0]);
+    if (plane.kind != NodePlane::Kind::kUnknown && plane.lowerBound(local) > 0.0) continue;
     SurfacePoint surface;
-    if (moving.shape->query(local, local, 0.0, surface)) deepest = std::max(deepest, -surface.distance);
+    if (near_[obstacle].shape().query(local, local, 0.0, surface)) deepest = std::max(deepest, -surface.distance);
   }
   return deepest;
 }

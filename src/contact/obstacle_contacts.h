@@ -1,45 +1,90 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Contact of the cloth with obstacles: every node that may touch within the substep is held to a plane, tangent to the
-// obstacle and a thickness away, with Coulomb friction against the moving surface. Inelastic.
+// Contact of the cloth with obstacles: parts that may touch within the substep are held to planes, tangent to the obstacle and a
+// thickness away, with Coulomb friction against the moving surface. Inelastic. What would go through all the same gets
+// planes where it goes in, and as a last resort goes with the obstacle.
+//
+//   reach of the cloth      an obstacle beyond it costs nothing
+//   box, for some frames    one outside it next to nothing
+//   vicinity (vicinity.h)   nodes and elements near it
+//   touch (obstacle_touch.h)  of those, what touches in the substep
 #pragma once
 
+#include <vector>
+
 #include "contact/obstacle_set.h"
+#include "contact/obstacle_touch.h"
+#include "contact/vicinity.h"
+#include "curtain_sim/statistics.h"
 #include "solver/contacts.h"
 
 namespace curtain {
 
 class ObstacleContacts {
  public:
-  /// thickness: kept between cloth and obstacle [m]; pattern and obstacles must outlive this.
-  ObstacleContacts(const ClothPattern& pattern, double thickness, const ObstacleSet& obstacles)
-      : pattern_(pattern), thickness_(thickness), obstacles_(obstacles) {}
+  /// thickness: kept between cloth and obstacle [m]; frame [s]; position: where the pinned nodes are [m]; pattern and obstacles
+  /// must outlive this.
+  ObstacleContacts(const ClothPattern& pattern, double thickness, double frame, const ObstacleSet& obstacles,
+                   const Field3& position);
 
-  /// Some obstacle may be touched in a substep whose nodes go from start to about predicted. False: none can, whatever the
-  /// links do.
-  bool mayTouch(const Field3& start, const Field3& predicted) noexcept;
+  /// Some obstacle may be touched in a substep of h [s] whose nodes go from start to about predicted. False: none can, whatever
+  /// the links do.
+  bool mayTouch(const Field3& start, const Field3& predicted, double h) noexcept;
 
   /// Adds what may touch on the way from start to predicted, in a substep of h [s], with the multipliers of the last accepted
-  /// substep. slippery: without friction.
+  /// substep. slippery: without friction. After mayTouch().
   void collect(const Field3& start, const Field3& predicted, double h, bool slippery, Contacts& contacts) noexcept;
 
   /// Adds contacts for parts of the cloth that would go through an obstacle on the way from start to end; returns how many.
   int verify(const Field3& start, const Field3& end, double h, Contacts& contacts) noexcept;
 
-  /// Takes over the multipliers of an accepted substep.
-  void remember(const Contacts& contacts) noexcept;
-  void forget() noexcept { last_.clear(); }
+  /// Lets the parts that would go through an obstacle on the way from start to end go along with it; returns how many there were
+  /// with a node that did not yet.
+  int carry(const Field3& start, Field3& end, double h) noexcept;
+  /// One of two nodes that go along with an obstacle takes the other one with it; false: neither or both do.
+  bool carryAlong(std::size_t a, std::size_t b, const Field3& start, Field3& end) noexcept;
+  void endCarrying() noexcept;
+
+  /// Takes over the multipliers of an accepted substep of h [s] that ended at position, where they are scale [s^2] times the
+  /// forces; contacts: null when nothing could touch.
+  void remember(const Contacts& contacts, const Field3& position, double h, double scale) noexcept;
+  void forget() noexcept;
+
+  /// A frame begins: wrenches are those of its substeps from now on.
+  void beginFrame() noexcept;
+  /// What the cloth exerts on an obstacle, mean over the frame's substeps.
+  ContactWrench wrench(int obstacle) const noexcept;
 
   /// How deep the deepest node is inside an obstacle [m]; 0: none is.
   double deepest(const Contacts& contacts, const Field3& position) const noexcept;
 
  private:
-  void collectNodes(int obstacle, const Field3& start, const Field3& predicted, double h, bool slippery, Contacts& contacts) const;
+  struct Load {
+    Vec3 impulse = Vec3::Zero(), angular = Vec3::Zero();  // [N s], [N m s]
+    int contacts = 0;
+  };
+  ObstacleSubstep substepOf(std::size_t obstacle, double h, bool slippery) const noexcept {
+    return {obstacles_.moving()[obstacle], static_cast<int>(obstacle), h, slippery};
+  }
+  void lookAtCloth(const Field3& start, const Field3& predicted, double h) noexcept;
+  void findCrossings(const Field3& start, const Field3& end, double h) noexcept;
+  void warmStart(std::size_t first, Contacts& contacts) const noexcept;
 
   const ClothPattern& pattern_;
-  double thickness_;
+  double thickness_, frame_;
   const ObstacleSet& obstacles_;
-  Contacts last_;  // that pushed
+  Eigen::AlignedBox3d reach_;         // of the cloth for ever
+  Eigen::AlignedBox3d box_;           // of the cloth for box_time_
+  double box_time_ = 0.0;             // [s]
+  std::vector<Vicinity> near_;        // by obstacle
+  std::vector<std::uint8_t> active_;  // by obstacle: may be touched in this substep
+  bool slippery_ = false;             // this substep
+  Contacts last_;                     // that pushed, in the order they are found in
+  std::vector<Crossing> crossings_;
+  std::vector<std::int32_t> carried_by_;  // by node: obstacle, or -1
+  std::vector<std::uint32_t> carried_;
+  std::vector<Load> loads_;           // by obstacle
+  double loaded_for_ = 0.0;           // [s]
 };
 
 }  // namespace curtain

@@ -145,6 +145,14 @@ geometry_msgs::Point toPoint(const Vec3& point) {
   return message;
 }
 
+geometry_msgs::Vector3 toVector(const curtain::Vec3& vector) {
+  geometry_msgs::Vector3 message;
+  message.x = vector.x();
+  message.y = vector.y();
+  message.z = vector.z();
+  return message;
+}
+
 void flatten(const std::vector<Vec3>& points, std::vector<float>& out) {
   out.resize(3 * points.size());
   float* to = out.data();

@@ -33,6 +33,7 @@ std::vector<curtain::Problem> toDrag(const curtain_sim::DragForce& message, cons
                                      const curtain::ClothParams& cloth, curtain::DragParams& drag);
 
 geometry_msgs::Point toPoint(const curtain::Vec3& point);
+geometry_msgs::Vector3 toVector(const curtain::Vec3& vector);
 
 /// Flat xyz, as CurtainState holds its arrays; out is resized.
 void flatten(const std::vector<curtain::Vec3>& points, std::vector<float>& out);

@@ -32,7 +32,7 @@ class CurtainNode {
  public:
   /// Reads the parameters, builds the curtain and starts.
   ///   node          wind_source and drag_force are in its namespace
-  ///   private_node  parameters, ~state, ~mesh, ~markers, ~handles
+  ///   private_node  parameters, ~state, ~mesh, ~markers, ~contacts, ~handles
   /// Throws ParameterError with every problem.
   CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
 

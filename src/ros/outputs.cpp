@@ -17,13 +17,15 @@ Outputs::Outputs(ros::NodeHandle private_node, const NodeParams& params, const c
       // Late listeners want the newest frame, not the ones they missed.
       state_publisher_(private_node.advertise<curtain_sim::CurtainState>("state", 2)),
       mesh_publisher_(private_node.advertise<visualization_msgs::Marker>("mesh", 1)),
-      markers_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", 1)) {}
+      markers_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", 1)),
+      contacts_publisher_(private_node.advertise<curtain_sim::Contacts>("contacts", 2)) {}
 
 void Outputs::publish(const curtain::Simulator& simulator, const ros::Time& stamp,
                       const curtain_sim::Statistics& statistics, bool latest) {
   mesh_due_ = mesh_rate_.tick() || mesh_due_;
   markers_due_ = markers_rate_.tick() || markers_due_;
   if (state_publisher_.getNumSubscribers() > 0) publishState(simulator, stamp, statistics);
+  if (contacts_publisher_.getNumSubscribers() > 0) publishContacts(simulator, stamp);
   if (!latest) return;
   if (mesh_due_ && mesh_publisher_.getNumSubscribers() > 0) {
     mesh_publisher_.publish(mesh_marker_.build(simulator, stamp));
@@ -63,6 +65,26 @@ void Outputs::publishState(const curtain::Simulator& simulator, const ros::Time&
   message->statistics.meshes_sent = meshes_sent_;
   message->statistics.markers_sent = markers_sent_;
   state_publisher_.publish(curtain_sim::CurtainState::ConstPtr(message));
+}
+
+void Outputs::publishContacts(const curtain::Simulator& simulator, const ros::Time& stamp) {
+  const auto message = boost::make_shared<curtain_sim::Contacts>();
+  message->header.frame_id = world_frame_;
+  message->header.stamp = stamp;
+  for (int index = 0; index < simulator.obstacleCount(); ++index) {
+    if (!simulator.obstaclePresent(index)) continue;
+    const curtain::ObstacleParams& obstacle = simulator.scene().obstacles[static_cast<std::size_t>(index)];
+    const curtain::ContactWrench wrench = simulator.contactWrench(index);
+    curtain_sim::ObstacleContact contact;
+    contact.name = obstacle.name;
+    contact.frame = obstacle.frame;
+    contact.wrench.force = toVector(wrench.force);
+    contact.wrench.torque = toVector(wrench.torque);
+    contact.origin = toPoint(simulator.obstaclePose(index).position);
+    contact.contacts = static_cast<std::uint32_t>(wrench.contacts);
+    message->obstacles.push_back(contact);
+  }
+  contacts_publisher_.publish(curtain_sim::Contacts::ConstPtr(message));
 }
 
 }  // namespace curtain_ros

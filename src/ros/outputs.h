@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Floor 5: ~state, ~mesh and ~markers. What nobody subscribes to is not built.
+// Floor 5: ~state, ~mesh, ~markers and ~contacts. What nobody subscribes to is not built.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "curtain_sim/Contacts.h"
 #include "curtain_sim/CurtainState.h"
 #include "curtain_sim/simulator.h"
 #include "ros/markers.h"
@@ -48,6 +49,7 @@ class Outputs {
  private:
   void publishState(const curtain::Simulator& simulator, const ros::Time& stamp,
                     const curtain_sim::Statistics& statistics);
+  void publishContacts(const curtain::Simulator& simulator, const ros::Time& stamp);
 
   std::string world_frame_;
   bool state_folds_;
@@ -65,6 +67,7 @@ class Outputs {
   ros::Publisher state_publisher_;
   ros::Publisher mesh_publisher_;
   ros::Publisher markers_publisher_;
+  ros::Publisher contacts_publisher_;
 };
 
 }  // namespace curtain_ros

@@ -103,6 +103,14 @@ std::string statisticsJson(const Simulator& simulator, const Energy& initial, co
     piercings.faces += own.faces;
   }
   json["piercings"] = {{"nodes", piercings.nodes}, {"edges", piercings.edges}, {"faces", piercings.faces}};
+  nlohmann::ordered_json wrenches = nlohmann::ordered_json::object();
+  for (int obstacle = 0; obstacle < simulator.obstacleCount(); ++obstacle) {
+    const ContactWrench wrench = simulator.contactWrench(obstacle);
+    wrenches[simulator.scene().obstacles[static_cast<std::size_t>(obstacle)].name] = {
+        {"force", {wrench.force.x(), wrench.force.y(), wrench.force.z()}},
+        {"torque", {wrench.torque.x(), wrench.torque.y(), wrench.torque.z()}}};
+  }
+  json["wrenches"] = wrenches;
   nlohmann::ordered_json stages;
   for (int stage = 0; stage < kStageCount; ++stage) {
     stages[stageName(static_cast<Stage>(stage))] = 1e3 * s.stage_seconds[static_cast<std::size_t>(stage)];

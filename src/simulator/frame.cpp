@@ -45,7 +45,7 @@ bool Simulator::Impl::makeComposed(const SubstepPlan& plan, double done) {
     }
     control.accepted(stage, outcome);
     plain_control.watch(outcome);
-    contact.afterSubstep(true, outcome.scale);
+    contact.afterSubstep(true, stage.h, outcome.scale, state.position);
     at += stage.h;
   }
   steps_made += static_cast<int>(kStages.size());
@@ -89,7 +89,7 @@ double Simulator::Impl::makeSubstep(double done) {
   ++statistics.substeps_last;
   if (plan.scheme == Scheme::kImplicit && scene.solver.method != Method::kImplicit) ++statistics.implicit;
   if (!outcome.settled) ++statistics.unsettled;
-  contact.afterSubstep(outcome.settled, outcome.scale);
+  contact.afterSubstep(outcome.settled, plan.h, outcome.scale, state.position);
   return plan.h;
 }
 
@@ -126,6 +126,7 @@ void Simulator::Impl::step() {
     if (control.askFor(estimate->substeps())) synchronise();
     clock.lap(Stage::kEstimate);
   }
+  contact.beginFrame();
   statistics.substeps_last = 0;
   statistics.sweeps_last = 0;
   velocities_fresh = false;

@@ -57,7 +57,7 @@ Simulator::Impl::Impl(const Scene& given, const MeshResolver& resolve)
       state(initial),
       forces(scene, pattern),
       obstacles(scene, resolve),
-      contact(pattern, scene.contact, obstacles),
+      contact(pattern, scene.contact, 1.0 / scene.solver.frame_rate, obstacles, initial.position),
       workers(threadsFor(scene.solver.threads, pattern.grid.nodeCount())),
       exact(pattern, scene.solver.stretch_tolerance, scene.solver.max_sweeps, workers),
       paper(pattern),
@@ -216,6 +216,8 @@ Piercings Simulator::finePiercings(int obstacle, double depth_tolerance) const {
   return countPiercings(obstacles.shape(obstacle), Transform(obstacles.pose(obstacle)), mesh.positions,
                         fineMeshTopology().triangles, depth_tolerance);
 }
+
+ContactWrench Simulator::contactWrench(int obstacle) const { return impl_->contact.wrench(obstacle); }
 
 std::uint64_t Simulator::stateHash() const {
   const Grid& grid = impl_->pattern.grid;

@@ -111,8 +111,8 @@ class ExactSolver {
   void setAllWeftDirections(const Field3& position) noexcept;
   double warpResidualNow(const LineSolve& warp) noexcept;
   bool withinTolerance(const LineSolve& warp, const LineSolve& weft, double tolerance) noexcept;
-  void projectVelocity(const Field3& position, const Contacts* contacts, double slide_share, Field3& out) noexcept;
-  void projectOnConstraints(const Field3& position, const Contacts* contacts, Field3& out) noexcept;
+  void projectVelocity(const Field3& position, const Contacts* contacts, double share, Field3& out) noexcept;
+  void projectOnConstraints(const Field3& position, const Contacts* contacts, double share, Field3& out) noexcept;
   double predictedKinetic(const SubstepStart& start) const noexcept;
   void boundKinetic(double most, Field3& velocity) const noexcept;
   double loadStrings() noexcept;

@@ -76,18 +76,13 @@ void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& f
   projectVelocity(state.position, contacts, age / inertia_.tensions().scale, out);
 }
 
-// Takes out of the velocities what would change the lengths of rods and of links that pull, and what contacts forbid, after
-// friction has acted for a share of the last substep's; a free cloth keeps its momentum.
-void ExactSolver::projectVelocity(const Field3& position, const Contacts* contacts, double slide_share, Field3& out) noexcept {
+// Takes out of the velocities what would change the lengths of rods and of links that pull, and what contacts forbid, from
+// where a share of the last substep's forces between nodes leads: friction goes on as it was, and at rest nothing is left to
+// do. A free cloth keeps its momentum.
+void ExactSolver::projectVelocity(const Field3& position, const Contacts* contacts, double share, Field3& out) noexcept {
   const bool keeps = free_ && (contacts == nullptr || !pressesOnObstacle(*contacts));
   const Momentum before = keeps ? momentumOf(pattern_, position, out) : Momentum();
-  if (contacts != nullptr && slide_share > 0.0) {
-    // Friction goes on as in the last substep; where it holds a point fast the projection does.
-    for (const Contact& contact : *contacts) {
-      if (contact.pushes() && !contact.sticks) contact.move(pattern_.inverse_mass, slide_share * contact.slide, out);
-    }
-  }
-  projectOnConstraints(position, contacts, out);
+  projectOnConstraints(position, contacts, share, out);
   if (!keeps) return;
   const Momentum after = momentumOf(pattern_, position, out);
   const RigidMotion motion =
@@ -97,22 +92,37 @@ void ExactSolver::projectVelocity(const Field3& position, const Contacts* contac
   }
 }
 
-void ExactSolver::projectOnConstraints(const Field3& position, const Contacts* contacts, Field3& out) noexcept {
+void ExactSolver::projectOnConstraints(const Field3& position, const Contacts* contacts, double share, Field3& out) noexcept {
   setWarpDirections(pattern_.grid, position, warp_.direction);
   const LineSolve warp{pattern_, pattern_.inverse_mass, warp_, out};
   const auto solveRods = [&] {
     for (int block = 0; block < warpBlockCount(pattern_.grid); ++block) warpProjectVelocity(warp, scratch_, block);
   };
-  solveRods();
+  if (share > 0.0) {
+    for (std::size_t n = 0; n < warp_.multiplier.size(); ++n) warp_.multiplier[n] = share * last_warp_[n];
+    for (int block = 0; block < warpBlockCount(pattern_.grid); ++block) applyWarpMultipliers(warp, block);
+  }
   const bool presses = contacts != nullptr && std::any_of(contacts->begin(), contacts->end(),
                                                           [](const Contact& contact) { return contact.pushes(); });
-  if (!weft_pulls_ && !presses) return;
+  if (!weft_pulls_ && !presses) {
+    solveRods();
+    return;
+  }
   LinkSet& links = weft_;
   const LineSolve weft{pattern_, pattern_.inverse_mass, links, out};
   if (weft_pulls_) {
     std::copy(last_weft_.begin(), last_weft_.end(), links.multiplier.begin());  // which links pull
   }
   setAllWeftDirections(position);
+  if (share > 0.0) {
+    for (std::size_t n = 0; n < pattern_.grid.size(); ++n) change_[n] = share * links.multiplier[n];
+    for (int i = 0; i < pattern_.grid.rows; ++i) pullWeft(weft, i, change_);
+    for (std::size_t n = 0; contacts != nullptr && n < contacts->size(); ++n) {
+      const Contact& contact = (*contacts)[n];
+      if (contact.pushes()) contact.move(pattern_.inverse_mass, share * (contact.push * contact.normal + contact.slide), out);
+    }
+  }
+  solveRods();
   net_.begin(position, pattern_.inverse_mass);
   double first_rate = 0.0;
   for (int round = 0; round < (presses ? kContactRounds : kVelocityRounds); ++round) {

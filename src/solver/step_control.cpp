@@ -29,6 +29,10 @@ constexpr int kGoodToGrow = 8;
 constexpr int kImplicitSubsteps = 8;
 constexpr int kPaperSubsteps = 16;
 
+// So many implicit substeps in a row that do not settle, and the cloth counts as jammed. A blow takes a few; at longer steps what
+// struck would only come further.
+constexpr int kFailuresToJam = 16;
+
 // A fixed step that fails may be divided so far before the implicit scheme takes over.
 constexpr int kRoomBelowFixed = 16;
 
@@ -70,6 +74,7 @@ void StepControl::reset() noexcept {
   limit_ = frame_;
   implicit_step_ = frame_ / max_substeps_;
   good_ = 0;
+  failures_ = 0;
 }
 
 double StepControl::stepFromTensions(bool frame_begins, const ExactSolver& solver) noexcept {
@@ -129,7 +134,9 @@ void StepControl::accepted(const SubstepPlan& plan, const SubstepOutcome& outcom
     // the work of a frame.
     const double smallest = frame_ / max_substeps_;
     const double largest = std::max(smallest, frame_ / kImplicitSubsteps);
-    implicit_step_ = outcome.settled ? std::max(smallest, 0.5 * implicit_step_) : std::min(largest, 2.0 * implicit_step_);
+    failures_ = outcome.settled ? 0 : failures_ + 1;
+    if (outcome.settled) implicit_step_ = std::max(smallest, 0.5 * implicit_step_);
+    else if (failures_ > kFailuresToJam) implicit_step_ = std::min(largest, 2.0 * implicit_step_);
   }
   if (limit_ < frame_ && ++good_ >= kGoodToGrow) {
     limit_ = std::min(frame_, limit_ * kGrowth);

@@ -43,6 +43,7 @@ class StepControl {
   int asked_ = 1;         // substeps a frame
   double implicit_step_;  // of the implicit scheme as auto's fall-back [s]
   bool composed_;         // substeps are made of stages (composition.h)
+  int failures_ = 0;      // implicit substeps in a row that did not settle
   int good_ = 0;          // accepted substeps since the limit last changed
 };
 

@@ -12,6 +12,7 @@
 #include <functional>
 #include <set>
 
+#include "contact/staying_apart.h"
 #include "contact/triangle_mesh_tree.h"
 #include "testing.h"
 
@@ -447,6 +448,74 @@ TEST(ClothTree, RefittedIsAsFreshAndAllocatesNothing) {
   fresh.collectSelf(0.006, expected);
   EXPECT_FALSE(isEmpty(expected));
   EXPECT_EQ(inOrder(expected), inOrder(candidates));
+}
+
+// Most of what the axes' boxes let through is far away: tilted layers 10 mm apart, and cloth that is swept along as a whole.
+TEST(ClothTree, NamesNoPairOfTiltedLayersThatStayApart) {
+  const ClothPattern pattern = squareCloth(24, 9);
+  const Field3 folded = placed(pattern.grid, [](int i, int j) {
+    // Two layers joined by a wide bow.
+    if (i < 10) return Vec3(0.025 * j, 0.0, -0.025 * i);
+    if (i < 14) return Vec3(0.025 * j, 0.0025 * (i - 9), -0.225 - 0.02 * std::sin(kPi * (i - 9) / 5.0));
+    return Vec3(0.025 * j, 0.0125, -0.025 * (23 - i));
+  });
+  for (const double angle : {0.0, 0.4, 1.1}) {
+    for (const Vec3& along : {Vec3(0.0, 0.0, 0.0), Vec3(0.02, 0.03, -0.01)}) {
+      const Field3 start = rotated(folded, angle), end = rotated(folded, angle, along);
+      const Candidates found = checked({"layers", pattern, start, end, 0.006});
+      int across = 0;
+      for (const VertexTriangle& c : found.vertex_triangles) {
+        const auto row = static_cast<int>(c.vertex) / pattern.grid.stride;
+        across += row < 8 || row > 15 ? 1 : 0;
+      }
+      for (const EdgeEdge& c : found.edge_edges) {
+        const auto row = static_cast<int>(c.first[0]) / pattern.grid.stride;
+        across += row < 8 || row > 15 ? 1 : 0;
+      }
+      EXPECT_EQ(across, 0) << angle;
+    }
+  }
+}
+
+// Four pairs at a time, by chance and close to the reach: what is said to stay apart does, and what is far is said to.
+TEST(StayingApart, IsProvedOfWhatStaysApartAlone) {
+  Random random(5);
+  int proved = 0, apart_in_truth = 0;
+  for (int round = 0; round < 4000; ++round) {
+    std::array<NodeWay, 16> ways;
+    std::array<FourNodes, 4> pairs;
+    const double size = random.between(0.005, 0.05), speed = random.between(0.0, 0.03);
+    const Vec3 common = random.inBox(0.1);
+    for (std::uint32_t n = 0; n < 16; ++n) {
+      const Vec3 place = random.inBox(size), move = common + random.inBox(speed);
+      const Eigen::Vector3f start = place.cast<float>(), end = Vec3(place + move).cast<float>();
+      ways[n] = {{start.x(), start.y(), start.z(), 0.0f}, {end.x(), end.y(), end.z(), 0.0f}};
+      pairs[n / 4][n % 4] = n;
+    }
+    const double reach = random.between(0.0, 0.01);
+    for (const bool edges : {false, true}) {
+      const auto lanes = (edges ? edgesStayApart : vertexStaysApart)(pairs, ways.data(), static_cast<float>(reach), 1e-7f);
+      for (std::size_t k = 0; k < 4; ++k) {
+        double least = 1e300;
+        for (int instant = 0; instant <= 32; ++instant) {
+          const double t = instant / 32.0;
+          const auto at = [&](std::size_t n) -> Vec3 {
+            const NodeWay& way = ways[pairs[k][n]];
+            return ((1.0 - t) * way.start.head<3>().cast<double>() + t * way.end.head<3>().cast<double>()).matrix();
+          };
+          least = std::min(least, edges ? distanceOfSegments(at(0), at(1), at(2), at(3))
+                                        : std::sqrt(nearestOnTriangle(at(0), at(1), at(2), at(3)).distance_squared));
+        }
+        const bool said = (lanes >> k & 1U) != 0;
+        if (said) {
+          EXPECT_GT(least, reach) << round << (edges ? " edges" : " vertex");
+        }
+        proved += said ? 1 : 0;
+        apart_in_truth += least > reach ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(proved, apart_in_truth * 6 / 10);
 }
 
 TEST(ClothTree, EveryElementBelongsToOneQuad) {

@@ -9,6 +9,7 @@ import rostest
 import tf2_ros
 from curtain_testing import (Curtain, Listener, MovingFrame, billow, distance, points, static_frame,
                              wait_until)
+from curtain_sim.msg import Contacts
 from visualization_msgs.msg import Marker, MarkerArray
 
 BALL_RADIUS = 0.2
@@ -63,6 +64,22 @@ class ObstaclesTest(unittest.TestCase):
             self.assertGreaterEqual(outside, BALL_RADIUS - ROUNDING)
         nodes = points(self.curtain.last().positions)
         self.assertGreaterEqual(min(distance(node, THROUGH) for node in nodes), BALL_RADIUS - ROUNDING)
+
+    def test_35_contact_force_on_the_ball(self):
+        """~contacts names the obstacles that are there and what the cloth does to each: it presses the ball back."""
+        listener = Listener("/curtain/contacts", Contacts)
+        message = listener.next()
+        listener.close()
+        self.assertEqual(message.header.frame_id, "world")
+        by_name = {contact.name: contact for contact in message.obstacles}
+        self.assertEqual(sorted(by_name), ["ball", "post"])
+        ball = by_name["ball"]
+        self.assertEqual(ball.frame, "ball")
+        self.assertGreater(ball.contacts, 0)
+        self.assertLess(ball.wrench.force.y, 0.0)
+        self.assertLess(distance((ball.origin.x, ball.origin.y, ball.origin.z), THROUGH), 1e-9)
+        self.assertEqual(by_name["post"].contacts, 0)
+        self.assertEqual(by_name["post"].wrench.force.y, 0.0)
 
     def test_4_obstacle_is_drawn_where_it_is(self):
         listener = Listener("/curtain/markers", MarkerArray)

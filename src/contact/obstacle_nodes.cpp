@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Nodes against one obstacle. A query of a mesh costs about a microsecond: while a node stays where the surface was last found,
+// the plane found there serves.
+#include <algorithm>
+
+#include "contact/obstacle_touch.h"
+
+namespace curtain {
+namespace {
+
+// What is too close when a substep starts (an obstacle appeared there or jumped) is brought out at these speeds [m/s], not at
+// once: the way out must not become a blow. Inside the obstacle, and inside the gap around it.
+constexpr double kRecoverySpeed = 2.0;
+constexpr double kGapRecoverySpeed = 0.1;
+// Share of what is to be kept that may lack.
+constexpr double kSlack = 0.1;
+// Nodes within so much of the thickness beyond it get a contact too: the links may bring them on.
+constexpr double kBeyond = 0.5;
+// A plane serves while the node is within this share of the thickness of where it was found.
+constexpr double kSamePlace = 0.05;
+// Over the thickness: nearer than this at the end is through.
+constexpr double kLeast = 0.02;
+
+bool serves(const Vicinity& near, const NodePlane& plane, const Vec3& p) {
+  const double thickness = near.thickness();
+  // Close to an edge a tangent plane tells nothing of the sides.
+  return near.shape().convex() == nullptr && plane.kind == NodePlane::Kind::kFound &&
+         plane.surface.distance > 4.0 * kSamePlace * thickness &&
+         (p - plane.at).squaredNorm() <= kSamePlace * kSamePlace * thickness * thickness;
+}
+
+// Neither end is near, and nothing is between.
+bool staysClear(const NodePlane& plane, const Vec3& from, const Vec3& to, double reach) {
+  if (plane.kind == NodePlane::Kind::kUnknown) return false;
+  const double first = plane.lowerBound(from), last = plane.lowerBound(to);
+  return first > 0.0 && last > reach && first + last > (to - from).norm();
+}
+
+// Signed distance of p, or `reach` when it is further out.
+double distanceAt(const Vicinity& near, const NodePlane& plane, const Vec3& p, double reach) {
+  if (serves(near, plane, p)) return plane.height(p);
+  if (plane.kind != NodePlane::Kind::kUnknown && plane.lowerBound(p) >= reach) return reach;
+  SurfacePoint surface;
+  return near.shape().query(p, p, reach, surface) ? surface.distance : reach;
+}
+
+}  // namespace
+
+double letOut(double distance, double kept, double h) noexcept {
+  if (distance >= kept) return kept;
+  const double least = (1.0 - kSlack) * kept;
+  if (distance >= least) return distance;
+  return std::min(least, distance + (distance < 0.0 ? kRecoverySpeed : kGapRecoverySpeed) * h);
+}
+
+bool makeContact(const ObstacleSubstep& substep, const ClothPattern& pattern, const TouchPoint& point, Contact& contact) noexcept {
+  const MovingObstacle& moving = substep.moving;
+  contact.nodes = 0;
+  bool moves = false;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(point.nodes); ++k) {
+    if (point.weight[k] == 0.0) continue;
+    const auto at = static_cast<std::size_t>(contact.nodes++);
+    contact.node[at] = point.node[k];
+    contact.weight[at] = point.weight[k];
+    moves = moves || pattern.inverse_mass[point.node[k]] > 0.0;
+  }
+  contact.obstacle = substep.obstacle;
+  contact.normal = moving.after.rotation * point.normal;
+  contact.offset = point.height + contact.normal.dot(moving.after.translation);
+  // Nothing holds a node back on its way out: friction there could lock cloth around an edge for good.
+  contact.friction = substep.slippery || point.distance < 0.0 ? 0.0 : moving.friction;
+  contact.carried = moving.after.toWorld(point.start);
+  contact.surface_velocity = (contact.carried - moving.before.toWorld(point.start)) / substep.h;
+  return moves;
+}
+
+namespace {
+
+Contact nodeContact(const ObstacleSubstep& substep, const ClothPattern& pattern, std::uint32_t node, const Vicinity& near,
+                    const SurfacePoint& surface, double distance) {
+  TouchPoint point;
+  point.node[0] = node;
+  point.weight[0] = 1.0;
+  point.start = near.startOf(node);
+  point.normal = surface.normal;
+  point.height = surface.normal.dot(near.endOf(node)) - surface.distance + letOut(distance, near.thickness(), substep.h);
+  point.distance = distance;
+  Contact contact;
+  makeContact(substep, pattern, point, contact);
+  return contact;
+}
+
+}  // namespace
+
+void collectNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, Vicinity& near, Contacts& contacts) noexcept {
+  const double thickness = near.thickness();
+  const double reach = (1.0 + kBeyond) * thickness;
+  for (const std::uint32_t node : near.nodes()) {
+    const Vec3 from = near.startOf(node), to = near.endOf(node);
+    NodePlane& plane = near.plane(node);
+    near.setInside(node, false);
+    if (staysClear(plane, from, to, reach)) continue;
+    const double distance = distanceAt(near, plane, from, thickness);
+    near.setInside(node, distance < 0.0);
+    SurfacePoint surface;
+    if (serves(near, plane, from) && serves(near, plane, to)) {
+      surface = {plane.height(to), plane.surface.normal};
+    } else {
+      if (!near.shape().query(from, to, reach, surface)) continue;
+      if (surface.distance >= 0.0) {
+        plane.at = to;
+        plane.surface = surface;
+        plane.kind = NodePlane::Kind::kFound;
+      }
+    }
+    contacts.push_back(nodeContact(substep, pattern, node, near, surface, distance));
+  }
+}
+
+void crossingNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, const Vicinity& near,
+                   std::vector<Crossing>& crossings) noexcept {
+  const double thickness = near.thickness();
+  for (const std::uint32_t node : near.nodes()) {
+    const Vec3 from = near.startOf(node), to = near.endOf(node);
+    const NodePlane& plane = near.plane(node);
+    const double most = kLeast * thickness;
+    if (staysClear(plane, from, to, most)) continue;
+    SurfacePoint surface;
+    if (!near.shape().query(from, to, most, surface)) continue;
+    const double distance = distanceAt(near, plane, from, thickness);
+    if (distance <= 0.0 || surface.distance >= std::min(most, 0.5 * distance)) continue;
+    Crossing crossing;
+    crossing.node[0] = node;
+    crossing.contact = nodeContact(substep, pattern, node, near, surface, distance);
+    crossings.push_back(crossing);
+  }
+}
+
+}  // namespace curtain

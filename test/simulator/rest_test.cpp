@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Cloth that lies on something: comes to rest and stays, never gains energy, and slips where Coulomb says.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "curtain_sim/simulator.h"
+#include "testing.h"
+
+namespace curtain {
+namespace {
+
+using curtain_test::flatScene;
+using curtain_test::kPi;
+
+double rmsSpeed(const Simulator& simulator) {
+  std::vector<Vec3> velocity;
+  simulator.copyVelocities(velocity);
+  double sum = 0.0;
+  for (const Vec3& v : velocity) sum += v.squaredNorm();
+  return std::sqrt(sum / static_cast<double>(velocity.size()));
+}
+
+// A horizontal sheet of 1 m x 1 m above the origin, in air that damps what swings within a second.
+Scene sheetAbove(double height, const ObstacleParams& obstacle) {
+  Scene scene = flatScene(24, 24);
+  scene.hang.from = {-0.5, 0.5, height};
+  scene.hang.to = {0.5, 0.5, height};
+  scene.hang.tilt = 0.5 * kPi;
+  scene.pins.kind = PinKind::kNone;
+  scene.air.inside = scene.air.border = scene.air.corner = 2.0;
+  scene.contact.self = true;
+  scene.obstacles.push_back(obstacle);
+  return scene;
+}
+
+void expectRest(const char* name, const Scene& scene, double allowed) {
+  Simulator simulator(scene);
+  const Energy start = simulator.energy();
+  double last = start.kinetic + start.potential;
+  // What the solve leaves of the links' lengths is up to a tolerance's share of a link's potential.
+  const double size = scene.cloth.surface_density * scene.gravity.norm() * scene.cloth.height * scene.cloth.width *
+                      scene.solver.stretch_tolerance * scene.cloth.height;
+  double rise = 0.0, speed = 0.0;
+  for (int frame = 1; frame <= 300; ++frame) {
+    simulator.step();
+    const Energy energy = simulator.energy();
+    rise = std::max(rise, energy.kinetic + energy.potential - last);
+    last = std::min(last, energy.kinetic + energy.potential);
+    if (frame > 180) speed = std::max(speed, rmsSpeed(simulator));
+  }
+  std::printf("%s: at most %.2f mm/s after 3 s, energy rises by at most %.1e J (of %.1e), %.2f ms a frame\n", name, 1e3 * speed,
+              rise, size, 1e3 * simulator.statistics().step_seconds_sum / 300.0);
+  EXPECT_LT(speed, allowed);
+  EXPECT_LE(rise, size);
+  EXPECT_GT(simulator.statistics().contacts, 100);
+}
+
+TEST(Rest, OnASphere) {
+  ObstacleParams ball;
+  ball.name = "ball";
+  ball.radius = 0.3;
+  ball.pose.position = {0.0, 0.0, 0.3};
+  ball.friction = 0.3;
+  expectRest("sphere", sheetAbove(0.65, ball), 1e-3);
+}
+
+ObstacleParams table(double width) {
+  ObstacleParams table;
+  table.name = "table";
+  table.shape = ShapeKind::kBox;
+  table.size = {width, width, 0.5};
+  table.pose.position = {0.0, 0.0, 0.25};
+  table.friction = 0.3;
+  return table;
+}
+
+TEST(Rest, OnATable) { expectRest("table", sheetAbove(0.55, table(1.2)), 1e-3); }
+
+// With its border hanging over the edges, pulled taut across four corners, the solve leaves a restlessness of a few
+// millimetres per second.
+TEST(Rest, OnATableThatIsSmaller) { expectRest("smaller table", sheetAbove(0.55, table(0.6)), 2e-2); }
+
+TEST(Rest, OnTheFloor) {
+  ObstacleParams floor;
+  floor.name = "floor";
+  floor.shape = ShapeKind::kPlane;
+  expectRest("floor", sheetAbove(0.05, floor), 1e-3);
+}
+
+// A sheet on a slope, released at rest: how it has moved on average, half a second after it had time to settle.
+struct Slope {
+  double moved = 0.0;         // down the slope [m]
+  double acceleration = 0.0;  // [m/s^2]
+};
+
+Slope onASlope(double friction, double angle) {
+  Scene scene = flatScene(16, 16, 0.5, 0.5);
+  scene.hang.from = {-0.25, 0.25, 0.0041};
+  scene.hang.to = {0.25, 0.25, 0.0041};
+  scene.hang.tilt = 0.5 * kPi;
+  scene.pins.kind = PinKind::kNone;
+  scene.contact.self = true;
+  scene.gravity = 9.81 * Vec3(std::sin(angle), 0.0, -std::cos(angle));
+  ObstacleParams floor;
+  floor.name = "floor";
+  floor.shape = ShapeKind::kPlane;
+  floor.friction = friction;
+  scene.obstacles.push_back(floor);
+  Simulator simulator(scene);
+  const auto mean = [&](bool velocities) {
+    std::vector<Vec3> values;
+    if (velocities) simulator.copyVelocities(values);
+    else simulator.copyPositions(values);
+    double sum = 0.0;
+    for (const Vec3& value : values) sum += value.x();
+    return sum / static_cast<double>(values.size());
+  };
+  for (int frame = 0; frame < 30; ++frame) simulator.step();
+  const double place = mean(false), speed = mean(true);
+  for (int frame = 0; frame < 30; ++frame) simulator.step();
+  return {mean(false) - place, (mean(true) - speed) / 0.5};
+}
+
+TEST(Rest, ASheetSlipsFromTheFrictionAngleOn) {
+  for (const double friction : {0.1, 0.3, 0.8}) {
+    const double angle = std::atan(friction);
+    const Slope below = onASlope(friction, 0.98 * angle);
+    EXPECT_LT(std::abs(below.moved), 1e-6) << "friction " << friction;
+    for (const double share : {1.02, 1.3}) {
+      const Slope above = onASlope(friction, share * angle);
+      const double expected = 9.81 * (std::sin(share * angle) - friction * std::cos(share * angle));
+      EXPECT_NEAR(above.acceleration, expected, 0.02 * expected) << "friction " << friction << ", " << share << " of the angle";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace curtain
