@@ -142,8 +142,9 @@ void FineSurface::liftFolds(const Strip& strip, Rows rows, double way) {
       Vec3 normal = Vec3::Zero();
       for (const MovingObstacle* obstacle : near_) {
         SurfacePoint surface;
-        const bool found = obstacle->shape->query(obstacle->after.toLocal(from), obstacle->after.toLocal(base), nearest, surface);
-        if (!found || surface.distance >= nearest) continue;
+        const Transform& place = obstacle->after;
+        if (!obstacle->shape->query(place.toLocal(from), place.toLocal(base), nearest, surface)) continue;
+        if (surface.distance >= nearest) continue;
         nearest = surface.distance;
         normal = obstacle->after.rotation * surface.normal;
       }

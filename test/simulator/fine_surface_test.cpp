@@ -198,7 +198,9 @@ class OverAPlane {
   const FineMesh& seen(double tilt, FineMesh& mesh) {
     const Eigen::AngleAxisd turned(tilt, Vec3::UnitX());
     for (int i = 0; i < 6; ++i) {
-      for (int j = 0; j < 8; ++j) position_.set(pattern_.grid.index(i, j), turned * Vec3(0.06 * j, 0.2 - 0.08 * i, 0.0) + kAbove);
+      for (int j = 0; j < 8; ++j) {
+        position_.set(pattern_.grid.index(i, j), turned * Vec3(0.06 * j, 0.2 - 0.08 * i, 0.0) + kAbove);
+      }
     }
     surface_.build(position_, obstacles_, scene_.contact.thickness, mesh);
     return mesh;
