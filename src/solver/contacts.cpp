@@ -65,6 +65,14 @@ double contactRate(const Contacts& contacts, const Field3& velocity) noexcept {
   return worst;
 }
 
+double fastestSurface(const Contacts& contacts) noexcept {
+  double fastest = 0.0;
+  for (const Contact& contact : contacts) {
+    if (contact.pushes()) fastest = std::max(fastest, contact.surface_velocity.squaredNorm());
+  }
+  return std::sqrt(fastest);
+}
+
 bool pressesOnObstacle(const Contacts& contacts) noexcept {
   return std::any_of(contacts.begin(), contacts.end(),
                      [](const Contact& contact) { return contact.obstacle != Contact::kCloth && contact.pushes(); });

@@ -71,6 +71,9 @@ double contactResidual(const Contacts& contacts, const Field3& position) noexcep
 /// Fastest that a point which is pressed on enters, leaves, or (sticking) slips [m/s].
 double contactRate(const Contacts& contacts, const Field3& velocity) noexcept;
 
+/// Of the obstacles' points that are pushed on [m/s].
+double fastestSurface(const Contacts& contacts) noexcept;
+
 /// Something other than the cloth is pushed on.
 bool pressesOnObstacle(const Contacts& contacts) noexcept;
 

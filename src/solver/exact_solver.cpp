@@ -37,6 +37,10 @@ constexpr double kMostReduction = 0.5;
 constexpr int kGradientIterations = 12;
 // A sweep that moves a node by more than this share of a link at once is cut back to it [1].
 constexpr double kLargestMove = 0.1;
+// Way of an obstacle's surface in a substep that links could not be brought to their lengths in, over the shortest link.
+constexpr double kMostWayOfSurface = 0.2;
+// Solves of a substep that is taken whatever comes of it and does not settle.
+constexpr int kHopelessLooks = 2;
 constexpr double kWatchMoves = 1e-3;  // relative violation below which no solve moves a node too far
 // Friction takes turns with the solve, for so many sweeps: what sticks under load converges over the substeps, its
 // multipliers carry over. And what it may still move in a substep's last sweep, over the tolerance of contact.
@@ -57,6 +61,9 @@ constexpr double kContactStallFactor = 0.9;
 constexpr double kDampingPerResidual = 0.05;
 constexpr double kLargestDamping = 0.1;
 constexpr double kPoorSweep = 0.8;
+// In contact damping itself makes sweeps slow: there only one that has gone further off is poor.
+constexpr double kPoorTouchingSweep = 1.0;
+constexpr double kMostCaution = 4096.0;
 constexpr double kMoreCaution = 8.0;
 constexpr double kLessCaution = 2.0;
 
@@ -80,6 +87,7 @@ ExactSolver::ExactSolver(const ClothPattern& pattern, double stretch_tolerance, 
       workers_(workers),
       tolerance_(kInnerTolerance * stretch_tolerance),
       contact_tolerance_(kInnerTolerance * stretch_tolerance * smallestRest(pattern)),
+      smallest_rest_(smallestRest(pattern)),
       max_sweeps_(max_sweeps),
       sure_stop_(std::sqrt(tolerance_) / pattern.grid.rows),
       inertia_(pattern),
@@ -325,7 +333,9 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
     const double residual = std::max(strings, touch / mean_rest_);
     if (!std::isfinite(residual)) return progress;
     // A sweep that has not brought the links nearer went too far where hardly anything holds: the next one is damped more.
-    caution = residual > kPoorSweep * last_residual ? caution * kMoreCaution : std::max(1.0, caution / kLessCaution);
+    caution = residual > (touches ? kPoorTouchingSweep : kPoorSweep) * last_residual
+                  ? std::min(kMostCaution, caution * kMoreCaution)
+                  : std::max(1.0, caution / kLessCaution);
     last_residual = residual;
     if (strings > (first ? kFirstSweepShare : kLeaveAlone) * tolerance ||
         touch > (first ? kFirstSweepShare : kLeaveAlone) * contact_tolerance) {
@@ -364,6 +374,7 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const SubstepPlan& plan, const
                                                   double ratio, ContactFinder* finder, StageClock& clock) noexcept {
   Contacts* contacts = nullptr;
   std::size_t known = 0;
+  int looks = 0;
   if (finder != nullptr) {
     contacts = finder->begin(from, next_, plan.h);
     clock.lap(Stage::kContact);
@@ -385,7 +396,7 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const SubstepPlan& plan, const
     clock.lap(Stage::kContact);
     if (verdict == ContactFinder::Verdict::kClear) return all;
     newton_begun_ = false;
-    if (verdict == ContactFinder::Verdict::kMore) continue;
+    if (verdict == ContactFinder::Verdict::kMore && (progress.settled || ++looks < kHopelessLooks)) continue;
     all.crossed = true;
     all.settled = false;
     if (plan.must_accept) finder->hold(from, next_);
@@ -469,6 +480,7 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
     commit(base, step, leapfrog ? 0.5 * step : 0.0, state);
     if (bounded) boundKinetic(most_kinetic, state.velocity);
     outcome.omega_squared = inertia_.omegaSquared();
+    if (progress.contacts != nullptr) outcome.longest_step = kMostWayOfSurface * smallest_rest_ / fastestSurface(*progress.contacts);
     // The way such a substep has gone is not all motion: what pulls its links further is taken out.
     if (progress.left_over) projectVelocity(state.position, progress.contacts, 0.0, state.velocity);
   }

@@ -127,6 +127,7 @@ class ExactSolver {
   const Workers& workers_;
   double tolerance_;          // relative, inside the solver
   double contact_tolerance_;  // [m]
+  double smallest_rest_;      // of a link [m]
   int max_sweeps_;
   double sure_stop_;          // Newton from this close ends within the tolerance: it leaves at most (rows * this)^2
   NodeInertia inertia_;

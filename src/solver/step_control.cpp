@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "solver/composition.h"
 
@@ -75,6 +76,7 @@ void StepControl::reset() noexcept {
   implicit_step_ = frame_ / max_substeps_;
   good_ = 0;
   failures_ = 0;
+  surface_step_ = std::numeric_limits<double>::infinity();
 }
 
 double StepControl::stepFromTensions(bool frame_begins, const ExactSolver& solver) noexcept {
@@ -100,7 +102,7 @@ SubstepPlan StepControl::next(double remaining, const ExactSolver& solver) noexc
   if (leapfrog && fixed_substeps_ == 0) {
     const double for_phase = stepFromTensions(frame_begins, solver);
     if (for_phase < smallest && method_ == Method::kAuto) plan.scheme = Scheme::kImplicit;
-    wanted = std::max(smallest, std::min(for_phase, frame_ / asked_));
+    wanted = std::max(smallest, std::min({for_phase, frame_ / asked_, surface_step_}));
   }
   // Rejections have come down to the cap: the implicit scheme takes over for a while.
   if (limit_ <= smallest && method_ != Method::kPaper) plan.scheme = Scheme::kImplicit;
@@ -129,6 +131,7 @@ void StepControl::watch(const SubstepOutcome& outcome) noexcept { omega_ = std::
 
 void StepControl::accepted(const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept {
   watch(outcome);
+  surface_step_ = outcome.longest_step;
   if (plan.scheme == Scheme::kImplicit) {
     // Where not even that settles (cloth jammed between what can't give way) small steps are wasted: larger ones bound
     // the work of a frame.
@@ -137,6 +140,8 @@ void StepControl::accepted(const SubstepPlan& plan, const SubstepOutcome& outcom
     failures_ = outcome.settled ? 0 : failures_ + 1;
     if (outcome.settled) implicit_step_ = std::max(smallest, 0.5 * implicit_step_);
     else if (failures_ > kFailuresToJam) implicit_step_ = std::min(largest, 2.0 * implicit_step_);
+    // But what moves an obstacle far in a step that fails carries the cloth away by its links.
+    if (!outcome.settled) implicit_step_ = std::max(smallest, std::min(implicit_step_, outcome.longest_step));
   }
   if (limit_ < frame_ && ++good_ >= kGoodToGrow) {
     limit_ = std::min(frame_, limit_ * kGrowth);

@@ -39,6 +39,7 @@ class StepControl {
   double initial_omega_;  // of the cloth hanging by its own weight [1/s]
   double omega_;          // from the last tensions [1/s]
   double heavier_step_;   // what the phase allows where few nodes may be heavier, found when the frame began [s]; 0: not asked
+  double surface_step_;   // in which what pushes goes a share of a link [s]
   double limit_;          // largest step that the rejections leave [s]
   int asked_ = 1;         // substeps a frame
   double implicit_step_;  // of the implicit scheme as auto's fall-back [s]

@@ -3,6 +3,8 @@
 // What a scheme is given for one substep, what it gives back, and what else may constrain the nodes meanwhile.
 #pragma once
 
+#include <limits>
+
 #include "cloth/cloth.h"
 #include "solver/contacts.h"
 #include "solver/stage_clock.h"
@@ -45,6 +47,7 @@ struct SubstepOutcome {
   bool settled = false;        ///< every link is within the tolerance
   int sweeps = 0;
   double scale = 0.0;          ///< h times the time the forces acted for [s^2]
+  double longest_step = std::numeric_limits<double>::infinity();  ///< in which what pushes goes a share of a link [s]
   double omega_squared = 0.0;  ///< bound of the square of the highest frequency, from the links' tensions [1/s^2]
 };
 
