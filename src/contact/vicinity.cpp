@@ -320,6 +320,8 @@ void Vicinity::addEdgePairs(const MeshEdge& edge, const Features& features) noex
   const double limit = reach + 0.5 * way;
   features.forEachEdgeIn(box, [&](std::uint32_t index, const ObstacleEdge& other) {
     if (!other.touchable) return;
+    // Over the plane through the edge, which is faster to tell.
+    if (std::min(other.outward.dot(p - other.ends[0]), other.outward.dot(q - other.ends[0])) > limit) return;
     if (closestOnSegments(p, q, other.ends[0], other.ends[1]).distance_squared > limit * limit) return;
     pairs_.push_back({{edge[0], edge[1], 0}, index, true});
     takeNodes(edge.data(), 2);
@@ -344,6 +346,8 @@ void Vicinity::addCornerPairs(const MeshTriangle& triangle, const Features& feat
   const double limit = reach + 0.5 * std::sqrt(way);
   features.forEachVertexIn(box, [&](std::uint32_t index, const ObstacleVertex& corner) {
     if (!corner.touchable) return;
+    const auto height = [&](std::size_t k) { return corner.outward.dot(at[k] - corner.position); };
+    if (std::min({height(0), height(1), height(2)}) > limit) return;
     if (closestOnTriangle(corner.position, at[0], at[1], at[2]).distance_squared > limit * limit) return;
     pairs_.push_back({triangle, index, false});
     takeNodes(triangle.data(), 3);
