@@ -102,7 +102,7 @@ void collectNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, V
     near.setInside(node, false);
     if (staysClear(plane, from, to, reach)) continue;
     const double distance = distanceAt(near, plane, from, thickness);
-    near.setInside(node, distance < 0.0);
+    near.setDistance(node, distance);
     SurfacePoint surface;
     if (serves(near, plane, from) && serves(near, plane, to)) {
       surface = {plane.height(to), plane.surface.normal};

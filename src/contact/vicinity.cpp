@@ -22,6 +22,8 @@ constexpr double kSlackGrowth = 1.5;
 constexpr double kSlackDecay = 0.98;
 // A plane found within this share of the thickness tells enough of a node's distance.
 constexpr double kCloseBy = 0.25;
+// Nodes at this share of the thickness keep it: a tenth may lack, and what the solver leaves.
+constexpr double kKept = 0.85;
 // The expected way in the time that lists hold, over the cloth's longest edge: at most; over the thickness: so much is free.
 constexpr double kLongestWay = 1.0;
 constexpr double kLongestWayOfPairs = 0.5;  // over the thickness
@@ -116,10 +118,12 @@ Vicinity::Vicinity(const ClothPattern& pattern, const ObstacleShape& shape, doub
   bound_.assign(size, 0.0);
   is_taken_.assign(size, 0);
   inside_.assign(size, 0);
+  keeps_.assign(size, 1);
   taken_.reserve(count);
   nodes_.reserve(count);
   if (shape.convex() != nullptr) faces_.reserve(elements_wanted_ ? 2 * count : 0);
   else pairs_.reserve(8 * count);
+  if (shape.convex() == nullptr) rough_ = RoughFeatures(*shape.features(), {longest_, kKept * thickness, core});
 }
 
 void Vicinity::forget() noexcept {
@@ -131,6 +135,12 @@ void Vicinity::forget() noexcept {
   for (auto* list : {&nodes_, &taken_}) list->clear();
   faces_.clear();
   pairs_.clear();
+  outdated_ = false;
+}
+
+void Vicinity::setDistance(std::size_t node, double distance) noexcept {
+  setInside(node, distance < 0.0);
+  outdated_ = outdated_ || (keeps_[node] != 0 && distance < kKept * thickness_);
 }
 
 double Vicinity::strayed(const Transform& place, const Field3& position, double h) const noexcept {
@@ -139,7 +149,7 @@ double Vicinity::strayed(const Transform& place, const Field3& position, double 
 
 void Vicinity::prepare(const MovingObstacle& moving, const Field3& start, const Field3& predicted, double h,
                        double frame) noexcept {
-  const bool reaches = elapsed_ + h <= length_ * (1.0 + 1e-9);
+  const bool reaches = !outdated_ && elapsed_ + h <= length_ * (1.0 + 1e-9);
   // Room to stray for the solve, too. Where the substep starts is where the last one was followed to, unless the obstacle
   // jumped.
   if (!reaches || !(strayed(moving.after, predicted, h) <= 0.5 * slack_) || !(strayed(moving.before, start, 0.0) <= slack_)) {
@@ -194,6 +204,7 @@ void Vicinity::look(const MovingObstacle& moving, const Field3& start, const Fie
   for (const std::uint32_t n : taken_) is_taken_[n] = 0;
   taken_.clear();
   for (const std::uint32_t n : nodes_) inside_[n] = 0;
+  outdated_ = false;
   lookAtNodes();
   if (elements_wanted_) lookAtElements();
 }
@@ -202,7 +213,8 @@ void Vicinity::lookAtNodes() noexcept {
   nodes_.clear();
   const Grid& grid = pattern_.grid;
   const double reach = thickness_ + 2.0 * slack_;
-  const double element_reach = elements_wanted_ ? reach + longest_ : reach;
+  const bool elements = elements_wanted_ && (shape_.convex() != nullptr || !rough_.empty());
+  const double element_reach = elements ? reach + longest_ : reach;
   const Eigen::AlignedBox3d box = shape_.bounds();
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = 0; j < grid.columns; ++j) {
@@ -211,10 +223,11 @@ void Vicinity::lookAtNodes() noexcept {
       const double way = (to_.at(n) - at).norm();
       NodePlane& plane = planes_[n];
       bound_[n] = std::numeric_limits<double>::infinity();
+      keeps_[n] = 1;
       const double outside = (box.min() - at).cwiseMax(at - box.max()).maxCoeff();
       if (outside > element_reach + way) continue;
       double bound = plane.kind == NodePlane::Kind::kUnknown ? -1.0 : plane.lowerBound(at) - way;
-      const bool close = plane.kind != NodePlane::Kind::kUnknown && bound > 0.0 &&
+      const bool close = plane.kind != NodePlane::Kind::kUnknown && bound > 0.0 && bound + way >= kKept * thickness_ &&
                          (at - plane.at).squaredNorm() <= kCloseBy * kCloseBy * thickness_ * thickness_;
       if (!(bound > element_reach) && !close) {
         SurfacePoint surface;
@@ -228,7 +241,10 @@ void Vicinity::lookAtNodes() noexcept {
         if (!found) continue;
       }
       bound_[n] = bound;
-      if (bound > reach || pattern_.inverse_mass[n] <= 0.0) continue;
+      // Nothing holds an obstacle off a pinned node.
+      const bool pinned = pattern_.inverse_mass[n] <= 0.0;
+      keeps_[n] = (pinned ? bound - 2.0 * slack_ : bound + way) >= kKept * thickness_ ? 1 : 0;
+      if (bound > reach || pinned) continue;
       const auto node = static_cast<std::uint32_t>(n);
       nodes_.push_back(node);
       takeNodes(&node, 1);
@@ -260,9 +276,12 @@ void Vicinity::lookAtElements() noexcept {
       const QuadElements quad = quadElements(grid, i, j);
       if (shape_.convex() != nullptr) {
         for (const MeshTriangle& triangle : quad.triangles) addFace(triangle);
-      } else {
-        addPairs(quad);
+        continue;
       }
+      bool keep = true;
+      for (const std::uint32_t n : quad.corners) keep = keep && keeps_[n] != 0;
+      if (!keep) addPairs(quad, *shape_.features());
+      else if (!rough_.empty()) addPairs(quad, rough_);
     }
   }
 }
@@ -282,44 +301,53 @@ void Vicinity::addFace(const MeshTriangle& triangle) noexcept {
   takeNodes(triangle.data(), 3);
 }
 
-void Vicinity::addPairs(const QuadElements& quad) noexcept {
-  for (int k = 0; k < quad.edge_count; ++k) addEdgePairs(quad.edges[static_cast<std::size_t>(k)]);
-  for (const MeshTriangle& triangle : quad.triangles) addCornerPairs(triangle);
+template <typename Features>
+void Vicinity::addPairs(const QuadElements& quad, const Features& features) noexcept {
+  for (int k = 0; k < quad.edge_count; ++k) addEdgePairs(quad.edges[static_cast<std::size_t>(k)], features);
+  for (const MeshTriangle& triangle : quad.triangles) addCornerPairs(triangle, features);
 }
 
-void Vicinity::addEdgePairs(const MeshEdge& edge) noexcept {
+// Nodes are never further than half their way from its middle.
+template <typename Features>
+void Vicinity::addEdgePairs(const MeshEdge& edge, const Features& features) noexcept {
   const Vec3 a = from_.at(edge[0]), b = from_.at(edge[1]);
   const Vec3 c = to_.at(edge[0]), d = to_.at(edge[1]);
   const double reach = core_ + 2.0 * slack_;
   const double way = std::sqrt(std::max((c - a).squaredNorm(), (d - b).squaredNorm()));
   const Vec3 margin = Vec3::Constant(reach);
   const Eigen::AlignedBox3d box(a.cwiseMin(b).cwiseMin(c.cwiseMin(d)) - margin, a.cwiseMax(b).cwiseMax(c.cwiseMax(d)) + margin);
-  shape_.features()->forEachEdgeIn(box, [&](std::uint32_t index, const ObstacleEdge& other) {
+  const Vec3 p = 0.5 * (a + c), q = 0.5 * (b + d);
+  const double limit = reach + 0.5 * way;
+  features.forEachEdgeIn(box, [&](std::uint32_t index, const ObstacleEdge& other) {
     if (!other.touchable) return;
-    const double limit = reach + way;
-    if (closestOnSegments(a, b, other.ends[0], other.ends[1]).distance_squared > limit * limit) return;
+    // Over the plane through the edge, which is faster to tell.
+    if (std::min(other.outward.dot(p - other.ends[0]), other.outward.dot(q - other.ends[0])) > limit) return;
+    if (closestOnSegments(p, q, other.ends[0], other.ends[1]).distance_squared > limit * limit) return;
     pairs_.push_back({{edge[0], edge[1], 0}, index, true});
     takeNodes(edge.data(), 2);
   });
 }
 
-void Vicinity::addCornerPairs(const MeshTriangle& triangle) noexcept {
+template <typename Features>
+void Vicinity::addCornerPairs(const MeshTriangle& triangle, const Features& features) noexcept {
   std::array<Vec3, 3> at;
   Eigen::AlignedBox3d box;
   double way = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
-    at[k] = from_.at(triangle[k]);
-    const Vec3 then = to_.at(triangle[k]);
-    box.extend(at[k]);
+    const Vec3 now = from_.at(triangle[k]), then = to_.at(triangle[k]);
+    box.extend(now);
     box.extend(then);
-    way = std::max(way, (then - at[k]).squaredNorm());
+    at[k] = 0.5 * (now + then);
+    way = std::max(way, (then - now).squaredNorm());
   }
   const double reach = core_ + 2.0 * slack_;
   box.min().array() -= reach;
   box.max().array() += reach;
-  const double limit = reach + std::sqrt(way);
-  shape_.features()->forEachVertexIn(box, [&](std::uint32_t index, const ObstacleVertex& corner) {
+  const double limit = reach + 0.5 * std::sqrt(way);
+  features.forEachVertexIn(box, [&](std::uint32_t index, const ObstacleVertex& corner) {
     if (!corner.touchable) return;
+    const auto height = [&](std::size_t k) { return corner.outward.dot(at[k] - corner.position); };
+    if (std::min({height(0), height(1), height(2)}) > limit) return;
     if (closestOnTriangle(corner.position, at[0], at[1], at[2]).distance_squared > limit * limit) return;
     pairs_.push_back({triangle, index, false});
     takeNodes(triangle.data(), 3);

@@ -15,6 +15,7 @@
 #include "cloth/cloth.h"
 #include "cloth/coarse_mesh.h"
 #include "contact/obstacle_set.h"
+#include "contact/rough_features.h"
 
 namespace curtain {
 
@@ -65,6 +66,8 @@ class Vicinity {
   /// The node starts the substep inside the obstacle; what has such a node is on its way out, and nothing may stop it.
   void setInside(std::size_t node, bool inside) noexcept { inside_[node] = inside ? 1 : 0; }
   bool isInside(std::size_t node) const noexcept { return inside_[node] != 0; }
+  /// The node starts the substep this far out [m]: lists that count on more end with it.
+  void setDistance(std::size_t node, double distance) noexcept;
 
   const ObstacleShape& shape() const noexcept { return shape_; }
   double thickness() const noexcept { return thickness_; }
@@ -78,9 +81,12 @@ class Vicinity {
   void lookAtNodes() noexcept;
   void lookAtElements() noexcept;
   void addFace(const MeshTriangle& triangle) noexcept;
-  void addPairs(const QuadElements& quad) noexcept;
-  void addEdgePairs(const MeshEdge& edge) noexcept;
-  void addCornerPairs(const MeshTriangle& triangle) noexcept;
+  template <typename Features>
+  void addPairs(const QuadElements& quad, const Features& features) noexcept;
+  template <typename Features>
+  void addEdgePairs(const MeshEdge& edge, const Features& features) noexcept;
+  template <typename Features>
+  void addCornerPairs(const MeshTriangle& triangle, const Features& features) noexcept;
   void takeNodes(const std::uint32_t* first, std::size_t count) noexcept;
   void takeOver(const MovingObstacle& moving, const Field3& start, const Field3& end) noexcept;
   double strayed(const Transform& place, const Field3& position, double h) const noexcept;
@@ -90,6 +96,7 @@ class Vicinity {
   double thickness_, core_;
   double longest_;   // edge of the cloth's mesh [m]
   bool elements_wanted_;
+  RoughFeatures rough_;  // of a mesh, while the nodes keep their distance
   double slack_;     // [m]
   double length_ = 0.0, elapsed_ = 0.0;  // [s]; length 0: there is none
   Field3 from_, to_;                     // expected way, obstacle's frame [m]
@@ -97,6 +104,8 @@ class Vicinity {
   std::vector<NodePlane> planes_;        // by node
   std::vector<double> bound_;            // by node: nearest that it may come on its way [m]
   std::vector<std::uint8_t> inside_;     // by node
+  std::vector<std::uint8_t> keeps_;      // by node: it was far enough out when the lists were made
+  bool outdated_ = false;                // a node is nearer than the lists count on
   std::vector<std::uint8_t> is_taken_;   // by node
   std::vector<std::uint32_t> taken_;     // nodes whose positions are taken over
   std::vector<std::uint32_t> nodes_;

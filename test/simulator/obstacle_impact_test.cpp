@@ -179,8 +179,7 @@ TEST(Obstacles, NoCornerComesThroughADrapedSheet) {
       simulator.step();
       pierced = std::max(pierced, piercingsOf(simulator, 0));
     }
-    // A corner of a mesh still comes through a face now and then (at most 4 parts counted).
-    EXPECT_LE(pierced, mesh ? 4 : 0) << mesh;
+    EXPECT_EQ(pierced, 0) << mesh;
     EXPECT_LE(stretchOf(simulator), scene.solver.stretch_tolerance) << mesh;
     EXPECT_TRUE(simulator.statistics().finite);
   }
@@ -204,7 +203,7 @@ TEST(Obstacles, WhatAppearsInTheClothLetsItGo) {
       simulator.step();
       if (frame >= 120) pierced = std::max(pierced, piercingsOf(simulator, 0));
     }
-    EXPECT_LE(pierced, std::string(name) == "mesh" ? 4 : 0) << name;  // as for a draped sheet
+    EXPECT_EQ(pierced, 0) << name;
     EXPECT_LE(stretchOf(simulator), scene.solver.stretch_tolerance) << name;
     EXPECT_TRUE(simulator.statistics().finite) << name;
   }
