@@ -23,6 +23,7 @@ const std::vector<Study>& studies() {
                                          {"gusts", studyGusts},
                                          {"scaling", studyScaling},
                                          {"stages", studyStages},
+                                         {"contact", studyContact},
                                          {"ccd", studyCcd}};
   return all;
 }

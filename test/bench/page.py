@@ -231,6 +231,19 @@ def stages():
     return ['## Time by stage\n', picture('stages.png', 'time by stage'), markdown(['scene', 'ms a frame'] + names, body)]
 
 
+def contact():
+    rows = table('contact')
+    lines = ['## What contact costs\n',
+             '44 x 40 nodes, one core, scenes with and without it made frame by frame in turns; medians of the frames, least of',
+             'the repeats. "Itself": `contact.self`.\n',
+             '| scene | without | with | added | ratio | longest frame |', '|---|---|---|---|---|---|']
+    for row in rows:
+        lines.append('| %s | %.3f ms | %.3f ms | %.3f ms | %.2f | %.1f ms |' % (
+            row['scene'], float(row['ms_without']), float(row['ms_with']), float(row['ms_added']), float(row['ratio_min']),
+            float(row['ms_longest'])))
+    return lines
+
+
 def ccd():
     body = [[row['set'], row['pair'], row['queries'], row['hits'], row['missed'], row['false_alarms'],
              figure(value(row, 'ns_min')), figure(value(row, 'ns_min_1mm'))] for row in table('ccd')]
@@ -258,7 +271,7 @@ def head():
 
 def main():
     sections = {'work_precision': work_precision, 'slopes': slopes, 'energy': energy, 'modes': modes, 'nets': nets, 'wind': wind,
-                'hard_spot': hard_spot, 'gusts': gusts, 'scaling': scaling, 'stages': stages, 'ccd': ccd}
+                'hard_spot': hard_spot, 'gusts': gusts, 'scaling': scaling, 'stages': stages, 'contact': contact, 'ccd': ccd}
     text = head()
     for study, section in sections.items():
         if table(study):

@@ -29,6 +29,7 @@ void studyWind(const Options& options);
 void studyGusts(const Options& options);
 void studyScaling(const Options& options);
 void studyStages(const Options& options);
+void studyContact(const Options& options);
 void studyCcd(const Options& options);
 
 /// All of them, in the order of the page.
