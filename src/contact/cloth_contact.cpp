@@ -57,13 +57,13 @@ ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& par
       zone_iterations_(params.zone_iterations),
       touch_(pattern, params.thickness, frame_length, obstacles, position),
       self_(pattern, std::min(params.thickness, kGapPerLink * shortestLink(pattern)), params.friction),
-      tree_(pattern),
+      pairs_(pattern),
       zones_(pattern) {
   if (obstacles.count() == 0 && !params.self) return;
   contacts_.reserve(4 * pattern.grid.nodeCount());
   last_.reserve(4 * pattern.grid.nodeCount());
   if (!params.self) return;
-  tree_.reserve(candidates_);
+  pairs_.reserve(candidates_);
   ahead_.assign(pattern.grid.size(), 0.0);
 }
 
@@ -71,10 +71,9 @@ ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& par
 void ClothContact::look(const Field3& start, const Field3& end) noexcept {
 auto T0=std::chrono::steady_clock::now();
   extrapolate(start, end, ahead_);
-  tree_.refit(start, ahead_);
 auto T1=std::chrono::steady_clock::now();
   candidates_.clear();
-  tree_.collectSelf(self_.gap(), candidates_);
+  pairs_.collect(start, ahead_, self_.gap(), candidates_);
 auto T2=std::chrono::steady_clock::now();
   self_.renew(candidates_, contacts_);
 auto T3=std::chrono::steady_clock::now();

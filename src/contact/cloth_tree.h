@@ -62,6 +62,10 @@ class ClothTree {
     return quadElements(grid_, static_cast<int>(index / columns), static_cast<int>(index % columns));
   }
 
+  /// Most by which a difference is rounded of two coordinates that were brought to single precision relative to `origin`
+  /// [m], and are of no larger magnitude than `largest` [m] then.
+  static float roundingOf(float largest, const Vec3& origin) noexcept;
+
   /// Makes room for kRoomPerNode candidates of either kind per node.
   void reserve(Candidates& out) const { out.reserve(kRoomPerNode * grid_.nodeCount()); }
 

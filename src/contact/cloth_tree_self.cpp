@@ -42,9 +42,6 @@ bool isCorner(std::uint32_t vertex, const MeshTriangle& t) {
   return vertex == t[0] || vertex == t[1] || vertex == t[2];
 }
 
-FourNodes nodesOf(const VertexTriangle& c) { return {c.vertex, c.triangle[0], c.triangle[1], c.triangle[2]}; }
-FourNodes nodesOf(const EdgeEdge& c) { return {c.first[0], c.first[1], c.second[0], c.second[1]}; }
-
 }  // namespace
 
 /// A quad that is looked at, with its elements' boxes.
