@@ -24,6 +24,8 @@ constexpr double kBeyond = 2.0;
 constexpr double kSlack = 1e-6;
 // Nodes that the times are fitted to: one of so many.
 constexpr std::size_t kEvery = 7;
+// Up to this share of nodes may stray further than the leeway: their pairs are looked for at every look.
+constexpr double kMostMarked = 0.12;
 
 CURTAIN_WIDE void goOn(const double* __restrict start, const double* __restrict end, std::size_t count, double share,
                        double* __restrict from, double* __restrict way, double* __restrict far) {
@@ -43,18 +45,17 @@ struct Row {
   std::size_t count;
 };
 
-// The largest square of a distance between a node and its place at a time.
-CURTAIN_WIDE double farthest(const Row& row, double time, double most) {
+// Squares of the distances between nodes and their places at a time, where they exceed what is there already.
+CURTAIN_WIDE void raiseDistances(const Row& row, double time, double* __restrict distances) {
   const Row r = row;
-#pragma omp simd reduction(max : most)
+#pragma omp simd
   for (std::size_t j = 0; j < r.count; ++j) {
     const double x = r.x[j] - (r.from_x[j] + time * r.way_x[j]);
     const double y = r.y[j] - (r.from_y[j] + time * r.way_y[j]);
     const double z = r.z[j] - (r.from_z[j] + time * r.way_z[j]);
     const double squared = x * x + y * y + z * z;
-    most = squared > most ? squared : most;
+    distances[j] = squared > distances[j] ? squared : distances[j];
   }
-  return most;
 }
 
 }  // namespace
@@ -65,17 +66,25 @@ KeptPairs::KeptPairs(const ClothPattern& pattern) : grid_(pattern.grid), tree_(p
   NodeWay still;
   still.start = still.end = Eigen::Array4f::Zero();
   ways_.assign(grid_.size(), still);
+  strays_.assign(grid_.size(), 0.0);
+  marked_.assign(grid_.size(), 0);
 }
 
 void KeptPairs::collect(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept {
   if (expects_) {
     ++age_;
-    const double stray = std::max(straying(start), straying(end));
-    if (reach <= reach_ && stray <= leeway_) {
-      appendNear(start, end, reach, out);
-      return;
+    std::fill(strays_.begin(), strays_.end(), 0.0);
+    raiseStrays(start);
+    raiseStrays(end);
+    if (reach <= reach_) {
+      const std::size_t marked = mark();
+      if (marked <= mostMarked()) {
+        if (marked > 0) appendOfMarked(start, end, reach, out);
+        appendNear(start, end, reach, out);
+        return;
+      }
     }
-    stray_ = std::max(stray / age_, kMemory * stray_);
+    stray_ = std::max(commonStray() / age_, kMemory * stray_);
   }
   descend(start, end, reach, out);
 }
@@ -106,6 +115,7 @@ void KeptPairs::descend(const Field3& start, const Field3& end, double reach, Ca
   continued(start.y, end.y, from_.y, way_.y, far_.y);
   continued(start.z, end.z, from_.z, way_.z, far_.z);
   if (leeway_ == 0.0) return;
+  std::fill(marked_.begin(), marked_.end(), std::uint8_t{0});
   kept_.clear();
   reach_ = reach;
   tree_.refit(from_, far_);
@@ -114,8 +124,8 @@ void KeptPairs::descend(const Field3& start, const Field3& end, double reach, Ca
   appendNear(start, end, reach, out);
 }
 
-// How far a node is from its expected way at most, at the time that fits best.
-double KeptPairs::straying(const Field3& position) const noexcept {
+// How far nodes are from their expected way, at the time that fits best.
+void KeptPairs::raiseStrays(const Field3& position) noexcept {
   double along = 0.0, squared = 0.0;
   for (std::size_t n = 0; n < grid_.size(); n += kEvery) {
     const Vec3 way = way_.at(n);
@@ -123,14 +133,47 @@ double KeptPairs::straying(const Field3& position) const noexcept {
     squared += way.squaredNorm();
   }
   const double time = along > 0.0 ? std::min(along / squared, 1.0) : 0.0;
-  double most = 0.0;
   for (int i = 0; i < grid_.rows; ++i) {
     const std::size_t n = grid_.index(i, 0);
-    most = farthest({&position.x[n], &position.y[n], &position.z[n], &from_.x[n], &from_.y[n], &from_.z[n], &way_.x[n],
-                     &way_.y[n], &way_.z[n], static_cast<std::size_t>(grid_.columns)},
-                    time, most);
+    raiseDistances({&position.x[n], &position.y[n], &position.z[n], &from_.x[n], &from_.y[n], &from_.z[n], &way_.x[n],
+                    &way_.y[n], &way_.z[n], static_cast<std::size_t>(grid_.columns)},
+                   time, &strays_[n]);
   }
-  return std::sqrt(most);
+}
+
+std::size_t KeptPairs::mostMarked() const noexcept {
+  return static_cast<std::size_t>(kMostMarked * static_cast<double>(grid_.nodeCount()));
+}
+
+// Marks the nodes that strayed further than the leeway; returns their number.
+std::size_t KeptPairs::mark() noexcept {
+  const double most = leeway_ * leeway_;
+  std::size_t count = 0;
+  for (std::size_t n = 0; n < grid_.size(); ++n) {
+    marked_[n] = strays_[n] > most ? 1 : 0;
+    count += marked_[n];
+  }
+  return count;
+}
+
+// What a leeway would have to be for few enough marks. Leaves the strays in another order.
+double KeptPairs::commonStray() noexcept {
+  const auto at = strays_.end() - 1 - static_cast<std::ptrdiff_t>(mostMarked() / 2);
+  std::nth_element(strays_.begin(), at, strays_.end());
+  return std::sqrt(*at);
+}
+
+// Pairs of the marked are looked for along the ways as they are, and those of unmarked nodes alone are kept ones.
+void KeptPairs::appendOfMarked(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept {
+  const std::size_t first_vertex = out.vertex_triangles.size(), first_edge = out.edge_edges.size();
+  tree_.refit(start, end);
+  tree_.collectSelfOf(marked_, reach, out);
+  const auto drop = [this](auto& pairs, std::size_t first) {
+    const auto kept = [this](const auto& pair) { return !hasMarked(nodesOf(pair)); };
+    pairs.erase(std::remove_if(pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end(), kept), pairs.end());
+  };
+  drop(out.vertex_triangles, first_vertex);
+  drop(out.edge_edges, first_edge);
 }
 
 void KeptPairs::appendNear(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept {
@@ -157,7 +200,7 @@ void KeptPairs::appendNear(const Field3& start, const Field3& end, double reach,
       const std::uint32_t apart = stay_apart(four, ways_.data(), limit, rounding_);
       if (apart == 0xFU) continue;
       for (std::size_t k = 0; k < count; ++k) {
-        if ((apart >> k & 1U) == 0 && meet(pairs[first + k])) to.push_back(pairs[first + k]);
+        if ((apart >> k & 1U) == 0 && !hasMarked(four[k]) && meet(pairs[first + k])) to.push_back(pairs[first + k]);
       }
     }
   };

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Pairs of the cloth's elements that may come near each other, looked for again and again: what one descent of the tree
-// names within more than the reach is kept, and holds until a node strays too far from its expected way.
+// names within more than the reach is kept, and holds until too many nodes stray too far from their expected ways.
 //
 // A descent is of the straight ways a + t w, t in [0, 1], and of the reach with twice a leeway. Later ways from p to q
 // are held against it at two times t, u that fit them best: where no node's p is further than the leeway from a + t w,
 // and no q from a + u w, so it is at all times between, for both are straight; no distance is shorter by more than twice
-// the leeway then. It is of no account which t and u are taken, nor which ways the descent is of: these only decide on
+// the leeway then. Pairs of the few nodes that stray further are looked for at every look. It is of no account which t and u are taken, nor which ways the descent is of: these only decide on
 // how long it lasts.
 #pragma once
 
@@ -36,7 +36,14 @@ class KeptPairs {
   void descend(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept;
   void appendNear(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept;
   void fillWays(const Field3& start, const Field3& end) noexcept;
-  double straying(const Field3& position) const noexcept;
+  void appendOfMarked(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept;
+  void raiseStrays(const Field3& position) noexcept;
+  std::size_t mostMarked() const noexcept;
+  std::size_t mark() noexcept;
+  double commonStray() noexcept;
+  bool hasMarked(const std::array<std::uint32_t, 4>& nodes) const noexcept {
+    return (marked_[nodes[0]] | marked_[nodes[1]] | marked_[nodes[2]] | marked_[nodes[3]]) != 0;
+  }
   double leewayFor(double reach) const noexcept;
 
   Grid grid_;
@@ -49,6 +56,8 @@ class KeptPairs {
   int age_ = 0;              // looks since the descent
   bool expects_ = false;     // there is a descent that straying is measured from
   long descents_ = 0;
+  std::vector<double> strays_;        // of nodes, squared [m^2]
+  std::vector<std::uint8_t> marked_;  // of nodes: strayed further than the leeway
   std::vector<NodeWay> ways_;
   Vec3 origin_ = Vec3::Zero();  // of ways_ [m]
   float rounding_ = 0.0f;       // of ways_, see ClothTree [m]
