@@ -15,7 +15,7 @@ namespace {
 // Looks that the leeway is made for, and its bounds as shares of the reach: below, the pairs that come within reach of it
 // are as few as ever; above, they are so many that to go through them costs more than is saved.
 constexpr double kLooks = 4.0;
-constexpr double kLeastLeeway = 0.01, kMostLeeway = 0.25;
+constexpr double kLeastLeeway = 0.05, kMostLeeway = 0.25;
 // What is left of the straying that was expected before.
 constexpr double kMemory = 0.7;
 // The ways are continued as far again: later looks see further ahead.
@@ -78,13 +78,14 @@ void KeptPairs::collect(const Field3& start, const Field3& end, double reach, Ca
     raiseStrays(end);
     if (reach <= reach_) {
       const std::size_t marked = mark();
-      if (marked <= mostMarked()) {
+      // Looks for the marked cost more than a descent whose leeway lasts for all.
+      if (marked == 0 || (marked <= mostMarked() && kLooks * mostStray() > age_ * kMostLeeway * reach)) {
         if (marked > 0) appendOfMarked(start, end, reach, out);
         appendNear(start, end, reach, out);
         return;
       }
     }
-    stray_ = std::max(commonStray() / age_, kMemory * stray_);
+    stray_ = std::max(commonStray(reach) / age_, kMemory * stray_);
   }
   descend(start, end, reach, out);
 }
@@ -156,8 +157,15 @@ std::size_t KeptPairs::mark() noexcept {
   return count;
 }
 
-// What a leeway would have to be for few enough marks. Leaves the strays in another order.
-double KeptPairs::commonStray() noexcept {
+double KeptPairs::mostStray() const noexcept {
+  return std::sqrt(*std::max_element(strays_.begin(), strays_.end()));
+}
+
+// What a leeway would have to be for no marks, or where that is too much, for few enough. Leaves the strays in another
+// order.
+double KeptPairs::commonStray(double reach) noexcept {
+  const double most = mostStray();
+  if (kLooks * most <= age_ * kMostLeeway * reach) return most;
   const auto at = strays_.end() - 1 - static_cast<std::ptrdiff_t>(mostMarked() / 2);
   std::nth_element(strays_.begin(), at, strays_.end());
   return std::sqrt(*at);

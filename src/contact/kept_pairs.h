@@ -40,7 +40,8 @@ class KeptPairs {
   void raiseStrays(const Field3& position) noexcept;
   std::size_t mostMarked() const noexcept;
   std::size_t mark() noexcept;
-  double commonStray() noexcept;
+  double mostStray() const noexcept;
+  double commonStray(double reach) noexcept;
   bool hasMarked(const std::array<std::uint32_t, 4>& nodes) const noexcept {
     return (marked_[nodes[0]] | marked_[nodes[1]] | marked_[nodes[2]] | marked_[nodes[3]]) != 0;
   }
