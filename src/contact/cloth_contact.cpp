@@ -54,22 +54,21 @@ ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& par
       zone_iterations_(params.zone_iterations),
       touch_(pattern, params.thickness, frame_length, obstacles, position),
       self_(pattern, std::min(params.thickness, kGapPerLink * shortestLink(pattern)), params.friction),
-      tree_(pattern),
+      pairs_(pattern),
       zones_(pattern) {
   if (obstacles.count() == 0 && !params.self) return;
   contacts_.reserve(8 * pattern.grid.nodeCount());
   last_.reserve(8 * pattern.grid.nodeCount());
   if (!params.self) return;
-  tree_.reserve(candidates_);
+  pairs_.reserve(candidates_);
   ahead_.assign(pattern.grid.size(), 0.0);
 }
 
 // Pairs that come near on the way from start to end, and on as far again: those that the next substep starts with.
 void ClothContact::look(const Field3& start, const Field3& end) noexcept {
   extrapolate(start, end, ahead_);
-  tree_.refit(start, ahead_);
   candidates_.clear();
-  tree_.collectSelf(self_.gap(), candidates_);
+  pairs_.collect(start, ahead_, self_.gap(), candidates_);
   self_.renew(candidates_, contacts_);
   looked_ = true;
 }

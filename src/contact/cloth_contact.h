@@ -7,7 +7,7 @@
 //   hold     what still would is moved as one body (zones.h)
 #pragma once
 
-#include "contact/cloth_tree.h"
+#include "contact/kept_pairs.h"
 #include "contact/obstacle_contacts.h"
 #include "contact/obstacle_set.h"
 #include "contact/self_contacts.h"
@@ -64,7 +64,7 @@ class ClothContact : public ContactFinder {
   int zone_iterations_;
   ObstacleContacts touch_;
   SelfContacts self_;
-  ClothTree tree_;
+  KeptPairs pairs_;
   Candidates candidates_;
   Field3 ahead_;           // where nodes go on to from the last look [m]
   bool looked_ = false;    // the pairs near each other now are known

@@ -76,6 +76,7 @@ ClothTree::ClothTree(const ClothPattern& pattern) : grid_(pattern.grid) {
   split({0, rows, 0, columns}, kNone);
   boxes_.resize(nodes_.size());
   slopes_.resize(nodes_.size());
+  wanted_.assign(nodes_.size(), 1);
   ways_.resize(grid_.size());
   element_refits_.assign(quads, 0);
   element_boxes_.resize(quads + 1);

@@ -53,6 +53,9 @@ class ClothTree {
   /// Rounding only ever adds pairs.
   void collectSelf(double reach, Candidates& out) noexcept;
 
+  /// The same of pairs that have a node that is marked (not 0; of the grid's size), and of some that have none.
+  void collectSelfOf(const std::vector<std::uint8_t>& marked, double reach, Candidates& out) noexcept;
+
   /// Appends the quads (see quad()) whose swept box meets `box` [m].
   void collectBox(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& quads) noexcept;
 
@@ -61,6 +64,10 @@ class ClothTree {
     const auto columns = static_cast<std::uint32_t>(grid_.linkCount());
     return quadElements(grid_, static_cast<int>(index / columns), static_cast<int>(index % columns));
   }
+
+  /// Most by which a difference is rounded of two coordinates that were brought to single precision relative to `origin`
+  /// [m], and are of no larger magnitude than `largest` [m] then.
+  static float roundingOf(float largest, const Vec3& origin) noexcept;
 
   /// Makes room for kRoomPerNode candidates of either kind per node.
   void reserve(Candidates& out) const { out.reserve(kRoomPerNode * grid_.nodeCount()); }
@@ -103,6 +110,7 @@ class ClothTree {
   }
 
   void meeting(std::uint32_t node, const FloatBox& box, float reach, std::vector<std::uint32_t>& quads) noexcept;
+  void collectWanted(double reach, Candidates& out) noexcept;
   void self(std::uint32_t node, Candidates& out) noexcept;
   void pair(std::uint32_t one, std::uint32_t other, Candidates& out) noexcept;
   void quadSelf(std::uint32_t node, Candidates& out) noexcept;
@@ -149,6 +157,7 @@ class ClothTree {
   std::vector<FloatBox> boxes_;       // of tree nodes
   std::vector<PatchSlopes> slopes_;   // of tree nodes
   std::vector<NodeWay> ways_;         // of the cloth's nodes, in blocks that are filled
+  std::vector<std::uint8_t> wanted_;  // of tree nodes: pairs of this one with any are looked for
   std::uint32_t refits_ = 0;
   std::vector<std::uint32_t> element_refits_;  // of quads: the refit that the boxes of their elements are of
   std::vector<ElementBoxes> element_boxes_;    // of quads, and the second set of the last one

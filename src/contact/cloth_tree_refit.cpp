@@ -125,9 +125,13 @@ void ClothTree::refit(const Field3& start, const Field3& end) noexcept {
   for (const std::uint32_t node : upper_) mergeChildren(node);
   const FloatBox& all = boxes_[0];
   largest_ = all.low.abs().max(all.high.abs()).maxCoeff();
+  rounding_ = roundingOf(largest_, origin_);
+}
+
+float ClothTree::roundingOf(float largest, const Vec3& origin) noexcept {
   // Each of two coordinates is rounded once, and so is their difference, which is at most twice as large; the step to
   // the origin rounds in double precision.
-  rounding_ = 4.0f * kUnit * largest_ + 1e-15f * static_cast<float>(origin_.cwiseAbs().maxCoeff());
+  return 4.0f * kUnit * largest + 1e-15f * static_cast<float>(origin.cwiseAbs().maxCoeff());
 }
 
 void ClothTree::copyPositions(const Field3& start, const Field3& end) noexcept {

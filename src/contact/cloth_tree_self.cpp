@@ -42,9 +42,6 @@ bool isCorner(std::uint32_t vertex, const MeshTriangle& t) {
   return vertex == t[0] || vertex == t[1] || vertex == t[2];
 }
 
-FourNodes nodesOf(const VertexTriangle& c) { return {c.vertex, c.triangle[0], c.triangle[1], c.triangle[2]}; }
-FourNodes nodesOf(const EdgeEdge& c) { return {c.first[0], c.first[1], c.second[0], c.second[1]}; }
-
 }  // namespace
 
 /// A quad that is looked at, with its elements' boxes.
@@ -60,6 +57,23 @@ struct ClothTree::QuadPair {
 };
 
 void ClothTree::collectSelf(double reach, Candidates& out) noexcept {
+  std::fill(wanted_.begin(), wanted_.end(), std::uint8_t{1});
+  collectWanted(reach, out);
+}
+
+void ClothTree::collectSelfOf(const std::vector<std::uint8_t>& marked, double reach, Candidates& out) noexcept {
+  for (auto node = static_cast<std::uint32_t>(nodes_.size()); node-- > 0;) {
+    if (nodes_[node].second != kNone) {
+      wanted_[node] = wanted_[node + 1] | wanted_[nodes_[node].second];
+      continue;
+    }
+    const auto corners = quadElements(grid_, nodes_[node].quads.row, nodes_[node].quads.column).corners;
+    wanted_[node] = marked[corners[0]] | marked[corners[1]] | marked[corners[2]] | marked[corners[3]];
+  }
+  collectWanted(reach, out);
+}
+
+void ClothTree::collectWanted(double reach, Candidates& out) noexcept {
   reach_ = static_cast<float>(reach) * (1.0f + 2.0f * std::numeric_limits<float>::epsilon()) + rounding_;
   ++queries_;
   const std::size_t first_vertex = out.vertex_triangles.size(), first_edge = out.edge_edges.size();
@@ -88,7 +102,7 @@ void ClothTree::dropApart(std::size_t first_vertex, std::size_t first_edge, Cand
 }
 
 void ClothTree::self(std::uint32_t node, Candidates& out) noexcept {
-  if (isFlatBeyond(reach_, slopes_[node], rounding_)) return;
+  if (wanted_[node] == 0 || isFlatBeyond(reach_, slopes_[node], rounding_)) return;
   const std::uint32_t second = nodes_[node].second;
   lookInto(node);
   if (second == kNone) {
@@ -101,7 +115,7 @@ void ClothTree::self(std::uint32_t node, Candidates& out) noexcept {
 }
 
 void ClothTree::pair(std::uint32_t one, std::uint32_t other, Candidates& out) noexcept {
-  if (!boxes_[one].meets(boxes_[other], reach_)) return;
+  if ((wanted_[one] | wanted_[other]) == 0 || !boxes_[one].meets(boxes_[other], reach_)) return;
   const Node &p = nodes_[one], &q = nodes_[other];
   if (p.second == kNone && q.second == kNone) {
     quadPair(one, other, out);

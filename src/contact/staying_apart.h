@@ -8,12 +8,16 @@
 #include <array>
 #include <cstdint>
 
+#include "contact/candidates.h"
 #include "contact/element_boxes.h"
 
 namespace curtain {
 
 /// Nodes of two elements that share none: of a vertex and a triangle, or of two edges.
 using FourNodes = std::array<std::uint32_t, 4>;
+
+inline FourNodes nodesOf(const VertexTriangle& c) { return {c.vertex, c.triangle[0], c.triangle[1], c.triangle[2]}; }
+inline FourNodes nodesOf(const EdgeEdge& c) { return {c.first[0], c.first[1], c.second[0], c.second[1]}; }
 
 /// Bit k is set where the elements of pair k of four are certain to stay further apart than `reach` [m]. Differences of two
 /// places may be rounded by `rounding` [m].

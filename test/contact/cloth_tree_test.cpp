@@ -12,6 +12,7 @@
 #include <functional>
 #include <set>
 
+#include "contact/kept_pairs.h"
 #include "contact/staying_apart.h"
 #include "contact/triangle_mesh_tree.h"
 #include "testing.h"
@@ -516,6 +517,55 @@ TEST(StayingApart, IsProvedOfWhatStaysApartAlone) {
     }
   }
   EXPECT_GT(proved, apart_in_truth * 6 / 10);
+}
+
+// Drifts, turns and trembles by more and less, and now and then a few nodes jerk: at every look each pair that comes
+// within reach is named, whether the tree was descended or not.
+TEST(KeptPairs, MissNoPairHoweverTheClothMoves) {
+  for (const bool closed : {false, true}) {
+    const ClothPattern pattern = squareCloth(12, 14, 0.025, closed);
+    const int looks = 60;
+    KeptPairs kept(pattern);
+    Candidates found;
+    kept.reserve(found);
+    Field3 start = rotated(heap(pattern.grid, closed ? 2 : 1), 0.4);
+    Random random(9);
+    Vec3 drift = Vec3::Zero();
+    std::size_t named = 0;
+    for (int look = 0; look < looks; ++look) {
+      const double size = look < 20 ? 0.00002 : look < 40 ? 0.0003 : 0.002;
+      drift += random.inBox(0.1 * size);
+      const auto seed = static_cast<std::uint64_t>(look);
+      Field3 end = rotated(moved(pattern, start, size, seed), 0.1 * size, drift);
+      if (look % 3 == 2) {
+        const std::size_t jerked = pattern.grid.index(look % 12, look % 14);
+        end.set(jerked, end.at(jerked) + random.inBox(0.02));
+      }
+      const Motion motion{"kept", pattern, start, end, 0.006};
+      const long warm = allocations;
+      found.clear();
+      kept.collect(start, end, motion.reach, found);
+      EXPECT_EQ(allocations, warm);
+      Oracle(motion).check(found);
+      named += found.edge_edges.size();
+      start = end;
+    }
+    EXPECT_GT(named, 1000u);
+    EXPECT_LT(kept.descents(), looks * 2 / 3);
+  }
+}
+
+TEST(KeptPairs, AreDescendedForOnceByClothAtRest) {
+  const ClothPattern pattern = squareCloth(18, 22);
+  const Field3 cloth = heap(pattern.grid, 3);
+  KeptPairs kept(pattern);
+  Candidates found;
+  for (int look = 0; look < 10; ++look) {
+    found.clear();
+    kept.collect(cloth, cloth, 0.006, found);
+    EXPECT_FALSE(isEmpty(found));
+  }
+  EXPECT_LE(kept.descents(), 2);
 }
 
 TEST(ClothTree, EveryElementBelongsToOneQuad) {
