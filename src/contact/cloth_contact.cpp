@@ -178,6 +178,7 @@ void ClothContact::forget() noexcept {
   last_scale_ = 0.0;
   slippery_ = 0;
   looked_ = false;
+  pairs_.forget();
   self_.forget();
   touch_.forget();
   held_ = 0;

@@ -70,6 +70,13 @@ KeptPairs::KeptPairs(const ClothPattern& pattern) : grid_(pattern.grid), tree_(p
   marked_.assign(grid_.size(), 0);
 }
 
+void KeptPairs::forget() noexcept {
+  kept_.clear();
+  reach_ = leeway_ = stray_ = 0.0;
+  age_ = 0;
+  expects_ = false;
+}
+
 void KeptPairs::collect(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept {
   if (expects_) {
     ++age_;

@@ -29,6 +29,9 @@ class KeptPairs {
 
   void reserve(Candidates& out) const { tree_.reserve(out); }
 
+  /// As after construction: the order of the pairs to come depends on nothing from before.
+  void forget() noexcept;
+
   /// How often the tree was descended.
   long descents() const noexcept { return descents_; }
 
