@@ -235,13 +235,13 @@ def contact():
     rows = table('contact')
     lines = ['## What contact costs\n',
              '44 x 40 nodes, one core, scenes with and without it made frame by frame in turns; medians of the frames, least of',
-             'the repeats. "Itself": `contact.self`.\n',
+             'the repeats. Itself: `contact.self`.\n',
              '| scene | without | with | added | ratio | longest frame |', '|---|---|---|---|---|---|']
     for row in rows:
         lines.append('| %s | %.3f ms | %.3f ms | %.3f ms | %.2f | %.1f ms |' % (
             row['scene'], float(row['ms_without']), float(row['ms_with']), float(row['ms_added']), float(row['ratio_min']),
             float(row['ms_longest'])))
-    return lines
+    return lines + ['']
 
 
 def ccd():

@@ -111,10 +111,10 @@ void studyContact(const Options& options) {
   compare("obstacle beside", swing, with(swing, ballAt({2.2, 0.0, 1.0})), 0, frames, repeats, table);
   const Scene hanging = dampedBy(curtainOf(0.8, 0.0), 0.5);
   compare("ball in it", hanging, with(hanging, ballAt({0.4, -0.2, 1.1})), 60, 60 + frames, repeats, table);
-  compare("flat, itself", swing, touchingItself(swing), 0, frames, repeats, table);
+  compare("flat (itself)", swing, touchingItself(swing), 0, frames, repeats, table);
   const Scene gathered = blown(curtainOf(0.6, 0.0));
-  compare("gathered to 60 %, itself", gathered, touchingItself(gathered), 0, frames, repeats, table);
-  compare("heap on the floor, itself", falling(), touchingItself(falling()), 120, options.quick ? 140 : 240, options.quick ? 1 : 2,
+  compare("gathered to 60 % (itself)", gathered, touchingItself(gathered), 0, frames, repeats, table);
+  compare("heap on the floor (itself)", falling(), touchingItself(falling()), 120, options.quick ? 140 : 240, options.quick ? 1 : 2,
           table);
 }
 
