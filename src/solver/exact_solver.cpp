@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "cloth/wide.h"
 
 namespace curtain {
 namespace {
@@ -37,10 +36,6 @@ constexpr double kMostReduction = 0.5;
 constexpr int kGradientIterations = 12;
 // A sweep that moves a node by more than this share of a link at once is cut back to it [1].
 constexpr double kLargestMove = 0.1;
-// Way of an obstacle's surface in a substep that links could not be brought to their lengths in, over the shortest link.
-constexpr double kMostWayOfSurface = 0.2;
-// Solves of a substep that is taken whatever comes of it and does not settle.
-constexpr int kHopelessLooks = 2;
 constexpr double kWatchMoves = 1e-3;  // relative violation below which no solve moves a node too far
 // Friction takes turns with the solve, for so many sweeps: what sticks under load converges over the substeps, its
 // multipliers carry over. And what it may still move in a substep's last sweep, over the tolerance of contact.
@@ -367,126 +362,6 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
   progress.settled = touch <= contact_tolerance_ && withinTolerance(warp, weft, tolerance_);
   progress.left_over = true;
   return progress;
-}
-
-// Solves, and solves again with what the finder has to add, until nothing goes through anything or that does not help.
-ExactSolver::Progress ExactSolver::solveAndVerify(const SubstepPlan& plan, const SubstepStart& start, const Field3& from,
-                                                  double ratio, ContactFinder* finder, StageClock& clock) noexcept {
-  Contacts* contacts = nullptr;
-  std::size_t known = 0;
-  int looks = 0;
-  if (finder != nullptr) {
-    contacts = finder->begin(from, next_, plan.h);
-    clock.lap(Stage::kContact);
-  }
-  Progress all;
-  while (true) {
-    if (contacts != nullptr) {
-      if (beginContacts(inertia_.inverse(), ratio, known, *contacts, next_)) newton_begun_ = false;
-      known = contacts->size();
-    }
-    const Progress progress = solveConstraints(plan, start.state.position, contacts, clock);
-    all.sweeps += progress.sweeps;
-    all.settled = progress.settled;
-    all.left_over = progress.left_over;
-    all.contacts = contacts;
-    if (free_ && contacts != nullptr && start.keep == nullptr && !pressesOnObstacle(*contacts)) keepMomentum(start);
-    if (contacts == nullptr || !(progress.settled || plan.must_accept)) return all;
-    const ContactFinder::Verdict verdict = finder->verify(from, next_);
-    clock.lap(Stage::kContact);
-    if (verdict == ContactFinder::Verdict::kClear) return all;
-    newton_begun_ = false;
-    if (verdict == ContactFinder::Verdict::kMore && (progress.settled || ++looks < kHopelessLooks)) continue;
-    all.crossed = true;
-    all.settled = false;
-    if (plan.must_accept) finder->hold(from, next_);
-    clock.lap(Stage::kContact);
-    return all;
-  }
-}
-
-// Adds what the strings pull to the nodes' loads; returns the largest load over its mass.
-CURTAIN_WIDE double ExactSolver::loadStrings() noexcept {
-  const Grid& grid = pattern_.grid;
-  const auto last = static_cast<std::size_t>(grid.columns) - 1;
-  double worst = 0.0;
-  for (int i = 0; i < grid.rows; ++i) {
-    const std::size_t row = grid.row(i);
-    const double* const f = weft_.multiplier.data() + row;
-    const double* const w = pattern_.inverse_mass.data() + row;
-    double* const load = inertia_.tensions().load.data() + row;
-    load[last] += grid.closed ? f[last] + f[0] : f[last];
-    worst = std::max(worst, load[last] * w[last]);
-#pragma omp simd reduction(max : worst)
-    for (std::size_t j = 0; j < last; ++j) {
-      load[j] += f[j] + f[j + 1];
-      const double heaviest = load[j] * w[j];
-      worst = worst > heaviest ? worst : heaviest;
-    }
-  }
-  return worst;
-}
-
-// The substep is taken.
-void ExactSolver::commit(const ClothState& base, double step, double velocity_age, ClothState& state) noexcept {
-  NodeInertia::Tensions& tensions = inertia_.tensions();
-  const LineSolve warp{pattern_, inertia_.inverse(), warp_, next_};
-  workers_.run(warpBlockCount(pattern_.grid), [&](int block) {
-    block_load_[static_cast<std::size_t>(block)] =
-        warpFinish(warp, base.position, 1.0 / step, state.velocity, tensions.load, block);
-  });
-  tensions.heaviest = *std::max_element(block_load_.begin(), block_load_.end());
-  weft_pulls_ = directions_set_ &&
-                std::any_of(weft_.multiplier.begin(), weft_.multiplier.end(), [](double s) { return s != 0.0; });
-  if (weft_pulls_) {
-    tensions.heaviest = loadStrings();
-    last_weft_ = weft_.multiplier;
-  }
-  std::swap(state.position, next_);
-  std::swap(last_warp_, warp_.multiplier);
-  state.velocity_age = velocity_age;
-}
-
-SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder,
-                                    ClothState& state, StageClock& clock) noexcept {
-  const bool leapfrog = plan.scheme == Scheme::kLeapfrog;
-  double step = plan.h;
-  const ClothState& base = setBase(plan.scheme, plan.h, state, step);
-  const double kick = leapfrog ? state.velocity_age + 0.5 * step : step + state.velocity_age;
-  const double scale = step * kick;
-  inertia_.set(forces, kick, scale, plan.most_phase, !leapfrog);
-  const bool falls = forces.weight_only && inertia_.massesAlone();
-  const SubstepStart start{base, *forces.force, falls ? &forces.gravity : nullptr, inertia_.keep(), kick,
-                           step};
-  const double ratio = begin(plan, start, scale);
-  clock.lap(Stage::kPredict);
-  const Progress progress = solveAndVerify(plan, start, state.position, ratio, finder, clock);
-  SubstepOutcome outcome;
-  outcome.sweeps = progress.sweeps;
-  outcome.settled = progress.settled;
-  const LineSolve weft{pattern_, inertia_.inverse(), weft_, next_};
-  outcome.accepted = progress.settled || (plan.must_accept && std::isfinite(weftResidualNow(weft)));
-  if (outcome.accepted) {
-    outcome.scale = inertia_.tensions().scale = scale;
-    if (plan.scheme == Scheme::kBdf2) {
-      older_position_ = state.position;
-      older_velocity_ = state.velocity;
-      older_h_ = plan.h;
-    } else {
-      older_h_ = 0.0;
-    }
-    const bool bounded = plan.scheme == Scheme::kImplicit && progress.contacts == nullptr;
-    const double most_kinetic = bounded ? predictedKinetic(start) : 0.0;
-    commit(base, step, leapfrog ? 0.5 * step : 0.0, state);
-    if (bounded) boundKinetic(most_kinetic, state.velocity);
-    outcome.omega_squared = inertia_.omegaSquared();
-    if (progress.contacts != nullptr) outcome.longest_step = kMostWayOfSurface * smallest_rest_ / fastestSurface(*progress.contacts);
-    // The way such a substep has gone is not all motion: what pulls its links further is taken out.
-    if (progress.left_over) projectVelocity(state.position, progress.contacts, 0.0, state.velocity);
-  }
-  if (directions_set_ && (!outcome.accepted || !weft_pulls_)) std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0);
-  clock.lap(Stage::kFinish);
-  return outcome;
 }
 
 }  // namespace curtain

@@ -45,13 +45,14 @@ class InterfaceTest(unittest.TestCase):
         self.assertEqual(types[NODE + "/state"], "curtain_sim/CurtainState")
         self.assertEqual(types[NODE + "/mesh"], "visualization_msgs/Marker")
         self.assertEqual(types[NODE + "/markers"], "visualization_msgs/MarkerArray")
+        self.assertEqual(types[NODE + "/contacts"], "curtain_sim/Contacts")
         published, subscribed, _ = master.getSystemState()
         inputs = [topic for topic, nodes in subscribed if NODE in nodes]
         outputs = [topic for topic, nodes in published if NODE in nodes]
         self.assertEqual(sorted(t for t in inputs if "handles" not in t),
                          ["/stage/drag_force", "/stage/wind_source"], "no obstacle: no tf2")
         self.assertEqual(sorted(t for t in outputs if t != "/rosout" and "handles" not in t),
-                         [NODE + "/markers", NODE + "/mesh", NODE + "/state"])
+                         [NODE + "/contacts", NODE + "/markers", NODE + "/mesh", NODE + "/state"])
         self.assertEqual(types["/stage/wind_source"], "curtain_sim/WindSource")
         self.assertEqual(types["/stage/drag_force"], "curtain_sim/DragForce")
 

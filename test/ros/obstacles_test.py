@@ -65,7 +65,7 @@ class ObstaclesTest(unittest.TestCase):
         nodes = points(self.curtain.last().positions)
         self.assertGreaterEqual(min(distance(node, THROUGH) for node in nodes), BALL_RADIUS - ROUNDING)
 
-    def test_35_contact_force_on_the_ball(self):
+    def test_3b_contact_force_on_the_ball(self):
         """~contacts names the obstacles that are there and what the cloth does to each: it presses the ball back."""
         listener = Listener("/curtain/contacts", Contacts)
         message = listener.next()

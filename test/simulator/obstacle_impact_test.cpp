@@ -229,5 +229,40 @@ TEST(Obstacles, ASpinningBarGoesThroughNothing) {
   EXPECT_TRUE(simulator.statistics().finite);
 }
 
+// Two balls and a box in a curtain that also touches itself: they jump through it, vanish and come back inside it.
+TEST(Obstacles, SeveralThatJumpAndVanishLeaveTheClothWhole) {
+  Scene scene = hangingCurtain(24, 20);
+  scene.air.inside = scene.air.border = scene.air.corner = 0.5;
+  scene.contact.self = true;
+  scene.obstacles = {ballOf(0.2), ballOf(0.15), boxOf(Vec3(0.3, 0.3, 0.3))};
+  scene.obstacles[1].name = "second";
+  const std::vector<Vec3> places = {Vec3(0.3, -0.4, 1.2), Vec3(0.7, 0.4, 0.9), Vec3(0.5, -0.6, 0.6)};
+  for (std::size_t n = 0; n < places.size(); ++n) scene.obstacles[n].pose.position = places[n];
+  Simulator simulator(scene);
+  const auto steps = [&](int count) {
+    for (int frame = 0; frame < count; ++frame) simulator.step();
+  };
+  steps(10);
+  for (int n = 0; n < 3; ++n) {
+    Pose there;
+    there.position = places[static_cast<std::size_t>(n)];
+    there.position.y() = -there.position.y();
+    simulator.setObstaclePose(n, there, true);  // through the curtain at once
+    steps(20);
+  }
+  simulator.setObstaclePresent(0, false);
+  steps(10);
+  Pose inside;
+  inside.position = {0.5, 0.02, 1.1};
+  simulator.setObstaclePose(0, inside, true);
+  simulator.setObstaclePresent(0, true);
+  steps(120);
+  EXPECT_TRUE(simulator.statistics().finite);
+  EXPECT_LE(stretchOf(simulator), scene.solver.stretch_tolerance);
+  EXPECT_EQ(simulator.selfCrossings(), 0);
+  for (int n = 0; n < 3; ++n) EXPECT_EQ(piercingsOf(simulator, n), 0) << "obstacle " << n;
+  EXPECT_GT(simulator.statistics().contacts_max, 20);
+}
+
 }  // namespace
 }  // namespace curtain
