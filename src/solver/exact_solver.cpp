@@ -48,7 +48,7 @@ constexpr int kStrictSweeps = 6;
 // Sweeps that must bring at least this improvement, or the iteration has stalled.
 constexpr int kStallWindow = 8;
 constexpr double kStallFactor = 0.8;
-// With contact, which takes turns with the links and gains a constant factor a turn.
+// With contact, whose rows are damped: a sweep gains less there.
 constexpr int kContactStallWindow = 16;
 constexpr double kContactStallFactor = 0.9;
 // Levenberg-Marquardt term of the weft's solve, over the diagonal: in proportion to the residual, so that it vanishes as
