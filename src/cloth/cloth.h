@@ -43,6 +43,9 @@ ClothPattern makePattern(const Scene& scene);
 /// rods are long.
 ClothState makeInitialState(const Scene& scene, const ClothPattern& pattern);
 
+/// Rest length of the shortest rod or weft link [m].
+double shortestLink(const ClothPattern& pattern);
+
 /// Area-weighted normals of the nodes: the sum, over the faces at a node, of the corner triangles' area vectors
 /// [m^2], not normalised; out has the grid's size. Cheng 2000, Sect. 2.2.2 (mean of the normals of the faces).
 void nodeAreaVectors(const Grid& grid, const Field3& position, Field3& out);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "cloth/cloth.h"
@@ -122,6 +123,18 @@ ClothPattern makePattern(const Scene& scene) {
     pattern.inverse_mass[pattern.grid.index(node)] = 0.0;
   }
   return pattern;
+}
+
+double shortestLink(const ClothPattern& pattern) {
+  const Grid& grid = pattern.grid;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) {
+      if (i > 0) shortest = std::min(shortest, pattern.warp_rest[grid.index(i, j)]);
+      if (j > 0 || grid.closed) shortest = std::min(shortest, pattern.weft_rest[grid.index(i, j)]);
+    }
+  }
+  return shortest;
 }
 
 }  // namespace curtain

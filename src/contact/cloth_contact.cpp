@@ -2,8 +2,6 @@
 #include "contact/cloth_contact.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "cloth/wide.h"
 
@@ -17,18 +15,6 @@ constexpr int kSlipperySubsteps = 64;
 constexpr double kGapPerLink = 0.25;
 // Parts that go along with an obstacle may take more with them: so many times at most.
 constexpr int kCarryRounds = 64;
-
-double shortestLink(const ClothPattern& pattern) {
-  const Grid& grid = pattern.grid;
-  double shortest = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j) {
-      if (i > 0) shortest = std::min(shortest, pattern.warp_rest[grid.index(i, j)]);
-      if (j > 0 || grid.closed) shortest = std::min(shortest, pattern.weft_rest[grid.index(i, j)]);
-    }
-  }
-  return shortest;
-}
 
 CURTAIN_WIDE void goOn(const Field& start, const Field& end, Field& ahead) noexcept {
   const std::size_t size = start.size();
@@ -98,7 +84,6 @@ ContactFinder::Verdict ClothContact::verify(const Field3& start, const Field3& e
 }
 
 void ClothContact::hold(const Field3& start, Field3& end) noexcept {
-  ++held_;
   if (self_wanted_) holdSelf(start, end);
   if (near_obstacle_) holdToObstacles(start, end);
 }
@@ -181,7 +166,6 @@ void ClothContact::forget() noexcept {
   pairs_.forget();
   self_.forget();
   touch_.forget();
-  held_ = 0;
 }
 
 }  // namespace curtain

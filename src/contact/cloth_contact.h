@@ -48,8 +48,6 @@ class ClothContact : public ContactFinder {
   ContactWrench wrench(int obstacle) const noexcept { return touch_.wrench(obstacle); }
   /// Adds the contact forces of the last substep [N].
   void addForces(Field3& force) const noexcept;
-  /// Substeps whose end had to be held, since construction or forget().
-  std::int64_t held() const noexcept { return held_; }
   void forget() noexcept;
 
  private:
@@ -75,7 +73,6 @@ class ClothContact : public ContactFinder {
   bool near_obstacle_ = false;
   int looks_ = 0;             // times that the present substep was verified
   int slippery_ = 0;          // substeps still to go without friction
-  std::int64_t held_ = 0;
 };
 
 }  // namespace curtain

@@ -67,7 +67,7 @@ ClosestPoints closestPoints(bool edges, const std::array<Vec3, 4>& at) noexcept 
 }
 
 SelfContacts::SelfContacts(const ClothPattern& pattern, double gap, double friction)
-    : pattern_(pattern), gap_(gap), friction_(friction) {
+    : gap_(gap), friction_(friction) {
   near_.reserve(8 * pattern.grid.nodeCount());
   table_.clear(8 * pattern.grid.nodeCount());
   pushed_.reserve(4 * pattern.grid.nodeCount());

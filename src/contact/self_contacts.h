@@ -37,7 +37,7 @@ class SelfContacts {
   /// Source of a contact whose pair is near no more.
   static constexpr std::uint32_t kNoPair = PairTable::kNone;
 
-  /// gap: kept between two parts of the cloth [m]; pattern must outlive this.
+  /// gap: kept between two parts of the cloth [m].
   SelfContacts(const ClothPattern& pattern, double gap, double friction);
 
   double gap() const noexcept { return gap_; }
@@ -46,8 +46,6 @@ class SelfContacts {
   /// new pairs.
   void renew(const Candidates& candidates, Contacts& contacts) noexcept;
   void forget() noexcept { near_.clear(); }
-  bool any() const noexcept { return !near_.empty(); }
-  std::size_t nearCount() const noexcept { return near_.size(); }
 
   /// Adds what may touch on the way from start to predicted, in a substep of h [s].
   void collect(const Field3& start, const Field3& predicted, double h, Contacts& contacts) noexcept;
@@ -77,7 +75,6 @@ class SelfContacts {
   Contact makeContact(const NearPair& pair, std::uint32_t source, const ClosestPoints& closest) const noexcept;
   double offsetAt(double distance, double h) const noexcept;
 
-  const ClothPattern& pattern_;
   double gap_, friction_;
   std::vector<NearPair> near_;
   std::vector<NearPair> pushed_;  // pairs of the last candidates that pushed
