@@ -101,6 +101,10 @@ class Simulator {
   /// Force and torque that the cloth exerted on an obstacle, mean over the last frame; zero before the first one.
   ContactWrench contactWrench(int obstacle) const;
 
+  /// Another number whenever the cloth or an obstacle may have moved: what was made from the shape for the same number is
+  /// still right.
+  std::uint64_t revision() const;
+
   /// Hash of the bits of positions and velocities (FNV-1a, 64 bits).
   std::uint64_t stateHash() const;
 

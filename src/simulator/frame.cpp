@@ -145,6 +145,7 @@ void Simulator::Impl::step() {
   }
   obstacles.endFrame();
   ++frame;
+  ++revision;
   statistics.frames = frame;
   statistics.time = static_cast<double>(frame) * frame_length;
   measure();

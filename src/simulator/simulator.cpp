@@ -94,6 +94,7 @@ void Simulator::Impl::reset() {
   frame = 0;
   pin_moves.clear();
   velocities_fresh = false;
+  ++revision;
 }
 
 Simulator::Simulator(const Scene& scene, const MeshResolver& resolve) : impl_(std::make_unique<Impl>(scene, resolve)) {}
@@ -173,8 +174,15 @@ bool Simulator::movePin(NodeIndex node, const Vec3& target) {
 }
 
 int Simulator::obstacleCount() const { return impl_->obstacles.count(); }
-void Simulator::setObstaclePose(int index, const Pose& pose, bool jump) { impl_->obstacles.setPose(index, pose, jump); }
-void Simulator::setObstaclePresent(int index, bool present) { impl_->obstacles.setPresent(index, present); }
+void Simulator::setObstaclePose(int index, const Pose& pose, bool jump) {
+  impl_->obstacles.setPose(index, pose, jump);
+  if (jump) ++impl_->revision;
+}
+void Simulator::setObstaclePresent(int index, bool present) {
+  if (present == impl_->obstacles.present(index)) return;
+  impl_->obstacles.setPresent(index, present);
+  ++impl_->revision;
+}
 bool Simulator::obstaclePresent(int index) const { return impl_->obstacles.present(index); }
 const Pose& Simulator::obstaclePose(int index) const { return impl_->obstacles.pose(index); }
 const ObstacleShape& Simulator::obstacleShape(int index) const { return impl_->obstacles.shape(index); }
@@ -218,6 +226,8 @@ Piercings Simulator::finePiercings(int obstacle, double depth_tolerance) const {
 }
 
 ContactWrench Simulator::contactWrench(int obstacle) const { return impl_->contact.wrench(obstacle); }
+
+std::uint64_t Simulator::revision() const { return impl_->revision; }
 
 std::uint64_t Simulator::stateHash() const {
   const Grid& grid = impl_->pattern.grid;

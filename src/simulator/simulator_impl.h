@@ -78,6 +78,7 @@ struct Simulator::Impl {
   Statistics statistics;
   StageClock clock;
   std::int64_t frame = 0;
+  std::uint64_t revision = 0;  // of the cloth's and the obstacles' places
   Field3 velocities;           // at the time of the positions
   bool velocities_fresh = false;
 };
