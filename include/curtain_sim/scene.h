@@ -177,6 +177,8 @@ struct SolverParams {
   double stretch_tolerance = 1e-3;  ///< relative overlength allowed to any link [1e-12..0.1]
   double position_tolerance = 0.0;  ///< error of positions to aim at [m per simulated second, RMS over the nodes], [0..1];
                                     ///< 0 = none asked for: substeps from stability alone
+  double rest_speed = 1e-4;         ///< columns that move less than this for a while fall asleep [m/s], [0..1]; 0 = none ever does
+  double budget_ms = 0.0;           ///< computing time that a frame may take [ms], [0..1e6]; 0 = as much as it needs
   int threads = 0;                  ///< that step one cloth [1..256]; 0 = auto: one for small cloth, else all there are
   int max_substeps = 128;           ///< cap of auto per frame [1..10000]; beyond it: the implicit scheme
   int max_sweeps = 60;              ///< cap of warp/weft/contact sweeps per substep [1..10000]
@@ -203,6 +205,7 @@ std::vector<Problem> validate(const Scene& scene);
 std::vector<Problem> validate(const WindParams& wind, const std::string& key);
 std::vector<Problem> validate(const DragParams& drag, const ClothParams& cloth, const std::string& key);
 std::vector<Problem> validate(const ObstacleParams& obstacle, const std::string& key);
+std::vector<Problem> validate(const AirParams& air, const std::string& key);
 
 /// Names of the methods as scene files and --method spell them, in the order of the enum.
 const std::vector<std::string>& methodNames();

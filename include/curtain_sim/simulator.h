@@ -26,7 +26,7 @@ class Simulator {
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;
 
-  const Scene& scene() const;
+  const Scene& scene() const;  ///< as given, with the gravity and the air of now
 
   /// Back to the scene's start: time 0, its winds and drags, statistics zero. Obstacles go back to their
   /// scene poses and are all present.
@@ -64,6 +64,11 @@ class Simulator {
   bool removeDrag(const std::string& id);
   void clearDrags();
   const std::vector<DragParams>& drags() const;
+
+  /// Another gravity [m/s^2], or other air, from the next step on, and after reset() too. Returns what is wrong with it; then
+  /// nothing changed.
+  std::vector<Problem> setGravity(const Vec3& gravity);
+  std::vector<Problem> setAir(const AirParams& air);
 
   /// Takes a pinned node to this point [m], evenly within the next step; there it stays. False: it is not pinned, or the point
   /// is not finite.

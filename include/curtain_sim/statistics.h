@@ -25,6 +25,9 @@ struct Statistics {
   std::int64_t rejected = 0;          ///< substeps done again with half the step
   std::int64_t implicit = 0;          ///< substeps by the implicit scheme as the fall-back of another
   std::int64_t unsettled = 0;         ///< substeps that ended above stretch_tolerance
+  std::int64_t asleep_frames = 0;     ///< frames in which all of the cloth slept
+  std::int64_t wakes = 0;             ///< times that something of it woke
+  int asleep = 0;                     ///< columns that sleep now
   std::int64_t stops = 0;             ///< substeps whose forces were beyond numbers: the cloth was stopped instead
   double warp_stretch = 0.0;          ///< largest relative overlength of a warp rod at the last frame's end
   double weft_stretch = 0.0;          ///< the same of a weft link

@@ -17,6 +17,8 @@ Pose between(const Pose& a, const Pose& b, double share) {
   return pose;
 }
 
+bool same(const Pose& a, const Pose& b) { return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs(); }
+
 Eigen::AlignedBox3d moved(const Eigen::AlignedBox3d& box, const Transform& transform) {
   const Vec3 middle = transform.toWorld(box.center());
   const Vec3 half = transform.rotation.cwiseAbs() * (0.5 * box.sizes());
@@ -70,14 +72,25 @@ void ObstacleSet::reset() noexcept {
   for (std::size_t n = 0; n < items_.size(); ++n) {
     items_[n].begin = items_[n].end = items_[n].initial;
     items_[n].scripted = !items_[n].motion.empty();
+    items_[n].moved = false;
     moving_[n].present = true;
   }
   setSubstep(1.0, 1.0);
 }
 
+void ObstacleSet::setPresent(int index, bool present) noexcept {
+  items_[at(index)].moved = items_[at(index)].moved || present != moving_[at(index)].present;
+  moving_[at(index)].present = present;
+}
+
+bool ObstacleSet::anyMoved() const noexcept {
+  return std::any_of(items_.begin(), items_.end(), [](const Item& item) { return item.moved; });
+}
+
 void ObstacleSet::setPose(int index, const Pose& pose, bool jump) noexcept {
   Item& item = items_[at(index)];
   item.scripted = false;
+  item.moved = item.moved || !same(pose, item.end);
   item.end = pose;
   if (!jump) return;
   item.begin = pose;
@@ -86,7 +99,9 @@ void ObstacleSet::setPose(int index, const Pose& pose, bool jump) noexcept {
 
 void ObstacleSet::beginFrame(double end_time) noexcept {
   for (Item& item : items_) {
-    if (item.scripted) item.end = poseAt(item.motion, end_time);
+    if (!item.scripted) continue;
+    item.end = poseAt(item.motion, end_time);
+    item.moved = item.moved || !same(item.begin, item.end);
   }
 }
 
@@ -99,7 +114,10 @@ void ObstacleSet::setSubstep(double from, double to) noexcept {
 }
 
 void ObstacleSet::endFrame() noexcept {
-  for (Item& item : items_) item.begin = item.end;
+  for (Item& item : items_) {
+    item.begin = item.end;
+    item.moved = false;
+  }
 }
 
 }  // namespace curtain

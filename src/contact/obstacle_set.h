@@ -46,7 +46,7 @@ class ObstacleSet {
   const Pose& pose(int index) const { return items_[at(index)].end; }
   const ObstacleShape& shape(int index) const { return *items_[at(index)].shape; }
   bool present(int index) const { return moving_[at(index)].present; }
-  void setPresent(int index, bool present) noexcept { moving_[at(index)].present = present; }
+  void setPresent(int index, bool present) noexcept;
 
   void reset() noexcept;
   /// Where the obstacle will be at the end of the coming frame, or (jump) is from now on.
@@ -59,6 +59,10 @@ class ObstacleSet {
   /// Ends the frame: obstacles rest where they are until they are told otherwise.
   void endFrame() noexcept;
 
+  /// It moves in this frame, or has been put elsewhere, come or gone since the last one.
+  bool moved(int index) const noexcept { return items_[at(index)].moved; }
+  bool anyMoved() const noexcept;
+
   const std::vector<MovingObstacle>& moving() const { return moving_; }
 
  private:
@@ -69,6 +73,7 @@ class ObstacleSet {
     Pose begin;
     Pose end;
     bool scripted = false;  // still follows its motion
+    bool moved = false;
   };
   static std::size_t at(int index) { return static_cast<std::size_t>(index); }
 

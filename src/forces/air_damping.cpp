@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "forces/air_damping.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "cloth/wide.h"
@@ -22,6 +23,12 @@ AirDamping::AirDamping(const AirParams& air, const ClothPattern& pattern) : air_
       active_ = active_ || coefficient > 0.0;
     }
   }
+}
+
+double AirDamping::strongestPerMass(const ClothPattern& pattern) const noexcept {
+  double most = 0.0;
+  for (std::size_t n = 0; n < linear_.size(); ++n) most = std::max(most, linear_[n] * pattern.inverse_mass[n]);
+  return most;
 }
 
 CURTAIN_WIDE void AirDamping::addCoefficients(const Grid& grid, const Field3& velocity, Field& out) const noexcept {

@@ -17,6 +17,9 @@ class AirDamping {
   /// False: no coefficient is above zero and there is nothing to do.
   bool active() const { return active_; }
 
+  /// The largest coefficient of a node at rest, over its mass [1/s].
+  double strongestPerMass(const ClothPattern& pattern) const noexcept;
+
   /// Adds the coefficients at the nodes' present speeds to out, shape [grid.size()].
   void addCoefficients(const Grid& grid, const Field3& velocity, Field& out) const noexcept;
 

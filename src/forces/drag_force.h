@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cloth/cloth.h"
+#include "cloth/column_set.h"
 #include "curtain_sim/scene.h"
 
 namespace curtain {
@@ -23,6 +24,9 @@ class DragForce {
 
   /// Takes hold of a node (used by a drag by point, and by one that takes over from another of its id).
   void grasp(NodeIndex node, const ClothPattern& pattern) noexcept;
+
+  /// Marks the columns it has hold of; before it knows which: all.
+  void markColumns(const Grid& grid, ColumnSet& out) const noexcept;
 
   /// True for a spring, which also damps.
   bool damps() const { return drag_.target.has_value(); }

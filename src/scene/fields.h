@@ -180,6 +180,8 @@ struct Fields<SolverParams> {
     v.integerOr("substeps", solver.substeps, IntRange{1, 10000}, "auto", 0);
     v.number("stretch_tolerance", solver.stretch_tolerance, between(1e-12, 0.1));
     v.number("position_tolerance", solver.position_tolerance, between(0.0, 1.0));
+    v.number("rest_speed", solver.rest_speed, between(0.0, 1.0));
+    v.number("budget_ms", solver.budget_ms, between(0.0, 1e6));
     v.integerOr("threads", solver.threads, IntRange{1, 256}, "auto", 0);
     v.integer("max_substeps", solver.max_substeps, IntRange{1, 10000});
     v.integer("max_sweeps", solver.max_sweeps, IntRange{1, 10000});

@@ -141,6 +141,13 @@ std::vector<Problem> validate(const DragParams& drag, const ClothParams& cloth, 
   return log.problems();
 }
 
+std::vector<Problem> validate(const AirParams& air, const std::string& key) {
+  ProblemLog log;
+  RangeChecker checker(key, log);
+  visitFields(checker, air);
+  return log.problems();
+}
+
 std::vector<Problem> validate(const ObstacleParams& obstacle, const std::string& key) {
   ProblemLog log;
   RangeChecker checker(key, log);

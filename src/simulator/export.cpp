@@ -111,6 +111,7 @@ std::string statisticsJson(const Simulator& simulator, const Energy& initial, co
         {"torque", {wrench.torque.x(), wrench.torque.y(), wrench.torque.z()}}};
   }
   json["wrenches"] = wrenches;
+  json["rest"] = {{"columns_asleep", s.asleep}, {"frames_asleep", s.asleep_frames}, {"wakes", s.wakes}};
   nlohmann::ordered_json stages;
   for (int stage = 0; stage < kStageCount; ++stage) {
     stages[stageName(static_cast<Stage>(stage))] = 1e3 * s.stage_seconds[static_cast<std::size_t>(stage)];

@@ -31,7 +31,7 @@ ForceField::ForceField(const Scene& scene, const ClothPattern& pattern)
     : scene_(scene), pattern_(pattern), air_damping_(scene.air, pattern) {
   const std::size_t size = pattern.grid.size();
   weight_.assign(size, 0.0);
-  for (std::size_t n = 0; n < size; ++n) weight_.set(n, pattern.mass[n] * scene.gravity);
+  takeGravity();
   area_vectors_.assign(size, 0.0);
   sum_.assign(size, 0.0);
   forces_.damping.assign(size, 0.0);
@@ -48,6 +48,10 @@ void ForceField::reset() {
   listParams(drags_, drag_params_);
   sum_.assign(pattern_.grid.size(), 0.0);
   forces_.force = &sum_;
+}
+
+void ForceField::takeGravity() noexcept {
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) weight_.set(n, pattern_.mass[n] * scene_.gravity);
 }
 
 std::vector<Problem> ForceField::setWind(const WindParams& wind) {

@@ -6,12 +6,17 @@
 #include <string>
 #include <vector>
 
+#include "cloth/column_set.h"
 #include "forces/air_damping.h"
 #include "forces/drag_force.h"
 #include "forces/wind_source.h"
 #include "solver/substep.h"
 
 namespace curtain {
+
+/// They differ at most in when they begin and end.
+bool sameWhileItBlows(const WindParams& a, const WindParams& b);
+bool sameWhileItActs(const DragParams& a, const DragParams& b);
 
 class ForceField {
  public:
@@ -34,7 +39,22 @@ class ForceField {
   const NodeForces& evaluate(const ClothState& state, double time, double dt) noexcept;
   const NodeForces& last() const { return forces_; }
 
+  /// The scene's gravity, or its air, has changed.
+  void takeGravity() noexcept;
+  void takeAir() { air_damping_ = AirDamping(scene_.air, pattern_); }
+  /// The strongest air damping at rest of a node, over its mass [1/s].
+  double dampingPerMass() const noexcept { return air_damping_.strongestPerMass(pattern_); }
+
+  /// Marks columns where they are now: that sources reach which begin or end within [from, to]; that gusts blow on; that the
+  /// wind or drag of this id reaches, whether it acts or not.
+  void markChanges(double from, double to, const Field3& position, ColumnSet& out) const noexcept;
+  void markGusts(double time, const Field3& position, ColumnSet& out) const noexcept;
+  void markWind(const std::string& id, const Field3& position, ColumnSet& out) const noexcept;
+  void markDrag(const std::string& id, ColumnSet& out) const noexcept;
+
  private:
+  void markReached(const WindSource& wind, const Field3& position, ColumnSet& out) const noexcept;
+
   const Scene& scene_;
   const ClothPattern& pattern_;
   AirDamping air_damping_;

@@ -70,11 +70,16 @@ double Simulator::Impl::makeSubstep(double done) {
     plan = plain_control.next(frame_length - done, exact);
   }
   const SubstepOutcome outcome = attempt(plan, done);
+  if (outcome.disturbed) {
+    if (rest.wakeFor(exact.held().disturbed(), statistics.time)) takeOverSleepers();
+    return 0.0;
+  }
   if (!outcome.accepted) {
     ++statistics.rejected;
     steps->rejected(plan);
     if (!plan.must_accept) return 0.0;
     // Not even finite: forces beyond all numbers. The cloth stays where it is, at rest, until they are over.
+    wakeAll();
     state.velocity.assign(pattern.grid.size(), 0.0);
     state.velocity_age = 0.0;
     exact.reset();
@@ -119,6 +124,12 @@ void Simulator::Impl::step() {
   const double frame_length = 1.0 / scene.solver.frame_rate;
   statistics.time = static_cast<double>(frame) * frame_length;
   obstacles.beginFrame(static_cast<double>(frame + 1) * frame_length);
+  wakeForFrame();
+  if (rest.asleep().full()) {
+    sleepThrough();
+    countTime(begin);
+    return;
+  }
   if (estimate != nullptr) {
     clock.start();
     if (frame == 0) rehearse();
@@ -149,11 +160,16 @@ void Simulator::Impl::step() {
   statistics.frames = frame;
   statistics.time = static_cast<double>(frame) * frame_length;
   measure();
+  fallAsleep();
+  statistics.stage_seconds = clock.seconds();
+  countTime(begin);
+}
+
+void Simulator::Impl::countTime(std::chrono::steady_clock::time_point begin) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   statistics.step_seconds = seconds;
   statistics.step_seconds_max = std::max(statistics.step_seconds_max, seconds);
   statistics.step_seconds_sum += seconds;
-  statistics.stage_seconds = clock.seconds();
 }
 
 void Simulator::Impl::measure() {

@@ -63,7 +63,11 @@ Simulator::Impl::Impl(const Scene& given, const MeshResolver& resolve)
       paper(pattern),
       control(scene.solver, pattern, scene.gravity),
       plain_control(asAuto(scene.solver), pattern, scene.gravity),
-      surface(scene.cloth, pattern) {
+      surface(scene.cloth, pattern),
+      rest(pattern, 1.0 / scene.solver.frame_rate, scene.contact.thickness, scene.solver.stretch_tolerance),
+      kept_awake(pattern.grid.columns) {
+  setRestLimits();
+  exact.hold(rest.asleep(), state);
   exact.expectContacts(contact.capacity());
   velocities.assign(pattern.grid.size(), 0.0);
   before.state = initial;
@@ -82,10 +86,12 @@ Simulator::Impl::Impl(const Scene& given, const MeshResolver& resolve)
 void Simulator::Impl::reset() {
   state = initial;
   if (estimate != nullptr) estimate->reset();
+  rest.forget();
   forces.reset();
   obstacles.reset();
   contact.forget();
   exact.reset();
+  exact.hold(rest.asleep(), state);
   control.reset();
   plain_control.reset();
   plain_frames = 0;
@@ -148,14 +154,98 @@ NodeIndex Simulator::nearestNode(const Vec3& point) const {
   return curtain::nearestNode(impl_->pattern.grid, impl_->state.position, point);
 }
 
-std::vector<Problem> Simulator::setWind(const WindParams& wind) { return impl_->forces.setWind(wind); }
-bool Simulator::removeWind(const std::string& id) { return impl_->forces.removeWind(id); }
-void Simulator::clearWinds() { impl_->forces.clearWinds(); }
+namespace {
+
+template <typename Params>
+const Params* findById(const std::vector<Params>& all, const std::string& id) {
+  const auto found = std::find_if(all.begin(), all.end(), [&id](const Params& one) { return one.id == id; });
+  return found != all.end() ? &*found : nullptr;
+}
+
+template <typename Params>
+bool actsAt(const Params& source, double time) {
+  return source.start <= time && time < source.end;
+}
+
+// A source that is given again as it is goes on: since when, nothing feels.
+template <typename Params>
+Params asItGoesOn(Params source, const Params& old) {
+  source.start = old.start;
+  return source;
+}
+
+}  // namespace
+
+std::vector<Problem> Simulator::setWind(const WindParams& wind) {
+  Impl& im = *impl_;
+  const WindParams* const old = findById(im.forces.winds(), wind.id);
+  const double now = im.statistics.time;
+  if (old != nullptr && actsAt(*old, now) && actsAt(wind, now) && sameWhileItBlows(*old, wind)) {
+    return im.forces.setWind(asItGoesOn(wind, *old));
+  }
+  if (im.rest.watches()) im.forces.markWind(wind.id, im.state.position, im.rest.disturbed());
+  std::vector<Problem> problems = im.forces.setWind(wind);
+  if (im.rest.watches()) im.forces.markWind(wind.id, im.state.position, im.rest.disturbed());
+  return problems;
+}
+
+bool Simulator::removeWind(const std::string& id) {
+  if (impl_->rest.watches()) impl_->forces.markWind(id, impl_->state.position, impl_->rest.disturbed());
+  return impl_->forces.removeWind(id);
+}
+
+void Simulator::clearWinds() {
+  if (!impl_->forces.winds().empty()) impl_->rest.disturbAll();
+  impl_->forces.clearWinds();
+}
+
 const std::vector<WindParams>& Simulator::winds() const { return impl_->forces.winds(); }
 
-std::vector<Problem> Simulator::setDrag(const DragParams& drag) { return impl_->forces.setDrag(drag); }
-bool Simulator::removeDrag(const std::string& id) { return impl_->forces.removeDrag(id); }
-void Simulator::clearDrags() { impl_->forces.clearDrags(); }
+std::vector<Problem> Simulator::setDrag(const DragParams& drag) {
+  Impl& im = *impl_;
+  const DragParams* const old = findById(im.forces.drags(), drag.id);
+  const double now = im.statistics.time;
+  if (old != nullptr && actsAt(*old, now) && actsAt(drag, now) && sameWhileItActs(*old, drag)) {
+    return im.forces.setDrag(asItGoesOn(drag, *old));
+  }
+  im.forces.markDrag(drag.id, im.rest.disturbed());
+  std::vector<Problem> problems = im.forces.setDrag(drag);
+  im.forces.markDrag(drag.id, im.rest.disturbed());
+  return problems;
+}
+
+bool Simulator::removeDrag(const std::string& id) {
+  impl_->forces.markDrag(id, impl_->rest.disturbed());
+  return impl_->forces.removeDrag(id);
+}
+
+void Simulator::clearDrags() {
+  for (const DragParams& drag : impl_->forces.drags()) impl_->forces.markDrag(drag.id, impl_->rest.disturbed());
+  impl_->forces.clearDrags();
+}
+
+std::vector<Problem> Simulator::setGravity(const Vec3& gravity) {
+  if (!gravity.allFinite()) return {{"gravity", "must be finite"}};
+  Impl& im = *impl_;
+  if (gravity == im.scene.gravity) return {};
+  im.scene.gravity = gravity;
+  im.forces.takeGravity();
+  im.control.takeGravity(im.pattern, gravity);
+  im.plain_control.takeGravity(im.pattern, gravity);
+  im.setRestLimits();
+  im.rest.disturbAll();
+  return {};
+}
+
+std::vector<Problem> Simulator::setAir(const AirParams& air) {
+  std::vector<Problem> problems = validate(air, "air");
+  if (!problems.empty()) return problems;
+  impl_->scene.air = air;
+  impl_->forces.takeAir();
+  impl_->setRestLimits();
+  impl_->rest.disturbAll();
+  return problems;
+}
 const std::vector<DragParams>& Simulator::drags() const { return impl_->forces.drags(); }
 
 bool Simulator::movePin(NodeIndex node, const Vec3& target) {

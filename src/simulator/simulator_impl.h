@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a simulator is made of. simulator.cpp: what users call; frame.cpp: frames and their substeps; companion.cpp: the
-// position tolerance.
+// What a simulator is made of. simulator.cpp: what users call; frame.cpp: frames and their substeps; sleep.cpp: those in
+// which not all of it moves; companion.cpp: the position tolerance.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 
@@ -12,6 +13,7 @@
 #include "simulator/error_estimate.h"
 #include "simulator/fine_surface.h"
 #include "simulator/force_field.h"
+#include "simulator/rest.h"
 #include "solver/exact_solver.h"
 #include "solver/paper_solver.h"
 #include "solver/step_control.h"
@@ -35,9 +37,16 @@ struct Simulator::Impl {
   bool makeComposed(const SubstepPlan& plan, double done);
   SubstepOutcome attempt(const SubstepPlan& plan, double done);
   void measure();
+  void wakeForFrame();
+  void sleepThrough();
+  void fallAsleep();
+  void takeOverSleepers();
+  void wakeAll();
+  void setRestLimits();
+  void countTime(std::chrono::steady_clock::time_point begin);
   const Field3& currentVelocities();
 
-  const Scene scene;
+  Scene scene;  // gravity and air may change
   const ClothPattern pattern;
   const ClothState initial;
   ClothState state;
@@ -51,6 +60,8 @@ struct Simulator::Impl {
   int plain_frames = 0;       // to go before leapfrog4 composes again
   StepControl plain_control;  // for leapfrog4, where its stages can't be made
   FineSurface surface;
+  Rest rest;
+  ColumnSet kept_awake;  // scratch
   // What a substep of several stages goes back to.
   struct {
     ClothState state;

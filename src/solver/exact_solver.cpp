@@ -74,6 +74,9 @@ ExactSolver::ExactSolver(const ClothPattern& pattern, double stretch_tolerance, 
       max_sweeps_(max_sweeps),
       sure_stop_(std::sqrt(tolerance_) / pattern.grid.rows),
       inertia_(pattern),
+      held_(pattern),
+      laid_down_(static_cast<std::size_t>(warpBlockCount(pattern.grid)), 0.0),
+      skipped_before_(laid_down_.size(), 0),
       net_(pattern, workers),
       mean_rest_(pattern.weft_rest[1]) {
   const std::size_t size = pattern.grid.size();
@@ -84,7 +87,8 @@ ExactSolver::ExactSolver(const ClothPattern& pattern, double stretch_tolerance, 
   last_warp_.assign(links, 0.0);
   last_weft_.assign(links, 0.0);
   for (Field* field : {&violation_, &active_, &change_}) field->assign(size, 0.0);
-  free_per_square_ = freeWeft(pattern);
+  free_per_square_.assign(size, 0.0);
+  freeWeft(pattern, pattern.inverse_mass, free_per_square_);
   next_.assign(size, 0.0);
   for (Field3* field : {&base_.position, &base_.velocity, &older_position_, &older_velocity_}) field->assign(size, 0.0);
   block_begun_.resize(static_cast<std::size_t>(warpBlockCount(pattern.grid)));
@@ -155,7 +159,7 @@ double ExactSolver::begin(const SubstepPlan& plan, const SubstepStart& start, do
   const LineSolve weft{pattern_, inertia_.inverse(), weft_, next_};
   directions_set_ = false;
   newton_begun_ = plan.scheme == Scheme::kLeapfrog && !weft_pulls_;
-  workers_.run(warpBlockCount(pattern_.grid), [&](int block) {
+  forEachBlock([&](int block) {
     if (newton_begun_) {
       const LineOutcome outcome = warpBeginNewton(start, warp, last_warp_, ratio, scratch_, block);
       block_begun_[static_cast<std::size_t>(block)] = outcome;
@@ -204,7 +208,7 @@ ExactSolver::WarpProgress ExactSolver::solveBlock(bool follow, const LineSolve& 
 
 ExactSolver::WarpProgress ExactSolver::solveWarp(bool follow, const LineSolve& warp, double stop,
                                                  double leave_alone, bool begun) noexcept {
-  workers_.run(static_cast<int>(block_progress_.size()), [&](int block) {
+  forEachBlock([&](int block) {
     block_progress_[static_cast<std::size_t>(block)] = solveBlock(follow, warp, block, stop, leave_alone, begun);
   });
   WarpProgress all;
@@ -228,7 +232,9 @@ double ExactSolver::slackResidual() noexcept {
 
 double ExactSolver::warpResidualNow(const LineSolve& warp) noexcept {
   double worst = 0.0;
-  for (int block = 0; block < warpBlockCount(pattern_.grid); ++block) worst = std::max(worst, warpResidual(warp, block));
+  for (int block = 0; block < warpBlockCount(pattern_.grid); ++block) {
+    if (!held_.skips(block)) worst = std::max(worst, warpResidual(warp, block));
+  }
   return worst;
 }
 
@@ -239,8 +245,7 @@ bool ExactSolver::withinTolerance(const LineSolve& warp, const LineSolve& weft, 
 
 // Directions of all links are those of the positions as they are now.
 void ExactSolver::followDirections() noexcept {
-  workers_.run(warpBlockCount(pattern_.grid),
-               [&](int block) { setWarpDirections(pattern_.grid, block, next_, warp_.direction); });
+  forEachBlock([&](int block) { setWarpDirections(pattern_.grid, block, next_, warp_.direction); });
   setAllWeftDirections(next_);
   net_.begin(next_, inertia_.inverse());
 }

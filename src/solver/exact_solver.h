@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "solver/held_columns.h"
 #include "solver/net_solver.h"
 #include "solver/node_inertia.h"
 #include "solver/substep.h"
@@ -47,6 +48,12 @@ class ExactSolver {
 
   /// Forgets the tensions of the last substep.
   void reset() noexcept;
+
+  /// From now on these columns stay where they are, at rest, and the others move. Those that wake start with the tensions they
+  /// fell asleep with. For leapfrog and its fall-back.
+  void hold(const ColumnSet& columns, ClothState& state) noexcept;
+  /// What is held now; and what of it the last substep would have moved (SubstepOutcome::disturbed).
+  const HeldColumns& held() const noexcept { return held_; }
 
   /// One substep. finder may be null: nothing to touch. Allocates nothing.
   SubstepOutcome substep(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder,
@@ -115,10 +122,15 @@ class ExactSolver {
   void projectOnConstraints(const Field3& position, const Contacts* contacts, double share, Field3& out) noexcept;
   double predictedKinetic(const SubstepStart& start) const noexcept;
   void boundKinetic(double most, Field3& velocity) const noexcept;
+  void layDown(int block, ClothState& state) noexcept;
+  void takeUp(int block) noexcept;
+  double heaviestOf(int block) const noexcept;
   double loadStrings() noexcept;
   void commit(const ClothState& base, double step, double velocity_age, ClothState& state) noexcept;
   template <typename Look>
   double worstOfRows(const Look& look) noexcept;
+  template <typename Block>
+  void forEachBlock(const Block& block) const;
 
   static constexpr int kRowsAtOnce = 8;
 
@@ -131,6 +143,9 @@ class ExactSolver {
   int max_sweeps_;
   double sure_stop_;          // Newton from this close ends within the tolerance: it leaves at most (rows * this)^2
   NodeInertia inertia_;
+  HeldColumns held_;
+  std::vector<double> laid_down_;  // by block: scale of the multipliers that it was left out with [s^2]
+  std::vector<std::uint8_t> skipped_before_;  // scratch of hold()
   NetSolver net_;
   LineScratch scratch_;
   LinkSet warp_, weft_;
@@ -151,6 +166,14 @@ class ExactSolver {
   Field3 older_position_, older_velocity_;
   double older_h_ = 0.0;        // length of the step between these and the present; 0 = none
 };
+
+// Calls run(block) for the blocks of columns in which something moves.
+template <typename Block>
+void ExactSolver::forEachBlock(const Block& run) const {
+  workers_.run(warpBlockCount(pattern_.grid), [&](int block) {
+    if (!held_.skips(block)) run(block);
+  });
+}
 
 // Calls look(row) for all rows; the largest of what it returns.
 template <typename Look>

@@ -38,7 +38,7 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const SubstepPlan& plan, const
     all.settled = progress.settled;
     all.left_over = progress.left_over;
     all.contacts = contacts;
-    if (free_ && contacts != nullptr && start.keep == nullptr && !pressesOnObstacle(*contacts)) keepMomentum(start);
+    if (free_ && !held_.any() && contacts != nullptr && start.keep == nullptr && !pressesOnObstacle(*contacts)) keepMomentum(start);
     if (contacts == nullptr || !(progress.settled || plan.must_accept)) return all;
     const ContactFinder::Verdict verdict = finder->verify(from, next_);
     clock.lap(Stage::kContact);
@@ -47,7 +47,7 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const SubstepPlan& plan, const
     if (verdict == ContactFinder::Verdict::kMore && (progress.settled || ++looks < kHopelessLooks)) continue;
     all.crossed = true;
     all.settled = false;
-    if (plan.must_accept) finder->hold(from, next_);
+    if (plan.must_accept && !held_.any()) finder->hold(from, next_);
     clock.lap(Stage::kContact);
     return all;
   }
@@ -79,7 +79,7 @@ CURTAIN_WIDE double ExactSolver::loadStrings() noexcept {
 void ExactSolver::commit(const ClothState& base, double step, double velocity_age, ClothState& state) noexcept {
   NodeInertia::Tensions& tensions = inertia_.tensions();
   const LineSolve warp{pattern_, inertia_.inverse(), warp_, next_};
-  workers_.run(warpBlockCount(pattern_.grid), [&](int block) {
+  forEachBlock([&](int block) {
     block_load_[static_cast<std::size_t>(block)] =
         warpFinish(warp, base.position, 1.0 / step, state.velocity, tensions.load, block);
   });
@@ -90,7 +90,7 @@ void ExactSolver::commit(const ClothState& base, double step, double velocity_ag
     tensions.heaviest = loadStrings();
     last_weft_ = weft_.multiplier;
   }
-  std::swap(state.position, next_);
+  std::swap(state.position, next_);  // where columns are held the two are equal
   std::swap(last_warp_, warp_.multiplier);
   state.velocity_age = velocity_age;
 }
@@ -110,10 +110,14 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   clock.lap(Stage::kPredict);
   const Progress progress = solveAndVerify(plan, start, state.position, ratio, finder, clock);
   SubstepOutcome outcome;
+  if (held_.any()) {
+    const bool stuck = progress.crossed || (plan.must_accept && !progress.settled);
+    outcome.disturbed = held_.disturbedBy(directions_set_ ? &weft_ : nullptr, progress.contacts, 1.0 / scale, forces.gravity.norm(), stuck);
+  }
   outcome.sweeps = progress.sweeps;
   outcome.settled = progress.settled;
   const LineSolve weft{pattern_, inertia_.inverse(), weft_, next_};
-  outcome.accepted = progress.settled || (plan.must_accept && std::isfinite(weftResidualNow(weft)));
+  outcome.accepted = !outcome.disturbed && (progress.settled || (plan.must_accept && std::isfinite(weftResidualNow(weft))));
   if (outcome.accepted) {
     outcome.scale = inertia_.tensions().scale = scale;
     if (plan.scheme == Scheme::kBdf2) {

@@ -30,7 +30,7 @@ double ExactSolver::predictedKinetic(const SubstepStart& start) const noexcept {
     const double w = inertia_.inverse()[n];
     const double keep = start.keep != nullptr ? (*start.keep)[n] : 1.0;
     const Vec3 velocity = keep * start.state.velocity.at(n) + start.kick * w * start.force.at(n);
-    sum += pattern_.inverse_mass[n] > 0.0 ? pattern_.mass[n] * velocity.squaredNorm() : 0.0;
+    sum += inertia_.masses()[n] > 0.0 ? pattern_.mass[n] * velocity.squaredNorm() : 0.0;
   }
   return sum;
 }
@@ -68,7 +68,7 @@ void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& f
   const double age = state.velocity_age;
   const std::size_t size = pattern_.grid.size();
   for (std::size_t n = 0; n < size; ++n) {
-    const double w = pattern_.inverse_mass[n];
+    const double w = inertia_.masses()[n];
     const DampedStep step = forces.has_damping ? dampedStep(forces.damping[n], w, age) : DampedStep{1.0, 1.0};
     out.set(n, step.keep * state.velocity.at(n) + age * step.gain * w * forces.force->at(n));
   }
@@ -80,7 +80,7 @@ void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& f
 // where a share of the last substep's forces between nodes leads: friction goes on as it was, and at rest nothing is left to
 // do. A free cloth keeps its momentum.
 void ExactSolver::projectVelocity(const Field3& position, const Contacts* contacts, double share, Field3& out) noexcept {
-  const bool keeps = free_ && (contacts == nullptr || !pressesOnObstacle(*contacts));
+  const bool keeps = free_ && !held_.any() && (contacts == nullptr || !pressesOnObstacle(*contacts));
   const Momentum before = keeps ? momentumOf(pattern_, position, out) : Momentum();
   projectOnConstraints(position, contacts, share, out);
   if (!keeps) return;
@@ -94,13 +94,13 @@ void ExactSolver::projectVelocity(const Field3& position, const Contacts* contac
 
 void ExactSolver::projectOnConstraints(const Field3& position, const Contacts* contacts, double share, Field3& out) noexcept {
   setWarpDirections(pattern_.grid, position, warp_.direction);
-  const LineSolve warp{pattern_, pattern_.inverse_mass, warp_, out};
+  const LineSolve warp{pattern_, inertia_.masses(), warp_, out};
   const auto solveRods = [&] {
-    for (int block = 0; block < warpBlockCount(pattern_.grid); ++block) warpProjectVelocity(warp, scratch_, block);
+    forEachBlock([&](int block) { warpProjectVelocity(warp, scratch_, block); });
   };
   if (share > 0.0) {
     for (std::size_t n = 0; n < warp_.multiplier.size(); ++n) warp_.multiplier[n] = share * last_warp_[n];
-    for (int block = 0; block < warpBlockCount(pattern_.grid); ++block) applyWarpMultipliers(warp, block);
+    forEachBlock([&](int block) { applyWarpMultipliers(warp, block); });
   }
   const bool presses = contacts != nullptr && std::any_of(contacts->begin(), contacts->end(),
                                                           [](const Contact& contact) { return contact.pushes(); });
@@ -109,7 +109,7 @@ void ExactSolver::projectOnConstraints(const Field3& position, const Contacts* c
     return;
   }
   LinkSet& links = weft_;
-  const LineSolve weft{pattern_, pattern_.inverse_mass, links, out};
+  const LineSolve weft{pattern_, inertia_.masses(), links, out};
   if (weft_pulls_) {
     std::copy(last_weft_.begin(), last_weft_.end(), links.multiplier.begin());  // which links pull
   }
@@ -119,11 +119,11 @@ void ExactSolver::projectOnConstraints(const Field3& position, const Contacts* c
     for (int i = 0; i < pattern_.grid.rows; ++i) pullWeft(weft, i, change_);
     for (std::size_t n = 0; contacts != nullptr && n < contacts->size(); ++n) {
       const Contact& contact = (*contacts)[n];
-      if (contact.pushes()) contact.move(pattern_.inverse_mass, share * (contact.push * contact.normal + contact.slide), out);
+      if (contact.pushes()) contact.move(inertia_.masses(), share * (contact.push * contact.normal + contact.slide), out);
     }
   }
   solveRods();
-  net_.begin(position, pattern_.inverse_mass);
+  net_.begin(position, inertia_.masses());
   double first_rate = 0.0;
   for (int round = 0; round < (presses ? kContactRounds : kVelocityRounds); ++round) {
     double rate = worstOfRows([&](int i) { return measureWeftRates(weft, i, violation_, active_); });
@@ -136,7 +136,7 @@ void ExactSolver::projectOnConstraints(const Field3& position, const Contacts* c
     if (presses) {
       net_.forEachContactChange([&](std::uint32_t index, double push, const Vec3& slide) {
         const Contact& contact = (*contacts)[index];
-        contact.move(pattern_.inverse_mass, push * contact.normal + slide, out);
+        contact.move(inertia_.masses(), push * contact.normal + slide, out);
       });
     }
     solveRods();

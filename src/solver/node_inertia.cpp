@@ -10,10 +10,10 @@
 namespace curtain {
 namespace {
 
-double freeMass(const ClothPattern& pattern) {
+double freeMass(const ClothPattern& pattern, const Field& inverse_mass) {
   double sum = 0.0;
   for (std::size_t n = 0; n < pattern.grid.size(); ++n) {
-    if (pattern.inverse_mass[n] > 0.0) sum += pattern.mass[n];
+    if (inverse_mass[n] > 0.0) sum += pattern.mass[n];
   }
   return sum;
 }
@@ -22,11 +22,26 @@ double freeMass(const ClothPattern& pattern) {
 
 NodeInertia::NodeInertia(const ClothPattern& pattern)
     : pattern_(pattern),
-      free_mass_(freeMass(pattern)),
+      free_mass_(freeMass(pattern, pattern.inverse_mass)),
       changed_(pattern.inverse_mass),
       keep_(pattern.grid.size(), 1.0),
+      held_(pattern.inverse_mass),
+      masses_(&pattern.inverse_mass),
       inverse_(&pattern.inverse_mass) {
   tensions_.load.assign(pattern.grid.size(), 0.0);
+}
+
+void NodeInertia::hold(const ColumnSet& columns) noexcept {
+  const Grid& grid = pattern_.grid;
+  masses_ = columns.empty() ? &pattern_.inverse_mass : &held_;
+  for (int i = 0; i < grid.rows && !columns.empty(); ++i) {
+    for (int j = 0; j < grid.columns; ++j) {
+      const std::size_t n = grid.index(i, j);
+      held_[n] = columns.has(j) ? 0.0 : pattern_.inverse_mass[n];
+    }
+  }
+  inverse_ = masses_;
+  free_mass_ = freeMass(pattern_, *masses_);
 }
 
 void NodeInertia::forget() noexcept {
@@ -37,15 +52,15 @@ void NodeInertia::forget() noexcept {
 double NodeInertia::omegaSquared() const noexcept { return 2.0 * tensions_.heaviest / std::abs(tensions_.scale); }
 
 void NodeInertia::set(const NodeForces& forces, double kick, double scale, double most_phase, bool implicit) noexcept {
-  inverse_ = &pattern_.inverse_mass;
+  inverse_ = masses_;
   damped_ = forces.has_damping;
   const std::size_t size = pattern_.grid.size();
   if (damped_) {
     inverse_ = &changed_;
     for (std::size_t n = 0; n < size; ++n) {
-      const DampedStep step = implicit ? implicitlyDampedStep(forces.damping[n], pattern_.inverse_mass[n], kick)
-                                       : dampedStep(forces.damping[n], pattern_.inverse_mass[n], kick);
-      changed_[n] = step.gain * pattern_.inverse_mass[n];
+      const double w = (*masses_)[n];
+      const DampedStep step = implicit ? implicitlyDampedStep(forces.damping[n], w, kick) : dampedStep(forces.damping[n], w, kick);
+      changed_[n] = step.gain * w;
       keep_[n] = step.keep;
     }
   }
@@ -65,7 +80,7 @@ double NodeInertia::heavierBy(double per_load) const noexcept {
   double sum = 0.0;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     const double extra = per_load * tensions_.load[n] - pattern_.mass[n];
-    sum += pattern_.inverse_mass[n] > 0.0 && extra > 0.0 ? extra : 0.0;
+    sum += (*masses_)[n] > 0.0 && extra > 0.0 ? extra : 0.0;
   }
   return sum;
 }

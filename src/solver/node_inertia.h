@@ -5,6 +5,7 @@
 // oscillations of the taut net, omega^2 <= max 2 w sum |s| / (h kick).
 #pragma once
 
+#include "cloth/column_set.h"
 #include "solver/substep.h"
 
 namespace curtain {
@@ -17,9 +18,13 @@ class NodeInertia {
   /// heavier; 0: none is. implicit: damping as the backward formulas have it.
   void set(const NodeForces& forces, double kick, double scale, double most_phase, bool implicit) noexcept;
 
+  /// From now on these columns answer nothing, as if pinned.
+  void hold(const ColumnSet& columns) noexcept;
+
   const Field& inverse() const noexcept { return *inverse_; }  ///< [1/kg]
+  const Field& masses() const noexcept { return *masses_; }    ///< the same of the masses alone [1/kg]
   const Field* keep() const noexcept { return damped_ ? &keep_ : nullptr; }  ///< share of its velocity a node keeps; null: all
-  bool massesAlone() const noexcept { return inverse_ == &pattern_.inverse_mass; }
+  bool massesAlone() const noexcept { return inverse_ == masses_; }
 
   /// What the last substep's tensions say, to be put back when substeps are made again.
   struct Tensions {
@@ -41,7 +46,8 @@ class NodeInertia {
 
   const ClothPattern& pattern_;
   double free_mass_;  // [kg]
-  Field changed_, keep_;
+  Field changed_, keep_, held_;
+  const Field* masses_;   // the pattern's, or held_
   const Field* inverse_;
   bool damped_ = false;
   Tensions tensions_;

@@ -79,6 +79,14 @@ void StepControl::reset() noexcept {
   surface_step_ = std::numeric_limits<double>::infinity();
 }
 
+void StepControl::takeGravity(const ClothPattern& pattern, const Vec3& gravity) noexcept {
+  initial_omega_ = hangingOmega(pattern, gravity);
+}
+
+void StepControl::wake(const ExactSolver& solver) noexcept {
+  if (solver.inertia().tensions().scale != 0.0) omega_ = std::sqrt(solver.inertia().omegaSquared());
+}
+
 double StepControl::stepFromTensions(bool frame_begins, const ExactSolver& solver) noexcept {
   const double longest_stage = composed_ ? kLongestStage : 1.0;
   const double for_phase = omega_ > 0.0 ? kPhasePerStep / (longest_stage * omega_) : frame_;

@@ -14,6 +14,7 @@ class StepControl {
   StepControl(const SolverParams& params, const ClothPattern& pattern, const Vec3& gravity);
 
   void reset() noexcept;
+  void takeGravity(const ClothPattern& pattern, const Vec3& gravity) noexcept;
 
   /// The next substep; remaining: what is left of the frame [s], > 0; its whole length when a frame begins. h is a whole
   /// share of it.
@@ -26,6 +27,8 @@ class StepControl {
   bool askFor(int substeps) noexcept;
   /// Takes note of the tensions of a substep that was not its own.
   void watch(const SubstepOutcome& outcome) noexcept;
+  /// Other columns move now, with the tensions that the solver has for them.
+  void wake(const ExactSolver& solver) noexcept;
   void accepted(const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept;
   void rejected(const SubstepPlan& plan) noexcept;
 

@@ -45,6 +45,7 @@ class ContactFinder {
 struct SubstepOutcome {
   bool accepted = false;       ///< false: nothing was changed, try again with a smaller step
   bool settled = false;        ///< every link is within the tolerance
+  bool disturbed = false;      ///< columns that are held would move: wake them and make the substep again
   int sweeps = 0;
   double scale = 0.0;          ///< h times the time the forces acted for [s^2]
   double longest_step = std::numeric_limits<double>::infinity();  ///< in which what pushes goes a share of a link [s]

@@ -70,17 +70,15 @@ CURTAIN_WIDE double weftResidual(const LineSolve& line, int i) noexcept {
   return finite == 0.0 ? worst : std::numeric_limits<double>::infinity();
 }
 
-Field freeWeft(const ClothPattern& pattern) {
+void freeWeft(const ClothPattern& pattern, const Field& inverse_mass, Field& out) noexcept {
   const Grid& grid = pattern.grid;
-  Field out(grid.size(), 0.0);
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = grid.closed ? 0 : 1; j < grid.columns; ++j) {
       const std::size_t right = grid.index(i, j), left = grid.index(i, j > 0 ? j - 1 : grid.columns - 1);
-      const bool free = pattern.inverse_mass[left] + pattern.inverse_mass[right] > 0.0;
+      const bool free = inverse_mass[left] + inverse_mass[right] > 0.0;
       out[right] = free ? pattern.weft_per_square[right] : 0.0;
     }
   }
-  return out;
 }
 
 CURTAIN_WIDE double weftSquare(const Grid& grid, int i, const Field3& position, const Field& free_per_square) noexcept {

@@ -20,8 +20,8 @@ void setWeftDirections(const Grid& grid, int row, const Field3& position, Field3
 /// Largest relative violation of the links of a row that take part; infinite when a position is not finite.
 double weftResidual(const LineSolve& line, int row) noexcept;
 
-/// 1 / rest length^2 of the links with an end that can move, 0 of the others [1/m^2].
-Field freeWeft(const ClothPattern& pattern);
+/// 1 / rest length^2 of the links with an end that can move, 0 of the others [1/m^2]. out has the grid's size.
+void freeWeft(const ClothPattern& pattern, const Field& inverse_mass, Field& out) noexcept;
 
 /// Largest square of a link's length over that of its rest length, of a row's links with an end that can move; infinite when
 /// a position is not finite.

@@ -33,6 +33,7 @@ Scene sheetAbove(double height, const ObstacleParams& obstacle) {
   scene.pins.kind = PinKind::kNone;
   scene.air.inside = scene.air.border = scene.air.corner = 2.0;
   scene.contact.self = true;
+  scene.solver.rest_speed = 0.0;  // what the solver leaves is what is looked at
   scene.obstacles.push_back(obstacle);
   return scene;
 }

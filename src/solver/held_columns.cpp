@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/held_columns.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/warp_solver.h"
+
+namespace curtain {
+namespace {
+
+// Change of what pulls on a column, over its weight, that it sleeps on with: so much out of the vertical, it would hang.
+constexpr double kTrifle = 1e-4;
+
+}  // namespace
+
+HeldColumns::HeldColumns(const ClothPattern& pattern)
+    : pattern_(pattern),
+      mass_(static_cast<std::size_t>(pattern.grid.columns), 0.0),
+      held_(pattern.grid.columns),
+      disturbed_(pattern.grid.columns),
+      borders_(pattern.grid.columns),
+      skips_(static_cast<std::size_t>(warpBlockCount(pattern.grid)), 0) {
+  const Grid& grid = pattern.grid;
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) mass_[static_cast<std::size_t>(j)] += pattern.mass[grid.index(i, j)];
+  }
+  pull_.assign(grid.size(), 0.0);
+  for (int block = 0; block < warpBlockCount(grid); ++block) {
+    skips_[static_cast<std::size_t>(block)] = block * kLane >= grid.columns ? 1 : 0;
+  }
+}
+
+void HeldColumns::set(const ColumnSet& held, const Field3& position, const Field& weft, double per_scale) noexcept {
+  const Grid& grid = pattern_.grid;
+  held_ = held;
+  for (int block = 0; block < warpBlockCount(grid); ++block) {
+    bool skips = true;
+    for (int j = block * kLane; j < std::min((block + 1) * kLane, grid.columns); ++j) skips = skips && held.has(j);
+    skips_[static_cast<std::size_t>(block)] = skips ? 1 : 0;
+  }
+  for (int j = grid.closed ? 0 : 1; j < grid.columns; ++j) {
+    const int left = leftOf(j);
+    if (held.has(j) == held.has(left)) {
+      borders_.remove(j);
+    } else if (!borders_.has(j)) {
+      borders_.add(j);
+      for (int i = 0; i < grid.rows; ++i) {
+        const std::size_t n = grid.index(i, j);
+        pull_.set(n, (weft[n] * per_scale) * (position.at(n) - position.at(grid.index(i, left))));
+      }
+    }
+  }
+}
+
+// Sum of the changes of a border's forces [N].
+double HeldColumns::changeAtBorder(int column, const LinkSet* weft, double per_scale) const noexcept {
+  const Grid& grid = pattern_.grid;
+  double sum = 0.0;
+  for (int i = 0; i < grid.rows; ++i) {
+    const std::size_t n = grid.index(i, column);
+    Vec3 change = pull_.at(n);
+    if (weft != nullptr) change -= (weft->multiplier[n] * per_scale) * weft->direction.at(n);
+    sum += change.norm();
+  }
+  return sum;
+}
+
+bool HeldColumns::disturbedBy(const LinkSet* weft, const Contacts* contacts, double per_scale, double gravity,
+                              bool stuck) noexcept {
+  disturbed_.clear();
+  if (stuck) disturbed_ = held_;
+  if (stuck) return true;
+  for (int j = 0; j < pattern_.grid.columns; ++j) {
+    if (!borders_.has(j)) continue;
+    const int held = held_.has(j) ? j : leftOf(j);
+    const double allowed = kTrifle * mass_[static_cast<std::size_t>(held)] * gravity;
+    if (!(changeAtBorder(j, weft, per_scale) <= allowed)) disturbed_.add(held);
+  }
+  if (contacts == nullptr) return !disturbed_.empty();
+  const auto stride = static_cast<std::uint32_t>(pattern_.grid.stride);
+  for (const Contact& contact : *contacts) {
+    if (!contact.pushes()) continue;
+    for (int k = 0; k < contact.nodes; ++k) {
+      const auto column = static_cast<int>(contact.node[static_cast<std::size_t>(k)] % stride);
+      if (held_.has(column)) disturbed_.add(column);
+    }
+  }
+  return !disturbed_.empty();
+}
+
+}  // namespace curtain
