@@ -76,7 +76,8 @@ class Simulator {
 
   /// Obstacles, in the scene's order. A pose given here is where the obstacle will be at the end of the next
   /// step, moving there evenly from where it was; it takes the place of the scene's motion. `jump`: it is
-  /// there at once, without a velocity (first pose, teleport).
+  /// there at once, without a velocity (first pose, teleport). Where a frame ended early (solver.budget_ms) the rest of the way is
+  /// part of the next one.
   int obstacleCount() const;
   void setObstaclePose(int index, const Pose& pose, bool jump = false);
   /// An absent obstacle touches nothing. One that comes back must be given its pose with jump.

@@ -28,6 +28,13 @@ struct Statistics {
   std::int64_t asleep_frames = 0;     ///< frames in which all of the cloth slept
   std::int64_t wakes = 0;             ///< times that something of it woke
   int asleep = 0;                     ///< columns that sleep now
+  // What solver.budget_ms has cost, in the order in which it is given up.
+  std::int64_t estimates_skipped = 0;    ///< frames without the companion that position_tolerance is measured with
+  std::int64_t longer_substeps = 0;      ///< substeps longer than the tensions ask for
+  std::int64_t unfinished_substeps = 0;  ///< substeps that ended before their links had settled
+  std::int64_t shortened_frames = 0;     ///< frames that ended early
+  double lost_time = 0.0;                ///< motion left out by these [s]
+  std::int64_t late_frames = 0;          ///< frames that took longer than the budget all the same
   std::int64_t stops = 0;             ///< substeps whose forces were beyond numbers: the cloth was stopped instead
   double warp_stretch = 0.0;          ///< largest relative overlength of a warp rod at the last frame's end
   double weft_stretch = 0.0;          ///< the same of a weft link

@@ -113,10 +113,10 @@ void ObstacleSet::setSubstep(double from, double to) noexcept {
   }
 }
 
-void ObstacleSet::endFrame() noexcept {
+void ObstacleSet::endFrame(double share) noexcept {
   for (Item& item : items_) {
-    item.begin = item.end;
-    item.moved = false;
+    item.begin = share >= 1.0 ? item.end : between(item.begin, item.end, share);
+    item.moved = !same(item.begin, item.end);
   }
 }
 

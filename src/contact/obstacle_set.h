@@ -44,6 +44,8 @@ class ObstacleSet {
   int count() const { return static_cast<int>(items_.size()); }
   bool anyPresent() const noexcept;
   const Pose& pose(int index) const { return items_[at(index)].end; }
+  /// Where it has got to; behind the pose when the last frame ended early.
+  const Pose& reached(int index) const { return items_[at(index)].begin; }
   const ObstacleShape& shape(int index) const { return *items_[at(index)].shape; }
   bool present(int index) const { return moving_[at(index)].present; }
   void setPresent(int index, bool present) noexcept;
@@ -56,8 +58,9 @@ class ObstacleSet {
   void beginFrame(double end_time) noexcept;
   /// Sets the substep, as shares of the frame in [0, 1].
   void setSubstep(double from, double to) noexcept;
-  /// Ends the frame: obstacles rest where they are until they are told otherwise.
-  void endFrame() noexcept;
+  /// Ends the frame: obstacles rest where they are until they are told otherwise. share: of the frame that was made, [0, 1]; the
+  /// rest of their way is part of the next one.
+  void endFrame(double share = 1.0) noexcept;
 
   /// It moves in this frame, or has been put elsewhere, come or gone since the last one.
   bool moved(int index) const noexcept { return items_[at(index)].moved; }

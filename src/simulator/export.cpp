@@ -112,6 +112,13 @@ std::string statisticsJson(const Simulator& simulator, const Energy& initial, co
   }
   json["wrenches"] = wrenches;
   json["rest"] = {{"columns_asleep", s.asleep}, {"frames_asleep", s.asleep_frames}, {"wakes", s.wakes}};
+  json["budget"] = {{"ms", simulator.scene().solver.budget_ms},
+                    {"estimates_skipped", s.estimates_skipped},
+                    {"longer_substeps", s.longer_substeps},
+                    {"unfinished_substeps", s.unfinished_substeps},
+                    {"shortened_frames", s.shortened_frames},
+                    {"lost_s", s.lost_time},
+                    {"late_frames", s.late_frames}};
   nlohmann::ordered_json stages;
   for (int stage = 0; stage < kStageCount; ++stage) {
     stages[stageName(static_cast<Stage>(stage))] = 1e3 * s.stage_seconds[static_cast<std::size_t>(stage)];

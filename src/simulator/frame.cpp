@@ -52,11 +52,27 @@ bool Simulator::Impl::makeComposed(const SubstepPlan& plan, double done) {
   return true;
 }
 
+SubstepPlan Simulator::Impl::planSubstep(StepControl& steps, double remaining) {
+  if (budget.any()) steps.allow(budget.affordable(Budget::Clock::now()));
+  return steps.next(remaining, exact);
+}
+
+// The same where the frame's computing time is limited.
+SubstepOutcome Simulator::Impl::attemptInTime(const SubstepPlan& plan, double done) {
+  if (!budget.any()) return attempt(plan, done);
+  const Budget::Clock::time_point begin = Budget::Clock::now();
+  clock.setDeadline(budget.substepEnds());
+  const SubstepOutcome outcome = attempt(plan, done);
+  clock.setDeadline(Budget::Clock::time_point::max());
+  budget.substepTook(std::chrono::duration<double>(Budget::Clock::now() - begin).count(), outcome.accepted);
+  return outcome;
+}
+
 // One substep from `done` seconds into the frame. Returns how far it came: 0 when it was rejected.
 double Simulator::Impl::makeSubstep(double done) {
   const double frame_length = 1.0 / scene.solver.frame_rate;
   StepControl* steps = &control;
-  SubstepPlan plan = control.next(frame_length - done, exact);
+  SubstepPlan plan = planSubstep(control, frame_length - done);
   if (scene.solver.method == Method::kLeapfrog4) {
     if (plain_frames == 0 && makeComposed(plan, done)) {
       ++statistics.substeps;
@@ -67,16 +83,17 @@ double Simulator::Impl::makeSubstep(double done) {
     // shakes them.
     if (plain_frames == 0) plain_frames = static_cast<int>(std::ceil(scene.solver.frame_rate));
     steps = &plain_control;
-    plan = plain_control.next(frame_length - done, exact);
+    plan = planSubstep(plain_control, frame_length - done);
   }
-  const SubstepOutcome outcome = attempt(plan, done);
+  const SubstepOutcome outcome = attemptInTime(plan, done);
   if (outcome.disturbed) {
     if (rest.wakeFor(exact.held().disturbed(), statistics.time)) takeOverSleepers();
     return 0.0;
   }
   if (!outcome.accepted) {
     ++statistics.rejected;
-    steps->rejected(plan);
+    // That there was no time left for it says nothing of its length.
+    if (!outcome.late || budget.fresh()) steps->rejected(plan);
     if (!plan.must_accept) return 0.0;
     // Not even finite: forces beyond all numbers. The cloth stays where it is, at rest, until they are over.
     wakeAll();
@@ -86,6 +103,8 @@ double Simulator::Impl::makeSubstep(double done) {
     ++statistics.stops;
     return plan.h;
   }
+  if (outcome.late) ++statistics.unfinished_substeps;
+  if (steps->stretched()) ++statistics.longer_substeps;
   steps->accepted(plan, outcome);
   ++steps_made;
   of_stages = of_stages && steps == &control;
@@ -105,18 +124,41 @@ void Simulator::Impl::startPins() {
   }
 }
 
-void Simulator::Impl::stopPins() {
+// Those that have not got there, because the frame ended early, go on in the next one.
+void Simulator::Impl::stopPins(bool arrived) {
   for (const PinMove& move : pin_moves) {
-    state.position.set(move.node, move.target);
+    if (arrived) state.position.set(move.node, move.target);
     state.velocity.set(move.node, Vec3::Zero());
   }
-  pin_moves.clear();
+  if (arrived) pin_moves.clear();
 }
 
-void Simulator::Impl::makeFrame() {
+// Returns how much of the frame was made, as a share of it: less than 1 when there was no time for more.
+double Simulator::Impl::makeFrame() {
   const double frame_length = 1.0 / scene.solver.frame_rate;
   double done = 0.0;
-  while (frame_length - done > 1e-9 * frame_length) done += makeSubstep(done);
+  while (frame_length - done > 1e-9 * frame_length) {
+    if (budget.any() && budget.over(Budget::Clock::now())) return done / frame_length;
+    done += makeSubstep(done);
+  }
+  return 1.0;
+}
+
+// Before a frame, where the error is asked for: the companion moves ahead.
+void Simulator::Impl::estimateError() {
+  clock.start();
+  const bool affords = budget.affordsCompanion();
+  if (frame == 0 && !budget.any()) rehearse();
+  if (estimate->companionMoves() && affords) {
+    const Budget::Clock::time_point begin = Budget::Clock::now();
+    moveCompanion();
+    budget.companionTook(std::chrono::duration<double>(Budget::Clock::now() - begin).count());
+  } else if (estimate->companionMoves()) {
+    companion.lost = true;
+    ++statistics.estimates_skipped;
+  }
+  if (control.askFor(estimate->substeps())) synchronise();
+  clock.lap(Stage::kEstimate);
 }
 
 void Simulator::Impl::step() {
@@ -130,13 +172,8 @@ void Simulator::Impl::step() {
     countTime(begin);
     return;
   }
-  if (estimate != nullptr) {
-    clock.start();
-    if (frame == 0) rehearse();
-    if (estimate->companionMoves()) moveCompanion();
-    if (control.askFor(estimate->substeps())) synchronise();
-    clock.lap(Stage::kEstimate);
-  }
+  budget.beginFrame(begin);
+  if (estimate != nullptr) estimateError();
   contact.beginFrame();
   statistics.substeps_last = 0;
   statistics.sweeps_last = 0;
@@ -145,8 +182,14 @@ void Simulator::Impl::step() {
   of_stages = true;
   if (plain_frames > 0) --plain_frames;
   startPins();
-  makeFrame();
-  stopPins();
+  const double share = makeFrame();
+  const Budget::Clock::time_point tail_begin = budget.any() ? Budget::Clock::now() : begin;
+  stopPins(share == 1.0);
+  if (share < 1.0) {
+    ++statistics.shortened_frames;
+    statistics.lost_time += (1.0 - share) * frame_length;
+    companion.lost = true;
+  }
   if (estimate != nullptr) {
     const bool compares = estimate->companionMoves() && !companion.lost;
     estimate->frameMade(state.position, steps_made, compares ? &companion.state.position : nullptr, companion.steps,
@@ -154,7 +197,7 @@ void Simulator::Impl::step() {
     statistics.position_error = estimate->perSecond();
     clock.lap(Stage::kEstimate);
   }
-  obstacles.endFrame();
+  obstacles.endFrame(share);
   ++frame;
   ++revision;
   statistics.frames = frame;
@@ -163,6 +206,9 @@ void Simulator::Impl::step() {
   fallAsleep();
   statistics.stage_seconds = clock.seconds();
   countTime(begin);
+  if (!budget.any()) return;
+  budget.endFrame(share, tail_begin, Budget::Clock::now());
+  if (statistics.step_seconds > budget.seconds()) ++statistics.late_frames;
 }
 
 void Simulator::Impl::countTime(std::chrono::steady_clock::time_point begin) {

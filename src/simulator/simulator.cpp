@@ -65,7 +65,8 @@ Simulator::Impl::Impl(const Scene& given, const MeshResolver& resolve)
       plain_control(asAuto(scene.solver), pattern, scene.gravity),
       surface(scene.cloth, pattern),
       rest(pattern, 1.0 / scene.solver.frame_rate, scene.contact.thickness, scene.solver.stretch_tolerance),
-      kept_awake(pattern.grid.columns) {
+      kept_awake(pattern.grid.columns),
+      budget(scene.solver.budget_ms) {
   setRestLimits();
   exact.hold(rest.asleep(), state);
   exact.expectContacts(contact.capacity());
@@ -87,6 +88,7 @@ void Simulator::Impl::reset() {
   state = initial;
   if (estimate != nullptr) estimate->reset();
   rest.forget();
+  budget.forget();
   forces.reset();
   obstacles.reset();
   contact.forget();
@@ -302,7 +304,7 @@ std::int64_t Simulator::selfCrossings() const {
 Piercings Simulator::piercings(int obstacle, double depth_tolerance) const {
   const ObstacleSet& obstacles = impl_->obstacles;
   if (!obstacles.present(obstacle)) return {};
-  return countPiercings(obstacles.shape(obstacle), Transform(obstacles.pose(obstacle)), impl_->pattern.grid,
+  return countPiercings(obstacles.shape(obstacle), Transform(obstacles.reached(obstacle)), impl_->pattern.grid,
                         impl_->state.position, depth_tolerance);
 }
 
@@ -311,7 +313,7 @@ Piercings Simulator::finePiercings(int obstacle, double depth_tolerance) const {
   if (!obstacles.present(obstacle)) return {};
   FineMesh mesh;
   copyFineMesh(mesh);
-  return countPiercings(obstacles.shape(obstacle), Transform(obstacles.pose(obstacle)), mesh.positions,
+  return countPiercings(obstacles.shape(obstacle), Transform(obstacles.reached(obstacle)), mesh.positions,
                         fineMeshTopology().triangles, depth_tolerance);
 }
 

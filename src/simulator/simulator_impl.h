@@ -10,6 +10,7 @@
 
 #include "contact/cloth_contact.h"
 #include "curtain_sim/simulator.h"
+#include "simulator/budget.h"
 #include "simulator/error_estimate.h"
 #include "simulator/fine_surface.h"
 #include "simulator/force_field.h"
@@ -26,8 +27,9 @@ struct Simulator::Impl {
   void reset();
   void step();
   void startPins();
-  void stopPins();
-  void makeFrame();
+  void stopPins(bool arrived);
+  double makeFrame();
+  void estimateError();
   bool makeEvenSubstep(const SubstepPlan& plan, double done, int divisions);
   bool makeEvenFrame(int substeps);
   void rehearse();
@@ -35,7 +37,9 @@ struct Simulator::Impl {
   void synchronise();
   double makeSubstep(double done);
   bool makeComposed(const SubstepPlan& plan, double done);
+  SubstepPlan planSubstep(StepControl& steps, double remaining);
   SubstepOutcome attempt(const SubstepPlan& plan, double done);
+  SubstepOutcome attemptInTime(const SubstepPlan& plan, double done);
   void measure();
   void wakeForFrame();
   void sleepThrough();
@@ -62,6 +66,7 @@ struct Simulator::Impl {
   FineSurface surface;
   Rest rest;
   ColumnSet kept_awake;  // scratch
+  Budget budget;
   // What a substep of several stages goes back to.
   struct {
     ClothState state;

@@ -45,6 +45,8 @@ constexpr double kRubShare = 4.0;
 // is aimed at for the first sweeps: it moves by 0.3 mm/s instead of 0.8 (RMS), for a fifth more sweeps.
 constexpr double kStrictShare = 0.2;
 constexpr int kStrictSweeps = 6;
+// A substep whose time is over is taken when it has come so near, over the tolerance.
+constexpr double kLateShare = 8.0;
 // Sweeps that must bring at least this improvement, or the iteration has stalled.
 constexpr int kStallWindow = 8;
 constexpr double kStallFactor = 0.8;
@@ -344,6 +346,11 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
                                           std::min(kLargestDamping, caution * kDampingPerResidual * residual)});
     }
     clock.lap(Stage::kWeft);
+    if (clock.late()) {
+      progress.late = true;
+      progress.near = touch <= kLateShare * contact_tolerance_ && withinTolerance(warp, weft, kLateShare * tolerance_);
+      break;
+    }
     if (progress.sweeps % (touches ? kContactStallWindow : kStallWindow) == 0) {
       const double factor = touches ? kContactStallFactor : kStallFactor;
       const double left = std::max(rods.first_residual, residual);

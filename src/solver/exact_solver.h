@@ -89,6 +89,8 @@ class ExactSolver {
     bool settled = false;    // every link is within the user's tolerance
     bool left_over = false;  // but not within what the step's length asks for
     bool crossed = false;    // something would go through something
+    bool late = false;       // its time was over before it had settled
+    bool near = false;       // but it was not far from it
     int sweeps = 0;
     const Contacts* contacts = nullptr;  // null: nothing can touch
   };

@@ -37,14 +37,17 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const SubstepPlan& plan, const
     all.sweeps += progress.sweeps;
     all.settled = progress.settled;
     all.left_over = progress.left_over;
+    all.late = all.late || (progress.late && !progress.settled);
+    all.near = progress.near;
     all.contacts = contacts;
     if (free_ && !held_.any() && contacts != nullptr && start.keep == nullptr && !pressesOnObstacle(*contacts)) keepMomentum(start);
-    if (contacts == nullptr || !(progress.settled || plan.must_accept)) return all;
+    if (contacts == nullptr || !(progress.settled || plan.must_accept || progress.near)) return all;
     const ContactFinder::Verdict verdict = finder->verify(from, next_);
     clock.lap(Stage::kContact);
     if (verdict == ContactFinder::Verdict::kClear) return all;
     newton_begun_ = false;
-    if (verdict == ContactFinder::Verdict::kMore && (progress.settled || ++looks < kHopelessLooks)) continue;
+    all.late = all.late || clock.late();
+    if (!all.late && verdict == ContactFinder::Verdict::kMore && (progress.settled || ++looks < kHopelessLooks)) continue;
     all.crossed = true;
     all.settled = false;
     if (plan.must_accept && !held_.any()) finder->hold(from, next_);
@@ -117,7 +120,9 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   outcome.sweeps = progress.sweeps;
   outcome.settled = progress.settled;
   const LineSolve weft{pattern_, inertia_.inverse(), weft_, next_};
-  outcome.accepted = !outcome.disturbed && (progress.settled || (plan.must_accept && std::isfinite(weftResidualNow(weft))));
+  const bool taken_as_it_is = plan.must_accept || (progress.near && !progress.crossed);
+  outcome.late = progress.late;
+  outcome.accepted = !outcome.disturbed && (progress.settled || (taken_as_it_is && std::isfinite(weftResidualNow(weft))));
   if (outcome.accepted) {
     outcome.scale = inertia_.tensions().scale = scale;
     if (plan.scheme == Scheme::kBdf2) {
@@ -127,14 +132,14 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
     } else {
       older_h_ = 0.0;
     }
-    const bool bounded = plan.scheme == Scheme::kImplicit && progress.contacts == nullptr;
+    const bool bounded = (plan.scheme == Scheme::kImplicit && progress.contacts == nullptr) || progress.late;
     const double most_kinetic = bounded ? predictedKinetic(start) : 0.0;
     commit(base, step, leapfrog ? 0.5 * step : 0.0, state);
     if (bounded) boundKinetic(most_kinetic, state.velocity);
     outcome.omega_squared = inertia_.omegaSquared();
     if (progress.contacts != nullptr) outcome.longest_step = kMostWayOfSurface * smallest_rest_ / fastestSurface(*progress.contacts);
     // The way such a substep has gone is not all motion: what pulls its links further is taken out.
-    if (progress.left_over) projectVelocity(state.position, progress.contacts, 0.0, state.velocity);
+    if (progress.left_over && !progress.late) projectVelocity(state.position, progress.contacts, 0.0, state.velocity);
   }
   if (directions_set_ && (!outcome.accepted || !weft_pulls_)) std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0);
   clock.lap(Stage::kFinish);

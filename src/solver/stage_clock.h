@@ -12,6 +12,8 @@ namespace curtain {
 
 class StageClock {
  public:
+  using Clock = std::chrono::steady_clock;
+
   /// Time since the last call (or start()) belongs to this stage.
   void lap(Stage stage) noexcept {
     const auto now = Clock::now();
@@ -19,12 +21,16 @@ class StageClock {
     last_ = now;
   }
   void start() noexcept { last_ = Clock::now(); }
+  /// When what is timed must be over; the far future: whenever it is.
+  void setDeadline(Clock::time_point deadline) noexcept { deadline_ = deadline; }
+  /// It was over when the last lap ended.
+  bool late() const noexcept { return last_ >= deadline_; }
   void reset() noexcept { seconds_.fill(0.0); }
   const std::array<double, kStageCount>& seconds() const noexcept { return seconds_; }
 
  private:
-  using Clock = std::chrono::steady_clock;
   Clock::time_point last_ = Clock::now();
+  Clock::time_point deadline_ = Clock::time_point::max();
   std::array<double, kStageCount> seconds_{};
 };
 

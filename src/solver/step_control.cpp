@@ -30,6 +30,8 @@ constexpr int kGoodToGrow = 8;
 constexpr int kImplicitSubsteps = 8;
 constexpr int kPaperSubsteps = 16;
 
+// Where there is no time for more substeps they are up to so many times longer: beyond that their solve takes all that is saved.
+constexpr double kMostStretch = 2.0;
 // So many implicit substeps in a row that do not settle, and the cloth counts as jammed. A blow takes a few; at longer steps what
 // struck would only come further.
 constexpr int kFailuresToJam = 16;
@@ -95,6 +97,16 @@ double StepControl::stepFromTensions(bool frame_begins, const ExactSolver& solve
   return std::isfinite(heavier_step_) ? std::max(for_phase, heavier_step_) : for_phase;
 }
 
+// Longer than wanted where there is no time for so many; leapfrog by itself would blow up. What has been rejected or is pushed
+// far stays out of the question.
+double StepControl::stretch(double wanted, double remaining) noexcept {
+  stretched_ = false;
+  if (method_ != Method::kAuto && method_ != Method::kBdf2 && method_ != Method::kImplicit) return wanted;
+  const double longest = std::min({kMostStretch * wanted, remaining / allowed_, std::max(limit_, frame_ / max_substeps_), surface_step_});
+  stretched_ = longest > wanted;
+  return std::max(wanted, longest);
+}
+
 SubstepPlan StepControl::next(double remaining, const ExactSolver& solver) noexcept {
   const bool frame_begins = remaining > (1.0 - 1e-6) * frame_;
   if (frame_begins) heavier_step_ = 0.0;
@@ -118,6 +130,7 @@ SubstepPlan StepControl::next(double remaining, const ExactSolver& solver) noexc
   double step = std::min(wanted, std::max(limit_, smallest));
   if (plan.scheme == Scheme::kImplicit && method_ != Method::kImplicit) step = std::min(most, implicit_step_);
   if (plan.scheme != Scheme::kLeapfrog) plan.most_phase = 0.0;  // stable at any step
+  step = stretch(step, remaining);
   // Equal shares of what is left; the small slack keeps rounding from adding a substep.
   plan.h = remaining / std::max(1.0, std::ceil(remaining / step - 1e-6));
   return plan;

@@ -4,6 +4,8 @@
 // substep whose solve failed and growing again after good ones.
 #pragma once
 
+#include <limits>
+
 #include "curtain_sim/scene.h"
 #include "solver/exact_solver.h"
 
@@ -19,6 +21,10 @@ class StepControl {
   /// The next substep; remaining: what is left of the frame [s], > 0; its whole length when a frame begins. h is a whole
   /// share of it.
   SubstepPlan next(double remaining, const ExactSolver& solver) noexcept;
+  /// Substeps that the rest of the frame may be made in, >= 1: beyond that they are longer than the tensions ask for.
+  void allow(int substeps) noexcept { allowed_ = substeps; }
+  /// The last plan was longer for that.
+  bool stretched() const noexcept { return stretched_; }
   /// From the last tensions (before the first: of the cloth hanging by its own weight) [s].
   double longestStableStep() const noexcept;
   /// h * omega from which nodes are heavier rather than the step unstable.
@@ -33,6 +39,7 @@ class StepControl {
   void rejected(const SubstepPlan& plan) noexcept;
 
  private:
+  double stretch(double wanted, double remaining) noexcept;
   double stepFromTensions(bool frame_begins, const ExactSolver& solver) noexcept;
 
   double frame_;
@@ -44,6 +51,8 @@ class StepControl {
   double heavier_step_;   // what the phase allows where few nodes may be heavier, found when the frame began [s]; 0: not asked
   double surface_step_;   // in which what pushes goes a share of a link [s]
   double limit_;          // largest step that the rejections leave [s]
+  int allowed_ = std::numeric_limits<int>::max();  // for the rest of the frame
+  bool stretched_ = false;
   int asked_ = 1;         // substeps a frame
   double implicit_step_;  // of the implicit scheme as auto's fall-back [s]
   bool composed_;         // substeps are made of stages (composition.h)

@@ -46,6 +46,7 @@ struct SubstepOutcome {
   bool accepted = false;       ///< false: nothing was changed, try again with a smaller step
   bool settled = false;        ///< every link is within the tolerance
   bool disturbed = false;      ///< columns that are held would move: wake them and make the substep again
+  bool late = false;           ///< its time was over before it had settled
   int sweeps = 0;
   double scale = 0.0;          ///< h times the time the forces acted for [s^2]
   double longest_step = std::numeric_limits<double>::infinity();  ///< in which what pushes goes a share of a link [s]
