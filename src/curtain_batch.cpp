@@ -31,6 +31,7 @@ const char* const kUsage =
     "  --mesh FILE        fine mesh at the end, .ply or .obj\n"
     "  --stats FILE.json  what it took and how well it went\n"
     "  --progress         a line a simulated second on stderr\n"
+    "  --explain          what runs for this scene and what is skipped, at the start and after the duration, on stdout\n"
     "  --list-methods     names for --method, then exit\n"
     "exit code: 0; 2 = bad input, nothing written; 3 = the state became non-finite\n";
 
@@ -41,6 +42,7 @@ struct Options {
   int substeps = 0, rows = 0, columns = 0;
   std::vector<double> samples;
   bool progress = false;
+  bool explain = false;
   bool list_methods = false;
   bool help = false;
 };
@@ -121,6 +123,7 @@ Options readOptions(int argc, char** argv) {
     else if (option == "--mesh") options.mesh = value();
     else if (option == "--stats") options.stats = value();
     else if (option == "--progress") options.progress = true;
+    else if (option == "--explain") options.explain = true;
     else if (option == "--list-methods") options.list_methods = true;
     else if (option == "--help" || option == "-h") options.help = true;
     else if (option.size() > 1 && option[0] == '-') throw std::invalid_argument(option + ": unknown option");
@@ -180,6 +183,10 @@ std::vector<double> run(curtain::Simulator& simulator, const Options& options, s
   return frame_seconds;
 }
 
+void explain(const curtain::Simulator& simulator) {
+  std::cout << "t = " << simulator.time() << " s\n" << curtain::describe(simulator.plan());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -194,6 +201,7 @@ int main(int argc, char** argv) {
       return EXIT_SUCCESS;
     }
     curtain::Simulator simulator(readScene(options));
+    if (options.explain) explain(simulator);
     const curtain::Energy initial = simulator.energy();
     std::ofstream states;
     if (!options.out.empty()) {
@@ -201,6 +209,7 @@ int main(int argc, char** argv) {
       curtain::writeStateHeader(states);
     }
     const std::vector<double> seconds = run(simulator, options, options.out.empty() ? nullptr : &states);
+    if (options.explain && !seconds.empty()) explain(simulator);
     if (!options.out.empty() && !states.flush()) throw std::runtime_error(options.out + ": cannot be written");
     if (!options.mesh.empty()) curtain::writeMesh(simulator, options.mesh);
     if (!options.stats.empty()) {

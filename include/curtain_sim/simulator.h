@@ -10,6 +10,7 @@
 
 #include "curtain_sim/fine_mesh.h"
 #include "curtain_sim/obstacle_shape.h"
+#include "curtain_sim/plan.h"
 #include "curtain_sim/scene.h"
 #include "curtain_sim/statistics.h"
 
@@ -92,6 +93,9 @@ class Simulator {
   const FineMeshTopology& fineMeshTopology() const;
 
   const Statistics& statistics() const;
+
+  /// What a step would do now, what it would leave out, and why. Not for every frame: it looks at all nodes and allocates.
+  Plan plan() const;
   Energy energy() const;
 
   /// Pairs of an edge and a triangle of the first layer's mesh that intersect, by brute force (slow).

@@ -37,6 +37,7 @@ class ClothContact : public ContactFinder {
 
   /// Contacts that find room without an allocation.
   std::size_t capacity() const noexcept { return contacts_.capacity(); }
+  ObstacleStanding standing(int obstacle, const Field3& position) const noexcept { return touch_.standing(obstacle, position); }
   /// Something of the last substep may touch.
   bool any() const { return !contacts_.empty(); }
   const Contacts& contacts() const { return contacts_; }

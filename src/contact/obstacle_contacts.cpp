@@ -64,6 +64,15 @@ void ObstacleContacts::lookAtCloth(const Field3& start, const Field3& predicted,
   box_time_ = std::isfinite(gap) ? time : frame_;
 }
 
+ObstacleStanding ObstacleContacts::standing(int obstacle, const Field3& position) const noexcept {
+  const MovingObstacle& moving = obstacles_.moving()[static_cast<std::size_t>(obstacle)];
+  if (!moving.present) return ObstacleStanding::kAbsent;
+  Eigen::AlignedBox3d cloth = motionOfCloth(pattern_.grid, position, position).box;
+  cloth.min().array() -= 2.0 * thickness_;
+  cloth.max().array() += 2.0 * thickness_;
+  return cloth.intersects(moving.sweptBounds()) ? ObstacleStanding::kNear : ObstacleStanding::kFar;
+}
+
 bool ObstacleContacts::mayTouch(const Field3& start, const Field3& predicted, double h) noexcept {
   bool reachable = false;
   for (const MovingObstacle& moving : obstacles_.moving()) {

@@ -20,6 +20,9 @@
 
 namespace curtain {
 
+/// Where an obstacle is, for contact.
+enum class ObstacleStanding { kAbsent, kFar, kNear };
+
 class ObstacleContacts {
  public:
   /// thickness: kept between cloth and obstacle [m]; frame [s]; position: where the pinned nodes are [m]; pattern and obstacles
@@ -49,6 +52,9 @@ class ObstacleContacts {
   /// forces; contacts: null when nothing could touch.
   void remember(const Contacts& contacts, const Field3& position, double h, double scale) noexcept;
   void forget() noexcept;
+
+  /// For a cloth that is here now. Not made for every substep.
+  ObstacleStanding standing(int obstacle, const Field3& position) const noexcept;
 
   /// A frame begins: wrenches are those of its substeps from now on.
   void beginFrame() noexcept;

@@ -10,6 +10,8 @@ namespace {
 constexpr double kSpare = 0.1;
 // Frames in a row without any motion; then a substep may take what it needs.
 constexpr int kPatience = 4;
+// A substep is only started when there is so many times what they take on average.
+constexpr double kDoubt = 1.4;
 constexpr int kMany = 1 << 20;
 
 double secondsBetween(Budget::Clock::time_point a, Budget::Clock::time_point b) {
@@ -49,7 +51,7 @@ Budget::Clock::time_point Budget::substepEnds() const noexcept {
 
 bool Budget::over(Clock::time_point now) const noexcept {
   if (!any() || patient()) return false;
-  return moved_ ? secondsBetween(now, end_) < substep_ : now >= end_;
+  return moved_ ? secondsBetween(now, end_) < kDoubt * substep_ : now >= end_;
 }
 
 void Budget::endFrame(double done, Clock::time_point tail_begin, Clock::time_point end) noexcept {

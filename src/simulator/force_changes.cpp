@@ -67,4 +67,12 @@ void ForceField::markDrag(const std::string& id, ColumnSet& out) const noexcept 
   }
 }
 
+bool ForceField::reaches(const std::string& id, double time, const Field3& position) const {
+  ColumnSet columns(pattern_.grid.columns);
+  for (const WindSource& wind : winds_) {
+    if (wind.params().id == id && wind.blowsAt(time)) markReached(wind, position, columns);
+  }
+  return !columns.empty();
+}
+
 }  // namespace curtain

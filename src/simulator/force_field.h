@@ -51,6 +51,8 @@ class ForceField {
   void markGusts(double time, const Field3& position, ColumnSet& out) const noexcept;
   void markWind(const std::string& id, const Field3& position, ColumnSet& out) const noexcept;
   void markDrag(const std::string& id, ColumnSet& out) const noexcept;
+  /// The wind of this id blows at this time and reaches the cloth.
+  bool reaches(const std::string& id, double time, const Field3& position) const;
 
  private:
   void markReached(const WindSource& wind, const Field3& position, ColumnSet& out) const noexcept;

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "contact/cloth_contact.h"
+#include "curtain_sim/plan.h"
 #include "curtain_sim/simulator.h"
 #include "simulator/budget.h"
 #include "simulator/error_estimate.h"
@@ -47,6 +48,9 @@ struct Simulator::Impl {
   void takeOverSleepers();
   void wakeAll();
   void setRestLimits();
+  void planForces(Plan& plan) const;
+  void planSolver(Plan& plan) const;
+  void planContact(Plan& plan) const;
   void countTime(std::chrono::steady_clock::time_point begin);
   const Field3& currentVelocities();
 

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What a simulator does for a scene and what it leaves out, in words.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace curtain {
+
+/// A stage of a frame, or a part of one.
+struct PlanEntry {
+  std::string stage;
+  bool runs = false;
+  std::string why;  ///< what it does, or why it is left out
+
+  bool operator==(const PlanEntry& other) const {
+    return stage == other.stage && runs == other.runs && why == other.why;
+  }
+};
+
+using Plan = std::vector<PlanEntry>;
+
+/// A line for each entry: "+ stage: why" for what runs, "- stage: why" for what is skipped.
+std::string describe(const Plan& plan);
+
+}  // namespace curtain

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The plan is not made beforehand and then followed: it asks those who decide in each frame what they would decide now.
+#include "curtain_sim/plan.h"
+
+#include <sstream>
+
+#include "simulator/simulator_impl.h"
+
+namespace curtain {
+namespace {
+
+std::string number(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+template <typename Source>
+std::string whenItActs(const Source& source, double time) {
+  if (time < source.start) return "begins at " + number(source.start) + " s";
+  if (time >= source.end) return "ended at " + number(source.end) + " s";
+  return "";
+}
+
+PlanEntry planOf(const WindParams& wind, double time, bool reaches) {
+  PlanEntry entry{"wind '" + wind.id + "'", false, whenItActs(wind, time)};
+  if (!entry.why.empty()) return entry;
+  if (wind.pressure + wind.node_force + wind.unsteadiness <= 0.0) {
+    entry.why = "has no pressure";
+    return entry;
+  }
+  entry.runs = reaches;
+  if (!reaches) entry.why = "reaches nothing of the cloth";
+  else entry.why = wind.unsteadiness > 0.0 ? "reaches the cloth, with gusts" : "reaches the cloth; no gusts, so no random numbers";
+  return entry;
+}
+
+PlanEntry planOf(const DragParams& drag, double time) {
+  PlanEntry entry{"drag '" + drag.id + "'", false, whenItActs(drag, time)};
+  entry.runs = entry.why.empty();
+  if (entry.runs) entry.why = drag.target ? "pulls by a spring" : "pulls";
+  return entry;
+}
+
+const char* wordsFor(ObstacleStanding standing) {
+  switch (standing) {
+    case ObstacleStanding::kAbsent: return "absent";
+    case ObstacleStanding::kFar: return "away from the cloth: boxes are compared, nothing more";
+    case ObstacleStanding::kNear: return "near: what of the cloth may touch it is searched";
+  }
+  return "";
+}
+
+}  // namespace
+
+void Simulator::Impl::planForces(Plan& plan) const {
+  const double time = statistics.time;
+  bool windy = false, acts = false;
+  for (const WindParams& wind : forces.winds()) {
+    plan.push_back(planOf(wind, time, forces.reaches(wind.id, time, state.position)));
+    windy = windy || plan.back().runs;
+  }
+  for (const DragParams& drag : forces.drags()) {
+    plan.push_back(planOf(drag, time));
+    acts = acts || plan.back().runs;
+  }
+  plan.push_back({"normals", windy, windy ? "a wind needs them" : "no wind reads them"});
+  const bool damps = forces.dampingPerMass() > 0.0;
+  plan.push_back({"air damping", damps, damps ? "by " + number(forces.dampingPerMass()) + " 1/s at most" : "all coefficients are 0"});
+  plan.push_back({"force field", windy || acts,
+                  windy || acts ? "weight and what is above" : "gravity alone: one acceleration for all nodes"});
+}
+
+void Simulator::Impl::planContact(Plan& plan) const {
+  for (int index = 0; index < obstacles.count(); ++index) {
+    const ObstacleStanding standing = contact.standing(index, state.position);
+    plan.push_back({"obstacle '" + scene.obstacles[static_cast<std::size_t>(index)].name + "'",
+                    standing == ObstacleStanding::kNear, wordsFor(standing)});
+  }
+  if (scene.obstacles.empty()) plan.push_back({"obstacles", false, "there are none"});
+  plan.push_back({"self-contact", scene.contact.self,
+                  scene.contact.self ? "but not where the cloth is provably flat" : "contact.self is false"});
+}
+
+void Simulator::Impl::planSolver(Plan& plan) const {
+  const SolverParams& solver = scene.solver;
+  plan.push_back({"warp", true, toString(solver.method) + (solver.substeps > 0 ? ", " + std::to_string(solver.substeps) + " substeps a frame"
+                                                                               : ", substeps from the tensions")});
+  const bool pulls = exact.weftPulls();
+  plan.push_back({"weft", true, pulls ? "strings pull: all taut ones are solved for at once"
+                                      : "no string pulls: looked at, and nothing more unless one gets taut"});
+  plan.push_back({"estimate", estimate != nullptr, estimate != nullptr ? "position_tolerance is asked for: a companion moves one second in four"
+                                                                       : "no position_tolerance is asked for"});
+  plan.push_back({"budget", budget.any(), budget.any() ? number(1e3 * budget.seconds()) + " ms a frame" : "budget_ms is 0: frames take what they need"});
+  const int threads = workers.threads();
+  plan.push_back({"threads", threads > 1, threads > 1 ? std::to_string(threads) + " of them" : "one is enough, or all that was asked for"});
+}
+
+Plan Simulator::plan() const {
+  const Impl& im = *impl_;
+  Plan plan;
+  const int asleep = im.rest.asleep().count();
+  const bool sleeps = im.rest.asleep().full();
+  if (im.scene.solver.rest_speed <= 0.0) {
+    plan.push_back({"rest", false, "rest_speed is 0: nothing falls asleep"});
+  } else if (im.scene.gravity.isZero()) {
+    plan.push_back({"rest", false, "no gravity: nothing falls asleep"});
+  } else {
+    plan.push_back({"rest", true, std::to_string(asleep) + " of " + std::to_string(columns()) + " columns sleep" +
+                                      (sleeps ? ": nothing below runs until something wakes them" : "")});
+  }
+  im.planForces(plan);
+  im.planSolver(plan);
+  im.planContact(plan);
+  plan.push_back({"fine mesh", false, "made when it is asked for"});
+  for (PlanEntry& entry : plan) entry.runs = entry.runs && (!sleeps || entry.stage == "rest");
+  return plan;
+}
+
+std::string describe(const Plan& plan) {
+  std::string text;
+  for (const PlanEntry& entry : plan) text += (entry.runs ? "+ " : "- ") + entry.stage + ": " + entry.why + "\n";
+  return text;
+}
+
+}  // namespace curtain
