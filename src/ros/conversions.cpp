@@ -181,6 +181,14 @@ void toMessage(const curtain::Statistics& statistics, curtain_sim::Statistics& m
   message.sweeps = static_cast<std::uint32_t>(statistics.sweeps_last);
   message.rejected = static_cast<std::uint64_t>(statistics.rejected);
   message.unsettled = static_cast<std::uint64_t>(statistics.unsettled);
+  message.estimates_skipped = static_cast<std::uint64_t>(statistics.estimates_skipped);
+  message.longer_substeps = static_cast<std::uint64_t>(statistics.longer_substeps);
+  message.unfinished_substeps = static_cast<std::uint64_t>(statistics.unfinished_substeps);
+  message.shortened_frames = static_cast<std::uint64_t>(statistics.shortened_frames);
+  message.lost_time = statistics.lost_time;
+  message.late_frames = static_cast<std::uint64_t>(statistics.late_frames);
+  message.asleep = static_cast<std::uint32_t>(statistics.asleep);
+  message.wakes = static_cast<std::uint64_t>(statistics.wakes);
   message.warp_stretch = statistics.warp_stretch;
   message.weft_stretch = statistics.weft_stretch;
   message.contacts = static_cast<std::uint32_t>(statistics.contacts);

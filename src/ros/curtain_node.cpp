@@ -82,6 +82,7 @@ void CurtainNode::makeFrame(const ros::Time& stamp, bool latest) {
     restart();
     return;
   }
+  plan_log_.update(simulator_);
   outputs_.publish(simulator_, stamp, nodeStatistics(), latest);
   if (handles_) handles_->update(simulator_);
 }

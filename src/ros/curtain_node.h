@@ -24,6 +24,7 @@
 #include "ros/obstacle_tracker.h"
 #include "ros/outputs.h"
 #include "ros/parameters.h"
+#include "ros/plan_log.h"
 #include "ros/step_clock.h"
 
 namespace curtain_ros {
@@ -58,6 +59,7 @@ class CurtainNode {
   ObstacleTracker obstacles_;
   Outputs outputs_;
   std::unique_ptr<Handles> handles_;  // none unless ~handles
+  PlanLog plan_log_;
   NodeClock clock_;
   StepClock step_clock_;
 

@@ -94,7 +94,8 @@ void Simulator::Impl::planSolver(Plan& plan) const {
                                                                        : "no position_tolerance is asked for"});
   plan.push_back({"budget", budget.any(), budget.any() ? number(1e3 * budget.seconds()) + " ms a frame" : "budget_ms is 0: frames take what they need"});
   const int threads = workers.threads();
-  plan.push_back({"threads", threads > 1, threads > 1 ? std::to_string(threads) + " of them" : "one is enough, or all that was asked for"});
+  const char* const alone = solver.threads == 1 ? "one was asked for" : "one: cloth of this size, or this machine, gains nothing by more";
+  plan.push_back({"threads", threads > 1, threads > 1 ? std::to_string(threads) + " of them" : alone});
 }
 
 Plan Simulator::plan() const {

@@ -157,8 +157,8 @@ const ClothState& ExactSolver::setBase(Scheme scheme, double h, const ClothState
 double ExactSolver::begin(const SubstepPlan& plan, const SubstepStart& start, double scale) noexcept {
   const bool warm = plan.scheme == Scheme::kLeapfrog && inertia_.tensions().scale != 0.0;
   const double ratio = warm ? scale / inertia_.tensions().scale : 0.0;
-  const LineSolve warp{pattern_, inertia_.inverse(), warp_, next_};
-  const LineSolve weft{pattern_, inertia_.inverse(), weft_, next_};
+  const LineSolve warp{pattern_, inertia_.inverse(), warp_, next_, held_.movingSpan()};
+  const LineSolve weft{pattern_, inertia_.inverse(), weft_, next_, held_.movingSpan()};
   directions_set_ = false;
   newton_begun_ = plan.scheme == Scheme::kLeapfrog && !weft_pulls_;
   forEachBlock([&](int block) {
@@ -176,7 +176,7 @@ double ExactSolver::begin(const SubstepPlan& plan, const SubstepStart& start, do
   if (ratio == 0.0) return ratio;
   directions_set_ = true;
   worstOfRows([&](int i) {
-    setWeftDirections(pattern_.grid, i, start.state.position, weft_.direction);
+    setWeftDirections(pattern_.grid, i, held_.movingSpan(), start.state.position, weft_.direction);
     pullWeft(weft, i, weft_.multiplier);
     return 0.0;
   });
@@ -228,7 +228,7 @@ double ExactSolver::weftResidualNow(const LineSolve& weft) noexcept {
 
 // The same where no string pulls.
 double ExactSolver::slackResidual() noexcept {
-  const double longest = worstOfRows([&](int i) { return weftSquare(pattern_.grid, i, next_, free_per_square_); });
+  const double longest = worstOfRows([&](int i) { return weftSquare(pattern_.grid, i, held_.movingSpan(), next_, free_per_square_); });
   return longest > 1.0 ? 0.5 * (longest - 1.0) : 0.0;
 }
 
@@ -249,12 +249,12 @@ bool ExactSolver::withinTolerance(const LineSolve& warp, const LineSolve& weft, 
 void ExactSolver::followDirections() noexcept {
   forEachBlock([&](int block) { setWarpDirections(pattern_.grid, block, next_, warp_.direction); });
   setAllWeftDirections(next_);
-  net_.begin(next_, inertia_.inverse());
+  net_.begin(next_, inertia_.inverse(), held_.movingSpan());
 }
 
 void ExactSolver::setAllWeftDirections(const Field3& position) noexcept {
   worstOfRows([&](int i) {
-    setWeftDirections(pattern_.grid, i, position, weft_.direction);
+    setWeftDirections(pattern_.grid, i, held_.movingSpan(), position, weft_.direction);
     return 0.0;
   });
 }
@@ -285,8 +285,8 @@ void ExactSolver::solveNet(const LineSolve& weft, Contacts* contacts, double res
 
 ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, const Field3& start, Contacts* contacts,
                                                     StageClock& clock) noexcept {
-  const LineSolve warp{pattern_, inertia_.inverse(), warp_, next_};
-  const LineSolve weft{pattern_, inertia_.inverse(), weft_, next_};
+  const LineSolve warp{pattern_, inertia_.inverse(), warp_, next_, held_.movingSpan()};
+  const LineSolve weft{pattern_, inertia_.inverse(), weft_, next_, held_.movingSpan()};
   const bool touches = contacts != nullptr && !contacts->empty();
   Progress progress;
   bool follow = plan.scheme != Scheme::kLeapfrog;
@@ -339,7 +339,7 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
       } else if (!net_ready) {
         if (!directions_set_) setAllWeftDirections(start);
         directions_set_ = net_ready = true;
-        net_.begin(start, inertia_.inverse());
+        net_.begin(start, inertia_.inverse(), held_.movingSpan());
       }
       const double least = follow ? kFollowReduction : kLeastReduction;
       solveNet(weft, contacts, residual, {std::clamp(kReductionShare * tolerance / residual, least, kMostReduction),

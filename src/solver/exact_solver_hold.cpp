@@ -24,6 +24,10 @@ void ExactSolver::hold(const ColumnSet& columns, ClothState& state) noexcept {
   held_.set(columns, state.position, last_weft_, per_scale);
   inertia_.hold(columns);
   freeWeft(pattern_, inertia_.masses(), free_per_square_);
+  // Outside the span of what moves nothing is measured any more.
+  std::fill(violation_.begin(), violation_.end(), 0.0);
+  std::fill(active_.begin(), active_.end(), 0.0);
+  net_.reset();
   tensions.heaviest = 0.0;
   for (int block = 0; block < warpBlockCount(grid); ++block) {
     const bool was_skipped = skipped[static_cast<std::size_t>(block)] != 0;

@@ -81,7 +81,7 @@ CURTAIN_WIDE double ExactSolver::loadStrings() noexcept {
 // The substep is taken.
 void ExactSolver::commit(const ClothState& base, double step, double velocity_age, ClothState& state) noexcept {
   NodeInertia::Tensions& tensions = inertia_.tensions();
-  const LineSolve warp{pattern_, inertia_.inverse(), warp_, next_};
+  const LineSolve warp{pattern_, inertia_.inverse(), warp_, next_, held_.movingSpan()};
   forEachBlock([&](int block) {
     block_load_[static_cast<std::size_t>(block)] =
         warpFinish(warp, base.position, 1.0 / step, state.velocity, tensions.load, block);
@@ -119,7 +119,7 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   }
   outcome.sweeps = progress.sweeps;
   outcome.settled = progress.settled;
-  const LineSolve weft{pattern_, inertia_.inverse(), weft_, next_};
+  const LineSolve weft{pattern_, inertia_.inverse(), weft_, next_, held_.movingSpan()};
   const bool taken_as_it_is = plan.must_accept || (progress.near && !progress.crossed);
   outcome.late = progress.late;
   outcome.accepted = !outcome.disturbed && (progress.settled || (taken_as_it_is && std::isfinite(weftResidualNow(weft))));

@@ -94,7 +94,7 @@ void ExactSolver::projectVelocity(const Field3& position, const Contacts* contac
 
 void ExactSolver::projectOnConstraints(const Field3& position, const Contacts* contacts, double share, Field3& out) noexcept {
   setWarpDirections(pattern_.grid, position, warp_.direction);
-  const LineSolve warp{pattern_, inertia_.masses(), warp_, out};
+  const LineSolve warp{pattern_, inertia_.masses(), warp_, out, held_.movingSpan()};
   const auto solveRods = [&] {
     forEachBlock([&](int block) { warpProjectVelocity(warp, scratch_, block); });
   };
@@ -109,7 +109,7 @@ void ExactSolver::projectOnConstraints(const Field3& position, const Contacts* c
     return;
   }
   LinkSet& links = weft_;
-  const LineSolve weft{pattern_, inertia_.masses(), links, out};
+  const LineSolve weft{pattern_, inertia_.masses(), links, out, held_.movingSpan()};
   if (weft_pulls_) {
     std::copy(last_weft_.begin(), last_weft_.end(), links.multiplier.begin());  // which links pull
   }
@@ -123,7 +123,7 @@ void ExactSolver::projectOnConstraints(const Field3& position, const Contacts* c
     }
   }
   solveRods();
-  net_.begin(position, inertia_.masses());
+  net_.begin(position, inertia_.masses(), held_.movingSpan());
   double first_rate = 0.0;
   for (int round = 0; round < (presses ? kContactRounds : kVelocityRounds); ++round) {
     double rate = worstOfRows([&](int i) { return measureWeftRates(weft, i, violation_, active_); });

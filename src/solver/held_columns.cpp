@@ -26,6 +26,7 @@ HeldColumns::HeldColumns(const ClothPattern& pattern)
     for (int j = 0; j < grid.columns; ++j) mass_[static_cast<std::size_t>(j)] += pattern.mass[grid.index(i, j)];
   }
   pull_.assign(grid.size(), 0.0);
+  span_ = {0, static_cast<std::size_t>(grid.columns)};
   for (int block = 0; block < warpBlockCount(grid); ++block) {
     skips_[static_cast<std::size_t>(block)] = block * kLane >= grid.columns ? 1 : 0;
   }
@@ -34,6 +35,9 @@ HeldColumns::HeldColumns(const ClothPattern& pattern)
 void HeldColumns::set(const ColumnSet& held, const Field3& position, const Field& weft, double per_scale) noexcept {
   const Grid& grid = pattern_.grid;
   held_ = held;
+  span_ = {0, static_cast<std::size_t>(grid.columns)};
+  while (!grid.closed && span_.first < span_.end && held.has(static_cast<int>(span_.first))) ++span_.first;
+  while (!grid.closed && span_.first < span_.end && held.has(static_cast<int>(span_.end) - 1)) --span_.end;
   for (int block = 0; block < warpBlockCount(grid); ++block) {
     bool skips = true;
     for (int j = block * kLane; j < std::min((block + 1) * kLane, grid.columns); ++j) skips = skips && held.has(j);

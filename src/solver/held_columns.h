@@ -22,6 +22,9 @@ class HeldColumns {
   /// Nothing in this block of columns moves: all are held, or padding.
   bool skips(int block) const noexcept { return skips_[static_cast<std::size_t>(block)] != 0; }
 
+  /// All that moves is within.
+  const ColumnSpan& movingSpan() const noexcept { return span_; }
+
   /// Takes over which columns are held. weft: the strings' multipliers, per_scale: 1 / (h kick) of them [1/s^2].
   void set(const ColumnSet& held, const Field3& position, const Field& weft, double per_scale) noexcept;
 
@@ -39,6 +42,7 @@ class HeldColumns {
   ColumnSet held_, disturbed_;
   ColumnSet borders_;         // columns whose strings to the left join a held column and one that moves
   std::vector<std::uint8_t> skips_;
+  ColumnSpan span_;
   Field3 pull_;               // of the strings at borders, when they became borders [N]
 };
 

@@ -11,6 +11,7 @@
 #pragma once
 
 #include "cloth/cloth.h"
+#include "cloth/column_set.h"
 
 namespace curtain {
 
@@ -31,6 +32,7 @@ struct LineSolve {
   const Field& inverse_inertia;  ///< how a node answers an impulse in this substep [1/kg]
   LinkSet& links;
   Field3& value;  ///< positions [m], or velocities [m/s]
+  ColumnSpan span;  ///< outside it nothing moves
 };
 
 /// Scratch of a line solver.

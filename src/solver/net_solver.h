@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "cloth/cloth.h"
+#include "cloth/column_set.h"
 #include "solver/net_contacts.h"
 #include "solver/workers.h"
 
@@ -30,8 +31,9 @@ class NetSolver {
   /// Room for so many contacts.
   void expectContacts(std::size_t count) { contacts_.reserve(count); }
 
-  /// Takes the links' directions from these positions, and how nodes answer impulses [1/kg].
-  void begin(const Field3& position, const Field& inverse_inertia) noexcept;
+  /// Takes the links' directions from these positions, and how nodes answer impulses [1/kg]. Outside the span nothing moves; before
+  /// it changes: reset().
+  void begin(const Field3& position, const Field& inverse_inertia, const ColumnSpan& span) noexcept;
 
   /// Forgets all numbers (after one that was not finite).
   void reset() noexcept;
@@ -69,7 +71,7 @@ class NetSolver {
     Values x, y, z;
   };
 
-  void takeRow(const Field3& position, const Field& inverse_inertia, int row) noexcept;
+  void takeRow(const Field3& position, const Field& inverse_inertia, const ColumnSpan& span, int row) noexcept;
   void factorWarp(int block) noexcept;
   void factorWeft(int row_block) noexcept;
   void load(const Field& violation, const Field& active, int row_block) noexcept;
@@ -89,7 +91,7 @@ class NetSolver {
   const ClothPattern& pattern_;
   const Workers& workers_;
   std::size_t stride_;  // a row's nodes, one more link, padding
-  int column_blocks_;
+  int first_block_ = 0, moving_blocks_ = 0;  // of columns
   int row_blocks_;
   double inertia_scale_ = 1.0;  // the largest inverse inertia [1/kg]
   double violation_scale_ = 1.0;

@@ -14,8 +14,7 @@ namespace curtain {
 constexpr double kWeftCompliance = 1e-7;
 
 /// Directions of a row's links at the given positions.
-void setWeftDirections(const Grid& grid, int row, const Field3& position, Field3& direction) noexcept;
-
+void setWeftDirections(const Grid& grid, int row, const ColumnSpan& span, const Field3& position, Field3& direction) noexcept;
 
 /// Largest relative violation of the links of a row that take part; infinite when a position is not finite.
 double weftResidual(const LineSolve& line, int row) noexcept;
@@ -25,7 +24,7 @@ void freeWeft(const ClothPattern& pattern, const Field& inverse_mass, Field& out
 
 /// Largest square of a link's length over that of its rest length, of a row's links with an end that can move; infinite when
 /// a position is not finite.
-double weftSquare(const Grid& grid, int row, const Field3& position, const Field& free_per_square) noexcept;
+double weftSquare(const Grid& grid, int row, const ColumnSpan& span, const Field3& position, const Field& free_per_square) noexcept;
 
 /// The residual, and for every link of the row: whether it takes part (1 or 0) and its violation C = (|r|^2 - l^2) / 2 less
 /// what its compliance allows [m^2], 0 where it does not.

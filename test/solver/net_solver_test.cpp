@@ -36,11 +36,12 @@ struct Net {
   }
   void setDirections() {
     setWarpDirections(pattern.grid, state.position, warp.direction);
-    for (int i = 0; i < pattern.grid.rows; ++i) setWeftDirections(pattern.grid, i, state.position, weft.direction);
-    solver.begin(state.position, pattern.inverse_mass);
+    for (int i = 0; i < pattern.grid.rows; ++i) setWeftDirections(pattern.grid, i, span(), state.position, weft.direction);
+    solver.begin(state.position, pattern.inverse_mass, span());
   }
   void shake(double size, unsigned seed) { curtain_test::shake(pattern, size, seed, state.position); }
-  LineSolve line() { return {pattern, pattern.inverse_mass, weft, state.position}; }
+  ColumnSpan span() const { return {0, static_cast<std::size_t>(pattern.grid.columns)}; }
+  LineSolve line() { return {pattern, pattern.inverse_mass, weft, state.position, span()}; }
   double measure() {
     double worst = 0.0;
     for (int i = 0; i < pattern.grid.rows; ++i) worst = std::max(worst, measureWeft(line(), i, violation, active));
@@ -148,7 +149,7 @@ TEST_P(NetSolverOf, ShortensLongLinksAndOnlyPulls) {
   LineScratch scratch;
   scratch.assign(net.pattern.grid);
   const Field3 before = net.state.position;
-  const LineSolve rods{net.pattern, net.pattern.inverse_mass, net.warp, net.state.position};
+  const LineSolve rods{net.pattern, net.pattern.inverse_mass, net.warp, net.state.position, net.span()};
   for (int sweep = 0; sweep < 40; ++sweep) {
     net.setDirections();
     for (int block = 0; block < warpBlockCount(net.pattern.grid); ++block) warpNewton(rods, scratch, block);
