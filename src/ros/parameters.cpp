@@ -23,13 +23,29 @@ const char kScene[] = "scene";
 // A reader sets its field, or returns what is wrong.
 using Reader = std::function<std::string(const XmlRpcValue&, NodeParams&)>;
 
+// NaN: it is none.
+double numberOf(const XmlRpcValue& value) {
+  if (value.getType() == XmlRpcValue::TypeDouble) return static_cast<const double&>(value);
+  if (value.getType() == XmlRpcValue::TypeInt) return static_cast<const int&>(value);
+  return std::nan("");
+}
+
 Reader number(double NodeParams::*field, double largest, const std::string& unit) {
   return [=](const XmlRpcValue& value, NodeParams& params) -> std::string {
-    double number = std::nan("");
-    if (value.getType() == XmlRpcValue::TypeDouble) number = static_cast<const double&>(value);
-    if (value.getType() == XmlRpcValue::TypeInt) number = static_cast<const int&>(value);
+    const double number = numberOf(value);
     if (!(number > 0.0 && number <= largest)) {
       return "must be a number in (0, " + yamlText(largest) + "] " + unit + ", is " + describeValue(value);
+    }
+    params.*field = number;
+    return "";
+  };
+}
+
+Reader numberOrZero(double NodeParams::*field, double largest, const std::string& unit) {
+  return [=](const XmlRpcValue& value, NodeParams& params) -> std::string {
+    const double number = numberOf(value);
+    if (!(number >= 0.0 && number <= largest)) {
+      return "must be a number in [0, " + yamlText(largest) + "] " + unit + ", is " + describeValue(value);
     }
     params.*field = number;
     return "";
@@ -70,6 +86,8 @@ const std::map<std::string, Reader>& readers() {
   static const std::map<std::string, Reader> table = {
       {"world_frame", text(&NodeParams::world_frame)},
       {"obstacle_timeout", number(&NodeParams::obstacle_timeout, 3600.0, "[s]")},
+      {"state_rate", numberOrZero(&NodeParams::state_rate, 10000.0, "[1/s]")},
+      {"state_rest_rate", numberOrZero(&NodeParams::state_rest_rate, 10000.0, "[1/s]")},
       {"mesh_rate", number(&NodeParams::mesh_rate, 10000.0, "[1/s]")},
       {"markers_rate", number(&NodeParams::markers_rate, 10000.0, "[1/s]")},
       {"max_catch_up", integer(&NodeParams::max_catch_up, 1, 1000)},

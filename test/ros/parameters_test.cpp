@@ -104,6 +104,10 @@ TEST(Parameters, WrongTypesAndRangesOfTheNodesOwnAreNamed) {
   EXPECT_TRUE(names(readWith("mesh_rate", value("1e-6")).problems, "/stage/curtain/mesh_rate: must be a number"));
   EXPECT_TRUE(names(readWith("mesh_rate", value(0.0)).problems, "mesh_rate"));
   EXPECT_TRUE(names(readWith("mesh_rate", value(std::nan(""))).problems, "mesh_rate"));
+  EXPECT_TRUE(names(readWith("state_rate", value(-1.0)).problems, "state_rate: must be a number in [0, 10000.0]"));
+  EXPECT_TRUE(names(readWith("state_rest_rate", value(std::nan(""))).problems, "state_rest_rate"));
+  EXPECT_TRUE(names(readWith("state_rate", value("fast")).problems, "state_rate"));
+  EXPECT_TRUE(readWith("state_rate", value(0)).problems.empty()) << "every frame";
   EXPECT_TRUE(names(readWith("obstacle_timeout", value(-1.0)).problems, "obstacle_timeout"));
   EXPECT_TRUE(names(readWith("max_catch_up", value(7.6)).problems, "max_catch_up: must be an integer"));
   EXPECT_TRUE(names(readWith("max_catch_up", value(0)).problems, "max_catch_up"));
@@ -178,6 +182,8 @@ TEST(Parameters, TemplateGivesTheDefaults) {
   const NodeParams defaults;
   EXPECT_EQ(manual["world_frame"].as<std::string>(), defaults.world_frame);
   EXPECT_EQ(manual["obstacle_timeout"].as<double>(), defaults.obstacle_timeout);
+  EXPECT_EQ(manual["state_rate"].as<double>(), defaults.state_rate);
+  EXPECT_EQ(manual["state_rest_rate"].as<double>(), defaults.state_rest_rate);
   EXPECT_EQ(manual["mesh_rate"].as<double>(), defaults.mesh_rate);
   EXPECT_EQ(manual["markers_rate"].as<double>(), defaults.markers_rate);
   EXPECT_EQ(manual["max_catch_up"].as<int>(), defaults.max_catch_up);
