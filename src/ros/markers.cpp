@@ -124,10 +124,19 @@ visualization_msgs::MarkerArray blankDetails(const std::string& frame, const cur
 }  // namespace
 
 MeshMarker::MeshMarker(const std::string& world_frame, Shape& shape)
-    : shape_(shape), pool_(makeMarker(world_frame, "mesh", Marker::TRIANGLE_LIST, 1.0, kCloth)) {}
+    : shape_(shape),
+      reducer_(shape.simulator().fineMeshTopology()),
+      pool_(makeMarker(world_frame, "mesh", Marker::TRIANGLE_LIST, 1.0, kCloth)) {}
+
+std::uint64_t MeshMarker::look(const curtain::MeshDetail& detail) {
+  if (revision_ != shape_.revision() || !(detail_ == detail)) ++picture_;
+  revision_ = shape_.revision();
+  detail_ = detail;
+  return picture_;
+}
 
 Marker::ConstPtr MeshMarker::build(const ros::Time& stamp) {
-  if (drawn_ != look()) draw();
+  if (drawn_ != picture_) draw();
   auto& [marker, picture] = pool_.take();
   if (picture != drawn_) fill(*marker);
   picture = drawn_;
@@ -138,8 +147,9 @@ Marker::ConstPtr MeshMarker::build(const ros::Time& stamp) {
 // rviz lights triangles from one side, flat, and would show the back of the cloth black; so the light is in the vertices'
 // colours, smooth and the same on both sides.
 void MeshMarker::draw() {
-  drawn_ = look();
-  curtain::fineMeshNormals(shape_.simulator().fineMeshTopology(), shape_.fineMesh(), normals_);
+  drawn_ = picture_;
+  triangles_ = &reducer_.reduce(shape_.fineMesh(), detail_);
+  curtain::fineMeshNormals(*triangles_, shape_.fineMesh(), normals_);
   colours_.resize(normals_.size());
   for (std::size_t i = 0; i < normals_.size(); ++i) {
     colours_[i] = shaded(kCloth, std::abs(normals_[i].dot(kLight)));
@@ -148,11 +158,10 @@ void MeshMarker::draw() {
 
 void MeshMarker::fill(Marker& marker) const {
   const std::vector<Vec3>& positions = shape_.fineMesh().positions;
-  const auto& triangles = shape_.simulator().fineMeshTopology().triangles;
-  marker.points.resize(3 * triangles.size());
+  marker.points.resize(3 * triangles_->size());
   marker.colors.resize(marker.points.size());
   std::size_t to = 0;
-  for (const auto& triangle : triangles) {
+  for (const auto& triangle : *triangles_) {
     for (const std::uint32_t node : triangle) {
       marker.points[to] = toPoint(positions[node]);
       marker.colors[to++] = colours_[node];

@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "curtain_sim/mesh_reducer.h"
 #include "ros/message_pool.h"
 #include "ros/shape.h"
 
@@ -29,10 +30,10 @@ class MeshMarker {
   /// shape must outlive this.
   MeshMarker(const std::string& world_frame, Shape& shape);
 
-  /// The number of the picture that there is now; another number, another picture.
-  std::uint64_t look() const { return shape_.revision(); }
+  /// The number of the picture that there is now, in this detail; another number, another picture.
+  std::uint64_t look(const curtain::MeshDetail& detail);
 
-  /// The picture as a message.
+  /// The picture that was looked at last, as a message.
   visualization_msgs::Marker::ConstPtr build(const ros::Time& stamp);
 
  private:
@@ -40,7 +41,12 @@ class MeshMarker {
   void fill(visualization_msgs::Marker& marker) const;
 
   Shape& shape_;
+  std::uint64_t picture_ = 0;
+  std::optional<std::uint64_t> revision_;  // of that picture
+  curtain::MeshDetail detail_;             // and its detail
+  curtain::MeshReducer reducer_;
   std::optional<std::uint64_t> drawn_;  // picture that the following are of
+  const curtain::MeshReducer::Triangles* triangles_ = nullptr;
   std::vector<curtain::Vec3> normals_;
   std::vector<std_msgs::ColorRGBA> colours_;                                    // of the fine nodes
   MessagePool<visualization_msgs::Marker, std::optional<std::uint64_t>> pool_;  // content: picture

@@ -7,8 +7,11 @@ namespace {
 constexpr double kPicturesAtRest = 1.0;  // [1/s]
 }
 
-Outputs::Outputs(ros::NodeHandle private_node, const NodeParams& params, const curtain::Simulator& simulator)
+Outputs::Outputs(ros::NodeHandle private_node, const NodeParams& params, const curtain::Simulator& simulator,
+                 Frames& frames)
     : shape_(simulator),
+      frames_(frames),
+      viewer_frame_(params.mesh_viewer_frame),
       state_pace_(params.state_rate, params.state_rest_rate, simulator.scene().solver.frame_rate),
       contacts_pace_(state_pace_),
       mesh_pace_(params.mesh_rate, kPicturesAtRest, simulator.scene().solver.frame_rate),
@@ -21,7 +24,10 @@ Outputs::Outputs(ros::NodeHandle private_node, const NodeParams& params, const c
       state_publisher_(private_node.advertise<curtain_sim::CurtainState>("state", 2)),
       mesh_publisher_(private_node.advertise<visualization_msgs::Marker>("mesh", 1)),
       markers_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", 1)),
-      contacts_publisher_(private_node.advertise<curtain_sim::Contacts>("contacts", 2)) {}
+      contacts_publisher_(private_node.advertise<curtain_sim::Contacts>("contacts", 2)) {
+  detail_.tolerance = params.mesh_tolerance;
+  detail_.viewer_tolerance = params.mesh_viewer_tolerance;
+}
 
 void Outputs::publish(const ros::Time& stamp, curtain_sim::Statistics statistics, bool latest) {
   for (Pace* pace : {&state_pace_, &contacts_pace_, &mesh_pace_, &markers_pace_}) pace->tick();
@@ -38,7 +44,7 @@ void Outputs::publish(const ros::Time& stamp, curtain_sim::Statistics statistics
 }
 
 void Outputs::publishPictures(const ros::Time& stamp) {
-  if (mesh_pace_.due(mesh_publisher_.getNumSubscribers()) && mesh_pace_.send(mesh_.look())) {
+  if (mesh_pace_.due(mesh_publisher_.getNumSubscribers()) && mesh_pace_.send(mesh_.look(meshDetail()))) {
     mesh_publisher_.publish(mesh_.build(stamp));
     ++meshes_sent_;
   }
@@ -46,6 +52,14 @@ void Outputs::publishPictures(const ros::Time& stamp) {
     markers_publisher_.publish(details_.build(stamp));
     ++markers_sent_;
   }
+}
+
+// A viewer that tf2 does not know is one that sees everything: full detail. One that was known stays where it was.
+curtain::MeshDetail Outputs::meshDetail() {
+  if (viewer_frame_.empty()) return detail_;
+  const FrameLookup viewer = frames_.lookup(viewer_frame_);
+  if (viewer.known) detail_.viewer = viewer.pose.position;
+  return detail_;
 }
 
 }  // namespace curtain_ros

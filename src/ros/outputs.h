@@ -8,8 +8,10 @@
 #include <ros/publisher.h>
 
 #include <cstdint>
+#include <string>
 
 #include "curtain_sim/simulator.h"
+#include "ros/frames.h"
 #include "ros/markers.h"
 #include "ros/pace.h"
 #include "ros/parameters.h"
@@ -21,8 +23,8 @@ namespace curtain_ros {
 /// Simulation thread only.
 class Outputs {
  public:
-  /// simulator must outlive this.
-  Outputs(ros::NodeHandle private_node, const NodeParams& params, const curtain::Simulator& simulator);
+  /// simulator and frames must outlive this. frames is asked where the viewer is, if the parameters name one.
+  Outputs(ros::NodeHandle private_node, const NodeParams& params, const curtain::Simulator& simulator, Frames& frames);
 
   /// Publishes a frame.
   ///   statistics  the node's own fields are filled in; the engine's and the counters of what was sent are added here
@@ -31,8 +33,12 @@ class Outputs {
 
  private:
   void publishPictures(const ros::Time& stamp);
+  curtain::MeshDetail meshDetail();
 
   Shape shape_;
+  Frames& frames_;
+  std::string viewer_frame_;
+  curtain::MeshDetail detail_;
   Pace state_pace_;
   Pace contacts_pace_;
   Pace mesh_pace_;

@@ -82,6 +82,14 @@ Reader text(std::string NodeParams::*field) {
   };
 }
 
+Reader textOrEmpty(std::string NodeParams::*field) {
+  return [=](const XmlRpcValue& value, NodeParams& params) -> std::string {
+    if (value.getType() != XmlRpcValue::TypeString) return "must be a text, is " + describeValue(value);
+    params.*field = static_cast<const std::string&>(value);
+    return "";
+  };
+}
+
 const std::map<std::string, Reader>& readers() {
   static const std::map<std::string, Reader> table = {
       {"world_frame", text(&NodeParams::world_frame)},
@@ -89,6 +97,9 @@ const std::map<std::string, Reader>& readers() {
       {"state_rate", numberOrZero(&NodeParams::state_rate, 10000.0, "[1/s]")},
       {"state_rest_rate", numberOrZero(&NodeParams::state_rest_rate, 10000.0, "[1/s]")},
       {"mesh_rate", number(&NodeParams::mesh_rate, 10000.0, "[1/s]")},
+      {"mesh_tolerance", numberOrZero(&NodeParams::mesh_tolerance, 1000.0, "[m]")},
+      {"mesh_viewer_frame", textOrEmpty(&NodeParams::mesh_viewer_frame)},
+      {"mesh_viewer_tolerance", numberOrZero(&NodeParams::mesh_viewer_tolerance, 1.0, "[rad]")},
       {"markers_rate", number(&NodeParams::markers_rate, 10000.0, "[1/s]")},
       {"max_catch_up", integer(&NodeParams::max_catch_up, 1, 1000)},
       {"state_folds", boolean(&NodeParams::state_folds)},

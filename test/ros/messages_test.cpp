@@ -72,6 +72,10 @@ class Messages {
         mesh("world", shape),
         details("world", shape) {}
 
+  visualization_msgs::Marker::ConstPtr buildMesh() {
+    mesh.look(detail);
+    return mesh.build(stamp);
+  }
   visualization_msgs::MarkerArray::ConstPtr buildDetails() {
     details.look();
     return details.build(stamp);
@@ -79,7 +83,7 @@ class Messages {
   void buildAll() {
     state.build(stamp, {});
     contacts.build(shape.simulator(), stamp);
-    mesh.build(stamp);
+    buildMesh();
     buildDetails();
   }
 
@@ -89,6 +93,7 @@ class Messages {
   MeshMarker mesh;
   DetailMarkers details;
   ros::Time stamp{1.0};
+  curtain::MeshDetail detail;
 
  private:
   static NodeParams withFolds() {
@@ -105,19 +110,21 @@ void expectAsNew(Messages& messages) {
   EXPECT_TRUE(*messages.state.build(messages.stamp, {}) == *fresh.state.build(fresh.stamp, {}));
   EXPECT_TRUE(*messages.contacts.build(messages.shape.simulator(), messages.stamp) ==
               *fresh.contacts.build(messages.shape.simulator(), fresh.stamp));
-  EXPECT_TRUE(*messages.mesh.build(messages.stamp) == *fresh.mesh.build(fresh.stamp));
+  EXPECT_TRUE(*messages.buildMesh() == *fresh.buildMesh());
   EXPECT_TRUE(*messages.buildDetails() == *fresh.buildDetails());
 }
 
 TEST(Messages, SteadyOnesAllocateNothing) {
   for (const char* name : {"curtain", "flag", "skirt"}) {
     curtain::Simulator simulator(shippedScene(name));
-    Messages messages(simulator);
+    Messages messages(simulator), reduced(simulator);
+    reduced.detail.tolerance = 1e-3;
     long built = 0;
     for (int frame = 0; frame < 90; ++frame) {
       simulator.step();
       const long before = allocations;
       messages.buildAll();
+      reduced.buildAll();
       if (frame >= 30) built += allocations - before;
     }
     EXPECT_EQ(built, 0) << name;
@@ -151,7 +158,7 @@ TEST(Messages, OneThatIsHeldIsLeftAlone) {
   simulator.step();
   const auto state = messages.state.build(messages.stamp, {});
   const auto contacts = messages.contacts.build(simulator, messages.stamp);
-  const auto mesh = messages.mesh.build(messages.stamp);
+  const auto mesh = messages.buildMesh();
   const auto details = messages.buildDetails();
   const auto kept_state = *state;
   const auto kept_contacts = *contacts;
@@ -178,12 +185,12 @@ TEST(Messages, OfTheSameShapeAreNotFilledAgain) {
   const auto wires = [](const visualization_msgs::MarkerArray& array) -> const visualization_msgs::Marker& {
     return array.markers[0];
   };
-  const_cast<double&>(messages.mesh.build(messages.stamp)->points[0].x) = mark;
+  const_cast<double&>(messages.buildMesh()->points[0].x) = mark;
   const_cast<float&>(messages.state.build(messages.stamp, {})->forces[0]) = 1e6F;
   const_cast<double&>(wires(*messages.buildDetails()).points[0].x) = mark;
   messages.stamp = ros::Time(2.0);
-  EXPECT_EQ(messages.mesh.build(messages.stamp)->points[0].x, mark);
-  EXPECT_EQ(messages.mesh.build(messages.stamp)->header.stamp, messages.stamp);
+  EXPECT_EQ(messages.buildMesh()->points[0].x, mark);
+  EXPECT_EQ(messages.buildMesh()->header.stamp, messages.stamp);
   EXPECT_EQ(messages.state.build(messages.stamp, {})->forces[0], 1e6F);
   EXPECT_EQ(messages.state.build(messages.stamp, {})->header.stamp, messages.stamp);
   simulator.removeWind("fan");
@@ -191,6 +198,32 @@ TEST(Messages, OfTheSameShapeAreNotFilledAgain) {
   EXPECT_EQ(wires(*messages.buildDetails()).header.stamp, messages.stamp);
   simulator.step();
   expectAsNew(messages);
+}
+
+// The topology is what clients may rely on unless they ask for less.
+TEST(MeshMarker, HasTheFineTrianglesUnlessLessIsAskedFor) {
+  curtain::Simulator simulator(shippedScene("curtain"));
+  for (int frame = 0; frame < 30; ++frame) simulator.step();
+  Messages messages(simulator);
+  const auto full = messages.buildMesh();
+  const curtain::FineMesh& mesh = messages.shape.fineMesh();
+  const auto& triangles = simulator.fineMeshTopology().triangles;
+  ASSERT_EQ(full->points.size(), 3 * triangles.size());
+  for (std::size_t i = 0; i < full->points.size(); ++i) {
+    const curtain::Vec3& node = mesh.positions[triangles[i / 3][i % 3]];
+    EXPECT_EQ(curtain::Vec3(full->points[i].x, full->points[i].y, full->points[i].z), node);
+  }
+
+  const std::uint64_t picture = messages.mesh.look(messages.detail);
+  messages.detail.viewer = curtain::Vec3(0.3, -4.0, 1.2);
+  messages.detail.viewer_tolerance = 1e-3;
+  EXPECT_NE(messages.mesh.look(messages.detail), picture) << "another eye, another picture";
+  const auto reduced = messages.buildMesh();
+  EXPECT_LT(reduced->points.size(), full->points.size() / 3);
+  EXPECT_EQ(reduced->colors.size(), reduced->points.size());
+  messages.detail.viewer->y() = -5.0;
+  EXPECT_LT(messages.buildMesh()->points.size(), reduced->points.size());
+  EXPECT_EQ(messages.mesh.look(messages.detail), messages.mesh.look(messages.detail));
 }
 
 TEST(DetailMarkers, ANumberForEveryPicture) {

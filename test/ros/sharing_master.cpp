@@ -69,7 +69,8 @@ class Sharing : public ::testing::Test {
 
   NodeParams params_;
   curtain::Simulator simulator_{windlessScene()};
-  Outputs outputs_{ros::NodeHandle("~"), params_, simulator_};
+  Frames frames_{ros::NodeHandle(), params_.world_frame};
+  Outputs outputs_{ros::NodeHandle("~"), params_, simulator_, frames_};
   ros::Time stamp_{100.0};
 };
 
