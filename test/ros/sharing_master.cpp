@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What subscribers in the node's own process get, as nodelets of one manager are: all of them the one object that was
-// published, which stays as it is for as long as they hold it and is filled again after that. Run by rostest.
+// published, which stays as it is for as long as they hold it and is filled again after that; and what they get of a
+// curtain at rest. Run by rostest.
 #include <gtest/gtest.h>
 #include <ros/ros.h>
+#include <visualization_msgs/InteractiveMarkerUpdate.h>
 
 #include <functional>
 #include <set>
 
+#include "ros/handles.h"
 #include "ros/outputs.h"
 
 namespace curtain_ros {
@@ -169,6 +172,50 @@ TEST_F(Sharing, AtRestAllComeAtTheirRestRates) {
   publish(600, false);
   waitUntil([&] { return mesh.count == 30 && markers.count == 20; }, "the pictures of ten seconds at rest are there");
   EXPECT_EQ(state.count, 60 + 100);
+}
+
+// At rest handles are where their nodes are, unless somebody had one in the hand.
+TEST_F(Sharing, HandlesAreMovedWhenTheyOrTheirNodesMay) {
+  ros::NodeHandle private_node("~");
+  Inputs inputs(ros::NodeHandle(), frames_);
+  Handles handles(private_node, params_, simulator_, inputs);
+  int moves = 0;
+  const auto take = [&](const visualization_msgs::InteractiveMarkerUpdate::ConstPtr& update) {
+    moves += !update->poses.empty();
+  };
+  const ros::Subscriber updates = private_node.subscribe<visualization_msgs::InteractiveMarkerUpdate>(
+      "handles/update", 100, boost::function<void(const visualization_msgs::InteractiveMarkerUpdate::ConstPtr&)>(take));
+  const ros::Publisher feedback =
+      private_node.advertise<visualization_msgs::InteractiveMarkerFeedback>("handles/feedback", 1);
+  waitUntil([&] { return updates.getNumPublishers() > 0 && feedback.getNumSubscribers() > 0; }, "both are connected");
+  const auto frames = [&](int count, bool moving) {
+    for (int frame = 0; frame < count; ++frame) {
+      if (moving) simulator_.step();
+      handles.update(simulator_);
+      ros::spinOnce();
+    }
+  };
+  // Messages that were sent are waited for; those that must not be sent would come before the next ones.
+  frames(60, true);
+  waitUntil([&] { return moves == 11; }, "the first frame's and ten more are there");
+  frames(60, false);
+
+  visualization_msgs::InteractiveMarkerFeedback let_go;
+  let_go.header.frame_id = "world";
+  let_go.client_id = "sharing";
+  let_go.marker_name = "handle_0";
+  let_go.event_type = visualization_msgs::InteractiveMarkerFeedback::MOUSE_UP;
+  feedback.publish(let_go);
+  waitUntil(
+      [&] {
+        frames(6, false);
+        return moves > 11;
+      },
+      "the handle goes back to its node");
+  frames(60, false);
+  frames(6, true);
+  waitUntil([&] { return moves > 12; }, "the handles follow");
+  EXPECT_EQ(moves, 13);
 }
 
 }  // namespace
