@@ -7,7 +7,13 @@ if(TARGET test_ros)
   add_dependencies(test_ros ${curtain_sim_EXPORTED_TARGETS})
 endif()
 
+# In C++, with a master.
+add_rostest_gtest(test_ros_sharing test/ros/sharing.test test/ros/sharing_master.cpp)
+target_link_libraries(test_ros_sharing curtain_ros curtain_warnings)
+add_dependencies(test_ros_sharing ${curtain_sim_EXPORTED_TARGETS})
+
 file(GLOB CURTAIN_ROSTESTS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS test/ros/*.test)
+list(REMOVE_ITEM CURTAIN_ROSTESTS test/ros/sharing.test)
 foreach(file ${CURTAIN_ROSTESTS})
   add_rostest(${file} DEPENDENCIES curtain_node curtain_nodelet ${curtain_sim_EXPORTED_TARGETS})
 endforeach()

@@ -36,4 +36,8 @@ FineMeshTopology makeFineMeshTopology(const ClothParams& cloth);
 /// Unit normals of the fine mesh's nodes (area-weighted mean of the faces at the node); out is resized.
 void fineMeshNormals(const FineMeshTopology& topology, const FineMesh& mesh, std::vector<Vec3>& out);
 
+/// The same for other triangles over the same nodes, such as MeshReducer's. At a node of none of them: +z.
+void fineMeshNormals(const std::vector<std::array<std::uint32_t, 3>>& triangles, const FineMesh& mesh,
+                     std::vector<Vec3>& out);
+
 }  // namespace curtain

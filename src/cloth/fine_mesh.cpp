@@ -23,8 +23,13 @@ FineMeshTopology makeFineMeshTopology(const ClothParams& cloth) {
 }
 
 void fineMeshNormals(const FineMeshTopology& topology, const FineMesh& mesh, std::vector<Vec3>& out) {
+  fineMeshNormals(topology.triangles, mesh, out);
+}
+
+void fineMeshNormals(const std::vector<std::array<std::uint32_t, 3>>& triangles, const FineMesh& mesh,
+                     std::vector<Vec3>& out) {
   out.assign(mesh.positions.size(), Vec3::Zero());
-  for (const auto& triangle : topology.triangles) {
+  for (const auto& triangle : triangles) {
     const Vec3& a = mesh.positions[triangle[0]];
     const Vec3 area = (mesh.positions[triangle[1]] - a).cross(mesh.positions[triangle[2]] - a);
     for (const std::uint32_t corner : triangle) out[corner] += area;

@@ -33,7 +33,7 @@ CurtainNode::CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& pri
       frames_(node, reading.node.world_frame),
       inputs_(node, frames_),
       obstacles_(reading.scene, reading.node.obstacle_timeout, frames_),
-      outputs_(private_node, reading.node, reading.scene),
+      outputs_(private_node, reading.node, simulator_, frames_),
       step_clock_(reading.scene.solver.frame_rate, reading.node.max_catch_up) {
   if (reading.node.handles) handles_ = std::make_unique<Handles>(private_node, reading.node, simulator_, inputs_);
   obstacles_.restart(simulator_);
@@ -83,7 +83,7 @@ void CurtainNode::makeFrame(const ros::Time& stamp, bool latest) {
     return;
   }
   plan_log_.update(simulator_);
-  outputs_.publish(simulator_, stamp, nodeStatistics(), latest);
+  outputs_.publish(stamp, nodeStatistics(), latest);
   if (handles_) handles_->update(simulator_);
 }
 

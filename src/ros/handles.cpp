@@ -87,10 +87,15 @@ Handles::Handles(ros::NodeHandle private_node, const NodeParams& params, const c
 
 void Handles::update(const curtain::Simulator& simulator) {
   if (!rate_.tick() || update_watch_.getNumSubscribers() == 0) return;
+  if (!touched_.exchange(false) && shown_ == simulator.revision()) return;
+  shown_ = simulator.revision();
   for (const Handle& handle : handles_) {
     const auto& drags = simulator.drags();
     const auto is_it = [&](const curtain::DragParams& drag) { return drag.id == handle.name; };
-    if (std::any_of(drags.begin(), drags.end(), is_it)) continue;  // in somebody's hand
+    if (std::any_of(drags.begin(), drags.end(), is_it)) {  // in somebody's hand
+      touched_ = true;
+      continue;
+    }
     geometry_msgs::Pose pose;
     pose.position = toPoint(simulator.position(handle.node));
     pose.orientation.w = 1.0;
@@ -100,6 +105,7 @@ void Handles::update(const curtain::Simulator& simulator) {
 }
 
 void Handles::onFeedback(const Handle& handle, const InteractiveMarkerFeedback& feedback) {
+  touched_ = true;
   const auto drag = boost::make_shared<curtain_sim::DragForce>();
   drag->header = feedback.header;
   drag->id = handle.name;

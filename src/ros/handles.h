@@ -9,12 +9,16 @@
 #include <ros/publisher.h>
 #include <visualization_msgs/InteractiveMarkerFeedback.h>
 
+#include <atomic>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "curtain_sim/simulator.h"
 #include "ros/inputs.h"
-#include "ros/outputs.h"
+#include "ros/pace.h"
+#include "ros/parameters.h"
 
 namespace curtain_ros {
 
@@ -28,7 +32,8 @@ class Handles {
   /// Serves ~handles. inputs must outlive this.
   Handles(ros::NodeHandle private_node, const NodeParams& params, const curtain::Simulator& simulator, Inputs& inputs);
 
-  /// To be called each frame: about ten times a second the handles go to their nodes, if somebody looks.
+  /// To be called each frame: about ten times a second the handles go to their nodes, if somebody looks and either may
+  /// have moved.
   void update(const curtain::Simulator& simulator);
 
  private:
@@ -43,6 +48,8 @@ class Handles {
   Inputs& inputs_;
   RateDivider rate_;
   std::vector<Handle> handles_;
+  std::optional<std::uint64_t> shown_;  // revision of the nodes that the handles were taken to
+  std::atomic<bool> touched_{false};    // somebody had a handle in the hand since: it need not be at its node
   interactive_markers::InteractiveMarkerServer server_;
   ros::Publisher update_watch_;  // shares the server's topic: says whether somebody looks
 };

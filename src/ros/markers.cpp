@@ -58,27 +58,29 @@ std_msgs::ColorRGBA shaded(const std_msgs::ColorRGBA& c, double brightness) {
 // rviz complains about markers without points: an empty one is taken away instead.
 void showUnlessEmpty(Marker& marker) { marker.action = marker.points.empty() ? Marker::DELETE : Marker::ADD; }
 
-void addLine(const Vec3& a, const Vec3& b, Marker& marker) {
-  marker.points.push_back(toPoint(a));
-  marker.points.push_back(toPoint(b));
+using Points = std::vector<geometry_msgs::Point>;
+
+void addLine(const Vec3& a, const Vec3& b, Points& points) {
+  points.push_back(toPoint(a));
+  points.push_back(toPoint(b));
 }
 
-void buildWires(const std::vector<Vec3>& nodes, int rows, int columns, bool closed, Marker& marker) {
+void buildWires(const std::vector<Vec3>& nodes, int rows, int columns, bool closed, Points& points) {
   const auto at = [&](int row, int column) -> const Vec3& {
     return nodes[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column)];
   };
-  marker.points.clear();
+  points.clear();
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
-      if (row + 1 < rows) addLine(at(row, column), at(row + 1, column), marker);
-      if (column + 1 < columns) addLine(at(row, column), at(row, column + 1), marker);
+      if (row + 1 < rows) addLine(at(row, column), at(row + 1, column), points);
+      if (column + 1 < columns) addLine(at(row, column), at(row, column + 1), points);
     }
-    if (closed) addLine(at(row, columns - 1), at(row, 0), marker);
+    if (closed) addLine(at(row, columns - 1), at(row, 0), points);
   }
 }
 
 // Disc, spokes and the circle at the end of the drawn part.
-void addCone(const curtain::WindParams& wind, Marker& marker) {
+void addCone(const curtain::WindParams& wind, Points& points) {
   const Vec3 axis = wind.direction.normalized();
   const Vec3 u = axis.unitOrthogonal();
   const Vec3 v = axis.cross(u);
@@ -88,96 +90,145 @@ void addCone(const curtain::WindParams& wind, Marker& marker) {
     return wind.position + along * axis + radius * (std::cos(angle) * u + std::sin(angle) * v);
   };
   for (int i = 0; i < kWindSpokes; ++i) {
-    addLine(corner(i, 0.0, wind.radius), corner(i + 1, 0.0, wind.radius), marker);
-    addLine(corner(i, kWindLength, far_radius), corner(i + 1, kWindLength, far_radius), marker);
-    addLine(corner(i, 0.0, wind.radius), corner(i, kWindLength, far_radius), marker);
+    addLine(corner(i, 0.0, wind.radius), corner(i + 1, 0.0, wind.radius), points);
+    addLine(corner(i, kWindLength, far_radius), corner(i + 1, kWindLength, far_radius), points);
+    addLine(corner(i, 0.0, wind.radius), corner(i, kWindLength, far_radius), points);
   }
 }
 
-void addTriangles(const std::vector<Vec3>& corners, const std::vector<Eigen::Vector3i>& triangles, Marker& marker) {
-  marker.points.reserve(3 * triangles.size());
+void addTriangles(const std::vector<Vec3>& corners, const std::vector<Eigen::Vector3i>& triangles, Points& points) {
+  points.reserve(3 * triangles.size());
   for (const Eigen::Vector3i& triangle : triangles) {
-    for (const int corner : triangle) marker.points.push_back(toPoint(corners[static_cast<std::size_t>(corner)]));
+    for (const int corner : triangle) points.push_back(toPoint(corners[static_cast<std::size_t>(corner)]));
   }
+}
+
+visualization_msgs::MarkerArray blankDetails(const std::string& frame, const curtain::Simulator& simulator) {
+  visualization_msgs::MarkerArray array;
+  array.markers = {
+      makeMarker(frame, "wires", Marker::LINE_LIST, kWireWidth, colour(0.95F, 0.95F, 0.95F)),
+      makeMarker(frame, "nodes", Marker::POINTS, kNodeSize, colour(0.10F, 0.75F, 0.95F)),
+      makeMarker(frame, "folds", Marker::POINTS, kFoldSize, colour(0.95F, 0.85F, 0.30F)),
+      makeMarker(frame, "wind", Marker::LINE_LIST, kWindWidth, colour(0.55F, 0.80F, 1.00F)),
+  };
+  for (int i = 0; i < simulator.obstacleCount(); ++i) {  // shapes never change: their triangles are made once
+    Marker marker = makeMarker(frame, "obstacles", Marker::TRIANGLE_LIST, 1.0, colour(0.45F, 0.50F, 0.58F));
+    marker.id = i;
+    const curtain::ShapeTriangles shape = simulator.obstacleShape(i).triangles();
+    addTriangles(shape.corners, shape.triangles, marker.points);
+    array.markers.push_back(marker);
+  }
+  return array;
 }
 
 }  // namespace
 
-MeshMarker::MeshMarker(const std::string& world_frame)
-    : marker_(makeMarker(world_frame, "mesh", Marker::TRIANGLE_LIST, 1.0, kCloth)) {}
+MeshMarker::MeshMarker(const std::string& world_frame, Shape& shape)
+    : shape_(shape),
+      reducer_(shape.simulator().fineMeshTopology()),
+      pool_(makeMarker(world_frame, "mesh", Marker::TRIANGLE_LIST, 1.0, kCloth)) {}
+
+std::uint64_t MeshMarker::look(const curtain::MeshDetail& detail) {
+  if (revision_ != shape_.revision() || !(detail_ == detail)) ++picture_;
+  revision_ = shape_.revision();
+  detail_ = detail;
+  return picture_;
+}
+
+Marker::ConstPtr MeshMarker::build(const ros::Time& stamp) {
+  if (drawn_ != picture_) draw();
+  auto& [marker, picture] = pool_.take();
+  if (picture != drawn_) fill(*marker);
+  picture = drawn_;
+  marker->header.stamp = stamp;
+  return marker;
+}
 
 // rviz lights triangles from one side, flat, and would show the back of the cloth black; so the light is in the vertices'
 // colours, smooth and the same on both sides.
-const Marker& MeshMarker::build(const curtain::Simulator& simulator, const ros::Time& stamp) {
-  const curtain::FineMeshTopology& topology = simulator.fineMeshTopology();
-  simulator.copyFineMesh(mesh_);
-  curtain::fineMeshNormals(topology, mesh_, normals_);
-  marker_.header.stamp = stamp;
-  marker_.points.resize(3 * topology.triangles.size());
-  marker_.colors.resize(marker_.points.size());
+void MeshMarker::draw() {
+  drawn_ = picture_;
+  triangles_ = &reducer_.reduce(shape_.fineMesh(), detail_);
+  curtain::fineMeshNormals(*triangles_, shape_.fineMesh(), normals_);
+  colours_.resize(normals_.size());
+  for (std::size_t i = 0; i < normals_.size(); ++i) {
+    colours_[i] = shaded(kCloth, std::abs(normals_[i].dot(kLight)));
+  }
+}
+
+void MeshMarker::fill(Marker& marker) const {
+  const std::vector<Vec3>& positions = shape_.fineMesh().positions;
+  marker.points.resize(3 * triangles_->size());
+  marker.colors.resize(marker.points.size());
   std::size_t to = 0;
-  for (const auto& triangle : topology.triangles) {
+  for (const auto& triangle : *triangles_) {
     for (const std::uint32_t node : triangle) {
-      marker_.points[to] = toPoint(mesh_.positions[node]);
-      marker_.colors[to++] = shaded(kCloth, std::abs(normals_[node].dot(kLight)));
+      marker.points[to] = toPoint(positions[node]);
+      marker.colors[to++] = colours_[node];
     }
   }
-  return marker_;
 }
 
-DetailMarkers::DetailMarkers(const std::string& world_frame) {
-  array_.markers = {
-      makeMarker(world_frame, "wires", Marker::LINE_LIST, kWireWidth, colour(0.95F, 0.95F, 0.95F)),
-      makeMarker(world_frame, "nodes", Marker::POINTS, kNodeSize, colour(0.10F, 0.75F, 0.95F)),
-      makeMarker(world_frame, "folds", Marker::POINTS, kFoldSize, colour(0.95F, 0.85F, 0.30F)),
-      makeMarker(world_frame, "wind", Marker::LINE_LIST, kWindWidth, colour(0.55F, 0.80F, 1.00F)),
-  };
+DetailMarkers::DetailMarkers(const std::string& world_frame, Shape& shape)
+    : shape_(shape), pool_(blankDetails(world_frame, shape.simulator())) {}
+
+std::uint64_t DetailMarkers::look() {
+  const curtain::Simulator& simulator = shape_.simulator();
+  cones_now_.clear();
+  for (const curtain::WindParams& source : simulator.winds()) {
+    if (source.start <= simulator.time() && simulator.time() < source.end) addCone(source, cones_now_);
+  }
+  const bool winds_changed = cones_now_ != cones_;
+  if (winds_changed) {
+    std::swap(cones_, cones_now_);
+    ++winds_;
+  }
+  if (winds_changed || revision_ != shape_.revision()) ++picture_;
+  revision_ = shape_.revision();
+  return picture_;
 }
 
-const visualization_msgs::MarkerArray& DetailMarkers::build(const curtain::Simulator& simulator,
-                                                            const ros::Time& stamp) {
-  simulator.copyPositions(nodes_);
-  buildWires(nodes_, simulator.rows(), simulator.columns(), simulator.scene().cloth.closed, array_.markers[kWires]);
+visualization_msgs::MarkerArray::ConstPtr DetailMarkers::build(const ros::Time& stamp) {
+  auto& [array, content] = pool_.take();
+  if (content.shape != revision_) fill(*array);
+  content.shape = revision_;
+  Marker& wind = array->markers[kWind];
+  if (content.winds != winds_) wind.points = cones_;
+  content.winds = winds_;
+  showUnlessEmpty(wind);
+  for (Marker& marker : array->markers) marker.header.stamp = stamp;
+  return array;
+}
 
-  Marker& nodes = array_.markers[kNodes];
-  nodes.points.resize(nodes_.size());
-  for (std::size_t i = 0; i < nodes_.size(); ++i) nodes.points[i] = toPoint(nodes_[i]);
+void DetailMarkers::fill(visualization_msgs::MarkerArray& array) {
+  const curtain::Simulator& simulator = shape_.simulator();
+  const std::vector<Vec3>& positions = shape_.nodes();
+  buildWires(positions, simulator.rows(), simulator.columns(), simulator.scene().cloth.closed,
+             array.markers[kWires].points);
 
-  simulator.copyFineMesh(mesh_);
+  Points& nodes = array.markers[kNodes].points;
+  nodes.resize(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) nodes[i] = toPoint(positions[i]);
+
+  const curtain::FineMesh& mesh = shape_.fineMesh();
   const curtain::FineMeshTopology& topology = simulator.fineMeshTopology();
-  Marker& folds = array_.markers[kFolds];
+  Marker& folds = array.markers[kFolds];
   folds.points.clear();
-  for (std::size_t i = 0; i < mesh_.positions.size(); ++i) {
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     const int column = static_cast<int>(i % static_cast<std::size_t>(topology.columns));
-    if (column % topology.folds != 0) folds.points.push_back(toPoint(mesh_.positions[i]));
+    if (column % topology.folds != 0) folds.points.push_back(toPoint(mesh.positions[i]));
   }
   showUnlessEmpty(folds);
 
-  Marker& wind = array_.markers[kWind];
-  wind.points.clear();
-  for (const curtain::WindParams& source : simulator.winds()) {
-    if (source.start <= simulator.time() && simulator.time() < source.end) addCone(source, wind);
+  for (int i = 0; i < simulator.obstacleCount(); ++i) {
+    place(array.markers[static_cast<std::size_t>(kFirstObstacle) + static_cast<std::size_t>(i)], i);
   }
-  showUnlessEmpty(wind);
-
-  for (int i = 0; i < simulator.obstacleCount(); ++i) buildObstacle(simulator, i);
-  for (Marker& marker : array_.markers) marker.header.stamp = stamp;
-  return array_;
 }
 
-void DetailMarkers::buildObstacle(const curtain::Simulator& simulator, int index) {
-  const std::size_t slot = static_cast<std::size_t>(kFirstObstacle) + static_cast<std::size_t>(index);
-  if (slot >= array_.markers.size()) {  // shapes never change: their triangles are made once
-    Marker marker = makeMarker(array_.markers[kWires].header.frame_id, "obstacles", Marker::TRIANGLE_LIST, 1.0,
-                               colour(0.45F, 0.50F, 0.58F));
-    marker.id = index;
-    const curtain::ShapeTriangles shape = simulator.obstacleShape(index).triangles();
-    addTriangles(shape.corners, shape.triangles, marker);
-    array_.markers.push_back(marker);
-  }
-  Marker& marker = array_.markers[slot];
-  const curtain::Pose& pose = simulator.obstaclePose(index);
-  marker.action = simulator.obstaclePresent(index) ? Marker::ADD : Marker::DELETE;
+void DetailMarkers::place(Marker& marker, int obstacle) const {
+  const curtain::Simulator& simulator = shape_.simulator();
+  const curtain::Pose& pose = simulator.obstaclePose(obstacle);
+  marker.action = simulator.obstaclePresent(obstacle) ? Marker::ADD : Marker::DELETE;
   marker.pose.position = toPoint(pose.position);
   marker.pose.orientation.x = pose.orientation.x();
   marker.pose.orientation.y = pose.orientation.y();

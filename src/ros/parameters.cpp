@@ -23,13 +23,29 @@ const char kScene[] = "scene";
 // A reader sets its field, or returns what is wrong.
 using Reader = std::function<std::string(const XmlRpcValue&, NodeParams&)>;
 
+// NaN: it is none.
+double numberOf(const XmlRpcValue& value) {
+  if (value.getType() == XmlRpcValue::TypeDouble) return static_cast<const double&>(value);
+  if (value.getType() == XmlRpcValue::TypeInt) return static_cast<const int&>(value);
+  return std::nan("");
+}
+
 Reader number(double NodeParams::*field, double largest, const std::string& unit) {
   return [=](const XmlRpcValue& value, NodeParams& params) -> std::string {
-    double number = std::nan("");
-    if (value.getType() == XmlRpcValue::TypeDouble) number = static_cast<const double&>(value);
-    if (value.getType() == XmlRpcValue::TypeInt) number = static_cast<const int&>(value);
+    const double number = numberOf(value);
     if (!(number > 0.0 && number <= largest)) {
       return "must be a number in (0, " + yamlText(largest) + "] " + unit + ", is " + describeValue(value);
+    }
+    params.*field = number;
+    return "";
+  };
+}
+
+Reader numberOrZero(double NodeParams::*field, double largest, const std::string& unit) {
+  return [=](const XmlRpcValue& value, NodeParams& params) -> std::string {
+    const double number = numberOf(value);
+    if (!(number >= 0.0 && number <= largest)) {
+      return "must be a number in [0, " + yamlText(largest) + "] " + unit + ", is " + describeValue(value);
     }
     params.*field = number;
     return "";
@@ -66,11 +82,24 @@ Reader text(std::string NodeParams::*field) {
   };
 }
 
+Reader textOrEmpty(std::string NodeParams::*field) {
+  return [=](const XmlRpcValue& value, NodeParams& params) -> std::string {
+    if (value.getType() != XmlRpcValue::TypeString) return "must be a text, is " + describeValue(value);
+    params.*field = static_cast<const std::string&>(value);
+    return "";
+  };
+}
+
 const std::map<std::string, Reader>& readers() {
   static const std::map<std::string, Reader> table = {
       {"world_frame", text(&NodeParams::world_frame)},
       {"obstacle_timeout", number(&NodeParams::obstacle_timeout, 3600.0, "[s]")},
+      {"state_rate", numberOrZero(&NodeParams::state_rate, 10000.0, "[1/s]")},
+      {"state_rest_rate", numberOrZero(&NodeParams::state_rest_rate, 10000.0, "[1/s]")},
       {"mesh_rate", number(&NodeParams::mesh_rate, 10000.0, "[1/s]")},
+      {"mesh_tolerance", numberOrZero(&NodeParams::mesh_tolerance, 1000.0, "[m]")},
+      {"mesh_viewer_frame", textOrEmpty(&NodeParams::mesh_viewer_frame)},
+      {"mesh_viewer_tolerance", numberOrZero(&NodeParams::mesh_viewer_tolerance, 1.0, "[rad]")},
       {"markers_rate", number(&NodeParams::markers_rate, 10000.0, "[1/s]")},
       {"max_catch_up", integer(&NodeParams::max_catch_up, 1, 1000)},
       {"state_folds", boolean(&NodeParams::state_folds)},

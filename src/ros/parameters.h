@@ -17,14 +17,19 @@ namespace curtain_ros {
 
 /// The node's own parameters.
 struct NodeParams {
-  std::string world_frame = "world";  ///< tf2 frame of the simulation, not empty
-  double obstacle_timeout = 0.5;      ///< [s] an obstacle whose frame is older is left out, > 0
-  double mesh_rate = 20.0;            ///< of ~mesh [1/s of simulated time], > 0; the frame rate is its cap
-  double markers_rate = 10.0;         ///< of ~markers, the same
-  int max_catch_up = 4;               ///< frames a late node makes at once before it drops some [1..1000]
-  bool state_folds = false;           ///< ~state carries the second-layer nodes
-  bool handles = true;                ///< interactive markers on the hem
-  double handle_stiffness = 100.0;    ///< of their springs [N/m], > 0
+  std::string world_frame = "world";     ///< tf2 frame of the simulation, not empty
+  double obstacle_timeout = 0.5;         ///< [s] an obstacle whose frame is older is left out, > 0
+  double state_rate = 0.0;               ///< of ~state and ~contacts [1/s of simulated time], >= 0; 0 = every frame
+  double state_rest_rate = 0.0;          ///< of them while nothing moves, >= 0; 0 = the same
+  double mesh_rate = 20.0;               ///< of ~mesh, > 0; the frame rate is its cap
+  double mesh_tolerance = 0.0;           ///< [m] that ~mesh may be off the fine mesh, >= 0
+  std::string mesh_viewer_frame;         ///< tf2 frame of an eye that ~mesh is for; empty: none
+  double mesh_viewer_tolerance = 0.001;  ///< [rad] that it may be off as seen from there, >= 0
+  double markers_rate = 10.0;            ///< of ~markers, the same
+  int max_catch_up = 4;                  ///< frames a late node makes at once before it drops some [1..1000]
+  bool state_folds = false;              ///< ~state carries the second-layer nodes
+  bool handles = true;                   ///< interactive markers on the hem
+  double handle_stiffness = 100.0;       ///< of their springs [N/m], > 0
 };
 
 /// What reading gave: usable only when problems is empty.

@@ -138,9 +138,10 @@ void Simulator::copyVelocities(std::vector<Vec3>& out) const {
 }
 
 void Simulator::copyForces(std::vector<Vec3>& out) const {
-  const Impl& im = *impl_;
+  Impl& im = *impl_;
   const Grid& grid = im.pattern.grid;
-  Field3 total = *im.forces.last().force;
+  Field3& total = im.total_force;
+  total = *im.forces.last().force;
   if (im.forces.last().has_damping) {
     const Field3& velocity = im.state.velocity;  // that substep's own
     for (std::size_t n = 0; n < grid.size(); ++n) total.add(n, -im.forces.last().damping[n] * velocity.at(n));

@@ -101,6 +101,7 @@ struct Simulator::Impl {
   std::uint64_t revision = 0;  // of the cloth's and the obstacles' places
   Field3 velocities;           // at the time of the positions
   bool velocities_fresh = false;
+  Field3 total_force;          // room for what copyForces() adds up
 };
 
 }  // namespace curtain

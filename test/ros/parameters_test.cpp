@@ -104,6 +104,14 @@ TEST(Parameters, WrongTypesAndRangesOfTheNodesOwnAreNamed) {
   EXPECT_TRUE(names(readWith("mesh_rate", value("1e-6")).problems, "/stage/curtain/mesh_rate: must be a number"));
   EXPECT_TRUE(names(readWith("mesh_rate", value(0.0)).problems, "mesh_rate"));
   EXPECT_TRUE(names(readWith("mesh_rate", value(std::nan(""))).problems, "mesh_rate"));
+  EXPECT_TRUE(names(readWith("state_rate", value(-1.0)).problems, "state_rate: must be a number in [0, 10000.0]"));
+  EXPECT_TRUE(names(readWith("state_rest_rate", value(std::nan(""))).problems, "state_rest_rate"));
+  EXPECT_TRUE(names(readWith("mesh_tolerance", value(-0.1)).problems, "mesh_tolerance"));
+  EXPECT_TRUE(names(readWith("mesh_viewer_frame", value(3)).problems, "mesh_viewer_frame: must be a text"));
+  EXPECT_TRUE(names(readWith("mesh_viewer_tolerance", value(2.0)).problems, "mesh_viewer_tolerance"));
+  EXPECT_TRUE(readWith("mesh_viewer_frame", value("")).problems.empty()) << "none";
+  EXPECT_TRUE(names(readWith("state_rate", value("fast")).problems, "state_rate"));
+  EXPECT_TRUE(readWith("state_rate", value(0)).problems.empty()) << "every frame";
   EXPECT_TRUE(names(readWith("obstacle_timeout", value(-1.0)).problems, "obstacle_timeout"));
   EXPECT_TRUE(names(readWith("max_catch_up", value(7.6)).problems, "max_catch_up: must be an integer"));
   EXPECT_TRUE(names(readWith("max_catch_up", value(0)).problems, "max_catch_up"));
@@ -178,7 +186,12 @@ TEST(Parameters, TemplateGivesTheDefaults) {
   const NodeParams defaults;
   EXPECT_EQ(manual["world_frame"].as<std::string>(), defaults.world_frame);
   EXPECT_EQ(manual["obstacle_timeout"].as<double>(), defaults.obstacle_timeout);
+  EXPECT_EQ(manual["state_rate"].as<double>(), defaults.state_rate);
+  EXPECT_EQ(manual["state_rest_rate"].as<double>(), defaults.state_rest_rate);
   EXPECT_EQ(manual["mesh_rate"].as<double>(), defaults.mesh_rate);
+  EXPECT_EQ(manual["mesh_tolerance"].as<double>(), defaults.mesh_tolerance);
+  EXPECT_EQ(manual["mesh_viewer_frame"].as<std::string>(), defaults.mesh_viewer_frame);
+  EXPECT_EQ(manual["mesh_viewer_tolerance"].as<double>(), defaults.mesh_viewer_tolerance);
   EXPECT_EQ(manual["markers_rate"].as<double>(), defaults.markers_rate);
   EXPECT_EQ(manual["max_catch_up"].as<int>(), defaults.max_catch_up);
   EXPECT_EQ(manual["state_folds"].as<bool>(), defaults.state_folds);

@@ -133,9 +133,13 @@ TEST(Template, NodeParameters) {
   const YAML::Node root = YAML::Load(templateText());
   std::set<std::string> keys;
   for (const auto& entry : root) keys.insert(entry.first.Scalar());
-  const std::set<std::string> expected = {"world_frame",  "obstacle_timeout", "mesh_rate",
-                                          "markers_rate", "max_catch_up",     "state_folds",
-                                          "handles",      "handle_stiffness", "scene"};
+  const std::set<std::string> expected = {"world_frame",       "obstacle_timeout",
+                                          "state_rate",        "state_rest_rate",
+                                          "mesh_rate",         "mesh_tolerance",
+                                          "mesh_viewer_frame", "mesh_viewer_tolerance",
+                                          "markers_rate",      "max_catch_up",
+                                          "state_folds",       "handles",
+                                          "handle_stiffness",  "scene"};
   EXPECT_EQ(keys, expected);
 }
 

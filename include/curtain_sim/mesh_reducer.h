@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Floor 1: fewer triangles for a fine mesh, where that shows little. A fold is drawn by some of its nodes: by its ends
+// alone where the link is taut, by all of them where it bows tightly near the eye. The strips above and below a fold
+// take the same of its nodes, so neighbours of different detail leave no crack:
+//
+//   upper fold   o---.---.---.---.---.---o     a strip between six rods and two: from the left, the fold whose next
+//   node
+//                | / |  / ___/   |  / __/      comes first goes on, so triangles stay as narrow as the coarser fold
+//                lets
+//   lower fold   o-----------o-----------o     them; between equal folds they are those of the fine mesh
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "curtain_sim/fine_mesh.h"
+
+namespace curtain {
+
+/// How far what is drawn may be from the fine mesh: by the larger of both.
+struct MeshDetail {
+  double tolerance = 0.0;         ///< [m], >= 0
+  std::optional<Vec3> viewer;     ///< an eye [m] …
+  double viewer_tolerance = 0.0;  ///< … and the angle [rad], >= 0, that it may see the way under
+
+  bool operator==(const MeshDetail& other) const {
+    return tolerance == other.tolerance && viewer == other.viewer && viewer_tolerance == other.viewer_tolerance;
+  }
+};
+
+/// Not thread-safe. Same mesh, same detail: same triangles. Allocates nothing once it is built.
+class MeshReducer {
+ public:
+  using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+  /// topology must outlive this.
+  explicit MeshReducer(const FineMeshTopology& topology);
+
+  /// Triangles over the fine mesh's nodes: every point of its surface has one of theirs within the tolerance at its
+  /// place, and the other way round. They may come that much nearer to an obstacle, or into it. With no tolerance they
+  /// are topology.triangles themselves. Valid until the next call.
+  const Triangles& reduce(const FineMesh& mesh, const MeshDetail& detail);
+
+ private:
+  /// Nodes that a fold is drawn by, ends among them.
+  using Joints = std::vector<int>;
+
+  std::size_t fold(int row, int link) const;
+  const Vec3& node(int row, int link, int p) const;
+  std::uint32_t index(int row, int link, int p) const;
+  void setTolerances(const MeshDetail& detail);
+  void chooseLevels();
+  void refineStrips();
+  double foldError(int row, int link, std::size_t level, double enough) const;
+  double stripError(int row, int link) const;
+  void drawStrip(int row, int link);
+
+  const FineMeshTopology& topology_;
+  int links_;
+  std::vector<Joints> levels_;  // from the ends alone to all; each has about twice the rods of the one before
+  const FineMesh* mesh_ = nullptr;
+  std::vector<double> strip_tolerance_;  // [m], of the strip below each fold
+  std::vector<std::size_t> level_;       // of each fold
+  std::vector<double> error_;            // [m], of each fold
+  std::vector<char> doubtful_;           // strips to look at, by their upper fold
+  Triangles triangles_;
+};
+
+}  // namespace curtain

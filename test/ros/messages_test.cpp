@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Messages that are filled again and again: each holds what a new one would, what has not changed is left in it, one
+// that somebody holds is left alone, and once all have been seen nothing is allocated. No ROS master needed.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+#include <set>
+#include <vector>
+
+#include "curtain_sim/scene_yaml.h"
+#include "ros/markers.h"
+#include "ros/pace.h"
+#include "ros/state_messages.h"
+
+namespace {
+std::atomic<long> allocations{0};
+}  // namespace
+
+// Not inlined: the compiler would take the pair for a mismatch of new and free.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++allocations;
+  void* const memory = std::malloc(size > 0 ? size : 1);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace curtain_ros {
+namespace {
+
+curtain::Scene shippedScene(const std::string& name) {
+  const auto reading = curtain::readSceneFile(std::string(CURTAIN_SOURCE_DIR) + "/config/scenes/" + name + ".yaml");
+  EXPECT_TRUE(reading.problems.empty()) << curtain::describe(reading.problems);
+  return reading.scene;
+}
+
+curtain::Scene smallScene() {
+  curtain::Scene scene;
+  scene.cloth.rows = 6;
+  scene.cloth.columns = 5;
+  scene.hang.to.x() = 0.6;
+  curtain::ObstacleParams ball;
+  ball.name = "ball";
+  ball.shape = curtain::ShapeKind::kSphere;
+  ball.radius = 0.1;
+  ball.pose.position = curtain::Vec3(0.3, 0.4, 1.5);
+  scene.obstacles.push_back(ball);
+  return scene;
+}
+
+curtain::WindParams fan(double pressure) {
+  curtain::WindParams wind;
+  wind.id = "fan";
+  wind.position = curtain::Vec3(0.3, -1.0, 1.5);
+  wind.direction = curtain::Vec3::UnitY();
+  wind.radius = 0.5;
+  wind.pressure = pressure;
+  return wind;
+}
+
+/// All that the node publishes of a simulator.
+class Messages {
+ public:
+  explicit Messages(const curtain::Simulator& simulator)
+      : shape(simulator),
+        state(withFolds(), shape),
+        contacts(withFolds()),
+        mesh("world", shape),
+        details("world", shape) {}
+
+  visualization_msgs::Marker::ConstPtr buildMesh() {
+    mesh.look(detail);
+    return mesh.build(stamp);
+  }
+  visualization_msgs::MarkerArray::ConstPtr buildDetails() {
+    details.look();
+    return details.build(stamp);
+  }
+  void buildAll() {
+    state.build(stamp, {});
+    contacts.build(shape.simulator(), stamp);
+    buildMesh();
+    buildDetails();
+  }
+
+  Shape shape;
+  StateMessages state;
+  ContactMessages contacts;
+  MeshMarker mesh;
+  DetailMarkers details;
+  ros::Time stamp{1.0};
+  curtain::MeshDetail detail;
+
+ private:
+  static NodeParams withFolds() {
+    NodeParams params;
+    params.state_folds = true;
+    return params;
+  }
+};
+
+/// What is filled must be what a new one holds.
+void expectAsNew(Messages& messages) {
+  Messages fresh(messages.shape.simulator());
+  fresh.stamp = messages.stamp;
+  EXPECT_TRUE(*messages.state.build(messages.stamp, {}) == *fresh.state.build(fresh.stamp, {}));
+  EXPECT_TRUE(*messages.contacts.build(messages.shape.simulator(), messages.stamp) ==
+              *fresh.contacts.build(messages.shape.simulator(), fresh.stamp));
+  EXPECT_TRUE(*messages.buildMesh() == *fresh.buildMesh());
+  EXPECT_TRUE(*messages.buildDetails() == *fresh.buildDetails());
+}
+
+TEST(Messages, SteadyOnesAllocateNothing) {
+  for (const char* name : {"curtain", "flag", "skirt"}) {
+    curtain::Simulator simulator(shippedScene(name));
+    Messages messages(simulator), reduced(simulator);
+    reduced.detail.tolerance = 1e-3;
+    long built = 0;
+    for (int frame = 0; frame < 90; ++frame) {
+      simulator.step();
+      const long before = allocations;
+      messages.buildAll();
+      reduced.buildAll();
+      if (frame >= 30) built += allocations - before;
+    }
+    EXPECT_EQ(built, 0) << name;
+  }
+}
+
+TEST(Messages, HoldWhatNewOnesWouldWhateverChanges) {
+  curtain::Simulator simulator(smallScene());
+  Messages messages(simulator);
+  expectAsNew(messages);
+  simulator.step();
+  expectAsNew(messages);
+  simulator.setWind(fan(5.0));  // no new shape, but new cones
+  expectAsNew(messages);
+  simulator.step();
+  simulator.setObstaclePresent(0, false);
+  expectAsNew(messages);
+  simulator.removeWind("fan");
+  expectAsNew(messages);
+  simulator.setObstaclePresent(0, true);
+  simulator.setObstaclePose(0, curtain::Pose(), true);
+  expectAsNew(messages);
+  simulator.reset();
+  expectAsNew(messages);
+}
+
+// A subscriber of this process gets the object itself and may keep it.
+TEST(Messages, OneThatIsHeldIsLeftAlone) {
+  curtain::Simulator simulator(smallScene());
+  Messages messages(simulator);
+  simulator.step();
+  const auto state = messages.state.build(messages.stamp, {});
+  const auto contacts = messages.contacts.build(simulator, messages.stamp);
+  const auto mesh = messages.buildMesh();
+  const auto details = messages.buildDetails();
+  const auto kept_state = *state;
+  const auto kept_contacts = *contacts;
+  const auto kept_mesh = *mesh;
+  const auto kept_details = *details;
+  for (int frame = 0; frame < 3; ++frame) {
+    simulator.step();
+    messages.stamp += ros::Duration(1.0);
+    expectAsNew(messages);
+  }
+  EXPECT_TRUE(*state == kept_state);
+  EXPECT_TRUE(*contacts == kept_contacts);
+  EXPECT_TRUE(*mesh == kept_mesh);
+  EXPECT_TRUE(*details == kept_details);
+}
+
+// Where a message is not filled again, a mark that was set in it stays.
+TEST(Messages, OfTheSameShapeAreNotFilledAgain) {
+  curtain::Simulator simulator(smallScene());
+  Messages messages(simulator);
+  simulator.setWind(fan(0.0));
+  messages.buildAll();
+  const double mark = 1e6;
+  const auto wires = [](const visualization_msgs::MarkerArray& array) -> const visualization_msgs::Marker& {
+    return array.markers[0];
+  };
+  const_cast<double&>(messages.buildMesh()->points[0].x) = mark;
+  const_cast<float&>(messages.state.build(messages.stamp, {})->forces[0]) = 1e6F;
+  const_cast<double&>(wires(*messages.buildDetails()).points[0].x) = mark;
+  messages.stamp = ros::Time(2.0);
+  EXPECT_EQ(messages.buildMesh()->points[0].x, mark);
+  EXPECT_EQ(messages.buildMesh()->header.stamp, messages.stamp);
+  EXPECT_EQ(messages.state.build(messages.stamp, {})->forces[0], 1e6F);
+  EXPECT_EQ(messages.state.build(messages.stamp, {})->header.stamp, messages.stamp);
+  simulator.removeWind("fan");
+  EXPECT_EQ(wires(*messages.buildDetails()).points[0].x, mark) << "other winds, the same wires";
+  EXPECT_EQ(wires(*messages.buildDetails()).header.stamp, messages.stamp);
+  simulator.step();
+  expectAsNew(messages);
+}
+
+// The topology is what clients may rely on unless they ask for less.
+TEST(MeshMarker, HasTheFineTrianglesUnlessLessIsAskedFor) {
+  curtain::Simulator simulator(shippedScene("curtain"));
+  for (int frame = 0; frame < 30; ++frame) simulator.step();
+  Messages messages(simulator);
+  const auto full = messages.buildMesh();
+  const curtain::FineMesh& mesh = messages.shape.fineMesh();
+  const auto& triangles = simulator.fineMeshTopology().triangles;
+  ASSERT_EQ(full->points.size(), 3 * triangles.size());
+  for (std::size_t i = 0; i < full->points.size(); ++i) {
+    const curtain::Vec3& node = mesh.positions[triangles[i / 3][i % 3]];
+    EXPECT_EQ(curtain::Vec3(full->points[i].x, full->points[i].y, full->points[i].z), node);
+  }
+
+  const std::uint64_t picture = messages.mesh.look(messages.detail);
+  messages.detail.viewer = curtain::Vec3(0.3, -4.0, 1.2);
+  messages.detail.viewer_tolerance = 1e-3;
+  EXPECT_NE(messages.mesh.look(messages.detail), picture) << "another eye, another picture";
+  const auto reduced = messages.buildMesh();
+  EXPECT_LT(reduced->points.size(), full->points.size() / 3);
+  EXPECT_EQ(reduced->colors.size(), reduced->points.size());
+  messages.detail.viewer->y() = -5.0;
+  EXPECT_LT(messages.buildMesh()->points.size(), reduced->points.size());
+  EXPECT_EQ(messages.mesh.look(messages.detail), messages.mesh.look(messages.detail));
+}
+
+TEST(DetailMarkers, ANumberForEveryPicture) {
+  curtain::Simulator simulator(smallScene());
+  Messages messages(simulator);
+  const std::uint64_t first = messages.details.look();
+  EXPECT_EQ(messages.details.look(), first);
+  simulator.setWind(fan(1.0));
+  const std::uint64_t windy = messages.details.look();
+  EXPECT_NE(windy, first);
+  simulator.setWind(fan(2.0));
+  EXPECT_EQ(messages.details.look(), windy) << "the cone is the same";
+  simulator.step();
+  EXPECT_NE(messages.details.look(), windy);
+}
+
+TEST(MessagePool, GrowsWhileMessagesAreKeptButNotForEver) {
+  MessagePool<int, int> pool(7);
+  std::vector<boost::shared_ptr<int>> kept;
+  std::set<const int*> all;
+  for (int i = 0; i < 100; ++i) {
+    auto& entry = pool.take();
+    EXPECT_EQ(*entry.message, 7) << "a new one is a copy of the blank";
+    EXPECT_EQ(entry.content, 0);
+    kept.push_back(entry.message);
+    all.insert(entry.message.get());
+  }
+  EXPECT_EQ(all.size(), 100u);
+  long pooled = 0;
+  for (const auto& message : kept) pooled += message.use_count() - 1;
+  EXPECT_EQ(pooled, 8) << "the others are their keepers' alone";
+  kept.clear();
+  const int* const again = pool.take().message.get();
+  EXPECT_EQ(all.count(again), 1u);
+  EXPECT_EQ(pool.take().message.get(), again) << "nobody kept it";
+}
+
+TEST(RateDivider, ZeroIsEveryFrame) {
+  RateDivider every(0.0, 60.0), third(20.0, 60.0);
+  EXPECT_TRUE(every.tick() && third.tick()) << "the first frame is one";
+  int thirds = 0;
+  for (int frame = 0; frame < 60; ++frame) {
+    EXPECT_TRUE(every.tick());
+    thirds += third.tick();
+  }
+  EXPECT_EQ(thirds, 20);
+}
+
+/// Pictures sent in that many frames of 1/60 s.
+int sentIn(int frames, Pace& pace, std::uint32_t subscribers, std::uint64_t& picture, bool changes) {
+  int sent = 0;
+  for (int frame = 0; frame < frames; ++frame) {
+    picture += changes;
+    pace.tick();
+    if (pace.due(subscribers)) sent += pace.send(picture);
+  }
+  return sent;
+}
+
+TEST(Pace, SlowsDownAtRestAndHurriesForNewSubscribers) {
+  Pace pace(20.0, 1.0, 60.0);
+  std::uint64_t picture = 0;
+  EXPECT_EQ(sentIn(60, pace, 0, picture, true), 0) << "nobody looks";
+  EXPECT_EQ(sentIn(60, pace, 1, picture, true), 20);
+  EXPECT_EQ(sentIn(600, pace, 1, picture, false), 10) << "at rest";
+  EXPECT_EQ(sentIn(3, pace, 2, picture, false), 1) << "somebody new";
+  EXPECT_EQ(sentIn(30, pace, 2, picture, false), 0);
+  EXPECT_EQ(sentIn(30, pace, 1, picture, false), 1) << "one less changes nothing: the picture of the second";
+  EXPECT_EQ(sentIn(3, pace, 1, picture, true), 1) << "moves again";
+}
+
+TEST(Pace, ZeroIsEveryFrameAndNoOtherRateAtRest) {
+  Pace always(0.0, 0.0, 60.0), state(0.0, 10.0, 60.0);
+  std::uint64_t picture = 0;
+  EXPECT_EQ(sentIn(60, always, 1, picture, true), 60);
+  EXPECT_EQ(sentIn(60, always, 1, picture, false), 60);
+  EXPECT_EQ(sentIn(60, state, 1, picture, true), 60);
+  EXPECT_EQ(sentIn(60, state, 1, picture, false), 10);
+}
+
+// A frame that another follows at once is not looked at; the next one is.
+TEST(Pace, WhatIsDueWaitsForTheLook) {
+  Pace pace(20.0, 1.0, 60.0);
+  pace.tick();
+  pace.tick();
+  EXPECT_TRUE(pace.due(1));
+  EXPECT_FALSE(pace.due(1));
+}
+
+}  // namespace
+}  // namespace curtain_ros
