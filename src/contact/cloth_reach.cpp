@@ -6,13 +6,11 @@
 #include <limits>
 #include <vector>
 
+#include "cloth/link_ways.h"
 #include "cloth/wide.h"
 
 namespace curtain {
 namespace {
-
-// Links may be this much longer while something goes wrong.
-constexpr double kOverlong = 1.1;
 
 struct Range {
   double low, high;
@@ -47,51 +45,25 @@ CURTAIN_WIDE double largestMove(const Field3& a, const Field3& b, std::size_t fi
 
 Eigen::AlignedBox3d reachOfCloth(const ClothPattern& pattern, const Field3& position) {
   const Grid& grid = pattern.grid;
-  std::vector<double> away(grid.size(), std::numeric_limits<double>::infinity());
-  std::vector<std::size_t> pin(grid.size(), 0);
-  bool any = false;
+  std::vector<std::size_t> pins;
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = 0; j < grid.columns; ++j) {
       const std::size_t n = grid.index(i, j);
-      if (pattern.inverse_mass[n] > 0.0) continue;
-      away[n] = 0.0;
-      pin[n] = n;
-      any = true;
+      if (pattern.inverse_mass[n] == 0.0) pins.push_back(n);
     }
   }
-  if (!any) {
+  if (pins.empty()) {
     const Vec3 everywhere = Vec3::Constant(std::numeric_limits<double>::infinity());
     return {Vec3(-everywhere), everywhere};
   }
-  // Shortest ways along the links (Bellman and Ford), in both orders of the nodes.
-  const auto relax = [&](std::size_t n, std::size_t from, double length) {
-    if (!(away[from] + length < away[n])) return false;
-    away[n] = away[from] + length;
-    pin[n] = pin[from];
-    return true;
-  };
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (int pass = 0; pass < 2; ++pass) {
-      for (int k = 0; k < grid.rows * grid.columns; ++k) {
-        const int at = pass == 0 ? k : grid.rows * grid.columns - 1 - k;
-        const int i = at / grid.columns, j = at % grid.columns;
-        const std::size_t n = grid.index(i, j);
-        const std::size_t before = grid.index(i, j > 0 ? j - 1 : grid.columns - 1);
-        if (i > 0) changed |= relax(n, grid.index(i - 1, j), pattern.warp_rest[n]);
-        if (i > 0) changed |= relax(grid.index(i - 1, j), n, pattern.warp_rest[n]);
-        if (j == 0 && !grid.closed) continue;
-        changed |= relax(n, before, pattern.weft_rest[n]);
-        changed |= relax(before, n, pattern.weft_rest[n]);
-      }
-    }
-  }
+  const NearestAlongLinks nearest = nearestAlongLinks(pattern, pins, BetweenPins::kCount);
   Eigen::AlignedBox3d box;
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = 0; j < grid.columns; ++j) {
       const std::size_t n = grid.index(i, j);
-      box.extend(Vec3(position.at(pin[n]) - Vec3::Constant(kOverlong * away[n])));
-      box.extend(Vec3(position.at(pin[n]) + Vec3::Constant(kOverlong * away[n])));
+      const Vec3 pin = position.at(nearest.node[n]), away = Vec3::Constant(kOverlong * nearest.away[n]);
+      box.extend(Vec3(pin - away));
+      box.extend(Vec3(pin + away));
     }
   }
   return box;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cloth/link_ways.h"
 #include "forces/air_damping.h"
 #include "forces/drag_force.h"
 #include "forces/wind_source.h"
@@ -35,8 +36,12 @@ class ForceField {
   const NodeForces& last() const { return forces_; }
 
  private:
+  bool findWinds(const Field3& position, double time) noexcept;
+  void addWinds(const Field3& position, double time) noexcept;
+
   const Scene& scene_;
   const ClothPattern& pattern_;
+  const SampledBounds bounds_;
   AirDamping air_damping_;
   std::vector<WindSource> winds_;
   std::vector<WindParams> wind_params_;
@@ -44,7 +49,7 @@ class ForceField {
   std::vector<DragParams> drag_params_;
   Field3 weight_;
   Field3 sum_;  // with winds and drags, when any acts
-  Field3 area_vectors_;
+  Field3 area_vectors_;  // of rows that a wind reaches
   NodeForces forces_;
 };
 

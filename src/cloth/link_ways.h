@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Where the cloth can be, from where a few of its nodes are: no two nodes are further apart than the links between them
+// are long.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "cloth/cloth.h"
+
+namespace curtain {
+
+/// Links may be this much longer while something goes wrong.
+constexpr double kOverlong = 1.1;
+
+/// Which node of some is nearest along the links, and how far it is [m]; infinite: none can be reached. Of every node.
+struct NearestAlongLinks {
+  std::vector<std::size_t> node;
+  std::vector<double> away;
+};
+/// O(nodes) a pass, a few passes. Links between two immovable nodes may be left out: users move pins as they like.
+enum class BetweenPins { kCount, kLeaveOut };
+NearestAlongLinks nearestAlongLinks(const ClothPattern& pattern, const std::vector<std::size_t>& nodes,
+                                    BetweenPins pins);
+
+/// A box around the cloth from some 40 of its nodes, however many it has.
+class SampledBounds {
+ public:
+  explicit SampledBounds(const ClothPattern& pattern);
+
+  /// Of the cloth at these positions [m]; too large by margin() at most.
+  Eigen::AlignedBox3d around(const Field3& position) const noexcept;
+
+  /// Around both, too large by margin() and so many times the furthest way of a sample.
+  Eigen::AlignedBox3d around(const Field3& start, const Field3& end, double ways) const noexcept;
+
+  double margin() const noexcept { return margin_; }
+
+ private:
+  std::vector<std::size_t> samples_;
+  double margin_ = 0.0;  // [m]
+};
+
+}  // namespace curtain
