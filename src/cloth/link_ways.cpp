@@ -15,25 +15,16 @@ Eigen::AlignedBox3d grown(const Vec3& low, const Vec3& high, double margin) noex
   return {Vec3(low.array() - margin), Vec3(high.array() + margin)};
 }
 
-}  // namespace
-
-// Bellman and Ford, in both orders of the nodes.
-NearestAlongLinks nearestAlongLinks(const ClothPattern& pattern, const std::vector<std::size_t>& nodes,
-                                    BetweenPins pins) {
+// How far every node is from the nearest of some along the links [m]; infinite: it can't be reached. Links between two pins do
+// not count: users move pins as they like. Bellman and Ford, in both orders of the nodes: a few passes.
+std::vector<double> awayAlongLinks(const ClothPattern& pattern, const std::vector<std::size_t>& nodes) {
   const Grid& grid = pattern.grid;
-  NearestAlongLinks nearest;
-  nearest.away.assign(grid.size(), std::numeric_limits<double>::infinity());
-  nearest.node.assign(grid.size(), 0);
-  for (const std::size_t n : nodes) {
-    nearest.away[n] = 0.0;
-    nearest.node[n] = n;
-  }
+  std::vector<double> away(grid.size(), std::numeric_limits<double>::infinity());
+  for (const std::size_t n : nodes) away[n] = 0.0;
   const auto relax = [&](std::size_t n, std::size_t from, double length) {
-    const bool held = pattern.inverse_mass[n] == 0.0 && pattern.inverse_mass[from] == 0.0;
-    if (held && pins == BetweenPins::kLeaveOut) return false;
-    if (!(nearest.away[from] + length < nearest.away[n])) return false;
-    nearest.away[n] = nearest.away[from] + length;
-    nearest.node[n] = nearest.node[from];
+    const bool between_pins = pattern.inverse_mass[n] == 0.0 && pattern.inverse_mass[from] == 0.0;
+    if (between_pins || !(away[from] + length < away[n])) return false;
+    away[n] = away[from] + length;
     return true;
   };
   for (bool changed = true; changed;) {
@@ -52,8 +43,10 @@ NearestAlongLinks nearestAlongLinks(const ClothPattern& pattern, const std::vect
       }
     }
   }
-  return nearest;
+  return away;
 }
+
+}  // namespace
 
 SampledBounds::SampledBounds(const ClothPattern& pattern) {
   const Grid& grid = pattern.grid;
@@ -63,11 +56,11 @@ SampledBounds::SampledBounds(const ClothPattern& pattern) {
     const int row = (2 * i + 1) * grid.rows / (2 * rows);
     for (int j = 0; j < columns; ++j) samples_.push_back(grid.index(row, (2 * j + 1) * grid.columns / (2 * columns)));
   }
-  const NearestAlongLinks nearest = nearestAlongLinks(pattern, samples_, BetweenPins::kLeaveOut);
+  const std::vector<double> away = awayAlongLinks(pattern, samples_);
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = 0; j < grid.columns; ++j) {
       const std::size_t n = grid.index(i, j);
-      if (std::isfinite(nearest.away[n])) margin_ = std::max(margin_, kOverlong * nearest.away[n]);
+      if (std::isfinite(away[n])) margin_ = std::max(margin_, kOverlong * away[n]);
       else samples_.push_back(n);  // surrounded by pins
     }
   }

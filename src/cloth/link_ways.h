@@ -14,16 +14,6 @@ namespace curtain {
 /// Links may be this much longer while something goes wrong.
 constexpr double kOverlong = 1.1;
 
-/// Which node of some is nearest along the links, and how far it is [m]; infinite: none can be reached. Of every node.
-struct NearestAlongLinks {
-  std::vector<std::size_t> node;
-  std::vector<double> away;
-};
-/// O(nodes) a pass, a few passes. Links between two immovable nodes may be left out: users move pins as they like.
-enum class BetweenPins { kCount, kLeaveOut };
-NearestAlongLinks nearestAlongLinks(const ClothPattern& pattern, const std::vector<std::size_t>& nodes,
-                                    BetweenPins pins);
-
 /// A box around the cloth from some 40 of its nodes, however many it has.
 class SampledBounds {
  public:

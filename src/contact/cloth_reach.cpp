@@ -3,10 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <vector>
 
-#include "cloth/link_ways.h"
 #include "cloth/wide.h"
 
 namespace curtain {
@@ -42,32 +39,6 @@ CURTAIN_WIDE double largestMove(const Field3& a, const Field3& b, std::size_t fi
 }
 
 }  // namespace
-
-Eigen::AlignedBox3d reachOfCloth(const ClothPattern& pattern, const Field3& position) {
-  const Grid& grid = pattern.grid;
-  std::vector<std::size_t> pins;
-  for (int i = 0; i < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j) {
-      const std::size_t n = grid.index(i, j);
-      if (pattern.inverse_mass[n] == 0.0) pins.push_back(n);
-    }
-  }
-  if (pins.empty()) {
-    const Vec3 everywhere = Vec3::Constant(std::numeric_limits<double>::infinity());
-    return {Vec3(-everywhere), everywhere};
-  }
-  const NearestAlongLinks nearest = nearestAlongLinks(pattern, pins, BetweenPins::kCount);
-  Eigen::AlignedBox3d box;
-  for (int i = 0; i < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j) {
-      const std::size_t n = grid.index(i, j);
-      const Vec3 pin = position.at(nearest.node[n]), away = Vec3::Constant(kOverlong * nearest.away[n]);
-      box.extend(Vec3(pin - away));
-      box.extend(Vec3(pin + away));
-    }
-  }
-  return box;
-}
 
 ClothMotion motionOfCloth(const Grid& grid, const Field3& start, const Field3& predicted) noexcept {
   ClothMotion motion;
