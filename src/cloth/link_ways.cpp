@@ -9,14 +9,14 @@ namespace curtain {
 namespace {
 
 // Samples along warp and weft: what their box costs is lost beside a pass over 1000 nodes.
-constexpr int kSampleRows = 8, kSampleColumns = 5;
+constexpr int kSampleRows = 8, kSampleColumns = 4;
 
 Eigen::AlignedBox3d grown(const Vec3& low, const Vec3& high, double margin) noexcept {
   return {Vec3(low.array() - margin), Vec3(high.array() + margin)};
 }
 
-// How far every node is from the nearest of some along the links [m]; infinite: it can't be reached. Links between two pins do
-// not count: users move pins as they like. Bellman and Ford, in both orders of the nodes: a few passes.
+// How far every node is from the nearest of some along the links [m]; infinite: it can't be reached. Links between two
+// pins do not count: users move pins as they like. Bellman and Ford, in both orders of the nodes: a few passes.
 std::vector<double> awayAlongLinks(const ClothPattern& pattern, const std::vector<std::size_t>& nodes) {
   const Grid& grid = pattern.grid;
   std::vector<double> away(grid.size(), std::numeric_limits<double>::infinity());
@@ -80,10 +80,10 @@ Eigen::AlignedBox3d SampledBounds::around(const Field3& start, const Field3& end
   Vec3 low = start.at(samples_.front()), high = low;
   double squared = 0.0;
   for (const std::size_t n : samples_) {
-    const Vec3 from = start.at(n), to = end.at(n);
-    low = low.cwiseMin(from).cwiseMin(to);
-    high = high.cwiseMax(from).cwiseMax(to);
-    squared = std::max(squared, (to - from).squaredNorm());
+    const Vec3 at = start.at(n);
+    low = low.cwiseMin(at);
+    high = high.cwiseMax(at);
+    squared = std::max(squared, (end.at(n) - at).squaredNorm());
   }
   return grown(low, high, margin_ + ways * std::sqrt(squared));
 }

@@ -14,7 +14,7 @@ namespace curtain {
 /// Links may be this much longer while something goes wrong.
 constexpr double kOverlong = 1.1;
 
-/// A box around the cloth from some 40 of its nodes, however many it has.
+/// A box around the cloth from some 30 of its nodes, however many it has.
 class SampledBounds {
  public:
   explicit SampledBounds(const ClothPattern& pattern);
@@ -22,7 +22,8 @@ class SampledBounds {
   /// Of the cloth at these positions [m]; too large by margin() at most.
   Eigen::AlignedBox3d around(const Field3& position) const noexcept;
 
-  /// Around both, too large by margin() and so many times the furthest way of a sample.
+  /// Around the start, and further by so many times the furthest way of a sample from there to the end: with 1 it holds
+  /// both.
   Eigen::AlignedBox3d around(const Field3& start, const Field3& end, double ways) const noexcept;
 
   double margin() const noexcept { return margin_; }

@@ -26,7 +26,8 @@ bool alike(const Contact& a, const Contact& b) { return orderOf(a) == orderOf(b)
 
 }  // namespace
 
-ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, double thickness, double frame, const ObstacleSet& obstacles)
+ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, double thickness, double frame,
+                                   const ObstacleSet& obstacles)
     : pattern_(pattern), thickness_(thickness), frame_(frame), obstacles_(obstacles), bounds_(pattern) {
   const auto count = static_cast<std::size_t>(obstacles.count());
   if (count == 0) return;
@@ -69,8 +70,8 @@ bool ObstacleContacts::anyWithin(const Eigen::AlignedBox3d& box) const noexcept 
 bool ObstacleContacts::mayTouch(const Field3& start, const Field3& predicted, double h) noexcept {
   std::fill(active_.begin(), active_.end(), std::uint8_t{0});
   if (!(box_time_ >= h)) {
-    // Some 40 nodes will do for what is not close; where they go in the end is not where they are predicted.
-    Eigen::AlignedBox3d sampled = bounds_.around(start, predicted, kFaster);
+    // Some 30 nodes will do for what is not close; where they go in the end is not where they are predicted.
+    Eigen::AlignedBox3d sampled = bounds_.around(start, predicted, 1.0 + kFaster);
     sampled.min().array() -= 2.0 * thickness_;
     sampled.max().array() += 2.0 * thickness_;
     if (!anyWithin(sampled)) return false;

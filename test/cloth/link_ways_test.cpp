@@ -52,17 +52,17 @@ TEST(SampledBounds, HoldAllNodesHoweverTheClothIsFolded) {
         foldUp(3, random, later, pattern.grid.size());
         const std::string what = std::to_string(rows) + " x " + std::to_string(columns) + ", " + std::to_string(folds);
         expectInside(pattern.grid, position, bounds.around(position), what);
-        expectInside(pattern.grid, position, bounds.around(position, later, 0.0), what);
-        expectInside(pattern.grid, later, bounds.around(position, later, 0.0), what);
+        expectInside(pattern.grid, position, bounds.around(position, later, 1.0), what);
+        expectInside(pattern.grid, later, bounds.around(position, later, 1.0), what);
       }
     }
   }
 }
 
-// The worst node: in the middle between samples that lie an eighth of the height and a fifth of the width apart.
+// The worst node: in the middle between samples that lie an eighth of the height and a quarter of the width apart.
 TEST(SampledBounds, AreNoWiderThanTheWayToTheNextSample) {
   const ClothPattern pattern = makePattern(flatScene(161, 101, 2.0, 1.0));
-  EXPECT_LE(SampledBounds(pattern).margin(), kOverlong * (2.0 / 16.0 + 1.0 / 10.0 + 0.0125 + 0.01));
+  EXPECT_LE(SampledBounds(pattern).margin(), kOverlong * (2.0 / 16.0 + 1.0 / 8.0 + 0.0125 + 0.01));
 }
 
 // Users move pins apart as they like: a link from pin to pin holds nothing near a sample.
@@ -84,7 +84,7 @@ TEST(SampledBounds, GrowWithTheFurthestWay) {
   const Field3 position = makeInitialState(flatScene(9, 9), pattern).position;
   Field3 later = position;
   for (std::size_t n = 0; n < pattern.grid.size(); ++n) later.add(n, {0.3, 0.0, 0.4});
-  const Eigen::AlignedBox3d once = bounds.around(position, later, 0.0), thrice = bounds.around(position, later, 2.0);
+  const Eigen::AlignedBox3d once = bounds.around(position, later, 1.0), thrice = bounds.around(position, later, 3.0);
   EXPECT_NEAR((once.min() - thrice.min() - Vec3::Constant(1.0)).norm(), 0.0, 1e-12);
   EXPECT_NEAR((thrice.max() - once.max() - Vec3::Constant(1.0)).norm(), 0.0, 1e-12);
 }
