@@ -35,3 +35,9 @@ if(TARGET test_batch)
   target_link_libraries(test_batch nlohmann_json::nlohmann_json)
 endif()
 curtain_add_tests(structure)
+
+# Instructions of optimised code, without a sanitizer's.
+if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+  include(cmake/cost.cmake)
+  curtain_add_tests(cost curtain_weigh)
+endif()

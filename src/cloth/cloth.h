@@ -48,6 +48,8 @@ double shortestLink(const ClothPattern& pattern);
 
 /// Area-weighted normals of the nodes: the sum, over the faces at a node, of the corner triangles' area vectors
 /// [m^2], not normalised; out has the grid's size. Cheng 2000, Sect. 2.2.2 (mean of the normals of the faces).
-void nodeAreaVectors(const Grid& grid, const Field3& position, Field3& out);
+void nodeAreaVectors(const Grid& grid, const Field3& position, Field3& out) noexcept;
+/// Of one row.
+void nodeAreaVectors(const Grid& grid, int row, const Field3& position, Field3& out) noexcept;
 
 }  // namespace curtain

@@ -15,28 +15,30 @@ struct Rows {
 // The corner triangles of the (up to four) faces at a node add up to one cross product of differences:
 //   sum over quadrants of (warp edge) x (weft edge) = (x_below - x_above) x (x_right - x_left),
 // with the node itself in place of a neighbour that is missing.
-CURTAIN_WIDE void nodeAreaVectors(const Grid& grid, const Field3& position, Field3& out) {
+CURTAIN_WIDE void nodeAreaVectors(const Grid& grid, int i, const Field3& position, Field3& out) noexcept {
   const auto last = static_cast<std::size_t>(grid.columns) - 1;
-  for (int i = 0; i < grid.rows; ++i) {
-    const Rows above(position, grid.row(i > 0 ? i - 1 : i));
-    const Rows below(position, grid.row(i + 1 < grid.rows ? i + 1 : i));
-    const Rows here(position, grid.row(i));
-    double* const ox = out.x.data() + grid.row(i);
-    double* const oy = out.y.data() + grid.row(i);
-    double* const oz = out.z.data() + grid.row(i);
-    const auto node = [=](std::size_t j, std::size_t left, std::size_t right) {
-      const double px = below.x[j] - above.x[j], qx = here.x[right] - here.x[left];
-      const double py = below.y[j] - above.y[j], qy = here.y[right] - here.y[left];
-      const double pz = below.z[j] - above.z[j], qz = here.z[right] - here.z[left];
-      ox[j] = 0.5 * (py * qz - pz * qy);
-      oy[j] = 0.5 * (pz * qx - px * qz);
-      oz[j] = 0.5 * (px * qy - py * qx);
-    };
-    node(0, grid.closed ? last : 0, 1);
+  const Rows above(position, grid.row(i > 0 ? i - 1 : i));
+  const Rows below(position, grid.row(i + 1 < grid.rows ? i + 1 : i));
+  const Rows here(position, grid.row(i));
+  double* const ox = out.x.data() + grid.row(i);
+  double* const oy = out.y.data() + grid.row(i);
+  double* const oz = out.z.data() + grid.row(i);
+  const auto node = [=](std::size_t j, std::size_t left, std::size_t right) {
+    const double px = below.x[j] - above.x[j], qx = here.x[right] - here.x[left];
+    const double py = below.y[j] - above.y[j], qy = here.y[right] - here.y[left];
+    const double pz = below.z[j] - above.z[j], qz = here.z[right] - here.z[left];
+    ox[j] = 0.5 * (py * qz - pz * qy);
+    oy[j] = 0.5 * (pz * qx - px * qz);
+    oz[j] = 0.5 * (px * qy - py * qx);
+  };
+  node(0, grid.closed ? last : 0, 1);
 #pragma omp simd
-    for (std::size_t j = 1; j < last; ++j) node(j, j - 1, j + 1);
-    node(last, last - 1, grid.closed ? 0 : last);
-  }
+  for (std::size_t j = 1; j < last; ++j) node(j, j - 1, j + 1);
+  node(last, last - 1, grid.closed ? 0 : last);
+}
+
+void nodeAreaVectors(const Grid& grid, const Field3& position, Field3& out) noexcept {
+  for (int i = 0; i < grid.rows; ++i) nodeAreaVectors(grid, i, position, out);
 }
 
 }  // namespace curtain

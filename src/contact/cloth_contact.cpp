@@ -33,12 +33,12 @@ void extrapolate(const Field3& start, const Field3& end, Field3& ahead) noexcept
 }  // namespace
 
 ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& params, double frame_length,
-                           const ObstacleSet& obstacles, const Field3& position)
+                           const ObstacleSet& obstacles)
     : pattern_(pattern),
       obstacles_(obstacles),
       self_wanted_(params.self),
       zone_iterations_(params.zone_iterations),
-      touch_(pattern, params.thickness, frame_length, obstacles, position),
+      touch_(pattern, params.thickness, frame_length, obstacles),
       self_(pattern, std::min(params.thickness, kGapPerLink * shortestLink(pattern)), params.friction),
       pairs_(pattern),
       zones_(pattern) {

@@ -18,9 +18,9 @@ namespace curtain {
 
 class ClothContact : public ContactFinder {
  public:
-  /// frame_length [s]; position: where the pinned nodes are [m]; pattern and obstacles must outlive this.
-  ClothContact(const ClothPattern& pattern, const ContactParams& params, double frame_length, const ObstacleSet& obstacles,
-               const Field3& position);
+  /// frame_length [s]; pattern and obstacles must outlive this.
+  ClothContact(const ClothPattern& pattern, const ContactParams& params, double frame_length,
+               const ObstacleSet& obstacles);
 
   /// There is something to look for at all.
   bool wanted() const noexcept { return self_wanted_ || obstacles_.anyPresent(); }

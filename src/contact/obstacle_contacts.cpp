@@ -26,14 +26,11 @@ bool alike(const Contact& a, const Contact& b) { return orderOf(a) == orderOf(b)
 
 }  // namespace
 
-ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, double thickness, double frame, const ObstacleSet& obstacles,
-                                   const Field3& position)
-    : pattern_(pattern), thickness_(thickness), frame_(frame), obstacles_(obstacles) {
+ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, double thickness, double frame,
+                                   const ObstacleSet& obstacles)
+    : pattern_(pattern), thickness_(thickness), frame_(frame), obstacles_(obstacles), bounds_(pattern) {
   const auto count = static_cast<std::size_t>(obstacles.count());
   if (count == 0) return;
-  reach_ = reachOfCloth(pattern, position);
-  reach_.min().array() -= 2.0 * thickness;
-  reach_.max().array() += 2.0 * thickness;
   near_.reserve(count);
   for (const MovingObstacle& moving : obstacles.moving()) near_.emplace_back(pattern, *moving.shape, thickness, kCore * thickness);
   active_.assign(count, 0);
@@ -50,8 +47,7 @@ void ObstacleContacts::lookAtCloth(const Field3& start, const Field3& predicted,
   double gap = std::numeric_limits<double>::infinity();
   for (const MovingObstacle& moving : obstacles_.moving()) {
     if (!moving.present) continue;
-    const Eigen::AlignedBox3d box = moving.sweptBounds();
-    if (reach_.intersects(box)) gap = std::min(gap, std::sqrt(cloth.box.squaredExteriorDistance(box)));
+    gap = std::min(gap, std::sqrt(cloth.box.squaredExteriorDistance(moving.sweptBounds())));
   }
   const double speed = kFaster * cloth.move / h;
   const double room = std::isfinite(gap) ? 0.5 * gap : 0.0;
@@ -73,14 +69,23 @@ ObstacleStanding ObstacleContacts::standing(int obstacle, const Field3& position
   return cloth.intersects(moving.sweptBounds()) ? ObstacleStanding::kNear : ObstacleStanding::kFar;
 }
 
+bool ObstacleContacts::anyWithin(const Eigen::AlignedBox3d& box) const noexcept {
+  const auto is_within = [&box](const MovingObstacle& moving) {
+    return moving.present && box.intersects(moving.sweptBounds());
+  };
+  return std::any_of(obstacles_.moving().begin(), obstacles_.moving().end(), is_within);
+}
+
 bool ObstacleContacts::mayTouch(const Field3& start, const Field3& predicted, double h) noexcept {
-  bool reachable = false;
-  for (const MovingObstacle& moving : obstacles_.moving()) {
-    reachable = reachable || (moving.present && reach_.intersects(moving.sweptBounds()));
-  }
   std::fill(active_.begin(), active_.end(), std::uint8_t{0});
-  if (!reachable) return false;
-  if (!(box_time_ >= h)) lookAtCloth(start, predicted, h);
+  if (!(box_time_ >= h)) {
+    // Some 30 nodes will do for what is not close; where they go in the end is not where they are predicted.
+    Eigen::AlignedBox3d sampled = bounds_.around(start, predicted, 1.0 + kFaster);
+    sampled.min().array() -= 2.0 * thickness_;
+    sampled.max().array() += 2.0 * thickness_;
+    if (!anyWithin(sampled)) return false;
+    lookAtCloth(start, predicted, h);
+  }
   bool any = false;
   for (std::size_t n = 0; n < near_.size(); ++n) {
     const MovingObstacle& moving = obstacles_.moving()[n];

@@ -4,14 +4,15 @@
 // thickness away, with Coulomb friction against the moving surface. Inelastic. What would go through all the same gets
 // planes where it goes in, and as a last resort goes with the obstacle.
 //
-//   reach of the cloth      an obstacle beyond it costs nothing
-//   box, for some frames    one outside it next to nothing
+//   box around a few nodes  an obstacle outside it costs next to nothing
+//   box, for some frames    nor does one outside that
 //   vicinity (vicinity.h)   nodes and elements near it
 //   touch (obstacle_touch.h)  of those, what touches in the substep
 #pragma once
 
 #include <vector>
 
+#include "cloth/link_ways.h"
 #include "contact/obstacle_set.h"
 #include "contact/obstacle_touch.h"
 #include "contact/vicinity.h"
@@ -25,10 +26,8 @@ enum class ObstacleStanding { kAbsent, kFar, kNear };
 
 class ObstacleContacts {
  public:
-  /// thickness: kept between cloth and obstacle [m]; frame [s]; position: where the pinned nodes are [m]; pattern and obstacles
-  /// must outlive this.
-  ObstacleContacts(const ClothPattern& pattern, double thickness, double frame, const ObstacleSet& obstacles,
-                   const Field3& position);
+  /// thickness: kept between cloth and obstacle [m]; frame [s]; pattern and obstacles must outlive this.
+  ObstacleContacts(const ClothPattern& pattern, double thickness, double frame, const ObstacleSet& obstacles);
 
   /// Some obstacle may be touched in a substep of h [s] whose nodes go from start to about predicted. False: none can, whatever
   /// the links do.
@@ -72,6 +71,7 @@ class ObstacleContacts {
   ObstacleSubstep substepOf(std::size_t obstacle, double h, bool slippery) const noexcept {
     return {obstacles_.moving()[obstacle], static_cast<int>(obstacle), h, slippery};
   }
+  bool anyWithin(const Eigen::AlignedBox3d& box) const noexcept;
   void lookAtCloth(const Field3& start, const Field3& predicted, double h) noexcept;
   void findCrossings(const Field3& start, const Field3& end, double h) noexcept;
   void warmStart(std::size_t first, Contacts& contacts) const noexcept;
@@ -79,7 +79,7 @@ class ObstacleContacts {
   const ClothPattern& pattern_;
   double thickness_, frame_;
   const ObstacleSet& obstacles_;
-  Eigen::AlignedBox3d reach_;         // of the cloth for ever
+  const SampledBounds bounds_;        // of the cloth now
   Eigen::AlignedBox3d box_;           // of the cloth for box_time_
   double box_time_ = 0.0;             // [s]
   std::vector<Vicinity> near_;        // by obstacle

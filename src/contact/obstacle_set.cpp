@@ -17,7 +17,9 @@ Pose between(const Pose& a, const Pose& b, double share) {
   return pose;
 }
 
-bool same(const Pose& a, const Pose& b) { return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs(); }
+bool samePlace(const Pose& a, const Pose& b) {
+  return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs();
+}
 
 Eigen::AlignedBox3d moved(const Eigen::AlignedBox3d& box, const Transform& transform) {
   const Vec3 middle = transform.toWorld(box.center());
@@ -40,12 +42,15 @@ Pose poseAt(const std::vector<PoseKey>& motion, double time) noexcept {
   return motion.back().pose;
 }
 
-Eigen::AlignedBox3d MovingObstacle::sweptBounds() const noexcept {
+void MovingObstacle::move(const Transform& from, const Transform& to) noexcept {
+  before = from;
+  after = to;
   if (!std::isfinite(bounds.min().sum()) || !std::isfinite(bounds.max().sum())) {  // a plane is everywhere
-    return {Vec3::Constant(-std::numeric_limits<double>::infinity()),
-            Vec3::Constant(std::numeric_limits<double>::infinity())};
+    swept_ = {Vec3::Constant(-std::numeric_limits<double>::infinity()),
+              Vec3::Constant(std::numeric_limits<double>::infinity())};
+  } else {
+    swept_ = moved(bounds, before).merged(moved(bounds, after));
   }
-  return moved(bounds, before).merged(moved(bounds, after));
 }
 
 ObstacleSet::ObstacleSet(const Scene& scene, const MeshResolver& resolve) {
@@ -73,6 +78,7 @@ void ObstacleSet::reset() noexcept {
     items_[n].begin = items_[n].end = items_[n].initial;
     items_[n].scripted = !items_[n].motion.empty();
     items_[n].moved = false;
+    items_[n].placed = false;
     moving_[n].present = true;
   }
   setSubstep(1.0, 1.0);
@@ -90,33 +96,40 @@ bool ObstacleSet::anyMoved() const noexcept {
 void ObstacleSet::setPose(int index, const Pose& pose, bool jump) noexcept {
   Item& item = items_[at(index)];
   item.scripted = false;
-  item.moved = item.moved || !same(pose, item.end);
+  item.moved = item.moved || !samePlace(pose, item.end);
   item.end = pose;
+  item.placed = false;
   if (!jump) return;
   item.begin = pose;
-  moving_[at(index)].before = moving_[at(index)].after = Transform(pose);
+  moving_[at(index)].move(Transform(pose), Transform(pose));
 }
 
 void ObstacleSet::beginFrame(double end_time) noexcept {
   for (Item& item : items_) {
     if (!item.scripted) continue;
     item.end = poseAt(item.motion, end_time);
-    item.moved = item.moved || !same(item.begin, item.end);
+    item.moved = item.moved || !samePlace(item.begin, item.end);
   }
 }
 
 void ObstacleSet::setSubstep(double from, double to) noexcept {
   for (std::size_t n = 0; n < items_.size(); ++n) {
+    Item& item = items_[n];
     if (!moving_[n].present) continue;
-    moving_[n].before = Transform(between(items_[n].begin, items_[n].end, from));
-    moving_[n].after = Transform(between(items_[n].begin, items_[n].end, to));
+    if (!samePlace(item.begin, item.end)) {
+      moving_[n].move(Transform(between(item.begin, item.end, from)), Transform(between(item.begin, item.end, to)));
+      item.placed = false;
+    } else if (!item.placed) {
+      moving_[n].move(Transform(item.end), Transform(item.end));
+      item.placed = true;
+    }
   }
 }
 
 void ObstacleSet::endFrame(double share) noexcept {
   for (Item& item : items_) {
     item.begin = share >= 1.0 ? item.end : between(item.begin, item.end, share);
-    item.moved = !same(item.begin, item.end);
+    item.moved = !samePlace(item.begin, item.end);
   }
 }
 

@@ -33,7 +33,11 @@ struct MovingObstacle {
   Transform after;             ///< at its end
 
   /// Box around the obstacle over the substep, world frame.
-  Eigen::AlignedBox3d sweptBounds() const noexcept;
+  const Eigen::AlignedBox3d& sweptBounds() const noexcept { return swept_; }
+  void move(const Transform& from, const Transform& to) noexcept;
+
+ private:
+  Eigen::AlignedBox3d swept_;
 };
 
 class ObstacleSet {
@@ -77,6 +81,7 @@ class ObstacleSet {
     Pose end;
     bool scripted = false;  // still follows its motion
     bool moved = false;
+    bool placed = false;    // rests, and its substep is that already
   };
   static std::size_t at(int index) { return static_cast<std::size_t>(index); }
 

@@ -68,29 +68,46 @@ GustNoise::GustNoise(std::uint64_t seed, double correlation_length, double corre
     for (Place& p : column_place_) p.high %= column_cells;  // the lattice closes with the ring
   }
   lattice_columns_ = column_cells + 2;
-  lattice_.assign(static_cast<std::size_t>(row_cells + 2) * static_cast<std::size_t>(lattice_columns_), Vec3::Zero());
+  lattice_rows_.resize(static_cast<std::size_t>(row_cells + 2));
+  const std::size_t points = lattice_rows_.size() * static_cast<std::size_t>(lattice_columns_);
+  for (std::vector<Vec3>* const values : {&lattice_, &before_, &after_}) values->assign(points, Vec3::Zero());
 }
 
 void GustNoise::setTime(double time) noexcept {
   const double slab_time = time / correlation_time_;
   const double slab_floor = std::floor(slab_time);
-  const auto slab = static_cast<std::int64_t>(slab_floor);
+  slab_ = static_cast<std::int64_t>(slab_floor);
   const double fraction = smoothStep(slab_time - slab_floor);
   const double size = std::sqrt(fraction * fraction + (1.0 - fraction) * (1.0 - fraction));
-  const double old_weight = (1.0 - fraction) / size;
-  const double new_weight = fraction / size;
-  for (std::size_t point = 0; point < lattice_.size(); ++point) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto where = static_cast<std::int64_t>(point);
-      lattice_[point][axis] = old_weight * hashedNormal(seed_, where, axis, slab) +
-                              new_weight * hashedNormal(seed_, where, axis, slab + 1);
-    }
-  }
+  before_weight_ = (1.0 - fraction) / size;
+  after_weight_ = fraction / size;
+  for (LatticeRow& row : lattice_rows_) row.mixed = false;
 }
 
-Vec3 GustNoise::at(int row, int column) const noexcept {
+// The numbers of a row last for a correlation time; only their mixture changes within.
+void GustNoise::prepareRow(int row) noexcept {
+  LatticeRow& known = lattice_rows_[static_cast<std::size_t>(row)];
+  if (known.mixed) return;
+  const auto first = static_cast<std::size_t>(row) * static_cast<std::size_t>(lattice_columns_);
+  const std::size_t end = first + static_cast<std::size_t>(lattice_columns_);
+  for (std::size_t point = first; point < end && known.slab != slab_; ++point) {
+    const auto where = static_cast<std::int64_t>(point);
+    for (int axis = 0; axis < 3; ++axis) {
+      before_[point][axis] = hashedNormal(seed_, where, axis, slab_);
+      after_[point][axis] = hashedNormal(seed_, where, axis, slab_ + 1);
+    }
+  }
+  for (std::size_t point = first; point < end; ++point) {
+    lattice_[point] = before_weight_ * before_[point] + after_weight_ * after_[point];
+  }
+  known = {slab_, true};
+}
+
+Vec3 GustNoise::at(int row, int column) noexcept {
   const Place& v = row_place_[static_cast<std::size_t>(row)];
   const Place& u = column_place_[static_cast<std::size_t>(column)];
+  prepareRow(v.low);
+  prepareRow(v.high);
   const auto point = [&](int i, int j) -> const Vec3& {
     return lattice_[static_cast<std::size_t>(i * lattice_columns_ + j)];
   };
@@ -98,8 +115,10 @@ Vec3 GustNoise::at(int row, int column) const noexcept {
          v.high_weight * (u.low_weight * point(v.high, u.low) + u.high_weight * point(v.high, u.high));
 }
 
-CURTAIN_WIDE void GustNoise::rowOf(int row, int component, double* out) const noexcept {
+CURTAIN_WIDE void GustNoise::rowOf(int row, int component, double* out) noexcept {
   const Place& v = row_place_[static_cast<std::size_t>(row)];
+  prepareRow(v.low);
+  prepareRow(v.high);
   const Vec3* const low = lattice_.data() + static_cast<std::ptrdiff_t>(v.low) * lattice_columns_;
   const Vec3* const high = lattice_.data() + static_cast<std::ptrdiff_t>(v.high) * lattice_columns_;
   std::size_t j = 0;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "cloth/cloth.h"
@@ -19,14 +20,15 @@ class GustNoise {
   /// correlation_time    [s], > 0
   GustNoise(std::uint64_t seed, double correlation_length, double correlation_time, const ClothPattern& pattern);
 
-  /// Sets the time of the field [s]. Allocates nothing.
+  /// Sets the time of the field [s], before any look at it. Costs next to nothing: numbers are made for the rows that are
+  /// looked at. Allocates nothing.
   void setTime(double time) noexcept;
 
   /// The field at a node at the time set.
-  Vec3 at(int row, int column) const noexcept;
+  Vec3 at(int row, int column) noexcept;
 
   /// The field along a row: one component (0..2) of all columns into out, shape [columns].
-  void rowOf(int row, int component, double* out) const noexcept;
+  void rowOf(int row, int component, double* out) noexcept;
 
  private:
   // A place between two lattice points; weights of unit sum of squares keep the variance at one everywhere.
@@ -38,12 +40,22 @@ class GustNoise {
   };
   static Place place(double coordinate);
 
+  struct LatticeRow {
+    std::int64_t slab = std::numeric_limits<std::int64_t>::min();  // that before_ and after_ are of
+    bool mixed = false;                                            // lattice_ is of the time set
+  };
+  void prepareRow(int row) noexcept;
+
   std::uint64_t seed_;
   double correlation_time_;
   int lattice_columns_ = 0;
   std::vector<Place> row_place_;
   std::vector<Place> column_place_;
-  std::vector<Vec3> lattice_;  // the field at the lattice points at the time set
+  std::int64_t slab_ = 0;  // the time set lies between it and the next one, both a correlation time apart
+  double before_weight_ = 1.0, after_weight_ = 0.0;
+  std::vector<LatticeRow> lattice_rows_;
+  std::vector<Vec3> before_, after_;  // at the lattice points, at both slabs
+  std::vector<Vec3> lattice_;         // the field there at the time set
 };
 
 /// A number of unit variance and zero mean from a seed and three integers: sum of four uniform 16-bit numbers.

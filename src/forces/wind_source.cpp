@@ -23,104 +23,158 @@ WindSource::WindSource(const WindParams& wind, const ClothPattern& pattern, doub
     : wind_(wind),
       axis_(wind.direction.normalized()),
       porosity_factor_(1.0 - wind.porosity_weight * porosity),
-      strength_(wind.pressure + wind.node_force + wind.unsteadiness),
+      strength_(porosity_factor_ * (wind.pressure + wind.node_force + wind.unsteadiness)),
+      steady_(wind.pressure + wind.node_force > 0.0),
       gusts_(seedOf(seed, wind.id), wind.correlation_length, wind.correlation_time, pattern),
       distance_factor_(pattern.grid.size(), 0.0),
-      gust_row_(static_cast<std::size_t>(pattern.grid.columns), 0.0) {
+      gust_row_(static_cast<std::size_t>(pattern.grid.columns), 0.0),
+      rows_(static_cast<std::size_t>(pattern.grid.rows), 0) {
+  cone_ = {wind.position[0], wind.position[1], wind.position[2], axis_[0], axis_[1], axis_[2],
+           wind.radius,      0.0,              wind.distance_weight, 0.0,   1.0};
   if (wind.half_angle > kParallel) {
-    apex_distance_ = wind.radius / std::tan(wind.half_angle);
-    apex_ = wind.position - apex_distance_ * axis_;
+    cone_.of_axis = cone_.apex_distance = wind.radius / std::tan(wind.half_angle);
+    cone_.of_place = 1.0;
+    widening_ = wind.radius / cone_.apex_distance;
   }
 }
 
-CURTAIN_INTO_WIDE WindSource::Sample WindSource::sample(double x, double y, double z) const noexcept {
-  const double px = x - wind_.position[0], py = y - wind_.position[1], pz = z - wind_.position[2];
-  const double depth = px * axis_[0] + py * axis_[1] + pz * axis_[2];
+CURTAIN_INTO_WIDE double WindSource::Cone::distanceFactorAt(double x, double y, double z) const noexcept {
+  const double px = x - ox, py = y - oy, pz = z - oz;
+  const double depth = px * ax + py * ay + pz * az;
   // B lies where the line AC meets the disc's plane: the part of C across the axis, shrunk towards the apex.
   const double before = depth >= 0.0 ? depth : 0.0;
-  const double shrink = apex_distance_ > 0.0 ? apex_distance_ / (apex_distance_ + before) : 1.0;
-  const double bx = (px - depth * axis_[0]) * shrink, by = (py - depth * axis_[1]) * shrink,
-               bz = (pz - depth * axis_[2]) * shrink;
+  const double shrink = apex_distance > 0.0 ? apex_distance / (apex_distance + before) : 1.0;
+  const double bx = (px - depth * ax) * shrink, by = (py - depth * ay) * shrink, bz = (pz - depth * az) * shrink;
   const double dx = px - bx, dy = py - by, dz = pz - bz;  // d = C - B
-  // Its direction is that of the line AC (on the disc itself d is zero); parallel wind has the axis for a line.
-  const double apart = apex_distance_ > 0.0 ? 1.0 : 0.0;
-  const double reach = apex_distance_ > 0.0 ? apex_distance_ : 1.0;
-  const double lx = apart * px + reach * axis_[0], ly = apart * py + reach * axis_[1], lz = apart * pz + reach * axis_[2];
+  const bool reached = (depth >= 0.0) & (bx * bx + by * by + bz * bz <= radius * radius);
+  const double factor = 1.0 / (distance_weight * (1.0 + dx * dx + dy * dy + dz * dz));
+  return reached ? factor : 0.0;
+}
+
+// That of the line AC, for d itself is zero on the disc; parallel wind has the axis for a line.
+CURTAIN_INTO_WIDE WindSource::Direction WindSource::Cone::directionAt(double x, double y, double z) const noexcept {
+  const double px = x - ox, py = y - oy, pz = z - oz;
+  const double lx = of_place * px + of_axis * ax, ly = of_place * py + of_axis * ay, lz = of_place * pz + of_axis * az;
   const double per_line = 1.0 / std::sqrt(lx * lx + ly * ly + lz * lz + kTinySquared);
-  const bool reached = (depth >= 0.0) & (bx * bx + by * by + bz * bz <= wind_.radius * wind_.radius);
-  Sample air;
-  air.dx = lx * per_line;
-  air.dy = ly * per_line;
-  air.dz = lz * per_line;
-  air.along = air.dx * axis_[0] + air.dy * axis_[1] + air.dz * axis_[2];
-  const double factor = 1.0 / (wind_.distance_weight * (1.0 + dx * dx + dy * dy + dz * dz));
-  air.distance_factor = reached ? factor : 0.0;
-  return air;
+  Direction d;
+  d.x = lx * per_line;
+  d.y = ly * per_line;
+  d.z = lz * per_line;
+  d.along = d.x * ax + d.y * ay + d.z * az;
+  return d;
 }
 
 WindAtPoint WindSource::at(const Vec3& point) const noexcept {
-  const Sample here = sample(point.x(), point.y(), point.z());
   WindAtPoint air;
-  air.reached = here.distance_factor > 0.0;
+  const double factor = cone_.distanceFactorAt(point.x(), point.y(), point.z());
+  air.reached = factor > 0.0;
   if (!air.reached) return air;
-  air.direction = Vec3(here.dx, here.dy, here.dz);
-  air.along_axis = here.along;
-  air.distance_factor = here.distance_factor;
+  const Direction d = cone_.directionAt(point.x(), point.y(), point.z());
+  air.direction = Vec3(d.x, d.y, d.z);
+  air.along_axis = d.along;
+  air.distance_factor = factor;
   return air;
 }
 
-CURTAIN_WIDE void WindSource::addForces(const ClothPattern& pattern, const Field3& position, const Field3& area_vectors,
-                           double time, Field3& force) noexcept {
-  const Grid& grid = pattern.grid;
-  const double ax = axis_[0], ay = axis_[1], az = axis_[2];
-  for (int i = 0; i < grid.rows; ++i) {
-    const std::size_t row = grid.row(i);
-    const double* const x = position.x.data() + row;
-    const double* const y = position.y.data() + row;
-    const double* const z = position.z.data() + row;
-    const double* const nx = area_vectors.x.data() + row;
-    const double* const ny = area_vectors.y.data() + row;
-    const double* const nz = area_vectors.z.data() + row;
-    const double* const area = pattern.area.data() + row;
-    double* const fx = force.x.data() + row;
-    double* const fy = force.y.data() + row;
-    double* const fz = force.z.data() + row;
-    double* const reach = distance_factor_.data() + row;
-#pragma omp simd
-    for (int j = 0; j < grid.columns; ++j) {
-      const Sample air = sample(x[j], y[j], z[j]);
-      const double normal_size = std::sqrt(nx[j] * nx[j] + ny[j] * ny[j] + nz[j] * nz[j] + kTinySquared);
-      // The cloth has two sides, so |cos psi|; a node crushed to no area catches no wind.
-      const double cos_psi = std::abs(nx[j] * ax + ny[j] * ay + nz[j] * az) / normal_size;
-      const double centre_force = wind_.pressure * area[j] + wind_.node_force;
-      // Cheng 2000, Eq. (2): (f_w . d) d / |d|^2, with f_w along the axis; then Eq. (3).
-      reach[j] = air.distance_factor;
-      const double push = porosity_factor_ * centre_force * air.along * cos_psi * air.distance_factor;
-      fx[j] += push * air.dx;
-      fy[j] += push * air.dy;
-      fz[j] += push * air.dz;
-    }
-  }
-  if (wind_.unsteadiness > 0.0) addGusts(pattern, time, force);
+// A node is reached when it is not behind the disc and no further from the axis than the cone's radius there, r + k
+// depth. Distance from the axis less k depth is convex: nowhere in the box is it below its tangent plane at the middle.
+bool WindSource::mayReach(const Eigen::AlignedBox3d& box) const noexcept {
+  constexpr double kRounding = 1e-9;
+  const Vec3 half = 0.5 * box.sizes(), from = box.center() - wind_.position;
+  const double depth = from.dot(axis_);
+  const Vec3 across = from - depth * axis_;
+  const double distance = across.norm();
+  const double slack = kRounding * ((1.0 + widening_) * (from.norm() + half.norm()) + wind_.radius);
+  if (depth + axis_.cwiseAbs().dot(half) < -slack) return false;
+  if (distance <= wind_.radius) return true;
+  const Vec3 slope = across / distance - widening_ * axis_;
+  const double least = distance - widening_ * depth - slope.cwiseAbs().dot(half);
+  return !(least > wind_.radius + slack);
 }
 
-// On the nodes that addForces just found in reach.
-CURTAIN_WIDE void WindSource::addGusts(const ClothPattern& pattern, double time, Field3& force) noexcept {
+void WindSource::find(const Grid& grid, const Field3& position, const Eigen::AlignedBox3d& bounds) noexcept {
+  reaches_ = false;
+  if (!mayReach(bounds)) return;
+  for (int i = 0; i < grid.rows; ++i) {
+    const bool reached = findInRow(grid, i, position);
+    rows_[static_cast<std::size_t>(i)] = reached ? 1 : 0;
+    reaches_ = reaches_ || reached;
+  }
+}
+
+CURTAIN_WIDE bool WindSource::findInRow(const Grid& grid, int i, const Field3& position) noexcept {
+  const std::size_t row = grid.row(i);
+  const double* const x = position.x.data() + row;
+  const double* const y = position.y.data() + row;
+  const double* const z = position.z.data() + row;
+  double* const factor = distance_factor_.data() + row;
+  const Cone cone = cone_;
+  double largest = 0.0;
+#pragma omp simd reduction(max : largest)
+  for (int j = 0; j < grid.columns; ++j) {
+    const double here = cone.distanceFactorAt(x[j], y[j], z[j]);
+    factor[j] = here;
+    largest = largest > here ? largest : here;
+  }
+  return largest > 0.0;
+}
+
+void WindSource::addForces(const ClothPattern& pattern, const Field3& position, const Field3& area_vectors, double time,
+                           Field3& force) noexcept {
+  const bool gusty = wind_.unsteadiness > 0.0;
+  if (gusty) gusts_.setTime(time - wind_.start);
+  for (int i = 0; i < pattern.grid.rows; ++i) {
+    if (!reachesRow(i)) continue;
+    if (steady_) addSteady(pattern, i, position, area_vectors, force);
+    if (gusty) addGusts(pattern, i, force);
+  }
+}
+
+CURTAIN_WIDE void WindSource::addSteady(const ClothPattern& pattern, int i, const Field3& position,
+                                        const Field3& area_vectors, Field3& force) const noexcept {
   const Grid& grid = pattern.grid;
-  gusts_.setTime(time - wind_.start);
+  const Cone cone = cone_;
+  const double pressure = wind_.pressure, node_force = wind_.node_force, factor_of_pores = porosity_factor_;
+  const std::size_t row = grid.row(i);
+  const double* const x = position.x.data() + row;
+  const double* const y = position.y.data() + row;
+  const double* const z = position.z.data() + row;
+  const double* const nx = area_vectors.x.data() + row;
+  const double* const ny = area_vectors.y.data() + row;
+  const double* const nz = area_vectors.z.data() + row;
+  const double* const area = pattern.area.data() + row;
+  const double* const factor = distance_factor_.data() + row;
+  double* const fx = force.x.data() + row;
+  double* const fy = force.y.data() + row;
+  double* const fz = force.z.data() + row;
+#pragma omp simd
+  for (int j = 0; j < grid.columns; ++j) {
+    const Direction d = cone.directionAt(x[j], y[j], z[j]);
+    const double normal_size = std::sqrt(nx[j] * nx[j] + ny[j] * ny[j] + nz[j] * nz[j] + kTinySquared);
+    // The cloth has two sides, so |cos psi|; a node crushed to no area catches no wind.
+    const double cos_psi = std::abs(nx[j] * cone.ax + ny[j] * cone.ay + nz[j] * cone.az) / normal_size;
+    const double centre_force = pressure * area[j] + node_force;
+    // Cheng 2000, Eq. (2): (f_w . d) d / |d|^2, with f_w along the axis; then Eq. (3).
+    const double push = factor_of_pores * centre_force * d.along * cos_psi * factor[j];
+    fx[j] += push * d.x;
+    fy[j] += push * d.y;
+    fz[j] += push * d.z;
+  }
+}
+
+CURTAIN_WIDE void WindSource::addGusts(const ClothPattern& pattern, int i, Field3& force) noexcept {
+  const Grid& grid = pattern.grid;
   const double strength = wind_.unsteadiness * porosity_factor_;
   double* const gust = gust_row_.data();
-  for (int i = 0; i < grid.rows; ++i) {
-    const std::size_t row = grid.row(i);
-    const double* const factor = distance_factor_.data() + row;
-    const double* const area = pattern.area.data() + row;
-    int component = 0;
-    for (Field* const field : {&force.x, &force.y, &force.z}) {
-      gusts_.rowOf(i, component++, gust);
-      double* const f = field->data() + row;
+  const std::size_t row = grid.row(i);
+  const double* const factor = distance_factor_.data() + row;
+  const double* const area = pattern.area.data() + row;
+  int component = 0;
+  for (Field* const field : {&force.x, &force.y, &force.z}) {
+    gusts_.rowOf(i, component++, gust);
+    double* const f = field->data() + row;
 #pragma omp simd
-      for (int j = 0; j < grid.columns; ++j) f[j] += strength * area[j] * factor[j] * gust[j];
-    }
+    for (int j = 0; j < grid.columns; ++j) f[j] += strength * area[j] * factor[j] * gust[j];
   }
 }
 

@@ -9,6 +9,10 @@
 //            .|     . C
 #pragma once
 
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
 #include "cloth/cloth.h"
 #include "curtain_sim/scene.h"
 #include "forces/gust_noise.h"
@@ -33,29 +37,55 @@ class WindSource {
 
   WindAtPoint at(const Vec3& point) const noexcept;
 
-  /// Adds the source's force on every node [N]. area_vectors as nodeAreaVectors gives them.
+  /// False: it reaches no point of the box. In constant time.
+  bool mayReach(const Eigen::AlignedBox3d& box) const noexcept;
+
+  /// Finds the nodes in its reach, all of which `bounds` holds.
+  void find(const Grid& grid, const Field3& position, const Eigen::AlignedBox3d& bounds) noexcept;
+  /// The last find() found any; any in this row.
+  bool reaches() const noexcept { return reaches_; }
+  bool reachesRow(int row) const noexcept { return reaches_ && rows_[static_cast<std::size_t>(row)] != 0; }
+  /// The force depends on which way the cloth faces.
+  bool readsNormals() const noexcept { return steady_; }
+
+  /// Adds the source's force on the nodes found [N]. area_vectors as nodeAreaVectors gives them; read in rows that are
+  /// reached, when normals are at all.
   void addForces(const ClothPattern& pattern, const Field3& position, const Field3& area_vectors, double time,
                  Field3& force) noexcept;
 
  private:
-  // One place, without a branch, so that loops over nodes widen.
-  struct Sample {
-    double dx, dy, dz;  // unit d
-    double along;       // cosine between d and the axis
-    double distance_factor;  // of Eq. (3); 0 where nothing is reached
+  struct Direction {
+    double x, y, z;  // unit d
+    double along;    // cosine between d and the axis
   };
-  Sample sample(double x, double y, double z) const noexcept;
-  void addGusts(const ClothPattern& pattern, double time, Field3& force) noexcept;
+  // Where the air goes. Loops over nodes take a copy, which no store to a node can change, and its functions have no
+  // branch: they widen.
+  struct Cone {
+    double ox, oy, oz;  // centre of the disc [m]
+    double ax, ay, az;  // axis
+    double radius, apex_distance;  // [m]; no apex: 0, parallel wind
+    double distance_weight;
+    double of_place, of_axis;  // what the line AC is made of: C from the centre, the axis
+    Direction directionAt(double x, double y, double z) const noexcept;
+    double distanceFactorAt(double x, double y, double z) const noexcept;
+  };
+  bool findInRow(const Grid& grid, int i, const Field3& position) noexcept;
+  void addSteady(const ClothPattern& pattern, int i, const Field3& position, const Field3& area_vectors,
+                 Field3& force) const noexcept;
+  void addGusts(const ClothPattern& pattern, int i, Field3& force) noexcept;
 
   WindParams wind_;
   Vec3 axis_;
-  Vec3 apex_ = Vec3::Zero();
-  double apex_distance_ = 0.0;  // [m]; 0 = parallel wind
+  Cone cone_;
   double porosity_factor_;      // 1 - c_mu mu
+  double widening_ = 0.0;       // of the cone's radius along its axis; 0 = parallel wind
   double strength_;             // of everything it does; 0 = the source is there but still
+  bool steady_;                 // it does more than gusts
   GustNoise gusts_;
-  Field distance_factor_;  // of every node, from the last call of addForces
+  Field distance_factor_;  // of Eq. (3), of every node, from the last find(); 0 where nothing is reached
   Field gust_row_;         // scratch: a component of the gusts along a row
+  std::vector<std::uint8_t> rows_;  // with a node in reach, from the last find() that looked at them
+  bool reaches_ = false;
 };
 
 }  // namespace curtain

@@ -2,6 +2,7 @@
 #include "simulator/force_field.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace curtain {
 namespace {
@@ -28,7 +29,7 @@ bool eraseId(std::vector<Item>& items, const std::string& id) {
 }  // namespace
 
 ForceField::ForceField(const Scene& scene, const ClothPattern& pattern)
-    : scene_(scene), pattern_(pattern), air_damping_(scene.air, pattern) {
+    : scene_(scene), pattern_(pattern), bounds_(pattern), air_damping_(scene.air, pattern) {
   const std::size_t size = pattern.grid.size();
   weight_.assign(size, 0.0);
   takeGravity();
@@ -106,10 +107,36 @@ void ForceField::clearDrags() {
   drag_params_.clear();
 }
 
+// Which nodes the winds that blow reach; false: none does any.
+bool ForceField::findWinds(const Field3& position, double time) noexcept {
+  std::optional<Eigen::AlignedBox3d> cloth;
+  bool any = false;
+  for (WindSource& wind : winds_) {
+    if (!wind.blowsAt(time)) continue;
+    if (!cloth) cloth = bounds_.around(position);
+    wind.find(pattern_.grid, position, *cloth);
+    any = any || wind.reaches();
+  }
+  return any;
+}
+
+void ForceField::addWinds(const Field3& position, double time) noexcept {
+  for (int i = 0; i < pattern_.grid.rows; ++i) {
+    const auto reads = [=](const WindSource& wind) {
+      return wind.blowsAt(time) && wind.readsNormals() && wind.reachesRow(i);
+    };
+    if (std::any_of(winds_.begin(), winds_.end(), reads)) nodeAreaVectors(pattern_.grid, i, position, area_vectors_);
+  }
+  for (WindSource& wind : winds_) {
+    if (wind.blowsAt(time)) wind.addForces(pattern_, position, area_vectors_, time, sum_);
+  }
+}
+
+// A source that reaches nothing is as good as none: not even the sum differs from the weight, in which the solver has a
+// shorter way.
 const NodeForces& ForceField::evaluate(const ClothState& state, double time, double dt) noexcept {
-  const auto blows = [time](const WindSource& wind) { return wind.blowsAt(time); };
   const auto acts = [time](const DragForce& drag) { return drag.actsAt(time); };
-  const bool windy = std::any_of(winds_.begin(), winds_.end(), blows);
+  const bool windy = findWinds(state.position, time);
   const bool dragged = std::any_of(drags_.begin(), drags_.end(), acts);
   forces_.force = &weight_;
   forces_.weight_only = !windy && !dragged;
@@ -118,12 +145,7 @@ const NodeForces& ForceField::evaluate(const ClothState& state, double time, dou
     sum_ = weight_;
     forces_.force = &sum_;
   }
-  if (windy) {
-    nodeAreaVectors(pattern_.grid, state.position, area_vectors_);
-    for (WindSource& wind : winds_) {
-      if (blows(wind)) wind.addForces(pattern_, state.position, area_vectors_, time, sum_);
-    }
-  }
+  if (windy) addWinds(state.position, time);
   const auto damps = [&acts](const DragForce& drag) { return drag.damps() && acts(drag); };
   forces_.has_damping = air_damping_.active() || std::any_of(drags_.begin(), drags_.end(), damps);
   if (forces_.has_damping) std::fill(forces_.damping.begin(), forces_.damping.end(), 0.0);

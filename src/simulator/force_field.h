@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cloth/column_set.h"
+#include "cloth/link_ways.h"
 #include "forces/air_damping.h"
 #include "forces/drag_force.h"
 #include "forces/wind_source.h"
@@ -56,9 +57,12 @@ class ForceField {
 
  private:
   void markReached(const WindSource& wind, const Field3& position, ColumnSet& out) const noexcept;
+  bool findWinds(const Field3& position, double time) noexcept;
+  void addWinds(const Field3& position, double time) noexcept;
 
   const Scene& scene_;
   const ClothPattern& pattern_;
+  const SampledBounds bounds_;
   AirDamping air_damping_;
   std::vector<WindSource> winds_;
   std::vector<WindParams> wind_params_;
@@ -66,7 +70,7 @@ class ForceField {
   std::vector<DragParams> drag_params_;
   Field3 weight_;
   Field3 sum_;  // with winds and drags, when any acts
-  Field3 area_vectors_;
+  Field3 area_vectors_;  // of rows that a wind reaches
   NodeForces forces_;
 };
 

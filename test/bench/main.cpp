@@ -24,7 +24,8 @@ const std::vector<Study>& studies() {
                                          {"scaling", studyScaling},
                                          {"stages", studyStages},
                                          {"contact", studyContact},
-                                         {"ccd", studyCcd}};
+                                         {"ccd", studyCcd},
+                                         {"features", studyFeatures}};
   return all;
 }
 

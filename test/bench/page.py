@@ -253,6 +253,31 @@ def ccd():
             markdown(['set', 'pair', 'queries', 'impacts', 'missed', 'false alarms', 'ns a query', 'at 1 mm'], body)]
 
 
+def features():
+    rows = table('features')
+    body = []
+    for feature in values(rows, 'feature'):
+        state = {row['state']: row for row in where(rows, feature=feature)}
+        off = value(state['off'], 'instructions')
+
+        def cells(name):
+            if name not in state:
+                return ['–', '–', '–', '–']
+            row = state[name]
+            count = value(row, 'instructions')
+            return [row['what'].replace(';', ','), f'{count:.1f}', f'{count / off:.3f}', figure(value(row, 'ns_min'))]
+
+        body.append([feature, f'{off:.1f}', figure(value(state['off'], 'ns_min'))] + cells('idle') + cells('active'))
+    return ['## What features cost\n',
+            'Instructions per node and frame (callgrind; they repeat) and ns per node and frame (median of the frames, least of the '
+            'repeats), 44 x 40 nodes, one thread. Without the feature; with it but in vain, which moves the cloth to the same '
+            'bits; at work, which moves it otherwise and costs what follows from that, too. Where no other scene is named it '
+            'is the swing: gravity alone, the cheapest motion there is. test/cost fails where a feature in vain costs more '
+            'than its bound (1.02 unless test/bench/cost/features.cpp says why not).\n',
+            markdown(['feature', 'without', 'ns', 'in vain', 'instructions', 'ratio', 'ns', 'at work', 'instructions', 'ratio',
+                      'ns'], body)]
+
+
 def head():
     about = {row['key']: row['value'] for row in table('machine')}
     return ['# Benchmark\n',
@@ -271,7 +296,8 @@ def head():
 
 def main():
     sections = {'work_precision': work_precision, 'slopes': slopes, 'energy': energy, 'modes': modes, 'nets': nets, 'wind': wind,
-                'hard_spot': hard_spot, 'gusts': gusts, 'scaling': scaling, 'stages': stages, 'contact': contact, 'ccd': ccd}
+                'hard_spot': hard_spot, 'gusts': gusts, 'scaling': scaling, 'stages': stages, 'contact': contact, 'ccd': ccd,
+                'features': features}
     text = head()
     for study, section in sections.items():
         if table(study):

@@ -31,6 +31,7 @@ void studyScaling(const Options& options);
 void studyStages(const Options& options);
 void studyContact(const Options& options);
 void studyCcd(const Options& options);
+void studyFeatures(const Options& options);
 
 /// All of them, in the order of the page.
 const std::vector<Study>& studies();

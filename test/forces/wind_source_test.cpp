@@ -30,6 +30,11 @@ struct Cloth {
   Field3 push(WindSource& source, double time = 0.0) const {
     Field3 force;
     force.assign(pattern.grid.size(), 0.0);
+    Eigen::AlignedBox3d bounds;
+    for (int i = 0; i < pattern.grid.rows; ++i) {
+      for (int j = 0; j < pattern.grid.columns; ++j) bounds.extend(position.at(pattern.grid.index(i, j)));
+    }
+    source.find(pattern.grid, position, bounds);
     source.addForces(pattern, position, normals, time, force);
     return force;
   }
@@ -337,6 +342,79 @@ TEST(WindSource, BlowsFromStartUntilBeforeEndAndOnlyWithStrength) {
     EXPECT_FALSE(blows(2.0));
     *strength = 0.0;
   }
+}
+
+// ---- what it can't reach -----------------------------------------------------------------------------------------
+
+Eigen::AlignedBox3d randomBox(Random& random) {
+  const Vec3 middle = random.inBox(4.0), half = random.between(0.1, 1.5) * (random.inBox(0.5) + Vec3::Constant(0.5));
+  return {middle - half, middle + half};
+}
+
+TEST(WindSource, ReachesNoPlaceOfABoxThatItMayNotReach) {
+  Random random(8);
+  const Cloth cloth(flatScene(2, 2));
+  int out_of_reach = 0, missed = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    const WindSource source(randomWind(random), cloth.pattern, 0.0, 1);
+    const Eigen::AlignedBox3d box = randomBox(random);
+    const bool may = source.mayReach(box);
+    bool does = false;
+    for (int sample = 0; sample < 200; ++sample) {
+      Vec3 place;
+      for (int k = 0; k < 3; ++k) {
+        // Corners and sides more often than chance would have them.
+        const double share = std::min(1.0, std::max(0.0, random.between(-0.5, 1.5)));
+        place[k] = box.min()[k] + share * (box.max()[k] - box.min()[k]);
+      }
+      does = does || source.at(place).reached;
+    }
+    ASSERT_TRUE(may || !does) << "trial " << trial;
+    out_of_reach += does ? 0 : 1;
+    missed += may && !does ? 1 : 0;
+  }
+  // A plane parts most of what can be parted.
+  EXPECT_GT(out_of_reach, 1000);
+  EXPECT_LT(missed, out_of_reach / 4);
+}
+
+TEST(WindSource, ReachesAlongItsEdge) {
+  const Cloth cloth(flatScene(2, 2));
+  WindParams wind;
+  wind.id = "edge";
+  wind.direction = Vec3::UnitX();
+  wind.radius = 1.0;
+  wind.pressure = 1.0;
+  wind.half_angle = std::atan(0.5);
+  const WindSource source(wind, cloth.pattern, 0.0, 1);
+  const auto at = [](double x, double y) { return Eigen::AlignedBox3d(Vec3(x, y, -0.5), Vec3(x + 1.0, y + 1.0, 0.5)); };
+  EXPECT_FALSE(source.mayReach(at(-1.001, -0.5)));  // behind the disc
+  EXPECT_TRUE(source.mayReach(at(-0.999, -0.5)));
+  EXPECT_FALSE(source.mayReach(at(1.0, 2.001)));  // the cone's radius is 2 where the box ends
+  EXPECT_TRUE(source.mayReach(at(1.0, 1.999)));
+}
+
+// Parallel wind on the middle of a cloth of 1 m.
+WindParams gustless() {
+  WindParams wind;
+  wind.id = "fan";
+  wind.position = {0.5, -1.0, 0.5};
+  wind.direction = Vec3::UnitY();
+  wind.radius = 0.3;
+  wind.pressure = 3.0;
+  return wind;
+}
+
+TEST(WindSource, FindsNothingOutsideTheBounds) {
+  const Cloth cloth(flatScene(5, 5));
+  WindSource source(gustless(), cloth.pattern, 0.0, 1);
+  source.find(cloth.pattern.grid, cloth.position, Eigen::AlignedBox3d(Vec3(0, 0, 0), Vec3(1, 0, 1)));
+  EXPECT_TRUE(source.reaches());
+  EXPECT_FALSE(source.reachesRow(0));
+  EXPECT_TRUE(source.reachesRow(2));
+  source.find(cloth.pattern.grid, cloth.position, Eigen::AlignedBox3d(Vec3(0, 0, 9), Vec3(1, 0, 10)));
+  EXPECT_FALSE(source.reaches());
+  EXPECT_FALSE(source.reachesRow(2)) << "of an earlier look";
 }
 
 // ---- gusts of a source -------------------------------------------------------------------------------------------

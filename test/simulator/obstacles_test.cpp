@@ -214,5 +214,23 @@ TEST(Obstacles, GivenPosesMoveTheObstacle) {
   EXPECT_LT((a.position({20, 12}) - b.position({20, 12})).norm(), 1e-3);
 }
 
+// Where the cloth can be moves with its pins.
+TEST(Obstacles, AreMetFarFromWhereTheClothBegan) {
+  ObstacleParams ball = obstacleOf(ShapeKind::kSphere);
+  ball.pose.position = Vec3(9.0, 0.0, 1.2);
+  Simulator simulator(curtainAnd(ball));
+  int touched = 0;
+  std::vector<Vec3> points;
+  for (int frame = 1; frame <= 300; ++frame) {
+    const double way = 9.0 * std::min(1.0, frame / 240.0);
+    for (int j = 0; j < 24; ++j) ASSERT_TRUE(simulator.movePin({0, j}, Vec3(way + 0.7 * j / 23.0, 0.0, 2.2)));
+    simulator.step();
+    simulator.copyPositions(points);
+    ASSERT_LT(deepest(simulator, 0, points), 1e-3) << "frame " << frame;
+    touched += simulator.statistics().contacts > 0 ? 1 : 0;
+  }
+  EXPECT_GT(touched, 50);
+}
+
 }  // namespace
 }  // namespace curtain

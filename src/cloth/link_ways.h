@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Where the cloth can be, from where a few of its nodes are: no two nodes are further apart than the links between them
+// are long.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "cloth/cloth.h"
+
+namespace curtain {
+
+/// Links may be this much longer while something goes wrong.
+constexpr double kOverlong = 1.1;
+
+/// A box around the cloth from some 30 of its nodes, however many it has.
+class SampledBounds {
+ public:
+  explicit SampledBounds(const ClothPattern& pattern);
+
+  /// Of the cloth at these positions [m]; too large by margin() at most.
+  Eigen::AlignedBox3d around(const Field3& position) const noexcept;
+
+  /// Around the start, and further by so many times the furthest way of a sample from there to the end: with 1 it holds
+  /// both.
+  Eigen::AlignedBox3d around(const Field3& start, const Field3& end, double ways) const noexcept;
+
+  double margin() const noexcept { return margin_; }
+
+ private:
+  std::vector<std::size_t> samples_;
+  double margin_ = 0.0;  // [m]
+};
+
+}  // namespace curtain
