@@ -13,6 +13,9 @@ constexpr int kSlipperySubsteps = 64;
 // Two parts of the cloth are not kept further apart than this share of its shortest link: thicker cloth would touch its
 // own next row.
 constexpr double kGapPerLink = 0.25;
+// How far parts of flat cloth are to be kept apart by proof, over the gap: they are looked at by themselves before they
+// touch.
+constexpr double kFlatReach = 1.25;
 // Parts that go along with an obstacle may take more with them: so many times at most.
 constexpr int kCarryRounds = 64;
 
@@ -33,7 +36,7 @@ void extrapolate(const Field3& start, const Field3& end, Field3& ahead) noexcept
 }  // namespace
 
 ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& params, double frame_length,
-                           const ObstacleSet& obstacles)
+                           const ObstacleSet& obstacles, double stretch_tolerance)
     : pattern_(pattern),
       obstacles_(obstacles),
       self_wanted_(params.self),
@@ -41,6 +44,7 @@ ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& par
       touch_(pattern, params.thickness, frame_length, obstacles),
       self_(pattern, std::min(params.thickness, kGapPerLink * shortestLink(pattern)), params.friction),
       pairs_(pattern),
+      net_(pattern, stretch_tolerance),
       zones_(pattern) {
   if (obstacles.count() == 0 && !params.self) return;
   contacts_.reserve(8 * pattern.grid.nodeCount());
@@ -63,6 +67,9 @@ Contacts* ClothContact::begin(const Field3& start, const Field3& predicted, doub
   contacts_.clear();
   h_ = h;
   looks_ = 0;
+  started_ = ended_;
+  ended_ = {};
+  flat_ = false;
   if (self_wanted_) {
     if (!looked_) look(start, predicted);
     self_.collect(start, predicted, h, contacts_);
@@ -72,9 +79,18 @@ Contacts* ClothContact::begin(const Field3& start, const Field3& predicted, doub
   return self_wanted_ || near_obstacle_ ? &contacts_ : nullptr;
 }
 
-ContactFinder::Verdict ClothContact::verify(const Field3& start, const Field3& end) noexcept {
+// Cloth that is flat by far needs no look at all its nodes. Pairs near at the last look keep their multipliers, and the
+// candidates are as many as before: none.
+bool ClothContact::staysFlat(const Field3& start, const Field3& end, bool settled) noexcept {
+  const bool goes_on = started_.seen;
+  started_.seen = flat_ = false;
+  if (!settled || !started_.taut || !self_.noneNear()) return false;
+  return flat_ = net_.staysFlat(start, end, kFlatReach * self_.gap(), goes_on);
+}
+
+ContactFinder::Verdict ClothContact::verify(const Field3& start, const Field3& end, bool settled) noexcept {
   int added = 0;
-  if (self_wanted_) {
+  if (self_wanted_ && !staysFlat(start, end, settled)) {
     look(start, end);
     added = self_.verify(start, end, h_, contacts_);
   }
@@ -135,6 +151,7 @@ int ClothContact::joinCrossings(const Field3& start, const Field3& end) noexcept
 }
 
 void ClothContact::afterSubstep(bool settled, double h, double scale, const Field3& position) noexcept {
+  ended_ = {settled, flat_};
   if (!settled) slippery_ = kSlipperySubsteps;
   else if (slippery_ > 0) --slippery_;
   last_.clear();
@@ -162,7 +179,8 @@ void ClothContact::forget() noexcept {
   last_.clear();
   last_scale_ = 0.0;
   slippery_ = 0;
-  looked_ = false;
+  looked_ = flat_ = false;
+  started_ = ended_ = {};
   pairs_.forget();
   self_.forget();
   touch_.forget();

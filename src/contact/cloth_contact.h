@@ -11,6 +11,7 @@
 #include "contact/obstacle_contacts.h"
 #include "contact/obstacle_set.h"
 #include "contact/self_contacts.h"
+#include "contact/taut_net.h"
 #include "contact/zones.h"
 #include "solver/substep.h"
 
@@ -18,15 +19,16 @@ namespace curtain {
 
 class ClothContact : public ContactFinder {
  public:
-  /// frame_length [s]; pattern and obstacles must outlive this.
+  /// frame_length [s]; stretch_tolerance: of links in a substep that settles, relative; pattern and obstacles must
+  /// outlive this.
   ClothContact(const ClothPattern& pattern, const ContactParams& params, double frame_length,
-               const ObstacleSet& obstacles);
+               const ObstacleSet& obstacles, double stretch_tolerance);
 
   /// There is something to look for at all.
   bool wanted() const noexcept { return self_wanted_ || obstacles_.anyPresent(); }
 
   Contacts* begin(const Field3& start, const Field3& predicted, double h) noexcept override;
-  Verdict verify(const Field3& start, const Field3& end) noexcept override;
+  Verdict verify(const Field3& start, const Field3& end, bool settled) noexcept override;
   void hold(const Field3& start, Field3& end) noexcept override;
 
   /// After every accepted substep of h [s] that ended at position, whether all links could be brought to their lengths;
@@ -50,8 +52,11 @@ class ClothContact : public ContactFinder {
   /// Adds the contact forces of the last substep [N].
   void addForces(Field3& force) const noexcept;
   void forget() noexcept;
+  /// The next substep does not start where the last accepted one ended.
+  void lookAfresh() noexcept { ended_ = {}; }
 
  private:
+  bool staysFlat(const Field3& start, const Field3& end, bool settled) noexcept;
   void look(const Field3& start, const Field3& end) noexcept;
   int joinCrossings(const Field3& start, const Field3& end) noexcept;
   void holdSelf(const Field3& start, Field3& end) noexcept;
@@ -64,6 +69,14 @@ class ClothContact : public ContactFinder {
   ObstacleContacts touch_;
   SelfContacts self_;
   KeptPairs pairs_;
+  TautNet net_;
+  // What is known of where a substep starts, for it is where the last one ended.
+  struct Known {
+    bool taut = false;  // that one settled
+    bool seen = false;  // by net_, last of all
+  };
+  Known started_, ended_;
+  bool flat_ = false;         // the net has proved it of the present substep
   Candidates candidates_;
   Field3 ahead_;           // where nodes go on to from the last look [m]
   bool looked_ = false;    // the pairs near each other now are known

@@ -41,6 +41,8 @@ class SelfContacts {
   SelfContacts(const ClothPattern& pattern, double gap, double friction);
 
   double gap() const noexcept { return gap_; }
+  /// No pair was near at the last look.
+  bool noneNear() const noexcept { return near_.empty(); }
 
   /// Takes new candidates; pairs that were near before keep their multipliers, and contacts of the present substep name the
   /// new pairs.

@@ -73,6 +73,7 @@ void Simulator::Impl::rehearse() {
   const auto goBack = [&] {
     state = rehearsal.state;
     exact.restore(rehearsal.memory);
+    contact.lookAfresh();
   };
   const bool coarse_made = play(substeps);
   companion.state.position = state.position;
@@ -101,6 +102,7 @@ void Simulator::Impl::moveCompanion() {
   exact.save(rehearsal.memory);
   std::swap(state, companion.state);
   exact.restore(companion.memory);
+  contact.lookAfresh();
   const int substeps = estimate->companionSubsteps(companion.in_finer_steps);
   if (substeps != companion.substeps) synchronise();
   companion.substeps = substeps;
@@ -113,6 +115,7 @@ void Simulator::Impl::moveCompanion() {
   exact.save(companion.memory);
   std::swap(state, companion.state);
   exact.restore(rehearsal.memory);
+  contact.lookAfresh();
   statistics = published;
   clock = stages;
 }

@@ -41,6 +41,7 @@ bool Simulator::Impl::makeComposed(const SubstepPlan& plan, double done) {
     if (!outcome.accepted || exact.weftPulls() || (contact.wanted() && contact.any())) {
       state = before.state;
       exact.restore(before.memory);
+      contact.lookAfresh();
       return false;
     }
     control.accepted(stage, outcome);

@@ -42,7 +42,7 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const SubstepPlan& plan, const
     all.contacts = contacts;
     if (free_ && !held_.any() && contacts != nullptr && start.keep == nullptr && !pressesOnObstacle(*contacts)) keepMomentum(start);
     if (contacts == nullptr || !(progress.settled || plan.must_accept || progress.near)) return all;
-    const ContactFinder::Verdict verdict = finder->verify(from, next_);
+    const ContactFinder::Verdict verdict = finder->verify(from, next_, progress.settled);
     clock.lap(Stage::kContact);
     if (verdict == ContactFinder::Verdict::kClear) return all;
     newton_begun_ = false;

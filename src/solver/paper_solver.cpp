@@ -76,7 +76,7 @@ void PaperSolver::touch(ContactFinder* finder, double h, ClothState& state) noex
   if (contacts == nullptr) return;
   beginContacts(pattern_.inverse_mass, 0.0, 0, *contacts, state.position);
   projectContacts(pattern_.inverse_mass, *contacts, state.position);
-  if (finder->verify(start_, state.position) != ContactFinder::Verdict::kClear) finder->hold(start_, state.position);
+  if (finder->verify(start_, state.position, false) != ContactFinder::Verdict::kClear) finder->hold(start_, state.position);
   for (const Contact& contact : *contacts) {
     if (!contact.pushes()) continue;
     const double approach = contact.normal.dot(contact.point(state.velocity) - contact.surface_velocity);

@@ -34,8 +34,8 @@ class ContactFinder {
     kMore,    ///< something would: contacts were added, solve again
     kCrossed  ///< something would, and solving again has not helped
   };
-  /// Looks at the way from start to end.
-  virtual Verdict verify(const Field3& start, const Field3& end) noexcept = 0;
+  /// Looks at the way from start to end. settled: at its end every link is within the tolerance.
+  virtual Verdict verify(const Field3& start, const Field3& end, bool settled) noexcept = 0;
 
   /// The last resort: changes `end` so that nothing goes through anything, whatever it does to the links.
   virtual void hold(const Field3& start, Field3& end) noexcept = 0;

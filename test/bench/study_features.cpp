@@ -19,7 +19,8 @@ constexpr std::array<FeatureState, 3> kStates = {FeatureState::kOff, FeatureStat
 
 void studyFeatures(const Options& options) {
   Table table(options.folder, "features.csv",
-              {"feature", "state", "what", "instructions", "instructions_per_substep", "substeps", "ns_min", "same_motion"});
+              {"feature", "state", "what", "instructions", "instructions_per_substep", "substeps", "ns_min",
+               "same_motion"});
   for (const Feature& feature : features()) {
     std::array<double, 3> ns;
     ns.fill(std::numeric_limits<double>::infinity());

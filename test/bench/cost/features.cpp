@@ -133,11 +133,7 @@ std::vector<Feature> makeFeatures() {
       [](Play& p) {
         for (int n = 0; n < 10; ++n) p.scene.wind.push_back(fanAt(kPast + n * Vec3::UnitX(), 4.0, std::to_string(n)));
       },
-      "blow at it", [](Play& p) {
-        for (int n = 0; n < 10; ++n) {
-          p.scene.wind.push_back(fanAt(kBefore - 0.1 * n * Vec3::UnitY(), 4.0, std::to_string(n)));
-        }
-      });
+      "", nullptr);
   add("air damping linear", swing(), "coefficients 0", [](Play& p) { p.scene.air.threshold = 1e3; }, "0.2",
       [](Play& p) {
         damp(p, 0.2, 0.0);
@@ -162,9 +158,11 @@ std::vector<Feature> makeFeatures() {
         for (int n = 0; n < 9; ++n) addBall(p, kFar + n * Vec3::UnitX(), false, std::to_string(n));
         addBall(p, kInTheWay);
       });
-  // Every substep all of the cloth is looked at: measured 1.588.
+  // That nothing touches must be proved anew of every substep, from nodes in every fourth row and every row's ends and
+  // middle (taut_net.h, 5 % of the swing; another 1 % is asking at all); where the swing bends too much for that proof,
+  // in every seventh substep, all nodes are looked at (8 %). Measured 1.141.
   add("self-contact", swing(), "the cloth is flat", [](Play& p) { p.scene.contact.self = true; }, "", nullptr).most_idle =
-      1.62;
+      1.16;
   add("self-contact: gathered to 60 %", gathered(), "", nullptr, "on", [](Play& p) { p.scene.contact.self = true; });
   add("folds: second layer", swing(), "not looked at", [](Play& p) { p.scene.cloth.folds = 6; }, "fine mesh every frame",
       [](Play& p) {

@@ -33,7 +33,8 @@ void runFrames(const Feature& feature, FeatureState state) {
   }
   std::nth_element(ns.begin(), ns.begin() + feature.frames / 2, ns.end());
   const int nodes = simulator.rows() * simulator.columns();
-  std::printf("ns: %.4f\nsubsteps: %.4f\nhash: %016" PRIx64 "\n", ns[static_cast<std::size_t>(feature.frames) / 2] / nodes,
+  const double median = ns[static_cast<std::size_t>(feature.frames) / 2];
+  std::printf("ns: %.4f\nsubsteps: %.4f\nhash: %016" PRIx64 "\n", median / nodes,
               static_cast<double>(simulator.statistics().substeps) / feature.frames, simulator.stateHash());
 }
 

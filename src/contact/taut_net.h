@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Is the cloth so flat that no two parts of it can come close? Told from few of its nodes: links do not get longer, so a
+// line of links whose ends are as far apart as it is long is straight, and nothing between them needs to be looked at.
+//
+// Let m links of lengths l reach over c m l, 0 < c <= 1, along the unit vector n, none being longer than (1 + e) l. Their
+// vectors r add up to c m l n, so each goes on along n by what the others can't make up for:
+//
+//     r . n >= c m l - (m - 1) (1 + e) l = (1 - s) l,   s = m (1 - c) + (m - 1) e,
+//     |r / l - c n|^2 <= (1 + e)^2 - 2 c (1 - s) + c^2.
+//
+// Rods are looked at in strips of a few rows, in every column; weft links in a few spans of columns, in every row. With
+// all slopes known to lie in balls around those of the lines, the bound of contact/flatness.h says what is flat: along
+// two fixed orthonormal directions a (weft) and b (warp) the symmetric part of the slopes has no eigenvalue below
+// reach / (least altitude of a triangle). It is concave, so what holds where a straight way starts and ends holds
+// between.
+#pragma once
+
+#include <vector>
+
+#include "cloth/cloth.h"
+
+namespace curtain {
+
+/// Not thread-safe: remembers what it saw last.
+class TautNet {
+ public:
+  /// overlong: what links may be longer, over their length.
+  TautNet(const ClothPattern& pattern, double overlong);
+
+  /// True: any two elements of the cloth that share no node are further apart than `reach` [m] while all nodes move
+  /// straight from start to end; false: who knows. All links but those between pins must be no more overlong than said,
+  /// at both.
+  /// goes_on: start is the end of the last call. Allocates nothing.
+  bool staysFlat(const Field3& start, const Field3& end, double reach, bool goes_on) noexcept;
+
+ private:
+  // Of the slopes along a and b, what the links between the nodes looked at may add to them included.
+  struct Slopes {
+    double least_u, most_u_across;  // of weft links: along a at least; along b at most, either way
+    double least_v, most_v_across;  // of rods: along b at least, along a at most
+    void merge(const Slopes& other) noexcept;
+  };
+  struct Span {
+    std::size_t first, last;  // rows (of the strip) or columns
+    double per_length;        // [1/m] of the links between
+    double links;             // how many
+  };
+  static std::vector<Span> spansOf(const Field& coordinate, int most_links);
+  bool isEven(const ClothPattern& pattern) const;
+  Vec3 middleOfWarp(const Field3& position) const noexcept;
+  bool aim(const Field3& position) noexcept;
+  Slopes slopesOf(const Field3& position) const noexcept;
+  double straying(double least_square, const Span& span) const noexcept;
+  bool areFlat(const Slopes& slopes, double reach) const noexcept;
+
+  const ClothPattern& pattern_;
+  double overlong_;
+  bool usable_;
+  bool checks_top_;  // its links are between pins, who may be moved apart
+  std::vector<Span> strips_, spans_;
+  double per_altitude_ = 0.0;  // [1/m]
+  Vec3 a_ = Vec3::UnitX(), b_ = Vec3::UnitZ();
+  Slopes last_{};      // of the end of the last call, along a_ and b_
+  bool known_ = false;
+  int pause_ = 0;      // calls to be left out after one that proved nothing
+};
+
+}  // namespace curtain
