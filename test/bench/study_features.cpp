@@ -36,7 +36,7 @@ void studyFeatures(const Options& options) {
       if (kStates[s] == FeatureState::kOff) off_hash = weight.state_hash;
       const std::string& what = kStates[s] == FeatureState::kIdle ? feature.idle_is : feature.active_is;
       table.row({feature.name, stateName(kStates[s]), kStates[s] == FeatureState::kOff ? "without" : what,
-                 number(weight.instructions, 6), number(weight.instructions / weight.substeps, 6), number(weight.substeps),
+                 number(weight.instructions, 6), weight.substeps > 0.0 ? number(weight.instructions / weight.substeps, 6) : "", number(weight.substeps),
                  number(ns[s]), weight.state_hash == off_hash ? "yes" : "no"});
     }
   }

@@ -229,6 +229,9 @@ class NodeProcess:
     def running(self):
         return self._process.poll() is None
 
+    def pid(self):
+        return self._process.pid
+
     def interrupt(self):
         self._process.send_signal(signal.SIGINT)
 

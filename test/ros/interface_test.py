@@ -69,7 +69,7 @@ class InterfaceTest(unittest.TestCase):
         for column in range(COLUMNS):
             self.assertLess(distance(node_position(state, 0, column), (0.1 * column, 0.0, 2.0)), 1e-6)
         self.assertTrue(state.statistics.finite)
-        self.assertGreater(state.statistics.substeps, 0)
+        self.assertGreater(state.statistics.substeps_total, 0)
         self.assertEqual(state.statistics.absent_obstacles, 0)
 
     def test_frames_are_evenly_stamped(self):

@@ -70,7 +70,13 @@ class Sharing : public ::testing::Test {
     }
   }
 
-  NodeParams params_;
+  static NodeParams restful() {
+    NodeParams params;
+    params.state_rest_rate = 10.0;
+    return params;
+  }
+
+  NodeParams params_ = restful();
   curtain::Simulator simulator_{windlessScene()};
   Frames frames_{ros::NodeHandle(), params_.world_frame};
   Outputs outputs_{ros::NodeHandle("~"), params_, simulator_, frames_};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/cost/features.h"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "curtain_sim/scene_yaml.h"
@@ -13,12 +14,14 @@ using curtain::Vec3;
 
 constexpr double kNever = 1e6;  // [s]
 
-// The cheapest motion there is, against which an idle feature weighs most: gravity alone, 44 x 40 nodes, one thread.
+// The cheapest motion there is, against which an idle feature weighs most: gravity alone, 44 x 40 nodes, one thread; and
+// nothing of it falls asleep.
 Play swing() {
   const auto reading = curtain::readSceneFile(std::string(CURTAIN_SOURCE_DIR) + "/test/scenes/swing.yaml");
   if (!reading.problems.empty()) throw std::runtime_error(curtain::describe(reading.problems));
   Play play{reading.scene, nullptr};
   play.scene.solver.threads = 1;
+  play.scene.solver.rest_speed = 0.0;
   return play;
 }
 
@@ -35,6 +38,29 @@ Play gathered() {
   fan.half_angle = 0.2;
   fan.pressure = 6.0;
   play.scene.wind.push_back(fan);
+  return play;
+}
+
+// Hangs there, and comes to rest soon.
+Play hanging() {
+  Play play = swing();
+  play.scene.hang.tilt = 0.0;
+  play.scene.hang.to = Vec3(0.8, 0.0, 0.0);
+  play.scene.air.inside = play.scene.air.border = play.scene.air.corner = 0.5;
+  return play;
+}
+
+// The same, led to and fro by a corner of its hem.
+Play ledByACorner() {
+  Play play = hanging();
+  play.each_frame = [frame = 0](curtain::Simulator& simulator) mutable {
+    curtain::DragParams hand;
+    hand.id = "hand";
+    hand.node = curtain::NodeIndex{43, 1};
+    hand.target = Vec3(0.03, 0.15 * std::sin(0.03 * frame++), -1.97);
+    hand.stiffness = 5.0;
+    simulator.setDrag(hand);
+  };
   return play;
 }
 
@@ -171,6 +197,11 @@ std::vector<Feature> makeFeatures() {
       });
   add("position_tolerance", swing(), "", nullptr, "0.1 mm a second",
       [](Play& p) { p.scene.solver.position_tolerance = 1e-4; });
+  const auto rests = [](Play& p) { p.scene.solver.rest_speed = curtain::SolverParams().rest_speed; };
+  add("rest", swing(), "nothing rests", rests, "", nullptr);
+  add("rest: all sleeps", hanging(), "", nullptr, "asleep", rests).warm_up = 90;
+  add("rest: a corner moves", ledByACorner(), "", nullptr, "the rest sleeps", rests).warm_up = 90;
+  add("budget", swing(), "never reached", [](Play& p) { p.scene.solver.budget_ms = 1e5; }, "", nullptr);
   add("porosity", swing(), "without wind", [](Play& p) { p.scene.cloth.porosity = 0.5; }, "", nullptr);
   add("state copied", swing(), "", nullptr, "positions; velocities; forces", copyState);
   return all;

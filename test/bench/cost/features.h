@@ -32,6 +32,7 @@ struct Feature {
   std::function<void(Play& play)> make_active;  ///< from off
   double most_idle = 1.02;      ///< instructions of idle over those of off that the test lets pass
   int frames = 240;             ///< to be weighed
+  int warm_up = 0;              ///< frames before these
 
   bool has(FeatureState state) const;
   Play play(FeatureState state) const;

@@ -25,6 +25,8 @@ namespace {
 void runFrames(const Feature& feature, FeatureState state) {
   Play play = feature.play(state);
   curtain::Simulator simulator(play.scene);
+  for (int frame = 0; frame < feature.warm_up; ++frame) simulator.step();
+  const auto before = simulator.statistics().substeps;
   std::vector<double> ns;
   for (int frame = 0; frame < feature.frames; ++frame) {
     const auto begin = std::chrono::steady_clock::now();
@@ -35,7 +37,7 @@ void runFrames(const Feature& feature, FeatureState state) {
   const int nodes = simulator.rows() * simulator.columns();
   const double median = ns[static_cast<std::size_t>(feature.frames) / 2];
   std::printf("ns: %.4f\nsubsteps: %.4f\nhash: %016" PRIx64 "\n", median / nodes,
-              static_cast<double>(simulator.statistics().substeps) / feature.frames, simulator.stateHash());
+              static_cast<double>(simulator.statistics().substeps - before) / feature.frames, simulator.stateHash());
 }
 
 }  // namespace
