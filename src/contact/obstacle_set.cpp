@@ -53,7 +53,7 @@ void MovingObstacle::move(const Transform& from, const Transform& to) noexcept {
   }
 }
 
-ObstacleSet::ObstacleSet(const Scene& scene, const MeshResolver& resolve) {
+ObstacleSet::ObstacleSet(const Scene& scene, const MeshResolver& resolve) : frame_length_(1.0 / scene.solver.frame_rate) {
   for (const ObstacleParams& params : scene.obstacles) {
     Item item;
     item.shape = makeObstacleShape(params, resolve);
@@ -77,8 +77,9 @@ void ObstacleSet::reset() noexcept {
   for (std::size_t n = 0; n < items_.size(); ++n) {
     items_[n].begin = items_[n].end = items_[n].initial;
     items_[n].scripted = !items_[n].motion.empty();
-    items_[n].moved = false;
-    items_[n].placed = false;
+    items_[n].moved = items_[n].placed = items_[n].behind = false;
+    items_[n].own_way = 0.0;
+    items_[n].share = 1.0;
     moving_[n].present = true;
   }
   setSubstep(1.0, 1.0);
@@ -97,19 +98,41 @@ void ObstacleSet::setPose(int index, const Pose& pose, bool jump) noexcept {
   Item& item = items_[at(index)];
   item.scripted = false;
   item.moved = item.moved || !samePlace(pose, item.end);
-  item.end = pose;
+  moveOn(at(index), pose);
   item.placed = false;
   if (!jump) return;
   item.begin = pose;
+  item.behind = false;
   moving_[at(index)].move(Transform(pose), Transform(pose));
 }
 
 void ObstacleSet::beginFrame(double end_time) noexcept {
-  for (Item& item : items_) {
-    if (!item.scripted) continue;
-    item.end = poseAt(item.motion, end_time);
-    item.moved = item.moved || !samePlace(item.begin, item.end);
+  for (std::size_t n = 0; n < items_.size(); ++n) {
+    Item& item = items_[n];
+    if (item.scripted) {
+      moveOn(n, poseAt(item.motion, end_time));
+      item.moved = item.moved || !samePlace(item.begin, item.end);
+    }
+    item.share = 1.0;
+    if (!item.behind) continue;
+    const double way = wayBetween(item.begin, item.end, n);
+    const double allowed = std::max(item.own_way, kFollowingSpeed * frame_length_);
+    if (way > allowed) item.share = allowed / way;
   }
+}
+
+// Of the point that goes farthest, at most [m].
+double ObstacleSet::wayBetween(const Pose& a, const Pose& b, std::size_t index) const noexcept {
+  const Eigen::AlignedBox3d& box = moving_[index].bounds;
+  const double radius = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).norm();
+  const double turned = a.orientation.angularDistance(b.orientation);
+  return (b.position - a.position).norm() + (std::isfinite(radius) ? radius * turned : 0.0);
+}
+
+void ObstacleSet::moveOn(std::size_t index, const Pose& pose) noexcept {
+  Item& item = items_[index];
+  if (item.behind) item.own_way = wayBetween(item.end, pose, index);
+  item.end = pose;
 }
 
 void ObstacleSet::setSubstep(double from, double to) noexcept {
@@ -117,7 +140,8 @@ void ObstacleSet::setSubstep(double from, double to) noexcept {
     Item& item = items_[n];
     if (!moving_[n].present) continue;
     if (!samePlace(item.begin, item.end)) {
-      moving_[n].move(Transform(between(item.begin, item.end, from)), Transform(between(item.begin, item.end, to)));
+      moving_[n].move(Transform(between(item.begin, item.end, from * item.share)),
+                      Transform(between(item.begin, item.end, to * item.share)));
       item.placed = false;
     } else if (!item.placed) {
       moving_[n].move(Transform(item.end), Transform(item.end));
@@ -128,8 +152,10 @@ void ObstacleSet::setSubstep(double from, double to) noexcept {
 
 void ObstacleSet::endFrame(double share) noexcept {
   for (Item& item : items_) {
-    item.begin = share >= 1.0 ? item.end : between(item.begin, item.end, share);
-    item.moved = !samePlace(item.begin, item.end);
+    const double made = share * item.share;
+    item.begin = made >= 1.0 ? item.end : between(item.begin, item.end, made);
+    item.moved = item.behind = !samePlace(item.begin, item.end);
+    item.own_way = 0.0;
   }
 }
 

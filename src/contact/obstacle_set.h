@@ -11,6 +11,9 @@
 
 namespace curtain {
 
+/// What has fallen behind, because frames ended early, follows at this speed at most, or at its own if that is higher [m/s].
+constexpr double kFollowingSpeed = 5.0;
+
 /// A rigid transform ready for use on many points.
 struct Transform {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
@@ -58,7 +61,8 @@ class ObstacleSet {
   /// Where the obstacle will be at the end of the coming frame, or (jump) is from now on.
   void setPose(int index, const Pose& pose, bool jump) noexcept;
 
-  /// Starts a frame that ends at this time [s]: scripted obstacles take their pose from their motion.
+  /// Starts a frame that ends at this time [s]: scripted obstacles take their pose from their motion. What has fallen behind
+  /// follows, but not at any speed: for a cloth whose time runs slower it would be a blow.
   void beginFrame(double end_time) noexcept;
   /// Sets the substep, as shares of the frame in [0, 1].
   void setSubstep(double from, double to) noexcept;
@@ -81,9 +85,16 @@ class ObstacleSet {
     Pose end;
     bool scripted = false;  // still follows its motion
     bool moved = false;
+    double own_way = 0.0;    // that its pose has moved on by since the last frame [m]
+    double share = 1.0;      // of the way to its pose that it goes in this frame
+    bool behind = false;     // the last frame ended before it had got there
     bool placed = false;    // rests, and its substep is that already
   };
   static std::size_t at(int index) { return static_cast<std::size_t>(index); }
+  double wayBetween(const Pose& a, const Pose& b, std::size_t index) const noexcept;
+  void moveOn(std::size_t index, const Pose& pose) noexcept;
+
+  double frame_length_;  // [s]
 
   std::vector<Item> items_;
   std::vector<MovingObstacle> moving_;

@@ -120,18 +120,27 @@ double Simulator::Impl::makeSubstep(double done) {
 
 // Pinned nodes answer no force; those that are moved go with their velocity.
 void Simulator::Impl::startPins() {
-  for (const PinMove& move : pin_moves) {
-    state.velocity.set(move.node, (move.target - state.position.at(move.node)) * scene.solver.frame_rate);
+  for (PinMove& move : pin_moves) {
+    const Vec3 velocity = (move.target - state.position.at(move.node)) * scene.solver.frame_rate;
+    const double share = move.behind ? std::min(1.0, kFollowingSpeed / velocity.norm()) : 1.0;
+    state.velocity.set(move.node, share * velocity);
+    move.behind = share < 1.0;
   }
 }
 
 // Those that have not got there, because the frame ended early, go on in the next one.
-void Simulator::Impl::stopPins(bool arrived) {
-  for (const PinMove& move : pin_moves) {
-    if (arrived) state.position.set(move.node, move.target);
+void Simulator::Impl::stopPins(bool whole) {
+  std::size_t left = 0;
+  for (PinMove& move : pin_moves) {
     state.velocity.set(move.node, Vec3::Zero());
+    if (whole && !move.behind) {
+      state.position.set(move.node, move.target);
+    } else {
+      move.behind = true;
+      pin_moves[left++] = move;
+    }
   }
-  if (arrived) pin_moves.clear();
+  pin_moves.resize(left);
 }
 
 // Returns how much of the frame was made, as a share of it: less than 1 when there was no time for more.

@@ -263,7 +263,7 @@ bool Simulator::movePin(NodeIndex node, const Vec3& target) {
       return true;
     }
   }
-  impl_->pin_moves.push_back({at, target});
+  impl_->pin_moves.push_back({at, target, false});
   return true;
 }
 

@@ -28,7 +28,7 @@ struct Simulator::Impl {
   void reset();
   void step();
   void startPins();
-  void stopPins(bool arrived);
+  void stopPins(bool whole);
   double makeFrame();
   void estimateError();
   bool makeEvenSubstep(const SubstepPlan& plan, double done, int divisions);
@@ -93,6 +93,7 @@ struct Simulator::Impl {
   struct PinMove {
     std::size_t node;
     Vec3 target;
+    bool behind;  // it did not get there in the last frame
   };
   std::vector<PinMove> pin_moves;  // of the coming frame
   Statistics statistics;

@@ -181,6 +181,32 @@ TEST(BudgetedSimulator, GivesUpTimeAndNotTheCloth) {
   EXPECT_LT((simulator.obstaclePose(0).position - Vec3(0.35, -0.6, 0.5)).norm(), 1e-12);
 }
 
+// A ball at 20 m/s and a cloth whose time runs many times slower: the ball must not be many times faster for it.
+TEST(BudgetedSimulator, WhatFallsBehindIsNoBlow) {
+  Scene scene = flatScene(44, 40, 2.0);
+  scene.hang.to.x() = 0.8;
+  scene.contact.self = true;
+  scene.solver.threads = 1;
+  scene.solver.budget_ms = 4.0;
+  ObstacleParams ball;
+  ball.name = "ball";
+  ball.radius = 0.3;
+  ball.motion = {{0.1, {Vec3(0.4, -1.0, 1.0), Eigen::Quaterniond::Identity()}},
+                 {0.2, {Vec3(0.4, 1.0, 1.0), Eigen::Quaterniond::Identity()}}};
+  ball.pose = ball.motion[0].pose;
+  scene.obstacles.push_back(ball);
+  Simulator simulator(scene);
+  double kinetic = 0.0;
+  for (int frame = 0; frame < 60; ++frame) {
+    simulator.step();
+    kinetic = std::max(kinetic, simulator.energy().kinetic);
+    const Piercings pierced = simulator.piercings(0);
+    ASSERT_EQ(pierced.nodes + pierced.edges + pierced.faces, 0) << "frame " << frame;
+  }
+  EXPECT_GT(simulator.statistics().lost_time, 0.1);
+  EXPECT_LT(kinetic, 0.5 * 0.4 * 20.0 * 20.0) << "of all of it at the ball's speed [J]";
+}
+
 // A pin that is led on while there is no time for it arrives all the same.
 TEST(BudgetedSimulator, PinsArrive) {
   Scene scene = flatScene(40, 40);
