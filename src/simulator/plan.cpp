@@ -56,16 +56,17 @@ const char* wordsFor(ObstacleStanding standing) {
 
 void Simulator::Impl::planForces(Plan& plan) const {
   const double time = statistics.time;
-  bool windy = false, acts = false;
+  bool windy = false, acts = false, normals = false;
   for (const WindParams& wind : forces.winds()) {
     plan.push_back(planOf(wind, time, forces.reaches(wind.id, time, state.position)));
     windy = windy || plan.back().runs;
+    normals = normals || (plan.back().runs && wind.pressure + wind.node_force > 0.0);
   }
   for (const DragParams& drag : forces.drags()) {
     plan.push_back(planOf(drag, time));
     acts = acts || plan.back().runs;
   }
-  plan.push_back({"normals", windy, windy ? "a wind needs them" : "no wind reads them"});
+  plan.push_back({"normals", normals, normals ? "a wind needs them, in the rows it reaches" : "no wind reads them"});
   const bool damps = forces.dampingPerMass() > 0.0;
   plan.push_back({"air damping", damps, damps ? "by " + number(forces.dampingPerMass()) + " 1/s at most" : "all coefficients are 0"});
   plan.push_back({"force field", windy || acts,

@@ -58,9 +58,33 @@ TEST_F(Options, HelpNamesEveryOption) {
     const Outcome run = batch({option});
     EXPECT_EQ(run.exit_code, 0);
     for (const char* name : {"--duration", "--method", "--substeps", "--rows", "--columns", "--out", "--sample", "--mesh",
-                             "--stats", "--progress", "--list-methods"}) {
+                             "--stats", "--progress", "--explain", "--list-methods"}) {
       EXPECT_NE(run.out.find(name), std::string::npos) << name;
     }
+  }
+}
+
+TEST_F(Options, ExplainSaysWhatRunsAtTheStartAndAtTheEnd) {
+  const std::string scene = this->scene(
+      "cloth: {rows: 8, columns: 4}\nair: {inside: 1, border: 1, corner: 1}\n"
+      "wind: [{id: fan, position: [0.5, -1.0, 1.0], direction: [0, 1, 0], pressure: 3.0, end: 0.5}]\n");
+  const Outcome run = batch({scene, "--explain", "--duration", "30"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const std::size_t end = run.out.find("t = 30 s\n");
+  ASSERT_NE(end, std::string::npos) << run.out;
+  EXPECT_EQ(run.out.find("t = 0 s\n"), 0U);
+  EXPECT_LT(run.out.find("+ wind 'fan': reaches the cloth"), end);
+  EXPECT_NE(run.out.find("- wind 'fan': ended at 0.5 s", end), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("+ rest: 4 of 4 columns sleep", end), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("- self-contact: contact.self is false", end), std::string::npos) << run.out;
+}
+
+TEST_F(Options, StatisticsOfRestAndBudget) {
+  const auto asleep = stats({smallScene("air: {inside: 1, border: 1, corner: 1}\n"), "--duration", "5"});
+  EXPECT_GT(asleep.at("rest").at("columns_asleep").get<int>(), 0);
+  EXPECT_GT(asleep.at("rest").at("frames_asleep").get<int>(), 100);
+  for (const char* key : {"estimates_skipped", "longer_substeps", "unfinished_substeps", "shortened_frames", "lost_s", "late_frames"}) {
+    EXPECT_EQ(asleep.at("budget").at(key).get<double>(), 0.0) << key;
   }
 }
 
