@@ -60,10 +60,11 @@ SampledBounds::SampledBounds(const ClothPattern& pattern) {
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = 0; j < grid.columns; ++j) {
       const std::size_t n = grid.index(i, j);
-      if (std::isfinite(away[n])) margin_ = std::max(margin_, kOverlong * away[n]);
+      if (std::isfinite(away[n])) own_margin_ = std::max(own_margin_, kOverlong * away[n]);
       else samples_.push_back(n);  // surrounded by pins
     }
   }
+  margin_ = own_margin_;
 }
 
 Eigen::AlignedBox3d SampledBounds::around(const Field3& position) const noexcept {

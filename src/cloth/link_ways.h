@@ -28,9 +28,15 @@ class SampledBounds {
 
   double margin() const noexcept { return margin_; }
 
+  /// False: links may be longer than kOverlong (pins pulled apart), nodes anywhere; boxes hold all there is then.
+  void setLinksHold(bool hold) noexcept { margin_ = hold ? own_margin_ : kAnywhere; }
+
  private:
+  static constexpr double kAnywhere = 1e6;  // [m]
+
   std::vector<std::size_t> samples_;
-  double margin_ = 0.0;  // [m]
+  double own_margin_ = 0.0;  // [m]
+  double margin_ = 0.0;      // the same, or kAnywhere
 };
 
 }  // namespace curtain

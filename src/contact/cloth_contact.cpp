@@ -181,6 +181,7 @@ void ClothContact::forget() noexcept {
   slippery_ = 0;
   looked_ = flat_ = false;
   started_ = ended_ = {};
+  net_.forget();
   pairs_.forget();
   self_.forget();
   touch_.forget();

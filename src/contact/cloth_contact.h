@@ -35,7 +35,7 @@ class ClothContact : public ContactFinder {
   /// scale: its h * kick [s^2].
   void afterSubstep(bool settled, double h, double scale, const Field3& position) noexcept;
   /// Before the first substep of every frame.
-  void beginFrame() noexcept { touch_.beginFrame(); }
+  void beginFrame(bool links_hold) noexcept { touch_.beginFrame(links_hold); }
 
   /// Contacts that find room without an allocation.
   std::size_t capacity() const noexcept { return contacts_.capacity(); }

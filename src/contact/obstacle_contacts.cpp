@@ -208,10 +208,11 @@ void ObstacleContacts::forget() noexcept {
   for (Vicinity& vicinity : near_) vicinity.forget();
   std::fill(active_.begin(), active_.end(), std::uint8_t{0});
   box_time_ = 0.0;
-  beginFrame();
+  beginFrame(true);
 }
 
-void ObstacleContacts::beginFrame() noexcept {
+void ObstacleContacts::beginFrame(bool links_hold) noexcept {
+  bounds_.setLinksHold(links_hold);
   std::fill(loads_.begin(), loads_.end(), Load());
   loaded_for_ = 0.0;
 }

@@ -55,8 +55,8 @@ class ObstacleContacts {
   /// For a cloth that is here now. Not made for every substep.
   ObstacleStanding standing(int obstacle, const Field3& position) const noexcept;
 
-  /// A frame begins: wrenches are those of its substeps from now on.
-  void beginFrame() noexcept;
+  /// A frame begins: wrenches are those of its substeps from now on. links_hold: none is much too long, no pin is moved.
+  void beginFrame(bool links_hold) noexcept;
   /// What the cloth exerts on an obstacle, mean over the frame's substeps.
   ContactWrench wrench(int obstacle) const noexcept;
 
@@ -79,7 +79,7 @@ class ObstacleContacts {
   const ClothPattern& pattern_;
   double thickness_, frame_;
   const ObstacleSet& obstacles_;
-  const SampledBounds bounds_;        // of the cloth now
+  SampledBounds bounds_;              // of the cloth now
   Eigen::AlignedBox3d box_;           // of the cloth for box_time_
   double box_time_ = 0.0;             // [s]
   std::vector<Vicinity> near_;        // by obstacle

@@ -21,7 +21,11 @@ bool samePlace(const Pose& a, const Pose& b) {
   return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs();
 }
 
-Eigen::AlignedBox3d moved(const Eigen::AlignedBox3d& box, const Transform& transform) {
+Eigen::AlignedBox3d boxAround(const Eigen::AlignedBox3d& box, const Transform& transform) {
+  if (!std::isfinite(box.min().sum()) || !std::isfinite(box.max().sum())) {  // a plane is everywhere
+    return {Vec3::Constant(-std::numeric_limits<double>::infinity()),
+            Vec3::Constant(std::numeric_limits<double>::infinity())};
+  }
   const Vec3 middle = transform.toWorld(box.center());
   const Vec3 half = transform.rotation.cwiseAbs() * (0.5 * box.sizes());
   return {middle - half, middle + half};
@@ -45,12 +49,7 @@ Pose poseAt(const std::vector<PoseKey>& motion, double time) noexcept {
 void MovingObstacle::move(const Transform& from, const Transform& to) noexcept {
   before = from;
   after = to;
-  if (!std::isfinite(bounds.min().sum()) || !std::isfinite(bounds.max().sum())) {  // a plane is everywhere
-    swept_ = {Vec3::Constant(-std::numeric_limits<double>::infinity()),
-              Vec3::Constant(std::numeric_limits<double>::infinity())};
-  } else {
-    swept_ = moved(bounds, before).merged(moved(bounds, after));
-  }
+  swept_ = boxAround(bounds, before).merged(boxAround(bounds, after));
 }
 
 ObstacleSet::ObstacleSet(const Scene& scene, const MeshResolver& resolve) : frame_length_(1.0 / scene.solver.frame_rate) {
@@ -75,7 +74,7 @@ bool ObstacleSet::anyPresent() const noexcept {
 
 void ObstacleSet::reset() noexcept {
   for (std::size_t n = 0; n < items_.size(); ++n) {
-    items_[n].begin = items_[n].end = items_[n].initial;
+    items_[n].left = items_[n].begin = items_[n].end = items_[n].initial;
     items_[n].scripted = !items_[n].motion.empty();
     items_[n].moved = items_[n].placed = items_[n].behind = false;
     items_[n].own_way = 0.0;
@@ -92,6 +91,10 @@ void ObstacleSet::setPresent(int index, bool present) noexcept {
 
 bool ObstacleSet::anyMoved() const noexcept {
   return std::any_of(items_.begin(), items_.end(), [](const Item& item) { return item.moved; });
+}
+
+Eigen::AlignedBox3d ObstacleSet::leftBox(int index) const noexcept {
+  return boxAround(moving_[at(index)].bounds, Transform(items_[at(index)].left));
 }
 
 void ObstacleSet::setPose(int index, const Pose& pose, bool jump) noexcept {
@@ -156,6 +159,7 @@ void ObstacleSet::endFrame(double share) noexcept {
     item.begin = made >= 1.0 ? item.end : between(item.begin, item.end, made);
     item.moved = item.behind = !samePlace(item.begin, item.end);
     item.own_way = 0.0;
+    item.left = item.begin;
   }
 }
 

@@ -73,6 +73,8 @@ class ObstacleSet {
   /// It moves in this frame, or has been put elsewhere, come or gone since the last one.
   bool moved(int index) const noexcept { return items_[at(index)].moved; }
   bool anyMoved() const noexcept;
+  /// Box around it where it was when the last frame ended, world frame.
+  Eigen::AlignedBox3d leftBox(int index) const noexcept;
 
   const std::vector<MovingObstacle>& moving() const { return moving_; }
 
@@ -81,6 +83,7 @@ class ObstacleSet {
     std::unique_ptr<const ObstacleShape> shape;
     std::vector<PoseKey> motion;
     Pose initial;
+    Pose left;   // where the last frame left it
     Pose begin;
     Pose end;
     bool scripted = false;  // still follows its motion

@@ -28,6 +28,11 @@ class TautNet {
   /// overlong: what links may be longer, over their length.
   TautNet(const ClothPattern& pattern, double overlong);
 
+  void forget() noexcept {
+    known_ = false;
+    pause_ = 0;
+  }
+
   /// True: any two elements of the cloth that share no node are further apart than `reach` [m] while all nodes move
   /// straight from start to end; false: who knows. All links but those between pins must be no more overlong than said,
   /// at both.

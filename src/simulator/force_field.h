@@ -40,6 +40,9 @@ class ForceField {
   const NodeForces& evaluate(const ClothState& state, double time, double dt) noexcept;
   const NodeForces& last() const { return forces_; }
 
+  /// Links are about as long as they should be: winds may be culled by where a few nodes are.
+  void setLinksHold(bool hold) noexcept { bounds_.setLinksHold(hold); }
+
   /// The scene's gravity, or its air, has changed.
   void takeGravity() noexcept;
   void takeAir() { air_damping_ = AirDamping(scene_.air, pattern_); }
@@ -62,7 +65,7 @@ class ForceField {
 
   const Scene& scene_;
   const ClothPattern& pattern_;
-  const SampledBounds bounds_;
+  SampledBounds bounds_;
   AirDamping air_damping_;
   std::vector<WindSource> winds_;
   std::vector<WindParams> wind_params_;

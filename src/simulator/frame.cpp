@@ -10,6 +10,13 @@
 
 namespace curtain {
 
+namespace {
+
+// Overlength at a frame's end with which links count as holding in the next one.
+constexpr double kHold = 0.05;
+
+}  // namespace
+
 // One attempt at a substep from `done` seconds into the frame.
 SubstepOutcome Simulator::Impl::attempt(const SubstepPlan& plan, double done) {
   const double frame_length = 1.0 / scene.solver.frame_rate;
@@ -75,7 +82,9 @@ double Simulator::Impl::makeSubstep(double done) {
   StepControl* steps = &control;
   SubstepPlan plan = planSubstep(control, frame_length - done);
   if (scene.solver.method == Method::kLeapfrog4) {
+    const Budget::Clock::time_point begin = budget.any() ? Budget::Clock::now() : Budget::Clock::time_point();
     if (plain_frames == 0 && makeComposed(plan, done)) {
+      if (budget.any()) budget.substepTook(std::chrono::duration<double>(Budget::Clock::now() - begin).count(), true);
       ++statistics.substeps;
       ++statistics.substeps_last;
       return plan.h;
@@ -88,14 +97,15 @@ double Simulator::Impl::makeSubstep(double done) {
   }
   const SubstepOutcome outcome = attemptInTime(plan, done);
   if (outcome.disturbed) {
-    if (rest.wakeFor(exact.held().disturbed(), statistics.time)) takeOverSleepers();
+    if (rest.wakeFor(exact.held().disturbed(), made_time)) takeOverSleepers();
     return 0.0;
   }
   if (!outcome.accepted) {
     ++statistics.rejected;
-    // That there was no time left for it says nothing of its length.
-    if (!outcome.late || budget.fresh()) steps->rejected(plan);
-    if (!plan.must_accept) return 0.0;
+    // That there was no time left for it says nothing of its length, unless it had a whole frame's.
+    if (!outcome.late) steps->rejected(plan);
+    else if (budget.fresh()) steps->tookTooLong(plan);
+    if (!plan.must_accept || outcome.late) return 0.0;
     // Not even finite: forces beyond all numbers. The cloth stays where it is, at rest, until they are over.
     wakeAll();
     state.velocity.assign(pattern.grid.size(), 0.0);
@@ -158,7 +168,6 @@ double Simulator::Impl::makeFrame() {
 void Simulator::Impl::estimateError() {
   clock.start();
   const bool affords = budget.affordsCompanion();
-  if (frame == 0 && !budget.any()) rehearse();
   if (estimate->companionMoves() && affords) {
     const Budget::Clock::time_point begin = Budget::Clock::now();
     moveCompanion();
@@ -182,9 +191,16 @@ void Simulator::Impl::step() {
     countTime(begin);
     return;
   }
-  budget.beginFrame(begin);
+  if (estimate != nullptr && frame == 0) {
+    clock.start();
+    rehearse();  // before the budget counts: the first frame takes what it takes
+    clock.lap(Stage::kEstimate);
+  }
+  budget.beginFrame(frame == 0 && budget.any() ? Budget::Clock::now() : begin);
   if (estimate != nullptr) estimateError();
-  contact.beginFrame();
+  const bool links_hold = pin_moves.empty() && std::max(statistics.warp_stretch, statistics.weft_stretch) < kHold;
+  contact.beginFrame(links_hold);
+  forces.setLinksHold(links_hold);
   statistics.substeps_last = 0;
   statistics.sweeps_last = 0;
   velocities_fresh = false;
@@ -193,6 +209,7 @@ void Simulator::Impl::step() {
   if (plain_frames > 0) --plain_frames;
   startPins();
   const double share = makeFrame();
+  made_time += share * frame_length;
   const Budget::Clock::time_point tail_begin = budget.any() ? Budget::Clock::now() : begin;
   stopPins(share == 1.0);
   if (share < 1.0) {

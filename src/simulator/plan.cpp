@@ -108,6 +108,8 @@ Plan Simulator::plan() const {
     plan.push_back({"rest", false, "rest_speed is 0: nothing falls asleep"});
   } else if (im.scene.gravity.isZero()) {
     plan.push_back({"rest", false, "no gravity: nothing falls asleep"});
+  } else if (!im.rest.can()) {
+    plan.push_back({"rest", false, "fewer than 20 frames a second: nothing falls asleep"});
   } else {
     plan.push_back({"rest", true, std::to_string(asleep) + " of " + std::to_string(columns()) + " columns sleep" +
                                       (sleeps ? ": nothing below runs until something wakes them" : "")});

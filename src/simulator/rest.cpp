@@ -16,6 +16,7 @@ constexpr double kWindow = 0.5;
 // Looks at the cloth are apart by so many sixtieths of a second: not evenly, or a motion in step with them would look still.
 constexpr std::array<int, 4> kPauses = {7, 9, 5, 11};
 constexpr double kPauseUnit = 1.0 / 60.0;
+constexpr double kLongestFrame = 1.0 / 20.0;
 // Some nodes of a column that are faster than so many times the resting speed, and it is not looked at closer. Contact jitters
 // without going anywhere, so this is far from 1.
 constexpr double kHurry = 50.0;
@@ -66,7 +67,9 @@ Rest::Rest(const ClothPattern& pattern, double frame_length, double thickness, d
 void Rest::setLimits(double speed, double gravity, double damping_per_mass, double height) noexcept {
   const double omega = kLowestFrequency * std::sqrt(gravity / height);
   const double slower = damping_per_mass > omega ? omega / damping_per_mass : 1.0;
-  radius_ = speed * slower * kWindow;
+  // Frames too far apart say too little of what is between.
+  const bool can_rest = gravity > 0.0 && frame_length_ <= kLongestFrame;
+  radius_ = can_rest ? speed * slower * kWindow : 0.0;
 }
 
 void Rest::forget() noexcept {
@@ -213,7 +216,8 @@ void Rest::approachedBy(ObstacleSet& obstacles) noexcept {
   obstacles.setSubstep(0.0, 1.0);
   for (int index = 0; index < obstacles.count(); ++index) {
     if (!obstacles.moved(index)) continue;
-    const Eigen::AlignedBox3d box = sweptBox(obstacles.moving()[static_cast<std::size_t>(index)]);
+    Eigen::AlignedBox3d box = sweptBox(obstacles.moving()[static_cast<std::size_t>(index)]);
+    box.extend(obstacles.leftBox(index));  // which it may have carried something in
     swept_.extend(box);
     if (asleep_.empty() || !box.intersects(all_)) continue;
     for (int j = 0; j < pattern_.grid.columns; ++j) {

@@ -9,7 +9,8 @@
 //   its neighbours pull at it, or touch it                        the solver finds that (HeldColumns), and makes the
 //                                                                 substep again with it awake
 //
-// Gusts that reach a column keep it awake; without gravity nothing brings cloth to rest, so nothing sleeps.
+// Gusts that reach a column keep it awake; without gravity nothing brings cloth to rest, so nothing sleeps. Time is that of the
+// motion, which may be slower than the clock (solver.budget_ms).
 #pragma once
 
 #include <Eigen/Geometry>
@@ -32,6 +33,8 @@ class Rest {
   /// damping_per_mass the strongest of any node [1/s]: cloth that creeps back to rest must be slower than that
   void setLimits(double speed, double gravity, double damping_per_mass, double height) noexcept;
 
+  /// Something may rest at all.
+  bool can() const noexcept { return radius_ > 0.0; }
   const ColumnSet& asleep() const noexcept { return asleep_; }
   /// Something sleeps, or may soon: what moves columns must be marked.
   bool watches() const noexcept { return watches_ || !asleep_.empty(); }

@@ -101,6 +101,7 @@ void Simulator::Impl::reset() {
   clock.reset();
   statistics = Statistics();
   frame = 0;
+  made_time = 0.0;
   pin_moves.clear();
   velocities_fresh = false;
   ++revision;

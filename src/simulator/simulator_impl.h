@@ -99,6 +99,7 @@ struct Simulator::Impl {
   Statistics statistics;
   StageClock clock;
   std::int64_t frame = 0;
+  double made_time = 0.0;      // of motion; less than the frames' where these ended early [s]
   std::uint64_t revision = 0;  // of the cloth's and the obstacles' places
   Field3 velocities;           // at the time of the positions
   bool velocities_fresh = false;

@@ -37,7 +37,7 @@ void Simulator::Impl::fallAsleep() {
   const bool leapfrogs = scene.solver.method == Method::kAuto || scene.solver.method == Method::kLeapfrog;
   const bool by_column = leapfrogs && estimate == nullptr;
   const Contacts* const contacts = contact.wanted() && contact.any() ? &contact.contacts() : nullptr;
-  if (rest.look(state, statistics.time, kept_awake, contacts, by_column)) takeOverSleepers();
+  if (rest.look(state, made_time, kept_awake, contacts, by_column)) takeOverSleepers();
 }
 
 void Simulator::Impl::takeOverSleepers() {

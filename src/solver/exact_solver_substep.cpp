@@ -41,7 +41,7 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const SubstepPlan& plan, const
     all.near = progress.near;
     all.contacts = contacts;
     if (free_ && !held_.any() && contacts != nullptr && start.keep == nullptr && !pressesOnObstacle(*contacts)) keepMomentum(start);
-    if (contacts == nullptr || !(progress.settled || plan.must_accept || progress.near)) return all;
+    if (contacts == nullptr || !(progress.settled || (plan.must_accept && !all.late) || progress.near)) return all;
     const ContactFinder::Verdict verdict = finder->verify(from, next_, progress.settled);
     clock.lap(Stage::kContact);
     if (verdict == ContactFinder::Verdict::kClear) return all;
@@ -50,7 +50,7 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const SubstepPlan& plan, const
     if (!all.late && verdict == ContactFinder::Verdict::kMore && (progress.settled || ++looks < kHopelessLooks)) continue;
     all.crossed = true;
     all.settled = false;
-    if (plan.must_accept && !held_.any()) finder->hold(from, next_);
+    if (plan.must_accept && !all.late && !held_.any()) finder->hold(from, next_);
     clock.lap(Stage::kContact);
     return all;
   }
@@ -120,7 +120,7 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   outcome.sweeps = progress.sweeps;
   outcome.settled = progress.settled;
   const LineSolve weft{pattern_, inertia_.inverse(), weft_, next_, held_.movingSpan()};
-  const bool taken_as_it_is = plan.must_accept || (progress.near && !progress.crossed);
+  const bool taken_as_it_is = progress.late ? progress.near && !progress.crossed : plan.must_accept;
   outcome.late = progress.late;
   outcome.accepted = !outcome.disturbed && (progress.settled || (taken_as_it_is && std::isfinite(weftResidualNow(weft))));
   if (outcome.accepted) {

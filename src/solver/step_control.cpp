@@ -175,4 +175,9 @@ void StepControl::rejected(const SubstepPlan& plan) noexcept {
   good_ = 0;
 }
 
+void StepControl::tookTooLong(const SubstepPlan& plan) noexcept {
+  limit_ = std::min(limit_, std::max(0.5 * plan.h, 2.0 * frame_ / max_substeps_));
+  good_ = 0;
+}
+
 }  // namespace curtain

@@ -37,6 +37,8 @@ class StepControl {
   void wake(const ExactSolver& solver) noexcept;
   void accepted(const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept;
   void rejected(const SubstepPlan& plan) noexcept;
+  /// It was not done within a frame's computing time. Shorter ones are, but not the fall-back, which has no shorter ones.
+  void tookTooLong(const SubstepPlan& plan) noexcept;
 
  private:
   double stretch(double wanted, double remaining) noexcept;

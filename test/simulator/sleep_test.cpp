@@ -120,11 +120,19 @@ TEST(Sleep, NotWhatMovesNorWithoutGravityNorWhenNotWanted) {
   }());
   Simulator floating([] {
     Scene scene = hanging();
+    scene.air.inside = scene.air.border = scene.air.corner = 0.0;
     scene.gravity.setZero();
     return scene;
   }());
   Simulator unwanted(sleepless(hanging()));
-  for (Simulator* simulator : {&swing, &floating, &unwanted}) {
+  // Frames too far apart to tell a swing from rest.
+  Simulator slow([] {
+    Scene scene = flatScene(2, 6, 0.0398, 1.0);
+    scene.hang.tilt = 0.3;
+    scene.solver.frame_rate = 5.0;
+    return scene;
+  }());
+  for (Simulator* simulator : {&swing, &floating, &unwanted, &slow}) {
     run(*simulator, 300);
     EXPECT_EQ(simulator->statistics().asleep, 0);
     EXPECT_EQ(simulator->statistics().asleep_frames, 0);
@@ -233,6 +241,19 @@ std::vector<Cause> causes() {
          pose.position = {0.5, -0.1 - 0.05 * std::min(std::max(frame + 1, 0), 20), 0.6};
          s.setObstaclePose(0, pose);
        }, 0.03},
+      {"obstacle that is elsewhere at once", [](Scene& scene) { scene.obstacles.push_back(ballAt({0.5, -0.1, 0.6})); },
+       once([](Simulator& s) {
+         Pose pose;
+         pose.position = {30.0, 0.0, 0.6};
+         s.setObstaclePose(0, pose, true);
+       }), 0.03},
+      {"obstacle that jumps and goes", [](Scene& scene) { scene.obstacles.push_back(ballAt({0.5, -0.1, 0.6})); },
+       once([](Simulator& s) {
+         Pose pose;
+         pose.position = {30.0, 0.0, 0.6};
+         s.setObstaclePose(0, pose, true);
+         s.setObstaclePresent(0, false);
+       }), 0.03},
       {"scripted obstacle", [](Scene& scene) {
          scene.obstacles.push_back(ballAt({0.5, -1.0, 0.6}));
          scene.obstacles[0].motion = {{6.0, scene.obstacles[0].pose}, {6.5, scene.obstacles[0].pose}};
