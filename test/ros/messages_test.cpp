@@ -4,30 +4,14 @@
 // that somebody holds is left alone, and once all have been seen nothing is allocated. No ROS master needed.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
 #include <set>
 #include <vector>
 
+#include "count_allocations.h"
 #include "curtain_sim/scene_yaml.h"
 #include "ros/markers.h"
 #include "ros/pace.h"
 #include "ros/state_messages.h"
-
-namespace {
-std::atomic<long> allocations{0};
-}  // namespace
-
-// Not inlined: the compiler would take the pair for a mismatch of new and free.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  void* const memory = std::malloc(size > 0 ? size : 1);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace curtain_ros {
 namespace {

@@ -6,27 +6,11 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
-#include <cstdlib>
-#include <new>
 #include <stdexcept>
 
+#include "count_allocations.h"
 #include "curtain_sim/scene_yaml.h"
-
-namespace {
-std::atomic<long> allocations{0};
-}  // namespace
-
-// Not inlined: the compiler would take the pair for a mismatch of new and free.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  void* const memory = std::malloc(size > 0 ? size : 1);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace curtain {
 namespace {
@@ -169,6 +153,31 @@ TEST(Simulator, AStepAllocatesNothing) {
 }
 
 // Nor does the mesh that the eye sees, near an obstacle, once it was made there.
+TEST(Simulator, AllocatesNothingWhileColumnsFallAsleepAndWakeInLimitedFrames) {
+  Scene scene = sceneOf(12, 16);
+  scene.hang.to.x() = 0.8;
+  scene.air.inside = scene.air.border = scene.air.corner = 1.0;
+  scene.contact.self = true;
+  scene.solver.budget_ms = 0.3;
+  scene.solver.threads = 1;
+  for (int k = 0; k < 3; ++k) {
+    DragParams drag;
+    drag.id = std::to_string(k);
+    drag.node = NodeIndex{11, 5 * k};
+    drag.force = Vec3(0.0, 0.02, 0.0);
+    drag.start = 2.0 + 5.0 * k;
+    drag.end = 3.0 + 5.0 * k;
+    scene.drag.push_back(drag);
+  }
+  Simulator simulator(scene);
+  run(simulator, 10);
+  const long before = allocations;
+  run(simulator, 1200);
+  EXPECT_EQ(allocations - before, 0);
+  EXPECT_GT(simulator.statistics().wakes, 2);
+  EXPECT_GT(simulator.statistics().asleep_frames, 100);
+}
+
 TEST(Simulator, AFineMeshAllocatesNothing) {
   ObstacleParams obstacle;
   obstacle.name = "obstacle";
