@@ -434,6 +434,35 @@ TEST(Sleep, ColumnsSleepWhileOthersMove) {
   EXPECT_EQ(simulator.statistics().asleep, 40) << "when all is over";
 }
 
+// The same of a ring: what moves lies on both sides of where its columns begin and end.
+TEST(Sleep, ColumnsOfARingSleepWhileOthersMove) {
+  Scene scene = curtain_test::ringScene(16, 32, 1.0, 2.0);
+  scene.hang.radius = 0.22;
+  scene.air.inside = scene.air.border = scene.air.corner = 1.0;
+  Simulator simulator(scene), reference(sleepless(scene));
+  int most = 0;
+  double apart = 0.0;
+  for (int frame = 0; frame < 600; ++frame) {
+    DragParams hand;
+    hand.id = "hand";
+    hand.node = NodeIndex{15, 0};
+    hand.target = Vec3(0.22, 0.05 * std::sin(0.05 * frame), 1.0);
+    hand.stiffness = 5.0;
+    for (Simulator* one : {&simulator, &reference}) {
+      if (frame > 60) {
+        ASSERT_TRUE(one->setDrag(hand).empty());
+      }
+      one->step();
+    }
+    apart = std::max(apart, farthestApart(simulator, reference));
+    if (frame > 200) most = std::max(most, simulator.statistics().asleep);
+  }
+  std::printf("asleep of a ring while a node moves: up to %d of 32, apart by at most %.1e m\n", most, apart);
+  EXPECT_GE(most, 16);
+  EXPECT_LT(most, 32);
+  EXPECT_LT(apart, kNotLate);
+}
+
 TEST(Sleep, EveryMethodSleepsAndWakes) {
   const Cause pulled{"pull", [](Scene&) {}, [](Simulator& s, int frame) {
                        if (frame == 0) s.setDrag(pull({0.0, 0.05, 0.0}));
