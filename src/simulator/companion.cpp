@@ -26,7 +26,7 @@ bool Simulator::Impl::makeEvenSubstep(const SubstepPlan& plan, double done, int 
 bool Simulator::Impl::makeEvenFrame(int substeps) {
   constexpr int kDivisions = 5;
   SubstepPlan plan;
-  plan.h = 1.0 / scene.solver.frame_rate / substeps;
+  plan.h = frameLength() / substeps;
   if (scene.solver.method == Method::kAuto) plan.most_phase = control.stablePhase();
   plan.precise = scene.solver.method == Method::kLeapfrog4;
   for (int k = 0; k < substeps; ++k) {
@@ -65,7 +65,7 @@ void Simulator::Impl::rehearse() {
     bool made = true;
     for (int f = 0; f < estimate->rehearsalFrames() && made; ++f) {
       made = makeEvenFrame(count);
-      statistics.time += 1.0 / scene.solver.frame_rate;
+      statistics.time += frameLength();
     }
     statistics = before_all;
     return made;

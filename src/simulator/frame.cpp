@@ -19,7 +19,7 @@ constexpr double kHold = 0.05;
 
 // One attempt at a substep from `done` seconds into the frame.
 SubstepOutcome Simulator::Impl::attempt(const SubstepPlan& plan, double done) {
-  const double frame_length = 1.0 / scene.solver.frame_rate;
+  const double frame_length = frameLength();
   ContactFinder* const finder = contact.wanted() ? &contact : nullptr;
   clock.start();
   if (finder != nullptr) obstacles.setSubstep(done / frame_length, (done + plan.h) / frame_length);
@@ -78,7 +78,7 @@ SubstepOutcome Simulator::Impl::attemptInTime(const SubstepPlan& plan, double do
 
 // One substep from `done` seconds into the frame. Returns how far it came: 0 when it was rejected.
 double Simulator::Impl::makeSubstep(double done) {
-  const double frame_length = 1.0 / scene.solver.frame_rate;
+  const double frame_length = frameLength();
   StepControl* steps = &control;
   SubstepPlan plan = planSubstep(control, frame_length - done);
   if (scene.solver.method == Method::kLeapfrog4) {
@@ -155,7 +155,7 @@ void Simulator::Impl::stopPins(bool whole) {
 
 // Returns how much of the frame was made, as a share of it: less than 1 when there was no time for more.
 double Simulator::Impl::makeFrame() {
-  const double frame_length = 1.0 / scene.solver.frame_rate;
+  const double frame_length = frameLength();
   double done = 0.0;
   while (frame_length - done > 1e-9 * frame_length) {
     if (budget.any() && budget.over(Budget::Clock::now())) return done / frame_length;
@@ -180,17 +180,8 @@ void Simulator::Impl::estimateError() {
   clock.lap(Stage::kEstimate);
 }
 
-void Simulator::Impl::step() {
-  const auto begin = std::chrono::steady_clock::now();
-  const double frame_length = 1.0 / scene.solver.frame_rate;
-  statistics.time = static_cast<double>(frame) * frame_length;
-  obstacles.beginFrame(static_cast<double>(frame + 1) * frame_length);
-  wakeForFrame();
-  if (rest.asleep().full()) {
-    sleepThrough();
-    countTime(begin);
-    return;
-  }
+// What a frame needs to know before its first substep.
+void Simulator::Impl::prepareFrame(Budget::Clock::time_point begin) {
   if (estimate != nullptr && frame == 0) {
     clock.start();
     rehearse();  // before the budget counts: the first frame takes what it takes
@@ -207,11 +198,12 @@ void Simulator::Impl::step() {
   steps_made = 0;
   of_stages = true;
   if (plain_frames > 0) --plain_frames;
-  startPins();
-  const double share = makeFrame();
+}
+
+// share: of the frame that was made.
+void Simulator::Impl::finishFrame(double share) {
+  const double frame_length = frameLength();
   made_time += share * frame_length;
-  const Budget::Clock::time_point tail_begin = budget.any() ? Budget::Clock::now() : begin;
-  stopPins(share == 1.0);
   if (share < 1.0) {
     ++statistics.shortened_frames;
     statistics.lost_time += (1.0 - share) * frame_length;
@@ -229,6 +221,24 @@ void Simulator::Impl::step() {
   ++revision;
   statistics.frames = frame;
   statistics.time = static_cast<double>(frame) * frame_length;
+}
+
+void Simulator::Impl::step() {
+  const Budget::Clock::time_point begin = Budget::Clock::now();
+  statistics.time = static_cast<double>(frame) * frameLength();
+  obstacles.beginFrame(static_cast<double>(frame + 1) * frameLength());
+  wakeForFrame();
+  if (rest.asleep().full()) {
+    sleepThrough();
+    countTime(begin);
+    return;
+  }
+  prepareFrame(begin);
+  startPins();
+  const double share = makeFrame();
+  const Budget::Clock::time_point tail_begin = budget.any() ? Budget::Clock::now() : begin;
+  stopPins(share == 1.0);
+  finishFrame(share);
   measure();
   fallAsleep();
   statistics.stage_seconds = clock.seconds();
@@ -238,8 +248,8 @@ void Simulator::Impl::step() {
   if (statistics.step_seconds > budget.seconds()) ++statistics.late_frames;
 }
 
-void Simulator::Impl::countTime(std::chrono::steady_clock::time_point begin) {
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+void Simulator::Impl::countTime(Budget::Clock::time_point begin) {
+  const double seconds = std::chrono::duration<double>(Budget::Clock::now() - begin).count();
   statistics.step_seconds = seconds;
   statistics.step_seconds_max = std::max(statistics.step_seconds_max, seconds);
   statistics.step_seconds_sum += seconds;

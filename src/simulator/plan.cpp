@@ -68,7 +68,8 @@ void Simulator::Impl::planForces(Plan& plan) const {
   }
   plan.push_back({"normals", normals, normals ? "a wind needs them, in the rows it reaches" : "no wind reads them"});
   const bool damps = forces.dampingPerMass() > 0.0;
-  plan.push_back({"air damping", damps, damps ? "by " + number(forces.dampingPerMass()) + " 1/s at most" : "all coefficients are 0"});
+  plan.push_back({"air damping", damps,
+                  damps ? "by " + number(forces.dampingPerMass()) + " 1/s at most" : "all coefficients are 0"});
   plan.push_back({"force field", windy || acts,
                   windy || acts ? "weight and what is above" : "gravity alone: one acceleration for all nodes"});
 }
@@ -86,16 +87,20 @@ void Simulator::Impl::planContact(Plan& plan) const {
 
 void Simulator::Impl::planSolver(Plan& plan) const {
   const SolverParams& solver = scene.solver;
-  plan.push_back({"warp", true, toString(solver.method) + (solver.substeps > 0 ? ", " + std::to_string(solver.substeps) + " substeps a frame"
-                                                                               : ", substeps from the tensions")});
+  const std::string substeps =
+      solver.substeps > 0 ? std::to_string(solver.substeps) + " substeps a frame" : "substeps from the tensions";
+  plan.push_back({"warp", true, toString(solver.method) + ", " + substeps});
   const bool pulls = exact.weftPulls();
   plan.push_back({"weft", true, pulls ? "strings pull: all taut ones are solved for at once"
                                       : "no string pulls: looked at, and nothing more unless one gets taut"});
-  plan.push_back({"estimate", estimate != nullptr, estimate != nullptr ? "position_tolerance is asked for: a companion moves one second in four"
-                                                                       : "no position_tolerance is asked for"});
-  plan.push_back({"budget", budget.any(), budget.any() ? number(1e3 * budget.seconds()) + " ms a frame" : "budget_ms is 0: frames take what they need"});
+  plan.push_back({"estimate", estimate != nullptr,
+                  estimate != nullptr ? "position_tolerance is asked for: a companion moves one second in four"
+                                      : "no position_tolerance is asked for"});
+  plan.push_back({"budget", budget.any(),
+                  budget.any() ? number(1e3 * budget.seconds()) + " ms a frame" : "budget_ms is 0: frames take what they need"});
   const int threads = workers.threads();
-  const char* const alone = solver.threads == 1 ? "one was asked for" : "one: cloth of this size, or this machine, gains nothing by more";
+  const char* const alone =
+      solver.threads == 1 ? "one was asked for" : "one: cloth of this size, or this machine, gains nothing by more";
   plan.push_back({"threads", threads > 1, threads > 1 ? std::to_string(threads) + " of them" : alone});
 }
 

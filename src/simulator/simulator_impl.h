@@ -4,7 +4,6 @@
 // which not all of it moves; companion.cpp: the position tolerance.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <memory>
 
@@ -24,6 +23,8 @@ namespace curtain {
 
 struct Simulator::Impl {
   Impl(const Scene& given, const MeshResolver& resolve);
+
+  double frameLength() const { return 1.0 / scene.solver.frame_rate; }  // [s]
 
   void reset();
   void step();
@@ -51,7 +52,9 @@ struct Simulator::Impl {
   void planForces(Plan& plan) const;
   void planSolver(Plan& plan) const;
   void planContact(Plan& plan) const;
-  void countTime(std::chrono::steady_clock::time_point begin);
+  void countTime(Budget::Clock::time_point begin);
+  void prepareFrame(Budget::Clock::time_point begin);
+  void finishFrame(double share);
   const Field3& currentVelocities();
 
   Scene scene;  // gravity and air may change

@@ -8,7 +8,7 @@ namespace curtain {
 // Before a frame: wakes the columns that something in it may move.
 void Simulator::Impl::wakeForFrame() {
   if (!rest.watches()) return;
-  forces.markChanges(statistics.time, statistics.time + 1.0 / scene.solver.frame_rate, state.position, rest.disturbed());
+  forces.markChanges(statistics.time, statistics.time + frameLength(), state.position, rest.disturbed());
   if (!pin_moves.empty()) rest.disturbAll();
   rest.approachedBy(obstacles);
   if (rest.wake()) takeOverSleepers();
@@ -23,7 +23,7 @@ void Simulator::Impl::sleepThrough() {
   obstacles.endFrame();
   ++frame;
   statistics.frames = frame;
-  statistics.time = static_cast<double>(frame) / scene.solver.frame_rate;
+  statistics.time = static_cast<double>(frame) * frameLength();
   statistics.substeps_last = 0;
   statistics.sweeps_last = 0;
   ++statistics.asleep_frames;

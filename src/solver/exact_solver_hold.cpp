@@ -41,8 +41,8 @@ void ExactSolver::hold(const ColumnSet& columns, ClothState& state) noexcept {
 void ExactSolver::layDown(int block, ClothState& state) noexcept {
   const Grid& grid = pattern_.grid;
   const std::size_t first = static_cast<std::size_t>(block) * kLane;
-  const auto copy = [&](const Field& from, Field& to, std::size_t row) {
-    std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(row + first), kLane, to.begin() + static_cast<std::ptrdiff_t>(row + first));
+  const auto copy = [first](const Field& from, Field& to, std::size_t row) {
+    std::copy_n(from.data() + row + first, kLane, to.data() + row + first);
   };
   for (int i = 0; i < grid.rows; ++i) {
     const std::size_t row = grid.row(i);
@@ -50,7 +50,7 @@ void ExactSolver::layDown(int block, ClothState& state) noexcept {
     copy(state.position.y, next_.y, row);
     copy(state.position.z, next_.z, row);
     copy(last_warp_, warp_.multiplier, row);
-    std::fill_n(inertia_.tensions().load.begin() + static_cast<std::ptrdiff_t>(row + first), kLane, 0.0);
+    std::fill_n(inertia_.tensions().load.data() + row + first, kLane, 0.0);
   }
   const auto at = static_cast<std::size_t>(block);
   laid_down_[at] = inertia_.tensions().scale;

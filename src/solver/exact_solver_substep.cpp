@@ -115,7 +115,8 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   SubstepOutcome outcome;
   if (held_.any()) {
     const bool stuck = progress.crossed || (plan.must_accept && !progress.settled);
-    outcome.disturbed = held_.disturbedBy(directions_set_ ? &weft_ : nullptr, progress.contacts, 1.0 / scale, forces.gravity.norm(), stuck);
+    const LinkSet* const strings = directions_set_ ? &weft_ : nullptr;
+    outcome.disturbed = held_.disturbedBy(strings, progress.contacts, 1.0 / scale, forces.gravity.norm(), stuck);
   }
   outcome.sweeps = progress.sweeps;
   outcome.settled = progress.settled;

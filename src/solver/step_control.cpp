@@ -102,7 +102,8 @@ double StepControl::stepFromTensions(bool frame_begins, const ExactSolver& solve
 double StepControl::stretch(double wanted, double remaining) noexcept {
   stretched_ = false;
   if (method_ != Method::kAuto && method_ != Method::kBdf2 && method_ != Method::kImplicit) return wanted;
-  const double longest = std::min({kMostStretch * wanted, remaining / allowed_, std::max(limit_, frame_ / max_substeps_), surface_step_});
+  const double not_rejected = std::max(limit_, frame_ / max_substeps_);
+  const double longest = std::min({kMostStretch * wanted, remaining / allowed_, not_rejected, surface_step_});
   stretched_ = longest > wanted;
   return std::max(wanted, longest);
 }
