@@ -25,6 +25,7 @@ Scene curtainOf(double gathered, double tilt) {
   scene.hang.to = {gathered, 0.0, 2.1};
   scene.hang.tilt = tilt;
   scene.solver.threads = 1;
+  scene.solver.rest_speed = 0.0;  // without contact some would sleep
   return scene;
 }
 
