@@ -31,7 +31,7 @@ const char* const kUsage =
     "  --mesh FILE        fine mesh at the end, .ply or .obj\n"
     "  --stats FILE.json  what it took and how well it went\n"
     "  --progress         a line a simulated second on stderr\n"
-    "  --explain          what runs for this scene and what is skipped, at the start and after the duration, on stdout\n"
+    "  --explain          what runs (+) for this scene and what is skipped (-), at the start and after the duration\n"
     "  --list-methods     names for --method, then exit\n"
     "exit code: 0; 2 = bad input, nothing written; 3 = the state became non-finite\n";
 

@@ -57,6 +57,8 @@ const char* wordsFor(ObstacleStanding standing) {
 void Simulator::Impl::planForces(Plan& plan) const {
   const double time = statistics.time;
   bool windy = false, acts = false, normals = false;
+  if (forces.winds().empty()) plan.push_back({"winds", false, "there are none"});
+  if (forces.drags().empty()) plan.push_back({"drags", false, "there are none"});
   for (const WindParams& wind : forces.winds()) {
     plan.push_back(planOf(wind, time, forces.reaches(wind.id, time, state.position)));
     windy = windy || plan.back().runs;
@@ -94,10 +96,12 @@ void Simulator::Impl::planSolver(Plan& plan) const {
   plan.push_back({"weft", true, pulls ? "strings pull: all taut ones are solved for at once"
                                       : "no string pulls: looked at, and nothing more unless one gets taut"});
   plan.push_back({"estimate", estimate != nullptr,
-                  estimate != nullptr ? "position_tolerance is asked for: a companion moves one second in four"
+                  estimate != nullptr ? "position_tolerance is asked for: a companion moves one second in four, as far as the budget lets it"
                                       : "no position_tolerance is asked for"});
   plan.push_back({"budget", budget.any(),
-                  budget.any() ? number(1e3 * budget.seconds()) + " ms a frame" : "budget_ms is 0: frames take what they need"});
+                  budget.any() ? number(1e3 * budget.seconds()) + " ms a frame" +
+                                     (statistics.shortened_frames > 0 ? "; frames have ended early" : "")
+                               : "budget_ms is 0: frames take what they need"});
   const int threads = workers.threads();
   const char* const alone =
       solver.threads == 1 ? "one was asked for" : "one: cloth of this size, or this machine, gains nothing by more";
@@ -123,7 +127,11 @@ Plan Simulator::plan() const {
   im.planSolver(plan);
   im.planContact(plan);
   plan.push_back({"fine mesh", false, "made when it is asked for"});
-  for (PlanEntry& entry : plan) entry.runs = entry.runs && (!sleeps || entry.stage == "rest");
+  for (PlanEntry& entry : plan) {
+    if (!sleeps || !entry.runs || entry.stage == "rest") continue;
+    entry.runs = false;
+    entry.why = "the cloth sleeps";
+  }
   return plan;
 }
 

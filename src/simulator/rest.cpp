@@ -23,8 +23,9 @@ constexpr double kHurry = 50.0;
 // Cloth that lies on something is never quite still: within the tolerance of its links the solve may leave it anywhere. Over half a
 // second nodes were seen to move by 5 times the tolerance of a link (a sheet on a ball).
 constexpr double kJitter = 8.0;
-// After its neighbours have woken a column, for so long it does not sleep while they move [s]: they might all the time.
-constexpr double kAloneAgain = 2.0;
+// After its neighbours have woken a column, for so long it does not sleep while they move [s], and twice as long each time: they
+// might all the time.
+constexpr double kAloneAgain = 2.0, kLongestPause = 64.0;
 // Lowest frequency of a chain of length L: 1.2024 sqrt(g / L) (zero of the Bessel function J0, over two).
 constexpr double kLowestFrequency = 1.2024;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -57,6 +58,7 @@ Rest::Rest(const ClothPattern& pattern, double frame_length, double thickness, d
       still_(static_cast<std::size_t>(pattern.grid.columns), 0),
       since_(static_cast<std::size_t>(pattern.grid.columns), kNone),
       alone_from_(static_cast<std::size_t>(pattern.grid.columns), 0.0),
+      alone_pause_(static_cast<std::size_t>(pattern.grid.columns), kAloneAgain),
       farthest_(static_cast<std::size_t>(pattern.grid.stride), 0.0),
       box_(static_cast<std::size_t>(pattern.grid.columns)) {
   place_.assign(pattern.grid.size(), 0.0);
@@ -77,6 +79,7 @@ void Rest::forget() noexcept {
   disturbed_.clear();
   std::fill(since_.begin(), since_.end(), kNone);
   std::fill(alone_from_.begin(), alone_from_.end(), 0.0);
+  std::fill(alone_pause_.begin(), alone_pause_.end(), kAloneAgain);
   due_in_ = 1;
   turn_ = 0;
   wakes_ = 0;
@@ -255,7 +258,9 @@ bool Rest::wakeRuns(const ColumnSet& marked, const Woken& woken) noexcept {
 bool Rest::wake() noexcept {
   if (disturbed_.empty()) return false;
   for (int j = 0; j < pattern_.grid.columns; ++j) {
-    if (disturbed_.has(j)) since_[static_cast<std::size_t>(j)] = kNone;
+    if (!disturbed_.has(j)) continue;
+    since_[static_cast<std::size_t>(j)] = kNone;
+    alone_pause_[static_cast<std::size_t>(j)] = kAloneAgain;
   }
   const bool woke = wakeRuns(disturbed_, [&](int j) { since_[static_cast<std::size_t>(j)] = kNone; });
   disturbed_.clear();
@@ -263,7 +268,11 @@ bool Rest::wake() noexcept {
 }
 
 bool Rest::wakeFor(const ColumnSet& pulled, double time) noexcept {
-  return wakeRuns(pulled, [&](int j) { alone_from_[static_cast<std::size_t>(j)] = time + kAloneAgain; });
+  return wakeRuns(pulled, [&](int j) {
+    double& pause = alone_pause_[static_cast<std::size_t>(j)];
+    alone_from_[static_cast<std::size_t>(j)] = time + pause;
+    pause = std::min(2.0 * pause, kLongestPause);
+  });
 }
 
 }  // namespace curtain

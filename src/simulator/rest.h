@@ -87,6 +87,7 @@ class Rest {
   std::vector<std::uint8_t> still_;  // by column: slow enough to look closer
   std::vector<double> since_;        // by column: since when it has been at its place [s]; NaN: it has none
   std::vector<double> alone_from_;   // by column: when it may sleep while others move [s]
+  std::vector<double> alone_pause_;  // by column: how long it may not, the next time its neighbours wake it [s]
   std::vector<double> farthest_;     // by column (padded): square of the largest distance of a node from it [m^2]
   Field3 place_;
   std::vector<Eigen::AlignedBox3d> box_;  // of columns asleep, with margin
