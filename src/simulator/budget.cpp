@@ -54,10 +54,10 @@ bool Budget::over(Clock::time_point now) const noexcept {
   return moved_ ? secondsBetween(now, end_) < kDoubt * substep_ : now >= end_;
 }
 
-void Budget::endFrame(double done, Clock::time_point tail_begin, Clock::time_point end) noexcept {
+void Budget::endFrame(double share, Clock::time_point tail_begin, Clock::time_point end) noexcept {
   tail_ = follow(tail_, secondsBetween(tail_begin, end));
   frame_ = follow(frame_, secondsBetween(begin_, end));
-  stalled_ = done > 0.0 ? 0 : stalled_ + 1;
+  stalled_ = share > 0.0 ? 0 : stalled_ + 1;
 }
 
 }  // namespace curtain

@@ -34,7 +34,7 @@ class Budget {
   int affordable(Clock::time_point now) const noexcept;
   /// When a substep must be over. The far future: this one may take what it needs.
   Clock::time_point substepEnds() const noexcept;
-  /// made: it was taken. One that was not, and took less time than there is in a frame, tells nothing.
+  /// made: it was taken. One that was not, begun late in the frame, tells nothing of what they take.
   void substepTook(double seconds, bool made) noexcept {
     if (made || !moved_) substep_ = follow(substep_, seconds);
     moved_ = moved_ || made;
@@ -42,8 +42,8 @@ class Budget {
 
   /// There is no time for one more.
   bool over(Clock::time_point now) const noexcept;
-  /// The frame has made `done` seconds of motion; begin: when what comes after its substeps began.
-  void endFrame(double done, Clock::time_point tail_begin, Clock::time_point end) noexcept;
+  /// share: of the frame that was made; tail_begin: when what comes after its substeps began.
+  void endFrame(double share, Clock::time_point tail_begin, Clock::time_point end) noexcept;
   /// Nothing of this frame has been made yet.
   bool fresh() const noexcept { return !moved_; }
   double seconds() const noexcept { return seconds_; }
