@@ -1,13 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/paper_solver.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "forces/air_damping.h"
 
 namespace curtain {
 
-PaperSolver::PaperSolver(const ClothPattern& pattern) : pattern_(pattern) { start_.assign(pattern.grid.size(), 0.0); }
+namespace {
+
+// What is beyond this [m, m/s] has blown up: squares of it, times a mass, would soon leave the range of doubles.
+constexpr double kBeyond = 1e100;
+
+bool isWithin(const Field& values) noexcept {
+  // The other way round NaN would pass.
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::abs(value) <= kBeyond; });
+}
+
+bool isWithin(const Field3& field) noexcept { return isWithin(field.x) && isWithin(field.y) && isWithin(field.z); }
+
+}  // namespace
+
+PaperSolver::PaperSolver(const ClothPattern& pattern) : pattern_(pattern) {
+  start_.assign(pattern.grid.size(), 0.0);
+  start_velocity_.assign(pattern.grid.size(), 0.0);
+}
 
 // Cheng 2000, Sect. 3.1, steps (1)-(6) for one column.
 void PaperSolver::moveColumn(int column, const NodeForces& forces, double h, ClothState& state) const noexcept {
@@ -33,8 +51,9 @@ void PaperSolver::moveColumn(int column, const NodeForces& forces, double h, Clo
       const Vec3 sum = forces.force->at(node) + pull_from_below;
       const double along = sum.dot(n);
       // (4) Eq. (6): omega l = dx^t/dt; Eq. (5): f^n = m omega^2 l, towards the origin.
-      const double omega = tangential.norm() / length;
-      const double centripetal = m * omega * omega * length;
+      const double lever = length > 0.0 ? length : pattern_.warp_rest[node];  // one that has drifted to nothing
+      const double omega = tangential.norm() / lever;
+      const double centripetal = m * omega * omega * lever;
       // Eqs. (7)(8) and the same along t: acceleration = force / mass; the rod takes up what is left along n.
       acceleration = (sum - (along + centripetal) * n) * w;
       pull_from_below = (along + centripetal) * n;
@@ -87,16 +106,22 @@ void PaperSolver::touch(ContactFinder* finder, double h, ClothState& state) noex
 SubstepOutcome PaperSolver::substep(const NodeForces& forces, double h, ContactFinder* finder,
                                     ClothState& state, StageClock& clock) noexcept {
   start_ = state.position;
+  start_velocity_ = state.velocity;
   for (int j = 0; j < pattern_.grid.columns; ++j) moveColumn(j, forces, h, state);
   clock.lap(Stage::kWarp);
   for (int i = 0; i < pattern_.grid.rows; ++i) adjustRow(i, state);
   clock.lap(Stage::kWeft);
   touch(finder, h, state);
   clock.lap(Stage::kContact);
-  state.velocity_age = 0.0;
   SubstepOutcome outcome;
-  outcome.accepted = outcome.settled = true;
   outcome.sweeps = 1;
+  if (!isWithin(state.position) || !isWithin(state.velocity)) {
+    state.position = start_;
+    state.velocity = start_velocity_;
+    return outcome;
+  }
+  state.velocity_age = 0.0;
+  outcome.accepted = outcome.settled = true;
   outcome.scale = h * h;
   return outcome;
 }

@@ -14,7 +14,7 @@ class PaperSolver {
  public:
   explicit PaperSolver(const ClothPattern& pattern);
 
-  /// One substep of length h > 0 [s]; finder may be null. Always accepted.
+  /// One substep of length h > 0 [s]; finder may be null. Accepted, unless it blows up.
   SubstepOutcome substep(const NodeForces& forces, double h, ContactFinder* finder, ClothState& state,
                          StageClock& clock) noexcept;
 
@@ -24,7 +24,7 @@ class PaperSolver {
   void adjustRow(int row, ClothState& state) const noexcept;
 
   const ClothPattern& pattern_;
-  Field3 start_;
+  Field3 start_, start_velocity_;
 };
 
 }  // namespace curtain
