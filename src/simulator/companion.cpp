@@ -56,6 +56,7 @@ void Simulator::Impl::synchronise() {
 // Before the motion begins: some frames of it, twice, to find the substeps it needs.
 void Simulator::Impl::rehearse() {
   const Statistics before_all = statistics;
+  const Work work = ledger != nullptr ? ledger->work() : Work();
   const StageClock stages = clock;
   const double omega_step = control.longestStableStep();
   const int substeps = std::max(1, static_cast<int>(std::ceil(1.0 / (scene.solver.frame_rate * omega_step))));
@@ -82,6 +83,7 @@ void Simulator::Impl::rehearse() {
   if (coarse_made && fine_made) estimate->rehearsed(companion.state.position, substeps, state.position, 2 * substeps);
   goBack();
   clock = stages;
+  if (ledger != nullptr) ledger->restore(work);
 }
 
 // Moves the companion by the coming frame. It goes first, so that forces and contacts stay those of the motion.
@@ -97,6 +99,7 @@ void Simulator::Impl::moveCompanion() {
     exact.save(companion.memory);
   }
   const Statistics published = statistics;
+  const Work work = ledger != nullptr ? ledger->work() : Work();
   const StageClock stages = clock;
   rehearsal.state = state;
   exact.save(rehearsal.memory);
@@ -118,6 +121,7 @@ void Simulator::Impl::moveCompanion() {
   contact.lookAfresh();
   statistics = published;
   clock = stages;
+  if (ledger != nullptr) ledger->restore(work);
 }
 
 }  // namespace curtain

@@ -98,6 +98,7 @@ SubstepOutcome PaperSolver::substep(const NodeForces& forces, double h, ContactF
   outcome.accepted = outcome.settled = true;
   outcome.sweeps = 1;
   outcome.scale = h * h;
+  outcome.kick = h;
   return outcome;
 }
 
