@@ -206,6 +206,7 @@ std::vector<Problem> validate(const WindParams& wind, const std::string& key);
 std::vector<Problem> validate(const DragParams& drag, const ClothParams& cloth, const std::string& key);
 std::vector<Problem> validate(const ObstacleParams& obstacle, const std::string& key);
 std::vector<Problem> validate(const AirParams& air, const std::string& key);
+std::vector<Problem> validate(const SolverParams& solver, const std::string& key);
 
 /// Names of the methods as scene files and --method spell them, in the order of the enum.
 const std::vector<std::string>& methodNames();

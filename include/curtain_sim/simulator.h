@@ -27,13 +27,13 @@ class Simulator {
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;
 
-  const Scene& scene() const;  ///< as given, with the gravity and the air of now
+  const Scene& scene() const;  ///< as given, with the gravity, the air and the frame rate of now
 
   /// Back to the scene's start: time 0, its winds and drags, statistics zero. Obstacles go back to their
   /// scene poses and are all present.
   void reset();
 
-  /// One frame of 1 / solver.frame_rate seconds. Obstacles with a scripted motion follow it.
+  /// One frame of 1 / solver.frame_rate seconds (setFrameRate()). Obstacles with a scripted motion follow it.
   void step();
 
   double time() const;  ///< simulated time [s]
@@ -71,6 +71,18 @@ class Simulator {
   std::vector<Problem> setGravity(const Vec3& gravity);
   std::vector<Problem> setAir(const AirParams& air);
 
+  /// Frames of another length from the next step on, and after reset() too: 1 / rate seconds each, rate in [1, 10000] a second. It
+  /// may change before every frame; columns that sleep do so on, though where frames are longer than 1/20 s none falls asleep.
+  /// Returns what is wrong with it; then nothing changed.
+  std::vector<Problem> setFrameRate(double rate);
+
+  /// Puts the cloth elsewhere: positions [m] and velocities [m/s] of all nodes, row-major, shape [rows * columns]; the velocities
+  /// of pinned nodes are not read. All of it wakes, and what the solver knows of the last tensions is forgotten. Links may be
+  /// much too long or short, nodes in one place: they are brought to their lengths as fast as the solver can. Contact takes the
+  /// sides that parts are on now for theirs. Returns what is wrong (sizes, numbers not finite or beyond 1e9); then nothing
+  /// changed. Time goes on.
+  std::vector<Problem> setState(const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities);
+
   /// Takes a pinned node to this point [m], evenly within the next step; there it stays. False: it is not pinned, or the point
   /// is not finite.
   bool movePin(NodeIndex node, const Vec3& target);
@@ -97,6 +109,10 @@ class Simulator {
   /// What a step would do now, what it would leave out, and why. Not for every frame: it looks at all nodes and allocates.
   Plan plan() const;
   Energy energy() const;
+
+  /// Whether the work of what acts on the cloth is counted from now on, from zero; it takes some 5 % of a step. work(): so far.
+  void countWork(bool counted);
+  Work work() const;
 
   /// Pairs of an edge and a triangle of the first layer's mesh that intersect, by brute force (slow).
   std::int64_t selfCrossings() const;

@@ -67,6 +67,17 @@ struct ContactWrench {
   int contacts = 0;                                  ///< that pushed at the frame's end
 };
 
+/// What has put energy into the cloth since it was asked for (Simulator::countWork()), all in J. Taken together:
+///     kinetic - (gravity + forces + pins + obstacles)
+/// is what damping, friction and links that snap taut have taken out, so it never rises but by the scheme's own error.
+struct Work {
+  double gravity = 0.0;    ///< what the potential energy has fallen by
+  double forces = 0.0;     ///< of winds and drags
+  double pins = 0.0;       ///< of those that were moved; Method::kPaper does not know
+  double obstacles = 0.0;  ///< that moved
+  double kinetic = 0.0;    ///< what the kinetic energy has grown by
+};
+
 /// Energy of the cloth; potential is of gravity, zero at the world's origin.
 struct Energy {
   double kinetic = 0.0;    ///< [J]

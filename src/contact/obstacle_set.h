@@ -58,6 +58,8 @@ class ObstacleSet {
   void setPresent(int index, bool present) noexcept;
 
   void reset() noexcept;
+  /// Frames are so long from now on [s].
+  void takeFrame(double length) noexcept { frame_length_ = length; }
   /// Where the obstacle will be at the end of the coming frame, or (jump) is from now on.
   void setPose(int index, const Pose& pose, bool jump) noexcept;
 

@@ -148,6 +148,13 @@ std::vector<Problem> validate(const AirParams& air, const std::string& key) {
   return log.problems();
 }
 
+std::vector<Problem> validate(const SolverParams& solver, const std::string& key) {
+  ProblemLog log;
+  RangeChecker checker(key, log);
+  visitFields(checker, solver);
+  return log.problems();
+}
+
 std::vector<Problem> validate(const ObstacleParams& obstacle, const std::string& key) {
   ProblemLog log;
   RangeChecker checker(key, log);

@@ -42,6 +42,16 @@ void ErrorEstimate::reset() noexcept {
   now_ = last_second_ = 0.0;
 }
 
+void ErrorEstimate::takeFrame(double length) noexcept {
+  frame_length_ = length;
+  window_ = std::max(1, static_cast<int>(std::lround(1.0 / length)));
+  frames_ = window_;
+  compared_ = 0;
+  steps_sum_ = companion_sum_ = 0.0;
+  of_stages_ = true;
+  now_ = 0.0;
+}
+
 int ErrorEstimate::rehearsalFrames() const noexcept {
   return std::max(1, static_cast<int>(std::lround(kRehearsal / frame_length_)));
 }

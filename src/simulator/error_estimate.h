@@ -29,6 +29,8 @@ class ErrorEstimate {
   }
 
   void reset() noexcept;
+  /// Frames are so long from now on [s]: the next comparison is a whole period away.
+  void takeFrame(double length) noexcept;
 
   /// The companion sets out with the coming frame (from the motion's own state), or is on its way.
   bool companionStarts() const noexcept { return frames_ % (kEverySeconds * window_) == 0; }

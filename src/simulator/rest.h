@@ -33,6 +33,9 @@ class Rest {
   /// damping_per_mass the strongest of any node [1/s]: cloth that creeps back to rest must be slower than that
   void setLimits(double speed, double gravity, double damping_per_mass, double height) noexcept;
 
+  /// Frames are so long from now on [s]. setLimits() must follow.
+  void takeFrame(double length) noexcept { frame_length_ = length; }
+
   /// Something may rest at all.
   bool can() const noexcept { return radius_ > 0.0; }
   const ColumnSet& asleep() const noexcept { return asleep_; }

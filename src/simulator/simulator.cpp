@@ -101,6 +101,8 @@ void Simulator::Impl::reset() {
   clock.reset();
   statistics = Statistics();
   frame = 0;
+  same_since = {};
+  if (ledger != nullptr) ledger->restore({});
   made_time = 0.0;
   pin_moves.clear();
   velocities_fresh = false;
@@ -299,6 +301,12 @@ Energy Simulator::energy() const {
   }
   return energy;
 }
+
+void Simulator::countWork(bool counted) {
+  impl_->ledger = counted ? std::make_unique<EnergyLedger>(impl_->pattern) : nullptr;
+}
+
+Work Simulator::work() const { return impl_->ledger != nullptr ? impl_->ledger->work() : Work(); }
 
 std::int64_t Simulator::selfCrossings() const {
   return countSelfCrossings(impl_->pattern.grid, impl_->state.position);

@@ -11,6 +11,7 @@
 #include "curtain_sim/plan.h"
 #include "curtain_sim/simulator.h"
 #include "simulator/budget.h"
+#include "simulator/energy_ledger.h"
 #include "simulator/error_estimate.h"
 #include "simulator/fine_surface.h"
 #include "simulator/force_field.h"
@@ -25,6 +26,10 @@ struct Simulator::Impl {
   Impl(const Scene& given, const MeshResolver& resolve);
 
   double frameLength() const { return 1.0 / scene.solver.frame_rate; }  // [s]
+  // When this frame begins, or did [s]: whole frames from where they last changed their length, so that nothing adds up.
+  double timeOf(std::int64_t of_frame) const {
+    return same_since.time + static_cast<double>(of_frame - same_since.frame) * frameLength();
+  }
 
   void reset();
   void step();
@@ -79,6 +84,7 @@ struct Simulator::Impl {
   struct {
     ClothState state;
     ExactSolver::Memory memory;
+    Work work;
   } before;
   // With a position tolerance: the estimate, the motion's companion, and what to go back to.
   struct Held {
@@ -100,9 +106,15 @@ struct Simulator::Impl {
     bool behind;  // it did not get there in the last frame
   };
   std::vector<PinMove> pin_moves;  // of the coming frame
+  std::unique_ptr<EnergyLedger> ledger;  // null: nobody asked
   Statistics statistics;
   StageClock clock;
   std::int64_t frame = 0;
+  // Since when frames have been as long as they are.
+  struct {
+    std::int64_t frame = 0;
+    double time = 0.0;  // [s]
+  } same_since;
   double made_time = 0.0;      // of motion; less than the frames' where these ended early [s]
   std::uint64_t revision = 0;  // of the cloth's and the obstacles' places
   Field3 velocities;           // at the time of the positions

@@ -23,7 +23,7 @@ void Simulator::Impl::sleepThrough() {
   obstacles.endFrame();
   ++frame;
   statistics.frames = frame;
-  statistics.time = static_cast<double>(frame) * frameLength();
+  statistics.time = timeOf(frame);
   statistics.substeps_last = 0;
   statistics.sweeps_last = 0;
   ++statistics.asleep_frames;

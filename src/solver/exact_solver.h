@@ -59,6 +59,10 @@ class ExactSolver {
   SubstepOutcome substep(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder,
                          ClothState& state, StageClock& clock) noexcept;
 
+  /// What the links at a node pulled it by in the last substep: the sum of multiplier times direction [kg m], over the substep's
+  /// scale a force.
+  Vec3 pullAt(int row, int column) const noexcept;
+
   /// How nodes answered impulses in the last substep [1/kg].
   const Field& inverseInertia() const noexcept { return inertia_.inverse(); }
 

@@ -126,6 +126,7 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   outcome.accepted = !outcome.disturbed && (progress.settled || (taken_as_it_is && std::isfinite(weftResidualNow(weft))));
   if (outcome.accepted) {
     outcome.scale = inertia_.tensions().scale = scale;
+    outcome.kick = kick;
     if (plan.scheme == Scheme::kBdf2) {
       older_position_ = state.position;
       older_velocity_ = state.velocity;

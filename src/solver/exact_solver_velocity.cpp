@@ -38,12 +38,15 @@ double ExactSolver::predictedKinetic(const SubstepStart& start) const noexcept {
 // Links that hold do no work; where they can't hold (a straight row between two pins under load) what is left over would
 // become motion.
 void ExactSolver::boundKinetic(double most, Field3& velocity) const noexcept {
+  const Field& inverse = inertia_.masses();
   double sum = 0.0;
-  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) sum += pattern_.mass[n] * velocity.at(n).squaredNorm();
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    if (inverse[n] > 0.0) sum += pattern_.mass[n] * velocity.at(n).squaredNorm();
+  }
   if (!(sum > most)) return;
   const double share = std::sqrt(most / sum);
-  for (Field* component : {&velocity.x, &velocity.y, &velocity.z}) {
-    for (double& v : *component) v *= share;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    if (inverse[n] > 0.0) velocity.set(n, share * velocity.at(n));  // pins go where they are told to
   }
 }
 
@@ -74,6 +77,19 @@ void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& f
   }
   if (age == 0.0) return;
   projectVelocity(state.position, contacts, age / inertia_.tensions().scale, out);
+}
+
+Vec3 ExactSolver::pullAt(int row, int column) const noexcept {
+  const Grid& grid = pattern_.grid;
+  const std::size_t n = grid.index(row, column);
+  const auto stride = static_cast<std::size_t>(grid.stride);
+  const bool last = column + 1 == grid.columns;
+  const std::size_t right = last ? grid.index(row, 0) : n + 1;  // closed cloth: the first column's link closes the ring
+  Vec3 pull = last_warp_[n + stride] * warp_.direction.at(n + stride) - last_warp_[n] * warp_.direction.at(n);
+  if (!weft_pulls_) return pull;
+  pull -= last_weft_[n] * weft_.direction.at(n);
+  if (!last || grid.closed) pull += last_weft_[right] * weft_.direction.at(right);
+  return pull;
 }
 
 // Takes out of the velocities what would change the lengths of rods and of links that pull, and what contacts forbid, from

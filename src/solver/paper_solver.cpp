@@ -123,6 +123,7 @@ SubstepOutcome PaperSolver::substep(const NodeForces& forces, double h, ContactF
   state.velocity_age = 0.0;
   outcome.accepted = outcome.settled = true;
   outcome.scale = h * h;
+  outcome.kick = h;
   return outcome;
 }
 

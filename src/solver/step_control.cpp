@@ -85,6 +85,14 @@ void StepControl::takeGravity(const ClothPattern& pattern, const Vec3& gravity) 
   initial_omega_ = hangingOmega(pattern, gravity);
 }
 
+// What had to be divided stays divided; frames that get longer find out how far their steps may.
+void StepControl::takeFrame(double length) noexcept {
+  const bool was_limited = limit_ < frame_;
+  limit_ = was_limited ? std::min(limit_, length) : length;
+  implicit_step_ = std::clamp(implicit_step_, length / max_substeps_, length);
+  frame_ = length;
+}
+
 void StepControl::wake(const ExactSolver& solver) noexcept {
   if (solver.inertia().tensions().scale != 0.0) omega_ = std::sqrt(solver.inertia().omegaSquared());
 }

@@ -17,6 +17,8 @@ class StepControl {
 
   void reset() noexcept;
   void takeGravity(const ClothPattern& pattern, const Vec3& gravity) noexcept;
+  /// Frames are so long from now on [s]. To be called between two frames.
+  void takeFrame(double length) noexcept;
 
   /// The next substep; remaining: what is left of the frame [s], > 0; its whole length when a frame begins. h is a whole
   /// share of it.

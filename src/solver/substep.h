@@ -49,6 +49,7 @@ struct SubstepOutcome {
   bool late = false;           ///< its time was over before it had settled
   int sweeps = 0;
   double scale = 0.0;          ///< h times the time the forces acted for [s^2]
+  double kick = 0.0;           ///< the time the forces acted for [s]
   double longest_step = std::numeric_limits<double>::infinity();  ///< in which what pushes goes a share of a link [s]
   double omega_squared = 0.0;  ///< bound of the square of the highest frequency, from the links' tensions [1/s^2]
 };

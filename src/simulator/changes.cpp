@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What users change between two frames beside forces, pins and obstacles: the frames' length, and where the cloth is.
+#include <string>
+
+#include "simulator/simulator_impl.h"
+
+namespace curtain {
+namespace {
+
+// Beyond this squares of distances lose what a link is long [m, m/s].
+constexpr double kFarthest = 1e9;
+
+void check(const std::vector<Vec3>& values, std::size_t count, const std::string& name, std::vector<Problem>& problems) {
+  if (values.size() != count) {
+    problems.push_back({name, "must have " + std::to_string(count) + " entries, has " + std::to_string(values.size())});
+    return;
+  }
+  for (std::size_t n = 0; n < count; ++n) {
+    if (values[n].cwiseAbs().maxCoeff() <= kFarthest && values[n].allFinite()) continue;
+    problems.push_back({name + "[" + std::to_string(n) + "]", "must be finite and within [-1e9, 1e9]"});
+    return;
+  }
+}
+
+}  // namespace
+
+std::vector<Problem> Simulator::setFrameRate(double rate) {
+  Impl& im = *impl_;
+  SolverParams params = im.scene.solver;
+  params.frame_rate = rate;
+  std::vector<Problem> problems = validate(params, "solver");
+  if (!problems.empty() || rate == im.scene.solver.frame_rate) return problems;
+  im.same_since = {im.frame, im.timeOf(im.frame)};
+  im.scene.solver.frame_rate = rate;
+  const double length = im.frameLength();
+  im.control.takeFrame(length);
+  im.plain_control.takeFrame(length);
+  im.obstacles.takeFrame(length);
+  im.rest.takeFrame(length);
+  im.setRestLimits();
+  if (im.estimate != nullptr) {
+    im.estimate->takeFrame(length);
+    im.companion.lost = true;
+  }
+  return problems;
+}
+
+std::vector<Problem> Simulator::setState(const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities) {
+  Impl& im = *impl_;
+  const Grid& grid = im.pattern.grid;
+  std::vector<Problem> problems;
+  check(positions, grid.nodeCount(), "positions", problems);
+  check(velocities, grid.nodeCount(), "velocities", problems);
+  if (!problems.empty()) return problems;
+  im.wakeAll();
+  std::size_t from = 0;
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j, ++from) {
+      const std::size_t n = grid.index(i, j);
+      im.state.position.set(n, positions[from]);
+      im.state.velocity.set(n, im.pattern.pinned[n] != 0 ? Vec3::Zero() : velocities[from]);
+    }
+  }
+  im.state.velocity_age = 0.0;
+  im.exact.reset();
+  im.contact.forget();
+  im.companion.lost = true;
+  im.velocities_fresh = false;
+  const Stretch warp = warpStretch(im.pattern, im.state.position);
+  im.statistics.warp_stretch = warp.longer;
+  im.statistics.warp_compression = warp.shorter;
+  im.statistics.weft_stretch = weftStretch(im.pattern, im.state.position);
+  ++im.revision;
+  return problems;
+}
+
+}  // namespace curtain
