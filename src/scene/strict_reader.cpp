@@ -271,7 +271,7 @@ void StrictReader::rotation(Key key, Eigen::Quaterniond& value) {
   Eigen::Vector4d read = Eigen::Vector4d::Zero();
   bool all = true;
   for (std::size_t i = 0; i < 4; ++i) {
-    all = readNumber((*found)[i], itemKey(keyOf(key), i), finite(), read[static_cast<Eigen::Index>(i)]) && all;
+    all = readNumber((*found)[i], itemKey(keyOf(key), i), anywhere(), read[static_cast<Eigen::Index>(i)]) && all;
   }
   if (all) value = nearlyUnit(Eigen::Quaterniond(read));
 }
