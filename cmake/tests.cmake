@@ -21,6 +21,8 @@ function(curtain_add_tests floor)
   target_link_libraries(${target} curtain_engine curtain_warnings ${ARGN})
 endfunction()
 
+add_compile_definitions($<$<CONFIG:Debug>:CURTAIN_FLOAT_TRAPS>)  # test/float_traps.h
+
 foreach(floor scene cloth forces solver contact simulator batch fuzz)
   curtain_add_tests(${floor})
 endforeach()

@@ -98,7 +98,7 @@ struct Fields<WindParams> {
     v.number("correlation_time", wind.correlation_time, between(1e-6, 1e6));
     v.number("correlation_length", wind.correlation_length, positive());
     v.number("start", wind.start, anywhere());
-    v.number("end", wind.end, orInanywhere());
+    v.number("end", wind.end, orInfinite());
   }
 };
 
@@ -115,7 +115,7 @@ struct Fields<DragParams> {
     v.number("max_force", drag.max_force, positive());
     v.number("radius", drag.radius, notNegative());
     v.number("start", drag.start, anywhere());
-    v.number("end", drag.end, orInanywhere());
+    v.number("end", drag.end, orInfinite());
   }
 };
 

@@ -67,7 +67,10 @@ void askAround(const ObstacleShape& shape) {
 }  // namespace
 
 void checkMesh(const std::string& bytes) {
-  for (const char* ending : {".stl", ".obj", ".dae"}) {
+  // assimp clears 16 MiB for every OBJ; without a vertex there is nothing in it to find.
+  const bool may_be_obj = bytes.find("v ") != std::string::npos;
+  for (const std::string ending : {".stl", ".dae", ".obj"}) {
+    if (ending == ".obj" && !may_be_obj) continue;
     const ScratchFile file(bytes, ending);
     curtain::ObstacleParams obstacle;
     obstacle.name = "fuzzed";

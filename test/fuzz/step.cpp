@@ -8,6 +8,7 @@
 #include "curtain_sim/simulator.h"
 #include "fuzz/checks.h"
 #include "fuzz/scene_maker.h"
+#include "scene/ranges.h"
 
 namespace curtain_test {
 namespace {
@@ -57,8 +58,8 @@ void requireLength(const Scene& scene, const Statistics& before, const Simulator
   for (const Vec3& position : positions) farthest = std::max(farthest, position.cwiseAbs().maxCoeff());
   const double shortest = curtain::shortestLink(curtain::makePattern(scene));
   const double bound = 1.1 * scene.solver.stretch_tolerance + 16.0 * 2.3e-16 * farthest / shortest;
-  const std::string numbers = std::to_string(now.warp_stretch) + " " + std::to_string(now.warp_compression) + " " +
-                              std::to_string(now.weft_stretch) + " > " + std::to_string(bound);
+  const std::string numbers = curtain::formatNumber(now.warp_stretch) + " " + curtain::formatNumber(now.warp_compression) + " " +
+                              curtain::formatNumber(now.weft_stretch) + " > " + curtain::formatNumber(bound);
   require(std::max({now.warp_stretch, now.warp_compression, now.weft_stretch}) <= bound, "settled, and links too long: " + numbers);
 }
 
