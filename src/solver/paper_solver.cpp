@@ -11,7 +11,7 @@ namespace curtain {
 namespace {
 
 // What is beyond this [m, m/s] has blown up: squares of it, times a mass, would soon leave the range of doubles.
-constexpr double kBeyond = 1e100;
+constexpr double kBeyond = 1e60;
 
 bool isWithin(const Field& values) noexcept {
   // The other way round NaN would pass.
