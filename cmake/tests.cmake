@@ -41,3 +41,4 @@ if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT CMAKE_CXX_FLAGS MATCHES "-fsaniti
   include(cmake/cost.cmake)
   curtain_add_tests(cost curtain_weigh)
 endif()
+include(cmake/stress.cmake)

@@ -63,6 +63,26 @@ constexpr double kPoorTouchingSweep = 1.0;
 constexpr double kMostCaution = 4096.0;
 constexpr double kMoreCaution = 8.0;
 constexpr double kLessCaution = 2.0;
+// bdf2 is stable while steps grow by less than 1 + sqrt(2) at once (Grigorieff 1983); after a longer one it begins anew.
+constexpr double kMostGrowth = 2.0;
+// How much further than in even cloth a correction of one rod may turn another: short rods by what moves long ones, light nodes
+// by what heavy ones resist. Nodes at the border have a half of the others' mass, at corners a quarter.
+constexpr double kMassesOfEvenCloth = 4.0;
+double unevenness(const ClothPattern& pattern) {
+  const Grid& grid = pattern.grid;
+  double shortest = std::numeric_limits<double>::infinity(), longest = 0.0;
+  double lightest = shortest, heaviest = 0.0;
+  for (int i = 1; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) {
+      const std::size_t n = grid.index(i, j);
+      shortest = std::min(shortest, pattern.warp_rest[n]);
+      longest = std::max(longest, pattern.warp_rest[n]);
+      lightest = std::min(lightest, pattern.mass[n]);
+      heaviest = std::max(heaviest, pattern.mass[n]);
+    }
+  }
+  return longest / shortest * std::max(1.0, heaviest / (kMassesOfEvenCloth * lightest));
+}
 
 }  // namespace
 
@@ -74,7 +94,7 @@ ExactSolver::ExactSolver(const ClothPattern& pattern, double stretch_tolerance, 
       contact_tolerance_(kInnerTolerance * stretch_tolerance * shortestLink(pattern)),
       smallest_rest_(shortestLink(pattern)),
       max_sweeps_(max_sweeps),
-      sure_stop_(std::sqrt(tolerance_) / pattern.grid.rows),
+      sure_stop_(std::sqrt(tolerance_) / (pattern.grid.rows * unevenness(pattern))),
       inertia_(pattern),
       held_(pattern),
       laid_down_(static_cast<std::size_t>(warpBlockCount(pattern.grid)), 0.0),
@@ -135,7 +155,7 @@ void ExactSolver::restore(const Memory& memory) {
 // (variable steps: ratio r = h / h_before; y' = (1+r)^2/(1+2r) y - r^2/(1+2r) y_before + (1+r)/(1+2r) h f).
 const ClothState& ExactSolver::setBase(Scheme scheme, double h, const ClothState& state, double& step) noexcept {
   step = h;
-  if (scheme != Scheme::kBdf2 || older_h_ == 0.0) return state;
+  if (scheme != Scheme::kBdf2 || older_h_ == 0.0 || h > kMostGrowth * older_h_) return state;
   const double r = h / older_h_;
   const double now = (1.0 + r) * (1.0 + r) / (1.0 + 2.0 * r);
   const double before = r * r / (1.0 + 2.0 * r);
@@ -149,6 +169,11 @@ const ClothState& ExactSolver::setBase(Scheme scheme, double h, const ClothState
   combine(state.velocity.x, older_velocity_.x, base_.velocity.x);
   combine(state.velocity.y, older_velocity_.y, base_.velocity.y);
   combine(state.velocity.z, older_velocity_.z, base_.velocity.z);
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    if (inertia_.masses()[n] > 0.0) continue;  // pins go where they are told to, whatever they did before
+    base_.position.set(n, state.position.at(n) + (h - step) * state.velocity.at(n));
+    base_.velocity.set(n, state.velocity.at(n));
+  }
   return base_;
 }
 

@@ -127,6 +127,7 @@ class ExactSolver {
   void projectVelocity(const Field3& position, const Contacts* contacts, double share, Field3& out) noexcept;
   void projectOnConstraints(const Field3& position, const Contacts* contacts, double share, Field3& out) noexcept;
   double predictedKinetic(const SubstepStart& start) const noexcept;
+  double steppedKinetic(const Field3& base, double step) const noexcept;
   void boundKinetic(double most, Field3& velocity) const noexcept;
   void layDown(int block, ClothState& state) noexcept;
   void takeUp(int block) noexcept;

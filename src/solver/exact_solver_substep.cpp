@@ -14,6 +14,9 @@ namespace {
 constexpr double kMostWayOfSurface = 0.2;
 // Solves of a substep that is taken whatever comes of it and does not settle.
 constexpr int kHopelessLooks = 2;
+// Kinetic energy of a step over that without links, from which it has found another way for the links to lie: where it follows
+// the motion links take energy out.
+constexpr double kMostKinetic = 1.5;
 
 }  // namespace
 
@@ -111,7 +114,14 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
                            step};
   const double ratio = begin(plan, start, scale);
   clock.lap(Stage::kPredict);
-  const Progress progress = solveAndVerify(plan, start, state.position, ratio, finder, clock);
+  Progress progress = solveAndVerify(plan, start, state.position, ratio, finder, clock);
+  // Links let nodes lie in many ways, and a long step may find one that is far from where they were; and strings that have become
+  // taut in it may pull harder than it is stable for.
+  const bool may_jump = plan.scheme == Scheme::kBdf2 || (leapfrog && directions_set_);
+  if (may_jump && !plan.must_accept && progress.contacts == nullptr && progress.settled &&
+      steppedKinetic(base.position, step) > kMostKinetic * predictedKinetic(start)) {
+    progress.settled = false;
+  }
   SubstepOutcome outcome;
   if (held_.any()) {
     const bool stuck = progress.crossed || (plan.must_accept && !progress.settled);
@@ -126,7 +136,7 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   outcome.accepted = !outcome.disturbed && (progress.settled || (taken_as_it_is && std::isfinite(weftResidualNow(weft))));
   if (outcome.accepted) {
     outcome.scale = inertia_.tensions().scale = scale;
-    outcome.kick = kick;
+    outcome.kick = kick + (plan.h - step);  // bdf2's base holds the rest of what forces do
     if (plan.scheme == Scheme::kBdf2) {
       older_position_ = state.position;
       older_velocity_ = state.velocity;

@@ -4,6 +4,7 @@
 // links can't hold.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cloth/free_body.h"
 #include "forces/air_damping.h"
@@ -23,16 +24,26 @@ constexpr int kVelocityIterations = 24;
 
 }  // namespace
 
-// Twice the kinetic energy the nodes would have without links [J].
+// Twice the kinetic energy the nodes would have without links [J]; infinite where pins move, which put in what they like.
 double ExactSolver::predictedKinetic(const SubstepStart& start) const noexcept {
   double sum = 0.0;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     const double w = inertia_.inverse()[n];
+    if (inertia_.masses()[n] <= 0.0 && !start.state.velocity.at(n).isZero(0.0)) return std::numeric_limits<double>::infinity();
     const double keep = start.keep != nullptr ? (*start.keep)[n] : 1.0;
     const Vec3 velocity = keep * start.state.velocity.at(n) + start.kick * w * start.force.at(n);
     sum += inertia_.masses()[n] > 0.0 ? pattern_.mass[n] * velocity.squaredNorm() : 0.0;
   }
   return sum;
+}
+
+// Twice the kinetic energy of the way that the nodes have gone from a base [J].
+double ExactSolver::steppedKinetic(const Field3& base, double step) const noexcept {
+  double sum = 0.0;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    if (inertia_.masses()[n] > 0.0) sum += pattern_.mass[n] * (next_.at(n) - base.at(n)).squaredNorm();
+  }
+  return sum / (step * step);
 }
 
 // Links that hold do no work; where they can't hold (a straight row between two pins under load) what is left over would

@@ -7,7 +7,17 @@
 
 namespace curtain {
 
-PaperSolver::PaperSolver(const ClothPattern& pattern) : pattern_(pattern) { start_.assign(pattern.grid.size(), 0.0); }
+namespace {
+
+// The fastest node may go so many times the cloth's size in a substep.
+constexpr double kMostSizes = 4.0;
+
+}  // namespace
+
+PaperSolver::PaperSolver(const ClothPattern& pattern)
+    : pattern_(pattern), most_way_(kMostSizes * (pattern.warp_coordinate.back() + pattern.weft_coordinate.back())) {
+  start_.assign(pattern.grid.size(), 0.0);
+}
 
 // Cheng 2000, Sect. 3.1, steps (1)-(6) for one column.
 void PaperSolver::moveColumn(int column, const NodeForces& forces, double h, ClothState& state) const noexcept {
@@ -84,6 +94,17 @@ void PaperSolver::touch(ContactFinder* finder, double h, ClothState& state) noex
   }
 }
 
+// As printed nothing bounds the motion: it blows up. A node so fast leaves all cloth behind in one substep, its next one would be
+// beyond numbers, and its way beyond what can be looked through for contact.
+bool PaperSolver::sound(const ClothState& state, double h) const noexcept {
+  const double fastest = most_way_ / h;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    if (pattern_.inverse_mass[n] <= 0.0) continue;
+    if (!(state.velocity.at(n).squaredNorm() <= fastest * fastest) || !state.position.at(n).allFinite()) return false;
+  }
+  return true;
+}
+
 SubstepOutcome PaperSolver::substep(const NodeForces& forces, double h, ContactFinder* finder,
                                     ClothState& state, StageClock& clock) noexcept {
   start_ = state.position;
@@ -91,11 +112,14 @@ SubstepOutcome PaperSolver::substep(const NodeForces& forces, double h, ContactF
   clock.lap(Stage::kWarp);
   for (int i = 0; i < pattern_.grid.rows; ++i) adjustRow(i, state);
   clock.lap(Stage::kWeft);
-  touch(finder, h, state);
+  bool sound = this->sound(state, h);
+  if (sound) touch(finder, h, state);
+  sound = sound && this->sound(state, h);
+  if (!sound) state.position = start_;
   clock.lap(Stage::kContact);
   state.velocity_age = 0.0;
   SubstepOutcome outcome;
-  outcome.accepted = outcome.settled = true;
+  outcome.accepted = outcome.settled = sound;
   outcome.sweeps = 1;
   outcome.scale = h * h;
   outcome.kick = h;

@@ -14,7 +14,8 @@ class PaperSolver {
  public:
   explicit PaperSolver(const ClothPattern& pattern);
 
-  /// One substep of length h > 0 [s]; finder may be null. Always accepted.
+  /// One substep of length h > 0 [s]; finder may be null. Not accepted, and its positions as
+  /// before, where it has blown up.
   SubstepOutcome substep(const NodeForces& forces, double h, ContactFinder* finder, ClothState& state,
                          StageClock& clock) noexcept;
 
@@ -23,7 +24,10 @@ class PaperSolver {
   void moveColumn(int column, const NodeForces& forces, double h, ClothState& state) const noexcept;
   void adjustRow(int row, ClothState& state) const noexcept;
 
+  bool sound(const ClothState& state, double h) const noexcept;
+
   const ClothPattern& pattern_;
+  double most_way_;  // of a node in a substep [m]
   Field3 start_;
 };
 
