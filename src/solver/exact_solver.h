@@ -126,8 +126,12 @@ class ExactSolver {
   bool withinTolerance(const LineSolve& warp, const LineSolve& weft, double tolerance) noexcept;
   void projectVelocity(const Field3& position, const Contacts* contacts, double share, Field3& out) noexcept;
   void projectOnConstraints(const Field3& position, const Contacts* contacts, double share, Field3& out) noexcept;
-  double predictedKinetic(const SubstepStart& start) const noexcept;
-  double steppedKinetic(const Field3& base, double step) const noexcept;
+  // Twice the kinetic energies [J] of a substep: of the way that the nodes have gone, and of that which they would without links.
+  struct Kinetic {
+    double stepped = 0.0, predicted = 0.0;
+    bool pins_move = false;  // and put in what they like
+  };
+  Kinetic kineticOf(const SubstepStart& start) const noexcept;
   void boundKinetic(double most, Field3& velocity) const noexcept;
   void layDown(int block, ClothState& state) noexcept;
   void takeUp(int block) noexcept;

@@ -118,9 +118,9 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   // Links let nodes lie in many ways, and a long step may find one that is far from where they were; and strings that have become
   // taut in it may pull harder than it is stable for.
   const bool may_jump = plan.scheme == Scheme::kBdf2 || (leapfrog && directions_set_);
-  if (may_jump && !plan.must_accept && progress.contacts == nullptr && progress.settled &&
-      steppedKinetic(base.position, step) > kMostKinetic * predictedKinetic(start)) {
-    progress.settled = false;
+  if (may_jump && !plan.must_accept && progress.contacts == nullptr && progress.settled) {
+    const Kinetic kinetic = kineticOf(start);
+    if (!kinetic.pins_move && kinetic.stepped > kMostKinetic * kinetic.predicted) progress.settled = false;
   }
   SubstepOutcome outcome;
   if (held_.any()) {
@@ -145,9 +145,9 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
       older_h_ = 0.0;
     }
     const bool bounded = (plan.scheme == Scheme::kImplicit && progress.contacts == nullptr) || progress.late;
-    const double most_kinetic = bounded ? predictedKinetic(start) : 0.0;
+    const Kinetic kinetic = bounded ? kineticOf(start) : Kinetic();
     commit(base, step, leapfrog ? 0.5 * step : 0.0, state);
-    if (bounded) boundKinetic(most_kinetic, state.velocity);
+    if (bounded && !kinetic.pins_move) boundKinetic(kinetic.predicted, state.velocity);
     outcome.omega_squared = inertia_.omegaSquared();
     if (progress.contacts != nullptr) outcome.longest_step = kMostWayOfSurface * smallest_rest_ / fastestSurface(*progress.contacts);
     // The way such a substep has gone is not all motion: what pulls its links further is taken out.
