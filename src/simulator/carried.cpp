@@ -157,8 +157,8 @@ void Simulator::Impl::PinMove::carry(Archive& archive, const ClothPattern& of) {
   archive.flag("behind", behind);
 }
 
-// Not: what substeps and rehearsals go back to, for they have; the mesh for the eye, which remembers nothing; the revision, which
-// counts for who has looked at this simulator.
+// Not: what substeps and rehearsals go back to, for they have; the mesh for the eye, which remembers nothing; the revision,
+// which counts for who has looked at this simulator.
 void Simulator::Impl::carry(Archive& archive) {
   archive.finite("gravity", scene.gravity);
   archive.part("state", state);

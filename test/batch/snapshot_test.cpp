@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// --save and --restore: a run in two parts is the run in one, to the bit; and what can't be restored or saved ends with exit code 2.
+// --save and --restore: a run in two parts is the run in one, to the bit; and what can't be restored or saved ends with exit
+// code 2.
 #include <nlohmann/json.hpp>
 
 #include "batch/batch_testing.h"
@@ -40,8 +41,10 @@ TEST_F(Snapshots, ARunInTwoPartsIsTheRunInOne) {
   const std::string scene = smallScene(kMore);
   const auto whole = stats({scene, "--duration", "0.8", "--out", path("whole.csv"), "--sample", "0.6,0.8"});
   stats({scene, "--duration", "0.5", "--save", path("half.snap")});
-  const auto rest = stats({scene, "--restore", path("half.snap"), "--duration", "0.3", "--out", path("rest.csv"), "--sample", "0.6,0.8"});
-  for (const char* key : {"frames", "simulated_s", "substeps_mean", "sweeps_mean", "stretch_max", "contacts_max", "state_hash"}) {
+  const auto rest = stats(
+      {scene, "--restore", path("half.snap"), "--duration", "0.3", "--out", path("rest.csv"), "--sample", "0.6,0.8"});
+  for (const char* key :
+       {"frames", "simulated_s", "substeps_mean", "sweeps_mean", "stretch_max", "contacts_max", "state_hash"}) {
     EXPECT_EQ(whole.at(key), rest.at(key)) << key;
   }
   EXPECT_EQ(readFile(path("whole.csv")), readFile(path("rest.csv")));
@@ -65,7 +68,8 @@ TEST_F(Snapshots, ThatDoNotFitAreRefused) {
   std::string damaged = snapshot;
   damaged[snapshot.size() / 2] = static_cast<char>(damaged[snapshot.size() / 2] ^ 1);
   std::ofstream(path("damaged.snap"), std::ios::binary) << damaged;
-  const std::vector<std::string> outputs = {"--out", "out.csv", "--mesh", "mesh.ply", "--stats", "more.json", "--save", "b.snap"};
+  const std::vector<std::string> outputs = {"--out",   "out.csv",   "--mesh", "mesh.ply",
+                                            "--stats", "more.json", "--save", "b.snap"};
   const auto refused = [&](std::vector<std::string> arguments, const std::vector<std::string>& fragments) {
     arguments.insert(arguments.end(), outputs.begin(), outputs.end());
     expectRefused(arguments, fragments);

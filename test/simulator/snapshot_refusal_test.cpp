@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What is no sound snapshot of this scene is refused, says why, and changes nothing, not one bit. What has been changed on purpose,
-// with its checksum put right, may be taken for a snapshot, but does no harm.
+// What is no sound snapshot of this scene is refused, says why, and changes nothing, not one bit. What has been changed on
+// purpose, with its checksum put right, may be taken for a snapshot, but does no harm.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -277,7 +277,8 @@ TEST_F(Refusal, OfBadHeadersWithARightChecksum) {
     ASSERT_NO_FATAL_FAILURE(expectUnchanged());
   }
   // A nest of lists and a list of lists by name.
-  for (const std::string& scene : {std::string(100000, '['), "a: &a [1, 1]\nb: &b [*a, *a]\ncloth: [*b, *b]\n" + std::string(5000, ' ')}) {
+  const std::string bomb = "a: &a [1, 1]\nb: &b [*a, *a]\nc: &c [*b, *b]\ncloth: [*c, *c]\n";
+  for (const std::string& scene : {std::string(100000, '['), bomb}) {
     expectRefused(packSnapshot({parts.layout, scene, parts.carried}), "");
   }
 }

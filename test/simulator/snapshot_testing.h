@@ -124,8 +124,8 @@ inline void restoreOrFail(curtain::Simulator& simulator, const std::string& snap
   ASSERT_TRUE(problems.empty()) << describe(problems);
 }
 
-/// A simulator that is saved after so many frames, and what is to be done in the next one is known, goes on as one that never was; and
-/// so do one restored afresh and one that had another life before. The one that was saved is looked at all the time.
+/// A simulator that is saved after so many frames, and what is to be done in the next one is known, goes on as one that never
+/// was; and so do one restored afresh and one that had another life before. The one that was saved is looked at all the time.
 struct Life {
   Deeds deeds = doNothing;
   Deeds other = doNothing;  ///< of the life before
@@ -184,7 +184,9 @@ inline void expectContinues(const curtain::Scene& scene, const Life& life, const
 inline void expectContinues(const curtain::Scene& scene, const Life& life) { expectContinues(scene, life, scene); }
 
 /// Whole numbers from [low, high].
-inline int pick(Random& random, int low, int high) { return low + static_cast<int>(random.between(0.0, 1.0) * (high - low + 1)); }
+inline int pick(Random& random, int low, int high) {
+  return low + static_cast<int>(random.between(0.0, 1.0) * (high - low + 1));
+}
 inline bool chance(Random& random, double share) { return random.between(0.0, 1.0) < share; }
 
 inline curtain::WindParams randomWind(Random& random, const std::string& id, double start) {
@@ -232,7 +234,8 @@ inline curtain::ObstacleParams randomObstacle(Random& random, const std::string&
   obstacle.length = random.between(0.1, 0.5);
   obstacle.size = curtain::Vec3::Constant(0.3) + random.inBox(0.15);
   if (obstacle.shape == ShapeKind::kMesh) {
-    obstacle.mesh = std::string(CURTAIN_SOURCE_DIR) + (chance(random, 0.5) ? "/test/meshes/cube_quads.obj" : "/test/meshes/l_prism.obj");
+    const char* const mesh = chance(random, 0.5) ? "cube_quads" : "l_prism";
+    obstacle.mesh = std::string(CURTAIN_SOURCE_DIR) + "/test/meshes/" + mesh + ".obj";
     obstacle.scale = curtain::Vec3::Constant(random.between(0.1, 0.4));
   }
   if (obstacle.shape == ShapeKind::kPlane) {
@@ -287,7 +290,9 @@ inline Deeds randomDeeds(std::uint64_t seed, double often) {
         case 1: simulator.removeWind("wind" + id); break;
         case 2: EXPECT_TRUE(simulator.setDrag(randomDrag(random, "drag" + id, now, simulator.scene().cloth)).empty()); break;
         case 3: simulator.removeDrag("drag" + id); break;
-        case 4: simulator.setGravity(chance(random, 0.2) ? Vec3(Vec3::Zero()) : Vec3(Vec3(0.0, 0.0, -9.0) + random.inBox(2.0))); break;
+        case 4:
+          simulator.setGravity(chance(random, 0.2) ? Vec3(Vec3::Zero()) : Vec3(Vec3(0.0, 0.0, -9.0) + random.inBox(2.0)));
+          break;
         case 5: {
           curtain::AirParams air = simulator.scene().air;
           air.inside = air.border = random.between(0.0, 2.0);
