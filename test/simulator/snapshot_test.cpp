@@ -179,6 +179,22 @@ TEST(Snapshot, KeepsWhatABudgetHasCost) {
   EXPECT_EQ(restored.statistics().frames, 30);
 }
 
+// Velocities that somebody has asked for are those of then, whatever gravity has come to be since.
+TEST(Snapshot, KeepsWhatHasBeenLookedAt) {
+  Scene scene = flatScene(8, 6);
+  scene.hang.tilt = 0.5;
+  Simulator simulator(scene), restored(scene);
+  for (int frame = 0; frame < 10; ++frame) simulator.step();
+  std::vector<Vec3> before, after;
+  simulator.copyVelocities(before);
+  EXPECT_TRUE(simulator.setGravity({0.0, 3.0, 0.0}).empty());
+  ASSERT_NO_FATAL_FAILURE(restoreOrFail(restored, simulator.snapshot()));
+  simulator.copyVelocities(after);
+  EXPECT_EQ(before, after);
+  restored.copyVelocities(after);
+  EXPECT_EQ(before, after);
+}
+
 // What a snapshot carries, by name, type and count. When this fails, what is carried has changed: raise kSnapshotVersion
 // (src/simulator/snapshot_format.h) and write the new numbers here.
 TEST(Snapshot, HasAVersionForEveryLayout) {
