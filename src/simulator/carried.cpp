@@ -103,6 +103,7 @@ void ForceField::carry(Archive& archive, AirParams& air) {
 
 // Its limits follow from the scene and from gravity and air; the rest of a look is of that look.
 void Rest::carry(Archive& archive) {
+  archive.within("frame_length", frame_length_, 1e-6, 1e3);
   archive.integer("due_in", due_in_, 1, kCount);
   archive.integer("turn", turn_, 0, 3);
   archive.columns("asleep", asleep_);
@@ -130,6 +131,8 @@ void Budget::carry(Archive& archive) {
 }
 
 void ErrorEstimate::carry(Archive& archive) {
+  archive.within("frame_length", frame_length_, 1e-6, 1e3);
+  archive.integer("window", window_, 1, kCount);
   archive.flag("of_stages", of_stages_);
   archive.integer("substeps", substeps_, fewest_, most_);
   archive.integer("frames", frames_, 0, kMany);

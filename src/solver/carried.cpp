@@ -86,6 +86,9 @@ void ExactSolver::resume(const ColumnSet& held, const ClothState& state) noexcep
 
 // Ranges keep the number of a frame's substeps bounded; next() itself sees to the other numbers.
 void StepControl::carry(Archive& archive) {
+  double frame = frame_;
+  archive.atOnce([&] { archive.within("frame", frame, 1e-6, 1e3); });
+  archive.put(frame_, frame);
   archive.number("omega", omega_);
   archive.number("heavier_step", heavier_step_);
   archive.number("surface_step", surface_step_);
@@ -93,7 +96,7 @@ void StepControl::carry(Archive& archive) {
   archive.integer("allowed", allowed_, 1, std::numeric_limits<int>::max());
   archive.flag("stretched", stretched_);
   archive.integer("asked", asked_, 1, max_substeps_);
-  archive.within("implicit_step", implicit_step_, frame_ / max_substeps_, frame_);
+  archive.within("implicit_step", implicit_step_, frame / max_substeps_, frame);
   archive.integer("failures", failures_, 0, kCount);
   archive.integer("good", good_, 0, kCount);
 }

@@ -209,10 +209,10 @@ TEST(Snapshot, HasAVersionForEveryLayout) {
   const std::string snapshot = Simulator(all).snapshot();
   ASSERT_FALSE(unpackSnapshot(snapshot, parts).has_value());
   EXPECT_EQ(kSnapshotVersion, 1U);
-  EXPECT_EQ(parts.layout, 1549690926U);
+  EXPECT_EQ(parts.layout, 3332351105U);
   const std::string plain = Simulator(flatScene(4, 5)).snapshot();
   ASSERT_FALSE(unpackSnapshot(plain, parts).has_value());
-  EXPECT_EQ(parts.layout, 1124499333U);
+  EXPECT_EQ(parts.layout, 116468620U);
 }
 
 }  // namespace
