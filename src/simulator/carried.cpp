@@ -160,6 +160,14 @@ void Simulator::Impl::PinMove::carry(Archive& archive, const ClothPattern& of) {
   archive.flag("behind", behind);
 }
 
+void EnergyLedger::carry(Archive& archive) {
+  archive.finite("gravity", work_.gravity);
+  archive.finite("forces", work_.forces);
+  archive.finite("pins", work_.pins);
+  archive.finite("obstacles", work_.obstacles);
+  archive.finite("kinetic", work_.kinetic);
+}
+
 // Not: what substeps and rehearsals go back to, for they have; the mesh for the eye, which remembers nothing; the revision,
 // which counts for who has looked at this simulator.
 void Simulator::Impl::carry(Archive& archive) {
@@ -181,7 +189,12 @@ void Simulator::Impl::carry(Archive& archive) {
   archive.list("pin_moves", pin_moves, [&](PinMove& move) { move.carry(archive, pattern); });
   archive.group("statistics", [&] { carryStatistics(archive, statistics); });
   archive.part("clock", clock);
+  archive.part("ledger", ledger);
+  archive.flag("counts_work", counts_work);
   archive.integer("frame", frame, 0, kMany);
+  archive.within("frame_rate", scene.solver.frame_rate, 1.0, 10000.0);
+  archive.integer("same_since_frame", same_since.frame, 0, kMany);
+  archive.finite("same_since_time", same_since.time);
   archive.finite("made_time", made_time);
   archive.numbers("velocities", velocities);
   archive.flag("velocities_fresh", velocities_fresh);
@@ -192,6 +205,10 @@ void Simulator::Impl::resume() noexcept {
   forces.takeGravity();
   control.takeGravity(pattern, scene.gravity);
   plain_control.takeGravity(pattern, scene.gravity);
+  control.takeFrame(frameLength());
+  plain_control.takeFrame(frameLength());
+  obstacles.takeFrame(frameLength());
+  rest.takeFrame(frameLength());
   setRestLimits();
   exact.resume(rest.asleep(), state);
   ++revision;

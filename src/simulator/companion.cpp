@@ -56,7 +56,7 @@ void Simulator::Impl::synchronise() {
 // Before the motion begins: some frames of it, twice, to find the substeps it needs.
 void Simulator::Impl::rehearse() {
   const Statistics before_all = statistics;
-  const Work work = ledger != nullptr ? ledger->work() : Work();
+  const Work work = counts_work ? ledger.work() : Work();
   const StageClock stages = clock;
   const double omega_step = control.longestStableStep();
   const int substeps = std::max(1, static_cast<int>(std::ceil(1.0 / (scene.solver.frame_rate * omega_step))));
@@ -83,7 +83,7 @@ void Simulator::Impl::rehearse() {
   if (coarse_made && fine_made) estimate->rehearsed(companion.state.position, substeps, state.position, 2 * substeps);
   goBack();
   clock = stages;
-  if (ledger != nullptr) ledger->restore(work);
+  if (counts_work) ledger.restore(work);
 }
 
 // Moves the companion by the coming frame. It goes first, so that forces and contacts stay those of the motion.
@@ -99,7 +99,7 @@ void Simulator::Impl::moveCompanion() {
     exact.save(companion.memory);
   }
   const Statistics published = statistics;
-  const Work work = ledger != nullptr ? ledger->work() : Work();
+  const Work work = counts_work ? ledger.work() : Work();
   const StageClock stages = clock;
   rehearsal.state = state;
   exact.save(rehearsal.memory);
@@ -121,7 +121,7 @@ void Simulator::Impl::moveCompanion() {
   contact.lookAfresh();
   statistics = published;
   clock = stages;
-  if (ledger != nullptr) ledger->restore(work);
+  if (counts_work) ledger.restore(work);
 }
 
 }  // namespace curtain

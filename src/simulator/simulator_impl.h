@@ -81,6 +81,8 @@ struct Simulator::Impl {
   FineSurface surface;
   Rest rest;
   ColumnSet kept_awake;  // scratch
+  EnergyLedger ledger;
+  bool counts_work = false;
   Budget budget;
   // What a substep of several stages goes back to.
   struct {
@@ -112,7 +114,6 @@ struct Simulator::Impl {
     void carry(Archive& archive, const ClothPattern& of);
   };
   std::vector<PinMove> pin_moves;  // of the coming frame
-  std::unique_ptr<EnergyLedger> ledger;  // null: nobody asked
   Statistics statistics;
   StageClock clock;
   std::int64_t frame = 0;
