@@ -14,6 +14,10 @@ namespace {
 constexpr double kMostWayOfSurface = 0.2;
 // Solves of a substep that is taken whatever comes of it and does not settle.
 constexpr int kHopelessLooks = 2;
+// bdf2 would go on with what a blow has stopped, as a rebound (by a third of it a step; two thirds came back from a string that
+// snapped taut). So the step of the blow, the next one, in which the rest of the speed goes, and the one after are made from one
+// step: then the last two know nothing of it.
+constexpr int kStepsAfterBlow = 3;
 
 }  // namespace
 
@@ -98,6 +102,16 @@ void ExactSolver::commit(const ClothState& base, double step, double velocity_ag
   state.velocity_age = velocity_age;
 }
 
+// A string has snapped taut in this substep, or something has met something.
+bool ExactSolver::struck(const Contacts* contacts) const noexcept {
+  for (std::size_t n = 0; directions_set_ && n < pattern_.grid.size(); ++n) {
+    if (weft_.multiplier[n] > 0.0 && !(weft_pulls_ && last_weft_[n] > 0.0)) return true;
+  }
+  return contacts != nullptr && std::any_of(contacts->begin(), contacts->end(), [](const Contact& contact) {
+           return contact.pushes() && !contact.pressed;
+         });
+}
+
 SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder,
                                     ClothState& state, StageClock& clock) noexcept {
   const bool leapfrog = plan.scheme == Scheme::kLeapfrog;
@@ -112,6 +126,16 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   const double ratio = begin(plan, start, scale);
   clock.lap(Stage::kPredict);
   const Progress progress = solveAndVerify(plan, start, state.position, ratio, finder, clock);
+  if (plan.scheme == Scheme::kBdf2 && struck(progress.contacts)) {
+    single_steps_ = kStepsAfterBlow;
+    if (older_h_ != 0.0) {  // made again, from one step
+      older_h_ = 0.0;
+      if (!weft_pulls_) std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0);
+      SubstepOutcome again = substep(plan, forces, finder, state, clock);
+      again.sweeps += progress.sweeps;
+      return again;
+    }
+  }
   SubstepOutcome outcome;
   if (held_.any()) {
     const bool stuck = progress.crossed || (plan.must_accept && !progress.settled);
@@ -126,7 +150,8 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   outcome.accepted = !outcome.disturbed && (progress.settled || (taken_as_it_is && std::isfinite(weftResidualNow(weft))));
   if (outcome.accepted) {
     outcome.scale = inertia_.tensions().scale = scale;
-    if (plan.scheme == Scheme::kBdf2) {
+    if (single_steps_ > 0) --single_steps_;
+    if (plan.scheme == Scheme::kBdf2 && single_steps_ == 0) {
       older_position_ = state.position;
       older_velocity_ = state.velocity;
       older_h_ = plan.h;

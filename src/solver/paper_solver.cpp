@@ -6,6 +6,17 @@
 #include "forces/air_damping.h"
 
 namespace curtain {
+namespace {
+
+bool isFinite(const Field3& value) noexcept {
+  double sum = 0.0;  // 0 * x is NaN for NaN and infinity alike
+  for (const Field* component : {&value.x, &value.y, &value.z}) {
+    for (const double number : *component) sum += 0.0 * number;
+  }
+  return sum == 0.0;
+}
+
+}  // namespace
 
 PaperSolver::PaperSolver(const ClothPattern& pattern) : pattern_(pattern) { start_.assign(pattern.grid.size(), 0.0); }
 
@@ -95,7 +106,8 @@ SubstepOutcome PaperSolver::substep(const NodeForces& forces, double h, ContactF
   clock.lap(Stage::kContact);
   state.velocity_age = 0.0;
   SubstepOutcome outcome;
-  outcome.accepted = outcome.settled = true;
+  outcome.accepted = outcome.settled = isFinite(state.position) && isFinite(state.velocity);
+  if (!outcome.accepted) state.position = start_;
   outcome.sweeps = 1;
   outcome.scale = h * h;
   return outcome;

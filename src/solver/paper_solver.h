@@ -14,7 +14,8 @@ class PaperSolver {
  public:
   explicit PaperSolver(const ClothPattern& pattern);
 
-  /// One substep of length h > 0 [s]; finder may be null. Always accepted.
+  /// One substep of length h > 0 [s]; finder may be null. Not accepted where it leads beyond numbers:
+  /// positions are as they were then.
   SubstepOutcome substep(const NodeForces& forces, double h, ContactFinder* finder, ClothState& state,
                          StageClock& clock) noexcept;
 
