@@ -1,4 +1,4 @@
-# One gtest binary a floor, from test/<floor>/*_test.cpp. Truth figures live in test/truth, see its README.
+# One gtest binary a floor, from test/<floor>/*_test.cpp; properties: of whole scenes, see test/properties/seeds.h. Truth figures live in test/truth, see its README.
 find_package(GTest REQUIRED)
 
 function(curtain_add_tests floor)
@@ -21,7 +21,7 @@ function(curtain_add_tests floor)
   target_link_libraries(${target} curtain_engine curtain_warnings ${ARGN})
 endfunction()
 
-foreach(floor scene cloth forces solver contact simulator batch)
+foreach(floor scene cloth forces solver contact simulator properties batch)
   curtain_add_tests(${floor})
 endforeach()
 

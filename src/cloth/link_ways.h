@@ -33,7 +33,7 @@ class SampledBounds {
   void carry(Archive& archive);
 
  private:
-  static constexpr double kAnywhere = 1e6;  // [m]
+  static constexpr double kAnywhere = 1e150;  // beyond every length, and its square is a number [m]
 
   std::vector<std::size_t> samples_;
   double own_margin_ = 0.0;  // [m]

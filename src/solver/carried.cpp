@@ -50,6 +50,7 @@ void ExactSolver::Memory::carry(Archive& archive) {
   archive.numbers("older_velocity", older_velocity);
   archive.part("tensions", tensions);
   archive.number("older_h", older_h);
+  archive.integer("single_steps", single_steps, 0, kCount);
   archive.flag("weft_pulls", weft_pulls);
 }
 
@@ -63,6 +64,7 @@ void ExactSolver::carry(Archive& archive) {
   archive.numbers("older_velocity", older_velocity_);
   archive.part("tensions", inertia_.tensions());
   archive.number("older_h", older_h_);
+  archive.integer("single_steps", single_steps_, 0, kCount);
   archive.flag("weft_pulls", weft_pulls_);
   archive.numbers("laid_down", laid_down_);
   archive.part("held", held_);

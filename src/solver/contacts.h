@@ -33,6 +33,7 @@ struct Contact {
   double push = 0.0;                    ///< [kg m]
   Vec3 slide = Vec3::Zero();            ///< [kg m]
   double mobility = 0.0;                ///< sum of weight^2 w: how the point answers its multipliers by itself [1/kg]
+  bool pressed = false;                 ///< it pushed when the substep began
   bool sticks = false;                  ///< solved for as held across the normal too, until its bound is reached
   std::uint32_t source = 0;             ///< the finder's own
 

@@ -17,6 +17,10 @@ constexpr int kHopelessLooks = 2;
 // Kinetic energy of a step over that without links, from which it has found another way for the links to lie: where it follows
 // the motion links take energy out.
 constexpr double kMostKinetic = 1.5;
+// bdf2 would go on with what a blow has stopped, as a rebound (by a third of it a step; two thirds came back from a string that
+// snapped taut). So the step of the blow, the next one, in which the rest of the speed goes, and the one after are made from one
+// step: then the last two know nothing of it.
+constexpr int kStepsAfterBlow = 3;
 
 }  // namespace
 
@@ -101,6 +105,16 @@ void ExactSolver::commit(const ClothState& base, double step, double velocity_ag
   state.velocity_age = velocity_age;
 }
 
+// A string has snapped taut in this substep, or something has met something.
+bool ExactSolver::struck(const Contacts* contacts) const noexcept {
+  for (std::size_t n = 0; directions_set_ && n < pattern_.grid.size(); ++n) {
+    if (weft_.multiplier[n] > 0.0 && !(weft_pulls_ && last_weft_[n] > 0.0)) return true;
+  }
+  return contacts != nullptr && std::any_of(contacts->begin(), contacts->end(), [](const Contact& contact) {
+           return contact.pushes() && !contact.pressed;
+         });
+}
+
 SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder,
                                     ClothState& state, StageClock& clock) noexcept {
   const bool leapfrog = plan.scheme == Scheme::kLeapfrog;
@@ -115,6 +129,16 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   const double ratio = begin(plan, start, scale);
   clock.lap(Stage::kPredict);
   Progress progress = solveAndVerify(plan, start, state.position, ratio, finder, clock);
+  if (plan.scheme == Scheme::kBdf2 && struck(progress.contacts)) {
+    single_steps_ = kStepsAfterBlow;
+    if (older_h_ != 0.0) {  // made again, from one step
+      older_h_ = 0.0;
+      if (!weft_pulls_) std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0);
+      SubstepOutcome again = substep(plan, forces, finder, state, clock);
+      again.sweeps += progress.sweeps;
+      return again;
+    }
+  }
   // Links let nodes lie in many ways, and a long step may find one that is far from where they were; and strings that have become
   // taut in it may pull harder than it is stable for.
   const bool may_jump = plan.scheme == Scheme::kBdf2 || (leapfrog && directions_set_);
@@ -137,7 +161,8 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   if (outcome.accepted) {
     outcome.scale = inertia_.tensions().scale = scale;
     outcome.kick = kick + (plan.h - step);  // bdf2's base holds the rest of what forces do
-    if (plan.scheme == Scheme::kBdf2) {
+    if (single_steps_ > 0) --single_steps_;
+    if (plan.scheme == Scheme::kBdf2 && single_steps_ == 0) {
       older_position_ = state.position;
       older_velocity_ = state.velocity;
       older_h_ = plan.h;

@@ -175,11 +175,11 @@ void ExactSolver::projectOnConstraints(const Field3& position, const Contacts* c
   double first_rate = 0.0;
   for (int round = 0; round < (presses ? kContactRounds : kVelocityRounds); ++round) {
     double rate = worstOfRows([&](int i) { return measureWeftRates(weft, i, violation_, active_); });
-    if (presses) rate = std::max(rate, contactRate(*contacts, out) / mean_rest_);
+    if (presses) rate = std::max(rate, contactRate(*contacts, out) / middle_rest_);
     if (round == 0) first_rate = rate;
     if (rate == 0.0 || (presses && round > 0 && rate <= kContactRate * first_rate)) break;
     net_.solve(violation_, active_, {presses ? contacts : nullptr, &out, true},
-               {rate * mean_rest_, kVelocityDamping, kVelocityReduction, kVelocityIterations}, change_);
+               {rate * middle_rest_, kVelocityDamping, kVelocityReduction, kVelocityIterations}, change_);
     for (int i = 0; i < pattern_.grid.rows; ++i) pullWeft(weft, i, change_);
     if (presses) {
       net_.forEachContactChange([&](std::uint32_t index, double push, const Vec3& slide) {

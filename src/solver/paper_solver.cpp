@@ -6,7 +6,6 @@
 #include "forces/air_damping.h"
 
 namespace curtain {
-
 namespace {
 
 // The fastest node may go so many times the cloth's size in a substep.

@@ -14,8 +14,7 @@ class PaperSolver {
  public:
   explicit PaperSolver(const ClothPattern& pattern);
 
-  /// One substep of length h > 0 [s]; finder may be null. Not accepted, and its positions as
-  /// before, where it has blown up.
+  /// One substep of length h > 0 [s]; finder may be null. Not accepted where it has blown up: positions are as they were then.
   SubstepOutcome substep(const NodeForces& forces, double h, ContactFinder* finder, ClothState& state,
                          StageClock& clock) noexcept;
 
