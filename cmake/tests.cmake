@@ -21,7 +21,9 @@ function(curtain_add_tests floor)
   target_link_libraries(${target} curtain_engine curtain_warnings ${ARGN})
 endfunction()
 
-foreach(floor scene cloth forces solver contact simulator properties batch)
+add_compile_definitions($<$<CONFIG:Debug>:CURTAIN_FLOAT_TRAPS>)  # test/float_traps.h
+
+foreach(floor scene cloth forces solver contact simulator properties batch fuzz)
   curtain_add_tests(${floor})
 endforeach()
 
@@ -29,10 +31,16 @@ if(catkin_FOUND)
   include(cmake/ros_tests.cmake)
 endif()
 
-# The batch tests run the program itself and read what it writes; the structure tests read the checkout.
-if(TARGET test_batch)
-  add_dependencies(test_batch curtain_batch)
-  target_link_libraries(test_batch nlohmann_json::nlohmann_json)
+# These run the program itself and read what it writes; the structure tests read the checkout.
+foreach(target test_batch test_fuzz)
+  if(TARGET ${target})
+    add_dependencies(${target} curtain_batch)
+    target_link_libraries(${target} nlohmann_json::nlohmann_json)
+  endif()
+endforeach()
+if(TARGET test_fuzz)
+  target_sources(test_fuzz PRIVATE test/fuzz/scene_yaml.cpp test/fuzz/mesh.cpp test/fuzz/step.cpp test/fuzz/scene_maker.cpp
+    test/fuzz/breakages.cpp)
 endif()
 curtain_add_tests(structure)
 

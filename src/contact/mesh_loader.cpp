@@ -6,7 +6,9 @@
 #include <assimp/scene.h>
 
 #include <algorithm>
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -15,6 +17,7 @@
 #include <system_error>
 #include <utility>
 
+#include "contact/collada_limits.h"
 #include "contact/triangle_mesh_topology.h"
 
 namespace curtain {
@@ -22,6 +25,9 @@ namespace {
 
 /// Coordinates beyond this [m] are taken for corrupt: their products would overflow.
 constexpr double kFarthest = 1e30;
+/// Reading takes some ten times as much memory; a mesh as large as this is none to collide with in real time.
+constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20U;
+constexpr std::size_t kMostTriangles = 4000000;
 
 [[noreturn]] void fail(const std::string& obstacle, const std::string& path, const std::string& reason) {
   throw std::invalid_argument("obstacle '" + obstacle + "': mesh '" + path + "' " + reason);
@@ -37,6 +43,42 @@ void requireReadable(const std::string& path, const std::string& obstacle) {
   }
   if (!std::ifstream(path, std::ios::binary)) {
     fail(obstacle, path, "cannot be opened for reading");
+  }
+  if (std::filesystem::file_size(path, error) > kLargestFile) {
+    fail(obstacle, path, "is larger than 256 MiB");
+  }
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string problem = ending == ".dae" ? colladaProblem(path) : "";
+  if (!problem.empty()) {
+    fail(obstacle, path, "cannot be read: " + problem);
+  }
+}
+
+/// Opens the mesh's file and no other: materials are not used, and what an OBJ or DAE names may be a device or a pipe.
+class OneFile final : public Assimp::DefaultIOSystem {
+ public:
+  explicit OneFile(std::string path) : path_(std::move(path)) {}
+
+  bool Exists(const char* file) const override { return path_ == file && DefaultIOSystem::Exists(file); }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    return path_ == file ? DefaultIOSystem::Open(file, mode) : nullptr;
+  }
+
+ private:
+  std::string path_;
+};
+
+/// A polygon is cut into triangles in a time that grows with the square of its corners.
+void requireModestPolygons(const aiScene& scene, const std::string& path, const std::string& obstacle) {
+  constexpr unsigned int kMostCorners = 1000;
+  for (unsigned int m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& part = *scene.mMeshes[m];
+    for (unsigned int f = 0; f < part.mNumFaces; ++f) {
+      const unsigned int corners = part.mFaces[f].mNumIndices;
+      if (corners <= kMostCorners) continue;
+      fail(obstacle, path, "has a polygon of " + std::to_string(corners) + " corners, more than 1000");
+    }
   }
 }
 
@@ -77,14 +119,19 @@ void appendPart(const aiMesh& part, const Eigen::Matrix4d& pose, const Vec3& sca
   }
 }
 
-ShapeTriangles collectParts(const aiScene& scene, const Vec3& scale) {
+/// Refuses what is far too much: parts may be used again and again.
+ShapeTriangles collectParts(const aiScene& scene, const Vec3& scale, const std::string& path, const std::string& obstacle) {
   ShapeTriangles mesh;
   std::vector<PlacedNode> pending = {{scene.mRootNode, toEigen(scene.mRootNode->mTransformation)}};
   while (!pending.empty()) {
     const PlacedNode placed = pending.back();
     pending.pop_back();
     for (unsigned int i = 0; i < placed.node->mNumMeshes; ++i) {
-      appendPart(*scene.mMeshes[placed.node->mMeshes[i]], placed.pose, scale, mesh);
+      const aiMesh& part = *scene.mMeshes[placed.node->mMeshes[i]];
+      if (mesh.triangles.size() + part.mNumFaces > kMostTriangles || mesh.corners.size() + part.mNumVertices > 3 * kMostTriangles) {
+        fail(obstacle, path, "has more than 4 million triangles");
+      }
+      appendPart(part, placed.pose, scale, mesh);
     }
     for (unsigned int i = placed.node->mNumChildren; i-- > 0;) {  // so that the first child comes first
       const aiNode* child = placed.node->mChildren[i];
@@ -140,19 +187,26 @@ void requireSound(const ShapeTriangles& mesh, const std::string& path, const std
 ShapeTriangles loadMesh(const std::string& path, const Vec3& scale, const std::string& obstacle) {
   requireReadable(path, obstacle);
   Assimp::Importer importer;
+  importer.SetIOHandler(new OneFile(path));  // which it then owns
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = nullptr;
   std::string reason;
   try {
-    scene = importer.ReadFile(path, aiProcess_Triangulate);
+    scene = importer.ReadFile(path, 0);
+    if (scene != nullptr) {
+      requireModestPolygons(*scene, path, obstacle);
+      scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+    }
     reason = importer.GetErrorString();
+  } catch (const std::invalid_argument&) {  // ours
+    throw;
   } catch (const std::exception& error) {  // from a format's reader, or out of memory
     reason = error.what();
   }
   if (scene == nullptr || scene->mRootNode == nullptr) {
     fail(obstacle, path, "cannot be read: " + reason);
   }
-  ShapeTriangles mesh = collectParts(*scene, scale);
+  ShapeTriangles mesh = collectParts(*scene, scale, path, obstacle);
   if (mesh.triangles.empty()) {
     fail(obstacle, path, "has no triangles");
   }

@@ -60,10 +60,10 @@ template <>
 struct Fields<HangParams> {
   template <typename Visitor, typename T>
   static void visit(Visitor& v, T& hang) {
-    v.vector("from", hang.from, finite());
-    v.vector("to", hang.to, finite());
+    v.vector("from", hang.from, anywhere());
+    v.vector("to", hang.to, anywhere());
     v.optionalNumber("radius", hang.radius, positive());
-    v.number("tilt", hang.tilt, finite());
+    v.number("tilt", hang.tilt, anywhere());
   }
 };
 
@@ -86,8 +86,8 @@ struct Fields<WindParams> {
   template <typename Visitor, typename T>
   static void visit(Visitor& v, T& wind) {
     v.text(required("id"), wind.id);
-    v.vector("position", wind.position, finite());
-    v.vector("direction", wind.direction, finite());
+    v.vector("position", wind.position, anywhere());
+    v.vector("direction", wind.direction, anywhere());
     v.number("radius", wind.radius, positive());
     v.number("half_angle", wind.half_angle, between(0.0, 1.5));
     v.number("pressure", wind.pressure, notNegative());
@@ -98,7 +98,7 @@ struct Fields<WindParams> {
     v.number("unsteadiness", wind.unsteadiness, notNegative());
     v.number("correlation_time", wind.correlation_time, between(1e-6, 1e6));
     v.number("correlation_length", wind.correlation_length, positive());
-    v.number("start", wind.start, finite());
+    v.number("start", wind.start, anywhere());
     v.number("end", wind.end, orInfinite());
   }
 };
@@ -109,13 +109,13 @@ struct Fields<DragParams> {
   static void visit(Visitor& v, T& drag) {
     v.text(required("id"), drag.id);
     v.node("node", drag.node);
-    v.optionalVector("point", drag.point, finite());
-    v.vector("force", drag.force, finite());
-    v.optionalVector("target", drag.target, finite());
+    v.optionalVector("point", drag.point, anywhere());
+    v.vector("force", drag.force, anyForce());
+    v.optionalVector("target", drag.target, anywhere());
     v.number("stiffness", drag.stiffness, positive());
     v.number("max_force", drag.max_force, positive());
     v.number("radius", drag.radius, notNegative());
-    v.number("start", drag.start, finite());
+    v.number("start", drag.start, anywhere());
     v.number("end", drag.end, orInfinite());
   }
 };
@@ -124,8 +124,8 @@ template <>
 struct Fields<PoseKey> {
   template <typename Visitor, typename T>
   static void visit(Visitor& v, T& key) {
-    v.number("time", key.time, finite());
-    v.vector("position", key.pose.position, finite());
+    v.number("time", key.time, anywhere());
+    v.vector("position", key.pose.position, anywhere());
     v.rotation("orientation", key.pose.orientation);
   }
 };
@@ -138,7 +138,7 @@ struct Fields<ObstacleParams> {
     v.text("frame", obstacle.frame);
     v.choice("shape", obstacle.shape, shapeNames());
     visitShape(v, obstacle);
-    v.vector("position", obstacle.pose.position, finite());
+    v.vector("position", obstacle.pose.position, anywhere());
     v.rotation("orientation", obstacle.pose.orientation);
     v.numberOrUnset("friction", obstacle.friction, between(0.0, 10.0));
     v.list("motion", obstacle.motion);
@@ -198,7 +198,7 @@ struct Fields<Scene> {
     v.map("cloth", scene.cloth);
     v.map("hang", scene.hang);
     v.pins("pins", scene.pins);
-    v.vector("gravity", scene.gravity, finite());
+    v.vector("gravity", scene.gravity, anyForce());
     v.map("air", scene.air);
     v.list("wind", scene.wind);
     v.list("drag", scene.drag);

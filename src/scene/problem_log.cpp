@@ -6,7 +6,11 @@ namespace curtain {
 void ProblemLog::add(const std::string& key, const std::string& text) {
   if (hasSelfOrAncestor(key)) return;
   keys_.insert(key);
-  problems_.push_back({key, text});
+  if (problems_.size() < kMostProblems) {
+    problems_.push_back({key, text});
+  } else if (problems_.size() == kMostProblems) {
+    problems_.push_back({"", "has more problems than these " + std::to_string(kMostProblems)});
+  }
 }
 
 bool ProblemLog::hasSelfOrAncestor(const std::string& key) const {

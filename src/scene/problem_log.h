@@ -14,6 +14,9 @@ namespace curtain {
 
 class ProblemLog {
  public:
+  /// So many are listed; who has more to mend than that has another file before him than a scene.
+  static constexpr std::size_t kMostProblems = 200;
+
   /// Adds the problem unless the key, or a key it lies under, has one already.
   void add(const std::string& key, const std::string& text);
 

@@ -32,20 +32,13 @@ double readBack(const std::string& text) {
 bool Range::contains(double value) const {
   if (or_infinite && std::isinf(value) && value > 0.0) return true;
   if (!std::isfinite(value) || value < low || value > high) return false;
-  return !(low_open && value == low) && !(not_zero && value == 0.0);
+  return !(not_zero && std::abs(value) < kSmallest);
 }
 
 std::string Range::text() const {
-  if (or_infinite) return "a number or .inf";
-  if (not_zero) return "a finite number other than 0";
-  const bool has_low = std::isfinite(low);
-  const bool has_high = std::isfinite(high);
-  if (has_low && has_high) {
-    return std::string("a number in ") + (low_open ? "(" : "[") + formatNumber(low) + ", " + formatNumber(high) + "]";
-  }
-  if (has_low) return std::string("a finite number ") + (low_open ? "> " : ">= ") + formatNumber(low);
-  if (has_high) return "a finite number <= " + formatNumber(high);
-  return "a finite number";
+  const std::string sizes = "a number in [" + formatNumber(low) + ", " + formatNumber(high) + "]";
+  if (not_zero) return sizes + ", at least " + formatNumber(kSmallest) + " in size";
+  return or_infinite ? sizes + " or .inf" : sizes;
 }
 
 std::string IntRange::text() const {

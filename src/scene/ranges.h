@@ -8,36 +8,34 @@
 
 namespace curtain {
 
-/// A range of finite numbers; the ends belong to it unless open.
+/// Sizes that a scene may speak of, in any unit: within them lengths, areas, masses and the squares of what comes of them are
+/// numbers, so that a scene that is valid can be computed. From a nanometre to a million kilometres.
+constexpr double kSmallest = 1e-9;
+constexpr double kLargest = 1e9;
+/// Forces and accelerations may be absurd, the cloth stops for as long as they act; but sums of them are numbers.
+constexpr double kStrongest = 1e200;
+
+/// A range of finite numbers; the ends belong to it.
 struct Range {
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
-  bool low_open = false;
-  bool not_zero = false;
+  double low = -kLargest;
+  double high = kLargest;
+  bool not_zero = false;     ///< at least kSmallest in size
   bool or_infinite = false;  ///< +infinity belongs to it too
 
   bool contains(double value) const;  ///< false for NaN
-  std::string text() const;           ///< e.g. "a finite number > 0"
+  std::string text() const;           ///< e.g. "a number in [0, 1]"
 };
 
-inline Range finite() { return {}; }
-inline Range positive() {
-  Range range;
-  range.low = 0.0;
-  range.low_open = true;
-  return range;
-}
-inline Range notNegative() {
-  Range range;
-  range.low = 0.0;
-  return range;
-}
 inline Range between(double low, double high) {
   Range range;
   range.low = low;
   range.high = high;
   return range;
 }
+inline Range anywhere() { return {}; }
+inline Range positive() { return between(kSmallest, kLargest); }
+inline Range notNegative() { return between(0.0, kLargest); }
+inline Range anyForce() { return between(-kStrongest, kStrongest); }
 inline Range notZero() {
   Range range;
   range.not_zero = true;

@@ -5,11 +5,11 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "curtain_sim/scene_yaml.h"
 #include "scene/checks.h"
 #include "scene/strict_reader.h"
+#include "scene/yaml_text.h"
 
 namespace curtain {
 namespace {
@@ -24,6 +24,17 @@ SceneReading failed(const std::string& text) {
 std::string resolvePath(const std::string& mesh, const std::filesystem::path& folder) {
   if (mesh.empty() || mesh.find("://") != std::string::npos || std::filesystem::path(mesh).is_absolute()) return mesh;
   return (folder / mesh).lexically_normal().string();
+}
+
+// The text of a file, or so much of one without an end that it is seen to be too long.
+std::string readText(std::istream& file) {
+  std::string text;
+  std::vector<char> block(std::size_t{1} << 16U);
+  while (file && text.size() <= kLongestYaml) {
+    file.read(block.data(), static_cast<std::streamsize>(block.size()));
+    text.append(block.data(), static_cast<std::size_t>(file.gcount()));
+  }
+  return text;
 }
 
 }  // namespace
@@ -44,17 +55,9 @@ SceneReading readScene(const YAML::Node& root) {
 }
 
 SceneReading readSceneText(const std::string& text) {
-  std::vector<YAML::Node> documents;
-  try {
-    documents = YAML::LoadAll(text);
-  } catch (const YAML::Exception& error) {
-    return failed("line " + std::to_string(error.mark.line + 1) + ", column " + std::to_string(error.mark.column + 1) +
-                  ": not YAML: " + error.msg);
-  }
-  if (documents.size() > 1) {
-    return failed("must be one YAML document, is " + std::to_string(documents.size()) + " (split by ---)");
-  }
-  return readScene(documents.empty() ? YAML::Node() : documents.front());
+  YAML::Node root;
+  std::string problem;
+  return loadYaml(text, root, problem) ? readScene(root) : failed(problem);
 }
 
 SceneReading readSceneFile(const std::string& path) {
@@ -62,8 +65,7 @@ SceneReading readSceneFile(const std::string& path) {
   const bool is_folder = std::filesystem::is_directory(path, ignored);
   std::ifstream file(path, std::ios::binary);
   if (is_folder || !file) return failed("can't open " + path + (is_folder ? ": is a folder" : ""));
-  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  SceneReading reading = readSceneText(text);
+  SceneReading reading = readSceneText(readText(file));
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   for (ObstacleParams& obstacle : reading.scene.obstacles) obstacle.mesh = resolvePath(obstacle.mesh, folder);
   return reading;

@@ -163,18 +163,23 @@ ScalarValue scalarValue(const YAML::Node& node) {
   return value;
 }
 
-std::string quoted(const std::string& text) {
+std::string shortened(const std::string& text) {
   constexpr std::size_t kLongest = 60;
-  return '"' + (text.size() > kLongest ? text.substr(0, kLongest) + "..." : text) + '"';
+  if (text.size() <= kLongest) return text;
+  std::size_t end = kLongest;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // not within a character of UTF-8
+  return text.substr(0, end) + "...";
 }
+
+std::string quoted(const std::string& text) { return '"' + shortened(text) + '"'; }
 
 std::string describeValue(const YAML::Node& node) {
   if (!node.IsDefined() || node.IsNull()) return "empty";
   if (node.IsSequence()) return "a list of " + std::to_string(node.size());
   if (node.IsMap()) return "a map";
   const ScalarValue value = scalarValue(node);
-  if (value.kind != ScalarKind::kText) return node.Scalar();
-  return "the text " + quoted(node.Scalar()) + (value.hint.empty() ? "" : " (text in YAML: " + value.hint + ")");
+  if (value.kind != ScalarKind::kText) return shortened(node.Scalar());
+  return "the text " + quoted(node.Scalar()) + (value.hint.empty() ? "" : " (text in YAML: " + shortened(value.hint) + ")");
 }
 
 }  // namespace curtain

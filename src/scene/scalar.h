@@ -35,7 +35,10 @@ ScalarValue scalarValue(const YAML::Node& node);
 /// given as text.
 std::string describeValue(const YAML::Node& node);
 
-/// Text in double quotes, shortened when long.
+/// The text, cut short with ... when it is long.
+std::string shortened(const std::string& text);
+
+/// The same in double quotes.
 std::string quoted(const std::string& text);
 
 }  // namespace curtain

@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "scene/orientation.h"
 #include "scene/spelling.h"
 
 namespace curtain {
 namespace {
+
+// Characters of a key; none that is known comes near it.
+constexpr std::size_t kLongestName = 100;
 
 std::string lines(const YAML::Node& first, const YAML::Node& second) {
   if (first.Mark().is_null() || second.Mark().is_null()) return "";
@@ -20,17 +24,21 @@ std::string lines(const YAML::Node& first, const YAML::Node& second) {
 
 StrictReader::StrictReader(const YAML::Node& map, std::string key, ProblemLog& log)
     : prefix_(std::move(key)), log_(log) {
+  std::map<std::string, std::size_t> places;  // in entries_
   for (const auto& entry : map) {
     if (!entry.first.IsScalar()) {
       log_.add(joinKey(prefix_, "?"), "a key must be text, is " + describeValue(entry.first));
       continue;
     }
     const std::string& name = entry.first.Scalar();
+    if (name.size() > kLongestName) {
+      log_.add(joinKey(prefix_, shortened(name)), "is not a known key");
+      continue;
+    }
     // yaml-cpp keeps both; which one counts would be luck.
-    const auto same = [&name](const auto& other) { return other.first == name; };
-    const auto first = std::find_if(entries_.begin(), entries_.end(), same);
-    if (first != entries_.end()) {
-      log_.add(joinKey(prefix_, name), "is given more than once" + lines(first->second, entry.second));
+    const auto [first, is_new] = places.emplace(name, entries_.size());
+    if (!is_new) {
+      log_.add(joinKey(prefix_, name), "is given more than once" + lines(entries_[first->second].second, entry.second));
       continue;
     }
     entries_.emplace_back(name, entry.second);
@@ -263,7 +271,7 @@ void StrictReader::rotation(Key key, Eigen::Quaterniond& value) {
   Eigen::Vector4d read = Eigen::Vector4d::Zero();
   bool all = true;
   for (std::size_t i = 0; i < 4; ++i) {
-    all = readNumber((*found)[i], itemKey(keyOf(key), i), finite(), read[static_cast<Eigen::Index>(i)]) && all;
+    all = readNumber((*found)[i], itemKey(keyOf(key), i), anywhere(), read[static_cast<Eigen::Index>(i)]) && all;
   }
   if (all) value = nearlyUnit(Eigen::Quaterniond(read));
 }

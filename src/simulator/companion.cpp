@@ -53,13 +53,19 @@ void Simulator::Impl::synchronise() {
   velocities_fresh = false;
 }
 
+// Substeps a frame that leapfrog is stable in, up to those the motion may use: what needs more is not moved by leapfrog, and
+// stiff links under an absurd pull would ask for millions.
+int Simulator::Impl::stableSubsteps() const noexcept {
+  const double wanted = std::ceil(1.0 / (scene.solver.frame_rate * control.longestStableStep()));
+  return static_cast<int>(std::clamp<double>(wanted, 1.0, estimate->mostSubsteps()));
+}
+
 // Before the motion begins: some frames of it, twice, to find the substeps it needs.
 void Simulator::Impl::rehearse() {
   const Statistics before_all = statistics;
   const Work work = counts_work ? ledger.work() : Work();
   const StageClock stages = clock;
-  const double omega_step = control.longestStableStep();
-  const int substeps = std::max(1, static_cast<int>(std::ceil(1.0 / (scene.solver.frame_rate * omega_step))));
+  const int substeps = stableSubsteps();
   const auto play = [&](int count) {
     rehearsal.state = state;
     exact.save(rehearsal.memory);
@@ -89,7 +95,7 @@ void Simulator::Impl::rehearse() {
 // Moves the companion by the coming frame. It goes first, so that forces and contacts stay those of the motion.
 void Simulator::Impl::moveCompanion() {
   if (estimate->companionStarts()) {
-    const int least = static_cast<int>(std::ceil(1.0 / (scene.solver.frame_rate * control.longestStableStep())));
+    const int least = stableSubsteps();
     estimate->atLeast(least);
     companion.in_finer_steps = !estimate->halfWillDo(least);
   }

@@ -38,6 +38,8 @@ class ErrorEstimate {
 
   /// Substeps a frame of the motion, at least.
   int substeps() const noexcept { return substeps_; }
+  /// The most it may ask for.
+  int mostSubsteps() const noexcept { return most_; }
   /// Stability needs so many.
   void atLeast(int least) noexcept { substeps_ = std::clamp(least, substeps_, most_); }
   /// A companion in half as many is stable when the motion needs `least` for that.

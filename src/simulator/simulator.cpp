@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "contact/piercings.h"
+#include "scene/ranges.h"
 #include "simulator/self_crossings.h"
 #include "simulator/simulator_impl.h"
 #include "solver/composition.h"
@@ -233,7 +234,9 @@ void Simulator::clearDrags() {
 }
 
 std::vector<Problem> Simulator::setGravity(const Vec3& gravity) {
-  if (!gravity.allFinite()) return {{"gravity", "must be finite"}};
+  const Range range = anyForce();
+  const bool good = range.contains(gravity.x()) && range.contains(gravity.y()) && range.contains(gravity.z());
+  if (!good) return {{"gravity", "must be 3 times " + range.text()}};
   Impl& im = *impl_;
   if (gravity == im.scene.gravity) return {};
   im.scene.gravity = gravity;
@@ -259,7 +262,7 @@ const std::vector<DragParams>& Simulator::drags() const { return impl_->forces.d
 bool Simulator::movePin(NodeIndex node, const Vec3& target) {
   const Grid& grid = impl_->pattern.grid;
   const bool inside = node.row >= 0 && node.row < grid.rows && node.column >= 0 && node.column < grid.columns;
-  if (!inside || !impl_->pattern.isPinned(node) || !target.allFinite()) return false;
+  if (!inside || !impl_->pattern.isPinned(node) || !(target.cwiseAbs().maxCoeff() <= kLargest) || !target.allFinite()) return false;
   const std::size_t at = grid.index(node);
   for (Impl::PinMove& move : impl_->pin_moves) {
     if (move.node == at) {

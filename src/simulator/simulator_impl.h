@@ -39,6 +39,7 @@ struct Simulator::Impl {
   void estimateError();
   bool makeEvenSubstep(const SubstepPlan& plan, double done, int divisions);
   bool makeEvenFrame(int substeps);
+  int stableSubsteps() const noexcept;
   void rehearse();
   void moveCompanion();
   void synchronise();

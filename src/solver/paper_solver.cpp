@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/paper_solver.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "forces/air_damping.h"
@@ -42,8 +43,9 @@ void PaperSolver::moveColumn(int column, const NodeForces& forces, double h, Clo
       const Vec3 sum = forces.force->at(node) + pull_from_below;
       const double along = sum.dot(n);
       // (4) Eq. (6): omega l = dx^t/dt; Eq. (5): f^n = m omega^2 l, towards the origin.
-      const double omega = tangential.norm() / length;
-      const double centripetal = m * omega * omega * length;
+      const double lever = length > 0.0 ? length : pattern_.warp_rest[node];  // one that has drifted to nothing
+      const double omega = tangential.norm() / lever;
+      const double centripetal = m * omega * omega * lever;
       // Eqs. (7)(8) and the same along t: acceleration = force / mass; the rod takes up what is left along n.
       acceleration = (sum - (along + centripetal) * n) * w;
       pull_from_below = (along + centripetal) * n;

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/yaml_text.h"
+
+#include <yaml-cpp/eventhandler.h>
+
+#include <map>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+namespace curtain {
+namespace {
+
+std::string placed(const YAML::Mark& mark, const std::string& text) {
+  return "line " + std::to_string(mark.line + 1) + ", column " + std::to_string(mark.column + 1) + ": " + text;
+}
+
+struct Refusal {
+  std::string text;
+};
+
+// Walks through the text without building anything: counts documents, and values as the tree would have them.
+class Inspector final : public YAML::EventHandler {
+ public:
+  std::size_t documents() const { return documents_; }
+
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    // A sign that begins no value is never taken off the text: it would be another empty document for ever.
+    if (documents_ > 0 && mark.pos <= last_start_) throw Refusal{placed(mark, "not YAML: nothing can begin here")};
+    last_start_ = mark.pos;
+    ++documents_;
+    sizes_.clear();
+  }
+  void OnDocumentEnd() override {}
+
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { countOne(mark, anchor); }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor, const std::string&) override {
+    countOne(mark, anchor);
+  }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    const auto size = sizes_.find(anchor);
+    if (size == sizes_.end()) throw Refusal{placed(mark, "not YAML: an alias within what it stands for")};
+    count(mark, size->second);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor, YAML::EmitterStyle::value) override {
+    open(mark, anchor);
+  }
+  void OnSequenceEnd() override { close(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor, YAML::EmitterStyle::value) override {
+    open(mark, anchor);
+  }
+  void OnMapEnd() override { close(); }
+
+ private:
+  void count(const YAML::Mark& mark, std::size_t more) {
+    values_ += more;
+    if (values_ <= kMostYamlValues) return;
+    throw Refusal{placed(mark, "comes to more than " + std::to_string(kMostYamlValues) + " values, which no scene needs")};
+  }
+  void countOne(const YAML::Mark& mark, YAML::anchor_t anchor) {
+    count(mark, 1);
+    if (anchor != 0) sizes_[anchor] = 1;
+  }
+  void open(const YAML::Mark& mark, YAML::anchor_t anchor) {
+    open_.emplace_back(anchor, values_);
+    count(mark, 1);
+  }
+  void close() {
+    const auto [anchor, before] = open_.back();
+    open_.pop_back();
+    if (anchor != 0) sizes_[anchor] = values_ - before;
+  }
+
+  std::size_t documents_ = 0;
+  int last_start_ = 0;
+  std::size_t values_ = 0;
+  std::vector<std::pair<YAML::anchor_t, std::size_t>> open_;  // with the values there were before
+  std::map<YAML::anchor_t, std::size_t> sizes_;               // of what anchors name
+};
+
+}  // namespace
+
+bool loadYaml(const std::string& text, YAML::Node& root, std::string& problem) {
+  try {
+    if (text.size() > kLongestYaml) throw Refusal{"is longer than 16 MiB, which no scene needs"};
+    Inspector inspector;
+    std::istringstream stream(text);
+    YAML::Parser parser(stream);
+    while (parser.HandleNextDocument(inspector)) {
+    }
+    if (inspector.documents() > 1) {
+      throw Refusal{"must be one YAML document, is " + std::to_string(inspector.documents()) + " (split by ---)"};
+    }
+    root = inspector.documents() == 0 ? YAML::Node() : YAML::Load(text);
+    return true;
+  } catch (const YAML::Exception& error) {
+    problem = placed(error.mark, "not YAML: " + error.msg);
+  } catch (const Refusal& refusal) {
+    problem = refusal.text;
+  }
+  return false;
+}
+
+}  // namespace curtain

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fuzz/scene_maker.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace curtain_test {
+namespace {
+
+using curtain::DragParams;
+using curtain::NodeIndex;
+using curtain::ObstacleParams;
+using curtain::Range;
+using curtain::Scene;
+using curtain::Vec3;
+using curtain::WindParams;
+
+// A magnitude between 10^low and 10^high.
+double magnitude(Choices& choices, double low, double high) { return std::pow(10.0, choices.between(low, high)); }
+
+void putOnGrid(NodeIndex& node, const curtain::ClothParams& cloth) {
+  node.row %= cloth.rows;
+  node.column %= cloth.columns;
+}
+
+void resizeUnlessEmpty(std::vector<double>& values, int count) {
+  if (!values.empty()) values.resize(static_cast<std::size_t>(count), values.front());
+}
+
+// The line it hangs from is as long as the cloth is wide, or shorter.
+void placeLine(Scene& scene, Choices& choices) {
+  const Vec3 way = scene.hang.to - scene.hang.from;
+  const double length = way.norm();
+  const Vec3 along = length > 0.0 && std::isfinite(length) ? Vec3(way / length) : Vec3(Vec3::UnitX());
+  scene.hang.to = scene.hang.from + (1.0 - 0.9 * choices.share()) * scene.cloth.width * along;
+}
+
+// Values that have a meaning together; what is left over is for validate().
+void fitTogether(Scene& scene, Choices& choices) {
+  curtain::ClothParams& cloth = scene.cloth;
+  cloth.rows = std::min(cloth.rows, kMostRows);
+  cloth.columns = std::min(cloth.columns, kMostColumns);
+  // Together they say how much a frame may take: their product, times the nodes.
+  for (int* count : {&scene.solver.substeps, &scene.solver.max_substeps, &scene.solver.max_sweeps, &scene.contact.zone_iterations}) {
+    *count = std::min(*count, kMostRounds);
+  }
+  scene.solver.threads = std::min(scene.solver.threads, kMostThreads);
+  resizeUnlessEmpty(cloth.row_spacing, cloth.rows - 1);
+  resizeUnlessEmpty(cloth.column_spacing, curtain::weftLinkCount(cloth));
+  resizeUnlessEmpty(cloth.row_mass, cloth.rows);
+  resizeUnlessEmpty(cloth.column_mass, cloth.columns);
+  if (cloth.closed) {
+    if (scene.hang.radius) scene.hang.radius = choices.between(0.05, 1.0) * cloth.width / (2.0 * std::acos(-1.0));
+    if (scene.hang.tilt != 0.0) scene.hang.tilt = -choices.between(0.0, 0.02);
+  } else {
+    scene.hang.radius.reset();
+    placeLine(scene, choices);
+  }
+  for (NodeIndex& pin : scene.pins.nodes) putOnGrid(pin, cloth);
+  for (WindParams& wind : scene.wind) {
+    const double length = wind.direction.norm();
+    if (!(length >= 1e-150 && length <= 1e150)) wind.direction = Vec3::UnitX();
+    if (!(wind.end > wind.start)) wind.end = std::numeric_limits<double>::infinity();
+  }
+  for (DragParams& drag : scene.drag) {
+    if (drag.node) drag.point.reset();
+    else if (!drag.point) drag.node = NodeIndex{};
+    if (drag.node) putOnGrid(*drag.node, cloth);
+    if (!(drag.end > drag.start)) drag.end = std::numeric_limits<double>::infinity();
+  }
+  for (ObstacleParams& obstacle : scene.obstacles) {
+    for (std::size_t i = 1; i < obstacle.motion.size(); ++i) {
+      const double before = obstacle.motion[i - 1].time;
+      if (!(obstacle.motion[i].time > before)) obstacle.motion[i].time = before + std::max(0.01, 0.01 * std::abs(before));
+    }
+  }
+}
+
+}  // namespace
+
+int SceneMaker::pickInteger(curtain::IntRange range) {
+  // Small: they are the sizes of things and how often something is done.
+  const int spread = choices_.oneIn(4) ? 60 : 7;
+  const int most = range.high - range.low < spread ? range.high : range.low + spread;
+  return range.low + static_cast<int>(choices_.below(static_cast<std::uint64_t>(most - range.low) + 1));
+}
+
+double SceneMaker::pick(const Range& range, double usual) {
+  const std::uint64_t kind = choices_.below(8);
+  if (kind < 2 && range.contains(usual)) return usual;
+  if (kind == 2 && range.contains(range.low)) return range.low;
+  if (kind == 3 && range.contains(range.high)) return range.high;
+  const bool negative = range.low < 0.0 && choices_.oneIn(2);
+  // From a width of a hair to a house; all that is physics; or all there are.
+  const double spread = kind < 6 ? 2.0 : kind == 6 ? 12.0 : 307.0;
+  const double value = (negative ? -1.0 : 1.0) * magnitude(choices_, -spread, spread);
+  if (range.contains(value)) return value;
+  return std::min(std::max(value, range.low), range.high);
+}
+
+void SceneMaker::pickVector(const Range& range, Vec3& value) {
+  for (int i = 0; i < 3; ++i) value[i] = pick(range, choices_.oneIn(2) ? value[i] : 1.0);
+}
+
+NodeIndex SceneMaker::pickNode() {
+  NodeIndex node;
+  node.row = static_cast<int>(choices_.below(kMostRows));
+  node.column = static_cast<int>(choices_.below(kMostColumns));
+  return node;
+}
+
+void SceneMaker::rotation(Key, Eigen::Quaterniond& value) {
+  if (choices_.oneIn(2)) return;
+  Eigen::Vector4d q = Eigen::Vector4d::Zero();
+  for (int i = 0; i < 4; ++i) q[i] = choices_.between(-1.0, 1.0);
+  if (q.norm() > 0.01) value = Eigen::Quaterniond(q).normalized();
+}
+
+void SceneMaker::numbers(Key, std::vector<double>& values, Range range) {
+  if (!choices_.oneIn(4)) return;
+  for (int i = 0; i < 3; ++i) values.push_back(pick(range, 1.0));
+}
+
+void SceneMaker::pins(Key, curtain::PinParams& value) {
+  value.kind = static_cast<curtain::PinKind>(choices_.below(curtain::pinNames().size() + 1));
+  if (value.kind != curtain::PinKind::kList) return;
+  for (std::uint64_t left = choices_.below(5); left > 0; --left) value.nodes.push_back(pickNode());
+}
+
+std::optional<Scene> makeScene(Choices& choices) {
+  Scene scene;
+  SceneMaker maker(choices);
+  curtain::visitFields(maker, scene);
+  fitTogether(scene, choices);
+  if (!curtain::validate(scene).empty()) return std::nullopt;
+  return scene;
+}
+
+}  // namespace curtain_test
