@@ -1,4 +1,4 @@
-# One gtest binary a floor, from test/<floor>/*_test.cpp. Truth figures live in test/truth, see its README.
+# One gtest binary a floor, from test/<floor>/*_test.cpp; properties: of whole scenes, see test/properties/seeds.h. Truth figures live in test/truth, see its README.
 find_package(GTest REQUIRED)
 
 function(curtain_add_tests floor)
@@ -23,7 +23,7 @@ endfunction()
 
 add_compile_definitions($<$<CONFIG:Debug>:CURTAIN_FLOAT_TRAPS>)  # test/float_traps.h
 
-foreach(floor scene cloth forces solver contact simulator batch fuzz)
+foreach(floor scene cloth forces solver contact simulator properties batch fuzz)
   curtain_add_tests(${floor})
 endforeach()
 
@@ -49,3 +49,4 @@ if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT CMAKE_CXX_FLAGS MATCHES "-fsaniti
   include(cmake/cost.cmake)
   curtain_add_tests(cost curtain_weigh)
 endif()
+include(cmake/stress.cmake)

@@ -111,6 +111,7 @@ struct WindParams {
   double node_force = 0.0;             ///< the paper's own form: a force per node [N], >= 0, added to the pressure's
   double porosity_weight = 1.0;        ///< c_mu of Eq. (3), [0..1]
   double distance_weight = 1.0;        ///< c_d of Eq. (3), > 0
+  double reference_length = 1.0;       ///< what Eq. (3) measures |d| in [m], [1e-6..1e6]
   double unsteadiness = 0.0;           ///< standard deviation of each component of the gusts [Pa], >= 0
   double correlation_time = 0.2;       ///< of the gusts [s], [1e-6..1e6]
   double correlation_length = 0.25;    ///< of the gusts along the cloth [m], > 0
@@ -158,6 +159,8 @@ struct ContactParams {
   double thickness = 0.004;  ///< kept between cloth and obstacle, and (up to a quarter of the shortest link) cloth and cloth [m], > 0
   double friction = 0.3;     ///< Coulomb coefficient of cloth on itself and on obstacles that name none [0..10]
   bool self = false;         ///< contact of the cloth with itself
+  double recovery_speed = 0.1;  ///< at which what is nearer than the thickness where a substep begins is let out [m/s], > 0; out of
+                                ///< an obstacle: 20 times as fast
   int zone_iterations = 8;   ///< times a substep is solved again when something would go through [1..1000]
 };
 

@@ -30,9 +30,10 @@ class SampledBounds {
 
   /// False: links may be longer than kOverlong (pins pulled apart), nodes anywhere; boxes hold all there is then.
   void setLinksHold(bool hold) noexcept { margin_ = hold ? own_margin_ : kAnywhere; }
+  void carry(Archive& archive);
 
  private:
-  static constexpr double kAnywhere = 1e6;  // [m]
+  static constexpr double kAnywhere = 1e150;  // beyond every length, and its square is a number [m]
 
   std::vector<std::size_t> samples_;
   double own_margin_ = 0.0;  // [m]

@@ -41,8 +41,8 @@ ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& par
       obstacles_(obstacles),
       self_wanted_(params.self),
       zone_iterations_(params.zone_iterations),
-      touch_(pattern, params.thickness, frame_length, obstacles),
-      self_(pattern, std::min(params.thickness, kGapPerLink * shortestLink(pattern)), params.friction),
+      touch_(pattern, params, frame_length, obstacles),
+      self_(pattern, std::min(params.thickness, kGapPerLink * shortestLink(pattern)), params),
       pairs_(pattern),
       net_(pattern, stretch_tolerance),
       zones_(pattern) {

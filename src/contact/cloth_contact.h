@@ -31,6 +31,8 @@ class ClothContact : public ContactFinder {
   Verdict verify(const Field3& start, const Field3& end, bool settled) noexcept override;
   void hold(const Field3& start, Field3& end) noexcept override;
 
+  /// In a substep that it is not asked to begin, for there is nothing to look for.
+  void nothingTouches() noexcept { contacts_.clear(); }
   /// After every accepted substep of h [s] that ended at position, whether all links could be brought to their lengths;
   /// scale: its h * kick [s^2].
   void afterSubstep(bool settled, double h, double scale, const Field3& position) noexcept;
@@ -54,6 +56,7 @@ class ClothContact : public ContactFinder {
   void forget() noexcept;
   /// The next substep does not start where the last accepted one ended.
   void lookAfresh() noexcept { ended_ = {}; }
+  void carry(Archive& archive);
 
  private:
   bool staysFlat(const Field3& start, const Field3& end, bool settled) noexcept;
@@ -74,6 +77,8 @@ class ClothContact : public ContactFinder {
   struct Known {
     bool taut = false;  // that one settled
     bool seen = false;  // by net_, last of all
+
+    void carry(Archive& archive);
   };
   Known started_, ended_;
   bool flat_ = false;         // the net has proved it of the present substep

@@ -26,13 +26,18 @@ bool alike(const Contact& a, const Contact& b) { return orderOf(a) == orderOf(b)
 
 }  // namespace
 
-ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, double thickness, double frame,
+ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, const ContactParams& params, double frame,
                                    const ObstacleSet& obstacles)
-    : pattern_(pattern), thickness_(thickness), frame_(frame), obstacles_(obstacles), bounds_(pattern) {
+    : pattern_(pattern),
+      thickness_(params.thickness),
+      recovery_speed_(params.recovery_speed),
+      frame_(frame),
+      obstacles_(obstacles),
+      bounds_(pattern) {
   const auto count = static_cast<std::size_t>(obstacles.count());
   if (count == 0) return;
   near_.reserve(count);
-  for (const MovingObstacle& moving : obstacles.moving()) near_.emplace_back(pattern, *moving.shape, thickness, kCore * thickness);
+  for (const MovingObstacle& moving : obstacles.moving()) near_.emplace_back(pattern, *moving.shape, thickness_, kCore * thickness_);
   active_.assign(count, 0);
   loads_.assign(count, Load());
   last_.reserve(4 * pattern.grid.nodeCount());

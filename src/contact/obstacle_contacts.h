@@ -26,8 +26,8 @@ enum class ObstacleStanding { kAbsent, kFar, kNear };
 
 class ObstacleContacts {
  public:
-  /// thickness: kept between cloth and obstacle [m]; frame [s]; pattern and obstacles must outlive this.
-  ObstacleContacts(const ClothPattern& pattern, double thickness, double frame, const ObstacleSet& obstacles);
+  /// Of params thickness and recovery_speed; frame [s]; pattern and obstacles must outlive this.
+  ObstacleContacts(const ClothPattern& pattern, const ContactParams& params, double frame, const ObstacleSet& obstacles);
 
   /// Some obstacle may be touched in a substep of h [s] whose nodes go from start to about predicted. False: none can, whatever
   /// the links do.
@@ -51,6 +51,7 @@ class ObstacleContacts {
   /// forces; contacts: null when nothing could touch.
   void remember(const Contacts& contacts, const Field3& position, double h, double scale) noexcept;
   void forget() noexcept;
+  void carry(Archive& archive);
 
   /// For a cloth that is here now. Not made for every substep.
   ObstacleStanding standing(int obstacle, const Field3& position) const noexcept;
@@ -67,9 +68,11 @@ class ObstacleContacts {
   struct Load {
     Vec3 impulse = Vec3::Zero(), angular = Vec3::Zero();  // [N s], [N m s]
     int contacts = 0;
+
+    void carry(Archive& archive);
   };
   ObstacleSubstep substepOf(std::size_t obstacle, double h, bool slippery) const noexcept {
-    return {obstacles_.moving()[obstacle], static_cast<int>(obstacle), h, slippery};
+    return {obstacles_.moving()[obstacle], static_cast<int>(obstacle), h, slippery, recovery_speed_};
   }
   bool anyWithin(const Eigen::AlignedBox3d& box) const noexcept;
   void lookAtCloth(const Field3& start, const Field3& predicted, double h) noexcept;
@@ -77,7 +80,7 @@ class ObstacleContacts {
   void warmStart(std::size_t first, Contacts& contacts) const noexcept;
 
   const ClothPattern& pattern_;
-  double thickness_, frame_;
+  double thickness_, recovery_speed_, frame_;
   const ObstacleSet& obstacles_;
   SampledBounds bounds_;              // of the cloth now
   Eigen::AlignedBox3d box_;           // of the cloth for box_time_

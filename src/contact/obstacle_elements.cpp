@@ -144,7 +144,7 @@ TouchPoint touchPoint(const FeaturePair& pair, const PairPoint& closest, const C
 void add(const ObstacleSubstep& substep, const ClothPattern& pattern, TouchPoint& point, double distance, double kept,
          std::uint32_t source, Contacts& contacts) {
   point.distance = distance;
-  point.height += letOut(distance, kept, substep.h);
+  point.height += letOut(distance, kept, substep);
   Contact contact;
   contact.source = source;
   // A node by itself keeps the thickness.
@@ -194,7 +194,7 @@ void crossingFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, 
     if (!shape.nearestOnTriangle(at, std::numeric_limits<double>::infinity(), nearest)) continue;
     TouchPoint point = touchPoint(face, nearest, at, start);
     point.distance = distance;
-    point.height += letOut(distance, near.core(), substep.h);
+    point.height += letOut(distance, near.core(), substep);
     Crossing crossing;
     crossing.node = face;
     crossing.nodes = 3;
@@ -259,7 +259,7 @@ void crossingPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, 
     }
     TouchPoint point = touchPoint(pair, there, at, start);
     point.distance = first.distance;
-    point.height += letOut(first.distance, near.core(), substep.h);
+    point.height += letOut(first.distance, near.core(), substep);
     Crossing crossing;
     crossing.node = pair.node;
     crossing.nodes = point.nodes;

@@ -9,10 +9,9 @@
 namespace curtain {
 namespace {
 
-// What is too close when a substep starts (an obstacle appeared there or jumped) is brought out at these speeds [m/s], not at
-// once: the way out must not become a blow. Inside the obstacle, and inside the gap around it.
-constexpr double kRecoverySpeed = 2.0;
-constexpr double kGapRecoverySpeed = 0.1;
+// What is too close when a substep starts (an obstacle appeared there or jumped) is brought out slowly, not at once: the way
+// out must not become a blow. Inside the obstacle so many times as fast as inside the gap around it.
+constexpr double kFasterInside = 20.0;
 // Share of what is to be kept that may lack.
 constexpr double kSlack = 0.1;
 // Nodes within so much of the thickness beyond it get a contact too: the links may bring them on.
@@ -47,11 +46,12 @@ double distanceAt(const Vicinity& near, const NodePlane& plane, const Vec3& p, d
 
 }  // namespace
 
-double letOut(double distance, double kept, double h) noexcept {
+double letOut(double distance, double kept, const ObstacleSubstep& substep) noexcept {
   if (distance >= kept) return kept;
   const double least = (1.0 - kSlack) * kept;
   if (distance >= least) return distance;
-  return std::min(least, distance + (distance < 0.0 ? kRecoverySpeed : kGapRecoverySpeed) * h);
+  const double speed = distance < 0.0 ? kFasterInside * substep.recovery_speed : substep.recovery_speed;
+  return std::min(least, distance + speed * substep.h);
 }
 
 bool makeContact(const ObstacleSubstep& substep, const ClothPattern& pattern, const TouchPoint& point, Contact& contact) noexcept {
@@ -84,7 +84,7 @@ Contact nodeContact(const ObstacleSubstep& substep, const ClothPattern& pattern,
   point.weight[0] = 1.0;
   point.start = near.startOf(node);
   point.normal = surface.normal;
-  point.height = surface.normal.dot(near.endOf(node)) - surface.distance + letOut(distance, near.thickness(), substep.h);
+  point.height = surface.normal.dot(near.endOf(node)) - surface.distance + letOut(distance, near.thickness(), substep);
   point.distance = distance;
   Contact contact;
   makeContact(substep, pattern, point, contact);

@@ -21,6 +21,7 @@ struct ObstacleSubstep {
   int obstacle;      ///< its index
   double h;          ///< [s]
   bool slippery;     ///< contacts are without friction
+  double recovery_speed;  ///< out of the gap [m/s]
 };
 
 /// A part of the cloth that would go through an obstacle.
@@ -30,9 +31,9 @@ struct Crossing {
   Contact contact;   ///< that would hold it
 };
 
-/// Signed distance to ask for at the end of a substep of h [s] from one of `distance` at its start, where `kept` is to be kept
+/// Signed distance to ask for at the end of a substep from one of `distance` at its start, where `kept` is to be kept
 /// [m]: what is nearer comes out slowly, and not at all when it lacks less than a tenth: a contact at rest must not be shaken.
-double letOut(double distance, double kept, double h) noexcept;
+double letOut(double distance, double kept, const ObstacleSubstep& substep) noexcept;
 
 /// Contacts of nodes that touch on their way, in the nodes' order. Refreshes the vicinity's planes.
 void collectNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, Vicinity& near, Contacts& contacts) noexcept;

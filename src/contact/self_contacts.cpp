@@ -12,9 +12,8 @@ namespace {
 
 // Never nearer than this share of the gap, on the whole way.
 constexpr double kLeastShare = 0.02;
-// What is nearer than the gap at the start of a substep is let out at this speed [m/s], and not at all within this share of
-// the gap: a contact at rest must not be shaken by what the solve left over.
-constexpr double kGapRecoverySpeed = 0.1;
+// What is nearer than the gap at the start of a substep is let out slowly, and not at all within this share of the gap: a
+// contact at rest must not be shaken by what the solve left over.
 constexpr double kSlack = 0.1;
 
 Vec3 mix(const std::array<double, 4>& weight, const std::array<Vec3, 4>& at) {
@@ -66,8 +65,8 @@ ClosestPoints closestPoints(bool edges, const std::array<Vec3, 4>& at) noexcept 
   return out;
 }
 
-SelfContacts::SelfContacts(const ClothPattern& pattern, double gap, double friction)
-    : gap_(gap), friction_(friction) {
+SelfContacts::SelfContacts(const ClothPattern& pattern, double gap, const ContactParams& params)
+    : gap_(gap), friction_(params.friction), recovery_speed_(params.recovery_speed) {
   near_.reserve(8 * pattern.grid.nodeCount());
   table_.clear(8 * pattern.grid.nodeCount());
   pushed_.reserve(4 * pattern.grid.nodeCount());
@@ -111,7 +110,7 @@ void SelfContacts::renew(const Candidates& candidates, Contacts& contacts) noexc
 double SelfContacts::offsetAt(double distance, double h) const noexcept {
   if (distance >= gap_) return gap_;
   const double kept = (1.0 - kSlack) * gap_;
-  return distance >= kept ? distance : std::min(kept, distance + kGapRecoverySpeed * h);
+  return distance >= kept ? distance : std::min(kept, distance + recovery_speed_ * h);
 }
 
 Contact SelfContacts::makeContact(const NearPair& pair, std::uint32_t source, const ClosestPoints& closest) const noexcept {

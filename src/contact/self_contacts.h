@@ -37,8 +37,8 @@ class SelfContacts {
   /// Source of a contact whose pair is near no more.
   static constexpr std::uint32_t kNoPair = PairTable::kNone;
 
-  /// gap: kept between two parts of the cloth [m].
-  SelfContacts(const ClothPattern& pattern, double gap, double friction);
+  /// gap: kept between two parts of the cloth [m]. Of params friction and recovery_speed.
+  SelfContacts(const ClothPattern& pattern, double gap, const ContactParams& params);
 
   double gap() const noexcept { return gap_; }
   /// No pair was near at the last look.
@@ -67,6 +67,8 @@ class SelfContacts {
   /// Takes over the multipliers of an accepted substep.
   void remember(const Contacts& contacts) noexcept;
 
+  void carry(Archive& archive, const Grid& grid);
+
  private:
   double crossesAt(const NearPair& pair, const std::array<Vec3, 4>& from, const std::array<Vec3, 4>& to,
                    double& distance) const noexcept;
@@ -77,7 +79,7 @@ class SelfContacts {
   Contact makeContact(const NearPair& pair, std::uint32_t source, const ClosestPoints& closest) const noexcept;
   double offsetAt(double distance, double h) const noexcept;
 
-  double gap_, friction_;
+  double gap_, friction_, recovery_speed_;
   std::vector<NearPair> near_;
   std::vector<NearPair> pushed_;  // pairs of the last candidates that pushed
   PairTable table_;

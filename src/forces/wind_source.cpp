@@ -30,7 +30,8 @@ WindSource::WindSource(const WindParams& wind, const ClothPattern& pattern, doub
       gust_row_(static_cast<std::size_t>(pattern.grid.columns), 0.0),
       rows_(static_cast<std::size_t>(pattern.grid.rows), 0) {
   cone_ = {wind.position[0], wind.position[1], wind.position[2], axis_[0], axis_[1], axis_[2],
-           wind.radius,      0.0,              wind.distance_weight, 0.0,   1.0};
+           wind.radius,      0.0,              wind.distance_weight, 1.0 / wind.reference_length,
+           0.0,              1.0};
   if (wind.half_angle > kParallel) {
     cone_.of_axis = cone_.apex_distance = wind.radius / std::tan(wind.half_angle);
     cone_.of_place = 1.0;
@@ -45,7 +46,8 @@ CURTAIN_INTO_WIDE double WindSource::Cone::distanceFactorAt(double x, double y, 
   const double before = depth >= 0.0 ? depth : 0.0;
   const double shrink = apex_distance > 0.0 ? apex_distance / (apex_distance + before) : 1.0;
   const double bx = (px - depth * ax) * shrink, by = (py - depth * ay) * shrink, bz = (pz - depth * az) * shrink;
-  const double dx = px - bx, dy = py - by, dz = pz - bz;  // d = C - B
+  // d = C - B, in reference lengths.
+  const double dx = (px - bx) * per_length, dy = (py - by) * per_length, dz = (pz - bz) * per_length;
   const bool reached = (depth >= 0.0) & (bx * bx + by * by + bz * bz <= radius * radius);
   const double factor = 1.0 / (distance_weight * (1.0 + dx * dx + dy * dy + dz * dz));
   return reached ? factor : 0.0;

@@ -24,7 +24,7 @@ struct WindAtPoint {
   bool reached = false;         ///< inside the cone and before the disc
   Vec3 direction = Vec3::Zero();  ///< unit d
   double along_axis = 0.0;      ///< cosine between d and the axis (0 only where nothing is reached)
-  double distance_factor = 0.0;  ///< 1 / (c_d (1 + |d|^2)), |d|^2 in units of 1 m^2
+  double distance_factor = 0.0;  ///< 1 / (c_d (1 + |d|^2)), |d| over the reference length
 };
 
 class WindSource {
@@ -64,7 +64,7 @@ class WindSource {
     double ox, oy, oz;  // centre of the disc [m]
     double ax, ay, az;  // axis
     double radius, apex_distance;  // [m]; no apex: 0, parallel wind
-    double distance_weight;
+    double distance_weight, per_length;  // of the reference length [1/m]
     double of_place, of_axis;  // what the line AC is made of: C from the centre, the axis
     Direction directionAt(double x, double y, double z) const noexcept;
     double distanceFactorAt(double x, double y, double z) const noexcept;

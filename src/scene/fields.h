@@ -94,6 +94,7 @@ struct Fields<WindParams> {
     v.number("node_force", wind.node_force, notNegative());
     v.number("porosity_weight", wind.porosity_weight, between(0.0, 1.0));
     v.number("distance_weight", wind.distance_weight, positive());
+    v.number("reference_length", wind.reference_length, between(1e-6, 1e6));
     v.number("unsteadiness", wind.unsteadiness, notNegative());
     v.number("correlation_time", wind.correlation_time, between(1e-6, 1e6));
     v.number("correlation_length", wind.correlation_length, positive());
@@ -167,6 +168,7 @@ struct Fields<ContactParams> {
     v.number("thickness", contact.thickness, positive());
     v.number("friction", contact.friction, between(0.0, 10.0));
     v.flag("self", contact.self);
+    v.number("recovery_speed", contact.recovery_speed, positive());
     v.integer("zone_iterations", contact.zone_iterations, IntRange{1, 1000});
   }
 };

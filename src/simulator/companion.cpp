@@ -63,7 +63,7 @@ int Simulator::Impl::stableSubsteps() const noexcept {
 // Before the motion begins: some frames of it, twice, to find the substeps it needs.
 void Simulator::Impl::rehearse() {
   const Statistics before_all = statistics;
-  const Work work = ledger != nullptr ? ledger->work() : Work();
+  const Work work = counts_work ? ledger.work() : Work();
   const StageClock stages = clock;
   const int substeps = stableSubsteps();
   const auto play = [&](int count) {
@@ -89,7 +89,7 @@ void Simulator::Impl::rehearse() {
   if (coarse_made && fine_made) estimate->rehearsed(companion.state.position, substeps, state.position, 2 * substeps);
   goBack();
   clock = stages;
-  if (ledger != nullptr) ledger->restore(work);
+  if (counts_work) ledger.restore(work);
 }
 
 // Moves the companion by the coming frame. It goes first, so that forces and contacts stay those of the motion.
@@ -105,7 +105,7 @@ void Simulator::Impl::moveCompanion() {
     exact.save(companion.memory);
   }
   const Statistics published = statistics;
-  const Work work = ledger != nullptr ? ledger->work() : Work();
+  const Work work = counts_work ? ledger.work() : Work();
   const StageClock stages = clock;
   rehearsal.state = state;
   exact.save(rehearsal.memory);
@@ -127,7 +127,7 @@ void Simulator::Impl::moveCompanion() {
   contact.lookAfresh();
   statistics = published;
   clock = stages;
-  if (ledger != nullptr) ledger->restore(work);
+  if (counts_work) ledger.restore(work);
 }
 
 }  // namespace curtain

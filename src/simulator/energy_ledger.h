@@ -10,6 +10,7 @@
 // own velocity.
 #pragma once
 
+#include "cloth/archive.h"
 #include "cloth/cloth.h"
 #include "contact/cloth_contact.h"
 #include "curtain_sim/statistics.h"
@@ -28,6 +29,8 @@ class EnergyLedger {
   /// It was: h [s] long, under these forces, to this state. contacts: or null; links: or null where the solver keeps none.
   void end(const ClothState& state, const NodeForces& forces, const Contacts* contacts, const ExactSolver* links, double h,
            const SubstepOutcome& outcome) noexcept;
+
+  void carry(Archive& archive);
 
   const Work& work() const noexcept { return work_; }
   /// To be put back when substeps are made again.

@@ -16,7 +16,7 @@ bool within(double time, double from, double to) { return time >= from - kSlack 
 bool sameWhileItBlows(const WindParams& a, const WindParams& b) {
   return a.position == b.position && a.direction == b.direction && a.radius == b.radius && a.half_angle == b.half_angle &&
          a.pressure == b.pressure && a.node_force == b.node_force && a.porosity_weight == b.porosity_weight &&
-         a.distance_weight == b.distance_weight && a.unsteadiness == b.unsteadiness &&
+         a.distance_weight == b.distance_weight && a.reference_length == b.reference_length && a.unsteadiness == b.unsteadiness &&
          a.correlation_time == b.correlation_time && a.correlation_length == b.correlation_length;
 }
 

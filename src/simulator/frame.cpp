@@ -22,18 +22,19 @@ SubstepOutcome Simulator::Impl::attempt(const SubstepPlan& plan, double done) {
   const double frame_length = frameLength();
   ContactFinder* const finder = contact.wanted() ? &contact : nullptr;
   clock.start();
+  if (finder == nullptr) contact.nothingTouches();
   if (finder != nullptr) obstacles.setSubstep(done / frame_length, (done + plan.h) / frame_length);
   const NodeForces& now = forces.evaluate(state, statistics.time + done, plan.h);
   clock.lap(Stage::kForces);
-  if (ledger != nullptr) ledger->begin(state);
+  if (counts_work) ledger.begin(state);
   const SubstepOutcome outcome = scene.solver.method == Method::kPaper
                                      ? paper.substep(now, plan.h, finder, state, clock)
                                      : exact.substep(plan, now, finder, state, clock);
   statistics.sweeps += outcome.sweeps;
   statistics.sweeps_last += outcome.sweeps;
-  if (ledger != nullptr && outcome.accepted) {
+  if (counts_work && outcome.accepted) {
     const ExactSolver* const links = scene.solver.method == Method::kPaper ? nullptr : &exact;
-    ledger->end(state, now, contact.any() ? &contact.contacts() : nullptr, links, plan.h, outcome);
+    ledger.end(state, now, contact.any() ? &contact.contacts() : nullptr, links, plan.h, outcome);
   }
   return outcome;
 }
@@ -44,7 +45,7 @@ bool Simulator::Impl::makeComposed(const SubstepPlan& plan, double done) {
   if (exact.weftPulls()) return false;
   exact.save(before.memory);
   before.state = state;
-  if (ledger != nullptr) before.work = ledger->work();
+  if (counts_work) before.work = ledger.work();
   double at = done;
   for (const double gamma : kStages) {
     SubstepPlan stage = plan;
@@ -54,7 +55,7 @@ bool Simulator::Impl::makeComposed(const SubstepPlan& plan, double done) {
     if (!outcome.accepted || exact.weftPulls() || (contact.wanted() && contact.any())) {
       state = before.state;
       exact.restore(before.memory);
-      if (ledger != nullptr) ledger->restore(before.work);
+      if (counts_work) ledger.restore(before.work);
       contact.lookAfresh();
       return false;
     }

@@ -68,6 +68,7 @@ Simulator::Impl::Impl(const Scene& given, const MeshResolver& resolve)
       surface(scene.cloth, pattern),
       rest(pattern, 1.0 / scene.solver.frame_rate, scene.contact.thickness, scene.solver.stretch_tolerance),
       kept_awake(pattern.grid.columns),
+      ledger(pattern),
       budget(scene.solver.budget_ms) {
   setRestLimits();
   exact.hold(rest.asleep(), state);
@@ -103,7 +104,7 @@ void Simulator::Impl::reset() {
   statistics = Statistics();
   frame = 0;
   same_since = {};
-  if (ledger != nullptr) ledger->restore({});
+  ledger.restore({});
   made_time = 0.0;
   pin_moves.clear();
   velocities_fresh = false;
@@ -306,10 +307,11 @@ Energy Simulator::energy() const {
 }
 
 void Simulator::countWork(bool counted) {
-  impl_->ledger = counted ? std::make_unique<EnergyLedger>(impl_->pattern) : nullptr;
+  impl_->counts_work = counted;
+  impl_->ledger.restore({});
 }
 
-Work Simulator::work() const { return impl_->ledger != nullptr ? impl_->ledger->work() : Work(); }
+Work Simulator::work() const { return impl_->ledger.work(); }
 
 std::int64_t Simulator::selfCrossings() const {
   return countSelfCrossings(impl_->pattern.grid, impl_->state.position);

@@ -33,6 +33,7 @@ bool beginContacts(const Field& inverse_inertia, double ratio, std::size_t first
       const auto at = static_cast<std::size_t>(k);
       contact.mobility += contact.weight[at] * contact.weight[at] * inverse_inertia[contact.node[at]];
     }
+    contact.pressed = contact.pushes();
     contact.push *= ratio;
     contact.slide = bounded(ratio * across(contact.normal, contact.slide), contact.friction * contact.push);
     contact.sticks = contact.pushes() && contact.slide.norm() < kSticksBelow * contact.friction * contact.push;

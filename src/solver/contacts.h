@@ -33,6 +33,7 @@ struct Contact {
   double push = 0.0;                    ///< [kg m]
   Vec3 slide = Vec3::Zero();            ///< [kg m]
   double mobility = 0.0;                ///< sum of weight^2 w: how the point answers its multipliers by itself [1/kg]
+  bool pressed = false;                 ///< it pushed when the substep began
   bool sticks = false;                  ///< solved for as held across the normal too, until its bound is reached
   std::uint32_t source = 0;             ///< the finder's own
 
@@ -54,6 +55,9 @@ struct Contact {
 };
 
 using Contacts = std::vector<Contact>;
+
+/// Contacts of the grid's nodes with obstacles [0, obstacles), or with the cloth itself.
+void carryContacts(Archive& archive, const char* name, const Grid& grid, int obstacles, Contacts& contacts);
 
 /// Starts a solve with the contacts from `first` on: how nodes answer now, and the multipliers that the contacts come with
 /// times `ratio` (warm start), by which the nodes move. True: any pushes.

@@ -63,6 +63,33 @@ constexpr double kPoorTouchingSweep = 1.0;
 constexpr double kMostCaution = 4096.0;
 constexpr double kMoreCaution = 8.0;
 constexpr double kLessCaution = 2.0;
+// bdf2 is stable while steps grow by less than 1 + sqrt(2) at once (Grigorieff 1983); after a longer one it begins anew.
+constexpr double kMostGrowth = 2.0;
+// How much further than in even cloth a correction of one rod may turn another: short rods by what moves long ones, light nodes
+// by what heavy ones resist. Nodes at the border have a half of the others' mass, at corners a quarter.
+constexpr double kMassesOfEvenCloth = 4.0;
+double unevenness(const ClothPattern& pattern) {
+  const Grid& grid = pattern.grid;
+  double shortest = std::numeric_limits<double>::infinity(), longest = 0.0;
+  double lightest = shortest, heaviest = 0.0;
+  for (int i = 1; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) {
+      const std::size_t n = grid.index(i, j);
+      shortest = std::min(shortest, pattern.warp_rest[n]);
+      longest = std::max(longest, pattern.warp_rest[n]);
+      lightest = std::min(lightest, pattern.mass[n]);
+      heaviest = std::max(heaviest, pattern.mass[n]);
+    }
+  }
+  return longest / shortest * std::max(1.0, heaviest / (kMassesOfEvenCloth * lightest));
+}
+
+// Between the shortest and the longest weft link of the top row.
+double middleRest(const ClothPattern& pattern) {
+  const auto first = pattern.weft_rest.begin() + (pattern.grid.closed ? 0 : 1);
+  const auto [shortest, longest] = std::minmax_element(first, pattern.weft_rest.begin() + pattern.grid.columns);
+  return 0.5 * (*shortest + *longest);
+}
 
 }  // namespace
 
@@ -74,13 +101,13 @@ ExactSolver::ExactSolver(const ClothPattern& pattern, double stretch_tolerance, 
       contact_tolerance_(kInnerTolerance * stretch_tolerance * shortestLink(pattern)),
       smallest_rest_(shortestLink(pattern)),
       max_sweeps_(max_sweeps),
-      sure_stop_(std::sqrt(tolerance_) / pattern.grid.rows),
+      sure_stop_(std::sqrt(tolerance_) / (pattern.grid.rows * unevenness(pattern))),
       inertia_(pattern),
       held_(pattern),
       laid_down_(static_cast<std::size_t>(warpBlockCount(pattern.grid)), 0.0),
       skipped_before_(laid_down_.size(), 0),
       net_(pattern, workers),
-      mean_rest_(pattern.weft_rest[1]) {
+      middle_rest_(middleRest(pattern)) {
   const std::size_t size = pattern.grid.size();
   const std::size_t links = size + static_cast<std::size_t>(pattern.grid.stride);
   scratch_.assign(pattern.grid);
@@ -106,6 +133,7 @@ void ExactSolver::reset() noexcept {
   inertia_.forget();
   weft_pulls_ = false;
   older_h_ = 0.0;
+  single_steps_ = 0;
   net_.reset();
   scratch_.assign(pattern_.grid);
 }
@@ -117,6 +145,7 @@ void ExactSolver::save(Memory& memory) const {
   memory.older_velocity = older_velocity_;
   memory.tensions = inertia_.tensions();
   memory.older_h = older_h_;
+  memory.single_steps = single_steps_;
   memory.weft_pulls = weft_pulls_;
 }
 
@@ -127,6 +156,7 @@ void ExactSolver::restore(const Memory& memory) {
   older_velocity_ = memory.older_velocity;
   inertia_.tensions() = memory.tensions;
   older_h_ = memory.older_h;
+  single_steps_ = memory.single_steps;
   weft_pulls_ = memory.weft_pulls;
   if (!weft_pulls_) std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0);  // as begin() relies on
 }
@@ -135,13 +165,12 @@ void ExactSolver::restore(const Memory& memory) {
 // (variable steps: ratio r = h / h_before; y' = (1+r)^2/(1+2r) y - r^2/(1+2r) y_before + (1+r)/(1+2r) h f).
 const ClothState& ExactSolver::setBase(Scheme scheme, double h, const ClothState& state, double& step) noexcept {
   step = h;
-  if (scheme != Scheme::kBdf2 || older_h_ == 0.0) return state;
+  if (scheme != Scheme::kBdf2 || older_h_ == 0.0 || h > kMostGrowth * older_h_) return state;
   const double r = h / older_h_;
-  const double now = (1.0 + r) * (1.0 + r) / (1.0 + 2.0 * r);
-  const double before = r * r / (1.0 + 2.0 * r);
+  const double change = r * r / (1.0 + 2.0 * r);  // (1+r)^2/(1+2r) is 1 more: what is at rest stays there to the bit
   step = (1.0 + r) / (1.0 + 2.0 * r) * h;
   const auto combine = [&](const Field& y, const Field& older, Field& out) {
-    for (std::size_t n = 0; n < y.size(); ++n) out[n] = now * y[n] - before * older[n];
+    for (std::size_t n = 0; n < y.size(); ++n) out[n] = y[n] + change * (y[n] - older[n]);
   };
   combine(state.position.x, older_position_.x, base_.position.x);
   combine(state.position.y, older_position_.y, base_.position.y);
@@ -149,6 +178,11 @@ const ClothState& ExactSolver::setBase(Scheme scheme, double h, const ClothState
   combine(state.velocity.x, older_velocity_.x, base_.velocity.x);
   combine(state.velocity.y, older_velocity_.y, base_.velocity.y);
   combine(state.velocity.z, older_velocity_.z, base_.velocity.z);
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    if (inertia_.masses()[n] > 0.0) continue;  // pins go where they are told to, whatever they did before
+    base_.position.set(n, state.position.at(n) + (h - step) * state.velocity.at(n));
+    base_.velocity.set(n, state.velocity.at(n));
+  }
   return base_;
 }
 
@@ -264,7 +298,7 @@ void ExactSolver::setAllWeftDirections(const Field3& position) noexcept {
 void ExactSolver::solveNet(const LineSolve& weft, Contacts* contacts, double residual, const WeftStep& step) noexcept {
   if (!measured_) worstOfRows([&](int i) { return measureWeft(weft, i, violation_, active_); });
   net_.solve(violation_, active_, {contacts, &next_, false},
-             {residual * mean_rest_, step.damping, step.enough, kGradientIterations}, change_);
+             {residual * middle_rest_, step.damping, step.enough, kGradientIterations}, change_);
   const double move = residual > kWatchMoves
                           ? std::sqrt(worstOfRows([&](int i) { return weftMoveSquared(weft, i, change_); }))
                           : 0.0;
@@ -320,7 +354,7 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
       clock.lap(Stage::kWeft);
       return progress;
     }
-    const double residual = std::max(strings, touch / mean_rest_);
+    const double residual = std::max(strings, touch / middle_rest_);
     if (!std::isfinite(residual)) return progress;
     // A sweep that has not brought the links nearer went too far where hardly anything holds: the next one is damped more.
     caution = residual > (touches ? kPoorTouchingSweep : kPoorSweep) * last_residual

@@ -9,7 +9,7 @@
 //   leapfrog  forces act along the links' directions at the start of the step, velocities live half a step behind
 //             (SHAKE: Ryckaert, Ciccotti, Berendsen 1977): order 2, symplectic, needs dt * omega_max < 2
 //   bdf2      along the directions at the end of the step, two steps remembered (Gear 1971): order 2, damps what it can't
-//             follow, stable at any step
+//             follow, stable at any step; where a string snaps taut or something meets something, as implicit
 //   implicit  the same with one step (backward Euler): order 1, damps, stable at any step
 #pragma once
 
@@ -83,10 +83,17 @@ class ExactSolver {
     Field3 older_position, older_velocity;
     NodeInertia::Tensions tensions;
     double older_h = 0.0;
+    int single_steps = 0;
     bool weft_pulls = false;
+
+    void carry(Archive& archive);
   };
   void save(Memory& memory) const;
   void restore(const Memory& memory);
+
+  void carry(Archive& archive);
+  /// After carry() has loaded: these columns are held, and what is not carried follows from what is.
+  void resume(const ColumnSet& held, const ClothState& state) noexcept;
 
  private:
   struct Progress {
@@ -113,6 +120,7 @@ class ExactSolver {
   Progress solveConstraints(const SubstepPlan& plan, const Field3& start, Contacts* contacts, StageClock& clock) noexcept;
   Progress solveAndVerify(const SubstepPlan& plan, const SubstepStart& start, const Field3& from, double ratio,
                           ContactFinder* finder, StageClock& clock) noexcept;
+  bool struck(const Contacts* contacts) const noexcept;
   void keepMomentum(const SubstepStart& start) noexcept;
   WarpProgress solveBlock(bool follow, const LineSolve& warp, int block, double stop, double leave_alone,
                           bool begun) noexcept;
@@ -126,7 +134,12 @@ class ExactSolver {
   bool withinTolerance(const LineSolve& warp, const LineSolve& weft, double tolerance) noexcept;
   void projectVelocity(const Field3& position, const Contacts* contacts, double share, Field3& out) noexcept;
   void projectOnConstraints(const Field3& position, const Contacts* contacts, double share, Field3& out) noexcept;
-  double predictedKinetic(const SubstepStart& start) const noexcept;
+  // Twice the kinetic energies [J] of a substep: of the way that the nodes have gone, and of that which they would without links.
+  struct Kinetic {
+    double stepped = 0.0, predicted = 0.0;
+    bool pins_move = false;  // and put in what they like
+  };
+  Kinetic kineticOf(const SubstepStart& start) const noexcept;
   void boundKinetic(double most, Field3& velocity) const noexcept;
   void layDown(int block, ClothState& state) noexcept;
   void takeUp(int block) noexcept;
@@ -160,7 +173,7 @@ class ExactSolver {
   bool directions_set_ = false;  // of the weft, in this substep
   bool newton_begun_ = false;    // begin() has made the first iteration on the rods
   bool measured_ = false;        // violation_ and active_ are of the positions as they are
-  double mean_rest_ = 1.0;       // of a weft link, for scale [m]
+  double middle_rest_ = 1.0;     // of the top row's weft links, for scale: whichever end they are counted from [m]
   Field violation_, active_, change_;
   Field free_per_square_;  // of weft links with an end that can move: 1 / rest length^2 [1/m^2]; others: 0
   std::vector<LineOutcome> block_begun_;
@@ -171,6 +184,7 @@ class ExactSolver {
   ClothState base_;             // what bdf2 starts from
   Field3 older_position_, older_velocity_;
   double older_h_ = 0.0;        // length of the step between these and the present; 0 = none
+  int single_steps_ = 0;        // that bdf2 makes from one step before it takes two again
 };
 
 // Calls run(block) for the blocks of columns in which something moves.

@@ -14,9 +14,16 @@ namespace {
 constexpr double kMostWayOfSurface = 0.2;
 // Solves of a substep that is taken whatever comes of it and does not settle.
 constexpr int kHopelessLooks = 2;
+// Kinetic energy of a step over that without links, from which it has found another way for the links to lie: where it follows
+// the motion links take energy out.
+constexpr double kMostKinetic = 1.5;
+// bdf2 would go on with what a blow has stopped, as a rebound (by a third of it a step; two thirds came back from a string that
+// snapped taut). So the step of the blow, the next one, in which the rest of the speed goes, and the one after are made from one
+// step: then the last two know nothing of it.
+constexpr int kStepsAfterBlow = 3;
 
-// What is this far away [m] was thrown there by a force beyond all measure: damping takes the cube of its speed, energies the square
-// of it times a mass, and the next substep would go further.
+// What is this far away [m] was thrown there by a force beyond all measure: damping takes the cube of its speed, energies the
+// square of it times a mass, and the next substep would go further.
 constexpr double kBeyond = 1e60;
 
 bool isWithinNumbers(const Field3& position) noexcept {
@@ -110,6 +117,16 @@ void ExactSolver::commit(const ClothState& base, double step, double velocity_ag
   state.velocity_age = velocity_age;
 }
 
+// A string has snapped taut in this substep, or something has met something.
+bool ExactSolver::struck(const Contacts* contacts) const noexcept {
+  for (std::size_t n = 0; directions_set_ && n < pattern_.grid.size(); ++n) {
+    if (weft_.multiplier[n] > 0.0 && !(weft_pulls_ && last_weft_[n] > 0.0)) return true;
+  }
+  return contacts != nullptr && std::any_of(contacts->begin(), contacts->end(), [](const Contact& contact) {
+           return contact.pushes() && !contact.pressed;
+         });
+}
+
 SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder,
                                     ClothState& state, StageClock& clock) noexcept {
   const bool leapfrog = plan.scheme == Scheme::kLeapfrog;
@@ -123,7 +140,24 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
                            step};
   const double ratio = begin(plan, start, scale);
   clock.lap(Stage::kPredict);
-  const Progress progress = solveAndVerify(plan, start, state.position, ratio, finder, clock);
+  Progress progress = solveAndVerify(plan, start, state.position, ratio, finder, clock);
+  if (plan.scheme == Scheme::kBdf2 && struck(progress.contacts)) {
+    single_steps_ = kStepsAfterBlow;
+    if (older_h_ != 0.0) {  // made again, from one step
+      older_h_ = 0.0;
+      if (!weft_pulls_) std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0);
+      SubstepOutcome again = substep(plan, forces, finder, state, clock);
+      again.sweeps += progress.sweeps;
+      return again;
+    }
+  }
+  // Links let nodes lie in many ways, and a long step may find one that is far from where they were; and strings that have become
+  // taut in it may pull harder than it is stable for.
+  const bool may_jump = plan.scheme == Scheme::kBdf2 || (leapfrog && directions_set_);
+  if (may_jump && !plan.must_accept && progress.contacts == nullptr && progress.settled) {
+    const Kinetic kinetic = kineticOf(start);
+    if (!kinetic.pins_move && kinetic.stepped > kMostKinetic * kinetic.predicted) progress.settled = false;
+  }
   SubstepOutcome outcome;
   if (held_.any()) {
     const bool stuck = progress.crossed || (plan.must_accept && !progress.settled);
@@ -135,11 +169,13 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   const LineSolve weft{pattern_, inertia_.inverse(), weft_, next_, held_.movingSpan()};
   const bool taken_as_it_is = progress.late ? progress.near && !progress.crossed : plan.must_accept;
   outcome.late = progress.late;
-  outcome.accepted = !outcome.disturbed && (progress.settled || (taken_as_it_is && std::isfinite(weftResidualNow(weft)) && isWithinNumbers(next_)));
+  outcome.accepted = !outcome.disturbed && (progress.settled || (taken_as_it_is && isWithinNumbers(next_) &&
+                                                                 std::isfinite(weftResidualNow(weft))));
   if (outcome.accepted) {
     outcome.scale = inertia_.tensions().scale = scale;
-    outcome.kick = kick;
-    if (plan.scheme == Scheme::kBdf2) {
+    outcome.kick = kick + (plan.h - step);  // bdf2's base holds the rest of what forces do
+    if (single_steps_ > 0) --single_steps_;
+    if (plan.scheme == Scheme::kBdf2 && single_steps_ == 0) {
       older_position_ = state.position;
       older_velocity_ = state.velocity;
       older_h_ = plan.h;
@@ -147,9 +183,9 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
       older_h_ = 0.0;
     }
     const bool bounded = (plan.scheme == Scheme::kImplicit && progress.contacts == nullptr) || progress.late;
-    const double most_kinetic = bounded ? predictedKinetic(start) : 0.0;
+    const Kinetic kinetic = bounded ? kineticOf(start) : Kinetic();
     commit(base, step, leapfrog ? 0.5 * step : 0.0, state);
-    if (bounded) boundKinetic(most_kinetic, state.velocity);
+    if (bounded && !kinetic.pins_move) boundKinetic(kinetic.predicted, state.velocity);
     outcome.omega_squared = inertia_.omegaSquared();
     if (progress.contacts != nullptr) outcome.longest_step = kMostWayOfSurface * smallest_rest_ / fastestSurface(*progress.contacts);
     // The way such a substep has gone is not all motion: what pulls its links further is taken out.

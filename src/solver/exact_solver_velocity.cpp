@@ -3,9 +3,11 @@
 // The solver's velocities: at the time of the positions, free of what would change the links' lengths, and bounded where
 // links can't hold.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "cloth/free_body.h"
+#include "cloth/wide.h"
 #include "forces/air_damping.h"
 #include "solver/exact_solver.h"
 
@@ -23,14 +25,38 @@ constexpr int kVelocityIterations = 24;
 
 }  // namespace
 
-// Twice the kinetic energy the nodes would have without links [J].
-double ExactSolver::predictedKinetic(const SubstepStart& start) const noexcept {
-  double sum = 0.0;
-  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    const double w = inertia_.inverse()[n];
-    const double keep = start.keep != nullptr ? (*start.keep)[n] : 1.0;
-    const Vec3 velocity = keep * start.state.velocity.at(n) + start.kick * w * start.force.at(n);
-    sum += inertia_.masses()[n] > 0.0 ? pattern_.mass[n] * velocity.squaredNorm() : 0.0;
+// By lanes, so that the sums have one order, whatever the processor's width.
+CURTAIN_WIDE ExactSolver::Kinetic ExactSolver::kineticOf(const SubstepStart& start) const noexcept {
+  const std::size_t size = pattern_.grid.size();
+  const Field3 &from = start.state.position, &velocity = start.state.velocity;
+  const double* const mass = pattern_.mass.data();
+  const double* const free = inertia_.masses().data();
+  const double* const inverse = inertia_.inverse().data();
+  const double* const keep = start.keep != nullptr ? start.keep->data() : nullptr;
+  const double per_step = 1.0 / start.h, kick = start.kick;
+  std::array<double, kLane> stepped{}, predicted{}, pins{};
+  const auto add = [&](const Field& x_next, const Field& x_from, const Field& v_field, const Field& f_field) {
+    const double *const x = x_next.data(), *const a = x_from.data(), *const v = v_field.data(), *const f = f_field.data();
+    for (std::size_t n = 0; n < size; n += kLane) {
+#pragma omp simd
+      for (std::size_t l = 0; l < kLane; ++l) {
+        const double m = free[n + l] > 0.0 ? mass[n + l] : 0.0;
+        const double made = per_step * (x[n + l] - a[n + l]);
+        const double without = (keep != nullptr ? keep[n + l] : 1.0) * v[n + l] + kick * inverse[n + l] * f[n + l];
+        stepped[l] += m * made * made;
+        predicted[l] += m * without * without;
+        pins[l] += free[n + l] > 0.0 ? 0.0 : v[n + l] * v[n + l];
+      }
+    }
+  };
+  add(next_.x, from.x, velocity.x, start.force.x);
+  add(next_.y, from.y, velocity.y, start.force.y);
+  add(next_.z, from.z, velocity.z, start.force.z);
+  Kinetic sum;
+  for (std::size_t l = 0; l < kLane; ++l) {
+    sum.stepped += stepped[l];
+    sum.predicted += predicted[l];
+    if (pins[l] > 0.0) sum.pins_move = true;
   }
   return sum;
 }
@@ -115,8 +141,14 @@ void ExactSolver::projectOnConstraints(const Field3& position, const Contacts* c
     forEachBlock([&](int block) { warpProjectVelocity(warp, scratch_, block); });
   };
   if (share > 0.0) {
-    for (std::size_t n = 0; n < warp_.multiplier.size(); ++n) warp_.multiplier[n] = share * last_warp_[n];
-    forEachBlock([&](int block) { applyWarpMultipliers(warp, block); });
+    // Blocks that are left out keep theirs: they are to be the same in both buffers (exact_solver_hold.cpp).
+    forEachBlock([&](int block) {
+      for (int i = 0; i < pattern_.grid.rows; ++i) {
+        const std::size_t first = pattern_.grid.row(i) + static_cast<std::size_t>(block) * kLane;
+        for (std::size_t n = first; n < first + kLane; ++n) warp_.multiplier[n] = share * last_warp_[n];
+      }
+      applyWarpMultipliers(warp, block);
+    });
   }
   const bool presses = contacts != nullptr && std::any_of(contacts->begin(), contacts->end(),
                                                           [](const Contact& contact) { return contact.pushes(); });
@@ -143,11 +175,11 @@ void ExactSolver::projectOnConstraints(const Field3& position, const Contacts* c
   double first_rate = 0.0;
   for (int round = 0; round < (presses ? kContactRounds : kVelocityRounds); ++round) {
     double rate = worstOfRows([&](int i) { return measureWeftRates(weft, i, violation_, active_); });
-    if (presses) rate = std::max(rate, contactRate(*contacts, out) / mean_rest_);
+    if (presses) rate = std::max(rate, contactRate(*contacts, out) / middle_rest_);
     if (round == 0) first_rate = rate;
     if (rate == 0.0 || (presses && round > 0 && rate <= kContactRate * first_rate)) break;
     net_.solve(violation_, active_, {presses ? contacts : nullptr, &out, true},
-               {rate * mean_rest_, kVelocityDamping, kVelocityReduction, kVelocityIterations}, change_);
+               {rate * middle_rest_, kVelocityDamping, kVelocityReduction, kVelocityIterations}, change_);
     for (int i = 0; i < pattern_.grid.rows; ++i) pullWeft(weft, i, change_);
     if (presses) {
       net_.forEachContactChange([&](std::uint32_t index, double push, const Vec3& slide) {

@@ -14,7 +14,7 @@ class PaperSolver {
  public:
   explicit PaperSolver(const ClothPattern& pattern);
 
-  /// One substep of length h > 0 [s]; finder may be null. Accepted, unless it blows up.
+  /// One substep of length h > 0 [s]; finder may be null. Not accepted where it has blown up: positions are as they were then.
   SubstepOutcome substep(const NodeForces& forces, double h, ContactFinder* finder, ClothState& state,
                          StageClock& clock) noexcept;
 
@@ -23,8 +23,11 @@ class PaperSolver {
   void moveColumn(int column, const NodeForces& forces, double h, ClothState& state) const noexcept;
   void adjustRow(int row, ClothState& state) const noexcept;
 
+  bool sound(const ClothState& state, double h) const noexcept;
+
   const ClothPattern& pattern_;
-  Field3 start_, start_velocity_;
+  double most_way_;  // of a node in a substep [m]
+  Field3 start_;
 };
 
 }  // namespace curtain

@@ -101,7 +101,8 @@ double StepControl::stepFromTensions(bool frame_begins, const ExactSolver& solve
   const double longest_stage = composed_ ? kLongestStage : 1.0;
   const double for_phase = omega_ > 0.0 ? kPhasePerStep / (longest_stage * omega_) : frame_;
   if (method_ != Method::kAuto || for_phase > kWorthLooking * frame_) return for_phase;
-  if (frame_begins) heavier_step_ = solver.inertia().stepForPhase(kPhasePerStep, kHeavierShare);
+  const bool unknown = heavier_step_ == 0.0 || std::isinf(heavier_step_);
+  if (frame_begins || unknown) heavier_step_ = solver.inertia().stepForPhase(kPhasePerStep, kHeavierShare);
   return std::isfinite(heavier_step_) ? std::max(for_phase, heavier_step_) : for_phase;
 }
 
@@ -135,7 +136,8 @@ SubstepPlan StepControl::next(double remaining, const ExactSolver& solver) noexc
   }
   // Rejections have come down to the cap: the implicit scheme takes over for a while.
   if (limit_ <= smallest && method_ != Method::kPaper) plan.scheme = Scheme::kImplicit;
-  plan.must_accept = plan.scheme == Scheme::kImplicit || method_ == Method::kPaper;
+  const bool last_resort = plan.scheme == Scheme::kImplicit && (method_ != Method::kImplicit || limit_ <= smallest);
+  plan.must_accept = last_resort || method_ == Method::kPaper;
   double step = std::min(wanted, std::max(limit_, smallest));
   if (plan.scheme == Scheme::kImplicit && method_ != Method::kImplicit) step = std::min(most, implicit_step_);
   if (plan.scheme != Scheme::kLeapfrog) plan.most_phase = 0.0;  // stable at any step

@@ -80,7 +80,8 @@ Printed printedWind(const WindParams& wind, const Vec3& c, const Vec3& normal, d
   const Vec3 f_w = (wind.pressure * area + wind.node_force) * a;
   const Vec3 f_temp = f_w.dot(d) * d / d.squaredNorm();
   const double cos_psi = std::abs(a.dot(normal)) / (a.norm() * normal.norm());
-  result.force = (1.0 - wind.porosity_weight * porosity) * cos_psi / (wind.distance_weight * (1.0 + d.squaredNorm())) * f_temp;
+  const double in_lengths = d.squaredNorm() / (wind.reference_length * wind.reference_length);
+  result.force = (1.0 - wind.porosity_weight * porosity) * cos_psi / (wind.distance_weight * (1.0 + in_lengths)) * f_temp;
   return result;
 }
 
@@ -95,6 +96,7 @@ WindParams randomWind(Random& random) {
   wind.node_force = random.between(0.0, 1.0);
   wind.porosity_weight = random.between(0.0, 1.0);
   wind.distance_weight = random.between(0.1, 3.0);
+  wind.reference_length = random.between(0.3, 3.0);
   return wind;
 }
 
@@ -324,6 +326,8 @@ TEST(WindSource, WeightsScaleTheForce) {
   EXPECT_NEAR(total(0.0, 1.0, 1.0), plain, 200 * kEps);
   EXPECT_EQ(total(1.0, 1.0, 1.0), 0.0) << "all of the air passes through";
   EXPECT_NEAR(total(1.0, 0.0, 4.0), 0.25 * plain, 200 * kEps);
+  wind.reference_length = 0.5;
+  EXPECT_NEAR(total(1.0, 0.0, 1.0), 4.0 / (1.0 + 4.0), 200 * kEps) << "1 m away is two lengths";
 }
 
 TEST(WindSource, BlowsFromStartUntilBeforeEndAndOnlyWithStrength) {

@@ -97,6 +97,7 @@ TEST(BadInput, NumbersOutOfRange) {
   expectProblem(with("air: {fast_gain: .inf}"), "air.fast_gain", {"a number in [0, 1000000000], is .inf"});
   expectProblem(with("contact: {thickness: 0}"), "contact.thickness", {"a number in [1e-09, 1000000000], is 0"});
   expectProblem(with("contact: {friction: 10.5}"), "contact.friction", {"a number in [0, 10], is 10.5"});
+  expectProblem(with("contact: {recovery_speed: 0}"), "contact.recovery_speed", {"a number in [1e-09, 1000000000], is 0"});
   expectProblem(with("contact: {zone_iterations: 0}"), "contact.zone_iterations", {"an integer in [1, 1000], is 0"});
   expectProblem(with("solver: {frame_rate: 0.5}"), "solver.frame_rate", {"a number in [1, 10000], is 0.5"});
   expectProblem(with("solver: {stretch_tolerance: 0.2}"), "solver.stretch_tolerance", {"is 0.2"});
@@ -142,7 +143,7 @@ TEST(BadInput, UnknownKeys) {
   expectProblem(with("obstacle: []"), "obstacle", {"did you mean obstacles?"});
   expectProblem(wind("raduis: 2.0"), "wind[0].raduis", {"did you mean radius?"});
   expectProblem(with("contact: {zzzzzz: 1}"), "contact.zzzzzz",
-                {"not a known key", "known are thickness, friction, self, zone_iterations"});
+                {"not a known key", "known are thickness, friction, self, recovery_speed, zone_iterations"});
   expectProblem(with("? [1, 2]\n: 3"), "?", {"a key must be text"});
   expectProblem(obstacle("shape: sphere, radius: 1.0, motion: [{time: 0.0, pos: [0, 0, 0]}]"),
                 "obstacles[0].motion[0].pos", {"not a known key"});
@@ -256,6 +257,7 @@ TEST(BadInput, Wind) {
   expectProblem(wind("node_force: -1"), "wind[0].node_force", {"a number in [0, 1000000000], is -1"});
   expectProblem(wind("porosity_weight: 2"), "wind[0].porosity_weight", {"a number in [0, 1], is 2"});
   expectProblem(wind("distance_weight: 0"), "wind[0].distance_weight", {"a number in [1e-09, 1000000000], is 0"});
+  expectProblem(wind("reference_length: 0"), "wind[0].reference_length", {"[1e-06, 1000000]", "is 0"});
   expectProblem(wind("unsteadiness: -1"), "wind[0].unsteadiness", {"[0, 1000000000], is -1"});
   expectProblem(wind("correlation_time: 0"), "wind[0].correlation_time", {"[1e-06, 1000000]", "is 0"});
   expectProblem(wind("correlation_length: 0"), "wind[0].correlation_length", {"[1e-09, 1000000000], is 0"});

@@ -43,7 +43,7 @@ obstacles:
   - {name: ball, frame: world, shape: sphere, radius: 0.3, position: [0.5, 0.1, 1], orientation: [0, 0, 0, 1],
      friction: 0.3, motion: [{time: 0.0, position: [0, 0, 0], orientation: [0, 0, 0, 1]},
      {time: 1, position: [1, 0, 0], orientation: [1, 0, 0, 0]}]}
-contact: {thickness: 0.004, friction: 0.3, self: false, zone_iterations: 8}
+contact: {thickness: 0.004, friction: 0.3, self: false, recovery_speed: 0.1, zone_iterations: 8}
 solver: {method: auto, frame_rate: 60, substeps: auto, stretch_tolerance: 1.0e-3, seed: 1}
 )";
 

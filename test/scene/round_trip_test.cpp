@@ -78,6 +78,7 @@ void compareWind(const WindParams& a, const WindParams& b) {
   c.number("node_force", a.node_force, b.node_force);
   c.number("porosity_weight", a.porosity_weight, b.porosity_weight);
   c.number("distance_weight", a.distance_weight, b.distance_weight);
+  c.number("reference_length", a.reference_length, b.reference_length);
   c.number("unsteadiness", a.unsteadiness, b.unsteadiness);
   c.number("correlation_time", a.correlation_time, b.correlation_time);
   c.number("correlation_length", a.correlation_length, b.correlation_length);
@@ -155,6 +156,7 @@ void compareRest(const Scene& a, const Scene& b) {
   c.number("contact.thickness", a.contact.thickness, b.contact.thickness);
   c.number("contact.friction", a.contact.friction, b.contact.friction);
   c.same("contact.self", a.contact.self, b.contact.self);
+  c.number("contact.recovery_speed", a.contact.recovery_speed, b.contact.recovery_speed);
   c.same("contact.zone_iterations", a.contact.zone_iterations, b.contact.zone_iterations);
 }
 
@@ -206,6 +208,7 @@ WindParams oddWind(Numbers& numbers, const std::string& id) {
   wind.node_force = numbers.between(0.0, 1e-3);
   wind.porosity_weight = numbers.between(0.0, 1.0);
   wind.distance_weight = numbers.between(0.1, 1e9);
+  wind.reference_length = numbers.between(0.1, 1e3);
   wind.unsteadiness = 4.9406564584124654e-324;  // the smallest double there is
   wind.correlation_time = numbers.between(0.1, 1.0);
   wind.correlation_length = numbers.between(0.1, 1.0);

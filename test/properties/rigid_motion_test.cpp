@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Nothing in the engine knows where it is or which way it looks: a scene that is turned, with its gravity, or shifted,
+// by a thousand kilometres as well, moves as it did. (Gusts are made along the world's axes and stay where they are;
+// there are none here.)
+//
+// Tolerance: what a share of rounding comes to. How far a motion goes astray when everything is off by a share is
+// measured (growthOf); the share is roundingShare() of the scene's size and place. Where strings pull or something
+// touches, corrections are made in single precision, 2^-24 of them each: of the forces, about as much for each of the
+// iterations whose errors the next ones do not see, eight at most. Which pairs of the cloth with itself get a contact
+// before they touch is asked of boxes along the axes; within a tenth of the thickness contact leaves alone what it
+// finds, so that much is added. Scenes that amplify a share of 1e-7 to a millimetre are chaotic and left out.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <string>
+
+#include "properties/growth.h"
+#include "properties/kinds.h"
+#include "properties/seeds.h"
+#include "properties/similarity.h"
+
+namespace curtain {
+namespace {
+
+using namespace curtain_test;
+
+constexpr int kFrames = 30;
+constexpr double kOff = 1e-7;
+constexpr double kChaos = 1e-3;            // [m]
+constexpr double kSingle = 8.0 * 0x1p-24;  // share
+constexpr double kContactSlack = 0.1;
+
+class RigidMotion : public ::testing::TestWithParam<std::tuple<Kind, Method>> {
+ protected:
+  // A scene that is not chaotic, its motion, and what there is to compare with.
+  struct Trial {
+    Scene scene;
+    Motion motion;
+    double growth = 0.0;
+    bool fit = false;
+    bool rods_alone = false;
+  };
+  Trial trialOf(std::uint64_t seed) const {
+    const auto& [kind, method] = GetParam();
+    Trial trial;
+    trial.scene = randomScene(seed, kind.wanted);
+    trial.scene.solver.method = method;
+    trial.motion = record(trial.scene, kFrames);
+    trial.growth = growthOf(trial.scene, trial.motion, kOff, seed);
+    trial.fit = trial.growth * kOff < kChaos;
+    trial.rods_alone =
+        kind.wanted.gentle && longestString(trial.scene, trial.motion) < 1.0 - trial.scene.solver.stretch_tolerance;
+    return trial;
+  }
+  double tolerance(const Trial& trial, double size) const {
+    const double single = trial.rods_alone ? 0.0 : kSingle;
+    const double contact = trial.scene.contact.self ? kContactSlack * trial.scene.contact.thickness : 0.0;
+    return trial.growth * (roundingShare(trial.scene, trial.motion, size) + single) + contact;
+  }
+  void expectSame(const Trial& trial, const Similarity& s, double size, const std::string& what) const {
+    const double apart = farthestApart(trial.motion, seenBack(s, record(seen(s, trial.scene), kFrames)));
+    EXPECT_LE(apart, tolerance(trial, size)) << what << ", growth " << trial.growth;
+    if (std::getenv("CURTAIN_PROPERTY_PRINT") != nullptr) {
+      std::printf("%s: apart %.1e, tolerance %.1e\n", what.c_str(), apart, tolerance(trial, size));
+    }
+  }
+};
+
+// About any axis, gravity turned as well; and about the vertical, gravity plumb.
+TEST_P(RigidMotion, Turned) {
+  int fit = 0, rods_alone = 0;
+  for (const std::uint64_t seed : seeds(3)) {
+    const Trial trial = trialOf(seed);
+    if (!trial.fit) continue;
+    ++fit;
+    rods_alone += trial.rods_alone ? 1 : 0;
+    Random random(seed + 100);
+    for (const bool plumb : {false, true}) {
+      Similarity s;
+      s.turn = Eigen::AngleAxisd(random.between(0.3, 3.0), plumb ? Vec3(Vec3::UnitZ()) : random.direction());
+      expectSame(trial, s, 5.0, repeat(seed) + (plumb ? ", about the vertical" : ""));
+    }
+  }
+  const auto& [kind, method] = GetParam();
+  if (method != Method::kPaper || kind.wanted.gentle) {
+    EXPECT_GT(fit, 0) << "all scenes are chaotic";
+  }
+  if (kind.wanted.gentle) {
+    EXPECT_GT(rods_alone, 0) << "strings pull in all of them";
+  }
+}
+
+TEST_P(RigidMotion, Shifted) {
+  for (const std::uint64_t seed : seeds(2)) {
+    const Trial trial = trialOf(seed);
+    if (!trial.fit) continue;
+    Random random(seed + 200);
+    for (const double size : {1.0, 1e3, 1e6}) {
+      Similarity s;
+      s.shift = size * random.direction();
+      expectSame(trial, s, 5.0 + size, repeat(seed) + ", by " + std::to_string(size) + " m");
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, RigidMotion,
+                         ::testing::Combine(::testing::Values(slack(), taut(), obstacles(), mesh(), selfContact()),
+                                            kEveryMethod),
+                         nameOfKind);
+
+}  // namespace
+}  // namespace curtain

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The torture suite: every case for the default method, and for all of them where that is sensible. Prints a line a case and
+// method; exit code 1 when one does not hold.
+//
+//   curtain_stress [--long] [--all-methods] [--only TEXT] [--method NAME] [--csv FILE] [--list]
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <string>
+
+#include "stress/torture.h"
+#include "stress/trial.h"
+
+namespace {
+
+using namespace curtain_test;
+
+struct Options {
+  bool long_form = false, all_methods = false, list = false;
+  std::string only, method, csv;
+};
+
+bool read(int argc, char** argv, Options& options) {
+  for (int k = 1; k < argc; ++k) {
+    const std::string word = argv[k];
+    const bool last = k + 1 >= argc;
+    if (word == "--long") options.long_form = options.all_methods = true;
+    else if (word == "--all-methods") options.all_methods = true;
+    else if (word == "--list") options.list = true;
+    else if (word == "--only" && !last) options.only = argv[++k];
+    else if (word == "--method" && !last) options.method = argv[++k];
+    else if (word == "--csv" && !last) options.csv = argv[++k];
+    else return false;
+  }
+  return options.method.empty() || curtain::methodFromName(options.method).has_value();
+}
+
+std::string describe(const Trial& trial) {
+  char text[256];
+  std::snprintf(text, sizeof text, "%s stretch %.1e after %.1e energy %+.1e rest %.2f of %.2f s, %lld unsettled %lld implicit "
+                "%lld stops, slowest %.1f ms, %.1f s",
+                trial.holds() ? "holds " : "FAILS ", trial.stretch, trial.stretch_after, trial.energy_gain, trial.recovery,
+                trial.recovery_allowed, static_cast<long long>(trial.unsettled), static_cast<long long>(trial.implicit),
+                static_cast<long long>(trial.stops), trial.milliseconds, trial.seconds);
+  std::string line = text;
+  for (const std::string& failure : trial.failures) line += "\n        " + failure;
+  return line;
+}
+
+void writeRow(const std::string& name, const std::string& method, const Trial& trial, std::ostream& out) {
+  out << name << ',' << method << ',' << (trial.holds() ? 1 : 0) << ',' << (trial.finite ? 1 : 0) << ',' << trial.stretch << ','
+      << trial.stretch_after << ',' << trial.energy_gain << ',' << trial.recovery << ',' << trial.recovery_allowed << ','
+      << (trial.same_bits ? 1 : 0) << ',' << trial.frames << ',' << trial.unsettled << ',' << trial.implicit << ','
+      << trial.stops << ',' << trial.milliseconds << '\n';
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  if (!read(argc, argv, options)) {
+    std::cerr << "usage: curtain_stress [--long] [--all-methods] [--only TEXT] [--method NAME] [--csv FILE] [--list]\n";
+    return 2;
+  }
+  std::ofstream csv;
+  if (!options.csv.empty()) csv.open(options.csv);
+  csv << "case,method,holds,finite,stretch,stretch_after,energy_gain,recovery_s,recovery_allowed_s,same_bits,frames,unsettled,"
+         "implicit,stops,slowest_ms\n";
+  int held = 0, failed = 0;
+  for (const TortureCase& one : allTortures()) {
+    if (one.name.find(options.only) == std::string::npos || (!one.quick && !options.long_form)) continue;
+    if (options.list) std::cout << one.name << ": " << one.what << '\n';
+    for (const std::string& name : curtain::methodNames()) {
+      const bool wanted = options.method.empty() ? name == "auto" || (options.all_methods && one.all_methods) : name == options.method;
+      if (options.list || !wanted) continue;
+      const Trial trial = carryOut(one.make(), *curtain::methodFromName(name), name == "auto");
+      std::printf("%-28s %-9s %s\n", one.name.c_str(), name.c_str(), describe(trial).c_str());
+      std::fflush(stdout);
+      writeRow(one.name, name, trial, csv);
+      csv.flush();
+      ++(trial.holds() ? held : failed);
+    }
+  }
+  if (!options.list) std::printf("%d hold, %d fail\n", held, failed);
+  return failed == 0 ? 0 : 1;
+}

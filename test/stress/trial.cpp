@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stress/trial.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace curtain_test {
+namespace {
+
+using namespace curtain;
+
+// The cloth is at rest again when what it has above the energy of its rest is this share of m g H.
+constexpr double kAtRest = 1e-3;
+// Time to fall back into place before damping counts, and the factor on what it asks for: a swing's energy goes by
+// exp(-c / m t) on average over a period, the last swings take a whole one.
+constexpr double kFall = 2.0, kPatience = 2.0;
+constexpr double kLongestRecovery = 40.0;  // [s]; what asks for more is not waited for
+constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
+
+double cloth_mass(const Simulator& simulator) {
+  double sum = 0.0;
+  for (int i = 0; i < simulator.rows(); ++i) {
+    for (int j = 0; j < simulator.columns(); ++j) sum += simulator.pinned({i, j}) ? 0.0 : simulator.mass({i, j});
+  }
+  return sum;
+}
+
+// Energy of the cloth at rest, hanging as it does where nothing torments it: in thick air, until it sleeps.
+double restEnergy(Scene scene) {
+  scene.wind.clear();
+  scene.drag.clear();
+  scene.solver.method = Method::kAuto;
+  scene.solver.frame_rate = 60.0;
+  const double thick = 10.0 * std::max(scene.air.inside, 0.1);
+  scene.air.inside = scene.air.border = scene.air.corner = thick;
+  Simulator simulator(scene);
+  for (int f = 0; f < 1200 && simulator.statistics().asleep_frames == 0; ++f) simulator.step();
+  return simulator.energy().potential;
+}
+
+// Follows the ledger: how far the energy has risen above all that was put in. Two accounts, and what counts is what both see: the
+// ledger's own kinetic energy (leapfrog's, half a substep late, exact for any force), and the energy of the synchronised state
+// (free of what that wavers by on smooth motion, but half a kick ahead of a sudden force).
+class Books {
+ public:
+  explicit Books(double weight_scale) : moved_(weight_scale) {}
+
+  void open(const Energy& energy) {
+    at_start_ = energy.kinetic + energy.potential;
+    moved_ += energy.kinetic;
+  }
+  void look(const Work& work, const Energy& energy, bool gravity_changes) {
+    const double put_in = work.forces + work.pins + work.obstacles;
+    const double rise = own_.rise(work.kinetic - work.gravity - put_in);
+    const double synchronised = synchronised_.rise(energy.kinetic + energy.potential - at_start_ - put_in);
+    worst_ = std::max(worst_, gravity_changes ? rise : std::min(rise, synchronised));
+    moved_ += std::abs(work.forces - last_.forces) + std::abs(work.pins - last_.pins) +
+              std::abs(work.obstacles - last_.obstacles);
+    last_ = work;
+  }
+  double gain() const { return worst_ > 0.0 ? worst_ / moved_ : 0.0; }
+
+ private:
+  struct Account {
+    double lowest = 0.0;
+    double rise(double left) {
+      lowest = std::min(lowest, left);
+      return left - lowest;
+    }
+  };
+  Work last_;
+  Account own_, synchronised_;
+  double at_start_ = 0.0, worst_ = 0.0, moved_;
+};
+
+bool allFinite(const Simulator& simulator, std::vector<Vec3>& scratch) {
+  const auto finite = [](const Vec3& v) { return v.allFinite(); };
+  simulator.copyPositions(scratch);
+  if (!std::all_of(scratch.begin(), scratch.end(), finite)) return false;
+  simulator.copyVelocities(scratch);
+  return std::all_of(scratch.begin(), scratch.end(), finite);
+}
+
+struct Run {
+  Trial trial;
+  std::uint64_t hash = 0;
+};
+
+void lookAtFrame(const Simulator& simulator, bool gravity_changes, std::vector<Vec3>& scratch, Books& books, Trial& trial) {
+  const Statistics& s = simulator.statistics();
+  trial.milliseconds = std::max(trial.milliseconds, 1e3 * s.step_seconds);
+  trial.seconds += s.step_seconds;
+  trial.finite = trial.finite && s.finite && allFinite(simulator, scratch);
+  books.look(simulator.work(), simulator.energy(), gravity_changes);
+}
+
+// The torture alone. Returns the hash of where it ends.
+std::uint64_t torment(const Torture& torture, Books& books, Simulator& simulator, Trial& trial) {
+  Random random(7);
+  std::vector<Vec3> scratch;
+  if (torture.begin) torture.begin(simulator);
+  books.open(simulator.energy());
+  simulator.countWork(true);
+  for (int frame = 0; simulator.time() < torture.seconds - 1e-9; ++frame) {
+    if (torture.torment) torture.torment(simulator, frame, random);
+    simulator.step();
+    const Statistics& s = simulator.statistics();
+    trial.stretch = std::max({trial.stretch, s.warp_stretch, s.weft_stretch});
+    lookAtFrame(simulator, torture.gravity_changes, scratch, books, trial);
+    if (!trial.finite) break;
+  }
+  if (torture.end) torture.end(simulator);
+  return simulator.stateHash();
+}
+
+// And what comes after it.
+void recover(const Torture& torture, double scale, Books& books, Simulator& simulator, Trial& trial) {
+  const double rest = restEnergy(torture.scene);
+  const auto above = [&] {
+    const Energy energy = simulator.energy();
+    return energy.kinetic + energy.potential - rest;
+  };
+  const AirParams& air = torture.scene.air;
+  const double per_mass = air.density * air.inside * torture.scene.cloth.height * torture.scene.cloth.width / cloth_mass(simulator);
+  const double start = simulator.time();
+  trial.recovery_allowed = kFall + kPatience * std::max(0.0, std::log(above() / (kAtRest * scale))) / per_mass;
+  if (!torture.recovers || !(trial.recovery_allowed < kLongestRecovery)) trial.recovery_allowed = kNever;
+  const double end = start + (std::isnan(trial.recovery_allowed) ? 0.0 : trial.recovery_allowed);
+  trial.recovery = kNever;
+  std::vector<Vec3> scratch;
+  do {
+    simulator.step();
+    lookAtFrame(simulator, torture.gravity_changes, scratch, books, trial);
+    if (std::abs(above()) <= kAtRest * scale) {
+      trial.recovery = simulator.time() - start;
+      break;
+    }
+  } while (simulator.time() < end && trial.finite);
+  trial.stretch_after = std::max(simulator.statistics().warp_stretch, simulator.statistics().weft_stretch);
+}
+
+void judge(const Torture& torture, bool as_printed, Trial& trial) {
+  const auto fails = [&trial](const char* what, double value, double bound) {
+    std::ostringstream text;
+    text << what << " " << value << " > " << bound;
+    trial.failures.push_back(text.str());
+  };
+  if (!trial.finite) trial.failures.push_back("not finite");
+  if (!trial.same_bits) trial.failures.push_back("other bits when repeated");
+  // As printed the paper's scheme keeps neither links nor energy: there is nothing more to ask of it than numbers.
+  if (as_printed) return;
+  if (!(trial.stretch <= torture.stretch_during)) fails("stretch", trial.stretch, torture.stretch_during);
+  if (!(trial.energy_gain <= torture.energy_gain)) fails("energy", trial.energy_gain, torture.energy_gain);
+  if (std::isnan(trial.recovery_allowed)) return;
+  if (!(trial.stretch_after <= torture.stretch_after)) fails("stretch after it", trial.stretch_after, torture.stretch_after);
+  if (!(trial.recovery <= trial.recovery_allowed)) fails("not at rest after", trial.recovery_allowed, trial.recovery_allowed);
+}
+
+}  // namespace
+
+Trial carryOut(const Torture& torture, Method method, bool twice) {
+  Scene scene = torture.scene;
+  scene.solver.method = method;
+  Simulator simulator(scene);
+  const double scale = std::max(1e-12, cloth_mass(simulator) * std::max(1e-3, scene.gravity.norm()) * scene.cloth.height);
+  Trial trial;
+  Books books(scale);
+  const std::uint64_t hash = torment(torture, books, simulator, trial);
+  if (trial.finite) recover(torture, scale, books, simulator, trial);
+  trial.energy_gain = books.gain();
+  const Statistics& s = simulator.statistics();
+  trial.frames = s.frames;
+  trial.unsettled = s.unsettled;
+  trial.implicit = s.implicit;
+  trial.stops = s.stops;
+  if (twice) {
+    Simulator again(scene);
+    Trial other;
+    Books scrap(scale);
+    trial.same_bits = torment(torture, scrap, again, other) == hash;
+  }
+  judge(torture, method == Method::kPaper, trial);
+  return trial;
+}
+
+}  // namespace curtain_test

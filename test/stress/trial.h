@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A torture carried out, and what came of it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "stress/torture.h"
+
+namespace curtain_test {
+
+struct Trial {
+  bool finite = true;
+  double stretch = 0.0;         ///< largest at a frame's end during the torture
+  double stretch_after = 0.0;   ///< at the end
+  double energy_gain = 0.0;     ///< see Torture
+  double recovery = 0.0;        ///< time until it was at rest again [s]; NaN: it never was
+  double recovery_allowed = 0.0;  ///< that the air allows [s]; NaN: not asked for
+  bool same_bits = true;
+  std::int64_t frames = 0, unsettled = 0, implicit = 0, stops = 0;
+  double milliseconds = 0.0;    ///< the slowest frame
+  double seconds = 0.0;         ///< computing time of it all
+  std::vector<std::string> failures;  ///< what it did not hold
+  bool holds() const { return failures.empty(); }
+};
+
+/// twice: carried out a second time, for the same bits.
+Trial carryOut(const Torture& torture, curtain::Method method, bool twice);
+
+}  // namespace curtain_test
