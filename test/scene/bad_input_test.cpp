@@ -250,6 +250,13 @@ TEST(BadInput, Times) {
   expectProblem(drag("node: [0, 0], start: 2.0, end: 1.0"), "drag[0].end", {"> start = 2, is 1"});
 }
 
+// It could not be written again, and no topic would take it.
+TEST(BadInput, TextThatIsNoUtf8) {
+  for (const std::string bad : {"a\xFF", "\xC0\xAF", "\xE2\x82", "\xED\xA0\x80"}) {
+    expectProblem(smallScene() + std::string("wind: [{id: ") + bad + "}]\n", "wind[0].id", {"UTF-8"});
+  }
+}
+
 TEST(BadInput, Wind) {
   expectProblem(wind("radius: 0"), "wind[0].radius", {"a number in [1e-09, 1000000000], is 0"});
   expectProblem(wind("half_angle: 1.6"), "wind[0].half_angle", {"a number in [0, 1.5], is 1.6"});
