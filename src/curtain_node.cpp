@@ -7,8 +7,14 @@
 #include <ros/init.h>
 #include <ros/spinner.h>
 
+#include <csignal>
+
 int main(int argc, char** argv) {
   ros::init(argc, argv, "curtain_node");
+  // roscpp ends cleanly on SIGINT alone; init systems, containers and batch schedulers send SIGTERM.
+  std::signal(SIGTERM, [](int) { ros::requestShutdown(); });
+  // A file that reaches a limit of its size is a failed write, not the end of the node.
+  std::signal(SIGXFSZ, SIG_IGN);
   const ros::NodeHandle node;
   const ros::NodeHandle private_node("~");
   try {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ros/frames.h"
+#include "ros/shown.h"
 
 namespace curtain_ros {
 
@@ -39,10 +40,17 @@ double endOf(double lifetime, double time) {
   return lifetime > 0.0 ? time + lifetime : std::numeric_limits<double>::infinity();
 }
 
+void requireShort(const std::string& name, const std::string& key, Problems& problems) {
+  if (name.size() <= kLongestName) return;
+  problems.push_back({key, "must be no longer than " + std::to_string(kLongestName) + " bytes, begins '" + shown(name.substr(0, 20)) + "'"});
+}
+
 // Both messages have the same head; each knows its own constants.
 template <typename Message>
 Problems checkHeadOf(const Message& message) {
   Problems problems;
+  requireShort(message.id, "id", problems);
+  requireShort(message.header.frame_id, "header.frame_id", problems);
   switch (message.action) {
     case Message::ADD:
     case Message::DELETE:
@@ -89,7 +97,7 @@ Problems toWind(const WindSource& message, const curtain::Pose& frame, double ti
       message.correlation_time > 0.0 ? message.correlation_time : curtain::WindParams().correlation_time;
   wind.start = time;
   wind.end = endOf(message.lifetime, time);
-  append(curtain::validate(wind, message.id), problems);
+  append(curtain::validate(wind, shown(message.id)), problems);
   return problems;
 }
 
@@ -133,7 +141,7 @@ Problems toDrag(const DragForce& message, const curtain::Pose& frame, double tim
   drag.radius = message.radius;
   drag.start = time;
   drag.end = endOf(message.lifetime, time);
-  append(curtain::validate(drag, cloth, message.id), problems);
+  append(curtain::validate(drag, cloth, shown(message.id)), problems);
   return problems;
 }
 
@@ -197,6 +205,8 @@ void toMessage(const curtain::Statistics& statistics, curtain_sim::Statistics& m
   message.step_ms = 1e3 * statistics.step_seconds;
   message.step_ms_max = 1e3 * statistics.step_seconds_max;
   message.finite = statistics.finite;
+  message.implicit_substeps = static_cast<std::uint64_t>(statistics.implicit);
+  message.stops = static_cast<std::uint64_t>(statistics.stops);
 }
 
 }  // namespace curtain_ros

@@ -30,6 +30,7 @@ struct NodeParams {
   bool state_folds = false;              ///< ~state carries the second-layer nodes
   bool handles = true;                   ///< interactive markers on the hem
   double handle_stiffness = 100.0;       ///< of their springs [N/m], > 0
+  double diagnostic_period = 1.0;        ///< [s] between two messages on /diagnostics, by the computer's clock [0.1..3600]
 };
 
 /// What reading gave: usable only when problems is empty.

@@ -117,6 +117,7 @@ TEST(Parameters, WrongTypesAndRangesOfTheNodesOwnAreNamed) {
   EXPECT_TRUE(names(readWith("max_catch_up", value(0)).problems, "max_catch_up"));
   EXPECT_TRUE(names(readWith("handles", value(1)).problems, "handles: must be true or false"));
   EXPECT_TRUE(names(readWith("world_frame", value("")).problems, "world_frame"));
+  EXPECT_TRUE(names(readWith("diagnostic_period", value(0.0)).problems, "diagnostic_period: must be a number in [0.1, 3600.0]"));
   EXPECT_TRUE(names(readWith("world_frame", value(3)).problems, "world_frame"));
   EXPECT_TRUE(readWith("mesh_rate", value(25)).problems.empty()) << "an integer is a number";
 }
@@ -124,7 +125,11 @@ TEST(Parameters, WrongTypesAndRangesOfTheNodesOwnAreNamed) {
 TEST(Parameters, UnknownOnesAreWarnedOf) {
   const ParameterReading reading = readWith("mesh_rat", value(10.0));
   EXPECT_TRUE(reading.problems.empty());
-  EXPECT_TRUE(names(reading.warnings, "/stage/curtain/mesh_rat: unknown"));
+  EXPECT_TRUE(names(reading.warnings, "/stage/curtain/mesh_rat: unknown parameter, not used; did you mean mesh_rate?"));
+  EXPECT_EQ(reading.warnings.size(), 1U);
+  const ParameterReading far = readWith("colour", value("red"));
+  EXPECT_TRUE(names(far.warnings, "/stage/curtain/colour: unknown parameter, not used"));
+  EXPECT_FALSE(names(far.warnings, "did you mean"));
 }
 
 // All problems at once, with the scene's dotted keys behind the parameter's name.
@@ -197,6 +202,7 @@ TEST(Parameters, TemplateGivesTheDefaults) {
   EXPECT_EQ(manual["state_folds"].as<bool>(), defaults.state_folds);
   EXPECT_EQ(manual["handles"].as<bool>(), defaults.handles);
   EXPECT_EQ(manual["handle_stiffness"].as<double>(), defaults.handle_stiffness);
+  EXPECT_EQ(manual["diagnostic_period"].as<double>(), defaults.diagnostic_period);
 }
 
 }  // namespace

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/xmlrpc_call.h"
+
+#include <ros/network.h>
+#include <ros/this_node.h>
+#include <xmlrpcpp/XmlRpcClient.h>
+
+namespace curtain_ros {
+
+using XmlRpc::XmlRpcValue;
+
+namespace {
+constexpr double kPatience = 2000.0;  // [ms] an answer takes 1 ms on an idle computer
+}
+
+XmlRpcAnswer callXmlRpc(const std::string& uri, const std::string& method, const std::vector<XmlRpcValue>& parameters) {
+  XmlRpcAnswer answer;
+  std::string host;
+  std::uint32_t port = 0;
+  if (!ros::network::splitURI(uri, host, port)) return answer;
+  XmlRpcValue request;
+  request[0] = ros::this_node::getName();
+  for (std::size_t i = 0; i < parameters.size(); ++i) request[static_cast<int>(i) + 1] = parameters[i];
+
+  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
+  XmlRpcValue response;
+  if (client.executeNonBlock(method.c_str(), request)) client._disp.work(kPatience);
+  const bool done = client.executeCheckDone(response);
+  client.close();
+  // [code, message, value]; code 1: success
+  if (!done || response.getType() != XmlRpcValue::TypeArray || response.size() != 3) return answer;
+  if (response[0].getType() != XmlRpcValue::TypeInt) return answer;
+  answer.answered = true;
+  answer.success = static_cast<int&>(response[0]) == 1;
+  answer.value = response[2];
+  return answer;
+}
+
+}  // namespace curtain_ros
