@@ -127,7 +127,8 @@ void checkObstacles(const Health& health, const ros::SteadyTime& now, Rises& ris
   counts.add("poses ahead of the clock", s.early_poses);
   counts.add("obstacles lost", s.obstacles_lost);
   if (status.message.empty()) {
-    status.message = health.obstacles.empty() ? "none on tf2 frames" : "all " + std::to_string(health.obstacles.size()) + " there";
+    const std::size_t count = health.obstacles.size();
+    status.message = count == 0 ? "none on tf2 frames" : "all " + std::to_string(count) + " there";
   }
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Floor 5: what becomes of the node when the ROS master is restarted. Connections that are there go on without a master, but
-// a new one knows nobody, and roscpp does not tell it: nobody new would ever find the node again. So the node asks once a second
-// whether it is known, and tells a master that has forgotten it what it publishes, subscribes to and serves, and its own
-// parameters. A name that is registered to another node is left to that one: roscpp is about to shut this one down.
+// Floor 5: what becomes of the node when the ROS master is restarted. Connections that are there go on without a master,
+// but a new one knows nobody, and roscpp does not tell it: nobody new would ever find the node again. So the node asks once
+// a second whether it is known, and tells a master that has forgotten it what it publishes, subscribes to and serves, and its
+// own parameters. A name that is registered to another node is left to that one: roscpp is about to shut this one down.
 #pragma once
 
 #include <xmlrpcpp/XmlRpcValue.h>

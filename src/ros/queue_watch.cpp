@@ -16,9 +16,10 @@ constexpr double kWarnPeriod = 5.0;  // [s] between warnings
 
 void QueueWatch::look() {
   XmlRpcAnswer answer = callXmlRpc(ros::XMLRPCManager::instance()->getServerURI(), "getBusStats", {});
-  if (!answer.success || answer.value.getType() != XmlRpcValue::TypeArray || answer.value.size() < 2) return;
+  if (!answer.answered || answer.value.getType() != XmlRpcValue::TypeArray || answer.value.size() < 2) return;
   const std::uint64_t before = dropped_;
-  XmlRpcValue& subscriptions = answer.value[1];
+  XmlRpcValue& subscriptions = answer.value[1];  // [published, subscribed]
+  if (subscriptions.getType() != XmlRpcValue::TypeArray) return;
   for (int i = 0; i < subscriptions.size(); ++i) {
     if (topics_.count(static_cast<std::string&>(subscriptions[i][0])) == 0) continue;
     XmlRpcValue& connections = subscriptions[i][1];

@@ -21,8 +21,8 @@ class QueueWatch {
   /// topics  resolved names
   explicit QueueWatch(const std::vector<std::string>& topics) : topics_(topics.begin(), topics.end()) {}
 
-  /// Asks, and warns when there are more. One thread at a time; to be called about once a second: a connection that is gone takes
-  /// with it what it dropped since the last look.
+  /// Asks, and warns when there are more. One thread at a time; to be called about once a second: a connection that is gone
+  /// takes with it what it dropped since the last look.
   void look();
 
   /// Messages dropped since construction. Any thread.

@@ -10,7 +10,8 @@ namespace curtain_ros {
 using XmlRpc::XmlRpcValue;
 
 namespace {
-constexpr double kPatience = 2000.0;  // [ms] an answer takes 1 ms on an idle computer
+// [s], whatever its header says of milliseconds. An answer takes 1 ms on an idle computer.
+constexpr double kPatience = 2.0;
 }
 
 XmlRpcAnswer callXmlRpc(const std::string& uri, const std::string& method, const std::vector<XmlRpcValue>& parameters) {
@@ -27,10 +28,12 @@ XmlRpcAnswer callXmlRpc(const std::string& uri, const std::string& method, const
   if (client.executeNonBlock(method.c_str(), request)) client._disp.work(kPatience);
   const bool done = client.executeCheckDone(response);
   client.close();
-  // [code, message, value]; code 1: success
-  if (!done || response.getType() != XmlRpcValue::TypeArray || response.size() != 3) return answer;
-  if (response[0].getType() != XmlRpcValue::TypeInt) return answer;
+  if (!done) return answer;
   answer.answered = true;
+  answer.value = response;
+  // [code, message, value]; code 1: success
+  if (response.getType() != XmlRpcValue::TypeArray || response.size() != 3) return answer;
+  if (response[0].getType() != XmlRpcValue::TypeInt) return answer;
   answer.success = static_cast<int&>(response[0]) == 1;
   answer.value = response[2];
   return answer;

@@ -104,7 +104,7 @@ TEST(Parameters, WrongTypesAndRangesOfTheNodesOwnAreNamed) {
   EXPECT_TRUE(names(readWith("mesh_rate", value("1e-6")).problems, "/stage/curtain/mesh_rate: must be a number"));
   EXPECT_TRUE(names(readWith("mesh_rate", value(0.0)).problems, "mesh_rate"));
   EXPECT_TRUE(names(readWith("mesh_rate", value(std::nan(""))).problems, "mesh_rate"));
-  EXPECT_TRUE(names(readWith("state_rate", value(-1.0)).problems, "state_rate: must be a number in [0, 10000.0]"));
+  EXPECT_TRUE(names(readWith("state_rate", value(-1.0)).problems, "state_rate: must be a number in [0.0, 10000.0]"));
   EXPECT_TRUE(names(readWith("state_rest_rate", value(std::nan(""))).problems, "state_rest_rate"));
   EXPECT_TRUE(names(readWith("mesh_tolerance", value(-0.1)).problems, "mesh_tolerance"));
   EXPECT_TRUE(names(readWith("mesh_viewer_frame", value(3)).problems, "mesh_viewer_frame: must be a text"));
