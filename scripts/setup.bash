@@ -6,7 +6,7 @@ export PATH=/usr/bin:$PATH  # a python3 from elsewhere in front breaks catkin, r
 
 curtain_packages_build=(
   g++ make cmake ninja-build catkin ros-message-generation libroscpp-dev libroslib-dev libtf2-ros-dev libeigen3-dev
-  libyaml-cpp-dev libassimp-dev libtbb-dev nlohmann-json3-dev libnodelet-dev libnodeletlib-dev
+  libyaml-cpp-dev libassimp-dev libtbb-dev nlohmann-json3-dev zlib1g-dev libnodelet-dev libnodeletlib-dev
   libinteractive-markers-dev libdiagnostic-updater-dev libvisualization-msgs-dev ros-std-msgs ros-geometry-msgs)
 curtain_packages_run=(python3-roslaunch libnodeletlib-tools tf2-tools rosbash python3-rospy python3-tf2-ros
   python3-visualization-msgs python3-rostopic python3-rosnode)

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "curtain_sim/scene_yaml.h"
+#include "curtain_sim/snapshot_file.h"
 #include "simulator/export.h"
 
 namespace {
@@ -30,6 +31,8 @@ const char* const kUsage =
     "  --sample T,T,...   times of these states [s], each at the first frame not before it (default: the end)\n"
     "  --mesh FILE        fine mesh at the end, .ply or .obj\n"
     "  --stats FILE.json  what it took and how well it went\n"
+    "  --save FILE        snapshot at the end, for --restore\n"
+    "  --restore FILE     go on from a snapshot of the same scene; the duration comes on top, --sample are times since the scene's start\n"
     "  --progress         a line a simulated second on stderr\n"
     "  --explain          what runs (+) for this scene and what is skipped (-), at the start and after the duration\n"
     "  --list-methods     names for --method, then exit\n"
@@ -38,7 +41,7 @@ const char* const kUsage =
 struct Options {
   std::string scene;
   double duration = 1.0;
-  std::string method, out, mesh, stats;
+  std::string method, out, mesh, stats, save, restore;
   int substeps = 0, rows = 0, columns = 0;
   std::vector<double> samples;
   bool progress = false;
@@ -105,6 +108,19 @@ void checkMeshName(const std::string& path) {
   }
 }
 
+// start: simulated time that the duration begins at [s].
+void checkSamples(const Options& options, double start) {
+  if (options.samples.empty()) return;
+  if (options.samples.front() < start) {
+    throw std::invalid_argument("--sample: " + std::to_string(options.samples.front()) + " is before the start, at " +
+                                std::to_string(start));
+  }
+  if (options.samples.back() <= start + options.duration) return;
+  throw std::invalid_argument("--sample: " + std::to_string(options.samples.back()) + " is after the end, --duration " +
+                              std::to_string(options.duration) +
+                              (start > 0.0 ? " on top of " + std::to_string(start) : std::string()));
+}
+
 Options readOptions(int argc, char** argv) {
   Options options;
   for (int a = 1; a < argc; ++a) {
@@ -122,6 +138,8 @@ Options readOptions(int argc, char** argv) {
     else if (option == "--sample") options.samples = readSamples(option, value());
     else if (option == "--mesh") options.mesh = value();
     else if (option == "--stats") options.stats = value();
+    else if (option == "--save") options.save = value();
+    else if (option == "--restore") options.restore = value();
     else if (option == "--progress") options.progress = true;
     else if (option == "--explain") options.explain = true;
     else if (option == "--list-methods") options.list_methods = true;
@@ -132,14 +150,12 @@ Options readOptions(int argc, char** argv) {
   }
   if (options.list_methods || options.help) return options;
   if (options.scene.empty()) throw std::invalid_argument("a scene file is needed");
-  if (!options.samples.empty() && options.samples.back() > options.duration) {
-    throw std::invalid_argument("--sample: " + std::to_string(options.samples.back()) + " is after the end, --duration " +
-                                std::to_string(options.duration));
-  }
+  if (options.restore.empty()) checkSamples(options, 0.0);
   checkMeshName(options.mesh);
   checkOutput("--out", options.out);
   checkOutput("--mesh", options.mesh);
   checkOutput("--stats", options.stats);
+  checkOutput("--save", options.save);
   return options;
 }
 
@@ -156,6 +172,22 @@ curtain::Scene readScene(const Options& options) {
   if (options.rows > 0) scene.cloth.rows = options.rows;
   if (options.columns > 0) scene.cloth.columns = options.columns;
   return scene;  // the simulator judges the whole
+}
+
+void restore(curtain::Simulator& simulator, const Options& options) {
+  if (options.restore.empty()) return;
+  std::string snapshot;
+  std::vector<curtain::Problem> problems = curtain::readSnapshotFile(options.restore, snapshot);
+  if (!problems.empty()) throw std::invalid_argument(curtain::describe(problems, "--restore"));
+  problems = simulator.restore(snapshot);
+  if (!problems.empty()) throw std::invalid_argument(curtain::describe(problems, "--restore: " + options.restore));
+  checkSamples(options, simulator.time());
+}
+
+void save(const curtain::Simulator& simulator, const Options& options) {
+  if (options.save.empty() || !simulator.statistics().finite) return;  // from what is not finite nothing goes on
+  const std::vector<curtain::Problem> problems = curtain::writeSnapshotFile(options.save, simulator.snapshot());
+  if (!problems.empty()) throw std::runtime_error(curtain::describe(problems, "--save"));
 }
 
 // Steps through the duration; writes the samples as their times come.
@@ -201,6 +233,7 @@ int main(int argc, char** argv) {
       return EXIT_SUCCESS;
     }
     curtain::Simulator simulator(readScene(options));
+    restore(simulator, options);
     if (options.explain) explain(simulator);
     const curtain::Energy initial = simulator.energy();
     std::ofstream states;
@@ -211,6 +244,7 @@ int main(int argc, char** argv) {
     const std::vector<double> seconds = run(simulator, options, options.out.empty() ? nullptr : &states);
     if (options.explain && !seconds.empty()) explain(simulator);
     if (!options.out.empty() && !states.flush()) throw std::runtime_error(options.out + ": cannot be written");
+    save(simulator, options);
     if (!options.mesh.empty()) curtain::writeMesh(simulator, options.mesh);
     if (!options.stats.empty()) {
       std::ofstream stats(options.stats);

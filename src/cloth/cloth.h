@@ -12,6 +12,8 @@
 
 namespace curtain {
 
+class Archive;
+
 /// What does not change while the cloth moves.
 struct ClothPattern {
   Grid grid;
@@ -34,6 +36,8 @@ struct ClothState {
   Field3 position;            ///< [m]
   Field3 velocity;            ///< [m/s], at the time of the positions minus velocity_age
   double velocity_age = 0.0;  ///< [s], >= 0 between substeps
+
+  void carry(Archive& archive);
 };
 
 /// Rest lengths, masses and pins of a validated scene.

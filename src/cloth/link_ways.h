@@ -30,6 +30,7 @@ class SampledBounds {
 
   /// False: links may be longer than kOverlong (pins pulled apart), nodes anywhere; boxes hold all there is then.
   void setLinksHold(bool hold) noexcept { margin_ = hold ? own_margin_ : kAnywhere; }
+  void carry(Archive& archive);
 
  private:
   static constexpr double kAnywhere = 1e6;  // [m]

@@ -54,6 +54,7 @@ class ClothContact : public ContactFinder {
   void forget() noexcept;
   /// The next substep does not start where the last accepted one ended.
   void lookAfresh() noexcept { ended_ = {}; }
+  void carry(Archive& archive);
 
  private:
   bool staysFlat(const Field3& start, const Field3& end, bool settled) noexcept;
@@ -74,6 +75,8 @@ class ClothContact : public ContactFinder {
   struct Known {
     bool taut = false;  // that one settled
     bool seen = false;  // by net_, last of all
+
+    void carry(Archive& archive);
   };
   Known started_, ended_;
   bool flat_ = false;         // the net has proved it of the present substep

@@ -31,6 +31,7 @@ class KeptPairs {
 
   /// As after construction: the order of the pairs to come depends on nothing from before.
   void forget() noexcept;
+  void carry(Archive& archive);
 
   /// How often the tree was descended.
   long descents() const noexcept { return descents_; }

@@ -51,6 +51,7 @@ class ObstacleContacts {
   /// forces; contacts: null when nothing could touch.
   void remember(const Contacts& contacts, const Field3& position, double h, double scale) noexcept;
   void forget() noexcept;
+  void carry(Archive& archive);
 
   /// For a cloth that is here now. Not made for every substep.
   ObstacleStanding standing(int obstacle, const Field3& position) const noexcept;
@@ -67,6 +68,8 @@ class ObstacleContacts {
   struct Load {
     Vec3 impulse = Vec3::Zero(), angular = Vec3::Zero();  // [N s], [N m s]
     int contacts = 0;
+
+    void carry(Archive& archive);
   };
   ObstacleSubstep substepOf(std::size_t obstacle, double h, bool slippery) const noexcept {
     return {obstacles_.moving()[obstacle], static_cast<int>(obstacle), h, slippery};

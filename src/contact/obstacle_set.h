@@ -11,6 +11,8 @@
 
 namespace curtain {
 
+class Archive;
+
 /// What has fallen behind, because frames ended early, follows at this speed at most, or at its own if that is higher [m/s].
 constexpr double kFollowingSpeed = 5.0;
 
@@ -38,6 +40,7 @@ struct MovingObstacle {
   /// Box around the obstacle over the substep, world frame.
   const Eigen::AlignedBox3d& sweptBounds() const noexcept { return swept_; }
   void move(const Transform& from, const Transform& to) noexcept;
+  void carry(Archive& archive);
 
  private:
   Eigen::AlignedBox3d swept_;
@@ -78,6 +81,8 @@ class ObstacleSet {
 
   const std::vector<MovingObstacle>& moving() const { return moving_; }
 
+  void carry(Archive& archive);
+
  private:
   struct Item {
     std::unique_ptr<const ObstacleShape> shape;
@@ -92,6 +97,8 @@ class ObstacleSet {
     double share = 1.0;      // of the way to its pose that it goes in this frame
     bool behind = false;     // the last frame ended before it had got there
     bool placed = false;    // rests, and its substep is that already
+
+    void carry(Archive& archive);
   };
   static std::size_t at(int index) { return static_cast<std::size_t>(index); }
   double wayBetween(const Pose& a, const Pose& b, std::size_t index) const noexcept;

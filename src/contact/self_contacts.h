@@ -67,6 +67,8 @@ class SelfContacts {
   /// Takes over the multipliers of an accepted substep.
   void remember(const Contacts& contacts) noexcept;
 
+  void carry(Archive& archive, const Grid& grid);
+
  private:
   double crossesAt(const NearPair& pair, const std::array<Vec3, 4>& from, const std::array<Vec3, 4>& to,
                    double& distance) const noexcept;

@@ -33,6 +33,8 @@ class TautNet {
     pause_ = 0;
   }
 
+  void carry(Archive& archive);
+
   /// True: any two elements of the cloth that share no node are further apart than `reach` [m] while all nodes move
   /// straight from start to end; false: who knows. All links but those between pins must be no more overlong than said,
   /// at both.
@@ -45,6 +47,7 @@ class TautNet {
     double least_u, most_u_across;  // of weft links: along a at least; along b at most, either way
     double least_v, most_v_across;  // of rods: along b at least, along a at most
     void merge(const Slopes& other) noexcept;
+    void carry(Archive& archive);
   };
   struct Span {
     std::size_t first, last;  // rows (of the strip) or columns

@@ -36,6 +36,7 @@ struct NodePlane {
   double lowerBound(const Vec3& p) const noexcept { return surface.distance - (p - at).norm(); }
   /// Height over the tangent plane [m]; of a convex shape a lower bound of the distance.
   double height(const Vec3& p) const noexcept { return surface.distance + surface.normal.dot(p - at); }
+  void carry(Archive& archive);
 };
 
 class Vicinity {
@@ -52,6 +53,7 @@ class Vicinity {
   /// Time goes on.
   void advance(double h) noexcept { elapsed_ += h; }
   void forget() noexcept;
+  void carry(Archive& archive);
 
   const std::vector<std::uint32_t>& nodes() const noexcept { return nodes_; }
   const std::vector<MeshTriangle>& faces() const noexcept { return faces_; }

@@ -16,6 +16,8 @@
 
 namespace curtain {
 
+class Archive;
+
 class Budget {
  public:
   using Clock = std::chrono::steady_clock;
@@ -47,6 +49,8 @@ class Budget {
   /// Nothing of this frame has been made yet.
   bool fresh() const noexcept { return !moved_; }
   double seconds() const noexcept { return seconds_; }
+
+  void carry(Archive& archive);
 
  private:
   // Follows what things take; the first one says it all.

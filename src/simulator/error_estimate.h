@@ -54,6 +54,8 @@ class ErrorEstimate {
   /// Estimated error of the positions that a second of motion adds [m].
   double perSecond() const noexcept;
 
+  void carry(Archive& archive);
+
  private:
   static constexpr int kEverySeconds = 4;
   double error(const Field3& a, double n, const Field3& b, double m, int order) const noexcept;

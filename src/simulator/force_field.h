@@ -43,6 +43,9 @@ class ForceField {
   /// Links are about as long as they should be: winds may be culled by where a few nodes are.
   void setLinksHold(bool hold) noexcept { bounds_.setLinksHold(hold); }
 
+  /// air: the scene's, which the damping is made from. After it has loaded: takeGravity().
+  void carry(Archive& archive, AirParams& air);
+
   /// The scene's gravity, or its air, has changed.
   void takeGravity() noexcept;
   void takeAir() { air_damping_ = AirDamping(scene_.air, pattern_); }

@@ -63,6 +63,8 @@ class Rest {
 
   std::int64_t wakes() const noexcept { return wakes_; }
 
+  void carry(Archive& archive);
+
  private:
   bool anyStill(const Field3& velocity) noexcept;
   void measure(const Field3& position) noexcept;

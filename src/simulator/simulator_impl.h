@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What a simulator is made of. simulator.cpp: what users call; frame.cpp: frames and their substeps; sleep.cpp: those in
-// which not all of it moves; companion.cpp: the position tolerance.
+// which not all of it moves; companion.cpp: the position tolerance; snapshot.cpp: what is kept of it and comes back.
 #pragma once
 
 #include <cstdint>
@@ -56,6 +56,9 @@ struct Simulator::Impl {
   void prepareFrame(Budget::Clock::time_point begin);
   void finishFrame(double share);
   const Field3& currentVelocities();
+  void carry(Archive& archive);
+  void resume() noexcept;
+  std::uint32_t layout();
 
   Scene scene;  // gravity and air may change
   const ClothPattern pattern;
@@ -88,6 +91,8 @@ struct Simulator::Impl {
     bool of_stages = true;
     bool lost = false;  // a substep failed
     bool in_finer_steps = false;
+
+    void carry(Archive& archive);
   };
   std::unique_ptr<ErrorEstimate> estimate;
   Held companion, rehearsal;
@@ -97,6 +102,8 @@ struct Simulator::Impl {
     std::size_t node;
     Vec3 target;
     bool behind;  // it did not get there in the last frame
+
+    void carry(Archive& archive, const ClothPattern& of);
   };
   std::vector<PinMove> pin_moves;  // of the coming frame
   Statistics statistics;

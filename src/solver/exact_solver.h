@@ -80,9 +80,15 @@ class ExactSolver {
     NodeInertia::Tensions tensions;
     double older_h = 0.0;
     bool weft_pulls = false;
+
+    void carry(Archive& archive);
   };
   void save(Memory& memory) const;
   void restore(const Memory& memory);
+
+  void carry(Archive& archive);
+  /// After carry() has loaded: these columns are held, and what is not carried follows from what is.
+  void resume(const ColumnSet& held, const ClothState& state) noexcept;
 
  private:
   struct Progress {

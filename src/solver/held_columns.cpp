@@ -32,7 +32,7 @@ HeldColumns::HeldColumns(const ClothPattern& pattern)
   }
 }
 
-void HeldColumns::set(const ColumnSet& held, const Field3& position, const Field& weft, double per_scale) noexcept {
+void HeldColumns::take(const ColumnSet& held) noexcept {
   const Grid& grid = pattern_.grid;
   held_ = held;
   span_ = {0, static_cast<std::size_t>(grid.columns)};
@@ -43,6 +43,20 @@ void HeldColumns::set(const ColumnSet& held, const Field3& position, const Field
     for (int j = block * kLane; j < std::min((block + 1) * kLane, grid.columns); ++j) skips = skips && held.has(j);
     skips_[static_cast<std::size_t>(block)] = skips ? 1 : 0;
   }
+}
+
+void HeldColumns::resume(const ColumnSet& held) noexcept {
+  take(held);
+  disturbed_.clear();
+  borders_.clear();
+  for (int j = pattern_.grid.closed ? 0 : 1; j < pattern_.grid.columns; ++j) {
+    if (held.has(j) != held.has(leftOf(j))) borders_.add(j);
+  }
+}
+
+void HeldColumns::set(const ColumnSet& held, const Field3& position, const Field& weft, double per_scale) noexcept {
+  const Grid& grid = pattern_.grid;
+  take(held);
   for (int j = grid.closed ? 0 : 1; j < grid.columns; ++j) {
     const int left = leftOf(j);
     if (held.has(j) == held.has(left)) {

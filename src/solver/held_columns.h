@@ -28,12 +28,17 @@ class HeldColumns {
   /// Takes over which columns are held. weft: the strings' multipliers, per_scale: 1 / (h kick) of them [1/s^2].
   void set(const ColumnSet& held, const Field3& position, const Field& weft, double per_scale) noexcept;
 
+  void carry(Archive& archive);
+  /// These are held, and were when the borders' pulls were loaded.
+  void resume(const ColumnSet& held) noexcept;
+
   /// Finds the held columns that strings, or contacts that push, would move. weft: null when no string pulls; contacts: or null.
   /// gravity: its size [m/s^2]; stuck: what moves does not get on, which may be for those that don't: all of them.
   bool disturbedBy(const LinkSet* weft, const Contacts* contacts, double per_scale, double gravity, bool stuck) noexcept;
   const ColumnSet& disturbed() const noexcept { return disturbed_; }
 
  private:
+  void take(const ColumnSet& held) noexcept;
   int leftOf(int column) const noexcept { return column > 0 ? column - 1 : pattern_.grid.columns - 1; }
   double changeAtBorder(int column, const LinkSet* weft, double per_scale) const noexcept;
 

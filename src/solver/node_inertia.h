@@ -31,6 +31,8 @@ class NodeInertia {
     Field load;             ///< sum of |multiplier| of each node's links [kg]
     double heaviest = 0.0;  ///< the largest of it over the node's mass
     double scale = 0.0;     ///< the substep's h * kick [s^2]; 0 = there was none
+
+    void carry(Archive& archive);
   };
   const Tensions& tensions() const noexcept { return tensions_; }
   Tensions& tensions() noexcept { return tensions_; }

@@ -10,6 +10,8 @@
 
 namespace curtain {
 
+class Archive;
+
 class StageClock {
  public:
   using Clock = std::chrono::steady_clock;
@@ -27,6 +29,7 @@ class StageClock {
   bool late() const noexcept { return last_ >= deadline_; }
   void reset() noexcept { seconds_.fill(0.0); }
   const std::array<double, kStageCount>& seconds() const noexcept { return seconds_; }
+  void carry(Archive& archive);
 
  private:
   Clock::time_point last_ = Clock::now();

@@ -40,6 +40,8 @@ class StepControl {
   /// It was not done within a frame's computing time. Shorter ones are, but not the fall-back, which has no shorter ones.
   void tookTooLong(const SubstepPlan& plan) noexcept;
 
+  void carry(Archive& archive);
+
  private:
   double stretch(double wanted, double remaining) noexcept;
   double stepFromTensions(bool frame_begins, const ExactSolver& solver) noexcept;

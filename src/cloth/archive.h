@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The way of an object's members into a snapshot and out of it again. Every class that has something to carry lists it once,
+//
+//     void carry(Archive& archive);
+//
+// and the same list saves, loads and describes: what is saved is what is loaded. Loading trusts nothing that it reads: counts are
+// those of the object that is loaded into, or used up by what follows; indices, and what steers a loop, are in range. And it changes
+// nothing before commit(), which can't fail: who is given a bad snapshot still has all that was there before.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "cloth/cloth.h"
+#include "cloth/column_set.h"
+
+namespace curtain {
+
+/// What is read can't be what was written; says where and what.
+class ArchiveError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Not thread-safe. Numbers are written as this machine has them.
+class Archive {
+ public:
+  static Archive saving() { return Archive(Way::kSave, {}); }
+  /// bytes must outlive it.
+  static Archive loading(std::string_view bytes) { return Archive(Way::kLoad, bytes); }
+  /// Neither: lists names, types and fixed counts.
+  static Archive describing() { return Archive(Way::kDescribe, {}); }
+
+  bool loads() const noexcept { return way_ == Way::kLoad; }
+  /// What was saved; or the description, a line a member.
+  std::string takeWritten() noexcept { return std::move(out_); }
+  /// Ends the loading: throws ArchiveError when not all was read.
+  void finishLoading() const;
+  /// What was loaded takes its place.
+  void commit() noexcept;
+
+  /// Any numbers, not finite ones too.
+  void number(const char* name, double& value);
+  void numbers(const char* name, Vec3& value);
+  void numbers(const char* name, Eigen::AlignedBox3d& box);
+  void numbers(const char* name, Field& values);
+  void numbers(const char* name, Field3& values);
+  void numbers(const char* name, std::vector<double>& values);
+
+  /// The same of finite ones.
+  void finite(const char* name, double& value);
+  void finite(const char* name, Vec3& value);
+  void finite(const char* name, Eigen::Matrix3d& value);
+  void finite(const char* name, Field3& values);
+  void finite(const char* name, Pose& pose);
+
+  /// In [low, high], which may be infinite.
+  void within(const char* name, double& value, double low, double high);
+  template <typename Integer>
+  void integer(const char* name, Integer& value, std::int64_t low, std::int64_t high);
+  void flag(const char* name, bool& value);
+  /// 0 or 1 each.
+  void flags(const char* name, std::vector<std::uint8_t>& values);
+  void columns(const char* name, ColumnSet& columns);
+  void text(const char* name, std::string& value);
+
+  /// Of a node of the grid; of padding throws.
+  template <typename Integer>
+  void node(const char* name, Integer& index, const Grid& grid);
+  void node(const char* name, NodeIndex& index, const Grid& grid);
+
+  /// What follows from the object that is loaded into; where it differs from the snapshot's the error says why.
+  void same(const char* name, std::uint64_t value, const std::string& why);
+
+  /// carry(item) for every item of a list of any length, which keeps its room. Returns their number.
+  template <typename Item, typename Carry>
+  std::size_t list(const char* name, std::vector<Item>& items, const Carry& carry);
+  /// blank: an item for carry(item) to fill.
+  template <typename Item, typename Carry>
+  void optional(const char* name, std::optional<Item>& item, const Item& blank, const Carry& carry);
+
+  /// What carry() carries belongs together, under one name.
+  template <typename Carry>
+  void group(const char* name, const Carry& carry);
+  /// object.carry(archive) under a name.
+  template <typename Object>
+  void part(const char* name, Object& object) {
+    group(name, [&] { object.carry(*this); });
+  }
+
+  /// What carry() loads is there at once, not only with commit(): for locals.
+  template <typename Carry>
+  void atOnce(const Carry& carry);
+  /// On the way in: with commit() this member becomes that.
+  template <typename T>
+  void put(T& member, T value);
+
+  /// On the way in: throws ArchiveError unless it holds.
+  void require(bool holds, const char* text) const {
+    if (loads() && !holds) fail(text);
+  }
+  [[noreturn]] void fail(const std::string& text) const;
+
+ private:
+  enum class Way { kSave, kLoad, kDescribe };
+  struct Step {
+    const char* name;
+    std::size_t index;  // of an item of a list
+  };
+  static constexpr std::size_t kNoIndex = ~std::size_t{0};
+  // The name of what is carried, while it is.
+  class Naming {
+   public:
+    Naming(Archive& archive, const char* name) : path_(archive.path_) { path_.push_back({name, kNoIndex}); }
+    ~Naming() { path_.pop_back(); }
+    Naming(const Naming&) = delete;
+    Naming& operator=(const Naming&) = delete;
+
+   private:
+    std::vector<Step>& path_;
+  };
+
+  Archive(Way way, std::string_view bytes) : way_(way), in_(bytes) {}
+
+  std::string pathText() const;
+  void describe(const std::string& type);
+  void write(const void* from, std::size_t bytes);
+  void read(void* to, std::size_t bytes);
+  void integerOf(const char* name, std::int64_t& value, std::int64_t low, std::int64_t high);
+  std::size_t countOf(std::size_t count);
+  template <typename T, typename Check>
+  void one(const char* name, const char* type, T& value, const Check& check);
+  template <typename Values, typename Check>
+  void many(const char* name, const char* type, Values& values, const Check& check);
+
+  Way way_;
+  std::string_view in_;
+  std::size_t at_ = 0;
+  std::string out_;
+  std::vector<Step> path_;
+  bool at_once_ = false;
+  std::vector<std::function<void()>> pending_;
+};
+
+template <typename T>
+void Archive::put(T& member, T value) {
+  if (!loads()) return;
+  if (at_once_) {
+    member = std::move(value);
+  } else {
+    pending_.push_back([&member, taken = std::move(value)]() mutable { member = std::move(taken); });
+  }
+}
+
+template <typename Integer>
+void Archive::integer(const char* name, Integer& value, std::int64_t low, std::int64_t high) {
+  auto wide = static_cast<std::int64_t>(value);
+  integerOf(name, wide, low, high);
+  put(value, static_cast<Integer>(wide));
+}
+
+template <typename Integer>
+void Archive::node(const char* name, Integer& index, const Grid& grid) {
+  auto wide = static_cast<std::int64_t>(index);
+  integerOf(name, wide, 0, static_cast<std::int64_t>(grid.size()) - 1);
+  if (loads() && wide % grid.stride >= grid.columns) fail(std::string(name) + " is no node of the cloth");
+  put(index, static_cast<Integer>(wide));
+}
+
+template <typename Carry>
+void Archive::group(const char* name, const Carry& carry) {
+  const Naming naming(*this, name);
+  carry();
+}
+
+template <typename Carry>
+void Archive::atOnce(const Carry& carry) {
+  const bool before = std::exchange(at_once_, true);
+  carry();
+  at_once_ = before;
+}
+
+template <typename Item, typename Carry>
+std::size_t Archive::list(const char* name, std::vector<Item>& items, const Carry& carry) {
+  const Naming naming(*this, name);
+  if (way_ == Way::kDescribe) {
+    describe("list of");
+    Item item{};
+    carry(item);
+    return 0;
+  }
+  const std::size_t count = countOf(items.size());
+  if (way_ == Way::kSave) {
+    for (Item& item : items) carry(item);
+    return count;
+  }
+  // As many as there are bytes for: the count itself is not believed.
+  std::vector<Item> taken;
+  taken.reserve(items.capacity());
+  atOnce([&] {
+    for (path_.back().index = 0; path_.back().index < count; ++path_.back().index) {
+      const std::size_t before = at_;
+      Item item{};
+      carry(item);
+      if (at_ == before) fail("has items of nothing");
+      taken.push_back(std::move(item));
+    }
+  });
+  path_.back().index = kNoIndex;
+  put(items, std::move(taken));
+  return count;
+}
+
+template <typename Item, typename Carry>
+void Archive::optional(const char* name, std::optional<Item>& item, const Item& blank, const Carry& carry) {
+  const Naming naming(*this, name);
+  Item taken = item.value_or(blank);
+  bool there = item.has_value();
+  atOnce([&] {
+    flag("there", there);
+    if (there || way_ == Way::kDescribe) carry(taken);
+  });
+  put(item, there ? std::optional<Item>(taken) : std::nullopt);
+}
+
+}  // namespace curtain

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cloth/archive_params.h"
+
+#include "scene/fields.h"
+
+namespace curtain {
+namespace {
+
+class ParamCarrier {
+ public:
+  explicit ParamCarrier(Archive& archive, const Grid& grid = {}) : archive_(archive), grid_(grid) {}
+
+  void number(Key key, double& value, Range) { archive_.number(key.name, value); }
+  void text(Key key, std::string& value) { archive_.text(key.name, value); }
+  void vector(Key key, Vec3& value, Range) { archive_.numbers(key.name, value); }
+  void optionalVector(Key key, std::optional<Vec3>& value, Range) {
+    archive_.optional(key.name, value, Vec3(Vec3::Zero()), [this](Vec3& item) { archive_.numbers("value", item); });
+  }
+  void node(Key key, std::optional<NodeIndex>& value) {
+    archive_.optional(key.name, value, NodeIndex(), [this](NodeIndex& item) { archive_.node("value", item, grid_); });
+  }
+  template <typename Enum>
+  void choice(Key key, Enum& value, const std::vector<std::string>& names) {
+    archive_.integer(key.name, value, 0, static_cast<std::int64_t>(names.size()) - 1);
+  }
+
+ private:
+  Archive& archive_;
+  Grid grid_;  // of nodes that are named
+};
+
+void judge(const Archive& archive, const std::vector<Problem>& problems) {
+  if (archive.loads() && !problems.empty()) archive.fail(describe(problems));
+}
+
+}  // namespace
+
+void carryParams(Archive& archive, WindParams& wind) {
+  ParamCarrier carrier(archive);
+  archive.atOnce([&] { visitFields(carrier, wind); });
+  judge(archive, validate(wind, "wind"));
+}
+
+void carryParams(Archive& archive, DragParams& drag, const ClothParams& cloth) {
+  ParamCarrier carrier(archive, Grid(cloth.rows, cloth.columns, cloth.closed));
+  archive.atOnce([&] { visitFields(carrier, drag); });
+  judge(archive, validate(drag, cloth, "drag"));
+}
+
+void carryParams(Archive& archive, AirParams& air) {
+  ParamCarrier carrier(archive);
+  archive.atOnce([&] { visitFields(carrier, air); });
+  judge(archive, validate(air, "air"));
+}
+
+}  // namespace curtain

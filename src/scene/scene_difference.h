@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Where two scenes, as YAML text, differ first.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "curtain_sim/scene.h"
+
+namespace curtain {
+
+/// The first key, in the order of `ours`, that `theirs` has another value for, and both values; none: they say the same.
+/// ours    from writeScene()
+/// theirs  any text
+/// aside   keys that may differ, as knownSceneKeys() names them: "air", "obstacles[].mesh"
+std::optional<Problem> firstDifference(const std::string& ours, const std::string& theirs, const std::vector<std::string>& aside);
+
+}  // namespace curtain

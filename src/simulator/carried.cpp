@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What a snapshot carries of the simulator's own parts; those below it have theirs in src/*/carried.cpp.
+#include <limits>
+
+#include "cloth/archive_params.h"
+#include "simulator/simulator_impl.h"
+
+namespace curtain {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kLargest = std::numeric_limits<double>::max();
+constexpr std::int64_t kCount = 1 << 30;  // far from where an int ends
+constexpr std::int64_t kMany = std::int64_t{1} << 53;
+
+// A drag, and the node it has hold of.
+struct Grasp {
+  DragParams drag;
+  std::optional<NodeIndex> node;
+};
+
+void carryStatistics(Archive& archive, Statistics& s) {
+  for (std::int64_t* count : {&s.frames, &s.substeps, &s.sweeps, &s.rejected, &s.implicit, &s.unsettled, &s.asleep_frames, &s.wakes,
+                              &s.estimates_skipped, &s.longer_substeps, &s.unfinished_substeps, &s.shortened_frames,
+                              &s.late_frames, &s.stops}) {
+    archive.integer("count", *count, 0, kMany);
+  }
+  for (int* count : {&s.substeps_last, &s.sweeps_last, &s.asleep, &s.contacts, &s.contacts_max}) {
+    archive.integer("count_now", *count, 0, kCount);
+  }
+  for (double* value : {&s.time, &s.lost_time, &s.warp_stretch, &s.weft_stretch, &s.warp_compression, &s.warp_stretch_max,
+                        &s.weft_stretch_max, &s.warp_compression_max, &s.penetration_max, &s.step_seconds, &s.step_seconds_max,
+                        &s.step_seconds_sum, &s.position_error}) {
+    archive.number("value", *value);
+  }
+  for (double& seconds : s.stage_seconds) archive.number("stage_seconds", seconds);
+  archive.flag("finite", s.finite);
+}
+
+}  // namespace
+
+// Winds are functions of their parameters and the time, gusts too; drags of theirs and the node that they hold. Of both nothing
+// else goes on from frame to frame. The last forces do: what keeps velocities half a substep behind asks for them.
+void ForceField::carry(Archive& archive, AirParams& air) {
+  archive.part("bounds", bounds_);
+  std::vector<WindParams> winds = wind_params_;
+  std::vector<Grasp> grasps;
+  for (const DragForce& drag : drags_) grasps.push_back({drag.params(), drag.node()});
+  AirParams of_then = air;
+  archive.atOnce([&] {
+    archive.list("winds", winds, [&](WindParams& wind) { carryParams(archive, wind); });
+    archive.list("drags", grasps, [&](Grasp& grasp) {
+      carryParams(archive, grasp.drag, scene_.cloth);
+      archive.optional("holds", grasp.node, NodeIndex(), [&](NodeIndex& node) { archive.node("node", node, pattern_.grid); });
+    });
+    archive.group("air", [&] { carryParams(archive, of_then); });
+  });
+  bool more_than_weight = forces_.force == &sum_;
+  archive.atOnce([&] { archive.flag("more_than_weight", more_than_weight); });
+  archive.numbers("sum", sum_);
+  archive.flag("weight_only", forces_.weight_only);
+  archive.numbers("gravity", forces_.gravity);
+  archive.numbers("damping", forces_.damping);
+  archive.flag("has_damping", forces_.has_damping);
+  if (!archive.loads()) return;
+  std::vector<WindSource> sources;
+  for (const WindParams& wind : winds) sources.emplace_back(wind, pattern_, scene_.cloth.porosity, scene_.solver.seed);
+  std::vector<DragForce> drags;
+  std::vector<DragParams> drag_params;
+  for (const Grasp& grasp : grasps) {
+    drags.emplace_back(grasp.drag, pattern_);
+    if (grasp.node) drags.back().grasp(*grasp.node, pattern_);
+    drag_params.push_back(grasp.drag);
+  }
+  archive.put(winds_, std::move(sources));
+  archive.put(wind_params_, std::move(winds));
+  archive.put(drags_, std::move(drags));
+  archive.put(drag_params_, std::move(drag_params));
+  archive.put(air, of_then);
+  archive.put(air_damping_, AirDamping(of_then, pattern_));
+  archive.put(forces_.force, static_cast<const Field3*>(more_than_weight ? &sum_ : &weight_));
+}
+
+// Its limits follow from the scene and from gravity and air; the rest of a look is of that look.
+void Rest::carry(Archive& archive) {
+  archive.integer("due_in", due_in_, 1, kCount);
+  archive.integer("turn", turn_, 0, 3);
+  archive.columns("asleep", asleep_);
+  archive.columns("disturbed", disturbed_);
+  archive.flag("pressed", pressed_);
+  archive.numbers("since", since_);
+  archive.numbers("alone_from", alone_from_);
+  archive.numbers("alone_pause", alone_pause_);
+  archive.numbers("place", place_);
+  const std::size_t boxes = archive.list("box", box_, [&](Eigen::AlignedBox3d& box) { archive.numbers("of", box); });
+  archive.require(boxes == 0 || boxes == box_.size(), "must have a box for each column");
+  archive.numbers("all", all_);
+  archive.numbers("swept", swept_);
+  archive.flag("watches", watches_);
+  archive.integer("wakes", wakes_, 0, kMany);
+}
+
+// What is of the present frame begins anew with the next one.
+void Budget::carry(Archive& archive) {
+  archive.within("substep", substep_, 0.0, kLargest);
+  archive.within("companion", companion_, 0.0, kLargest);
+  archive.within("tail", tail_, 0.0, kLargest);
+  archive.within("frame", frame_, 0.0, kLargest);
+  archive.integer("stalled", stalled_, 0, kCount);
+}
+
+void ErrorEstimate::carry(Archive& archive) {
+  archive.flag("of_stages", of_stages_);
+  archive.integer("substeps", substeps_, fewest_, most_);
+  archive.integer("frames", frames_, 0, kMany);
+  archive.integer("compared", compared_, 0, kCount);
+  archive.within("steps_sum", steps_sum_, 0.0, kLargest);
+  archive.within("companion_sum", companion_sum_, 0.0, kLargest);
+  archive.within("now", now_, 0.0, kInfinity);
+  archive.within("last_second", last_second_, 0.0, kInfinity);
+}
+
+void Simulator::Impl::Held::carry(Archive& archive) {
+  archive.part("state", state);
+  archive.part("memory", memory);
+  archive.integer("substeps", substeps, 0, kCount);
+  archive.integer("steps", steps, 0, kCount);
+  archive.flag("of_stages", of_stages);
+  archive.flag("lost", lost);
+  archive.flag("in_finer_steps", in_finer_steps);
+}
+
+void Simulator::Impl::PinMove::carry(Archive& archive, const ClothPattern& of) {
+  archive.node("node", node, of.grid);
+  archive.require(of.pinned[node] != 0, "must be a pinned node");
+  archive.finite("target", target);
+  archive.flag("behind", behind);
+}
+
+// Not: what substeps and rehearsals go back to, for they have; the mesh for the eye, which remembers nothing; the revision, which
+// counts for who has looked at this simulator.
+void Simulator::Impl::carry(Archive& archive) {
+  archive.finite("gravity", scene.gravity);
+  archive.part("state", state);
+  archive.group("forces", [&] { forces.carry(archive, scene.air); });
+  archive.part("obstacles", obstacles);
+  archive.part("contact", contact);
+  archive.part("exact", exact);
+  archive.part("control", control);
+  archive.integer("plain_frames", plain_frames, 0, kCount);
+  archive.part("plain_control", plain_control);
+  archive.part("rest", rest);
+  archive.part("budget", budget);
+  if (estimate != nullptr) {
+    archive.part("estimate", *estimate);
+    archive.part("companion", companion);
+  }
+  archive.list("pin_moves", pin_moves, [&](PinMove& move) { move.carry(archive, pattern); });
+  archive.group("statistics", [&] { carryStatistics(archive, statistics); });
+  archive.part("clock", clock);
+  archive.integer("frame", frame, 0, kMany);
+  archive.finite("made_time", made_time);
+  archive.numbers("velocities", velocities);
+  archive.flag("velocities_fresh", velocities_fresh);
+}
+
+// After carry() has loaded: what follows from it.
+void Simulator::Impl::resume() noexcept {
+  forces.takeGravity();
+  control.takeGravity(pattern, scene.gravity);
+  plain_control.takeGravity(pattern, scene.gravity);
+  setRestLimits();
+  exact.resume(rest.asleep(), state);
+  ++revision;
+}
+
+}  // namespace curtain

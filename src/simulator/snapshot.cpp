@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <new>
+
+#include "cloth/archive.h"
+#include "curtain_sim/scene_yaml.h"
+#include "scene/scene_difference.h"
+#include "simulator/simulator_impl.h"
+#include "simulator/snapshot_format.h"
+
+namespace curtain {
+namespace {
+
+// Keys of the scene that a snapshot may differ in: gravity and air come with it, any number of threads gives the same bits, and of a
+// mesh the triangles are compared, not where they lie.
+const std::vector<std::string> kAside = {"gravity", "air", "solver.threads", "obstacles[].mesh"};
+
+}  // namespace
+
+// Of names, types and counts, not of values.
+std::uint32_t Simulator::Impl::layout() {
+  Archive archive = Archive::describing();
+  carry(archive);
+  return checksum(archive.takeWritten());
+}
+
+std::string Simulator::snapshot() const {
+  Archive archive = Archive::saving();
+  impl_->carry(archive);
+  const std::string scene = writeScene(impl_->scene), carried = archive.takeWritten();
+  return packSnapshot({impl_->layout(), scene, carried});
+}
+
+std::vector<Problem> Simulator::restore(const std::string& snapshot) {
+  SnapshotParts parts;
+  if (auto problem = unpackSnapshot(snapshot, parts)) return {*problem};
+  try {
+    if (auto problem = firstDifference(writeScene(impl_->scene), std::string(parts.scene), kAside)) {
+      return {{problem->key, problem->text + ": the snapshot is of another scene"}};
+    }
+    if (parts.layout != impl_->layout()) {
+      return {{"snapshot", "holds other things than this program does: it is of another build"}};
+    }
+    Archive archive = Archive::loading(parts.carried);
+    impl_->carry(archive);
+    archive.finishLoading();
+    archive.commit();
+  } catch (const ArchiveError& error) {
+    return {{"snapshot", std::string("is damaged: ") + error.what()}};
+  } catch (const std::bad_alloc&) {
+    return {{"snapshot", "cannot be restored: there is not enough memory"}};
+  }
+  impl_->resume();
+  return {};
+}
+
+}  // namespace curtain

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "curtain_sim/snapshot_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <new>
+#include <system_error>
+#include <utility>
+
+#include "simulator/snapshot_format.h"
+
+namespace curtain {
+namespace {
+
+// Closes it.
+class File {
+ public:
+  explicit File(int descriptor) : descriptor_(descriptor) {}
+  ~File() { close(); }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+
+  bool isOpen() const { return descriptor_ >= 0; }
+  int descriptor() const { return descriptor_; }
+  // False: what was written may not be there.
+  bool close() {
+    const int descriptor = std::exchange(descriptor_, -1);
+    return descriptor < 0 || ::close(descriptor) == 0;
+  }
+
+ private:
+  int descriptor_;
+};
+
+std::vector<Problem> failed(const std::string& path, const std::string& what) {
+  return {{path, what + ": " + std::generic_category().message(errno)}};
+}
+
+bool writeAll(int descriptor, const std::string& bytes) {
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t count = ::write(descriptor, bytes.data() + done, bytes.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return false;
+    done += static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+// Reads up to so many bytes; fewer: the file ends. -1: errno says why.
+ssize_t readUpTo(int descriptor, char* to, std::size_t most) {
+  std::size_t done = 0;
+  while (done < most) {
+    const ssize_t count = ::read(descriptor, to + done, most - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return -1;
+    if (count == 0) break;
+    done += static_cast<std::size_t>(count);
+  }
+  return static_cast<ssize_t>(done);
+}
+
+// A name beside the file that no other thread or process uses, with the rights that new files get.
+int createBeside(const std::string& path, std::string& name) {
+  static std::atomic<unsigned> next{0};
+  while (true) {
+    name = path + ".tmp-" + std::to_string(::getpid()) + '-' + std::to_string(next++);
+    const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor >= 0 || errno != EEXIST) return descriptor;
+  }
+}
+
+// So that the new name outlasts a power failure. Some file systems have no way to.
+bool syncFolderOf(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  const File file(::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!file.isOpen()) return errno == EACCES;  // may be written, not read
+  return ::fsync(file.descriptor()) == 0 || errno == EINVAL || errno == ENOTSUP;
+}
+
+}  // namespace
+
+std::vector<Problem> writeSnapshotFile(const std::string& path, const std::string& snapshot) {
+  std::error_code ignored;
+  const bool is_link = std::filesystem::is_symlink(path, ignored) && std::filesystem::exists(path, ignored);
+  const std::string target = is_link ? std::filesystem::canonical(path, ignored).string() : path;
+  if (std::filesystem::exists(target, ignored) && !std::filesystem::is_regular_file(target, ignored)) {
+    return {{path, "cannot be written: it is not a file"}};
+  }
+  std::string name;
+  File file(createBeside(target, name));
+  if (!file.isOpen()) return failed(path, "cannot be written");
+  const bool written = writeAll(file.descriptor(), snapshot) && ::fsync(file.descriptor()) == 0 && file.close() &&
+                       std::rename(name.c_str(), target.c_str()) == 0;
+  if (!written) {
+    std::vector<Problem> problems = failed(path, "cannot be written");
+    file.close();
+    ::unlink(name.c_str());
+    return problems;
+  }
+  if (!syncFolderOf(target)) return failed(path, "is written, but may not outlast a power failure");
+  return {};
+}
+
+std::vector<Problem> readSnapshotFile(const std::string& path, std::string& out) {
+  // Not blocking: a pipe that nobody writes to would be waited for.
+  const File file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  if (!file.isOpen()) return failed(path, "cannot be read");
+  struct stat status {};
+  if (::fstat(file.descriptor(), &status) != 0) return failed(path, "cannot be read");
+  if (!S_ISREG(status.st_mode)) return {{path, "cannot be read: it is not a file"}};
+  const auto size = static_cast<std::uint64_t>(status.st_size);
+  try {
+    std::string bytes(kSnapshotHeader, '\0');
+    const ssize_t begun = readUpTo(file.descriptor(), bytes.data(), bytes.size());
+    if (begun < 0) return failed(path, "cannot be read");
+    bytes.resize(static_cast<std::size_t>(begun));
+    if (auto problem = judgeHeader(bytes, size)) return {{path, problem->text}};
+    bytes.resize(size);
+    const ssize_t rest = readUpTo(file.descriptor(), bytes.data() + kSnapshotHeader, size - kSnapshotHeader);
+    if (rest < 0) return failed(path, "cannot be read");
+    if (static_cast<std::uint64_t>(rest) != size - kSnapshotHeader) return {{path, "cannot be read: it changes meanwhile"}};
+    out = std::move(bytes);
+  } catch (const std::bad_alloc&) {
+    return {{path, "cannot be read: there is not enough memory"}};
+  }
+  return {};
+}
+
+}  // namespace curtain

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What a snapshot carries of the solver, and how the rest follows. Everything else of it is written before it is read in every
+// substep: the prediction, directions, multipliers in the making, all of NetSolver; or follows from the scene and from what sleeps.
+#include <algorithm>
+#include <limits>
+
+#include "cloth/archive.h"
+#include "solver/exact_solver.h"
+#include "solver/stage_clock.h"
+#include "solver/step_control.h"
+
+namespace curtain {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kCount = 1 << 30;  // far from where an int ends
+
+}  // namespace
+
+void carryContacts(Archive& archive, const char* name, const Grid& grid, int obstacles, Contacts& contacts) {
+  archive.list(name, contacts, [&](Contact& contact) {
+    for (std::uint32_t& node : contact.node) archive.node("node", node, grid);
+    for (double& weight : contact.weight) archive.number("weight", weight);
+    archive.integer("nodes", contact.nodes, 0, 4);
+    archive.integer("obstacle", contact.obstacle, Contact::kCloth, obstacles - 1);
+    archive.numbers("normal", contact.normal);
+    archive.number("offset", contact.offset);
+    archive.numbers("carried", contact.carried);
+    archive.numbers("surface_velocity", contact.surface_velocity);
+    archive.number("friction", contact.friction);
+    archive.number("push", contact.push);
+    archive.numbers("slide", contact.slide);
+    archive.number("mobility", contact.mobility);
+    archive.flag("sticks", contact.sticks);
+    archive.integer("source", contact.source, 0, std::numeric_limits<std::uint32_t>::max());
+  });
+}
+
+void NodeInertia::Tensions::carry(Archive& archive) {
+  archive.numbers("load", load);
+  archive.number("heaviest", heaviest);
+  archive.number("scale", scale);
+}
+
+void ExactSolver::Memory::carry(Archive& archive) {
+  archive.numbers("warp", warp);
+  archive.numbers("weft", weft);
+  archive.numbers("older_position", older_position);
+  archive.numbers("older_velocity", older_velocity);
+  archive.part("tensions", tensions);
+  archive.number("older_h", older_h);
+  archive.flag("weft_pulls", weft_pulls);
+}
+
+// Which columns are held is for those to say who let them sleep: resume().
+void HeldColumns::carry(Archive& archive) { archive.numbers("pull", pull_); }
+
+void ExactSolver::carry(Archive& archive) {
+  archive.numbers("last_warp", last_warp_);
+  archive.numbers("last_weft", last_weft_);
+  archive.numbers("older_position", older_position_);
+  archive.numbers("older_velocity", older_velocity_);
+  archive.part("tensions", inertia_.tensions());
+  archive.number("older_h", older_h_);
+  archive.flag("weft_pulls", weft_pulls_);
+  archive.numbers("laid_down", laid_down_);
+  archive.part("held", held_);
+}
+
+// As hold() and reset() leave it: blocks that are left out have their positions and multipliers in both buffers, strings no
+// multipliers but those of the last substep, and nothing is measured where nothing moves.
+void ExactSolver::resume(const ColumnSet& held, const ClothState& state) noexcept {
+  held_.resume(held);
+  inertia_.hold(held);
+  freeWeft(pattern_, inertia_.masses(), free_per_square_);
+  next_ = state.position;
+  warp_.multiplier = last_warp_;
+  for (Field* field : {&weft_.multiplier, &violation_, &active_, &change_}) std::fill(field->begin(), field->end(), 0.0);
+  std::fill(block_begun_.begin(), block_begun_.end(), LineOutcome());
+  std::fill(block_progress_.begin(), block_progress_.end(), WarpProgress());
+  std::fill(block_load_.begin(), block_load_.end(), 0.0);
+  scratch_.assign(pattern_.grid);
+  net_.reset();
+}
+
+// Ranges are what keeps a frame's number of substeps bounded.
+void StepControl::carry(Archive& archive) {
+  archive.within("omega", omega_, 0.0, kInfinity);
+  archive.within("heavier_step", heavier_step_, 0.0, kInfinity);
+  archive.within("surface_step", surface_step_, 0.0, kInfinity);
+  archive.within("limit", limit_, 0.0, kInfinity);
+  archive.integer("allowed", allowed_, 1, std::numeric_limits<int>::max());
+  archive.flag("stretched", stretched_);
+  archive.integer("asked", asked_, 1, max_substeps_);
+  archive.within("implicit_step", implicit_step_, frame_ / max_substeps_, frame_);
+  archive.integer("failures", failures_, 0, kCount);
+  archive.integer("good", good_, 0, kCount);
+}
+
+void StageClock::carry(Archive& archive) {
+  for (double& seconds : seconds_) archive.number("seconds", seconds);
+}
+
+}  // namespace curtain
