@@ -47,10 +47,15 @@ CurtainNode::CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& pri
       obstacles_(reading.scene, reading.node.obstacle_timeout, frames_),
       outputs_(private_node, reading.node, simulator_, frames_),
       step_clock_(reading.scene.solver.frame_rate, reading.node.max_catch_up),
+      snapshots_(reading.node.snapshot_file, reading.node.snapshot_period),
       master_(private_node.getNamespace()),
       queues_(inputTopics(node, private_node, inputs_)) {
   if (reading.node.handles) handles_ = std::make_unique<Handles>(private_node, reading.node, simulator_, inputs_);
-  obstacles_.restart(simulator_);
+  if (snapshots_.restore(simulator_)) {
+    obstacles_.resume(simulator_);
+  } else {
+    obstacles_.restart(simulator_);
+  }
   const curtain::Scene& scene = simulator_.scene();
   ROS_INFO_STREAM("curtain of " << simulator_.rows() << " x " << simulator_.columns() << " nodes, "
                                 << scene.obstacles.size() << " obstacle(s), method "
@@ -65,15 +70,15 @@ CurtainNode::CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& pri
                                                master_);
 }
 
-CurtainNode::~CurtainNode() {
-  diagnostics_.reset();
-  watches_.reset();
+void CurtainNode::stop() {
+  if (!thread_.joinable()) return;
   {
     const std::lock_guard<std::mutex> lock(stop_mutex_);
     stop_ = true;
   }
   stop_signal_.notify_all();
   thread_.join();
+  snapshots_.finish(simulator_);
 }
 
 void CurtainNode::run() {
@@ -92,6 +97,7 @@ void CurtainNode::run() {
         makeFrame(clock_.stampOf(step_clock_.take()), i + 1 == due.frames);
       }
       warnOfDroppedFrames();
+      if (due.frames > 0) snapshots_.update(simulator_, now);
     }
     if (desk_.wanted()) desk_.answer(health());
     waitForNextFrame();
@@ -166,6 +172,11 @@ curtain_sim::Statistics CurtainNode::nodeStatistics() const {
   statistics.early_poses = obstacles_.earlyPoses();
   statistics.obstacles_lost = obstacles_.lost();
   statistics.masters_lost = master_.lost();
+  const SnapshotCounts snapshots = snapshots_.counts();
+  statistics.restored_time = snapshots.restored_time;
+  statistics.snapshots_written = snapshots.written;
+  statistics.snapshots_failed = snapshots.failed;
+  statistics.snapshots_replaced = snapshots.replaced;
   return statistics;
 }
 
@@ -177,6 +188,7 @@ Health CurtainNode::health() const {
   health.stretch_tolerance = simulator_.scene().solver.stretch_tolerance;
   health.frame_rate = simulator_.scene().solver.frame_rate;
   health.obstacles = obstacles_.health();
+  health.snapshots = snapshots_.health();
   health.last_drop = inputs_.lastDrop();
   health.viewer_error = outputs_.viewerError();
   return health;

@@ -31,6 +31,7 @@
 #include "ros/periodic.h"
 #include "ros/plan_log.h"
 #include "ros/queue_watch.h"
+#include "ros/snapshot_keeper.h"
 #include "ros/step_clock.h"
 
 namespace curtain_ros {
@@ -43,8 +44,11 @@ class CurtainNode {
   /// Throws ParameterError with every problem.
   CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
 
-  /// Stops within a frame's computing time.
-  ~CurtainNode();
+  ~CurtainNode() { stop(); }
+
+  /// Makes no more frames, and writes the last snapshot where one is asked for: within the computing time of a frame, and what
+  /// the disk takes. Asks nobody else: what remains for the destructor may have to wait for the ROS master.
+  void stop();
 
   CurtainNode(const CurtainNode&) = delete;
   CurtainNode& operator=(const CurtainNode&) = delete;
@@ -82,6 +86,7 @@ class CurtainNode {
   ros::SteadyTime measured_since_;
   double real_time_factor_ = 0.0;
 
+  SnapshotKeeper snapshots_;
   HealthDesk desk_;
   MasterWatch master_;
   QueueWatch queues_;

@@ -13,6 +13,7 @@ Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& pri
   });
   addCheck("inputs", checkInputs);
   addCheck("obstacles", checkObstacles);
+  addCheck("snapshots", checkSnapshots);
   updater_.add("master", [this, &master](Status& status) {
     checkMaster(master.answers(), master.lost(), ros::SteadyTime::now(), rises_, status);
   });

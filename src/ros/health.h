@@ -16,6 +16,7 @@
 
 #include "curtain_sim/Statistics.h"
 #include "ros/obstacle_tracker.h"
+#include "ros/snapshot_keeper.h"
 
 namespace curtain_ros {
 
@@ -25,6 +26,7 @@ struct Health {
   double stretch_tolerance = 0.0;  ///< of the scene, relative
   double frame_rate = 0.0;         ///< [1/s]
   std::vector<ObstacleHealth> obstacles;
+  SnapshotHealth snapshots;
   std::string last_drop;     ///< which message was dropped last, and why; empty: none
   std::string viewer_error;  ///< why the frame of ~mesh's viewer is not known; empty: it is, or none is asked for
 };

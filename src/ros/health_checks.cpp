@@ -132,6 +132,23 @@ void checkObstacles(const Health& health, const ros::SteadyTime& now, Rises& ris
   }
 }
 
+void checkSnapshots(const Health& health, const ros::SteadyTime& now, Rises& rises, DiagnosticStatusWrapper& status) {
+  const SnapshotHealth& s = health.snapshots;
+  status.summary(DiagnosticStatus::OK, "");
+  if (s.foreign) status.mergeSummary(DiagnosticStatus::WARN, "none is written: there is another file");
+  if (!s.last_failure.empty()) status.mergeSummary(DiagnosticStatus::WARN, "the last one was not written");
+  if (rises.lately("refused", s.refused.empty() ? 0.0 : 1.0, now)) {
+    status.mergeSummary(DiagnosticStatus::WARN, "not restored");
+  }
+  Counts(status, rises, now).add("replaced before written", s.counts.replaced);
+  status.add("written", s.counts.written);
+  status.add("failed", s.counts.failed);
+  status.add("restored at", s.counts.restored_time);
+  if (!s.last_failure.empty()) status.add("last failure", s.last_failure);
+  if (!s.refused.empty()) status.add("refused", s.refused);
+  if (status.message.empty()) status.message = s.wanted ? "as they should be" : "off";
+}
+
 void checkMaster(bool answers, std::uint32_t lost, const ros::SteadyTime& now, Rises& rises,
                  DiagnosticStatusWrapper& status) {
   status.summary(DiagnosticStatus::OK, "");

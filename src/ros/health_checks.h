@@ -8,6 +8,8 @@
 //                      the computer's clock set back; slower than 0.95 of the clock
 //   inputs      WARN   lately: messages refused, of unknown frames, too many for a frame, dropped in roscpp's queue
 //   obstacles   WARN   one left out, late (half of ~obstacle_timeout), or ahead of the clock; the viewer's frame not known
+//   snapshots   WARN   the last one was not written, or the file that is there is none; lately: one replaced unwritten, or the
+//                      file refused at the start
 //   master      WARN   it does not answer; lately: it had forgotten the node
 //
 // "Lately" is five seconds: long enough for a person to see, short enough to be of now. Counts stand among the values.
@@ -49,6 +51,8 @@ void checkSimulation(const Health& health, const Pulse& pulse, Rises& rises,
 void checkInputs(const Health& health, const ros::SteadyTime& now, Rises& rises,
                  diagnostic_updater::DiagnosticStatusWrapper& status);
 void checkObstacles(const Health& health, const ros::SteadyTime& now, Rises& rises,
+                    diagnostic_updater::DiagnosticStatusWrapper& status);
+void checkSnapshots(const Health& health, const ros::SteadyTime& now, Rises& rises,
                     diagnostic_updater::DiagnosticStatusWrapper& status);
 void checkMaster(bool answers, std::uint32_t lost, const ros::SteadyTime& now, Rises& rises,
                  diagnostic_updater::DiagnosticStatusWrapper& status);

@@ -31,7 +31,15 @@ void ObstacleTracker::restart(curtain::Simulator& simulator) {
     obstacle.health.present = false;
     obstacle.health.is_static = false;
     obstacle.stamp = ros::Time();
+    obstacle.resumed = false;
     simulator.setObstaclePresent(obstacle.index, false);
+  }
+}
+
+void ObstacleTracker::resume(const curtain::Simulator& simulator) {
+  for (Tracked& obstacle : tracked_) {
+    obstacle.health.present = simulator.obstaclePresent(obstacle.index);
+    obstacle.resumed = obstacle.health.present;
   }
 }
 
@@ -61,13 +69,15 @@ void ObstacleTracker::follow(Tracked& obstacle, curtain::Simulator& simulator, c
   const FrameLookup frame = look(obstacle, now);
   ObstacleHealth& health = obstacle.health;
   const bool seen = frame.known || health.present;
+  if (obstacle.resumed && obstacle.stamp.isZero() && !health.is_static) obstacle.stamp = now;
   health.age = seen && !health.is_static ? (now - obstacle.stamp).toSec() : 0.0;
-  const bool fresh = seen && health.age <= timeout_;
+  const bool fresh = seen && (health.age <= timeout_ || (obstacle.resumed && frame.may_come));
   health.late = fresh && health.age > 0.5 * timeout_;
   late_poses_ += health.late ? 1 : 0;
 
   if (fresh && frame.known) {
-    const bool jump = !health.present;
+    const bool jump = !health.present || obstacle.resumed;
+    obstacle.resumed = false;
     if (jump) simulator.setObstaclePresent(obstacle.index, true);
     simulator.setObstaclePose(obstacle.index, compose(frame.pose, obstacle.offset), jump);
     health.present = true;
@@ -91,6 +101,7 @@ void ObstacleTracker::follow(Tracked& obstacle, curtain::Simulator& simulator, c
 void ObstacleTracker::leaveOut(Tracked& obstacle, curtain::Simulator& simulator) {
   simulator.setObstaclePresent(obstacle.index, false);
   obstacle.health.present = false;
+  obstacle.resumed = false;
   ++lost_;
 }
 

@@ -44,6 +44,10 @@ class ObstacleTracker {
   /// The obstacles as they are at the start of a run: those on tf2 frames absent until their frame is known.
   void restart(curtain::Simulator& simulator);
 
+  /// The obstacles as a snapshot left them: those that were there stay at their poses until their frame is known, as if it were
+  /// late since now, and then are there at once.
+  void resume(const curtain::Simulator& simulator);
+
   /// To be called before each step. now  of the node's clock, which the transforms' stamps are compared with.
   void update(curtain::Simulator& simulator, const ros::Time& now);
 
@@ -65,6 +69,7 @@ class ObstacleTracker {
     int index = 0;         // in the simulator
     curtain::Pose offset;  // in its frame
     ros::Time stamp;       // of the last transform
+    bool resumed = false;  // from a snapshot, and its frame not known since
     ObstacleHealth health;
   };
 

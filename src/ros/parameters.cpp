@@ -112,6 +112,8 @@ const std::map<std::string, Reader>& readers() {
       {"state_folds", boolean(&NodeParams::state_folds)},
       {"handles", boolean(&NodeParams::handles)},
       {"handle_stiffness", number(&NodeParams::handle_stiffness, 1e6, "[N/m]")},
+      {"snapshot_file", textOrEmpty(&NodeParams::snapshot_file)},
+      {"snapshot_period", numberBetween(&NodeParams::snapshot_period, 0.1, 86400.0, "[s]")},
       {"diagnostic_period", numberBetween(&NodeParams::diagnostic_period, 0.1, 3600.0, "[s]")},
   };
   return table;

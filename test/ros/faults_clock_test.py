@@ -53,7 +53,7 @@ class FaultsClockTest(DrivenCurtain):
         self.assertGreater(self.curtain.last().statistics.dropped_frames, 1000)
 
     def test_2_clock_jumps_both_ways(self):
-        """An hour ahead: four frames, the others counted. An hour back: a new run, which is said and counted; again and again."""
+        """An hour ahead: four frames, the others counted. An hour back: a new run, said and counted. Again and again."""
         first = self.begin(800000.0)
         for _ in range(5):
             self.set_clock(self.now + 3600.0)
@@ -91,7 +91,8 @@ class FaultsClockTest(DrivenCurtain):
 
     def begin_with_ball(self, start):
         self.begin(start)
-        return self.drive(lambda now: self.ball_at(now, HERE), lambda s: s.statistics.absent_obstacles == 0, "the ball is there")
+        return self.drive(lambda now: self.ball_at(now, HERE), lambda s: s.statistics.absent_obstacles == 0,
+                          "the ball is there")
 
     def left_out_and_back(self, transforms, what, why):
         """With these transforms the ball is left out no sooner than its timeout, which is told with the reason, and comes back
@@ -142,7 +143,8 @@ class FaultsClockTest(DrivenCurtain):
 
     def test_8_tree_in_two(self):
         self.begin_with_ball(200000.0)
-        self.left_out_and_back(lambda now: self.ball_at(now, HERE, parent="island"), "on an island", "not part of the same tree")
+        self.left_out_and_back(lambda now: self.ball_at(now, HERE, parent="island"), "on an island",
+                               "not part of the same tree")
 
     def test_9_loop(self):
         """The ball's parents go round in a circle: tf2 finds no end, the node goes on."""

@@ -171,7 +171,8 @@ class FaultsInputsTest(unittest.TestCase):
                    "the log says that the types differ")
         code, _, address = xmlrpc.client.ServerProxy(uri).requestTopic("/faults_inputs_test", NODE + "/state", [["TCPROS"]])
         self.assertEqual(code, 1)
-        for garbage in (b"\xff" * 4, b"\x00" * MEGABYTE, os.urandom(MEGABYTE), b"\x04\x00\x00\x00what", b"GET / HTTP/1.0\r\n\r\n"):
+        for garbage in (b"\xff" * 4, b"\x00" * MEGABYTE, os.urandom(MEGABYTE), b"\x04\x00\x00\x00what",
+                        b"GET / HTTP/1.0\r\n\r\n"):
             with socket.create_connection((address[1], address[2]), 5.0) as connection:
                 try:
                     connection.sendall(garbage)

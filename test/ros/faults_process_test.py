@@ -116,6 +116,13 @@ class FaultsProcessTest(unittest.TestCase):
         self.assertEqual(node.wait(), 0, node.output())
         wait_until(lambda: not master.knows(NAME), "a node that ended is not told of again")
 
+        node = self.start_node(master=master.uri)
+        wait_until(lambda: master.knows(NAME), "another is there")
+        wait_until(lambda: "curtain of" in node.output(), "and runs")
+        master.process.send_signal(signal.SIGSTOP)
+        node.interrupt()
+        self.assertEqual(node.wait(), 0, "it ends although its master hangs")
+
     def test_2_namesake(self):
         """A second node of the same name takes over: the first ends cleanly, and does not come back to the master."""
         first = self.start_node()

@@ -160,6 +160,32 @@ TEST(HealthChecks, ObstaclesSayWhatIsWrong) {
   EXPECT_EQ(obstacles(health, 0.0, rises).level, DiagnosticStatus::WARN);
 }
 
+TEST(HealthChecks, SnapshotsSayWhatIsWrong) {
+  Rises rises;
+  const auto check = [&](const SnapshotHealth& snapshots, double now) {
+    Health health = well();
+    health.snapshots = snapshots;
+    DiagnosticStatusWrapper status;
+    checkSnapshots(health, at(now), rises, status);
+    return status;
+  };
+  SnapshotHealth snapshots;
+  EXPECT_EQ(check(snapshots, 0.0).message, "off");
+  snapshots.wanted = true;
+  EXPECT_EQ(check(snapshots, 0.0).level, DiagnosticStatus::OK);
+  snapshots.last_failure = "disk full";
+  EXPECT_EQ(check(snapshots, 0.0).level, DiagnosticStatus::WARN);
+  snapshots.last_failure.clear();
+  snapshots.refused = "of another scene";
+  EXPECT_EQ(check(snapshots, 0.0).level, DiagnosticStatus::WARN);
+  EXPECT_EQ(check(snapshots, 10.0).level, DiagnosticStatus::OK) << "it has been written over";
+  snapshots.foreign = true;
+  EXPECT_EQ(check(snapshots, 10.0).level, DiagnosticStatus::WARN);
+  snapshots = SnapshotHealth();
+  snapshots.counts.replaced = 1;
+  EXPECT_EQ(check(snapshots, 20.0).level, DiagnosticStatus::WARN);
+}
+
 TEST(HealthChecks, MasterThatIsGoneOrForgotIsWarnedOf) {
   Rises rises;
   DiagnosticStatusWrapper status;

@@ -117,7 +117,9 @@ TEST(Parameters, WrongTypesAndRangesOfTheNodesOwnAreNamed) {
   EXPECT_TRUE(names(readWith("max_catch_up", value(0)).problems, "max_catch_up"));
   EXPECT_TRUE(names(readWith("handles", value(1)).problems, "handles: must be true or false"));
   EXPECT_TRUE(names(readWith("world_frame", value("")).problems, "world_frame"));
-  EXPECT_TRUE(names(readWith("diagnostic_period", value(0.0)).problems, "diagnostic_period: must be a number in [0.1, 3600.0]"));
+  EXPECT_TRUE(names(readWith("snapshot_file", value(1)).problems, "snapshot_file: must be a text"));
+  EXPECT_TRUE(names(readWith("snapshot_period", value(0.0)).problems, "snapshot_period: must be a number in [0.1, 86400.0]"));
+  EXPECT_TRUE(names(readWith("diagnostic_period", value(0.0)).problems, "must be a number in [0.1, 3600.0]"));
   EXPECT_TRUE(names(readWith("world_frame", value(3)).problems, "world_frame"));
   EXPECT_TRUE(readWith("mesh_rate", value(25)).problems.empty()) << "an integer is a number";
 }
@@ -202,6 +204,8 @@ TEST(Parameters, TemplateGivesTheDefaults) {
   EXPECT_EQ(manual["state_folds"].as<bool>(), defaults.state_folds);
   EXPECT_EQ(manual["handles"].as<bool>(), defaults.handles);
   EXPECT_EQ(manual["handle_stiffness"].as<double>(), defaults.handle_stiffness);
+  EXPECT_EQ(manual["snapshot_file"].as<std::string>(), defaults.snapshot_file);
+  EXPECT_EQ(manual["snapshot_period"].as<double>(), defaults.snapshot_period);
   EXPECT_EQ(manual["diagnostic_period"].as<double>(), defaults.diagnostic_period);
 }
 
