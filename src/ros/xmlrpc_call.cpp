@@ -28,7 +28,7 @@ XmlRpcAnswer callXmlRpc(const std::string& uri, const std::string& method, const
   if (client.executeNonBlock(method.c_str(), request)) client._disp.work(kPatience);
   const bool done = client.executeCheckDone(response);
   client.close();
-  if (!done) return answer;
+  if (!done || !response.valid()) return answer;  // done, but without a word: nobody is there
   answer.answered = true;
   answer.value = response;
   // [code, message, value]; code 1: success
