@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/master_watch.h"
 
+#include <ros/connection_manager.h>
 #include <ros/console.h>
 #include <ros/init.h>
 #include <ros/master.h>
@@ -28,6 +29,11 @@ XmlRpcAnswer askMaster(const std::string& method, const std::vector<XmlRpcValue>
   return callXmlRpc(ros::master::getURI(), method, parameters);
 }
 
+// What roscpp itself serves in each node.
+std::vector<std::string> alwaysServed() {
+  return {ros::this_node::getName() + "/get_loggers", ros::this_node::getName() + "/set_logger_level"};
+}
+
 bool isArray(const XmlRpcValue& value) { return value.getType() == XmlRpcValue::TypeArray; }
 
 // What this process itself says of its topics: pairs of name and type.
@@ -48,10 +54,12 @@ XmlRpcValue parametersOf(const std::string& space) {
 }  // namespace
 
 MasterWatch::MasterWatch(const std::string& private_space)
-    : private_space_(private_space), parameters_(parametersOf(private_space)) {}
+    : private_space_(private_space), parameters_(parametersOf(private_space)), services_(alwaysServed()) {}
 
 void MasterWatch::look() {
-  const XmlRpcAnswer answer = askMaster("lookupNode", {XmlRpcValue(ros::this_node::getName())});
+  // A service that every roscpp node has from its start to its end. Not the node's name: a new master knows that as soon as
+  // anything of it is registered, as a topic that it happens to subscribe to just then.
+  const XmlRpcAnswer answer = askMaster("lookupService", {XmlRpcValue(alwaysServed().front())});
   // A node that shuts down takes itself off the master's list.
   if (!ros::ok() || ros::isShuttingDown()) return;
   sayWhetherItAnswers(answer.answered);
@@ -123,7 +131,8 @@ bool MasterWatch::tellPublishers(const std::string& topic, const XmlRpcValue& pu
 }
 
 bool MasterWatch::registerServices() const {
-  const std::string uri = "rosrpc://" + ros::network::getHost() + ":" + std::to_string(ros::network::getTCPROSPort());
+  const std::string uri =
+      "rosrpc://" + ros::network::getHost() + ":" + std::to_string(ros::ConnectionManager::instance()->getTCPPort());
   const auto& manager = ros::ServiceManager::instance();
   return std::all_of(services_.begin(), services_.end(), [&](const std::string& service) {
     if (!manager->lookupServicePublication(service)) return true;  // gone meanwhile
@@ -143,11 +152,12 @@ bool MasterWatch::restoreParameters() const {
 void MasterWatch::rememberServices() {
   XmlRpcAnswer answer = askMaster("getSystemState", {});
   if (!answer.success || !isArray(answer.value) || answer.value.size() != 3) return;
-  services_.clear();
+  services_ = alwaysServed();
   XmlRpcValue& services = answer.value[2];  // pairs of name and the nodes that serve it
   for (int i = 0; isArray(services) && i < services.size(); ++i) {
     std::string name = services[i][0];
-    if (ros::ServiceManager::instance()->lookupServicePublication(name)) services_.push_back(name);
+    const bool ours = ros::ServiceManager::instance()->lookupServicePublication(name) != nullptr;
+    if (ours && std::find(services_.begin(), services_.end(), name) == services_.end()) services_.push_back(name);
   }
 }
 

@@ -5,6 +5,7 @@
 #include "ros/snapshot_keeper.h"
 
 #include <gtest/gtest.h>
+#include <ros/time.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -27,6 +28,7 @@ curtain::Simulator makeSimulator(int rows = 10) {
 class SnapshotKeeperTest : public ::testing::Test {
  protected:
   SnapshotKeeperTest() {
+    ros::Time::init();  // for warnings that are throttled
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
     folder_ = std::filesystem::temp_directory_path() /
               ("curtain_" + std::string(test->name()) + "_" + std::to_string(::getpid()));
