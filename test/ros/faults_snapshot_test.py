@@ -15,17 +15,17 @@ import unittest
 import rospy
 import rostest
 from curtain_sim.msg import WindSource
-from curtain_testing import (OK, WARN, Curtain, Diagnostics, NodeProcess, assert_stream_is_sound, billow, node_position,
+from curtain_testing import (OK, WARN, Curtain, Diagnostics, MovingFrame, NodeProcess, assert_stream_is_sound, billow, node_position,
                              publisher, wait_until, wind_message)
 
 NAME = "/stage/curtain"
 
 
-def parameters(file, period, rows=10):
+def parameters(file, period, rows=10, obstacles=()):
     return {"handles": False, "snapshot_file": file, "snapshot_period": period, "diagnostic_period": 0.2,
             "scene": {"cloth": {"rows": rows, "columns": 8, "height": 0.9, "width": 0.7},
                       "hang": {"from": [0.0, 0.0, 2.0], "to": [0.7, 0.0, 2.0]},
-                      "air": {"inside": 1.0, "border": 1.0, "corner": 1.0}}}
+                      "air": {"inside": 1.0, "border": 1.0, "corner": 1.0}, "obstacles": list(obstacles)}}
 
 
 class FaultsSnapshotTest(unittest.TestCase):
@@ -190,6 +190,25 @@ class FaultsSnapshotTest(unittest.TestCase):
                     pass
         self.fails_and_recovers(node, fill, lambda: os.remove(ballast))
         self.end(node, signal.SIGTERM, 0)
+
+    def test_8_obstacles_stay(self):
+        """An obstacle that was there is there from the first frame on, before its frame is heard of; where nobody sends it any
+        more it is left out after its timeout, as ever."""
+        ball = {"name": "ball", "frame": "ball", "shape": "sphere", "radius": 0.2}
+        frame = MovingFrame("world", "ball", (0.35, 0.1, 1.3))
+        node = self.start(period=1000.0, obstacles=[ball])
+        self.curtain.wait_for(lambda s: s.statistics.contacts > 0, "the ball holds the curtain out")
+        self.end(node, signal.SIGTERM, 0)
+        node = self.start(period=1000.0, obstacles=[ball])
+        self.curtain.wait_for(lambda s: s.statistics.simulated_time > s.statistics.restored_time + 1.5, "it goes on")
+        self.assertEqual({s.statistics.absent_obstacles for s in self.curtain.messages()}, {0})
+        self.assertGreater(min(billow(s) for s in self.curtain.messages()), 0.2)
+        frame.stop()
+        self.end(node, signal.SIGTERM, 0)  # within the timeout
+        self.start(period=1000.0, obstacles=[ball])
+        self.assertEqual(self.first().statistics.absent_obstacles, 0)
+        self.curtain.wait_for(lambda s: s.statistics.absent_obstacles == 1, "it is left out")
+        self.assertEqual(self.curtain.last().statistics.obstacles_lost, 1)
 
     def fails_and_recovers(self, node, fill, make_room):
         fill()
