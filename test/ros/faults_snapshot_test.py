@@ -15,8 +15,8 @@ import unittest
 import rospy
 import rostest
 from curtain_sim.msg import WindSource
-from curtain_testing import (OK, WARN, Curtain, Diagnostics, MovingFrame, NodeProcess, assert_stream_is_sound, billow, node_position,
-                             publisher, wait_until, wind_message)
+from curtain_testing import (OK, WARN, Curtain, Diagnostics, MovingFrame, NodeProcess, assert_stream_is_sound, billow,
+                             node_position, publisher, wait_until, wind_message)
 
 NAME = "/stage/curtain"
 
