@@ -32,7 +32,7 @@ const char* const kUsage =
     "  --mesh FILE        fine mesh at the end, .ply or .obj\n"
     "  --stats FILE.json  what it took and how well it went\n"
     "  --save FILE        snapshot at the end, for --restore\n"
-    "  --restore FILE     go on from a snapshot of the same scene; the duration comes on top, --sample are times since the scene's start\n"
+    "  --restore FILE     go on from a snapshot of the same scene; the duration comes on top, times of --sample go on, too\n"
     "  --progress         a line a simulated second on stderr\n"
     "  --explain          what runs (+) for this scene and what is skipped (-), at the start and after the duration\n"
     "  --list-methods     names for --method, then exit\n"

@@ -43,10 +43,9 @@ class Simulator {
   /// Everything that the motion goes on from, as bytes (docs/snapshots.md). Changes nothing: not what comes next either.
   std::string snapshot() const;
   /// Goes on from a snapshot of the same scene, by the bits: time, winds and drags, gravity and air, obstacles and pins on
-  /// their way, what sleeps, statistics. The scene may differ in gravity and air, which come with the snapshot, in solver.threads,
-  /// and in where a mesh lies. Returns what is wrong with it (damaged, cut short, of another scene or format); then nothing changed.
-  /// Takes about a frame's time, and allocates. Among snapshots of a simulator with solver.budget_ms computing time decides, and the
-  /// bits may differ.
+  /// their way, what sleeps, statistics. The scene may differ in gravity and air, which come with the snapshot, in
+  /// solver.threads, and in where a mesh lies. Returns what is wrong with it (damaged, cut short, of another scene or format);
+  /// then nothing changed. With solver.budget_ms computing time decides, and the bits to come may differ. Allocates.
   std::vector<Problem> restore(const std::string& snapshot);
 
   /// Node state, row-major, shape [rows * columns]; out is resized.

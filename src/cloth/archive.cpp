@@ -34,10 +34,13 @@ void Archive::fail(const std::string& text) const { throw ArchiveError(pathText(
 
 void Archive::describe(const std::string& type) { out_ += pathText() + ' ' + type + '\n'; }
 
-void Archive::write(const void* from, std::size_t bytes) { out_.append(static_cast<const char*>(from), bytes); }
+void Archive::write(const void* from, std::size_t bytes) {
+  if (bytes > 0) out_.append(static_cast<const char*>(from), bytes);
+}
 
 void Archive::read(void* to, std::size_t bytes) {
   if (bytes > in_.size() - at_) fail("ends too soon");
+  if (bytes == 0) return;  // an empty list has no place
   std::memcpy(to, in_.data() + at_, bytes);
   at_ += bytes;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a snapshot carries of contact. Lists of what is near are carried though they could be made anew: they last for some time,
-// and when they are renewed, and from which points planes were found, changes the last bits of what comes next.
+// What a snapshot carries of contact. Lists of what is near are carried though they could be made anew: they last for some
+// time, and when they are renewed, and from which points planes were found, changes the last bits of what comes next.
 #include <limits>
 
 #include "cloth/archive.h"

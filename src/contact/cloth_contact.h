@@ -31,6 +31,8 @@ class ClothContact : public ContactFinder {
   Verdict verify(const Field3& start, const Field3& end, bool settled) noexcept override;
   void hold(const Field3& start, Field3& end) noexcept override;
 
+  /// In a substep that it is not asked to begin, for there is nothing to look for.
+  void nothingTouches() noexcept { contacts_.clear(); }
   /// After every accepted substep of h [s] that ended at position, whether all links could be brought to their lengths;
   /// scale: its h * kick [s^2].
   void afterSubstep(bool settled, double h, double scale, const Field3& position) noexcept;

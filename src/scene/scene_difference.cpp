@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Theirs is only ever looked up along ours, so what it says beyond that (however deep, however often by an alias) costs nothing.
+// Theirs is only ever looked up along ours, so what it says beyond that (however deep, however often by an alias) costs
+// nothing.
 #include "scene/scene_difference.h"
 
 #include <yaml-cpp/yaml.h>
@@ -59,7 +60,8 @@ class Comparison {
 
 }  // namespace
 
-std::optional<Problem> firstDifference(const std::string& ours, const std::string& theirs, const std::vector<std::string>& aside) {
+std::optional<Problem> firstDifference(const std::string& ours, const std::string& theirs,
+                                       const std::vector<std::string>& aside) {
   if (ours == theirs) return std::nullopt;
   try {
     const YAML::Node own = YAML::Load(ours), other = YAML::Load(theirs);

@@ -15,6 +15,7 @@ namespace curtain {
 /// ours    from writeScene()
 /// theirs  any text
 /// aside   keys that may differ, as knownSceneKeys() names them: "air", "obstacles[].mesh"
-std::optional<Problem> firstDifference(const std::string& ours, const std::string& theirs, const std::vector<std::string>& aside);
+std::optional<Problem> firstDifference(const std::string& ours, const std::string& theirs,
+                                       const std::vector<std::string>& aside);
 
 }  // namespace curtain

@@ -21,20 +21,39 @@ struct Grasp {
 };
 
 void carryStatistics(Archive& archive, Statistics& s) {
-  for (std::int64_t* count : {&s.frames, &s.substeps, &s.sweeps, &s.rejected, &s.implicit, &s.unsettled, &s.asleep_frames, &s.wakes,
-                              &s.estimates_skipped, &s.longer_substeps, &s.unfinished_substeps, &s.shortened_frames,
-                              &s.late_frames, &s.stops}) {
-    archive.integer("count", *count, 0, kMany);
-  }
-  for (int* count : {&s.substeps_last, &s.sweeps_last, &s.asleep, &s.contacts, &s.contacts_max}) {
-    archive.integer("count_now", *count, 0, kCount);
-  }
-  for (double* value : {&s.time, &s.lost_time, &s.warp_stretch, &s.weft_stretch, &s.warp_compression, &s.warp_stretch_max,
-                        &s.weft_stretch_max, &s.warp_compression_max, &s.penetration_max, &s.step_seconds, &s.step_seconds_max,
-                        &s.step_seconds_sum, &s.position_error}) {
-    archive.number("value", *value);
-  }
+  archive.integer("frames", s.frames, 0, kMany);
+  archive.number("time", s.time);
+  archive.integer("substeps", s.substeps, 0, kMany);
+  archive.integer("substeps_last", s.substeps_last, 0, kCount);
+  archive.integer("sweeps", s.sweeps, 0, kMany);
+  archive.integer("sweeps_last", s.sweeps_last, 0, kCount);
+  archive.integer("rejected", s.rejected, 0, kMany);
+  archive.integer("implicit", s.implicit, 0, kMany);
+  archive.integer("unsettled", s.unsettled, 0, kMany);
+  archive.integer("asleep_frames", s.asleep_frames, 0, kMany);
+  archive.integer("wakes", s.wakes, 0, kMany);
+  archive.integer("asleep", s.asleep, 0, kCount);
+  archive.integer("estimates_skipped", s.estimates_skipped, 0, kMany);
+  archive.integer("longer_substeps", s.longer_substeps, 0, kMany);
+  archive.integer("unfinished_substeps", s.unfinished_substeps, 0, kMany);
+  archive.integer("shortened_frames", s.shortened_frames, 0, kMany);
+  archive.number("lost_time", s.lost_time);
+  archive.integer("late_frames", s.late_frames, 0, kMany);
+  archive.integer("stops", s.stops, 0, kMany);
+  archive.number("warp_stretch", s.warp_stretch);
+  archive.number("weft_stretch", s.weft_stretch);
+  archive.number("warp_compression", s.warp_compression);
+  archive.number("warp_stretch_max", s.warp_stretch_max);
+  archive.number("weft_stretch_max", s.weft_stretch_max);
+  archive.number("warp_compression_max", s.warp_compression_max);
+  archive.integer("contacts", s.contacts, 0, kCount);
+  archive.integer("contacts_max", s.contacts_max, 0, kCount);
+  archive.number("penetration_max", s.penetration_max);
+  archive.number("step_seconds", s.step_seconds);
+  archive.number("step_seconds_max", s.step_seconds_max);
+  archive.number("step_seconds_sum", s.step_seconds_sum);
   for (double& seconds : s.stage_seconds) archive.number("stage_seconds", seconds);
+  archive.number("position_error", s.position_error);
   archive.flag("finite", s.finite);
 }
 
@@ -138,8 +157,8 @@ void Simulator::Impl::PinMove::carry(Archive& archive, const ClothPattern& of) {
   archive.flag("behind", behind);
 }
 
-// Not: what substeps and rehearsals go back to, for they have; the mesh for the eye, which remembers nothing; the revision, which
-// counts for who has looked at this simulator.
+// Not: what substeps and rehearsals go back to, for they have; the mesh for the eye, which remembers nothing; the revision,
+// which counts for who has looked at this simulator.
 void Simulator::Impl::carry(Archive& archive) {
   archive.finite("gravity", scene.gravity);
   archive.part("state", state);

@@ -22,6 +22,7 @@ SubstepOutcome Simulator::Impl::attempt(const SubstepPlan& plan, double done) {
   const double frame_length = frameLength();
   ContactFinder* const finder = contact.wanted() ? &contact : nullptr;
   clock.start();
+  if (finder == nullptr) contact.nothingTouches();
   if (finder != nullptr) obstacles.setSubstep(done / frame_length, (done + plan.h) / frame_length);
   const NodeForces& now = forces.evaluate(state, statistics.time + done, plan.h);
   clock.lap(Stage::kForces);

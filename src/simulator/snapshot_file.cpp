@@ -19,6 +19,9 @@
 namespace curtain {
 namespace {
 
+// Of the largest cloth a snapshot is smaller; what is larger is none, whatever its header says.
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 34;
+
 // Closes it.
 class File {
  public:
@@ -122,6 +125,7 @@ std::vector<Problem> readSnapshotFile(const std::string& path, std::string& out)
     if (begun < 0) return failed(path, "cannot be read");
     bytes.resize(static_cast<std::size_t>(begun));
     if (auto problem = judgeHeader(bytes, size)) return {{path, problem->text}};
+    if (size > kMostBytes) return {{path, "is too large for a snapshot: " + std::to_string(size) + " bytes"}};
     bytes.resize(size);
     const ssize_t rest = readUpTo(file.descriptor(), bytes.data() + kSnapshotHeader, size - kSnapshotHeader);
     if (rest < 0) return failed(path, "cannot be read");

@@ -56,7 +56,9 @@ std::string packSnapshot(const SnapshotParts& parts) {
 std::optional<Problem> judgeHeader(std::string_view begin, std::uint64_t size) {
   const std::string_view magic = begin.substr(0, kMagic.size());
   if (magic.empty() || magic != kMagic.substr(0, magic.size())) return problem("is no snapshot of a curtain");
-  if (begin.size() < sizeof(Header)) return problem("is cut short: " + std::to_string(size) + " bytes are less than its header");
+  if (begin.size() < sizeof(Header)) {
+    return problem("is cut short: " + std::to_string(size) + " bytes are less than its header");
+  }
   const Header header = headerOf(begin);
   if (header.byte_order != kByteOrder || header.number != kNumber) {
     return problem("was written on a machine with other numbers than this one");

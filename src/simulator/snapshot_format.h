@@ -39,8 +39,8 @@ struct SnapshotParts {
 
 std::string packSnapshot(const SnapshotParts& parts);
 
-/// What is wrong with what begins like this (kSnapshotHeader bytes, fewer where there are no more) and has so many bytes; none: it
-/// may be a snapshot.
+/// What is wrong with what begins like this (kSnapshotHeader bytes, fewer where there are no more) and has so many bytes;
+/// none: it may be a snapshot.
 std::optional<Problem> judgeHeader(std::string_view begin, std::uint64_t size);
 
 /// Takes a snapshot apart, which must outlive the parts; or says what is wrong with it.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What a snapshot carries of the solver, and how the rest follows. Everything else of it is written before it is read in every
-// substep: the prediction, directions, multipliers in the making, all of NetSolver; or follows from the scene and from what sleeps.
+// substep: the prediction, directions, multipliers in the making, all of NetSolver; or follows from the scene and from what
+// sleeps.
 #include <algorithm>
 #include <limits>
 
@@ -13,7 +14,6 @@
 namespace curtain {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kCount = 1 << 30;  // far from where an int ends
 
 }  // namespace
@@ -84,12 +84,12 @@ void ExactSolver::resume(const ColumnSet& held, const ClothState& state) noexcep
   net_.reset();
 }
 
-// Ranges are what keeps a frame's number of substeps bounded.
+// Ranges keep the number of a frame's substeps bounded; next() itself sees to the other numbers.
 void StepControl::carry(Archive& archive) {
-  archive.within("omega", omega_, 0.0, kInfinity);
-  archive.within("heavier_step", heavier_step_, 0.0, kInfinity);
-  archive.within("surface_step", surface_step_, 0.0, kInfinity);
-  archive.within("limit", limit_, 0.0, kInfinity);
+  archive.number("omega", omega_);
+  archive.number("heavier_step", heavier_step_);
+  archive.number("surface_step", surface_step_);
+  archive.number("limit", limit_);
   archive.integer("allowed", allowed_, 1, std::numeric_limits<int>::max());
   archive.flag("stretched", stretched_);
   archive.integer("asked", asked_, 1, max_substeps_);

@@ -99,8 +99,14 @@ void ExactSolver::projectOnConstraints(const Field3& position, const Contacts* c
     forEachBlock([&](int block) { warpProjectVelocity(warp, scratch_, block); });
   };
   if (share > 0.0) {
-    for (std::size_t n = 0; n < warp_.multiplier.size(); ++n) warp_.multiplier[n] = share * last_warp_[n];
-    forEachBlock([&](int block) { applyWarpMultipliers(warp, block); });
+    // Blocks that are left out keep theirs: they are to be the same in both buffers (exact_solver_hold.cpp).
+    forEachBlock([&](int block) {
+      for (int i = 0; i < pattern_.grid.rows; ++i) {
+        const std::size_t first = pattern_.grid.row(i) + static_cast<std::size_t>(block) * kLane;
+        for (std::size_t n = first; n < first + kLane; ++n) warp_.multiplier[n] = share * last_warp_[n];
+      }
+      applyWarpMultipliers(warp, block);
+    });
   }
   const bool presses = contacts != nullptr && std::any_of(contacts->begin(), contacts->end(),
                                                           [](const Contact& contact) { return contact.pushes(); });

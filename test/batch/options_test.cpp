@@ -58,7 +58,7 @@ TEST_F(Options, HelpNamesEveryOption) {
     const Outcome run = batch({option});
     EXPECT_EQ(run.exit_code, 0);
     for (const char* name : {"--duration", "--method", "--substeps", "--rows", "--columns", "--out", "--sample", "--mesh",
-                             "--stats", "--progress", "--explain", "--list-methods"}) {
+                             "--stats", "--save", "--restore", "--progress", "--explain", "--list-methods"}) {
       EXPECT_NE(run.out.find(name), std::string::npos) << name;
     }
   }

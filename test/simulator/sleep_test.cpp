@@ -511,5 +511,27 @@ TEST(Sleep, ChangesNoBitOfWhatMoves) {
   EXPECT_EQ(simulator.stateHash(), reference.stateHash());
 }
 
+// Velocities are half a substep old and made new for who asks: that leaves no trace in columns that sleep either.
+TEST(Sleep, IsNotDisturbedByWhoLooks) {
+  Scene scene = hanging();
+  scene.cloth.columns = 40;
+  Simulator simulator(scene), watched(scene);
+  std::vector<Vec3> velocities;
+  int partly = 0;
+  for (int frame = 0; frame < 150; ++frame) {
+    for (Simulator* one : {&simulator, &watched}) {
+      DragParams drag = pull({0.0, 0.02 + 1e-3 * frame, 0.0});
+      drag.node = NodeIndex{15, 38};
+      if (frame % 6 == 0) one->setDrag(drag);
+      one->step();
+    }
+    watched.copyVelocities(velocities);
+    partly += simulator.statistics().asleep > 0 && simulator.statistics().asleep < 40 ? 1 : 0;
+    ASSERT_EQ(simulator.stateHash(), watched.stateHash()) << "frame " << frame;
+  }
+  EXPECT_GT(partly, 0);
+  EXPECT_GT(simulator.statistics().wakes, 0) << "nothing woke: nothing could have been disturbed";
+}
+
 }  // namespace
 }  // namespace curtain

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -76,7 +77,11 @@ struct Reading {
   std::vector<std::string> sources;
   std::vector<double> obstacles;
 
-  explicit Reading(const curtain::Simulator& of) : plan(describe(of.plan())) {
+  explicit Reading(const curtain::Simulator& of) {
+    curtain::Plan entries = of.plan();
+    entries.erase(std::remove_if(entries.begin(), entries.end(), [](const auto& entry) { return entry.stage == "threads"; }),
+                  entries.end());
+    plan = describe(entries);
     of.copyPositions(positions);
     of.copyVelocities(velocities);
     of.copyForces(forces);
@@ -119,61 +124,197 @@ inline void restoreOrFail(curtain::Simulator& simulator, const std::string& snap
   ASSERT_TRUE(problems.empty()) << describe(problems);
 }
 
-/// Two simulators go on side by side; stops at the first difference.
-inline void expectSameMotion(curtain::Simulator& a, curtain::Simulator& b, const Deeds& deeds, int from, int to) {
-  ASSERT_EQ(a.stateHash(), b.stateHash()) << "before frame " << from;
-  for (int frame = from; frame < to; ++frame) {
-    run(a, deeds, frame, frame + 1);
-    run(b, deeds, frame, frame + 1);
-    ASSERT_EQ(a.stateHash(), b.stateHash()) << "frame " << frame;
-    expectSameStatistics(a.statistics(), b.statistics());
-    ASSERT_FALSE(testing::Test::HasFailure()) << "frame " << frame;
-  }
-}
-
-/// A simulator that is saved after so many frames goes on as one that never was, and so do one restored afresh and one that had
-/// another life before.
+/// A simulator that is saved after so many frames, and what is to be done in the next one is known, goes on as one that never
+/// was; and so do one restored afresh and one that had another life before. The one that was saved is looked at all the time.
 struct Life {
   Deeds deeds = doNothing;
-  Deeds other = doNothing;  ///< deeds of the life before
+  Deeds other = doNothing;  ///< of the life before
   int saved_at = 20;
   int end = 40;
   int other_frames = 15;
 };
 
-inline void expectContinues(const curtain::Scene& scene, const Life& life) {
-  curtain::Simulator never_saved(scene), saved(scene), restored(scene), lived(scene);
-  run(never_saved, life.deeds, 0, life.saved_at);
-  run(saved, life.deeds, 0, life.saved_at);
+inline void expectContinues(const curtain::Scene& scene, const Life& life, const curtain::Scene& restored_scene) {
+  using curtain::Simulator;
+  Simulator never_saved(scene), saved(scene), restored(restored_scene), lived(restored_scene);
+  const auto live = [&](Simulator& simulator) {
+    run(simulator, life.deeds, 0, life.saved_at);
+    life.deeds(simulator, life.saved_at);
+  };
+  live(never_saved);
+  live(saved);
   run(lived, life.other, 0, life.other_frames);
   const std::uint64_t revision = lived.revision();
   const std::string snapshot = saved.snapshot();
+  if (!saved.statistics().finite) {  // the scheme of the paper may well blow up
+    EXPECT_EQ(scene.solver.method, curtain::Method::kPaper);
+    EXPECT_FALSE(restored.restore(snapshot).empty());
+    return;
+  }
   ASSERT_NO_FATAL_FAILURE(restoreOrFail(restored, snapshot));
   ASSERT_NO_FATAL_FAILURE(restoreOrFail(lived, snapshot));
   EXPECT_NE(lived.revision(), revision);
-  EXPECT_EQ(restored.snapshot() == snapshot, true) << "what was restored is saved as it was";
   expectSameStatistics(saved.statistics(), restored.statistics());
-  {
-    SCOPED_TRACE("saved");
-    ASSERT_NO_FATAL_FAILURE(expectSameMotion(never_saved, saved, life.deeds, life.saved_at, life.end));
+  const std::string once_more = restored.snapshot();
+  for (int frame = life.saved_at; frame < life.end; ++frame) {
+    for (Simulator* simulator : {&never_saved, &saved, &restored, &lived}) {
+      if (frame > life.saved_at) life.deeds(*simulator, frame);
+      simulator->step();
+    }
+    ASSERT_EQ(never_saved.stateHash(), saved.stateHash()) << "saving or looking has changed frame " << frame;
+    ASSERT_EQ(saved.stateHash(), restored.stateHash()) << "restored afresh, frame " << frame;
+    ASSERT_EQ(saved.stateHash(), lived.stateHash()) << "restored after another life, frame " << frame;
+    for (const Simulator* simulator : {&saved, &restored, &lived}) {
+      expectSameStatistics(never_saved.statistics(), simulator->statistics());
+    }
+    ASSERT_FALSE(testing::Test::HasFailure()) << "statistics of frame " << frame;
+    const Reading look(saved);
   }
-  curtain::Simulator again(scene);
-  run(again, life.deeds, 0, life.saved_at);
-  {
-    SCOPED_TRACE("restored");
-    ASSERT_NO_FATAL_FAILURE(expectSameMotion(again, restored, life.deeds, life.saved_at, life.end));
-    expectSameReading(again, restored);
+  // Readers, of the state at the end and of that restored.
+  expectSameReading(never_saved, restored);
+  expectSameReading(never_saved, lived);
+  Simulator then(scene);
+  live(then);
+  for (Simulator* simulator : {&restored, &lived}) {
+    ASSERT_NO_FATAL_FAILURE(restoreOrFail(*simulator, once_more));
+    expectSameReading(then, *simulator);
   }
-  SCOPED_TRACE("lived");
-  curtain::Simulator reader(scene);
-  ASSERT_NO_FATAL_FAILURE(restoreOrFail(reader, snapshot));
-  expectSameReading(reader, lived);
-  curtain::Simulator once_more(scene);
-  run(once_more, life.deeds, 0, life.saved_at);
-  expectSameReading(once_more, reader);
-  curtain::Simulator quiet(scene);
-  ASSERT_NO_FATAL_FAILURE(restoreOrFail(quiet, snapshot));
-  ASSERT_NO_FATAL_FAILURE(expectSameMotion(quiet, lived, life.deeds, life.saved_at, life.end));
+}
+
+inline void expectContinues(const curtain::Scene& scene, const Life& life) { expectContinues(scene, life, scene); }
+
+/// Whole numbers from [low, high].
+inline int pick(Random& random, int low, int high) {
+  return low + static_cast<int>(random.between(0.0, 1.0) * (high - low + 1));
+}
+inline bool chance(Random& random, double share) { return random.between(0.0, 1.0) < share; }
+
+inline curtain::WindParams randomWind(Random& random, const std::string& id, double start) {
+  curtain::WindParams wind;
+  wind.id = id;
+  wind.position = curtain::Vec3(0.5, chance(random, 0.5) ? -1.0 : 1.0, 1.5) + random.inBox(0.3);
+  wind.direction = curtain::Vec3(0.5, 0.0, 1.5) + random.inBox(0.3) - wind.position;
+  wind.radius = random.between(0.1, 1.5);
+  wind.half_angle = chance(random, 0.5) ? 0.0 : random.between(0.0, 0.5);
+  wind.pressure = chance(random, 0.8) ? random.between(0.0, 30.0) : 0.0;
+  wind.unsteadiness = chance(random, 0.5) ? random.between(0.0, 10.0) : 0.0;
+  wind.correlation_time = random.between(0.02, 0.5);
+  wind.start = start + (chance(random, 0.5) ? 0.0 : random.between(0.0, 0.3));
+  if (chance(random, 0.4)) wind.end = wind.start + random.between(0.05, 0.5);
+  return wind;
+}
+
+inline curtain::DragParams randomDrag(Random& random, const std::string& id, double start, const curtain::ClothParams& cloth) {
+  curtain::DragParams drag;
+  drag.id = id;
+  if (chance(random, 0.5)) drag.node = curtain::NodeIndex{pick(random, 0, cloth.rows - 1), pick(random, 0, cloth.columns - 1)};
+  else drag.point = curtain::Vec3(0.5, 0.0, 1.5) + random.inBox(0.5);
+  if (chance(random, 0.5)) drag.force = random.inBox(1.0);
+  else drag.target = curtain::Vec3(0.5, 0.0, 1.5) + random.inBox(0.7);
+  drag.radius = chance(random, 0.5) ? 0.0 : random.between(0.0, 0.4);
+  drag.start = start + (chance(random, 0.5) ? 0.0 : random.between(0.0, 0.3));
+  if (chance(random, 0.4)) drag.end = drag.start + random.between(0.05, 0.5);
+  return drag;
+}
+
+inline curtain::Pose randomPose(Random& random) {
+  curtain::Pose pose;
+  pose.position = curtain::Vec3(0.5, 0.0, 1.5) + random.inBox(0.5);
+  pose.orientation = Eigen::AngleAxisd(random.between(0.0, 3.0), random.direction());
+  return pose;
+}
+
+inline curtain::ObstacleParams randomObstacle(Random& random, const std::string& name) {
+  using curtain::ShapeKind;
+  curtain::ObstacleParams obstacle;
+  obstacle.name = name;
+  obstacle.pose = randomPose(random);
+  obstacle.shape = static_cast<ShapeKind>(pick(random, 0, 5));
+  obstacle.radius = random.between(0.05, 0.25);
+  obstacle.length = random.between(0.1, 0.5);
+  obstacle.size = curtain::Vec3::Constant(0.3) + random.inBox(0.15);
+  if (obstacle.shape == ShapeKind::kMesh) {
+    const char* const mesh = chance(random, 0.5) ? "cube_quads" : "l_prism";
+    obstacle.mesh = std::string(CURTAIN_SOURCE_DIR) + "/test/meshes/" + mesh + ".obj";
+    obstacle.scale = curtain::Vec3::Constant(random.between(0.1, 0.4));
+  }
+  if (obstacle.shape == ShapeKind::kPlane) {
+    obstacle.pose.position.z() = random.between(0.8, 1.4);
+    obstacle.pose.orientation.setIdentity();
+  }
+  if (chance(random, 0.4)) {
+    obstacle.motion = {{0.0, obstacle.pose}, {random.between(0.2, 0.6), randomPose(random)}, {1.0, randomPose(random)}};
+  }
+  return obstacle;
+}
+
+/// Small cloth 1 m x 1 m or so, hung at a height of 2 m, with some of everything.
+inline curtain::Scene randomScene(Random& random) {
+  using namespace curtain;
+  Scene scene = flatScene(pick(random, 2, 18), pick(random, 3, 20));
+  scene.cloth.closed = chance(random, 0.2);
+  scene.hang.from = {0.0, 0.0, 2.0};
+  scene.hang.to = {scene.cloth.closed || chance(random, 0.3) ? 1.0 : random.between(0.5, 0.98), 0.0, 2.0};
+  scene.hang.tilt = scene.cloth.closed ? 0.0 : chance(random, 0.3) ? 0.0 : random.between(0.0, 1.5);
+  scene.pins.kind = chance(random, 0.7) ? PinKind::kTop : static_cast<PinKind>(pick(random, 0, scene.cloth.closed ? 0 : 3));
+  if (chance(random, 0.6)) scene.air.inside = scene.air.border = scene.air.corner = random.between(0.0, 3.0);
+  for (int n = pick(random, -1, 2); n > 0; --n) scene.wind.push_back(randomWind(random, "wind" + std::to_string(n), 0.0));
+  for (int n = pick(random, -1, 2); n > 0; --n) {
+    scene.drag.push_back(randomDrag(random, "drag" + std::to_string(n), 0.0, scene.cloth));
+  }
+  for (int n = pick(random, -1, 2); n > 0; --n) scene.obstacles.push_back(randomObstacle(random, "thing" + std::to_string(n)));
+  scene.contact.self = chance(random, 0.5);
+  scene.contact.thickness = random.between(0.002, 0.02);
+  scene.contact.friction = chance(random, 0.7) ? random.between(0.0, 1.0) : 0.0;
+  scene.solver.method = chance(random, 0.5) ? Method::kAuto : static_cast<Method>(pick(random, 0, 5));
+  if (chance(random, 0.3)) scene.solver.substeps = pick(random, 1, 12);
+  if (chance(random, 0.25)) scene.solver.position_tolerance = random.between(1e-4, 1e-2);
+  if (chance(random, 0.3)) scene.solver.rest_speed = random.between(0.01, 1.0);
+  scene.solver.threads = pick(random, 1, 2);
+  scene.solver.max_substeps = pick(random, 16, 128);
+  scene.solver.frame_rate = chance(random, 0.7) ? 60.0 : random.between(20.0, 120.0);
+  return scene;
+}
+
+/// Now and then something from outside; the same for the same seed and frame, whoever it is done to.
+inline Deeds randomDeeds(std::uint64_t seed, double often) {
+  return [=](curtain::Simulator& simulator, int frame) {
+    using curtain::Vec3;
+    Random random(seed * 1000003U + static_cast<std::uint64_t>(frame));
+    const double now = simulator.time();
+    while (chance(random, often)) {
+      const std::string id = std::to_string(pick(random, 1, 2));
+      const int obstacle = simulator.obstacleCount() > 0 ? pick(random, 0, simulator.obstacleCount() - 1) : -1;
+      switch (pick(random, 0, 10)) {
+        case 0: EXPECT_TRUE(simulator.setWind(randomWind(random, "wind" + id, now)).empty()); break;
+        case 1: simulator.removeWind("wind" + id); break;
+        case 2: EXPECT_TRUE(simulator.setDrag(randomDrag(random, "drag" + id, now, simulator.scene().cloth)).empty()); break;
+        case 3: simulator.removeDrag("drag" + id); break;
+        case 4:
+          simulator.setGravity(chance(random, 0.2) ? Vec3(Vec3::Zero()) : Vec3(Vec3(0.0, 0.0, -9.0) + random.inBox(2.0)));
+          break;
+        case 5: {
+          curtain::AirParams air = simulator.scene().air;
+          air.inside = air.border = random.between(0.0, 2.0);
+          EXPECT_TRUE(simulator.setAir(air).empty());
+          break;
+        }
+        case 6: case 7:
+          if (obstacle < 0) break;
+          simulator.setObstaclePose(obstacle, randomPose(random), chance(random, 0.3));
+          break;
+        case 8:
+          if (obstacle < 0) break;
+          if (!simulator.obstaclePresent(obstacle)) simulator.setObstaclePose(obstacle, randomPose(random), true);
+          simulator.setObstaclePresent(obstacle, !simulator.obstaclePresent(obstacle));
+          break;
+        default: {
+          const curtain::NodeIndex node{0, pick(random, 0, simulator.columns() - 1)};
+          simulator.movePin(node, simulator.position(node) + random.inBox(0.05));
+        }
+      }
+    }
+  };
 }
 
 }  // namespace curtain_test
