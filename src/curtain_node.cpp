@@ -22,7 +22,9 @@ constexpr unsigned kLeave = 3;  // [s] for taking leave of the master; a few mil
 void handleSignals() {
   const auto end = [](int) {
     told_to_end = 1;
-    if (runs == 0) ros::requestShutdown();  // it may be waiting for the master to come up
+    if (runs != 0) return;
+    ros::requestShutdown();  // it may be waiting for the master, to come up or to answer
+    alarm(kLeave);
   };
   for (const int number : {SIGINT, SIGTERM}) std::signal(number, end);
   std::signal(SIGALRM, [](int) { _exit(0); });
@@ -40,6 +42,7 @@ int main(int argc, char** argv) {
   try {
     curtain_ros::CurtainNode curtain(node, private_node);
     runs = 1;
+    alarm(0);  // told to end meanwhile: it does so in order
     while (ros::ok() && told_to_end == 0) ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.1));
     curtain.stop();
     alarm(kLeave);
