@@ -20,6 +20,21 @@ std::string attribute(const XMLElement* element, const char* name) {
   return value == nullptr ? "" : value;
 }
 
+// assimp reads indices one after the other and stays for ever before what is none, with another index each time.
+bool hasBadIndices(const XMLElement* element) {
+  for (const char* list : {"p", "h", "v", "vcount"}) {
+    if (!isNamed(element, list)) continue;
+    for (const tinyxml2::XMLNode* part = element->FirstChild(); part != nullptr; part = part->NextSibling()) {
+      const tinyxml2::XMLText* const text = part->ToText();
+      if (text != nullptr && text->Value()[std::strspn(text->Value(), "0123456789+- \t\r\n")] != '\0') return true;
+    }
+  }
+  for (const XMLElement* child = element->FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+    if (hasBadIndices(child)) return true;
+  }
+  return false;
+}
+
 // Counts nodes the way assimp makes them. The depth of the recursion is that of the elements, which tinyxml2 limits to 100, times
 // the nodes that stand for another one within each other, which are on the way until they are counted.
 class NodeCounter {
@@ -96,6 +111,7 @@ std::string colladaProblem(const std::string& path) {
                : "line " + std::to_string(document.ErrorLineNum()) + " is not XML (" + document.ErrorName() + ")";
   }
   if (document.RootElement() == nullptr) return "has no element";
+  if (hasBadIndices(document.RootElement())) return "a list of indices (p, h, v or vcount) holds something else";
   if (NodeCounter(document.RootElement()).count() <= kMostColladaNodes) return "";
   return "its nodes stand for more than 100000 nodes, or for themselves";
 }

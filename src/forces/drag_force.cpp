@@ -44,7 +44,7 @@ void DragForce::grasp(NodeIndex node, const ClothPattern& pattern) noexcept {
   node_ = node;
   shares_.clear();
   const Grid& grid = pattern.grid;
-  if (drag_.radius <= 0.0) {
+  if (!(drag_.radius * drag_.radius > 0.0)) {  // 0, or so small that its square is
     shares_.push_back({grid.index(node), 1.0});
   } else {
     const double v = pattern.warp_coordinate[static_cast<std::size_t>(node.row)];

@@ -198,7 +198,7 @@ struct Fields<Scene> {
     v.map("cloth", scene.cloth);
     v.map("hang", scene.hang);
     v.pins("pins", scene.pins);
-    v.vector("gravity", scene.gravity, anyForce());
+    v.vector("gravity", scene.gravity, anywhere());
     v.map("air", scene.air);
     v.list("wind", scene.wind);
     v.list("drag", scene.drag);

@@ -15,6 +15,13 @@ namespace {
 // Characters of a key; none that is known comes near it.
 constexpr std::size_t kLongestName = 100;
 
+// Written as YAML it stays what it is: yaml-cpp takes any bytes, but puts U+FFFD where they are no characters.
+bool isWritable(const std::string& text) {
+  YAML::Emitter out;
+  out << YAML::DoubleQuoted << text;
+  return YAML::Load(out.c_str()).Scalar() == text;
+}
+
 std::string lines(const YAML::Node& first, const YAML::Node& second) {
   if (first.Mark().is_null() || second.Mark().is_null()) return "";
   return " (lines " + std::to_string(first.Mark().line + 1) + " and " + std::to_string(second.Mark().line + 1) + ")";
@@ -227,7 +234,8 @@ void StrictReader::text(Key key, std::string& value) {
   if (!found) return;
   const bool scalar = found->IsScalar();
   if (scalar && scalarValue(*found).kind == ScalarKind::kText) {
-    value = found->Scalar();
+    if (isWritable(found->Scalar())) value = found->Scalar();
+    else log_.add(keyOf(key), "must be text in UTF-8");
     return;
   }
   log_.add(keyOf(key), "must be text, is " + describeValue(*found) + (scalar ? " (write it in quotes)" : ""));

@@ -234,7 +234,7 @@ void Simulator::clearDrags() {
 }
 
 std::vector<Problem> Simulator::setGravity(const Vec3& gravity) {
-  const Range range = anyForce();
+  const Range range = anywhere();
   const bool good = range.contains(gravity.x()) && range.contains(gravity.y()) && range.contains(gravity.z());
   if (!good) return {{"gravity", "must be 3 times " + range.text()}};
   Impl& im = *impl_;

@@ -22,6 +22,18 @@ constexpr double kMostKinetic = 1.5;
 // step: then the last two know nothing of it.
 constexpr int kStepsAfterBlow = 3;
 
+// What is this far away [m] was thrown there by a force beyond all measure: damping takes the cube of its speed, energies the
+// square of it times a mass, and the next substep would go further.
+constexpr double kBeyond = 1e60;
+
+bool isWithinNumbers(const Field3& position) noexcept {
+  const auto within = [](const Field& values) {
+    // The other way round NaN would pass.
+    return std::all_of(values.begin(), values.end(), [](double value) { return std::abs(value) <= kBeyond; });
+  };
+  return within(position.x) && within(position.y) && within(position.z);
+}
+
 }  // namespace
 
 // Solves, and solves again with what the finder has to add, until nothing goes through anything or that does not help.
@@ -157,7 +169,8 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   const LineSolve weft{pattern_, inertia_.inverse(), weft_, next_, held_.movingSpan()};
   const bool taken_as_it_is = progress.late ? progress.near && !progress.crossed : plan.must_accept;
   outcome.late = progress.late;
-  outcome.accepted = !outcome.disturbed && (progress.settled || (taken_as_it_is && std::isfinite(weftResidualNow(weft))));
+  outcome.accepted = !outcome.disturbed && (progress.settled || (taken_as_it_is && isWithinNumbers(next_) &&
+                                                                 std::isfinite(weftResidualNow(weft))));
   if (outcome.accepted) {
     outcome.scale = inertia_.tensions().scale = scale;
     outcome.kick = kick + (plan.h - step);  // bdf2's base holds the rest of what forces do

@@ -94,10 +94,20 @@ TEST_F(HostileMesh, ElementsWithinElements) {
   expectRefused(file("deep.dae", cubeWith(nodes)), "100 deep");
 }
 
+TEST_F(HostileMesh, IndicesThatAreNone) {
+  for (const char* bad : {"0 2 x", "0 2 1e5", "0 2 \xFF\xFF", "0 2 <![CDATA[,]]>"}) {
+    std::string text = cubeWith(kNode);
+    expectRefused(file("indices.dae", text.replace(text.find("<p>0 2"), 6, std::string("<p>") + bad)), "list of indices");
+  }
+}
+
 TEST_F(HostileMesh, OneCornerAfterTheOther) {
   std::ostringstream text;
   constexpr int kCorners = 100000;  // minutes to cut into triangles
-  for (int i = 0; i < kCorners; ++i) text << "v " << (1 + i % 2) * std::cos(6.28 * i / kCorners) << " " << (1 + i % 2) * std::sin(6.28 * i / kCorners) << " 0\n";
+  for (int i = 0; i < kCorners; ++i) {
+    const double radius = 1 + i % 2;
+    text << "v " << radius * std::cos(6.28 * i / kCorners) << " " << radius * std::sin(6.28 * i / kCorners) << " 0\n";
+  }
   text << "f";
   for (int i = 1; i <= kCorners; ++i) text << " " << i;
   expectRefused(file("star.obj", text.str() + "\n"), "polygon of 100000 corners");

@@ -57,6 +57,17 @@ TEST(DragForce, WithoutRadiusActsOnItsNodeAlone) {
   }
 }
 
+// The square of such a radius is 0, and 0 / 0 is no share of a force.
+TEST(DragForce, WithARadiusBeyondNumbersActsOnItsNodeAlone) {
+  Cloth cloth(flatScene(4, 5));
+  for (const double radius : {1e-300, 1e-200, 4.9406564584124654e-324}) {
+    DragParams params = dragOf({2, 3});
+    params.radius = radius;
+    DragForce drag(params, cloth.pattern);
+    EXPECT_EQ(cloth.pull(drag).at(cloth.pattern.grid.index(2, 3)), Vec3(1.0, -2.0, 3.0));
+  }
+}
+
 TEST(DragForce, SharedByTheNeighbourhoodAddsUpToTheForce) {
   for (const bool closed : {false, true}) {
     Cloth cloth(closed ? ringScene(12, 14) : flatScene(12, 14));

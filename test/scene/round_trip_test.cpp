@@ -312,9 +312,12 @@ TEST(RoundTrip, NumbersOfEverySize) {
     scene.cloth.rows = 2;
     scene.cloth.columns = 2;
     const double size = std::strtod(("1.7e" + std::to_string(exponent)).c_str(), nullptr);
-    scene.gravity.x() = -size;  // the widest range there is
+    scene.drag.resize(1);  // its force has the widest range there is
+    scene.drag[0].id = "hand";
+    scene.drag[0].node = NodeIndex{1, 1};
+    scene.drag[0].force.x() = -size;
     const Scene back = expectScene(writeScene(scene));
-    EXPECT_TRUE(sameBits(scene.gravity.x(), back.gravity.x())) << exponent;
+    EXPECT_TRUE(sameBits(scene.drag[0].force.x(), back.drag.at(0).force.x())) << exponent;
   }
 }
 
