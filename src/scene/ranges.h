@@ -12,8 +12,8 @@ namespace curtain {
 /// numbers, so that a scene that is valid can be computed. From a nanometre to a million kilometres.
 constexpr double kSmallest = 1e-9;
 constexpr double kLargest = 1e9;
-/// Forces may be absurd, the cloth stops for as long as they act; but sums of them are numbers.
-constexpr double kStrongest = 1e200;
+/// Forces may be absurd, the cloth stops for as long as they act; but the squares of what they do are numbers.
+constexpr double kStrongest = 1e100;
 
 /// A range of finite numbers; the ends belong to it.
 struct Range {
