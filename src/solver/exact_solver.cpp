@@ -349,7 +349,8 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
                                      : slackResidual();
     const double share = first ? kFirstSweepShare : 1.0;
     if (rods.converged && strings <= share * tolerance && touch <= share * contact_tolerance && rubbed <= kRubShare * contact_tolerance &&
-        ((rods.last_residual <= sure_stop_ && rubbed == 0.0) || warpResidualNow(warp) <= tolerance)) {
+        ((rods.last_residual * inertia_.dampingSpread() <= sure_stop_ && rubbed == 0.0) ||
+         warpResidualNow(warp) <= tolerance)) {
       progress.settled = true;
       clock.lap(Stage::kWeft);
       return progress;

@@ -85,9 +85,9 @@ class SceneMaker {
 };
 
 /// Sizes that a made-up scene has at most, so that stepping it takes milliseconds.
-constexpr int kMostRows = 8;
-constexpr int kMostColumns = 8;
-constexpr int kMostRounds = 5;
+constexpr int kMostRows = 6;
+constexpr int kMostColumns = 6;
+constexpr int kMostRounds = 3;
 constexpr int kMostThreads = 3;
 
 /// A scene with every key made up; none when what they mean together can't be simulated. Its meshes have made-up names.

@@ -19,7 +19,7 @@ using curtain::Simulator;
 using curtain::Statistics;
 using curtain::Vec3;
 
-constexpr int kFrames = 3;
+constexpr int kFrames = 2;
 
 void requireFinite(const std::vector<Vec3>& values, const std::string& what) {
   for (const Vec3& value : values) require(value.allFinite(), what + " are finite");
