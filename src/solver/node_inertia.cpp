@@ -10,6 +10,9 @@
 namespace curtain {
 namespace {
 
+// Of what damping adds to the nodes' masses, where it all but holds some of them.
+constexpr double kMostSpread = 1e100;
+
 double freeMass(const ClothPattern& pattern, const Field& inverse_mass) {
   double sum = 0.0;
   for (std::size_t n = 0; n < pattern.grid.size(); ++n) {
@@ -17,13 +20,6 @@ double freeMass(const ClothPattern& pattern, const Field& inverse_mass) {
   }
   return sum;
 }
-
-}  // namespace
-
-namespace {
-
-// Where damping all but holds some nodes.
-constexpr double kMostSpread = 1e100;
 
 }  // namespace
 
