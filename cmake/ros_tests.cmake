@@ -12,10 +12,17 @@ add_rostest_gtest(test_ros_sharing test/ros/sharing.test test/ros/sharing_master
 target_link_libraries(test_ros_sharing curtain_ros curtain_warnings)
 add_dependencies(test_ros_sharing ${curtain_sim_EXPORTED_TARGETS})
 
+# A sender that is faster and worse than a rospy node.
+add_executable(curtain_flood EXCLUDE_FROM_ALL test/ros/flood.cpp)
+target_link_libraries(curtain_flood curtain_ros curtain_warnings)
+add_dependencies(tests curtain_flood)
+set_target_properties(curtain_flood PROPERTIES
+  RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
+
 file(GLOB CURTAIN_ROSTESTS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS test/ros/*.test)
 list(REMOVE_ITEM CURTAIN_ROSTESTS test/ros/sharing.test)
 foreach(file ${CURTAIN_ROSTESTS})
-  add_rostest(${file} DEPENDENCIES curtain_node curtain_nodelet ${curtain_sim_EXPORTED_TARGETS})
+  add_rostest(${file} DEPENDENCIES curtain_node curtain_nodelet curtain_flood ${curtain_sim_EXPORTED_TARGETS})
 endforeach()
 
 roslaunch_add_file_check(launch USE_TEST_DEPENDENCIES)

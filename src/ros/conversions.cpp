@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "ros/frames.h"
+#include "ros/shown.h"
+#include "scene/ranges.h"
 
 namespace curtain_ros {
 
@@ -21,16 +23,22 @@ Vec3 toVec3(const Xyz& v) {
   return Vec3(v.x, v.y, v.z);
 }
 
-std::string text(double number) { return std::to_string(number); }
+// Beyond these the cloth's own numbers would lose their digits, or leave those of the messages: no wind and no hand is near.
+constexpr double kFarthest = 1e9;   // [m], each coordinate
+constexpr double kStrongest = 1e6;  // [Pa], [N], [N/m]
+constexpr double kLongest = 1e9;    // [s]
 
-void requireFinite(const Vec3& v, const std::string& key, Problems& problems) {
-  if (v.allFinite()) return;
-  problems.push_back({key, "must be finite, is [" + text(v.x()) + ", " + text(v.y()) + ", " + text(v.z()) + "]"});
+using curtain::formatNumber;
+
+void requireWithin(const Vec3& v, double most, const std::string& key, Problems& problems) {
+  if (v.cwiseAbs().maxCoeff() <= most && v.allFinite()) return;
+  problems.push_back({key, "must be finite and each of it at most " + formatNumber(most) + ", is [" + formatNumber(v.x()) +
+                               ", " + formatNumber(v.y()) + ", " + formatNumber(v.z()) + "]"});
 }
 
-void requireNotNegative(double value, const std::string& key, Problems& problems) {
-  if (std::isfinite(value) && value >= 0.0) return;
-  problems.push_back({key, "must be finite and >= 0, is " + text(value)});
+void requireUpTo(double value, double most, const std::string& key, Problems& problems) {
+  if (value >= 0.0 && value <= most) return;
+  problems.push_back({key, "must be a number in [0, " + formatNumber(most) + "], is " + formatNumber(value)});
 }
 
 void append(const Problems& more, Problems& problems) { problems.insert(problems.end(), more.begin(), more.end()); }
@@ -39,10 +47,18 @@ double endOf(double lifetime, double time) {
   return lifetime > 0.0 ? time + lifetime : std::numeric_limits<double>::infinity();
 }
 
+void requireShort(const std::string& name, const std::string& key, Problems& problems) {
+  if (name.size() <= kLongestName) return;
+  problems.push_back({key, "must be no longer than " + std::to_string(kLongestName) + " bytes, begins '" +
+                               shown(name.substr(0, 20)) + "'"});
+}
+
 // Both messages have the same head; each knows its own constants.
 template <typename Message>
 Problems checkHeadOf(const Message& message) {
   Problems problems;
+  requireShort(message.id, "id", problems);
+  requireShort(message.header.frame_id, "header.frame_id", problems);
   switch (message.action) {
     case Message::ADD:
     case Message::DELETE:
@@ -67,14 +83,18 @@ Problems toWind(const WindSource& message, const curtain::Pose& frame, double ti
   const Vec3 position = toVec3(message.pose.position);
   const auto& q = message.pose.orientation;
   Eigen::Quaterniond orientation(q.w, q.x, q.y, q.z);
-  requireFinite(position, "pose.position", problems);
+  requireWithin(position, kFarthest, "pose.position", problems);
   // A quaternion that nobody set is all zero; one this short has no direction left in its digits.
-  if (!orientation.coeffs().allFinite() || orientation.norm() < 1e-6) {
-    problems.push_back({"pose.orientation", "must be finite and not zero, is [" + text(q.x) + ", " + text(q.y) + ", " +
-                                                text(q.z) + ", " + text(q.w) + "]"});
+  if (!std::isfinite(orientation.squaredNorm()) || orientation.norm() < 1e-6) {
+    problems.push_back({"pose.orientation", "must be finite and not zero, is [" + formatNumber(q.x) + ", " +
+                                                formatNumber(q.y) + ", " + formatNumber(q.z) + ", " + formatNumber(q.w) +
+                                                "]"});
   }
-  requireNotNegative(message.lifetime, "lifetime", problems);
-  requireNotNegative(message.correlation_time, "correlation_time", problems);
+  requireUpTo(message.lifetime, kLongest, "lifetime", problems);
+  requireUpTo(message.correlation_time, kLongest, "correlation_time", problems);
+  requireUpTo(message.pressure, kStrongest, "pressure", problems);
+  requireUpTo(message.unsteadiness, kStrongest, "unsteadiness", problems);
+  requireUpTo(message.radius, kFarthest, "radius", problems);
   if (!problems.empty()) return problems;
 
   orientation.normalize();
@@ -89,7 +109,7 @@ Problems toWind(const WindSource& message, const curtain::Pose& frame, double ti
       message.correlation_time > 0.0 ? message.correlation_time : curtain::WindParams().correlation_time;
   wind.start = time;
   wind.end = endOf(message.lifetime, time);
-  append(curtain::validate(wind, message.id), problems);
+  append(curtain::validate(wind, shown(message.id)), problems);
   return problems;
 }
 
@@ -101,7 +121,7 @@ Problems toDrag(const DragForce& message, const curtain::Pose& frame, double tim
 
   if (message.row == -1 && message.column == -1) {
     const Vec3 point = toVec3(message.point);
-    requireFinite(point, "point", problems);
+    requireWithin(point, kFarthest, "point", problems);
     drag.point = transformPoint(frame, point);
   } else if (message.row < 0 || message.row >= cloth.rows || message.column < 0 || message.column >= cloth.columns) {
     problems.push_back({"row, column", "must be a node of the " + std::to_string(cloth.rows) + " x " +
@@ -113,12 +133,12 @@ Problems toDrag(const DragForce& message, const curtain::Pose& frame, double tim
 
   if (message.mode == DragForce::FORCE) {
     const Vec3 force = toVec3(message.force);
-    requireFinite(force, "force", problems);
+    requireWithin(force, kStrongest, "force", problems);
     drag.force = frame.orientation * force;
   } else if (message.mode == DragForce::SPRING) {
     const Vec3 target = toVec3(message.target);
-    requireFinite(target, "target", problems);
-    requireNotNegative(message.stiffness, "stiffness", problems);
+    requireWithin(target, kFarthest, "target", problems);
+    requireUpTo(message.stiffness, kStrongest, "stiffness", problems);
     drag.target = transformPoint(frame, target);
     if (message.stiffness > 0.0) drag.stiffness = message.stiffness;
   } else {
@@ -126,14 +146,14 @@ Problems toDrag(const DragForce& message, const curtain::Pose& frame, double tim
         {"mode", "must be FORCE (0) or SPRING (1), is " + std::to_string(static_cast<int>(message.mode))});
   }
 
-  requireNotNegative(message.radius, "radius", problems);
-  requireNotNegative(message.lifetime, "lifetime", problems);
+  requireUpTo(message.radius, kFarthest, "radius", problems);
+  requireUpTo(message.lifetime, kLongest, "lifetime", problems);
   if (!problems.empty()) return problems;
 
   drag.radius = message.radius;
   drag.start = time;
   drag.end = endOf(message.lifetime, time);
-  append(curtain::validate(drag, cloth, message.id), problems);
+  append(curtain::validate(drag, cloth, shown(message.id)), problems);
   return problems;
 }
 
@@ -197,6 +217,8 @@ void toMessage(const curtain::Statistics& statistics, curtain_sim::Statistics& m
   message.step_ms = 1e3 * statistics.step_seconds;
   message.step_ms_max = 1e3 * statistics.step_seconds_max;
   message.finite = statistics.finite;
+  message.implicit_substeps = static_cast<std::uint64_t>(statistics.implicit);
+  message.stops = static_cast<std::uint64_t>(statistics.stops);
 }
 
 }  // namespace curtain_ros

@@ -16,7 +16,8 @@
 
 namespace curtain_ros {
 
-/// What every message must hold before it is looked at closer: a known action and, but for DELETEALL, an id.
+/// What every message must hold before it is looked at closer: names that are not too long, a known action and, but for
+/// DELETEALL, an id.
 std::vector<curtain::Problem> checkHead(const curtain_sim::WindSource& message);
 std::vector<curtain::Problem> checkHead(const curtain_sim::DragForce& message);
 

@@ -10,6 +10,9 @@ namespace {
 // Long enough for static and slow (10 Hz) frames to reach a new listener, short enough to call a wrong name wrong.
 const ros::WallDuration kYouth(1.0);
 
+// [m] A frame that is said to be further away is not taken: sums with its position would lose the cloth's digits.
+constexpr double kFarthest = 1e9;
+
 std::string withoutSlash(const std::string& frame) {
   return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
 }
@@ -28,7 +31,7 @@ void Frames::listen() {
   listening_since_ = ros::SteadyTime::now();
 }
 
-FrameLookup Frames::lookup(const std::string& frame) {
+FrameLookup Frames::lookup(const std::string& frame, const ros::Time& time) {
   FrameLookup result;
   if (isWorld(frame)) {
     result.known = true;
@@ -36,14 +39,14 @@ FrameLookup Frames::lookup(const std::string& frame) {
   }
   listen();
   try {
-    const geometry_msgs::TransformStamped t = buffer_->lookupTransform(world_, withoutSlash(frame), ros::Time(0));
+    const geometry_msgs::TransformStamped t = buffer_->lookupTransform(world_, withoutSlash(frame), time);
     const auto& p = t.transform.translation;
     const auto& q = t.transform.rotation;
     result.pose.position = curtain::Vec3(p.x, p.y, p.z);
     result.pose.orientation = Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
     result.stamp = t.header.stamp;
-    result.known = result.pose.position.allFinite() && result.pose.orientation.coeffs().allFinite();
-    if (!result.known) result.error = "its transform is not finite";
+    result.known = result.pose.position.cwiseAbs().maxCoeff() <= kFarthest && result.pose.orientation.coeffs().allFinite();
+    if (!result.known) result.error = "its transform is not finite, or further than 1.0e9 m away";
   } catch (const tf2::TransformException& e) {
     result.error = e.what();
     result.may_come = ros::SteadyTime::now() - listening_since_ < kYouth;

@@ -41,7 +41,10 @@ class Frames {
   bool listening() const { return listener_ != nullptr; }
 
   /// The frame as tf2 knows it last; the world frame is known without tf2.
-  FrameLookup lookup(const std::string& frame);
+  FrameLookup lookup(const std::string& frame) { return lookup(frame, ros::Time(0)); }
+
+  /// The frame as tf2 knows it for a time, interpolated; 0: last.
+  FrameLookup lookup(const std::string& frame, const ros::Time& time);
 
   /// Forgets what moved: for a clock that jumped back. Static frames stay.
   void clear();

@@ -10,6 +10,8 @@
 
 #include <cstdint>
 #include <deque>
+#include <string>
+#include <vector>
 
 #include "curtain_sim/DragForce.h"
 #include "curtain_sim/WindSource.h"
@@ -30,10 +32,17 @@ class Inputs {
   /// Applies what arrived, in order, and takes away what is over. Simulation thread.
   void apply(curtain::Simulator& simulator);
 
-  /// Messages dropped since construction. Simulation thread.
+  /// Messages taken and dropped since construction. Simulation thread.
+  std::uint64_t taken() const { return taken_; }
   std::uint32_t invalid() const { return invalid_; }
   std::uint32_t untransformed() const { return untransformed_; }
   std::uint32_t overflowed() const { return static_cast<std::uint32_t>(winds_.lost() + drags_.lost()); }
+
+  /// Which message was dropped last and why; empty: none. Simulation thread.
+  const std::string& lastDrop() const { return last_drop_; }
+
+  /// Names of the topics. Any thread.
+  std::vector<std::string> topics() const { return {wind_subscriber_.getTopic(), drag_subscriber_.getTopic()}; }
 
  private:
   /// False: not yet, try again next frame.
@@ -41,9 +50,9 @@ class Inputs {
   bool handle(const curtain_sim::DragForce& message, curtain::Simulator& simulator);
 
   template <typename Message>
-  void work(std::deque<boost::shared_ptr<const Message>>& waiting, std::deque<boost::shared_ptr<const Message>> arrived,
-            curtain::Simulator& simulator);
+  void work(std::deque<boost::shared_ptr<const Message>>& waiting, curtain::Simulator& simulator);
   void drop(const char* topic, const std::string& id, const std::vector<curtain::Problem>& problems);
+  void warnOfOverflow();
   bool findFrame(const char* topic, const std::string& id, const std::string& frame, FrameLookup& lookup);
 
   Frames& frames_;
@@ -52,8 +61,11 @@ class Inputs {
   // Messages whose frame may still arrive, and those behind them: only while the tf2 listener is young.
   std::deque<curtain_sim::WindSource::ConstPtr> waiting_winds_;
   std::deque<curtain_sim::DragForce::ConstPtr> waiting_drags_;
+  std::uint64_t taken_ = 0;
   std::uint32_t invalid_ = 0;
   std::uint32_t untransformed_ = 0;
+  std::uint64_t warned_overflow_ = 0;
+  std::string last_drop_;
   ros::Subscriber wind_subscriber_;
   ros::Subscriber drag_subscriber_;
 };

@@ -28,12 +28,11 @@ class Mailbox {
     letters_.push_back(std::move(letter));
   }
 
-  /// All letters since the last call, oldest first.
-  std::deque<Letter> collect() {
-    std::deque<Letter> letters;
+  /// Appends all letters since the last call, oldest first.
+  void collect(std::deque<Letter>& letters) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    letters.swap(letters_);
-    return letters;
+    for (Letter& letter : letters_) letters.push_back(std::move(letter));
+    letters_.clear();
   }
 
   /// Letters that were pushed out uncollected, since construction.

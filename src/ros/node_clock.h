@@ -8,6 +8,8 @@
 
 #include <cstdint>
 
+#include "ros/stamp_keeper.h"
+
 namespace curtain_ros {
 
 class NodeClock {
@@ -17,20 +19,39 @@ class NodeClock {
   bool simulated() const { return simulated_; }
 
   /// [ns]; 0: no /clock yet.
-  std::int64_t now() const {
-    return simulated_ ? static_cast<std::int64_t>(ros::Time::now().toNSec())
-                      : static_cast<std::int64_t>(ros::SteadyTime::now().toNSec());
+  std::int64_t now() const { return simulated_ ? nanoseconds(ros::Time::now()) : nanoseconds(ros::SteadyTime::now()); }
+
+  /// ROS time of a frame at a time [ns] of this clock; times rise from call to call, but for a /clock that jumped back.
+  ros::Time stampOf(std::int64_t time) {
+    if (!simulated_) time = stamps_.stamp(time, readOffset());
+    return ros::Time().fromNSec(static_cast<std::uint64_t>(time));
   }
 
-  /// ROS time of a time [ns] of this clock.
-  ros::Time stampOf(std::int64_t time) const {
-    if (simulated_) return ros::Time().fromNSec(static_cast<std::uint64_t>(time));
-    const std::int64_t ago = now() - time;
-    return ros::Time().fromNSec(static_cast<std::uint64_t>(static_cast<std::int64_t>(ros::Time::now().toNSec()) - ago));
-  }
+  /// Times that the computer's clock was set back.
+  std::uint32_t setBack() const { return stamps_.setBack(); }
 
  private:
+  template <typename Time>
+  static std::int64_t nanoseconds(const Time& time) {
+    return static_cast<std::int64_t>(time.toNSec());
+  }
+
+  // The best of a few readings: a thread that is held up between two of them is rarely so again at once.
+  static StampKeeper::Offset readOffset() {
+    StampKeeper::Offset best;
+    for (int reading = 0; reading < 3; ++reading) {
+      const std::int64_t before = nanoseconds(ros::SteadyTime::now());
+      const std::int64_t ros_time = nanoseconds(ros::Time::now());
+      const std::int64_t after = nanoseconds(ros::SteadyTime::now());
+      const StampKeeper::Offset offset = {ros_time - before - (after - before) / 2, after - before};
+      if (reading == 0 || offset.doubt < best.doubt) best = offset;
+      if (best.doubt <= StampKeeper::kGoodReading) break;
+    }
+    return best;
+  }
+
   bool simulated_;
+  StampKeeper stamps_;
 };
 
 }  // namespace curtain_ros

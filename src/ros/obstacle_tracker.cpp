@@ -18,9 +18,9 @@ ObstacleTracker::ObstacleTracker(const curtain::Scene& scene, double timeout, Fr
     if (frames.isWorld(obstacle.frame)) continue;  // stands where the scene says
     Tracked tracked;
     tracked.index = static_cast<int>(i);
-    tracked.name = obstacle.name;
-    tracked.frame = obstacle.frame;
     tracked.offset = obstacle.pose;
+    tracked.health.name = obstacle.name;
+    tracked.health.frame = obstacle.frame;
     tracked_.push_back(tracked);
   }
   if (!tracked_.empty()) frames_.listen();
@@ -28,10 +28,18 @@ ObstacleTracker::ObstacleTracker(const curtain::Scene& scene, double timeout, Fr
 
 void ObstacleTracker::restart(curtain::Simulator& simulator) {
   for (Tracked& obstacle : tracked_) {
-    obstacle.present = false;
-    obstacle.is_static = false;
+    obstacle.health.present = false;
+    obstacle.health.is_static = false;
     obstacle.stamp = ros::Time();
+    obstacle.resumed = false;
     simulator.setObstaclePresent(obstacle.index, false);
+  }
+}
+
+void ObstacleTracker::resume(const curtain::Simulator& simulator) {
+  for (Tracked& obstacle : tracked_) {
+    obstacle.health.present = simulator.obstaclePresent(obstacle.index);
+    obstacle.resumed = obstacle.health.present;
   }
 }
 
@@ -39,44 +47,73 @@ void ObstacleTracker::update(curtain::Simulator& simulator, const ros::Time& now
   for (Tracked& obstacle : tracked_) follow(obstacle, simulator, now);
 }
 
-void ObstacleTracker::follow(Tracked& obstacle, curtain::Simulator& simulator, const ros::Time& now) {
-  const FrameLookup frame = frames_.lookup(obstacle.frame);
+FrameLookup ObstacleTracker::look(Tracked& obstacle, const ros::Time& now) {
+  ObstacleHealth& health = obstacle.health;
+  FrameLookup frame = frames_.lookup(health.frame);
+  const double ahead = frame.known && !frame.stamp.isZero() ? (frame.stamp - now).toSec() : 0.0;
+  health.early = ahead > timeout_;
+  if (health.early) {
+    ++early_poses_;
+    frame = frames_.lookup(health.frame, now);
+    if (!frame.known) frame.error = "its transform is " + std::to_string(ahead) + " s ahead of the clock";
+  }
   if (frame.known) {
     obstacle.stamp = frame.stamp;
-    obstacle.is_static = frame.stamp.isZero();
+    health.is_static = frame.stamp.isZero();
   }
-  const bool seen = frame.known || obstacle.present;
-  const double age = (now - obstacle.stamp).toSec();
-  const bool fresh = seen && (obstacle.is_static || age <= timeout_);
+  health.error = frame.error;
+  return frame;
+}
+
+void ObstacleTracker::follow(Tracked& obstacle, curtain::Simulator& simulator, const ros::Time& now) {
+  const FrameLookup frame = look(obstacle, now);
+  ObstacleHealth& health = obstacle.health;
+  const bool seen = frame.known || health.present;
+  if (obstacle.resumed && obstacle.stamp.isZero() && !health.is_static) obstacle.stamp = now;
+  health.age = seen && !health.is_static ? (now - obstacle.stamp).toSec() : 0.0;
+  const bool fresh = seen && (health.age <= timeout_ || (obstacle.resumed && frame.may_come));
+  health.late = fresh && health.age > 0.5 * timeout_;
+  late_poses_ += health.late ? 1 : 0;
 
   if (fresh && frame.known) {
-    const bool jump = !obstacle.present;
+    const bool jump = !health.present || obstacle.resumed;
+    obstacle.resumed = false;
     if (jump) simulator.setObstaclePresent(obstacle.index, true);
     simulator.setObstaclePose(obstacle.index, compose(frame.pose, obstacle.offset), jump);
-    obstacle.present = true;
+    health.present = true;
     return;
   }
   if (fresh) return;  // late: the last pose
 
-  if (obstacle.present) {
-    simulator.setObstaclePresent(obstacle.index, false);
-    obstacle.present = false;
-  }
+  if (health.present) leaveOut(obstacle, simulator);
   if (frame.may_come) return;  // the listener has just begun: too early to complain
   if (frame.known) {
-    ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "obstacle '" << obstacle.name << "' left out: its frame '" << obstacle.frame
-                                                       << "' is " << age << " s old (~obstacle_timeout is " << timeout_
-                                                       << " s)");
+    ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "obstacle '" << health.name << "' left out: its frame '" << health.frame
+                                                       << "' is " << health.age << " s old (~obstacle_timeout is "
+                                                       << timeout_ << " s)");
   } else {
-    ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "obstacle '" << obstacle.name << "' left out: its frame '" << obstacle.frame
+    ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "obstacle '" << health.name << "' left out: its frame '" << health.frame
                                                        << "' is not known in '" << frames_.world()
-                                                       << "': " << frame.error);
+                                                       << "': " << health.error);
   }
+}
+
+void ObstacleTracker::leaveOut(Tracked& obstacle, curtain::Simulator& simulator) {
+  simulator.setObstaclePresent(obstacle.index, false);
+  obstacle.health.present = false;
+  obstacle.resumed = false;
+  ++lost_;
 }
 
 std::uint32_t ObstacleTracker::absent() const {
   return static_cast<std::uint32_t>(
-      std::count_if(tracked_.begin(), tracked_.end(), [](const Tracked& o) { return !o.present; }));
+      std::count_if(tracked_.begin(), tracked_.end(), [](const Tracked& o) { return !o.health.present; }));
+}
+
+std::vector<ObstacleHealth> ObstacleTracker::health() const {
+  std::vector<ObstacleHealth> result;
+  for (const Tracked& obstacle : tracked_) result.push_back(obstacle.health);
+  return result;
 }
 
 }  // namespace curtain_ros

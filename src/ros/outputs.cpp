@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/outputs.h"
 
+#include <ros/console.h>
+
 namespace curtain_ros {
 
 namespace {
 constexpr double kPicturesAtRest = 1.0;  // [1/s]
+constexpr double kWarnPeriod = 10.0;     // [s] between warnings
 }
 
 Outputs::Outputs(ros::NodeHandle private_node, const NodeParams& params, const curtain::Simulator& simulator,
@@ -32,9 +35,8 @@ Outputs::Outputs(ros::NodeHandle private_node, const NodeParams& params, const c
 void Outputs::publish(const ros::Time& stamp, curtain_sim::Statistics statistics, bool latest) {
   for (Pace* pace : {&state_pace_, &contacts_pace_, &mesh_pace_, &markers_pace_}) pace->tick();
   if (state_pace_.due(state_publisher_.getNumSubscribers()) && state_pace_.send(shape_.revision())) {
-    statistics.states_sent = ++states_sent_;
-    statistics.meshes_sent = meshes_sent_;
-    statistics.markers_sent = markers_sent_;
+    ++states_sent_;
+    count(statistics);
     state_publisher_.publish(states_.build(stamp, statistics));
   }
   if (contacts_pace_.due(contacts_publisher_.getNumSubscribers()) && contacts_pace_.send(shape_.revision())) {
@@ -54,11 +56,24 @@ void Outputs::publishPictures(const ros::Time& stamp) {
   }
 }
 
+void Outputs::count(curtain_sim::Statistics& statistics) const {
+  statistics.states_sent = states_sent_;
+  statistics.meshes_sent = meshes_sent_;
+  statistics.markers_sent = markers_sent_;
+}
+
 // A viewer that tf2 does not know is one that sees everything: full detail. One that was known stays where it was.
 curtain::MeshDetail Outputs::meshDetail() {
   if (viewer_frame_.empty()) return detail_;
   const FrameLookup viewer = frames_.lookup(viewer_frame_);
   if (viewer.known) detail_.viewer = viewer.pose.position;
+  viewer_error_ = viewer.may_come ? "" : viewer.error;
+  if (!viewer_error_.empty()) {
+    ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "the frame '" << viewer_frame_ << "' of ~mesh_viewer_frame is not known in '"
+                                                        << frames_.world() << "', ~mesh is made for "
+                                                        << (detail_.viewer ? "where it was last" : "any eye") << ": "
+                                                        << viewer_error_);
+  }
   return detail_;
 }
 

@@ -27,9 +27,15 @@ class Outputs {
   Outputs(ros::NodeHandle private_node, const NodeParams& params, const curtain::Simulator& simulator, Frames& frames);
 
   /// Publishes a frame.
-  ///   statistics  the node's own fields are filled in; the engine's and the counters of what was sent are added here
+  ///   statistics  the node's own fields are filled in; the engine's and the counters of what was sent are added to them
   ///   latest      false: another frame follows at once, so that pictures of this one are not worth building
   void publish(const ros::Time& stamp, curtain_sim::Statistics statistics, bool latest);
+
+  /// Adds what was sent since construction.
+  void count(curtain_sim::Statistics& statistics) const;
+
+  /// Why the viewer's frame is not known; empty: it is, or there is none, or nobody wants the mesh.
+  const std::string& viewerError() const { return viewer_error_; }
 
  private:
   void publishPictures(const ros::Time& stamp);
@@ -38,6 +44,7 @@ class Outputs {
   Shape shape_;
   Frames& frames_;
   std::string viewer_frame_;
+  std::string viewer_error_;
   curtain::MeshDetail detail_;
   Pace state_pace_;
   Pace contacts_pace_;

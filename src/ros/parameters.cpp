@@ -8,9 +8,11 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <optional>
 
 #include "curtain_sim/scene_yaml.h"
 #include "ros/xmlrpc_yaml.h"
+#include "scene/spelling.h"
 
 namespace curtain_ros {
 
@@ -41,15 +43,20 @@ Reader number(double NodeParams::*field, double largest, const std::string& unit
   };
 }
 
-Reader numberOrZero(double NodeParams::*field, double largest, const std::string& unit) {
+Reader numberBetween(double NodeParams::*field, double smallest, double largest, const std::string& unit) {
   return [=](const XmlRpcValue& value, NodeParams& params) -> std::string {
     const double number = numberOf(value);
-    if (!(number >= 0.0 && number <= largest)) {
-      return "must be a number in [0, " + yamlText(largest) + "] " + unit + ", is " + describeValue(value);
+    if (!(number >= smallest && number <= largest)) {
+      return "must be a number in [" + yamlText(smallest) + ", " + yamlText(largest) + "] " + unit + ", is " +
+             describeValue(value);
     }
     params.*field = number;
     return "";
   };
+}
+
+Reader numberOrZero(double NodeParams::*field, double largest, const std::string& unit) {
+  return numberBetween(field, 0.0, largest, unit);
 }
 
 Reader integer(int NodeParams::*field, int smallest, int largest) {
@@ -105,8 +112,19 @@ const std::map<std::string, Reader>& readers() {
       {"state_folds", boolean(&NodeParams::state_folds)},
       {"handles", boolean(&NodeParams::handles)},
       {"handle_stiffness", number(&NodeParams::handle_stiffness, 1e6, "[N/m]")},
+      {"snapshot_file", textOrEmpty(&NodeParams::snapshot_file)},
+      {"snapshot_period", numberBetween(&NodeParams::snapshot_period, 0.1, 86400.0, "[s]")},
+      {"diagnostic_period", numberBetween(&NodeParams::diagnostic_period, 0.1, 3600.0, "[s]")},
   };
   return table;
+}
+
+// What a mistyped parameter was meant to be, as far as one can tell.
+std::string meant(const std::string& name) {
+  std::vector<std::string> known = nodeParameterNames();
+  known.push_back(kScene);
+  const std::optional<std::string> word = curtain::nearestWord(name, known);
+  return word ? "; did you mean " + *word + "?" : "";
 }
 
 // Obstacles that name no frame stand still in the world, whatever the world frame is called here.
@@ -162,7 +180,7 @@ ParameterReading readParameters(const XmlRpcValue& tree, const std::string& priv
       }
       const auto reader = readers().find(entry.first);
       if (reader == readers().end()) {
-        reading.warnings.push_back(name + ": unknown parameter, not used");
+        reading.warnings.push_back(name + ": unknown parameter, not used" + meant(entry.first));
         continue;
       }
       const std::string problem = reader->second(entry.second, reading.node);

@@ -30,6 +30,9 @@ struct NodeParams {
   bool state_folds = false;              ///< ~state carries the second-layer nodes
   bool handles = true;                   ///< interactive markers on the hem
   double handle_stiffness = 100.0;       ///< of their springs [N/m], > 0
+  std::string snapshot_file;             ///< where the curtain's state is kept for the next start; empty: nowhere
+  double snapshot_period = 10.0;         ///< [s] of the node's clock between two of them [0.1..86400]
+  double diagnostic_period = 1.0;        ///< [s] between two messages on /diagnostics, by the computer's clock [0.1..3600]
 };
 
 /// What reading gave: usable only when problems is empty.

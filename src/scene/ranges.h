@@ -12,6 +12,7 @@ namespace curtain {
 /// numbers, so that a scene that is valid can be computed. From a nanometre to a million kilometres.
 constexpr double kSmallest = 1e-9;
 constexpr double kLargest = 1e9;
+constexpr double kLatest = 1e12;  // of ends [s]
 /// Forces may be absurd, the cloth stops for as long as they act; but the squares of what they do are numbers.
 constexpr double kStrongest = 1e100;
 
@@ -41,8 +42,9 @@ inline Range notZero() {
   range.not_zero = true;
   return range;
 }
+/// An end, which may be a long life later than a late start.
 inline Range orInfinite() {
-  Range range;
+  Range range = between(-kLargest, kLatest);
   range.or_infinite = true;
   return range;
 }

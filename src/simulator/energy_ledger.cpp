@@ -7,17 +7,18 @@ EnergyLedger::EnergyLedger(const ClothPattern& pattern) : pattern_(pattern) { be
 
 // Weight, and all forces but damping: that takes energy out, which nobody has to account for.
 void EnergyLedger::addForces(const Field3& velocity, const NodeForces& forces, double kick) noexcept {
-  double kinetic = 0.0, weight = 0.0, total = 0.0;
+  double kinetic = 0.0, weight = 0.0, others = 0.0;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     if (pattern_.inverse_mass[n] <= 0.0) continue;
     const Vec3 mean = 0.5 * (before_.at(n) + velocity.at(n));
     kinetic += pattern_.mass[n] * mean.dot(velocity.at(n) - before_.at(n));
-    weight += kick * pattern_.mass[n] * forces.gravity.dot(mean);
-    total += kick * forces.force->at(n).dot(mean);
+    const Vec3 own = pattern_.mass[n] * forces.gravity;
+    weight += kick * own.dot(mean);
+    others += kick * (forces.force->at(n) - own).dot(mean);
   }
   work_.kinetic += kinetic;
   work_.gravity += weight;
-  work_.forces += total - weight;
+  work_.forces += others;
 }
 
 void EnergyLedger::addPins(const Field3& velocity, const ExactSolver& links, double per_h) noexcept {

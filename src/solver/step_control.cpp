@@ -101,8 +101,8 @@ double StepControl::stepFromTensions(bool frame_begins, const ExactSolver& solve
   const double longest_stage = composed_ ? kLongestStage : 1.0;
   const double for_phase = omega_ > 0.0 ? kPhasePerStep / (longest_stage * omega_) : frame_;
   if (method_ != Method::kAuto || for_phase > kWorthLooking * frame_) return for_phase;
-  const bool unknown = heavier_step_ == 0.0 || std::isinf(heavier_step_);
-  if (frame_begins || unknown) heavier_step_ = solver.inertia().stepForPhase(kPhasePerStep, kHeavierShare);
+  // Not anew within a frame, where a blow is no reason for longer steps; but when it began nothing may have been known of tensions.
+  if (frame_begins || std::isinf(heavier_step_)) heavier_step_ = solver.inertia().stepForPhase(kPhasePerStep, kHeavierShare);
   return std::isfinite(heavier_step_) ? std::max(for_phase, heavier_step_) : for_phase;
 }
 

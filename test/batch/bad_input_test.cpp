@@ -93,6 +93,18 @@ TEST_F(BadInput, OutputsInFoldersThatAreNotThere) {
   expectRefused({good, "--stats", "nowhere/stats.json"}, {"--stats", "nowhere"});
 }
 
+// What is written last is noticed too: a short file may wait in a buffer until it is closed.
+TEST_F(BadInput, OutputsOnAFullDisk) {
+  const std::pair<const char*, const char*> outputs[] = {
+      {"--out", "full.csv"}, {"--mesh", "full.ply"}, {"--mesh", "full.obj"}, {"--stats", "full.json"}};
+  for (const auto& [option, name] : outputs) {
+    std::filesystem::create_symlink("/dev/full", folder_ / name);
+    const Outcome run = batch({smallScene(), "--duration", "0.1", "--sample", "0.1", option, name});
+    EXPECT_EQ(run.exit_code, 2) << option << ' ' << name;
+    EXPECT_NE(run.err.find(name), std::string::npos) << run.err;
+  }
+}
+
 TEST_F(BadInput, OutputsThatAreFolders) {
   const std::string good = smallScene();
   std::filesystem::create_directories(folder_ / "folder.ply");

@@ -3,59 +3,16 @@
 """Under use_sim_time the curtain follows /clock: it stands with it, counts what it drops, and starts again with it."""
 import sys
 import time
-import unittest
 
-import rospy
 import rostest
-from curtain_sim.msg import WindSource
-from curtain_testing import Curtain, billow, publisher, wait_until, wind_message
-from geometry_msgs.msg import TransformStamped
-from rosgraph_msgs.msg import Clock
-from tf2_msgs.msg import TFMessage
+from curtain_testing import billow, wind_message
+from driven_curtain import DrivenCurtain
 
-FRAME = 0.02  # s
+FRAME = DrivenCurtain.FRAME
 
 
-class ClockTest(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        rospy.init_node("clock_test")
-        cls.clock = publisher("/clock", Clock)
-        wait_until(lambda: cls.clock.get_num_connections() > 1, "the node listens to the clock, not only this test")
-        cls.wind = publisher("/wind_source", WindSource)
-        cls.tf = publisher("/tf", TFMessage)
-        cls.curtain = Curtain("/curtain")
-        wait_until(lambda: cls.curtain._subscriber.get_num_connections() > 0, "the node is there")
-        cls.now = 0.0
-
-    @classmethod
-    def set_clock(cls, now):
-        cls.now = now
-        cls.clock.publish(Clock(clock=rospy.Time.from_sec(now)))
-
-    def run_until(self, end):
-        """Drives the clock frame by frame; each is made before the next is asked for."""
-        while self.now < end - 1e-9:
-            goal = self.now + FRAME
-            self.set_clock(goal)
-            self.curtain.wait_for(lambda s: abs(s.header.stamp.to_sec() - goal) < 1e-6, "the frame of %g s" % goal)
-
-    def begin(self, start):
-        """Starts a run of the clock and drives it up to its first frame, which is returned."""
-        self.curtain.clear()
-        self.set_clock(start)
-        while self.curtain.last() is None:
-            # A node that was held up may see a later time first: then its first frame is as much later.
-            patience = time.monotonic() + 0.1
-            while self.curtain.last() is None and time.monotonic() < patience:
-                time.sleep(0.002)
-            if self.curtain.last() is None:
-                self.assertLess(self.now, start + 5.0, "no frame comes")
-                self.set_clock(self.now + FRAME)
-        first = self.curtain.messages()[0]
-        self.assertEqual(first.statistics.frame, 1)
-        self.assertGreaterEqual(first.header.stamp.to_sec(), start + FRAME - 1e-6)
-        return first
+class ClockTest(DrivenCurtain):
+    NAME = "clock_test"
 
     def test_1_frames_follow_the_clock(self):
         """Fifty frames a simulated second, stamped with the clock, however fast it runs."""
@@ -101,17 +58,6 @@ class ClockTest(unittest.TestCase):
         self.assertEqual(last.statistics.frame, 51)
         self.assertLess(billow(last), 0.01)
         self.assertEqual(last.statistics.dropped_frames, dropped, "counted since the node's start")
-
-    def ball_at(self, stamp, y):
-        transform = TransformStamped()
-        transform.header.stamp = rospy.Time.from_sec(stamp)
-        transform.header.frame_id = "world"
-        transform.child_frame_id = "ball"
-        transform.transform.translation.x = 0.35
-        transform.transform.translation.y = y
-        transform.transform.translation.z = 1.4
-        transform.transform.rotation.w = 1.0
-        self.tf.publish(TFMessage([transform]))
 
     def test_5_obstacles_start_again_with_the_clock(self):
         """A transform of the old run's future places nothing in the new run; the new run's does."""

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "ros/handles.h"
+#include "ros/shown.h"
 
 namespace curtain_ros {
 namespace {
@@ -113,6 +114,50 @@ TEST(Conversions, BadWindsAreNamed) {
   expect("unsteadiness", [](WindSource& m) { m.unsteadiness = -1.0; });
   expect("correlation_time", [](WindSource& m) { m.correlation_time = -1.0; });
   expect("lifetime", [](WindSource& m) { m.lifetime = kNan; });
+  // Finite, but nothing that a cloth could be held against.
+  expect("pose.position", [](WindSource& m) { m.pose.position.x = -1e300; });
+  expect("pose.orientation", [](WindSource& m) { m.pose.orientation.x = 1e200; });
+  expect("radius", [](WindSource& m) { m.radius = 1e300; });
+  expect("pressure", [](WindSource& m) { m.pressure = 1.1e6; });
+  expect("unsteadiness", [](WindSource& m) { m.unsteadiness = 1.1e6; });
+  expect("lifetime", [](WindSource& m) { m.lifetime = 1e300; });
+}
+
+TEST(Conversions, TheStrongestAreTaken) {
+  WindSource wind = goodWind();
+  wind.pressure = wind.unsteadiness = 1e6;
+  wind.lifetime = wind.radius = wind.pose.position.x = 1e9;
+  EXPECT_EQ(windProblems(wind), "");
+  DragForce drag = goodDrag();
+  drag.force.x = -1e6;
+  drag.lifetime = drag.radius = 1e9;
+  EXPECT_EQ(dragProblems(drag), "");
+  drag.mode = DragForce::SPRING;
+  drag.stiffness = 1e6;
+  drag.target.z = -1e9;
+  EXPECT_EQ(dragProblems(drag), "");
+}
+
+TEST(Conversions, NamesAreShort) {
+  WindSource wind = goodWind();
+  wind.id = wind.header.frame_id = std::string(255, 'x');
+  EXPECT_TRUE(checkHead(wind).empty());
+  wind.id += 'x';
+  EXPECT_EQ(checkHead(wind).size(), 1U);
+  wind.header.frame_id += std::string(10000000, '\n');
+  const std::string problems = curtain::describe(checkHead(wind));
+  EXPECT_NE(problems.find("id"), std::string::npos);
+  EXPECT_NE(problems.find("header.frame_id"), std::string::npos);
+  EXPECT_LT(problems.size(), 300U);
+  wind.action = WindSource::DELETE;
+  EXPECT_EQ(checkHead(wind).size(), 2U);
+}
+
+// What a problem says of an id stands on one line of the log.
+TEST(Conversions, NamesAreShownOnALine) {
+  EXPECT_EQ(shown("fan"), "fan");
+  EXPECT_EQ(shown("a\nb\x1b[31m\x7f"), "a?b?[31m?");
+  EXPECT_EQ(shown(std::string(100, 'x'), 10), "xxxxxxxxxx… (100 bytes)");
 }
 
 TEST(Conversions, HeadsAreChecked) {

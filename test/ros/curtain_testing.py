@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the rostests share: waiting on conditions with a deadline, and listening to a curtain."""
+import math
 import os
 import signal
 import subprocess
+import sys
 import threading
 import time
 
+import rosgraph
 import roslib.packages
 import rospy
 import tf2_ros
 from curtain_sim.msg import CurtainState, DragForce, WindSource
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import TransformStamped
 
 PATIENCE = 20.0  # s, before a condition that should come true soon is called a failure; never slept through
@@ -202,19 +206,19 @@ def static_frame(broadcaster, parent, child, position, rotation=(0.0, 0.0, 0.0, 
     broadcaster.sendTransform(transform)
 
 
-class NodeProcess:
-    """A curtain_node started by the test itself, to see how it starts and ends."""
+def program(name):
+    """Path of a program or script of this package."""
+    found = roslib.packages.find_node("curtain_sim", name)
+    assert found, name + " is built"
+    return found[0]
 
-    def __init__(self, name, parameters):
-        if rospy.has_param(name):
-            rospy.delete_param(name)
-        rospy.set_param(name, parameters)
-        program = roslib.packages.find_node("curtain_sim", "curtain_node")
-        assert program, "curtain_node is built"
-        namespace, _, node = name.rpartition("/")
-        environment = dict(os.environ, ROS_NAMESPACE=namespace or "/", ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
-        self._process = subprocess.Popen([program[0], "__name:=" + node], env=environment, universal_newlines=True,
-                                         stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+
+class Process:
+    """A program started by the test itself; what it prints is kept."""
+
+    def __init__(self, command, **kwargs):
+        self._process = subprocess.Popen(command, universal_newlines=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                         **kwargs)
         self._lines = []
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
@@ -233,7 +237,15 @@ class NodeProcess:
         return self._process.pid
 
     def interrupt(self):
-        self._process.send_signal(signal.SIGINT)
+        self.send_signal(signal.SIGINT)
+
+    def send_signal(self, number):
+        self._process.send_signal(number)
+
+    def resident(self):
+        """Memory [bytes]."""
+        with open("/proc/%d/statm" % self.pid()) as file:
+            return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
     def wait(self, patience=PATIENCE):
         """Exit code, or AssertionError when it does not end."""
@@ -241,7 +253,7 @@ class NodeProcess:
             code = self._process.wait(patience)
         except subprocess.TimeoutExpired:
             self.kill()
-            raise AssertionError("the node still runs after %g s:\n%s" % (patience, self.output()))
+            raise AssertionError("it still runs after %g s:\n%s" % (patience, self.output()))
         self._reader.join(5.0)
         return code
 
@@ -249,3 +261,88 @@ class NodeProcess:
         if self.running():
             self._process.kill()
             self._process.wait()
+
+
+class NodeProcess(Process):
+    """A curtain_node started by the test itself, to see how it starts and ends.
+
+    parameters  are set first; None: those that are there
+    master      URI of another ROS master than the test's
+    prefix      command that starts it, e.g. ["nice"]
+    """
+
+    def __init__(self, name, parameters, master=None, prefix=(), **kwargs):
+        server = rosgraph.Master("/curtain_testing", master_uri=master)
+        if parameters is not None:
+            if server.hasParam(name):
+                server.deleteParam(name)
+            server.setParam(name, parameters)
+        namespace, _, node = name.rpartition("/")
+        environment = dict(os.environ, ROS_NAMESPACE=namespace or "/", ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
+        if master:
+            environment["ROS_MASTER_URI"] = master
+        Process.__init__(self, list(prefix) + [program("curtain_node"), "__name:=" + node], env=environment, **kwargs)
+
+
+class Watcher(Process):
+    """A process of its own that listens to a curtain's ~state, and says of each what it checks itself."""
+
+    def __init__(self, node, master=None, topic="state"):
+        environment = dict(os.environ, PYTHONUNBUFFERED="1")
+        if master:
+            environment["ROS_MASTER_URI"] = master
+        script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "watch_curtain.py")
+        Process.__init__(self, [sys.executable, script, node, topic], env=environment)
+
+    def count(self):
+        return sum(1 for line in list(self._lines) if line.startswith("got"))
+
+
+class Diagnostics(Listener):
+    """What a node says of itself on /diagnostics."""
+
+    def __init__(self, node):
+        Listener.__init__(self, "/diagnostics", DiagnosticArray)
+        self._node = node.lstrip("/")
+
+    def status(self, name):
+        """The last one of that name, or None."""
+        for message in reversed(self.messages()):
+            for status in message.status:
+                if status.name == self._node + ": " + name and status.message != "Node starting up":
+                    return status
+        return None
+
+    def wait_for(self, name, level, text="", value=("", ""), patience=PATIENCE):
+        """Waits until the status has the level, the text in its message, and in its value of that key the other text; returns
+        its values."""
+        def check():
+            status = self.status(name)
+            if not status or status.level != level or text not in status.message:
+                return None
+            return status if any(value[0] in v.key and value[1] in v.value for v in status.values) else None
+        try:
+            status = wait_until(check, "%s is at level %d: %s" % (name, level, text), patience)
+        except AssertionError as error:
+            raise AssertionError("%s; the last one: %s" % (error, self.status(name)))
+        return {value.key: value.value for value in status.values}
+
+
+OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
+
+
+def assert_stream_is_sound(states):
+    """Within a run stamps and frames rise, nothing is NaN, and counts never fall."""
+    for a, b in zip(states, states[1:]):
+        new_run = b.statistics.restarts > a.statistics.restarts
+        if not new_run:
+            assert b.header.stamp > a.header.stamp, "stamps rise: %s, %s" % (a.header.stamp, b.header.stamp)
+            assert b.statistics.frame > a.statistics.frame, "frames rise"
+        for count in ("restarts", "dropped_frames", "dropped_invalid", "dropped_untransformed", "dropped_overflow",
+                      "dropped_queue", "messages_taken", "late_poses", "early_poses", "obstacles_lost", "not_finite",
+                      "clock_jumps_back"):
+            assert getattr(b.statistics, count) >= getattr(a.statistics, count), count
+    for state in states:
+        assert state.statistics.finite and state.statistics.not_finite == 0
+        assert all(math.isfinite(x) for x in state.positions)
+        assert all(math.isfinite(x) for x in state.velocities)

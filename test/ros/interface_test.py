@@ -43,6 +43,7 @@ class InterfaceTest(unittest.TestCase):
         """Inputs in the node's namespace, outputs under its name; nothing else of ours."""
         master = rosgraph.Master("/interface_test")
         types = dict(master.getTopicTypes())
+        self.assertEqual(types["/diagnostics"], "diagnostic_msgs/DiagnosticArray")
         self.assertEqual(types[NODE + "/state"], "curtain_sim/CurtainState")
         self.assertEqual(types[NODE + "/mesh"], "visualization_msgs/Marker")
         self.assertEqual(types[NODE + "/markers"], "visualization_msgs/MarkerArray")
@@ -53,7 +54,7 @@ class InterfaceTest(unittest.TestCase):
         self.assertEqual(sorted(t for t in inputs if "handles" not in t),
                          ["/stage/drag_force", "/stage/wind_source"], "no obstacle: no tf2")
         self.assertEqual(sorted(t for t in outputs if t != "/rosout" and "handles" not in t),
-                         [NODE + "/contacts", NODE + "/markers", NODE + "/mesh", NODE + "/state"])
+                         ["/diagnostics", NODE + "/contacts", NODE + "/markers", NODE + "/mesh", NODE + "/state"])
         self.assertEqual(types["/stage/wind_source"], "curtain_sim/WindSource")
         self.assertEqual(types["/stage/drag_force"], "curtain_sim/DragForce")
 

@@ -12,22 +12,38 @@
 namespace curtain_ros {
 namespace {
 
+template <typename Letter>
+std::deque<Letter> collect(Mailbox<Letter>& box) {
+  std::deque<Letter> letters;
+  box.collect(letters);
+  return letters;
+}
+
 TEST(Mailbox, HandsOutEachLetterOnceInOrder) {
   Mailbox<std::unique_ptr<int>> box(3);
   box.post(std::make_unique<int>(1));
   box.post(std::make_unique<int>(2));
-  const auto letters = box.collect();
+  const auto letters = collect(box);
   ASSERT_EQ(letters.size(), 2U);
   EXPECT_EQ(*letters[0], 1);
   EXPECT_EQ(*letters[1], 2);
-  EXPECT_TRUE(box.collect().empty());
+  EXPECT_TRUE(collect(box).empty());
   EXPECT_EQ(box.lost(), 0U);
+}
+
+// Letters that still wait with the collector stay in front.
+TEST(Mailbox, AppendsToWhatIsThere) {
+  Mailbox<int> box(3);
+  box.post(2);
+  std::deque<int> letters = {1};
+  box.collect(letters);
+  EXPECT_EQ(letters, (std::deque<int>{1, 2}));
 }
 
 TEST(Mailbox, DropsAndCountsTheOldest) {
   Mailbox<int> box(3);
   for (int i = 0; i < 5; ++i) box.post(i);
-  EXPECT_EQ(box.collect(), (std::deque<int>{2, 3, 4}));
+  EXPECT_EQ(collect(box), (std::deque<int>{2, 3, 4}));
   EXPECT_EQ(box.lost(), 2U);
 }
 
@@ -45,7 +61,7 @@ TEST(Mailbox, TakesLettersFromSeveralThreads) {
   std::vector<int> next(kThreads, 0);
   int received = 0;
   while (received < kThreads * kLetters) {
-    for (const auto& letter : box.collect()) {
+    for (const auto& letter : collect(box)) {
       EXPECT_EQ(letter.second, next[static_cast<std::size_t>(letter.first)]++);
       ++received;
     }

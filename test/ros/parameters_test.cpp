@@ -104,7 +104,7 @@ TEST(Parameters, WrongTypesAndRangesOfTheNodesOwnAreNamed) {
   EXPECT_TRUE(names(readWith("mesh_rate", value("1e-6")).problems, "/stage/curtain/mesh_rate: must be a number"));
   EXPECT_TRUE(names(readWith("mesh_rate", value(0.0)).problems, "mesh_rate"));
   EXPECT_TRUE(names(readWith("mesh_rate", value(std::nan(""))).problems, "mesh_rate"));
-  EXPECT_TRUE(names(readWith("state_rate", value(-1.0)).problems, "state_rate: must be a number in [0, 10000.0]"));
+  EXPECT_TRUE(names(readWith("state_rate", value(-1.0)).problems, "state_rate: must be a number in [0.0, 10000.0]"));
   EXPECT_TRUE(names(readWith("state_rest_rate", value(std::nan(""))).problems, "state_rest_rate"));
   EXPECT_TRUE(names(readWith("mesh_tolerance", value(-0.1)).problems, "mesh_tolerance"));
   EXPECT_TRUE(names(readWith("mesh_viewer_frame", value(3)).problems, "mesh_viewer_frame: must be a text"));
@@ -117,6 +117,9 @@ TEST(Parameters, WrongTypesAndRangesOfTheNodesOwnAreNamed) {
   EXPECT_TRUE(names(readWith("max_catch_up", value(0)).problems, "max_catch_up"));
   EXPECT_TRUE(names(readWith("handles", value(1)).problems, "handles: must be true or false"));
   EXPECT_TRUE(names(readWith("world_frame", value("")).problems, "world_frame"));
+  EXPECT_TRUE(names(readWith("snapshot_file", value(1)).problems, "snapshot_file: must be a text"));
+  EXPECT_TRUE(names(readWith("snapshot_period", value(0.0)).problems, "snapshot_period: must be a number in [0.1, 86400.0]"));
+  EXPECT_TRUE(names(readWith("diagnostic_period", value(0.0)).problems, "must be a number in [0.1, 3600.0]"));
   EXPECT_TRUE(names(readWith("world_frame", value(3)).problems, "world_frame"));
   EXPECT_TRUE(readWith("mesh_rate", value(25)).problems.empty()) << "an integer is a number";
 }
@@ -124,7 +127,11 @@ TEST(Parameters, WrongTypesAndRangesOfTheNodesOwnAreNamed) {
 TEST(Parameters, UnknownOnesAreWarnedOf) {
   const ParameterReading reading = readWith("mesh_rat", value(10.0));
   EXPECT_TRUE(reading.problems.empty());
-  EXPECT_TRUE(names(reading.warnings, "/stage/curtain/mesh_rat: unknown"));
+  EXPECT_TRUE(names(reading.warnings, "/stage/curtain/mesh_rat: unknown parameter, not used; did you mean mesh_rate?"));
+  EXPECT_EQ(reading.warnings.size(), 1U);
+  const ParameterReading far = readWith("colour", value("red"));
+  EXPECT_TRUE(names(far.warnings, "/stage/curtain/colour: unknown parameter, not used"));
+  EXPECT_FALSE(names(far.warnings, "did you mean"));
 }
 
 // All problems at once, with the scene's dotted keys behind the parameter's name.
@@ -197,6 +204,9 @@ TEST(Parameters, TemplateGivesTheDefaults) {
   EXPECT_EQ(manual["state_folds"].as<bool>(), defaults.state_folds);
   EXPECT_EQ(manual["handles"].as<bool>(), defaults.handles);
   EXPECT_EQ(manual["handle_stiffness"].as<double>(), defaults.handle_stiffness);
+  EXPECT_EQ(manual["snapshot_file"].as<std::string>(), defaults.snapshot_file);
+  EXPECT_EQ(manual["snapshot_period"].as<double>(), defaults.snapshot_period);
+  EXPECT_EQ(manual["diagnostic_period"].as<double>(), defaults.diagnostic_period);
 }
 
 }  // namespace

@@ -6,57 +6,22 @@ rviz runs on an X server of its own (Xvfb), the mouse is xdotool's. Passes with 
 installed.
 """
 import os
-import shutil
 import subprocess
 import sys
-import tempfile
 import time
-import unittest
 
 import roslib.packages
 import rospy
 import rostest
 from curtain_testing import Curtain, Listener, distance, node_position, wait_until
+from screen_testing import HEIGHT, WIDTH, ScreenTest
 from visualization_msgs.msg import InteractiveMarkerFeedback
 
 NODE = "/curtain/curtain_node"
 HEM = 13
-WIDTH, HEIGHT = 1000, 800  # of the screen and rviz's window [pixel]
 
 
-class RvizHandleTest(unittest.TestCase):
-    def setUp(self):
-        self.processes = []
-        self.folder = tempfile.mkdtemp(prefix="curtain_rviz_")
-
-    def tearDown(self):
-        for process in reversed(self.processes):
-            process.terminate()
-            try:
-                process.wait(5.0)
-            except subprocess.TimeoutExpired:
-                process.kill()
-                process.wait()
-        shutil.rmtree(self.folder, ignore_errors=True)
-
-    def start(self, *command, **kwargs):
-        log = open(os.path.join(self.folder, os.path.basename(command[0]) + ".log"), "w")
-        process = subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT, **kwargs)
-        self.processes.append(process)
-        return process
-
-    def start_screen(self):
-        """An X server on a display of its own choice; the environment for its programs."""
-        reader, writer = os.pipe()
-        self.start("Xvfb", "-displayfd", str(writer), "-screen", "0", "%dx%dx24" % (WIDTH, HEIGHT), "-nolisten", "tcp",
-                   pass_fds=(writer,))
-        os.close(writer)
-        with os.fdopen(reader) as answer:
-            number = answer.readline().strip()
-        self.assertTrue(number, "Xvfb starts")
-        os.chmod(self.folder, 0o700)
-        return dict(os.environ, DISPLAY=":" + number, LIBGL_ALWAYS_SOFTWARE="1", XDG_RUNTIME_DIR=self.folder)
-
+class RvizHandleTest(ScreenTest):
     def configuration(self):
         """config/curtain.rviz with a camera that looks at the hem from the front."""
         with open(os.path.join(roslib.packages.get_pkg_dir("curtain_sim"), "config", "curtain.rviz")) as file:
@@ -104,9 +69,7 @@ class RvizHandleTest(unittest.TestCase):
         return sorted(middles)
 
     def test_mouse_drags_the_hem(self):
-        missing = [tool for tool in ("rviz", "Xvfb", "xdotool", "import") if shutil.which(tool) is None]
-        if missing:
-            print("skipped: not installed: " + ", ".join(missing))
+        if not self.installed("rviz", "Xvfb", "xdotool", "import"):
             return
         rospy.init_node("rviz_handle_test")
         curtain = Curtain(NODE)

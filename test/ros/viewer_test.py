@@ -7,7 +7,7 @@ import unittest
 import rospy
 import rostest
 import tf2_ros
-from curtain_testing import Curtain, Listener, static_frame, wait_until
+from curtain_testing import OK, WARN, Curtain, Diagnostics, Listener, static_frame, wait_until
 from visualization_msgs.msg import Marker
 
 ROWS, COLUMNS, FOLDS = 10, 8, 6
@@ -23,9 +23,12 @@ class ViewerTest(unittest.TestCase):
         triangles = lambda: len(mesh.last().points) // 3
         mesh.next()
         self.assertEqual(triangles(), 2 * QUADS * FOLDS, "no camera yet: every triangle")
+        diagnostics = Diagnostics("/curtain")
+        diagnostics.wait_for("obstacles", WARN, "mesh_viewer_frame")
         broadcaster = tf2_ros.StaticTransformBroadcaster()
         static_frame(broadcaster, "world", "camera", (0.25, -200.0, 1.5))
         wait_until(lambda: triangles() == 2 * QUADS, "the camera is far away: two triangles a quad")
+        diagnostics.wait_for("obstacles", OK)
         static_frame(broadcaster, "world", "camera", (0.25, -15.0, 1.5))
         wait_until(lambda: 2 * QUADS < triangles() < 2 * QUADS * FOLDS, "it comes nearer")
         self.assertEqual(len(mesh.last().colors), len(mesh.last().points))

@@ -79,7 +79,7 @@ TEST(BadInput, NumbersGivenAsText) {
   expectProblem(tolerance("!!str 1.0e-6"), key, {"is the text", "write 1.0e-6"});
   expectProblem(tolerance("small"), key, {"a number in [1e-12, 0.1], is the text \"small\""});
   expectProblem(tolerance("yes"), key, {"a number in [1e-12, 0.1], is yes"});
-  expectProblem(wind("end: inf"), "wind[0].end", {"a number in [-1000000000, 1000000000] or .inf", "is the text \"inf\"", "write .inf"});
+  expectProblem(wind("end: inf"), "wind[0].end", {"a number in [-1000000000, 1000000000000] or .inf", "is the text \"inf\"", "write .inf"});
   expectProblem(wind("end: '.inf'"), "wind[0].end", {"write .inf without quotes"});
 }
 

@@ -139,7 +139,9 @@ TEST(Template, NodeParameters) {
                                           "mesh_viewer_frame", "mesh_viewer_tolerance",
                                           "markers_rate",      "max_catch_up",
                                           "state_folds",       "handles",
-                                          "handle_stiffness",  "scene"};
+                                          "handle_stiffness",  "scene",
+                                          "snapshot_file",     "snapshot_period",
+                                          "diagnostic_period"};
   EXPECT_EQ(keys, expected);
 }
 

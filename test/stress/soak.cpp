@@ -162,6 +162,26 @@ std::string line(const Row& row) {
   return text;
 }
 
+// What must not grow, slow down or drift, from the second interval on: the first one fills what grows with the motion.
+int judge(const std::vector<Row>& rows) {
+  if (rows.size() < 3) return 0;
+  const Row &early = rows[1], &late = rows.back();
+  int failures = 0;
+  const auto must = [&failures](bool holds, const char* what) {
+    if (holds) return;
+    std::cerr << "soak: " << what << "\n";
+    ++failures;
+  };
+  must(late.finite, "the state is not finite");
+  // Rows of the table and the folds' scratch are all that may come: a leak of a byte a frame would be 35 kB in an interval.
+  must(late.heap_kb <= early.heap_kb + 64 * rows.size() / 10 + 64, "the heap has grown");
+  must(late.resident_kb <= early.resident_kb + 2048, "resident memory has grown by more than 2 MB");
+  must(std::abs(late.sweeps / early.sweeps - 1.0) <= 0.1, "a frame takes another number of sweeps");
+  must(late.rest_stretch <= 1e-3 && late.pin_drift == 0.0, "links or pins have drifted");
+  must(std::abs(late.rest_height - early.rest_height) <= 1e-3, "it comes to rest elsewhere");
+  return failures;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -184,5 +204,5 @@ int main(int argc, char** argv) {
     rows.push_back(soakInterval(options.interval, start, simulator));
     out << line(rows.back()) << std::endl;
   }
-  return 0;
+  return judge(rows) == 0 ? 0 : 1;
 }

@@ -141,7 +141,7 @@ void addPinTortures(std::vector<TortureCase>& cases) {
   cases.push_back({"pulled apart by 1 %", "corners further apart than the cloth is wide", [] { return pulledApart(1.01); }});
   cases.push_back({"pulled apart by half", "", [] { return pulledApart(1.5); }});
   cases.push_back({"straight row", "corners exactly as far apart as the cloth is wide, 12 x 10", [] { return straightRow(12, 10, 1.0); }});
-  cases.push_back({"straight row, 5 x 5", "", [] { return straightRow(5, 5, 1.0); }});
+  cases.push_back({"straight row of 5 x 5", "", [] { return straightRow(5, 5, 1.0); }});
   cases.push_back({"nearly straight row", "0.9999 of the width", [] { return straightRow(12, 10, 0.9999); }});
   cases.push_back({"all pinned", "nothing can move", allPinned});
   cases.push_back({"nothing pinned", "free fall in air", notPinned});

@@ -31,7 +31,7 @@ const std::map<std::string, int> kPublicHeaders = {{"plan.h", 4}, {"scene.h", 0}
 // What only the floors from ros up may include, by the first folder of the name.
 const std::set<std::string> kRosFolders = {"ros",      "tf2",      "tf2_ros",             "xmlrpcpp", "pluginlib",
                                            "nodelet",  "rosgraph_msgs", "interactive_markers", "catkin", "class_loader",
-                                           "roslib",   "message_filters", "dynamic_reconfigure", "rospack"};
+                                           "diagnostic_updater", "roslib",   "message_filters", "dynamic_reconfigure", "rospack"};
 
 bool isMessage(const std::string& header) {
   const std::string name = header.substr(0, header.size() - 2);

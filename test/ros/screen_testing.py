@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""For tests that look at a screen: an X server of their own, and programs on it, which end with the test."""
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+WIDTH, HEIGHT = 1000, 800  # of the screen and rviz's window [pixel]
+
+
+class ScreenTest(unittest.TestCase):
+    @staticmethod
+    def installed(*tools):
+        """False, with a message, when one of them is not."""
+        missing = [tool for tool in tools if shutil.which(tool) is None]
+        if missing:
+            print("skipped: not installed: " + ", ".join(missing))
+        return not missing
+
+    def setUp(self):
+        self.processes = []
+        self.folder = tempfile.mkdtemp(prefix="curtain_rviz_")
+
+    def tearDown(self):
+        for process in reversed(self.processes):
+            process.terminate()
+            try:
+                process.wait(5.0)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def start(self, *command, **kwargs):
+        log = open(os.path.join(self.folder, os.path.basename(command[0]) + ".log"), "w")
+        process = subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT, **kwargs)
+        self.processes.append(process)
+        return process
+
+    def start_screen(self):
+        """An X server on a display of its own choice; the environment for its programs."""
+        reader, writer = os.pipe()
+        self.start("Xvfb", "-displayfd", str(writer), "-screen", "0", "%dx%dx24" % (WIDTH, HEIGHT), "-nolisten", "tcp",
+                   pass_fds=(writer,))
+        os.close(writer)
+        with os.fdopen(reader) as answer:
+            number = answer.readline().strip()
+        self.assertTrue(number, "Xvfb starts")
+        os.chmod(self.folder, 0o700)
+        return dict(os.environ, DISPLAY=":" + number, LIBGL_ALWAYS_SOFTWARE="1", XDG_RUNTIME_DIR=self.folder)
