@@ -23,7 +23,10 @@ void checkSceneText(const std::string& bytes);
 /// Any bytes as an STL, OBJ and DAE file: they are refused, or make an obstacle whose answers are finite.
 void checkMesh(const std::string& bytes);
 
-/// Any bytes as the choices that a scene is made from: every method steps it, and the cloth stays finite and as long as it is.
+/// Any bytes as the choices that a scene is made from: it is stepped, and the cloth stays finite and as long as it is.
+void checkStep(const std::string& bytes);
+
+/// The same by every method, whatever the scene's own is.
 void checkSteps(const std::string& bytes);
 
 }  // namespace curtain_test

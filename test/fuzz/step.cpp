@@ -73,24 +73,30 @@ void stepWith(const Scene& scene) {
   }
 }
 
+void check(const Scene& scene) {
+  try {
+    stepWith(scene);
+  } catch (const Violation& violation) {
+    throw Violation(std::string(violation.what()) + "\n" + curtain::writeScene(scene));
+  } catch (const std::invalid_argument& refused) {  // a mesh that its scale leaves no place for
+    const std::string reason = refused.what();
+    require(reason.find("mesh '") != std::string::npos, "a valid scene is refused: " + reason);
+  }
+}
+
 }  // namespace
+
+void checkStep(const std::string& bytes) {
+  ByteChoices choices(bytes);
+  if (const std::optional<Scene> scene = makeScene(choices)) check(*scene);
+}
 
 void checkSteps(const std::string& bytes) {
   ByteChoices choices(bytes);
   std::optional<Scene> scene = makeScene(choices);
-  if (!scene) return;
-  const std::size_t method_count = curtain::methodNames().size();
-  for (std::size_t m = 0; m < method_count; ++m) {
+  for (std::size_t m = 0; scene && m < curtain::methodNames().size(); ++m) {
     scene->solver.method = static_cast<Method>(m);
-    try {
-      stepWith(*scene);
-    } catch (const Violation& violation) {
-      throw Violation(std::string(violation.what()) + "\n" + curtain::writeScene(*scene));
-    } catch (const std::invalid_argument& refused) {  // a mesh that its scale leaves no place for
-      const std::string reason = refused.what();
-      require(reason.find("mesh '") != std::string::npos, "a valid scene is refused: " + reason);
-      return;
-    }
+    check(*scene);
   }
 }
 
