@@ -9,6 +9,7 @@ endfunction()
 curtain_add_fuzzer(scene_yaml checkSceneText)
 curtain_add_fuzzer(mesh checkMesh)
 curtain_add_fuzzer(step checkStep test/fuzz/scene_maker.cpp)
+curtain_add_fuzzer(snapshot checkSnapshot)
 
 add_executable(fuzz_dictionary test/fuzz/dictionary.cpp)
 target_include_directories(fuzz_dictionary PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)

@@ -39,7 +39,7 @@ foreach(target test_batch test_fuzz)
   endif()
 endforeach()
 if(TARGET test_fuzz)
-  target_sources(test_fuzz PRIVATE test/fuzz/scene_yaml.cpp test/fuzz/mesh.cpp test/fuzz/step.cpp test/fuzz/scene_maker.cpp
+  target_sources(test_fuzz PRIVATE test/fuzz/scene_yaml.cpp test/fuzz/mesh.cpp test/fuzz/step.cpp test/fuzz/snapshot.cpp test/fuzz/scene_maker.cpp
     test/fuzz/breakages.cpp)
 endif()
 curtain_add_tests(structure)

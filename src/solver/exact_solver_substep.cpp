@@ -17,6 +17,9 @@ constexpr int kHopelessLooks = 2;
 // Kinetic energy of a step over that without links, from which it has found another way for the links to lie: where it follows
 // the motion links take energy out.
 constexpr double kMostKinetic = 1.5;
+// The same of bdf2, whose base lies off the links by as much as they turn in a step: it adds the square of that angle, 0.03 where
+// they turn by 0.17 rad, and takes far more out. More is links that have found another way to lie.
+constexpr double kMostKineticOfBdf2 = 1.03;
 // bdf2 would go on with what a blow has stopped, as a rebound (by a third of it a step; two thirds came back from a string that
 // snapped taut). So the step of the blow, the next one, in which the rest of the speed goes, and the one after are made from one
 // step: then the last two know nothing of it.
@@ -156,7 +159,8 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   const bool may_jump = plan.scheme == Scheme::kBdf2 || (leapfrog && directions_set_);
   if (may_jump && !plan.must_accept && progress.contacts == nullptr && progress.settled) {
     const Kinetic kinetic = kineticOf(start);
-    if (!kinetic.pins_move && kinetic.stepped > kMostKinetic * kinetic.predicted) progress.settled = false;
+    const double most = plan.scheme == Scheme::kBdf2 ? kMostKineticOfBdf2 : kMostKinetic;
+    if (!kinetic.pins_move && kinetic.stepped > most * kinetic.predicted) progress.settled = false;
   }
   SubstepOutcome outcome;
   if (held_.any()) {

@@ -29,4 +29,8 @@ void checkStep(const std::string& bytes);
 /// The same by every method, whatever the scene's own is.
 void checkSteps(const std::string& bytes);
 
+/// Any bytes as the choices of what is changed in a snapshot whose checksum is right all the same: it is refused and nothing has
+/// changed, or it is gone on from without harm; and a sound one brings everything back.
+void checkSnapshot(const std::string& bytes);
+
 }  // namespace curtain_test

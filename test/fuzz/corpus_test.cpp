@@ -46,6 +46,8 @@ TEST(FuzzCorpus, SceneTexts) {
 
 TEST(FuzzCorpus, Meshes) { checkFiles(curtain_test::checkMesh, {"test/fuzz/corpus/mesh", "test/meshes"}); }
 
+TEST(FuzzCorpus, Snapshots) { checkFiles(curtain_test::checkSnapshot, {"test/fuzz/corpus/snapshot"}); }
+
 TEST(FuzzCorpus, Steps) { checkFiles(curtain_test::checkSteps, {"test/fuzz/corpus/step"}); }
 
 }  // namespace

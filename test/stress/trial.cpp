@@ -117,6 +117,17 @@ std::uint64_t torment(const Torture& torture, Books& books, Simulator& simulator
 
 // And what comes after it.
 void recover(const Torture& torture, double scale, Books& books, Simulator& simulator, Trial& trial) {
+  trial.recovery = trial.recovery_allowed = kNever;
+  std::vector<Vec3> scratch;
+  const auto oneFrame = [&] {
+    simulator.step();
+    lookAtFrame(simulator, torture.gravity_changes, scratch, books, trial);
+    trial.stretch_after = std::max(simulator.statistics().warp_stretch, simulator.statistics().weft_stretch);
+  };
+  if (!torture.recovers) {
+    oneFrame();
+    return;
+  }
   const double rest = restEnergy(torture.scene);
   const auto above = [&] {
     const Energy energy = simulator.energy();
@@ -125,20 +136,16 @@ void recover(const Torture& torture, double scale, Books& books, Simulator& simu
   const AirParams& air = torture.scene.air;
   const double per_mass = air.density * air.inside * torture.scene.cloth.height * torture.scene.cloth.width / cloth_mass(simulator);
   const double start = simulator.time();
-  trial.recovery_allowed = kFall + kPatience * std::max(0.0, std::log(above() / (kAtRest * scale))) / per_mass;
-  if (!torture.recovers || !(trial.recovery_allowed < kLongestRecovery)) trial.recovery_allowed = kNever;
+  const double allowed = kFall + kPatience * std::max(0.0, std::log(above() / (kAtRest * scale))) / per_mass;
+  if (allowed < kLongestRecovery) trial.recovery_allowed = allowed;
   const double end = start + (std::isnan(trial.recovery_allowed) ? 0.0 : trial.recovery_allowed);
-  trial.recovery = kNever;
-  std::vector<Vec3> scratch;
   do {
-    simulator.step();
-    lookAtFrame(simulator, torture.gravity_changes, scratch, books, trial);
+    oneFrame();
     if (std::abs(above()) <= kAtRest * scale) {
       trial.recovery = simulator.time() - start;
       break;
     }
   } while (simulator.time() < end && trial.finite);
-  trial.stretch_after = std::max(simulator.statistics().warp_stretch, simulator.statistics().weft_stretch);
 }
 
 void judge(const Torture& torture, bool as_printed, Trial& trial) {
