@@ -133,6 +133,8 @@ TEST_P(Independence, OfWhatTimeIsCutIntoToTheBit) {
 // are solved side by side, by the same number of iterations. Without air, which knows the border.
 TEST_P(Independence, OfTheOrderOfSlackColumnsToTheBit) {
   const std::vector<std::size_t> order = {3, 0, 6, 1, 7, 5, 2, 4};  // column j was column order[j]
+  int slack = 0;
+  double gone = 0.0;
   for (const std::uint64_t seed : seeds(3)) {
     Wanted wanted;
     wanted.most_nodes = 8;
@@ -157,8 +159,9 @@ TEST_P(Independence, OfTheOrderOfSlackColumnsToTheBit) {
       permuted.drag[j].force = scene.drag[order[j]].force;
     }
     Motion motion = record(scene, kFrames);
-    ASSERT_LT(longestString(scene, motion), 1.0) << repeat(seed);
-    EXPECT_GT(farthestGone(motion), 0.05) << repeat(seed);
+    if (stringsMayPull(scene, motion)) continue;
+    ++slack;
+    gone = std::max(gone, farthestGone(motion));
     Motion other = columnsFrom(record(permuted, kFrames), [&](int j) {
       return static_cast<int>(std::find(order.begin(), order.end(), static_cast<std::size_t>(j)) - order.begin());
     });
@@ -171,6 +174,8 @@ TEST_P(Independence, OfTheOrderOfSlackColumnsToTheBit) {
     }
     expectSame(motion, other, repeat(seed));
   }
+  EXPECT_GT(slack, 0) << "strings pull in all of them";
+  EXPECT_GT(gone, 0.05);
 }
 
 // Obstacles have names, and their list no order.
@@ -214,7 +219,7 @@ TEST_P(Independence, OfTheOrderOfLists) {
       other.drag.push_back(half);
       std::reverse(other.wind.begin(), other.wind.end());
       std::reverse(other.drag.begin(), other.drag.end());
-      const double single = kind.wanted.gentle ? 0.0 : 8.0 * 0x1p-24;
+      const double single = kind.wanted.gentle && !stringsMayPull(scene, motion) ? 0.0 : kSingle;
       EXPECT_LE(farthestApart(motion, record(other, kFrames)), growth * (roundingShare(scene, motion, 5.0) + single))
           << kind.name << ", " << repeat(seed);
     }
