@@ -23,6 +23,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 using tangents::kEps;
 using tangents::largestCoordinate;
 using tangents::longestEdge;
+using tangents::middleOf;
 
 /// Triangles lower than this share of their longest edge have their nearest point on an edge, to that share.
 constexpr double kFlatTriangle = 1e-8;
@@ -147,7 +148,7 @@ void finish(const ConvexShape& shape, const std::array<Vec3, N>& corners, double
   const Vec3 point = pointAt(corners, weights);
   const double rounding = 16.0 * kEps * (largestCoordinate(corners) + size);
   out.point.weights = weights;
-  out.point.surface = shape.nearest(point);
+  out.point.surface = shape.nearest(point, middleOf(corners));
   const double distance = out.point.surface.distance;
   if (distance <= least + rounding) {
     out.support.setZero();
@@ -175,8 +176,7 @@ std::array<double, 3> lowest(const std::array<Vec3, N>& corners) {
 /// Whether the tangent plane at the middle of an element leaves all of it out of reach.
 template <std::size_t N>
 bool isFar(const ConvexShape& shape, const std::array<Vec3, N>& corners, double reach) {
-  Vec3 middle = corners[0] / static_cast<double>(N);
-  for (std::size_t k = 1; k < N; ++k) middle += corners[k] / static_cast<double>(N);
+  const Vec3 middle = middleOf(corners);
   const SurfacePoint surface = shape.nearest(middle);
   double lower = kInfinity;
   for (const Vec3& corner : corners) lower = std::min(lower, surface.distance + surface.normal.dot(corner - middle));

@@ -19,12 +19,17 @@ constexpr double kAcceleration = 500.0;
 // The box of the cloth holds for so many frames at most.
 constexpr double kMostFrames = 16.0;
 
-// The order in which contacts are kept.
-auto orderOf(const Contact& c) { return std::tie(c.obstacle, c.nodes, c.node, c.source); }
-bool before(const Contact& a, const Contact& b) { return orderOf(a) < orderOf(b); }
+// The order in which the contacts of an obstacle are kept.
+auto orderOf(const Contact& c) { return std::tie(c.nodes, c.node, c.source); }
+bool firstOfOne(const Contact& a, const Contact& b) { return orderOf(a) < orderOf(b); }
 bool alike(const Contact& a, const Contact& b) { return orderOf(a) == orderOf(b); }
 
 }  // namespace
+
+// Contacts are solved one after the other, to a tolerance: their order tells in that.
+bool ObstacleContacts::before(const Contact& a, const Contact& b) const noexcept {
+  return a.obstacle == b.obstacle ? firstOfOne(a, b) : obstacles_.rank(a.obstacle) < obstacles_.rank(b.obstacle);
+}
 
 ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, const ContactParams& params, double frame,
                                    const ObstacleSet& obstacles)
@@ -105,14 +110,15 @@ bool ObstacleContacts::mayTouch(const Field3& start, const Field3& predicted, do
 void ObstacleContacts::collect(const Field3&, const Field3&, double h, bool slippery, Contacts& contacts) noexcept {
   slippery_ = slippery;
   const std::size_t first = contacts.size();
-  for (std::size_t n = 0; n < near_.size(); ++n) {
+  for (const int index : obstacles_.byName()) {
+    const auto n = static_cast<std::size_t>(index);
     if (active_[n] == 0) continue;
     const ObstacleSubstep substep = substepOf(n, h, slippery);
     collectNodes(substep, pattern_, near_[n], contacts);
     const auto elements = static_cast<std::ptrdiff_t>(contacts.size());
     if (!near_[n].faces().empty()) collectFaces(substep, pattern_, near_[n], contacts);
     if (!near_[n].pairs().empty()) collectPairs(substep, pattern_, near_[n], contacts);
-    std::sort(contacts.begin() + elements, contacts.end(), before);
+    std::sort(contacts.begin() + elements, contacts.end(), firstOfOne);
     contacts.erase(std::unique(contacts.begin() + elements, contacts.end(), alike), contacts.end());
   }
   warmStart(first, contacts);
@@ -132,7 +138,8 @@ void ObstacleContacts::warmStart(std::size_t first, Contacts& contacts) const no
 
 void ObstacleContacts::findCrossings(const Field3& start, const Field3& end, double h) noexcept {
   crossings_.clear();
-  for (std::size_t n = 0; n < near_.size(); ++n) {
+  for (const int index : obstacles_.byName()) {
+    const auto n = static_cast<std::size_t>(index);
     if (active_[n] == 0) continue;
     const ObstacleSubstep substep = substepOf(n, h, slippery_);
     near_[n].follow(substep.moving, start, end, h);
@@ -205,7 +212,8 @@ void ObstacleContacts::remember(const Contacts& contacts, const Field3& position
   // What is struck may be as fast as the obstacle.
   if (!last_.empty()) box_time_ = 0.0;
   // Those that verify() added come last.
-  if (!std::is_sorted(last_.begin(), last_.end(), before)) std::sort(last_.begin(), last_.end(), before);
+  const auto in_order = [this](const Contact& a, const Contact& b) { return before(a, b); };
+  if (!std::is_sorted(last_.begin(), last_.end(), in_order)) std::sort(last_.begin(), last_.end(), in_order);
 }
 
 void ObstacleContacts::forget() noexcept {

@@ -74,6 +74,7 @@ class ObstacleContacts {
   ObstacleSubstep substepOf(std::size_t obstacle, double h, bool slippery) const noexcept {
     return {obstacles_.moving()[obstacle], static_cast<int>(obstacle), h, slippery, recovery_speed_};
   }
+  bool before(const Contact& a, const Contact& b) const noexcept;
   bool anyWithin(const Eigen::AlignedBox3d& box) const noexcept;
   void lookAtCloth(const Field3& start, const Field3& predicted, double h) noexcept;
   void findCrossings(const Field3& start, const Field3& end, double h) noexcept;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace curtain {
 namespace {
@@ -65,6 +66,12 @@ ObstacleSet::ObstacleSet(const Scene& scene, const MeshResolver& resolve) : fram
     items_.push_back(std::move(item));
     moving_.push_back(moving);
   }
+  by_name_.resize(items_.size());
+  std::iota(by_name_.begin(), by_name_.end(), 0);
+  std::sort(by_name_.begin(), by_name_.end(),
+            [&scene](int a, int b) { return scene.obstacles[at(a)].name < scene.obstacles[at(b)].name; });
+  rank_.resize(items_.size());
+  for (std::size_t n = 0; n < by_name_.size(); ++n) rank_[at(by_name_[n])] = static_cast<int>(n);
   reset();
 }
 

@@ -82,6 +82,10 @@ class ObstacleSet {
   Eigen::AlignedBox3d leftBox(int index) const noexcept;
 
   const std::vector<MovingObstacle>& moving() const { return moving_; }
+  /// Indices in the order of the names: what depends on an order takes this one, not that of the scene's list.
+  const std::vector<int>& byName() const noexcept { return by_name_; }
+  /// Where an obstacle stands in it.
+  int rank(int index) const { return rank_[at(index)]; }
 
   void carry(Archive& archive);
 
@@ -110,6 +114,7 @@ class ObstacleSet {
 
   std::vector<Item> items_;
   std::vector<MovingObstacle> moving_;
+  std::vector<int> by_name_, rank_;
 };
 
 /// A motion's pose at a time: linear in position, slerp in orientation, held at both ends.

@@ -35,6 +35,18 @@ constexpr double kTouch = 1e-12;
 
 double signOf(double x) { return x < 0.0 ? -1.0 : 1.0; }
 
+/// The side x is on; when it is on neither, the one that `beside` is on.
+double sideOf(double x, double beside) { return signOf(x != 0.0 ? x : beside); }
+
+/// Unit vector along v and its length; for v = 0 along `beside`, if that has a direction.
+template <typename Vector>
+Vector unitBeside(const Vector& v, const Vector& beside, const Vector& fallback, double& length) {
+  const Vector unit = unitOr<Vector>(v, fallback, length);
+  if (length > 0.0) return unit;
+  double far = 0.0;
+  return unitOr<Vector>(beside, fallback, far);
+}
+
 /// Where the line through `start` goes into a ball (a disc) around the origin; `way` < 0: behind the start.
 template <typename Vector>
 bool enterBall(const Vector& start, const Vector& direction, double radius, double& way, Vector& point) {
@@ -65,7 +77,7 @@ bool slabInterval(double start, double direction, double half, double& in, doubl
 }  // namespace
 
 bool ConvexShape::query(const Vec3& previous, const Vec3& current, double reach, SurfacePoint& out) const noexcept {
-  const SurfacePoint surface = nearest(current);
+  const SurfacePoint surface = nearest(current, previous);
   const Vec3 move = current - previous;
   // Distance grows by at most the way: who is further out than that touched nothing.
   if (surface.distance <= move.lpNorm<1>()) {
@@ -92,10 +104,10 @@ bool ConvexShape::query(const Vec3& previous, const Vec3& current, double reach,
 
 // ---- sphere --------------------------------------------------------------------------------------------------
 
-SurfacePoint SphereShape::nearest(const Vec3& point) const noexcept {
+SurfacePoint SphereShape::nearest(const Vec3& point, const Vec3& beside) const noexcept {
   SurfacePoint surface;
   double length = 0.0;
-  surface.normal = unitOr<Vec3>(point, Vec3::UnitZ(), length);
+  surface.normal = unitBeside<Vec3>(point, beside, Vec3::UnitZ(), length);
   surface.distance = length - radius_;
   return surface;
 }
@@ -116,13 +128,13 @@ Eigen::AlignedBox3d SphereShape::bounds() const {
 
 BoxShape::BoxShape(const Vec3& size) : half_(0.5 * size), features_(topology(), FlatEdges::kDrop) {}
 
-SurfacePoint BoxShape::nearest(const Vec3& point) const noexcept {
+SurfacePoint BoxShape::nearest(const Vec3& point, const Vec3& beside) const noexcept {
   const Vec3 beyond = point.cwiseAbs() - half_;
   SurfacePoint surface;
   int axis = 0;
   surface.distance = beyond.maxCoeff(&axis);
   if (surface.distance <= 0.0) {
-    surface.normal = signOf(point[axis]) * Vec3::Unit(axis);
+    surface.normal = sideOf(point[axis], beside[axis]) * Vec3::Unit(axis);
     return surface;
   }
   surface.normal = unitOr<Vec3>(beyond.cwiseMax(0.0), Vec3::UnitZ(), surface.distance);
@@ -162,9 +174,10 @@ Eigen::AlignedBox3d BoxShape::bounds() const { return Eigen::AlignedBox3d(-half_
 
 // ---- cylinder ------------------------------------------------------------------------------------------------
 
-SurfacePoint CylinderShape::nearest(const Vec3& point) const noexcept {
+SurfacePoint CylinderShape::nearest(const Vec3& point, const Vec3& beside) const noexcept {
   double radial = 0.0;
-  const Eigen::Vector2d outward = unitOr<Eigen::Vector2d>(point.head<2>(), Eigen::Vector2d::UnitX(), radial);
+  const Eigen::Vector2d outward =
+      unitBeside<Eigen::Vector2d>(point.head<2>(), beside.head<2>(), Eigen::Vector2d::UnitX(), radial);
   const Eigen::Vector2d beyond(radial - radius_, std::abs(point.z()) - half_);  // of the side, of the end
   SurfacePoint surface;
   Eigen::Vector2d profile = beyond[0] >= beyond[1] ? Eigen::Vector2d::UnitX() : Eigen::Vector2d::UnitY();
@@ -172,7 +185,7 @@ SurfacePoint CylinderShape::nearest(const Vec3& point) const noexcept {
   if (surface.distance > 0.0) {
     profile = unitOr<Eigen::Vector2d>(beyond.cwiseMax(0.0), profile, surface.distance);
   }
-  surface.normal << profile[0] * outward, profile[1] * signOf(point.z());
+  surface.normal << profile[0] * outward, profile[1] * sideOf(point.z(), beside.z());
   return surface;
 }
 
@@ -216,11 +229,12 @@ Eigen::AlignedBox3d CylinderShape::bounds() const {
 
 // ---- capsule -------------------------------------------------------------------------------------------------
 
-SurfacePoint CapsuleShape::nearest(const Vec3& point) const noexcept {
+SurfacePoint CapsuleShape::nearest(const Vec3& point, const Vec3& beside) const noexcept {
   const Vec3 foot(0.0, 0.0, std::clamp(point.z(), -half_, half_));
   SurfacePoint surface;
   double length = 0.0;
-  surface.normal = unitOr<Vec3>(point - foot, Vec3::UnitX(), length);
+  const Vec3 across(beside.x(), beside.y(), 0.0);
+  surface.normal = unitBeside<Vec3>(point - foot, across, Vec3::UnitX(), length);
   surface.distance = length - radius_;
   return surface;
 }
@@ -265,7 +279,7 @@ Eigen::AlignedBox3d CapsuleShape::bounds() const {
 
 // ---- plane ---------------------------------------------------------------------------------------------------
 
-SurfacePoint PlaneShape::nearest(const Vec3& point) const noexcept {
+SurfacePoint PlaneShape::nearest(const Vec3& point, const Vec3&) const noexcept {
   SurfacePoint surface;
   surface.distance = point.z();
   return surface;

@@ -59,8 +59,10 @@ class ConvexShape : public ObstacleShape {
   bool query(const Vec3& previous, const Vec3& current, double reach, SurfacePoint& out) const noexcept final;
 
   /// Exact signed distance and its gradient at any finite point [m]; where the gradient does not exist (centre,
-  /// axis, medial planes) one of the nearest exits, always the same.
-  virtual SurfacePoint nearest(const Vec3& point) const noexcept = 0;
+  /// axis, medial planes) one of the nearest exits: of two opposite ones that on the side of `beside` [m], a place near
+  /// by; where it tells no side, or is not given, always the same.
+  virtual SurfacePoint nearest(const Vec3& point, const Vec3& beside) const noexcept = 0;
+  SurfacePoint nearest(const Vec3& point) const noexcept { return nearest(point, Vec3::Zero()); }
 
   const ConvexShape* convex() const noexcept final { return this; }
 
@@ -96,7 +98,8 @@ class ConvexShape : public ObstacleShape {
 class SphereShape final : public ConvexShape {
  public:
   explicit SphereShape(double radius) : radius_(radius) {}
-  SurfacePoint nearest(const Vec3& point) const noexcept override;
+  using ConvexShape::nearest;
+  SurfacePoint nearest(const Vec3& point, const Vec3& beside) const noexcept override;
   Eigen::AlignedBox3d bounds() const override;
   ShapeTriangles triangles() const override;
 
@@ -111,7 +114,8 @@ class SphereShape final : public ConvexShape {
 class BoxShape final : public ConvexShape {
  public:
   explicit BoxShape(const Vec3& size);
-  SurfacePoint nearest(const Vec3& point) const noexcept override;
+  using ConvexShape::nearest;
+  SurfacePoint nearest(const Vec3& point, const Vec3& beside) const noexcept override;
   Eigen::AlignedBox3d bounds() const override;
   ShapeTriangles triangles() const override;
   const ObstacleFeatures* features() const noexcept override { return &features_; }
@@ -129,7 +133,8 @@ class BoxShape final : public ConvexShape {
 class CylinderShape final : public ConvexShape {
  public:
   CylinderShape(double radius, double length) : radius_(radius), half_(0.5 * length) {}
-  SurfacePoint nearest(const Vec3& point) const noexcept override;
+  using ConvexShape::nearest;
+  SurfacePoint nearest(const Vec3& point, const Vec3& beside) const noexcept override;
   Eigen::AlignedBox3d bounds() const override;
   ShapeTriangles triangles() const override;
 
@@ -145,7 +150,8 @@ class CylinderShape final : public ConvexShape {
 class CapsuleShape final : public ConvexShape {
  public:
   CapsuleShape(double radius, double length) : radius_(radius), half_(0.5 * length) {}
-  SurfacePoint nearest(const Vec3& point) const noexcept override;
+  using ConvexShape::nearest;
+  SurfacePoint nearest(const Vec3& point, const Vec3& beside) const noexcept override;
   Eigen::AlignedBox3d bounds() const override;
   ShapeTriangles triangles() const override;
 
@@ -160,7 +166,8 @@ class CapsuleShape final : public ConvexShape {
 /// The half space z < 0 is solid.
 class PlaneShape final : public ConvexShape {
  public:
-  SurfacePoint nearest(const Vec3& point) const noexcept override;
+  using ConvexShape::nearest;
+  SurfacePoint nearest(const Vec3& point, const Vec3& beside) const noexcept override;
   Eigen::AlignedBox3d bounds() const override;
   ShapeTriangles triangles() const override;
 

@@ -24,8 +24,9 @@ Places gather(const std::array<FourNodes, 4>& pairs, const NodeWay* ways, Eigen:
   return at;
 }
 
-// What keeps a quotient by a square that vanishes finite; it decides on a direction alone.
-const Lanes kTiny = lanesOf(1e-20f);
+// A divisor, or something else where it is none. What comes out decides on a direction alone; but no length may be built
+// in, or cloth in other units would get other pairs.
+inline Lanes orElse(const Lanes& divisor, const Lanes& other) { return divisor > 0.0f ? divisor : other; }
 
 // How far the first edge is beyond the second along a direction, at one instant.
 inline Lanes edgeBeyond(const LaneVectors& way, const Places& at) {
@@ -40,7 +41,7 @@ inline Lanes vertexBeyond(const LaneVectors& way, const Places& at) {
 
 // From the closest point of a segment to the point that is at `from` from its start.
 inline LaneVectors fromSegment(const LaneVectors& from, const LaneVectors& segment) {
-  return from - cut(dot(from, segment) / (dot(segment, segment) + kTiny)) * segment;
+  return from - cut(dot(from, segment) / orElse(dot(segment, segment), lanesOf(1.0f))) * segment;
 }
 
 // The reach with what rounding may add: differences of places are off by `rounding` in every component and no longer
@@ -62,10 +63,11 @@ std::uint32_t edgesStayApart(const std::array<FourNodes, 4>& pairs, const NodeWa
   const Places start = gather(pairs, ways, &NodeWay::start), end = gather(pairs, ways, &NodeWay::end);
   const LaneVectors a = start[0] + end[0], c = start[2] + end[2];
   const LaneVectors ab = start[1] + end[1] - a, cd = start[3] + end[3] - c, ca = a - c;
-  const Lanes ab_ab = dot(ab, ab) + kTiny, cd_cd = dot(cd, cd) + kTiny, ab_cd = dot(ab, cd);
-  const Lanes ca_ab = dot(ca, ab), ca_cd = dot(ca, cd);
+  const Lanes ab_ab = orElse(dot(ab, ab), lanesOf(1.0f)), cd_cd = orElse(dot(cd, cd), lanesOf(1.0f));
+  const Lanes ab_cd = dot(ab, cd), ca_ab = dot(ca, ab), ca_cd = dot(ca, cd);
   // Ericson, Real-Time Collision Detection, 5.1.9.
-  const Lanes s = cut((ab_cd * ca_cd - ca_ab * cd_cd) / (ab_ab * cd_cd - ab_cd * ab_cd + kTiny));
+  const Lanes squares = ab_ab * cd_cd;
+  const Lanes s = cut((ab_cd * ca_cd - ca_ab * cd_cd) / orElse(squares - ab_cd * ab_cd, squares));
   const Lanes t = cut((ab_cd * s + ca_cd) / cd_cd);
   const LaneVectors way = ca + cut((ab_cd * t - ca_ab) / ab_ab) * ab - t * cd;
   return exceeding(lesser(edgeBeyond(way, start), edgeBeyond(way, end)), way, certain(reach, rounding));

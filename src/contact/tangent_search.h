@@ -31,6 +31,13 @@ double largestCoordinate(const std::array<Vec3, N>& corners) {
   return largest;
 }
 
+template <std::size_t N>
+Vec3 middleOf(const std::array<Vec3, N>& corners) {
+  Vec3 middle = corners[0] / static_cast<double>(N);
+  for (std::size_t k = 1; k < N; ++k) middle += corners[k] / static_cast<double>(N);
+  return middle;
+}
+
 /// Not smaller than the longest edge, not larger than 1.8 times it.
 template <std::size_t N>
 double longestEdge(const std::array<Vec3, N>& corners) {
@@ -128,14 +135,15 @@ class Search {
   bool found_ = false;
 };
 
-/// Minimum on an edge; shape.nearest(point) gives the distance and its (sub)gradient. `size`: of the shape, for rounding.
+/// Minimum on an edge; shape.nearest(point, beside) gives the distance and its (sub)gradient: where an element lies on both
+/// sides of a middle, out is where most of it is. `size`: of the shape, for rounding.
 template <typename Shape>
 void searchEdge(const Shape& shape, double size, const std::array<Vec3, 2>& ends, double reach, ElementMinimum& out) {
-  const Vec3 along = ends[1] - ends[0];
+  const Vec3 along = ends[1] - ends[0], middle = middleOf(ends);
   const double rounding = 16.0 * kEps * (largestCoordinate(ends) + size);
   Search search(0.5 * kElementAccuracy * longestEdge(ends) + rounding, reach + rounding);
   const auto tangentAt = [&](double t) -> Tangent {
-    const SurfacePoint surface = shape.nearest(ends[0] + t * along);
+    const SurfacePoint surface = shape.nearest(ends[0] + t * along, middle);
     search.offer({1.0 - t, t, 0.0}, surface);
     const double slope = surface.normal.dot(along);
     return {t, surface.distance, slope, surface.normal, surface.distance - t * slope};
@@ -150,13 +158,14 @@ void searchTriangle(const Shape& shape, double size, const std::array<Vec3, 3>& 
                     ElementMinimum& out) {
   const Vec3 along_s = corners[1] - corners[0];
   const Vec3 along_t = corners[2] - corners[0];
+  const Vec3 middle = middleOf(corners);
   const double rounding = 16.0 * kEps * (largestCoordinate(corners) + size);
   Search search(0.5 * kElementAccuracy * longestEdge(corners) + 4.0 * rounding, reach + rounding);
   const auto rowTangent = [&](double s) -> Tangent {
     const double end = std::max(1.0 - s, 0.0);
     const Vec3 start = corners[0] + s * along_s;
     const auto tangentAt = [&](double t) -> Tangent {
-      const SurfacePoint surface = shape.nearest(start + t * along_t);
+      const SurfacePoint surface = shape.nearest(start + t * along_t, middle);
       search.offer({std::max(end - t, 0.0), s, t}, surface);
       const double slope = surface.normal.dot(along_t);
       const double base = surface.distance - t * slope - s * surface.normal.dot(along_s);

@@ -45,6 +45,11 @@ constexpr double kRubShare = 4.0;
 // is aimed at for the first sweeps: it moves by 0.3 mm/s instead of 0.8 (RMS), for a fifth more sweeps.
 constexpr double kStrictShare = 0.2;
 constexpr int kStrictSweeps = 6;
+// Where strings pull, in short substeps, what a link may lack is more than its weight moves it by, and a flat net makes ten
+// times that of it across the strings: it would never come to rest. So this share of the way of its weight is aimed at, but
+// not less than that share of the tolerance.
+constexpr double kShareOfWeight = 0.3;
+constexpr double kLeastShare = 0.01;
 // A substep whose time is over is taken when it has come so near, over the tolerance.
 constexpr double kLateShare = 8.0;
 // Sweeps that must bring at least this improvement, or the iteration has stalled.
@@ -317,11 +322,13 @@ void ExactSolver::solveNet(const LineSolve& weft, Contacts* contacts, double res
   });
 }
 
-ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, const Field3& start, Contacts* contacts,
-                                                    StageClock& clock) noexcept {
+ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, const Field3& start, double weight_way,
+                                                    Contacts* contacts, StageClock& clock) noexcept {
   const LineSolve warp{pattern_, inertia_.inverse(), warp_, next_, held_.movingSpan()};
   const LineSolve weft{pattern_, inertia_.inverse(), weft_, next_, held_.movingSpan()};
   const bool touches = contacts != nullptr && !contacts->empty();
+  const double share_for_weight =
+      weight_way > 0.0 ? std::clamp(kShareOfWeight * weight_way / (middle_rest_ * tolerance_), kLeastShare, 1.0) : 1.0;
   Progress progress;
   bool follow = plan.scheme != Scheme::kLeapfrog;
   bool net_ready = false;
@@ -331,7 +338,11 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
   double caution = 1.0;
   while (progress.sweeps < max_sweeps_) {
     const bool first = progress.sweeps == 0;
-    const double strict = touches && !plan.must_accept && progress.sweeps < kStrictSweeps ? kStrictShare : 1.0;
+    double strict = 1.0;
+    if (progress.sweeps < kStrictSweeps) {
+      if (touches && !plan.must_accept) strict = kStrictShare;
+      if (!touches && (weft_pulls_ || directions_set_)) strict = share_for_weight;
+    }
     const double tolerance = strict * tolerance_;
     const double contact_tolerance = strict * contact_tolerance_;
     const double stop = plan.precise ? kPreciseStop : first && !weft_pulls_ ? kNewtonStop : kNewtonStopLater;

@@ -117,9 +117,11 @@ class ExactSolver {
   };
   const ClothState& setBase(Scheme scheme, double h, const ClothState& state, double& step) noexcept;
   double begin(const SubstepPlan& plan, const SubstepStart& start, double scale) noexcept;
-  Progress solveConstraints(const SubstepPlan& plan, const Field3& start, Contacts* contacts, StageClock& clock) noexcept;
+  // weight_way: that weight moves a node by in the substep [m].
+  Progress solveConstraints(const SubstepPlan& plan, const Field3& start, double weight_way, Contacts* contacts,
+                            StageClock& clock) noexcept;
   Progress solveAndVerify(const SubstepPlan& plan, const SubstepStart& start, const Field3& from, double ratio,
-                          ContactFinder* finder, StageClock& clock) noexcept;
+                          double weight_way, ContactFinder* finder, StageClock& clock) noexcept;
   bool struck(const Contacts* contacts) const noexcept;
   void keepMomentum(const SubstepStart& start) noexcept;
   WarpProgress solveBlock(bool follow, const LineSolve& warp, int block, double stop, double leave_alone,

@@ -41,7 +41,8 @@ bool isWithinNumbers(const Field3& position) noexcept {
 
 // Solves, and solves again with what the finder has to add, until nothing goes through anything or that does not help.
 ExactSolver::Progress ExactSolver::solveAndVerify(const SubstepPlan& plan, const SubstepStart& start, const Field3& from,
-                                                  double ratio, ContactFinder* finder, StageClock& clock) noexcept {
+                                                  double ratio, double weight_way, ContactFinder* finder,
+                                                  StageClock& clock) noexcept {
   Contacts* contacts = nullptr;
   std::size_t known = 0;
   int looks = 0;
@@ -55,7 +56,7 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const SubstepPlan& plan, const
       if (beginContacts(inertia_.inverse(), ratio, known, *contacts, next_)) newton_begun_ = false;
       known = contacts->size();
     }
-    const Progress progress = solveConstraints(plan, start.state.position, contacts, clock);
+    const Progress progress = solveConstraints(plan, start.state.position, weight_way, contacts, clock);
     all.sweeps += progress.sweeps;
     all.settled = progress.settled;
     all.left_over = progress.left_over;
@@ -143,7 +144,8 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
                            step};
   const double ratio = begin(plan, start, scale);
   clock.lap(Stage::kPredict);
-  Progress progress = solveAndVerify(plan, start, state.position, ratio, finder, clock);
+  const double weight_way = forces.gravity.norm() * plan.h * plan.h;
+  Progress progress = solveAndVerify(plan, start, state.position, ratio, weight_way, finder, clock);
   if (plan.scheme == Scheme::kBdf2 && struck(progress.contacts)) {
     single_steps_ = kStepsAfterBlow;
     if (older_h_ != 0.0) {  // made again, from one step

@@ -504,6 +504,40 @@ TEST(StayingApart, IsProvedOfWhatStaysApartAlone) {
   EXPECT_GT(proved, apart_in_truth * 6 / 10);
 }
 
+// The same pairs in a doll's and in an airship's metres, many of edges that are nearly parallel, or none.
+TEST(StayingApart, IsProvedInAnyUnit) {
+  Random random(6);
+  int proved = 0;
+  for (int round = 0; round < 4000; ++round) {
+    std::array<Vec3, 16> start, end;
+    std::array<FourNodes, 4> pairs;
+    const double trifle = round % 4 == 0 ? 0.0 : round % 4 == 1 ? 1e-7 : 0.01;
+    for (std::uint32_t n = 0; n < 16; ++n) {
+      const Vec3 way = random.inBox(0.02);
+      start[n] = n % 4 < 2 ? random.inBox(0.05) : Vec3(start[n - 2] + Vec3(0.0, 0.0, 0.01) + random.inBox(trifle));
+      if (round % 5 == 0 && n % 4 == 1) start[n] = start[n - 1];
+      end[n] = n % 4 == 0 ? Vec3(start[n] + way) : Vec3(start[n] + end[n - 1] - start[n - 1]);
+      pairs[n / 4][n % 4] = n;
+    }
+    const auto provedIn = [&](double unit, bool edges) {
+      std::array<NodeWay, 16> ways;
+      for (std::size_t n = 0; n < 16; ++n) {
+        const Eigen::Vector3f a = (unit * start[n]).cast<float>(), b = (unit * end[n]).cast<float>();
+        ways[n] = {{a.x(), a.y(), a.z(), 0.0f}, {b.x(), b.y(), b.z(), 0.0f}};
+      }
+      const auto reach = static_cast<float>(unit * 0.005), rounding = static_cast<float>(unit * 1e-7);
+      return (edges ? edgesStayApart : vertexStaysApart)(pairs, ways.data(), reach, rounding);
+    };
+    for (const bool edges : {false, true}) {
+      const std::uint32_t bits = provedIn(1.0, edges);
+      EXPECT_EQ(provedIn(0x1p-12, edges), bits) << round << (edges ? " edges" : " vertex");
+      EXPECT_EQ(provedIn(0x1p12, edges), bits) << round << (edges ? " edges" : " vertex");
+      proved += bits != 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(proved, 1000);
+}
+
 // Drifts, turns and trembles by more and less, and now and then a few nodes jerk: at every look each pair that comes
 // within reach is named, whether the tree was descended or not.
 TEST(KeptPairs, MissNoPairHoweverTheClothMoves) {

@@ -132,6 +132,47 @@ TEST(NearestOnElement, HoldsOnALattice) {
   }
 }
 
+// What is as deep on one side of a middle as on the other leaves on the side that most of the element is on, not on that of
+// larger coordinates: the image of an element in a mirror leaves as the image, to the bit (a capsule is gone through
+// from one end: across z but for rounding). Elements whose own middle is in the mirror have no such side.
+template <std::size_t N>
+void checkMirrored(const std::string& name, const ConvexShape& shape, const std::array<Vec3, N>& corners, int axis) {
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& corner : corners) middle += corner / static_cast<double>(N);
+  if (std::abs(middle[axis]) < 1e-12 || (axis == 2 && (name == "plane" || name == "capsule"))) return;
+  std::array<Vec3, N> image = corners;
+  for (Vec3& corner : image) corner[axis] = -corner[axis];
+  ElementPoint nearest, of_image;
+  ASSERT_TRUE(nearestOn(shape, corners, kInfinity, nearest));
+  ASSERT_TRUE(nearestOn(shape, image, kInfinity, of_image));
+  of_image.surface.normal[axis] = -of_image.surface.normal[axis];
+  EXPECT_EQ(of_image.weights, nearest.weights) << name;
+  EXPECT_EQ(of_image.surface.distance, nearest.surface.distance) << name;
+  EXPECT_EQ(of_image.surface.normal, nearest.surface.normal) << name << " across " << axis;
+  EXPECT_EQ(of_image.lower_bound, nearest.lower_bound) << name;
+}
+
+TEST(NearestOnElement, OfAnImageIsTheImage) {
+  Random random(4);
+  const double lattice[] = {-0.5, -0.3, -0.1, 0.0, 0.1, 0.3, 0.5};
+  const auto coordinate = [&] { return lattice[static_cast<std::size_t>(random.between(0.0, 7.0))]; };
+  for (const auto& [name, shape] : kSolids) {
+    for (int n = 0; n < 1000 && !HasFailure(); ++n) {
+      Triangle corners;
+      for (Vec3& corner : corners) {
+        const double x = coordinate();
+        const double y = coordinate();
+        corner = Vec3(x, y, coordinate());
+      }
+      for (int axis = 0; axis < 3; ++axis) {
+        checkMirrored(name, *shape, corners, axis);
+        checkMirrored(name, *shape, Edge{corners[0], corners[1]}, axis);
+        checkMirrored(name, *shape, randomElement<3>(random, 0.2, 0.5), axis);
+      }
+    }
+  }
+}
+
 TEST(NearestOnElement, HoldsForElementsWithoutAreaOrLength) {
   Random random(4);
   for (const auto& [name, shape] : kSolids) {

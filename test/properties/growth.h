@@ -72,6 +72,27 @@ inline double longestString(const curtain::Scene& scene, const Motion& motion) {
   return longest;
 }
 
+/// A string may have pulled, in a frame as well: that is how fast its ends part at a frame's end, for as long as a frame.
+inline bool stringsMayPull(const curtain::Scene& scene, const Motion& motion) {
+  const curtain::ClothPattern pattern = makePattern(scene);
+  const double frame = 1.0 / scene.solver.frame_rate;
+  for (std::size_t k = 0; k < motion.positions.size(); ++k) {
+    for (int i = 0; i < motion.rows; ++i) {
+      for (int j = 1; j < motion.columns; ++j) {
+        const auto n = static_cast<std::size_t>(i * motion.columns + j);
+        const double length = (motion.positions[k][n] - motion.positions[k][n - 1]).norm();
+        const double parting = (motion.velocities[k][n] - motion.velocities[k][n - 1]).norm();
+        if (length + frame * parting >= pattern.weft_rest[pattern.grid.index(i, j)]) return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Share of a force that single precision may take: 2^-24 of each correction, and about as much for each of the iterations
+/// whose errors the next ones do not see, eight at most.
+constexpr double kSingle = 8.0 * 0x1p-24;
+
 /// The share of gravity that rounding amounts to, if all of it went one way: positions of this size [m] are rounded by
 /// 2^-53 of it once a substep of h seconds, which is an acceleration of 2^-53 size / h^2. h: the shortest substep of a
 /// motion of so many frames, taken for half of their mean, over `stages`.

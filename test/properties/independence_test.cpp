@@ -133,6 +133,8 @@ TEST_P(Independence, OfWhatTimeIsCutIntoToTheBit) {
 // are solved side by side, by the same number of iterations. Without air, which knows the border.
 TEST_P(Independence, OfTheOrderOfSlackColumnsToTheBit) {
   const std::vector<std::size_t> order = {3, 0, 6, 1, 7, 5, 2, 4};  // column j was column order[j]
+  int slack = 0;
+  double gone = 0.0;
   for (const std::uint64_t seed : seeds(3)) {
     Wanted wanted;
     wanted.most_nodes = 8;
@@ -157,8 +159,9 @@ TEST_P(Independence, OfTheOrderOfSlackColumnsToTheBit) {
       permuted.drag[j].force = scene.drag[order[j]].force;
     }
     Motion motion = record(scene, kFrames);
-    ASSERT_LT(longestString(scene, motion), 1.0) << repeat(seed);
-    EXPECT_GT(farthestGone(motion), 0.05) << repeat(seed);
+    if (stringsMayPull(scene, motion)) continue;
+    ++slack;
+    gone = std::max(gone, farthestGone(motion));
     Motion other = columnsFrom(record(permuted, kFrames), [&](int j) {
       return static_cast<int>(std::find(order.begin(), order.end(), static_cast<std::size_t>(j)) - order.begin());
     });
@@ -171,13 +174,32 @@ TEST_P(Independence, OfTheOrderOfSlackColumnsToTheBit) {
     }
     expectSame(motion, other, repeat(seed));
   }
+  EXPECT_GT(slack, 0) << "strings pull in all of them";
+  EXPECT_GT(gone, 0.05);
 }
 
-// Winds, drags and obstacles listed the other way round, and a drag given in two halves, which other drags come
-// between: sums are rounded otherwise, no more. Tolerance as in rigid_motion_test.cpp.
+// Obstacles have names, and their list no order.
+TEST_P(Independence, OfTheOrderOfObstaclesToTheBit) {
+  int contacts = 0;
+  for (const std::uint64_t seed : seeds(3, {12})) {
+    const Scene scene = sceneOf(seed, obstacles());
+    const Motion motion = record(scene, kFrames);
+    contacts += motion.statistics.contacts_max;
+    Scene other = scene;
+    std::reverse(other.obstacles.begin(), other.obstacles.end());
+    expectSame(motion, record(other, kFrames), repeat(seed) + ", reversed");
+    other = scene;
+    std::rotate(other.obstacles.begin(), other.obstacles.begin() + 2, other.obstacles.end());
+    expectSame(motion, record(other, kFrames), repeat(seed) + ", rotated");
+  }
+  EXPECT_GT(contacts, 0) << "nothing ever touched";
+}
+
+// Winds and drags listed the other way round, and a drag given in two halves, which other drags come between: sums are
+// rounded otherwise, no more. Tolerance as in rigid_motion_test.cpp.
 TEST_P(Independence, OfTheOrderOfLists) {
   for (const Kind& kind : {slack(), obstacles()}) {
-    for (const std::uint64_t seed : seeds(2)) {
+    for (const std::uint64_t seed : seeds(2, {12})) {
       Scene scene = sceneOf(seed, kind);
       for (ObstacleParams& obstacle : scene.obstacles)
         obstacle.motion.clear();  // several that jam the cloth leave it no one way
@@ -197,8 +219,7 @@ TEST_P(Independence, OfTheOrderOfLists) {
       other.drag.push_back(half);
       std::reverse(other.wind.begin(), other.wind.end());
       std::reverse(other.drag.begin(), other.drag.end());
-      std::reverse(other.obstacles.begin(), other.obstacles.end());
-      const double single = kind.wanted.gentle ? 0.0 : 8.0 * 0x1p-24;
+      const double single = kind.wanted.gentle && !stringsMayPull(scene, motion) ? 0.0 : kSingle;
       EXPECT_LE(farthestApart(motion, record(other, kFrames)), growth * (roundingShare(scene, motion, 5.0) + single))
           << kind.name << ", " << repeat(seed);
     }

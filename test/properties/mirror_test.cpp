@@ -23,7 +23,7 @@ TEST_P(Mirror, ImageMovesAsTheImageOfTheMotion) {
   const auto& [kind, method] = GetParam();
   constexpr int kFrames = 40;
   int contacts = 0;
-  for (const std::uint64_t seed : seeds(2)) {
+  for (const std::uint64_t seed : seeds(2, {11, 14})) {
     Scene scene = randomScene(seed, kind.wanted);
     scene.solver.method = method;
     const Motion motion = record(scene, kFrames);
