@@ -74,6 +74,10 @@ double fastestSurface(const Contacts& contacts) noexcept {
   return std::sqrt(fastest);
 }
 
+bool anyPushes(const Contacts& contacts) noexcept {
+  return std::any_of(contacts.begin(), contacts.end(), [](const Contact& contact) { return contact.pushes(); });
+}
+
 bool pressesOnObstacle(const Contacts& contacts) noexcept {
   return std::any_of(contacts.begin(), contacts.end(),
                      [](const Contact& contact) { return contact.obstacle != Contact::kCloth && contact.pushes(); });

@@ -78,6 +78,9 @@ double contactRate(const Contacts& contacts, const Field3& velocity) noexcept;
 /// Of the obstacles' points that are pushed on [m/s].
 double fastestSurface(const Contacts& contacts) noexcept;
 
+/// Whether any of them pushes.
+bool anyPushes(const Contacts& contacts) noexcept;
+
 /// Something other than the cloth is pushed on.
 bool pressesOnObstacle(const Contacts& contacts) noexcept;
 

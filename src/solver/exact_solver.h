@@ -139,9 +139,13 @@ class ExactSolver {
   // Twice the kinetic energies [J] of a substep: of the way that the nodes have gone, and of that which they would without links.
   struct Kinetic {
     double stepped = 0.0, predicted = 0.0;
-    bool pins_move = false;  // and put in what they like
+    double driven = 0.0;  // of all the mass at the speed of the fastest pin
+    double most(double share) const noexcept;
   };
   Kinetic kineticOf(const SubstepStart& start) const noexcept;
+  double kineticOf(const Field3& velocity) const noexcept;
+  double fromTolerance(double h) const noexcept;
+  double drivenKinetic(const Field3& velocity) const noexcept;
   void boundKinetic(double most, Field3& velocity) const noexcept;
   void layDown(int block, ClothState& state) noexcept;
   void takeUp(int block) noexcept;

@@ -159,10 +159,14 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   // Links let nodes lie in many ways, and a long step may find one that is far from where they were; and strings that have become
   // taut in it may pull harder than it is stable for.
   const bool may_jump = plan.scheme == Scheme::kBdf2 || (leapfrog && directions_set_);
-  if (may_jump && !plan.must_accept && progress.contacts == nullptr && progress.settled) {
+  const bool alone = progress.contacts == nullptr || !anyPushes(*progress.contacts);
+  bool adds = false;
+  if (may_jump && alone && progress.settled) {
     const Kinetic kinetic = kineticOf(start);
-    const double most = plan.scheme == Scheme::kBdf2 ? kMostKineticOfBdf2 : kMostKinetic;
-    if (!kinetic.pins_move && kinetic.stepped > most * kinetic.predicted) progress.settled = false;
+    adds = kinetic.stepped > kinetic.most(plan.scheme == Scheme::kBdf2 ? kMostKineticOfBdf2 : kMostKinetic);
+    // What its links may lack of their lengths would be more still in a shorter one.
+    const bool jumps = adds && kinetic.stepped > kinetic.most(1.0) + fromTolerance(step);
+    if (jumps && !plan.must_accept) progress.settled = false;
   }
   SubstepOutcome outcome;
   if (held_.any()) {
@@ -188,10 +192,10 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
     } else {
       older_h_ = 0.0;
     }
-    const bool bounded = (plan.scheme == Scheme::kImplicit && progress.contacts == nullptr) || progress.late;
+    const bool bounded = (plan.scheme == Scheme::kImplicit && alone) || adds || progress.late;
     const Kinetic kinetic = bounded ? kineticOf(start) : Kinetic();
     commit(base, step, leapfrog ? 0.5 * step : 0.0, state);
-    if (bounded && !kinetic.pins_move) boundKinetic(kinetic.predicted, state.velocity);
+    if (bounded) boundKinetic(kinetic.most(1.0), state.velocity);
     outcome.omega_squared = inertia_.omegaSquared();
     if (progress.contacts != nullptr) outcome.longest_step = kMostWayOfSurface * smallest_rest_ / fastestSurface(*progress.contacts);
     // The way such a substep has gone is not all motion: what pulls its links further is taken out.

@@ -25,6 +25,22 @@ constexpr int kVelocityIterations = 24;
 
 }  // namespace
 
+// Links that hold do no work but what pins put in: seen from pins that go by at u the cloth has no more than before, so its sqrt of
+// twice the kinetic energy grows by 2 u sqrt(M) at most. Pins that draw a flat string taut put in more, against what it bears; that
+// is left out.
+double ExactSolver::Kinetic::most(double share) const noexcept {
+  const double root = std::sqrt(share * predicted) + 2.0 * std::sqrt(driven);
+  return root * root;
+}
+
+// What links may lack of their lengths comes out of a substep as speed.
+double ExactSolver::fromTolerance(double h) const noexcept {
+  const double speed = tolerance_ * middle_rest_ / h;
+  double mass = 0.0;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) mass += inertia_.masses()[n] > 0.0 ? pattern_.mass[n] : 0.0;
+  return mass * speed * speed;
+}
+
 // By lanes, so that the sums have one order, whatever the processor's width.
 CURTAIN_WIDE ExactSolver::Kinetic ExactSolver::kineticOf(const SubstepStart& start) const noexcept {
   const std::size_t size = pattern_.grid.size();
@@ -34,7 +50,7 @@ CURTAIN_WIDE ExactSolver::Kinetic ExactSolver::kineticOf(const SubstepStart& sta
   const double* const inverse = inertia_.inverse().data();
   const double* const keep = start.keep != nullptr ? start.keep->data() : nullptr;
   const double per_step = 1.0 / start.h, kick = start.kick;
-  std::array<double, kLane> stepped{}, predicted{}, pins{};
+  std::array<double, kLane> stepped{}, predicted{};
   const auto add = [&](const Field& x_next, const Field& x_from, const Field& v_field, const Field& f_field) {
     const double *const x = x_next.data(), *const a = x_from.data(), *const v = v_field.data(), *const f = f_field.data();
     for (std::size_t n = 0; n < size; n += kLane) {
@@ -45,7 +61,6 @@ CURTAIN_WIDE ExactSolver::Kinetic ExactSolver::kineticOf(const SubstepStart& sta
         const double without = (keep != nullptr ? keep[n + l] : 1.0) * v[n + l] + kick * inverse[n + l] * f[n + l];
         stepped[l] += m * made * made;
         predicted[l] += m * without * without;
-        pins[l] += free[n + l] > 0.0 ? 0.0 : v[n + l] * v[n + l];
       }
     }
   };
@@ -56,19 +71,36 @@ CURTAIN_WIDE ExactSolver::Kinetic ExactSolver::kineticOf(const SubstepStart& sta
   for (std::size_t l = 0; l < kLane; ++l) {
     sum.stepped += stepped[l];
     sum.predicted += predicted[l];
-    if (pins[l] > 0.0) sum.pins_move = true;
+  }
+  sum.driven = drivenKinetic(velocity);
+  return sum;
+}
+
+double ExactSolver::kineticOf(const Field3& velocity) const noexcept {
+  double sum = 0.0;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    if (inertia_.masses()[n] > 0.0) sum += pattern_.mass[n] * velocity.at(n).squaredNorm();
   }
   return sum;
 }
 
-// Links that hold do no work; where they can't hold (a straight row between two pins under load) what is left over would
-// become motion.
+// All of the cloth at the speed of its fastest pin.
+double ExactSolver::drivenKinetic(const Field3& velocity) const noexcept {
+  double mass = 0.0, fastest = 0.0;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    if (inertia_.masses()[n] > 0.0) {
+      mass += pattern_.mass[n];
+    } else {
+      fastest = std::max(fastest, velocity.at(n).squaredNorm());
+    }
+  }
+  return mass * fastest;
+}
+
+// Where links can't hold (a straight row between two pins under load) what is left over would become motion.
 void ExactSolver::boundKinetic(double most, Field3& velocity) const noexcept {
   const Field& inverse = inertia_.masses();
-  double sum = 0.0;
-  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    if (inverse[n] > 0.0) sum += pattern_.mass[n] * velocity.at(n).squaredNorm();
-  }
+  const double sum = kineticOf(velocity);
   if (!(sum > most)) return;
   const double share = std::sqrt(most / sum);
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
@@ -102,7 +134,12 @@ void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& f
     out.set(n, step.keep * state.velocity.at(n) + age * step.gain * w * forces.force->at(n));
   }
   if (age == 0.0) return;
+  Kinetic kinetic;
+  kinetic.predicted = kineticOf(out);
+  kinetic.driven = drivenKinetic(out);
   projectVelocity(state.position, contacts, age / inertia_.tensions().scale, out);
+  // What links that can't hold pull is beyond all measure.
+  if (contacts == nullptr || !anyPushes(*contacts)) boundKinetic(kinetic.most(1.0), out);
 }
 
 Vec3 ExactSolver::pullAt(int row, int column) const noexcept {
@@ -150,8 +187,7 @@ void ExactSolver::projectOnConstraints(const Field3& position, const Contacts* c
       applyWarpMultipliers(warp, block);
     });
   }
-  const bool presses = contacts != nullptr && std::any_of(contacts->begin(), contacts->end(),
-                                                          [](const Contact& contact) { return contact.pushes(); });
+  const bool presses = contacts != nullptr && anyPushes(*contacts);
   if (!weft_pulls_ && !presses) {
     solveRods();
     return;
