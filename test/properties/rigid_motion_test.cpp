@@ -16,9 +16,10 @@
 // an iteration goes on. One that is as near as rounding falls the other way (seed 12, on the last of 30 frames), and the two
 // motions are two solutions of the same substep. Their links differ by the tolerance, as if the scene's lengths were off by
 // that share, so they may be apart by its growth. Few are: of what is off by 1e-6 of the tolerance, by its growth, one in
-// thousands of decisions, a scene makes hundreds. More than every second pair of motions would be something else.
+// thousands of decisions, a scene makes hundreds. More than every fourth pair of motions would be something else.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 
@@ -77,7 +78,7 @@ class RigidMotion : public ::testing::TestWithParam<std::tuple<Kind, Method>> {
     }
   }
   void expectFewSolvedOtherwise() const {
-    EXPECT_LE(otherwise_, compared_ / 2) << "of " << compared_;
+    EXPECT_LE(otherwise_, std::max(1, compared_ / 4)) << "of " << compared_;
   }
 
  private:
