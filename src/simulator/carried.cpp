@@ -196,6 +196,7 @@ void Simulator::Impl::carry(Archive& archive) {
   archive.integer("same_since_frame", same_since.frame, 0, kMany);
   archive.finite("same_since_time", same_since.time);
   archive.finite("made_time", made_time);
+  archive.optional("most_energy", most_energy, 0.0, [&](double& energy) { archive.finite("energy", energy); });
   archive.numbers("velocities", velocities);
   archive.flag("velocities_fresh", velocities_fresh);
 }

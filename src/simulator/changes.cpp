@@ -63,6 +63,7 @@ std::vector<Problem> Simulator::setState(const std::vector<Vec3>& positions, con
     }
   }
   im.state.velocity_age = 0.0;
+  im.most_energy.reset();
   im.exact.reset();
   im.contact.forget();
   im.companion.lost = true;

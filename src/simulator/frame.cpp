@@ -241,10 +241,12 @@ void Simulator::Impl::step() {
     countTime(begin);
     return;
   }
+  if (!most_energy) keepEnergy();
   prepareFrame(begin);
   startPins();
   const double share = makeFrame();
   const Budget::Clock::time_point tail_begin = budget.any() ? Budget::Clock::now() : begin;
+  keepEnergy();
   stopPins(share == 1.0);
   finishFrame(share);
   measure();

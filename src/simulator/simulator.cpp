@@ -69,7 +69,8 @@ Simulator::Impl::Impl(const Scene& given, const MeshResolver& resolve)
       rest(pattern, 1.0 / scene.solver.frame_rate, scene.contact.thickness, scene.solver.stretch_tolerance),
       kept_awake(pattern.grid.columns),
       ledger(pattern),
-      budget(scene.solver.budget_ms) {
+      budget(scene.solver.budget_ms),
+      has_pins(std::any_of(pattern.pinned.begin(), pattern.pinned.end(), [](auto pinned) { return pinned != 0; })) {
   setRestLimits();
   exact.hold(rest.asleep(), state);
   exact.expectContacts(contact.capacity());
@@ -105,6 +106,7 @@ void Simulator::Impl::reset() {
   frame = 0;
   same_since = {};
   ledger.restore({});
+  most_energy.reset();
   made_time = 0.0;
   pin_moves.clear();
   velocities_fresh = false;
@@ -241,6 +243,7 @@ std::vector<Problem> Simulator::setGravity(const Vec3& gravity) {
   if (gravity == im.scene.gravity) return {};
   im.scene.gravity = gravity;
   im.forces.takeGravity();
+  im.most_energy.reset();
   im.control.takeGravity(im.pattern, gravity);
   im.plain_control.takeGravity(im.pattern, gravity);
   im.setRestLimits();
@@ -296,14 +299,7 @@ const FineMeshTopology& Simulator::fineMeshTopology() const { return impl_->surf
 const Statistics& Simulator::statistics() const { return impl_->statistics; }
 
 Energy Simulator::energy() const {
-  const Impl& im = *impl_;
-  const Field3& velocity = impl_->currentVelocities();
-  Energy energy;
-  for (std::size_t n = 0; n < im.pattern.grid.size(); ++n) {
-    energy.kinetic += 0.5 * im.pattern.mass[n] * velocity.at(n).squaredNorm();
-    energy.potential -= im.pattern.mass[n] * im.scene.gravity.dot(im.state.position.at(n));
-  }
-  return energy;
+  return impl_->energy();
 }
 
 void Simulator::countWork(bool counted) {

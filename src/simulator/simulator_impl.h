@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "contact/cloth_contact.h"
 #include "curtain_sim/plan.h"
@@ -62,6 +63,9 @@ struct Simulator::Impl {
   void prepareFrame(Budget::Clock::time_point begin);
   void finishFrame(double share);
   const Field3& currentVelocities();
+  Energy energy();
+  bool isClosed() const noexcept;
+  void keepEnergy();
   void carry(Archive& archive);
   void resume() noexcept;
   std::uint32_t layout();
@@ -123,6 +127,8 @@ struct Simulator::Impl {
     std::int64_t frame = 0;
     double time = 0.0;  // [s]
   } same_since;
+  const bool has_pins;
+  std::optional<double> most_energy;  // while nothing puts any in [J]
   double made_time = 0.0;      // of motion; less than the frames' where these ended early [s]
   std::uint64_t revision = 0;  // of the cloth's and the obstacles' places
   Field3 velocities;           // at the time of the positions
