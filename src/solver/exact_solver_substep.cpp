@@ -17,9 +17,9 @@ constexpr int kHopelessLooks = 2;
 // Kinetic energy of a step over that without links, from which it has found another way for the links to lie: where it follows
 // the motion links take energy out.
 constexpr double kMostKinetic = 1.5;
-// The same of bdf2, whose base lies off the links by as much as they turn in a step: it adds the square of that angle, 0.03 where
-// they turn by 0.17 rad, and takes far more out. More is links that have found another way to lie.
-constexpr double kMostKineticOfBdf2 = 1.03;
+// Over this it is taken out again. Links turn in a step, and leapfrog's energy wavers, or bdf2's base lies off them, by the square
+// of that angle: 0.03 where they turn by 0.17 rad. For bdf2, which takes far more out, it is another way to lie already.
+constexpr double kMostAdded = 1.03;
 // bdf2 would go on with what a blow has stopped, as a rebound (by a third of it a step; two thirds came back from a string that
 // snapped taut). So the step of the blow, the next one, in which the rest of the speed goes, and the one after are made from one
 // step: then the last two know nothing of it.
@@ -163,9 +163,10 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   bool adds = false;
   if (may_jump && alone && progress.settled) {
     const Kinetic kinetic = kineticOf(start);
-    adds = kinetic.stepped > kinetic.most(plan.scheme == Scheme::kBdf2 ? kMostKineticOfBdf2 : kMostKinetic);
+    adds = kinetic.stepped > kinetic.most(kMostAdded);
     // What its links may lack of their lengths would be more still in a shorter one.
-    const bool jumps = adds && kinetic.stepped > kinetic.most(1.0) + fromTolerance(step);
+    const bool jumps = kinetic.stepped > kinetic.most(plan.scheme == Scheme::kBdf2 ? kMostAdded : kMostKinetic) &&
+                       kinetic.stepped > kinetic.most(1.0) + fromTolerance(step);
     if (jumps && !plan.must_accept) progress.settled = false;
   }
   SubstepOutcome outcome;

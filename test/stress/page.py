@@ -13,13 +13,14 @@ in air that damps a swing by 0.8 of critical, unless the case says otherwise; `t
 happens, and what is allowed where that is not the rule.
 
 A case holds when every number stays finite, no link is longer than allowed at any frame's end (2e-3, twice the tolerance, while
-substeps settle; more where pins or obstacles leave it no choice), the energy never rises by more than what is put in and 1e-2
-of what is moved (gravity, winds, drags, pins and obstacles accounted for substep by substep: `Simulator::work()`), it is back at
-rest in the time that the air allows, and a second run gives the same bits. `paper`, as printed, keeps neither links nor energy; of
-it only finite numbers are asked.
+substeps settle; more where pins or obstacles leave it no choice), the energy never rises by more than what is put in
+and 1e-2 of what moves: m g H, the kinetic energy meanwhile and the works of the last 60 frames (gravity, winds, drags, pins and obstacles accounted for substep by substep:
+`Simulator::work()`; what air takes is not added, so a rise that it takes in the same frame is not seen), it is back at rest for half a
+second in the time that the air allows, and a second run gives the same bits. `paper`, as printed, keeps neither links nor
+energy; of it only finite numbers are asked.
 
-Each cell: largest overlength of a link / rise of the energy / time back to rest [s] (– where it is not asked for). **Bold**: does
-not hold.
+Each cell: largest overlength of a link (or shortness of a rod) / rise of the energy / time back to rest [s] (– where it is not asked
+for). In parentheses: reported, not judged, for the start or the pins leave no choice. **Bold**: does not hold.
 
 """
 
@@ -34,12 +35,17 @@ def size(value):
     return "%.0e" % value if abs(value) < 0.01 or abs(value) >= 100.0 else "%.2g" % value
 
 
+def judged(row, what, allowed):
+    text = size(row[what])
+    return "(%s)" % text if math.isinf(float(row[allowed])) else text
+
+
 def cell(row):
     if row is None:
         return ""
     asked = not math.isnan(float(row["recovery_allowed_s"]))
     back = "%.1f" % float(row["recovery_s"]) if asked and not math.isnan(float(row["recovery_s"])) else ("never" if asked else "–")
-    text = "%s / %s / %s" % (size(row["stretch"]), size(row["energy_gain"]), back)
+    text = "%s / %s / %s" % (judged(row, "stretch", "stretch_allowed"), judged(row, "energy_gain", "energy_allowed"), back)
     if row["finite"] != "1":
         text = "not finite"
     return text if row["holds"] == "1" else "**" + text + "**"

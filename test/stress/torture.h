@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -20,12 +21,16 @@ struct Torture {
   std::function<void(curtain::Simulator&)> begin;
   std::function<void(curtain::Simulator&, int frame, Random&)> torment;
   std::function<void(curtain::Simulator&)> end;
-  /// Largest relative overlength of a link at any of the torture's frames' ends. Default: within the tolerance (substeps that do
+  /// Largest relative overlength of a link, and shortness of a rod, at any of the torture's frames' ends. Default: within the tolerance (substeps that do
   /// not settle may leave more, and are counted).
   double stretch_during = 2e-3;
-  /// Rise of the energy that nobody has put in, over all that has been moved: m g H and the sizes of all works.
+  /// Rise of the energy that nobody has put in, over m g H, the kinetic energy meanwhile and the works of the last 60 frames.
   double energy_gain = 1e-2;
-  /// The same at the end of the recovery.
+  /// Kinetic energy over m g H, where links pull by no known force and the works of pins tell nothing.
+  double kinetic = std::numeric_limits<double>::infinity();
+  /// Methods that are known not to hold: they are shown as what they are, and are news when they do.
+  std::vector<curtain::Method> known_failures;
+  /// Stretch at the end of the recovery.
   double stretch_after = 2e-3;
   bool gravity_changes = false;  ///< what the potential was does not count then
   /// It must come back to rest once it is over.

@@ -58,6 +58,17 @@ Torture spinningBar(double per_second) {
   return torture;
 }
 
+Torture straightRowBeside() {
+  Torture torture = withObstacle(ShapeKind::kSphere, false);
+  torture.scene.pins.kind = PinKind::kTopCorners;
+  torture.scene.hang.to.x() = 1.0;
+  torture.scene.obstacles[0].pose = poseOf(Vec3(0.5, 0.21, 1.6));
+  torture.recovers = false;
+  torture.stretch_during = 2e-3;
+  torture.energy_gain = 2.0 * 2.0 / 3.0 * std::sqrt(3.0 / 8.0 * 1e-3);  // see straightRow
+  return torture;
+}
+
 Torture teleports(ShapeKind shape, bool self) {
   Torture torture = withObstacle(shape, self);
   torture.torment = [](Simulator& simulator, int frame, Random& random) {
@@ -111,6 +122,7 @@ void addContactTortures(std::vector<TortureCase>& cases) {
   cases.push_back({"ball at 5 m/s with self-contact", "", [] { return ballThrough(5.0, true); }});
   cases.push_back({"bar at 1 rev/s", "beside the cloth, into it", [] { return spinningBar(1.0); }});
   cases.push_back({"bar at 50 rev/s", "", [] { return spinningBar(50.0); }});
+  cases.push_back({"straight row by a ball", "1 cm off its plane", straightRowBeside});
   cases.push_back({"ball that appears", "anywhere, every fifth frame", [] { return teleports(ShapeKind::kSphere, false); }});
   cases.push_back({"box that appears", "anywhere, every fifth frame, self-contact", [] { return teleports(ShapeKind::kBox, true); }});
   cases.push_back({"crumpled", "rail gathered and spread, winds from everywhere, self-contact", crumple});

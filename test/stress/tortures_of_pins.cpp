@@ -112,6 +112,33 @@ Torture straightRow(int rows, int columns, double share) {
   return torture;
 }
 
+// What makes other code of it: something else to look for, pins that go by a nanometre.
+Torture straightRowThatTouchesItself() {
+  Torture torture = straightRow(12, 10, 1.0);
+  torture.scene.contact.self = true;
+  return torture;
+}
+
+Torture straightRowOfTremblingPins(double way) {
+  Torture torture = straightRow(12, 10, 1.0);
+  torture.torment = [=](Simulator& simulator, int frame, Random&) {
+    movePins(simulator, [&](int, const Vec3& home) { return Vec3(home + Vec3(0.0, frame % 2 == 0 ? way : -way, 0.0)); });
+  };
+  return torture;
+}
+
+Torture drawnStraight() {
+  Torture torture = straightRow(12, 10, 0.99);
+  torture.torment = [](Simulator& simulator, int frame, Random&) {
+    const double width = std::min(1.0, 0.99 + 0.01 * frame / 60.0) + (frame % 2 == 0 ? 1e-6 : -1e-6);
+    simulator.movePin({0, 9}, Vec3(width, 0.0, 2.0));
+  };
+  torture.kinetic = torture.energy_gain;
+  torture.known_failures = {Method::kLeapfrog};  // 3.0e-2
+  torture.energy_gain = std::numeric_limits<double>::infinity();
+  return torture;
+}
+
 Torture allPinned() {
   Torture torture;
   torture.scene = tortureScene(4, 4);
@@ -146,6 +173,10 @@ void addPinTortures(std::vector<TortureCase>& cases) {
   cases.push_back({"straight row", "corners exactly as far apart as the cloth is wide, 12 x 10", [] { return straightRow(12, 10, 1.0); }});
   cases.push_back({"straight row of 5 x 5", "", [] { return straightRow(5, 5, 1.0); }});
   cases.push_back({"nearly straight row", "0.9999 of the width", [] { return straightRow(12, 10, 0.9999); }});
+  cases.push_back({"straight row, self-contact", "nothing touches", straightRowThatTouchesItself});
+  cases.push_back({"straight row, pins tremble", "by 1e-9 m", [] { return straightRowOfTremblingPins(1e-9); }});
+  cases.push_back({"straight row, pins shake", "by 1e-5 m", [] { return straightRowOfTremblingPins(1e-5); }});
+  cases.push_back({"drawn straight", "at 1 cm/s, and on by 1e-6 m", drawnStraight});
   cases.push_back({"all pinned", "nothing can move", allPinned});
   cases.push_back({"nothing pinned", "free fall in air", notPinned});
 }

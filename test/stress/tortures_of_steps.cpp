@@ -57,6 +57,35 @@ Torture atTwoRates() {
   return torture;
 }
 
+// With all that looks at the frame's length: moving pins, a ball on its way, cloth on cloth.
+Torture gatheredAtAnyRate() {
+  Torture torture = atAnyRate();
+  torture.seconds = 4.0;
+  torture.scene.contact.self = true;
+  torture.scene.hang.to.x() = 0.6;
+  ObstacleParams ball;
+  ball.name = "ball";
+  ball.radius = 0.15;
+  torture.scene.obstacles.push_back(ball);
+  const auto rates = torture.torment;
+  torture.torment = [rates](Simulator& simulator, int frame, Random& random) {
+    rates(simulator, frame, random);
+    const double time = simulator.time();
+    Pose pose;
+    pose.position = Vec3(0.3, 0.6 * std::cos(4.0 * time), 1.4);
+    simulator.setObstaclePose(0, pose, frame == 0);
+    const double width = 0.6 + 0.1 * std::sin(3.0 * time);
+    for (int j = 0; j < simulator.columns(); ++j) simulator.movePin({0, j}, Vec3(width * j / (simulator.columns() - 1), 0.0, 2.0));
+  };
+  torture.end = [end = torture.end](Simulator& simulator) {
+    end(simulator);
+    simulator.setObstaclePresent(0, false);
+  };
+  torture.recovers = false;  // gathered cloth lies in folds of any kind
+  torture.stretch_during = 1e-2;  // as in tortures_of_contact.cpp
+  return torture;
+}
+
 Torture forAMillionFrames() {
   Torture torture = inBreeze();
   torture.seconds = 1e6 / 60.0;
@@ -71,6 +100,7 @@ void addStepTortures(std::vector<TortureCase>& cases) {
   cases.push_back({"frames of 1 s", "the same, a frame a second", [] { return atRate(1.0); }});
   cases.push_back({"frames of any length", "1/1000 to 1/5 s, another one every frame", atAnyRate});
   cases.push_back({"frames of two lengths", "1/5 and 1/1000 s by turns", atTwoRates});
+  cases.push_back({"frames of any length, contact", "gathered, its rail moves, a ball swings through it", gatheredAtAnyRate});
   cases.push_back({"a million frames", "4.6 simulated hours of gusts", forAMillionFrames, false, false});
 }
 
