@@ -42,10 +42,12 @@ void ErrorEstimate::reset() noexcept {
   now_ = last_second_ = 0.0;
 }
 
+// Substeps stay as long as they were, and the next comparison sets out at once.
 void ErrorEstimate::takeFrame(double length) noexcept {
+  substeps_ = static_cast<int>(std::clamp<double>(std::ceil(substeps_ * length / frame_length_ - 1e-9), fewest_, most_));
   frame_length_ = length;
   window_ = std::max(1, static_cast<int>(std::lround(1.0 / length)));
-  frames_ = window_;
+  frames_ = 0;
   compared_ = 0;
   steps_sum_ = companion_sum_ = 0.0;
   of_stages_ = true;

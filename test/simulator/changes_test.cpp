@@ -74,6 +74,30 @@ TEST(FrameRate, DoesNotChangeTheMotion) {
   EXPECT_GT(apart, 0.0);
 }
 
+// What is asked of the error is asked of every second, however many frames it has.
+TEST(FrameRate, KeepsThePositionTolerance) {
+  Scene scene = tilted();
+  scene.solver.position_tolerance = 1e-5;
+  Simulator even(scene);
+  Simulator other(scene);
+  for (int frame = 0; frame < 60; ++frame) {
+    even.step();
+    other.step();
+  }
+  const double length = 1.0 / (60.0 * other.statistics().substeps_last);
+  ASSERT_TRUE(other.setFrameRate(10.0).empty());
+  for (int frame = 0; frame < 10; ++frame) {
+    other.step();
+    EXPECT_LE(1.0 / (10.0 * other.statistics().substeps_last), 1.0001 * length) << frame;
+  }
+  for (int frame = 0; frame < 60; ++frame) even.step();
+  const std::vector<Vec3> a = positionsOf(even), b = positionsOf(other);
+  double sum = 0.0;
+  for (std::size_t n = 0; n < a.size(); ++n) sum += (a[n] - b[n]).squaredNorm();
+  // Each may be off by the tolerance, RMS, in each of the two seconds.
+  EXPECT_LE(std::sqrt(sum / static_cast<double>(a.size())), 2.0 * 2.0 * 1e-5);
+}
+
 TEST(FrameRate, OutOfRangeChangesNothing) {
   Simulator simulator(tilted());
   for (const double rate : {0.0, -60.0, 0.5, 20000.0, std::numeric_limits<double>::quiet_NaN()}) {

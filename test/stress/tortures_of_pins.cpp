@@ -173,9 +173,9 @@ void addPinTortures(std::vector<TortureCase>& cases) {
   cases.push_back({"straight row", "corners exactly as far apart as the cloth is wide, 12 x 10", [] { return straightRow(12, 10, 1.0); }});
   cases.push_back({"straight row of 5 x 5", "", [] { return straightRow(5, 5, 1.0); }});
   cases.push_back({"nearly straight row", "0.9999 of the width", [] { return straightRow(12, 10, 0.9999); }});
-  cases.push_back({"straight row, self-contact", "nothing touches", straightRowThatTouchesItself});
-  cases.push_back({"straight row, pins tremble", "by 1e-9 m", [] { return straightRowOfTremblingPins(1e-9); }});
-  cases.push_back({"straight row, pins shake", "by 1e-5 m", [] { return straightRowOfTremblingPins(1e-5); }});
+  cases.push_back({"straight row and self-contact", "nothing touches", straightRowThatTouchesItself});
+  cases.push_back({"straight row of trembling pins", "by 1e-9 m", [] { return straightRowOfTremblingPins(1e-9); }});
+  cases.push_back({"straight row of shaking pins", "by 1e-5 m", [] { return straightRowOfTremblingPins(1e-5); }});
   cases.push_back({"drawn straight", "at 1 cm/s, and on by 1e-6 m", drawnStraight});
   cases.push_back({"all pinned", "nothing can move", allPinned});
   cases.push_back({"nothing pinned", "free fall in air", notPinned});

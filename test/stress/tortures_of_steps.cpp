@@ -100,7 +100,7 @@ void addStepTortures(std::vector<TortureCase>& cases) {
   cases.push_back({"frames of 1 s", "the same, a frame a second", [] { return atRate(1.0); }});
   cases.push_back({"frames of any length", "1/1000 to 1/5 s, another one every frame", atAnyRate});
   cases.push_back({"frames of two lengths", "1/5 and 1/1000 s by turns", atTwoRates});
-  cases.push_back({"frames of any length, contact", "gathered, its rail moves, a ball swings through it", gatheredAtAnyRate});
+  cases.push_back({"frames of any length and contact", "gathered, its rail moves, a ball swings through it", gatheredAtAnyRate});
   cases.push_back({"a million frames", "4.6 simulated hours of gusts", forAMillionFrames, false, false});
 }
 
