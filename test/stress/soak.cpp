@@ -51,6 +51,7 @@ Options readOptions(int argc, char** argv) {
     else std::cerr << "soak: unknown option " << word << "\n", std::exit(2);
   }
   if (options.scene.empty()) std::cerr << "soak: a scene is needed\n", std::exit(2);
+  if (!(options.interval >= 2.0 * kQuiet)) std::cerr << "soak: --interval must be " << 2.0 * kQuiet << " s at least\n", std::exit(2);
   return options;
 }
 
@@ -173,6 +174,15 @@ int judge(const std::vector<Row>& rows) {
     ++failures;
   };
   must(late.finite, "the state is not finite");
+  // Machines are shared and noisy by a factor of two; sweeps, below, are not.
+  const auto fastestOf = [&rows](std::size_t from, std::size_t to) {
+    double least = rows[from].median_ms;
+    for (std::size_t n = from; n < to; ++n) least = std::min(least, rows[n].median_ms);
+    return least;
+  };
+  must(fastestOf(rows.size() / 2, rows.size()) <= 1.5 * fastestOf(0, rows.size() / 2), "frames take longer");
+  const auto bad = [](const Row& row) { return row.stretch > 1e-2 || row.rest_speed > 1e-3 || row.stops > 0 || !row.finite; };
+  must(std::none_of(rows.begin(), rows.end(), bad), "an interval has long links, no rest at its end, a stop or numbers that are none");
   // Rows of the table and the folds' scratch are all that may come: a leak of a byte a frame would be 35 kB in an interval.
   must(late.heap_kb <= early.heap_kb + 64 * rows.size() / 10 + 64, "the heap has grown");
   must(late.resident_kb <= early.resident_kb + 2048, "resident memory has grown by more than 2 MB");
