@@ -25,4 +25,9 @@ foreach(file ${CURTAIN_ROSTESTS})
   add_rostest(${file} DEPENDENCIES curtain_node curtain_nodelet curtain_flood ${curtain_sim_EXPORTED_TARGETS})
 endforeach()
 
+# Two rviz at a time on a small machine: one of them did not get its window.
+foreach(name rviz_handle rviz_reopen)
+  set_tests_properties(_ctest_${PROJECT_NAME}_rostest_test_ros_${name}.test PROPERTIES RESOURCE_LOCK screen)
+endforeach()
+
 roslaunch_add_file_check(launch USE_TEST_DEPENDENCIES)

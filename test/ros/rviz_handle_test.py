@@ -79,7 +79,7 @@ class RvizHandleTest(ScreenTest):
         rviz = self.start("rviz", "-d", self.configuration(), env=environment)
 
         def looks():
-            self.assertIsNone(rviz.poll(), "rviz runs")
+            self.assertIsNone(rviz.poll(), "rviz runs\n" + self.log_of("rviz"))
             handles = self.handles_on_screen(environment)
             return handles if len(handles) >= 3 else None
         wait_until(looks, "rviz shows the handles", 60.0)

@@ -38,7 +38,7 @@ class RvizReopenTest(ScreenTest):
             before = self.sent()
             rviz = self.start("rviz", "-d", configuration, env=environment)
             wait_until(lambda: all(now > then + 5 for now, then in zip(self.sent(), before)), "rviz is served", 60.0)
-            self.assertIsNone(rviz.poll(), "rviz runs")
+            self.assertIsNone(rviz.poll(), "rviz runs\n" + self.log_of("rviz"))
             rviz.send_signal(ending)
             rviz.wait(20.0)
             wait_until(self.is_quiet, "the node has noticed that rviz is gone")

@@ -38,6 +38,11 @@ class ScreenTest(unittest.TestCase):
         self.processes.append(process)
         return process
 
+    def log_of(self, program):
+        """The end of what a program that was started has said."""
+        with open(os.path.join(self.folder, program + ".log"), errors="replace") as log:
+            return log.read()[-2000:]
+
     def start_screen(self):
         """An X server on a display of its own choice; the environment for its programs."""
         reader, writer = os.pipe()
