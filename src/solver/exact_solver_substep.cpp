@@ -198,7 +198,8 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
     commit(base, step, leapfrog ? 0.5 * step : 0.0, state);
     if (bounded) boundKinetic(kinetic.most(1.0), state.velocity);
     outcome.omega_squared = inertia_.omegaSquared();
-    if (progress.contacts != nullptr) outcome.longest_step = kMostWayOfSurface * smallest_rest_ / fastestSurface(*progress.contacts);
+    const double fastest = progress.contacts != nullptr ? fastestSurface(*progress.contacts) : 0.0;
+    if (fastest > 0.0) outcome.longest_step = kMostWayOfSurface * smallest_rest_ / fastest;
     // The way such a substep has gone is not all motion: what pulls its links further is taken out.
     if (progress.left_over && !progress.late) projectVelocity(state.position, progress.contacts, 0.0, state.velocity);
   }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <vector>
 
 #include "curtain_sim/scene_yaml.h"
 #include "curtain_sim/simulator.h"
@@ -24,6 +25,10 @@ using curtain_test::FloatTraps;
 Scene smaller(Scene scene) {
   scene.cloth.rows = std::min(scene.cloth.rows, 14);
   scene.cloth.columns = std::min(scene.cloth.columns, 12);
+  std::vector<curtain::NodeIndex>& pins = scene.pins.nodes;
+  for (curtain::NodeIndex& pin : pins) pin.row = std::min(pin.row, scene.cloth.rows - 1);
+  const auto gone = [&](const curtain::NodeIndex& pin) { return pin.column >= scene.cloth.columns; };
+  pins.erase(std::remove_if(pins.begin(), pins.end(), gone), pins.end());
   scene.solver.threads = 1;  // traps are a thread's own
   return scene;
 }
