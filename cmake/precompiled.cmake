@@ -1,4 +1,4 @@
-# Headers that most files include, read once a target instead of once a file: half the time of a build with sanitizers. Only as an
+# Headers that most files include, read once a target instead of once a file, for builds with sanitizers. Only as an
 # option: a file that forgets an include of these compiles here, and must not in the build that everybody has.
 set(curtain_common_headers <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map> <optional> <string> <utility>
   <vector> <Eigen/Core> <Eigen/Geometry>)

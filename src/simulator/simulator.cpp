@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <cstring>
 #include <stdexcept>
 
@@ -70,7 +71,8 @@ Simulator::Impl::Impl(const Scene& given, const MeshResolver& resolve)
       kept_awake(pattern.grid.columns),
       ledger(pattern),
       budget(scene.solver.budget_ms),
-      has_pins(std::any_of(pattern.pinned.begin(), pattern.pinned.end(), [](auto pinned) { return pinned != 0; })) {
+      has_pins(std::any_of(pattern.pinned.begin(), pattern.pinned.end(), [](auto pinned) { return pinned != 0; })),
+      total_mass(std::accumulate(pattern.mass.begin(), pattern.mass.end(), 0.0)) {
   setRestLimits();
   exact.hold(rest.asleep(), state);
   exact.expectContacts(contact.capacity());

@@ -64,6 +64,7 @@ struct Simulator::Impl {
   void finishFrame(double share);
   const Field3& currentVelocities();
   Energy energy();
+  double energyWithoutLinks() const noexcept;
   bool isClosed() const noexcept;
   void keepEnergy();
   void carry(Archive& archive);
@@ -128,6 +129,7 @@ struct Simulator::Impl {
     double time = 0.0;  // [s]
   } same_since;
   const bool has_pins;
+  const double total_mass;  // [kg]
   std::optional<double> most_energy;  // while nothing puts any in [J]
   double made_time = 0.0;      // of motion; less than the frames' where these ended early [s]
   std::uint64_t revision = 0;  // of the cloth's and the obstacles' places

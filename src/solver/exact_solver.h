@@ -139,7 +139,7 @@ class ExactSolver {
   // Twice the kinetic energies [J] of a substep: of the way that the nodes have gone, and of that which they would without links.
   struct Kinetic {
     double stepped = 0.0, predicted = 0.0;
-    double driven = 0.0;  // of all the mass at the speed of the fastest pin
+    double driven = 0.0;  // to be added: of all the mass at the speed of the fastest pin
     double most(double share) const noexcept;
   };
   Kinetic kineticOf(const SubstepStart& start) const noexcept;

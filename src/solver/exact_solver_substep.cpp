@@ -162,7 +162,8 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   const bool alone = progress.contacts == nullptr || !anyPushes(*progress.contacts);
   bool adds = false;
   if (may_jump && alone && progress.settled) {
-    const Kinetic kinetic = kineticOf(start);
+    Kinetic kinetic = kineticOf(start);
+    if (kinetic.stepped > kMostAdded * kinetic.predicted) kinetic.driven = drivenKinetic(start.state.velocity);
     adds = kinetic.stepped > kinetic.most(kMostAdded);
     // What its links may lack of their lengths would be more still in a shorter one.
     const bool jumps = kinetic.stepped > kinetic.most(plan.scheme == Scheme::kBdf2 ? kMostAdded : kMostKinetic) &&
@@ -194,7 +195,11 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
       older_h_ = 0.0;
     }
     const bool bounded = (plan.scheme == Scheme::kImplicit && alone) || adds || progress.late;
-    const Kinetic kinetic = bounded ? kineticOf(start) : Kinetic();
+    Kinetic kinetic;
+    if (bounded) {
+      kinetic = kineticOf(start);
+      kinetic.driven = drivenKinetic(start.state.velocity);
+    }
     commit(base, step, leapfrog ? 0.5 * step : 0.0, state);
     if (bounded) boundKinetic(kinetic.most(1.0), state.velocity);
     outcome.omega_squared = inertia_.omegaSquared();

@@ -72,7 +72,6 @@ CURTAIN_WIDE ExactSolver::Kinetic ExactSolver::kineticOf(const SubstepStart& sta
     sum.stepped += stepped[l];
     sum.predicted += predicted[l];
   }
-  sum.driven = drivenKinetic(velocity);
   return sum;
 }
 

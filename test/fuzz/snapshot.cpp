@@ -14,7 +14,7 @@ namespace {
 
 using curtain::Simulator;
 
-// Between them: every kind of thing that is carried (contacts, folds, pins on their way, held nodes, sleepers, an estimate).
+// Between them: contacts with an obstacle and with itself, gusts, a drag, an estimate of the error, an obstacle on its way.
 const char* const kScenes[] = {
     "cloth: {rows: 7, columns: 6, height: 0.6, width: 0.5}\n"
     "hang: {from: [0, 0, 1], to: [0.3, 0, 1], tilt: 0.3}\n"
