@@ -52,7 +52,11 @@ inline float certain(float reach, float rounding) { return (reach + 8.0f * round
 inline std::uint32_t exceeding(const Lanes& least, const LaneVectors& way, float beyond) {
   const Lanes limit = dot(way, way) * (beyond * beyond), squared = least * least;
   std::uint32_t lanes = 0;
-  for (std::size_t k = 0; k < 4; ++k) lanes |= (least[k] > 0.0f && squared[k] > limit[k] ? 1U : 0U) << k;
+  for (std::size_t k = 0; k < 4; ++k) {
+    // A value of its own: g++ 12 reads an unset index where UBSan watches both the shift and the lanes of its operand.
+    const bool exceeds = least[k] > 0.0f && squared[k] > limit[k];
+    lanes |= static_cast<std::uint32_t>(exceeds) << k;
+  }
   return lanes;
 }
 

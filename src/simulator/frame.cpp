@@ -280,7 +280,7 @@ void Simulator::Impl::measure() {
   s.contacts_max = std::max(s.contacts_max, s.contacts);
   if (near) s.penetration_max = std::max(s.penetration_max, contact.deepestPenetration(state.position));
   const double sum = s.warp_stretch + s.warp_compression + s.weft_stretch;
-  if (!std::isfinite(sum)) s.finite = false;
+  s.finite = std::isfinite(sum);
   clock.lap(Stage::kFinish);
 }
 

@@ -69,20 +69,53 @@ ssize_t readUpTo(int descriptor, char* to, std::size_t most) {
   return static_cast<ssize_t>(done);
 }
 
-// A name beside the file that no other thread or process uses, with the rights that new files get.
-int createBeside(const std::string& path, std::string& name) {
+// Of names beside the file, the first that no other thread or process uses: `take` makes it, or fails with errno. False: it failed
+// of something else.
+template <typename Take>
+bool takeNameBeside(const std::string& path, std::string& name, const Take& take) {
   static std::atomic<unsigned> next{0};
-  while (true) {
+  do {
     name = path + ".tmp-" + std::to_string(::getpid()) + '-' + std::to_string(next++);
-    const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor >= 0 || errno != EEXIST) return descriptor;
-  }
+    if (take(name.c_str())) return true;
+  } while (errno == EEXIST);
+  return false;
+}
+
+std::string folderOf(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+// A file that has its name when it is whole, so that nothing is left of it when the process is killed meanwhile. Some file systems
+// have no way to.
+bool writeNamedAtLast(const std::string& path, const std::string& bytes, std::string& name) {
+  File file(::open(folderOf(path).c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666));
+  if (!file.isOpen() || !writeAll(file.descriptor(), bytes) || ::fsync(file.descriptor()) != 0) return false;
+  const std::string nameless = "/proc/self/fd/" + std::to_string(file.descriptor());
+  return takeNameBeside(path, name, [&](const char* to) {
+    return ::linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, to, AT_SYMLINK_FOLLOW) == 0;
+  });
+}
+
+// What has its name from the start. Where it fails nothing is left of it, and errno says why.
+bool writeNamed(const std::string& path, const std::string& bytes, std::string& name) {
+  int descriptor = -1;
+  const auto create = [&](const char* as) {
+    descriptor = ::open(as, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);  // the rights that new files get
+    return descriptor >= 0;
+  };
+  if (!takeNameBeside(path, name, create)) return false;
+  File file(descriptor);
+  if (writeAll(descriptor, bytes) && ::fsync(descriptor) == 0 && file.close()) return true;
+  const int why = errno;
+  ::unlink(name.c_str());
+  errno = why;
+  return false;
 }
 
 // So that the new name outlasts a power failure. Some file systems have no way to.
 bool syncFolderOf(const std::string& path) {
-  const std::string folder = std::filesystem::path(path).parent_path().string();
-  const File file(::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const File file(::open(folderOf(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!file.isOpen()) return errno == EACCES;  // may be written, not read
   return ::fsync(file.descriptor()) == 0 || errno == EINVAL || errno == ENOTSUP;
 }
@@ -97,13 +130,11 @@ std::vector<Problem> writeSnapshotFile(const std::string& path, const std::strin
     return {{path, "cannot be written: it is not a file"}};
   }
   std::string name;
-  File file(createBeside(target, name));
-  if (!file.isOpen()) return failed(path, "cannot be written");
-  const bool written = writeAll(file.descriptor(), snapshot) && ::fsync(file.descriptor()) == 0 && file.close() &&
-                       std::rename(name.c_str(), target.c_str()) == 0;
-  if (!written) {
+  if (!writeNamedAtLast(target, snapshot, name) && !writeNamed(target, snapshot, name)) {
+    return failed(path, "cannot be written");
+  }
+  if (std::rename(name.c_str(), target.c_str()) != 0) {
     std::vector<Problem> problems = failed(path, "cannot be written");
-    file.close();
     ::unlink(name.c_str());
     return problems;
   }

@@ -3,13 +3,17 @@
 // Files of snapshots: all of it is written or nothing, and only what may be a snapshot is read.
 #include "curtain_sim/snapshot_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -112,6 +116,27 @@ TEST_F(SnapshotFile, StaysAsItWasWhenThereIsNoRoom) {
   EXPECT_NE(describe(problems).find("File too large"), std::string::npos) << describe(problems);
   EXPECT_EQ(readText(path("a.snap")), "older");
   EXPECT_EQ(files(), 1U) << "the temporary file is gone";
+}
+
+// Killed in the middle of it: the system does that to who writes beyond the same limit and has not asked for an error instead.
+TEST_F(SnapshotFile, LeavesNothingWhenItsWriterIsKilled) {
+  ASSERT_TRUE(writeSnapshotFile(path("a.snap"), "older").empty());
+  const int descriptor = open(folder_.c_str(), O_WRONLY | O_TMPFILE, 0666);
+  if (descriptor < 0) GTEST_SKIP() << "the file system has no files without names: " << std::strerror(errno);
+  close(descriptor);
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    const rlimit small{snapshot_.size() / 2, snapshot_.size() / 2};
+    std::signal(SIGXFSZ, SIG_DFL);
+    if (setrlimit(RLIMIT_FSIZE, &small) == 0) writeSnapshotFile(path("a.snap"), snapshot_);
+    _exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGXFSZ) << status;
+  EXPECT_EQ(readText(path("a.snap")), "older");
+  EXPECT_EQ(files(), 1U);
 }
 
 // Who reads meanwhile sees one snapshot or the other.
