@@ -42,6 +42,10 @@ if(TARGET test_fuzz)
   target_sources(test_fuzz PRIVATE test/fuzz/scene_yaml.cpp test/fuzz/mesh.cpp test/fuzz/step.cpp test/fuzz/snapshot.cpp test/fuzz/scene_maker.cpp
     test/fuzz/breakages.cpp)
 endif()
+if(TARGET test_properties)
+  target_sources(test_properties PRIVATE test/properties/random_scenes.cpp test/properties/similarity.cpp
+    test/properties/growth.cpp test/properties/motion.cpp)
+endif()
 curtain_add_tests(structure)
 
 # Instructions of optimised code, without a sanitizer's.
