@@ -18,6 +18,7 @@ namespace {
 
 constexpr int kBadInput = 2;
 constexpr int kNotFinite = 3;
+constexpr int kNotWritten = 4;
 constexpr double kLongest = 1e8;  // s; three years, and few enough frames to keep each one's time
 
 const char* const kUsage =
@@ -36,7 +37,8 @@ const char* const kUsage =
     "  --progress         a line a simulated second on stderr\n"
     "  --explain          what runs (+) for this scene and what is skipped (-), at the start and after the duration\n"
     "  --list-methods     names for --method, then exit\n"
-    "exit code: 0; 2 = bad input, nothing written; 3 = the state became non-finite\n";
+    "exit code: 0; 2 = bad input, nothing written; 3 = the state became non-finite, no snapshot is saved;\n"
+    "4 = an output could not be written, others may be\n";
 
 struct Options {
   std::string scene;
@@ -256,6 +258,9 @@ int main(int argc, char** argv) {
       return kNotFinite;
     }
     return EXIT_SUCCESS;
+  } catch (const std::runtime_error& error) {
+    std::cerr << "curtain_batch: " << error.what() << '\n';
+    return kNotWritten;
   } catch (const std::exception& error) {
     std::cerr << "curtain_batch: " << error.what() << '\n';
     return kBadInput;

@@ -9,7 +9,10 @@ Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& pri
   updater_.setHardwareID("none");
   updater_.add("simulation", [this, clock_simulated](Status& status) {
     const Health none;
-    checkSimulation(health_ ? *health_ : none, {ros::SteadyTime::now(), desk_.lastFrame(), clock_simulated}, rises_, status);
+    const ros::Time clock = ros::Time::now();
+    checkSimulation(health_ ? *health_ : none,
+                    {ros::SteadyTime::now(), desk_.lastFrame(), clock_simulated, clock == clock_at_last_look_}, rises_, status);
+    clock_at_last_look_ = clock;
   });
   addCheck("inputs", checkInputs);
   addCheck("obstacles", checkObstacles);

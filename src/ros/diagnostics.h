@@ -35,6 +35,7 @@ class Diagnostics {
   HealthDesk& desk_;
   std::shared_ptr<const Health> health_;  // none before the simulation thread has answered for the first time
   Rises rises_;
+  ros::Time clock_at_last_look_;
   diagnostic_updater::Updater updater_;
   std::unique_ptr<Periodic> thread_;  // last: it uses the others
 };

@@ -41,7 +41,7 @@ void checkPulse(const Health& health, const Pulse& pulse, DiagnosticStatusWrappe
   const double still = (pulse.now - pulse.last_frame).toSec();
   status.add("seconds since the last frame", still);
   if (still < kStill + 1.0 / health.frame_rate) return;
-  if (pulse.clock_simulated) {
+  if (pulse.clock_simulated && pulse.clock_stands) {
     status.mergeSummary(DiagnosticStatus::OK, "/clock stands");
   } else {
     status.mergeSummary(DiagnosticStatus::ERROR, "no frame for " + std::to_string(static_cast<long>(still)) + " s");

@@ -3,7 +3,7 @@
 // Floor 5: when the node is well, and when it is not. One check for each status on /diagnostics:
 //
 //   simulation  ERROR  the state was not finite; frames stand still although the clock runs (5 s without one)
-//               WARN   no frame yet, or /clock stands (OK when it stood before); links longer than the scene's tolerance;
+//               WARN   no frame yet (a /clock that stands later is OK); links longer than the scene's tolerance;
 //                      lately: substeps unsettled, implicit or stopped, frames dropped, late or shortened, /clock jumped back,
 //                      the computer's clock set back; slower than 0.95 of the clock
 //   inputs      WARN   lately: messages refused, of unknown frames, too many for a frame, dropped in roscpp's queue
@@ -44,6 +44,7 @@ struct Pulse {
   ros::SteadyTime now;
   ros::SteadyTime last_frame;    ///< zero: none yet
   bool clock_simulated = false;  ///< /clock may stand as long as it likes
+  bool clock_stands = false;     ///< and has not moved since the last look
 };
 
 void checkSimulation(const Health& health, const Pulse& pulse, Rises& rises,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <system_error>
 #include <utility>
 
 #include "curtain_sim/snapshot_file.h"
@@ -15,6 +16,7 @@ namespace curtain_ros {
 namespace {
 constexpr double kWarnPeriod = 30.0;   // [s] between warnings
 constexpr std::size_t kBeginning = 16;  // bytes that all snapshots begin with
+constexpr char kAside[] = ".refused";   // behind the name, of a snapshot that could not be gone on from
 }
 
 SnapshotKeeper::SnapshotKeeper(const std::string& file, double period)
@@ -53,10 +55,12 @@ bool SnapshotKeeper::restore(curtain::Simulator& simulator) {
   if (!problems.empty()) {
     writes_ = !isForeign(simulator);
     foreign_ = !writes_;
+    set_aside_ = writes_;
     refused_ = curtain::describe(problems);
     ROS_WARN_STREAM("can't go on from the snapshot in "
                     << file_ << ", the curtain begins at the scene's start: " << refused_
-                    << (writes_ ? "; it will be written over" : "; it is left alone, and no snapshots are written"));
+                    << (writes_ ? "; the first one written puts it aside as " + file_ + kAside
+                                : "; it is left alone, and no snapshots are written"));
     return false;
   }
   ROS_INFO_STREAM("goes on from the snapshot in " << file_ << " at " << simulator.time() << " s");
@@ -123,13 +127,26 @@ void SnapshotKeeper::run() {
   }
 }
 
+// What was refused is somebody's state still: the wrong scene was started, or another version.
+std::string SnapshotKeeper::setAside() {
+  if (!set_aside_) return "";
+  std::error_code error;
+  std::filesystem::copy_file(file_, file_ + kAside, std::filesystem::copy_options::overwrite_existing, error);
+  if (error && error != std::errc::no_such_file_or_directory) return file_ + kAside + ": cannot be written: " + error.message();
+  set_aside_ = false;
+  return "";
+}
+
 void SnapshotKeeper::write(const std::string& snapshot) {
-  const std::vector<curtain::Problem> problems = curtain::writeSnapshotFile(file_, snapshot);
-  const std::string failure = problems.empty() ? "" : curtain::describe(problems);
+  std::string failure = setAside();
+  if (failure.empty()) {
+    const std::vector<curtain::Problem> problems = curtain::writeSnapshotFile(file_, snapshot);
+    if (!problems.empty()) failure = curtain::describe(problems);
+  }
   if (!failure.empty()) ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "the snapshot could not be written: " << failure);
   const std::lock_guard<std::mutex> lock(mutex_);
   last_failure_ = failure;
-  ++(problems.empty() ? written_ : failed_);
+  ++(failure.empty() ? written_ : failed_);
 }
 
 }  // namespace curtain_ros

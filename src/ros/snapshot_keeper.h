@@ -50,7 +50,7 @@ class SnapshotKeeper {
   SnapshotKeeper& operator=(const SnapshotKeeper&) = delete;
 
   /// Goes on from the file. False: there is none, or it was refused, which is warned of; then nothing changed. A refused one is
-  /// written over, as snapshots are, unless it is no snapshot at all: then none is written.
+  /// put aside (its name and ".refused") before the first one is written, unless it is no snapshot at all: then none is written.
   bool restore(curtain::Simulator& simulator);
 
   /// To be called each frame. now  [ns] of the node's clock
@@ -72,6 +72,7 @@ class SnapshotKeeper {
   bool isForeign(const curtain::Simulator& simulator) const;
   void endWriting();
   void run();
+  std::string setAside();
   void write(const std::string& snapshot);
 
   std::string file_;
@@ -85,6 +86,7 @@ class SnapshotKeeper {
   double restored_time_ = 0.0;
   std::string refused_;
   bool foreign_ = false;
+  bool set_aside_ = false;  // what is in the file; the writing thread's, once it has something to write
 
   // Between this thread and the one that writes.
   mutable std::mutex mutex_;

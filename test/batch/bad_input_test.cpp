@@ -100,7 +100,7 @@ TEST_F(BadInput, OutputsOnAFullDisk) {
   for (const auto& [option, name] : outputs) {
     std::filesystem::create_symlink("/dev/full", folder_ / name);
     const Outcome run = batch({smallScene(), "--duration", "0.1", "--sample", "0.1", option, name});
-    EXPECT_EQ(run.exit_code, 2) << option << ' ' << name;
+    EXPECT_EQ(run.exit_code, 4) << option << ' ' << name;
     EXPECT_NE(run.err.find(name), std::string::npos) << run.err;
   }
 }

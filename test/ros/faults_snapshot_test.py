@@ -127,7 +127,7 @@ class FaultsSnapshotTest(unittest.TestCase):
         self.curtain.wait_for(lambda s: billow(s) < 0.02, "it is over")
 
     def test_4_refused(self):
-        """Cut short, of another scene: named in one warning, begun at the scene's start, and written over in time."""
+        """Cut short, of another scene: named in one warning, begun at the scene's start, and put aside in time."""
         node = self.start()
         self.curtain.wait_for(lambda s: s.statistics.snapshots_written > 1, "a snapshot is written")
         self.end(node, signal.SIGTERM, 0)
@@ -148,7 +148,9 @@ class FaultsSnapshotTest(unittest.TestCase):
             self.start(rows=rows)
             self.assertGreater(self.first().statistics.restored_time, 0.0, name)
             self.end(self.nodes[-1], signal.SIGTERM, 0)
-            self.assertEqual(os.listdir(self.folder), ["curtain.snapshot"], "nothing is moved aside or left over")
+            self.assertEqual(sorted(os.listdir(self.folder)), ["curtain.snapshot", "curtain.snapshot.refused"], "nothing is left over")
+            with open(self.file + ".refused", "rb") as file:
+                self.assertEqual(file.read(), bytes_, name)
 
     def test_5_what_is_no_snapshot_is_left_alone(self):
         with open(self.file, "w") as file:

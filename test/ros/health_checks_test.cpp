@@ -27,9 +27,10 @@ Health well() {
   return health;
 }
 
-DiagnosticStatusWrapper simulation(const Health& health, double now, Rises& rises, double last_frame, bool simulated = false) {
+DiagnosticStatusWrapper simulation(const Health& health, double now, Rises& rises, double last_frame, bool simulated = false,
+                                   bool stands = false) {
   DiagnosticStatusWrapper status;
-  checkSimulation(health, {at(now), at(last_frame), simulated}, rises, status);
+  checkSimulation(health, {at(now), at(last_frame), simulated, stands}, rises, status);
   return status;
 }
 
@@ -132,7 +133,8 @@ TEST(HealthChecks, FramesThatStandStillAreAnError) {
   Rises rises;
   EXPECT_EQ(simulation(well(), 4.9, rises, 0.0).level, DiagnosticStatus::OK);
   EXPECT_EQ(simulation(well(), 5.1, rises, 0.0).level, DiagnosticStatus::ERROR);
-  EXPECT_EQ(simulation(well(), 5.1, rises, 0.0, true).level, DiagnosticStatus::OK);
+  EXPECT_EQ(simulation(well(), 5.1, rises, 0.0, true, true).level, DiagnosticStatus::OK);
+  EXPECT_EQ(simulation(well(), 5.1, rises, 0.0, true, false).level, DiagnosticStatus::ERROR) << "a /clock that runs";
   DiagnosticStatusWrapper status;
   checkSimulation(well(), {at(0.0), ros::SteadyTime(), true}, rises, status);
   EXPECT_EQ(status.level, DiagnosticStatus::WARN);

@@ -37,8 +37,8 @@ class SnapshotKeeperTest : public ::testing::Test {
   }
   ~SnapshotKeeperTest() override { std::filesystem::remove_all(folder_); }
 
-  std::string content() const {
-    std::ifstream stream(file_, std::ios::binary);
+  std::string content(const std::string& suffix = "") const {
+    std::ifstream stream(file_ + suffix, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   }
   void put(const std::string& bytes) const { std::ofstream(file_, std::ios::binary) << bytes; }
@@ -122,8 +122,8 @@ TEST_F(SnapshotKeeperTest, AFolderThatIsNotThereIsAFailure) {
   EXPECT_NE(keeper.health().last_failure.find("nowhere"), std::string::npos);
 }
 
-// Of another scene, or cut short: named, nothing changed, and written over.
-TEST_F(SnapshotKeeperTest, OneThatIsRefusedIsWrittenOver) {
+// Of another scene, or cut short: named, nothing changed, and put aside.
+TEST_F(SnapshotKeeperTest, OneThatIsRefusedIsPutAside) {
   const curtain::Simulator larger = makeSimulator(12);
   const std::string whole = makeSimulator().snapshot();
   for (const std::string& bytes : {larger.snapshot(), whole.substr(0, whole.size() / 2), std::string()}) {
@@ -137,8 +137,12 @@ TEST_F(SnapshotKeeperTest, OneThatIsRefusedIsWrittenOver) {
       EXPECT_EQ(simulator.stateHash(), makeSimulator().stateHash());
       EXPECT_EQ(content(), bytes) << "not before there is another one";
       keeper.take(simulator);
+      while (!keeper.idle()) ::usleep(1000);
+      simulator.step();
+      keeper.take(simulator);
     }
     EXPECT_EQ(content(), simulator.snapshot());
+    EXPECT_EQ(content(".refused"), bytes);
   }
 }
 

@@ -3,7 +3,7 @@
 // The torture suite: every case for the default method, and for all of them where that is sensible. Prints a line a case and
 // method; exit code 1 when one does not hold.
 //
-//   curtain_stress [--long] [--all-methods] [--only TEXT] [--method NAME] [--csv FILE] [--list]
+//   curtain_stress [--slow] [--all-methods] [--long] [--only TEXT] [--method NAME] [--csv FILE] [--list]
 #include <cmath>
 #include <algorithm>
 #include <cstdio>
@@ -19,7 +19,10 @@ namespace {
 using namespace curtain_test;
 
 struct Options {
-  bool long_form = false, all_methods = false, list = false;
+  bool slow = false;              // the slow cases, too, with the default method
+  bool all_methods = false;       // the quick cases with all methods
+  bool slow_all_methods = false;  // the slow ones, too
+  bool list = false;
   std::string only, method, csv;
 };
 
@@ -27,7 +30,8 @@ bool read(int argc, char** argv, Options& options) {
   for (int k = 1; k < argc; ++k) {
     const std::string word = argv[k];
     const bool last = k + 1 >= argc;
-    if (word == "--long") options.long_form = options.all_methods = true;
+    if (word == "--long") options.slow = options.all_methods = options.slow_all_methods = true;
+    else if (word == "--slow") options.slow = true;
     else if (word == "--all-methods") options.all_methods = true;
     else if (word == "--list") options.list = true;
     else if (word == "--only" && !last) options.only = argv[++k];
@@ -71,10 +75,11 @@ int main(int argc, char** argv) {
          "same_bits,frames,unsettled,implicit,stops,slowest_ms\n";
   int held = 0, failed = 0, surprises = 0;
   for (const TortureCase& one : allTortures()) {
-    if (one.name.find(options.only) == std::string::npos || (!one.quick && !options.long_form)) continue;
+    if (one.name.find(options.only) == std::string::npos || (!one.quick && !options.slow)) continue;
     if (options.list) std::cout << one.name << ": " << one.what << '\n';
+    const bool all_methods = one.all_methods && (one.quick ? options.all_methods : options.slow_all_methods);
     for (const std::string& name : curtain::methodNames()) {
-      const bool wanted = options.method.empty() ? name == "auto" || (options.all_methods && one.all_methods) : name == options.method;
+      const bool wanted = options.method.empty() ? name == "auto" || all_methods : name == options.method;
       if (options.list || !wanted) continue;
       const Torture torture = one.make();
       const curtain::Method method = *curtain::methodFromName(name);

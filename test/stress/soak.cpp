@@ -44,13 +44,14 @@ Options readOptions(int argc, char** argv) {
       std::cerr << "soak: " << word << " needs a value\n";
       std::exit(2);
     };
-    if (word == "--hours") options.hours = std::stod(value());
-    else if (word == "--interval") options.interval = std::stod(value());
+    if (word == "--hours") options.hours = std::strtod(value().c_str(), nullptr);
+    else if (word == "--interval") options.interval = std::strtod(value().c_str(), nullptr);
     else if (word == "--out") options.out = value();
     else if (word.rfind("--", 0) != 0 && options.scene.empty()) options.scene = word;
     else std::cerr << "soak: unknown option " << word << "\n", std::exit(2);
   }
   if (options.scene.empty()) std::cerr << "soak: a scene is needed\n", std::exit(2);
+  if (!(options.hours > 0.0 && options.hours < 1e6)) std::cerr << "soak: --hours must be in (0, 1e6)\n", std::exit(2);
   if (!(options.interval >= 2.0 * kQuiet)) std::cerr << "soak: --interval must be " << 2.0 * kQuiet << " s at least\n", std::exit(2);
   return options;
 }
