@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // A chain in a uniform wind rests on a straight line (wind_chain.csv, law A: Cheng 2000, Eq. (3), whose force is along
-// the wind and goes with cos psi). The disc is so far away that 1 + |d|^2 varies by 4e-5 over the cloth. Ours only: the
+// the wind and goes with cos psi). The disc is so far away that 1 + (|d| / reference_length)^2 varies by 2e-5 over the cloth. Ours only: the
 // rivals have no wind.
 #include <cmath>
 
@@ -32,7 +32,8 @@ curtain::Scene windScene(double ratio) {
   wind.position = curtain::Vec3(0.5, -kFar, -1.0);
   wind.direction = curtain::Vec3::UnitY();
   wind.radius = 10.0;
-  wind.node_force = ratio * node_mass * 9.81 * (1.0 + kFar * kFar);
+  wind.reference_length = kFar;
+  wind.node_force = ratio * node_mass * 9.81 * 2.0;
   scene.wind.push_back(wind);
   return scene;
 }
