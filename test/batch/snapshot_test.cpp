@@ -26,10 +26,11 @@ class Snapshots : public BatchTest {
     EXPECT_EQ(run.exit_code, 0) << run.err;
     return nlohmann::json::parse(readFile(path("stats.json")));
   }
-  void expectRefused(const std::vector<std::string>& arguments, const std::vector<std::string>& fragments) {
+  void expectRefused(const std::vector<std::string>& arguments, const std::vector<std::string>& fragments,
+                     int exit_code = 2) {
     const auto before = files();
     const Outcome run = batch(arguments);
-    EXPECT_EQ(run.exit_code, 2) << run.err;
+    EXPECT_EQ(run.exit_code, exit_code) << run.err;
     EXPECT_EQ(run.out, "");
     EXPECT_EQ(run.err.rfind("curtain_batch: ", 0), 0U) << run.err;
     for (const std::string& fragment : fragments) EXPECT_NE(run.err.find(fragment), std::string::npos) << run.err;
@@ -87,7 +88,7 @@ TEST_F(Snapshots, ThatDoNotFitAreRefused) {
 TEST_F(Snapshots, ThatCanNotBeWrittenAreSaidSo) {
   expectRefused({smallScene(), "--save", "no folder/a.snap"}, {"--save", "no folder"});
   expectRefused({smallScene(), "--save", "."}, {"--save", "folder"});
-  expectRefused({smallScene(), "--duration", "0.1", "--save", "/dev/full"}, {"--save", "/dev/full", "not a file"});
+  expectRefused({smallScene(), "--duration", "0.1", "--save", "/dev/full"}, {"--save", "/dev/full", "not a file"}, 4);
 }
 
 }  // namespace
