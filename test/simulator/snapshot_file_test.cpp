@@ -11,9 +11,7 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <cerrno>
 #include <csignal>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -121,9 +119,10 @@ TEST_F(SnapshotFile, StaysAsItWasWhenThereIsNoRoom) {
 // Killed in the middle of it: the system does that to who writes beyond the same limit and has not asked for an error instead.
 TEST_F(SnapshotFile, LeavesNothingWhenItsWriterIsKilled) {
   ASSERT_TRUE(writeSnapshotFile(path("a.snap"), "older").empty());
+  // Where the file system has no files without names what was begun is left, under a name of its own.
   const int descriptor = open(folder_.c_str(), O_WRONLY | O_TMPFILE, 0666);
-  if (descriptor < 0) GTEST_SKIP() << "the file system has no files without names: " << std::strerror(errno);
-  close(descriptor);
+  const std::size_t left_over = descriptor < 0 ? 1 : 0;
+  if (descriptor >= 0) close(descriptor);
   const pid_t child = fork();
   ASSERT_GE(child, 0);
   if (child == 0) {
@@ -136,7 +135,7 @@ TEST_F(SnapshotFile, LeavesNothingWhenItsWriterIsKilled) {
   ASSERT_EQ(waitpid(child, &status, 0), child);
   ASSERT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGXFSZ) << status;
   EXPECT_EQ(readText(path("a.snap")), "older");
-  EXPECT_EQ(files(), 1U);
+  EXPECT_EQ(files(), 1U + left_over);
 }
 
 // Who reads meanwhile sees one snapshot or the other.
