@@ -54,3 +54,4 @@ if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT CMAKE_CXX_FLAGS MATCHES "-fsaniti
   curtain_add_tests(cost curtain_weigh)
 endif()
 include(cmake/stress.cmake)
+include(cmake/judge.cmake)

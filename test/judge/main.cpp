@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The judge: draws random scenes, carries them out and says which of them do not hold. Exit code 1 when one does not.
+//
+//   curtain_judge [--everyday N] [--wild N] [--sudden N] [--first SEED] [--case FILE]… [--shrink FOLDER] [--csv FILE]
+//                 [--repeat-every K] [--most-seconds S] [--verbose]
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+#include "judge/verdict.h"
+
+namespace {
+
+using namespace curtain_test;
+
+struct Options {
+  long count[3] = {0, 0, 0};
+  std::uint64_t first = 1;
+  std::vector<std::string> cases;
+  std::string shrink_to, csv;
+  long repeat_every = 10;
+  double most_seconds = 0.0;
+  bool verbose = false;
+};
+
+Options parse(int argc, char** argv) {
+  Options options;
+  for (int i = 1; i < argc; ++i) {
+    const std::string name = argv[i];
+    const auto value = [&]() -> std::string {
+      if (++i == argc) throw std::invalid_argument(name + " needs a value");
+      return argv[i];
+    };
+    if (name == "--everyday") options.count[0] = std::stol(value());
+    else if (name == "--wild") options.count[1] = std::stol(value());
+    else if (name == "--sudden") options.count[2] = std::stol(value());
+    else if (name == "--first") options.first = std::stoull(value());
+    else if (name == "--case") options.cases.push_back(value());
+    else if (name == "--shrink") options.shrink_to = value();
+    else if (name == "--csv") options.csv = value();
+    else if (name == "--repeat-every") options.repeat_every = std::stol(value());
+    else if (name == "--most-seconds") options.most_seconds = std::stod(value());
+    else if (name == "--verbose") options.verbose = true;
+    else throw std::invalid_argument("unknown option " + name);
+  }
+  return options;
+}
+
+class Session {
+ public:
+  explicit Session(const Options& options) : options_(options) {
+    if (options.csv.empty()) return;
+    csv_.open(options.csv);
+    csv_ << "kind,seed,rows,columns,frames,substeps,rejected,sweeps,last_resort,stops,momentum_cut,most_solves,stretch,seconds,slowest_frame_s,holds\n";
+  }
+
+  void hear(const Drawn& drawn, const std::string& name) {
+    Rigour rigour;
+    rigour.repeats = options_.repeat_every > 0 && drawn.seed % static_cast<std::uint64_t>(options_.repeat_every) == 0;
+    rigour.most_seconds = options_.most_seconds;
+    const Verdict verdict = judge(drawn, rigour);
+    ++heard_;
+    record(drawn, verdict);
+    if (options_.verbose || !verdict.holds()) {
+      std::printf("%s %d x %d, %.3g Hz: %s; stretch %.2e, %lld substeps in %lld frames, %lld rejected, most solves %lld, %lld stops, %.2f s\n", name.c_str(),
+                  drawn.scene.cloth.rows, drawn.scene.cloth.columns, drawn.scene.solver.frame_rate,
+                  verdict.holds() ? "holds" : verdict.faults.front().c_str(), verdict.stretch, static_cast<long long>(verdict.substeps),
+                  static_cast<long long>(verdict.frames), static_cast<long long>(verdict.rejected),
+                  static_cast<long long>(verdict.most_solves), static_cast<long long>(verdict.stops), verdict.seconds);
+      std::fflush(stdout);
+    }
+    if (verdict.holds()) return;
+    ++failed_;
+    if (options_.shrink_to.empty()) return;
+    rigour.most_seconds = std::max(1.0, 2.0 * verdict.seconds);
+    const std::string path = options_.shrink_to + "/" + kindName(drawn.kind) + "_" + std::to_string(drawn.seed) + ".yaml";
+    std::ofstream(path) << write(shrink(drawn, rigour));
+    std::printf("  shrunk to %s\n", path.c_str());
+  }
+
+  long heard() const { return heard_; }
+  long failed() const { return failed_; }
+
+ private:
+  void record(const Drawn& drawn, const Verdict& v) {
+    if (!csv_.is_open()) return;
+    csv_ << kindName(drawn.kind) << ',' << drawn.seed << ',' << drawn.scene.cloth.rows << ',' << drawn.scene.cloth.columns << ','
+         << v.frames << ',' << v.substeps << ',' << v.rejected << ',' << v.sweeps << ',' << v.last_resort << ',' << v.stops << ','
+         << v.momentum_cut << ',' << v.most_solves << ',' << v.stretch << ',' << v.seconds << ',' << v.slowest << ',' << v.holds() << '\n';
+    csv_.flush();
+  }
+
+  const Options& options_;
+  std::ofstream csv_;
+  long heard_ = 0, failed_ = 0;
+};
+
+std::string contentsOf(const std::string& path) {
+  std::ifstream in(path);
+  if (!in) throw std::runtime_error("cannot read " + path);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  const Options options = parse(argc, argv);
+  Session session(options);
+  for (const std::string& path : options.cases) session.hear(readTrial(contentsOf(path)), path);
+  constexpr Kind kKinds[] = {Kind::kEveryday, Kind::kWild, Kind::kSudden};
+  for (int k = 0; k < 3; ++k) {
+    for (long n = 0; n < options.count[k]; ++n) {
+      const std::uint64_t seed = options.first + static_cast<std::uint64_t>(n);
+      session.hear(draw(kKinds[k], seed), std::string(kindName(kKinds[k])) + " " + std::to_string(seed));
+    }
+  }
+  std::printf("%ld of %ld hold\n", session.heard() - session.failed(), session.heard());
+  return session.failed() == 0 ? 0 : 1;
+} catch (const std::exception& error) {
+  std::cerr << "curtain_judge: " << error.what() << "\n";
+  return 2;
+}

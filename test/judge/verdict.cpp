@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "judge/verdict.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <sstream>
+
+#include "curtain_sim/simulator.h"
+#include "testing.h"
+
+namespace curtain_test {
+namespace {
+
+using namespace curtain;
+
+// Twice the tolerance: motion through contact may leave so much.
+constexpr double kToleranceShare = 2.0;
+constexpr std::int64_t kMostSolves = 2000;
+// Brute force compares all edges with all triangles; larger cloth is looked at less often.
+constexpr int kNodesForEveryFrame = 400;
+// A node deeper than this is inside [m]: a tenth of the thickness may lack, the rest is rounding.
+constexpr double kInside = 1e-6;
+
+class Court {
+ public:
+  Court(const Drawn& drawn, const Rigour& rigour) : drawn_(drawn), rigour_(rigour), simulator_(drawn.scene) {
+    const ClothParams& cloth = drawn.scene.cloth;
+    for (int i = 0; i < cloth.rows; ++i) {
+      for (int j = 0; j < cloth.columns; ++j) {
+        if (simulator_.pinned({i, j})) pins_.push_back({{i, j}, simulator_.position({i, j})});
+      }
+    }
+    const int nodes = cloth.rows * cloth.columns;
+    every_ = std::max(1, nodes / kNodesForEveryFrame);
+    for (int o = 0; o < simulator_.obstacleCount(); ++o) started_clear_.push_back(clear(o));
+    crossed_at_start_ = drawn.scene.contact.self && simulator_.selfCrossings() > 0;
+  }
+
+  Verdict run(bool interrupt) {
+    bool interrupted = !interrupt;
+    while (simulator_.time() < drawn_.seconds - 1e-9 && verdict_.faults.empty()) {
+      if (!interrupted && simulator_.time() > 0.5 * drawn_.seconds) {
+        interrupted = true;
+        const std::string kept = simulator_.snapshot();
+        Simulator other(drawn_.scene);
+        const std::vector<Problem> problems = other.restore(kept);
+        if (!problems.empty()) fault("snapshot refused: " + describe(problems));
+        simulator_ = std::move(other);
+      }
+      happen();
+      simulator_.step();
+      look();
+      if (rigour_.most_seconds > 0.0 && verdict_.seconds > rigour_.most_seconds) {
+        fault("took longer than it may");
+      }
+    }
+    verdict_.hash = simulator_.stateHash();
+    return verdict_;
+  }
+
+ private:
+  struct Pin {
+    NodeIndex node;
+    Vec3 place;
+  };
+  void happen() {
+    const Happenings& happenings = drawn_.happenings;
+    const double time = simulator_.time();
+    const bool after = time >= happenings.at;
+    if (after && !happened_) {
+      happened_ = true;
+      if (!happenings.gravity.isZero()) simulator_.setGravity(happenings.gravity);
+      if (happenings.other_rate > 0.0) simulator_.setFrameRate(happenings.other_rate);
+    }
+    if (happenings.pin_swing.isZero() && happenings.pin_jerk.isZero()) return;
+    const double frame = 1.0 / simulator_.scene().solver.frame_rate;
+    Vec3 move = std::sin(2.0 * kPi * happenings.pin_frequency * (time + frame)) * happenings.pin_swing;
+    if (after) move += happenings.pin_jerk;
+    for (const Pin& pin : pins_) simulator_.movePin(pin.node, pin.place + move);
+  }
+
+  bool clear(int obstacle) const {
+    const Piercings found = simulator_.piercings(obstacle, kInside);
+    return found.nodes + found.edges + found.faces == 0;
+  }
+
+  void look() {
+    const Statistics& s = simulator_.statistics();
+    verdict_.frames = s.frames;
+    verdict_.substeps = s.substeps;
+    verdict_.sweeps = s.sweeps;
+    verdict_.stops = s.stops;
+    verdict_.most_solves = std::max(verdict_.most_solves, s.substeps_last + s.rejected - verdict_.rejected);
+    verdict_.rejected = s.rejected;
+    verdict_.seconds = s.step_seconds_sum;
+    verdict_.slowest = s.step_seconds_max;
+    if (!s.finite) fault("not finite");
+    const double stretch = std::max({s.warp_stretch, s.warp_compression, s.weft_stretch});
+    verdict_.stretch = std::max(verdict_.stretch, stretch);
+    if (!(stretch <= kToleranceShare * drawn_.scene.solver.stretch_tolerance)) fault("stretch", stretch);
+    if (verdict_.most_solves > kMostSolves) fault("solves in a frame", static_cast<double>(verdict_.most_solves));
+    if (!rigour_.brute_force || s.frames % every_ != 0) return;
+    if (drawn_.scene.contact.self && !crossed_at_start_ && simulator_.selfCrossings() > 0) fault("crosses itself");
+    for (int o = 0; o < simulator_.obstacleCount(); ++o) {
+      if (started_clear_[static_cast<std::size_t>(o)] && !clear(o)) fault("pierced by " + drawn_.scene.obstacles[static_cast<std::size_t>(o)].name);
+    }
+  }
+
+  void fault(const std::string& what) {
+    std::ostringstream text;
+    text << what << " at frame " << simulator_.statistics().frames;
+    verdict_.faults.push_back(text.str());
+  }
+  void fault(const std::string& what, double value) {
+    std::ostringstream text;
+    text << what << " " << value;
+    fault(text.str());
+  }
+
+  const Drawn& drawn_;
+  const Rigour rigour_;
+  Simulator simulator_;
+  std::vector<Pin> pins_;
+  std::vector<bool> started_clear_;
+  bool crossed_at_start_ = false;
+  bool happened_ = false;
+  int every_ = 1;
+  Verdict verdict_;
+};
+
+}  // namespace
+
+Verdict judge(const Drawn& drawn, const Rigour& rigour) {
+  if (!validate(drawn.scene).empty()) {
+    Verdict verdict;
+    verdict.faults.push_back("no scene: " + describe(validate(drawn.scene)));
+    return verdict;
+  }
+  Verdict verdict = Court(drawn, rigour).run(false);
+  if (verdict.holds() && rigour.repeats) {
+    Rigour again = rigour;
+    again.brute_force = false;
+    if (Court(drawn, again).run(true).hash != verdict.hash) verdict.faults.push_back("other bits after a snapshot");
+  }
+  return verdict;
+}
+
+Drawn shrink(Drawn drawn, const Rigour& rigour) {
+  const auto fails = [&](const Drawn& candidate) { return validate(candidate.scene).empty() && !judge(candidate, rigour).holds(); };
+  std::vector<std::function<bool(Drawn&)>> cuts;
+  const auto cut = [&cuts](std::function<bool(Drawn&)> one) { cuts.push_back(std::move(one)); };
+  cut([](Drawn& d) { return d.scene.obstacles.empty() ? false : (d.scene.obstacles.pop_back(), true); });
+  cut([](Drawn& d) { return d.scene.drag.empty() ? false : (d.scene.drag.pop_back(), true); });
+  cut([](Drawn& d) { return d.scene.drag.empty() ? false : (d.scene.drag.erase(d.scene.drag.begin()), true); });
+  cut([](Drawn& d) { return d.scene.wind.empty() ? false : (d.scene.wind.pop_back(), true); });
+  cut([](Drawn& d) { return d.scene.wind.empty() ? false : (d.scene.wind.erase(d.scene.wind.begin()), true); });
+  cut([](Drawn& d) { return d.scene.contact.self ? (d.scene.contact.self = false, true) : false; });
+  cut([](Drawn& d) { return d.happenings.pin_swing.isZero() ? false : (d.happenings.pin_swing.setZero(), true); });
+  cut([](Drawn& d) { return d.happenings.pin_jerk.isZero() ? false : (d.happenings.pin_jerk.setZero(), true); });
+  cut([](Drawn& d) { return d.happenings.gravity.isZero() ? false : (d.happenings.gravity.setZero(), true); });
+  cut([](Drawn& d) { return d.scene.air.inside + d.scene.air.border > 0.0 ? (d.scene.air = AirParams(), true) : false; });
+  const auto plain = [](std::vector<double>& values) { return values.empty() ? false : (values.clear(), true); };
+  cut([plain](Drawn& d) { return plain(d.scene.cloth.row_spacing); });
+  cut([plain](Drawn& d) { return plain(d.scene.cloth.column_spacing); });
+  cut([plain](Drawn& d) { return plain(d.scene.cloth.row_mass); });
+  cut([plain](Drawn& d) { return plain(d.scene.cloth.column_mass); });
+  const auto smaller = [](Drawn& d, int rows, int columns) {
+    ClothParams& cloth = d.scene.cloth;
+    rows = std::max(2, rows);
+    columns = std::max(2, columns);
+    const bool plain_grid = cloth.row_spacing.empty() && cloth.column_spacing.empty() && cloth.row_mass.empty() && cloth.column_mass.empty();
+    if (!plain_grid || (rows == cloth.rows && columns == cloth.columns)) return false;
+    const auto move = [&](NodeIndex& node) {
+      node.row = node.row * (rows - 1) / (cloth.rows - 1);
+      node.column = node.column * (columns - 1) / (cloth.columns - 1);
+    };
+    for (DragParams& drag : d.scene.drag) move(*drag.node);
+    for (NodeIndex& node : d.scene.pins.nodes) move(node);
+    cloth.rows = rows;
+    cloth.columns = columns;
+    return true;
+  };
+  cut([smaller](Drawn& d) { return smaller(d, d.scene.cloth.rows / 2, d.scene.cloth.columns / 2); });
+  cut([smaller](Drawn& d) { return smaller(d, d.scene.cloth.rows / 2, d.scene.cloth.columns); });
+  cut([smaller](Drawn& d) { return smaller(d, d.scene.cloth.rows, d.scene.cloth.columns / 2); });
+  cut([smaller](Drawn& d) { return smaller(d, d.scene.cloth.rows - 1, d.scene.cloth.columns); });
+  cut([smaller](Drawn& d) { return smaller(d, d.scene.cloth.rows, d.scene.cloth.columns - 1); });
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const auto& one : cuts) {
+      for (int times = 0; times < 64; ++times) {
+        Drawn candidate = drawn;
+        if (!one(candidate) || !fails(candidate)) break;
+        drawn = candidate;
+        changed = true;
+      }
+    }
+  }
+  return drawn;
+}
+
+}  // namespace curtain_test
