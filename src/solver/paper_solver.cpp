@@ -13,10 +13,10 @@ namespace {
 // forces beyond all measure reach it, on cloth that nothing holds.
 constexpr double kMostSizes = 4.0;
 
-// Unit vector along v; other where v has no direction.
-Vec3 directionOf(const Vec3& v, const Vec3& other) noexcept {
+// Unit vector along v. Two nodes in one place have none: any will do, and the same each time.
+Vec3 directionOf(const Vec3& v) noexcept {
   const double length = v.norm();
-  return length > 0.0 ? Vec3(v / length) : other;
+  return length > 0.0 ? Vec3((1.0 / length) * v) : Vec3(-Vec3::UnitZ());
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ void PaperSolver::predict(const Chain& chain, const NodeForces& forces, double h
     if (k > 0) {
       // (2) The node above is the origin; n is the rod's direction, t the one it turns in.
       const std::size_t above = chain.node(k - 1);
-      const Vec3 n = directionOf(start_.at(node) - start_.at(above), -Vec3::UnitZ());
+      const Vec3 n = directionOf(start_.at(node) - start_.at(above));
       const Vec3 relative_velocity = state.velocity.at(node) - state.velocity.at(above);
       const Vec3 tangential = relative_velocity - relative_velocity.dot(n) * n;
       // (4) Eq. (6), omega l = dx^t/dt, and Eq. (5), f^n = m omega^2 l, towards the origin: the rod's tension is what of the
@@ -96,7 +96,7 @@ void PaperSolver::adjust(std::size_t a, std::size_t b, double excess, Field3& po
   const double w_a = pattern_.inverse_mass[a];
   const double w_b = pattern_.inverse_mass[b];
   if (w_a + w_b <= 0.0) return;
-  const Vec3 move = excess / (w_a + w_b) * directionOf(position.at(b) - position.at(a), Vec3::UnitZ());
+  const Vec3 move = excess / (w_a + w_b) * directionOf(position.at(b) - position.at(a));
   position.add(a, w_a * move);
   position.add(b, -w_b * move);
 }
@@ -130,9 +130,7 @@ void PaperSolver::rebuild(const Chain& chain, double h, ClothState& state) const
     const std::size_t node = chain.node(k);
     const std::size_t above = chain.node(k - 1);
     const Vec3 predicted = position.at(node);
-    const Vec3 before = directionOf(start_.at(node) - start_.at(above), -Vec3::UnitZ());
-    const Vec3 turned = directionOf(predicted - position.at(above), before);
-    const Vec3 place = position.at(above) + rodLength(chain, k) * turned;
+    const Vec3 place = position.at(above) + rodLength(chain, k) * directionOf(predicted - position.at(above));
     const Vec3 impulse = pattern_.mass[node] * (place - predicted);  // of the rod, times h
     position.set(node, place);
     state.velocity.set(node, (place - start_.at(node)) / h);
@@ -200,7 +198,7 @@ void PaperSolver::boundEnergy(const NodeForces& forces, double before, ClothStat
   }
 }
 
-// Where the rebuilt cloth would go through something, contact moves its nodes once more, or holds them; rods give way there.
+// Where the rebuilt cloth would go through something, contact holds its nodes; rods give way there.
 void PaperSolver::holdBack(ContactFinder& finder, double h, ClothState& state) noexcept {
   if (finder.verify(start_, state.position, false) == ContactFinder::Verdict::kClear) return;
   rebuilt_ = state.position;
