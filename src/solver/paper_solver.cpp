@@ -16,7 +16,7 @@ constexpr double kMostSizes = 4.0;
 // Unit vector along v. Two nodes in one place have none: any will do, and the same each time.
 Vec3 directionOf(const Vec3& v) noexcept {
   const double length = v.norm();
-  return length > 0.0 ? Vec3((1.0 / length) * v) : Vec3(-Vec3::UnitZ());
+  return length > 0.0 ? Vec3(v / length) : Vec3(-Vec3::UnitZ());
 }
 
 }  // namespace
@@ -26,6 +26,7 @@ PaperSolver::PaperSolver(const ClothPattern& pattern)
   for (int j = 0; j < pattern.grid.columns; ++j) addColumn(j);
   start_.assign(pattern.grid.size(), 0.0);
   rebuilt_ = start_;
+  taut_.assign(static_cast<std::size_t>(pattern.grid.columns), 0);
 }
 
 // Chains of a column: up from its topmost pin, down from its lowest, half way from each of two pins in a row.
@@ -33,7 +34,7 @@ void PaperSolver::addColumn(int column) {
   const Grid& grid = pattern_.grid;
   const std::ptrdiff_t down = grid.stride;
   const auto add = [&](int row, std::ptrdiff_t step, int rods, bool loose) {
-    if (rods > 0 || loose) chains_.push_back({grid.index(row, column), step, rods, loose});
+    if (rods > 0 || loose) chains_.push_back({grid.index(row, column), step, rods, loose, 0.0});
   };
   int last = -1;  // pinned row
   for (int i = 0; i < grid.rows; ++i) {
@@ -68,7 +69,7 @@ Vec3 PaperSolver::accelerationOf(const Chain& chain, const NodeForces& forces) c
 void PaperSolver::predict(const Chain& chain, const NodeForces& forces, double h, ClothState& state) const noexcept {
   const Vec3 frame = accelerationOf(chain, forces);
   Vec3 pull_from_below = Vec3::Zero();  // tension of the rod below on the node at hand [N]
-  for (int k = chain.rods; k >= (chain.loose ? 0 : 1); --k) {
+  for (int k = chain.rods; k >= chain.first(); --k) {
     const std::size_t node = chain.node(k);
     const double m = pattern_.mass[node];
     const double w = pattern_.inverse_mass[node];
@@ -92,17 +93,18 @@ void PaperSolver::predict(const Chain& chain, const NodeForces& forces, double h
 }
 
 // Moves two nodes together along the line between them, by `excess` in all [m]; apart where it is negative.
-void PaperSolver::adjust(std::size_t a, std::size_t b, double excess, Field3& position) const noexcept {
+void PaperSolver::adjust(std::size_t a, std::size_t b, double excess, Field3& position) noexcept {
   const double w_a = pattern_.inverse_mass[a];
   const double w_b = pattern_.inverse_mass[b];
   if (w_a + w_b <= 0.0) return;
   const Vec3 move = excess / (w_a + w_b) * directionOf(position.at(b) - position.at(a));
   position.add(a, w_a * move);
   position.add(b, -w_b * move);
+  taut_[columnOf(a)] = taut_[columnOf(b)] = 1;
 }
 
 // Cheng 2000, Sect. 3.2, Fig. 8: neighbours further apart than l are moved until they are l apart.
-void PaperSolver::adjustRow(int row, Field3& position) const noexcept {
+void PaperSolver::adjustRow(int row, Field3& position) noexcept {
   const Grid& grid = pattern_.grid;
   for (int j = grid.closed ? 0 : 1; j < grid.columns; ++j) {
     const std::size_t right = grid.index(row, j);
@@ -113,7 +115,7 @@ void PaperSolver::adjustRow(int row, Field3& position) const noexcept {
   }
 }
 
-void PaperSolver::adjustBetweenPins(Field3& position) const noexcept {
+void PaperSolver::adjustBetweenPins(Field3& position) noexcept {
   for (const std::size_t lower : between_) {
     const std::size_t upper = lower - static_cast<std::size_t>(pattern_.grid.stride);
     adjust(upper, lower, (position.at(lower) - position.at(upper)).norm() - pattern_.warp_rest[lower], position);
@@ -145,71 +147,106 @@ void PaperSolver::rebuild(const Chain& chain, double h, ClothState& state) const
   for (int k = 0; k <= chain.rods; ++k) position.add(chain.node(k), -moved / mass);
 }
 
-// Mean over the pins, or, of a cloth without any, of all its mass: what the cloth moves with as a whole.
-Vec3 PaperSolver::drift(const Field3& value) const noexcept {
-  Vec3 sum = Vec3::Zero();
-  double weight = 0.0;
-  for (const std::size_t pin : pins_) sum += value.at(pin);
-  if (!pins_.empty()) return sum / static_cast<double>(pins_.size());
-  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    sum += pattern_.mass[n] * value.at(n);
-    weight += pattern_.mass[n];
+// Mass-weighted mean over a chain, times its mass; adds up.
+void PaperSolver::addMean(const Chain& chain, const Field3& value, Vec3& sum, double& mass) const noexcept {
+  for (int k = chain.first(); k <= chain.rods; ++k) {
+    sum += pattern_.mass[chain.node(k)] * value.at(chain.node(k));
+    mass += pattern_.mass[chain.node(k)];
   }
-  return sum / weight;
 }
 
-// Of the motion relative to what holds the cloth [J].
-double PaperSolver::kineticEnergy(const Field3& velocity) const noexcept {
-  const Vec3 mean = drift(velocity);
-  double twice = 0.0;
+// What carries the loose columns that wefts pull on: the pins, or, of cloth without any, their own centre of mass.
+Vec3 PaperSolver::commonMean(const Field3& value) const noexcept {
+  Vec3 sum = Vec3::Zero();
+  double mass = 0.0;
+  for (const std::size_t pin : pins_) sum += value.at(pin);
+  if (!pins_.empty()) return sum / static_cast<double>(pins_.size());
   for (const Chain& chain : chains_) {
-    const Vec3 carried = chain.loose ? mean : velocity.at(chain.anchor);
-    for (int k = chain.loose ? 0 : 1; k <= chain.rods; ++k) {
-      twice += pattern_.mass[chain.node(k)] * (velocity.at(chain.node(k)) - carried).squaredNorm();
-    }
+    if (isTaut(chain)) addMean(chain, value, sum, mass);
+  }
+  return mass > 0.0 ? Vec3(sum / mass) : sum;
+}
+
+// What carries a chain: its pin, or, where no weft pulls, its own centre of mass.
+Vec3 PaperSolver::carrierOf(const Chain& chain, const Field3& value, const Vec3& common) const noexcept {
+  if (!chain.loose) return value.at(chain.anchor);
+  if (isTaut(chain)) return common;
+  Vec3 sum = Vec3::Zero();
+  double mass = 0.0;
+  addMean(chain, value, sum, mass);
+  return sum / mass;
+}
+
+// [J]
+double PaperSolver::kineticEnergy(const Chain& chain, const Field3& velocity, const Vec3& carrier) const noexcept {
+  double twice = 0.0;
+  for (int k = chain.first(); k <= chain.rods; ++k) {
+    twice += pattern_.mass[chain.node(k)] * (velocity.at(chain.node(k)) - carrier).squaredNorm();
   }
   return 0.5 * twice;
 }
 
-// Rods and wefts do no work: relative to the pins there is no more kinetic energy than before and what the forces did on the way.
-// What is above that is taken out of all velocities alike. So weight alone never makes a hanging cloth's energy grow above both what it was
-// and its potential energy, whatever the step.
-void PaperSolver::boundEnergy(const NodeForces& forces, double before, ClothState& state) const noexcept {
-  const Vec3 mean_move = drift(state.position) - drift(start_);
-  double work = 0.0;
-  for (const Chain& chain : chains_) {
-    const Vec3 carried = chain.loose ? mean_move : Vec3(state.position.at(chain.anchor) - start_.at(chain.anchor));
-    for (int k = chain.loose ? 0 : 1; k <= chain.rods; ++k) {
-      const std::size_t node = chain.node(k);
-      work += forces.force->at(node).dot(state.position.at(node) - start_.at(node) - carried);
+// Before velocities change, when it is known which columns wefts pull on.
+void PaperSolver::keepEnergies(const Field3& velocity) noexcept {
+  const Vec3 common = commonMean(velocity);
+  for (Chain& chain : chains_) chain.most_energy = kineticEnergy(chain, velocity, carrierOf(chain, velocity, common));
+}
+
+// Rods and wefts do no work: relative to what carries it a column has no more kinetic energy than before and what the forces did
+// on the way; columns that wefts pull on give each other energy and have no more altogether. What is above that is taken out of
+// their velocities alike. So weight alone never raises the energy of cloth on pins at rest above both what it was and its
+// potential energy, whatever the step.
+void PaperSolver::boundEnergy(const NodeForces& forces, ClothState& state) noexcept {
+  const Vec3 common = commonMean(state.velocity);
+  const Vec3 common_move = commonMean(state.position) - commonMean(start_);
+  double most = 0.0, all = 0.0;  // of the columns that wefts pull on [J]
+  for (Chain& chain : chains_) {
+    const Vec3 move = carrierOf(chain, state.position, common_move) - carrierOf(chain, start_, Vec3::Zero());
+    for (int k = chain.first(); k <= chain.rods; ++k) {
+      const std::size_t n = chain.node(k);
+      chain.most_energy += forces.force->at(n).dot(state.position.at(n) - start_.at(n) - move);
+    }
+    const Vec3 carrier = carrierOf(chain, state.velocity, common);
+    const double energy = kineticEnergy(chain, state.velocity, carrier);
+    if (isTaut(chain)) {
+      most += chain.most_energy;
+      all += energy;
+    } else {
+      slowDown(chain, chain.most_energy, energy, carrier, state.velocity);
     }
   }
-  const double after = kineticEnergy(state.velocity);
-  const double most = std::max(0.0, before + work);
-  if (after <= most) return;
-  const double share = std::sqrt(most / after);
-  const Vec3 mean = drift(state.velocity);
   for (const Chain& chain : chains_) {
-    const Vec3 carried = chain.loose ? mean : state.velocity.at(chain.anchor);
-    for (int k = chain.loose ? 0 : 1; k <= chain.rods; ++k) {
-      const std::size_t node = chain.node(k);
-      state.velocity.set(node, carried + share * (state.velocity.at(node) - carried));
-    }
+    if (isTaut(chain)) slowDown(chain, most, all, carrierOf(chain, state.velocity, common), state.velocity);
   }
 }
 
-// Where the rebuilt cloth would go through something, contact holds its nodes; rods give way there.
-void PaperSolver::holdBack(ContactFinder& finder, double h, ClothState& state) noexcept {
+void PaperSolver::slowDown(const Chain& chain, double most, double energy, const Vec3& carrier, Field3& velocity) const noexcept {
+  if (energy <= std::max(0.0, most)) return;
+  const double share = std::sqrt(std::max(0.0, most) / energy);
+  for (int k = chain.first(); k <= chain.rods; ++k) {
+    const std::size_t node = chain.node(k);
+    velocity.set(node, carrier + share * (velocity.at(node) - carrier));
+  }
+}
+
+// Where the rebuilt cloth would go through something, contact moves its nodes once more, and holds what still would; rods give way there.
+void PaperSolver::holdBack(ContactFinder& finder, Contacts& contacts, double h, ClothState& state) noexcept {
   if (finder.verify(start_, state.position, false) == ContactFinder::Verdict::kClear) return;
   rebuilt_ = state.position;
-  finder.hold(start_, state.position);
+  project(contacts, state.position);
+  if (finder.verify(start_, state.position, false) != ContactFinder::Verdict::kClear) finder.hold(start_, state.position);
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     if (pattern_.inverse_mass[n] > 0.0) state.velocity.add(n, (state.position.at(n) - rebuilt_.at(n)) / h);
   }
 }
 
+void PaperSolver::project(Contacts& contacts, Field3& position) const noexcept {
+  beginContacts(pattern_.inverse_mass, 0.0, 0, contacts, position);
+  projectContacts(pattern_.inverse_mass, contacts, position);
+}
+
 // Nothing that is pushed on comes nearer.
-void PaperSolver::slowDown(const Contacts& contacts, Field3& velocity) const noexcept {
+void PaperSolver::stopApproach(const Contacts& contacts, Field3& velocity) const noexcept {
   for (const Contact& contact : contacts) {
     if (!contact.pushes()) continue;
     const double approach = contact.normal.dot(contact.point(velocity) - contact.surface_velocity);
@@ -229,24 +266,22 @@ bool PaperSolver::sound(const ClothState& state, double h) const noexcept {
 SubstepOutcome PaperSolver::substep(const NodeForces& forces, double h, ContactFinder* finder,
                                     ClothState& state, StageClock& clock) noexcept {
   start_ = state.position;
-  const double energy = kineticEnergy(state.velocity);
+  std::fill(taut_.begin(), taut_.end(), 0);
   for (const std::size_t pin : pins_) state.position.add(pin, h * state.velocity.at(pin));
   for (const Chain& chain : chains_) predict(chain, forces, h, state);
   clock.lap(Stage::kWarp);
   for (int i = 0; i < pattern_.grid.rows; ++i) adjustRow(i, state.position);
   adjustBetweenPins(state.position);
+  keepEnergies(state.velocity);
   clock.lap(Stage::kWeft);
   Contacts* const contacts = finder != nullptr ? finder->begin(start_, state.position, h) : nullptr;
-  if (contacts != nullptr) {
-    beginContacts(pattern_.inverse_mass, 0.0, 0, *contacts, state.position);
-    projectContacts(pattern_.inverse_mass, *contacts, state.position);
-  }
+  if (contacts != nullptr) project(*contacts, state.position);
   clock.lap(Stage::kContact);
   for (const Chain& chain : chains_) rebuild(chain, h, state);
   clock.lap(Stage::kWarp);
-  if (contacts != nullptr) holdBack(*finder, h, state);
-  boundEnergy(forces, energy, state);
-  if (contacts != nullptr) slowDown(*contacts, state.velocity);
+  if (contacts != nullptr) holdBack(*finder, *contacts, h, state);
+  boundEnergy(forces, state);
+  if (contacts != nullptr) stopApproach(*contacts, state.velocity);
   const bool sound = this->sound(state, h);
   if (!sound) state.position = start_;
   clock.lap(Stage::kContact);

@@ -27,6 +27,7 @@
 // substep.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "solver/substep.h"
@@ -48,25 +49,35 @@ class PaperSolver {
     std::size_t anchor;
     std::ptrdiff_t step;
     int rods;
-    bool loose;  ///< the anchor is not pinned
+    bool loose;          ///< the anchor is not pinned: it moves, too
+    double most_energy;  ///< [J]; scratch
 
+    int first() const { return loose ? 0 : 1; }
     std::size_t node(int k) const { return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(anchor) + k * step); }
   };
 
   void addColumn(int column);
   Vec3 accelerationOf(const Chain& chain, const NodeForces& forces) const noexcept;
   void predict(const Chain& chain, const NodeForces& forces, double h, ClothState& state) const noexcept;
-  void adjust(std::size_t a, std::size_t b, double excess, Field3& position) const noexcept;
-  void adjustRow(int row, Field3& position) const noexcept;
-  void adjustBetweenPins(Field3& position) const noexcept;
+  void adjust(std::size_t a, std::size_t b, double excess, Field3& position) noexcept;
+  void adjustRow(int row, Field3& position) noexcept;
+  void adjustBetweenPins(Field3& position) noexcept;
+  void project(Contacts& contacts, Field3& position) const noexcept;
   void rebuild(const Chain& chain, double h, ClothState& state) const noexcept;
-  Vec3 drift(const Field3& value) const noexcept;
-  double kineticEnergy(const Field3& velocity) const noexcept;
-  void boundEnergy(const NodeForces& forces, double before, ClothState& state) const noexcept;
-  void holdBack(ContactFinder& finder, double h, ClothState& state) noexcept;
-  void slowDown(const Contacts& contacts, Field3& velocity) const noexcept;
+  void holdBack(ContactFinder& finder, Contacts& contacts, double h, ClothState& state) noexcept;
+  void stopApproach(const Contacts& contacts, Field3& velocity) const noexcept;
   bool sound(const ClothState& state, double h) const noexcept;
 
+  void addMean(const Chain& chain, const Field3& value, Vec3& sum, double& mass) const noexcept;
+  Vec3 commonMean(const Field3& value) const noexcept;
+  Vec3 carrierOf(const Chain& chain, const Field3& value, const Vec3& common) const noexcept;
+  double kineticEnergy(const Chain& chain, const Field3& velocity, const Vec3& carrier) const noexcept;
+  void keepEnergies(const Field3& velocity) noexcept;
+  void boundEnergy(const NodeForces& forces, ClothState& state) noexcept;
+  void slowDown(const Chain& chain, double most, double energy, const Vec3& carrier, Field3& velocity) const noexcept;
+
+  std::size_t columnOf(std::size_t node) const { return node % static_cast<std::size_t>(pattern_.grid.stride); }
+  bool isTaut(const Chain& chain) const { return taut_[columnOf(chain.anchor)] != 0; }
   double rodLength(const Chain& chain, int k) const { return pattern_.warp_rest[chain.node(chain.step > 0 ? k : k - 1)]; }
 
   const ClothPattern& pattern_;
@@ -74,6 +85,7 @@ class PaperSolver {
   std::vector<Chain> chains_;
   std::vector<std::size_t> pins_;
   std::vector<std::size_t> between_;  // lower node of the rod halfway between two pins of a column
+  std::vector<std::uint8_t> taut_;    // by column: a weft has pulled on it in this substep
   Field3 start_;
   Field3 rebuilt_;
 };
