@@ -55,8 +55,8 @@ TEST_P(PaperScenes, WithoutContactRodsKeepTheirLength) {
               simulator.statistics().weft_stretch);
 }
 
-// With contact a node that is held back takes at most the way of a substep from its rod, and the next substep has it back: no
-// rod doubles.
+// With contact a node that is held back leaves its rod off its length, until it is let go. Asked for is what a viewer would see:
+// no rod doubles (measured: 0.5 in the parachute's vent, 0.1 elsewhere).
 TEST_P(PaperScenes, AsItIsStaysFiniteAndWhole) {
   Simulator simulator(sceneOf(GetParam()));
   curtain_test::makeFrames(simulator, 300);
