@@ -16,15 +16,14 @@
 //
 // First order in the step. The weft comes before the rods: what is left of it after one pass stays, and shows in
 // Statistics::weft_stretch. Rods do no work: the new velocities have no more kinetic energy than the old ones and what the
-// forces did on the way, so the cloth is stable at any step.
+// forces did on the way, so the energy is bounded at any step.
 //
 // The paper's columns hang from their top node. A column with pins elsewhere is rebuilt from them, up and down. Between two
 // pins one pass can't keep every rod: half of them are rebuilt from each pin, and the rod in between is moved together or
 // apart once, as in Fig. 8, but it is not kept. A column without a pin is rebuilt from its topmost node and then moved as a whole to
 // where its centre of mass was predicted; its tensions are those in its own, accelerated frame.
 //
-// Contact may hold a node back that step (5) moves through something: rods at that node are off their length until the next
-// substep.
+// Contact moves or holds a node back that step (5) takes through something: rods at that node are off their length until it is let go.
 #pragma once
 
 #include <cstdint>
