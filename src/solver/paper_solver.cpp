@@ -9,94 +9,251 @@
 namespace curtain {
 namespace {
 
-// The fastest node may go so many times the cloth's size in a substep.
+// The fastest node may go so many times the cloth's size in a substep; beyond that its path can't be searched for contact. Only
+// forces beyond all measure reach it, on cloth that nothing holds.
 constexpr double kMostSizes = 4.0;
+
+// Unit vector along v. Two nodes in one place have none: any will do, and the same each time.
+Vec3 directionOf(const Vec3& v) noexcept {
+  const double length = v.norm();
+  return length > 0.0 ? Vec3(v / length) : Vec3(-Vec3::UnitZ());
+}
 
 }  // namespace
 
 PaperSolver::PaperSolver(const ClothPattern& pattern)
     : pattern_(pattern), most_way_(kMostSizes * (pattern.warp_coordinate.back() + pattern.weft_coordinate.back())) {
+  for (int j = 0; j < pattern.grid.columns; ++j) addColumn(j);
   start_.assign(pattern.grid.size(), 0.0);
+  rebuilt_ = start_;
+  taut_.assign(static_cast<std::size_t>(pattern.grid.columns), 0);
 }
 
-// Cheng 2000, Sect. 3.1, steps (1)-(6) for one column.
-void PaperSolver::moveColumn(int column, const NodeForces& forces, double h, ClothState& state) const noexcept {
+// Chains of a column: up from its topmost pin, down from its lowest, half way from each of two pins in a row.
+void PaperSolver::addColumn(int column) {
   const Grid& grid = pattern_.grid;
+  const std::ptrdiff_t down = grid.stride;
+  const auto add = [&](int row, std::ptrdiff_t step, int rods, bool loose) {
+    if (rods > 0 || loose) chains_.push_back({grid.index(row, column), step, rods, loose, 0.0});
+  };
+  int last = -1;  // pinned row
+  for (int i = 0; i < grid.rows; ++i) {
+    if (!pattern_.isPinned({i, column})) continue;
+    pins_.push_back(grid.index(i, column));
+    if (last < 0) {
+      add(i, -down, i, false);
+    } else if (i - last > 1) {
+      const int upper = (i - last - 1 + 1) / 2;
+      add(last, down, upper, false);
+      add(i, -down, i - last - 1 - upper, false);
+      between_.push_back(grid.index(last + upper + 1, column));
+    }
+    last = i;
+  }
+  add(std::max(last, 0), down, grid.rows - 1 - std::max(last, 0), last < 0);
+}
+
+// Of the frame that the tensions are taken in: the anchor of Sect. 3.1 is fixed, a loose chain goes with its own centre of mass.
+Vec3 PaperSolver::accelerationOf(const Chain& chain, const NodeForces& forces) const noexcept {
+  if (!chain.loose) return Vec3::Zero();
+  Vec3 force = Vec3::Zero();
+  double mass = 0.0;
+  for (int k = 0; k <= chain.rods; ++k) {
+    force += forces.force->at(chain.node(k));
+    mass += pattern_.mass[chain.node(k)];
+  }
+  return force / mass;
+}
+
+// Cheng 2000, Sect. 3.1, steps (1)-(4) and (6) for one column: where the forces and the tensions of Eq. (5) take its nodes.
+void PaperSolver::predict(const Chain& chain, const NodeForces& forces, double h, ClothState& state) const noexcept {
+  const Vec3 frame = accelerationOf(chain, forces);
   Vec3 pull_from_below = Vec3::Zero();  // tension of the rod below on the node at hand [N]
-  for (int i = grid.rows - 1; i >= 0; --i) {
-    const std::size_t node = grid.index(i, column);
-    const double w = pattern_.inverse_mass[node];
+  for (int k = chain.rods; k >= chain.first(); --k) {
+    const std::size_t node = chain.node(k);
     const double m = pattern_.mass[node];
-    const double c = forces.has_damping ? forces.damping[node] : 0.0;
-    const DampedStep damped = dampedStep(c, w, h);
-    Vec3 acceleration = (forces.force->at(node) + pull_from_below) * w;
-    if (i > 0) {
-      // (2) the node above is the origin; the rod's direction is the local normal axis n, and the local x-y plane is
-      // the one the rod turns in, so that Eq. (6) sees the whole of the tangential motion.
-      const std::size_t above = grid.index(i - 1, column);
-      const Vec3 rod = state.position.at(node) - state.position.at(above);
-      const double length = rod.norm();
-      const Vec3 n = length > 0.0 ? Vec3(rod / length) : Vec3(-Vec3::UnitZ());
+    const double w = pattern_.inverse_mass[node];
+    Vec3 sum = forces.force->at(node) + pull_from_below;
+    if (k > 0) {
+      // (2) The node above is the origin; n is the rod's direction, t the one it turns in.
+      const std::size_t above = chain.node(k - 1);
+      const Vec3 n = directionOf(start_.at(node) - start_.at(above));
       const Vec3 relative_velocity = state.velocity.at(node) - state.velocity.at(above);
       const Vec3 tangential = relative_velocity - relative_velocity.dot(n) * n;
-      // (3) the sum of forces, along the rod and across it.
-      const Vec3 sum = forces.force->at(node) + pull_from_below;
-      const double along = sum.dot(n);
-      // (4) Eq. (6): omega l = dx^t/dt; Eq. (5): f^n = m omega^2 l, towards the origin.
-      const double lever = length > 0.0 ? length : pattern_.warp_rest[node];  // one that has drifted to nothing
-      const double omega = tangential.norm() / lever;
-      const double centripetal = m * omega * omega * lever;
-      // Eqs. (7)(8) and the same along t: acceleration = force / mass; the rod takes up what is left along n.
-      acceleration = (sum - (along + centripetal) * n) * w;
-      pull_from_below = (along + centripetal) * n;
+      // (4) Eq. (6), omega l = dx^t/dt, and Eq. (5), f^n = m omega^2 l, towards the origin: the rod's tension is what of the
+      // sum along n is left over. Along t and z the sum acts by itself, Eqs. (7) and (8).
+      const double tension = (sum - m * frame).dot(n) + m * tangential.squaredNorm() / rodLength(chain, k);
+      pull_from_below = tension * n;
+      sum -= pull_from_below;
     }
-    if (w == 0.0) continue;
-    const Vec3 velocity = damped.keep * state.velocity.at(node) + h * damped.gain * acceleration;
-    state.velocity.set(node, velocity);
-    state.position.add(node, h * velocity);
+    const double damping = forces.has_damping ? forces.damping[node] : 0.0;
+    const DampedStep damped = dampedStep(damping, w, h);
+    state.position.add(node, h * (damped.keep * state.velocity.at(node) + h * damped.gain * w * sum));
   }
 }
 
+// Moves two nodes together along the line between them, by `excess` in all [m]; apart where it is negative.
+void PaperSolver::adjust(std::size_t a, std::size_t b, double excess, Field3& position) noexcept {
+  const double w_a = pattern_.inverse_mass[a];
+  const double w_b = pattern_.inverse_mass[b];
+  if (w_a + w_b <= 0.0) return;
+  const Vec3 move = excess / (w_a + w_b) * directionOf(position.at(b) - position.at(a));
+  position.add(a, w_a * move);
+  position.add(b, -w_b * move);
+  taut_[columnOf(a)] = taut_[columnOf(b)] = 1;
+}
+
 // Cheng 2000, Sect. 3.2, Fig. 8: neighbours further apart than l are moved until they are l apart.
-void PaperSolver::adjustRow(int row, ClothState& state) const noexcept {
+void PaperSolver::adjustRow(int row, Field3& position) noexcept {
   const Grid& grid = pattern_.grid;
   for (int j = grid.closed ? 0 : 1; j < grid.columns; ++j) {
     const std::size_t right = grid.index(row, j);
     const std::size_t left = grid.index(row, j > 0 ? j - 1 : grid.columns - 1);
-    const double w_left = pattern_.inverse_mass[left];
-    const double w_right = pattern_.inverse_mass[right];
-    const double w = w_left + w_right;
-    const Vec3 link = state.position.at(right) - state.position.at(left);
-    const double length = link.norm();
     const double rest = pattern_.weft_rest[right];
-    if (length <= rest || w <= 0.0) continue;
-    const Vec3 direction = link / length;
-    const Vec3 move = (length - rest) / w * direction;
-    state.position.add(left, w_left * move);
-    state.position.add(right, -w_right * move);
-    const double parting = (state.velocity.at(right) - state.velocity.at(left)).dot(direction);
-    if (parting <= 0.0) continue;
-    state.velocity.add(left, w_left * (parting / w) * direction);
-    state.velocity.add(right, -w_right * (parting / w) * direction);
+    const double square = (position.at(right) - position.at(left)).squaredNorm();
+    if (square > rest * rest) adjust(left, right, std::sqrt(square) - rest, position);
   }
 }
 
-// Contacts one by one, positions and then velocities; what still goes through something is held.
-void PaperSolver::touch(ContactFinder* finder, double h, ClothState& state) noexcept {
-  Contacts* const contacts = finder != nullptr ? finder->begin(start_, state.position, h) : nullptr;
-  if (contacts == nullptr) return;
-  beginContacts(pattern_.inverse_mass, 0.0, 0, *contacts, state.position);
-  projectContacts(pattern_.inverse_mass, *contacts, state.position);
-  if (finder->verify(start_, state.position, false) != ContactFinder::Verdict::kClear) finder->hold(start_, state.position);
-  for (const Contact& contact : *contacts) {
+void PaperSolver::adjustBetweenPins(Field3& position) noexcept {
+  for (const std::size_t lower : between_) {
+    const std::size_t upper = lower - static_cast<std::size_t>(pattern_.grid.stride);
+    adjust(upper, lower, (position.at(lower) - position.at(upper)).norm() - pattern_.warp_rest[lower], position);
+  }
+}
+
+// Cheng 2000, Sect. 3.1, step (5), from the top: x_i = x_(i-1) + l R(omega dt) n.
+void PaperSolver::rebuild(const Chain& chain, double h, ClothState& state) const noexcept {
+  Field3& position = state.position;
+  if (chain.loose) state.velocity.set(chain.anchor, (position.at(chain.anchor) - start_.at(chain.anchor)) / h);
+  Vec3 moved = Vec3::Zero();  // [kg m]
+  double mass = pattern_.mass[chain.anchor];
+  for (int k = 1; k <= chain.rods; ++k) {
+    const std::size_t node = chain.node(k);
+    const std::size_t above = chain.node(k - 1);
+    const Vec3 predicted = position.at(node);
+    const Vec3 place = position.at(above) + rodLength(chain, k) * directionOf(predicted - position.at(above));
+    const Vec3 impulse = pattern_.mass[node] * (place - predicted);  // of the rod, times h
+    position.set(node, place);
+    state.velocity.set(node, (place - start_.at(node)) / h);
+    // Mueller 2012, Eq. (9), s = 1 and for nodes of different mass. With s = 0.95 the swing's error no longer goes down with the
+    // step, below 0.8 its energy grows.
+    if (k > 1 || chain.loose) state.velocity.add(above, -pattern_.inverse_mass[above] / h * impulse);
+    moved += impulse;
+    mass += pattern_.mass[node];
+  }
+  if (!chain.loose) return;
+  // Rods move no centre of mass.
+  for (int k = 0; k <= chain.rods; ++k) position.add(chain.node(k), -moved / mass);
+}
+
+// Mass-weighted mean over a chain, times its mass; adds up.
+void PaperSolver::addMean(const Chain& chain, const Field3& value, Vec3& sum, double& mass) const noexcept {
+  for (int k = chain.first(); k <= chain.rods; ++k) {
+    sum += pattern_.mass[chain.node(k)] * value.at(chain.node(k));
+    mass += pattern_.mass[chain.node(k)];
+  }
+}
+
+// What carries the loose columns that wefts pull on: the pins, or, of cloth without any, their own centre of mass.
+Vec3 PaperSolver::commonMean(const Field3& value) const noexcept {
+  Vec3 sum = Vec3::Zero();
+  double mass = 0.0;
+  for (const std::size_t pin : pins_) sum += value.at(pin);
+  if (!pins_.empty()) return sum / static_cast<double>(pins_.size());
+  for (const Chain& chain : chains_) {
+    if (isTaut(chain)) addMean(chain, value, sum, mass);
+  }
+  return mass > 0.0 ? Vec3(sum / mass) : sum;
+}
+
+// What carries a chain: its pin, or, where no weft pulls, its own centre of mass.
+Vec3 PaperSolver::carrierOf(const Chain& chain, const Field3& value, const Vec3& common) const noexcept {
+  if (!chain.loose) return value.at(chain.anchor);
+  if (isTaut(chain)) return common;
+  Vec3 sum = Vec3::Zero();
+  double mass = 0.0;
+  addMean(chain, value, sum, mass);
+  return sum / mass;
+}
+
+// [J]
+double PaperSolver::kineticEnergy(const Chain& chain, const Field3& velocity, const Vec3& carrier) const noexcept {
+  double twice = 0.0;
+  for (int k = chain.first(); k <= chain.rods; ++k) {
+    twice += pattern_.mass[chain.node(k)] * (velocity.at(chain.node(k)) - carrier).squaredNorm();
+  }
+  return 0.5 * twice;
+}
+
+// Before velocities change, when it is known which columns wefts pull on.
+void PaperSolver::keepEnergies(const Field3& velocity) noexcept {
+  const Vec3 common = commonMean(velocity);
+  for (Chain& chain : chains_) chain.most_energy = kineticEnergy(chain, velocity, carrierOf(chain, velocity, common));
+}
+
+// Rods and wefts do no work: relative to what carries it a column has no more kinetic energy than before and what the forces did
+// on the way; columns that wefts pull on give each other energy and have no more altogether. What is above that is taken out of
+// their velocities alike. So weight alone never raises the energy of cloth on pins at rest above both what it was and its
+// potential energy, whatever the step.
+void PaperSolver::boundEnergy(const NodeForces& forces, ClothState& state) noexcept {
+  const Vec3 common = commonMean(state.velocity);
+  const Vec3 common_move = commonMean(state.position) - commonMean(start_);
+  double most = 0.0, all = 0.0;  // of the columns that wefts pull on [J]
+  for (Chain& chain : chains_) {
+    const Vec3 move = carrierOf(chain, state.position, common_move) - carrierOf(chain, start_, Vec3::Zero());
+    for (int k = chain.first(); k <= chain.rods; ++k) {
+      const std::size_t n = chain.node(k);
+      chain.most_energy += forces.force->at(n).dot(state.position.at(n) - start_.at(n) - move);
+    }
+    const Vec3 carrier = carrierOf(chain, state.velocity, common);
+    const double energy = kineticEnergy(chain, state.velocity, carrier);
+    if (isTaut(chain)) {
+      most += chain.most_energy;
+      all += energy;
+    } else {
+      slowDown(chain, chain.most_energy, energy, carrier, state.velocity);
+    }
+  }
+  for (const Chain& chain : chains_) {
+    if (isTaut(chain)) slowDown(chain, most, all, carrierOf(chain, state.velocity, common), state.velocity);
+  }
+}
+
+void PaperSolver::slowDown(const Chain& chain, double most, double energy, const Vec3& carrier, Field3& velocity) const noexcept {
+  if (energy <= std::max(0.0, most)) return;
+  const double share = std::sqrt(std::max(0.0, most) / energy);
+  for (int k = chain.first(); k <= chain.rods; ++k) {
+    const std::size_t node = chain.node(k);
+    velocity.set(node, carrier + share * (velocity.at(node) - carrier));
+  }
+}
+
+// Where the rebuilt cloth would go through something, contact moves its nodes once more, and holds what still would; rods give way there.
+void PaperSolver::holdBack(ContactFinder& finder, Contacts& contacts, double h, ClothState& state) noexcept {
+  if (finder.verify(start_, state.position, false) == ContactFinder::Verdict::kClear) return;
+  rebuilt_ = state.position;
+  project(contacts, state.position);
+  if (finder.verify(start_, state.position, false) != ContactFinder::Verdict::kClear) finder.hold(start_, state.position);
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    if (pattern_.inverse_mass[n] > 0.0) state.velocity.add(n, (state.position.at(n) - rebuilt_.at(n)) / h);
+  }
+}
+
+void PaperSolver::project(Contacts& contacts, Field3& position) const noexcept {
+  beginContacts(pattern_.inverse_mass, 0.0, 0, contacts, position);
+  projectContacts(pattern_.inverse_mass, contacts, position);
+}
+
+// Nothing that is pushed on comes nearer.
+void PaperSolver::stopApproach(const Contacts& contacts, Field3& velocity) const noexcept {
+  for (const Contact& contact : contacts) {
     if (!contact.pushes()) continue;
-    const double approach = contact.normal.dot(contact.point(state.velocity) - contact.surface_velocity);
-    if (approach < 0.0) contact.move(pattern_.inverse_mass, -approach / contact.mobility * contact.normal, state.velocity);
+    const double approach = contact.normal.dot(contact.point(velocity) - contact.surface_velocity);
+    if (approach < 0.0) contact.move(pattern_.inverse_mass, -approach / contact.mobility * contact.normal, velocity);
   }
 }
 
-// As printed nothing bounds the motion: it blows up. A node so fast leaves all cloth behind in one substep, its next one would be
-// beyond numbers, and its way beyond what can be looked through for contact.
 bool PaperSolver::sound(const ClothState& state, double h) const noexcept {
   const double fastest = most_way_ / h;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
@@ -109,13 +266,23 @@ bool PaperSolver::sound(const ClothState& state, double h) const noexcept {
 SubstepOutcome PaperSolver::substep(const NodeForces& forces, double h, ContactFinder* finder,
                                     ClothState& state, StageClock& clock) noexcept {
   start_ = state.position;
-  for (int j = 0; j < pattern_.grid.columns; ++j) moveColumn(j, forces, h, state);
+  std::fill(taut_.begin(), taut_.end(), 0);
+  for (const std::size_t pin : pins_) state.position.add(pin, h * state.velocity.at(pin));
+  for (const Chain& chain : chains_) predict(chain, forces, h, state);
   clock.lap(Stage::kWarp);
-  for (int i = 0; i < pattern_.grid.rows; ++i) adjustRow(i, state);
+  for (int i = 0; i < pattern_.grid.rows; ++i) adjustRow(i, state.position);
+  adjustBetweenPins(state.position);
+  keepEnergies(state.velocity);
   clock.lap(Stage::kWeft);
-  bool sound = this->sound(state, h);
-  if (sound) touch(finder, h, state);
-  sound = sound && this->sound(state, h);
+  Contacts* const contacts = finder != nullptr ? finder->begin(start_, state.position, h) : nullptr;
+  if (contacts != nullptr) project(*contacts, state.position);
+  clock.lap(Stage::kContact);
+  for (const Chain& chain : chains_) rebuild(chain, h, state);
+  clock.lap(Stage::kWarp);
+  if (contacts != nullptr) holdBack(*finder, *contacts, h, state);
+  boundEnergy(forces, state);
+  if (contacts != nullptr) stopApproach(*contacts, state.velocity);
+  const bool sound = this->sound(state, h);
   if (!sound) state.position = start_;
   clock.lap(Stage::kContact);
   state.velocity_age = 0.0;

@@ -28,6 +28,8 @@ constexpr double kGrowth = 1.4;
 constexpr int kGoodToGrow = 8;
 // Substeps of the schemes whose step nothing but accuracy limits, when the scene leaves the choice.
 constexpr int kImplicitSubsteps = 8;
+// The paper's: of first order, 27 mm after a second of a swing of 43 rods (measured), and its wefts come as near as its passes are many:
+// of a flag in the wind 0.5 too long at most, at 4 substeps 1.8. Its energy is bounded at any.
 constexpr int kPaperSubsteps = 16;
 
 // Where there is no time for more substeps they are up to so many times longer: beyond that their solve takes all that is saved.

@@ -16,8 +16,8 @@ A case holds when every number stays finite, no link is longer than allowed at a
 substeps settle; more where pins or obstacles leave it no choice), the energy never rises by more than what is put in
 and 1e-2 of what moves: m g H, the kinetic energy meanwhile and the works of the last 60 frames (gravity, winds, drags, pins and obstacles accounted for substep by substep:
 `Simulator::work()`; what air takes is not added, so a rise that it takes in the same frame is not seen), it is back at rest for half a
-second in the time that the air allows, and a second run gives the same bits. `paper`, as printed, keeps neither links nor
-energy; of it only finite numbers are asked. Where a row is drawn straight its kinetic energy is bounded, too (by what links within
+second in the time that the air allows, and a second run gives the same bits. `paper` moves wefts once and
+leaves what is over, and counts no work of pins; of it only finite numbers are asked. Where a row is drawn straight its kinetic energy is bounded, too (by what links within
 their tolerance let it sag).
 
 The quick cases were run with every method, the slow ones (grids of up to a million nodes, a million frames, more random seeds) with the
