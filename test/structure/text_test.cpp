@@ -47,6 +47,16 @@ bool hasWord(const std::string& line, const std::string& word) {
   return false;
 }
 
+TEST(Text, PiStandsInOneFile) {
+  for (const char* digits : {"3.14159", "M_PI"}) {
+    int files = 0;
+    for (const char* folder : {"src", "include"}) {
+      for (const SourceFile& file : sourceFiles(folder)) files += file.text.find(digits) != std::string::npos ? 1 : 0;
+    }
+    EXPECT_LE(files, 1) << digits;
+  }
+}
+
 TEST(Text, HasNoNotesOfWorkLeftOver) {
   const auto files = textFiles();
   EXPECT_GT(files.size(), 100u);
