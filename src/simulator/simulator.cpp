@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <cstring>
 #include <stdexcept>
 
 #include "contact/piercings.h"
+#include "scene/fnv1a.h"
 #include "scene/ranges.h"
 #include "simulator/self_crossings.h"
 #include "simulator/simulator_impl.h"
@@ -41,13 +41,6 @@ SolverParams asAuto(SolverParams params) {
   params.method = Method::kAuto;
   params.substeps = 0;
   return params;
-}
-
-std::uint64_t hashBits(std::uint64_t hash, double value) {
-  unsigned char bytes[sizeof value];
-  std::memcpy(bytes, &value, sizeof value);
-  for (const unsigned char byte : bytes) hash = (hash ^ byte) * 1099511628211ULL;  // FNV-1a
-  return hash;
 }
 
 }  // namespace
@@ -337,16 +330,16 @@ std::uint64_t Simulator::revision() const { return impl_->revision; }
 
 std::uint64_t Simulator::stateHash() const {
   const Grid& grid = impl_->pattern.grid;
-  std::uint64_t hash = 14695981039346656037ULL;
+  Fnv1a bits;
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = 0; j < grid.columns; ++j) {
       const std::size_t n = grid.index(i, j);
       for (const Field3* field : {&impl_->state.position, &impl_->state.velocity}) {
-        hash = hashBits(hashBits(hashBits(hash, field->x[n]), field->y[n]), field->z[n]);
+        for (const Field* axis : {&field->x, &field->y, &field->z}) bits.addBytes(&(*axis)[n], sizeof(double));
       }
     }
   }
-  return hash;
+  return bits.hash;
 }
 
 }  // namespace curtain
