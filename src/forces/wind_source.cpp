@@ -14,7 +14,7 @@ constexpr double kParallel = 1e-6;  // [rad] half-angles below it are parallel w
 
 std::uint64_t seedOf(std::uint64_t seed, const std::string& id) {
   Fnv1a mixed;  // so that every source has gusts of its own
-  mixed.hash = 1469598103934665603ULL ^ seed;
+  mixed.hash ^= seed;
   mixed.addBytes(id.data(), id.size());
   return mixed.hash;
 }
