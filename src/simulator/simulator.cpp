@@ -183,14 +183,17 @@ Params asItGoesOn(Params source, const Params& old) {
 }  // namespace
 
 std::vector<Problem> Simulator::setWind(const WindParams& wind) {
+  std::vector<Problem> problems = validate(wind, "wind");
+  if (!problems.empty()) return problems;
   Impl& im = *impl_;
   const WindParams* const old = findById(im.forces.winds(), wind.id);
   const double now = im.statistics.time;
   if (old != nullptr && actsAt(*old, now) && actsAt(wind, now) && sameWhileItBlows(*old, wind)) {
-    return im.forces.setWind(asItGoesOn(wind, *old));
+    im.forces.setWind(asItGoesOn(wind, *old));
+    return problems;
   }
   if (im.rest.watches()) im.forces.markWind(wind.id, im.state.position, im.rest.disturbed());
-  std::vector<Problem> problems = im.forces.setWind(wind);
+  im.forces.setWind(wind);
   if (im.rest.watches()) im.forces.markWind(wind.id, im.state.position, im.rest.disturbed());
   return problems;
 }
@@ -209,13 +212,16 @@ const std::vector<WindParams>& Simulator::winds() const { return impl_->forces.w
 
 std::vector<Problem> Simulator::setDrag(const DragParams& drag) {
   Impl& im = *impl_;
+  std::vector<Problem> problems = validate(drag, im.scene.cloth, "drag");
+  if (!problems.empty()) return problems;
   const DragParams* const old = findById(im.forces.drags(), drag.id);
   const double now = im.statistics.time;
   if (old != nullptr && actsAt(*old, now) && actsAt(drag, now) && sameWhileItActs(*old, drag)) {
-    return im.forces.setDrag(asItGoesOn(drag, *old));
+    im.forces.setDrag(asItGoesOn(drag, *old));
+    return problems;
   }
   im.forces.markDrag(drag.id, im.rest.disturbed());
-  std::vector<Problem> problems = im.forces.setDrag(drag);
+  im.forces.setDrag(drag);
   im.forces.markDrag(drag.id, im.rest.disturbed());
   return problems;
 }
