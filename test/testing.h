@@ -9,11 +9,12 @@
 #include <random>
 
 #include "cloth/cloth.h"
+#include "scene/pi.h"
 
 namespace curtain_test {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();  // two units of rounding of a number near one
-constexpr double kPi = 3.14159265358979323846;
+using curtain::kPi;
 
 /// Numbers from the bits of std::mt19937_64, which the standard fixes (its distributions it does not).
 class Random {

@@ -4,11 +4,10 @@
 // alone where the link is taut, by all of them where it bows tightly near the eye. The strips above and below a fold
 // take the same of its nodes, so neighbours of different detail leave no crack:
 //
-//   upper fold   o---.---.---.---.---.---o     a strip between six rods and two: from the left, the fold whose next
-//   node
-//                | / |  / ___/   |  / __/      comes first goes on, so triangles stay as narrow as the coarser fold
-//                lets
-//   lower fold   o-----------o-----------o     them; between equal folds they are those of the fine mesh
+//   upper fold   o---.---.---.---.---.---o     A strip between six rods and two. From the left, the fold whose
+//                |  / _/  __/|  / _/  __/|     next node comes first goes on: triangles stay as narrow as the
+//                | /_/__/    | /_/__/    |     coarser fold allows. Between equal folds they are those of the
+//   lower fold   o-----------o-----------o     fine mesh.
 #pragma once
 
 #include <array>

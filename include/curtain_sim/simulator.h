@@ -108,7 +108,7 @@ class Simulator {
   const ObstacleShape& obstacleShape(int index) const;
 
   /// The mesh that the eye sees: both layers of nodes, outside the obstacles. Positions [m] in out.positions
-  /// (resized), per row all nodes of both layers; triangles are the same for ever (fineMeshTriangles()).
+  /// (resized), per row all nodes of both layers; triangles are the same for ever (fineMeshTopology()).
   void copyFineMesh(FineMesh& out) const;
   const FineMeshTopology& fineMeshTopology() const;
 

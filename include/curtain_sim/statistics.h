@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Floor 4: what a simulator says of its own work.
+// Floor 0: what a simulator says of its own work. Plain structs, filled by the floors above.
 #pragma once
 
 #include <Eigen/Core>

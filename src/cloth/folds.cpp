@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/pi.h"
+
 namespace curtain {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kTableSize = 256;
 constexpr double kTautRatio = 1.0 - 1e-12;  // above it the bow is thinner than rounding
 

@@ -5,11 +5,10 @@
 #include <string>
 
 #include "cloth/cloth.h"
+#include "scene/pi.h"
 
 namespace curtain {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // Axes of the flat cloth: along the hung edge, down the warp (turned by tilt).
 struct HangFrame {

@@ -5,9 +5,10 @@
 // share of the way down. Three steps from the fine strip to the drawn one, each with its largest way:
 //
 //   the fine triangles, their corners moved to u and l   max |U - u|, |L - l|
-//   the ruled surface between u and l                    |v'| / 4      v = u - l, v' its change from one p to the next:
-//   the the drawn triangles                                  w |v'| / 4    twist of the strip; w: the widest triangle's
-//   nodes
+//   the ruled surface between u and l                    |v'| / 4
+//   the drawn triangles                                  w |v'| / 4
+//
+// v = u - l; v' is its change from one p to the next, the twist of the strip; w is the base of the widest triangle, in rods.
 //
 // (A triangle with its base from p to p' on one fold and its corner at q on the other is off the ruled surface by
 // s (1 - s) |p' - q| |v'| at most.)

@@ -7,6 +7,7 @@
 #include "cloth/archive.h"
 #include "contact/cloth_contact.h"
 #include "contact/obstacle_features.h"
+#include "scene/fnv1a.h"
 
 namespace curtain {
 namespace {
@@ -23,16 +24,12 @@ void carryNodes(Archive& archive, const char* name, const Grid& grid, std::array
   for (std::uint32_t& node : nodes) archive.node(name, node, grid);
 }
 
-// FNV-1a of a mesh's corners and triangles: its file may have changed since.
+// Of a mesh's corners and triangles: its file may have changed since.
 std::uint64_t fingerprint(const ShapeTriangles& mesh) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  const auto add = [&hash](const void* data, std::size_t count) {
-    const auto* const bytes = static_cast<const unsigned char*>(data);
-    for (std::size_t n = 0; n < count; ++n) hash = (hash ^ bytes[n]) * 1099511628211ULL;
-  };
-  for (const Vec3& corner : mesh.corners) add(corner.data(), sizeof(double) * 3);
-  for (const Eigen::Vector3i& triangle : mesh.triangles) add(triangle.data(), sizeof(int) * 3);
-  return hash;
+  Fnv1a bits;
+  for (const Vec3& corner : mesh.corners) bits.addBytes(corner.data(), sizeof(double) * 3);
+  for (const Eigen::Vector3i& triangle : mesh.triangles) bits.addBytes(triangle.data(), sizeof(int) * 3);
+  return bits.hash;
 }
 
 void carryTransform(Archive& archive, const char* name, Transform& transform) {

@@ -56,6 +56,8 @@ class ClothContact : public ContactFinder {
   void forget() noexcept;
   /// The next substep does not start where the last accepted one ended.
   void lookAfresh() noexcept { ended_ = {}; }
+  /// Accepted substeps of so much time altogether [s], in which nothing touched, are undone.
+  void takeBack(double time) noexcept { touch_.takeBack(time); }
   void carry(Archive& archive);
 
  private:

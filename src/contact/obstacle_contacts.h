@@ -50,6 +50,8 @@ class ObstacleContacts {
   /// Takes over the multipliers of an accepted substep of h [s] that ended at position, where they are scale [s^2] times the
   /// forces; contacts: null when nothing could touch.
   void remember(const Contacts& contacts, const Field3& position, double h, double scale) noexcept;
+  /// Of these substeps such that nothing touched in are undone, so much time altogether [s].
+  void takeBack(double time) noexcept { loaded_for_ -= time; }
   void forget() noexcept;
   void carry(Archive& archive);
 

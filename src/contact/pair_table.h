@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "scene/fnv1a.h"
+
 namespace curtain {
 
 /// The nodes of two elements in their order, and what they are: two edges, or a vertex and a triangle.
@@ -50,11 +52,11 @@ class PairTable {
     PairKey key;
     std::uint32_t value;
   };
-  // Fowler, Noll and Vo's (FNV-1a), by words.
   static std::size_t hash(const PairKey& key) noexcept {
-    std::uint64_t bits = 14695981039346656037ULL ^ (key.edges ? 1U : 0U);
-    for (const std::uint32_t node : key.node) bits = (bits ^ node) * 1099511628211ULL;
-    return static_cast<std::size_t>(bits ^ (bits >> 32));
+    Fnv1a bits;
+    bits.hash ^= key.edges ? 1U : 0U;
+    for (const std::uint32_t node : key.node) bits.add(node);
+    return static_cast<std::size_t>(bits.hash ^ (bits.hash >> 32));
   }
 
   std::vector<Slot> slots_;

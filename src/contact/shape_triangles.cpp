@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "contact/shapes.h"
+#include "scene/pi.h"
 
 namespace curtain {
 namespace {
@@ -12,7 +13,6 @@ namespace {
 constexpr int kSegments = 48;          // around the axis
 constexpr int kArcs = 12;              // pole to equator
 constexpr double kPlaneHalf = 5.0;     // of the square that stands for a plane [m]
-constexpr double kPi = 3.14159265358979323846;
 
 using Profile = std::vector<Eigen::Vector2d>;  // (radius, z) from the lower to the upper pole, ends on the axis
 

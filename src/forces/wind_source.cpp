@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cloth/wide.h"
+#include "scene/fnv1a.h"
 
 namespace curtain {
 namespace {
@@ -12,9 +13,10 @@ constexpr double kTinySquared = 1e-300;  // keeps a division by a length from be
 constexpr double kParallel = 1e-6;  // [rad] half-angles below it are parallel wind: the apex would be 1e6 radii away
 
 std::uint64_t seedOf(std::uint64_t seed, const std::string& id) {
-  std::uint64_t hash = 1469598103934665603ULL ^ seed;  // FNV-1a, so that every source has gusts of its own
-  for (const char letter : id) hash = (hash ^ static_cast<unsigned char>(letter)) * 1099511628211ULL;
-  return hash;
+  Fnv1a mixed;  // so that every source has gusts of its own
+  mixed.hash ^= seed;
+  mixed.addBytes(id.data(), id.size());
+  return mixed.hash;
 }
 
 }  // namespace

@@ -41,8 +41,6 @@ void requireUpTo(double value, double most, const std::string& key, Problems& pr
   problems.push_back({key, "must be a number in [0, " + formatNumber(most) + "], is " + formatNumber(value)});
 }
 
-void append(const Problems& more, Problems& problems) { problems.insert(problems.end(), more.begin(), more.end()); }
-
 double endOf(double lifetime, double time) {
   return lifetime > 0.0 ? time + lifetime : std::numeric_limits<double>::infinity();
 }
@@ -94,7 +92,6 @@ Problems toWind(const WindSource& message, const curtain::Pose& frame, double ti
   requireUpTo(message.correlation_time, kLongest, "correlation_time", problems);
   requireUpTo(message.pressure, kStrongest, "pressure", problems);
   requireUpTo(message.unsteadiness, kStrongest, "unsteadiness", problems);
-  requireUpTo(message.radius, kFarthest, "radius", problems);
   if (!problems.empty()) return problems;
 
   orientation.normalize();
@@ -109,7 +106,6 @@ Problems toWind(const WindSource& message, const curtain::Pose& frame, double ti
       message.correlation_time > 0.0 ? message.correlation_time : curtain::WindParams().correlation_time;
   wind.start = time;
   wind.end = endOf(message.lifetime, time);
-  append(curtain::validate(wind, shown(message.id)), problems);
   return problems;
 }
 
@@ -146,14 +142,12 @@ Problems toDrag(const DragForce& message, const curtain::Pose& frame, double tim
         {"mode", "must be FORCE (0) or SPRING (1), is " + std::to_string(static_cast<int>(message.mode))});
   }
 
-  requireUpTo(message.radius, kFarthest, "radius", problems);
   requireUpTo(message.lifetime, kLongest, "lifetime", problems);
   if (!problems.empty()) return problems;
 
   drag.radius = message.radius;
   drag.start = time;
   drag.end = endOf(message.lifetime, time);
-  append(curtain::validate(drag, cloth, shown(message.id)), problems);
   return problems;
 }
 

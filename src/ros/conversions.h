@@ -25,7 +25,7 @@ std::vector<curtain::Problem> checkHead(const curtain_sim::DragForce& message);
 ///   message  any content
 ///   frame    pose of the message's frame in the world
 ///   time     simulated time now [s]: the wind starts here
-///   wind     in: the source it replaces, or a default one; out: the new one, usable when no problem is returned
+///   wind     in: the source it replaces, or a default one; out: the new one, for Simulator::setWind() to judge when no problem is returned
 std::vector<curtain::Problem> toWind(const curtain_sim::WindSource& message, const curtain::Pose& frame, double time,
                                      curtain::WindParams& wind);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ros/conversions.h"
+#include "scene/pi.h"
 
 namespace curtain_ros {
 
@@ -86,7 +87,7 @@ void addCone(const curtain::WindParams& wind, Points& points) {
   const Vec3 v = axis.cross(u);
   const double far_radius = wind.radius + kWindLength * std::tan(wind.half_angle);
   const auto corner = [&](int spoke, double along, double radius) -> Vec3 {
-    const double angle = 2.0 * M_PI * spoke / kWindSpokes;
+    const double angle = 2.0 * curtain::kPi * spoke / kWindSpokes;
     return wind.position + along * axis + radius * (std::cos(angle) * u + std::sin(angle) * v);
   };
   for (int i = 0; i < kWindSpokes; ++i) {

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "scene/ranges.h"
+
 namespace curtain_ros {
 
 namespace {
@@ -44,7 +46,15 @@ void ObstacleTracker::resume(const curtain::Simulator& simulator) {
 }
 
 void ObstacleTracker::update(curtain::Simulator& simulator, const ros::Time& now) {
-  for (Tracked& obstacle : tracked_) follow(obstacle, simulator, now);
+  std::string left_out;
+  for (Tracked& obstacle : tracked_) {
+    const std::string why = follow(obstacle, simulator, now);
+    if (why.empty()) continue;
+    const ObstacleHealth& health = obstacle.health;
+    left_out += (left_out.empty() ? "'" : "; '") + health.name + "': its frame '" + health.frame + "' " + why;
+  }
+  // One message for all: a throttled one for each would tell of the first alone.
+  if (!left_out.empty()) ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "obstacles left out: " << left_out);
 }
 
 FrameLookup ObstacleTracker::look(Tracked& obstacle, const ros::Time& now) {
@@ -65,7 +75,7 @@ FrameLookup ObstacleTracker::look(Tracked& obstacle, const ros::Time& now) {
   return frame;
 }
 
-void ObstacleTracker::follow(Tracked& obstacle, curtain::Simulator& simulator, const ros::Time& now) {
+std::string ObstacleTracker::follow(Tracked& obstacle, curtain::Simulator& simulator, const ros::Time& now) {
   const FrameLookup frame = look(obstacle, now);
   ObstacleHealth& health = obstacle.health;
   const bool seen = frame.known || health.present;
@@ -81,21 +91,14 @@ void ObstacleTracker::follow(Tracked& obstacle, curtain::Simulator& simulator, c
     if (jump) simulator.setObstaclePresent(obstacle.index, true);
     simulator.setObstaclePose(obstacle.index, compose(frame.pose, obstacle.offset), jump);
     health.present = true;
-    return;
+    return {};
   }
-  if (fresh) return;  // late: the last pose
+  if (fresh) return {};  // late: the last pose
 
   if (health.present) leaveOut(obstacle, simulator);
-  if (frame.may_come) return;  // the listener has just begun: too early to complain
-  if (frame.known) {
-    ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "obstacle '" << health.name << "' left out: its frame '" << health.frame
-                                                       << "' is " << health.age << " s old (~obstacle_timeout is "
-                                                       << timeout_ << " s)");
-  } else {
-    ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "obstacle '" << health.name << "' left out: its frame '" << health.frame
-                                                       << "' is not known in '" << frames_.world()
-                                                       << "': " << health.error);
-  }
+  if (frame.may_come) return {};  // the listener has just begun: too early to complain
+  if (!frame.known) return "is not known in '" + frames_.world() + "': " + health.error;
+  return "is " + curtain::formatNumber(health.age) + " s old (~obstacle_timeout is " + curtain::formatNumber(timeout_) + " s)";
 }
 
 void ObstacleTracker::leaveOut(Tracked& obstacle, curtain::Simulator& simulator) {

@@ -74,7 +74,8 @@ class ObstacleTracker {
   };
 
   FrameLookup look(Tracked& obstacle, const ros::Time& now);
-  void follow(Tracked& obstacle, curtain::Simulator& simulator, const ros::Time& now);
+  /// Returns why it is left out; empty: it is not, or it is too early to tell.
+  std::string follow(Tracked& obstacle, curtain::Simulator& simulator, const ros::Time& now);
   void leaveOut(Tracked& obstacle, curtain::Simulator& simulator);
 
   double timeout_;

@@ -11,12 +11,12 @@
 #include <numeric>
 
 #include "scene/checks.h"
+#include "scene/pi.h"
 #include "scene/range_checker.h"
 
 namespace curtain {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kSlack = 1e-9;  // relative; lengths are typed with rounding, and the solver takes up as much at once
 
 // Shares of the whole, from relative lengths; empty: all equal.

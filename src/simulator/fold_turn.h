@@ -12,13 +12,14 @@
 
 #include <optional>
 
+#include "scene/pi.h"
+
 namespace curtain {
 
 constexpr double kPreference = 3.0;
 
 namespace fold_turn {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kSteps = 12;       // of a half turn
 constexpr int kBisections = 8;   // of one step: the rest is a fifteenth of a degree
 
@@ -45,8 +46,8 @@ std::optional<double> oneWay(double sign, double limit, const Pleases& pleases) 
 /// last turn it was asked for need not be the one returned.
 template <typename Pleases>
 std::optional<double> leastTurn(const Pleases& pleases) {
-  const std::optional<double> down = fold_turn::oneWay(1.0, fold_turn::kPi, pleases);
-  const double limit = down ? *down / kPreference : fold_turn::kPi;
+  const std::optional<double> down = fold_turn::oneWay(1.0, kPi, pleases);
+  const double limit = down ? *down / kPreference : kPi;
   const std::optional<double> up = fold_turn::oneWay(-1.0, limit, pleases);
   if (up && *up < limit) return -*up;
   return down ? down : (up ? std::optional<double>(-*up) : std::nullopt);

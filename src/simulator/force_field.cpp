@@ -55,9 +55,7 @@ void ForceField::takeGravity() noexcept {
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) weight_.set(n, pattern_.mass[n] * scene_.gravity);
 }
 
-std::vector<Problem> ForceField::setWind(const WindParams& wind) {
-  std::vector<Problem> problems = validate(wind, "wind");
-  if (!problems.empty()) return problems;
+void ForceField::setWind(const WindParams& wind) {
   WindSource source(wind, pattern_, scene_.cloth.porosity, scene_.solver.seed);
   const auto found = findId(winds_, wind.id);
   if (found == winds_.end()) {
@@ -66,7 +64,6 @@ std::vector<Problem> ForceField::setWind(const WindParams& wind) {
     *found = std::move(source);
   }
   listParams(winds_, wind_params_);
-  return problems;
 }
 
 bool ForceField::removeWind(const std::string& id) {
@@ -80,9 +77,7 @@ void ForceField::clearWinds() {
   wind_params_.clear();
 }
 
-std::vector<Problem> ForceField::setDrag(const DragParams& drag) {
-  std::vector<Problem> problems = validate(drag, scene_.cloth, "drag");
-  if (!problems.empty()) return problems;
+void ForceField::setDrag(const DragParams& drag) {
   DragForce force(drag, pattern_);
   const auto found = findId(drags_, drag.id);
   if (found == drags_.end()) {
@@ -93,7 +88,6 @@ std::vector<Problem> ForceField::setDrag(const DragParams& drag) {
     *found = std::move(force);
   }
   listParams(drags_, drag_params_);
-  return problems;
 }
 
 bool ForceField::removeDrag(const std::string& id) {

@@ -26,12 +26,13 @@ class ForceField {
   /// Back to the scene's winds and drags.
   void reset();
 
-  std::vector<Problem> setWind(const WindParams& wind);
+  /// Valid ones: the simulator has judged them.
+  void setWind(const WindParams& wind);
   bool removeWind(const std::string& id);
   void clearWinds();
   const std::vector<WindParams>& winds() const { return wind_params_; }
 
-  std::vector<Problem> setDrag(const DragParams& drag);
+  void setDrag(const DragParams& drag);
   bool removeDrag(const std::string& id);
   void clearDrags();
   const std::vector<DragParams>& drags() const { return drag_params_; }

@@ -57,6 +57,7 @@ bool Simulator::Impl::makeComposed(const SubstepPlan& plan, double done) {
       exact.restore(before.memory);
       if (counts_work) ledger.restore(before.work);
       contact.lookAfresh();
+      contact.takeBack(at - done);
       return false;
     }
     control.accepted(stage, outcome);

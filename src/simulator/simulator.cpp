@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <cstring>
 #include <stdexcept>
 
 #include "contact/piercings.h"
+#include "scene/fnv1a.h"
 #include "scene/ranges.h"
 #include "simulator/self_crossings.h"
 #include "simulator/simulator_impl.h"
@@ -41,13 +41,6 @@ SolverParams asAuto(SolverParams params) {
   params.method = Method::kAuto;
   params.substeps = 0;
   return params;
-}
-
-std::uint64_t hashBits(std::uint64_t hash, double value) {
-  unsigned char bytes[sizeof value];
-  std::memcpy(bytes, &value, sizeof value);
-  for (const unsigned char byte : bytes) hash = (hash ^ byte) * 1099511628211ULL;  // FNV-1a
-  return hash;
 }
 
 }  // namespace
@@ -190,14 +183,17 @@ Params asItGoesOn(Params source, const Params& old) {
 }  // namespace
 
 std::vector<Problem> Simulator::setWind(const WindParams& wind) {
+  std::vector<Problem> problems = validate(wind, "wind");
+  if (!problems.empty()) return problems;
   Impl& im = *impl_;
   const WindParams* const old = findById(im.forces.winds(), wind.id);
   const double now = im.statistics.time;
   if (old != nullptr && actsAt(*old, now) && actsAt(wind, now) && sameWhileItBlows(*old, wind)) {
-    return im.forces.setWind(asItGoesOn(wind, *old));
+    im.forces.setWind(asItGoesOn(wind, *old));
+    return problems;
   }
   if (im.rest.watches()) im.forces.markWind(wind.id, im.state.position, im.rest.disturbed());
-  std::vector<Problem> problems = im.forces.setWind(wind);
+  im.forces.setWind(wind);
   if (im.rest.watches()) im.forces.markWind(wind.id, im.state.position, im.rest.disturbed());
   return problems;
 }
@@ -216,13 +212,16 @@ const std::vector<WindParams>& Simulator::winds() const { return impl_->forces.w
 
 std::vector<Problem> Simulator::setDrag(const DragParams& drag) {
   Impl& im = *impl_;
+  std::vector<Problem> problems = validate(drag, im.scene.cloth, "drag");
+  if (!problems.empty()) return problems;
   const DragParams* const old = findById(im.forces.drags(), drag.id);
   const double now = im.statistics.time;
   if (old != nullptr && actsAt(*old, now) && actsAt(drag, now) && sameWhileItActs(*old, drag)) {
-    return im.forces.setDrag(asItGoesOn(drag, *old));
+    im.forces.setDrag(asItGoesOn(drag, *old));
+    return problems;
   }
   im.forces.markDrag(drag.id, im.rest.disturbed());
-  std::vector<Problem> problems = im.forces.setDrag(drag);
+  im.forces.setDrag(drag);
   im.forces.markDrag(drag.id, im.rest.disturbed());
   return problems;
 }
@@ -337,16 +336,16 @@ std::uint64_t Simulator::revision() const { return impl_->revision; }
 
 std::uint64_t Simulator::stateHash() const {
   const Grid& grid = impl_->pattern.grid;
-  std::uint64_t hash = 14695981039346656037ULL;
+  Fnv1a bits;
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = 0; j < grid.columns; ++j) {
       const std::size_t n = grid.index(i, j);
       for (const Field3* field : {&impl_->state.position, &impl_->state.velocity}) {
-        hash = hashBits(hashBits(hashBits(hash, field->x[n]), field->y[n]), field->z[n]);
+        for (const Field* axis : {&field->x, &field->y, &field->z}) bits.addBytes(&(*axis)[n], sizeof(double));
       }
     }
   }
-  return hash;
+  return bits.hash;
 }
 
 }  // namespace curtain

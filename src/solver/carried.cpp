@@ -81,7 +81,7 @@ void ExactSolver::resume(const ColumnSet& held, const ClothState& state) noexcep
   for (Field* field : {&weft_.multiplier, &violation_, &active_, &change_}) std::fill(field->begin(), field->end(), 0.0);
   std::fill(block_begun_.begin(), block_begun_.end(), LineOutcome());
   std::fill(block_progress_.begin(), block_progress_.end(), WarpProgress());
-  std::fill(block_load_.begin(), block_load_.end(), 0.0);
+  std::fill(block_motion_.begin(), block_motion_.end(), WarpMotion());
   scratch_.assign(pattern_.grid);
   net_.reset();
 }
@@ -92,6 +92,7 @@ void StepControl::carry(Archive& archive) {
   archive.atOnce([&] { archive.within("frame", frame, 1e-6, 1e3); });
   archive.put(frame_, frame);
   archive.number("omega", omega_);
+  archive.number("turning", turning_);
   archive.number("heavier_step", heavier_step_);
   archive.number("surface_step", surface_step_);
   archive.number("limit", limit_);

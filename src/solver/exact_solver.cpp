@@ -126,7 +126,7 @@ ExactSolver::ExactSolver(const ClothPattern& pattern, double stretch_tolerance, 
   next_.assign(size, 0.0);
   for (Field3* field : {&base_.position, &base_.velocity, &older_position_, &older_velocity_}) field->assign(size, 0.0);
   block_begun_.resize(static_cast<std::size_t>(warpBlockCount(pattern.grid)));
-  block_load_.resize(block_begun_.size());
+  block_motion_.resize(block_begun_.size());
   block_progress_.resize(static_cast<std::size_t>(warpBlockCount(pattern.grid)));
   row_worst_.resize(static_cast<std::size_t>((pattern.grid.rows + kRowsAtOnce - 1) / kRowsAtOnce));
 }

@@ -122,6 +122,7 @@ class ExactSolver {
                             StageClock& clock) noexcept;
   Progress solveAndVerify(const SubstepPlan& plan, const SubstepStart& start, const Field3& from, double ratio,
                           double weight_way, ContactFinder* finder, StageClock& clock) noexcept;
+  double turning(double kick) const noexcept;
   bool struck(const Contacts* contacts) const noexcept;
   void keepMomentum(const SubstepStart& start) noexcept;
   WarpProgress solveBlock(bool follow, const LineSolve& warp, int block, double stop, double leave_alone,
@@ -183,7 +184,7 @@ class ExactSolver {
   Field violation_, active_, change_;
   Field free_per_square_;  // of weft links with an end that can move: 1 / rest length^2 [1/m^2]; others: 0
   std::vector<LineOutcome> block_begun_;
-  std::vector<double> block_load_;
+  std::vector<WarpMotion> block_motion_;
   std::vector<WarpProgress> block_progress_;
   std::vector<double> row_worst_;
   Field3 next_;

@@ -56,7 +56,7 @@ void ExactSolver::layDown(int block, ClothState& state) noexcept {
   laid_down_[at] = inertia_.tensions().scale;
   block_begun_[at] = LineOutcome();
   block_progress_[at] = WarpProgress();
-  block_load_[at] = 0.0;
+  block_motion_[at] = WarpMotion();
 }
 
 void ExactSolver::takeUp(int block) noexcept {

@@ -106,10 +106,11 @@ void ExactSolver::commit(const ClothState& base, double step, double velocity_ag
   NodeInertia::Tensions& tensions = inertia_.tensions();
   const LineSolve warp{pattern_, inertia_.inverse(), warp_, next_, held_.movingSpan()};
   forEachBlock([&](int block) {
-    block_load_[static_cast<std::size_t>(block)] =
+    block_motion_[static_cast<std::size_t>(block)] =
         warpFinish(warp, base.position, 1.0 / step, state.velocity, tensions.load, block);
   });
-  tensions.heaviest = *std::max_element(block_load_.begin(), block_load_.end());
+  tensions.heaviest = 0.0;
+  for (const WarpMotion& block : block_motion_) tensions.heaviest = std::max(tensions.heaviest, block.heaviest);
   weft_pulls_ = directions_set_ &&
                 std::any_of(weft_.multiplier.begin(), weft_.multiplier.end(), [](double s) { return s != 0.0; });
   if (weft_pulls_) {
@@ -119,6 +120,14 @@ void ExactSolver::commit(const ClothState& base, double step, double velocity_ag
   std::swap(state.position, next_);  // where columns are held the two are equal
   std::swap(last_warp_, warp_.multiplier);
   state.velocity_age = velocity_age;
+}
+
+// How fast the rods change their motion, as the rate of a turn that would (RMS over all rods) [1/s]: sqrt(|a_b - a_a| / l),
+// which is the rate of turn itself where that is steady. The forces acted for a time `kick` [s] in the last substep.
+double ExactSolver::turning(double kick) const noexcept {
+  double bent = 0.0;
+  for (const WarpMotion& block : block_motion_) bent += block.bent;
+  return std::sqrt(std::sqrt(bent / ((pattern_.grid.rows - 1) * pattern_.grid.columns)) / std::abs(kick));
 }
 
 // A string has snapped taut in this substep, or something has met something.
@@ -203,6 +212,7 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
     commit(base, step, leapfrog ? 0.5 * step : 0.0, state);
     if (bounded) boundKinetic(kinetic.most(1.0), state.velocity);
     outcome.omega_squared = inertia_.omegaSquared();
+    if (alone && !weft_pulls_) outcome.turning = turning(outcome.kick);
     const double fastest = progress.contacts != nullptr ? fastestSurface(*progress.contacts) : 0.0;
     if (fastest > 0.0) outcome.longest_step = kMostWayOfSurface * smallest_rest_ / fastest;
     // The way such a substep has gone is not all motion: what pulls its links further is taken out.

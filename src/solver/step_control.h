@@ -54,6 +54,7 @@ class StepControl {
   Method method_;
   double initial_omega_;  // of the cloth hanging by its own weight [1/s]
   double omega_;          // from the last tensions [1/s]
+  double turning_;        // of the last substep [1/s]
   double heavier_step_;   // what the phase allows where few nodes may be heavier, found when the frame began [s]; 0: not asked
   double surface_step_;   // in which what pushes goes a share of a link [s]
   double limit_;          // largest step that the rejections leave [s]

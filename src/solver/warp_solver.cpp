@@ -262,11 +262,13 @@ CURTAIN_WIDE void warpEndNewton(const LineSolve& line, LineScratch& scratch, int
   forgetTop(line, scratch, offset);
 }
 
-CURTAIN_WIDE double warpFinish(const LineSolve& line, const Field3& from, double per_step, Field3& velocity, Field& load,
-                               int block) noexcept {
+CURTAIN_WIDE WarpMotion warpFinish(const LineSolve& line, const Field3& from, double per_step, Field3& velocity, Field& load,
+                                   int block) noexcept {
   const Grid& grid = line.pattern.grid;
   const auto stride = static_cast<std::size_t>(grid.stride);
   Worst worst;
+  double bent[kLane] = {};                                        // by column
+  double above_x[kLane] = {}, above_y[kLane] = {}, above_z[kLane] = {};  // change of velocity in the row above
   for (int i = 0; i < grid.rows; ++i) {
     const std::size_t first = grid.row(i) + static_cast<std::size_t>(block) * kLane;
     const ConstView to(line.value, first), at(from, first);
@@ -274,18 +276,29 @@ CURTAIN_WIDE double warpFinish(const LineSolve& line, const Field3& from, double
     const double* const s = line.links.multiplier.data() + first;
     const double* const s_below = s + stride;
     const double* const w = line.pattern.inverse_mass.data() + first;
+    const double* const per_square = line.pattern.warp_per_square.data() + first;
     double* const sum = load.data() + first;
+    const double rods = i > 0 ? 1.0 : 0.0;  // the top row has none above
 #pragma omp simd
     for (int j = 0; j < kLane; ++j) {
-      v.x[j] = (to.x[j] - at.x[j]) * per_step;
-      v.y[j] = (to.y[j] - at.y[j]) * per_step;
-      v.z[j] = (to.z[j] - at.z[j]) * per_step;
+      const double vx = (to.x[j] - at.x[j]) * per_step, vy = (to.y[j] - at.y[j]) * per_step, vz = (to.z[j] - at.z[j]) * per_step;
+      const double ax = vx - v.x[j], ay = vy - v.y[j], az = vz - v.z[j];
+      const double rx = ax - above_x[j], ry = ay - above_y[j], rz = az - above_z[j];
+      bent[j] += rods * per_square[j] * (rx * rx + ry * ry + rz * rz);
+      above_x[j] = ax;
+      above_y[j] = ay;
+      above_z[j] = az;
+      v.x[j] = vx;
+      v.y[j] = vy;
+      v.z[j] = vz;
       sum[j] = std::abs(s[j]) + std::abs(s_below[j]);
       const double heaviest = sum[j] * w[j];
       worst.of[j] = worst.of[j] > heaviest ? worst.of[j] : heaviest;
     }
   }
-  return worst.outcome().residual;
+  WarpMotion motion{worst.outcome().residual, 0.0};
+  for (const double column : bent) motion.bent += column;
+  return motion;
 }
 
 CURTAIN_WIDE void applyWarpMultipliers(const LineSolve& line, int block) noexcept {

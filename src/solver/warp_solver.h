@@ -37,10 +37,16 @@ LineOutcome warpBeginNewton(const SubstepStart& start, const LineSolve& line, co
                             LineScratch& scratch, int block) noexcept;
 void warpEndNewton(const LineSolve& line, LineScratch& scratch, int block) noexcept;
 
-/// Velocities of a block's nodes, from where they were to line.value, and the sum of |multiplier| of their rods [kg];
-/// returns the largest of these over the node's mass.
-double warpFinish(const LineSolve& line, const Field3& from, double per_step, Field3& velocity, Field& load,
-                  int block) noexcept;
+/// What a substep has done to a block.
+struct WarpMotion {
+  double heaviest = 0.0;  ///< the largest load of a node over its mass [1]
+  double bent = 0.0;      ///< sum over the rods of |change of (velocity of b - velocity of a)|^2 / l^2 [1/s^2]
+};
+
+/// Velocities of a block's nodes, from where they were to line.value, and their loads: the sum of |multiplier| of their
+/// rods [kg].
+WarpMotion warpFinish(const LineSolve& line, const Field3& from, double per_step, Field3& velocity, Field& load,
+                      int block) noexcept;
 
 /// Moves a block's nodes by the multipliers there are.
 void applyWarpMultipliers(const LineSolve& line, int block) noexcept;

@@ -5,9 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <iostream>
 #include <limits>
 #include <map>
 #include <string>
@@ -327,37 +325,6 @@ TEST(TimeOfImpact, IsNoneForWhatSlidesPast) {
   EXPECT_FALSE(kBox.timeOfImpact(start, end, 0.009).has_value());
   for (Vec3& corner : end) corner.z() += 2.0;
   EXPECT_FALSE(kBox.timeOfImpact(start, end, 0.009).has_value());
-}
-
-// Figures for the reader, and a bound against a search that has stopped to converge.
-TEST(NearestOnElement, IsFast) {
-  Random random(9);
-  std::vector<Triangle> near;
-  for (int n = 0; n < 1000; ++n) near.push_back(randomElement<3>(random, 0.8, 0.03));
-  for (const auto& [name, shape] : kSolids) {
-    double sum = 0.0;
-    const auto timed = [&](auto&& f) {
-      const auto before = std::chrono::steady_clock::now();
-      for (int n = 0; n < 20; ++n) {
-        for (const Triangle& corners : near) f(corners);
-      }
-      const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - before;
-      return 1e9 * seconds.count() / (20.0 * static_cast<double>(near.size()));
-    };
-    ElementPoint nearest;
-    const double whole = timed([&](const Triangle& c) {
-      shape->nearestOnTriangle(c, kInfinity, nearest);
-      sum += nearest.surface.distance;
-    });
-    const double limited = timed([&](const Triangle& c) { sum += shape->nearestOnTriangle(c, 0.008, nearest); });
-    const double edge = timed([&](const Triangle& c) { sum += shape->nearestOnEdge({c[0], c[1]}, kInfinity, nearest); });
-    const double impact = timed([&](const Triangle& c) {
-      sum += shape->timeOfImpact(c, {c[0] * 1.05, c[1] * 0.95, c[2] * 1.02}, 0.004).value_or(2.0);
-    });
-    std::cout << name << ": triangle " << whole << " ns, within reach " << limited << " ns, edge " << edge
-              << " ns, impact " << impact << " ns (" << sum << ")\n";
-    EXPECT_LT(whole, 2e5) << name;
-  }
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "curtain_sim/simulator.h"
 #include "ros/handles.h"
 #include "ros/shown.h"
 
@@ -53,14 +54,29 @@ curtain::Pose turnedFrame() {
   return pose;
 }
 
+curtain::Simulator& simulator() {
+  static curtain::Simulator instance([] {
+    curtain::Scene scene;
+    scene.cloth.rows = grid().rows;
+    scene.cloth.columns = grid().columns;
+    return scene;
+  }());
+  return instance;
+}
+
+// Of all who judge a message: the conversion knows its fields, the simulator what it can compute.
 std::string windProblems(const WindSource& message) {
   curtain::WindParams wind;
-  return curtain::describe(toWind(message, curtain::Pose(), 2.0, wind));
+  std::vector<curtain::Problem> problems = toWind(message, curtain::Pose(), 2.0, wind);
+  if (problems.empty()) problems = simulator().setWind(wind);
+  return curtain::describe(problems);
 }
 
 std::string dragProblems(const DragForce& message) {
   curtain::DragParams drag;
-  return curtain::describe(toDrag(message, curtain::Pose(), 2.0, grid(), drag));
+  std::vector<curtain::Problem> problems = toDrag(message, curtain::Pose(), 2.0, grid(), drag);
+  if (problems.empty()) problems = simulator().setDrag(drag);
+  return curtain::describe(problems);
 }
 
 TEST(Conversions, WindIsTurnedIntoTheWorld) {

@@ -10,6 +10,7 @@ import tf2_ros
 from curtain_testing import (Curtain, Listener, MovingFrame, billow, distance, points, static_frame,
                              wait_until)
 from curtain_sim.msg import Contacts
+from rosgraph_msgs.msg import Log
 from visualization_msgs.msg import Marker, MarkerArray
 
 BALL_RADIUS = 0.2
@@ -36,6 +37,15 @@ class ObstaclesTest(unittest.TestCase):
         state = self.curtain.wait_for(lambda s: s.statistics.frame > frame + 60, "the node runs")
         self.assertEqual(state.statistics.absent_obstacles, 2)
         self.assertLess(billow(state), 0.01)
+
+    def test_1b_the_warning_names_all_of_them(self):
+        """It comes every five seconds, however many obstacles are left out."""
+        listener = Listener("/rosout", Log)
+        wait_until(lambda: any("left out" in m.msg for m in listener.messages()), "a warning", 12.0)
+        warnings = [m.msg for m in listener.messages() if "left out" in m.msg]
+        listener.close()
+        for frame in ("'ball'", "'post'"):
+            self.assertIn("its frame " + frame, warnings[0])
 
     def test_2_static_frames_are_never_late(self):
         """A frame that was broadcast once, as static, is there for good."""

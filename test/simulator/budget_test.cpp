@@ -147,14 +147,19 @@ TEST(BudgetedSimulator, GivesUpTimeAndNotTheCloth) {
     }
   }
   std::nth_element(full.begin(), full.begin() + 60, full.end());
+  Simulator beside(scene);  // takes turns with it, to know what a frame takes at that time: the machine may have more or less to do
   scene.solver.budget_ms = 0.45e3 * full[60];
   Simulator simulator(scene);
-  std::vector<double> seconds;
+  std::vector<double> seconds, seconds_beside;
   double stretch = 0.0;
   for (int frame = 0; frame < 300; ++frame) {
     simulator.step();
     const Statistics& s = simulator.statistics();
     seconds.push_back(s.step_seconds);
+    if (frame < 120) {
+      beside.step();
+      seconds_beside.push_back(beside.statistics().step_seconds);
+    }
     stretch = std::max({stretch, s.warp_stretch, s.weft_stretch});
     const Piercings pierced = simulator.piercings(0);
     ASSERT_EQ(pierced.nodes + pierced.edges + pierced.faces, 0) << "frame " << frame;
@@ -168,11 +173,15 @@ TEST(BudgetedSimulator, GivesUpTimeAndNotTheCloth) {
               scene.solver.budget_ms, 1e3 * seconds[150], 1e3 * seconds[270], static_cast<int>(s.longer_substeps),
               static_cast<int>(s.unfinished_substeps), static_cast<int>(s.shortened_frames), s.lost_time,
               static_cast<int>(s.late_frames));
+  std::nth_element(seconds_beside.begin(), seconds_beside.begin() + 60, seconds_beside.end());
+  const double slower = seconds_beside[60] / full[60];
   // Other work on the machine makes frames longer than anybody planned, but the typical one not by half.
-  EXPECT_LE(1e3 * seconds[150], 1.5 * scene.solver.budget_ms);
+  EXPECT_LE(1e3 * seconds[150], 1.5 * std::max(1.0, slower) * scene.solver.budget_ms);
   EXPECT_TRUE(s.finite);
-  EXPECT_GT(s.shortened_frames, 0);
-  EXPECT_GT(s.lost_time, 0.1);
+  if (slower > 0.9) {
+    EXPECT_GT(s.shortened_frames, 0);
+    EXPECT_GT(s.lost_time, 0.1);
+  }
   EXPECT_LT(s.lost_time, 5.0);
   // Taken from 8 times the inner tolerance, half of the outer one.
   EXPECT_LE(stretch, 8.0 * scene.solver.stretch_tolerance);

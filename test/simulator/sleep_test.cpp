@@ -341,6 +341,23 @@ TEST(Sleep, SleepsOnWhenNothingOfItMatters) {
   EXPECT_EQ(simulator.obstaclePose(0).position.x(), 4.0 - 0.01 * 59);
 }
 
+// A bad value changes nothing, so nothing has to wake for it.
+TEST(Sleep, SleepsOnWhenASourceIsRefused) {
+  Scene scene = hanging();
+  scene.wind.push_back(fan(3.0));
+  scene.drag.push_back(pull({0.0, 0.05, 0.0}));
+  Simulator simulator(scene);
+  ASSERT_TRUE(sleepsWithin(simulator, 900));
+  const std::int64_t wakes = simulator.statistics().wakes;
+  EXPECT_FALSE(simulator.setWind(fan(-1.0)).empty());
+  DragParams bad = pull({0.0, 0.1, 0.0});
+  bad.radius = -1.0;
+  EXPECT_FALSE(simulator.setDrag(bad).empty());
+  simulator.step();
+  EXPECT_EQ(simulator.statistics().asleep, simulator.columns());
+  EXPECT_EQ(simulator.statistics().wakes, wakes);
+}
+
 TEST(Sleep, GustsKeepItAwakeHoweverWeak) {
   Scene scene = hanging();
   scene.wind.push_back(fan(0.0));

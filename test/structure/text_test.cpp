@@ -47,6 +47,17 @@ bool hasWord(const std::string& line, const std::string& word) {
   return false;
 }
 
+// What is typed twice is one day typed wrong once.
+TEST(Text, ConstantsOfNatureStandInOneFile) {
+  for (const char* digits : {"3.14159", "M_PI", "1099511628211"}) {  // pi, and the prime of FNV-1a
+    int files = 0;
+    for (const char* folder : {"src", "include"}) {
+      for (const SourceFile& file : sourceFiles(folder)) files += file.text.find(digits) != std::string::npos ? 1 : 0;
+    }
+    EXPECT_LE(files, 1) << digits;
+  }
+}
+
 TEST(Text, HasNoNotesOfWorkLeftOver) {
   const auto files = textFiles();
   EXPECT_GT(files.size(), 100u);
