@@ -23,7 +23,7 @@ SubstepOutcome Simulator::Impl::attempt(const SubstepPlan& plan, double done) {
   ContactFinder* const finder = contact.wanted() ? &contact : nullptr;
   clock.start();
   if (finder == nullptr) contact.nothingTouches();
-  if (finder != nullptr) obstacles.setSubstep(done / frame_length, (done + plan.h) / frame_length);
+  if (finder != nullptr) obstacles.setSubstep((done - obstacle_lag) / frame_length, (done + plan.h - obstacle_lag) / frame_length);
   const NodeForces& now = forces.evaluate(state, statistics.time + done, plan.h);
   clock.lap(Stage::kForces);
   if (counts_work) ledger.begin(state);
@@ -50,7 +50,6 @@ bool Simulator::Impl::makeComposed(const SubstepPlan& plan, double done) {
   for (const double gamma : kStages) {
     SubstepPlan stage = plan;
     stage.h = gamma * plan.h;
-    stage.must_accept = false;
     const SubstepOutcome outcome = attempt(stage, at);
     if (!outcome.accepted || exact.weftPulls() || (contact.wanted() && contact.any())) {
       state = before.state;
@@ -114,14 +113,7 @@ double Simulator::Impl::makeSubstep(double done) {
     // That there was no time left for it says nothing of its length, unless it had a whole frame's.
     if (!outcome.late) steps->rejected(plan);
     else if (budget.fresh()) steps->tookTooLong(plan);
-    if (!plan.must_accept || outcome.late) return 0.0;
-    // Not even finite: forces beyond all numbers. The cloth stays where it is, at rest, until they are over.
-    wakeAll();
-    state.velocity.assign(pattern.grid.size(), 0.0);
-    state.velocity_age = 0.0;
-    exact.reset();
-    ++statistics.stops;
-    return plan.h;
+    return 0.0;
   }
   if (outcome.late) ++statistics.unfinished_substeps;
   if (steps->stretched()) ++statistics.longer_substeps;
@@ -131,7 +123,9 @@ double Simulator::Impl::makeSubstep(double done) {
   if (steps != &control) control.watch(outcome);
   ++statistics.substeps;
   ++statistics.substeps_last;
-  if (plan.scheme == Scheme::kImplicit && scene.solver.method != Method::kImplicit) ++statistics.implicit;
+  if (plan.last_resort) ++statistics.implicit;
+  if (outcome.share < 1e-3) ++statistics.stops;
+  obstacle_lag += (1.0 - outcome.share) * plan.h;
   if (!outcome.settled) ++statistics.unsettled;
   contact.afterSubstep(outcome.settled, plan.h, outcome.scale, state.position);
   return plan.h;
@@ -225,7 +219,8 @@ void Simulator::Impl::finishFrame(double share) {
     statistics.position_error = estimate->perSecond();
     clock.lap(Stage::kEstimate);
   }
-  obstacles.endFrame(share);
+  obstacles.endFrame(share - obstacle_lag / frame_length);
+  obstacle_lag = 0.0;
   ++frame;
   ++revision;
   statistics.frames = frame;

@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "cloth/coarse_mesh.h"
@@ -10,12 +12,18 @@
 namespace curtain {
 namespace {
 
+// Heights over a triangle's plane below this share of the coordinates are rounding: positions carry half a unit each, differences and
+// products a few more. Flat cloth does not cross itself.
+constexpr double kRounding = 32.0 * std::numeric_limits<double>::epsilon();
+
 double volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) { return (b - a).cross(c - a).dot(d - a); }
 
 bool pierces(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
   const double side_p = volume(a, b, c, p);
   const double side_q = volume(a, b, c, q);
   if (side_p * side_q >= 0.0) return false;
+  const double far = std::max({p.cwiseAbs().maxCoeff(), q.cwiseAbs().maxCoeff(), a.cwiseAbs().maxCoeff()});
+  if (!(std::min(std::abs(side_p), std::abs(side_q)) > kRounding * far * (b - a).cross(c - a).norm())) return false;
   const double s1 = volume(p, q, a, b);
   const double s2 = volume(p, q, b, c);
   const double s3 = volume(p, q, c, a);

@@ -111,6 +111,7 @@ struct Simulator::Impl {
   std::unique_ptr<ErrorEstimate> estimate;
   Held companion, rehearsal;
   int steps_made = 0;      // leapfrog steps of the present frame, for the estimate
+  double obstacle_lag = 0.0;  // that obstacles have waited in this frame for cloth that could not give way [s]
   bool of_stages = true;   // all of them were stages of whole substeps
   struct PinMove {
     std::size_t node;

@@ -99,8 +99,7 @@ void StepControl::carry(Archive& archive) {
   archive.integer("allowed", allowed_, 1, std::numeric_limits<int>::max());
   archive.flag("stretched", stretched_);
   archive.integer("asked", asked_, 1, max_substeps_);
-  archive.within("implicit_step", implicit_step_, frame / max_substeps_, frame);
-  archive.integer("failures", failures_, 0, kCount);
+  archive.part("trust", trust_);
   archive.integer("good", good_, 0, kCount);
 }
 

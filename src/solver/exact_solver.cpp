@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
-
 
 namespace curtain {
 namespace {
@@ -112,18 +112,24 @@ ExactSolver::ExactSolver(const ClothPattern& pattern, double stretch_tolerance, 
       laid_down_(static_cast<std::size_t>(warpBlockCount(pattern.grid)), 0.0),
       skipped_before_(laid_down_.size(), 0),
       net_(pattern, workers),
-      middle_rest_(middleRest(pattern)) {
+      middle_rest_(middleRest(pattern)),
+      last_resort_(pattern) {
   const std::size_t size = pattern.grid.size();
   const std::size_t links = size + static_cast<std::size_t>(pattern.grid.stride);
   scratch_.assign(pattern.grid);
   warp_.assign(pattern.grid);
   weft_.assign(pattern.grid);
+  weft_.most_give = tolerance_;  // with as much for what the solve leaves it is the user's tolerance
   last_warp_.assign(links, 0.0);
   last_weft_.assign(links, 0.0);
   for (Field* field : {&violation_, &active_, &change_}) field->assign(size, 0.0);
   free_per_square_.assign(size, 0.0);
   freeWeft(pattern, pattern.inverse_mass, free_per_square_);
   next_.assign(size, 0.0);
+  no_force_.assign(size, 0.0);
+  best_.position.assign(size, 0.0);
+  best_.warp.assign(links, 0.0);
+  best_.weft.assign(links, 0.0);
   for (Field3* field : {&base_.position, &base_.velocity, &older_position_, &older_velocity_}) field->assign(size, 0.0);
   block_begun_.resize(static_cast<std::size_t>(warpBlockCount(pattern.grid)));
   block_motion_.resize(block_begun_.size());
@@ -194,7 +200,7 @@ const ClothState& ExactSolver::setBase(Scheme scheme, double h, const ClothState
 // Predicts and starts the multipliers where the last substep left them (returns what they change by with the step). Not when forces follow the directions: its
 // iteration blows up when the old tensions act along the new directions of rods that have turned much since.
 double ExactSolver::begin(const SubstepPlan& plan, const SubstepStart& start, double scale) noexcept {
-  const bool warm = plan.scheme == Scheme::kLeapfrog && inertia_.tensions().scale != 0.0;
+  const bool warm = plan.scheme == Scheme::kLeapfrog && !plan.last_resort && inertia_.tensions().scale != 0.0;
   const double ratio = warm ? scale / inertia_.tensions().scale : 0.0;
   const LineSolve warp{pattern_, inertia_.inverse(), warp_, next_, held_.movingSpan()};
   const LineSolve weft{pattern_, inertia_.inverse(), weft_, next_, held_.movingSpan()};
@@ -322,25 +328,65 @@ void ExactSolver::solveNet(const LineSolve& weft, Contacts* contacts, double res
   });
 }
 
+void ExactSolver::keepIterate(double residual, const Contacts* contacts) {
+  best_.residual = residual;
+  best_.position = next_;
+  best_.warp = warp_.multiplier;
+  best_.weft = weft_.multiplier;
+  if (contacts != nullptr) best_.contacts = *contacts;
+}
+
+void ExactSolver::goBack(Contacts* contacts) noexcept {
+  next_ = best_.position;
+  warp_.multiplier = best_.warp;
+  weft_.multiplier = best_.weft;
+  if (contacts != nullptr) *contacts = best_.contacts;
+  measured_ = false;
+}
+
+// What a sweep must make smaller: the sum of the squares of what links and contacts lack, over a link. A damped step makes it smaller if
+// it is short enough, where the largest may stand on a plateau.
+double ExactSolver::meritOf(const Contacts* contacts) noexcept {
+  const LineSolve weft{pattern_, inertia_.inverse(), weft_, next_, held_.movingSpan()};
+  if (!measured_) worstOfRows([&](int i) { return measureWeft(weft, i, violation_, active_); });
+  measured_ = true;
+  double sum = 0.0;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    const double relative = violation_[n] * pattern_.weft_per_square[n];
+    sum += relative * relative;
+  }
+  for (std::size_t k = 0; contacts != nullptr && k < contacts->size(); ++k) {
+    const double relative = contactViolation((*contacts)[k], next_) / middle_rest_;
+    sum += relative * relative;
+  }
+  return sum;
+}
+
+static double knob(const char* name, double usual) { const char* v = std::getenv(name); return v ? std::atof(v) : usual; }
+
 ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, const Field3& start, double weight_way,
                                                     Contacts* contacts, StageClock& clock) noexcept {
+  static const int mono_always = static_cast<int>(knob("R_MONO", 0));
+  static const double most_damping = knob("R_MOSTDAMP", 1e3);
   const LineSolve warp{pattern_, inertia_.inverse(), warp_, next_, held_.movingSpan()};
   const LineSolve weft{pattern_, inertia_.inverse(), weft_, next_, held_.movingSpan()};
   const bool touches = contacts != nullptr && !contacts->empty();
   const double share_for_weight =
       weight_way > 0.0 ? std::clamp(kShareOfWeight * weight_way / (middle_rest_ * tolerance_), kLeastShare, 1.0) : 1.0;
   Progress progress;
-  bool follow = plan.scheme != Scheme::kLeapfrog;
+  bool follow = plan.scheme != Scheme::kLeapfrog || plan.last_resort;
   bool net_ready = false;
   double window_residual = std::numeric_limits<double>::infinity();
   double last_residual = window_residual;
   double touch = 0.0;
   double caution = 1.0;
+  const bool mono = plan.last_resort || mono_always != 0;
+  best_.residual = best_.merit = std::numeric_limits<double>::infinity();
   while (progress.sweeps < max_sweeps_) {
     const bool first = progress.sweeps == 0;
     double strict = 1.0;
-    if (progress.sweeps < kStrictSweeps) {
-      if (touches && !plan.must_accept) strict = kStrictShare;
+    if (progress.sweeps < kStrictSweeps && !plan.last_resort) {
+      if (touches) strict = kStrictShare;
       if (!touches && (weft_pulls_ || directions_set_)) strict = share_for_weight;
     }
     const double tolerance = strict * tolerance_;
@@ -349,7 +395,7 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
     const WarpProgress rods = solveWarp(follow, warp, stop, first ? 0.0 : kLeaveAlone * tolerance,
                                         first && newton_begun_);
     clock.lap(Stage::kWarp);
-    if (!rods.converged && !plan.must_accept) return progress;
+    if (!rods.converged && !std::isfinite(best_.residual)) return progress;
     ++progress.sweeps;
     const double rubbed =
         touches && progress.sweeps <= kRubSweeps ? rubContacts(inertia_.inverse(), *contacts, next_) : 0.0;
@@ -358,7 +404,7 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
     measured_ = weft_pulls_ || !first;
     const double strings = measured_ ? worstOfRows([&](int i) { return measureWeft(weft, i, violation_, active_); })
                                      : slackResidual();
-    const double share = first ? kFirstSweepShare : 1.0;
+    const double share = first && !plan.last_resort ? kFirstSweepShare : 1.0;
     if (rods.converged && strings <= share * tolerance && touch <= share * contact_tolerance && rubbed <= kRubShare * contact_tolerance &&
         ((rods.last_residual * inertia_.dampingSpread() <= sure_stop_ && rubbed == 0.0) ||
          warpResidualNow(warp) <= tolerance)) {
@@ -366,15 +412,32 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
       clock.lap(Stage::kWeft);
       return progress;
     }
-    const double residual = std::max(strings, touch / middle_rest_);
-    if (!std::isfinite(residual)) return progress;
-    // A sweep that has not brought the links nearer went too far where hardly anything holds: the next one is damped more.
-    caution = residual > (touches ? kPoorTouchingSweep : kPoorSweep) * last_residual
-                  ? std::min(kMostCaution, caution * kMoreCaution)
-                  : std::max(1.0, caution / kLessCaution);
+    double residual = rods.converged ? std::max(strings, touch / middle_rest_) : std::numeric_limits<double>::infinity();
+    bool undone = false;
+    if (mono) {
+      const double merit = rods.converged && std::isfinite(residual) ? meritOf(contacts) : std::numeric_limits<double>::infinity();
+      if (!(merit < best_.merit)) {
+        if (!std::isfinite(best_.merit)) return progress;
+        goBack(contacts);
+        residual = best_.residual;
+        caution *= kMoreCaution;
+        undone = true;
+        if (caution * kDampingPerResidual * residual > most_damping) break;
+      } else {
+        best_.merit = merit;
+        keepIterate(residual, touches ? contacts : nullptr);
+        caution = std::max(1.0, caution / kLessCaution);
+      }
+    } else {
+      if (!std::isfinite(residual)) return progress;
+      // A sweep that has not brought the links nearer went too far where hardly anything holds: the next one is damped more.
+      caution = residual > (touches ? kPoorTouchingSweep : kPoorSweep) * last_residual
+                    ? std::min(kMostCaution, caution * kMoreCaution)
+                    : std::max(1.0, caution / kLessCaution);
+    }
     last_residual = residual;
-    if (strings > (first ? kFirstSweepShare : kLeaveAlone) * tolerance ||
-        touch > (first ? kFirstSweepShare : kLeaveAlone) * contact_tolerance) {
+    if (undone || strings > (first && !plan.last_resort ? kFirstSweepShare : kLeaveAlone) * tolerance ||
+        touch > (first && !plan.last_resort ? kFirstSweepShare : kLeaveAlone) * contact_tolerance) {
       // What the first sweep leaves is corrected along the present directions, all of it: forces along the directions at
       // the start may have no solution at all where a flat net shears, and a correction along one set of directions taken
       // back along another is a force that does work. Contact settles better along given ones.
@@ -389,7 +452,7 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
       }
       const double least = follow ? kFollowReduction : kLeastReduction;
       solveNet(weft, contacts, residual, {std::clamp(kReductionShare * tolerance / residual, least, kMostReduction),
-                                          std::min(kLargestDamping, caution * kDampingPerResidual * residual)});
+                                          std::min(mono ? most_damping : kLargestDamping, caution * kDampingPerResidual * residual)});
     }
     clock.lap(Stage::kWeft);
     if (clock.late()) {
@@ -397,15 +460,21 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
       progress.near = touch <= kLateShare * contact_tolerance_ && withinTolerance(warp, weft, kLateShare * tolerance_);
       break;
     }
+    if (plan.last_resort) continue;
     if (progress.sweeps % (touches ? kContactStallWindow : kStallWindow) == 0) {
       const double factor = touches ? kContactStallFactor : kStallFactor;
       const double left = std::max(rods.first_residual, residual);
-      if (!(left < factor * window_residual) && (!plan.must_accept || withinTolerance(warp, weft, tolerance_))) break;
+      if (!(left < factor * window_residual)) break;
       window_residual = left;
     }
   }
+  if (mono && std::isfinite(best_.residual)) {
+    goBack(contacts);
+    if (touches) touch = contactResidual(*contacts, next_);
+  }
   // Slower than it should, but what was asked for may be reached all the same.
   progress.settled = touch <= contact_tolerance_ && withinTolerance(warp, weft, tolerance_);
+  progress.found = true;
   progress.left_over = true;
   return progress;
 }

@@ -14,9 +14,11 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "solver/held_columns.h"
+#include "solver/last_resort.h"
 #include "solver/net_solver.h"
 #include "solver/node_inertia.h"
 #include "solver/substep.h"
@@ -31,7 +33,8 @@ enum class Scheme { kLeapfrog, kBdf2, kImplicit };
 struct SubstepPlan {
   Scheme scheme = Scheme::kLeapfrog;
   double h = 0.0;            ///< [s], != 0; negative only for leapfrog
-  bool must_accept = false;  ///< taken even when links are left above the tolerance, unless it is not finite
+  bool last_resort = false;  ///< the smallest step, of the default scheme: taken as far as its links hold (last_resort.h)
+  double reach = std::numeric_limits<double>::infinity();  ///< last resort: most that a node may be predicted to move, in links
   bool precise = false;      ///< rods are solved to rounding
   double most_phase = 0.0;   ///< nodes whose tensions ask for a larger h * omega answer forces as if they were heavier,
                              ///< so that theirs is this; 0: none does. Vanishes with the step.
@@ -102,6 +105,7 @@ class ExactSolver {
     bool crossed = false;    // something would go through something
     bool late = false;       // its time was over before it had settled
     bool near = false;       // but it was not far from it
+    bool found = false;      // a finite iterate was found
     int sweeps = 0;
     const Contacts* contacts = nullptr;  // null: nothing can touch
   };
@@ -115,6 +119,19 @@ class ExactSolver {
     double first_residual = 0.0;  // before the first iteration
     double last_residual = 0.0;   // before the last one
   };
+  // What a sweep that went wrong goes back to.
+  struct Iterate {
+    Field3 position;
+    Field warp, weft;
+    std::vector<Contact> contacts;
+    double residual = std::numeric_limits<double>::infinity();
+    double merit = std::numeric_limits<double>::infinity();
+  };
+  void keepIterate(double residual, const Contacts* contacts);
+  void goBack(Contacts* contacts) noexcept;
+  double meritOf(const Contacts* contacts) noexcept;
+  void cutPrediction(const SubstepPlan& plan, const NodeForces& forces, const ClothState& state, double kick, SubstepOutcome& outcome) noexcept;
+  void boundPath(const Progress& progress, SubstepOutcome& outcome) noexcept;
   const ClothState& setBase(Scheme scheme, double h, const ClothState& state, double& step) noexcept;
   double begin(const SubstepPlan& plan, const SubstepStart& start, double scale) noexcept;
   // weight_way: that weight moves a node by in the substep [m].
@@ -188,7 +205,10 @@ class ExactSolver {
   std::vector<WarpProgress> block_progress_;
   std::vector<double> row_worst_;
   Field3 next_;
-  ClothState base_;             // what bdf2 starts from
+  LastResort last_resort_;
+  Field3 no_force_;
+  Iterate best_;
+  ClothState base_;             // what bdf2 and the last resort start from
   Field3 older_position_, older_velocity_;
   double older_h_ = 0.0;        // length of the step between these and the present; 0 = none
   int single_steps_ = 0;        // that bdf2 makes from one step before it takes two again

@@ -3,6 +3,8 @@
 // A substep of the exact schemes as a whole: solved, verified, taken.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 #include "cloth/wide.h"
 #include "solver/exact_solver.h"
@@ -12,7 +14,7 @@ namespace {
 
 // Way of an obstacle's surface in a substep that links could not be brought to their lengths in, over the shortest link.
 constexpr double kMostWayOfSurface = 0.2;
-// Solves of a substep that is taken whatever comes of it and does not settle.
+// Solves of a last resort that does not settle.
 constexpr int kHopelessLooks = 2;
 // Kinetic energy of a step over that without links, from which it has found another way for the links to lie: where it follows
 // the motion links take energy out.
@@ -25,6 +27,7 @@ constexpr double kMostAdded = 1.03;
 // step: then the last two know nothing of it.
 constexpr int kStepsAfterBlow = 3;
 
+constexpr double kInnerTolerance = 0.5;
 // What is this far away [m] was thrown there by a force beyond all measure: damping takes the cube of its speed, energies the
 // square of it times a mass, and the next substep would go further.
 constexpr double kBeyond = 1e60;
@@ -64,7 +67,8 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const SubstepPlan& plan, const
     all.near = progress.near;
     all.contacts = contacts;
     if (free_ && !held_.any() && contacts != nullptr && start.keep == nullptr && !pressesOnObstacle(*contacts)) keepMomentum(start);
-    if (contacts == nullptr || !(progress.settled || (plan.must_accept && !all.late) || progress.near)) return all;
+    all.found = progress.settled || progress.found;
+    if (contacts == nullptr || !(progress.settled || (plan.last_resort && progress.found && !all.late) || progress.near)) return all;
     const ContactFinder::Verdict verdict = finder->verify(from, next_, progress.settled);
     clock.lap(Stage::kContact);
     if (verdict == ContactFinder::Verdict::kClear) return all;
@@ -73,7 +77,7 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const SubstepPlan& plan, const
     if (!all.late && verdict == ContactFinder::Verdict::kMore && (progress.settled || ++looks < kHopelessLooks)) continue;
     all.crossed = true;
     all.settled = false;
-    if (plan.must_accept && !all.late && !held_.any()) finder->hold(from, next_);
+    if (plan.last_resort && !all.late && !held_.any()) finder->hold(from, next_);
     clock.lap(Stage::kContact);
     return all;
   }
@@ -140,17 +144,51 @@ bool ExactSolver::struck(const Contacts* contacts) const noexcept {
          });
 }
 
+// The last resort's prediction: velocities with all that forces do, cut.
+void ExactSolver::cutPrediction(const SubstepPlan& plan, const NodeForces& forces, const ClothState& state, double kick,
+                                SubstepOutcome& outcome) noexcept {
+  const Field* const keep = inertia_.keep();
+  const Field& w = inertia_.inverse();
+  base_.position = state.position;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    const Vec3 v = state.velocity.at(n);
+    base_.velocity.set(n, w[n] > 0.0 ? Vec3((keep != nullptr ? (*keep)[n] : 1.0) * v + kick * w[n] * forces.force->at(n)) : v);
+  }
+  outcome.momentum_cut += last_resort_.cut(base_.position, w, plan.h, plan.reach, base_.velocity);
+}
+
+// The last resort's end: as far along the path as links hold.
+void ExactSolver::boundPath(const Progress& progress, SubstepOutcome& outcome) noexcept {
+  if (!progress.found || !isWithinNumbers(next_)) {
+    next_ = last_resort_.follows();
+    outcome.share = 0.0;
+    return;
+  }
+  if (std::getenv("R_DBG") != nullptr) {
+    const Field3 keep = next_;
+    const auto worst = [&](const Field3& at) { next_ = at; const LineSolve a{pattern_, inertia_.inverse(), warp_, next_, held_.movingSpan()}, b{pattern_, inertia_.inverse(), weft_, next_, held_.movingSpan()}; Field was = weft_.multiplier; std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0); const double r = warpResidualNow(a), q = weftResidualNow(b); weft_.multiplier = was; return std::make_pair(r, q); };
+    const auto f = worst(last_resort_.follows()), e = worst(keep);
+    next_ = keep;
+    double pushes = 0; if (progress.contacts) for (const auto& c : *progress.contacts) pushes += c.pushes();
+    std::fprintf(stderr, "  follows %.2e %.2e end %.2e %.2e sweeps %d contacts %zu pushing %.0f crossed %d touch %.2e", f.first, f.second, e.first, e.second, progress.sweeps, progress.contacts ? progress.contacts->size() : 0, pushes, progress.crossed, progress.contacts ? contactResidual(*progress.contacts, next_) / contact_tolerance_ : 0.0);
+  }
+  outcome.share = last_resort_.bound(inertia_.inverse(), tolerance_ / kInnerTolerance, next_);
+  if (std::getenv("R_DBG") != nullptr) std::fprintf(stderr, " share %.3g\n", outcome.share);
+}
+
 SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder,
                                     ClothState& state, StageClock& clock) noexcept {
   const bool leapfrog = plan.scheme == Scheme::kLeapfrog;
+  SubstepOutcome outcome;
   double step = plan.h;
   const ClothState& base = setBase(plan.scheme, plan.h, state, step);
   const double kick = leapfrog ? state.velocity_age + 0.5 * step : step + state.velocity_age;
   const double scale = step * kick;
   inertia_.set(forces, kick, scale, plan.most_phase, !leapfrog);
-  const bool falls = forces.weight_only && inertia_.massesAlone();
-  const SubstepStart start{base, *forces.force, falls ? &forces.gravity : nullptr, inertia_.keep(), kick,
-                           step};
+  const bool falls = forces.weight_only && inertia_.massesAlone() && !plan.last_resort;
+  if (plan.last_resort) cutPrediction(plan, forces, state, kick, outcome);
+  const SubstepStart start{plan.last_resort ? base_ : base, plan.last_resort ? no_force_ : *forces.force, falls ? &forces.gravity : nullptr,
+                           plan.last_resort ? nullptr : inertia_.keep(), kick, step};
   const double ratio = begin(plan, start, scale);
   clock.lap(Stage::kPredict);
   const double weight_way = forces.gravity.norm() * plan.h * plan.h;
@@ -167,7 +205,7 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   }
   // Links let nodes lie in many ways, and a long step may find one that is far from where they were; and strings that have become
   // taut in it may pull harder than it is stable for.
-  const bool may_jump = plan.scheme == Scheme::kBdf2 || (leapfrog && directions_set_);
+  const bool may_jump = (plan.scheme == Scheme::kBdf2 || (leapfrog && directions_set_)) && !plan.last_resort;
   const bool alone = progress.contacts == nullptr || !anyPushes(*progress.contacts);
   bool adds = false;
   if (may_jump && alone && progress.settled) {
@@ -177,21 +215,20 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
     // What its links may lack of their lengths would be more still in a shorter one.
     const bool jumps = kinetic.stepped > kinetic.most(plan.scheme == Scheme::kBdf2 ? kMostAdded : kMostKinetic) &&
                        kinetic.stepped > kinetic.most(1.0) + fromTolerance(step);
-    if (jumps && !plan.must_accept) progress.settled = false;
+    if (jumps) progress.settled = false;
   }
-  SubstepOutcome outcome;
   if (held_.any()) {
-    const bool stuck = progress.crossed || (plan.must_accept && !progress.settled);
+    const bool stuck = progress.crossed || (plan.last_resort && !progress.settled);
     const LinkSet* const strings = directions_set_ ? &weft_ : nullptr;
     outcome.disturbed = held_.disturbedBy(strings, progress.contacts, 1.0 / scale, forces.gravity.norm(), stuck);
   }
   outcome.sweeps = progress.sweeps;
   outcome.settled = progress.settled;
-  const LineSolve weft{pattern_, inertia_.inverse(), weft_, next_, held_.movingSpan()};
-  const bool taken_as_it_is = progress.late ? progress.near && !progress.crossed : plan.must_accept;
+  if (std::getenv("R_DBG") != nullptr && plan.last_resort) std::fprintf(stderr, "last reach %.2e settled %d found %d sweeps %d cut %.2e\n", plan.reach, progress.settled, progress.found, progress.sweeps, outcome.momentum_cut);
+  if (plan.last_resort && !progress.settled) boundPath(progress, outcome);
+  const bool taken_as_it_is = progress.late ? progress.near && !progress.crossed : false;
   outcome.late = progress.late;
-  outcome.accepted = !outcome.disturbed && (progress.settled || (taken_as_it_is && isWithinNumbers(next_) &&
-                                                                 std::isfinite(weftResidualNow(weft))));
+  outcome.accepted = !outcome.disturbed && (progress.settled || plan.last_resort || (taken_as_it_is && isWithinNumbers(next_)));
   if (outcome.accepted) {
     outcome.scale = inertia_.tensions().scale = scale;
     outcome.kick = kick + (plan.h - step);  // bdf2's base holds the rest of what forces do
@@ -203,20 +240,20 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
     } else {
       older_h_ = 0.0;
     }
-    const bool bounded = (plan.scheme == Scheme::kImplicit && alone) || adds || progress.late;
+    const bool bounded = ((plan.scheme == Scheme::kImplicit || plan.last_resort) && alone) || adds || progress.late;
     Kinetic kinetic;
     if (bounded) {
       kinetic = kineticOf(start);
       kinetic.driven = drivenKinetic(start.state.velocity);
     }
-    commit(base, step, leapfrog ? 0.5 * step : 0.0, state);
+    commit(start.state, step, leapfrog ? 0.5 * step : 0.0, state);
     if (bounded) boundKinetic(kinetic.most(1.0), state.velocity);
     outcome.omega_squared = inertia_.omegaSquared();
     if (alone && !weft_pulls_) outcome.turning = turning(outcome.kick);
     const double fastest = progress.contacts != nullptr ? fastestSurface(*progress.contacts) : 0.0;
     if (fastest > 0.0) outcome.longest_step = kMostWayOfSurface * smallest_rest_ / fastest;
     // The way such a substep has gone is not all motion: what pulls its links further is taken out.
-    if (progress.left_over && !progress.late) projectVelocity(state.position, progress.contacts, 0.0, state.velocity);
+    if (progress.left_over && !progress.late && !plan.last_resort) projectVelocity(state.position, progress.contacts, 0.0, state.velocity);
   }
   if (directions_set_ && (!outcome.accepted || !weft_pulls_)) std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0);
   clock.lap(Stage::kFinish);

@@ -10,6 +10,8 @@
 // the warp run without asking where the column ends.
 #pragma once
 
+#include <limits>
+
 #include "cloth/cloth.h"
 #include "cloth/column_set.h"
 
@@ -18,6 +20,7 @@ namespace curtain {
 struct LinkSet {
   Field3 direction;  ///< [m], shape [(rows + 1) * stride]
   Field multiplier;  ///< [kg], shape [(rows + 1) * stride]
+  double most_give = std::numeric_limits<double>::infinity();  ///< largest relative overlength that compliance may allow
 
   void assign(const Grid& grid) {
     const std::size_t size = grid.size() + static_cast<std::size_t>(grid.stride);

@@ -61,9 +61,8 @@ class StepControl {
   int allowed_ = std::numeric_limits<int>::max();  // for the rest of the frame
   bool stretched_ = false;
   int asked_ = 1;         // substeps a frame
-  double implicit_step_;  // of the implicit scheme as auto's fall-back [s]
+  TrustRegion trust_;     // of the last resort
   bool composed_;         // substeps are made of stages (composition.h)
-  int failures_ = 0;      // implicit substeps in a row that did not settle
   int good_ = 0;          // accepted substeps since the limit last changed
 };
 

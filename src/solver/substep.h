@@ -50,6 +50,8 @@ struct SubstepOutcome {
   int sweeps = 0;
   double scale = 0.0;          ///< h times the time the forces acted for [s^2]
   double kick = 0.0;           ///< the time the forces acted for [s]
+  double share = 1.0;          ///< of the path that the last resort leaves, [0..1]
+  double momentum_cut = 0.0;   ///< by the last resort [N s]
   double longest_step = std::numeric_limits<double>::infinity();  ///< in which what pushes goes a share of a link [s]
   double turning = 0.0;        ///< ExactSolver::turning() [1/s]; 0 where a string pulls or a contact pushes: jumps are no turns
   double omega_squared = 0.0;  ///< bound of the square of the highest frequency, from the links' tensions [1/s^2]

@@ -12,6 +12,7 @@ namespace {
 
 struct Row {
   const double *x, *y, *z, *w, *s, *per_square;
+  double most_give;
   Row(const LineSolve& line, int i) {
     const std::size_t row = line.pattern.grid.row(i);
     x = line.value.x.data() + row;
@@ -20,6 +21,7 @@ struct Row {
     w = line.inverse_inertia.data() + row;
     s = line.links.multiplier.data() + row;
     per_square = line.pattern.weft_per_square.data() + row;
+    most_give = line.links.most_give;
   }
 };
 
@@ -33,7 +35,9 @@ struct Link {
 CURTAIN_INTO_WIDE Link look(const Row& row, std::size_t left, std::size_t right) {
   const double rx = row.x[right] - row.x[left], ry = row.y[right] - row.y[left], rz = row.z[right] - row.z[left];
   const double both = row.w[right] + row.w[left];
-  const double c = 0.5 * ((rx * rx + ry * ry + rz * rz) * row.per_square[right] - 1.0) - kWeftCompliance * both * row.s[right];
+  const double load = kWeftCompliance * both * row.s[right];
+  const double give = load < row.most_give ? load : row.most_give;
+  const double c = 0.5 * ((rx * rx + ry * ry + rz * rz) * row.per_square[right] - 1.0) - give;
   const double active = ((both > 0.0) & ((c > 0.0) | (row.s[right] > 0.0))) ? 1.0 : 0.0;
   return {active * c, active, 0.0 * c};  // 0 * x is NaN for NaN and infinity alike
 }

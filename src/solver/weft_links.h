@@ -10,7 +10,8 @@
 namespace curtain {
 
 /// Compliance of the weft: a link under load s = multiplier * (w_a + w_b) may be longer by this times s, relative.
-/// It vanishes with the square of the substep, and keeps a straight row between two pins (a singular system) solvable.
+/// It vanishes with the square of the substep, and keeps a straight row between two pins (a singular system) solvable. Not longer than
+/// LinkSet::most_give, whatever the load.
 constexpr double kWeftCompliance = 1e-7;
 
 /// Directions of a row's links at the given positions.

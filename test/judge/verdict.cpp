@@ -34,7 +34,7 @@ class Court {
     }
     const int nodes = cloth.rows * cloth.columns;
     every_ = std::max(1, nodes / kNodesForEveryFrame);
-    for (int o = 0; o < simulator_.obstacleCount(); ++o) started_clear_.push_back(clear(o));
+    for (int o = 0; o < simulator_.obstacleCount(); ++o) judged_.push_back(clear(o));
     crossed_at_start_ = drawn.scene.contact.self && simulator_.selfCrossings() > 0;
   }
 
@@ -86,6 +86,19 @@ class Court {
     return found.nodes + found.edges + found.faces == 0;
   }
 
+  // A pin is so near that what hangs on it may have no room.
+  bool reachesPins(int obstacle) const {
+    const Pose& pose = simulator_.obstaclePose(obstacle);
+    const ObstacleShape& shape = simulator_.obstacleShape(obstacle);
+    const ClothParams& cloth = drawn_.scene.cloth;
+    const double link = 2.0 * (cloth.height / (cloth.rows - 1) + cloth.width / (cloth.columns - 1)) + 2.0 * drawn_.scene.contact.thickness;
+    return std::any_of(pins_.begin(), pins_.end(), [&](const Pin& pin) {
+      const Vec3 local = pose.orientation.conjugate() * (simulator_.position(pin.node) - pose.position);
+      SurfacePoint surface;
+      return shape.query(local, local, link, surface) && surface.distance < link;
+    });
+  }
+
   void look() {
     const Statistics& s = simulator_.statistics();
     verdict_.frames = s.frames;
@@ -104,7 +117,8 @@ class Court {
     if (!rigour_.brute_force || s.frames % every_ != 0) return;
     if (drawn_.scene.contact.self && !crossed_at_start_ && simulator_.selfCrossings() > 0) fault("crosses itself");
     for (int o = 0; o < simulator_.obstacleCount(); ++o) {
-      if (started_clear_[static_cast<std::size_t>(o)] && !clear(o)) fault("pierced by " + drawn_.scene.obstacles[static_cast<std::size_t>(o)].name);
+      if (reachesPins(o)) judged_[static_cast<std::size_t>(o)] = false;
+      if (judged_[static_cast<std::size_t>(o)] && !clear(o)) fault("pierced by " + drawn_.scene.obstacles[static_cast<std::size_t>(o)].name);
     }
   }
 
@@ -123,7 +137,7 @@ class Court {
   const Rigour rigour_;
   Simulator simulator_;
   std::vector<Pin> pins_;
-  std::vector<bool> started_clear_;
+  std::vector<bool> judged_;  // by obstacle: the cloth started clear of it, and it has not met a pin, which can't give way
   bool crossed_at_start_ = false;
   bool happened_ = false;
   int every_ = 1;

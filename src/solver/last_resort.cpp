@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/last_resort.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cloth/archive.h"
+
+namespace curtain {
+namespace {
+
+// Reach after the first failure, in links: a link may turn by half a radian, in which Newton on the columns still converges. Larger: the
+// first solve fails again.
+constexpr double kFirstReach = 0.5;
+// Reach over that of a substep that failed, or of one that settled. Three in four failures are made good by the first cut; slower
+// growth keeps the cloth slow for longer after a blow, faster growth fails more often.
+constexpr double kShrink = 0.25;
+constexpr double kGrow = 1.2;
+// Reach from which it is no bound any more: a node that goes two links in a substep of the smallest step is stopped by its links first.
+constexpr double kUnbounded = 2.0;
+// Least reach: nodes go a hundredth of the links' tolerance, which asks for no solve.
+constexpr double kLeastReach = 1e-5;
+
+double overlength(double length, double rest) { return length / rest - 1.0; }
+
+}  // namespace
+
+void TrustRegion::failed() noexcept { reach_ = bounded() ? std::max(kLeastReach, kShrink * reach_) : kFirstReach; }
+
+void TrustRegion::succeeded() noexcept {
+  reach_ *= kGrow;
+  if (reach_ > kUnbounded) reset();
+}
+
+void TrustRegion::carry(Archive& archive) { archive.within("reach", reach_, 0.0, std::numeric_limits<double>::infinity()); }
+
+LastResort::LastResort(const ClothPattern& pattern) : pattern_(pattern) {
+  const Grid& grid = pattern.grid;
+  shortest_.assign(grid.size(), std::numeric_limits<double>::infinity());
+  follows_.assign(grid.size(), 0.0);
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) {
+      const std::size_t n = grid.index(i, j);
+      const auto join = [&](std::size_t other, double rest) {
+        shortest_[n] = std::min(shortest_[n], rest);
+        shortest_[other] = std::min(shortest_[other], rest);
+      };
+      if (i > 0) join(grid.index(i - 1, j), pattern.warp_rest[n]);
+      if (j > 0 || grid.closed) join(grid.index(i, j > 0 ? j - 1 : grid.columns - 1), pattern.weft_rest[n]);
+    }
+  }
+}
+
+// Of the nodes that nothing moves but their own velocity; of all where there are none.
+RigidMotion LastResort::rigidMotionOf(const Field3& position, const Field& inverse, const Field3& velocity) const noexcept {
+  double pins = 0.0;
+  RigidMotion motion;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    if (!(pattern_.mass[n] > 0.0) || inverse[n] > 0.0) continue;
+    pins += 1.0;
+    motion.centre += position.at(n);
+    motion.drift += velocity.at(n);
+  }
+  if (pins == 0.0) return rigidMotion(pattern_, position, momentumOf(pattern_, position, velocity));
+  motion.centre /= pins;
+  motion.drift /= pins;
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  Vec3 spin = Vec3::Zero();
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    if (!(pattern_.mass[n] > 0.0) || inverse[n] > 0.0) continue;
+    const Vec3 arm = position.at(n) - motion.centre;
+    inertia += arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose();
+    spin += arm.cross(velocity.at(n) - motion.drift);
+  }
+  motion.turn = turnOf(inertia, spin);
+  return motion;
+}
+
+double LastResort::cut(const Field3& position, const Field& inverse, double h, double reach, Field3& velocity) noexcept {
+  const auto isFinite = [](const Vec3& v) { return v.allFinite() && std::isfinite(v.squaredNorm()); };
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    if (!isFinite(velocity.at(n))) velocity.set(n, Vec3::Zero());
+  }
+  const RigidMotion rigid = rigidMotionOf(position, inverse, velocity);
+  const double angle = h * rigid.turn.norm();
+  const Eigen::Matrix3d turn = angle > 0.0 ? Eigen::AngleAxisd(angle, rigid.turn.normalized()).toRotationMatrix()
+                                           : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+  double taken = 0.0;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    const Vec3 from = position.at(n), v = velocity.at(n);
+    if (!(inverse[n] > 0.0)) {
+      follows_.set(n, from + h * v);
+      continue;
+    }
+    const Vec3 follows = rigid.centre + h * rigid.drift + turn * (from - rigid.centre);
+    follows_.set(n, follows);
+    const Vec3 carried = (follows - from) / h, own = v - carried;
+    const double path = h * own.norm(), most = reach * shortest_[n];
+    if (!(path > most)) continue;
+    taken += pattern_.mass[n] * (1.0 - most / path) * own.norm();
+    velocity.set(n, carried + most / path * own);
+  }
+  return taken;
+}
+
+// The largest share <= most of a link's path within its bounds.
+double LastResort::shareOf(std::size_t a, std::size_t b, double rest, bool rod, double allowed, double most, const Field3& end) const noexcept {
+  const Vec3 r = follows_.at(b) - follows_.at(a), d = end.at(b) - end.at(a) - r;
+  const double longest = rest * (1.0 + std::max(allowed, overlength(r.norm(), rest)));
+  const double square = (r + most * d).squaredNorm(), turn = r.dot(d), path = d.squaredNorm();
+  // |r + t d|^2 = bound^2: path t^2 + 2 turn t + |r|^2 - bound^2 = 0.
+  const auto root = [&](double bound, double sign) {
+    const double off = r.squaredNorm() - bound * bound;
+    const double t = (-turn + sign * std::sqrt(std::max(0.0, turn * turn - path * off))) / path;
+    return std::isfinite(t) ? std::clamp(t, 0.0, most) : 0.0;
+  };
+  if (!(square <= longest * longest)) return root(longest, 1.0);
+  const double shortest = rest * (1.0 - std::max(allowed, -overlength(r.norm(), rest)));
+  if (rod && !(square >= shortest * shortest)) return root(shortest, -1.0);
+  return most;
+}
+
+double LastResort::bound(const Field& inverse, double allowed, Field3& end) noexcept {
+  const Grid& grid = pattern_.grid;
+  double share = 1.0;
+  // A shorter path may find a rod shorter than its end did: again, until nothing changes. Every round takes the share to another of
+  // finitely many roots, downwards.
+  for (double before = 2.0; share < before;) {
+    before = share;
+    for (int i = 0; i < grid.rows; ++i) {
+      for (int j = 0; j < grid.columns; ++j) {
+        const std::size_t n = grid.index(i, j);
+        const auto look = [&](std::size_t other, double rest, bool rod) {
+          if (inverse[n] + inverse[other] > 0.0) share = shareOf(other, n, rest, rod, allowed, share, end);
+        };
+        if (i > 0) look(grid.index(i - 1, j), pattern_.warp_rest[n], true);
+        if (j > 0 || grid.closed) look(grid.index(i, j > 0 ? j - 1 : grid.columns - 1), pattern_.weft_rest[n], false);
+      }
+    }
+  }
+  if (share == 1.0) return share;
+  for (std::size_t n = 0; n < grid.size(); ++n) {
+    const Vec3 from = follows_.at(n);
+    end.set(n, share > 0.0 ? Vec3(from + share * (end.at(n) - from)) : from);
+  }
+  return share;
+}
+
+}  // namespace curtain

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The last resort: a substep that ends well whatever acts. Two bounds make it so.
+//
+//   cut    before the solve: no node is predicted to move further than `reach` of its shortest link, relative to the rigid motion of
+//          the pins (of the cloth itself where nothing is pinned). In the limit of reach 0 nothing is left to solve.
+//   share  after it: the cloth goes along the straight path from where it follows its pins to what was solved only as far as every
+//          link is within its bound. A length along a straight path is a convex function of the share, so a link within its bound at
+//          the start leaves it once at most. The path's prefix is free of contact if the path is.
+//
+// What the bounds take is momentum; it is counted.
+#pragma once
+
+#include <limits>
+
+#include "cloth/cloth.h"
+#include "cloth/free_body.h"
+
+namespace curtain {
+
+/// How far nodes may go in a substep at the smallest step, in lengths of their shortest link: without bound until a solve fails, then
+/// less with every failure, and more again with every success.
+class TrustRegion {
+ public:
+  double reach() const noexcept { return reach_; }  ///< infinite: no bound
+  bool bounded() const noexcept { return reach_ < std::numeric_limits<double>::infinity(); }
+  void failed() noexcept;
+  void succeeded() noexcept;
+  void reset() noexcept { reach_ = std::numeric_limits<double>::infinity(); }
+  void carry(Archive& archive);
+
+ private:
+  double reach_ = std::numeric_limits<double>::infinity();
+};
+
+/// Not thread-safe. Allocates nothing after construction.
+class LastResort {
+ public:
+  /// pattern must outlive this.
+  explicit LastResort(const ClothPattern& pattern);
+
+  /// Cuts the velocities [m/s] of a substep of h [s] that starts at `position` [m]; those of nodes with inverse 0 stay. Returns the
+  /// momentum taken [N s].
+  double cut(const Field3& position, const Field& inverse, double h, double reach, Field3& velocity) noexcept;
+
+  /// After cut(): moves `end` back along the path from where the rigid motion leads, to where every link with an end that can
+  /// move is no longer (a rod no shorter) than by `allowed`, relative, or no worse than where the path begins. Returns the share of
+  /// the path that is left, [0..1].
+  double bound(const Field& inverse, double allowed, Field3& end) noexcept;
+
+  /// Where the rigid motion leads, after cut() [m].
+  const Field3& follows() const noexcept { return follows_; }
+
+ private:
+  RigidMotion rigidMotionOf(const Field3& position, const Field& inverse, const Field3& velocity) const noexcept;
+  double shareOf(std::size_t a, std::size_t b, double rest, bool rod, double allowed, double most, const Field3& end) const noexcept;
+
+  const ClothPattern& pattern_;
+  Field shortest_;  // link at each node [m]
+  Field3 follows_;  // positions that the rigid motion leads to [m]
+};
+
+}  // namespace curtain
