@@ -165,7 +165,7 @@ struct ContactParams {
 };
 
 enum class Method {
-  kAuto,       ///< leapfrog with substeps from the tensions, implicit where their number reaches its cap
+  kAuto,       ///< leapfrog with substeps from the tensions and from how fast rods turn
   kLeapfrog,   ///< constraint forces along the links' directions at the start of the step; order 2, symplectic
   kLeapfrog4,  ///< five leapfrog steps to a substep, composed to order 4 (with damping: 2); as auto where a string is taut or contact is near
   kBdf2,       ///< along the directions at the end of the step, from two steps; order 2, stable at any step
@@ -183,7 +183,7 @@ struct SolverParams {
   double rest_speed = 1e-4;         ///< columns that move less than this for a while fall asleep [m/s], [0..1]; 0 = none ever does
   double budget_ms = 0.0;           ///< computing time that a frame may take [ms], [0..1e6]; 0 = as much as it needs
   int threads = 0;                  ///< that step one cloth [1..256]; 0 = auto: one for small cloth, else all there are
-  int max_substeps = 128;           ///< cap of auto per frame [1..10000]; beyond it: the implicit scheme
+  int max_substeps = 128;           ///< cap of auto per frame [1..10000]; where a solve fails there: the last resort
   int max_sweeps = 60;              ///< cap of warp/weft/contact sweeps per substep [1..10000]
   std::uint64_t seed = 1;           ///< of every random number
 };

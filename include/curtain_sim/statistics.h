@@ -23,7 +23,7 @@ struct Statistics {
   std::int64_t sweeps = 0;            ///< warp/weft/contact sweeps, all frames
   int sweeps_last = 0;                ///< in the last frame
   std::int64_t rejected = 0;          ///< substeps done again with half the step
-  std::int64_t implicit = 0;          ///< substeps by the implicit scheme as the fall-back of another
+  std::int64_t last_resort_substeps = 0;  ///< whose predicted motion was cut, so that links hold whatever pulls
   std::int64_t unsettled = 0;         ///< substeps that ended above stretch_tolerance
   std::int64_t asleep_frames = 0;     ///< frames in which all of the cloth slept
   std::int64_t wakes = 0;             ///< times that something of it woke
@@ -35,7 +35,9 @@ struct Statistics {
   std::int64_t shortened_frames = 0;     ///< frames that ended early
   double lost_time = 0.0;                ///< motion left out by these [s]
   std::int64_t late_frames = 0;          ///< frames that took longer than the budget all the same
-  std::int64_t stops = 0;             ///< substeps whose forces were beyond numbers: the cloth was stopped instead
+  std::int64_t stops = 0;             ///< of the last resort, in which the cloth stayed where it was
+  double momentum_cut = 0.0;          ///< by the last resort, sum over nodes and substeps [N s]
+  double obstacles_waited = 0.0;      ///< motion of obstacles put off, because the cloth could not give way [s]
   double warp_stretch = 0.0;          ///< largest relative overlength of a warp rod at the last frame's end
   double weft_stretch = 0.0;          ///< the same of a weft link
   double warp_compression = 0.0;      ///< largest relative underlength of a warp rod, last frame's end

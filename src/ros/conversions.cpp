@@ -211,7 +211,9 @@ void toMessage(const curtain::Statistics& statistics, curtain_sim::Statistics& m
   message.step_ms = 1e3 * statistics.step_seconds;
   message.step_ms_max = 1e3 * statistics.step_seconds_max;
   message.finite = statistics.finite;
-  message.implicit_substeps = static_cast<std::uint64_t>(statistics.implicit);
+  message.last_resort_substeps = static_cast<std::uint64_t>(statistics.last_resort_substeps);
+  message.momentum_cut = statistics.momentum_cut;
+  message.obstacles_waited = statistics.obstacles_waited;
   message.stops = static_cast<std::uint64_t>(statistics.stops);
 }
 

@@ -72,7 +72,7 @@ void checkSimulation(const Health& health, const Pulse& pulse, Rises& rises, Dia
   }
   counts.add("substeps stopped", s.stops);
   counts.add("substeps unsettled", s.unsettled);
-  counts.add("substeps implicit", s.implicit_substeps);
+  counts.add("substeps of the last resort", s.last_resort_substeps);
   counts.add("frames dropped", s.dropped_frames);
   counts.add("frames over budget", s.late_frames);
   counts.add("frames shortened", s.shortened_frames);

@@ -4,7 +4,7 @@
 //
 //   simulation  ERROR  the state was not finite; frames stand still although the clock runs (5 s without one)
 //               WARN   no frame yet (a /clock that stands later is OK); links longer than the scene's tolerance;
-//                      lately: substeps unsettled, implicit or stopped, frames dropped, late or shortened, /clock jumped back,
+//                      lately: substeps unsettled, of the last resort or stopped, frames dropped, late or shortened, /clock jumped back,
 //                      the computer's clock set back; slower than 0.95 of the clock
 //   inputs      WARN   lately: messages refused, of unknown frames, too many for a frame, dropped in roscpp's queue
 //   obstacles   WARN   one left out, late (half of ~obstacle_timeout), or ahead of the clock; the viewer's frame not known

@@ -28,7 +28,7 @@ void carryStatistics(Archive& archive, Statistics& s) {
   archive.integer("sweeps", s.sweeps, 0, kMany);
   archive.integer("sweeps_last", s.sweeps_last, 0, kCount);
   archive.integer("rejected", s.rejected, 0, kMany);
-  archive.integer("implicit", s.implicit, 0, kMany);
+  archive.integer("last_resort_substeps", s.last_resort_substeps, 0, kMany);
   archive.integer("unsettled", s.unsettled, 0, kMany);
   archive.integer("asleep_frames", s.asleep_frames, 0, kMany);
   archive.integer("wakes", s.wakes, 0, kMany);
@@ -40,6 +40,8 @@ void carryStatistics(Archive& archive, Statistics& s) {
   archive.number("lost_time", s.lost_time);
   archive.integer("late_frames", s.late_frames, 0, kMany);
   archive.integer("stops", s.stops, 0, kMany);
+  archive.number("momentum_cut", s.momentum_cut);
+  archive.number("obstacles_waited", s.obstacles_waited);
   archive.number("warp_stretch", s.warp_stretch);
   archive.number("weft_stretch", s.weft_stretch);
   archive.number("warp_compression", s.warp_compression);

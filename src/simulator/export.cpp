@@ -83,9 +83,11 @@ std::string statisticsJson(const Simulator& simulator, const Energy& initial, co
   json["sweeps_mean"] = s.substeps > 0 ? static_cast<double>(s.sweeps) / static_cast<double>(s.substeps) : 0.0;
   json["position_error"] = s.position_error;
   json["substeps_rejected"] = s.rejected;
-  json["substeps_implicit"] = s.implicit;
+  json["last_resort_substeps"] = s.last_resort_substeps;
   json["substeps_unsettled"] = s.unsettled;
-  json["substeps_stopped"] = s.stops;
+  json["stops"] = s.stops;
+  json["momentum_cut"] = s.momentum_cut;
+  json["obstacles_waited"] = s.obstacles_waited;
   json["stretch_max"] = {{"warp", s.warp_stretch_max}, {"weft", s.weft_stretch_max}};
   json["compression_max"] = {{"warp", s.warp_compression_max}};
   json["energy"] = {{"initial", initial.kinetic + initial.potential},

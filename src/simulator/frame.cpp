@@ -14,6 +14,8 @@ namespace {
 
 // Overlength at a frame's end with which links count as holding in the next one.
 constexpr double kHold = 0.05;
+// Share of its path below which the cloth counts as stopped in a substep.
+constexpr double kStopped = 1e-3;
 
 }  // namespace
 
@@ -84,6 +86,16 @@ SubstepOutcome Simulator::Impl::attemptInTime(const SubstepPlan& plan, double do
   return outcome;
 }
 
+// What the last resort took. Obstacles wait for what the cloth has not gone of its path: on the rest they might go through it.
+void Simulator::Impl::countLastResort(const SubstepOutcome& outcome, double h) noexcept {
+  ++statistics.last_resort_substeps;
+  if (outcome.share < kStopped) ++statistics.stops;
+  statistics.momentum_cut += outcome.momentum_cut;
+  const double waits = (1.0 - outcome.share) * h;
+  if (obstacles.anyMoved()) statistics.obstacles_waited += waits;
+  obstacle_lag += waits;
+}
+
 // One substep from `done` seconds into the frame. Returns how far it came: 0 when it was rejected.
 double Simulator::Impl::makeSubstep(double done) {
   const double frame_length = frameLength();
@@ -123,9 +135,7 @@ double Simulator::Impl::makeSubstep(double done) {
   if (steps != &control) control.watch(outcome);
   ++statistics.substeps;
   ++statistics.substeps_last;
-  if (plan.last_resort) ++statistics.implicit;
-  if (outcome.share < 1e-3) ++statistics.stops;
-  obstacle_lag += (1.0 - outcome.share) * plan.h;
+  if (plan.last_resort) countLastResort(outcome, plan.h);
   if (!outcome.settled) ++statistics.unsettled;
   contact.afterSubstep(outcome.settled, plan.h, outcome.scale, state.position);
   return plan.h;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 namespace curtain {
@@ -62,6 +61,9 @@ constexpr double kContactStallFactor = 0.9;
 // the solve ends. Constant, it leaves combinations that hardly move anything to creep by a few percent a sweep.
 constexpr double kDampingPerResidual = 0.05;
 constexpr double kLargestDamping = 0.1;
+// In the last resort, whose sweeps must make the sum of squares smaller: a step a thousand times shorter than Jacobi's that does not has
+// nothing left to gain.
+constexpr double kMostDamping = 1e3;
 constexpr double kPoorSweep = 0.8;
 // In contact damping itself makes sweeps slow: there only one that has gone further off is poor.
 constexpr double kPoorTouchingSweep = 1.0;
@@ -362,12 +364,8 @@ double ExactSolver::meritOf(const Contacts* contacts) noexcept {
   return sum;
 }
 
-static double knob(const char* name, double usual) { const char* v = std::getenv(name); return v ? std::atof(v) : usual; }
-
 ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, const Field3& start, double weight_way,
                                                     Contacts* contacts, StageClock& clock) noexcept {
-  static const int mono_always = static_cast<int>(knob("R_MONO", 0));
-  static const double most_damping = knob("R_MOSTDAMP", 1e3);
   const LineSolve warp{pattern_, inertia_.inverse(), warp_, next_, held_.movingSpan()};
   const LineSolve weft{pattern_, inertia_.inverse(), weft_, next_, held_.movingSpan()};
   const bool touches = contacts != nullptr && !contacts->empty();
@@ -380,7 +378,6 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
   double last_residual = window_residual;
   double touch = 0.0;
   double caution = 1.0;
-  const bool mono = plan.last_resort || mono_always != 0;
   best_.residual = best_.merit = std::numeric_limits<double>::infinity();
   while (progress.sweeps < max_sweeps_) {
     const bool first = progress.sweeps == 0;
@@ -414,7 +411,7 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
     }
     double residual = rods.converged ? std::max(strings, touch / middle_rest_) : std::numeric_limits<double>::infinity();
     bool undone = false;
-    if (mono) {
+    if (plan.last_resort) {
       const double merit = rods.converged && std::isfinite(residual) ? meritOf(contacts) : std::numeric_limits<double>::infinity();
       if (!(merit < best_.merit)) {
         if (!std::isfinite(best_.merit)) return progress;
@@ -422,7 +419,7 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
         residual = best_.residual;
         caution *= kMoreCaution;
         undone = true;
-        if (caution * kDampingPerResidual * residual > most_damping) break;
+        if (caution * kDampingPerResidual * residual > kMostDamping) break;
       } else {
         best_.merit = merit;
         keepIterate(residual, touches ? contacts : nullptr);
@@ -452,7 +449,7 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
       }
       const double least = follow ? kFollowReduction : kLeastReduction;
       solveNet(weft, contacts, residual, {std::clamp(kReductionShare * tolerance / residual, least, kMostReduction),
-                                          std::min(mono ? most_damping : kLargestDamping, caution * kDampingPerResidual * residual)});
+                                          std::min(plan.last_resort ? kMostDamping : kLargestDamping, caution * kDampingPerResidual * residual)});
     }
     clock.lap(Stage::kWeft);
     if (clock.late()) {
@@ -468,7 +465,7 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
       window_residual = left;
     }
   }
-  if (mono && std::isfinite(best_.residual)) {
+  if (plan.last_resort && std::isfinite(best_.residual)) {
     goBack(contacts);
     if (touches) touch = contactResidual(*contacts, next_);
   }

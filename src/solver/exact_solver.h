@@ -131,7 +131,7 @@ class ExactSolver {
   void goBack(Contacts* contacts) noexcept;
   double meritOf(const Contacts* contacts) noexcept;
   void cutPrediction(const SubstepPlan& plan, const NodeForces& forces, const ClothState& state, double kick, SubstepOutcome& outcome) noexcept;
-  void boundPath(const Progress& progress, SubstepOutcome& outcome) noexcept;
+  void boundPath(const Progress& progress, double h, SubstepOutcome& outcome) noexcept;
   const ClothState& setBase(Scheme scheme, double h, const ClothState& state, double& step) noexcept;
   double begin(const SubstepPlan& plan, const SubstepStart& start, double scale) noexcept;
   // weight_way: that weight moves a node by in the substep [m].

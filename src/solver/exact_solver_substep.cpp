@@ -3,8 +3,6 @@
 // A substep of the exact schemes as a whole: solved, verified, taken.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "cloth/wide.h"
 #include "solver/exact_solver.h"
@@ -158,22 +156,15 @@ void ExactSolver::cutPrediction(const SubstepPlan& plan, const NodeForces& force
 }
 
 // The last resort's end: as far along the path as links hold.
-void ExactSolver::boundPath(const Progress& progress, SubstepOutcome& outcome) noexcept {
+void ExactSolver::boundPath(const Progress& progress, double h, SubstepOutcome& outcome) noexcept {
   if (!progress.found || !isWithinNumbers(next_)) {
     next_ = last_resort_.follows();
     outcome.share = 0.0;
     return;
   }
-  if (std::getenv("R_DBG") != nullptr) {
-    const Field3 keep = next_;
-    const auto worst = [&](const Field3& at) { next_ = at; const LineSolve a{pattern_, inertia_.inverse(), warp_, next_, held_.movingSpan()}, b{pattern_, inertia_.inverse(), weft_, next_, held_.movingSpan()}; Field was = weft_.multiplier; std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0); const double r = warpResidualNow(a), q = weftResidualNow(b); weft_.multiplier = was; return std::make_pair(r, q); };
-    const auto f = worst(last_resort_.follows()), e = worst(keep);
-    next_ = keep;
-    double pushes = 0; if (progress.contacts) for (const auto& c : *progress.contacts) pushes += c.pushes();
-    std::fprintf(stderr, "  follows %.2e %.2e end %.2e %.2e sweeps %d contacts %zu pushing %.0f crossed %d touch %.2e", f.first, f.second, e.first, e.second, progress.sweeps, progress.contacts ? progress.contacts->size() : 0, pushes, progress.crossed, progress.contacts ? contactResidual(*progress.contacts, next_) / contact_tolerance_ : 0.0);
-  }
-  outcome.share = last_resort_.bound(inertia_.inverse(), tolerance_ / kInnerTolerance, next_);
-  if (std::getenv("R_DBG") != nullptr) std::fprintf(stderr, " share %.3g\n", outcome.share);
+  const LastResort::Bound bound = last_resort_.bound(inertia_.inverse(), tolerance_ / kInnerTolerance, next_);
+  outcome.share = bound.share;
+  outcome.momentum_cut += bound.moment / h;
 }
 
 SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder,
@@ -224,8 +215,7 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   }
   outcome.sweeps = progress.sweeps;
   outcome.settled = progress.settled;
-  if (std::getenv("R_DBG") != nullptr && plan.last_resort) std::fprintf(stderr, "last reach %.2e settled %d found %d sweeps %d cut %.2e\n", plan.reach, progress.settled, progress.found, progress.sweeps, outcome.momentum_cut);
-  if (plan.last_resort && !progress.settled) boundPath(progress, outcome);
+  if (plan.last_resort && !progress.settled) boundPath(progress, plan.h, outcome);
   const bool taken_as_it_is = progress.late ? progress.near && !progress.crossed : false;
   outcome.late = progress.late;
   outcome.accepted = !outcome.disturbed && (progress.settled || plan.last_resort || (taken_as_it_is && isWithinNumbers(next_)));

@@ -120,7 +120,7 @@ double LastResort::shareOf(std::size_t a, std::size_t b, double rest, bool rod, 
   return most;
 }
 
-double LastResort::bound(const Field& inverse, double allowed, Field3& end) noexcept {
+LastResort::Bound LastResort::bound(const Field& inverse, double allowed, Field3& end) noexcept {
   const Grid& grid = pattern_.grid;
   double share = 1.0;
   // A shorter path may find a rod shorter than its end did: again, until nothing changes. Every round takes the share to another of
@@ -138,12 +138,14 @@ double LastResort::bound(const Field& inverse, double allowed, Field3& end) noex
       }
     }
   }
-  if (share == 1.0) return share;
+  if (share == 1.0) return {};
+  Bound taken{share, 0.0};
   for (std::size_t n = 0; n < grid.size(); ++n) {
-    const Vec3 from = follows_.at(n);
-    end.set(n, share > 0.0 ? Vec3(from + share * (end.at(n) - from)) : from);
+    const Vec3 from = follows_.at(n), path = end.at(n) - from;
+    if (inverse[n] > 0.0) taken.moment += (1.0 - share) * pattern_.mass[n] * path.norm();
+    end.set(n, share > 0.0 ? Vec3(from + share * path) : from);
   }
-  return share;
+  return taken;
 }
 
 }  // namespace curtain

@@ -45,8 +45,12 @@ class LastResort {
 
   /// After cut(): moves `end` back along the path from where the rigid motion leads, to where every link with an end that can
   /// move is no longer (a rod no shorter) than by `allowed`, relative, or no worse than where the path begins. Returns the share of
-  /// the path that is left, [0..1].
-  double bound(const Field& inverse, double allowed, Field3& end) noexcept;
+  /// the path that is left, and mass times path of what is not, sum over nodes [kg m].
+  struct Bound {
+    double share = 1.0;
+    double moment = 0.0;
+  };
+  Bound bound(const Field& inverse, double allowed, Field3& end) noexcept;
 
   /// Where the rigid motion leads, after cut() [m].
   const Field3& follows() const noexcept { return follows_; }

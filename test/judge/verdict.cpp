@@ -104,6 +104,8 @@ class Court {
     verdict_.frames = s.frames;
     verdict_.substeps = s.substeps;
     verdict_.sweeps = s.sweeps;
+    verdict_.last_resort = s.last_resort_substeps;
+    verdict_.momentum_cut = s.momentum_cut;
     verdict_.stops = s.stops;
     verdict_.most_solves = std::max(verdict_.most_solves, s.substeps_last + s.rejected - verdict_.rejected);
     verdict_.rejected = s.rejected;

@@ -69,7 +69,7 @@ TEST(HealthChecks, CountsThatRoseLatelyAreTold) {
       {"not_finite", [](Statistics& s) { ++s.not_finite; }, DiagnosticStatus::ERROR},
       {"stops", [](Statistics& s) { ++s.stops; }, DiagnosticStatus::WARN},
       {"unsettled", [](Statistics& s) { ++s.unsettled; }, DiagnosticStatus::WARN},
-      {"implicit_substeps", [](Statistics& s) { ++s.implicit_substeps; }, DiagnosticStatus::WARN},
+      {"last_resort_substeps", [](Statistics& s) { ++s.last_resort_substeps; }, DiagnosticStatus::WARN},
       {"dropped_frames", [](Statistics& s) { ++s.dropped_frames; }, DiagnosticStatus::WARN},
       {"late_frames", [](Statistics& s) { ++s.late_frames; }, DiagnosticStatus::WARN},
       {"shortened_frames", [](Statistics& s) { ++s.shortened_frames; }, DiagnosticStatus::WARN},

@@ -44,10 +44,10 @@ bool read(int argc, char** argv, Options& options) {
 
 std::string describe(const Trial& trial) {
   char text[256];
-  std::snprintf(text, sizeof text, "%s stretch %.1e after %.1e energy %+.1e rest %.2f of %.2f s, %lld unsettled %lld implicit "
+  std::snprintf(text, sizeof text, "%s stretch %.1e after %.1e energy %+.1e rest %.2f of %.2f s, %lld unsettled %lld last resort "
                 "%lld stops, slowest %.1f ms, %.1f s",
                 trial.holds() ? "holds " : "FAILS ", trial.stretch, trial.stretch_after, trial.energy_gain, trial.recovery,
-                trial.recovery_allowed, static_cast<long long>(trial.unsettled), static_cast<long long>(trial.implicit),
+                trial.recovery_allowed, static_cast<long long>(trial.unsettled), static_cast<long long>(trial.last_resort),
                 static_cast<long long>(trial.stops), trial.milliseconds, trial.seconds);
   std::string line = text;
   for (const std::string& failure : trial.failures) line += "\n        " + failure;
@@ -57,7 +57,7 @@ std::string describe(const Trial& trial) {
 void writeRow(const std::string& name, const std::string& method, const Trial& trial, std::ostream& out) {
   out << name << ',' << method << ',' << (trial.holds() ? 1 : 0) << ',' << (trial.finite ? 1 : 0) << ',' << trial.stretch << ','
       << trial.stretch_allowed << ',' << trial.stretch_after << ',' << trial.energy_gain << ',' << trial.energy_allowed << ',' << trial.recovery << ',' << trial.recovery_allowed << ','
-      << (trial.repeated ? (trial.same_bits ? "1" : "0") : "") << ',' << trial.frames << ',' << trial.unsettled << ',' << trial.implicit << ','
+      << (trial.repeated ? (trial.same_bits ? "1" : "0") : "") << ',' << trial.frames << ',' << trial.unsettled << ',' << trial.last_resort << ','
       << trial.stops << ',' << trial.milliseconds << '\n';
 }
 
@@ -72,7 +72,7 @@ int main(int argc, char** argv) {
   std::ofstream csv;
   if (!options.csv.empty()) csv.open(options.csv);
   csv << "case,method,holds,finite,stretch,stretch_allowed,stretch_after,energy_gain,energy_allowed,recovery_s,recovery_allowed_s,"
-         "same_bits,frames,unsettled,implicit,stops,slowest_ms\n";
+         "same_bits,frames,unsettled,last_resort,stops,slowest_ms\n";
   int held = 0, failed = 0, surprises = 0;
   for (const TortureCase& one : allTortures()) {
     if (one.name.find(options.only) == std::string::npos || (!one.quick && !options.slow)) continue;

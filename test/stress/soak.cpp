@@ -88,7 +88,7 @@ struct Row {
   double hours, median_ms, longest_ms, sweeps, stretch, rest_height, rest_speed, rest_stretch, pin_drift;
   long resident_kb;
   std::size_t heap_kb;
-  std::int64_t unsettled, implicit, stops;
+  std::int64_t unsettled, last_resort, stops;
   bool finite;
 };
 
@@ -145,7 +145,7 @@ Row soakInterval(double seconds, const std::vector<Vec3>& start, Simulator& simu
   row.resident_kb = residentMemory();
   row.heap_kb = mallinfo2().uordblks / 1024;
   row.unsettled = after.unsettled - before.unsettled;
-  row.implicit = after.implicit - before.implicit;
+  row.last_resort = after.last_resort_substeps - before.last_resort_substeps;
   row.stops = after.stops - before.stops;
   row.finite = after.finite;
   return row;
@@ -153,14 +153,14 @@ Row soakInterval(double seconds, const std::vector<Vec3>& start, Simulator& simu
 
 const char* const kHeader =
     "hours,median_ms,longest_ms,sweeps_per_frame,stretch_max,rest_height_m,rest_speed_m_s,rest_stretch,pin_drift_m,"
-    "resident_kb,heap_kb,unsettled,implicit,stops,finite";
+    "resident_kb,heap_kb,unsettled,last_resort,stops,finite";
 
 std::string line(const Row& row) {
   char text[512];
   std::snprintf(text, sizeof text, "%.4f,%.4f,%.3f,%.3f,%.3g,%.6f,%.3g,%.3g,%.3g,%ld,%zu,%lld,%lld,%lld,%d", row.hours,
                 row.median_ms, row.longest_ms, row.sweeps, row.stretch, row.rest_height, row.rest_speed, row.rest_stretch,
                 row.pin_drift, row.resident_kb, row.heap_kb, static_cast<long long>(row.unsettled),
-                static_cast<long long>(row.implicit), static_cast<long long>(row.stops), row.finite ? 1 : 0);
+                static_cast<long long>(row.last_resort), static_cast<long long>(row.stops), row.finite ? 1 : 0);
   return text;
 }
 

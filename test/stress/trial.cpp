@@ -220,7 +220,7 @@ Trial carryOut(const Torture& torture, Method method, bool twice) {
   const Statistics& s = simulator.statistics();
   trial.frames = s.frames;
   trial.unsettled = s.unsettled;
-  trial.implicit = s.implicit;
+  trial.last_resort = s.last_resort_substeps;
   trial.stops = s.stops;
   if (twice) {
     Simulator again(scene);

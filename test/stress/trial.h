@@ -24,7 +24,7 @@ struct Trial {
   double recovery_allowed = 0.0;  ///< that the air allows [s]; NaN: not asked for
   bool repeated = false;
   bool same_bits = true;        ///< of what was repeated
-  std::int64_t frames = 0, unsettled = 0, implicit = 0, stops = 0;
+  std::int64_t frames = 0, unsettled = 0, last_resort = 0, stops = 0;
   double milliseconds = 0.0;    ///< the slowest frame
   double seconds = 0.0;         ///< computing time of it all
   std::vector<std::string> failures;  ///< what it did not hold
