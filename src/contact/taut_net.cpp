@@ -16,8 +16,6 @@ constexpr int kMostRods = 4, kMostWefts = 20;
 constexpr double kUneven = 1e-6;
 // Rounding of slopes, and what rest lengths differ.
 constexpr double kSlack = 1e-5;
-// Calls to be left out after one that proved nothing: cloth that is not flat stays so for a while.
-constexpr int kPause = 2;
 
 struct Place {
   const double *x, *y, *z;
@@ -210,29 +208,21 @@ bool TautNet::areFlat(const Slopes& slopes, double reach) const noexcept {
   return u > 0.0 && v > 0.0 && u * v > across * across;
 }
 
-bool TautNet::staysFlat(const Field3& start, const Field3& end, double reach, bool goes_on) noexcept {
-  const bool known = known_ && goes_on;
-  known_ = false;
-  if (!usable_ || pause_-- > 0) return false;
-  pause_ = 0;
-  const double most_square = (1.0 + overlong_) * (1.0 + overlong_);
-  if (checks_top_ && !(holdsRow(pattern_, start, most_square) && holdsRow(pattern_, end, most_square))) return false;
-  if (known) {
-    const Slopes now = slopesOf(end);
-    last_.merge(now);
-    known_ = areFlat(last_, reach);
-    last_ = now;
-    if (known_) return true;
-  }
-  if (aim(end)) {
-    const Slopes now = slopesOf(end);
-    last_ = slopesOf(start);
-    last_.merge(now);
-    known_ = areFlat(last_, reach);
-    last_ = now;
-  }
-  if (!known_) pause_ = kPause;
-  return known_;
+bool TautNet::topHolds(const Field3& position) const noexcept {
+  return !checks_top_ || holdsRow(pattern_, position, (1.0 + overlong_) * (1.0 + overlong_));
+}
+
+bool TautNet::isFlat(const Field3& position, double reach) noexcept {
+  if (!usable_ || !topHolds(position) || !aim(position)) return false;
+  start_ = slopesOf(position);
+  return areFlat(start_, reach);
+}
+
+bool TautNet::staysFlat(const Field3& end, double reach) const noexcept {
+  if (!topHolds(end)) return false;
+  Slopes slopes = slopesOf(end);
+  slopes.merge(start_);
+  return areFlat(slopes, reach);
 }
 
 }  // namespace curtain

@@ -190,6 +190,9 @@ void Simulator::Impl::estimateError() {
 
 // What a frame needs to know before its first substep.
 void Simulator::Impl::prepareFrame(Budget::Clock::time_point begin) {
+  const bool links_hold = pin_moves.empty() && std::max(statistics.warp_stretch, statistics.weft_stretch) < kHold;
+  contact.beginFrame(links_hold);
+  forces.setLinksHold(links_hold);
   if (estimate != nullptr && frame == 0) {
     clock.start();
     rehearse();  // before the budget counts: the first frame takes what it takes
@@ -197,9 +200,6 @@ void Simulator::Impl::prepareFrame(Budget::Clock::time_point begin) {
   }
   budget.beginFrame(frame == 0 && budget.any() ? Budget::Clock::now() : begin);
   if (estimate != nullptr) estimateError();
-  const bool links_hold = pin_moves.empty() && std::max(statistics.warp_stretch, statistics.weft_stretch) < kHold;
-  contact.beginFrame(links_hold);
-  forces.setLinksHold(links_hold);
   statistics.substeps_last = 0;
   statistics.sweeps_last = 0;
   velocities_fresh = false;

@@ -83,12 +83,12 @@ void PaperSolver::adjustRow(int row, ClothState& state) const noexcept {
 
 // Contacts one by one, positions and then velocities; what still goes through something is held.
 void PaperSolver::touch(ContactFinder* finder, double h, ClothState& state) noexcept {
-  Contacts* const contacts = finder != nullptr ? finder->begin(start_, state.position, h) : nullptr;
-  if (contacts == nullptr) return;
-  beginContacts(pattern_.inverse_mass, 0.0, 0, *contacts, state.position);
-  projectContacts(pattern_.inverse_mass, *contacts, state.position);
+  if (finder == nullptr) return;
+  Contacts& contacts = finder->begin(start_, state.position, h);
+  beginContacts(pattern_.inverse_mass, 0.0, 0, contacts, state.position);
+  projectContacts(pattern_.inverse_mass, contacts, state.position);
   if (finder->verify(start_, state.position, false) != ContactFinder::Verdict::kClear) finder->hold(start_, state.position);
-  for (const Contact& contact : *contacts) {
+  for (const Contact& contact : contacts) {
     if (!contact.pushes()) continue;
     const double approach = contact.normal.dot(contact.point(state.velocity) - contact.surface_velocity);
     if (approach < 0.0) contact.move(pattern_.inverse_mass, -approach / contact.mobility * contact.normal, state.velocity);
