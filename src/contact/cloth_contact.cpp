@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <tuple>
 
-#include "cloth/wide.h"
 
 namespace curtain {
 namespace {
@@ -23,18 +22,8 @@ constexpr int kCarryRounds = 64;
 // Contacts that there is room for, per node.
 constexpr std::size_t kRoomPerNode = 8;
 
-CURTAIN_WIDE double farthestSquare(const Field3& a, const Field3& b, std::size_t first, std::size_t count) noexcept {
-  const double *const ax = &a.x[first], *const ay = &a.y[first], *const az = &a.z[first];
-  const double *const bx = &b.x[first], *const by = &b.y[first], *const bz = &b.z[first];
-  double worst = 0.0;
-#pragma omp simd reduction(max : worst)
-  for (std::size_t n = 0; n < count; ++n) {
-    const double x = bx[n] - ax[n], y = by[n] - ay[n], z = bz[n] - az[n];
-    const double square = x * x + y * y + z * z;
-    worst = worst > square ? worst : square;
-  }
-  return worst;
-}
+// Share of nodes that may end elsewhere than predicted: pairs of more are found faster together with all others.
+constexpr double kMostAstray = 0.1;
 
 }  // namespace
 
@@ -55,6 +44,7 @@ ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& par
   if (!params.self) return;
   pairs_.reserve(candidates_);
   predicted_.assign(pattern.grid.size(), 0.0);
+  astray_.assign(pattern.grid.size(), 0);
 }
 
 // The cloth with itself first, then obstacles by their names.
@@ -101,26 +91,30 @@ bool ClothContact::staysFlat(const Field3& end, bool settled) const noexcept {
   return flat_ && settled && net_.staysFlat(end, kFlatReach * self_.gap());
 }
 
-// So nearly that all pairs which come within their least distance on the way there are among the candidates.
-bool ClothContact::isAsPredicted(const Field3& end) const noexcept {
-  if (flat_) return false;
-  const double most = 0.5 * (1.0 - SelfContacts::kLeastShare) * self_.gap();
-  const Grid& grid = pattern_.grid;
-  for (int i = 0; i < grid.rows; ++i) {
-    const double square = farthestSquare(predicted_, end, grid.row(i), static_cast<std::size_t>(grid.columns));
-    if (!(square <= most * most)) return false;
+// Candidates for the way from start to end: pairs that come within twice their least distance, for sure. Those for the predicted
+// way do, but for nodes that end too far from where they were predicted.
+void ClothContact::findOnWay(const Field3& start, const Field3& end) noexcept {
+  const double reach = 2.0 * SelfContacts::kLeastShare * self_.gap();
+  const double most = 0.5 * (self_.gap() - reach);
+  std::size_t count = 0;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    const double x = end.x[n] - predicted_.x[n], y = end.y[n] - predicted_.y[n], z = end.z[n] - predicted_.z[n];
+    astray_[n] = x * x + y * y + z * z <= most * most ? 0 : 1;
+    count += astray_[n];
   }
-  return true;
+  if (flat_ || static_cast<double>(count) > kMostAstray * static_cast<double>(pattern_.grid.nodeCount())) {
+    flat_ = false;
+    find(start, end, self_.gap());
+  } else if (count > 0) {
+    pairs_.collectOf(astray_, start, end, reach, candidates_);
+  }
 }
 
 ContactFinder::Verdict ClothContact::verify(const Field3& start, const Field3& end, bool settled) noexcept {
   int added = 0;
   bool full = false;
   if (self_wanted_ && !staysFlat(end, settled)) {
-    if (!isAsPredicted(end)) {
-      flat_ = false;
-      find(start, end, self_.gap());
-    }
+    findOnWay(start, end);
     added = self_.verify(candidates_, start, end, h_, contacts_);
     full = self_.full();
   }

@@ -18,8 +18,8 @@ constexpr double kLooks = 4.0;
 constexpr double kLeastLeeway = 0.05, kMostLeeway = 0.25;
 // What is left of the straying that was expected before.
 constexpr double kMemory = 0.7;
-// The ways are continued as far again: later looks see further ahead.
-constexpr double kBeyond = 2.0;
+// The paths are continued to so many times their length: the next substeps go on there.
+constexpr double kBeyond = 4.0;
 // Rounding of places and ways in double precision, relative to the reach.
 constexpr double kSlack = 1e-6;
 // Nodes that the times are fitted to: one of so many.

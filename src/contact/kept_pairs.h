@@ -27,6 +27,12 @@ class KeptPairs {
   /// them must not let it tell. Allocates nothing: `out` says when it has no room; see reserve().
   void collect(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept;
 
+  /// Appends what ClothTree::collectSelfOf() promises.
+  void collectOf(const std::vector<std::uint8_t>& marked, const Field3& start, const Field3& end, double reach, Candidates& out) noexcept {
+    tree_.refit(start, end);
+    tree_.collectSelfOf(marked, reach, out);
+  }
+
   void reserve(Candidates& out) const { tree_.reserve(out); }
 
   /// As after construction.

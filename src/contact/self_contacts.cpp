@@ -100,7 +100,11 @@ void SelfContacts::select(const Candidates& candidates, const Wanted& wanted) no
     const PairKey key{{c.first[0], c.first[1], c.second[0], c.second[1]}, true};
     if (wanted(key)) full_ = !addWithinRoom(key, pairs_) || full_;
   }
+}
+
+void SelfContacts::sortPairs() noexcept {
   std::sort(pairs_.begin(), pairs_.end());
+  pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
 }
 
 // Both where they are closest at the start, and wherever else at the end, so that no candidate that is not within the gap has
@@ -122,8 +126,7 @@ void SelfContacts::collect(const Candidates& candidates, const Contacts& last, c
   for (const Contact& contact : last) {
     if (contact.obstacle == Contact::kCloth) addWithinRoom(PairKey{contact.node, contact.source == 1}, pairs_);
   }
-  std::sort(pairs_.begin(), pairs_.end());
-  pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+  sortPairs();
   for (const PairKey& key : pairs_) {
     const ClosestPoints closest = closestPoints(key.edges, corners(key, start));
     if (!closest.inside || closest.distance <= 0.0) continue;
@@ -154,6 +157,7 @@ void SelfContacts::findCrossings(const Candidates& candidates, const Field3& sta
     double distance = 0.0;
     return crossesAt(key, corners(key, start), corners(key, end), distance) <= 1.0;
   });
+  sortPairs();
 }
 
 int SelfContacts::verify(const Candidates& candidates, const Field3& start, const Field3& end, double h, Contacts& contacts) noexcept {

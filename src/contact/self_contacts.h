@@ -20,7 +20,12 @@ struct PairKey {
   std::array<std::uint32_t, 4> node;
   bool edges;
   bool operator==(const PairKey& other) const noexcept { return node == other.node && edges == other.edges; }
-  bool operator<(const PairKey& other) const noexcept { return node == other.node ? edges < other.edges : node < other.node; }
+  bool operator<(const PairKey& other) const noexcept {
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (node[k] != other.node[k]) return node[k] < other.node[k];
+    }
+    return edges < other.edges;
+  }
 };
 
 /// Where two elements are closest: sum weight_k x_k is the way from the second to the first there.
@@ -68,6 +73,7 @@ class SelfContacts {
   void findCrossings(const Candidates& candidates, const Field3& start, const Field3& end) noexcept;
   template <typename Wanted>
   void select(const Candidates& candidates, const Wanted& wanted) noexcept;
+  void sortPairs() noexcept;
   static std::array<Vec3, 4> corners(const PairKey& key, const Field3& position) noexcept {
     return {position.at(key.node[0]), position.at(key.node[1]), position.at(key.node[2]), position.at(key.node[3])};
   }

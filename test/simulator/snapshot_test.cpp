@@ -208,11 +208,11 @@ TEST(Snapshot, HasAVersionForEveryLayout) {
   SnapshotParts parts;
   const std::string snapshot = Simulator(all).snapshot();
   ASSERT_FALSE(unpackSnapshot(snapshot, parts).has_value());
-  EXPECT_EQ(kSnapshotVersion, 2U);
-  EXPECT_EQ(parts.layout, 1502286796U);
+  EXPECT_EQ(kSnapshotVersion, 3U);
+  EXPECT_EQ(parts.layout, 1524267051U);
   const std::string plain = Simulator(flatScene(4, 5)).snapshot();
   ASSERT_FALSE(unpackSnapshot(plain, parts).has_value());
-  EXPECT_EQ(parts.layout, 4184183133U);
+  EXPECT_EQ(parts.layout, 2697343694U);
 }
 
 }  // namespace
