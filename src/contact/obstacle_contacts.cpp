@@ -13,11 +13,11 @@ namespace {
 
 // Faces and edges are let come nearer than nodes, to this share of the thickness: few of them need a contact then.
 constexpr double kCore = 0.3;
-// The order in which the contacts of an obstacle are kept; of two of the same parts, the one that asks for more comes first.
+// The order in which the contacts of an obstacle are kept; of two of the same parts, the one that asks for less comes first.
 auto orderOf(const Contact& c) { return std::tie(c.nodes, c.node, c.source); }
 bool firstOfOne(const Contact& a, const Contact& b) {
   if (orderOf(a) != orderOf(b)) return orderOf(a) < orderOf(b);
-  return std::tie(b.offset, a.weight) < std::tie(a.offset, b.weight);
+  return std::tie(a.offset, a.weight) < std::tie(b.offset, b.weight);
 }
 bool alike(const Contact& a, const Contact& b) { return orderOf(a) == orderOf(b); }
 
