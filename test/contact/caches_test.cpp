@@ -101,7 +101,11 @@ TEST_P(ContactCaches, ChangeNoBit) {
       const double size = k % 50 < 25 ? 0.0002 : 0.003;
       const Vec3 drift = size * Vec3(std::sin(0.1 * k), std::cos(0.13 * k), std::sin(0.07 * k));
       const Field3 predicted = moved(pattern, start, drift, size, random);
-      const Field3 end = moved(pattern, predicted, Vec3::Zero(), k % 10 == 0 ? 0.02 : 0.3 * size, random);
+      Field3 end = moved(pattern, predicted, Vec3::Zero(), 0.3 * size, random);
+      for (int jerked = k % 5 == 0 ? 3 : 0; jerked > 0; --jerked) {
+        const std::size_t n = pattern.grid.index((k + 3 * jerked) % pattern.grid.rows, (2 * k + jerked) % pattern.grid.columns);
+        if (pattern.inverse_mass[n] > 0.0) end.add(n, random.inBox(0.02));
+      }
       const double turn = 0.002 * (k % 40 < 20 ? 1.0 : 0.0);
       for (Finder* const finder : {&keeps, &forgets}) {
         for (int n = 0; n < finder->obstacles.count(); ++n) {
