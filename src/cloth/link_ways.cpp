@@ -77,16 +77,10 @@ Eigen::AlignedBox3d SampledBounds::around(const Field3& position) const noexcept
   return grown(low, high, margin());
 }
 
-Eigen::AlignedBox3d SampledBounds::around(const Field3& start, const Field3& end, double ways) const noexcept {
-  Vec3 low = start.at(nodes().front()), high = low;
+double SampledBounds::farthest(const Field3& start, const Field3& end) const noexcept {
   double squared = 0.0;
-  for (const std::size_t n : nodes()) {
-    const Vec3 at = start.at(n);
-    low = low.cwiseMin(at);
-    high = high.cwiseMax(at);
-    squared = std::max(squared, (end.at(n) - at).squaredNorm());
-  }
-  return grown(low, high, margin() + ways * std::sqrt(squared));
+  for (const std::size_t n : nodes()) squared = std::max(squared, (end.at(n) - start.at(n)).squaredNorm());
+  return std::sqrt(squared);
 }
 
 }  // namespace curtain

@@ -22,9 +22,8 @@ class SampledBounds {
   /// Of the cloth at these positions [m]; too large by margin() at most.
   Eigen::AlignedBox3d around(const Field3& position) const noexcept;
 
-  /// Around the start, and further by so many times the furthest way of a sample from there to the end: with 1 it holds
-  /// both.
-  Eigen::AlignedBox3d around(const Field3& start, const Field3& end, double ways) const noexcept;
+  /// Furthest way of a sample [m]: a box around the start that is made larger by it holds the end, too.
+  double farthest(const Field3& start, const Field3& end) const noexcept;
 
   double margin() const noexcept { return links_hold_ ? margin_ : 0.0; }
 

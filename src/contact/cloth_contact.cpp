@@ -87,7 +87,7 @@ void ClothContact::warmStart() noexcept {
   }
 }
 
-bool ClothContact::staysFlat(const Field3& end, bool settled) const noexcept {
+bool ClothContact::staysFlat(const Field3& end, bool settled) noexcept {
   return flat_ && settled && net_.staysFlat(end, kFlatReach * self_.gap());
 }
 
@@ -179,6 +179,7 @@ int ClothContact::joinCrossings(const Field3& start, const Field3& end) noexcept
 
 void ClothContact::afterSubstep(bool settled, double h, double scale, const Field3& position) noexcept {
   taut_ = settled;
+  net_.goOn();
   if (!settled) slippery_ = kSlipperySubsteps;
   else if (slippery_ > 0) --slippery_;
   last_.clear();
@@ -214,6 +215,7 @@ void ClothContact::forget() noexcept {
 }
 
 void ClothContact::clearCaches() noexcept {
+  net_.forget();
   pairs_.forget();
   touch_.clearCaches();
 }

@@ -34,7 +34,7 @@ class ClothContact : public ContactFinder {
 
   /// In a substep that it is not asked to begin, for there is nothing to look for.
   void nothingTouches() noexcept { contacts_.clear(); }
-  /// For tests: nothing that comes differs by it, but computing time.
+  /// Where the cloth is put elsewhere; nothing that comes differs by it, but computing time.
   void clearCaches() noexcept;
   /// After every accepted substep of h [s] that ended at position, whether all links could be brought to their lengths;
   /// scale: its h * kick [s^2].
@@ -58,11 +58,14 @@ class ClothContact : public ContactFinder {
   void addForces(Field3& force) const noexcept;
   void forget() noexcept;
   /// The next substep does not start where the last accepted one ended.
-  void lookAfresh() noexcept { taut_ = false; }
+  void lookAfresh() noexcept {
+    taut_ = false;
+    net_.forget();
+  }
   void carry(Archive& archive);
 
  private:
-  bool staysFlat(const Field3& end, bool settled) const noexcept;
+  bool staysFlat(const Field3& end, bool settled) noexcept;
   void find(const Field3& start, const Field3& end, double reach) noexcept;
   void findOnWay(const Field3& start, const Field3& end) noexcept;
   void warmStart() noexcept;

@@ -33,7 +33,14 @@ class TautNet {
   bool isFlat(const Field3& position, double reach) noexcept;
 
   /// After isFlat() has said so of the start: the same while all nodes move straight from there to `end`.
-  bool staysFlat(const Field3& end, double reach) const noexcept;
+  bool staysFlat(const Field3& end, double reach) noexcept;
+
+  /// isFlat() will be asked of the last end next, and needs not look at it again; else forget().
+  void goOn() noexcept {
+    start_ = end_;
+    end_.known = false;
+  }
+  void forget() noexcept { start_.known = end_.known = false; }
 
  private:
   // Of the slopes along a and b, what the links between the nodes looked at may add to them included.
@@ -50,8 +57,15 @@ class TautNet {
   static std::vector<Span> spansOf(const Field& coordinate, int most_links);
   bool isEven(const ClothPattern& pattern) const;
   Vec3 middleOfWarp(const Field3& position) const noexcept;
-  bool aim(const Field3& position) noexcept;
-  Slopes slopesOf(const Field3& position) const noexcept;
+  // The cloth as seen along directions of its own.
+  struct View {
+    bool known = false, aimed = false;
+    Vec3 a, b;
+    Slopes slopes;
+  };
+  bool aim(const Field3& position, View& view) const noexcept;
+  void see(const Field3& position, View& view) const noexcept;
+  Slopes slopesOf(const Field3& position, const View& view) const noexcept;
   double straying(double least_square, const Span& span) const noexcept;
   bool areFlat(const Slopes& slopes, double reach) const noexcept;
   bool topHolds(const Field3& position) const noexcept;
@@ -62,8 +76,7 @@ class TautNet {
   bool checks_top_;  // its links are between pins, who may be moved apart
   std::vector<Span> strips_, spans_;
   double per_altitude_ = 0.0;  // [1/m]
-  Vec3 a_ = Vec3::UnitX(), b_ = Vec3::UnitZ();
-  Slopes start_{};     // along them
+  View start_, end_;
 };
 
 }  // namespace curtain

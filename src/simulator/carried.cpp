@@ -211,6 +211,7 @@ void Simulator::Impl::resume() noexcept {
   rest.takeFrame(frameLength());
   setRestLimits();
   exact.resume(rest.asleep(), state);
+  contact.clearCaches();
   ++revision;
 }
 

@@ -50,7 +50,10 @@ double nearest(const ClothPattern& pattern, const Field3& start, const Field3& e
 struct Sheet {
   explicit Sheet(const Scene& scene)
       : pattern(makePattern(scene)), flat(makeInitialState(scene, pattern).position), net(pattern, kOverlong) {}
-  bool stays(const Field3& start, const Field3& end) { return net.isFlat(start, kReach) && net.staysFlat(end, kReach); }
+  bool stays(const Field3& start, const Field3& end) {
+    net.forget();
+    return net.isFlat(start, kReach) && net.staysFlat(end, kReach);
+  }
   ClothPattern pattern;
   Field3 flat;
   TautNet net;
