@@ -63,9 +63,7 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const SubstepPlan& plan, const
     all.late = all.late || (progress.late && !progress.settled);
     all.near = progress.near;
     all.contacts = contacts;
-    if (free_ && !held_.any() && contacts != nullptr && !contacts->empty() && start.keep == nullptr && !pressesOnObstacle(*contacts)) {
-      keepMomentum(start);
-    }
+    if (free_ && !held_.any() && contacts != nullptr && start.keep == nullptr && !pressesOnObstacle(*contacts)) keepMomentum(start);
     if (contacts == nullptr || !(progress.settled || (plan.must_accept && !all.late) || progress.near)) return all;
     const ContactFinder::Verdict verdict = finder->verify(from, next_, progress.settled);
     clock.lap(Stage::kContact);
