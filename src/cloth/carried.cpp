@@ -2,7 +2,6 @@
 //
 // What a snapshot carries of this floor. The pattern follows from the scene.
 #include "cloth/archive.h"
-#include "cloth/link_ways.h"
 
 namespace curtain {
 
@@ -12,8 +11,5 @@ void ClothState::carry(Archive& archive) {
   archive.finite("velocity", velocity);
   archive.finite("velocity_age", velocity_age);
 }
-
-// A companion looks before its frame says whether links hold: as the last one did.
-void SampledBounds::carry(Archive& archive) { archive.number("margin", margin_); }
 
 }  // namespace curtain

@@ -11,6 +11,12 @@ constexpr double kLeastMoment = 1e-9;
 
 }  // namespace
 
+RigidMotion::Displacement RigidMotion::over(double time) const noexcept {
+  const double angle = time * turn.norm();
+  if (!(angle > 0.0)) return {centre, time * drift, Eigen::Matrix3d::Identity()};
+  return {centre, time * drift, Eigen::AngleAxisd(angle, turn.normalized()).toRotationMatrix()};
+}
+
 Vec3 turnOf(const Eigen::Matrix3d& inertia, const Vec3& spin) noexcept {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(inertia);

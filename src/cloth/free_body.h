@@ -5,6 +5,8 @@
 // that follow the solve, friction across a gap) the whole cloth is turned by what that amounts to.
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "cloth/cloth.h"
 
 namespace curtain {
@@ -23,6 +25,13 @@ struct RigidMotion {
   Vec3 drift = Vec3::Zero();
   Vec3 turn = Vec3::Zero();
   Vec3 at(const Vec3& x) const noexcept { return drift + turn.cross(x - centre); }
+  /// How it moves points in a time [s], all distances kept: x -> displacement + rotation (x - centre) + centre.
+  struct Displacement {
+    Vec3 centre, shift;
+    Eigen::Matrix3d rotation;
+    Vec3 operator()(const Vec3& x) const noexcept { return centre + shift + rotation * (x - centre); }
+  };
+  Displacement over(double time) const noexcept;
 };
 
 /// The rigid motion of nodes at `position` that has this momentum. Nodes on one line do not turn about it.

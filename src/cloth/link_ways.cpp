@@ -60,33 +60,27 @@ SampledBounds::SampledBounds(const ClothPattern& pattern) {
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = 0; j < grid.columns; ++j) {
       const std::size_t n = grid.index(i, j);
-      if (std::isfinite(away[n])) own_margin_ = std::max(own_margin_, kOverlong * away[n]);
+      all_.push_back(n);
+      if (std::isfinite(away[n])) margin_ = std::max(margin_, kOverlong * away[n]);
       else samples_.push_back(n);  // surrounded by pins
     }
   }
-  margin_ = own_margin_;
 }
 
 Eigen::AlignedBox3d SampledBounds::around(const Field3& position) const noexcept {
-  Vec3 low = position.at(samples_.front()), high = low;
-  for (const std::size_t n : samples_) {
+  Vec3 low = position.at(nodes().front()), high = low;
+  for (const std::size_t n : nodes()) {
     const Vec3 at = position.at(n);
     low = low.cwiseMin(at);
     high = high.cwiseMax(at);
   }
-  return grown(low, high, margin_);
+  return grown(low, high, margin());
 }
 
-Eigen::AlignedBox3d SampledBounds::around(const Field3& start, const Field3& end, double ways) const noexcept {
-  Vec3 low = start.at(samples_.front()), high = low;
+double SampledBounds::farthest(const Field3& start, const Field3& end) const noexcept {
   double squared = 0.0;
-  for (const std::size_t n : samples_) {
-    const Vec3 at = start.at(n);
-    low = low.cwiseMin(at);
-    high = high.cwiseMax(at);
-    squared = std::max(squared, (end.at(n) - at).squaredNorm());
-  }
-  return grown(low, high, margin_ + ways * std::sqrt(squared));
+  for (const std::size_t n : nodes()) squared = std::max(squared, (end.at(n) - start.at(n)).squaredNorm());
+  return std::sqrt(squared);
 }
 
 }  // namespace curtain

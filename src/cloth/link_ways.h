@@ -22,22 +22,20 @@ class SampledBounds {
   /// Of the cloth at these positions [m]; too large by margin() at most.
   Eigen::AlignedBox3d around(const Field3& position) const noexcept;
 
-  /// Around the start, and further by so many times the furthest way of a sample from there to the end: with 1 it holds
-  /// both.
-  Eigen::AlignedBox3d around(const Field3& start, const Field3& end, double ways) const noexcept;
+  /// Furthest way of a sample [m]: a box around the start that is made larger by it holds the end, too.
+  double farthest(const Field3& start, const Field3& end) const noexcept;
 
-  double margin() const noexcept { return margin_; }
+  double margin() const noexcept { return links_hold_ ? margin_ : 0.0; }
 
-  /// False: links may be longer than kOverlong (pins pulled apart), nodes anywhere; boxes hold all there is then.
-  void setLinksHold(bool hold) noexcept { margin_ = hold ? own_margin_ : kAnywhere; }
-  void carry(Archive& archive);
+  /// False: links may be longer than kOverlong (pins pulled apart); boxes are then made from all nodes.
+  void setLinksHold(bool hold) noexcept { links_hold_ = hold; }
 
  private:
-  static constexpr double kAnywhere = 1e150;  // beyond every length, and its square is a number [m]
+  const std::vector<std::size_t>& nodes() const noexcept { return links_hold_ ? samples_ : all_; }
 
-  std::vector<std::size_t> samples_;
-  double own_margin_ = 0.0;  // [m]
-  double margin_ = 0.0;      // the same, or kAnywhere
+  std::vector<std::size_t> samples_, all_;
+  double margin_ = 0.0;  // of the samples [m]
+  bool links_hold_ = true;
 };
 
 }  // namespace curtain

@@ -2,8 +2,8 @@
 #include "contact/cloth_contact.h"
 
 #include <algorithm>
+#include <tuple>
 
-#include "cloth/wide.h"
 
 namespace curtain {
 namespace {
@@ -19,119 +19,146 @@ constexpr double kFlatReach = 1.25;
 // Parts that go along with an obstacle may take more with them: so many times at most.
 constexpr int kCarryRounds = 64;
 
-CURTAIN_WIDE void goOn(const Field& start, const Field& end, Field& ahead) noexcept {
-  const std::size_t size = start.size();
-  const double *const a = start.data(), *const b = end.data();
-  double* const out = ahead.data();
-#pragma omp simd
-  for (std::size_t n = 0; n < size; ++n) out[n] = 2.0 * b[n] - a[n];
-}
+// Contacts that there is room for, per node.
+constexpr std::size_t kRoomPerNode = 8;
 
-void extrapolate(const Field3& start, const Field3& end, Field3& ahead) noexcept {
-  goOn(start.x, end.x, ahead.x);
-  goOn(start.y, end.y, ahead.y);
-  goOn(start.z, end.z, ahead.z);
-}
+// Share of nodes that may end elsewhere than predicted: pairs of more are found faster together with all others.
+constexpr double kMostAstray = 0.1;
 
 }  // namespace
 
-ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& params, double frame_length,
-                           const ObstacleSet& obstacles, double stretch_tolerance)
+ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles,
+                           double stretch_tolerance)
     : pattern_(pattern),
       obstacles_(obstacles),
       self_wanted_(params.self),
       zone_iterations_(params.zone_iterations),
-      touch_(pattern, params, frame_length, obstacles),
+      touch_(pattern, params, obstacles),
       self_(pattern, std::min(params.thickness, kGapPerLink * shortestLink(pattern)), params),
       pairs_(pattern),
       net_(pattern, stretch_tolerance),
       zones_(pattern) {
   if (obstacles.count() == 0 && !params.self) return;
-  contacts_.reserve(8 * pattern.grid.nodeCount());
-  last_.reserve(8 * pattern.grid.nodeCount());
+  contacts_.reserve(kRoomPerNode * pattern.grid.nodeCount());
+  last_.reserve(kRoomPerNode * pattern.grid.nodeCount());
   if (!params.self) return;
   pairs_.reserve(candidates_);
-  ahead_.assign(pattern.grid.size(), 0.0);
+  predicted_.assign(pattern.grid.size(), 0.0);
+  astray_.assign(pattern.grid.size(), 0);
 }
 
-// Pairs that come near on the way from start to end, and on as far again: those that the next substep starts with.
-void ClothContact::look(const Field3& start, const Field3& end) noexcept {
-  extrapolate(start, end, ahead_);
+// The cloth with itself first, then obstacles by their names.
+bool ClothContact::before(const Contact& a, const Contact& b) const noexcept {
+  const auto rank = [this](const Contact& c) { return c.obstacle == Contact::kCloth ? -1 : obstacles_.rank(c.obstacle); };
+  return std::make_tuple(rank(a), a.nodes, a.node, a.source) < std::make_tuple(rank(b), b.nodes, b.node, b.source);
+}
+
+void ClothContact::find(const Field3& start, const Field3& end, double reach) noexcept {
   candidates_.clear();
-  pairs_.collect(start, ahead_, self_.gap(), candidates_);
-  self_.renew(candidates_, contacts_);
-  looked_ = true;
+  pairs_.collect(start, end, reach, candidates_);
+  predicted_ = end;
 }
 
-Contacts* ClothContact::begin(const Field3& start, const Field3& predicted, double h) noexcept {
+// Cloth that is flat by far where the substep starts has no pairs that are near.
+Contacts& ClothContact::begin(const Field3& start, const Field3& predicted, double h) noexcept {
   contacts_.clear();
   h_ = h;
   looks_ = 0;
-  started_ = ended_;
-  ended_ = {};
-  flat_ = false;
   if (self_wanted_) {
-    if (!looked_) look(start, predicted);
-    self_.collect(start, predicted, h, contacts_);
+    flat_ = taut_ && net_.isFlat(start, kFlatReach * self_.gap());
+    if (flat_) candidates_.clear();
+    else find(start, predicted, self_.gap());
+    self_.collect(candidates_, last_, start, predicted, h, contacts_);
   }
-  near_obstacle_ = obstacles_.anyPresent() && touch_.mayTouch(start, predicted, h);
-  if (near_obstacle_) touch_.collect(start, predicted, h, slippery_ > 0, contacts_);
-  return self_wanted_ || near_obstacle_ ? &contacts_ : nullptr;
+  touch_.begin(start, predicted, h, slippery_ > 0, contacts_);
+  warmStart();
+  return contacts_;
 }
 
-// Cloth that is flat by far needs no look at all its nodes. Pairs near at the last look keep their multipliers, and the
-// candidates are as many as before: none.
-bool ClothContact::staysFlat(const Field3& start, const Field3& end, bool settled) noexcept {
-  const bool goes_on = started_.seen;
-  started_.seen = flat_ = false;
-  if (!settled || !started_.taut || !self_.noneNear()) return false;
-  return flat_ = net_.staysFlat(start, end, kFlatReach * self_.gap(), goes_on);
+// Both are in order.
+void ClothContact::warmStart() noexcept {
+  auto old = last_.begin();
+  for (Contact& contact : contacts_) {
+    while (old != last_.end() && before(*old, contact)) ++old;
+    if (old == last_.end()) return;
+    if (before(contact, *old)) continue;
+    contact.push = old->push;
+    contact.slide = old->slide;
+  }
+}
+
+bool ClothContact::staysFlat(const Field3& end, bool settled) noexcept {
+  return flat_ && settled && net_.staysFlat(end, kFlatReach * self_.gap());
+}
+
+// Candidates for the way from start to end: pairs that come within twice their least distance, for sure. Those for the predicted
+// way do, but for nodes that end too far from where they were predicted.
+void ClothContact::findOnWay(const Field3& start, const Field3& end) noexcept {
+  const double reach = 2.0 * SelfContacts::kLeastShare * self_.gap();
+  const double most = 0.5 * (self_.gap() - reach);
+  std::size_t count = 0;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    const double x = end.x[n] - predicted_.x[n], y = end.y[n] - predicted_.y[n], z = end.z[n] - predicted_.z[n];
+    astray_[n] = x * x + y * y + z * z <= most * most ? 0 : 1;
+    count += astray_[n];
+  }
+  if (flat_ || static_cast<double>(count) > kMostAstray * static_cast<double>(pattern_.grid.nodeCount())) {
+    flat_ = false;
+    find(start, end, self_.gap());
+  } else if (count > 0) {
+    pairs_.collectOf(astray_, start, end, reach, candidates_);
+  }
 }
 
 ContactFinder::Verdict ClothContact::verify(const Field3& start, const Field3& end, bool settled) noexcept {
   int added = 0;
-  if (self_wanted_ && !staysFlat(start, end, settled)) {
-    look(start, end);
-    added = self_.verify(start, end, h_, contacts_);
+  bool full = false;
+  if (self_wanted_ && !staysFlat(end, settled)) {
+    findOnWay(start, end);
+    added = self_.verify(candidates_, start, end, h_, contacts_);
+    full = self_.full();
   }
-  if (near_obstacle_) added += touch_.verify(start, end, h_, contacts_);
+  added += touch_.verify(start, end, settled, contacts_);
+  if (full || touch_.full()) return Verdict::kCrossed;
   if (added == 0) return Verdict::kClear;
   return ++looks_ <= zone_iterations_ ? Verdict::kMore : Verdict::kCrossed;
 }
 
 void ClothContact::hold(const Field3& start, Field3& end) noexcept {
   if (self_wanted_) holdSelf(start, end);
-  if (near_obstacle_) holdToObstacles(start, end);
+  if (obstacles_.anyPresent()) holdToObstacles(start, end);
 }
 
-// What would go through an obstacle goes along with it, and what that would go through or be left behind by, too.
+// What would go through an obstacle goes along with it, and what that would go through or be left behind by, too. Where that does
+// not come to an end, the rest stays where it is.
 void ClothContact::holdToObstacles(const Field3& start, Field3& end) noexcept {
-  for (int round = 0; round < kCarryRounds; ++round) {
-    int count = touch_.carry(start, end, h_);
+  bool done = false;
+  for (int round = 0; round < kCarryRounds && !done; ++round) {
+    int count = touch_.carry(start, end);
     if (self_wanted_ && count > 0) {
-      look(start, end);
-      self_.forEachCrossing(start, end, [&](const NearPair& pair) {
-        for (const std::uint32_t node : pair.key.node) {
-          count += touch_.carryAlong(pair.key.node[0], node, start, end) ? 1 : 0;
-        }
+      find(start, end, self_.gap());
+      self_.forEachCrossing(candidates_, start, end, [&](const PairKey& pair) {
+        for (const std::uint32_t node : pair.node) count += touch_.carryAlong(pair.node[0], node, start, end) ? 1 : 0;
       });
     }
-    if (count == 0) break;
+    done = count == 0 && !touch_.full() && !self_.full();
   }
+  if (!done) touch_.stopRest(start, end);
   touch_.endCarrying();
 }
 
 void ClothContact::holdSelf(const Field3& start, Field3& end) noexcept {
   zones_.clear();
+  const auto is_done = [&] { return joinCrossings(start, end) == 0 && !self_.full(); };
   for (int round = 0; round < zone_iterations_; ++round) {
-    if (joinCrossings(start, end) == 0) return;
+    if (is_done()) return;
     zones_.makeRigid(start, end);
   }
   for (int round = 0; round < zone_iterations_; ++round) {
-    if (joinCrossings(start, end) == 0) return;
+    if (is_done()) return;
     zones_.stop(start, end);
   }
-  if (joinCrossings(start, end) == 0) return;
+  if (is_done()) return;
   for (std::size_t n = 1; n < pattern_.grid.size(); ++n) {
     if (pattern_.mass[n] > 0.0) zones_.join(0, n);
   }
@@ -142,25 +169,28 @@ void ClothContact::holdSelf(const Field3& start, Field3& end) noexcept {
 int ClothContact::joinCrossings(const Field3& start, const Field3& end) noexcept {
   int count = 0;
   if (!self_wanted_) return count;
-  look(start, end);
-  self_.forEachCrossing(start, end, [&](const NearPair& pair) {
-    for (std::size_t k = 1; k < 4; ++k) zones_.join(pair.key.node[0], pair.key.node[k]);
+  find(start, end, self_.gap());
+  self_.forEachCrossing(candidates_, start, end, [&](const PairKey& pair) {
+    for (std::size_t k = 1; k < 4; ++k) zones_.join(pair.node[0], pair.node[k]);
     ++count;
   });
   return count;
 }
 
 void ClothContact::afterSubstep(bool settled, double h, double scale, const Field3& position) noexcept {
-  ended_ = {settled, flat_};
+  taut_ = settled;
+  net_.goOn();
   if (!settled) slippery_ = kSlipperySubsteps;
   else if (slippery_ > 0) --slippery_;
   last_.clear();
   for (const Contact& contact : contacts_) {
     if (contact.pushes()) last_.push_back(contact);
   }
+  // Those that verify() added come last.
+  const auto in_order = [this](const Contact& a, const Contact& b) { return before(a, b); };
+  if (!std::is_sorted(last_.begin(), last_.end(), in_order)) std::sort(last_.begin(), last_.end(), in_order);
   last_scale_ = scale;
-  if (self_wanted_) self_.remember(contacts_);
-  touch_.remember(contacts_, position, h, scale);
+  touch_.remember(last_, position, h, scale);
 }
 
 void ClothContact::addForces(Field3& force) const noexcept {
@@ -179,12 +209,15 @@ void ClothContact::forget() noexcept {
   last_.clear();
   last_scale_ = 0.0;
   slippery_ = 0;
-  looked_ = flat_ = false;
-  started_ = ended_ = {};
+  taut_ = false;
+  clearCaches();
+  touch_.beginFrame(true);
+}
+
+void ClothContact::clearCaches() noexcept {
   net_.forget();
   pairs_.forget();
-  self_.forget();
-  touch_.forget();
+  touch_.clearCaches();
 }
 
 }  // namespace curtain

@@ -2,9 +2,12 @@
 //
 // All contact of a cloth: what may touch within a substep, and whether anything went through anything after all.
 //
-//   begin    contacts: of what was near when the last substep ended, what touches on the predicted way
+//   begin    contacts: what touches on the predicted way, with the multipliers of the last accepted substep
 //   verify   what would go through something on the solved way becomes a contact too, and the solve goes on
 //   hold     what still would is moved as one body (zones.h)
+//
+// Contacts come from positions and those multipliers alone, in the order of the obstacles' names and of the nodes. What is kept
+// beside them saves time and changes no bit of a result.
 #pragma once
 
 #include "contact/kept_pairs.h"
@@ -19,20 +22,20 @@ namespace curtain {
 
 class ClothContact : public ContactFinder {
  public:
-  /// frame_length [s]; stretch_tolerance: of links in a substep that settles, relative; pattern and obstacles must
-  /// outlive this.
-  ClothContact(const ClothPattern& pattern, const ContactParams& params, double frame_length,
-               const ObstacleSet& obstacles, double stretch_tolerance);
+  /// stretch_tolerance: of links in a substep that settles, relative; pattern and obstacles must outlive this.
+  ClothContact(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles, double stretch_tolerance);
 
   /// There is something to look for at all.
   bool wanted() const noexcept { return self_wanted_ || obstacles_.anyPresent(); }
 
-  Contacts* begin(const Field3& start, const Field3& predicted, double h) noexcept override;
+  Contacts& begin(const Field3& start, const Field3& predicted, double h) noexcept override;
   Verdict verify(const Field3& start, const Field3& end, bool settled) noexcept override;
   void hold(const Field3& start, Field3& end) noexcept override;
 
   /// In a substep that it is not asked to begin, for there is nothing to look for.
   void nothingTouches() noexcept { contacts_.clear(); }
+  /// Where the cloth is put elsewhere; nothing that comes differs by it, but computing time.
+  void clearCaches() noexcept;
   /// After every accepted substep of h [s] that ended at position, whether all links could be brought to their lengths;
   /// scale: its h * kick [s^2].
   void afterSubstep(bool settled, double h, double scale, const Field3& position) noexcept;
@@ -55,14 +58,20 @@ class ClothContact : public ContactFinder {
   void addForces(Field3& force) const noexcept;
   void forget() noexcept;
   /// The next substep does not start where the last accepted one ended.
-  void lookAfresh() noexcept { ended_ = {}; }
+  void lookAfresh() noexcept {
+    taut_ = false;
+    net_.forget();
+  }
   /// Accepted substeps of so much time altogether [s], in which nothing touched, are undone.
   void takeBack(double time) noexcept { touch_.takeBack(time); }
   void carry(Archive& archive);
 
  private:
-  bool staysFlat(const Field3& start, const Field3& end, bool settled) noexcept;
-  void look(const Field3& start, const Field3& end) noexcept;
+  bool staysFlat(const Field3& end, bool settled) noexcept;
+  void find(const Field3& start, const Field3& end, double reach) noexcept;
+  void findOnWay(const Field3& start, const Field3& end) noexcept;
+  void warmStart() noexcept;
+  bool before(const Contact& a, const Contact& b) const noexcept;
   int joinCrossings(const Field3& start, const Field3& end) noexcept;
   void holdSelf(const Field3& start, Field3& end) noexcept;
   void holdToObstacles(const Field3& start, Field3& end) noexcept;
@@ -75,23 +84,15 @@ class ClothContact : public ContactFinder {
   SelfContacts self_;
   KeptPairs pairs_;
   TautNet net_;
-  // What is known of where a substep starts, for it is where the last one ended.
-  struct Known {
-    bool taut = false;  // that one settled
-    bool seen = false;  // by net_, last of all
-
-    void carry(Archive& archive);
-  };
-  Known started_, ended_;
-  bool flat_ = false;         // the net has proved it of the present substep
-  Candidates candidates_;
-  Field3 ahead_;           // where nodes go on to from the last look [m]
-  bool looked_ = false;    // the pairs near each other now are known
+  Candidates candidates_;     // of the way from the substep's start to predicted_
+  Field3 predicted_;
+  std::vector<std::uint8_t> astray_;  // by node: it ends elsewhere
   Zones zones_;
-  Contacts contacts_, last_;  // of this substep; of the last accepted one, those that pushed
+  Contacts contacts_, last_;  // of this substep; of the last accepted one, those that pushed, in their order
   double h_ = 0.0;            // of this substep [s]
   double last_scale_ = 0.0;   // of the last one's multipliers [s^2]
-  bool near_obstacle_ = false;
+  bool taut_ = false;         // links hold where the substep starts
+  bool flat_ = false;         // and the cloth is flat there
   int looks_ = 0;             // times that the present substep was verified
   int slippery_ = 0;          // substeps still to go without friction
 };

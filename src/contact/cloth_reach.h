@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Where the cloth is in a substep, and how fast: a box in the world.
+// Where the cloth is in a substep: a box in the world.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -9,11 +9,7 @@
 
 namespace curtain {
 
-/// How a cloth moves from start to predicted.
-struct ClothMotion {
-  Eigen::AlignedBox3d box;  ///< around both [m]
-  double move = 0.0;        ///< of the node that moves most [m]
-};
-ClothMotion motionOfCloth(const Grid& grid, const Field3& start, const Field3& predicted) noexcept;
+/// Around all nodes, at both.
+Eigen::AlignedBox3d boxAround(const Grid& grid, const Field3& start, const Field3& end) noexcept;
 
 }  // namespace curtain

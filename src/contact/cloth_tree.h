@@ -38,7 +38,7 @@ struct QuadRectangle {
 class ClothTree {
  public:
   /// Candidates that room is made for, per node of the cloth.
-  static constexpr std::size_t kRoomPerNode = 32;
+  static constexpr std::size_t kRoomPerNode = 64;
 
   /// Takes the grid, the rest lengths and which nodes are immovable (inverse_mass 0). At least 2 x 2 nodes.
   explicit ClothTree(const ClothPattern& pattern);
@@ -49,7 +49,7 @@ class ClothTree {
 
   /// Appends, once each, every pair (vertex, triangle) and (edge, edge) that shares no node, has a node that can move, and
   /// comes within `reach` [m, >= 0] at some time between start and end; and some that do not, but are too near to tell.
-  /// Allocates only where `out` has less room than it needs, for what boxes alone do not part as well; see reserve().
+  /// Allocates nothing: what `out` has no room for is left out, and it says so; see reserve().
   /// Rounding only ever adds pairs.
   void collectSelf(double reach, Candidates& out) noexcept;
 

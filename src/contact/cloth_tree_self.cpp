@@ -275,7 +275,7 @@ void ClothTree::addLanes(const QuadPair& pair, std::size_t lane, std::uint32_t o
       const MeshEdge& second = ElementBoxes::edge(q, pair.q_second, other);
       if (shareNode(first, second) || isImmovable(first, second)) continue;
       if (is_flat()) return;
-      out.edge_edges.push_back({first, second});
+      out.add(EdgeEdge{first, second});
     } else {
       const bool vertex_first = (bit & ElementBoxes::kVertices) != 0;
       const std::uint32_t vertex =
@@ -283,7 +283,7 @@ void ClothTree::addLanes(const QuadPair& pair, std::size_t lane, std::uint32_t o
       const MeshTriangle& triangle = vertex_first ? ElementBoxes::triangle(q, other) : ElementBoxes::triangle(p, lane);
       if (isCorner(vertex, triangle) || isImmovable(vertex, triangle)) continue;
       if (is_flat()) return;
-      out.vertex_triangles.push_back({vertex, triangle});
+      out.add(VertexTriangle{vertex, triangle});
     }
   }
 }

@@ -18,8 +18,8 @@ constexpr double kLooks = 4.0;
 constexpr double kLeastLeeway = 0.05, kMostLeeway = 0.25;
 // What is left of the straying that was expected before.
 constexpr double kMemory = 0.7;
-// The ways are continued as far again: later looks see further ahead.
-constexpr double kBeyond = 2.0;
+// The paths are continued to so many times their length: the next substeps go on there.
+constexpr double kBeyond = 4.0;
 // Rounding of places and ways in double precision, relative to the reach.
 constexpr double kSlack = 1e-6;
 // Nodes that the times are fitted to: one of so many.
@@ -84,7 +84,7 @@ void KeptPairs::collect(const Field3& start, const Field3& end, double reach, Ca
     raiseStrays(start);
     raiseStrays(end);
     if (reach <= reach_) {
-      const std::size_t marked = mark();
+      const std::size_t marked = mark(0.5 * (reach_ - reach));
       // Looks for the marked cost more than a descent whose leeway lasts for all.
       if (marked == 0 || (marked <= mostMarked() && kLooks * mostStray() > age_ * kMostLeeway * reach)) {
         if (marked > 0) appendOfMarked(start, end, reach, out);
@@ -128,6 +128,12 @@ void KeptPairs::descend(const Field3& start, const Field3& end, double reach, Ca
   reach_ = reach;
   tree_.refit(from_, far_);
   tree_.collectSelf(reach * (1.0 + kSlack) + 2.0 * leeway_, kept_);
+  if (kept_.full) {  // more than can be kept
+    reach_ = -1.0;
+    tree_.refit(start, end);
+    tree_.collectSelf(reach, out);
+    return;
+  }
   expects_ = !kept_.vertex_triangles.empty() || !kept_.edge_edges.empty();
   appendNear(start, end, reach, out);
 }
@@ -153,9 +159,9 @@ std::size_t KeptPairs::mostMarked() const noexcept {
   return static_cast<std::size_t>(kMostMarked * static_cast<double>(grid_.nodeCount()));
 }
 
-// Marks the nodes that strayed further than the leeway; returns their number.
-std::size_t KeptPairs::mark() noexcept {
-  const double most = leeway_ * leeway_;
+// Marks the nodes that strayed further than the leeway and so much more; returns their number.
+std::size_t KeptPairs::mark(double more) noexcept {
+  const double most = (leeway_ + more) * (leeway_ + more);
   std::size_t count = 0;
   for (std::size_t n = 0; n < grid_.size(); ++n) {
     marked_[n] = strays_[n] > most ? 1 : 0;
@@ -207,7 +213,7 @@ void KeptPairs::appendNear(const Field3& start, const Field3& end, double reach,
       return ways_[pair.vertex].box().meets(box_of(pair.triangle), limit);
     }
   };
-  const auto append = [&](const auto& pairs, const auto& stay_apart, auto& to) {
+  const auto append = [&](const auto& pairs, const auto& stay_apart) {
     for (std::size_t first = 0; first < pairs.size(); first += 4) {
       const std::size_t count = std::min<std::size_t>(4, pairs.size() - first);
       std::array<FourNodes, 4> four;
@@ -215,12 +221,12 @@ void KeptPairs::appendNear(const Field3& start, const Field3& end, double reach,
       const std::uint32_t apart = stay_apart(four, ways_.data(), limit, rounding_);
       if (apart == 0xFU) continue;
       for (std::size_t k = 0; k < count; ++k) {
-        if ((apart >> k & 1U) == 0 && !hasMarked(four[k]) && meet(pairs[first + k])) to.push_back(pairs[first + k]);
+        if ((apart >> k & 1U) == 0 && !hasMarked(four[k]) && meet(pairs[first + k])) out.add(pairs[first + k]);
       }
     }
   };
-  append(kept_.vertex_triangles, vertexStaysApart, out.vertex_triangles);
-  append(kept_.edge_edges, edgesStayApart, out.edge_edges);
+  append(kept_.vertex_triangles, vertexStaysApart);
+  append(kept_.edge_edges, edgesStayApart);
 }
 
 void KeptPairs::fillWays(const Field3& start, const Field3& end) noexcept {

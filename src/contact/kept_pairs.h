@@ -23,15 +23,20 @@ class KeptPairs {
   explicit KeptPairs(const ClothPattern& pattern);
 
   /// Appends what ClothTree::collectSelf() promises, of nodes that move straight from start to end, finite and of the
-  /// grid's size; `reach` [m, >= 0]. The order depends on earlier calls. Allocates nothing once there is room for the
-  /// pairs, here and in `out`; see reserve().
+  /// grid's size; `reach` [m, >= 0]. The order depends on earlier calls, and so do pairs further apart than `reach`: who takes
+  /// them must not let it tell. Allocates nothing: `out` says when it has no room; see reserve().
   void collect(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept;
+
+  /// Appends what ClothTree::collectSelfOf() promises.
+  void collectOf(const std::vector<std::uint8_t>& marked, const Field3& start, const Field3& end, double reach, Candidates& out) noexcept {
+    tree_.refit(start, end);
+    tree_.collectSelfOf(marked, reach, out);
+  }
 
   void reserve(Candidates& out) const { tree_.reserve(out); }
 
-  /// As after construction: the order of the pairs to come depends on nothing from before.
+  /// As after construction.
   void forget() noexcept;
-  void carry(Archive& archive);
 
   /// How often the tree was descended.
   long descents() const noexcept { return descents_; }
@@ -43,7 +48,7 @@ class KeptPairs {
   void appendOfMarked(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept;
   void raiseStrays(const Field3& position) noexcept;
   std::size_t mostMarked() const noexcept;
-  std::size_t mark() noexcept;
+  std::size_t mark(double more) noexcept;
   double mostStray() const noexcept;
   double commonStray(double reach) noexcept;
   bool hasMarked(const std::array<std::uint32_t, 4>& nodes) const noexcept {

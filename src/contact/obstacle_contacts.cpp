@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "contact/candidates.h"
 #include "contact/cloth_reach.h"
 
 namespace curtain {
@@ -12,31 +13,20 @@ namespace {
 
 // Faces and edges are let come nearer than nodes, to this share of the thickness: few of them need a contact then.
 constexpr double kCore = 0.3;
-// What the cloth can move in a time, from what it moves now: so many times as fast, and faster by this acceleration [m/s^2]
-// (links snapping taut give nodes hundreds).
-constexpr double kFaster = 3.0;
-constexpr double kAcceleration = 500.0;
-// The box of the cloth holds for so many frames at most.
-constexpr double kMostFrames = 16.0;
-
-// The order in which the contacts of an obstacle are kept.
+// The order in which the contacts of an obstacle are kept; of two of the same parts, the one that asks for less comes first.
 auto orderOf(const Contact& c) { return std::tie(c.nodes, c.node, c.source); }
-bool firstOfOne(const Contact& a, const Contact& b) { return orderOf(a) < orderOf(b); }
+bool firstOfOne(const Contact& a, const Contact& b) {
+  if (orderOf(a) != orderOf(b)) return orderOf(a) < orderOf(b);
+  return std::tie(a.offset, a.weight) < std::tie(b.offset, b.weight);
+}
 bool alike(const Contact& a, const Contact& b) { return orderOf(a) == orderOf(b); }
 
 }  // namespace
 
-// Contacts are solved one after the other, to a tolerance: their order tells in that.
-bool ObstacleContacts::before(const Contact& a, const Contact& b) const noexcept {
-  return a.obstacle == b.obstacle ? firstOfOne(a, b) : obstacles_.rank(a.obstacle) < obstacles_.rank(b.obstacle);
-}
-
-ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, const ContactParams& params, double frame,
-                                   const ObstacleSet& obstacles)
+ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles)
     : pattern_(pattern),
       thickness_(params.thickness),
       recovery_speed_(params.recovery_speed),
-      frame_(frame),
       obstacles_(obstacles),
       bounds_(pattern) {
   const auto count = static_cast<std::size_t>(obstacles.count());
@@ -45,38 +35,24 @@ ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, const ContactPar
   for (const MovingObstacle& moving : obstacles.moving()) near_.emplace_back(pattern, *moving.shape, thickness_, kCore * thickness_);
   active_.assign(count, 0);
   loads_.assign(count, Load());
-  last_.reserve(4 * pattern.grid.nodeCount());
   crossings_.reserve(pattern.grid.nodeCount());
   carried_by_.assign(pattern.grid.size(), -1);
   carried_.reserve(pattern.grid.nodeCount());
 }
 
-// Where the cloth can be for some time; the nearer the next obstacle, the sooner it looks again.
-void ObstacleContacts::lookAtCloth(const Field3& start, const Field3& predicted, double h) noexcept {
-  const ClothMotion cloth = motionOfCloth(pattern_.grid, start, predicted);
-  double gap = std::numeric_limits<double>::infinity();
-  for (const MovingObstacle& moving : obstacles_.moving()) {
-    if (!moving.present) continue;
-    gap = std::min(gap, std::sqrt(cloth.box.squaredExteriorDistance(moving.sweptBounds())));
-  }
-  const double speed = kFaster * cloth.move / h;
-  const double room = std::isfinite(gap) ? 0.5 * gap : 0.0;
-  // speed t + acceleration t^2 / 2 = room
-  const double time = std::min(kMostFrames * frame_, 2.0 * room / (speed + std::sqrt(speed * speed + 2.0 * kAcceleration * room) + 1e-9));
-  box_ = cloth.box;
-  const double margin = 2.0 * thickness_ + std::max(cloth.move, time > h ? room : 0.0);
-  box_.min().array() -= margin;
-  box_.max().array() += margin;
-  box_time_ = std::isfinite(gap) ? time : frame_;
+// Box around the cloth on its way, and what may touch beyond it.
+Eigen::AlignedBox3d ObstacleContacts::reached(Eigen::AlignedBox3d box) const noexcept {
+  const double margin = 2.0 * thickness_;
+  box.min().array() -= margin;
+  box.max().array() += margin;
+  return box;
 }
 
 ObstacleStanding ObstacleContacts::standing(int obstacle, const Field3& position) const noexcept {
   const MovingObstacle& moving = obstacles_.moving()[static_cast<std::size_t>(obstacle)];
   if (!moving.present) return ObstacleStanding::kAbsent;
-  Eigen::AlignedBox3d cloth = motionOfCloth(pattern_.grid, position, position).box;
-  cloth.min().array() -= 2.0 * thickness_;
-  cloth.max().array() += 2.0 * thickness_;
-  return cloth.intersects(moving.sweptBounds()) ? ObstacleStanding::kNear : ObstacleStanding::kFar;
+  const bool near = reached(boxAround(pattern_.grid, position, position)).intersects(moving.sweptBounds());
+  return near ? ObstacleStanding::kNear : ObstacleStanding::kFar;
 }
 
 bool ObstacleContacts::anyWithin(const Eigen::AlignedBox3d& box) const noexcept {
@@ -86,34 +62,21 @@ bool ObstacleContacts::anyWithin(const Eigen::AlignedBox3d& box) const noexcept 
   return std::any_of(obstacles_.moving().begin(), obstacles_.moving().end(), is_within);
 }
 
-bool ObstacleContacts::mayTouch(const Field3& start, const Field3& predicted, double h) noexcept {
-  std::fill(active_.begin(), active_.end(), std::uint8_t{0});
-  if (!(box_time_ >= h)) {
-    // Some 30 nodes will do for what is not close; where they go in the end is not where they are predicted.
-    Eigen::AlignedBox3d sampled = bounds_.around(start, predicted, 1.0 + kFaster);
-    sampled.min().array() -= 2.0 * thickness_;
-    sampled.max().array() += 2.0 * thickness_;
-    if (!anyWithin(sampled)) return false;
-    lookAtCloth(start, predicted, h);
-  }
-  bool any = false;
-  for (std::size_t n = 0; n < near_.size(); ++n) {
-    const MovingObstacle& moving = obstacles_.moving()[n];
-    if (!moving.present || !box_.intersects(moving.sweptBounds())) continue;
-    near_[n].prepare(moving, start, predicted, h, frame_);
-    active_[n] = 1;
-    any = true;
-  }
-  return any;
-}
-
-void ObstacleContacts::collect(const Field3&, const Field3&, double h, bool slippery, Contacts& contacts) noexcept {
+void ObstacleContacts::begin(const Field3& start, const Field3& predicted, double h, bool slippery, Contacts& contacts) noexcept {
+  h_ = h;
   slippery_ = slippery;
-  const std::size_t first = contacts.size();
+  std::fill(active_.begin(), active_.end(), std::uint8_t{0});
+  all_.setEmpty();
+  for (const MovingObstacle& moving : obstacles_.moving()) {
+    if (moving.present) all_.extend(moving.sweptBounds());
+  }
+  if (all_.isEmpty()) return;
+  start_box_ = bounds_.around(start);
+  if (!activate(start, predicted, true)) return;
   for (const int index : obstacles_.byName()) {
     const auto n = static_cast<std::size_t>(index);
     if (active_[n] == 0) continue;
-    const ObstacleSubstep substep = substepOf(n, h, slippery);
+    const ObstacleSubstep substep = substepOf(n);
     collectNodes(substep, pattern_, near_[n], contacts);
     const auto elements = static_cast<std::ptrdiff_t>(contacts.size());
     if (!near_[n].faces().empty()) collectFaces(substep, pattern_, near_[n], contacts);
@@ -121,69 +84,83 @@ void ObstacleContacts::collect(const Field3&, const Field3&, double h, bool slip
     std::sort(contacts.begin() + elements, contacts.end(), firstOfOne);
     contacts.erase(std::unique(contacts.begin() + elements, contacts.end(), alike), contacts.end());
   }
-  warmStart(first, contacts);
 }
 
-void ObstacleContacts::warmStart(std::size_t first, Contacts& contacts) const noexcept {
-  auto old = last_.begin();
-  for (std::size_t n = first; n < contacts.size(); ++n) {
-    Contact& contact = contacts[n];
-    while (old != last_.end() && before(*old, contact)) ++old;
-    if (old == last_.end()) return;
-    if (before(contact, *old)) continue;
-    contact.push = old->push;
-    contact.slide = old->slide;
+// Lists what is near for the way from start to end, of the obstacles that the cloth may come near on it; false: of none.
+// Those that are not active yet become so. Some 30 nodes will do for what is not close, where links hold.
+bool ObstacleContacts::activate(const Field3& start, const Field3& end, bool links_hold) noexcept {
+  if (all_.isEmpty()) return false;
+  if (links_hold) {
+    const Vec3 way = Vec3::Constant(bounds_.farthest(start, end));
+    const Eigen::AlignedBox3d box = reached({start_box_.min() - way, start_box_.max() + way});
+    if (!box.intersects(all_) || !anyWithin(box)) return false;
   }
+  const Eigen::AlignedBox3d box = reached(boxAround(pattern_.grid, start, end));
+  bool any = false;
+  for (std::size_t n = 0; n < near_.size(); ++n) {
+    const MovingObstacle& moving = obstacles_.moving()[n];
+    if (!moving.present || !(active_[n] != 0 || box.intersects(moving.sweptBounds()))) continue;
+    if (active_[n] != 0) near_[n].follow(moving, start, end, h_);
+    else near_[n].prepare(moving, start, end, h_);
+    active_[n] = 1;
+    any = true;
+  }
+  return any;
 }
 
-void ObstacleContacts::findCrossings(const Field3& start, const Field3& end, double h) noexcept {
+void ObstacleContacts::findCrossings(const Field3& start, const Field3& end, bool links_hold) noexcept {
   crossings_.clear();
+  full_ = false;
+  if (!activate(start, end, links_hold)) return;
   for (const int index : obstacles_.byName()) {
     const auto n = static_cast<std::size_t>(index);
     if (active_[n] == 0) continue;
-    const ObstacleSubstep substep = substepOf(n, h, slippery_);
-    near_[n].follow(substep.moving, start, end, h);
+    const ObstacleSubstep substep = substepOf(n);
     crossingNodes(substep, pattern_, near_[n], crossings_);
     if (!near_[n].faces().empty()) crossingFaces(substep, pattern_, near_[n], crossings_);
     if (!near_[n].pairs().empty()) crossingPairs(substep, pattern_, near_[n], crossings_);
+    full_ = full_ || near_[n].full();
   }
 }
 
-int ObstacleContacts::verify(const Field3& start, const Field3& end, double h, Contacts& contacts) noexcept {
-  findCrossings(start, end, h);
-  for (const Crossing& crossing : crossings_) contacts.push_back(crossing.contact);
+int ObstacleContacts::verify(const Field3& start, const Field3& end, bool links_hold, Contacts& contacts) noexcept {
+  findCrossings(start, end, links_hold);
+  for (const Crossing& crossing : crossings_) addWithinRoom(crossing.contact, contacts);
   return static_cast<int>(crossings_.size());
 }
 
-int ObstacleContacts::carry(const Field3& start, Field3& end, double h) noexcept {
-  findCrossings(start, end, h);
+int ObstacleContacts::carry(const Field3& start, Field3& end) noexcept {
+  findCrossings(start, end, false);
   int count = 0;
   for (const Crossing& crossing : crossings_) {
-    const MovingObstacle& moving = obstacles_.moving()[static_cast<std::size_t>(crossing.contact.obstacle)];
     bool news = false;
     for (std::size_t k = 0; k < static_cast<std::size_t>(crossing.nodes); ++k) {
-      const std::uint32_t node = crossing.node[k];
-      if (carried_by_[node] >= 0 || pattern_.inverse_mass[node] <= 0.0) continue;
-      carried_by_[node] = crossing.contact.obstacle;
-      carried_.push_back(node);
-      end.set(node, moving.after.toWorld(moving.before.toLocal(start.at(node))));
-      news = true;
+      news = carryNode(crossing.node[k], crossing.contact.obstacle, start, end) || news;
     }
     count += news ? 1 : 0;
   }
   return count;
 }
 
+// False: it already goes along with one, or can't.
+bool ObstacleContacts::carryNode(std::uint32_t node, int obstacle, const Field3& start, Field3& end) noexcept {
+  if (carried_by_[node] >= 0 || pattern_.inverse_mass[node] <= 0.0) return false;
+  const MovingObstacle& moving = obstacles_.moving()[static_cast<std::size_t>(obstacle)];
+  carried_by_[node] = obstacle;
+  carried_.push_back(node);
+  end.set(node, moving.after.toWorld(moving.before.toLocal(start.at(node))));
+  return true;
+}
+
 bool ObstacleContacts::carryAlong(std::size_t a, std::size_t b, const Field3& start, Field3& end) noexcept {
   if (carried_by_.empty() || (carried_by_[a] < 0) == (carried_by_[b] < 0)) return false;
-  const std::size_t other = carried_by_[a] < 0 ? a : b;
-  if (pattern_.inverse_mass[other] <= 0.0) return false;
-  const std::int32_t obstacle = std::max(carried_by_[a], carried_by_[b]);
-  const MovingObstacle& moving = obstacles_.moving()[static_cast<std::size_t>(obstacle)];
-  carried_by_[other] = obstacle;
-  carried_.push_back(static_cast<std::uint32_t>(other));
-  end.set(other, moving.after.toWorld(moving.before.toLocal(start.at(other))));
-  return true;
+  return carryNode(static_cast<std::uint32_t>(carried_by_[a] < 0 ? a : b), std::max(carried_by_[a], carried_by_[b]), start, end);
+}
+
+void ObstacleContacts::stopRest(const Field3& start, Field3& end) const noexcept {
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    if (carried_by_[n] < 0 && pattern_.inverse_mass[n] > 0.0) end.set(n, start.at(n));
+  }
 }
 
 void ObstacleContacts::endCarrying() noexcept {
@@ -191,17 +168,14 @@ void ObstacleContacts::endCarrying() noexcept {
   carried_.clear();
 }
 
-void ObstacleContacts::remember(const Contacts& contacts, const Field3& position, double h, double scale) noexcept {
-  last_.clear();
-  box_time_ -= h;
+void ObstacleContacts::remember(const Contacts& pushing, const Field3& position, double h, double scale) noexcept {
   loaded_for_ += h;
   for (std::size_t n = 0; n < near_.size(); ++n) {
     if (active_[n] != 0) near_[n].advance(h);
     loads_[n].contacts = 0;
   }
-  for (const Contact& contact : contacts) {
-    if (contact.obstacle == Contact::kCloth || !contact.pushes()) continue;
-    last_.push_back(contact);
+  for (const Contact& contact : pushing) {
+    if (contact.obstacle == Contact::kCloth) continue;
     const auto obstacle = static_cast<std::size_t>(contact.obstacle);
     const Vec3 impulse = (-h / scale) * (contact.push * contact.normal + contact.slide);
     const Vec3 arm = contact.point(position) - obstacles_.moving()[obstacle].after.translation;
@@ -209,19 +183,10 @@ void ObstacleContacts::remember(const Contacts& contacts, const Field3& position
     loads_[obstacle].angular += arm.cross(impulse);
     ++loads_[obstacle].contacts;
   }
-  // What is struck may be as fast as the obstacle.
-  if (!last_.empty()) box_time_ = 0.0;
-  // Those that verify() added come last.
-  const auto in_order = [this](const Contact& a, const Contact& b) { return before(a, b); };
-  if (!std::is_sorted(last_.begin(), last_.end(), in_order)) std::sort(last_.begin(), last_.end(), in_order);
 }
 
-void ObstacleContacts::forget() noexcept {
-  last_.clear();
+void ObstacleContacts::clearCaches() noexcept {
   for (Vicinity& vicinity : near_) vicinity.forget();
-  std::fill(active_.begin(), active_.end(), std::uint8_t{0});
-  box_time_ = 0.0;
-  beginFrame(true);
 }
 
 void ObstacleContacts::beginFrame(bool links_hold) noexcept {

@@ -5,9 +5,12 @@
 // planes where it goes in, and as a last resort goes with the obstacle.
 //
 //   box around a few nodes  an obstacle outside it costs next to nothing
-//   box, for some frames    nor does one outside that
-//   vicinity (vicinity.h)   nodes and elements near it
+//   box around all          nor much one outside that
+//   vicinity (vicinity.h)   candidates
 //   touch (obstacle_touch.h)  of those, what touches in the substep
+//
+// All of it follows from where the nodes start and end: candidates are kept from
+// substep to substep as long as motion that is measured allows, and no result depends on that.
 #pragma once
 
 #include <vector>
@@ -26,33 +29,35 @@ enum class ObstacleStanding { kAbsent, kFar, kNear };
 
 class ObstacleContacts {
  public:
-  /// Of params thickness and recovery_speed; frame [s]; pattern and obstacles must outlive this.
-  ObstacleContacts(const ClothPattern& pattern, const ContactParams& params, double frame, const ObstacleSet& obstacles);
+  /// Of params thickness and recovery_speed; pattern and obstacles must outlive this.
+  ObstacleContacts(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles);
 
-  /// Some obstacle may be touched in a substep of h [s] whose nodes go from start to about predicted. False: none can, whatever
-  /// the links do.
-  bool mayTouch(const Field3& start, const Field3& predicted, double h) noexcept;
+  /// Begins a substep of h [s]: adds what may touch on the way from start to predicted, in the order of the obstacles' names, of
+  /// the contacts' nodes and features. slippery: without friction.
+  void begin(const Field3& start, const Field3& predicted, double h, bool slippery, Contacts& contacts) noexcept;
 
-  /// Adds what may touch on the way from start to predicted, in a substep of h [s], with the multipliers of the last accepted
-  /// substep. slippery: without friction. After mayTouch().
-  void collect(const Field3& start, const Field3& predicted, double h, bool slippery, Contacts& contacts) noexcept;
-
-  /// Adds contacts for parts of the cloth that would go through an obstacle on the way from start to end; returns how many.
-  int verify(const Field3& start, const Field3& end, double h, Contacts& contacts) noexcept;
+  /// Adds contacts for parts of the cloth that would go through an obstacle on the way from start to end, expected or not;
+  /// returns how many. links_hold: no link is longer than kOverlong at the end.
+  int verify(const Field3& start, const Field3& end, bool links_hold, Contacts& contacts) noexcept;
+  /// The last one had no room for all that is near: what it says is not certain.
+  bool full() const noexcept { return full_; }
 
   /// Lets the parts that would go through an obstacle on the way from start to end go along with it; returns how many there were
   /// with a node that did not yet.
-  int carry(const Field3& start, Field3& end, double h) noexcept;
+  int carry(const Field3& start, Field3& end) noexcept;
   /// One of two nodes that go along with an obstacle takes the other one with it; false: neither or both do.
   bool carryAlong(std::size_t a, std::size_t b, const Field3& start, Field3& end) noexcept;
+  /// Nodes that go along with none stay where they are.
+  void stopRest(const Field3& start, Field3& end) const noexcept;
   void endCarrying() noexcept;
 
-  /// Takes over the multipliers of an accepted substep of h [s] that ended at position, where they are scale [s^2] times the
-  /// forces; contacts: null when nothing could touch.
-  void remember(const Contacts& contacts, const Field3& position, double h, double scale) noexcept;
+  /// After an accepted substep of h [s] that ended at position: contacts that push, whose multipliers are scale [s^2] times
+  /// the forces.
+  void remember(const Contacts& pushing, const Field3& position, double h, double scale) noexcept;
   /// Of these substeps such that nothing touched in are undone, so much time altogether [s].
   void takeBack(double time) noexcept { loaded_for_ -= time; }
-  void forget() noexcept;
+  /// Nothing that comes differs by it, but computing time.
+  void clearCaches() noexcept;
   void carry(Archive& archive);
 
   /// For a cloth that is here now. Not made for every substep.
@@ -73,25 +78,26 @@ class ObstacleContacts {
 
     void carry(Archive& archive);
   };
-  ObstacleSubstep substepOf(std::size_t obstacle, double h, bool slippery) const noexcept {
-    return {obstacles_.moving()[obstacle], static_cast<int>(obstacle), h, slippery, recovery_speed_};
+  ObstacleSubstep substepOf(std::size_t obstacle) const noexcept {
+    return {obstacles_.moving()[obstacle], static_cast<int>(obstacle), h_, slippery_, recovery_speed_};
   }
-  bool before(const Contact& a, const Contact& b) const noexcept;
   bool anyWithin(const Eigen::AlignedBox3d& box) const noexcept;
-  void lookAtCloth(const Field3& start, const Field3& predicted, double h) noexcept;
-  void findCrossings(const Field3& start, const Field3& end, double h) noexcept;
-  void warmStart(std::size_t first, Contacts& contacts) const noexcept;
+  Eigen::AlignedBox3d reached(Eigen::AlignedBox3d box) const noexcept;
+  bool activate(const Field3& start, const Field3& end, bool links_hold) noexcept;
+  void findCrossings(const Field3& start, const Field3& end, bool links_hold) noexcept;
+  bool carryNode(std::uint32_t node, int obstacle, const Field3& start, Field3& end) noexcept;
 
   const ClothPattern& pattern_;
-  double thickness_, recovery_speed_, frame_;
+  double thickness_, recovery_speed_;
   const ObstacleSet& obstacles_;
-  SampledBounds bounds_;              // of the cloth now
-  Eigen::AlignedBox3d box_;           // of the cloth for box_time_
-  double box_time_ = 0.0;             // [s]
+  SampledBounds bounds_;
+  Eigen::AlignedBox3d all_;           // around all obstacles in this substep
+  Eigen::AlignedBox3d start_box_;     // around the cloth where it starts
   std::vector<Vicinity> near_;        // by obstacle
   std::vector<std::uint8_t> active_;  // by obstacle: may be touched in this substep
   bool slippery_ = false;             // this substep
-  Contacts last_;                     // that pushed, in the order they are found in
+  double h_ = 0.0;                    // [s]
+  bool full_ = false;
   std::vector<Crossing> crossings_;
   std::vector<std::int32_t> carried_by_;  // by node: obstacle, or -1
   std::vector<std::uint32_t> carried_;

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "contact/closest_points.h"
+#include "contact/candidates.h"
 #include "contact/obstacle_touch.h"
 #include "contact/shapes.h"
 #include "curtain_sim/ccd.h"
@@ -16,8 +17,6 @@
 namespace curtain {
 namespace {
 
-// Over the thickness: elements that the links may bring nearer than the core get a contact too.
-constexpr double kListed = 0.5;
 // Over the thickness: nearer than this on the way is through.
 constexpr double kLeast = 0.02;
 
@@ -47,8 +46,10 @@ bool comesOut(const std::array<std::uint32_t, 3>& node, std::size_t nodes, const
   return false;
 }
 
-// A tangent plane of a convex shape has the whole way of the face on its far side.
-bool staysClear(const Vicinity& near, const MeshTriangle& face, const Corners& start, const Corners& end, double reach) {
+// A tangent plane of a convex shape has the whole way of the face on its far side. With a margin for what times of impact are
+// early by: which planes are known must not tell.
+bool staysClear(const Vicinity& near, const MeshTriangle& face, const Corners& start, const Corners& end, double distance) {
+  const double reach = distance + kLeast * near.thickness();
   for (const std::uint32_t node : face) {
     const NodePlane& plane = near.plane(node);
     if (plane.kind != NodePlane::Kind::kFound) continue;
@@ -58,6 +59,17 @@ bool staysClear(const Vicinity& near, const MeshTriangle& face, const Corners& s
   }
   return false;
 }
+
+// Whether the lists have it only for others: it can't be met where nodes keep their distance.
+bool isLeftOut(const FeaturePair& pair, const Vicinity& near) {
+  const std::size_t nodes = pair.edges ? 2 : 3;
+  if (comesOut(pair.node, nodes, near)) return true;
+  return pair.smooth && std::none_of(pair.node.begin(), pair.node.begin() + static_cast<std::ptrdiff_t>(nodes),
+                                     [&near](std::uint32_t node) { return near.isClose(node); });
+}
+
+// Tells features apart in the order of contacts.
+std::uint32_t sourceOf(const FeaturePair& pair) { return 2 * pair.feature + (pair.edges ? 1 : 0); }
 
 TouchPoint touchPoint(const MeshTriangle& face, const ElementPoint& nearest, const Corners& at, const Corners& start) {
   TouchPoint point;
@@ -148,20 +160,21 @@ void add(const ObstacleSubstep& substep, const ClothPattern& pattern, TouchPoint
   Contact contact;
   contact.source = source;
   // A node by itself keeps the thickness.
-  if (makeContact(substep, pattern, point, contact) && contact.nodes > 1) contacts.push_back(contact);
+  if (makeContact(substep, pattern, point, contact) && contact.nodes > 1) addWithinRoom(contact, contacts);
 }
 
 }  // namespace
 
 void collectFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, const Vicinity& near, Contacts& contacts) noexcept {
   const ConvexShape& shape = *near.shape().convex();
-  const double listed = kListed * near.thickness();
+  const double listed = near.elementReach();
   for (const MeshTriangle& face : near.faces()) {
     if (comesOut(face, 3, near)) continue;
     const Corners start = startOf(near, face), end = endOf(near, face);
     if (staysClear(near, face, start, end, listed)) continue;
-    ElementPoint nearest;
-    if (shape.nearestOnTriangle(start, near.thickness(), nearest)) {
+    ElementPoint nearest, then;
+    const bool close = shape.nearestOnTriangle(start, near.thickness(), nearest);
+    if (close && (nearest.surface.distance <= listed || shape.nearestOnTriangle(end, listed, then))) {
       TouchPoint point = touchPoint(face, nearest, start, start);
       if (point.normal.dot(mix(point.weight, end)) - point.height > listed) continue;
       add(substep, pattern, point, nearest.surface.distance, near.core(), 0, contacts);
@@ -170,7 +183,7 @@ void collectFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, c
     const std::optional<double> time = shape.timeOfImpact(start, end, near.core());
     if (!time) continue;
     const Corners at = between(start, end, *time);
-    if (!shape.nearestOnTriangle(at, std::numeric_limits<double>::infinity(), nearest)) continue;
+    if (!shape.nearestOnTriangle(at, listed, nearest)) continue;
     TouchPoint point = touchPoint(face, nearest, at, start);
     add(substep, pattern, point, near.thickness(), near.core(), 0, contacts);
   }
@@ -198,28 +211,29 @@ void crossingFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, 
     Crossing crossing;
     crossing.node = face;
     crossing.nodes = 3;
-    if (makeContact(substep, pattern, point, crossing.contact)) crossings.push_back(crossing);
+    if (makeContact(substep, pattern, point, crossing.contact)) addWithinRoom(crossing, crossings);
   }
 }
 
 void collectPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, const Vicinity& near, Contacts& contacts) noexcept {
   const ObstacleFeatures& features = *near.shape().features();
-  const double listed = kListed * near.thickness();
+  const double listed = near.elementReach();
   for (const FeaturePair& pair : near.pairs()) {
-    if (comesOut(pair.node, pair.edges ? 2 : 3, near)) continue;
+    if (isLeftOut(pair, near)) continue;
     const Corners start = startOf(near, pair.node), end = endOf(near, pair.node);
     if (staysOver(pair, features, start, end, listed)) continue;
     const PairPoint first = closest(pair, features, start);
-    const double way = longestWay(start, end);
-    if (first.distance - way > listed) continue;
-    if (first.distance > near.thickness()) {
+    if (first.distance - longestWay(start, end) > listed) continue;
+    const bool close = first.distance <= listed ||
+                       (first.distance <= near.thickness() && closest(pair, features, end).distance <= listed);
+    if (!close) {
       const std::optional<double> time = impact(pair, features, start, end, near.core());
       if (!time) continue;
       const Corners at = between(start, end, *time);
       const PairPoint there = closest(pair, features, at);
-      if (!there.inside || !(there.distance > 0.0)) continue;
+      if (!there.inside || !(there.distance > 0.0) || there.distance > listed) continue;
       TouchPoint point = touchPoint(pair, there, at, start);
-      add(substep, pattern, point, near.thickness(), near.core(), pair.feature, contacts);
+      add(substep, pattern, point, near.thickness(), near.core(), sourceOf(pair), contacts);
       continue;
     }
     if (!first.inside || !(first.distance > 0.0)) continue;
@@ -233,7 +247,7 @@ void collectPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, c
     } else if (point.normal.dot(mix(point.weight, end)) - point.height > listed) {
       continue;
     }
-    add(substep, pattern, point, distance, near.core(), pair.feature, contacts);
+    add(substep, pattern, point, distance, near.core(), sourceOf(pair), contacts);
   }
 }
 
@@ -242,7 +256,7 @@ void crossingPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, 
   const ObstacleFeatures& features = *near.shape().features();
   const double most = kLeast * near.thickness();
   for (const FeaturePair& pair : near.pairs()) {
-    if (comesOut(pair.node, pair.edges ? 2 : 3, near)) continue;
+    if (isLeftOut(pair, near)) continue;
     const Corners start = startOf(near, pair.node), end = endOf(near, pair.node);
     if (staysOver(pair, features, start, end, most)) continue;
     const PairPoint first = closest(pair, features, start);
@@ -263,8 +277,8 @@ void crossingPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, 
     Crossing crossing;
     crossing.node = pair.node;
     crossing.nodes = point.nodes;
-    crossing.contact.source = pair.feature;
-    if (makeContact(substep, pattern, point, crossing.contact)) crossings.push_back(crossing);
+    crossing.contact.source = sourceOf(pair);
+    if (makeContact(substep, pattern, point, crossing.contact)) addWithinRoom(crossing, crossings);
   }
 }
 

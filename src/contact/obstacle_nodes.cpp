@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Nodes against one obstacle. A query of a mesh costs about a microsecond: while a node stays where the surface was last found,
-// the plane found there serves.
+// Nodes against one obstacle. A query of a mesh costs about a microsecond: it is left out where the plane that was last found
+// shows that the node is far enough.
 #include <algorithm>
 
+#include "contact/candidates.h"
 #include "contact/obstacle_touch.h"
 
 namespace curtain {
@@ -14,34 +15,14 @@ namespace {
 constexpr double kFasterInside = 20.0;
 // Share of what is to be kept that may lack.
 constexpr double kSlack = 0.1;
-// Nodes within so much of the thickness beyond it get a contact too: the links may bring them on.
-constexpr double kBeyond = 0.5;
-// A plane serves while the node is within this share of the thickness of where it was found.
-constexpr double kSamePlace = 0.05;
 // Over the thickness: nearer than this at the end is through.
 constexpr double kLeast = 0.02;
-
-bool serves(const Vicinity& near, const NodePlane& plane, const Vec3& p) {
-  const double thickness = near.thickness();
-  // Close to an edge a tangent plane tells nothing of the sides.
-  return near.shape().convex() == nullptr && plane.kind == NodePlane::Kind::kFound &&
-         plane.surface.distance > 4.0 * kSamePlace * thickness &&
-         (p - plane.at).squaredNorm() <= kSamePlace * kSamePlace * thickness * thickness;
-}
 
 // Neither end is near, and nothing is between.
 bool staysClear(const NodePlane& plane, const Vec3& from, const Vec3& to, double reach) {
   if (plane.kind == NodePlane::Kind::kUnknown) return false;
   const double first = plane.lowerBound(from), last = plane.lowerBound(to);
   return first > 0.0 && last > reach && first + last > (to - from).norm();
-}
-
-// Signed distance of p, or `reach` when it is further out.
-double distanceAt(const Vicinity& near, const NodePlane& plane, const Vec3& p, double reach) {
-  if (serves(near, plane, p)) return plane.height(p);
-  if (plane.kind != NodePlane::Kind::kUnknown && plane.lowerBound(p) >= reach) return reach;
-  SurfacePoint surface;
-  return near.shape().query(p, p, reach, surface) ? surface.distance : reach;
 }
 
 }  // namespace
@@ -94,46 +75,30 @@ Contact nodeContact(const ObstacleSubstep& substep, const ClothPattern& pattern,
 }  // namespace
 
 void collectNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, Vicinity& near, Contacts& contacts) noexcept {
-  const double thickness = near.thickness();
-  const double reach = (1.0 + kBeyond) * thickness;
+  const double reach = near.nodeReach();
   for (const std::uint32_t node : near.nodes()) {
     const Vec3 from = near.startOf(node), to = near.endOf(node);
     NodePlane& plane = near.plane(node);
-    near.setInside(node, false);
-    if (staysClear(plane, from, to, reach)) continue;
-    const double distance = distanceAt(near, plane, from, thickness);
-    near.setDistance(node, distance);
     SurfacePoint surface;
-    if (serves(near, plane, from) && serves(near, plane, to)) {
-      surface = {plane.height(to), plane.surface.normal};
-    } else {
-      if (!near.shape().query(from, to, reach, surface)) continue;
-      if (surface.distance >= 0.0) {
-        plane.at = to;
-        plane.surface = surface;
-        plane.kind = NodePlane::Kind::kFound;
-      }
-    }
-    contacts.push_back(nodeContact(substep, pattern, node, near, surface, distance));
+    if (near.isPinned(node) || staysClear(plane, from, to, reach) || !near.shape().query(from, to, reach, surface)) continue;
+    if (surface.distance >= 0.0) plane = {to, surface, NodePlane::Kind::kFound};
+    addWithinRoom(nodeContact(substep, pattern, node, near, surface, near.distanceOf(node)), contacts);
   }
 }
 
 void crossingNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, const Vicinity& near,
                    std::vector<Crossing>& crossings) noexcept {
-  const double thickness = near.thickness();
+  const double most = kLeast * near.thickness();
   for (const std::uint32_t node : near.nodes()) {
     const Vec3 from = near.startOf(node), to = near.endOf(node);
-    const NodePlane& plane = near.plane(node);
-    const double most = kLeast * thickness;
-    if (staysClear(plane, from, to, most)) continue;
+    const double distance = near.distanceOf(node);
     SurfacePoint surface;
-    if (!near.shape().query(from, to, most, surface)) continue;
-    const double distance = distanceAt(near, plane, from, thickness);
-    if (distance <= 0.0 || surface.distance >= std::min(most, 0.5 * distance)) continue;
+    if (near.isPinned(node) || distance <= 0.0 || staysClear(near.plane(node), from, to, most)) continue;
+    if (!near.shape().query(from, to, most, surface) || surface.distance >= std::min(most, 0.5 * distance)) continue;
     Crossing crossing;
     crossing.node[0] = node;
     crossing.contact = nodeContact(substep, pattern, node, near, surface, distance);
-    crossings.push_back(crossing);
+    addWithinRoom(crossing, crossings);
   }
 }
 

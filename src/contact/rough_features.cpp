@@ -91,10 +91,13 @@ RoughFeatures::RoughFeatures(const ObstacleFeatures& features, const ClothGaps& 
     const std::vector<Star> stars = starsOf(features);
     for (std::size_t n = 0; n < vertices.size(); ++n) smooth[n] = isSmooth(features, n, stars[n], gaps) ? 1 : 0;
   }
+  is_rough_vertex_.assign(vertices.size(), 0);
+  is_rough_edge_.assign(features.edges().size(), 0);
   std::vector<Eigen::AlignedBox3d> boxes;
   for (std::uint32_t n = 0; n < vertices.size(); ++n) {
     if (!vertices[n].touchable || smooth[n] != 0) continue;
     vertices_.push_back(n);
+    is_rough_vertex_[n] = 1;
     boxes.emplace_back(vertices[n].position, vertices[n].position);
   }
   vertex_tree_ = plant(boxes, vertices_);
@@ -103,6 +106,7 @@ RoughFeatures::RoughFeatures(const ObstacleFeatures& features, const ClothGaps& 
     const ObstacleEdge& edge = features.edges()[n];
     if (!edge.touchable || (smooth[edge.vertices[0]] != 0 && smooth[edge.vertices[1]] != 0)) continue;
     edges_.push_back(n);
+    is_rough_edge_[n] = 1;
     boxes.emplace_back(edge.ends[0].cwiseMin(edge.ends[1]), edge.ends[0].cwiseMax(edge.ends[1]));
   }
   edge_tree_ = plant(boxes, edges_);

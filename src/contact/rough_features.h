@@ -30,6 +30,8 @@ class RoughFeatures {
   RoughFeatures(const ObstacleFeatures& features, const ClothGaps& gaps);
 
   bool empty() const noexcept { return edges_.empty() && vertices_.empty(); }
+  bool isRoughEdge(std::size_t edge) const noexcept { return is_rough_edge_[edge] != 0; }
+  bool isRoughVertex(std::size_t vertex) const noexcept { return is_rough_vertex_[vertex] != 0; }
 
   /// As of ObstacleFeatures, of the touchable and rough ones alone.
   template <typename F>
@@ -48,6 +50,7 @@ class RoughFeatures {
  private:
   const ObstacleFeatures* features_ = nullptr;
   std::vector<std::uint32_t> edges_, vertices_;  // in the order of the trees
+  std::vector<std::uint8_t> is_rough_edge_, is_rough_vertex_;
   BoxTree edge_tree_, vertex_tree_;
 };
 

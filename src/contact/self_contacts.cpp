@@ -10,8 +10,8 @@
 namespace curtain {
 namespace {
 
-// Never nearer than this share of the gap, on the whole way.
-constexpr double kLeastShare = 0.02;
+// Pairs that touch or cross in a substep that there is room for, per node.
+constexpr std::size_t kRoomPerNode = 8;
 // What is nearer than the gap at the start of a substep is let out slowly, and not at all within this share of the gap: a
 // contact at rest must not be shaken by what the solve left over.
 constexpr double kSlack = 0.1;
@@ -67,44 +67,7 @@ ClosestPoints closestPoints(bool edges, const std::array<Vec3, 4>& at) noexcept 
 
 SelfContacts::SelfContacts(const ClothPattern& pattern, double gap, const ContactParams& params)
     : gap_(gap), friction_(params.friction), recovery_speed_(params.recovery_speed) {
-  near_.reserve(8 * pattern.grid.nodeCount());
-  table_.clear(8 * pattern.grid.nodeCount());
-  pushed_.reserve(4 * pattern.grid.nodeCount());
-}
-
-void SelfContacts::renew(const Candidates& candidates, Contacts& contacts) noexcept {
-  pushed_.clear();
-  for (const NearPair& pair : near_) {
-    if (pair.push > 0.0) pushed_.push_back(pair);
-  }
-  table_.clear(pushed_.size() + contacts.size());
-  for (std::uint32_t n = 0; n < pushed_.size(); ++n) table_.insert(pushed_[n].key, n);
-  near_.clear();
-  for (const VertexTriangle& c : candidates.vertex_triangles) {
-    near_.push_back({{{c.vertex, c.triangle[0], c.triangle[1], c.triangle[2]}, false}});
-  }
-  for (const EdgeEdge& c : candidates.edge_edges) {
-    near_.push_back({{{c.first[0], c.first[1], c.second[0], c.second[1]}, true}});
-  }
-  if (!pushed_.empty()) {
-    for (NearPair& pair : near_) {
-      const std::uint32_t old = table_.find(pair.key);
-      if (old == PairTable::kNone) continue;
-      pair.push = pushed_[old].push;
-      pair.slide = pushed_[old].slide;
-    }
-  }
-  table_.clear(contacts.size());
-  for (std::uint32_t n = 0; n < contacts.size(); ++n) {
-    Contact& contact = contacts[n];
-    if (contact.obstacle != Contact::kCloth) continue;
-    contact.source = kNoPair;
-    table_.insert({contact.node, contact.weight[1] > 0.0}, n);
-  }
-  for (std::uint32_t n = 0; n < near_.size() && !contacts.empty(); ++n) {
-    const std::uint32_t contact = table_.find(near_[n].key);
-    if (contact != PairTable::kNone) contacts[contact].source = n;
-  }
+  pairs_.reserve(kRoomPerNode * pattern.grid.nodeCount());
 }
 
 double SelfContacts::offsetAt(double distance, double h) const noexcept {
@@ -113,84 +76,108 @@ double SelfContacts::offsetAt(double distance, double h) const noexcept {
   return distance >= kept ? distance : std::min(kept, distance + recovery_speed_ * h);
 }
 
-Contact SelfContacts::makeContact(const NearPair& pair, std::uint32_t source, const ClosestPoints& closest) const noexcept {
+Contact SelfContacts::makeContact(const PairKey& key, const ClosestPoints& closest) const noexcept {
   Contact contact;
   contact.nodes = 4;
-  contact.node = pair.key.node;
+  contact.node = key.node;
   contact.weight = closest.weight;
   contact.normal = closest.apart / closest.distance;
   contact.carried = closest.apart;
   contact.friction = friction_;
-  contact.source = source;
+  contact.source = key.edges ? 1 : 0;
   return contact;
 }
 
-void SelfContacts::collect(const Field3& start, const Field3& predicted, double h, Contacts& contacts) noexcept {
-  for (std::uint32_t n = 0; n < near_.size(); ++n) {
-    NearPair& pair = near_[n];
-    const std::array<Vec3, 4> from = corners(pair, start), to = corners(pair, predicted);
-    if (pair.push == 0.0 && boxesApart(pair.key.edges, from, to, gap_)) continue;
-    const ClosestPoints closest = closestPoints(pair.key.edges, from);
-    // Where two edges are closest at an end of one, the vertex there and the faces at the other one are a pair as well.
+// The order of candidates tells of earlier looks; that of keys does not.
+template <typename Wanted>
+void SelfContacts::select(const Candidates& candidates, const Wanted& wanted) noexcept {
+  pairs_.clear();
+  for (const VertexTriangle& c : candidates.vertex_triangles) {
+    const PairKey key{{c.vertex, c.triangle[0], c.triangle[1], c.triangle[2]}, false};
+    if (wanted(key)) full_ = !addWithinRoom(key, pairs_) || full_;
+  }
+  for (const EdgeEdge& c : candidates.edge_edges) {
+    const PairKey key{{c.first[0], c.first[1], c.second[0], c.second[1]}, true};
+    if (wanted(key)) full_ = !addWithinRoom(key, pairs_) || full_;
+  }
+}
+
+void SelfContacts::sortPairs() noexcept {
+  std::sort(pairs_.begin(), pairs_.end());
+  pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+}
+
+// Both where they are closest at the start, and wherever else at the end, so that no candidate that is not within the gap has
+// a contact: which of those are named is not certain.
+bool SelfContacts::touches(const PairKey& key, const Field3& start, const Field3& predicted) const noexcept {
+  const std::array<Vec3, 4> from = corners(key, start), to = corners(key, predicted);
+  if (boxesApart(key.edges, from, to, gap_)) return false;
+  const ClosestPoints closest = closestPoints(key.edges, from);
+  // Where two edges are closest at an end of one, the vertex there and the faces at the other one are a pair as well.
+  if (!closest.inside || closest.distance <= 0.0) return false;
+  if (closest.apart.dot(mix(closest.weight, to)) >= gap_ * closest.distance) return false;
+  return closest.distance <= gap_ || closestPoints(key.edges, to).distance <= gap_;
+}
+
+void SelfContacts::collect(const Candidates& candidates, const Contacts& last, const Field3& start, const Field3& predicted,
+                           double h, Contacts& contacts) noexcept {
+  full_ = false;
+  select(candidates, [&](const PairKey& key) { return touches(key, start, predicted); });
+  for (const Contact& contact : last) {
+    if (contact.obstacle == Contact::kCloth) addWithinRoom(PairKey{contact.node, contact.source == 1}, pairs_);
+  }
+  sortPairs();
+  for (const PairKey& key : pairs_) {
+    const ClosestPoints closest = closestPoints(key.edges, corners(key, start));
     if (!closest.inside || closest.distance <= 0.0) continue;
-    const double then = closest.apart.dot(mix(closest.weight, to)) / closest.distance;
-    if (then >= gap_ && pair.push == 0.0) continue;
-    Contact contact = makeContact(pair, n, closest);
+    Contact contact = makeContact(key, closest);
     contact.offset = offsetAt(closest.distance, h);
-    contact.push = pair.push;
-    contact.slide = pair.slide;
-    contacts.push_back(contact);
+    addWithinRoom(contact, contacts);
   }
 }
 
 // The time of impact, beyond 1 when there is none; distance: at the start.
-double SelfContacts::crossesAt(const NearPair& pair, const std::array<Vec3, 4>& from, const std::array<Vec3, 4>& to,
+double SelfContacts::crossesAt(const PairKey& key, const std::array<Vec3, 4>& from, const std::array<Vec3, 4>& to,
                                double& distance) const noexcept {
   constexpr double kNever = 2.0;
-  if (boxesApart(pair.key.edges, from, to, kLeastShare * gap_)) return kNever;
-  distance = closestPoints(pair.key.edges, from).distance;
+  if (boxesApart(key.edges, from, to, kLeastShare * gap_)) return kNever;
+  distance = closestPoints(key.edges, from).distance;
   const double least = std::min(kLeastShare * gap_, 0.5 * distance);
-  if (distance - largestApproach(pair.key.edges, from, to) > least) return kNever;
+  if (distance - largestApproach(key.edges, from, to) > least) return kNever;
   const std::optional<double> time =
-      pair.key.edges
+      key.edges
           ? edgeEdgeTimeOfImpact(from[0], from[1], from[2], from[3], to[0], to[1], to[2], to[3], least)
           : vertexTriangleTimeOfImpact(from[0], from[1], from[2], from[3], to[0], to[1], to[2], to[3], least);
   return time.value_or(kNever);
 }
 
-int SelfContacts::verify(const Field3& start, const Field3& end, double h, Contacts& contacts) noexcept {
-  int added = 0;
-  for (std::uint32_t n = 0; n < near_.size(); ++n) {
-    const NearPair& pair = near_[n];
-    const std::array<Vec3, 4> from = corners(pair, start), to = corners(pair, end);
+void SelfContacts::findCrossings(const Candidates& candidates, const Field3& start, const Field3& end) noexcept {
+  full_ = candidates.full;
+  select(candidates, [&](const PairKey& key) {
     double distance = 0.0;
-    const double time = crossesAt(pair, from, to, distance);
-    if (time > 1.0) continue;
-    ++added;
+    return crossesAt(key, corners(key, start), corners(key, end), distance) <= 1.0;
+  });
+  sortPairs();
+}
+
+int SelfContacts::verify(const Candidates& candidates, const Field3& start, const Field3& end, double h, Contacts& contacts) noexcept {
+  findCrossings(candidates, start, end);
+  for (const PairKey& key : pairs_) {
+    const std::array<Vec3, 4> from = corners(key, start), to = corners(key, end);
+    double distance = 0.0;
+    const double time = crossesAt(key, from, to, distance);
     // Held along the way between them where they meet.
     std::array<Vec3, 4> there = from;
     for (std::size_t k = 0; k < 4; ++k) there[k] += time * (to[k] - from[k]);
-    ClosestPoints closest = closestPoints(pair.key.edges, there);
-    if (!(closest.distance > 0.0)) closest = closestPoints(pair.key.edges, from);
+    ClosestPoints closest = closestPoints(key.edges, there);
+    if (!(closest.distance > 0.0)) closest = closestPoints(key.edges, from);
     if (!(closest.distance > 0.0)) continue;
-    Contact contact = makeContact(pair, n, closest);
+    Contact contact = makeContact(key, closest);
     contact.carried = mix(closest.weight, from);
     contact.offset = offsetAt(distance, h);
-    contacts.push_back(contact);
+    addWithinRoom(contact, contacts);
   }
-  return added;
-}
-
-void SelfContacts::remember(const Contacts& contacts) noexcept {
-  for (NearPair& pair : near_) {
-    pair.push = 0.0;
-    pair.slide = Vec3::Zero();
-  }
-  for (const Contact& contact : contacts) {
-    if (contact.obstacle != Contact::kCloth || contact.source == kNoPair) continue;
-    near_[contact.source].push = contact.push;
-    near_[contact.source].slide = contact.slide;
-  }
+  return static_cast<int>(pairs_.size());
 }
 
 }  // namespace curtain

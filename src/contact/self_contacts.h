@@ -5,21 +5,27 @@
 // closest points where the substep starts, so its force turns nothing: momentum and angular momentum are those before.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "cloth/cloth.h"
 #include "contact/candidates.h"
-#include "contact/pair_table.h"
 #include "solver/contacts.h"
 
 namespace curtain {
 
 /// Two elements that share no node: vertex node[0] and triangle node[1..3], or edges node[0..1] and node[2..3].
-struct NearPair {
-  PairKey key;
-  double push = 0.0;  ///< multipliers of the last accepted substep [kg m]
-  Vec3 slide = Vec3::Zero();
+struct PairKey {
+  std::array<std::uint32_t, 4> node;
+  bool edges;
+  bool operator==(const PairKey& other) const noexcept { return node == other.node && edges == other.edges; }
+  bool operator<(const PairKey& other) const noexcept {
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (node[k] != other.node[k]) return node[k] < other.node[k];
+    }
+    return edges < other.edges;
+  }
 };
 
 /// Where two elements are closest: sum weight_k x_k is the way from the second to the first there.
@@ -34,55 +40,49 @@ ClosestPoints closestPoints(bool edges, const std::array<Vec3, 4>& at) noexcept;
 
 class SelfContacts {
  public:
-  /// Source of a contact whose pair is near no more.
-  static constexpr std::uint32_t kNoPair = PairTable::kNone;
+  /// Never nearer than this share of the gap, on the whole way.
+  static constexpr double kLeastShare = 0.02;
 
   /// gap: kept between two parts of the cloth [m]. Of params friction and recovery_speed.
   SelfContacts(const ClothPattern& pattern, double gap, const ContactParams& params);
 
   double gap() const noexcept { return gap_; }
-  /// No pair was near at the last look.
-  bool noneNear() const noexcept { return near_.empty(); }
 
-  /// Takes new candidates; pairs that were near before keep their multipliers, and contacts of the present substep name the
-  /// new pairs.
-  void renew(const Candidates& candidates, Contacts& contacts) noexcept;
-  void forget() noexcept { near_.clear(); }
+  /// Adds what may touch on the way from start to predicted, in a substep of h [s], and what pushed in the last one (`last`),
+  /// in the order of their nodes. candidates: all pairs that come within the gap on that way, and any others, in any order.
+  void collect(const Candidates& candidates, const Contacts& last, const Field3& start, const Field3& predicted, double h,
+               Contacts& contacts) noexcept;
 
-  /// Adds what may touch on the way from start to predicted, in a substep of h [s].
-  void collect(const Field3& start, const Field3& predicted, double h, Contacts& contacts) noexcept;
-
-  /// Adds contacts for pairs that would go through each other on the way from start to end; returns how many.
-  int verify(const Field3& start, const Field3& end, double h, Contacts& contacts) noexcept;
+  /// Adds contacts for pairs that would go through each other on the way from start to end; returns how many. candidates: all
+  /// pairs that come within the least share of the gap on that way, and any others, in any order.
+  int verify(const Candidates& candidates, const Field3& start, const Field3& end, double h, Contacts& contacts) noexcept;
 
   /// The pairs that would; f(pair).
   template <typename F>
-  void forEachCrossing(const Field3& start, const Field3& end, const F& f) const noexcept {
-    for (const NearPair& pair : near_) {
-      double distance = 0.0;
-      if (crossesAt(pair, corners(pair, start), corners(pair, end), distance) <= 1.0) f(pair);
-    }
+  void forEachCrossing(const Candidates& candidates, const Field3& start, const Field3& end, const F& f) noexcept {
+    findCrossings(candidates, start, end);
+    for (const PairKey& pair : pairs_) f(pair);
   }
-
-  /// Takes over the multipliers of an accepted substep.
-  void remember(const Contacts& contacts) noexcept;
-
-  void carry(Archive& archive, const Grid& grid);
+  /// There was no room for all that cross.
+  bool full() const noexcept { return full_; }
 
  private:
-  double crossesAt(const NearPair& pair, const std::array<Vec3, 4>& from, const std::array<Vec3, 4>& to,
+  bool touches(const PairKey& key, const Field3& start, const Field3& predicted) const noexcept;
+  double crossesAt(const PairKey& key, const std::array<Vec3, 4>& from, const std::array<Vec3, 4>& to,
                    double& distance) const noexcept;
-  static std::array<Vec3, 4> corners(const NearPair& pair, const Field3& position) noexcept {
-    return {position.at(pair.key.node[0]), position.at(pair.key.node[1]), position.at(pair.key.node[2]),
-            position.at(pair.key.node[3])};
+  void findCrossings(const Candidates& candidates, const Field3& start, const Field3& end) noexcept;
+  template <typename Wanted>
+  void select(const Candidates& candidates, const Wanted& wanted) noexcept;
+  void sortPairs() noexcept;
+  static std::array<Vec3, 4> corners(const PairKey& key, const Field3& position) noexcept {
+    return {position.at(key.node[0]), position.at(key.node[1]), position.at(key.node[2]), position.at(key.node[3])};
   }
-  Contact makeContact(const NearPair& pair, std::uint32_t source, const ClosestPoints& closest) const noexcept;
+  Contact makeContact(const PairKey& key, const ClosestPoints& closest) const noexcept;
   double offsetAt(double distance, double h) const noexcept;
 
   double gap_, friction_, recovery_speed_;
-  std::vector<NearPair> near_;
-  std::vector<NearPair> pushed_;  // pairs of the last candidates that pushed
-  PairTable table_;
+  std::vector<PairKey> pairs_;  // that touch or cross
+  bool full_ = false;
 };
 
 }  // namespace curtain

@@ -16,8 +16,6 @@ constexpr int kMostRods = 4, kMostWefts = 20;
 constexpr double kUneven = 1e-6;
 // Rounding of slopes, and what rest lengths differ.
 constexpr double kSlack = 1e-5;
-// Calls to be left out after one that proved nothing: cloth that is not flat stays so for a while.
-constexpr int kPause = 2;
 
 struct Place {
   const double *x, *y, *z;
@@ -155,7 +153,7 @@ Vec3 TautNet::middleOfWarp(const Field3& position) const noexcept {
 }
 
 // Chooses the directions: those of the cloth as a whole, made orthonormal as in contact/flatness.h. False: it has none.
-bool TautNet::aim(const Field3& position) noexcept {
+bool TautNet::aim(const Field3& position, View& view) const noexcept {
   const Grid& grid = pattern_.grid;
   const int last = grid.columns - 1, hem = grid.rows - 1;
   const Vec3 u = position.at(grid.index(0, last)) - position.at(grid.index(0, 0)) + position.at(grid.index(hem, last)) -
@@ -168,8 +166,8 @@ bool TautNet::aim(const Field3& position) noexcept {
   if (!(std::abs(cosine) < 0.9)) return false;
   const Vec3 mean = (unit_u + unit_v) / (2.0 * std::sqrt(1.0 + cosine));
   const Vec3 skew = (unit_u - unit_v) / (2.0 * std::sqrt(1.0 - cosine));
-  a_ = mean + skew;
-  b_ = mean - skew;
+  view.a = mean + skew;
+  view.b = mean - skew;
   return true;
 }
 
@@ -181,13 +179,13 @@ double TautNet::straying(double least_square, const Span& span) const noexcept {
   return std::sqrt(std::max(0.0, longest * longest - 2.0 * c * (1.0 - s) + c * c)) + kSlack;
 }
 
-TautNet::Slopes TautNet::slopesOf(const Field3& position) const noexcept {
+TautNet::Slopes TautNet::slopesOf(const Field3& position, const View& view) const noexcept {
   const Grid& grid = pattern_.grid;
   Slopes all{1e300, 0.0, 1e300, 0.0};
   for (const Span& strip : strips_) {
     const auto first = static_cast<int>(strip.first), last = static_cast<int>(strip.last);
     const Extremes of = extremesOfRow({position, grid.row(first)}, {position, grid.row(last)},
-                                      static_cast<std::size_t>(grid.columns), b_, a_);
+                                      static_cast<std::size_t>(grid.columns), view.b, view.a);
     const double strays = straying(of.least_square, strip);
     all.least_v = std::min(all.least_v, of.least * strip.per_length - strays);
     all.most_v_across = std::max(all.most_v_across, of.most_across * strip.per_length + strays);
@@ -195,7 +193,7 @@ TautNet::Slopes TautNet::slopesOf(const Field3& position) const noexcept {
   for (const Span& span : spans_) {
     const Extremes of =
         extremesOfColumn({position, span.first}, {position, span.last}, static_cast<std::size_t>(grid.rows),
-                         static_cast<std::size_t>(grid.stride), a_, b_);
+                         static_cast<std::size_t>(grid.stride), view.a, view.b);
     const double strays = straying(of.least_square, span);
     all.least_u = std::min(all.least_u, of.least * span.per_length - strays);
     all.most_u_across = std::max(all.most_u_across, of.most_across * span.per_length + strays);
@@ -210,29 +208,36 @@ bool TautNet::areFlat(const Slopes& slopes, double reach) const noexcept {
   return u > 0.0 && v > 0.0 && u * v > across * across;
 }
 
-bool TautNet::staysFlat(const Field3& start, const Field3& end, double reach, bool goes_on) noexcept {
-  const bool known = known_ && goes_on;
-  known_ = false;
-  if (!usable_ || pause_-- > 0) return false;
-  pause_ = 0;
-  const double most_square = (1.0 + overlong_) * (1.0 + overlong_);
-  if (checks_top_ && !(holdsRow(pattern_, start, most_square) && holdsRow(pattern_, end, most_square))) return false;
-  if (known) {
-    const Slopes now = slopesOf(end);
-    last_.merge(now);
-    known_ = areFlat(last_, reach);
-    last_ = now;
-    if (known_) return true;
-  }
-  if (aim(end)) {
-    const Slopes now = slopesOf(end);
-    last_ = slopesOf(start);
-    last_.merge(now);
-    known_ = areFlat(last_, reach);
-    last_ = now;
-  }
-  if (!known_) pause_ = kPause;
-  return known_;
+bool TautNet::topHolds(const Field3& position) const noexcept {
+  return !checks_top_ || holdsRow(pattern_, position, (1.0 + overlong_) * (1.0 + overlong_));
+}
+
+void TautNet::see(const Field3& position, View& view) const noexcept {
+  view.known = true;
+  view.aimed = topHolds(position) && aim(position, view);
+  if (view.aimed) view.slopes = slopesOf(position, view);
+}
+
+bool TautNet::isFlat(const Field3& position, double reach) noexcept {
+  if (!usable_) return false;
+  if (!start_.known) see(position, start_);
+  return start_.aimed && areFlat(start_.slopes, reach);
+}
+
+// No slope is longer than a link may be and what is between: seen along other directions it differs by so much times the
+// directions' difference.
+bool TautNet::staysFlat(const Field3& end, double reach) noexcept {
+  see(end, end_);
+  if (!end_.aimed) return false;
+  const double longest = (1.0 + overlong_) * (1.0 + kSlack);
+  const double off_a = longest * (end_.a - start_.a).norm(), off_b = longest * (end_.b - start_.b).norm();
+  Slopes slopes = start_.slopes;
+  slopes.least_u -= off_a;
+  slopes.most_v_across += off_a;
+  slopes.least_v -= off_b;
+  slopes.most_u_across += off_b;
+  slopes.merge(end_.slopes);
+  return areFlat(slopes, reach);
 }
 
 }  // namespace curtain

@@ -22,24 +22,25 @@
 
 namespace curtain {
 
-/// Not thread-safe: remembers what it saw last.
+/// Not thread-safe.
 class TautNet {
  public:
   /// overlong: what links may be longer, over their length.
   TautNet(const ClothPattern& pattern, double overlong);
 
-  void forget() noexcept {
-    known_ = false;
-    pause_ = 0;
+  /// True: any two elements of the cloth that share no node are further apart than `reach` [m]; false: who knows. All links but
+  /// those between pins must be no more overlong than said. Allocates nothing.
+  bool isFlat(const Field3& position, double reach) noexcept;
+
+  /// After isFlat() has said so of the start: the same while all nodes move straight from there to `end`.
+  bool staysFlat(const Field3& end, double reach) noexcept;
+
+  /// isFlat() will be asked of the last end next, and needs not look at it again; else forget().
+  void goOn() noexcept {
+    start_ = end_;
+    end_.known = false;
   }
-
-  void carry(Archive& archive);
-
-  /// True: any two elements of the cloth that share no node are further apart than `reach` [m] while all nodes move
-  /// straight from start to end; false: who knows. All links but those between pins must be no more overlong than said,
-  /// at both.
-  /// goes_on: start is the end of the last call. Allocates nothing.
-  bool staysFlat(const Field3& start, const Field3& end, double reach, bool goes_on) noexcept;
+  void forget() noexcept { start_.known = end_.known = false; }
 
  private:
   // Of the slopes along a and b, what the links between the nodes looked at may add to them included.
@@ -47,7 +48,6 @@ class TautNet {
     double least_u, most_u_across;  // of weft links: along a at least; along b at most, either way
     double least_v, most_v_across;  // of rods: along b at least, along a at most
     void merge(const Slopes& other) noexcept;
-    void carry(Archive& archive);
   };
   struct Span {
     std::size_t first, last;  // rows (of the strip) or columns
@@ -57,10 +57,18 @@ class TautNet {
   static std::vector<Span> spansOf(const Field& coordinate, int most_links);
   bool isEven(const ClothPattern& pattern) const;
   Vec3 middleOfWarp(const Field3& position) const noexcept;
-  bool aim(const Field3& position) noexcept;
-  Slopes slopesOf(const Field3& position) const noexcept;
+  // The cloth as seen along directions of its own.
+  struct View {
+    bool known = false, aimed = false;
+    Vec3 a, b;
+    Slopes slopes;
+  };
+  bool aim(const Field3& position, View& view) const noexcept;
+  void see(const Field3& position, View& view) const noexcept;
+  Slopes slopesOf(const Field3& position, const View& view) const noexcept;
   double straying(double least_square, const Span& span) const noexcept;
   bool areFlat(const Slopes& slopes, double reach) const noexcept;
+  bool topHolds(const Field3& position) const noexcept;
 
   const ClothPattern& pattern_;
   double overlong_;
@@ -68,10 +76,7 @@ class TautNet {
   bool checks_top_;  // its links are between pins, who may be moved apart
   std::vector<Span> strips_, spans_;
   double per_altitude_ = 0.0;  // [1/m]
-  Vec3 a_ = Vec3::UnitX(), b_ = Vec3::UnitZ();
-  Slopes last_{};      // of the end of the last call, along a_ and b_
-  bool known_ = false;
-  int pause_ = 0;      // calls to be left out after one that proved nothing
+  View start_, end_;
 };
 
 }  // namespace curtain

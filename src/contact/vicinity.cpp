@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cloth/link_ways.h"
 #include "cloth/wide.h"
 #include "contact/closest_points.h"
 #include "contact/shapes.h"
@@ -12,9 +13,9 @@
 namespace curtain {
 namespace {
 
-// Nodes may stray by this share of the thickness: what is looked for beyond the reach grows with it. At least, and where pairs
-// with a mesh are looked for, which become many soon; at most where faces are, and where nodes alone are. It grows where lists
-// end early.
+// Margin for nodes to stray from their path, over the thickness: what is looked for beyond the reach grows with it. At least,
+// and where pairs with a mesh are looked for, which become many soon; at most where faces are, and where nodes alone are. It
+// grows where lists end early.
 constexpr double kLeastSlack = 0.25;
 constexpr double kMostSlack = 1.0;
 constexpr double kMostSlackOfNodes = 4.0;
@@ -24,12 +25,15 @@ constexpr double kSlackDecay = 0.98;
 constexpr double kCloseBy = 0.25;
 // Nodes at this share of the thickness keep it: a tenth may lack, and what the solver leaves.
 constexpr double kKept = 0.85;
-// The expected way in the time that lists hold, over the cloth's longest edge: at most; over the thickness: so much is free.
+// Rounding of distances, relative.
+constexpr double kRounding = 1e-9;
+// The expected path goes on for so many substeps at most, and no further than this over the cloth's longest edge; against
+// meshes over the thickness.
+constexpr double kMostSubsteps = 16.0;
 constexpr double kLongestWay = 1.0;
-constexpr double kLongestWayOfPairs = 0.5;  // over the thickness
-constexpr double kFreeWay = 0.25;
-// Lists hold for so many frames at most.
-constexpr double kMostFrames = 16.0;
+constexpr double kLongestWayOfPairs = 0.5;
+// Room for pairs with a mesh, per node.
+constexpr std::size_t kPairsPerNode = 8;
 
 double longestEdge(const ClothPattern& pattern) {
   const Grid& grid = pattern.grid;
@@ -41,6 +45,32 @@ double longestEdge(const ClothPattern& pattern) {
     }
   }
   return warp + weft;  // nothing holds the faces' diagonals but their sides
+}
+
+CURTAIN_WIDE double longestSquare(const Field3& p, std::size_t a, std::size_t b, std::size_t count) noexcept {
+  const double *const ax = &p.x[a], *const ay = &p.y[a], *const az = &p.z[a];
+  const double *const bx = &p.x[b], *const by = &p.y[b], *const bz = &p.z[b];
+  double worst = 0.0;
+#pragma omp simd reduction(max : worst)
+  for (std::size_t n = 0; n < count; ++n) {
+    const double x = bx[n] - ax[n], y = by[n] - ay[n], z = bz[n] - az[n];
+    const double square = x * x + y * y + z * z;
+    worst = worst > square ? worst : square;
+  }
+  return worst;
+}
+
+// The same as it is: links may be longer than they should.
+double longestEdge(const Grid& grid, const Field3& position) noexcept {
+  double warp = 0.0, weft = 0.0;
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  for (int i = 0; i < grid.rows; ++i) {
+    const std::size_t row = grid.row(i);
+    if (i > 0) warp = std::max(warp, longestSquare(position, grid.row(i - 1), row, columns));
+    weft = std::max(weft, longestSquare(position, row, row + 1, columns - 1));
+    if (grid.closed) weft = std::max(weft, longestSquare(position, row, row + columns - 1, 1));
+  }
+  return std::sqrt(warp) + std::sqrt(weft);
 }
 
 // Nodes as seen from the obstacle.
@@ -105,11 +135,12 @@ double smoothRadius(const ObstacleShape& shape) {
 }  // namespace
 
 Vicinity::Vicinity(const ClothPattern& pattern, const ObstacleShape& shape, double thickness, double core)
-    : pattern_(pattern), shape_(shape), thickness_(thickness), core_(core), longest_(longestEdge(pattern)),
+    : pattern_(pattern), shape_(shape), thickness_(thickness), core_(core), kept_(kKept * thickness),
       slack_(kLeastSlack * thickness) {
   // Sagitta of the longest edge between two nodes that keep the thickness, less the tenth of it that they may lack.
+  const double longest = longestEdge(pattern);
   const double radius = smoothRadius(shape) + 0.9 * thickness;
-  const double half = 0.5 * longest_;
+  const double half = 0.5 * longest;
   const double sagitta = half < radius ? radius - std::sqrt((radius - half) * (radius + half)) : radius;
   elements_wanted_ = std::isfinite(radius) && sagitta > 0.9 * thickness - core;
   const std::size_t size = pattern.grid.size(), count = pattern.grid.nodeCount();
@@ -117,13 +148,13 @@ Vicinity::Vicinity(const ClothPattern& pattern, const ObstacleShape& shape, doub
   planes_.resize(size);
   bound_.assign(size, 0.0);
   is_taken_.assign(size, 0);
-  inside_.assign(size, 0);
+  distance_.assign(size, thickness);
   keeps_.assign(size, 1);
   taken_.reserve(count);
   nodes_.reserve(count);
   if (shape.convex() != nullptr) faces_.reserve(elements_wanted_ ? 2 * count : 0);
-  else pairs_.reserve(8 * count);
-  if (shape.convex() == nullptr) rough_ = RoughFeatures(*shape.features(), {longest_, kKept * thickness, core});
+  else pairs_.reserve(kPairsPerNode * count);
+  if (shape.convex() == nullptr) rough_ = RoughFeatures(*shape.features(), {kOverlong * longest, kept_, core});
 }
 
 void Vicinity::forget() noexcept {
@@ -131,42 +162,57 @@ void Vicinity::forget() noexcept {
   slack_ = kLeastSlack * thickness_;
   std::fill(planes_.begin(), planes_.end(), NodePlane());
   std::fill(is_taken_.begin(), is_taken_.end(), std::uint8_t{0});
-  std::fill(inside_.begin(), inside_.end(), std::uint8_t{0});
+  std::fill(distance_.begin(), distance_.end(), thickness_);
   for (auto* list : {&nodes_, &taken_}) list->clear();
   faces_.clear();
   pairs_.clear();
-  outdated_ = false;
-}
-
-void Vicinity::setDistance(std::size_t node, double distance) noexcept {
-  setInside(node, distance < 0.0);
-  outdated_ = outdated_ || (keeps_[node] != 0 && distance < kKept * thickness_);
 }
 
 double Vicinity::strayed(const Transform& place, const Field3& position, double h) const noexcept {
   return std::sqrt(farthest(place, position, from_, to_, (elapsed_ + h) / length_, pattern_.mass));
 }
 
-void Vicinity::prepare(const MovingObstacle& moving, const Field3& start, const Field3& predicted, double h,
-                       double frame) noexcept {
-  const bool reaches = !outdated_ && elapsed_ + h <= length_ * (1.0 + 1e-9);
-  // Room to stray for the solve, too. Where the substep starts is where the last one was followed to, unless the obstacle
-  // jumped.
+void Vicinity::prepare(const MovingObstacle& moving, const Field3& start, const Field3& predicted, double h) noexcept {
+  const bool reaches = elapsed_ + h <= length_ * (1.0 + 1e-9);
+  // Room to stray for the solve, too.
   if (!reaches || !(strayed(moving.after, predicted, h) <= 0.5 * slack_) || !(strayed(moving.before, start, 0.0) <= slack_)) {
     adaptSlack(reaches);
-    look(moving, start, predicted, h, frame);
+    rebuild(moving, start, predicted, h);
+    return;
   }
   takeOver(moving, start, predicted);
+  if (!measureStart()) rebuild(moving, start, predicted, h);
 }
 
 void Vicinity::follow(const MovingObstacle& moving, const Field3& start, const Field3& end, double h) noexcept {
   if (!(strayed(moving.after, end, h) <= slack_)) {
     adaptSlack(true);
-    look(moving, start, end, h, h);
-    takeOver(moving, start, end);
+    rebuild(moving, start, end, h);
     return;
   }
   for (const std::uint32_t n : taken_) end_.set(n, moving.after.toLocal(end.at(n)));
+}
+
+void Vicinity::rebuild(const MovingObstacle& moving, const Field3& start, const Field3& end, double h) noexcept {
+  look(moving, start, end, h);
+  takeOver(moving, start, end);
+  measureStart();
+}
+
+// Where listed nodes start. False: one is closer than the lists count on.
+bool Vicinity::measureStart() noexcept {
+  bool as_expected = true;
+  for (const std::uint32_t n : nodes_) {
+    const Vec3 at = start_.at(n);
+    const NodePlane& plane = planes_[n];
+    SurfacePoint surface;
+    distance_[n] = thickness_;
+    if (plane.kind != NodePlane::Kind::kUnknown && plane.lowerBound(at) >= thickness_) continue;
+    if (!shape_.query(at, at, thickness_, surface)) continue;
+    distance_[n] = std::min(surface.distance, thickness_);
+    if (isClose(n) && keeps_[n] != 0) as_expected = false;
+  }
+  return as_expected;
 }
 
 // early: lists ended because a node strayed.
@@ -183,28 +229,27 @@ void Vicinity::takeOver(const MovingObstacle& moving, const Field3& start, const
 }
 
 // New lists.
-void Vicinity::look(const MovingObstacle& moving, const Field3& start, const Field3& predicted, double h, double frame) noexcept {
+void Vicinity::look(const MovingObstacle& moving, const Field3& start, const Field3& predicted, double h) noexcept {
   const std::size_t size = pattern_.grid.size();
   toLocal(moving.before, start, size, from_);
-  const double move = std::sqrt(farthest(moving.after, predicted, from_, from_, 0.0, pattern_.mass));
   toLocal(moving.after, predicted, size, to_);
-  // As long as the way is short for the cloth; when it hardly moves, for long.
-  const double most = std::max(h, frame);
-  const double longest_way = shape_.convex() == nullptr ? kLongestWayOfPairs * thickness_ : kLongestWay * longest_;
-  const double by_way = move > 0.0 ? h * longest_way / move : most;
-  const double free = move > 0.0 ? h * kFreeWay * thickness_ / move : kMostFrames * most;
-  length_ = std::max(h, std::max(std::min(most, by_way), std::min(kMostFrames * most, free)));
+  const double move = std::sqrt(farthest(moving.after, predicted, from_, from_, 0.0, pattern_.mass));
+  const double most = shape_.convex() == nullptr ? kLongestWayOfPairs * thickness_ : kLongestWay * longestEdge(pattern_.grid, from_);
+  // A cloth at rest goes on for ever.
+  const double substeps = std::clamp(most / std::max(move, most / kMostSubsteps), 1.0, kMostSubsteps);
+  length_ = substeps * h;
   elapsed_ = 0.0;
-  const double factor = length_ / h;
-  if (factor != 1.0) {
-    extrapolate(factor, from_.x, to_.x);
-    extrapolate(factor, from_.y, to_.y);
-    extrapolate(factor, from_.z, to_.z);
+  if (substeps != 1.0) {
+    extrapolate(substeps, from_.x, to_.x);
+    extrapolate(substeps, from_.y, to_.y);
+    extrapolate(substeps, from_.z, to_.z);
   }
+  // Edges are shorter on the path than at its longer end.
+  longest_ = std::max(longestEdge(pattern_.grid, from_), longestEdge(pattern_.grid, to_));
   for (const std::uint32_t n : taken_) is_taken_[n] = 0;
   taken_.clear();
-  for (const std::uint32_t n : nodes_) inside_[n] = 0;
-  outdated_ = false;
+  for (const std::uint32_t n : nodes_) distance_[n] = thickness_;
+  full_ = false;
   lookAtNodes();
   if (elements_wanted_) lookAtElements();
 }
@@ -212,9 +257,9 @@ void Vicinity::look(const MovingObstacle& moving, const Field3& start, const Fie
 void Vicinity::lookAtNodes() noexcept {
   nodes_.clear();
   const Grid& grid = pattern_.grid;
-  const double reach = thickness_ + 2.0 * slack_;
+  const double reach = nodeReach() + slack_;
   const bool elements = elements_wanted_ && (shape_.convex() != nullptr || !rough_.empty());
-  const double element_reach = elements ? reach + longest_ : reach;
+  const double element_reach = std::max(reach, elements ? elementReach() + slack_ + longest_ : 0.0);
   const Eigen::AlignedBox3d box = shape_.bounds();
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = 0; j < grid.columns; ++j) {
@@ -227,7 +272,7 @@ void Vicinity::lookAtNodes() noexcept {
       const double outside = (box.min() - at).cwiseMax(at - box.max()).maxCoeff();
       if (outside > element_reach + way) continue;
       double bound = plane.kind == NodePlane::Kind::kUnknown ? -1.0 : plane.lowerBound(at) - way;
-      const bool close = plane.kind != NodePlane::Kind::kUnknown && bound > 0.0 && bound + way >= kKept * thickness_ &&
+      const bool close = plane.kind != NodePlane::Kind::kUnknown && bound > 0.0 && bound + way >= kept_ &&
                          (at - plane.at).squaredNorm() <= kCloseBy * kCloseBy * thickness_ * thickness_;
       if (!(bound > element_reach) && !close) {
         SurfacePoint surface;
@@ -242,9 +287,8 @@ void Vicinity::lookAtNodes() noexcept {
       }
       bound_[n] = bound;
       // Nothing holds an obstacle off a pinned node.
-      const bool pinned = pattern_.inverse_mass[n] <= 0.0;
-      keeps_[n] = (pinned ? bound - 2.0 * slack_ : bound + way) >= kKept * thickness_ ? 1 : 0;
-      if (bound > reach || pinned) continue;
+      keeps_[n] = (isPinned(n) ? bound - slack_ : bound + way) >= kept_ * (1.0 + kRounding) ? 1 : 0;
+      if (bound > reach) continue;
       const auto node = static_cast<std::uint32_t>(n);
       nodes_.push_back(node);
       takeNodes(&node, 1);
@@ -265,7 +309,7 @@ void Vicinity::lookAtElements() noexcept {
   pairs_.clear();
   const Grid& grid = pattern_.grid;
   // Every point of an element is within its longest edge of any of its nodes.
-  const double reach = core_ + 2.0 * slack_ + longest_;
+  const double reach = elementReach() + slack_ + longest_;
   for (int i = 0; i + 1 < grid.rows; ++i) {
     for (int j = 0; j < grid.linkCount(); ++j) {
       const std::size_t right = static_cast<std::size_t>(j + 1 < grid.columns ? j + 1 : 0);
@@ -288,7 +332,7 @@ void Vicinity::lookAtElements() noexcept {
 
 // Unless a tangent plane shows that it stays clear.
 void Vicinity::addFace(const MeshTriangle& triangle) noexcept {
-  const double reach = core_ + 2.0 * slack_;
+  const double reach = elementReach() + slack_;
   for (const std::uint32_t a : triangle) {
     if (planes_[a].kind != NodePlane::Kind::kFound) continue;
     double lowest = std::numeric_limits<double>::infinity();
@@ -307,12 +351,19 @@ void Vicinity::addPairs(const QuadElements& quad, const Features& features) noex
   for (const MeshTriangle& triangle : quad.triangles) addCornerPairs(triangle, features);
 }
 
+void Vicinity::addPair(const FeaturePair& pair) noexcept {
+  full_ = full_ || pairs_.size() == pairs_.capacity();
+  if (full_) return;
+  pairs_.push_back(pair);
+  takeNodes(pair.node.data(), pair.edges ? 2 : 3);
+}
+
 // Nodes are never further than half their way from its middle.
 template <typename Features>
 void Vicinity::addEdgePairs(const MeshEdge& edge, const Features& features) noexcept {
   const Vec3 a = from_.at(edge[0]), b = from_.at(edge[1]);
   const Vec3 c = to_.at(edge[0]), d = to_.at(edge[1]);
-  const double reach = core_ + 2.0 * slack_;
+  const double reach = elementReach() + slack_;
   const double way = std::sqrt(std::max((c - a).squaredNorm(), (d - b).squaredNorm()));
   const Vec3 margin = Vec3::Constant(reach);
   const Eigen::AlignedBox3d box(a.cwiseMin(b).cwiseMin(c.cwiseMin(d)) - margin, a.cwiseMax(b).cwiseMax(c.cwiseMax(d)) + margin);
@@ -323,8 +374,7 @@ void Vicinity::addEdgePairs(const MeshEdge& edge, const Features& features) noex
     // Over the plane through the edge, which is faster to tell.
     if (std::min(other.outward.dot(p - other.ends[0]), other.outward.dot(q - other.ends[0])) > limit) return;
     if (closestOnSegments(p, q, other.ends[0], other.ends[1]).distance_squared > limit * limit) return;
-    pairs_.push_back({{edge[0], edge[1], 0}, index, true});
-    takeNodes(edge.data(), 2);
+    addPair({{edge[0], edge[1], 0}, index, true, !rough_.isRoughEdge(index)});
   });
 }
 
@@ -340,7 +390,7 @@ void Vicinity::addCornerPairs(const MeshTriangle& triangle, const Features& feat
     at[k] = 0.5 * (now + then);
     way = std::max(way, (then - now).squaredNorm());
   }
-  const double reach = core_ + 2.0 * slack_;
+  const double reach = elementReach() + slack_;
   box.min().array() -= reach;
   box.max().array() += reach;
   const double limit = reach + 0.5 * std::sqrt(way);
@@ -349,8 +399,7 @@ void Vicinity::addCornerPairs(const MeshTriangle& triangle, const Features& feat
     const auto height = [&](std::size_t k) { return corner.outward.dot(at[k] - corner.position); };
     if (std::min({height(0), height(1), height(2)}) > limit) return;
     if (closestOnTriangle(corner.position, at[0], at[1], at[2]).distance_squared > limit * limit) return;
-    pairs_.push_back({triangle, index, false});
-    takeNodes(triangle.data(), 3);
+    addPair({triangle, index, false, !rough_.isRoughVertex(index)});
   });
 }
 

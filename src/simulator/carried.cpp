@@ -64,7 +64,6 @@ void carryStatistics(Archive& archive, Statistics& s) {
 // Winds are functions of their parameters and the time, gusts too; drags of theirs and the node that they hold. Of both nothing
 // else goes on from frame to frame. The last forces do: what keeps velocities half a substep behind asks for them.
 void ForceField::carry(Archive& archive, AirParams& air) {
-  archive.part("bounds", bounds_);
   std::vector<WindParams> winds = wind_params_;
   std::vector<Grasp> grasps;
   for (const DragForce& drag : drags_) grasps.push_back({drag.params(), drag.node()});
@@ -214,6 +213,7 @@ void Simulator::Impl::resume() noexcept {
   rest.takeFrame(frameLength());
   setRestLimits();
   exact.resume(rest.asleep(), state);
+  contact.clearCaches();
   ++revision;
 }
 

@@ -86,10 +86,10 @@ SubstepOutcome Simulator::Impl::attemptInTime(const SubstepPlan& plan, double do
   return outcome;
 }
 
-// What the last resort took. Obstacles wait for what the cloth has not gone of its path: on the rest they might go through it.
-void Simulator::Impl::countLastResort(const SubstepOutcome& outcome, double h) noexcept {
-  ++statistics.last_resort_substeps;
+// What bounds took. Obstacles wait for what the cloth has not gone of its path: on the rest they might go through it.
+void Simulator::Impl::countStops(bool last_resort, const SubstepOutcome& outcome, double h) noexcept {
   if (outcome.share < kStopped) ++statistics.stops;
+  if (last_resort) ++statistics.last_resort_substeps;
   statistics.momentum_cut += outcome.momentum_cut;
   const double waits = (1.0 - outcome.share) * h;
   if (obstacles.anyMoved()) statistics.obstacles_waited += waits;
@@ -135,7 +135,7 @@ double Simulator::Impl::makeSubstep(double done) {
   if (steps != &control) control.watch(outcome);
   ++statistics.substeps;
   ++statistics.substeps_last;
-  if (plan.last_resort) countLastResort(outcome, plan.h);
+  countStops(plan.last_resort, outcome, plan.h);
   if (!outcome.settled) ++statistics.unsettled;
   contact.afterSubstep(outcome.settled, plan.h, outcome.scale, state.position);
   return plan.h;
@@ -195,6 +195,9 @@ void Simulator::Impl::estimateError() {
 
 // What a frame needs to know before its first substep.
 void Simulator::Impl::prepareFrame(Budget::Clock::time_point begin) {
+  const bool links_hold = pin_moves.empty() && std::max(statistics.warp_stretch, statistics.weft_stretch) < kHold;
+  contact.beginFrame(links_hold);
+  forces.setLinksHold(links_hold);
   if (estimate != nullptr && frame == 0) {
     clock.start();
     rehearse();  // before the budget counts: the first frame takes what it takes
@@ -202,9 +205,6 @@ void Simulator::Impl::prepareFrame(Budget::Clock::time_point begin) {
   }
   budget.beginFrame(frame == 0 && budget.any() ? Budget::Clock::now() : begin);
   if (estimate != nullptr) estimateError();
-  const bool links_hold = pin_moves.empty() && std::max(statistics.warp_stretch, statistics.weft_stretch) < kHold;
-  contact.beginFrame(links_hold);
-  forces.setLinksHold(links_hold);
   statistics.substeps_last = 0;
   statistics.sweeps_last = 0;
   velocities_fresh = false;

@@ -52,7 +52,7 @@ Simulator::Impl::Impl(const Scene& given, const MeshResolver& resolve)
       state(initial),
       forces(scene, pattern),
       obstacles(scene, resolve),
-      contact(pattern, scene.contact, 1.0 / scene.solver.frame_rate, obstacles,
+      contact(pattern, scene.contact, obstacles,
               scene.solver.stretch_tolerance),
       workers(threadsFor(scene.solver.threads, pattern.grid.nodeCount())),
       exact(pattern, scene.solver.stretch_tolerance, scene.solver.max_sweeps, workers),

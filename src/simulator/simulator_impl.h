@@ -45,7 +45,7 @@ struct Simulator::Impl {
   void moveCompanion();
   void synchronise();
   double makeSubstep(double done);
-  void countLastResort(const SubstepOutcome& outcome, double h) noexcept;
+  void countStops(bool last_resort, const SubstepOutcome& outcome, double h) noexcept;
   bool makeComposed(const SubstepPlan& plan, double done);
   SubstepPlan planSubstep(StepControl& steps, double remaining);
   SubstepOutcome attempt(const SubstepPlan& plan, double done);

@@ -48,7 +48,7 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const SubstepPlan& plan, const
   std::size_t known = 0;
   int looks = 0;
   if (finder != nullptr) {
-    contacts = finder->begin(from, next_, plan.h);
+    contacts = &finder->begin(from, next_, plan.h);
     clock.lap(Stage::kContact);
   }
   Progress all;

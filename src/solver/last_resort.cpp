@@ -82,9 +82,7 @@ double LastResort::cut(const Field3& position, const Field& inverse, double h, d
     if (!isFinite(velocity.at(n))) velocity.set(n, Vec3::Zero());
   }
   const RigidMotion rigid = rigidMotionOf(position, inverse, velocity);
-  const double angle = h * rigid.turn.norm();
-  const Eigen::Matrix3d turn = angle > 0.0 ? Eigen::AngleAxisd(angle, rigid.turn.normalized()).toRotationMatrix()
-                                           : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+  const RigidMotion::Displacement carry = rigid.over(h);
   double taken = 0.0;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     const Vec3 from = position.at(n), v = velocity.at(n);
@@ -92,7 +90,7 @@ double LastResort::cut(const Field3& position, const Field& inverse, double h, d
       follows_.set(n, from + h * v);
       continue;
     }
-    const Vec3 follows = rigid.centre + h * rigid.drift + turn * (from - rigid.centre);
+    const Vec3 follows = carry(from);
     follows_.set(n, follows);
     const Vec3 carried = (follows - from) / h, own = v - carried;
     const double path = h * own.norm(), most = reach * shortest_[n];

@@ -263,6 +263,14 @@ bool PaperSolver::sound(const ClothState& state, double h) const noexcept {
   return true;
 }
 
+// The cloth stays where it was, at rest; pins go on with the next substep.
+void PaperSolver::stop(ClothState& state) const noexcept {
+  state.position = start_;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    if (pattern_.inverse_mass[n] > 0.0) state.velocity.set(n, Vec3::Zero());
+  }
+}
+
 SubstepOutcome PaperSolver::substep(const NodeForces& forces, double h, ContactFinder* finder,
                                     ClothState& state, StageClock& clock) noexcept {
   start_ = state.position;
@@ -274,7 +282,7 @@ SubstepOutcome PaperSolver::substep(const NodeForces& forces, double h, ContactF
   adjustBetweenPins(state.position);
   keepEnergies(state.velocity);
   clock.lap(Stage::kWeft);
-  Contacts* const contacts = finder != nullptr ? finder->begin(start_, state.position, h) : nullptr;
+  Contacts* const contacts = finder != nullptr ? &finder->begin(start_, state.position, h) : nullptr;
   if (contacts != nullptr) project(*contacts, state.position);
   clock.lap(Stage::kContact);
   for (const Chain& chain : chains_) rebuild(chain, h, state);
@@ -283,11 +291,13 @@ SubstepOutcome PaperSolver::substep(const NodeForces& forces, double h, ContactF
   boundEnergy(forces, state);
   if (contacts != nullptr) stopApproach(*contacts, state.velocity);
   const bool sound = this->sound(state, h);
-  if (!sound) state.position = start_;
+  if (!sound) stop(state);
   clock.lap(Stage::kContact);
   state.velocity_age = 0.0;
   SubstepOutcome outcome;
-  outcome.accepted = outcome.settled = sound;
+  outcome.accepted = true;
+  outcome.settled = sound;
+  outcome.share = sound ? 1.0 : 0.0;
   outcome.sweeps = 1;
   outcome.scale = h * h;
   outcome.kick = h;

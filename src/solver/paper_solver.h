@@ -65,6 +65,7 @@ class PaperSolver {
   void rebuild(const Chain& chain, double h, ClothState& state) const noexcept;
   void holdBack(ContactFinder& finder, Contacts& contacts, double h, ClothState& state) noexcept;
   void stopApproach(const Contacts& contacts, Field3& velocity) const noexcept;
+  void stop(ClothState& state) const noexcept;
   bool sound(const ClothState& state, double h) const noexcept;
 
   void addMean(const Chain& chain, const Field3& value, Vec3& sum, double& mass) const noexcept;

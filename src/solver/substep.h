@@ -26,15 +26,15 @@ class ContactFinder {
   virtual ~ContactFinder() = default;
 
   /// What may touch on the way from start to predicted, over a substep of length h [s], with the multipliers of the last
-  /// substep. Null: nothing can, whatever the links do. Allocates nothing.
-  virtual Contacts* begin(const Field3& start, const Field3& predicted, double h) noexcept = 0;
+  /// substep. None: a hint, no more; what the cloth does is for verify(). Allocates nothing.
+  virtual Contacts& begin(const Field3& start, const Field3& predicted, double h) noexcept = 0;
 
   enum class Verdict {
     kClear,   ///< nothing has gone through anything
     kMore,    ///< something would: contacts were added, solve again
     kCrossed  ///< something would, and solving again has not helped
   };
-  /// Looks at the way from start to end. settled: at its end every link is within the tolerance.
+  /// Looks at the way from start to end, which is to be taken. settled: at its end every link is within the tolerance.
   virtual Verdict verify(const Field3& start, const Field3& end, bool settled) noexcept = 0;
 
   /// The last resort: changes `end` so that nothing goes through anything, whatever it does to the links.

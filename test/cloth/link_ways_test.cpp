@@ -52,8 +52,9 @@ TEST(SampledBounds, HoldAllNodesHoweverTheClothIsFolded) {
         foldUp(3, random, later, pattern.grid.size());
         const std::string what = std::to_string(rows) + " x " + std::to_string(columns) + ", " + std::to_string(folds);
         expectInside(pattern.grid, position, bounds.around(position), what);
-        expectInside(pattern.grid, position, bounds.around(position, later, 1.0), what);
-        expectInside(pattern.grid, later, bounds.around(position, later, 1.0), what);
+        const Vec3 way = Vec3::Constant(bounds.farthest(position, later));
+        const Eigen::AlignedBox3d start = bounds.around(position);
+        expectInside(pattern.grid, later, {start.min() - way, start.max() + way}, what);
       }
     }
   }
@@ -78,15 +79,13 @@ TEST(SampledBounds, HoldNodesAmongPins) {
   expectInside(pattern.grid, position, SampledBounds(pattern).around(position), "list");
 }
 
-TEST(SampledBounds, GrowWithTheFurthestWay) {
+TEST(SampledBounds, TellTheFurthestWay) {
   const ClothPattern pattern = makePattern(flatScene(9, 9));
   const SampledBounds bounds(pattern);
   const Field3 position = makeInitialState(flatScene(9, 9), pattern).position;
   Field3 later = position;
   for (std::size_t n = 0; n < pattern.grid.size(); ++n) later.add(n, {0.3, 0.0, 0.4});
-  const Eigen::AlignedBox3d once = bounds.around(position, later, 1.0), thrice = bounds.around(position, later, 3.0);
-  EXPECT_NEAR((once.min() - thrice.min() - Vec3::Constant(1.0)).norm(), 0.0, 1e-12);
-  EXPECT_NEAR((thrice.max() - once.max() - Vec3::Constant(1.0)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR(bounds.farthest(position, later), 0.5, 1e-12);
 }
 
 }  // namespace

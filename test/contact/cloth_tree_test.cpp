@@ -416,7 +416,7 @@ TEST(ClothTree, RefittedIsAsFreshAndAllocatesNothing) {
   const Field3 first = heap(pattern.grid, 1), second = heap(pattern.grid, 2), third = flat(pattern.grid);
   ClothTree used(pattern);
   Candidates candidates;
-  used.reserve(candidates);
+  candidates.reserve(1000 * pattern.grid.nodeCount());  // from heap to heap all meet
   const auto collect = [&](const Field3& start, const Field3& end) {
     candidates.clear();
     used.refit(start, end);

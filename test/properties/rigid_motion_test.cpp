@@ -7,9 +7,8 @@
 // Tolerance: what a share of rounding comes to. How far a motion goes astray when everything is off by a share is
 // measured (growthOf); the share is roundingShare() of the scene's size and place. Where strings pull or something
 // touches, corrections are made in single precision, 2^-24 of them each: of the forces, about as much for each of the
-// iterations whose errors the next ones do not see, eight at most. Which pairs of the cloth with itself get a contact
-// before they touch is asked of boxes along the axes; within a tenth of the thickness contact leaves alone what it
-// finds, so that much is added. Scenes that amplify a share of 1e-7 to a millimetre are chaotic and left out.
+// iterations whose errors the next ones do not see, eight at most. Within a tenth of the thickness contact leaves alone
+// what it finds, so that much is added. Scenes that amplify a share of 1e-7 to a millimetre are chaotic and left out.
 //
 // Where strings pull or something touches, a substep is solved until links and contacts are within the scene's
 // stretch_tolerance, and there are decisions on the way to that: whether a row is solved for, a block is looked at again,
