@@ -145,6 +145,11 @@ void ObstacleSet::moveOn(std::size_t index, const Pose& pose) noexcept {
   item.end = pose;
 }
 
+double ObstacleSet::path(int index) const noexcept {
+  const Item& item = items_[at(index)];
+  return item.share * wayBetween(item.begin, item.end, at(index));
+}
+
 void ObstacleSet::setSubstep(double from, double to) noexcept {
   for (std::size_t n = 0; n < items_.size(); ++n) {
     Item& item = items_[n];

@@ -82,6 +82,8 @@ class ObstacleSet {
   Eigen::AlignedBox3d leftBox(int index) const noexcept;
 
   const std::vector<MovingObstacle>& moving() const { return moving_; }
+  /// How far an obstacle's surface goes in the whole frame, at most [m]; of a plane: its origin.
+  double path(int index) const noexcept;
   /// Indices in the order of the names: what depends on an order takes this one, not that of the scene's list.
   const std::vector<int>& byName() const noexcept { return by_name_; }
   /// Where an obstacle stands in it.

@@ -21,11 +21,10 @@ constexpr double kStopped = 1e-3;
 
 // One attempt at a substep from `done` seconds into the frame.
 SubstepOutcome Simulator::Impl::attempt(const SubstepPlan& plan, double done) {
-  const double frame_length = frameLength();
   ContactFinder* const finder = contact.wanted() ? &contact : nullptr;
   clock.start();
   if (finder == nullptr) contact.nothingTouches();
-  if (finder != nullptr) obstacles.setSubstep((done - obstacle_lag) / frame_length, (done + plan.h - obstacle_lag) / frame_length);
+  if (finder != nullptr) setObstacles(plan, done);
   const NodeForces& now = forces.evaluate(state, statistics.time + done, plan.h);
   clock.lap(Stage::kForces);
   if (counts_work) ledger.begin(state);
@@ -86,12 +85,30 @@ SubstepOutcome Simulator::Impl::attemptInTime(const SubstepPlan& plan, double do
   return outcome;
 }
 
-// What bounds took. Obstacles wait for what the cloth has not gone of its path: on the rest they might go through it.
+// Moves the obstacles. In the last resort those near the cloth go no further than a node may, so that what is asked of the solve
+// vanishes with the reach.
+void Simulator::Impl::setObstacles(const SubstepPlan& plan, double done) noexcept {
+  const double frame_length = frameLength(), from = (done - obstacle_lag) / frame_length;
+  obstacle_share = 1.0;
+  obstacles.setSubstep(from, from + plan.h / frame_length);
+  if (!plan.last_resort) return;
+  double path = 0.0;
+  for (int o = 0; o < obstacles.count(); ++o) {
+    if (contact.standing(o, state.position) == ObstacleStanding::kNear) path = std::max(path, obstacles.path(o));
+  }
+  path *= plan.h / frame_length;
+  const double most = plan.reach * shortest_link;
+  if (path <= most) return;
+  obstacle_share = most / path;
+  obstacles.setSubstep(from, from + obstacle_share * plan.h / frame_length);
+}
+
+// What bounds took. Obstacles wait for the cloth: further on they might go through it.
 void Simulator::Impl::countStops(bool last_resort, const SubstepOutcome& outcome, double h) noexcept {
   if (outcome.share < kStopped) ++statistics.stops;
   if (last_resort) ++statistics.last_resort_substeps;
   statistics.momentum_cut += outcome.momentum_cut;
-  const double waits = (1.0 - outcome.share) * h;
+  const double waits = (1.0 - outcome.share * obstacle_share) * h;
   if (obstacles.anyMoved()) statistics.obstacles_waited += waits;
   obstacle_lag += waits;
 }

@@ -65,7 +65,8 @@ Simulator::Impl::Impl(const Scene& given, const MeshResolver& resolve)
       ledger(pattern),
       budget(scene.solver.budget_ms),
       has_pins(std::any_of(pattern.pinned.begin(), pattern.pinned.end(), [](auto pinned) { return pinned != 0; })),
-      total_mass(std::accumulate(pattern.mass.begin(), pattern.mass.end(), 0.0)) {
+      total_mass(std::accumulate(pattern.mass.begin(), pattern.mass.end(), 0.0)),
+      shortest_link(shortestLink(pattern)) {
   setRestLimits();
   exact.hold(rest.asleep(), state);
   exact.expectContacts(contact.capacity());

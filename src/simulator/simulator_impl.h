@@ -45,6 +45,7 @@ struct Simulator::Impl {
   void moveCompanion();
   void synchronise();
   double makeSubstep(double done);
+  void setObstacles(const SubstepPlan& plan, double done) noexcept;
   void countStops(bool last_resort, const SubstepOutcome& outcome, double h) noexcept;
   bool makeComposed(const SubstepPlan& plan, double done);
   SubstepPlan planSubstep(StepControl& steps, double remaining);
@@ -112,6 +113,7 @@ struct Simulator::Impl {
   std::unique_ptr<ErrorEstimate> estimate;
   Held companion, rehearsal;
   int steps_made = 0;      // leapfrog steps of the present frame, for the estimate
+  double obstacle_share = 1.0;  // of the substep's motion that obstacles make
   double obstacle_lag = 0.0;  // that obstacles have waited in this frame for cloth that could not give way [s]
   bool of_stages = true;   // all of them were stages of whole substeps
   struct PinMove {
@@ -132,6 +134,7 @@ struct Simulator::Impl {
   } same_since;
   const bool has_pins;
   const double total_mass;  // [kg]
+  const double shortest_link;  // [m]
   std::optional<double> most_energy;  // while nothing puts any in [J]
   double made_time = 0.0;      // of motion; less than the frames' where these ended early [s]
   std::uint64_t revision = 0;  // of the cloth's and the obstacles' places

@@ -180,7 +180,8 @@ class ExactSolver {
   const ClothPattern& pattern_;
   bool free_;                 // no node is pinned
   const Workers& workers_;
-  double tolerance_;          // relative, inside the solver
+  double stretch_tolerance_;  // the user's, relative
+  double tolerance_;          // inside the solver
   double contact_tolerance_;  // [m]
   double smallest_rest_;      // of a link [m]
   int max_sweeps_;

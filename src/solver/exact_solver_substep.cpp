@@ -25,7 +25,8 @@ constexpr double kMostAdded = 1.03;
 // step: then the last two know nothing of it.
 constexpr int kStepsAfterBlow = 3;
 
-constexpr double kInnerTolerance = 0.5;
+// Share of the tolerance that bounded links reach: the rest is for the rounding of their lengths.
+constexpr double kBoundShare = 1.0 - 1e-6;
 // What is this far away [m] was thrown there by a force beyond all measure: damping takes the cube of its speed, energies the
 // square of it times a mass, and the next substep would go further.
 constexpr double kBeyond = 1e60;
@@ -64,7 +65,7 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const SubstepPlan& plan, const
     all.late = all.late || (progress.late && !progress.settled);
     all.near = progress.near;
     all.contacts = contacts;
-    if (free_ && !held_.any() && contacts != nullptr && start.keep == nullptr && !pressesOnObstacle(*contacts)) keepMomentum(start);
+    if (free_ && !plan.last_resort && !held_.any() && contacts != nullptr && start.keep == nullptr && !pressesOnObstacle(*contacts)) keepMomentum(start);
     all.found = progress.settled || progress.found;
     if (contacts == nullptr || !(progress.settled || (plan.last_resort && progress.found && !all.late) || progress.near)) return all;
     const ContactFinder::Verdict verdict = finder->verify(from, next_, progress.settled);
@@ -162,7 +163,7 @@ void ExactSolver::boundPath(const Progress& progress, double h, SubstepOutcome& 
     outcome.share = 0.0;
     return;
   }
-  const LastResort::Bound bound = last_resort_.bound(inertia_.inverse(), tolerance_ / kInnerTolerance, next_);
+  const LastResort::Bound bound = last_resort_.bound(inertia_.inverse(), kBoundShare * stretch_tolerance_, next_);
   outcome.share = bound.share;
   outcome.momentum_cut += bound.moment / h;
 }
@@ -216,6 +217,10 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   outcome.sweeps = progress.sweeps;
   outcome.settled = progress.settled;
   if (plan.last_resort && !progress.settled) boundPath(progress, plan.h, outcome);
+  // Bounded, cloth on moving pins goes another path than was verified.
+  if (outcome.share < 1.0 && last_resort_.pinsMove() && finder != nullptr && finder->verify(state.position, next_, true) != ContactFinder::Verdict::kClear) {
+    finder->hold(state.position, next_);
+  }
   const bool taken_as_it_is = progress.late ? progress.near && !progress.crossed : false;
   outcome.late = progress.late;
   outcome.accepted = !outcome.disturbed && (progress.settled || plan.last_resort || (taken_as_it_is && isWithinNumbers(next_)));

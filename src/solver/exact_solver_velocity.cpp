@@ -120,9 +120,9 @@ void ExactSolver::keepMomentum(const SubstepStart& start) noexcept {
     missing.linear += p;
     missing.angular += from.at(n).cross(p);
   }
-  const RigidMotion::Displacement given = rigidMotion(pattern_, from, missing).over(start.h);
+  const RigidMotion motion = rigidMotion(pattern_, from, missing);
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    if (pattern_.mass[n] > 0.0) next_.set(n, given(next_.at(n)));
+    if (pattern_.mass[n] > 0.0) next_.add(n, start.h * motion.at(from.at(n)));
   }
 }
 

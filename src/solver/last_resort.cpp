@@ -51,17 +51,16 @@ LastResort::LastResort(const ClothPattern& pattern) : pattern_(pattern) {
   }
 }
 
-// Of the nodes that nothing moves but their own velocity; of all where there are none.
-RigidMotion LastResort::rigidMotionOf(const Field3& position, const Field& inverse, const Field3& velocity) const noexcept {
+// Of the nodes that nothing moves but their own velocity; false: there are none.
+bool LastResort::rigidMotionOfPins(const Field3& position, const Field& inverse, const Field3& velocity, RigidMotion& motion) const noexcept {
   double pins = 0.0;
-  RigidMotion motion;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     if (!(pattern_.mass[n] > 0.0) || inverse[n] > 0.0) continue;
     pins += 1.0;
     motion.centre += position.at(n);
     motion.drift += velocity.at(n);
   }
-  if (pins == 0.0) return rigidMotion(pattern_, position, momentumOf(pattern_, position, velocity));
+  if (pins == 0.0) return false;
   motion.centre /= pins;
   motion.drift /= pins;
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
@@ -73,7 +72,7 @@ RigidMotion LastResort::rigidMotionOf(const Field3& position, const Field& inver
     spin += arm.cross(velocity.at(n) - motion.drift);
   }
   motion.turn = turnOf(inertia, spin);
-  return motion;
+  return true;
 }
 
 double LastResort::cut(const Field3& position, const Field& inverse, double h, double reach, Field3& velocity) noexcept {
@@ -81,7 +80,10 @@ double LastResort::cut(const Field3& position, const Field& inverse, double h, d
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     if (!isFinite(velocity.at(n))) velocity.set(n, Vec3::Zero());
   }
-  const RigidMotion rigid = rigidMotionOf(position, inverse, velocity);
+  RigidMotion rigid;
+  const bool pinned = rigidMotionOfPins(position, inverse, velocity, rigid);
+  pins_move_ = pinned && !(rigid.drift.isZero(0.0) && rigid.turn.isZero(0.0));
+  if (!pinned) rigid = rigidMotion(pattern_, position, momentumOf(pattern_, position, velocity));
   const RigidMotion::Displacement carry = rigid.over(h);
   double taken = 0.0;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
@@ -91,7 +93,7 @@ double LastResort::cut(const Field3& position, const Field& inverse, double h, d
       continue;
     }
     const Vec3 follows = carry(from);
-    follows_.set(n, follows);
+    follows_.set(n, pinned ? follows : from);
     const Vec3 carried = (follows - from) / h, own = v - carried;
     const double path = h * own.norm(), most = reach * shortest_[n];
     if (!(path > most)) continue;

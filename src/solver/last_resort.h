@@ -43,7 +43,7 @@ class LastResort {
   /// momentum taken [N s].
   double cut(const Field3& position, const Field& inverse, double h, double reach, Field3& velocity) noexcept;
 
-  /// After cut(): moves `end` back along the path from where the rigid motion leads, to where every link with an end that can
+  /// After cut(): moves `end` back along the path from where it follows its pins, to where every link with an end that can
   /// move is no longer (a rod no shorter) than by `allowed`, relative, or no worse than where the path begins. Returns the share of
   /// the path that is left, and mass times path of what is not, sum over nodes [kg m].
   struct Bound {
@@ -52,16 +52,19 @@ class LastResort {
   };
   Bound bound(const Field& inverse, double allowed, Field3& end) noexcept;
 
-  /// Where the rigid motion leads, after cut() [m].
+  /// After cut(): some pin moves, and the path begins where nodes follow it.
+  bool pinsMove() const noexcept { return pins_move_; }
+  /// Where the path begins, after cut(): nodes follow their pins [m].
   const Field3& follows() const noexcept { return follows_; }
 
  private:
-  RigidMotion rigidMotionOf(const Field3& position, const Field& inverse, const Field3& velocity) const noexcept;
+  bool rigidMotionOfPins(const Field3& position, const Field& inverse, const Field3& velocity, RigidMotion& motion) const noexcept;
   double shareOf(std::size_t a, std::size_t b, double rest, bool rod, double allowed, double most, const Field3& end) const noexcept;
 
   const ClothPattern& pattern_;
+  bool pins_move_ = false;
   Field shortest_;  // link at each node [m]
-  Field3 follows_;  // positions that the rigid motion leads to [m]
+  Field3 follows_;  // where the pins' rigid motion leads; where nodes are if there are none [m]
 };
 
 }  // namespace curtain
