@@ -28,6 +28,12 @@ class ClothContact : public ContactFinder {
   /// There is something to look for at all.
   bool wanted() const noexcept { return self_wanted_ || obstacles_.anyPresent(); }
 
+  /// What is nearer than it should be comes out by no more than this in the substeps to come [m]; infinite: at its own speed.
+  void boundRecovery(double most) noexcept {
+    touch_.boundRecovery(most);
+    self_.boundRecovery(most);
+  }
+
   Contacts& begin(const Field3& start, const Field3& predicted, double h) noexcept override;
   Verdict verify(const Field3& start, const Field3& end, bool settled) noexcept override;
   void hold(const Field3& start, Field3& end) noexcept override;

@@ -13,6 +13,7 @@
 // substep to substep as long as motion that is measured allows, and no result depends on that.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "cloth/link_ways.h"
@@ -35,6 +36,7 @@ class ObstacleContacts {
   /// Begins a substep of h [s]: adds what may touch on the way from start to predicted, in the order of the obstacles' names, of
   /// the contacts' nodes and features. slippery: without friction.
   void begin(const Field3& start, const Field3& predicted, double h, bool slippery, Contacts& contacts) noexcept;
+  void boundRecovery(double most) noexcept { most_recovery_ = most; }
 
   /// Adds contacts for parts of the cloth that would go through an obstacle on the way from start to end, expected or not;
   /// returns how many. links_hold: no link is longer than kOverlong at the end.
@@ -79,7 +81,7 @@ class ObstacleContacts {
     void carry(Archive& archive);
   };
   ObstacleSubstep substepOf(std::size_t obstacle) const noexcept {
-    return {obstacles_.moving()[obstacle], static_cast<int>(obstacle), h_, slippery_, recovery_speed_};
+    return {obstacles_.moving()[obstacle], static_cast<int>(obstacle), h_, slippery_, recovery_speed_, most_recovery_};
   }
   bool anyWithin(const Eigen::AlignedBox3d& box) const noexcept;
   Eigen::AlignedBox3d reached(Eigen::AlignedBox3d box) const noexcept;
@@ -89,6 +91,7 @@ class ObstacleContacts {
 
   const ClothPattern& pattern_;
   double thickness_, recovery_speed_;
+  double most_recovery_ = std::numeric_limits<double>::infinity();  // in a substep [m]
   const ObstacleSet& obstacles_;
   SampledBounds bounds_;
   Eigen::AlignedBox3d all_;           // around all obstacles in this substep

@@ -155,8 +155,7 @@ TouchPoint touchPoint(const FeaturePair& pair, const PairPoint& closest, const C
 
 void add(const ObstacleSubstep& substep, const ClothPattern& pattern, TouchPoint& point, double distance, double kept,
          std::uint32_t source, Contacts& contacts) {
-  point.distance = distance;
-  point.height += letOut(distance, kept, substep);
+  point.keep(distance, kept, substep);
   Contact contact;
   contact.source = source;
   // A node by itself keeps the thickness.
@@ -206,8 +205,7 @@ void crossingFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, 
     const Corners at = between(start, end, *time);
     if (!shape.nearestOnTriangle(at, std::numeric_limits<double>::infinity(), nearest)) continue;
     TouchPoint point = touchPoint(face, nearest, at, start);
-    point.distance = distance;
-    point.height += letOut(distance, near.core(), substep);
+    point.keep(distance, near.core(), substep);
     Crossing crossing;
     crossing.node = face;
     crossing.nodes = 3;
@@ -272,8 +270,7 @@ void crossingPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, 
       there = first;
     }
     TouchPoint point = touchPoint(pair, there, at, start);
-    point.distance = first.distance;
-    point.height += letOut(first.distance, near.core(), substep);
+    point.keep(first.distance, near.core(), substep);
     Crossing crossing;
     crossing.node = pair.node;
     crossing.nodes = point.nodes;

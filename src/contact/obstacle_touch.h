@@ -22,6 +22,7 @@ struct ObstacleSubstep {
   double h;          ///< [s]
   bool slippery;     ///< contacts are without friction
   double recovery_speed;  ///< out of the gap [m/s]
+  double most_recovery;   ///< in this substep [m]
 };
 
 /// A part of the cloth that would go through an obstacle.
@@ -58,6 +59,15 @@ struct TouchPoint {
   Vec3 normal = Vec3::UnitZ();    ///< unit
   double height = 0.0;            ///< normal . x >= height at the end [m]
   double distance = 0.0;          ///< signed, where the substep starts [m]; negative: no friction
+  double recovery = 0.0;          ///< of the height, asked of what starts inside to come out [m]
+
+  /// Asks what is `distance` away at the start to keep `kept`, or to come out towards it.
+  void keep(double at_start, double kept, const ObstacleSubstep& substep) noexcept {
+    const double asked = letOut(at_start, kept, substep);
+    distance = at_start;
+    height += asked;
+    recovery = at_start < 0.0 ? asked - at_start : 0.0;
+  }
 };
 /// The contact in the world. Nodes without weight are left out; false: none of the others can move.
 bool makeContact(const ObstacleSubstep& substep, const ClothPattern& pattern, const TouchPoint& point, Contact& contact) noexcept;

@@ -73,7 +73,7 @@ SelfContacts::SelfContacts(const ClothPattern& pattern, double gap, const Contac
 double SelfContacts::offsetAt(double distance, double h) const noexcept {
   if (distance >= gap_) return gap_;
   const double kept = (1.0 - kSlack) * gap_;
-  return distance >= kept ? distance : std::min(kept, distance + recovery_speed_ * h);
+  return distance >= kept ? distance : std::min(kept, distance + std::min(recovery_speed_ * h, most_recovery_));
 }
 
 Contact SelfContacts::makeContact(const PairKey& key, const ClosestPoints& closest) const noexcept {

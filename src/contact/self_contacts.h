@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "cloth/cloth.h"
@@ -47,6 +48,7 @@ class SelfContacts {
   SelfContacts(const ClothPattern& pattern, double gap, const ContactParams& params);
 
   double gap() const noexcept { return gap_; }
+  void boundRecovery(double most) noexcept { most_recovery_ = most; }
 
   /// Adds what may touch on the way from start to predicted, in a substep of h [s], and what pushed in the last one (`last`),
   /// in the order of their nodes. candidates: all pairs that come within the gap on that way, and any others, in any order.
@@ -81,6 +83,7 @@ class SelfContacts {
   double offsetAt(double distance, double h) const noexcept;
 
   double gap_, friction_, recovery_speed_;
+  double most_recovery_ = std::numeric_limits<double>::infinity();  // in a substep [m]
   std::vector<PairKey> pairs_;  // that touch or cross
   bool full_ = false;
 };

@@ -104,6 +104,8 @@ bool ConvexShape::query(const Vec3& previous, const Vec3& current, double reach,
 
 // ---- sphere --------------------------------------------------------------------------------------------------
 
+double SphereShape::support(const Vec3& direction) const noexcept { return radius_ * direction.norm(); }
+
 SurfacePoint SphereShape::nearest(const Vec3& point, const Vec3& beside) const noexcept {
   SurfacePoint surface;
   double length = 0.0;
@@ -127,6 +129,8 @@ Eigen::AlignedBox3d SphereShape::bounds() const {
 // ---- box -----------------------------------------------------------------------------------------------------
 
 BoxShape::BoxShape(const Vec3& size) : half_(0.5 * size), features_(topology(), FlatEdges::kDrop) {}
+
+double BoxShape::support(const Vec3& direction) const noexcept { return half_.dot(direction.cwiseAbs()); }
 
 SurfacePoint BoxShape::nearest(const Vec3& point, const Vec3& beside) const noexcept {
   const Vec3 beyond = point.cwiseAbs() - half_;
@@ -173,6 +177,8 @@ bool BoxShape::enter(const Vec3& start, const Vec3& direction, SurfaceEntry& ent
 Eigen::AlignedBox3d BoxShape::bounds() const { return Eigen::AlignedBox3d(-half_, half_); }
 
 // ---- cylinder ------------------------------------------------------------------------------------------------
+
+double CylinderShape::support(const Vec3& direction) const noexcept { return radius_ * direction.head<2>().norm() + half_ * std::abs(direction.z()); }
 
 SurfacePoint CylinderShape::nearest(const Vec3& point, const Vec3& beside) const noexcept {
   double radial = 0.0;
@@ -229,6 +235,8 @@ Eigen::AlignedBox3d CylinderShape::bounds() const {
 
 // ---- capsule -------------------------------------------------------------------------------------------------
 
+double CapsuleShape::support(const Vec3& direction) const noexcept { return radius_ * direction.norm() + half_ * std::abs(direction.z()); }
+
 SurfacePoint CapsuleShape::nearest(const Vec3& point, const Vec3& beside) const noexcept {
   const Vec3 foot(0.0, 0.0, std::clamp(point.z(), -half_, half_));
   SurfacePoint surface;
@@ -278,6 +286,11 @@ Eigen::AlignedBox3d CapsuleShape::bounds() const {
 }
 
 // ---- plane ---------------------------------------------------------------------------------------------------
+
+double PlaneShape::support(const Vec3& direction) const noexcept {
+  const bool up = direction.z() > 0.0 && direction.head<2>().isZero(0.0);
+  return up ? 0.0 : std::numeric_limits<double>::infinity();
+}
 
 SurfacePoint PlaneShape::nearest(const Vec3& point, const Vec3&) const noexcept {
   SurfacePoint surface;

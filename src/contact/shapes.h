@@ -64,6 +64,9 @@ class ConvexShape : public ObstacleShape {
   virtual SurfacePoint nearest(const Vec3& point, const Vec3& beside) const noexcept = 0;
   SurfacePoint nearest(const Vec3& point) const noexcept { return nearest(point, Vec3::Zero()); }
 
+  /// How far the solid reaches along a unit direction from the origin, its support function [m]; infinite: without end.
+  virtual double support(const Vec3& direction) const noexcept = 0;
+
   const ConvexShape* convex() const noexcept final { return this; }
 
   /// The point of a triangle (an edge) nearest to the solid or deepest in it, to kElementAccuracy; where many are, one of
@@ -100,6 +103,7 @@ class SphereShape final : public ConvexShape {
   explicit SphereShape(double radius) : radius_(radius) {}
   using ConvexShape::nearest;
   SurfacePoint nearest(const Vec3& point, const Vec3& beside) const noexcept override;
+  double support(const Vec3& direction) const noexcept override;
   Eigen::AlignedBox3d bounds() const override;
   ShapeTriangles triangles() const override;
 
@@ -116,6 +120,7 @@ class BoxShape final : public ConvexShape {
   explicit BoxShape(const Vec3& size);
   using ConvexShape::nearest;
   SurfacePoint nearest(const Vec3& point, const Vec3& beside) const noexcept override;
+  double support(const Vec3& direction) const noexcept override;
   Eigen::AlignedBox3d bounds() const override;
   ShapeTriangles triangles() const override;
   const ObstacleFeatures* features() const noexcept override { return &features_; }
@@ -135,6 +140,7 @@ class CylinderShape final : public ConvexShape {
   CylinderShape(double radius, double length) : radius_(radius), half_(0.5 * length) {}
   using ConvexShape::nearest;
   SurfacePoint nearest(const Vec3& point, const Vec3& beside) const noexcept override;
+  double support(const Vec3& direction) const noexcept override;
   Eigen::AlignedBox3d bounds() const override;
   ShapeTriangles triangles() const override;
 
@@ -152,6 +158,7 @@ class CapsuleShape final : public ConvexShape {
   CapsuleShape(double radius, double length) : radius_(radius), half_(0.5 * length) {}
   using ConvexShape::nearest;
   SurfacePoint nearest(const Vec3& point, const Vec3& beside) const noexcept override;
+  double support(const Vec3& direction) const noexcept override;
   Eigen::AlignedBox3d bounds() const override;
   ShapeTriangles triangles() const override;
 
@@ -168,6 +175,7 @@ class PlaneShape final : public ConvexShape {
  public:
   using ConvexShape::nearest;
   SurfacePoint nearest(const Vec3& point, const Vec3& beside) const noexcept override;
+  double support(const Vec3& direction) const noexcept override;
   Eigen::AlignedBox3d bounds() const override;
   ShapeTriangles triangles() const override;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "simulator/simulator_impl.h"
 #include "solver/composition.h"
@@ -85,19 +86,20 @@ SubstepOutcome Simulator::Impl::attemptInTime(const SubstepPlan& plan, double do
   return outcome;
 }
 
-// Moves the obstacles. In the last resort those near the cloth go no further than a node may, so that what is asked of the solve
-// vanishes with the reach.
+// Moves the obstacles. In the last resort those near the cloth go no further than a node may, and what is inside comes out by no more,
+// so that all that is asked of the solve vanishes with the reach.
 void Simulator::Impl::setObstacles(const SubstepPlan& plan, double done) noexcept {
   const double frame_length = frameLength(), from = (done - obstacle_lag) / frame_length;
   obstacle_share = 1.0;
   obstacles.setSubstep(from, from + plan.h / frame_length);
+  const double most = plan.last_resort ? plan.reach * shortest_link : std::numeric_limits<double>::infinity();
+  contact.boundRecovery(most);
   if (!plan.last_resort) return;
   double path = 0.0;
   for (int o = 0; o < obstacles.count(); ++o) {
     if (contact.standing(o, state.position) == ObstacleStanding::kNear) path = std::max(path, obstacles.path(o));
   }
   path *= plan.h / frame_length;
-  const double most = plan.reach * shortest_link;
   if (path <= most) return;
   obstacle_share = most / path;
   obstacles.setSubstep(from, from + obstacle_share * plan.h / frame_length);

@@ -26,6 +26,7 @@ void carryContacts(Archive& archive, const char* name, const Grid& grid, int obs
     archive.integer("obstacle", contact.obstacle, Contact::kCloth, obstacles - 1);
     archive.numbers("normal", contact.normal);
     archive.number("offset", contact.offset);
+    archive.number("recovery", contact.recovery);
     archive.numbers("carried", contact.carried);
     archive.numbers("surface_velocity", contact.surface_velocity);
     archive.number("friction", contact.friction);

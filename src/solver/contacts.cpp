@@ -44,13 +44,14 @@ bool beginContacts(const Field& inverse_inertia, double ratio, std::size_t first
   return any;
 }
 
-double contactResidual(const Contacts& contacts, const Field3& position) noexcept {
+double contactResidual(const Contacts& contacts, const Field3& position, bool recovers) noexcept {
   double worst = 0.0;
   for (const Contact& contact : contacts) {
     const Vec3 point = contact.point(position);
     const double entered = contact.offset - contact.normal.dot(point);
     if (!std::isfinite(entered)) return std::numeric_limits<double>::infinity();
-    worst = std::max(worst, contact.pushes() ? std::abs(entered) : entered);
+    const double lacks = recovers || entered < 0.0 ? entered : std::max(0.0, entered - contact.recovery);
+    worst = std::max(worst, contact.pushes() ? std::abs(lacks) : lacks);
     if (contact.sticks) worst = std::max(worst, kStickShare * across(contact.normal, point - contact.carried).norm());
   }
   return worst;

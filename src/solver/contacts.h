@@ -27,6 +27,7 @@ struct Contact {
   int obstacle = kCloth;                ///< index, or kCloth
   Vec3 normal = Vec3::UnitZ();          ///< unit, the way the point is held to
   double offset = 0.0;                  ///< [m]
+  double recovery = 0.0;                ///< of the offset, asked to bring out what is inside [m]; the last resort may fall short of it
   Vec3 carried = Vec3::Zero();          ///< where the point is at the end when it does not slip [m]; read across the normal
   Vec3 surface_velocity = Vec3::Zero(); ///< of what the point touches [m/s]
   double friction = 0.0;                ///< Coulomb's coefficient, >= 0
@@ -69,8 +70,9 @@ inline double contactViolation(const Contact& contact, const Field3& position) n
   return entered > 0.0 || contact.pushes() ? entered : 0.0;
 }
 
-/// The largest of them, and of how far points that stick have slipped [m]; infinite when a position is not finite.
-double contactResidual(const Contacts& contacts, const Field3& position) noexcept;
+/// The largest of them, and of how far points that stick have slipped [m]; infinite when a position is not finite. recovers: what is
+/// inside must come out as fast as it is asked to; else it must not go deeper.
+double contactResidual(const Contacts& contacts, const Field3& position, bool recovers = true) noexcept;
 
 /// Fastest that a point which is pressed on enters, leaves, or (sticking) slips [m/s].
 double contactRate(const Contacts& contacts, const Field3& velocity) noexcept;

@@ -468,7 +468,7 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
   }
   if (plan.last_resort && std::isfinite(best_.residual)) {
     goBack(contacts);
-    if (touches) touch = contactResidual(*contacts, next_);
+    if (touches) touch = contactResidual(*contacts, next_, false);
   }
   // Slower than it should, but what was asked for may be reached all the same.
   progress.settled = touch <= contact_tolerance_ && withinTolerance(warp, weft, tolerance_);
