@@ -110,6 +110,7 @@ void Simulator::Impl::countStops(bool last_resort, const SubstepOutcome& outcome
   if (outcome.share < kStopped) ++statistics.stops;
   if (last_resort) ++statistics.last_resort_substeps;
   statistics.momentum_cut += outcome.momentum_cut;
+  pins_wait = pins_wait || outcome.pins_wait;
   const double waits = (1.0 - outcome.share * obstacle_share) * h;
   if (obstacles.anyMoved()) statistics.obstacles_waited += waits;
   obstacle_lag += waits;
@@ -272,7 +273,8 @@ void Simulator::Impl::step() {
   const double share = makeFrame();
   const Budget::Clock::time_point tail_begin = budget.any() ? Budget::Clock::now() : begin;
   keepEnergy();
-  stopPins(share == 1.0);
+  stopPins(share == 1.0 && !pins_wait);
+  pins_wait = false;
   finishFrame(share);
   measure();
   fallAsleep();

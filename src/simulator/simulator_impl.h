@@ -113,6 +113,7 @@ struct Simulator::Impl {
   std::unique_ptr<ErrorEstimate> estimate;
   Held companion, rehearsal;
   int steps_made = 0;      // leapfrog steps of the present frame, for the estimate
+  bool pins_wait = false;      // they have not got where they are told to in this frame
   double obstacle_share = 1.0;  // of the substep's motion that obstacles make
   double obstacle_lag = 0.0;  // that obstacles have waited in this frame for cloth that could not give way [s]
   bool of_stages = true;   // all of them were stages of whole substeps

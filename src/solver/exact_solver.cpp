@@ -370,8 +370,11 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
   const LineSolve warp{pattern_, inertia_.inverse(), warp_, next_, held_.movingSpan()};
   const LineSolve weft{pattern_, inertia_.inverse(), weft_, next_, held_.movingSpan()};
   const bool touches = contacts != nullptr && !contacts->empty();
+  // What the last resort leaves the far shorter steps after it would have to mend at once: by a blow.
   const double share_for_weight =
-      weight_way > 0.0 ? std::clamp(kShareOfWeight * weight_way / (middle_rest_ * tolerance_), kLeastShare, 1.0) : 1.0;
+      plan.last_resort   ? kLeastShare
+      : weight_way > 0.0 ? std::clamp(kShareOfWeight * weight_way / (middle_rest_ * tolerance_), kLeastShare, 1.0)
+                         : 1.0;
   Progress progress;
   bool follow = plan.scheme != Scheme::kLeapfrog || plan.last_resort;
   bool net_ready = false;
@@ -383,7 +386,7 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
   while (progress.sweeps < max_sweeps_) {
     const bool first = progress.sweeps == 0;
     double strict = 1.0;
-    if (progress.sweeps < kStrictSweeps && !plan.last_resort) {
+    if (progress.sweeps < kStrictSweeps) {
       if (touches) strict = kStrictShare;
       if (!touches && (weft_pulls_ || directions_set_)) strict = share_for_weight;
     }

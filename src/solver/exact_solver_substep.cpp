@@ -217,9 +217,12 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   outcome.sweeps = progress.sweeps;
   outcome.settled = progress.settled;
   if (plan.last_resort && !progress.settled) boundPath(progress, plan.h, outcome);
-  // Bounded, cloth on moving pins goes another path than was verified.
-  if (outcome.share < 1.0 && last_resort_.pinsMove() && finder != nullptr && finder->verify(state.position, next_, true) != ContactFinder::Verdict::kClear) {
-    finder->hold(state.position, next_);
+  // Bounded, cloth on moving pins goes another path than was verified. Where that leads through something even the pins wait.
+  if (outcome.share < 1.0 && last_resort_.pinsMove() && finder != nullptr &&
+      finder->verify(state.position, next_, true) != ContactFinder::Verdict::kClear) {
+    next_ = state.position;
+    outcome.share = 0.0;
+    outcome.pins_wait = true;
   }
   const bool taken_as_it_is = progress.late ? progress.near && !progress.crossed : false;
   outcome.late = progress.late;
@@ -248,7 +251,7 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
     const double fastest = progress.contacts != nullptr ? fastestSurface(*progress.contacts) : 0.0;
     if (fastest > 0.0) outcome.longest_step = kMostWayOfSurface * smallest_rest_ / fastest;
     // The way such a substep has gone is not all motion: what pulls its links further is taken out.
-    if (progress.left_over && !progress.late && !plan.last_resort) projectVelocity(state.position, progress.contacts, 0.0, state.velocity);
+    if ((progress.left_over || plan.last_resort) && !progress.late) projectVelocity(state.position, progress.contacts, 0.0, state.velocity);
   }
   if (directions_set_ && (!outcome.accepted || !weft_pulls_)) std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0);
   clock.lap(Stage::kFinish);

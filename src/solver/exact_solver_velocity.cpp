@@ -35,7 +35,7 @@ double ExactSolver::Kinetic::most(double share) const noexcept {
 
 // What links may lack of their lengths comes out of a substep as speed.
 double ExactSolver::fromTolerance(double h) const noexcept {
-  const double speed = tolerance_ * middle_rest_ / h;
+  const double speed = stretch_tolerance_ * middle_rest_ / h;
   double mass = 0.0;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) mass += inertia_.masses()[n] > 0.0 ? pattern_.mass[n] : 0.0;
   return mass * speed * speed;

@@ -52,6 +52,7 @@ struct SubstepOutcome {
   double kick = 0.0;           ///< the time the forces acted for [s]
   double share = 1.0;          ///< of the path that the last resort leaves, [0..1]
   double momentum_cut = 0.0;   ///< by the last resort [N s]
+  bool pins_wait = false;      ///< moved pins stayed where they were, too
   double longest_step = std::numeric_limits<double>::infinity();  ///< in which what pushes goes a share of a link [s]
   double turning = 0.0;        ///< ExactSolver::turning() [1/s]; 0 where a string pulls or a contact pushes: jumps are no turns
   double omega_squared = 0.0;  ///< bound of the square of the highest frequency, from the links' tensions [1/s^2]

