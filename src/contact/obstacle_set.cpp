@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace curtain {
@@ -53,7 +54,13 @@ void MovingObstacle::move(const Transform& from, const Transform& to) noexcept {
   swept_ = boxAround(bounds, before).merged(boxAround(bounds, after));
 }
 
-ObstacleSet::ObstacleSet(const Scene& scene, const MeshResolver& resolve) : frame_length_(1.0 / scene.solver.frame_rate) {
+double followingSpeed(const Scene& scene) noexcept {
+  const double gravity = scene.gravity.norm();
+  return gravity > 0.0 ? std::sqrt(2.0 * gravity * scene.cloth.height) : std::numeric_limits<double>::infinity();
+}
+
+ObstacleSet::ObstacleSet(const Scene& scene, const MeshResolver& resolve)
+    : frame_length_(1.0 / scene.solver.frame_rate), following_speed_(followingSpeed(scene)) {
   for (const ObstacleParams& params : scene.obstacles) {
     Item item;
     item.shape = makeObstacleShape(params, resolve);
@@ -126,7 +133,7 @@ void ObstacleSet::beginFrame(double end_time) noexcept {
     item.share = 1.0;
     if (!item.behind) continue;
     const double way = wayBetween(item.begin, item.end, n);
-    const double allowed = std::max(item.own_way, kFollowingSpeed * frame_length_);
+    const double allowed = std::max(item.own_way, following_speed_ * frame_length_);
     if (way > allowed) item.share = allowed / way;
   }
 }

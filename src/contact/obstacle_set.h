@@ -13,8 +13,10 @@ namespace curtain {
 
 class Archive;
 
-/// What has fallen behind, because frames ended early, follows at this speed at most, or at its own if that is higher [m/s].
-constexpr double kFollowingSpeed = 5.0;
+/// What has fallen behind, because frames ended early or the cloth could not give way, follows at this speed at most, or at its own if
+/// that is higher [m/s]: that of a fall through the cloth's height, which moves cloth about as fast as it moves by itself. Without
+/// gravity nothing bounds it.
+double followingSpeed(const Scene& scene) noexcept;
 
 /// A rigid transform ready for use on many points.
 struct Transform {
@@ -113,6 +115,7 @@ class ObstacleSet {
   void moveOn(std::size_t index, const Pose& pose) noexcept;
 
   double frame_length_;  // [s]
+  double following_speed_;  // [m/s]
 
   std::vector<Item> items_;
   std::vector<MovingObstacle> moving_;

@@ -165,7 +165,7 @@ double Simulator::Impl::makeSubstep(double done) {
 void Simulator::Impl::startPins() {
   for (PinMove& move : pin_moves) {
     const Vec3 velocity = (move.target - state.position.at(move.node)) * scene.solver.frame_rate;
-    const double share = move.behind ? std::min(1.0, kFollowingSpeed / velocity.norm()) : 1.0;
+    const double share = move.behind ? std::min(1.0, followingSpeed(scene) / velocity.norm()) : 1.0;
     state.velocity.set(move.node, share * velocity);
     move.behind = share < 1.0;
   }
