@@ -1,5 +1,15 @@
-# Random scenes as the judge, test/judge.
+# Random scenes as the judge, test/judge: 300 of them in every test run, as many as one likes by test/judge/run.
 file(GLOB judge_sources CONFIGURE_DEPENDS test/judge/*.cpp)
 add_executable(curtain_judge ${judge_sources})
 target_include_directories(curtain_judge PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/test ${CMAKE_CURRENT_SOURCE_DIR}/src)
 target_link_libraries(curtain_judge PRIVATE curtain_engine curtain_warnings)
+add_test(NAME judge_everyday COMMAND curtain_judge --everyday 90)
+add_test(NAME judge_wild COMMAND curtain_judge --wild 50 --repeat-every 25)
+add_test(NAME judge_sudden COMMAND curtain_judge --sudden 160)
+file(GLOB judge_cases CONFIGURE_DEPENDS test/judge/cases/*.yaml)
+set(judge_case_options)
+foreach(case IN LISTS judge_cases)
+  list(APPEND judge_case_options --case ${case})
+endforeach()
+add_test(NAME judge_cases COMMAND curtain_judge ${judge_case_options})
+set_tests_properties(judge_everyday judge_wild judge_sudden judge_cases PROPERTIES LABELS judge)
