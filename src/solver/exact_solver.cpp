@@ -49,8 +49,6 @@ constexpr int kStrictSweeps = 6;
 // not less than that share of the tolerance.
 constexpr double kShareOfWeight = 0.3;
 constexpr double kLeastShare = 0.01;
-// A substep whose time is over is taken when it has come so near, over the tolerance.
-constexpr double kLateShare = 8.0;
 // Sweeps that must bring at least this improvement, or the iteration has stalled.
 constexpr int kStallWindow = 8;
 constexpr double kStallFactor = 0.8;
@@ -458,7 +456,6 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
     clock.lap(Stage::kWeft);
     if (clock.late()) {
       progress.late = true;
-      progress.near = touch <= kLateShare * contact_tolerance_ && withinTolerance(warp, weft, kLateShare * tolerance_);
       break;
     }
     if (plan.last_resort) continue;

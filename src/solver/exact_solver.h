@@ -104,7 +104,6 @@ class ExactSolver {
     bool left_over = false;  // but not within what the step's length asks for
     bool crossed = false;    // something would go through something
     bool late = false;       // its time was over before it had settled
-    bool near = false;       // but it was not far from it
     bool found = false;      // a finite iterate was found
     int sweeps = 0;
     const Contacts* contacts = nullptr;  // null: nothing can touch

@@ -63,11 +63,10 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const SubstepPlan& plan, const
     all.settled = progress.settled;
     all.left_over = progress.left_over;
     all.late = all.late || (progress.late && !progress.settled);
-    all.near = progress.near;
     all.contacts = contacts;
     if (free_ && !plan.last_resort && !held_.any() && contacts != nullptr && start.keep == nullptr && !pressesOnObstacle(*contacts)) keepMomentum(start);
     all.found = progress.settled || progress.found;
-    if (contacts == nullptr || !(progress.settled || (plan.last_resort && progress.found && !all.late) || progress.near)) return all;
+    if (contacts == nullptr || !(progress.settled || (plan.last_resort && progress.found && !all.late))) return all;
     const ContactFinder::Verdict verdict = finder->verify(from, next_, progress.settled);
     clock.lap(Stage::kContact);
     if (verdict == ContactFinder::Verdict::kClear) return all;
@@ -158,7 +157,8 @@ void ExactSolver::cutPrediction(const SubstepPlan& plan, const NodeForces& force
 
 // The last resort's end: as far along the path as links hold.
 void ExactSolver::boundPath(const Progress& progress, double h, SubstepOutcome& outcome) noexcept {
-  if (!progress.found || !isWithinNumbers(next_)) {
+  const bool verified = progress.contacts == nullptr || !progress.late;
+  if (!progress.found || !verified || !isWithinNumbers(next_)) {
     next_ = last_resort_.follows();
     outcome.share = 0.0;
     return;
@@ -224,9 +224,8 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
     outcome.share = 0.0;
     outcome.pins_wait = true;
   }
-  const bool taken_as_it_is = progress.late ? progress.near && !progress.crossed : false;
   outcome.late = progress.late;
-  outcome.accepted = !outcome.disturbed && (progress.settled || plan.last_resort || (taken_as_it_is && isWithinNumbers(next_)));
+  outcome.accepted = !outcome.disturbed && (progress.settled || plan.last_resort);
   if (outcome.accepted) {
     outcome.scale = inertia_.tensions().scale = scale;
     outcome.kick = kick + (plan.h - step);  // bdf2's base holds the rest of what forces do
