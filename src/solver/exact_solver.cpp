@@ -25,6 +25,7 @@ constexpr int kNewtonIterations = 12;
 constexpr double kLeaveAlone = 0.1;
 // A relative violation beyond this is a step that failed, not one that converges slowly.
 constexpr double kDiverged = 4.0;
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 // Conjugate gradients go on until the residual is a share of the tolerance, but at most to a share of itself: past that the
 // first-order picture they solve in is no longer true. Where directions must be followed what the last digits ask for throws
 // nodes about: measured on sheets hung by two corners, 0.03 rejects six times as many substeps.
@@ -49,6 +50,9 @@ constexpr int kStrictSweeps = 6;
 // not less than that share of the tolerance.
 constexpr double kShareOfWeight = 0.3;
 constexpr double kLeastShare = 0.01;
+// The same in the last resort, whose long substeps would leave more. 1: taut sheets never come to rest; 0.01: rows drawn straight are
+// lifted by what they may sag, at no expense.
+constexpr double kLastResortShare = 0.1;
 // Sweeps that must bring at least this improvement, or the iteration has stalled.
 constexpr int kStallWindow = 8;
 constexpr double kStallFactor = 0.8;
@@ -232,7 +236,7 @@ double ExactSolver::begin(const SubstepPlan& plan, const SubstepStart& start, do
 // Newton on one block of columns until an iteration starts with a residual of at most stop. A block whose rods are within
 // leave_alone already is not touched. begun: begin() has made the first iteration.
 ExactSolver::WarpProgress ExactSolver::solveBlock(bool follow, const LineSolve& warp, int block, double stop,
-                                                  double leave_alone, bool begun) noexcept {
+                                                  double leave_alone, double most_residual, bool begun) noexcept {
   WarpProgress progress;
   if (leave_alone > 0.0) {
     const double residual = warpResidual(warp, block);
@@ -244,7 +248,7 @@ ExactSolver::WarpProgress ExactSolver::solveBlock(bool follow, const LineSolve& 
     const LineOutcome outcome =
         begun && iteration == 0 ? block_begun_[static_cast<std::size_t>(block)] : warpNewton(warp, scratch_, block);
     if (iteration == 0) progress.first_residual = std::max(progress.first_residual, outcome.residual);
-    if (!outcome.sound || !(outcome.residual < kDiverged)) break;
+    if (!outcome.sound || !(outcome.residual < most_residual)) break;
     if (outcome.residual <= stop) {
       progress.last_residual = outcome.residual;
       return progress;
@@ -255,9 +259,9 @@ ExactSolver::WarpProgress ExactSolver::solveBlock(bool follow, const LineSolve& 
 }
 
 ExactSolver::WarpProgress ExactSolver::solveWarp(bool follow, const LineSolve& warp, double stop,
-                                                 double leave_alone, bool begun) noexcept {
+                                                 double leave_alone, double most_residual, bool begun) noexcept {
   forEachBlock([&](int block) {
-    block_progress_[static_cast<std::size_t>(block)] = solveBlock(follow, warp, block, stop, leave_alone, begun);
+    block_progress_[static_cast<std::size_t>(block)] = solveBlock(follow, warp, block, stop, leave_alone, most_residual, begun);
   });
   WarpProgress all;
   for (const WarpProgress& block : block_progress_) {
@@ -346,12 +350,12 @@ void ExactSolver::goBack(Contacts* contacts) noexcept {
 }
 
 // What a sweep must make smaller: the sum of the squares of what links and contacts lack, over a link. A damped step makes it smaller if
-// it is short enough, where the largest may stand on a plateau.
-double ExactSolver::meritOf(const Contacts* contacts) noexcept {
+// it is short enough, where the largest may stand on a plateau. rods_lack: of every rod, where their own solve has not converged.
+double ExactSolver::meritOf(const Contacts* contacts, double rods_lack) noexcept {
   const LineSolve weft{pattern_, inertia_.inverse(), weft_, next_, held_.movingSpan()};
   if (!measured_) worstOfRows([&](int i) { return measureWeft(weft, i, violation_, active_); });
   measured_ = true;
-  double sum = 0.0;
+  double sum = static_cast<double>(pattern_.grid.nodeCount()) * rods_lack * rods_lack;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     const double relative = violation_[n] * pattern_.weft_per_square[n];
     sum += relative * relative;
@@ -370,7 +374,7 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
   const bool touches = contacts != nullptr && !contacts->empty();
   // What the last resort leaves the far shorter steps after it would have to mend at once: by a blow.
   const double share_for_weight =
-      plan.last_resort   ? kLeastShare
+      plan.last_resort   ? kLastResortShare
       : weight_way > 0.0 ? std::clamp(kShareOfWeight * weight_way / (middle_rest_ * tolerance_), kLeastShare, 1.0)
                          : 1.0;
   Progress progress;
@@ -392,9 +396,9 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
     const double contact_tolerance = strict * contact_tolerance_;
     const double stop = plan.precise ? kPreciseStop : first && !weft_pulls_ ? kNewtonStop : kNewtonStopLater;
     const WarpProgress rods = solveWarp(follow, warp, stop, first ? 0.0 : kLeaveAlone * tolerance,
-                                        first && newton_begun_);
+                                        plan.last_resort ? kInfinite : kDiverged, first && newton_begun_);
     clock.lap(Stage::kWarp);
-    if (!rods.converged && !std::isfinite(best_.residual)) return progress;
+    if (!rods.converged && !plan.last_resort) return progress;
     ++progress.sweeps;
     const double rubbed =
         touches && progress.sweeps <= kRubSweeps ? rubContacts(inertia_.inverse(), *contacts, next_) : 0.0;
@@ -411,24 +415,23 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
       clock.lap(Stage::kWeft);
       return progress;
     }
-    double residual = rods.converged ? std::max(strings, touch / middle_rest_) : std::numeric_limits<double>::infinity();
+    double residual = std::max(strings, touch / middle_rest_);
+    if (!std::isfinite(residual)) break;
     bool undone = false;
     if (plan.last_resort) {
-      const double merit = rods.converged && std::isfinite(residual) ? meritOf(contacts) : std::numeric_limits<double>::infinity();
-      if (!(merit < best_.merit)) {
-        if (!std::isfinite(best_.merit)) return progress;
+      const double merit = meritOf(contacts, rods.converged ? 0.0 : warpResidualNow(warp));
+      if (merit < best_.merit) {
+        best_.merit = merit;
+        keepIterate(residual, touches ? contacts : nullptr);
+        caution = std::max(1.0, caution / kLessCaution);
+      } else if (std::isfinite(best_.merit)) {
         goBack(contacts);
         residual = best_.residual;
         caution *= kMoreCaution;
         undone = true;
         if (caution * kDampingPerResidual * residual > kMostDamping) break;
-      } else {
-        best_.merit = merit;
-        keepIterate(residual, touches ? contacts : nullptr);
-        caution = std::max(1.0, caution / kLessCaution);
       }
     } else {
-      if (!std::isfinite(residual)) return progress;
       // A sweep that has not brought the links nearer went too far where hardly anything holds: the next one is damped more.
       caution = residual > (touches ? kPoorTouchingSweep : kPoorSweep) * last_residual
                     ? std::min(kMostCaution, caution * kMoreCaution)
@@ -466,7 +469,7 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
       window_residual = left;
     }
   }
-  if (plan.last_resort && std::isfinite(best_.residual)) {
+  if (plan.last_resort && std::isfinite(best_.merit)) {
     goBack(contacts);
     if (touches) touch = contactResidual(*contacts, next_, false);
   }

@@ -128,7 +128,7 @@ class ExactSolver {
   };
   void keepIterate(double residual, const Contacts* contacts);
   void goBack(Contacts* contacts) noexcept;
-  double meritOf(const Contacts* contacts) noexcept;
+  double meritOf(const Contacts* contacts, double rods_lack) noexcept;
   void cutPrediction(const SubstepPlan& plan, const NodeForces& forces, const ClothState& state, double kick, SubstepOutcome& outcome) noexcept;
   void boundPath(const Progress& progress, double h, SubstepOutcome& outcome) noexcept;
   const ClothState& setBase(Scheme scheme, double h, const ClothState& state, double& step) noexcept;
@@ -142,8 +142,8 @@ class ExactSolver {
   bool struck(const Contacts* contacts) const noexcept;
   void keepMomentum(const SubstepStart& start) noexcept;
   WarpProgress solveBlock(bool follow, const LineSolve& warp, int block, double stop, double leave_alone,
-                          bool begun) noexcept;
-  WarpProgress solveWarp(bool follow, const LineSolve& warp, double stop, double leave_alone, bool begun) noexcept;
+                          double most_residual, bool begun) noexcept;
+  WarpProgress solveWarp(bool follow, const LineSolve& warp, double stop, double leave_alone, double most_residual, bool begun) noexcept;
   double slackResidual() noexcept;
   double weftResidualNow(const LineSolve& weft) noexcept;
   void solveNet(const LineSolve& weft, Contacts* contacts, double residual, const WeftStep& step) noexcept;

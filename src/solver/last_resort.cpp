@@ -21,7 +21,10 @@ constexpr double kUnbounded = 2.0;
 // Least reach: nodes go a hundredth of the links' tolerance, which asks for no solve.
 constexpr double kLeastReach = 1e-5;
 
-double overlength(double length, double rest) { return length / rest - 1.0; }
+// Links so many times beyond their bound where a path begins were brought there by pins that were pulled apart, or put there. They
+// come back, or share what pins ask of them, by whatever the solve finds that is not worse than so many times what was.
+constexpr double kForced = 10.0;
+constexpr double kForcedGrowth = 2.0;
 
 }  // namespace
 
@@ -103,10 +106,31 @@ double LastResort::cut(const Field3& position, const Field& inverse, double h, d
   return taken;
 }
 
+// Relative overlengths of links (and underlengths of rods) with an end that can move: the largest, and the sum of their squares.
+LastResort::Misfit LastResort::misfitOf(const Field3& position, const Field& inverse) const noexcept {
+  const Grid& grid = pattern_.grid;
+  Misfit misfit;
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) {
+      const std::size_t n = grid.index(i, j);
+      const auto look = [&](std::size_t other, double rest, bool rod) {
+        if (!(inverse[n] + inverse[other] > 0.0)) return;
+        const double over = (position.at(n) - position.at(other)).norm() / rest - 1.0;
+        const double lacks = rod ? std::abs(over) : std::max(0.0, over);
+        misfit.worst = std::max(misfit.worst, lacks);
+        misfit.squares += lacks * lacks;
+      };
+      if (i > 0) look(grid.index(i - 1, j), pattern_.warp_rest[n], true);
+      if (j > 0 || grid.closed) look(grid.index(i, j > 0 ? j - 1 : grid.columns - 1), pattern_.weft_rest[n], false);
+    }
+  }
+  return misfit;
+}
+
 // The largest share <= most of a link's path within its bounds.
 double LastResort::shareOf(std::size_t a, std::size_t b, double rest, bool rod, double allowed, double most, const Field3& end) const noexcept {
   const Vec3 r = follows_.at(b) - follows_.at(a), d = end.at(b) - end.at(a) - r;
-  const double longest = rest * (1.0 + std::max(allowed, overlength(r.norm(), rest)));
+  const double longest = rest * (1.0 + allowed);
   const double square = (r + most * d).squaredNorm(), turn = r.dot(d), path = d.squaredNorm();
   // |r + t d|^2 = bound^2: path t^2 + 2 turn t + |r|^2 - bound^2 = 0.
   const auto root = [&](double bound, double sign) {
@@ -115,13 +139,19 @@ double LastResort::shareOf(std::size_t a, std::size_t b, double rest, bool rod, 
     return std::isfinite(t) ? std::clamp(t, 0.0, most) : 0.0;
   };
   if (!(square <= longest * longest)) return root(longest, 1.0);
-  const double shortest = rest * (1.0 - std::max(allowed, -overlength(r.norm(), rest)));
+  const double shortest = rest * std::max(0.0, 1.0 - allowed);
   if (rod && !(square >= shortest * shortest)) return root(shortest, -1.0);
   return most;
 }
 
 LastResort::Bound LastResort::bound(const Field& inverse, double allowed, Field3& end) noexcept {
   const Grid& grid = pattern_.grid;
+  const Misfit begins = misfitOf(follows_, inverse);
+  if (begins.worst > kForced * allowed) {
+    const Misfit ends = misfitOf(end, inverse);
+    if (ends.squares < begins.squares || ends.worst < kForcedGrowth * begins.worst) return {};
+  }
+  const double most = std::max(allowed, begins.worst);
   double share = 1.0;
   // A shorter path may find a rod shorter than its end did: again, until nothing changes. Every round takes the share to another of
   // finitely many roots, downwards.
@@ -131,7 +161,7 @@ LastResort::Bound LastResort::bound(const Field& inverse, double allowed, Field3
       for (int j = 0; j < grid.columns; ++j) {
         const std::size_t n = grid.index(i, j);
         const auto look = [&](std::size_t other, double rest, bool rod) {
-          if (inverse[n] + inverse[other] > 0.0) share = shareOf(other, n, rest, rod, allowed, share, end);
+          if (inverse[n] + inverse[other] > 0.0) share = shareOf(other, n, rest, rod, most, share, end);
         };
         if (i > 0) look(grid.index(i - 1, j), pattern_.warp_rest[n], true);
         if (j > 0 || grid.closed) look(grid.index(i, j > 0 ? j - 1 : grid.columns - 1), pattern_.weft_rest[n], false);

@@ -44,7 +44,8 @@ class LastResort {
   double cut(const Field3& position, const Field& inverse, double h, double reach, Field3& velocity) noexcept;
 
   /// After cut(): moves `end` back along the path from where it follows its pins, to where every link with an end that can
-  /// move is no longer (a rod no shorter) than by `allowed`, relative, or no worse than where the path begins. Returns the share of
+  /// move is no longer (a rod no shorter) than by `allowed`, relative, or than the worst of them where the path begins; where
+  /// that is far beyond it, any end will do that is not much worse. Returns the share of
   /// the path that is left, and mass times path of what is not, sum over nodes [kg m].
   struct Bound {
     double share = 1.0;
@@ -59,6 +60,10 @@ class LastResort {
 
  private:
   bool rigidMotionOfPins(const Field3& position, const Field& inverse, const Field3& velocity, RigidMotion& motion) const noexcept;
+  struct Misfit {
+    double worst = 0.0, squares = 0.0;
+  };
+  Misfit misfitOf(const Field3& position, const Field& inverse) const noexcept;
   double shareOf(std::size_t a, std::size_t b, double rest, bool rod, double allowed, double most, const Field3& end) const noexcept;
 
   const ClothPattern& pattern_;
