@@ -3,7 +3,9 @@
 // The judge: draws random scenes, carries them out and says which of them do not hold. Exit code 1 when one does not.
 //
 //   curtain_judge [--everyday N] [--wild N] [--sudden N] [--first SEED] [--case FILE]… [--shrink FOLDER] [--csv FILE]
-//                 [--repeat-every K] [--most-seconds S] [--verbose]
+//                 [--repeat-every K] [--most-seconds S] [--most-nodes N] [--verbose]
+//
+// --most-nodes leaves out larger cloth, and draws on until the count is there.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -24,6 +26,7 @@ struct Options {
   std::string shrink_to, csv;
   long repeat_every = 10;
   double most_seconds = 0.0;
+  int most_nodes = 1 << 30;
   bool verbose = false;
 };
 
@@ -44,6 +47,7 @@ Options parse(int argc, char** argv) {
     else if (name == "--csv") options.csv = value();
     else if (name == "--repeat-every") options.repeat_every = std::stol(value());
     else if (name == "--most-seconds") options.most_seconds = std::stod(value());
+    else if (name == "--most-nodes") options.most_nodes = std::stoi(value());
     else if (name == "--verbose") options.verbose = true;
     else throw std::invalid_argument("unknown option " + name);
   }
@@ -115,9 +119,12 @@ int main(int argc, char** argv) try {
   for (const std::string& path : options.cases) session.hear(readTrial(contentsOf(path)), path);
   constexpr Kind kKinds[] = {Kind::kEveryday, Kind::kWild, Kind::kSudden};
   for (int k = 0; k < 3; ++k) {
-    for (long n = 0; n < options.count[k]; ++n) {
-      const std::uint64_t seed = options.first + static_cast<std::uint64_t>(n);
-      session.hear(draw(kKinds[k], seed), std::string(kindName(kKinds[k])) + " " + std::to_string(seed));
+    std::uint64_t seed = options.first;
+    for (long n = 0; n < options.count[k]; ++seed) {
+      const Drawn drawn = draw(kKinds[k], seed);
+      if (drawn.scene.cloth.rows * drawn.scene.cloth.columns > options.most_nodes) continue;
+      session.hear(drawn, std::string(kindName(kKinds[k])) + " " + std::to_string(seed));
+      ++n;
     }
   }
   std::printf("%ld of %ld hold\n", session.heard() - session.failed(), session.heard());
