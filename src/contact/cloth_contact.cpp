@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "cloth/wide.h"
 
 namespace curtain {
 namespace {
@@ -24,6 +25,22 @@ constexpr std::size_t kRoomPerNode = 8;
 
 // Share of nodes that may end elsewhere than predicted: pairs of more are found faster together with all others.
 constexpr double kMostAstray = 0.1;
+
+// Marks the nodes that are not within a distance, squared, of where they were predicted; returns how many.
+CURTAIN_WIDE std::size_t markAstray(const Field3& predicted, const Field3& end, double most_squared,
+                                    std::uint8_t* __restrict astray) noexcept {
+  const double *const px = predicted.x.data(), *const py = predicted.y.data(), *const pz = predicted.z.data();
+  const double *const qx = end.x.data(), *const qy = end.y.data(), *const qz = end.z.data();
+  const std::size_t nodes = end.x.size();
+  std::size_t count = 0;
+#pragma omp simd reduction(+ : count)
+  for (std::size_t n = 0; n < nodes; ++n) {
+    const double x = qx[n] - px[n], y = qy[n] - py[n], z = qz[n] - pz[n];
+    astray[n] = x * x + y * y + z * z <= most_squared ? 0 : 1;
+    count += astray[n];
+  }
+  return count;
+}
 
 }  // namespace
 
@@ -96,12 +113,7 @@ bool ClothContact::staysFlat(const Field3& end, bool settled) noexcept {
 void ClothContact::findOnWay(const Field3& start, const Field3& end) noexcept {
   const double reach = 2.0 * SelfContacts::kLeastShare * self_.gap();
   const double most = 0.5 * (self_.gap() - reach);
-  std::size_t count = 0;
-  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    const double x = end.x[n] - predicted_.x[n], y = end.y[n] - predicted_.y[n], z = end.z[n] - predicted_.z[n];
-    astray_[n] = x * x + y * y + z * z <= most * most ? 0 : 1;
-    count += astray_[n];
-  }
+  const std::size_t count = flat_ ? 0 : markAstray(predicted_, end, most * most, astray_.data());
   if (flat_ || static_cast<double>(count) > kMostAstray * static_cast<double>(pattern_.grid.nodeCount())) {
     flat_ = false;
     find(start, end, self_.gap());

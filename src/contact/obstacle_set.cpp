@@ -88,6 +88,7 @@ void ObstacleSet::reset() noexcept {
     items_[n].share = 1.0;
     moving_[n].present = true;
   }
+  at_rest_ = false;
   setSubstep(1.0, 1.0);
 }
 
@@ -151,17 +152,21 @@ double ObstacleSet::path(int index) const noexcept {
 }
 
 void ObstacleSet::setSubstep(double from, double to) noexcept {
+  if (at_rest_ && !anyMoved()) return;
+  at_rest_ = true;
+  swept_.setEmpty();
   for (std::size_t n = 0; n < items_.size(); ++n) {
     Item& item = items_[n];
     if (!moving_[n].present) continue;
     if (!samePlace(item.begin, item.end)) {
       moving_[n].move(Transform(between(item.begin, item.end, from * item.share)),
                       Transform(between(item.begin, item.end, to * item.share)));
-      item.placed = false;
+      item.placed = at_rest_ = false;
     } else if (!item.placed) {
       moving_[n].move(Transform(item.end), Transform(item.end));
       item.placed = true;
     }
+    swept_.extend(moving_[n].sweptBounds());
   }
 }
 
