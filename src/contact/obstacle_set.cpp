@@ -93,7 +93,9 @@ void ObstacleSet::reset() noexcept {
 }
 
 void ObstacleSet::setPresent(int index, bool present) noexcept {
-  items_[at(index)].moved = items_[at(index)].moved || present != moving_[at(index)].present;
+  Item& item = items_[at(index)];
+  item.moved = item.moved || present != moving_[at(index)].present;
+  item.placed = at_rest_ = false;  // its motion went on without it
   moving_[at(index)].present = present;
 }
 
@@ -110,7 +112,7 @@ void ObstacleSet::setPose(int index, const Pose& pose, bool jump) noexcept {
   item.scripted = false;
   item.moved = item.moved || !samePlace(pose, item.end);
   moveOn(at(index), pose);
-  item.placed = false;
+  item.placed = at_rest_ = false;
   if (!jump) return;
   item.begin = pose;
   item.behind = false;
