@@ -59,6 +59,7 @@ void ObstacleSet::carry(Archive& archive) {
   archive.within("frame_length", frame_length_, 1e-6, 1e3);
   for (Item& item : items_) archive.part("item", item);
   for (MovingObstacle& moving : moving_) archive.part("moving", moving);
+  archive.put(at_rest_, false);
 }
 
 void ObstacleContacts::Load::carry(Archive& archive) {

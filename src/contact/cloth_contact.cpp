@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "cloth/wide.h"
 
 namespace curtain {
 namespace {
@@ -24,6 +25,25 @@ constexpr std::size_t kRoomPerNode = 8;
 
 // Share of nodes that may end elsewhere than predicted: pairs of more are found faster together with all others.
 constexpr double kMostAstray = 0.1;
+
+double squaredDistance(const Field3& a, const Field3& b, std::size_t n) noexcept {
+  const double x = a.x[n] - b.x[n], y = a.y[n] - b.y[n], z = a.z[n] - b.z[n];
+  return x * x + y * y + z * z;
+}
+
+// Nodes whose two positions are not within a distance, squared. Counted in doubles, all lanes being of one width.
+CURTAIN_WIDE double countApart(const Field3& a, const Field3& b, double most_squared) noexcept {
+  const double *const ax = a.x.data(), *const ay = a.y.data(), *const az = a.z.data();
+  const double *const bx = b.x.data(), *const by = b.y.data(), *const bz = b.z.data();
+  const std::size_t nodes = a.x.size();
+  double count = 0.0;
+#pragma omp simd reduction(+ : count)
+  for (std::size_t n = 0; n < nodes; ++n) {
+    const double x = ax[n] - bx[n], y = ay[n] - by[n], z = az[n] - bz[n];
+    count += x * x + y * y + z * z <= most_squared ? 0.0 : 1.0;
+  }
+  return count;
+}
 
 }  // namespace
 
@@ -96,16 +116,12 @@ bool ClothContact::staysFlat(const Field3& end, bool settled) noexcept {
 void ClothContact::findOnWay(const Field3& start, const Field3& end) noexcept {
   const double reach = 2.0 * SelfContacts::kLeastShare * self_.gap();
   const double most = 0.5 * (self_.gap() - reach);
-  std::size_t count = 0;
-  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    const double x = end.x[n] - predicted_.x[n], y = end.y[n] - predicted_.y[n], z = end.z[n] - predicted_.z[n];
-    astray_[n] = x * x + y * y + z * z <= most * most ? 0 : 1;
-    count += astray_[n];
-  }
-  if (flat_ || static_cast<double>(count) > kMostAstray * static_cast<double>(pattern_.grid.nodeCount())) {
+  const double count = flat_ ? 0.0 : countApart(end, predicted_, most * most);
+  if (flat_ || count > kMostAstray * static_cast<double>(pattern_.grid.nodeCount())) {
     flat_ = false;
     find(start, end, self_.gap());
-  } else if (count > 0) {
+  } else if (count > 0.0) {
+    for (std::size_t n = 0; n < pattern_.grid.size(); ++n) astray_[n] = squaredDistance(end, predicted_, n) <= most * most ? 0 : 1;
     pairs_.collectOf(astray_, start, end, reach, candidates_);
   }
 }

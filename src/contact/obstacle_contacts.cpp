@@ -66,11 +66,7 @@ void ObstacleContacts::begin(const Field3& start, const Field3& predicted, doubl
   h_ = h;
   slippery_ = slippery;
   std::fill(active_.begin(), active_.end(), std::uint8_t{0});
-  all_.setEmpty();
-  for (const MovingObstacle& moving : obstacles_.moving()) {
-    if (moving.present) all_.extend(moving.sweptBounds());
-  }
-  if (all_.isEmpty()) return;
+  if (obstacles_.sweptBounds().isEmpty()) return;
   start_box_ = bounds_.around(start);
   if (!activate(start, predicted, true)) return;
   for (const int index : obstacles_.byName()) {
@@ -89,11 +85,11 @@ void ObstacleContacts::begin(const Field3& start, const Field3& predicted, doubl
 // Lists what is near for the way from start to end, of the obstacles that the cloth may come near on it; false: of none.
 // Those that are not active yet become so. Some 30 nodes will do for what is not close, where links hold.
 bool ObstacleContacts::activate(const Field3& start, const Field3& end, bool links_hold) noexcept {
-  if (all_.isEmpty()) return false;
+  if (obstacles_.sweptBounds().isEmpty()) return false;
   if (links_hold) {
     const Vec3 way = Vec3::Constant(bounds_.farthest(start, end));
     const Eigen::AlignedBox3d box = reached({start_box_.min() - way, start_box_.max() + way});
-    if (!box.intersects(all_) || !anyWithin(box)) return false;
+    if (!box.intersects(obstacles_.sweptBounds()) || !anyWithin(box)) return false;
   }
   const Eigen::AlignedBox3d box = reached(boxAround(pattern_.grid, start, end));
   bool any = false;

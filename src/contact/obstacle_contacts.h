@@ -94,7 +94,6 @@ class ObstacleContacts {
   double most_recovery_ = std::numeric_limits<double>::infinity();  // in a substep [m]
   const ObstacleSet& obstacles_;
   SampledBounds bounds_;
-  Eigen::AlignedBox3d all_;           // around all obstacles in this substep
   Eigen::AlignedBox3d start_box_;     // around the cloth where it starts
   std::vector<Vicinity> near_;        // by obstacle
   std::vector<std::uint8_t> active_;  // by obstacle: may be touched in this substep

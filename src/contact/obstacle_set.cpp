@@ -95,11 +95,14 @@ void ObstacleSet::reset() noexcept {
     items_[n].share = 1.0;
     moving_[n].present = true;
   }
+  at_rest_ = false;
   setSubstep(1.0, 1.0);
 }
 
 void ObstacleSet::setPresent(int index, bool present) noexcept {
-  items_[at(index)].moved = items_[at(index)].moved || present != moving_[at(index)].present;
+  Item& item = items_[at(index)];
+  item.moved = item.moved || present != moving_[at(index)].present;
+  item.placed = at_rest_ = false;  // its motion went on without it
   moving_[at(index)].present = present;
 }
 
@@ -116,7 +119,7 @@ void ObstacleSet::setPose(int index, const Pose& pose, bool jump) noexcept {
   item.scripted = false;
   item.moved = item.moved || !samePlace(pose, item.end);
   moveOn(at(index), pose);
-  item.placed = false;
+  item.placed = at_rest_ = false;
   if (!jump) return;
   item.begin = pose;
   item.behind = false;
@@ -158,17 +161,21 @@ double ObstacleSet::path(int index) const noexcept {
 }
 
 void ObstacleSet::setSubstep(double from, double to) noexcept {
+  if (at_rest_ && !anyMoved()) return;
+  at_rest_ = true;
+  swept_.setEmpty();
   for (std::size_t n = 0; n < items_.size(); ++n) {
     Item& item = items_[n];
     if (!moving_[n].present) continue;
     if (!samePlace(item.begin, item.end)) {
       moving_[n].move(Transform(between(item.begin, item.end, from * item.share)),
                       Transform(between(item.begin, item.end, to * item.share)));
-      item.placed = false;
+      item.placed = at_rest_ = false;
     } else if (!item.placed) {
       moving_[n].move(Transform(item.end), Transform(item.end));
       item.placed = true;
     }
+    swept_.extend(moving_[n].sweptBounds());
   }
 }
 

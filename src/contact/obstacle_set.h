@@ -84,6 +84,8 @@ class ObstacleSet {
   Eigen::AlignedBox3d leftBox(int index) const noexcept;
 
   const std::vector<MovingObstacle>& moving() const { return moving_; }
+  /// Box around all that are present over the substep, world frame; empty: none is.
+  const Eigen::AlignedBox3d& sweptBounds() const noexcept { return swept_; }
   /// How far an obstacle's surface goes in the whole frame, at most [m]; of a plane: its origin.
   double path(int index) const noexcept;
   /// Indices in the order of the names: what depends on an order takes this one, not that of the scene's list.
@@ -119,6 +121,8 @@ class ObstacleSet {
 
   std::vector<Item> items_;
   std::vector<MovingObstacle> moving_;
+  Eigen::AlignedBox3d swept_;
+  bool at_rest_ = false;  // the last substep moved none: unless one is moved the next one finds them as they are
   std::vector<int> by_name_, rank_;
 };
 

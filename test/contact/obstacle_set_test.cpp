@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The box around all obstacles holds every one that is present in the substep, whatever became of them before: obstacles at rest
+// are not looked at anew, and one that is touched from outside must be.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "cloth/archive.h"
+#include "contact/obstacle_set.h"
+#include "testing.h"
+
+namespace curtain {
+namespace {
+
+using namespace curtain_test;
+
+Scene twoSpheres() {
+  Scene scene = flatScene(5, 5, 1.0, 1.0);
+  for (const char* const name : {"one", "other"}) {
+    ObstacleParams sphere;
+    sphere.name = name;
+    sphere.radius = 0.1;
+    sphere.pose.position = Vec3(name == std::string("one") ? 0.0 : 1.0, 0.0, 0.0);
+    scene.obstacles.push_back(sphere);
+  }
+  return scene;
+}
+
+Pose poseOf(double x) {
+  Pose pose;
+  pose.position = Vec3(x, 0.0, 0.0);
+  return pose;
+}
+
+// The range that all obstacles take in the substep along x.
+void expectRange(ObstacleSet& set, double low, double high, const std::string& when) {
+  set.setSubstep(0.0, 1.0);
+  EXPECT_EQ(set.sweptBounds().min().x(), low) << when;
+  EXPECT_EQ(set.sweptBounds().max().x(), high) << when;
+}
+
+class ObstaclesAtRest : public testing::Test {
+ protected:
+  void SetUp() override {
+    for (int n = 0; n < 2; ++n) expectRange(set_, -0.1, 1.1, "at rest");
+  }
+  ObstacleSet set_{twoSpheres(), resolveMeshUrl};
+};
+
+TEST_F(ObstaclesAtRest, AreSeenToMove) {
+  set_.setPose(1, poseOf(2.0), false);
+  expectRange(set_, -0.1, 2.1, "on its way");
+  set_.endFrame();
+  set_.setSubstep(0.0, 1.0);
+  EXPECT_EQ(set_.sweptBounds().min().x(), -0.1);
+  EXPECT_EQ(set_.moving()[1].sweptBounds().min().x(), 1.9) << "it has arrived";
+  set_.setPose(0, poseOf(-3.0), true);
+  expectRange(set_, -3.1, 2.1, "put elsewhere");
+}
+
+TEST_F(ObstaclesAtRest, AreSeenToComeAndGo) {
+  set_.setPresent(1, false);
+  expectRange(set_, -0.1, 0.1, "one is gone");
+  set_.endFrame();
+  expectRange(set_, -0.1, 0.1, "still gone");
+  set_.setPresent(1, true);
+  expectRange(set_, -0.1, 1.1, "back again");
+  set_.setPresent(0, false);
+  set_.setPresent(1, false);
+  set_.setSubstep(0.0, 1.0);
+  EXPECT_TRUE(set_.sweptBounds().isEmpty());
+}
+
+TEST(ObstaclesWithMotion, AreWhereItLedWhileTheyWereGone) {
+  Scene scene = twoSpheres();
+  scene.obstacles[1].motion = {{1.0, poseOf(1.0)}, {2.0, poseOf(4.0)}};
+  ObstacleSet set(scene, resolveMeshUrl);
+  expectRange(set, -0.1, 1.1, "before its motion");
+  set.setPresent(1, false);
+  for (const double end : {1.5, 2.0, 3.0}) {
+    set.beginFrame(end);
+    expectRange(set, -0.1, 0.1, "gone");
+    set.endFrame();
+  }
+  set.setPresent(1, true);
+  set.beginFrame(4.0);
+  expectRange(set, -0.1, 4.1, "back again");
+}
+
+TEST_F(ObstaclesAtRest, AreSeenWhereASnapshotHasThem) {
+  ObstacleSet elsewhere(twoSpheres(), resolveMeshUrl);
+  elsewhere.setPose(1, poseOf(5.0), true);
+  elsewhere.endFrame();
+  expectRange(elsewhere, -0.1, 5.1, "saved");
+  Archive out = Archive::saving();
+  elsewhere.carry(out);
+  const std::string bytes = out.takeWritten();
+  Archive in = Archive::loading(bytes);
+  set_.carry(in);
+  in.finishLoading();
+  in.commit();
+  expectRange(set_, -0.1, 5.1, "loaded");
+  set_.reset();
+  expectRange(set_, -0.1, 1.1, "reset");
+}
+
+}  // namespace
+}  // namespace curtain
