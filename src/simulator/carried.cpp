@@ -178,8 +178,8 @@ void PinMoves::carry(Archive& archive, const ClothPattern& of) {
 void FrameTimes::carry(Archive& archive) {
   archive.integer("frame", frame_, 0, kMany);
   archive.within("frame_rate", rate_, 1.0, 10000.0);
-  archive.integer("same_since_frame", since_frame_, 0, kMany);
-  archive.finite("same_since_time", since_time_);
+  archive.integer("same_since_frame", since_.frame, 0, kMany);
+  archive.finite("same_since_time", since_.time);
   archive.finite("made_time", made_time_);
 }
 

@@ -4,29 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/composition.h"
-
 namespace curtain {
-namespace {
-
-int stepsPerSubstep(const SolverParams& params) {
-  return params.method == Method::kLeapfrog4 ? static_cast<int>(kStages.size()) : 1;
-}
-
-ErrorEstimate estimateFor(const SolverParams& params, const ClothPattern& pattern, double frame_length) {
-  return ErrorEstimate(pattern, frame_length, params.position_tolerance, params.method == Method::kLeapfrog4 ? 4 : 2,
-                       stepsPerSubstep(params), std::max(1, params.substeps),
-                       params.substeps > 0 ? params.substeps : params.max_substeps);
-}
-
-}  // namespace
 
 ErrorControl::ErrorControl(Motion& motion, StepControls& controls, FrameLoop& loop, Budget& budget)
     : motion_(motion),
       controls_(controls),
       loop_(loop),
       budget_(budget),
-      estimate_(estimateFor(motion.scene.solver, motion.pattern, motion.times.length())) {
+      estimate_(motion.scene.solver, motion.pattern) {
   motion_.save(start_);
   reference_.at = start_;
 }
@@ -52,7 +37,7 @@ bool ErrorControl::makeFrame(int substeps) {
   plan.h = motion_.times.length() / substeps;
   if (params.method == Method::kAuto) plan.most_phase = StepControl::stablePhase();
   plan.precise = composed;
-  const int parts = stepsPerSubstep(params);
+  const int parts = ErrorEstimate::stepsPerSubstep(params.method);
   SubstepPlan part = plan;
   part.h = plan.h / parts;
   for (int k = 0; k < substeps; ++k) {

@@ -21,17 +21,16 @@ constexpr double kGrowthOfGuess = 3.0;
 
 }  // namespace
 
-ErrorEstimate::ErrorEstimate(const ClothPattern& pattern, double frame_length, double tolerance, int order,
-                             int steps_per_substep, int fewest, int most)
+ErrorEstimate::ErrorEstimate(const SolverParams& params, const ClothPattern& pattern)
     : pattern_(pattern),
-      frame_length_(frame_length),
-      tolerance_(tolerance),
-      order_(order),
-      steps_per_substep_(steps_per_substep),
-      window_(std::max(1, static_cast<int>(std::lround(1.0 / frame_length)))),
-      fewest_(fewest),
-      most_(std::max(fewest, most)),
-      substeps_(fewest) {}
+      frame_length_(1.0 / params.frame_rate),
+      tolerance_(params.position_tolerance),
+      order_(params.method == Method::kLeapfrog4 ? 4 : 2),
+      steps_per_substep_(stepsPerSubstep(params.method)),
+      window_(std::max(1, static_cast<int>(std::lround(1.0 / frame_length_)))),
+      fewest_(std::max(1, params.substeps)),
+      most_(params.substeps > 0 ? params.substeps : std::max(1, params.max_substeps)),
+      substeps_(fewest_) {}
 
 void ErrorEstimate::reset() noexcept {
   substeps_ = fewest_;

@@ -11,22 +11,22 @@
 #include <algorithm>
 
 #include "cloth/cloth.h"
+#include "solver/composition.h"
 
 namespace curtain {
 
 class ErrorEstimate {
  public:
-  /// tolerance  [m per simulated second], > 0
-  /// order      of the scheme; where its stages could not be made in the window, it is taken for 2
-  /// steps_per_substep  leapfrog steps that a substep is made of
-  /// fewest, most       substeps a frame it may ask for; the same where they are fixed
-  ErrorEstimate(const ClothPattern& pattern, double frame_length, double tolerance, int order, int steps_per_substep,
-                int fewest, int most);
+  /// params: with a position_tolerance, of a method that it knows. pattern must outlive this.
+  ErrorEstimate(const SolverParams& params, const ClothPattern& pattern);
 
   /// Methods whose error it can tell: those that are made of leapfrog steps.
   static bool knows(Method method) {
     return method == Method::kAuto || method == Method::kLeapfrog || method == Method::kLeapfrog4;
   }
+
+  /// Leapfrog steps that a substep is made of.
+  static int stepsPerSubstep(Method method) noexcept { return method == Method::kLeapfrog4 ? static_cast<int>(kStages.size()) : 1; }
 
   void reset() noexcept;
   /// Frames are so long from now on [s]: the next comparison is a whole period away.
@@ -67,11 +67,11 @@ class ErrorEstimate {
 
   const ClothPattern& pattern_;
   double frame_length_, tolerance_;
-  int order_;
-  int steps_per_substep_;
+  int order_;              // of the scheme; where its stages could not be made in the window, it is taken for 2
+  int steps_per_substep_;  // leapfrog steps
   bool of_stages_ = true;  // in the present window
   int window_;  // frames of a second
-  int fewest_, most_;
+  int fewest_, most_;  // substeps a frame that it may ask for; the same where they are fixed
   int substeps_;
   long frames_ = 0;
   int compared_ = 0;        // frames of the present window

@@ -40,9 +40,7 @@ void Simulator::Impl::sleepThrough() {
     ++revision;
   }
   motion.obstacles.endFrame();
-  times.next();
-  s.frames = times.frame();
-  s.time = times.begin();
+  nextFrame(0.0);
   s.substeps_last = 0;
   s.sweeps_last = 0;
   ++s.asleep_frames;
@@ -73,15 +71,18 @@ void Simulator::Impl::endFrame(double share) {
   }
   if (errors) errors->endFrame(share);
   motion.lag.endFrame(share);
-  times.move(share * times.length());
-  times.next();
+  nextFrame(share);
   ++revision;
-  s.frames = times.frame();
-  s.time = times.begin();
   motion.measure();
   sleep.fallAsleep();
   if (errors && sleep.all()) errors->lose();
   s.stage_seconds = motion.clock.seconds();
+}
+
+void Simulator::Impl::nextFrame(double share) noexcept {
+  times.next(share);
+  motion.statistics.frames = times.frame();
+  motion.statistics.time = times.begin();
 }
 
 void Simulator::Impl::countTime(Budget::Clock::time_point begin) {

@@ -17,38 +17,38 @@ class FrameTimes {
   double length() const noexcept { return 1.0 / rate_; }  ///< [s]
   double rate() const noexcept { return rate_; }          ///< [1/s]
   std::int64_t frame() const noexcept { return frame_; }
-  /// When the present frame begins and ends [s].
-  double begin() const noexcept { return timeOf(frame_); }
-  double end() const noexcept { return timeOf(frame_ + 1); }
+  double begin() const noexcept { return timeOf(frame_); }    ///< of the present frame [s]
+  double end() const noexcept { return timeOf(frame_ + 1); }  ///< of the present frame [s]
   /// Time of the motion [s]; less than begin() where frames ended early.
   double madeTime() const noexcept { return made_time_; }
 
-  void move(double seconds) noexcept { made_time_ += seconds; }
-  void next() noexcept { ++frame_; }
-  void setRate(double rate) noexcept;
-  void reset() noexcept;
+  /// share: of the present frame that was made, [0, 1].
+  void next(double share) noexcept {
+    made_time_ += share * length();
+    ++frame_;
+  }
+  void setRate(double rate) noexcept {
+    since_ = {frame_, begin()};
+    rate_ = rate;
+  }
+  void reset() noexcept {
+    frame_ = 0;
+    made_time_ = 0.0;
+    since_ = {};
+  }
   void carry(Archive& archive);
 
  private:
   // Whole frames from where they last changed their length, so that rounding does not add up.
-  double timeOf(std::int64_t frame) const noexcept { return since_time_ + static_cast<double>(frame - since_frame_) * length(); }
+  double timeOf(std::int64_t frame) const noexcept { return since_.time + static_cast<double>(frame - since_.frame) * length(); }
 
   double& rate_;
   std::int64_t frame_ = 0;
-  std::int64_t since_frame_ = 0;  // frames have been as long as now since this one
-  double since_time_ = 0.0;       // and since this time [s]
   double made_time_ = 0.0;
+  struct {
+    std::int64_t frame = 0;
+    double time = 0.0;  // [s]
+  } since_;  // frames have been as long as they are
 };
-
-inline void FrameTimes::setRate(double rate) noexcept {
-  since_time_ = begin();
-  since_frame_ = frame_;
-  rate_ = rate;
-}
-
-inline void FrameTimes::reset() noexcept {
-  frame_ = since_frame_ = 0;
-  since_time_ = made_time_ = 0.0;
-}
 
 }  // namespace curtain

@@ -49,6 +49,7 @@ struct Simulator::Impl {
   void sleepThrough();
   double moveThrough(Budget::Clock::time_point begin);
   void endFrame(double share);
+  void nextFrame(double share) noexcept;
   void countTime(Budget::Clock::time_point begin);
 };
 

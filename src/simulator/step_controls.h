@@ -20,16 +20,13 @@ struct StepControls {
     plain_frames = 0;
   }
   void takeGravity(const ClothPattern& pattern, const Vec3& gravity) noexcept {
-    main.takeGravity(pattern, gravity);
-    plain.takeGravity(pattern, gravity);
+    for (StepControl* control : {&main, &plain}) control->takeGravity(pattern, gravity);
   }
   void takeFrame(double length) noexcept {
-    main.takeFrame(length);
-    plain.takeFrame(length);
+    for (StepControl* control : {&main, &plain}) control->takeFrame(length);
   }
   void wake(const ExactSolver& solver) noexcept {
-    main.wake(solver);
-    plain.wake(solver);
+    for (StepControl* control : {&main, &plain}) control->wake(solver);
   }
   /// A second without stages: strings that pull now and then would else change the scheme all the time, and every change shakes
   /// them.
