@@ -24,6 +24,9 @@ class Budget {
 
   explicit Budget(double milliseconds) : seconds_(1e-3 * milliseconds) {}
 
+  /// Of computing time [s].
+  static double secondsSince(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
   bool any() const noexcept { return seconds_ > 0.0; }
   void forget() noexcept;
 

@@ -139,26 +139,57 @@ void ErrorEstimate::carry(Archive& archive) {
   archive.integer("frames", frames_, 0, kMany);
   archive.integer("compared", compared_, 0, kCount);
   archive.within("steps_sum", steps_sum_, 0.0, kLargest);
-  archive.within("companion_sum", companion_sum_, 0.0, kLargest);
+  archive.within("companion_sum", reference_sum_, 0.0, kLargest);
   archive.within("now", now_, 0.0, kInfinity);
   archive.within("last_second", last_second_, 0.0, kInfinity);
 }
 
-void Simulator::Impl::Held::carry(Archive& archive) {
-  archive.part("state", state);
-  archive.part("memory", memory);
+// Names of members are part of the layout: they stay, whatever the members are called now.
+void ErrorControl::Reference::carry(Archive& archive) {
+  archive.part("state", at.state);
+  archive.part("memory", at.memory);
   archive.integer("substeps", substeps, 0, kCount);
-  archive.integer("steps", steps, 0, kCount);
-  archive.flag("of_stages", of_stages);
+  archive.integer("steps", tally.steps, 0, kCount);
+  archive.flag("of_stages", tally.of_stages);
   archive.flag("lost", lost);
   archive.flag("in_finer_steps", in_finer_steps);
 }
 
-void Simulator::Impl::PinMove::carry(Archive& archive, const ClothPattern& of) {
-  archive.node("node", node, of.grid);
-  archive.require(of.pinned[node] != 0, "must be a pinned node");
-  archive.finite("target", target);
-  archive.flag("behind", behind);
+void ErrorControl::carry(Archive& archive) {
+  archive.part("estimate", estimate_);
+  archive.part("companion", reference_);
+}
+
+void StepControls::carry(Archive& archive) {
+  archive.part("control", main);
+  archive.integer("plain_frames", plain_frames, 0, kCount);
+  archive.part("plain_control", plain);
+}
+
+void PinMoves::carry(Archive& archive, const ClothPattern& of) {
+  archive.list("pin_moves", moves_, [&](Move& move) {
+    archive.node("node", move.node, of.grid);
+    archive.require(of.pinned[move.node] != 0, "must be a pinned node");
+    archive.finite("target", move.target);
+    archive.flag("behind", move.behind);
+  });
+}
+
+void FrameTimes::carry(Archive& archive) {
+  archive.integer("frame", frame_, 0, kMany);
+  archive.within("frame_rate", rate_, 1.0, 10000.0);
+  archive.integer("same_since_frame", since_.frame, 0, kMany);
+  archive.finite("same_since_time", since_.time);
+  archive.finite("made_time", made_time_);
+}
+
+void EnergyGuard::carry(Archive& archive) {
+  archive.optional("most_energy", most_, 0.0, [&](double& energy) { archive.finite("energy", energy); });
+}
+
+void Motion::carryVelocities(Archive& archive) {
+  archive.numbers("velocities", velocities_);
+  archive.flag("velocities_fresh", velocities_fresh_);
 }
 
 void EnergyLedger::carry(Archive& archive) {
@@ -169,51 +200,35 @@ void EnergyLedger::carry(Archive& archive) {
   archive.finite("kinetic", work_.kinetic);
 }
 
-// Not: what substeps and rehearsals go back to, for they have; the mesh for the eye, which remembers nothing; the revision,
-// which counts for who has looked at this simulator.
+// Not: what stages and pilot runs go back to, for they have; the mesh for the eye, which remembers nothing; the revision, which
+// counts for who has looked at this simulator.
 void Simulator::Impl::carry(Archive& archive) {
   archive.finite("gravity", scene.gravity);
-  archive.part("state", state);
-  archive.group("forces", [&] { forces.carry(archive, scene.air); });
-  archive.part("obstacles", obstacles);
-  archive.part("contact", contact);
-  archive.part("exact", exact);
-  archive.part("control", control);
-  archive.integer("plain_frames", plain_frames, 0, kCount);
-  archive.part("plain_control", plain_control);
-  archive.part("rest", rest);
+  archive.part("state", motion.state);
+  archive.group("forces", [&] { motion.forces.carry(archive, scene.air); });
+  archive.part("obstacles", motion.obstacles);
+  archive.part("contact", motion.contact);
+  archive.part("exact", motion.exact);
+  controls.carry(archive);
+  archive.part("rest", sleep.rest());
   archive.part("budget", budget);
-  if (estimate != nullptr) {
-    archive.part("estimate", *estimate);
-    archive.part("companion", companion);
-  }
-  archive.list("pin_moves", pin_moves, [&](PinMove& move) { move.carry(archive, pattern); });
-  archive.group("statistics", [&] { carryStatistics(archive, statistics); });
-  archive.part("clock", clock);
-  archive.part("ledger", ledger);
-  archive.flag("counts_work", counts_work);
-  archive.integer("frame", frame, 0, kMany);
-  archive.within("frame_rate", scene.solver.frame_rate, 1.0, 10000.0);
-  archive.integer("same_since_frame", same_since.frame, 0, kMany);
-  archive.finite("same_since_time", same_since.time);
-  archive.finite("made_time", made_time);
-  archive.optional("most_energy", most_energy, 0.0, [&](double& energy) { archive.finite("energy", energy); });
-  archive.numbers("velocities", velocities);
-  archive.flag("velocities_fresh", velocities_fresh);
+  if (errors) errors->carry(archive);
+  pins.carry(archive, pattern);
+  archive.group("statistics", [&] { carryStatistics(archive, motion.statistics); });
+  archive.part("clock", motion.clock);
+  archive.part("ledger", motion.ledger);
+  archive.flag("counts_work", motion.counts_work);
+  times.carry(archive);
+  guard.carry(archive);
+  motion.carryVelocities(archive);
 }
 
 // After carry() has loaded: what follows from it.
 void Simulator::Impl::resume() noexcept {
-  forces.takeGravity();
-  control.takeGravity(pattern, scene.gravity);
-  plain_control.takeGravity(pattern, scene.gravity);
-  control.takeFrame(frameLength());
-  plain_control.takeFrame(frameLength());
-  obstacles.takeFrame(frameLength());
-  rest.takeFrame(frameLength());
-  setRestLimits();
-  exact.resume(rest.asleep(), state);
-  contact.clearCaches();
+  takeGravity();
+  takeFrame();
+  motion.exact.resume(sleep.rest().asleep(), motion.state);
+  motion.contact.clearCaches();
   ++revision;
 }
 

@@ -31,18 +31,9 @@ std::vector<Problem> Simulator::setFrameRate(double rate) {
   params.frame_rate = rate;
   std::vector<Problem> problems = validate(params, "solver");
   if (!problems.empty() || rate == im.scene.solver.frame_rate) return problems;
-  im.same_since = {im.frame, im.timeOf(im.frame)};
-  im.scene.solver.frame_rate = rate;
-  const double length = im.frameLength();
-  im.control.takeFrame(length);
-  im.plain_control.takeFrame(length);
-  im.obstacles.takeFrame(length);
-  im.rest.takeFrame(length);
-  im.setRestLimits();
-  if (im.estimate != nullptr) {
-    im.estimate->takeFrame(length);
-    im.companion.lost = true;
-  }
+  im.times.setRate(rate);
+  im.takeFrame();
+  if (im.errors) im.errors->takeFrame();
   return problems;
 }
 
@@ -53,25 +44,23 @@ std::vector<Problem> Simulator::setState(const std::vector<Vec3>& positions, con
   check(positions, grid.nodeCount(), "positions", problems);
   check(velocities, grid.nodeCount(), "velocities", problems);
   if (!problems.empty()) return problems;
-  im.wakeAll();
+  im.sleep.wakeAll();
+  Motion& motion = im.motion;
   std::size_t from = 0;
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = 0; j < grid.columns; ++j, ++from) {
       const std::size_t n = grid.index(i, j);
-      im.state.position.set(n, positions[from]);
-      im.state.velocity.set(n, im.pattern.pinned[n] != 0 ? Vec3::Zero() : velocities[from]);
+      motion.state.position.set(n, positions[from]);
+      motion.state.velocity.set(n, im.pattern.pinned[n] != 0 ? Vec3::Zero() : velocities[from]);
     }
   }
-  im.state.velocity_age = 0.0;
-  im.most_energy.reset();
-  im.exact.reset();
-  im.contact.forget();
-  im.companion.lost = true;
-  im.velocities_fresh = false;
-  const Stretch warp = warpStretch(im.pattern, im.state.position);
-  im.statistics.warp_stretch = warp.longer;
-  im.statistics.warp_compression = warp.shorter;
-  im.statistics.weft_stretch = weftStretch(im.pattern, im.state.position);
+  motion.state.velocity_age = 0.0;
+  motion.exact.reset();
+  motion.contact.forget();
+  motion.forgetVelocities();
+  motion.measureStretch();
+  im.guard.forget();
+  if (im.errors) im.errors->lose();
   ++im.revision;
   return problems;
 }

@@ -12,32 +12,31 @@ constexpr double kAim = 0.7;
 constexpr double kFewer = 0.35;
 // Of the error that the difference must be: of steps nearly alike it tells nothing.
 constexpr double kLeastPart = 0.3;
-constexpr double kRehearsal = 0.5;  // [s]
+constexpr double kPilot = 0.5;  // [s]
 // Within a second errors grow at least with the square of time, since errors of velocities move the nodes; from the half
-// second of a rehearsal on with the cube, as measured on chains released at 45 degrees (power 1.5 to 2.2) and 90 (2.8 to 3.2):
+// second of a pilot run on with the cube, as measured on chains released at 45 degrees (power 1.5 to 2.2) and 90 (2.8 to 3.2):
 // a first guess had better be too good.
 constexpr double kGrowth = 2.0;
 constexpr double kGrowthOfGuess = 3.0;
 
 }  // namespace
 
-ErrorEstimate::ErrorEstimate(const ClothPattern& pattern, double frame_length, double tolerance, int order,
-                             int steps_per_substep, int fewest, int most)
+ErrorEstimate::ErrorEstimate(const SolverParams& params, const ClothPattern& pattern)
     : pattern_(pattern),
-      frame_length_(frame_length),
-      tolerance_(tolerance),
-      order_(order),
-      steps_per_substep_(steps_per_substep),
-      window_(std::max(1, static_cast<int>(std::lround(1.0 / frame_length)))),
-      fewest_(fewest),
-      most_(std::max(fewest, most)),
-      substeps_(fewest) {}
+      frame_length_(1.0 / params.frame_rate),
+      tolerance_(params.position_tolerance),
+      order_(params.method == Method::kLeapfrog4 ? 4 : 2),
+      steps_per_substep_(stepsPerSubstep(params.method)),
+      window_(std::max(1, static_cast<int>(std::lround(1.0 / frame_length_)))),
+      fewest_(std::max(1, params.substeps)),
+      most_(params.substeps > 0 ? params.substeps : std::max(1, params.max_substeps)),
+      substeps_(fewest_) {}
 
 void ErrorEstimate::reset() noexcept {
   substeps_ = fewest_;
   frames_ = 0;
   compared_ = 0;
-  steps_sum_ = companion_sum_ = 0.0;
+  steps_sum_ = reference_sum_ = 0.0;
   of_stages_ = true;
   now_ = last_second_ = 0.0;
 }
@@ -49,13 +48,13 @@ void ErrorEstimate::takeFrame(double length) noexcept {
   window_ = std::max(1, static_cast<int>(std::lround(1.0 / length)));
   frames_ = 0;
   compared_ = 0;
-  steps_sum_ = companion_sum_ = 0.0;
+  steps_sum_ = reference_sum_ = 0.0;
   of_stages_ = true;
   now_ = 0.0;
 }
 
-int ErrorEstimate::rehearsalFrames() const noexcept {
-  return std::max(1, static_cast<int>(std::lround(kRehearsal / frame_length_)));
+int ErrorEstimate::pilotFrames() const noexcept {
+  return std::max(1, static_cast<int>(std::lround(kPilot / frame_length_)));
 }
 
 double ErrorEstimate::error(const Field3& a, double n, const Field3& b, double m,
@@ -78,31 +77,31 @@ void ErrorEstimate::aimAt(double error_per_second, double substeps) noexcept {
   substeps_ = static_cast<int>(std::clamp<double>(std::ceil(wanted), fewest_, most_));
 }
 
-void ErrorEstimate::rehearsed(const Field3& position, int substeps, const Field3& finer_position,
+void ErrorEstimate::pilotsMade(const Field3& position, int substeps, const Field3& finer_position,
                               int finer_substeps) noexcept {
-  const double growth = std::pow(1.0 / (rehearsalFrames() * frame_length_), kGrowthOfGuess);
+  const double growth = std::pow(1.0 / (pilotFrames() * frame_length_), kGrowthOfGuess);
   substeps_ = std::clamp(substeps, fewest_, most_);
   aimAt(growth * error(position, substeps, finer_position, finer_substeps, order_), substeps);
 }
 
-void ErrorEstimate::frameMade(const Field3& position, int steps, const Field3* companion, int companion_steps,
+void ErrorEstimate::frameMade(const Field3& position, int steps, const Field3* reference, int reference_steps,
                               bool of_stages) noexcept {
-  const bool in_window = companionMoves();
+  const bool in_window = referenceMoves();
   ++frames_;
   if (!in_window) return;
-  if (companion == nullptr) {  // it starts anew with the next frame
+  if (reference == nullptr) {  // it starts anew with the next frame
     compared_ = 0;
-    steps_sum_ = companion_sum_ = 0.0;
+    steps_sum_ = reference_sum_ = 0.0;
   } else {
     ++compared_;
     of_stages_ = of_stages_ && of_stages;
     steps_sum_ += steps;
-    companion_sum_ += companion_steps;
-    now_ = error(position, steps_sum_, *companion, companion_sum_, of_stages_ ? order_ : 2);
+    reference_sum_ += reference_steps;
+    now_ = error(position, steps_sum_, *reference, reference_sum_, of_stages_ ? order_ : 2);
   }
-  const bool over = !companionMoves();
+  const bool over = !referenceMoves();
   if (over && compared_ > 0 && now_ > 0.0) {
-    // A companion that was lost on the way tells of the time it was there.
+    // A reference run that was lost on the way tells of the time it was there.
     last_second_ = now_ * std::pow(static_cast<double>(window_) / compared_, kGrowth);
     aimAt(last_second_, steps_sum_ / (compared_ * steps_per_substep_));
   }
@@ -110,7 +109,7 @@ void ErrorEstimate::frameMade(const Field3& position, int steps, const Field3* c
   now_ = 0.0;
   compared_ = 0;
   of_stages_ = true;
-  steps_sum_ = companion_sum_ = 0.0;
+  steps_sum_ = reference_sum_ = 0.0;
 }
 
 double ErrorEstimate::perSecond() const noexcept { return std::max(now_, last_second_); }

@@ -52,15 +52,14 @@ const char* wordsFor(ObstacleStanding standing) {
   return "";
 }
 
-}  // namespace
-
-void Simulator::Impl::planForces(Plan& plan) const {
-  const double time = statistics.time;
+void planForces(const Motion& motion, Plan& plan) {
+  const ForceField& forces = motion.forces;
+  const double time = motion.statistics.time;
   bool windy = false, acts = false, normals = false;
   if (forces.winds().empty()) plan.push_back({"winds", false, "there are none"});
   if (forces.drags().empty()) plan.push_back({"drags", false, "there are none"});
   for (const WindParams& wind : forces.winds()) {
-    plan.push_back(planOf(wind, time, forces.reaches(wind.id, time, state.position)));
+    plan.push_back(planOf(wind, time, forces.reaches(wind.id, time, motion.state.position)));
     windy = windy || plan.back().runs;
     normals = normals || (plan.back().runs && wind.pressure + wind.node_force > 0.0);
   }
@@ -76,9 +75,10 @@ void Simulator::Impl::planForces(Plan& plan) const {
                   windy || acts ? "weight and what is above" : "gravity alone: one acceleration for all nodes"});
 }
 
-void Simulator::Impl::planContact(Plan& plan) const {
-  for (int index = 0; index < obstacles.count(); ++index) {
-    const ObstacleStanding standing = contact.standing(index, state.position);
+void planContact(const Motion& motion, Plan& plan) {
+  const Scene& scene = motion.scene;
+  for (int index = 0; index < motion.obstacles.count(); ++index) {
+    const ObstacleStanding standing = motion.contact.standing(index, motion.state.position);
     plan.push_back({"obstacle '" + scene.obstacles[static_cast<std::size_t>(index)].name + "'",
                     standing == ObstacleStanding::kNear, wordsFor(standing)});
   }
@@ -87,45 +87,48 @@ void Simulator::Impl::planContact(Plan& plan) const {
                   scene.contact.self ? "but not where the cloth is provably flat" : "contact.self is false"});
 }
 
-void Simulator::Impl::planSolver(Plan& plan) const {
-  const SolverParams& solver = scene.solver;
+void planSolver(const Motion& motion, const Budget& budget, Plan& plan) {
+  const SolverParams& solver = motion.scene.solver;
   const std::string substeps =
       solver.substeps > 0 ? std::to_string(solver.substeps) + " substeps a frame" : "substeps from the tensions";
   plan.push_back({"warp", true, toString(solver.method) + ", " + substeps});
-  const bool pulls = exact.weftPulls();
+  const bool pulls = motion.exact.weftPulls();
   plan.push_back({"weft", true, pulls ? "strings pull: all taut ones are solved for at once"
                                       : "no string pulls: looked at, and nothing more unless one gets taut"});
-  plan.push_back({"estimate", estimate != nullptr,
-                  estimate != nullptr ? "position_tolerance is asked for: a companion moves one second in four, as far as the budget lets it"
-                                      : "no position_tolerance is asked for"});
+  const bool estimates = ErrorControl::wanted(solver);
+  plan.push_back({"estimate", estimates,
+                  estimates ? "position_tolerance is asked for: a companion moves one second in four, as far as the budget lets it"
+                            : "no position_tolerance is asked for"});
   plan.push_back({"budget", budget.any(),
                   budget.any() ? number(1e3 * budget.seconds()) + " ms a frame" +
-                                     (statistics.shortened_frames > 0 ? "; frames have ended early" : "")
+                                     (motion.statistics.shortened_frames > 0 ? "; frames have ended early" : "")
                                : "budget_ms is 0: frames take what they need"});
-  const int threads = workers.threads();
+  const int threads = motion.workers.threads();
   const char* const alone =
       solver.threads == 1 ? "one was asked for" : "one: cloth of this size, or this machine, gains nothing by more";
   plan.push_back({"threads", threads > 1, threads > 1 ? std::to_string(threads) + " of them" : alone});
 }
 
+}  // namespace
+
 Plan Simulator::plan() const {
   const Impl& im = *impl_;
   Plan plan;
-  const int asleep = im.rest.asleep().count();
-  const bool sleeps = im.rest.asleep().full();
+  const int asleep = im.sleep.rest().asleep().count();
+  const bool sleeps = im.sleep.all();
   if (im.scene.solver.rest_speed <= 0.0) {
     plan.push_back({"rest", false, "rest_speed is 0: nothing falls asleep"});
   } else if (im.scene.gravity.isZero()) {
     plan.push_back({"rest", false, "no gravity: nothing falls asleep"});
-  } else if (!im.rest.can()) {
+  } else if (!im.sleep.rest().can()) {
     plan.push_back({"rest", false, "fewer than 20 frames a second: nothing falls asleep"});
   } else {
     plan.push_back({"rest", true, std::to_string(asleep) + " of " + std::to_string(columns()) + " columns sleep" +
                                       (sleeps ? ": nothing below runs until something wakes them" : "")});
   }
-  im.planForces(plan);
-  im.planSolver(plan);
-  im.planContact(plan);
+  planForces(im.motion, plan);
+  planSolver(im.motion, im.budget, plan);
+  planContact(im.motion, plan);
   plan.push_back({"fine mesh", false, "made when it is asked for"});
   for (PlanEntry& entry : plan) {
     if (!sleeps || !entry.runs || entry.stage == "rest") continue;

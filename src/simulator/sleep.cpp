@@ -1,67 +1,67 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// Frames of cloth that sleeps: what wakes it, what falls asleep, and the frame in which nothing moves.
-#include "simulator/simulator_impl.h"
+#include "simulator/sleep.h"
+
+#include <algorithm>
 
 namespace curtain {
 
-// Before a frame: wakes the columns that something in it may move.
-void Simulator::Impl::wakeForFrame() {
-  if (!rest.watches()) return;
-  forces.markChanges(statistics.time, statistics.time + frameLength(), state.position, rest.disturbed());
-  if (!pin_moves.empty()) rest.disturbAll();
-  rest.approachedBy(obstacles);
-  if (rest.wake()) takeOverSleepers();
+Sleep::Sleep(Motion& motion, StepControls& controls, bool by_column)
+    : motion_(motion),
+      controls_(controls),
+      by_column_(by_column),
+      rest_(motion.pattern, motion.times.length(), motion.scene.contact.thickness, motion.scene.solver.stretch_tolerance),
+      kept_awake_(motion.pattern.grid.columns) {
+  takeLimits();
+  motion_.exact.hold(rest_.asleep(), motion_.state);
 }
 
-// A frame in which nothing moves. Obstacles do, far away.
-void Simulator::Impl::sleepThrough() {
-  if (obstacles.anyMoved()) {
-    obstacles.setSubstep(1.0, 1.0);
-    ++revision;
-  }
-  obstacles.endFrame();
-  ++frame;
-  statistics.frames = frame;
-  statistics.time = timeOf(frame);
-  statistics.substeps_last = 0;
-  statistics.sweeps_last = 0;
-  ++statistics.asleep_frames;
+void Sleep::reset() {
+  rest_.forget();
+  motion_.exact.hold(rest_.asleep(), motion_.state);
 }
 
-// After a frame. Before it watches, nothing is about to fall asleep that gusts could keep awake.
-void Simulator::Impl::fallAsleep() {
-  if (!rest.due()) return;
-  kept_awake.clear();
-  if (rest.watches()) forces.markGusts(statistics.time, state.position, kept_awake);
-  const bool leapfrogs = scene.solver.method == Method::kAuto || scene.solver.method == Method::kLeapfrog;
-  const bool by_column = leapfrogs && estimate == nullptr;
-  const Contacts* const contacts = contact.wanted() && contact.any() ? &contact.contacts() : nullptr;
-  if (rest.look(state, made_time, kept_awake, contacts, by_column)) takeOverSleepers();
+void Sleep::wakeForFrame(bool pins_move) {
+  if (!rest_.watches()) return;
+  const double now = motion_.statistics.time;
+  motion_.forces.markChanges(now, now + motion_.times.length(), motion_.state.position, rest_.disturbed());
+  if (pins_move) rest_.disturbAll();
+  rest_.approachedBy(motion_.obstacles);
+  if (rest_.wake()) takeOver();
 }
 
-void Simulator::Impl::takeOverSleepers() {
-  exact.hold(rest.asleep(), state);
-  velocities_fresh = false;
-  statistics.asleep = rest.asleep().count();
-  statistics.wakes = rest.wakes();
-  control.wake(exact);
-  plain_control.wake(exact);
-  if (!rest.asleep().full()) return;
+void Sleep::wakePulled() {
+  if (rest_.wakeFor(motion_.exact.held().disturbed(), motion_.times.madeTime())) takeOver();
+}
+
+void Sleep::wakeAll() {
+  rest_.disturbAll();
+  if (rest_.wake()) takeOver();
+}
+
+// Before it watches, nothing is about to fall asleep that gusts could keep awake.
+void Sleep::fallAsleep() {
+  if (!rest_.due()) return;
+  kept_awake_.clear();
+  if (rest_.watches()) motion_.forces.markGusts(motion_.statistics.time, motion_.state.position, kept_awake_);
+  if (rest_.look(motion_.state, motion_.times.madeTime(), kept_awake_, motion_.contacts(), by_column_)) takeOver();
+}
+
+void Sleep::takeOver() {
+  motion_.exact.hold(rest_.asleep(), motion_.state);
+  motion_.forgetVelocities();
+  motion_.statistics.asleep = rest_.asleep().count();
+  motion_.statistics.wakes = rest_.wakes();
+  controls_.wake(motion_.exact);
   // Velocities half a substep old are old no more: all are zero.
-  state.velocity_age = 0.0;
-  companion.lost = true;  // starts from the motion when that goes on
+  if (all()) motion_.state.velocity_age = 0.0;
 }
 
-void Simulator::Impl::wakeAll() {
-  rest.disturbAll();
-  if (rest.wake()) takeOverSleepers();
-}
-
-void Simulator::Impl::setRestLimits() {
+void Sleep::takeLimits() noexcept {
+  const Scene& scene = motion_.scene;
   double speed = scene.solver.rest_speed;
   if (scene.solver.position_tolerance > 0.0) speed = std::min(speed, scene.solver.position_tolerance);
-  rest.setLimits(speed, scene.gravity.norm(), forces.dampingPerMass(), scene.cloth.height);
+  rest_.takeFrame(motion_.times.length());
+  rest_.setLimits(speed, scene.gravity.norm(), motion_.forces.dampingPerMass(), scene.cloth.height);
 }
 
 }  // namespace curtain

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulator/energy_guard.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace curtain {
+namespace {
+
+// What may be above before substeps are found too long, over what the cloth's weight does over its height: energies of single frames
+// waver by (h omega)^2 / 8 of what moves, 4e-3 at one substep (modes of 20 / s, 0.3 of it moves); whips collect 0.2.
+constexpr double kTooMuch = 1e-2;
+constexpr int kEnoughSubsteps = 8;
+
+// A cloth that nothing holds would lose of its momentum.
+bool canGuard(const Motion& motion) {
+  const Method method = motion.scene.solver.method;
+  const auto& pinned = motion.pattern.pinned;
+  return (method == Method::kAuto || method == Method::kLeapfrog || method == Method::kLeapfrog4) &&
+         std::any_of(pinned.begin(), pinned.end(), [](auto is_pinned) { return is_pinned != 0; });
+}
+
+}  // namespace
+
+EnergyGuard::EnergyGuard(Motion& motion, StepControls& controls, bool chooses)
+    : motion_(motion),
+      controls_(controls),
+      wanted_(chooses && canGuard(motion)),
+      total_mass_(std::accumulate(motion.pattern.mass.begin(), motion.pattern.mass.end(), 0.0)) {}
+
+// Nothing puts energy in or takes it out but the scheme, which is free to choose its steps.
+bool EnergyGuard::isClosed(bool pins_move) const noexcept {
+  const NodeForces& last = motion_.forces.last();
+  const bool chooses = motion_.scene.solver.substeps == 0 || motion_.statistics.rejected > 0;
+  return wanted_ && chooses && !pins_move && last.weight_only && !last.has_damping &&
+         !(motion_.contact.any() && anyPushes(motion_.contact.contacts()));
+}
+
+// The energy before links take out of the velocities what is theirs (Motion::velocities() bounds it by this): it costs next to
+// nothing, where the velocities themselves cost as much as a substep.
+double EnergyGuard::energyWithoutLinks() const noexcept {
+  const ClothState& state = motion_.state;
+  const Vec3 fall = state.velocity_age * motion_.scene.gravity;
+  double kinetic = 0.0, potential = 0.0;
+  for (std::size_t n = 0; n < motion_.pattern.grid.size(); ++n) {
+    const double m = motion_.pattern.mass[n];
+    if (motion_.pattern.pinned[n] == 0) kinetic += 0.5 * m * (state.velocity.at(n) + fall).squaredNorm();
+    potential -= m * motion_.scene.gravity.dot(state.position.at(n));
+  }
+  return kinetic + potential;
+}
+
+void EnergyGuard::endFrame(bool pins_move) {
+  if (!isClosed(pins_move)) {
+    if (most_) controls_.main.askFor(1);
+    most_.reset();
+    return;
+  }
+  const double too_much = kTooMuch * total_mass_ * motion_.scene.gravity.norm() * motion_.scene.cloth.height;
+  if (most_ && energyWithoutLinks() <= *most_ + too_much) return;
+  const Energy now = motion_.energy();
+  if (!most_) most_ = now.kinetic + now.potential;
+  if (!(now.kinetic + now.potential - *most_ > too_much)) return;
+  controls_.main.askFor(std::min(kEnoughSubsteps, 2 * std::max(1, motion_.statistics.substeps_last)));
+  const double share = std::sqrt(std::max(0.0, (*most_ - now.potential) / now.kinetic));
+  if (!std::isfinite(share)) return;
+  Field3& velocity = motion_.state.velocity;
+  for (std::size_t n = 0; n < motion_.pattern.grid.size(); ++n) {
+    if (motion_.pattern.pinned[n] == 0) velocity.set(n, share * velocity.at(n));
+  }
+  motion_.forgetVelocities();
+}
+
+}  // namespace curtain

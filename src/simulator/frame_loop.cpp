@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulator/frame_loop.h"
+
+#include "solver/composition.h"
+
+namespace curtain {
+namespace {
+
+// Share of its path below which the cloth counts as stopped in a substep.
+constexpr double kStopped = 1e-3;
+
+}  // namespace
+
+FrameLoop::FrameLoop(Motion& motion, StepControls& controls, Sleep& sleep, Budget& budget)
+    : motion_(motion), controls_(controls), sleep_(sleep), budget_(budget) {
+  motion_.save(before_);
+}
+
+double FrameLoop::make() {
+  motion_.statistics.substeps_last = 0;
+  motion_.statistics.sweeps_last = 0;
+  motion_.forgetVelocities();
+  tally_ = {};
+  pins_waited_ = false;
+  controls_.beginFrame();
+  const double length = motion_.times.length();
+  double done = 0.0;
+  while (length - done > 1e-9 * length) {
+    if (budget_.any() && budget_.over(Budget::Clock::now())) return done / length;
+    done += makeSubstep(done);
+  }
+  return 1.0;
+}
+
+// One substep from `done` seconds into the frame. Returns how far it came: 0 when it was rejected.
+double FrameLoop::makeSubstep(double done) {
+  StepControl* steps = &controls_.main;
+  SubstepPlan planned = plan(*steps, done);
+  if (motion_.scene.solver.method == Method::kLeapfrog4) {
+    const Budget::Clock::time_point begin = Budget::Clock::now();
+    if (makeStages(planned, done)) {
+      if (budget_.any()) budget_.substepTook(Budget::secondsSince(begin), true);
+      countSubstep(static_cast<int>(kStages.size()));
+      return planned.h;
+    }
+    controls_.pauseStages(motion_.times.rate());
+    steps = &controls_.plain;
+    planned = plan(*steps, done);
+  }
+  const SubstepOutcome outcome = attemptInTime(planned, done);
+  if (outcome.accepted) {
+    accept(*steps, planned, outcome);
+    return planned.h;
+  }
+  if (outcome.disturbed) sleep_.wakePulled();
+  else reject(*steps, planned, outcome.late);
+  return 0.0;
+}
+
+SubstepPlan FrameLoop::plan(StepControl& steps, double done) {
+  if (budget_.any()) steps.allow(budget_.affordable(Budget::Clock::now()));
+  return steps.next(motion_.times.length() - done, motion_.exact);
+}
+
+bool FrameLoop::makeStages(const SubstepPlan& plan, double done) {
+  if (controls_.plain_frames > 0 || motion_.exact.weftPulls()) return false;
+  motion_.save(before_);
+  double at = done;
+  for (const double gamma : kStages) {
+    SubstepPlan stage = plan;
+    stage.h = gamma * plan.h;
+    const SubstepOutcome outcome = motion_.attempt(stage, at);
+    if (!outcome.accepted || motion_.exact.weftPulls() || (motion_.contact.wanted() && motion_.contact.any())) {
+      motion_.restore(before_);
+      motion_.contact.takeBack(at - done);
+      return false;
+    }
+    controls_.main.accepted(stage, outcome);
+    controls_.plain.watch(outcome);
+    motion_.contact.afterSubstep(true, stage.h, outcome.scale, motion_.state.position);
+    at += stage.h;
+  }
+  return true;
+}
+
+// The computing time of a frame may be limited.
+SubstepOutcome FrameLoop::attemptInTime(const SubstepPlan& plan, double done) {
+  if (!budget_.any()) return motion_.attempt(plan, done);
+  const Budget::Clock::time_point begin = Budget::Clock::now();
+  motion_.clock.setDeadline(budget_.substepEnds());
+  const SubstepOutcome outcome = motion_.attempt(plan, done);
+  motion_.clock.setDeadline(Budget::Clock::time_point::max());
+  budget_.substepTook(Budget::secondsSince(begin), outcome.accepted);
+  return outcome;
+}
+
+// That there was no time left for it says nothing of its length, unless it had a whole frame's.
+void FrameLoop::reject(StepControl& steps, const SubstepPlan& plan, bool late) noexcept {
+  ++motion_.statistics.rejected;
+  if (!late) steps.rejected(plan);
+  else if (budget_.fresh()) steps.tookTooLong(plan);
+}
+
+void FrameLoop::accept(StepControl& steps, const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept {
+  Statistics& s = motion_.statistics;
+  if (outcome.late) ++s.unfinished_substeps;
+  if (steps.stretched()) ++s.longer_substeps;
+  if (!outcome.settled) ++s.unsettled;
+  if (outcome.share < kStopped) ++s.stops;
+  if (plan.last_resort) ++s.last_resort_substeps;
+  s.momentum_cut += outcome.momentum_cut;
+  s.obstacles_waited += motion_.lag.substepMade(outcome.share, plan.h);
+  steps.accepted(plan, outcome);
+  if (&steps != &controls_.main) {
+    controls_.main.watch(outcome);
+    tally_.of_stages = false;
+  }
+  pins_waited_ = pins_waited_ || outcome.pins_wait;
+  countSubstep(1);
+  motion_.contact.afterSubstep(outcome.settled, plan.h, outcome.scale, motion_.state.position);
+}
+
+void FrameLoop::countSubstep(int steps) noexcept {
+  ++motion_.statistics.substeps;
+  ++motion_.statistics.substeps_last;
+  tally_.steps += steps;
+}
+
+}  // namespace curtain

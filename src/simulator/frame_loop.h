@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The substeps of a frame: the loop of Cheng 2000, Sect. 1.3. Each is planned, attempted, and taken or made again in smaller ones.
+#pragma once
+
+#include "simulator/budget.h"
+#include "simulator/sleep.h"
+
+namespace curtain {
+
+/// What a frame was made of.
+struct StepTally {
+  int steps = 0;          ///< leapfrog steps
+  bool of_stages = true;  ///< all of them were stages of whole substeps
+};
+
+class FrameLoop {
+ public:
+  /// All of them must outlive this.
+  FrameLoop(Motion& motion, StepControls& controls, Sleep& sleep, Budget& budget);
+
+  /// Makes a frame. Returns how much of it was made, as a share: less than 1 when there was no time for more.
+  double make();
+  /// Of that frame.
+  const StepTally& tally() const noexcept { return tally_; }
+  /// A pin stayed where it was in a substep of that frame.
+  bool pinsWaited() const noexcept { return pins_waited_; }
+
+  /// A substep of five stages. False, and nothing changed: stages pause; or a string pulls or something touches, which forbids to
+  /// go back in time.
+  bool makeStages(const SubstepPlan& plan, double done);
+
+ private:
+  double makeSubstep(double done);
+  SubstepPlan plan(StepControl& steps, double done);
+  SubstepOutcome attemptInTime(const SubstepPlan& plan, double done);
+  void reject(StepControl& steps, const SubstepPlan& plan, bool late) noexcept;
+  void accept(StepControl& steps, const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept;
+  void countSubstep(int steps) noexcept;
+
+  Motion& motion_;
+  StepControls& controls_;
+  Sleep& sleep_;
+  Budget& budget_;
+  Motion::Checkpoint before_;  // a substep of stages
+  StepTally tally_;
+  bool pins_waited_ = false;
+};
+
+}  // namespace curtain

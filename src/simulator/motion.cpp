@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulator/motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace curtain {
+
+Motion::Motion(const Scene& scene_, const ClothPattern& pattern_, const FrameTimes& times_, const MeshResolver& resolve)
+    : scene(scene_),
+      pattern(pattern_),
+      times(times_),
+      initial(makeInitialState(scene, pattern)),
+      state(initial),
+      forces(scene, pattern),
+      obstacles(scene, resolve),
+      contact(pattern, scene.contact, obstacles, scene.solver.stretch_tolerance),
+      lag(pattern, times, obstacles, contact),
+      workers(threadsFor(scene.solver.threads, pattern.grid.nodeCount())),
+      exact(pattern, scene.solver.stretch_tolerance, scene.solver.max_sweeps, workers),
+      paper(pattern),
+      ledger(pattern) {
+  exact.expectContacts(contact.capacity());
+  velocities_.assign(pattern.grid.size(), 0.0);
+}
+
+void Motion::reset() {
+  state = initial;
+  forces.reset();
+  obstacles.reset();
+  contact.forget();
+  exact.reset();
+  clock.reset();
+  statistics = Statistics();
+  ledger.restore({});
+  velocities_fresh_ = false;
+}
+
+SubstepOutcome Motion::attempt(const SubstepPlan& plan, double done) {
+  const bool by_paper = scene.solver.method == Method::kPaper;
+  ContactFinder* const finder = contact.wanted() ? &contact : nullptr;
+  clock.start();
+  if (finder == nullptr) contact.nothingTouches();
+  else lag.setSubstep(plan, done, state.position);
+  const NodeForces& now = forces.evaluate(state, statistics.time + done, plan.h);
+  clock.lap(Stage::kForces);
+  if (counts_work) ledger.begin(state);
+  const SubstepOutcome outcome =
+      by_paper ? paper.substep(now, plan.h, finder, state, clock) : exact.substep(plan, now, finder, state, clock);
+  statistics.sweeps += outcome.sweeps;
+  statistics.sweeps_last += outcome.sweeps;
+  if (counts_work && outcome.accepted) ledger.end(state, now, contacts(), by_paper ? nullptr : &exact, plan.h, outcome);
+  return outcome;
+}
+
+void Motion::save(Checkpoint& checkpoint) const {
+  checkpoint.state = state;
+  exact.save(checkpoint.memory);
+  checkpoint.work = ledger.work();
+}
+
+void Motion::restore(const Checkpoint& checkpoint) {
+  state = checkpoint.state;
+  exact.restore(checkpoint.memory);
+  ledger.restore(checkpoint.work);
+  contact.lookAfresh();
+  velocities_fresh_ = false;
+}
+
+void Motion::computeVelocities() noexcept { exact.currentVelocities(state, forces.last(), contacts(), velocities_); }
+
+const Field3& Motion::velocities() {
+  if (velocities_fresh_) return velocities_;
+  if (times.frame() == 0 || state.velocity_age == 0.0) velocities_ = state.velocity;
+  else computeVelocities();
+  velocities_fresh_ = true;
+  return velocities_;
+}
+
+void Motion::synchronise() {
+  if (state.velocity_age == 0.0) return;
+  computeVelocities();
+  state.velocity = velocities_;
+  state.velocity_age = 0.0;
+  velocities_fresh_ = false;
+}
+
+Energy Motion::energy() {
+  const Field3& velocity = velocities();
+  Energy energy;
+  for (std::size_t n = 0; n < pattern.grid.size(); ++n) {
+    energy.kinetic += 0.5 * pattern.mass[n] * velocity.at(n).squaredNorm();
+    energy.potential -= pattern.mass[n] * scene.gravity.dot(state.position.at(n));
+  }
+  return energy;
+}
+
+void Motion::measureStretch() noexcept {
+  const Stretch warp = warpStretch(pattern, state.position);
+  statistics.warp_stretch = warp.longer;
+  statistics.warp_compression = warp.shorter;
+  statistics.weft_stretch = weftStretch(pattern, state.position);
+}
+
+void Motion::measure() noexcept {
+  clock.start();
+  measureStretch();
+  Statistics& s = statistics;
+  s.warp_stretch_max = std::max(s.warp_stretch_max, s.warp_stretch);
+  s.weft_stretch_max = std::max(s.weft_stretch_max, s.weft_stretch);
+  s.warp_compression_max = std::max(s.warp_compression_max, s.warp_compression);
+  const bool near = contact.wanted() && contact.any();
+  s.contacts = near ? contact.contactCount() : 0;
+  s.contacts_max = std::max(s.contacts_max, s.contacts);
+  if (near) s.penetration_max = std::max(s.penetration_max, contact.deepestPenetration(state.position));
+  s.finite = std::isfinite(s.warp_stretch + s.warp_compression + s.weft_stretch);
+  clock.lap(Stage::kFinish);
+}
+
+}  // namespace curtain

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Who chooses the substeps of a scene's method. leapfrog4 has two: its own, for substeps of five stages (composition.h), and
+// that of auto, for where stages cannot be made.
+#pragma once
+
+#include <cmath>
+
+#include "solver/step_control.h"
+
+namespace curtain {
+
+struct StepControls {
+  StepControls(const SolverParams& params, const ClothPattern& pattern, const Vec3& gravity)
+      : main(params, pattern, gravity), plain(asAuto(params), pattern, gravity) {}
+
+  void reset() noexcept {
+    main.reset();
+    plain.reset();
+    plain_frames = 0;
+  }
+  void takeGravity(const ClothPattern& pattern, const Vec3& gravity) noexcept {
+    for (StepControl* control : {&main, &plain}) control->takeGravity(pattern, gravity);
+  }
+  void takeFrame(double length) noexcept {
+    for (StepControl* control : {&main, &plain}) control->takeFrame(length);
+  }
+  void wake(const ExactSolver& solver) noexcept {
+    for (StepControl* control : {&main, &plain}) control->wake(solver);
+  }
+  /// A second without stages: strings that pull now and then would else change the scheme all the time, and every change shakes
+  /// them.
+  void pauseStages(double frame_rate) noexcept {
+    if (plain_frames == 0) plain_frames = static_cast<int>(std::ceil(frame_rate));
+  }
+  void beginFrame() noexcept {
+    if (plain_frames > 0) --plain_frames;
+  }
+  void carry(Archive& archive);
+
+  StepControl main, plain;
+  int plain_frames = 0;  // to go before leapfrog4 makes stages again
+
+ private:
+  static SolverParams asAuto(SolverParams params) {
+    params.method = Method::kAuto;
+    params.substeps = 0;
+    return params;
+  }
+};
+
+}  // namespace curtain
