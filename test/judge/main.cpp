@@ -3,8 +3,9 @@
 // The judge: draws random scenes, carries them out and says which of them do not hold. Exit code 1 when one does not.
 //
 //   curtain_judge [--everyday N] [--wild N] [--sudden N] [--first SEED] [--case FILE]… [--shrink FOLDER] [--csv FILE]
-//                 [--repeat-every K] [--most-seconds S] [--most-nodes N] [--verbose]
+//                 [--repeat-every K] [--most-seconds S] [--most-nodes N] [--write FOLDER] [--verbose]
 //
+// --write keeps every trial as a file, for --case.
 // --most-nodes leaves out larger cloth, and draws on until the count is there.
 #include <algorithm>
 #include <cstdio>
@@ -23,7 +24,7 @@ struct Options {
   long count[3] = {0, 0, 0};
   std::uint64_t first = 1;
   std::vector<std::string> cases;
-  std::string shrink_to, csv;
+  std::string shrink_to, write_to, csv;
   long repeat_every = 10;
   double most_seconds = 0.0;
   int most_nodes = 1 << 30;
@@ -44,6 +45,7 @@ Options parse(int argc, char** argv) {
     else if (name == "--first") options.first = std::stoull(value());
     else if (name == "--case") options.cases.push_back(value());
     else if (name == "--shrink") options.shrink_to = value();
+    else if (name == "--write") options.write_to = value();
     else if (name == "--csv") options.csv = value();
     else if (name == "--repeat-every") options.repeat_every = std::stol(value());
     else if (name == "--most-seconds") options.most_seconds = std::stod(value());
@@ -68,6 +70,7 @@ class Session {
     rigour.most_seconds = options_.most_seconds;
     const Verdict verdict = judge(drawn, rigour);
     ++heard_;
+    if (!options_.write_to.empty()) std::ofstream(pathIn(options_.write_to, drawn)) << write(drawn);
     record(drawn, verdict);
     if (options_.verbose || !verdict.holds()) {
       std::printf("%s %d x %d, %.3g Hz: %s; stretch %.2e, %lld substeps in %lld frames, %lld rejected, most solves %lld, %lld stops, %.2f s\n", name.c_str(),
@@ -81,7 +84,7 @@ class Session {
     ++failed_;
     if (options_.shrink_to.empty()) return;
     rigour.most_seconds = std::max(1.0, 2.0 * verdict.seconds);
-    const std::string path = options_.shrink_to + "/" + kindName(drawn.kind) + "_" + std::to_string(drawn.seed) + ".yaml";
+    const std::string path = pathIn(options_.shrink_to, drawn);
     std::ofstream(path) << write(shrink(drawn, rigour));
     std::printf("  shrunk to %s\n", path.c_str());
   }
@@ -90,6 +93,9 @@ class Session {
   long failed() const { return failed_; }
 
  private:
+  static std::string pathIn(const std::string& folder, const Drawn& drawn) {
+    return folder + "/" + kindName(drawn.kind) + "_" + std::to_string(drawn.seed) + ".yaml";
+  }
   void record(const Drawn& drawn, const Verdict& v) {
     if (!csv_.is_open()) return;
     csv_ << kindName(drawn.kind) << ',' << drawn.seed << ',' << drawn.scene.cloth.rows << ',' << drawn.scene.cloth.columns << ','
