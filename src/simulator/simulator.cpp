@@ -166,8 +166,10 @@ std::vector<Problem> Simulator::setWind(const WindParams& wind) {
 }
 
 bool Simulator::removeWind(const std::string& id) {
-  if (impl_->sleep.rest().watches()) impl_->motion.forces.markWind(id, impl_->motion.state.position, impl_->sleep.rest().disturbed());
-  return impl_->motion.forces.removeWind(id);
+  Motion& motion = impl_->motion;
+  Rest& rest = impl_->sleep.rest();
+  if (rest.watches()) motion.forces.markWind(id, motion.state.position, rest.disturbed());
+  return motion.forces.removeWind(id);
 }
 
 void Simulator::clearWinds() {
@@ -199,8 +201,9 @@ bool Simulator::removeDrag(const std::string& id) {
 }
 
 void Simulator::clearDrags() {
-  for (const DragParams& drag : impl_->motion.forces.drags()) impl_->motion.forces.markDrag(drag.id, impl_->sleep.rest().disturbed());
-  impl_->motion.forces.clearDrags();
+  ForceField& forces = impl_->motion.forces;
+  for (const DragParams& drag : forces.drags()) forces.markDrag(drag.id, impl_->sleep.rest().disturbed());
+  forces.clearDrags();
 }
 
 std::vector<Problem> Simulator::setGravity(const Vec3& gravity) {
