@@ -65,7 +65,7 @@ struct Bench {
   void stir(Random& random, double speed) {
     forEachNode([&](std::size_t n) { if (pattern.inverse_mass[n] > 0.0) state.velocity.set(n, random.inBox(speed)); });
   }
-  // What is not accepted is not made: the cloth stops, as in a frame (simulator/frame.cpp).
+  // What is not accepted is not made: the cloth stops, as in a frame (simulator/frame_loop.cpp).
   bool substep(double h) {
     const bool accepted = solver->substep(forces, h, nullptr, state, clock).accepted;
     if (!accepted) state.velocity.assign(pattern.grid.size(), 0.0);
