@@ -5,14 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/constants.h"
+
 namespace curtain {
 namespace {
-
-// Share of friction's bound below which a point that stuck in the last substep is solved for as held. Points near the bound
-// would change between sticking and slipping from sweep to sweep; they take turns.
-constexpr double kSticksBelow = 0.5;
-// What such a point may slip in a substep, as a share of what it may enter: the next substep takes it up.
-constexpr double kStickShare = 0.25;
 
 Vec3 across(const Vec3& normal, const Vec3& v) { return v - normal.dot(v) * normal; }
 

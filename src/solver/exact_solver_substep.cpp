@@ -5,31 +5,11 @@
 #include <cmath>
 
 #include "cloth/wide.h"
+#include "solver/constants.h"
 #include "solver/exact_solver.h"
 
 namespace curtain {
 namespace {
-
-// Way of an obstacle's surface in a substep that links could not be brought to their lengths in, over the shortest link.
-constexpr double kMostWayOfSurface = 0.2;
-// Solves of a last resort that does not settle.
-constexpr int kHopelessLooks = 2;
-// Kinetic energy of a step over that without links, from which it has found another way for the links to lie: where it follows
-// the motion links take energy out.
-constexpr double kMostKinetic = 1.5;
-// Over this it is taken out again. Links turn in a step, and leapfrog's energy wavers, or bdf2's base lies off them, by the square
-// of that angle: 0.03 where they turn by 0.17 rad. For bdf2, which takes far more out, it is another way to lie already.
-constexpr double kMostAdded = 1.03;
-// bdf2 would go on with what a blow has stopped, as a rebound (by a third of it a step; two thirds came back from a string that
-// snapped taut). So the step of the blow, the next one, in which the rest of the speed goes, and the one after are made from one
-// step: then the last two know nothing of it.
-constexpr int kStepsAfterBlow = 3;
-
-// Share of the tolerance that bounded links reach: the rest is for the rounding of their lengths.
-constexpr double kBoundShare = 1.0 - 1e-6;
-// What is this far away [m] was thrown there by a force beyond all measure: damping takes the cube of its speed, energies the
-// square of it times a mass, and the next substep would go further.
-constexpr double kBeyond = 1e60;
 
 bool isWithinNumbers(const Field3& position) noexcept {
   const auto within = [](const Field& values) {

@@ -9,21 +9,10 @@
 #include "cloth/free_body.h"
 #include "cloth/wide.h"
 #include "forces/air_damping.h"
+#include "solver/constants.h"
 #include "solver/exact_solver.h"
 
 namespace curtain {
-namespace {
-
-// Rounds of the linear velocity projection.
-constexpr int kVelocityRounds = 2;
-// With contacts, whose rows are damped; until the rate is this share of what it was.
-constexpr int kContactRounds = 8;
-constexpr double kContactRate = 1e-3;
-constexpr double kVelocityDamping = 1e-4;
-constexpr double kVelocityReduction = 1e-3;
-constexpr int kVelocityIterations = 24;
-
-}  // namespace
 
 // Links that hold do no work but what pins put in: seen from pins that go by at u the cloth has no more than before, so its sqrt of
 // twice the kinetic energy grows by 2 u sqrt(M) at most. Pins that draw a flat string taut put in more, against what it bears; that

@@ -5,33 +5,14 @@
 #include <cmath>
 
 #include "cloth/archive.h"
+#include "solver/constants.h"
 
 namespace curtain {
-namespace {
 
-// Reach after the first failure, in links: a link may turn by half a radian, in which Newton on the columns still converges. Larger: the
-// first solve fails again.
-constexpr double kFirstReach = 0.5;
-// Reach over that of a substep that failed, or of one that settled. Three in four failures are made good by the first cut; slower
-// growth keeps the cloth slow for longer after a blow, faster growth fails more often.
-constexpr double kShrink = 0.25;
-constexpr double kGrow = 1.2;
-// Reach from which it is no bound any more: a node that goes two links in a substep of the smallest step is stopped by its links first.
-constexpr double kUnbounded = 2.0;
-// Least reach: nodes go a hundredth of the links' tolerance, which asks for no solve.
-constexpr double kLeastReach = 1e-5;
-
-// Links so many times beyond their bound where a path begins were brought there by pins that were pulled apart, or put there. They
-// come back, or share what pins ask of them, by whatever the solve finds that is not worse than so many times what was.
-constexpr double kForced = 10.0;
-constexpr double kForcedGrowth = 2.0;
-
-}  // namespace
-
-void TrustRegion::failed() noexcept { reach_ = bounded() ? std::max(kLeastReach, kShrink * reach_) : kFirstReach; }
+void TrustRegion::failed() noexcept { reach_ = bounded() ? std::max(kLeastReach, kReachShrink * reach_) : kFirstReach; }
 
 void TrustRegion::succeeded() noexcept {
-  reach_ *= kGrow;
+  reach_ *= kReachGrowth;
   if (reach_ > kUnbounded) reset();
 }
 

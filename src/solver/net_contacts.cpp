@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/constants.h"
 
 namespace curtain {
 namespace {
-
-// Many contacts say nearly the same; solved to the last, some would pull so that others can push. Over the diagonal.
-constexpr float kLeastDamping = 0.2F;
 
 // Two directions across a normal, the same for the same normal.
 void tangents(const Vec3& normal, Vec3& first, Vec3& second) {

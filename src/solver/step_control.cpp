@@ -6,42 +6,10 @@
 #include <limits>
 
 #include "solver/composition.h"
+#include "solver/constants.h"
 
 namespace curtain {
 namespace {
-
-// h * omega_max that substeps are chosen for. Leapfrog is stable below 2; from 1.7 tensions may grow by
-// 1.4 within a substep, and what outgrows even that is caught by heavier nodes.
-constexpr double kPhasePerStep = 1.7;
-// Where a few nodes alone ask for short substeps (the corners a sheet hangs by), they are made heavier instead: by so
-// much altogether, as a share of the cloth's mass. A sheet of 44 x 40 hung by two corners takes 12 substeps a frame with it and
-// 22 without.
-constexpr double kHeavierShare = 0.02;
-// From here on nodes are heavier: leapfrog would soon blow up.
-constexpr double kStablePhase = 1.9;
-// h * turning that substeps are chosen for where rods alone act, and the motion is smooth. Leapfrog is off by about
-// (h * turning)^2 / 24 of the way that it goes: with 0.07, a millimetre in 5 m. Chains of 2 m then end a second's fall with
-// 0.2 to 0.9 mm (RMS) whatever their number of rods; the cost of smooth motion is inversely proportional to it.
-constexpr double kTurnPerStep = 0.07;
-// What a motion that is only compared with may use.
-constexpr double kLongestPhase = 1.8;
-// Looking for such a step costs as much as a sweep; substeps longer than this share of a frame are left alone.
-constexpr double kWorthLooking = 0.25;
-constexpr double kGrowth = 1.4;
-constexpr int kGoodToGrow = 8;
-// Substeps of the schemes whose step nothing but accuracy limits, when the scene leaves the choice.
-constexpr int kImplicitSubsteps = 8;
-// The paper's: of first order, 27 mm after a second of a swing of 43 rods (measured), and its wefts come as near as its passes are many:
-// of a flag in the wind 0.5 too long at most, at 4 substeps 1.8. Its energy is bounded at any.
-constexpr int kPaperSubsteps = 16;
-
-// Where there is no time for more substeps they are up to so many times longer: beyond that their solve takes all that is saved.
-constexpr double kMostStretch = 2.0;
-// A fixed step that fails may be divided so far before the last resort takes over.
-constexpr int kRoomBelowFixed = 16;
-// Substeps a frame of the last resort. What they are cut to settles at any step; of 8 to 128 measured on 40 wild scenes 8 take the
-// least time and stop the cloth least often. Fewer would slow it: it goes two links a substep at most.
-constexpr int kLastResortSubsteps = 8;
 
 int fixedSubsteps(const SolverParams& params) {
   if (params.substeps > 0) return params.substeps;
@@ -177,7 +145,7 @@ void StepControl::accepted(const SubstepPlan& plan, const SubstepOutcome& outcom
     else trust_.failed();
   }
   if (limit_ < frame_ && ++good_ >= kGoodToGrow) {
-    limit_ = std::min(frame_, limit_ * kGrowth);
+    limit_ = std::min(frame_, limit_ * kLimitGrowth);
     good_ = 0;
   }
 }

@@ -41,6 +41,7 @@ def main():
     most = lambda some, key: max(number(row, key) for row in some)
     line("scenes", lambda some: str(len(some)))
     line("**hold**", lambda some: f"**{sum(row['holds'] == '1' for row in some)}**")
+    line("largest cloth, nodes", lambda some: str(max(int(row["rows"]) * int(row["columns"]) for row in some)))
     line("worst link", lambda some: f"{most(some, 'stretch'):.2e}")
     lower = 0.0
     for edge in EDGES:
