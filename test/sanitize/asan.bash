@@ -17,7 +17,6 @@ export LSAN_OPTIONS=suppressions=$here/lsan.supp
 # Suites that take seconds without a sanitizer and a minute with it; what they run is also in the made-up scenes of test/fuzz.
 left_out=SelfContact.*:Shots/Impact.*:FineSurface.*:Rest.*:GustNoise.*:CcdDegenerate.*
 left_out=$left_out:Piercings.AgreeWithSamplesOfTheCloth:BudgetedSimulator.NoMethodTakesWhatItHasNotSolved
-# What these judge is computing time.
-left_out=$left_out:Mesh.twoHundredThousandTriangles:ObstacleFeatures.OfALargeMeshAreBuiltInASecond:NearestOnElement.IsFast
+left_out=$left_out:Mesh.twoHundredThousandTriangles
 export GTEST_FILTER=${GTEST_FILTER:--$left_out}
 run_ctest -R "^test_($(IFS="|"; echo "${tests[*]}"))$" "$@"
