@@ -35,6 +35,7 @@ struct SubstepPlan {
   double h = 0.0;            ///< [s], != 0; negative only for leapfrog
   bool last_resort = false;  ///< the smallest step, of the default scheme: taken as far as its links hold (last_resort.h)
   double reach = std::numeric_limits<double>::infinity();  ///< last resort: most that a node may be predicted to move, in links
+  bool tells_turning = true; ///< SubstepOutcome::turning is read
   bool precise = false;      ///< rods are solved to rounding
   double most_phase = 0.0;   ///< nodes whose tensions ask for a larger h * omega answer forces as if they were heavier,
                              ///< so that theirs is this; 0: none does. Vanishes with the step.
@@ -168,7 +169,7 @@ class ExactSolver {
   void takeUp(int block) noexcept;
   double heaviestOf(int block) const noexcept;
   double loadStrings() noexcept;
-  void commit(const ClothState& base, double step, double velocity_age, ClothState& state) noexcept;
+  void commit(const ClothState& base, double step, double velocity_age, bool bends, ClothState& state) noexcept;
   template <typename Look>
   double worstOfRows(const Look& look) noexcept;
   template <typename Block>

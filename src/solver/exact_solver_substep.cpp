@@ -84,12 +84,12 @@ CURTAIN_WIDE double ExactSolver::loadStrings() noexcept {
 }
 
 // The substep is taken.
-void ExactSolver::commit(const ClothState& base, double step, double velocity_age, ClothState& state) noexcept {
+void ExactSolver::commit(const ClothState& base, double step, double velocity_age, bool bends, ClothState& state) noexcept {
   NodeInertia::Tensions& tensions = inertia_.tensions();
   const LineSolve warp{pattern_, inertia_.inverse(), warp_, next_, held_.movingSpan()};
   forEachBlock([&](int block) {
     block_motion_[static_cast<std::size_t>(block)] =
-        warpFinish(warp, base.position, 1.0 / step, state.velocity, tensions.load, block);
+        warpFinish(warp, base.position, 1.0 / step, bends, state.velocity, tensions.load, block);
   });
   tensions.heaviest = 0.0;
   for (const WarpMotion& block : block_motion_) tensions.heaviest = std::max(tensions.heaviest, block.heaviest);
@@ -223,7 +223,7 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
       kinetic = kineticOf(start);
       kinetic.driven = drivenKinetic(start.state.velocity);
     }
-    commit(start.state, step, leapfrog ? 0.5 * step : 0.0, state);
+    commit(start.state, step, leapfrog ? 0.5 * step : 0.0, plan.tells_turning, state);
     if (bounded) boundKinetic(kinetic.most(1.0), state.velocity);
     outcome.omega_squared = inertia_.omegaSquared();
     if (alone && !weft_pulls_) outcome.turning = turning(outcome.kick);

@@ -93,6 +93,7 @@ SubstepPlan StepControl::next(double remaining, const ExactSolver& solver) noexc
   if (frame_begins) heavier_step_ = 0.0;
   SubstepPlan plan;
   plan.precise = composed_;
+  plan.tells_turning = fixed_substeps_ == 0;
   const double smallest = frame_ / max_substeps_;
   const double most = fixed_substeps_ > 0 ? frame_ / fixed_substeps_ : frame_;
   double wanted = most;

@@ -262,8 +262,9 @@ CURTAIN_WIDE void warpEndNewton(const LineSolve& line, LineScratch& scratch, int
   forgetTop(line, scratch, offset);
 }
 
-CURTAIN_WIDE WarpMotion warpFinish(const LineSolve& line, const Field3& from, double per_step, Field3& velocity, Field& load,
-                                   int block) noexcept {
+template <bool kBends>
+CURTAIN_INTO_WIDE WarpMotion finishBlock(const LineSolve& line, const Field3& from, double per_step, Field3& velocity, Field& load,
+                                         int block) {
   const Grid& grid = line.pattern.grid;
   const auto stride = static_cast<std::size_t>(grid.stride);
   Worst worst;
@@ -282,12 +283,14 @@ CURTAIN_WIDE WarpMotion warpFinish(const LineSolve& line, const Field3& from, do
 #pragma omp simd
     for (int j = 0; j < kLane; ++j) {
       const double vx = (to.x[j] - at.x[j]) * per_step, vy = (to.y[j] - at.y[j]) * per_step, vz = (to.z[j] - at.z[j]) * per_step;
-      const double ax = vx - v.x[j], ay = vy - v.y[j], az = vz - v.z[j];
-      const double rx = ax - above_x[j], ry = ay - above_y[j], rz = az - above_z[j];
-      bent[j] += rods * per_square[j] * (rx * rx + ry * ry + rz * rz);
-      above_x[j] = ax;
-      above_y[j] = ay;
-      above_z[j] = az;
+      if (kBends) {
+        const double ax = vx - v.x[j], ay = vy - v.y[j], az = vz - v.z[j];
+        const double rx = ax - above_x[j], ry = ay - above_y[j], rz = az - above_z[j];
+        bent[j] += rods * per_square[j] * (rx * rx + ry * ry + rz * rz);
+        above_x[j] = ax;
+        above_y[j] = ay;
+        above_z[j] = az;
+      }
       v.x[j] = vx;
       v.y[j] = vy;
       v.z[j] = vz;
@@ -299,6 +302,12 @@ CURTAIN_WIDE WarpMotion warpFinish(const LineSolve& line, const Field3& from, do
   WarpMotion motion{worst.outcome().residual, 0.0};
   for (const double column : bent) motion.bent += column;
   return motion;
+}
+
+CURTAIN_WIDE WarpMotion warpFinish(const LineSolve& line, const Field3& from, double per_step, bool bends, Field3& velocity,
+                                   Field& load, int block) noexcept {
+  return bends ? finishBlock<true>(line, from, per_step, velocity, load, block)
+               : finishBlock<false>(line, from, per_step, velocity, load, block);
 }
 
 CURTAIN_WIDE void applyWarpMultipliers(const LineSolve& line, int block) noexcept {

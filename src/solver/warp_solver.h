@@ -44,8 +44,8 @@ struct WarpMotion {
 };
 
 /// Velocities of a block's nodes, from where they were to line.value, and their loads: the sum of |multiplier| of their
-/// rods [kg].
-WarpMotion warpFinish(const LineSolve& line, const Field3& from, double per_step, Field3& velocity, Field& load,
+/// rods [kg]. bends: how much the rods' motion has changed is wanted, too.
+WarpMotion warpFinish(const LineSolve& line, const Field3& from, double per_step, bool bends, Field3& velocity, Field& load,
                       int block) noexcept;
 
 /// Moves a block's nodes by the multipliers there are.
