@@ -104,14 +104,13 @@ constexpr double kBeyond = 1e60;
 
 // ---- Last resort -----------------------------------------------------------------------------------------------------
 
-// Reach after the first failure, in links: a link may turn by half a radian, in which Newton on the columns still converges. Larger: the
-// first solve fails again.
+// Reach after the first failure, in links: a link may turn by about half a radian. Not varied.
 constexpr double kFirstReach = 0.5;
-// Reach over that of a substep that failed, or of one that settled. Three in four failures are made good by the first cut; slower
-// growth keeps the cloth slow for longer after a blow, faster growth fails more often.
+// Reach over that of a substep that failed, or of one that settled: down in few substeps, for stops cost motion; up in more, for a
+// failure costs three quarters. Not varied.
 constexpr double kReachShrink = 0.25;
 constexpr double kReachGrowth = 1.2;
-// Reach from which it is no bound any more: a node that goes two links in a substep of the smallest step is stopped by its links first.
+// Reach, in links, from which a scheme's own substeps are tried again.
 constexpr double kUnbounded = 2.0;
 // Least reach: nodes go a hundredth of the links' tolerance, which asks for no solve.
 constexpr double kLeastReach = 1e-5;

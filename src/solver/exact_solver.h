@@ -48,7 +48,10 @@ class ExactSolver {
   ExactSolver(const ClothPattern& pattern, double stretch_tolerance, int max_sweeps, const Workers& workers);
 
   /// Room for so many contacts; more would make a substep allocate.
-  void expectContacts(std::size_t count) { net_.expectContacts(count); }
+  void expectContacts(std::size_t count) {
+    net_.expectContacts(count);
+    best_.contacts.reserve(count);
+  }
 
   /// Forgets the tensions of the last substep.
   void reset() noexcept;

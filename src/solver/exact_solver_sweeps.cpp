@@ -198,7 +198,7 @@ ExactSolver::Progress ExactSolver::solveConstraints(const SubstepPlan& plan, con
       const double merit = meritOf(contacts, rods.converged ? 0.0 : warpResidualNow(warp));
       if (merit < best_.merit) {
         best_.merit = merit;
-        keepIterate(residual, touches ? contacts : nullptr);
+        keepIterate(residual, contacts);
         caution = std::max(1.0, caution / kLessCaution);
       } else if (std::isfinite(best_.merit)) {
         goBack(contacts);

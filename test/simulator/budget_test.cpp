@@ -147,19 +147,14 @@ TEST(BudgetedSimulator, GivesUpTimeAndNotTheCloth) {
     }
   }
   std::nth_element(full.begin(), full.begin() + 60, full.end());
-  Simulator beside(scene);  // takes turns with it, to know what a frame takes at that time: the machine may have more or less to do
   scene.solver.budget_ms = 0.45e3 * full[60];
   Simulator simulator(scene);
-  std::vector<double> seconds, seconds_beside;
+  std::vector<double> seconds;
   double stretch = 0.0;
   for (int frame = 0; frame < 300; ++frame) {
     simulator.step();
     const Statistics& s = simulator.statistics();
     seconds.push_back(s.step_seconds);
-    if (frame < 120) {
-      beside.step();
-      seconds_beside.push_back(beside.statistics().step_seconds);
-    }
     stretch = std::max({stretch, s.warp_stretch, s.weft_stretch});
     const Piercings pierced = simulator.piercings(0);
     ASSERT_EQ(pierced.nodes + pierced.edges + pierced.faces, 0) << "frame " << frame;
@@ -173,18 +168,11 @@ TEST(BudgetedSimulator, GivesUpTimeAndNotTheCloth) {
               scene.solver.budget_ms, 1e3 * seconds[150], 1e3 * seconds[270], static_cast<int>(s.longer_substeps),
               static_cast<int>(s.unfinished_substeps), static_cast<int>(s.shortened_frames), s.lost_time,
               static_cast<int>(s.late_frames));
-  std::nth_element(seconds_beside.begin(), seconds_beside.begin() + 60, seconds_beside.end());
-  const double slower = seconds_beside[60] / full[60];
-  // Other work on the machine makes frames longer than anybody planned, but the typical one not by half.
-  EXPECT_LE(1e3 * seconds[150], 1.5 * std::max(1.0, slower) * scene.solver.budget_ms);
   EXPECT_TRUE(s.finite);
-  if (slower > 0.9) {
-    EXPECT_GT(s.shortened_frames, 0);
-    EXPECT_GT(s.lost_time, 0.1);
-  }
+  EXPECT_GT(s.shortened_frames, 0);
+  EXPECT_GT(s.lost_time, 0.1);
   EXPECT_LT(s.lost_time, 5.0);
-  // Taken from 8 times the inner tolerance, half of the outer one.
-  EXPECT_LE(stretch, 8.0 * scene.solver.stretch_tolerance);
+  EXPECT_LE(stretch, scene.solver.stretch_tolerance);
   EXPECT_NEAR(simulator.time(), 5.0, 1e-9);
   EXPECT_LT((simulator.obstaclePose(0).position - Vec3(0.35, -0.6, 0.5)).norm(), 1e-12);
 }
@@ -222,18 +210,15 @@ TEST(BudgetedSimulator, NoMethodTakesWhatItHasNotSolved) {
     Scene scene = blownCurtain();
     scene.solver.method = method;
     scene.solver.max_substeps = 64;
-    Simulator free(scene);
     scene.solver.budget_ms = 0.2;
     Simulator limited(scene);
-    double stretch = 0.0, without = 0.0;
+    double stretch = 0.0;
     for (int frame = 0; frame < 120; ++frame) {
-      free.step();
       limited.step();
-      without = std::max({without, free.statistics().warp_stretch, free.statistics().weft_stretch});
       stretch = std::max({stretch, limited.statistics().warp_stretch, limited.statistics().weft_stretch});
     }
     EXPECT_EQ(limited.selfCrossings(), 0) << toString(method);
-    EXPECT_LE(stretch, std::max(8.0 * scene.solver.stretch_tolerance, 2.0 * without)) << toString(method);
+    EXPECT_LE(stretch, scene.solver.stretch_tolerance) << toString(method);
     EXPECT_GT(limited.statistics().lost_time, 0.0) << toString(method);
     EXPECT_GT(limited.statistics().substeps, 20) << toString(method);
   }

@@ -85,11 +85,11 @@ TEST_P(Impact, GoesThroughNothingAndKeepsTheLinks) {
     slowest = std::max(slowest, simulator.statistics().step_seconds);
   }
   const Statistics& s = simulator.statistics();
-  std::printf("%s at %g m/s: stretch %.1e during, %.1e after, slowest frame %.0f ms, %lld last resort, %lld stops of %lld substeps, waited %.3g s\n", name.c_str(), speed, during, after,
-              1e3 * slowest, static_cast<long long>(s.last_resort_substeps), static_cast<long long>(s.stops), static_cast<long long>(s.substeps), s.obstacles_waited);
+  std::printf("%s at %g m/s: stretch %.1e during, %.1e after, slowest frame %.0f ms, %d stops, obstacle waited %.2g s\n",
+              name.c_str(), speed, during, after, 1e3 * slowest, static_cast<int>(s.stops), s.obstacles_waited);
   EXPECT_TRUE(simulator.statistics().finite);
   EXPECT_EQ(pierced, 0);
-  EXPECT_LE(during, 10.0 * tolerance);
+  EXPECT_LE(during, tolerance);
   EXPECT_LE(after, tolerance);
   EXPECT_GT(simulator.statistics().contacts_max, 0);
 }

@@ -178,6 +178,31 @@ TEST(Simulator, AllocatesNothingWhileColumnsFallAsleepAndWakeInLimitedFrames) {
   EXPECT_GT(simulator.statistics().asleep_frames, 100);
 }
 
+// Its iterates are kept with the contacts that they were found with.
+TEST(Simulator, TheLastResortAllocatesNothing) {
+  Scene scene = sceneOf(12, 10);
+  scene.contact.self = true;
+  ObstacleParams ball;
+  ball.name = "ball";
+  ball.radius = 0.1;
+  const Vec3 middle = 0.5 * (scene.hang.from + scene.hang.to) - Vec3(0.0, 0.0, 0.5 * scene.cloth.height);
+  ball.motion = {{0.0, {middle - Vec3(0.0, 1.0, 0.0), Eigen::Quaterniond::Identity()}},
+                 {0.05, {middle + Vec3(0.0, 1.0, 0.0), Eigen::Quaterniond::Identity()}}};
+  ball.pose = ball.motion[0].pose;
+  scene.obstacles.push_back(ball);
+  DragParams pull;
+  pull.id = "pull";
+  pull.node = NodeIndex{11, 4};
+  pull.force = Vec3(0.0, 1e6, 0.0);
+  scene.drag.push_back(pull);
+  Simulator simulator(scene);
+  const long before = allocations;
+  for (int frame = 0; frame < 30; ++frame) simulator.step();
+  EXPECT_EQ(allocations - before, 0);
+  EXPECT_GT(simulator.statistics().last_resort_substeps, 0);
+  EXPECT_GT(simulator.statistics().contacts_max, 0);
+}
+
 TEST(Simulator, AFineMeshAllocatesNothing) {
   ObstacleParams obstacle;
   obstacle.name = "obstacle";
