@@ -11,7 +11,7 @@
 #include <algorithm>
 
 #include "cloth/cloth.h"
-#include "solver/composition.h"
+#include "solver/schemes/composition.h"
 
 namespace curtain {
 

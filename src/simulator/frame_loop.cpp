@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulator/frame_loop.h"
 
-#include "solver/composition.h"
+#include "solver/schemes/composition.h"
 
 namespace curtain {
 namespace {
@@ -107,7 +107,7 @@ void FrameLoop::accept(StepControl& steps, const SubstepPlan& plan, const Subste
   if (steps.stretched()) ++s.longer_substeps;
   if (!outcome.settled) ++s.unsettled;
   if (outcome.share < kStopped) ++s.stops;
-  if (plan.last_resort) ++s.last_resort_substeps;
+  if (plan.isLastResort()) ++s.last_resort_substeps;
   s.momentum_cut += outcome.momentum_cut;
   s.obstacles_waited += motion_.lag.substepMade(outcome.share, plan.h);
   steps.accepted(plan, outcome);

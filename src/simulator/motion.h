@@ -9,7 +9,7 @@
 #include "simulator/force_field.h"
 #include "simulator/obstacle_lag.h"
 #include "solver/exact_solver.h"
-#include "solver/paper_solver.h"
+#include "solver/schemes/paper_solver.h"
 
 namespace curtain {
 

@@ -13,9 +13,9 @@ void ObstacleLag::setSubstep(const SubstepPlan& plan, double done, const Field3&
   const double frame_length = times_.length(), from = (done - lag_) / frame_length;
   share_ = 1.0;
   obstacles_.setSubstep(from, from + plan.h / frame_length);
-  const double most = plan.last_resort ? plan.reach * shortest_link_ : std::numeric_limits<double>::infinity();
+  const double most = plan.isLastResort() ? plan.reach * shortest_link_ : std::numeric_limits<double>::infinity();
   contact_.boundRecovery(most);
-  if (!plan.last_resort) return;
+  if (!plan.isLastResort()) return;
   double path = 0.0;
   for (int o = 0; o < obstacles_.count(); ++o) {
     if (contact_.standing(o, position) == ObstacleStanding::kNear) path = std::max(path, obstacles_.path(o));

@@ -3,7 +3,6 @@
 // What a snapshot carries of the solver, and how the rest follows. Everything else of it is written before it is read in every
 // substep: the prediction, directions, multipliers in the making, all of NetSolver; or follows from the scene and from what
 // sleeps.
-#include <algorithm>
 #include <limits>
 
 #include "cloth/archive.h"
@@ -44,47 +43,46 @@ void NodeInertia::Tensions::carry(Archive& archive) {
   archive.number("scale", scale);
 }
 
-void ExactSolver::Memory::carry(Archive& archive) {
+void Bdf2::Memory::carry(Archive& archive) {
+  archive.numbers("position", position);
+  archive.numbers("velocity", velocity);
+  archive.number("h", h);
+  archive.integer("single_steps", single_steps, 0, kCount);
+}
+
+void Constraints::Memory::carry(Archive& archive) {
   archive.numbers("warp", warp);
   archive.numbers("weft", weft);
-  archive.numbers("older_position", older_position);
-  archive.numbers("older_velocity", older_velocity);
-  archive.part("tensions", tensions);
-  archive.number("older_h", older_h);
-  archive.integer("single_steps", single_steps, 0, kCount);
   archive.flag("weft_pulls", weft_pulls);
+}
+
+void ExactSolver::Memory::carry(Archive& archive) {
+  archive.part("constraints", constraints);
+  archive.part("bdf2", bdf2);
+  archive.part("tensions", tensions);
 }
 
 // Which columns are held is for those to say who let them sleep: resume().
 void HeldColumns::carry(Archive& archive) { archive.numbers("pull", pull_); }
 
-void ExactSolver::carry(Archive& archive) {
+void Constraints::carry(Archive& archive) {
   archive.numbers("last_warp", last_warp_);
   archive.numbers("last_weft", last_weft_);
-  archive.numbers("older_position", older_position_);
-  archive.numbers("older_velocity", older_velocity_);
-  archive.part("tensions", inertia_.tensions());
-  archive.number("older_h", older_h_);
-  archive.integer("single_steps", single_steps_, 0, kCount);
   archive.flag("weft_pulls", weft_pulls_);
   archive.numbers("laid_down", laid_down_);
+}
+
+void ExactSolver::carry(Archive& archive) {
+  archive.part("constraints", constraints_);
+  archive.part("bdf2", bdf2_.memory());
+  archive.part("tensions", inertia_.tensions());
   archive.part("held", held_);
 }
 
-// As hold() and reset() leave it: blocks that are left out have their positions and multipliers in both buffers, strings no
-// multipliers but those of the last substep, and nothing is measured where nothing moves.
 void ExactSolver::resume(const ColumnSet& held, const ClothState& state) noexcept {
   held_.resume(held);
   inertia_.hold(held);
-  freeWeft(pattern_, inertia_.masses(), free_per_square_);
-  next_ = state.position;
-  warp_.multiplier = last_warp_;
-  for (Field* field : {&weft_.multiplier, &violation_, &active_, &change_}) std::fill(field->begin(), field->end(), 0.0);
-  std::fill(block_begun_.begin(), block_begun_.end(), LineOutcome());
-  std::fill(block_progress_.begin(), block_progress_.end(), WarpProgress());
-  std::fill(block_motion_.begin(), block_motion_.end(), WarpMotion());
-  scratch_.assign(pattern_.grid);
-  net_.reset();
+  constraints_.resume(state);
 }
 
 // Ranges keep the number of a frame's substeps bounded; next() itself sees to the other numbers.

@@ -26,7 +26,7 @@ constexpr int kNewtonIterations = 12;
 // Share of the tolerance below which a block of columns is not solved again in a later sweep.
 constexpr double kLeaveAlone = 0.1;
 // A relative violation beyond this is a step that failed, not one that converges slowly.
-constexpr double kDiverged = 4.0;
+constexpr double kMostViolation = 4.0;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 // Conjugate gradients go on until the residual is a share of the tolerance, but at most to a share of itself: past that the
 // first-order picture they solve in is no longer true. Where directions must be followed what the last digits ask for throws

@@ -3,34 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "cloth/free_body.h"
+#include "forces/air_damping.h"
 #include "solver/constants.h"
 
 namespace curtain {
 namespace {
 
-double unevenness(const ClothPattern& pattern) {
-  const Grid& grid = pattern.grid;
-  double shortest = std::numeric_limits<double>::infinity(), longest = 0.0;
-  double lightest = shortest, heaviest = 0.0;
-  for (int i = 1; i < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j) {
-      const std::size_t n = grid.index(i, j);
-      shortest = std::min(shortest, pattern.warp_rest[n]);
-      longest = std::max(longest, pattern.warp_rest[n]);
-      lightest = std::min(lightest, pattern.mass[n]);
-      heaviest = std::max(heaviest, pattern.mass[n]);
-    }
-  }
-  return longest / shortest * std::max(1.0, heaviest / (kMassesOfEvenCloth * lightest));
-}
-
-// Between the shortest and the longest weft link of the top row.
-double middleRest(const ClothPattern& pattern) {
-  const auto first = pattern.weft_rest.begin() + (pattern.grid.closed ? 0 : 1);
-  const auto [shortest, longest] = std::minmax_element(first, pattern.weft_rest.begin() + pattern.grid.columns);
-  return 0.5 * (*shortest + *longest);
+bool isWithinNumbers(const Field3& position) noexcept {
+  const auto within = [](const Field& values) {
+    // The other way round NaN would pass.
+    return std::all_of(values.begin(), values.end(), [](double value) { return std::abs(value) <= kBeyond; });
+  };
+  return within(position.x) && within(position.y) && within(position.z);
 }
 
 }  // namespace
@@ -38,132 +24,265 @@ double middleRest(const ClothPattern& pattern) {
 ExactSolver::ExactSolver(const ClothPattern& pattern, double stretch_tolerance, int max_sweeps, const Workers& workers)
     : pattern_(pattern),
       free_(std::none_of(pattern.pinned.begin(), pattern.pinned.end(), [](std::uint8_t pin) { return pin != 0; })),
-      workers_(workers),
       stretch_tolerance_(stretch_tolerance),
-      tolerance_(kInnerTolerance * stretch_tolerance),
-      contact_tolerance_(kInnerTolerance * stretch_tolerance * shortestLink(pattern)),
       smallest_rest_(shortestLink(pattern)),
-      max_sweeps_(max_sweeps),
-      sure_stop_(std::sqrt(tolerance_) / (pattern.grid.rows * unevenness(pattern))),
       inertia_(pattern),
       held_(pattern),
-      laid_down_(static_cast<std::size_t>(warpBlockCount(pattern.grid)), 0.0),
-      skipped_before_(laid_down_.size(), 0),
-      net_(pattern, workers),
-      middle_rest_(middleRest(pattern)),
-      last_resort_(pattern) {
-  const std::size_t size = pattern.grid.size();
-  const std::size_t links = size + static_cast<std::size_t>(pattern.grid.stride);
-  scratch_.assign(pattern.grid);
-  warp_.assign(pattern.grid);
-  weft_.assign(pattern.grid);
-  weft_.most_give = tolerance_;  // with as much for what the solve leaves it is the user's tolerance
-  last_warp_.assign(links, 0.0);
-  last_weft_.assign(links, 0.0);
-  for (Field* field : {&violation_, &active_, &change_}) field->assign(size, 0.0);
-  free_per_square_.assign(size, 0.0);
-  freeWeft(pattern, pattern.inverse_mass, free_per_square_);
-  next_.assign(size, 0.0);
-  no_force_.assign(size, 0.0);
-  best_.position.assign(size, 0.0);
-  best_.warp.assign(links, 0.0);
-  best_.weft.assign(links, 0.0);
-  for (Field3* field : {&base_.position, &base_.velocity, &older_position_, &older_velocity_}) field->assign(size, 0.0);
-  block_begun_.resize(static_cast<std::size_t>(warpBlockCount(pattern.grid)));
-  block_motion_.resize(block_begun_.size());
-  block_progress_.resize(static_cast<std::size_t>(warpBlockCount(pattern.grid)));
-  row_worst_.resize(static_cast<std::size_t>((pattern.grid.rows + kRowsAtOnce - 1) / kRowsAtOnce));
-}
+      skipped_before_(static_cast<std::size_t>(warpBlockCount(pattern.grid)), 0),
+      constraints_(pattern, kInnerTolerance * stretch_tolerance, inertia_, held_, workers),
+      sweeps_(pattern, constraints_, inertia_, stretch_tolerance, stretch_tolerance * smallest_rest_, max_sweeps),
+      guard_(pattern, inertia_, stretch_tolerance, constraints_.middleRest()),
+      bdf2_(pattern),
+      last_resort_(pattern) {}
 
 void ExactSolver::reset() noexcept {
-  std::fill(last_warp_.begin(), last_warp_.end(), 0.0);
-  std::fill(last_weft_.begin(), last_weft_.end(), 0.0);
-  std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0);
+  constraints_.reset();
   inertia_.forget();
-  weft_pulls_ = false;
-  older_h_ = 0.0;
-  single_steps_ = 0;
-  net_.reset();
-  scratch_.assign(pattern_.grid);
+  bdf2_.memory().forget();
+}
+
+Scheme& ExactSolver::schemeOf(SchemeKind kind) noexcept {
+  switch (kind) {
+    case SchemeKind::kLeapfrog: break;
+    case SchemeKind::kBdf2: return bdf2_;
+    case SchemeKind::kImplicit: return implicit_;
+    case SchemeKind::kLastResort: return last_resort_;
+  }
+  return leapfrog_;
+}
+
+SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder,
+                                    ClothState& state, StageClock& clock) noexcept {
+  SubstepOutcome outcome;
+  const Making making = predict(plan, forces, finder, state, clock, outcome);
+  Progress progress = solveAndVerify(making);
+  if (making.scheme.rules().remembers && struck(progress) && making.scheme.struck()) {
+    constraints_.end(false);
+    outcome = substep(plan, forces, finder, state, clock);
+    outcome.sweeps += progress.sweeps;
+    return outcome;
+  }
+  judge(making, progress, outcome);
+  if (plan.isLastResort() && !progress.settled) boundPath(making, progress, outcome);
+  outcome.accepted = !outcome.disturbed && (progress.settled || plan.isLastResort());
+  if (outcome.accepted) take(making, progress, outcome);
+  constraints_.end(outcome.accepted);
+  clock.lap(Stage::kFinish);
+  return outcome;
+}
+
+// Velocities at the end of the step are predicted with forces that act until then, those half a step behind for half a step less.
+ExactSolver::Making ExactSolver::predict(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder, ClothState& state,
+                                         StageClock& clock, SubstepOutcome& outcome) noexcept {
+  Scheme& scheme = schemeOf(plan.scheme);
+  const Scheme::Rules& rules = scheme.rules();
+  const double step = scheme.stepFor(plan.h);
+  const double kick = state.velocity_age + (1.0 - rules.age) * step;
+  const double scale = step * kick;
+  inertia_.set(forces, kick, scale, plan.most_phase, rules.backward);
+  // The last substep's multipliers are a start where forces act along the directions that they were found with; a solve that follows
+  // the directions blows up when old tensions act along rods that have turned much since.
+  const double before = inertia_.tensions().scale;
+  const double ratio = !rules.follows && before != 0.0 ? scale / before : 0.0;
+  const Making making{plan,  forces, finder, state, clock,
+                      scheme, step,   kick,   ratio, scheme.start(plan, step, kick, forces, inertia_, state, outcome)};
+  constraints_.begin(making.start, ratio, !rules.backward);
+  clock.lap(Stage::kPredict);
+  return making;
+}
+
+// Solves, and solves again with what the finder has to add, until nothing goes through anything or that does not help.
+ExactSolver::Progress ExactSolver::solveAndVerify(const Making& making) noexcept {
+  const SubstepPlan& plan = making.plan;
+  const bool last_resort = plan.isLastResort();
+  const Field3 &from = making.state.position, &next = constraints_.next;
+  const SweepTask task{making.start.state.position, making.scheme.rules().follows, last_resort, plan.precise,
+                       making.forces.gravity.norm() * plan.h * plan.h};
+  ContactFinder* const finder = making.finder;
+  Contacts* const contacts = finder != nullptr ? &finder->begin(from, next, plan.h) : nullptr;
+  if (finder != nullptr) making.clock.lap(Stage::kContact);
+  std::size_t known = 0;
+  int looks = 0;
+  Progress all;
+  all.contacts = contacts;
+  while (true) {
+    if (contacts != nullptr) {
+      if (beginContacts(inertia_.inverse(), making.ratio, known, *contacts, constraints_.next)) constraints_.moved();
+      known = contacts->size();
+    }
+    const SweepOutcome solved = sweeps_.run(task, contacts, making.clock);
+    all.sweeps += solved.sweeps;
+    all.end = solved.end;
+    all.settled = solved.within;
+    all.late = all.late || (solved.end == SweepEnd::kOutOfTime && !solved.within);
+    if (contacts == nullptr) return all;
+    if (free_ && !last_resort && !held_.any() && making.start.keep == nullptr && !pressesOnObstacle(*contacts)) keepMomentum(making.start);
+    if (!solved.within && (!last_resort || all.late || solved.end == SweepEnd::kDiverged)) return all;
+    const ContactFinder::Verdict verdict = finder->verify(from, next, solved.within);
+    making.clock.lap(Stage::kContact);
+    if (verdict == ContactFinder::Verdict::kClear) return all;
+    constraints_.moved();
+    all.late = all.late || making.clock.late();
+    if (!all.late && verdict == ContactFinder::Verdict::kMore && (solved.within || ++looks < kHopelessLooks)) continue;
+    all.crossed = true;
+    all.settled = false;
+    if (last_resort && !all.late && !held_.any()) finder->hold(from, constraints_.next);
+    making.clock.lap(Stage::kContact);
+    return all;
+  }
+}
+
+// A string has snapped taut in this substep, or something has met something.
+bool ExactSolver::struck(const Progress& progress) const noexcept {
+  if (constraints_.snapsTaut()) return true;
+  return progress.contacts != nullptr && std::any_of(progress.contacts->begin(), progress.contacts->end(), [](const Contact& contact) {
+           return contact.pushes() && !contact.pressed;
+         });
+}
+
+// Whether it may be taken: it has found no energy, and nothing that sleeps would have moved.
+void ExactSolver::judge(const Making& making, Progress& progress, SubstepOutcome& outcome) noexcept {
+  if (progress.settled && progress.alone()) {
+    const KineticGuard::Finding finding =
+        guard_.look(making.scheme.rules(), constraints_.stringsAct(), making.start, constraints_.next);
+    progress.adds = finding.adds;
+    if (finding.jumps) progress.settled = false;
+  }
+  if (held_.any()) {
+    const bool stuck = progress.crossed || (making.plan.isLastResort() && !progress.settled);
+    const LinkSet* const strings = constraints_.stringsAct() ? &constraints_.strings() : nullptr;
+    outcome.disturbed = held_.disturbedBy(strings, progress.contacts, 1.0 / making.scale(), making.forces.gravity.norm(), stuck);
+  }
+  outcome.sweeps = progress.sweeps;
+  outcome.settled = progress.settled;
+  outcome.late = progress.late;
+}
+
+// The last resort's end: as far along the path as links hold.
+void ExactSolver::boundPath(const Making& making, const Progress& progress, SubstepOutcome& outcome) noexcept {
+  Field3& next = constraints_.next;
+  const bool verified = progress.contacts == nullptr || !progress.late;
+  if (progress.end == SweepEnd::kDiverged || !verified || !isWithinNumbers(next)) {
+    next = last_resort_.follows();
+    outcome.share = 0.0;
+  } else {
+    const LastResort::Bound bound = last_resort_.bound(inertia_.inverse(), kBoundShare * stretch_tolerance_, next);
+    outcome.share = bound.share;
+    outcome.momentum_cut += bound.moment / making.plan.h;
+  }
+  // Bounded, cloth on moving pins goes another path than was verified. Where that leads through something even the pins wait.
+  if (outcome.share < 1.0 && last_resort_.pinsMove() && making.finder != nullptr &&
+      making.finder->verify(making.state.position, next, true) != ContactFinder::Verdict::kClear) {
+    next = making.state.position;
+    outcome.share = 0.0;
+    outcome.pins_wait = true;
+  }
+}
+
+void ExactSolver::take(const Making& making, const Progress& progress, SubstepOutcome& outcome) noexcept {
+  const SubstepPlan& plan = making.plan;
+  ClothState& state = making.state;
+  NodeInertia::Tensions& tensions = inertia_.tensions();
+  outcome.scale = tensions.scale = making.scale();
+  outcome.kick = making.kick + (plan.h - making.step);  // bdf2's base holds the rest of what forces do
+  for (Scheme* scheme : {static_cast<Scheme*>(&leapfrog_), static_cast<Scheme*>(&bdf2_), static_cast<Scheme*>(&implicit_), static_cast<Scheme*>(&last_resort_)}) {
+    if (scheme == &making.scheme) scheme->taken(state, plan.h);
+    else scheme->passedOver();
+  }
+  const bool alone = progress.alone();
+  const bool bounded = (making.scheme.rules().never_gains && alone) || progress.adds || progress.late;
+  const double most = bounded ? guard_.most(making.start, constraints_.next) : 0.0;
+  tensions.heaviest = constraints_.commit(making.start.state.position, making.step, plan.tells_turning, state, tensions.load);
+  state.velocity_age = making.scheme.rules().age * making.step;
+  if (bounded) guard_.bound(most, state.velocity);
+  outcome.omega_squared = inertia_.omegaSquared();
+  if (alone && !constraints_.weftPulls()) outcome.turning = turning(outcome.kick);
+  const double fastest = progress.contacts != nullptr ? fastestSurface(*progress.contacts) : 0.0;
+  if (fastest > 0.0) outcome.longest_step = kMostWayOfSurface * smallest_rest_ / fastest;
+  // The way that such a substep has gone is not all motion: what pulls its links further is taken out.
+  if ((progress.end != SweepEnd::kConverged || plan.isLastResort()) && !progress.late) {
+    projectVelocity(state.position, progress.contacts, 0.0, state.velocity);
+  }
+}
+
+// How fast the rods change their motion, as the rate of a turn that would (RMS over all rods) [1/s]: sqrt(|a_b - a_a| / l),
+// which is the rate of turn itself where that is steady. The forces acted for a time `kick` [s] in the last substep.
+double ExactSolver::turning(double kick) const noexcept {
+  return std::sqrt(std::sqrt(constraints_.bent() / ((pattern_.grid.rows - 1) * pattern_.grid.columns)) / std::abs(kick));
+}
+
+// Of a cloth that nothing holds: what the solve has added to its momentum is taken out of the whole.
+void ExactSolver::keepMomentum(const SubstepStart& start) noexcept {
+  const Field3& from = start.state.position;
+  Field3& next = constraints_.next;
+  Momentum missing;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    const Vec3 wanted = start.state.velocity.at(n) + start.kick * pattern_.inverse_mass[n] * start.force.at(n);
+    const Vec3 p = pattern_.mass[n] * (wanted - (next.at(n) - from.at(n)) / start.h);
+    missing.linear += p;
+    missing.angular += from.at(n).cross(p);
+  }
+  const RigidMotion motion = rigidMotion(pattern_, from, missing);
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    if (pattern_.mass[n] > 0.0) next.add(n, start.h * motion.at(from.at(n)));
+  }
+}
+
+void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& forces,
+                                    const Contacts* contacts, Field3& out) noexcept {
+  const double age = state.velocity_age;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    const double w = inertia_.masses()[n];
+    const DampedStep step = forces.has_damping ? dampedStep(forces.damping[n], w, age) : DampedStep{1.0, 1.0};
+    out.set(n, step.keep * state.velocity.at(n) + age * step.gain * w * forces.force->at(n));
+  }
+  if (age == 0.0) return;
+  const double most = guard_.most(out);
+  projectVelocity(state.position, contacts, age / inertia_.tensions().scale, out);
+  // What links that can't hold pull is beyond all measure.
+  if (contacts == nullptr || !anyPushes(*contacts)) guard_.bound(most, out);
+}
+
+// A free cloth keeps its momentum.
+void ExactSolver::projectVelocity(const Field3& position, const Contacts* contacts, double share, Field3& out) noexcept {
+  const bool keeps = free_ && !held_.any() && (contacts == nullptr || !pressesOnObstacle(*contacts));
+  const Momentum before = keeps ? momentumOf(pattern_, position, out) : Momentum();
+  constraints_.project(position, contacts, share, out);
+  if (!keeps) return;
+  const Momentum after = momentumOf(pattern_, position, out);
+  const RigidMotion motion =
+      rigidMotion(pattern_, position, {before.linear - after.linear, before.angular - after.angular});
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    if (pattern_.mass[n] > 0.0) out.add(n, motion.at(position.at(n)));
+  }
+}
+
+void ExactSolver::hold(const ColumnSet& columns, ClothState& state) noexcept {
+  const Grid& grid = pattern_.grid;
+  NodeInertia::Tensions& tensions = inertia_.tensions();
+  const double per_scale = tensions.scale != 0.0 ? 1.0 / tensions.scale : 0.0;
+  for (int j = 0; j < grid.columns; ++j) {
+    if (!columns.has(j) || held_.has(j)) continue;
+    for (int i = 0; i < grid.rows; ++i) state.velocity.set(grid.index(i, j), Vec3::Zero());
+  }
+  for (int block = 0; block < warpBlockCount(grid); ++block) {
+    skipped_before_[static_cast<std::size_t>(block)] = held_.skips(block) ? 1 : 0;
+  }
+  held_.set(columns, state.position, constraints_.lastStrings(), per_scale);
+  inertia_.hold(columns);
+  constraints_.hold(skipped_before_, state, tensions);
 }
 
 void ExactSolver::save(Memory& memory) const {
-  memory.warp = last_warp_;
-  memory.weft = last_weft_;
-  memory.older_position = older_position_;
-  memory.older_velocity = older_velocity_;
+  constraints_.save(memory.constraints);
+  memory.bdf2 = bdf2_.memory();
   memory.tensions = inertia_.tensions();
-  memory.older_h = older_h_;
-  memory.single_steps = single_steps_;
-  memory.weft_pulls = weft_pulls_;
 }
 
 void ExactSolver::restore(const Memory& memory) {
-  last_warp_ = memory.warp;
-  last_weft_ = memory.weft;
-  older_position_ = memory.older_position;
-  older_velocity_ = memory.older_velocity;
+  constraints_.restore(memory.constraints);
+  bdf2_.memory() = memory.bdf2;
   inertia_.tensions() = memory.tensions;
-  older_h_ = memory.older_h;
-  single_steps_ = memory.single_steps;
-  weft_pulls_ = memory.weft_pulls;
-  if (!weft_pulls_) std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0);  // as begin() relies on
-}
-
-// Where the step starts from: leapfrog and implicit, the state itself; bdf2, what its formula makes of the last two
-// (variable steps: ratio r = h / h_before; y' = (1+r)^2/(1+2r) y - r^2/(1+2r) y_before + (1+r)/(1+2r) h f).
-const ClothState& ExactSolver::setBase(Scheme scheme, double h, const ClothState& state, double& step) noexcept {
-  step = h;
-  if (scheme != Scheme::kBdf2 || older_h_ == 0.0 || h > kMostGrowth * older_h_) return state;
-  const double r = h / older_h_;
-  const double change = r * r / (1.0 + 2.0 * r);  // (1+r)^2/(1+2r) is 1 more: what is at rest stays there to the bit
-  step = (1.0 + r) / (1.0 + 2.0 * r) * h;
-  const auto combine = [&](const Field& y, const Field& older, Field& out) {
-    for (std::size_t n = 0; n < y.size(); ++n) out[n] = y[n] + change * (y[n] - older[n]);
-  };
-  combine(state.position.x, older_position_.x, base_.position.x);
-  combine(state.position.y, older_position_.y, base_.position.y);
-  combine(state.position.z, older_position_.z, base_.position.z);
-  combine(state.velocity.x, older_velocity_.x, base_.velocity.x);
-  combine(state.velocity.y, older_velocity_.y, base_.velocity.y);
-  combine(state.velocity.z, older_velocity_.z, base_.velocity.z);
-  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    if (inertia_.masses()[n] > 0.0) continue;  // pins go where they are told to, whatever they did before
-    base_.position.set(n, state.position.at(n) + (h - step) * state.velocity.at(n));
-    base_.velocity.set(n, state.velocity.at(n));
-  }
-  return base_;
-}
-
-// Predicts and starts the multipliers where the last substep left them (returns what they change by with the step). Not when forces follow the directions: its
-// iteration blows up when the old tensions act along the new directions of rods that have turned much since.
-double ExactSolver::begin(const SubstepPlan& plan, const SubstepStart& start, double scale) noexcept {
-  const bool warm = plan.scheme == Scheme::kLeapfrog && !plan.last_resort && inertia_.tensions().scale != 0.0;
-  const double ratio = warm ? scale / inertia_.tensions().scale : 0.0;
-  const LineSolve warp{pattern_, inertia_.inverse(), warp_, next_, held_.movingSpan()};
-  const LineSolve weft{pattern_, inertia_.inverse(), weft_, next_, held_.movingSpan()};
-  directions_set_ = false;
-  newton_begun_ = plan.scheme == Scheme::kLeapfrog && !weft_pulls_;
-  forEachBlock([&](int block) {
-    if (newton_begun_) {
-      const LineOutcome outcome = warpBeginNewton(start, warp, last_warp_, ratio, scratch_, block);
-      block_begun_[static_cast<std::size_t>(block)] = outcome;
-      warpEndNewton(warp, scratch_, block);
-    } else {
-      warpBegin(start, warp, last_warp_, ratio, block);
-    }
-  });
-  if (!weft_pulls_) return ratio;  // all multipliers are zero, in weft_ too
-  const std::size_t size = pattern_.grid.size();
-  for (std::size_t n = 0; n < size; ++n) weft_.multiplier[n] = ratio * last_weft_[n];
-  if (ratio == 0.0) return ratio;
-  directions_set_ = true;
-  worstOfRows([&](int i) {
-    setWeftDirections(pattern_.grid, i, held_.movingSpan(), start.state.position, weft_.direction);
-    pullWeft(weft, i, weft_.multiplier);
-    return 0.0;
-  });
-  return ratio;
 }
 
 }  // namespace curtain

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/composition.h"
+#include "solver/schemes/composition.h"
 #include "solver/constants.h"
 
 namespace curtain {
@@ -97,9 +97,9 @@ SubstepPlan StepControl::next(double remaining, const ExactSolver& solver) noexc
   const double smallest = frame_ / max_substeps_;
   const double most = fixed_substeps_ > 0 ? frame_ / fixed_substeps_ : frame_;
   double wanted = most;
-  if (method_ == Method::kImplicit) plan.scheme = Scheme::kImplicit;
-  if (method_ == Method::kBdf2) plan.scheme = Scheme::kBdf2;
-  const bool leapfrog = plan.scheme == Scheme::kLeapfrog;
+  if (method_ == Method::kImplicit) plan.scheme = SchemeKind::kImplicit;
+  if (method_ == Method::kBdf2) plan.scheme = SchemeKind::kBdf2;
+  const bool leapfrog = plan.scheme == SchemeKind::kLeapfrog;
   if (leapfrog && method_ == Method::kAuto) plan.most_phase = kStablePhase;
   if (leapfrog && fixed_substeps_ == 0) {
     const double for_phase = stepFromTensions(frame_begins, solver);
@@ -108,14 +108,13 @@ SubstepPlan StepControl::next(double remaining, const ExactSolver& solver) noexc
   }
   double step = std::min(wanted, std::max(limit_, smallest));
   if (trust_.bounded() && method_ != Method::kPaper) {
-    plan.last_resort = true;
+    plan.scheme = SchemeKind::kLastResort;
     plan.reach = trust_.reach();
-    plan.scheme = Scheme::kLeapfrog;
     plan.precise = false;
     plan.most_phase = kStablePhase;
     step = std::max(smallest, frame_ / kLastResortSubsteps);
   }
-  if (!plan.last_resort) step = stretch(step, remaining);
+  if (!plan.isLastResort()) step = stretch(step, remaining);
   // Equal shares of what is left; the small slack keeps rounding from adding a substep.
   plan.h = remaining / std::max(1.0, std::ceil(remaining / step - 1e-6));
   return plan;
@@ -141,7 +140,7 @@ void StepControl::watch(const SubstepOutcome& outcome) noexcept {
 void StepControl::accepted(const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept {
   watch(outcome);
   surface_step_ = outcome.longest_step;
-  if (plan.last_resort) {
+  if (plan.isLastResort()) {
     if (outcome.settled) trust_.succeeded();
     else trust_.failed();
   }

@@ -8,6 +8,7 @@
 
 #include "curtain_sim/scene.h"
 #include "solver/exact_solver.h"
+#include "solver/trust_region.h"
 
 namespace curtain {
 

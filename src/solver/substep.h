@@ -11,6 +11,26 @@
 
 namespace curtain {
 
+enum class SchemeKind {
+  kLeapfrog,
+  kBdf2,
+  kImplicit,
+  kLastResort  ///< the smallest step: taken as far as its links hold (schemes/last_resort.h)
+};
+
+/// A substep to be made.
+struct SubstepPlan {
+  SchemeKind scheme = SchemeKind::kLeapfrog;
+  double h = 0.0;            ///< [s], != 0; negative only for leapfrog
+  double reach = std::numeric_limits<double>::infinity();  ///< last resort: most that a node may be predicted to move, in links
+  bool tells_turning = true; ///< SubstepOutcome::turning is read
+  bool precise = false;      ///< rods are solved to rounding
+  double most_phase = 0.0;   ///< nodes whose tensions ask for a larger h * omega answer forces as if they were heavier,
+                             ///< so that theirs is this; 0: none does. Vanishes with the step.
+
+  bool isLastResort() const noexcept { return scheme == SchemeKind::kLastResort; }
+};
+
 /// Forces at the start of a substep.
 struct NodeForces {
   const Field3* force = nullptr;  ///< [N], all but damping

@@ -14,7 +14,7 @@
 
 #include "properties/random_scenes.h"
 #include "properties/seeds.h"
-#include "solver/composition.h"
+#include "solver/schemes/composition.h"
 #include "solver/exact_solver.h"
 #include "solver/workers.h"
 

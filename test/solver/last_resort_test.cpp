@@ -2,7 +2,8 @@
 //
 // The two bounds that make a substep end well whatever acts: predicted motion is cut, and the path to what was solved is taken only as
 // far as links hold.
-#include "solver/last_resort.h"
+#include "solver/schemes/last_resort.h"
+#include "solver/trust_region.h"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/paper_solver.h"
+#include "solver/schemes/paper_solver.h"
 #include "testing.h"
 
 namespace curtain {

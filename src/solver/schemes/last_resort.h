@@ -11,33 +11,19 @@
 // What the bounds take is momentum; it is counted.
 #pragma once
 
-#include <limits>
-
-#include "cloth/cloth.h"
 #include "cloth/free_body.h"
+#include "solver/scheme.h"
 
 namespace curtain {
 
-/// How far nodes may go in a substep at the smallest step, in lengths of their shortest link: without bound until a solve fails, then
-/// less with every failure, and more again with every success.
-class TrustRegion {
- public:
-  double reach() const noexcept { return reach_; }  ///< infinite: no bound
-  bool bounded() const noexcept { return reach_ < std::numeric_limits<double>::infinity(); }
-  void failed() noexcept;
-  void succeeded() noexcept;
-  void reset() noexcept { reach_ = std::numeric_limits<double>::infinity(); }
-  void carry(Archive& archive);
-
- private:
-  double reach_ = std::numeric_limits<double>::infinity();
-};
-
 /// Not thread-safe. Allocates nothing after construction.
-class LastResort {
+class LastResort final : public Scheme {
  public:
   /// pattern must outlive this.
   explicit LastResort(const ClothPattern& pattern);
+
+  SubstepStart start(const SubstepPlan& plan, double step, double kick, const NodeForces& forces, const NodeInertia& inertia,
+                     const ClothState& state, SubstepOutcome& outcome) noexcept override;
 
   /// Cuts the velocities [m/s] of a substep of h [s] that starts at `position` [m]; those of nodes with inverse 0 stay. Returns the
   /// momentum taken [N s].
@@ -68,6 +54,8 @@ class LastResort {
 
   const ClothPattern& pattern_;
   bool pins_move_ = false;
+  ClothState base_;  // where nodes are, and their cut velocities with all that forces do
+  Field3 no_force_;
   Field shortest_;  // link at each node [m]
   Field3 follows_;  // where the pins' rigid motion leads; where nodes are if there are none [m]
 };

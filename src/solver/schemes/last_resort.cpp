@@ -1,25 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/last_resort.h"
+#include "solver/schemes/last_resort.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "cloth/archive.h"
 #include "solver/constants.h"
 
 namespace curtain {
 
-void TrustRegion::failed() noexcept { reach_ = bounded() ? std::max(kLeastReach, kReachShrink * reach_) : kFirstReach; }
-
-void TrustRegion::succeeded() noexcept {
-  reach_ *= kReachGrowth;
-  if (reach_ > kUnbounded) reset();
-}
-
-void TrustRegion::carry(Archive& archive) { archive.within("reach", reach_, 0.0, std::numeric_limits<double>::infinity()); }
-
-LastResort::LastResort(const ClothPattern& pattern) : pattern_(pattern) {
+LastResort::LastResort(const ClothPattern& pattern) : Scheme({true, false, 0.5, Jumps::kNever, kInfinite, false, true}), pattern_(pattern) {
   const Grid& grid = pattern.grid;
+  for (Field3* field : {&base_.position, &base_.velocity, &no_force_}) field->assign(grid.size(), 0.0);
   shortest_.assign(grid.size(), std::numeric_limits<double>::infinity());
   follows_.assign(grid.size(), 0.0);
   for (int i = 0; i < grid.rows; ++i) {
@@ -33,6 +24,19 @@ LastResort::LastResort(const ClothPattern& pattern) : pattern_(pattern) {
       if (j > 0 || grid.closed) join(grid.index(i, j > 0 ? j - 1 : grid.columns - 1), pattern.weft_rest[n]);
     }
   }
+}
+
+SubstepStart LastResort::start(const SubstepPlan& plan, double step, double kick, const NodeForces& forces, const NodeInertia& inertia,
+                               const ClothState& state, SubstepOutcome& outcome) noexcept {
+  const Field* const keep = inertia.keep();
+  const Field& w = inertia.inverse();
+  base_.position = state.position;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    const Vec3 v = state.velocity.at(n);
+    base_.velocity.set(n, w[n] > 0.0 ? Vec3((keep != nullptr ? (*keep)[n] : 1.0) * v + kick * w[n] * forces.force->at(n)) : v);
+  }
+  outcome.momentum_cut += cut(base_.position, w, plan.h, plan.reach, base_.velocity);
+  return {base_, no_force_, nullptr, nullptr, kick, step};
 }
 
 // Of the nodes that nothing moves but their own velocity; false: there are none.

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/constraints.h"
+
+#include "cloth/wide.h"
+
+namespace curtain {
+namespace {
+
+double middleRestOf(const ClothPattern& pattern) {
+  const auto first = pattern.weft_rest.begin() + (pattern.grid.closed ? 0 : 1);
+  const auto [shortest, longest] = std::minmax_element(first, pattern.weft_rest.begin() + pattern.grid.columns);
+  return 0.5 * (*shortest + *longest);
+}
+
+}  // namespace
+
+Constraints::Constraints(const ClothPattern& pattern, double tolerance, const NodeInertia& inertia, const HeldColumns& held,
+                         const Workers& workers)
+    : pattern_(pattern),
+      inertia_(inertia),
+      held_(held),
+      workers_(workers),
+      net_(pattern, workers),
+      middle_rest_(middleRestOf(pattern)) {
+  const std::size_t size = pattern.grid.size();
+  const std::size_t links = size + static_cast<std::size_t>(pattern.grid.stride);
+  const auto blocks = static_cast<std::size_t>(warpBlockCount(pattern.grid));
+  scratch_.assign(pattern.grid);
+  warp_.assign(pattern.grid);
+  weft_.assign(pattern.grid);
+  weft_.most_give = tolerance;
+  for (Field* field : {&last_warp_, &last_weft_, &best_.warp, &best_.weft}) field->assign(links, 0.0);
+  for (Field* field : {&violation_, &active_, &change_, &free_per_square_}) field->assign(size, 0.0);
+  freeWeft(pattern, pattern.inverse_mass, free_per_square_);
+  next.assign(size, 0.0);
+  best_.position.assign(size, 0.0);
+  block_begun_.resize(blocks);
+  block_motion_.resize(blocks);
+  block_progress_.resize(blocks);
+  laid_down_.assign(blocks, 0.0);
+  row_worst_.resize(static_cast<std::size_t>((pattern.grid.rows + kRowsAtOnce - 1) / kRowsAtOnce));
+}
+
+void Constraints::expectContacts(std::size_t count) {
+  net_.expectContacts(count);
+  best_.contacts.reserve(count);
+}
+
+void Constraints::reset() noexcept {
+  for (Field* field : {&last_warp_, &last_weft_, &weft_.multiplier}) std::fill(field->begin(), field->end(), 0.0);
+  weft_pulls_ = false;
+  net_.reset();
+  scratch_.assign(pattern_.grid);
+}
+
+// ---- the beginning and the end of a substep
+
+void Constraints::begin(const SubstepStart& start, double ratio, bool newton) noexcept {
+  const LineSolve warp = rods(), weft = wefts();
+  directions_set_ = measured_ = false;
+  newton_begun_ = newton && !weft_pulls_;
+  forEachBlock([&](int block) {
+    if (newton_begun_) {
+      const LineOutcome outcome = warpBeginNewton(start, warp, last_warp_, ratio, scratch_, block);
+      block_begun_[static_cast<std::size_t>(block)] = outcome;
+      warpEndNewton(warp, scratch_, block);
+    } else {
+      warpBegin(start, warp, last_warp_, ratio, block);
+    }
+  });
+  if (!weft_pulls_) return;  // all multipliers are zero, in weft_ too
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) weft_.multiplier[n] = ratio * last_weft_[n];
+  if (ratio == 0.0) return;
+  directions_set_ = true;
+  worstOfRows([&](int i) {
+    setWeftDirections(pattern_.grid, i, held_.movingSpan(), start.state.position, weft_.direction);
+    pullWeft(weft, i, weft_.multiplier);
+    return 0.0;
+  });
+}
+
+double Constraints::commit(const Field3& from, double step, bool bends, ClothState& state, Field& load) noexcept {
+  const LineSolve warp = rods();
+  forEachBlock([&](int block) {
+    block_motion_[static_cast<std::size_t>(block)] = warpFinish(warp, from, 1.0 / step, bends, state.velocity, load, block);
+  });
+  double heaviest = 0.0;
+  for (const WarpMotion& block : block_motion_) heaviest = std::max(heaviest, block.heaviest);
+  weft_pulls_ = directions_set_ &&
+                std::any_of(weft_.multiplier.begin(), weft_.multiplier.end(), [](double s) { return s != 0.0; });
+  if (weft_pulls_) {
+    heaviest = loadStrings(load);
+    last_weft_ = weft_.multiplier;
+  }
+  std::swap(state.position, next);  // where columns are held the two are equal
+  std::swap(last_warp_, warp_.multiplier);
+  return heaviest;
+}
+
+void Constraints::end(bool taken) noexcept {
+  if (directions_set_ && (!taken || !weft_pulls_)) std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0);
+}
+
+// Adds what the strings pull to the nodes' loads; returns the largest load over its mass.
+CURTAIN_WIDE double Constraints::loadStrings(Field& loads) noexcept {
+  const Grid& grid = pattern_.grid;
+  const auto last = static_cast<std::size_t>(grid.columns) - 1;
+  double worst = 0.0;
+  for (int i = 0; i < grid.rows; ++i) {
+    const std::size_t row = grid.row(i);
+    const double* const f = weft_.multiplier.data() + row;
+    const double* const w = pattern_.inverse_mass.data() + row;
+    double* const load = loads.data() + row;
+    load[last] += grid.closed ? f[last] + f[0] : f[last];
+    worst = std::max(worst, load[last] * w[last]);
+#pragma omp simd reduction(max : worst)
+    for (std::size_t j = 0; j < last; ++j) {
+      load[j] += f[j] + f[j + 1];
+      const double heaviest = load[j] * w[j];
+      worst = worst > heaviest ? worst : heaviest;
+    }
+  }
+  return worst;
+}
+
+bool Constraints::snapsTaut() const noexcept {
+  for (std::size_t n = 0; directions_set_ && n < pattern_.grid.size(); ++n) {
+    if (weft_.multiplier[n] > 0.0 && !(weft_pulls_ && last_weft_[n] > 0.0)) return true;
+  }
+  return false;
+}
+
+double Constraints::bent() const noexcept {
+  double sum = 0.0;
+  for (const WarpMotion& block : block_motion_) sum += block.bent;
+  return sum;
+}
+
+Vec3 Constraints::pullAt(int row, int column) const noexcept {
+  const Grid& grid = pattern_.grid;
+  const std::size_t n = grid.index(row, column);
+  const auto stride = static_cast<std::size_t>(grid.stride);
+  const bool last = column + 1 == grid.columns;
+  const std::size_t right = last ? grid.index(row, 0) : n + 1;  // closed cloth: the first column's link closes the ring
+  Vec3 pull = last_warp_[n + stride] * warp_.direction.at(n + stride) - last_warp_[n] * warp_.direction.at(n);
+  if (!weft_pulls_) return pull;
+  pull -= last_weft_[n] * weft_.direction.at(n);
+  if (!last || grid.closed) pull += last_weft_[right] * weft_.direction.at(right);
+  return pull;
+}
+
+void Constraints::save(Memory& memory) const {
+  memory.warp = last_warp_;
+  memory.weft = last_weft_;
+  memory.weft_pulls = weft_pulls_;
+}
+
+void Constraints::restore(const Memory& memory) {
+  last_warp_ = memory.warp;
+  last_weft_ = memory.weft;
+  weft_pulls_ = memory.weft_pulls;
+  if (!weft_pulls_) std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0);  // as begin() relies on
+}
+
+}  // namespace curtain

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The parts of a solve: rods, strings and contacts.
+#include <cmath>
+
+#include "solver/constants.h"
+#include "solver/constraints.h"
+
+namespace curtain {
+
+// Newton on one block of columns until an iteration starts with a residual of at most stop. A block whose rods are within
+// leave_alone already is not touched. begun: begin() has made the first iteration.
+Constraints::RodsProgress Constraints::solveBlock(const LineSolve& warp, const RodsAim& aim, int block, bool begun) noexcept {
+  RodsProgress progress;
+  if (aim.leave_alone > 0.0) {
+    const double residual = warpResidual(warp, block);
+    progress.first_residual = residual;
+    if (residual <= aim.leave_alone) return progress;
+  }
+  for (int iteration = 0; iteration < kNewtonIterations; ++iteration) {
+    if (aim.follow) setWarpDirections(pattern_.grid, block, next, warp_.direction);
+    const LineOutcome outcome =
+        begun && iteration == 0 ? block_begun_[static_cast<std::size_t>(block)] : warpNewton(warp, scratch_, block);
+    if (iteration == 0) progress.first_residual = std::max(progress.first_residual, outcome.residual);
+    if (!outcome.sound || !(outcome.residual < aim.most_residual)) break;
+    if (outcome.residual <= aim.stop) {
+      progress.last_residual = outcome.residual;
+      return progress;
+    }
+  }
+  progress.converged = false;
+  return progress;
+}
+
+Constraints::RodsProgress Constraints::solveRods(const RodsAim& aim, bool first) noexcept {
+  const LineSolve warp = rods();
+  forEachBlock([&](int block) {
+    block_progress_[static_cast<std::size_t>(block)] = solveBlock(warp, aim, block, first && newton_begun_);
+  });
+  RodsProgress all;
+  for (const RodsProgress& block : block_progress_) {
+    all.converged = all.converged && block.converged;
+    all.first_residual = std::max(all.first_residual, block.first_residual);
+    all.last_residual = std::max(all.last_residual, block.last_residual);
+  }
+  return all;
+}
+
+double Constraints::rodsResidual() noexcept {
+  const LineSolve warp = rods();
+  double worst = 0.0;
+  for (int block = 0; block < warpBlockCount(pattern_.grid); ++block) {
+    if (!held_.skips(block)) worst = std::max(worst, warpResidual(warp, block));
+  }
+  return worst;
+}
+
+void Constraints::beginSolve() noexcept { net_ready_ = false; }
+
+double Constraints::lookAtStrings(bool closely) noexcept {
+  measured_ = false;
+  if (closely) return measureStrings();
+  const double longest =
+      worstOfRows([&](int i) { return weftSquare(pattern_.grid, i, held_.movingSpan(), next, free_per_square_); });
+  return longest > 1.0 ? 0.5 * (longest - 1.0) : 0.0;
+}
+
+double Constraints::measureStrings() noexcept {
+  const LineSolve weft = wefts();
+  const double worst = worstOfRows([&](int i) { return measureWeft(weft, i, violation_, active_); });
+  measured_ = true;
+  return worst;
+}
+
+double Constraints::stringsResidual() noexcept {
+  const LineSolve weft = wefts();
+  return worstOfRows([&](int i) { return weftResidual(weft, i); });
+}
+
+void Constraints::setWeftDirectionsAt(const Field3& position) noexcept {
+  worstOfRows([&](int i) {
+    setWeftDirections(pattern_.grid, i, held_.movingSpan(), position, weft_.direction);
+    return 0.0;
+  });
+}
+
+void Constraints::followDirections() noexcept {
+  forEachBlock([&](int block) { setWarpDirections(pattern_.grid, block, next, warp_.direction); });
+  setWeftDirectionsAt(next);
+  net_.begin(next, inertia_.inverse(), held_.movingSpan());
+  directions_set_ = net_ready_ = true;
+}
+
+void Constraints::takeDirections(const Field3& start) noexcept {
+  if (net_ready_) return;
+  if (!directions_set_) setWeftDirectionsAt(start);
+  net_.begin(start, inertia_.inverse(), held_.movingSpan());
+  directions_set_ = net_ready_ = true;
+}
+
+void Constraints::solveNet(const NetAim& aim, Contacts* contacts) noexcept {
+  if (!measured_) measureStrings();
+  measured_ = false;
+  const LineSolve weft = wefts();
+  net_.solve(violation_, active_, {contacts, &next, false}, {aim.residual * middle_rest_, aim.damping, aim.enough, kGradientIterations},
+             change_);
+  const double move = aim.residual > kWatchMoves ? std::sqrt(worstOfRows([&](int i) { return weftMoveSquared(weft, i, change_); })) : 0.0;
+  const double share = move > kLargestMove ? kLargestMove / move : 1.0;
+  if (share != 1.0) {
+    for (double& change : change_) change *= share;
+  }
+  worstOfRows([&](int i) {
+    takeUpWeft(weft_, pattern_.grid, i, change_);
+    pullWeft(weft, i, change_);
+    return 0.0;
+  });
+  if (contacts == nullptr) return;
+  net_.forEachContactChange([&](std::uint32_t index, double push, const Vec3& slide) {
+    takeUpContact(inertia_.inverse(), share * push, share * slide, (*contacts)[index], next);
+  });
+}
+
+double Constraints::merit(const Contacts* contacts, double rods_lack) noexcept {
+  if (!measured_) measureStrings();
+  double sum = static_cast<double>(pattern_.grid.nodeCount()) * rods_lack * rods_lack;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    const double relative = violation_[n] * pattern_.weft_per_square[n];
+    sum += relative * relative;
+  }
+  for (std::size_t k = 0; contacts != nullptr && k < contacts->size(); ++k) {
+    const double relative = contactViolation((*contacts)[k], next) / middle_rest_;
+    sum += relative * relative;
+  }
+  return sum;
+}
+
+void Constraints::keepIterate(const Contacts* contacts) {
+  best_.position = next;
+  best_.warp = warp_.multiplier;
+  best_.weft = weft_.multiplier;
+  if (contacts != nullptr) best_.contacts = *contacts;
+}
+
+void Constraints::goBack(Contacts* contacts) noexcept {
+  next = best_.position;
+  warp_.multiplier = best_.warp;
+  weft_.multiplier = best_.weft;
+  if (contacts != nullptr) *contacts = best_.contacts;
+  measured_ = false;
+}
+
+}  // namespace curtain

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Velocities free of what would change the links' lengths or enter what is touched.
+#include "solver/constants.h"
+#include "solver/constraints.h"
+
+namespace curtain {
+
+// From where a share of the last substep's forces between nodes leads: moves the velocities by it, and leaves it in the multipliers.
+void Constraints::spreadForces(const LineSolve& warp, const LineSolve& weft, const Contacts* contacts, double share) noexcept {
+  // Blocks that are left out keep theirs: they are to be the same in both buffers (constraints_hold.cpp).
+  forEachBlock([&](int block) {
+    for (int i = 0; i < pattern_.grid.rows; ++i) {
+      const std::size_t first = pattern_.grid.row(i) + static_cast<std::size_t>(block) * kLane;
+      for (std::size_t n = first; n < first + kLane; ++n) warp_.multiplier[n] = share * last_warp_[n];
+    }
+    applyWarpMultipliers(warp, block);
+  });
+  if (weft_pulls_) {
+    for (std::size_t n = 0; n < pattern_.grid.size(); ++n) change_[n] = share * weft_.multiplier[n];
+    for (int i = 0; i < pattern_.grid.rows; ++i) pullWeft(weft, i, change_);
+  }
+  for (std::size_t n = 0; contacts != nullptr && n < contacts->size(); ++n) {
+    const Contact& contact = (*contacts)[n];
+    if (contact.pushes()) contact.move(inertia_.masses(), share * (contact.push * contact.normal + contact.slide), warp.value);
+  }
+}
+
+void Constraints::project(const Field3& position, const Contacts* contacts, double share, Field3& velocity) noexcept {
+  setWarpDirections(pattern_.grid, position, warp_.direction);
+  const LineSolve warp{pattern_, inertia_.masses(), warp_, velocity, held_.movingSpan()};
+  const LineSolve weft{pattern_, inertia_.masses(), weft_, velocity, held_.movingSpan()};
+  const bool presses = contacts != nullptr && anyPushes(*contacts);
+  const bool alone = !weft_pulls_ && !presses;
+  const auto solveRods = [&] {
+    forEachBlock([&](int block) { warpProjectVelocity(warp, scratch_, block); });
+  };
+  if (weft_pulls_) std::copy(last_weft_.begin(), last_weft_.end(), weft_.multiplier.begin());  // which links pull
+  if (!alone) setWeftDirectionsAt(position);
+  if (share > 0.0) spreadForces(warp, weft, contacts, share);
+  solveRods();
+  if (alone) return;
+  net_.begin(position, inertia_.masses(), held_.movingSpan());
+  double first_rate = 0.0;
+  for (int round = 0; round < (presses ? kContactRounds : kVelocityRounds); ++round) {
+    double rate = worstOfRows([&](int i) { return measureWeftRates(weft, i, violation_, active_); });
+    if (presses) rate = std::max(rate, contactRate(*contacts, velocity) / middle_rest_);
+    if (round == 0) first_rate = rate;
+    if (rate == 0.0 || (presses && round > 0 && rate <= kContactRate * first_rate)) break;
+    net_.solve(violation_, active_, {presses ? contacts : nullptr, &velocity, true},
+               {rate * middle_rest_, kVelocityDamping, kVelocityReduction, kVelocityIterations}, change_);
+    for (int i = 0; i < pattern_.grid.rows; ++i) pullWeft(weft, i, change_);
+    if (presses) {
+      net_.forEachContactChange([&](std::uint32_t index, double push, const Vec3& slide) {
+        const Contact& contact = (*contacts)[index];
+        contact.move(inertia_.masses(), push * contact.normal + slide, velocity);
+      });
+    }
+    solveRods();
+  }
+  if (weft_pulls_) std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0);
+}
+
+}  // namespace curtain

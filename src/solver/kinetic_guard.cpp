@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/kinetic_guard.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "cloth/wide.h"
+#include "solver/constants.h"
+
+namespace curtain {
+namespace {
+
+// predicted: without links; driven: of all the mass at the speed of the fastest pin; both twice an energy [J].
+double mostOf(double predicted, double driven) noexcept {
+  const double root = std::sqrt(predicted) + 2.0 * std::sqrt(driven);
+  return root * root;
+}
+
+}  // namespace
+
+KineticGuard::Finding KineticGuard::look(const Scheme::Rules& rules, bool strings_pull, const SubstepStart& start,
+                                         const Field3& end) const noexcept {
+  const bool may_jump = rules.jumps == Scheme::Jumps::kAnywhere || (rules.jumps == Scheme::Jumps::kWhereStringsPull && strings_pull);
+  if (!may_jump) return {};
+  const Sums sums = sumsOf(start, end);
+  if (!(sums.stepped > kMostAdded * sums.predicted)) return {};
+  const double driven = drivenBy(start.state.velocity);
+  Finding finding;
+  finding.adds = sums.stepped > mostOf(kMostAdded * sums.predicted, driven);
+  // What its links may lack of their lengths would be more still in a shorter one.
+  finding.jumps = sums.stepped > mostOf(rules.most_kinetic * sums.predicted, driven) &&
+                  sums.stepped > mostOf(sums.predicted, driven) + fromTolerance(start.h);
+  return finding;
+}
+
+double KineticGuard::most(const SubstepStart& start, const Field3& end) const noexcept {
+  return mostOf(sumsOf(start, end).predicted, drivenBy(start.state.velocity));
+}
+
+double KineticGuard::most(const Field3& velocity) const noexcept { return mostOf(kineticOf(velocity), drivenBy(velocity)); }
+
+void KineticGuard::bound(double most, Field3& velocity) const noexcept {
+  const double sum = kineticOf(velocity);
+  if (!(sum > most)) return;
+  const double share = std::sqrt(most / sum);
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    if (inertia_.masses()[n] > 0.0) velocity.set(n, share * velocity.at(n));  // pins go where they are told to
+  }
+}
+
+// By lanes, so that the sums have one order, whatever the processor's width.
+CURTAIN_WIDE KineticGuard::Sums KineticGuard::sumsOf(const SubstepStart& start, const Field3& end) const noexcept {
+  const std::size_t size = pattern_.grid.size();
+  const Field3 &from = start.state.position, &velocity = start.state.velocity;
+  const double* const mass = pattern_.mass.data();
+  const double* const free = inertia_.masses().data();
+  const double* const inverse = inertia_.inverse().data();
+  // Read in any case, from where there is something: masked loads from nowhere cost a hundred times as much.
+  const bool damped = start.keep != nullptr;
+  const double* const keep = damped ? start.keep->data() : mass;
+  const double per_step = 1.0 / start.h, kick = start.kick;
+  std::array<double, kLane> stepped{}, predicted{};
+  const auto add = [&](const Field& x_next, const Field& x_from, const Field& v_field, const Field& f_field) {
+    const double *const x = x_next.data(), *const a = x_from.data(), *const v = v_field.data(), *const f = f_field.data();
+    for (std::size_t n = 0; n < size; n += kLane) {
+#pragma omp simd
+      for (std::size_t l = 0; l < kLane; ++l) {
+        const double whole = mass[n + l], m = free[n + l] > 0.0 ? whole : 0.0;
+        const double made = per_step * (x[n + l] - a[n + l]);
+        const double kept = keep[n + l];
+        const double without = (damped ? kept : 1.0) * v[n + l] + kick * inverse[n + l] * f[n + l];
+        stepped[l] += m * made * made;
+        predicted[l] += m * without * without;
+      }
+    }
+  };
+  add(end.x, from.x, velocity.x, start.force.x);
+  add(end.y, from.y, velocity.y, start.force.y);
+  add(end.z, from.z, velocity.z, start.force.z);
+  Sums sums;
+  for (std::size_t l = 0; l < kLane; ++l) {
+    sums.stepped += stepped[l];
+    sums.predicted += predicted[l];
+  }
+  return sums;
+}
+
+double KineticGuard::kineticOf(const Field3& velocity) const noexcept {
+  double sum = 0.0;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    if (inertia_.masses()[n] > 0.0) sum += pattern_.mass[n] * velocity.at(n).squaredNorm();
+  }
+  return sum;
+}
+
+// All of the cloth at the speed of its fastest pin.
+double KineticGuard::drivenBy(const Field3& velocity) const noexcept {
+  double mass = 0.0, fastest = 0.0;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    if (inertia_.masses()[n] > 0.0) {
+      mass += pattern_.mass[n];
+    } else {
+      fastest = std::max(fastest, velocity.at(n).squaredNorm());
+    }
+  }
+  return mass * fastest;
+}
+
+// What links may lack of their lengths comes out of a substep as speed.
+double KineticGuard::fromTolerance(double h) const noexcept {
+  const double speed = stretch_tolerance_ * links_ / h;
+  double mass = 0.0;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) mass += inertia_.masses()[n] > 0.0 ? pattern_.mass[n] : 0.0;
+  return mass * speed * speed;
+}
+
+}  // namespace curtain

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What a substep may have of kinetic energy. Links that hold do no work but what pins put in: seen from pins that go by at u the cloth
+// has no more than it would have without links, so its sqrt of twice the kinetic energy grows by 2 u sqrt(M) at most. Pins that draw a
+// flat string taut put in more, against what it bears; that is left out.
+#pragma once
+
+#include "solver/scheme.h"
+
+namespace curtain {
+
+/// Not thread-safe. Allocates nothing.
+class KineticGuard {
+ public:
+  /// stretch_tolerance  relative; links  [m], for scale. pattern and inertia must outlive this.
+  KineticGuard(const ClothPattern& pattern, const NodeInertia& inertia, double stretch_tolerance, double links) noexcept
+      : pattern_(pattern), inertia_(inertia), stretch_tolerance_(stretch_tolerance), links_(links) {}
+
+  struct Finding {
+    bool adds = false;   ///< more than the scheme's own error: to be bounded
+    bool jumps = false;  ///< nodes lie in another way: the substep has failed
+  };
+  /// Of a substep that was solved, from start to end, with nothing that touches.
+  Finding look(const Scheme::Rules& rules, bool strings_pull, const SubstepStart& start, const Field3& end) const noexcept;
+
+  /// Twice the largest kinetic energy of such a substep [J]: of free nodes without links, and what pins put in.
+  double most(const SubstepStart& start, const Field3& end) const noexcept;
+  /// The same of velocities that links are to act on [m/s].
+  double most(const Field3& velocity) const noexcept;
+
+  /// Slows free nodes down, all alike, to twice that energy [J] at most.
+  void bound(double most, Field3& velocity) const noexcept;
+
+ private:
+  struct Sums {
+    double stepped = 0.0, predicted = 0.0;  // twice the kinetic energies of the path that nodes have gone, and would without links [J]
+  };
+  Sums sumsOf(const SubstepStart& start, const Field3& end) const noexcept;
+  double kineticOf(const Field3& velocity) const noexcept;
+  double drivenBy(const Field3& velocity) const noexcept;
+  double fromTolerance(double h) const noexcept;
+
+  const ClothPattern& pattern_;
+  const NodeInertia& inertia_;
+  const double stretch_tolerance_, links_;
+};
+
+}  // namespace curtain

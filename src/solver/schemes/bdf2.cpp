@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/schemes/bdf2.h"
+
+#include <algorithm>
+
+#include "solver/constants.h"
+
+namespace curtain {
+
+Bdf2::Bdf2(const ClothPattern& pattern) : Scheme({true, true, 0.0, Jumps::kAnywhere, kMostAdded, true, false}), pattern_(pattern) {
+  for (Field3* field : {&memory_.position, &memory_.velocity, &base_.position, &base_.velocity}) field->assign(pattern.grid.size(), 0.0);
+}
+
+bool Bdf2::usesTwo(double h) const noexcept { return memory_.h != 0.0 && h <= kMostGrowth * memory_.h; }
+
+// Variable steps (Hairer, Norsett, Wanner 1993, Sect. III.5), ratio r = h / h_before:
+// y' = (1+r)^2/(1+2r) y - r^2/(1+2r) y_before + (1+r)/(1+2r) h f.
+double Bdf2::stepFor(double h) const noexcept {
+  if (!usesTwo(h)) return h;
+  const double r = h / memory_.h;
+  return (1.0 + r) / (1.0 + 2.0 * r) * h;
+}
+
+SubstepStart Bdf2::start(const SubstepPlan& plan, double step, double kick, const NodeForces& forces, const NodeInertia& inertia,
+                         const ClothState& state, SubstepOutcome&) noexcept {
+  if (!usesTwo(plan.h)) return startFrom(state, step, kick, forces, inertia);
+  const double r = plan.h / memory_.h;
+  const double change = r * r / (1.0 + 2.0 * r);  // (1+r)^2/(1+2r) is 1 more: what is at rest stays there to the bit
+  const auto combine = [change](const Field& y, const Field& older, Field& out) {
+    for (std::size_t n = 0; n < y.size(); ++n) out[n] = y[n] + change * (y[n] - older[n]);
+  };
+  combine(state.position.x, memory_.position.x, base_.position.x);
+  combine(state.position.y, memory_.position.y, base_.position.y);
+  combine(state.position.z, memory_.position.z, base_.position.z);
+  combine(state.velocity.x, memory_.velocity.x, base_.velocity.x);
+  combine(state.velocity.y, memory_.velocity.y, base_.velocity.y);
+  combine(state.velocity.z, memory_.velocity.z, base_.velocity.z);
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    if (inertia.masses()[n] > 0.0) continue;  // pins go where they are told to, whatever they did before
+    base_.position.set(n, state.position.at(n) + (plan.h - step) * state.velocity.at(n));
+    base_.velocity.set(n, state.velocity.at(n));
+  }
+  return startFrom(base_, step, kick, forces, inertia);
+}
+
+bool Bdf2::struck() noexcept {
+  memory_.single_steps = kStepsAfterBlow;
+  const bool used_two = memory_.h != 0.0;
+  memory_.h = 0.0;
+  return used_two;
+}
+
+void Bdf2::taken(const ClothState& before, double h) noexcept {
+  passedOver();
+  if (memory_.single_steps > 0) return;
+  memory_.position = before.position;
+  memory_.velocity = before.velocity;
+  memory_.h = h;
+}
+
+void Bdf2::passedOver() noexcept {
+  memory_.single_steps = std::max(0, memory_.single_steps - 1);
+  memory_.h = 0.0;
+}
+
+}  // namespace curtain
