@@ -142,10 +142,12 @@ bool ExactSolver::struck(const Progress& progress) const noexcept {
 
 // Whether it may be taken: it has found no energy, and nothing that sleeps would have moved.
 void ExactSolver::judge(const Making& making, Progress& progress, SubstepOutcome& outcome) noexcept {
-  if (progress.settled && progress.alone()) {
+  if (progress.late) {
+    progress.most_kinetic = guard_.most(making.start, constraints_.next);
+  } else if ((progress.settled || making.plan.isLastResort()) && progress.alone()) {
     const KineticGuard::Finding finding =
         guard_.look(making.scheme.rules(), constraints_.stringsAct(), making.start, constraints_.next);
-    progress.adds = finding.adds;
+    progress.most_kinetic = finding.most;
     if (finding.jumps) progress.settled = false;
   }
   if (held_.any()) {
@@ -189,14 +191,11 @@ void ExactSolver::take(const Making& making, const Progress& progress, SubstepOu
     if (scheme == &making.scheme) scheme->taken(state, plan.h);
     else scheme->passedOver();
   }
-  const bool alone = progress.alone();
-  const bool bounded = (making.scheme.rules().never_gains && alone) || progress.adds || progress.late;
-  const double most = bounded ? guard_.most(making.start, constraints_.next) : 0.0;
   tensions.heaviest = constraints_.commit(making.start.state.position, making.step, plan.tells_turning, state, tensions.load);
   state.velocity_age = making.scheme.rules().age * making.step;
-  if (bounded) guard_.bound(most, state.velocity);
+  if (std::isfinite(progress.most_kinetic)) guard_.bound(progress.most_kinetic, state.velocity);
   outcome.omega_squared = inertia_.omegaSquared();
-  if (alone && !constraints_.weftPulls()) outcome.turning = turning(outcome.kick);
+  if (progress.alone() && !constraints_.weftPulls()) outcome.turning = turning(outcome.kick);
   const double fastest = progress.contacts != nullptr ? fastestSurface(*progress.contacts) : 0.0;
   if (fastest > 0.0) outcome.longest_step = kMostWayOfSurface * smallest_rest_ / fastest;
   // The way that such a substep has gone is not all motion: what pulls its links further is taken out.

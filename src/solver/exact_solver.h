@@ -5,6 +5,8 @@
 // judged, and taken.
 #pragma once
 
+#include <limits>
+
 #include "solver/constraints.h"
 #include "solver/kinetic_guard.h"
 #include "solver/schemes/bdf2.h"
@@ -91,8 +93,7 @@ class ExactSolver {
     bool settled = false;    // every link is within the user's tolerance
     bool crossed = false;    // something would go through something
     bool late = false;       // its time was over before it had settled
-    bool ended_late = false; // its last solve ran out of time
-    bool adds = false;       // it has more kinetic energy than it should
+    double most_kinetic = std::numeric_limits<double>::infinity();  // twice what it may have [J]
     int sweeps = 0;
     const Contacts* contacts = nullptr;  // null: nothing can touch
 

@@ -21,16 +21,15 @@ double mostOf(double predicted, double driven) noexcept {
 
 KineticGuard::Finding KineticGuard::look(const Scheme::Rules& rules, bool strings_pull, const SubstepStart& start,
                                          const Field3& end) const noexcept {
-  const bool may_jump = rules.jumps == Scheme::Jumps::kAnywhere || (rules.jumps == Scheme::Jumps::kWhereStringsPull && strings_pull);
-  if (!may_jump) return {};
+  if (!rules.rods_gain && !strings_pull) return {};
   const Sums sums = sumsOf(start, end);
   if (!(sums.stepped > kMostAdded * sums.predicted)) return {};
   const double driven = drivenBy(start.state.velocity);
   Finding finding;
-  finding.adds = sums.stepped > mostOf(kMostAdded * sums.predicted, driven);
+  const double most = mostOf(sums.predicted, driven);
+  if (sums.stepped > mostOf(kMostAdded * sums.predicted, driven)) finding.most = most;
   // What its links may lack of their lengths would be more still in a shorter one.
-  finding.jumps = sums.stepped > mostOf(rules.most_kinetic * sums.predicted, driven) &&
-                  sums.stepped > mostOf(sums.predicted, driven) + fromTolerance(start.h);
+  finding.jumps = sums.stepped > mostOf(rules.most_kinetic * sums.predicted, driven) && sums.stepped > most + fromTolerance(start.h);
   return finding;
 }
 

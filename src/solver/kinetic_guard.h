@@ -5,6 +5,8 @@
 // flat string taut put in more, against what it bears; that is left out.
 #pragma once
 
+#include <limits>
+
 #include "solver/scheme.h"
 
 namespace curtain {
@@ -17,8 +19,8 @@ class KineticGuard {
       : pattern_(pattern), inertia_(inertia), stretch_tolerance_(stretch_tolerance), links_(links) {}
 
   struct Finding {
-    bool adds = false;   ///< more than the scheme's own error: to be bounded
-    bool jumps = false;  ///< nodes lie in another way: the substep has failed
+    double most = std::numeric_limits<double>::infinity();  ///< finite: it gains more than by the scheme's own error; to be bounded by this
+    bool jumps = false;                                     ///< nodes lie in another way than before: the substep has failed
   };
   /// Of a substep that was solved, from start to end, with nothing that touches.
   Finding look(const Scheme::Rules& rules, bool strings_pull, const SubstepStart& start, const Field3& end) const noexcept;

@@ -12,17 +12,13 @@ namespace curtain {
 
 class Scheme {
  public:
-  /// Where a substep can find nodes far from where they were: links let them lie in many ways.
-  enum class Jumps { kNever, kWhereStringsPull, kAnywhere };
-
   struct Rules {
     bool follows;          ///< links pull along their directions at the end of the step, not at its start
     bool backward;         ///< damping acts on the velocities at the end
     double age;            ///< velocities belong to positions so much of a step before, as a share of it
-    Jumps jumps;
-    double most_kinetic;   ///< from this kinetic energy on, over that without links, a substep has jumped
+    bool rods_gain;        ///< a substep may find more kinetic energy than there was without links, even where no string pulls
+    double most_kinetic;   ///< from that much more on, as a factor, nodes lie in another way than before: it has failed
     bool remembers;        ///< steps before the last one: it must know of blows
-    bool never_gains;      ///< the kinetic energy is bounded by that without links wherever nothing touches
   };
 
   explicit Scheme(const Rules& rules) noexcept : rules_(rules) {}

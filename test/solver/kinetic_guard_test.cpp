@@ -15,7 +15,7 @@ namespace {
 using namespace curtain_test;
 
 constexpr double kStep = 0.01, kMostKinetic = 1.5;
-constexpr Scheme::Rules kRules = {false, false, 0.0, Scheme::Jumps::kAnywhere, kMostKinetic, false, false};
+constexpr Scheme::Rules kRules = {false, false, 0.0, true, kMostKinetic, false};
 
 // Cloth that moves at 1 m/s along x, with no forces.
 struct Moving {
@@ -50,20 +50,17 @@ struct Moving {
 TEST(KineticGuard, FindsWhatASubstepHasGained) {
   const Moving cloth;
   const auto look = [&](double energy) { return cloth.guard.look(kRules, true, cloth.start(), cloth.end(std::sqrt(energy))); };
-  EXPECT_FALSE(look(0.5).adds);
-  EXPECT_FALSE(look(1.0).adds);
-  EXPECT_TRUE(look(1.2).adds);
+  EXPECT_FALSE(std::isfinite(look(0.5).most));
+  EXPECT_FALSE(std::isfinite(look(1.0).most));
+  EXPECT_NEAR(look(1.2).most, cloth.guard.most(cloth.state.velocity), 64.0 * kEps);
   EXPECT_FALSE(look(1.2).jumps);
-  EXPECT_TRUE(look(1.01 * kMostKinetic).adds);
   EXPECT_TRUE(look(1.01 * kMostKinetic).jumps);
 }
 
-TEST(KineticGuard, LooksOnlyWhereASchemeMayJump) {
+TEST(KineticGuard, LooksAtRodsAloneOnlyWhereTheyMayGain) {
   const Moving cloth;
   Scheme::Rules rules = kRules;
-  rules.jumps = Scheme::Jumps::kNever;
-  EXPECT_FALSE(cloth.guard.look(rules, true, cloth.start(), cloth.end(9.0)).jumps);
-  rules.jumps = Scheme::Jumps::kWhereStringsPull;
+  rules.rods_gain = false;
   EXPECT_FALSE(cloth.guard.look(rules, false, cloth.start(), cloth.end(9.0)).jumps);
   EXPECT_TRUE(cloth.guard.look(rules, true, cloth.start(), cloth.end(9.0)).jumps);
 }

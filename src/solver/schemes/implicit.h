@@ -10,7 +10,7 @@ namespace curtain {
 
 class Implicit final : public Scheme {
  public:
-  Implicit() noexcept : Scheme({true, true, 0.0, Jumps::kNever, kInfinite, false, true}) {}
+  Implicit() noexcept : Scheme({true, true, 0.0, true, kInfinite, false}) {}
 };
 
 }  // namespace curtain

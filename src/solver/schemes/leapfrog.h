@@ -12,7 +12,7 @@ namespace curtain {
 
 class Leapfrog final : public Scheme {
  public:
-  Leapfrog() noexcept : Scheme({false, false, 0.5, Jumps::kWhereStringsPull, kMostKinetic, false, false}) {}
+  Leapfrog() noexcept : Scheme({false, false, 0.5, false, kMostKinetic, false}) {}
 };
 
 }  // namespace curtain
