@@ -4,8 +4,6 @@
 // have no unit. Those of a line solver's arithmetic (smallest pivots, widths of blocks) stand where they are used.
 #pragma once
 
-#include <limits>
-
 namespace curtain {
 
 // ---- Sweeps: when a solve has done enough, and how far a step of it may go -------------------------------------------
@@ -18,31 +16,21 @@ constexpr double kFirstSweepShare = 1e-4;
 // Newton converges quadratically: an iteration that starts this close ends near the square of it, times a factor that
 // grows with the column's height.
 constexpr double kNewtonStop = 1e-3;
-// In later sweeps the next one looks again, so a start this close is left at that.
-constexpr double kNewtonStopLater = 1e-2;
 // For what is left to be rounding.
 constexpr double kPreciseStop = 1e-7;
 constexpr int kNewtonIterations = 12;
 // Share of the tolerance below which a block of columns is not solved again in a later sweep.
 constexpr double kLeaveAlone = 0.1;
-// A relative violation beyond this is a step that failed, not one that converges slowly.
-constexpr double kMostViolation = 4.0;
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 // Conjugate gradients go on until the residual is a share of the tolerance, but at most to a share of itself: past that the
 // first-order picture they solve in is no longer true. Where directions must be followed what the last digits ask for throws
 // nodes about: measured on sheets hung by two corners, 0.03 rejects six times as many substeps.
 constexpr double kReductionShare = 0.3;
-constexpr double kLeastReduction = 0.05;
 constexpr double kFollowReduction = 0.3;
 constexpr double kMostReduction = 0.5;
 constexpr int kGradientIterations = 12;
-// A sweep that moves a node by more than this share of a link at once is cut back to it [1].
-constexpr double kLargestMove = 0.1;
-constexpr double kWatchMoves = 1e-3;  // relative violation below which no solve moves a node too far
 // Friction takes turns with the solve, for so many sweeps: what sticks under load converges over the substeps, its
-// multipliers carry over. And what it may still move in a substep's last sweep, over the tolerance of contact.
+// multipliers carry over.
 constexpr int kRubSweeps = 3;
-constexpr double kRubShare = 4.0;
 // What is left over becomes motion. Cloth that lies on something has little other motion, so there a share of the tolerance
 // is aimed at for the first sweeps: it moves by 0.3 mm/s instead of 0.8 (RMS), for a fifth more sweeps.
 constexpr double kStrictShare = 0.2;
@@ -56,41 +44,25 @@ constexpr double kLeastShare = 0.01;
 // lifted by what they may sag, at no expense.
 constexpr double kLastResortShare = 0.1;
 // Sweeps that must bring at least this improvement, or the iteration has stalled.
-constexpr int kStallWindow = 8;
+constexpr int kStallWindow = 16;
 constexpr double kStallFactor = 0.8;
-// With contact, whose rows are damped: a sweep gains less there.
-constexpr int kContactStallWindow = 16;
-constexpr double kContactStallFactor = 0.9;
 // Levenberg-Marquardt term of the weft's solve, over the diagonal: in proportion to the residual, so that it vanishes as
 // the solve ends. Constant, it leaves combinations that hardly move anything to creep by a few percent a sweep.
 constexpr double kDampingPerResidual = 0.05;
-constexpr double kLargestDamping = 0.1;
-// In the last resort, whose sweeps must make the sum of squares smaller: a step a thousand times shorter than Jacobi's that does not has
+// In the last resort sweeps must make the sum of squares smaller: a step a thousand times shorter than Jacobi's that does not has
 // nothing left to gain.
 constexpr double kMostDamping = 1e3;
-constexpr double kPoorSweep = 0.8;
-// In contact damping itself makes sweeps slow: there only one that has gone further off is poor.
-constexpr double kPoorTouchingSweep = 1.0;
-constexpr double kMostCaution = 4096.0;
 constexpr double kMoreCaution = 8.0;
 constexpr double kLessCaution = 2.0;
 // bdf2 is stable while steps grow by less than 1 + sqrt(2) at once (Grigorieff 1983); after a longer one it begins anew.
 constexpr double kMostGrowth = 2.0;
-// How much further than in even cloth a correction of one rod may turn another: short rods by what moves long ones, light nodes
-// by what heavy ones resist. Nodes at the border have a half of the others' mass, at corners a quarter.
-constexpr double kMassesOfEvenCloth = 4.0;
-
 // ---- Substeps: verification and energy -------------------------------------------------------------------------------
 
 // Way of an obstacle's surface in a substep that links could not be brought to their lengths in, over the shortest link.
 constexpr double kMostWayOfSurface = 0.2;
-// Solves of a last resort that does not settle.
-constexpr int kHopelessLooks = 2;
 // Kinetic energy of a step over that without links, from which it has found another way for the links to lie: where it follows
-// the motion links take energy out.
-constexpr double kMostKinetic = 1.5;
-// Over this it is taken out again. Links turn in a step, and leapfrog's energy wavers, or bdf2's base lies off them, by the square
-// of that angle: 0.03 where they turn by 0.17 rad. For bdf2, which takes far more out, it is another way to lie already.
+// the motion links take energy out. Links turn in a step, and leapfrog's energy wavers, or bdf2's base lies off them, by the square
+// of that angle: 0.03 where they turn by 0.17 rad. What no shorter step would lack less is taken out of the velocities instead.
 constexpr double kMostAdded = 1.03;
 // bdf2 would go on with what a blow has stopped, as a rebound (by a third of it a step; two thirds came back from a string that
 // snapped taut). So the step of the blow, the next one, in which the rest of the speed goes, and the one after are made from one
@@ -121,26 +93,21 @@ constexpr double kForcedGrowth = 2.0;
 
 // ---- Velocities at the time of the positions -------------------------------------------------------------------------
 
-// Rounds of the linear velocity projection.
-constexpr int kVelocityRounds = 2;
-// With contacts, whose rows are damped; until the rate is this share of what it was.
-constexpr int kContactRounds = 8;
-constexpr double kContactRate = 1e-3;
-constexpr double kVelocityDamping = 1e-4;
+// Rounds of the linear velocity projection at most, until the rate of what it takes out is this share of what it was.
+constexpr int kVelocityRounds = 8;
 constexpr double kVelocityReduction = 1e-3;
+constexpr double kVelocityDamping = 1e-4;
 constexpr int kVelocityIterations = 24;
 
 // ---- Step control ----------------------------------------------------------------------------------------------------
 
-// h * omega_max that substeps are chosen for. Leapfrog is stable below 2; from 1.7 tensions may grow by
-// 1.4 within a substep, and what outgrows even that is caught by heavier nodes.
+// h * omega_max that substeps are chosen for, and from which nodes are made heavier. Leapfrog is stable below 2: what tensions
+// grow by within a substep, up to 1.4 times, is allowed for.
 constexpr double kPhasePerStep = 1.7;
 // Where a few nodes alone ask for short substeps (the corners a sheet hangs by), they are made heavier instead: by so
 // much altogether, as a share of the cloth's mass. A sheet of 44 x 40 hung by two corners takes 12 substeps a frame with it and
 // 22 without.
 constexpr double kHeavierShare = 0.02;
-// From here on nodes are heavier: leapfrog would soon blow up.
-constexpr double kStablePhase = 1.9;
 // h * turning that substeps are chosen for where rods alone act, and the motion is smooth. Leapfrog is off by about
 // (h * turning)^2 / 24 of the way that it goes: with 0.07, a millimetre in 5 m. Chains of 2 m then end a second's fall with
 // 0.2 to 0.9 mm (RMS) whatever their number of rods; the cost of smooth motion is inversely proportional to it.

@@ -55,19 +55,14 @@ class Constraints {
 
   // ---- what a solve is made of
 
-  /// The same substep may be solved more than once, each time with more contacts.
-  void beginSolve() noexcept;
-
   struct RodsAim {
     bool follow;           ///< along the directions of the present positions
     double stop;           ///< relative violation that an iteration may end from
     double leave_alone;    ///< blocks of columns within it are not touched
-    double most_residual;  ///< beyond it a solve has failed
   };
   struct RodsProgress {
     bool converged = true;
     double first_residual = 0.0;  ///< before the first iteration
-    double last_residual = 0.0;   ///< before the last one
   };
   RodsProgress solveRods(const RodsAim& aim, bool first) noexcept;
   double rodsResidual() noexcept;
@@ -78,8 +73,6 @@ class Constraints {
 
   /// Directions of all links are those of the positions as they are now.
   void followDirections() noexcept;
-  /// Strings pull along their directions at the start of the substep, rods as they do.
-  void takeDirections(const Field3& start) noexcept;
 
   struct NetAim {
     double residual;  ///< the largest relative violation
@@ -162,7 +155,6 @@ class Constraints {
   bool directions_set_ = false;  // of the weft, in this substep
   bool newton_begun_ = false;    // begin() has made the first iteration on the rods
   bool measured_ = false;        // violation_ and active_ are of the positions as they are
-  bool net_ready_ = false;       // of directions at the start of the substep
   double middle_rest_;
   Field violation_, active_, change_;
   Field free_per_square_;  // of weft links with an end that can move: 1 / rest length^2 [1/m^2]; others: 0

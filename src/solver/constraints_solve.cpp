@@ -22,11 +22,8 @@ Constraints::RodsProgress Constraints::solveBlock(const LineSolve& warp, const R
     const LineOutcome outcome =
         begun && iteration == 0 ? block_begun_[static_cast<std::size_t>(block)] : warpNewton(warp, scratch_, block);
     if (iteration == 0) progress.first_residual = std::max(progress.first_residual, outcome.residual);
-    if (!outcome.sound || !(outcome.residual < aim.most_residual)) break;
-    if (outcome.residual <= aim.stop) {
-      progress.last_residual = outcome.residual;
-      return progress;
-    }
+    if (!outcome.sound || !std::isfinite(outcome.residual)) break;
+    if (outcome.residual <= aim.stop) return progress;
   }
   progress.converged = false;
   return progress;
@@ -41,7 +38,6 @@ Constraints::RodsProgress Constraints::solveRods(const RodsAim& aim, bool first)
   for (const RodsProgress& block : block_progress_) {
     all.converged = all.converged && block.converged;
     all.first_residual = std::max(all.first_residual, block.first_residual);
-    all.last_residual = std::max(all.last_residual, block.last_residual);
   }
   return all;
 }
@@ -54,8 +50,6 @@ double Constraints::rodsResidual() noexcept {
   }
   return worst;
 }
-
-void Constraints::beginSolve() noexcept { net_ready_ = false; }
 
 double Constraints::lookAtStrings(bool closely) noexcept {
   measured_ = false;
@@ -88,14 +82,7 @@ void Constraints::followDirections() noexcept {
   forEachBlock([&](int block) { setWarpDirections(pattern_.grid, block, next, warp_.direction); });
   setWeftDirectionsAt(next);
   net_.begin(next, inertia_.inverse(), held_.movingSpan());
-  directions_set_ = net_ready_ = true;
-}
-
-void Constraints::takeDirections(const Field3& start) noexcept {
-  if (net_ready_) return;
-  if (!directions_set_) setWeftDirectionsAt(start);
-  net_.begin(start, inertia_.inverse(), held_.movingSpan());
-  directions_set_ = net_ready_ = true;
+  directions_set_ = true;
 }
 
 void Constraints::solveNet(const NetAim& aim, Contacts* contacts) noexcept {
@@ -104,11 +91,6 @@ void Constraints::solveNet(const NetAim& aim, Contacts* contacts) noexcept {
   const LineSolve weft = wefts();
   net_.solve(violation_, active_, {contacts, &next, false}, {aim.residual * middle_rest_, aim.damping, aim.enough, kGradientIterations},
              change_);
-  const double move = aim.residual > kWatchMoves ? std::sqrt(worstOfRows([&](int i) { return weftMoveSquared(weft, i, change_); })) : 0.0;
-  const double share = move > kLargestMove ? kLargestMove / move : 1.0;
-  if (share != 1.0) {
-    for (double& change : change_) change *= share;
-  }
   worstOfRows([&](int i) {
     takeUpWeft(weft_, pattern_.grid, i, change_);
     pullWeft(weft, i, change_);
@@ -116,7 +98,7 @@ void Constraints::solveNet(const NetAim& aim, Contacts* contacts) noexcept {
   });
   if (contacts == nullptr) return;
   net_.forEachContactChange([&](std::uint32_t index, double push, const Vec3& slide) {
-    takeUpContact(inertia_.inverse(), share * push, share * slide, (*contacts)[index], next);
+    takeUpContact(inertia_.inverse(), push, slide, (*contacts)[index], next);
   });
 }
 

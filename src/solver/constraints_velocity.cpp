@@ -42,11 +42,11 @@ void Constraints::project(const Field3& position, const Contacts* contacts, doub
   if (alone) return;
   net_.begin(position, inertia_.masses(), held_.movingSpan());
   double first_rate = 0.0;
-  for (int round = 0; round < (presses ? kContactRounds : kVelocityRounds); ++round) {
+  for (int round = 0; round < kVelocityRounds; ++round) {
     double rate = worstOfRows([&](int i) { return measureWeftRates(weft, i, violation_, active_); });
     if (presses) rate = std::max(rate, contactRate(*contacts, velocity) / middle_rest_);
     if (round == 0) first_rate = rate;
-    if (rate == 0.0 || (presses && round > 0 && rate <= kContactRate * first_rate)) break;
+    if (rate == 0.0 || (round > 0 && rate <= kVelocityReduction * first_rate)) break;
     net_.solve(violation_, active_, {presses ? contacts : nullptr, &velocity, true},
                {rate * middle_rest_, kVelocityDamping, kVelocityReduction, kVelocityIterations}, change_);
     for (int i = 0; i < pattern_.grid.rows; ++i) pullWeft(weft, i, change_);

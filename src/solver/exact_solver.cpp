@@ -30,7 +30,7 @@ ExactSolver::ExactSolver(const ClothPattern& pattern, double stretch_tolerance, 
       held_(pattern),
       skipped_before_(static_cast<std::size_t>(warpBlockCount(pattern.grid)), 0),
       constraints_(pattern, kInnerTolerance * stretch_tolerance, inertia_, held_, workers),
-      sweeps_(pattern, constraints_, inertia_, stretch_tolerance, stretch_tolerance * smallest_rest_, max_sweeps),
+      sweeps_(constraints_, inertia_, stretch_tolerance, stretch_tolerance * smallest_rest_, max_sweeps),
       guard_(pattern, inertia_, stretch_tolerance, constraints_.middleRest()),
       bdf2_(pattern),
       last_resort_(pattern) {}
@@ -96,13 +96,11 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const Making& making) noexcept
   const SubstepPlan& plan = making.plan;
   const bool last_resort = plan.isLastResort();
   const Field3 &from = making.state.position, &next = constraints_.next;
-  const SweepTask task{making.start.state.position, making.scheme.rules().follows, last_resort, plan.precise,
-                       making.forces.gravity.norm() * plan.h * plan.h};
+  const SweepTask task{making.scheme.rules().follows, last_resort, plan.precise, making.forces.gravity.norm() * plan.h * plan.h};
   ContactFinder* const finder = making.finder;
   Contacts* const contacts = finder != nullptr ? &finder->begin(from, next, plan.h) : nullptr;
   if (finder != nullptr) making.clock.lap(Stage::kContact);
   std::size_t known = 0;
-  int looks = 0;
   Progress all;
   all.contacts = contacts;
   while (true) {
@@ -123,7 +121,7 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const Making& making) noexcept
     if (verdict == ContactFinder::Verdict::kClear) return all;
     constraints_.moved();
     all.late = all.late || making.clock.late();
-    if (!all.late && verdict == ContactFinder::Verdict::kMore && (solved.within || ++looks < kHopelessLooks)) continue;
+    if (!all.late && verdict == ContactFinder::Verdict::kMore && solved.within) continue;
     all.crossed = true;
     all.settled = false;
     if (last_resort && !all.late && !held_.any()) finder->hold(from, constraints_.next);
@@ -148,7 +146,7 @@ void ExactSolver::judge(const Making& making, Progress& progress, SubstepOutcome
     const KineticGuard::Finding finding =
         guard_.look(making.scheme.rules(), constraints_.stringsAct(), making.start, constraints_.next);
     progress.most_kinetic = finding.most;
-    if (finding.jumps) progress.settled = false;
+    if (finding.jumps && !making.plan.isLastResort()) progress.settled = false;
   }
   if (held_.any()) {
     const bool stuck = progress.crossed || (making.plan.isLastResort() && !progress.settled);

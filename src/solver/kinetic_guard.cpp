@@ -27,9 +27,10 @@ KineticGuard::Finding KineticGuard::look(const Scheme::Rules& rules, bool string
   const double driven = drivenBy(start.state.velocity);
   Finding finding;
   const double most = mostOf(sums.predicted, driven);
-  if (sums.stepped > mostOf(kMostAdded * sums.predicted, driven)) finding.most = most;
+  if (!(sums.stepped > mostOf(kMostAdded * sums.predicted, driven))) return finding;
+  finding.most = most;
   // What its links may lack of their lengths would be more still in a shorter one.
-  finding.jumps = sums.stepped > mostOf(rules.most_kinetic * sums.predicted, driven) && sums.stepped > most + fromTolerance(start.h);
+  finding.jumps = sums.stepped > most + fromTolerance(start.h);
   return finding;
 }
 

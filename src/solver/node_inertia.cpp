@@ -10,9 +10,6 @@
 namespace curtain {
 namespace {
 
-// Of what damping adds to the nodes' masses, where it all but holds some of them.
-constexpr double kMostSpread = 1e100;
-
 double freeMass(const ClothPattern& pattern, const Field& inverse_mass) {
   double sum = 0.0;
   for (std::size_t n = 0; n < pattern.grid.size(); ++n) {
@@ -57,20 +54,15 @@ double NodeInertia::omegaSquared() const noexcept { return 2.0 * tensions_.heavi
 void NodeInertia::set(const NodeForces& forces, double kick, double scale, double most_phase, bool implicit) noexcept {
   inverse_ = masses_;
   damped_ = forces.has_damping;
-  damping_spread_ = 1.0;
   const std::size_t size = pattern_.grid.size();
   if (damped_) {
     inverse_ = &changed_;
-    double least = 1.0, most = 0.0;
     for (std::size_t n = 0; n < size; ++n) {
       const double w = (*masses_)[n];
       const DampedStep step = implicit ? implicitlyDampedStep(forces.damping[n], w, kick) : dampedStep(forces.damping[n], w, kick);
       changed_[n] = step.gain * w;
       keep_[n] = step.keep;
-      least = std::min(least, w > 0.0 ? step.gain : 1.0);
-      most = std::max(most, w > 0.0 ? step.gain : 0.0);
     }
-    if (most > 0.0) damping_spread_ = least > most / kMostSpread ? most / least : kMostSpread;
   }
   if (most_phase <= 0.0 || tensions_.scale == 0.0) return;
   const double per_load = 2.0 * std::abs(scale / tensions_.scale) / (most_phase * most_phase);

@@ -24,7 +24,6 @@ class NodeInertia {
   const Field& inverse() const noexcept { return *inverse_; }  ///< [1/kg]
   const Field& masses() const noexcept { return *masses_; }    ///< the same of the masses alone [1/kg]
   const Field* keep() const noexcept { return damped_ ? &keep_ : nullptr; }  ///< share of its velocity a node keeps; null: all
-  double dampingSpread() const noexcept { return damping_spread_; }  ///< how many times more damping alone slows one node than another
   bool massesAlone() const noexcept { return inverse_ == masses_; }
 
   /// What the last substep's tensions say, to be put back when substeps are made again.
@@ -53,7 +52,6 @@ class NodeInertia {
   const Field* masses_;   // the pattern's, or held_
   const Field* inverse_;
   bool damped_ = false;
-  double damping_spread_ = 1.0;
   Tensions tensions_;
 };
 

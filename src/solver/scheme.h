@@ -17,7 +17,6 @@ class Scheme {
     bool backward;         ///< damping acts on the velocities at the end
     double age;            ///< velocities belong to positions so much of a step before, as a share of it
     bool rods_gain;        ///< a substep may find more kinetic energy than there was without links, even where no string pulls
-    double most_kinetic;   ///< from that much more on, as a factor, nodes lie in another way than before: it has failed
     bool remembers;        ///< steps before the last one: it must know of blows
   };
 

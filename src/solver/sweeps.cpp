@@ -7,51 +7,20 @@
 #include "solver/constants.h"
 
 namespace curtain {
-namespace {
-
-// How unlike rods and nodes are: what one rod's correction may do to another.
-double unevenness(const ClothPattern& pattern) {
-  const Grid& grid = pattern.grid;
-  double shortest = kInfinite, longest = 0.0;
-  double lightest = shortest, heaviest = 0.0;
-  for (int i = 1; i < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j) {
-      const std::size_t n = grid.index(i, j);
-      shortest = std::min(shortest, pattern.warp_rest[n]);
-      longest = std::max(longest, pattern.warp_rest[n]);
-      lightest = std::min(lightest, pattern.mass[n]);
-      heaviest = std::max(heaviest, pattern.mass[n]);
-    }
-  }
-  return longest / shortest * std::max(1.0, heaviest / (kMassesOfEvenCloth * lightest));
-}
-
-}  // namespace
-
-SweepDamping::SweepDamping(bool monotone) noexcept
-    : largest_(monotone ? kMostDamping : kLargestDamping), most_factor_(monotone ? kInfinite : kMostCaution) {}
-
-void SweepDamping::better() noexcept { factor_ = std::max(1.0, factor_ / kLessCaution); }
-void SweepDamping::worse() noexcept { factor_ = std::min(most_factor_, factor_ * kMoreCaution); }
-
-StallWatch::StallWatch(bool touches) noexcept
-    : window_(touches ? kContactStallWindow : kStallWindow), factor_(touches ? kContactStallFactor : kStallFactor) {}
 
 bool StallWatch::stalls(int sweeps, double residual) noexcept {
-  if (sweeps % window_ != 0) return false;
-  const bool improves = residual < factor_ * before_;
+  if (sweeps % kStallWindow != 0) return false;
+  const bool improves = residual < kStallFactor * before_;
   before_ = residual;
   return !improves;
 }
 
-Sweeps::Sweeps(const ClothPattern& pattern, Constraints& constraints, const NodeInertia& inertia, double tolerance,
-               double contact_tolerance, int most_sweeps)
+Sweeps::Sweeps(Constraints& constraints, const NodeInertia& inertia, double tolerance, double contact_tolerance, int most_sweeps)
     : constraints_(constraints),
       inertia_(inertia),
       tolerance_(kInnerTolerance * tolerance),
       contact_tolerance_(kInnerTolerance * contact_tolerance),
-      most_sweeps_(most_sweeps),
-      sure_stop_(std::sqrt(tolerance_) / (pattern.grid.rows * unevenness(pattern))) {}
+      most_sweeps_(most_sweeps) {}
 
 Sweeps::Aim Sweeps::aimOf(const SweepTask& task, bool first, bool touches, int sweeps) const noexcept {
   double strict = 1.0;
@@ -63,8 +32,7 @@ Sweeps::Aim Sweeps::aimOf(const SweepTask& task, bool first, bool touches, int s
                                       : 1.0;
   }
   const bool cautious = first && !task.last_resort;
-  const double newton = task.precise ? kPreciseStop : first && !constraints_.weftPulls() ? kNewtonStop : kNewtonStopLater;
-  return {strict * tolerance_, strict * contact_tolerance_, cautious ? kFirstSweepShare : 1.0, cautious ? kFirstSweepShare : kLeaveAlone, newton};
+  return {strict * tolerance_, strict * contact_tolerance_, cautious ? kFirstSweepShare : 1.0, cautious ? kFirstSweepShare : kLeaveAlone};
 }
 
 // Friction takes its turn before contacts are looked at.
@@ -72,7 +40,7 @@ Sweeps::Residual Sweeps::look(Contacts* contacts, const Constraints::RodsProgres
   Residual residual;
   residual.rods = rods;
   const bool touches = contacts != nullptr && !contacts->empty();
-  if (touches && sweeps <= kRubSweeps) residual.rubbed = rubContacts(inertia_.inverse(), *contacts, constraints_.next);
+  if (touches && sweeps <= kRubSweeps) rubContacts(inertia_.inverse(), *contacts, constraints_.next);
   if (touches) residual.touch = contactResidual(*contacts, constraints_.next);
   clock.lap(Stage::kContact);
   residual.strings = constraints_.lookAtStrings(constraints_.weftPulls() || !first);
@@ -80,11 +48,7 @@ Sweeps::Residual Sweeps::look(Contacts* contacts, const Constraints::RodsProgres
 }
 
 bool Sweeps::reached(const Aim& aim, const Residual& r) noexcept {
-  if (!r.rods.converged || r.strings > aim.share * aim.links || r.touch > aim.share * aim.contact || r.rubbed > kRubShare * aim.contact) {
-    return false;
-  }
-  const bool rods_sure = r.rods.last_residual * inertia_.dampingSpread() <= sure_stop_ && r.rubbed == 0.0;
-  return rods_sure || constraints_.rodsResidual() <= aim.links;
+  return r.rods.converged && r.strings <= aim.share * aim.links && r.touch <= aim.share * aim.contact && constraints_.rodsResidual() <= aim.links;
 }
 
 // Monotone: what is no better is undone, and the next step damped more. True: it was undone.
@@ -111,17 +75,16 @@ bool Sweeps::isWithin(double touch) noexcept {
 SweepOutcome Sweeps::run(const SweepTask& task, Contacts* contacts, StageClock& clock) noexcept {
   const bool touches = contacts != nullptr && !contacts->empty();
   SweepOutcome outcome;
-  SweepDamping damping(task.last_resort);
-  StallWatch watch(touches);
+  SweepDamping damping;
+  StallWatch watch;
   bool follow = task.follows;
-  double before = kInfinite, touch = 0.0;
+  double before = std::numeric_limits<double>::infinity(), touch = 0.0;
   best_ = Best();
-  constraints_.beginSolve();
   while (outcome.sweeps < most_sweeps_) {
     const bool first = outcome.sweeps == 0;
     const Aim aim = aimOf(task, first, touches, outcome.sweeps);
     const Constraints::RodsProgress rods = constraints_.solveRods(
-        {follow, aim.newton, first ? 0.0 : kLeaveAlone * aim.links, task.last_resort ? kInfinite : kMostViolation}, first);
+        {follow, task.precise ? kPreciseStop : kNewtonStop, first ? 0.0 : kLeaveAlone * aim.links}, first);
     clock.lap(Stage::kWarp);
     if (!rods.converged && !task.last_resort) return {SweepEnd::kDiverged, false, outcome.sweeps};
     ++outcome.sweeps;
@@ -140,20 +103,17 @@ SweepOutcome Sweeps::run(const SweepTask& task, Contacts* contacts, StageClock& 
     if (task.last_resort) {
       undone = keepOrUndo(residual, now, contacts, damping);
       if (undone && damping.exhausted(residual)) break;
-    } else if (residual > (touches ? kPoorTouchingSweep : kPoorSweep) * before) {
+    } else if (residual > before) {
       damping.worse();  // too far where hardly anything holds
     } else {
       damping.better();
     }
     before = residual;
     if (undone || now.strings > aim.alone * aim.links || touch > aim.alone * aim.contact) {
-      // Contact settles better along given directions.
-      follow = follow || !touches;
-      if (follow) constraints_.followDirections();
-      else constraints_.takeDirections(task.start);
-      const double least = follow ? kFollowReduction : kLeastReduction;
+      follow = true;
+      constraints_.followDirections();
       constraints_.solveNet(
-          {residual, std::clamp(kReductionShare * aim.links / residual, least, kMostReduction), damping.at(residual)}, contacts);
+          {residual, std::clamp(kReductionShare * aim.links / residual, kFollowReduction, kMostReduction), damping.at(residual)}, contacts);
     }
     clock.lap(Stage::kWeft);
     if (clock.late()) {

@@ -32,7 +32,6 @@ struct SweepOutcome {
 
 /// What is to be solved.
 struct SweepTask {
-  const Field3& start;     ///< where directions at the substep's start are taken [m]
   bool follows;            ///< links pull along their directions at its end
   bool last_resort;        ///< monotone: a sweep that makes the sum of squares no smaller is undone
   bool precise;            ///< rods are solved to rounding
@@ -42,40 +41,33 @@ struct SweepTask {
 /// How much a sweep's solve of strings and contacts is damped: the more the more sweeps went wrong.
 class SweepDamping {
  public:
-  /// monotone: sweeps that went wrong are undone, and damped until they don't.
-  explicit SweepDamping(bool monotone) noexcept;
-  void better() noexcept;
-  void worse() noexcept;
+  void better() noexcept { factor_ = std::max(1.0, factor_ / kLessCaution); }
+  void worse() noexcept { factor_ *= kMoreCaution; }
   /// Levenberg-Marquardt term at this residual, over the diagonal.
-  double at(double residual) const noexcept { return std::min(largest_, wanted(residual)); }
+  double at(double residual) const noexcept { return std::min(kMostDamping, wanted(residual)); }
   /// Nothing is left to gain by more of it.
-  bool exhausted(double residual) const noexcept { return wanted(residual) > largest_; }
+  bool exhausted(double residual) const noexcept { return wanted(residual) > kMostDamping; }
 
  private:
   double wanted(double residual) const noexcept { return factor_ * kDampingPerResidual * residual; }
 
-  double largest_, most_factor_;
   double factor_ = 1.0;
 };
 
 /// Sweeps must bring some improvement over a window of them, or the solve has stalled.
 class StallWatch {
  public:
-  explicit StallWatch(bool touches) noexcept;
   bool stalls(int sweeps, double residual) noexcept;
 
  private:
-  int window_;
-  double factor_;
   double before_ = std::numeric_limits<double>::infinity();
 };
 
 /// Not thread-safe. Allocates nothing.
 class Sweeps {
  public:
-  /// tolerance  relative, of links; contact_tolerance  [m]; both as the user has them. All of them must outlive this.
-  Sweeps(const ClothPattern& pattern, Constraints& constraints, const NodeInertia& inertia, double tolerance, double contact_tolerance,
-         int most_sweeps);
+  /// tolerance  relative, of links; contact_tolerance  [m]; both as the user has them. constraints and inertia must outlive this.
+  Sweeps(Constraints& constraints, const NodeInertia& inertia, double tolerance, double contact_tolerance, int most_sweeps);
 
   /// Moves constraints.next to where links and contacts are satisfied; contacts: null where nothing can touch.
   SweepOutcome run(const SweepTask& task, Contacts* contacts, StageClock& clock) noexcept;
@@ -86,11 +78,10 @@ class Sweeps {
     double links, contact;  // relative, [m]
     double share;           // of it within which a solve ends
     double alone;           // of it within which strings and contacts are not touched
-    double newton;          // relative violation of rods that an iteration may end from
   };
   struct Residual {
     Constraints::RodsProgress rods;
-    double strings = 0.0, touch = 0.0, rubbed = 0.0;  // relative, [m], [m]
+    double strings = 0.0, touch = 0.0;  // relative, [m]
   };
   Aim aimOf(const SweepTask& task, bool first, bool touches, int sweeps) const noexcept;
   Residual look(Contacts* contacts, const Constraints::RodsProgress& rods, bool first, int sweeps, StageClock& clock) noexcept;
@@ -106,7 +97,6 @@ class Sweeps {
   const double tolerance_;          // inside the solver
   const double contact_tolerance_;  // [m]
   const int most_sweeps_;
-  const double sure_stop_;  // Newton from this close ends within the tolerance: it leaves at most (rows * this)^2
   Best best_;  // of a monotone solve
 };
 

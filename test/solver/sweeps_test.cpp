@@ -26,14 +26,14 @@ struct Solve {
         inertia(pattern),
         held(pattern),
         constraints(pattern, 0.5 * kTolerance, inertia, held, workers),
-        sweeps(pattern, constraints, inertia, kTolerance, kTolerance * shortestLink(pattern), most_sweeps) {
+        sweeps(constraints, inertia, kTolerance, kTolerance * shortestLink(pattern), most_sweeps) {
     force.assign(pattern.grid.size(), 0.0);
     forces.force = &force;
     inertia.set(forces, kStep, kStep * kStep, 0.0, false);
     constraints.begin({state, force, nullptr, nullptr, kStep, kStep}, 0.0, false);
   }
   SweepOutcome run(bool last_resort = false) {
-    const SweepTask task{state.position, last_resort, last_resort, false, 0.0};
+    const SweepTask task{last_resort, last_resort, false, 0.0};
     return sweeps.run(task, nullptr, clock);
   }
   double stretch() const {
@@ -143,39 +143,35 @@ TEST(Sweeps, TheLastResortMakesTheSumOfSquaresSmaller) {
 }
 
 TEST(SweepDamping, GrowsWithSweepsThatWentWrongUpToItsLargest) {
-  for (const bool monotone : {false, true}) {
-    SweepDamping damping(monotone);
-    const double first = damping.at(1e-3);
-    EXPECT_GT(first, 0.0);
-    EXPECT_FALSE(damping.exhausted(1e-3));
-    damping.worse();
-    EXPECT_GT(damping.at(1e-3), first);
-    for (int k = 0; k < 100; ++k) damping.worse();
-    EXPECT_TRUE(damping.exhausted(1e-3));
-    for (int k = 0; k < 400; ++k) damping.better();
-    EXPECT_EQ(damping.at(1e-3), first);
-  }
+  SweepDamping damping;
+  const double first = damping.at(1e-3);
+  EXPECT_GT(first, 0.0);
+  EXPECT_FALSE(damping.exhausted(1e-3));
+  damping.worse();
+  EXPECT_GT(damping.at(1e-3), first);
+  for (int k = 0; k < 100; ++k) damping.worse();
+  EXPECT_TRUE(damping.exhausted(1e-3));
+  for (int k = 0; k < 400; ++k) damping.better();
+  EXPECT_EQ(damping.at(1e-3), first);
 }
 
 TEST(SweepDamping, VanishesWithTheResidual) {
-  const SweepDamping damping(false);
+  const SweepDamping damping;
   EXPECT_EQ(damping.at(2e-6), 2.0 * damping.at(1e-6));
   EXPECT_EQ(damping.at(0.0), 0.0);
 }
 
 TEST(StallWatch, WhatHalvesGoesOnAndWhatStandsEnds) {
-  for (const bool touches : {false, true}) {
-    StallWatch halves(touches), stands(touches);
-    double residual = 1.0;
-    int stalled_at = 0;
-    for (int sweep = 1; sweep <= 100; ++sweep) {
-      EXPECT_FALSE(halves.stalls(sweep, residual)) << sweep;
-      residual *= 0.5;
-      if (stalled_at == 0 && stands.stalls(sweep, 1.0)) stalled_at = sweep;
-    }
-    EXPECT_GT(stalled_at, 1);
-    EXPECT_LT(stalled_at, 100);
+  StallWatch halves, stands;
+  double residual = 1.0;
+  int stalled_at = 0;
+  for (int sweep = 1; sweep <= 100; ++sweep) {
+    EXPECT_FALSE(halves.stalls(sweep, residual)) << sweep;
+    residual *= 0.5;
+    if (stalled_at == 0 && stands.stalls(sweep, 1.0)) stalled_at = sweep;
   }
+  EXPECT_GT(stalled_at, 1);
+  EXPECT_LT(stalled_at, 100);
 }
 
 }  // namespace

@@ -3,14 +3,13 @@
 // Backward Euler: forces act along the links' directions at the end of the step. Order 1, damps, stable at any step.
 #pragma once
 
-#include "solver/constants.h"
 #include "solver/scheme.h"
 
 namespace curtain {
 
 class Implicit final : public Scheme {
  public:
-  Implicit() noexcept : Scheme({true, true, 0.0, true, kInfinite, false}) {}
+  Implicit() noexcept : Scheme({true, true, 0.0, true, false}) {}
 };
 
 }  // namespace curtain

@@ -5,14 +5,13 @@
 // strings become taut they may pull harder than the step is stable for.
 #pragma once
 
-#include "solver/constants.h"
 #include "solver/scheme.h"
 
 namespace curtain {
 
 class Leapfrog final : public Scheme {
  public:
-  Leapfrog() noexcept : Scheme({false, false, 0.5, false, kMostKinetic, false}) {}
+  Leapfrog() noexcept : Scheme({false, false, 0.5, false, false}) {}
 };
 
 }  // namespace curtain
