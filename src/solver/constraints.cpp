@@ -34,7 +34,6 @@ Constraints::Constraints(const ClothPattern& pattern, double tolerance, const No
   freeWeft(pattern, pattern.inverse_mass, free_per_square_);
   next.assign(size, 0.0);
   best_.position.assign(size, 0.0);
-  block_begun_.resize(blocks);
   block_motion_.resize(blocks);
   block_progress_.resize(blocks);
   laid_down_.assign(blocks, 0.0);
@@ -55,19 +54,10 @@ void Constraints::reset() noexcept {
 
 // ---- the beginning and the end of a substep
 
-void Constraints::begin(const SubstepStart& start, double ratio, bool newton) noexcept {
+void Constraints::begin(const SubstepStart& start, double ratio) noexcept {
   const LineSolve warp = rods(), weft = wefts();
   directions_set_ = measured_ = false;
-  newton_begun_ = newton && !weft_pulls_;
-  forEachBlock([&](int block) {
-    if (newton_begun_) {
-      const LineOutcome outcome = warpBeginNewton(start, warp, last_warp_, ratio, scratch_, block);
-      block_begun_[static_cast<std::size_t>(block)] = outcome;
-      warpEndNewton(warp, scratch_, block);
-    } else {
-      warpBegin(start, warp, last_warp_, ratio, block);
-    }
-  });
+  forEachBlock([&](int block) { warpBegin(start, warp, last_warp_, ratio, block); });
   if (!weft_pulls_) return;  // all multipliers are zero, in weft_ too
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) weft_.multiplier[n] = ratio * last_weft_[n];
   if (ratio == 0.0) return;

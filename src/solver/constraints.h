@@ -31,11 +31,8 @@ class Constraints {
 
   // ---- the beginning and the end of a substep
 
-  /// Predicts, and starts with the last substep's multipliers times ratio. newton: makes the rods' first iteration on the way, where
-  /// no string pulls.
-  void begin(const SubstepStart& start, double ratio, bool newton) noexcept;
-  /// Nodes were moved by others since begin().
-  void moved() noexcept { newton_begun_ = false; }
+  /// Predicts, and starts with the last substep's multipliers times ratio.
+  void begin(const SubstepStart& start, double ratio) noexcept;
   /// The substep is taken: velocities, loads (returns the largest of them over its mass), memory. bends: WarpMotion::bent is wanted.
   double commit(const Field3& from, double step, bool bends, ClothState& state, Field& load) noexcept;
   /// It is over, taken or not.
@@ -64,7 +61,7 @@ class Constraints {
     bool converged = true;
     double first_residual = 0.0;  ///< before the first iteration
   };
-  RodsProgress solveRods(const RodsAim& aim, bool first) noexcept;
+  RodsProgress solveRods(const RodsAim& aim) noexcept;
   double rodsResidual() noexcept;
 
   /// Largest relative violation of a string. closely: each one's is kept, for the solve; else none may pull.
@@ -126,7 +123,7 @@ class Constraints {
     Field warp, weft;
     Contacts contacts;
   };
-  RodsProgress solveBlock(const LineSolve& warp, const RodsAim& aim, int block, bool begun) noexcept;
+  RodsProgress solveBlock(const LineSolve& warp, const RodsAim& aim, int block) noexcept;
   void setWeftDirectionsAt(const Field3& position) noexcept;
   double measureStrings() noexcept;
   double loadStrings(Field& load) noexcept;
@@ -153,12 +150,10 @@ class Constraints {
   Field last_warp_, last_weft_;  // multipliers of the last accepted substep
   bool weft_pulls_ = false;      // a multiplier of last_weft_ is not zero
   bool directions_set_ = false;  // of the weft, in this substep
-  bool newton_begun_ = false;    // begin() has made the first iteration on the rods
   bool measured_ = false;        // violation_ and active_ are of the positions as they are
   double middle_rest_;
   Field violation_, active_, change_;
   Field free_per_square_;  // of weft links with an end that can move: 1 / rest length^2 [1/m^2]; others: 0
-  std::vector<LineOutcome> block_begun_;
   std::vector<WarpMotion> block_motion_;
   std::vector<RodsProgress> block_progress_;
   std::vector<double> row_worst_;

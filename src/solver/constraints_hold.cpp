@@ -42,7 +42,6 @@ void Constraints::layDown(int block, const ClothState& state, NodeInertia::Tensi
   }
   const auto at = static_cast<std::size_t>(block);
   laid_down_[at] = tensions.scale;
-  block_begun_[at] = LineOutcome();
   block_progress_[at] = RodsProgress();
   block_motion_[at] = WarpMotion();
 }
@@ -85,7 +84,6 @@ void Constraints::resume(const ClothState& state) noexcept {
   next = state.position;
   warp_.multiplier = last_warp_;
   for (Field* field : {&weft_.multiplier, &violation_, &active_, &change_}) std::fill(field->begin(), field->end(), 0.0);
-  std::fill(block_begun_.begin(), block_begun_.end(), LineOutcome());
   std::fill(block_progress_.begin(), block_progress_.end(), RodsProgress());
   std::fill(block_motion_.begin(), block_motion_.end(), WarpMotion());
   scratch_.assign(pattern_.grid);

@@ -9,8 +9,8 @@
 namespace curtain {
 
 // Newton on one block of columns until an iteration starts with a residual of at most stop. A block whose rods are within
-// leave_alone already is not touched. begun: begin() has made the first iteration.
-Constraints::RodsProgress Constraints::solveBlock(const LineSolve& warp, const RodsAim& aim, int block, bool begun) noexcept {
+// leave_alone already is not touched.
+Constraints::RodsProgress Constraints::solveBlock(const LineSolve& warp, const RodsAim& aim, int block) noexcept {
   RodsProgress progress;
   if (aim.leave_alone > 0.0) {
     const double residual = warpResidual(warp, block);
@@ -19,8 +19,7 @@ Constraints::RodsProgress Constraints::solveBlock(const LineSolve& warp, const R
   }
   for (int iteration = 0; iteration < kNewtonIterations; ++iteration) {
     if (aim.follow) setWarpDirections(pattern_.grid, block, next, warp_.direction);
-    const LineOutcome outcome =
-        begun && iteration == 0 ? block_begun_[static_cast<std::size_t>(block)] : warpNewton(warp, scratch_, block);
+    const LineOutcome outcome = warpNewton(warp, scratch_, block);
     if (iteration == 0) progress.first_residual = std::max(progress.first_residual, outcome.residual);
     if (!outcome.sound || !std::isfinite(outcome.residual)) break;
     if (outcome.residual <= aim.stop) return progress;
@@ -29,10 +28,10 @@ Constraints::RodsProgress Constraints::solveBlock(const LineSolve& warp, const R
   return progress;
 }
 
-Constraints::RodsProgress Constraints::solveRods(const RodsAim& aim, bool first) noexcept {
+Constraints::RodsProgress Constraints::solveRods(const RodsAim& aim) noexcept {
   const LineSolve warp = rods();
   forEachBlock([&](int block) {
-    block_progress_[static_cast<std::size_t>(block)] = solveBlock(warp, aim, block, first && newton_begun_);
+    block_progress_[static_cast<std::size_t>(block)] = solveBlock(warp, aim, block);
   });
   RodsProgress all;
   for (const RodsProgress& block : block_progress_) {

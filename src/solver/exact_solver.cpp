@@ -86,7 +86,7 @@ ExactSolver::Making ExactSolver::predict(const SubstepPlan& plan, const NodeForc
   const double ratio = !rules.follows && before != 0.0 ? scale / before : 0.0;
   const Making making{plan,  forces, finder, state, clock,
                       scheme, step,   kick,   ratio, scheme.start(plan, step, kick, forces, inertia_, state, outcome)};
-  constraints_.begin(making.start, ratio, !rules.backward);
+  constraints_.begin(making.start, ratio);
   clock.lap(Stage::kPredict);
   return making;
 }
@@ -105,7 +105,7 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const Making& making) noexcept
   all.contacts = contacts;
   while (true) {
     if (contacts != nullptr) {
-      if (beginContacts(inertia_.inverse(), making.ratio, known, *contacts, constraints_.next)) constraints_.moved();
+      beginContacts(inertia_.inverse(), making.ratio, known, *contacts, constraints_.next);
       known = contacts->size();
     }
     const SweepOutcome solved = sweeps_.run(task, contacts, making.clock);
@@ -119,7 +119,6 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const Making& making) noexcept
     const ContactFinder::Verdict verdict = finder->verify(from, next, solved.within);
     making.clock.lap(Stage::kContact);
     if (verdict == ContactFinder::Verdict::kClear) return all;
-    constraints_.moved();
     all.late = all.late || making.clock.late();
     if (!all.late && verdict == ContactFinder::Verdict::kMore && solved.within) continue;
     all.crossed = true;

@@ -100,7 +100,7 @@ SubstepPlan StepControl::next(double remaining, const ExactSolver& solver) noexc
   if (method_ == Method::kImplicit) plan.scheme = SchemeKind::kImplicit;
   if (method_ == Method::kBdf2) plan.scheme = SchemeKind::kBdf2;
   const bool leapfrog = plan.scheme == SchemeKind::kLeapfrog;
-  if (leapfrog && method_ == Method::kAuto) plan.most_phase = kPhasePerStep;
+  if (leapfrog && method_ == Method::kAuto) plan.most_phase = kStablePhase;
   if (leapfrog && fixed_substeps_ == 0) {
     const double for_phase = stepFromTensions(frame_begins, solver);
     const double for_turn = turning_ > 0.0 && !composed_ ? kTurnPerStep / turning_ : frame_;
@@ -111,7 +111,7 @@ SubstepPlan StepControl::next(double remaining, const ExactSolver& solver) noexc
     plan.scheme = SchemeKind::kLastResort;
     plan.reach = trust_.reach();
     plan.precise = false;
-    plan.most_phase = kPhasePerStep;
+    plan.most_phase = kStablePhase;
     step = std::max(smallest, frame_ / kLastResortSubsteps);
   }
   if (!plan.isLastResort()) step = stretch(step, remaining);
@@ -124,7 +124,7 @@ double StepControl::longestStableStep() const noexcept {
   return omega_ > 0.0 ? kLongestPhase / ((composed_ ? kLongestStage : 1.0) * omega_) : frame_;
 }
 
-double StepControl::stablePhase() noexcept { return kPhasePerStep; }
+double StepControl::stablePhase() noexcept { return kStablePhase; }
 
 bool StepControl::askFor(int substeps) noexcept {
   const int before = asked_;

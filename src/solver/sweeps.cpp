@@ -84,7 +84,7 @@ SweepOutcome Sweeps::run(const SweepTask& task, Contacts* contacts, StageClock& 
     const bool first = outcome.sweeps == 0;
     const Aim aim = aimOf(task, first, touches, outcome.sweeps);
     const Constraints::RodsProgress rods = constraints_.solveRods(
-        {follow, task.precise ? kPreciseStop : kNewtonStop, first ? 0.0 : kLeaveAlone * aim.links}, first);
+        {follow, task.precise ? kPreciseStop : kNewtonStop, first ? 0.0 : kLeaveAlone * aim.links});
     clock.lap(Stage::kWarp);
     if (!rods.converged && !task.last_resort) return {SweepEnd::kDiverged, false, outcome.sweeps};
     ++outcome.sweeps;

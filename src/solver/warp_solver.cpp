@@ -223,43 +223,18 @@ CURTAIN_INTO_WIDE void hangHem(const LineSolve& line, std::size_t first) {
 }
 
 // Down a block of columns once: what a row needs of its neighbours is still at hand.
-template <bool kWithElimination>
-CURTAIN_INTO_WIDE LineOutcome beginBlock(const SubstepStart& start, const LineSolve& line, const Field& last,
-                                         double ratio, LineScratch* scratch, int block) {
+CURTAIN_WIDE void warpBegin(const SubstepStart& start, const LineSolve& line, const Field& last, double ratio,
+                            int block) noexcept {
   const Grid& grid = line.pattern.grid;
   const auto stride = static_cast<std::size_t>(grid.stride);
   const std::size_t offset = static_cast<std::size_t>(block) * kLane;
-  Worst worst;
   predictRow(start, line, offset);
   for (int i = 1; i < grid.rows; ++i) {
     const std::size_t first = grid.row(i) + offset;
     predictRow(start, line, first);
     hangRow(start, line, last, ratio, first, stride);
-    if (kWithElimination && i > 1) {
-      eliminateRow<PositionLevel>(line, *scratch, first - stride, worst);
-    }
   }
-  const std::size_t hem = grid.row(grid.rows - 1) + offset;
-  hangHem(line, hem);
-  if (kWithElimination) eliminateRow<PositionLevel>(line, *scratch, hem, worst);
-  return worst.outcome();
-}
-
-CURTAIN_WIDE void warpBegin(const SubstepStart& start, const LineSolve& line, const Field& last, double ratio,
-                            int block) noexcept {
-  beginBlock<false>(start, line, last, ratio, nullptr, block);
-}
-
-CURTAIN_WIDE LineOutcome warpBeginNewton(const SubstepStart& start, const LineSolve& line, const Field& last,
-                                         double ratio, LineScratch& scratch, int block) noexcept {
-  return beginBlock<true>(start, line, last, ratio, &scratch, block);
-}
-
-CURTAIN_WIDE void warpEndNewton(const LineSolve& line, LineScratch& scratch, int block) noexcept {
-  const Grid& grid = line.pattern.grid;
-  const std::size_t offset = static_cast<std::size_t>(block) * kLane;
-  for (int i = grid.rows - 1; i >= 0; --i) substituteRow(line, scratch, grid.row(i) + offset);
-  forgetTop(line, scratch, offset);
+  hangHem(line, grid.row(grid.rows - 1) + offset);
 }
 
 template <bool kBends>

@@ -31,12 +31,6 @@ struct SubstepStart {
 /// (warm start).
 void warpBegin(const SubstepStart& start, const LineSolve& line, const Field& last, double ratio, int block) noexcept;
 
-/// The same and, in the same way down the columns, the first half of a Newton iteration on the rods; warpEndNewton makes
-/// the other half.
-LineOutcome warpBeginNewton(const SubstepStart& start, const LineSolve& line, const Field& last, double ratio,
-                            LineScratch& scratch, int block) noexcept;
-void warpEndNewton(const LineSolve& line, LineScratch& scratch, int block) noexcept;
-
 /// What a substep has done to a block.
 struct WarpMotion {
   double heaviest = 0.0;  ///< the largest load of a node over its mass [1]
