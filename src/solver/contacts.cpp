@@ -20,8 +20,7 @@ Vec3 bounded(const Vec3& slide, double most) {
 
 }  // namespace
 
-bool beginContacts(const Field& inverse_inertia, double ratio, std::size_t first, Contacts& contacts, Field3& position) noexcept {
-  bool any = false;
+void beginContacts(const Field& inverse_inertia, double ratio, std::size_t first, Contacts& contacts, Field3& position) noexcept {
   for (std::size_t n = first; n < contacts.size(); ++n) {
     Contact& contact = contacts[n];
     contact.mobility = 0.0;
@@ -35,9 +34,7 @@ bool beginContacts(const Field& inverse_inertia, double ratio, std::size_t first
     contact.sticks = contact.pushes() && contact.slide.norm() < kSticksBelow * contact.friction * contact.push;
     if (!contact.pushes()) continue;
     contact.move(inverse_inertia, contact.push * contact.normal + contact.slide, position);
-    any = true;
   }
-  return any;
 }
 
 double contactResidual(const Contacts& contacts, const Field3& position, bool recovers) noexcept {
@@ -80,8 +77,7 @@ bool pressesOnObstacle(const Contacts& contacts) noexcept {
                      [](const Contact& contact) { return contact.obstacle != Contact::kCloth && contact.pushes(); });
 }
 
-double rubContacts(const Field& inverse_inertia, Contacts& contacts, Field3& position) noexcept {
-  double largest = 0.0;
+void rubContacts(const Field& inverse_inertia, Contacts& contacts, Field3& position) noexcept {
   for (Contact& contact : contacts) {
     if (contact.sticks || contact.friction == 0.0 || contact.mobility <= 0.0) continue;
     if (!contact.pushes() && contact.slide.squaredNorm() == 0.0) continue;
@@ -91,9 +87,7 @@ double rubContacts(const Field& inverse_inertia, Contacts& contacts, Field3& pos
     const Vec3 change = bounded(wanted, most) - contact.slide;
     contact.slide += change;
     contact.move(inverse_inertia, change, position);
-    largest = std::max(largest, contact.mobility * change.norm());
   }
-  return largest;
 }
 
 void takeUpContact(const Field& inverse_inertia, double push, const Vec3& slide, Contact& contact, Field3& position) noexcept {
@@ -110,8 +104,7 @@ void takeUpContact(const Field& inverse_inertia, double push, const Vec3& slide,
   contact.move(inverse_inertia, push_change * contact.normal + slide_change, position);
 }
 
-double projectContacts(const Field& inverse_inertia, Contacts& contacts, Field3& position) noexcept {
-  double largest = 0.0;
+void projectContacts(const Field& inverse_inertia, Contacts& contacts, Field3& position) noexcept {
   for (Contact& contact : contacts) {
     if (contact.mobility <= 0.0) continue;
     const double entered = contact.offset - contact.normal.dot(contact.point(position));
@@ -119,9 +112,8 @@ double projectContacts(const Field& inverse_inertia, Contacts& contacts, Field3&
     contact.push += change;
     contact.sticks = false;
     contact.move(inverse_inertia, change * contact.normal, position);
-    largest = std::max(largest, contact.mobility * std::abs(change));
   }
-  return std::max(largest, rubContacts(inverse_inertia, contacts, position));
+  rubContacts(inverse_inertia, contacts, position);
 }
 
 }  // namespace curtain

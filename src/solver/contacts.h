@@ -61,8 +61,8 @@ using Contacts = std::vector<Contact>;
 void carryContacts(Archive& archive, const char* name, const Grid& grid, int obstacles, Contacts& contacts);
 
 /// Starts a solve with the contacts from `first` on: how nodes answer now, and the multipliers that the contacts come with
-/// times `ratio` (warm start), by which the nodes move. True: any pushes.
-bool beginContacts(const Field& inverse_inertia, double ratio, std::size_t first, Contacts& contacts, Field3& position) noexcept;
+/// times `ratio` (warm start), by which the nodes move.
+void beginContacts(const Field& inverse_inertia, double ratio, std::size_t first, Contacts& contacts, Field3& position) noexcept;
 
 /// How far a contact is from what it asks for: entered [m], or left while it pushes; 0 where nothing is asked.
 inline double contactViolation(const Contact& contact, const Field3& position) noexcept {
@@ -86,14 +86,13 @@ bool anyPushes(const Contacts& contacts) noexcept;
 /// Something other than the cloth is pushed on.
 bool pressesOnObstacle(const Contacts& contacts) noexcept;
 
-/// Friction of the contacts that are not solved for as held, one after the other. Moves nodes; returns the largest move of a
-/// point [m].
-double rubContacts(const Field& inverse_inertia, Contacts& contacts, Field3& position) noexcept;
+/// Friction of the contacts that are not solved for as held, one after the other. Moves nodes.
+void rubContacts(const Field& inverse_inertia, Contacts& contacts, Field3& position) noexcept;
 
 /// Changes of a contact's multipliers, cut to what it may do: moves the nodes.
 void takeUpContact(const Field& inverse_inertia, double push, const Vec3& slide, Contact& contact, Field3& position) noexcept;
 
-/// One contact after the other by itself, as for cloth without a joint solve; returns the largest move of a point [m].
-double projectContacts(const Field& inverse_inertia, Contacts& contacts, Field3& position) noexcept;
+/// One contact after the other by itself, as for cloth without a joint solve. Moves nodes.
+void projectContacts(const Field& inverse_inertia, Contacts& contacts, Field3& position) noexcept;
 
 }  // namespace curtain
