@@ -28,12 +28,9 @@ constexpr double kLeaveAlone = 0.1;
 // A relative violation beyond this is a step that failed, not one that converges slowly.
 constexpr double kMostViolation = 4.0;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-// Conjugate gradients go on until the residual is a share of the tolerance, but at most to a share of itself: past that the
-// first-order picture they solve in is no longer true. Where directions must be followed what the last digits ask for throws
-// nodes about: measured on sheets hung by two corners, 0.03 rejects six times as many substeps.
+// Conjugate gradients go on until the residual is this share of the tolerance, but not beyond what their first-order picture is off by
+// (the square of the relative violation; with contact, its damping), and at least to that share of itself.
 constexpr double kReductionShare = 0.3;
-constexpr double kLeastReduction = 0.05;
-constexpr double kFollowReduction = 0.3;
 constexpr double kMostReduction = 0.5;
 constexpr int kGradientIterations = 12;
 // A sweep that moves a node by more than this share of a link at once is cut back to it [1].

@@ -151,9 +151,10 @@ SweepOutcome Sweeps::run(const SweepTask& task, Contacts* contacts, StageClock& 
       follow = follow || !touches;
       if (follow) constraints_.followDirections();
       else constraints_.takeDirections(task.start);
-      const double least = follow ? kFollowReduction : kLeastReduction;
-      constraints_.solveNet(
-          {residual, std::clamp(kReductionShare * aim.links / residual, least, kMostReduction), damping.at(residual)}, contacts);
+      // The picture that is solved in is of first order: off by the square of what it moves. Or, with contact, by its damping.
+      const double off = touches ? static_cast<double>(kLeastDamping) : residual;
+      const double enough = std::min(kMostReduction, std::max(kReductionShare * aim.links / residual, off));
+      constraints_.solveNet({residual, enough, damping.at(residual)}, contacts);
     }
     clock.lap(Stage::kWeft);
     if (clock.late()) {
