@@ -29,9 +29,13 @@ constexpr double kLeaveAlone = 0.1;
 constexpr double kMostViolation = 4.0;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 // Conjugate gradients go on until the residual is this share of the tolerance, but not beyond what their first-order picture is off by
-// (the square of the relative violation; with contact, its damping), and at least to that share of itself.
+// (the relative violation itself, of its square), and at least to that share of itself.
 constexpr double kReductionShare = 0.3;
 constexpr double kMostReduction = 0.5;
+// With contact, whose rows are damped, and in the last resort it is off by more: to such a share, along given directions and present ones.
+// As without contact a row between trembling pins gains energy, and balls of 50 m/s go through.
+constexpr double kLeastReduction = 0.05;
+constexpr double kFollowReduction = 0.3;
 constexpr int kGradientIterations = 12;
 // A sweep that moves a node by more than this share of a link at once is cut back to it [1].
 constexpr double kLargestMove = 0.1;

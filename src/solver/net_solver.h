@@ -70,6 +70,10 @@ class NetSolver {
 
  private:
   using Real = float;
+  static constexpr int kColumns = 16;  // of a block, swept side by side along the warp
+  static constexpr int kRows = 8;      // of a block, solved side by side along the weft
+  static constexpr float kSmallestPivot = 1e-6F;  // of single precision's rounding, over (w_a + w_b)
+
   using Values = std::vector<Real, CacheAligned<Real>>;
   struct Values3 {
     Values x, y, z;

@@ -151,8 +151,8 @@ SweepOutcome Sweeps::run(const SweepTask& task, Contacts* contacts, StageClock& 
       follow = follow || !touches;
       if (follow) constraints_.followDirections();
       else constraints_.takeDirections(task.start);
-      // The picture that is solved in is of first order: off by the square of what it moves. Or, with contact, by its damping.
-      const double off = touches ? static_cast<double>(kLeastDamping) : residual;
+      // The picture that is solved in is of first order: off by the square of what it moves.
+      const double off = !touches && !task.last_resort ? residual : follow ? kFollowReduction : kLeastReduction;
       const double enough = std::min(kMostReduction, std::max(kReductionShare * aim.links / residual, off));
       constraints_.solveNet({residual, enough, damping.at(residual)}, contacts);
     }

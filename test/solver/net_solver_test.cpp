@@ -151,7 +151,8 @@ TEST_P(NetSolverOf, FindsWhichStringsPull) {
   const auto count = static_cast<Eigen::Index>(dense.strings.size()), rods = dense.rhs.size() - count;
   Eigen::VectorXd change(count);
   for (Eigen::Index p = 0; p < count; ++p) change[p] = net.change[dense.strings[static_cast<std::size_t>(p)]];
-  const Eigen::VectorXd answer = dense.matrix.bottomRightCorner(rods, rods).fullPivLu().solve(dense.matrix.bottomLeftCorner(rods, count) * change);
+  const Eigen::VectorXd answer =
+      dense.matrix.bottomRightCorner(rods, rods).fullPivLu().solve(dense.matrix.bottomLeftCorner(rods, count) * change);
   const Eigen::VectorXd left = dense.rhs.head(count) - dense.matrix.topLeftCorner(count, count) * change +
                                dense.matrix.topRightCorner(count, rods) * answer;
   const double allowed = 2.0 * reduction * worst * rest * rest;
