@@ -102,7 +102,8 @@ void Constraints::solveNet(const NetAim& aim, Contacts* contacts) noexcept {
   if (!measured_) measureStrings();
   measured_ = false;
   const LineSolve weft = wefts();
-  net_.solve(violation_, active_, {contacts, &next, false}, {aim.residual * middle_rest_, aim.damping, aim.enough, kGradientIterations, &weft_.multiplier},
+  const bool alone = contacts == nullptr || contacts->empty();
+  net_.solve(violation_, active_, {contacts, &next, false}, {aim.residual * middle_rest_, aim.damping, aim.enough, kGradientIterations, alone ? &weft_.multiplier : nullptr},
              change_);
   const double move = aim.residual > kWatchMoves ? std::sqrt(worstOfRows([&](int i) { return weftMoveSquared(weft, i, change_); })) : 0.0;
   const double share = move > kLargestMove ? kLargestMove / move : 1.0;
