@@ -88,8 +88,10 @@ void Constraints::solveNet(const NetAim& aim, Contacts* contacts) noexcept {
   if (!measured_) measureStrings();
   measured_ = false;
   const LineSolve weft = wefts();
-  net_.solve(violation_, active_, {contacts, &next, false}, {aim.residual * middle_rest_, aim.damping, aim.enough, kGradientIterations},
-             change_);
+  // Where nothing touches strings leave and join within the solve.
+  const Field* const multiplier = contacts == nullptr || contacts->empty() ? &weft_.multiplier : nullptr;
+  net_.solve(violation_, active_, {contacts, &next, false},
+             {aim.residual * middle_rest_, aim.damping, aim.enough, kGradientIterations, multiplier}, change_);
   worstOfRows([&](int i) {
     takeUpWeft(weft_, pattern_.grid, i, change_);
     pullWeft(weft, i, change_);
@@ -105,7 +107,7 @@ double Constraints::merit(const Contacts* contacts, double rods_lack) noexcept {
   if (!measured_) measureStrings();
   double sum = static_cast<double>(pattern_.grid.nodeCount()) * rods_lack * rods_lack;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    const double relative = violation_[n] * pattern_.weft_per_square[n];
+    const double relative = active_[n] * violation_[n] * pattern_.weft_per_square[n];
     sum += relative * relative;
   }
   for (std::size_t k = 0; contacts != nullptr && k < contacts->size(); ++k) {

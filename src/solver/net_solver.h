@@ -8,6 +8,10 @@
 // and one weft sweep. Alternating the two without conjugation converges as cos^2 of the angle between warp and weft;
 // where they are sheared this takes about the square root of that number of sweeps.
 //
+// Strings only pull, so which of them take part is found as the solve goes (a primal-dual active set: Hintermueller, Ito, Kunisch
+// 2002): where conjugate gradients have come as far as the residual's change of size allows, those that would push leave with nothing,
+// those that have become too long join, and the gradients begin anew.
+//
 // All in single precision: a solve is a step of an iteration whose residual is measured in double, so rounding costs
 // nothing but that the next step has a little more to do. Directions are over the rest lengths and inertia over its
 // largest, so that numbers are near one.
@@ -46,14 +50,14 @@ class NetSolver {
                           ///< without bound
     double reduction;     ///< of the residual that is enough, (0..1)
     int most_iterations;  ///< > 0
+    const Field* multiplier = nullptr;  ///< of the strings [kg]: none may end below zero; null: they may
   };
   struct Outcome {
     int iterations = 0;
     double reduction = 0.0;  ///< largest residual left over the largest at the start
   };
-  /// violation        C = (|r|^2 - l^2) / 2 [m^2] (or its rate) of the links that take part, 0 of the others; shape of the
-  ///                  grid, stored at the right node
-  /// active           1 for the links that take part, 0 for the others
+  /// violation        C = (|r|^2 - l^2) / 2 [m^2] (or its rate) of the links; shape of the grid, stored at the right node
+  /// active           1 for the links that take part, 0 for the others; with Aim::multiplier, to begin with
   /// contacts         those that push or are entered take part
   /// change           of the strings' multipliers [kg] (or its rate), that takes the violations away while the rods keep theirs
   Outcome solve(const Field& violation, const Field& active, const ContactValues& contacts, const Aim& aim, Field& change) noexcept;
@@ -66,6 +70,10 @@ class NetSolver {
 
  private:
   using Real = float;
+  static constexpr int kColumns = 16;  // of a block, swept side by side along the warp
+  static constexpr int kRows = 8;      // of a block, solved side by side along the weft
+  static constexpr float kSmallestPivot = 1e-6F;  // of single precision's rounding, over (w_a + w_b)
+
   using Values = std::vector<Real, CacheAligned<Real>>;
   struct Values3 {
     Values x, y, z;
@@ -74,13 +82,21 @@ class NetSolver {
   void takeRow(const Field3& position, const Field& inverse_inertia, const ColumnSpan& span, int row) noexcept;
   void factorWarp(int block) noexcept;
   void factorWeft(int row_block) noexcept;
-  void load(const Field& violation, const Field& active, int row_block) noexcept;
-  void unload(int row_block, double scale, Field& change) noexcept;
+  void load(const Field& violation, const Field& active, const Field* multiplier, int row_block) noexcept;
+  void unload(int row_block, const Field* multiplier, Field& change) noexcept;
+  void couple(int block) noexcept;
   void answerOfRods(int block) noexcept;
+  void moveNodes(int block) noexcept;
   double schurProduct(int row_block) noexcept;
   double advance(int row_block, Real alpha) noexcept;
   double precondition(int row_block) noexcept;
   void conjugate(int row_block, Real beta) noexcept;
+  void addPushes(int row) noexcept;
+  double applySchur() noexcept;
+  double step(Real alpha) noexcept;
+  bool changeStrings(Real goal) noexcept;
+  double countChanges(int row_block, Real goal) const noexcept;
+  double changeSet(int row_block, Real goal) noexcept;
   void closeRows(Values& links) noexcept;
   template <typename Block>
   double sumOverRowBlocks(const Block& block) noexcept;
@@ -102,11 +118,14 @@ class NetSolver {
   Values warp_inverse_, warp_lower_;   // A_ww = L D L^T by column: 1 / D, and L below the diagonal
   Values weft_diagonal_, weft_off_;    // A_ff: diagonal, entry towards the next link
   Values weft_inverse_, weft_lower_;   // A_ff = L D L^T by row; interleaved over the rows of a block
-  Values rods_;                        // multipliers of the rods
-  Values3 move_;                       // of the nodes
+  Values above_left_, above_right_;    // A_wf, at a node: of the rod above it with the link on its left, on its right
+  Values below_left_, below_right_;    // the same of the rod below it
+  Values rods_;                        // A_ww^-1 A_wf pull_: minus what the rods' multipliers change by
+  Values3 move_;                       // of the nodes, where contacts ask for it
   Values3 push_;                       // the contacts' search direction on the nodes; zero outside a product
   NetContacts contacts_;
   Values mask_, residual_, preconditioned_, pull_, product_, solution_;
+  Values least_;                       // that the solution may be: minus the multipliers
   Values interleaved_;                 // scratch of precondition()
   std::vector<std::uint8_t> taut_;     // row blocks with a link that takes part
   std::vector<double> partial_;        // sums of the row blocks

@@ -112,8 +112,9 @@ SweepOutcome Sweeps::run(const SweepTask& task, Contacts* contacts, StageClock& 
     if (undone || now.strings > aim.alone * aim.links || touch > aim.alone * aim.contact) {
       follow = true;
       constraints_.followDirections();
-      constraints_.solveNet(
-          {residual, std::clamp(kReductionShare * aim.links / residual, kFollowReduction, kMostReduction), damping.at(residual)}, contacts);
+      const double worth = touches || task.last_resort ? kReduction : residual;
+      const double enough = std::min(kReduction, std::max(kReduction * aim.links / residual, worth));
+      constraints_.solveNet({residual, enough, damping.at(residual)}, contacts);
     }
     clock.lap(Stage::kWeft);
     if (clock.late()) {

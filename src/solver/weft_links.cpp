@@ -26,7 +26,7 @@ struct Row {
 };
 
 struct Link {
-  double violation;  // relative; 0 when it takes no part
+  double violation;  // relative; 0 where no end can move
   double active;
   double not_finite;  // 0, or NaN when a position at its ends is not finite
 };
@@ -39,7 +39,7 @@ CURTAIN_INTO_WIDE Link look(const Row& row, std::size_t left, std::size_t right)
   const double give = load < row.most_give ? load : row.most_give;
   const double c = 0.5 * ((rx * rx + ry * ry + rz * rz) * row.per_square[right] - 1.0) - give;
   const double active = ((both > 0.0) & ((c > 0.0) | (row.s[right] > 0.0))) ? 1.0 : 0.0;
-  return {active * c, active, 0.0 * c};  // 0 * x is NaN for NaN and infinity alike
+  return {both > 0.0 ? c : 0.0, active, 0.0 * c};  // 0 * x is NaN for NaN and infinity alike
 }
 
 // Calls loop(first, end) for what of [0, columns) is in the span. That nothing sleeps is the rule, and a loop whose start is known
@@ -92,14 +92,17 @@ CURTAIN_WIDE double weftResidual(const LineSolve& line, int i) noexcept {
 #pragma omp simd reduction(max : largest) reduction(+ : sum)
     for (std::size_t j = first; j < end; ++j) {
       const Link link = look(row, j - 1, j);
-      const double size = std::abs(link.violation);
+      const double size = link.active * std::abs(link.violation);
       largest = largest > size ? largest : size;
       sum += link.not_finite;
     }
     worst = largest;
     finite = sum;
   });
-  if (grid.closed) worst = std::max(worst, std::abs(look(row, columns - 1, 0).violation));
+  if (grid.closed) {
+    const Link link = look(row, columns - 1, 0);
+    worst = std::max(worst, link.active * std::abs(link.violation));
+  }
   return finite == 0.0 ? worst : std::numeric_limits<double>::infinity();
 }
 
@@ -158,7 +161,7 @@ CURTAIN_WIDE double measureWeft(const LineSolve& line, int i, Field& violation, 
       const Link link = look(row, j - 1, j);
       active_out[j] = link.active;
       c_out[j] = link.violation * rest[j] * rest[j];
-      const double size = std::abs(link.violation);
+      const double size = link.active * std::abs(link.violation);
       largest = largest > size ? largest : size;
       sum += link.not_finite;
     }
@@ -169,7 +172,7 @@ CURTAIN_WIDE double measureWeft(const LineSolve& line, int i, Field& violation, 
     const Link link = look(row, columns - 1, 0);
     active_out[0] = link.active;
     c_out[0] = link.violation * rest[0] * rest[0];
-    worst = std::max(worst, std::abs(link.violation));
+    worst = std::max(worst, link.active * std::abs(link.violation));
   }
   return finite == 0.0 ? worst : std::numeric_limits<double>::infinity();
 }

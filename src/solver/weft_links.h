@@ -28,7 +28,7 @@ void freeWeft(const ClothPattern& pattern, const Field& inverse_mass, Field& out
 double weftSquare(const Grid& grid, int row, const ColumnSpan& span, const Field3& position, const Field& free_per_square) noexcept;
 
 /// The residual, and for every link of the row: whether it takes part (1 or 0) and its violation C = (|r|^2 - l^2) / 2 less
-/// what its compliance allows [m^2], 0 where it does not.
+/// what its compliance allows [m^2], negative where it is slack.
 double measureWeft(const LineSolve& line, int row, Field& violation, Field& active) noexcept;
 
 /// For velocities: the links that pull take part, with dC/dt = d . (v_b - v_a) [m^2/s]; returns the largest over l^2.
