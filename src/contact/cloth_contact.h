@@ -42,6 +42,8 @@ class ClothContact : public ContactFinder {
   void nothingTouches() noexcept { contacts_.clear(); }
   /// Where the cloth is put elsewhere; nothing that comes differs by it, but computing time.
   void clearCaches() noexcept;
+  /// For tests: from now on that is done at every other look or so, drawn from seed; 0: no more.
+  void clearCachesAtRandom(std::uint64_t seed) noexcept { clearing_ = seed; }
   /// After every accepted substep of h [s] that ended at position, whether all links could be brought to their lengths;
   /// scale: its h * kick [s^2].
   void afterSubstep(bool settled, double h, double scale, const Field3& position) noexcept;
@@ -73,6 +75,7 @@ class ClothContact : public ContactFinder {
   void carry(Archive& archive);
 
  private:
+  void clearAtRandom() noexcept;
   bool staysFlat(const Field3& end, bool settled) noexcept;
   void find(const Field3& start, const Field3& end, double reach) noexcept;
   void findOnWay(const Field3& start, const Field3& end) noexcept;
@@ -101,6 +104,7 @@ class ClothContact : public ContactFinder {
   bool flat_ = false;         // and the cloth is flat there
   int looks_ = 0;             // times that the present substep was verified
   int slippery_ = 0;          // substeps still to go without friction
+  std::uint64_t clearing_ = 0;  // state of the random numbers, see clearCachesAtRandom()
 };
 
 }  // namespace curtain
