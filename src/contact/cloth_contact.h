@@ -56,8 +56,8 @@ class ClothContact : public ContactFinder {
   /// Something of the last substep may touch.
   bool any() const { return !contacts_.empty(); }
   const Contacts& contacts() const { return contacts_; }
-  /// Contacts that were pressed on in the last substep.
-  int contactCount() const noexcept { return static_cast<int>(last_.size()); }
+  /// Those of the last accepted substep that push, in order.
+  const Contacts& pushing() const noexcept { return last_; }
   /// How deep the deepest node is inside an obstacle [m]; 0: none is.
   double deepestPenetration(const Field3& position) const noexcept { return touch_.deepest(contacts_, position); }
   /// Of the cloth on an obstacle, in the last frame.
@@ -75,6 +75,7 @@ class ClothContact : public ContactFinder {
   void carry(Archive& archive);
 
  private:
+  void carryPushing(Archive& archive, Contact& contact) const;
   void clearAtRandom() noexcept;
   bool staysFlat(const Field3& end, bool settled) noexcept;
   void find(const Field3& start, const Field3& end, double reach) noexcept;

@@ -208,11 +208,11 @@ TEST(Snapshot, HasAVersionForEveryLayout) {
   SnapshotParts parts;
   const std::string snapshot = Simulator(all).snapshot();
   ASSERT_FALSE(unpackSnapshot(snapshot, parts).has_value());
-  EXPECT_EQ(kSnapshotVersion, 3U);
-  EXPECT_EQ(parts.layout, 2410688164U);
+  EXPECT_EQ(kSnapshotVersion, 4U);
+  EXPECT_EQ(parts.layout, 148060582U);
   const std::string plain = Simulator(flatScene(4, 5)).snapshot();
   ASSERT_FALSE(unpackSnapshot(plain, parts).has_value());
-  EXPECT_EQ(parts.layout, 579768210U);
+  EXPECT_EQ(parts.layout, 2054924161U);
 }
 
 }  // namespace
