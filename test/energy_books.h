@@ -48,16 +48,14 @@ inline double freeEnergy(const curtain::Simulator& simulator) {
   return energy.kinetic + energy.potential - of_pins;
 }
 
-// Work that was put in so many frames ago is no excuse any more.
-constexpr std::size_t kRemembered = 60;
-
 /// Follows the ledger: how far the energy has risen above what was put in, over what moves: m g H, the kinetic energy meanwhile and the
 /// works of the last frames. Two accounts, and what counts is what both see: the ledger's own kinetic energy (leapfrog's, half a
 /// substep late, exact for any force), and the energy of the synchronised state (free of what that wavers by on smooth motion, but half
 /// a kick ahead of a sudden force).
 class EnergyBooks {
  public:
-  explicit EnergyBooks(double weight_scale) : scale_(weight_scale), works_(kRemembered, 0.0) {}
+  /// remembered: work that was put in so many frames ago is no excuse any more.
+  explicit EnergyBooks(double weight_scale, std::size_t remembered = 60) : scale_(weight_scale), works_(remembered, 0.0) {}
 
   void open(const curtain::Simulator& simulator) {
     last_energy_ = freeEnergy(simulator);
@@ -66,7 +64,7 @@ class EnergyBooks {
   void look(const curtain::Simulator& simulator, bool gravity_changes) {
     const curtain::Work work = simulator.work();
     const double forces = work.forces - last_.forces, pins = work.pins - last_.pins, obstacles = work.obstacles - last_.obstacles;
-    works_[frame_++ % kRemembered] = std::abs(forces) + std::abs(pins) + std::abs(obstacles);
+    works_[frame_++ % works_.size()] = std::abs(forces) + std::abs(pins) + std::abs(obstacles);
     const double moves = std::accumulate(works_.begin(), works_.end(), scale_);
     const double put_in = forces + pins + obstacles, kinetic = simulator.energy().kinetic, energy = freeEnergy(simulator);
     const double own = own_.add(work.kinetic - last_.kinetic - (work.gravity - last_.gravity) - put_in, kinetic, moves);
