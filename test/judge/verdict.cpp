@@ -56,7 +56,10 @@ class Court {
     every_ = std::max(1, static_cast<int>(cloth.rows * cloth.columns * drawn.seconds * drawn.scene.solver.frame_rate / kNodesLookedAt));
     simulator_.countWork(rigour.energy && !paper_);
     books_.open(simulator_);
-    for (int o = 0; o < simulator_.obstacleCount(); ++o) judged_.push_back(clear(o));
+    for (int o = 0; o < simulator_.obstacleCount(); ++o) {
+      judged_.push_back(clear(o));
+      places_.push_back(simulator_.obstaclePose(o));
+    }
     crossed_at_start_ = drawn.scene.contact.self && simulator_.selfCrossings() > 0;
   }
 
@@ -111,17 +114,34 @@ class Court {
     return found.nodes + found.edges + found.faces == 0;
   }
 
-  // A pin is so near that what hangs on it may have no room.
+  // A pin is so near, here or on the way here, that what hangs on it may have no room.
   bool reachesPins(int obstacle) const {
-    const Pose& pose = simulator_.obstaclePose(obstacle);
-    const ObstacleShape& shape = simulator_.obstacleShape(obstacle);
+    const Pose &from = places_[static_cast<std::size_t>(obstacle)], &to = simulator_.obstaclePose(obstacle);
     const ClothParams& cloth = drawn_.scene.cloth;
     const double link = 2.0 * (cloth.height / (cloth.rows - 1) + cloth.width / (cloth.columns - 1)) + 2.0 * drawn_.scene.contact.thickness;
+    const double way = (to.position - from.position).norm();
+    const int looks = static_cast<int>(std::clamp(way / link, 1.0, 1000.0));
+    for (int look = 1; look <= looks; ++look) {
+      const double share = static_cast<double>(look) / looks;
+      if (isNearPins(obstacle, {from.position + share * (to.position - from.position), from.orientation.slerp(share, to.orientation)}, link)) return true;
+    }
+    return false;
+  }
+  bool isNearPins(int obstacle, const Pose& pose, double distance) const {
+    const ObstacleShape& shape = simulator_.obstacleShape(obstacle);
     return std::any_of(pins_.begin(), pins_.end(), [&](const Pin& pin) {
       const Vec3 local = pose.orientation.conjugate() * (simulator_.position(pin.node) - pose.position);
       SurfacePoint surface;
-      return shape.query(local, local, link, surface) && surface.distance < link;
+      return shape.query(local, local, distance, surface) && surface.distance < distance;
     });
+  }
+  // Which obstacles can still be judged.
+  void lookAtObstacles() {
+    for (int o = 0; o < simulator_.obstacleCount(); ++o) {
+      const auto at = static_cast<std::size_t>(o);
+      if (judged_[at] && (reachesPins(o) || meetsAnother(o))) judged_[at] = false;
+      places_[at] = simulator_.obstaclePose(o);
+    }
   }
 
   // Cloth between two obstacles that meet has no room.
@@ -172,14 +192,16 @@ class Court {
     if (paper_) lookAtPaper(s);
     else if (!(stretch <= kToleranceShare * drawn_.scene.solver.stretch_tolerance)) fault("stretch", stretch);
     if (verdict_.most_solves > kMostSolves) fault("solves in a frame", static_cast<double>(verdict_.most_solves));
-    if (rigour_.energy && !paper_) {
+    if (rigour_.energy || rigour_.brute_force) lookAtObstacles();
+    // Cloth that is jammed is pushed at by no known force.
+    const bool free = std::all_of(judged_.begin(), judged_.end(), [](bool judged) { return judged; });
+    if (rigour_.energy && !paper_ && free) {
       books_.look(simulator_, !drawn_.happenings.gravity.isZero());
       verdict_.energy_gain = books_.gain();
     }
     if (!rigour_.brute_force || s.frames % every_ != 0) return;
     if (drawn_.scene.contact.self && !crossed_at_start_ && simulator_.selfCrossings() > 0) fault("crosses itself");
     for (int o = 0; o < simulator_.obstacleCount(); ++o) {
-      if (reachesPins(o) || meetsAnother(o)) judged_[static_cast<std::size_t>(o)] = false;
       if (judged_[static_cast<std::size_t>(o)] && !clear(o)) fault("pierced by " + drawn_.scene.obstacles[static_cast<std::size_t>(o)].name);
     }
   }
@@ -200,7 +222,8 @@ class Court {
   const int finer_;
   Simulator simulator_;
   std::vector<Pin> pins_;
-  std::vector<bool> judged_;  // by obstacle: the cloth started clear of it, and it has not met a pin, which can't give way
+  std::vector<bool> judged_;  // by obstacle: the cloth started clear of it, and it has met no pin, which can't give way, and no other
+  std::vector<Pose> places_;  // by obstacle, a frame ago
   const bool paper_;
   double shortest_rod_ = std::numeric_limits<double>::infinity();  // [m]
   EnergyBooks books_;
