@@ -143,6 +143,7 @@ class Simulator {
   std::uint64_t stateHash() const;
 
  private:
+  friend struct CacheClearing;  // of tests: test/clear_caches.h
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a snapshot carries of contact: what pushed in the last accepted substep, and where obstacles are. What is near is found
-// anew.
+// What a snapshot carries of contact: the multipliers of the last accepted substep, and where obstacles are. What is near is
+// found anew.
 #include <limits>
 
 #include "cloth/archive.h"
@@ -73,11 +73,25 @@ void ObstacleContacts::carry(Archive& archive) {
   archive.number("loaded_for", loaded_for_);
 }
 
+// Multipliers by key, and what they act along: with the last forces they take velocities to the time of the positions. All else of a
+// contact is of its own substep.
+void ClothContact::carryPushing(Archive& archive, Contact& contact) const {
+  for (std::uint32_t& node : contact.node) archive.node("node", node, pattern_.grid);
+  for (double& weight : contact.weight) archive.number("weight", weight);
+  archive.integer("nodes", contact.nodes, 0, 4);
+  archive.integer("obstacle", contact.obstacle, Contact::kCloth, obstacles_.count() - 1);
+  archive.integer("source", contact.source, 0, std::numeric_limits<std::uint32_t>::max());
+  archive.numbers("normal", contact.normal);
+  archive.numbers("surface_velocity", contact.surface_velocity);
+  archive.number("push", contact.push);
+  archive.numbers("slide", contact.slide);
+  archive.flag("sticks", contact.sticks);
+}
+
 void ClothContact::carry(Archive& archive) {
   archive.part("touch", touch_);
   archive.flag("taut", taut_);
-  carryContacts(archive, "contacts", pattern_.grid, obstacles_.count(), contacts_);
-  carryContacts(archive, "last", pattern_.grid, obstacles_.count(), last_);
+  archive.list("pushing", last_, [&](Contact& contact) { carryPushing(archive, contact); });
   archive.number("last_scale", last_scale_);
   archive.integer("slippery", slippery_, 0, kCount);
 }

@@ -79,8 +79,17 @@ void ClothContact::find(const Field3& start, const Field3& end, double reach) no
   predicted_ = end;
 }
 
+// Xorshift (Marsaglia 2003): never 0 again once it is not.
+void ClothContact::clearAtRandom() noexcept {
+  clearing_ ^= clearing_ << 13;
+  clearing_ ^= clearing_ >> 7;
+  clearing_ ^= clearing_ << 17;
+  if ((clearing_ & 1U) != 0) clearCaches();
+}
+
 // Cloth that is flat by far where the substep starts has no pairs that are near.
 Contacts& ClothContact::begin(const Field3& start, const Field3& predicted, double h) noexcept {
+  if (clearing_ != 0) clearAtRandom();
   contacts_.clear();
   h_ = h;
   looks_ = 0;
@@ -127,6 +136,7 @@ void ClothContact::findOnWay(const Field3& start, const Field3& end) noexcept {
 }
 
 ContactFinder::Verdict ClothContact::verify(const Field3& start, const Field3& end, bool settled) noexcept {
+  if (clearing_ != 0) clearAtRandom();
   int added = 0;
   bool full = false;
   if (self_wanted_ && !staysFlat(end, settled)) {
@@ -141,6 +151,8 @@ ContactFinder::Verdict ClothContact::verify(const Field3& start, const Field3& e
 }
 
 void ClothContact::hold(const Field3& start, Field3& end) noexcept {
+  if (clearing_ != 0) clearAtRandom();
+  flat_ = false;
   if (self_wanted_) holdSelf(start, end);
   if (obstacles_.anyPresent()) holdToObstacles(start, end);
 }
@@ -195,7 +207,8 @@ int ClothContact::joinCrossings(const Field3& start, const Field3& end) noexcept
 
 void ClothContact::afterSubstep(bool settled, double h, double scale, const Field3& position) noexcept {
   taut_ = settled;
-  net_.goOn();
+  if (flat_) net_.goOn();
+  else net_.forget();
   if (!settled) slippery_ = kSlipperySubsteps;
   else if (slippery_ > 0) --slippery_;
   last_.clear();

@@ -42,6 +42,8 @@ class ClothContact : public ContactFinder {
   void nothingTouches() noexcept { contacts_.clear(); }
   /// Where the cloth is put elsewhere; nothing that comes differs by it, but computing time.
   void clearCaches() noexcept;
+  /// For tests: from now on that is done at every other look or so, drawn from seed; 0: no more.
+  void clearCachesAtRandom(std::uint64_t seed) noexcept { clearing_ = seed; }
   /// After every accepted substep of h [s] that ended at position, whether all links could be brought to their lengths;
   /// scale: its h * kick [s^2].
   void afterSubstep(bool settled, double h, double scale, const Field3& position) noexcept;
@@ -54,8 +56,8 @@ class ClothContact : public ContactFinder {
   /// Something of the last substep may touch.
   bool any() const { return !contacts_.empty(); }
   const Contacts& contacts() const { return contacts_; }
-  /// Contacts that were pressed on in the last substep.
-  int contactCount() const noexcept { return static_cast<int>(last_.size()); }
+  /// Those of the last accepted substep that push, in order.
+  const Contacts& pushing() const noexcept { return last_; }
   /// How deep the deepest node is inside an obstacle [m]; 0: none is.
   double deepestPenetration(const Field3& position) const noexcept { return touch_.deepest(contacts_, position); }
   /// Of the cloth on an obstacle, in the last frame.
@@ -73,6 +75,8 @@ class ClothContact : public ContactFinder {
   void carry(Archive& archive);
 
  private:
+  void carryPushing(Archive& archive, Contact& contact) const;
+  void clearAtRandom() noexcept;
   bool staysFlat(const Field3& end, bool settled) noexcept;
   void find(const Field3& start, const Field3& end, double reach) noexcept;
   void findOnWay(const Field3& start, const Field3& end) noexcept;
@@ -101,6 +105,7 @@ class ClothContact : public ContactFinder {
   bool flat_ = false;         // and the cloth is flat there
   int looks_ = 0;             // times that the present substep was verified
   int slippery_ = 0;          // substeps still to go without friction
+  std::uint64_t clearing_ = 0;  // state of the random numbers, see clearCachesAtRandom()
 };
 
 }  // namespace curtain

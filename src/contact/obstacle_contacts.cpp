@@ -113,8 +113,11 @@ void ObstacleContacts::findCrossings(const Field3& start, const Field3& end, boo
     if (active_[n] == 0) continue;
     const ObstacleSubstep substep = substepOf(n);
     crossingNodes(substep, pattern_, near_[n], crossings_);
+    const auto elements = static_cast<std::ptrdiff_t>(crossings_.size());
     if (!near_[n].faces().empty()) crossingFaces(substep, pattern_, near_[n], crossings_);
     if (!near_[n].pairs().empty()) crossingPairs(substep, pattern_, near_[n], crossings_);
+    std::sort(crossings_.begin() + elements, crossings_.end(),
+              [](const Crossing& a, const Crossing& b) { return std::tie(a.node, a.contact.source) < std::tie(b.node, b.contact.source); });
     full_ = full_ || near_[n].full();
   }
 }

@@ -219,6 +219,7 @@ void TautNet::see(const Field3& position, View& view) const noexcept {
 }
 
 bool TautNet::isFlat(const Field3& position, double reach) noexcept {
+  end_.known = false;
   if (!usable_) return false;
   if (!start_.known) see(position, start_);
   return start_.aimed && areFlat(start_.slopes, reach);

@@ -35,7 +35,7 @@ class TautNet {
   /// After isFlat() has said so of the start: the same while all nodes move straight from there to `end`.
   bool staysFlat(const Field3& end, double reach) noexcept;
 
-  /// isFlat() will be asked of the last end next, and needs not look at it again; else forget().
+  /// isFlat() will be asked next of the end that staysFlat() was asked of last, and needs not look at it again; else forget().
   void goOn() noexcept {
     start_ = end_;
     end_.known = false;

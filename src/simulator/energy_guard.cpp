@@ -34,7 +34,7 @@ bool EnergyGuard::isClosed(bool pins_move) const noexcept {
   const NodeForces& last = motion_.forces.last();
   const bool chooses = motion_.scene.solver.substeps == 0 || motion_.statistics.rejected > 0;
   return wanted_ && chooses && !pins_move && last.weight_only && !last.has_damping &&
-         !(motion_.contact.any() && anyPushes(motion_.contact.contacts()));
+         motion_.pushing() == nullptr;
 }
 
 // The energy before links take out of the velocities what is theirs (Motion::velocities() bounds it by this): it costs next to

@@ -49,7 +49,7 @@ SubstepOutcome Motion::attempt(const SubstepPlan& plan, double done) {
       by_paper ? paper.substep(now, plan.h, finder, state, clock) : exact.substep(plan, now, finder, state, clock);
   statistics.sweeps += outcome.sweeps;
   statistics.sweeps_last += outcome.sweeps;
-  if (counts_work && outcome.accepted) ledger.end(state, now, contacts(), by_paper ? nullptr : &exact, plan.h, outcome);
+  if (counts_work && outcome.accepted) ledger.end(state, now, &contact.contacts(), by_paper ? nullptr : &exact, plan.h, outcome);
   return outcome;
 }
 
@@ -67,7 +67,7 @@ void Motion::restore(const Checkpoint& checkpoint) {
   velocities_fresh_ = false;
 }
 
-void Motion::computeVelocities() noexcept { exact.currentVelocities(state, forces.last(), contacts(), velocities_); }
+void Motion::computeVelocities() noexcept { exact.currentVelocities(state, forces.last(), pushing(), velocities_); }
 
 const Field3& Motion::velocities() {
   if (velocities_fresh_) return velocities_;
@@ -110,7 +110,7 @@ void Motion::measure() noexcept {
   s.weft_stretch_max = std::max(s.weft_stretch_max, s.weft_stretch);
   s.warp_compression_max = std::max(s.warp_compression_max, s.warp_compression);
   const bool near = contact.wanted() && contact.any();
-  s.contacts = near ? contact.contactCount() : 0;
+  s.contacts = near ? static_cast<int>(contact.pushing().size()) : 0;
   s.contacts_max = std::max(s.contacts_max, s.contacts);
   if (near) s.penetration_max = std::max(s.penetration_max, contact.deepestPenetration(state.position));
   s.finite = std::isfinite(s.warp_stretch + s.warp_compression + s.weft_stretch);

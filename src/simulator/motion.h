@@ -31,8 +31,8 @@ struct Motion {
   void save(Checkpoint& checkpoint) const;
   void restore(const Checkpoint& checkpoint);
 
-  /// Of the last substep; null: nothing touches.
-  const Contacts* contacts() const noexcept { return contact.any() ? &contact.contacts() : nullptr; }
+  /// That pushed in the last accepted substep; null: none did.
+  const Contacts* pushing() const noexcept { return contact.pushing().empty() ? nullptr : &contact.pushing(); }
   /// At the time of the positions; kept until forgetVelocities().
   const Field3& velocities();
   void forgetVelocities() noexcept { velocities_fresh_ = false; }

@@ -35,6 +35,7 @@ double ObstacleLag::substepMade(double share, double h) noexcept {
 void ObstacleLag::endFrame(double share) noexcept {
   obstacles_.endFrame(share - lag_ / times_.length());
   lag_ = 0.0;
+  share_ = 1.0;  // of substeps without obstacles, too
 }
 
 }  // namespace curtain

@@ -43,7 +43,7 @@ void Sleep::fallAsleep() {
   if (!rest_.due()) return;
   kept_awake_.clear();
   if (rest_.watches()) motion_.forces.markGusts(motion_.statistics.time, motion_.state.position, kept_awake_);
-  if (rest_.look(motion_.state, motion_.times.madeTime(), kept_awake_, motion_.contacts(), by_column_)) takeOver();
+  if (rest_.look(motion_.state, motion_.times.madeTime(), kept_awake_, motion_.pushing(), by_column_)) takeOver();
 }
 
 void Sleep::takeOver() {

@@ -17,26 +17,6 @@ constexpr int kCount = 1 << 30;  // far from where an int ends
 
 }  // namespace
 
-void carryContacts(Archive& archive, const char* name, const Grid& grid, int obstacles, Contacts& contacts) {
-  archive.list(name, contacts, [&](Contact& contact) {
-    for (std::uint32_t& node : contact.node) archive.node("node", node, grid);
-    for (double& weight : contact.weight) archive.number("weight", weight);
-    archive.integer("nodes", contact.nodes, 0, 4);
-    archive.integer("obstacle", contact.obstacle, Contact::kCloth, obstacles - 1);
-    archive.numbers("normal", contact.normal);
-    archive.number("offset", contact.offset);
-    archive.number("recovery", contact.recovery);
-    archive.numbers("carried", contact.carried);
-    archive.numbers("surface_velocity", contact.surface_velocity);
-    archive.number("friction", contact.friction);
-    archive.number("push", contact.push);
-    archive.numbers("slide", contact.slide);
-    archive.number("mobility", contact.mobility);
-    archive.flag("sticks", contact.sticks);
-    archive.integer("source", contact.source, 0, std::numeric_limits<std::uint32_t>::max());
-  });
-}
-
 void NodeInertia::Tensions::carry(Archive& archive) {
   archive.numbers("load", load);
   archive.number("heaviest", heaviest);

@@ -57,9 +57,6 @@ struct Contact {
 
 using Contacts = std::vector<Contact>;
 
-/// Contacts of the grid's nodes with obstacles [0, obstacles), or with the cloth itself.
-void carryContacts(Archive& archive, const char* name, const Grid& grid, int obstacles, Contacts& contacts);
-
 /// Starts a solve with the contacts from `first` on: how nodes answer now, and the multipliers that the contacts come with
 /// times `ratio` (warm start), by which the nodes move.
 void beginContacts(const Field& inverse_inertia, double ratio, std::size_t first, Contacts& contacts, Field3& position) noexcept;

@@ -148,6 +148,40 @@ TEST_P(ContactCaches, ChangeNoBit) {
   EXPECT_GT(crossings, 10u);
 }
 
+// A solve that goes on ends elsewhere than where the cloth was seen to be flat.
+TEST(ContactCachesOfFlatCloth, AreOfWhereTheSubstepEnds) {
+  Scene scene = flatScene(12, 11, 0.8, 0.8);
+  scene.contact.self = true;
+  scene.contact.thickness = 0.008;
+  const ClothPattern pattern = makePattern(scene);
+  const Field3 flat = makeInitialState(scene, pattern).position;
+  Field3 turned = flat, folded = flat;  // by 1 rad about the top row; half of it back on the rest
+  const double top = scene.hang.from.z(), middle = flat.at(pattern.grid.index(6, 0)).z();
+  for (int i = 0; i < pattern.grid.rows; ++i) {
+    for (int j = 0; j < pattern.grid.columns; ++j) {
+      const std::size_t n = pattern.grid.index(i, j);
+      const Vec3 at = flat.at(n);
+      const double down = top - at.z(), over = std::max(0.0, middle - at.z());
+      turned.set(n, {at.x(), at.y() + down * std::sin(1.0), top - down * std::cos(1.0)});
+      folded.set(n, {at.x(), at.y() + over * std::sin(0.05), std::max(at.z(), middle) + over * std::cos(0.05)});
+    }
+  }
+  Finder keeps(scene, pattern), forgets(scene, pattern);
+  for (Finder* const finder : {&keeps, &forgets}) {
+    finder->contact.begin(flat, flat, kSubstep);
+    finder->contact.verify(flat, flat, true);
+    finder->contact.afterSubstep(true, kSubstep, 1e-5, flat);
+    finder->contact.begin(flat, turned, kSubstep);
+    finder->contact.verify(flat, turned, true);
+    finder->contact.verify(flat, folded, true);
+    finder->contact.afterSubstep(true, kSubstep, 1e-5, folded);
+  }
+  forgets.contact.clearCaches();
+  const Contacts& found = forgets.contact.begin(folded, folded, kSubstep);
+  EXPECT_GT(found.size(), 10u);
+  expectSame(keeps.contact.begin(folded, folded, kSubstep), found, "folded");
+}
+
 INSTANTIATE_TEST_SUITE_P(Cases, ContactCaches,
                          ::testing::Values(Case{"Obstacles", false, true, false}, Case{"Self", true, false, false},
                                            Case{"Both", true, true, false}, Case{"Closed", true, true, true}),

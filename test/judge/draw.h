@@ -39,6 +39,9 @@ struct Drawn {
 
 Drawn draw(Kind kind, std::uint64_t seed);
 
+/// Trials name meshes by their path in the source folder.
+std::string resolveTrialMesh(const std::string& url);
+
 /// As YAML text, and back; throws std::runtime_error for what is no trial.
 std::string write(const Drawn& drawn);
 Drawn readTrial(const std::string& text);

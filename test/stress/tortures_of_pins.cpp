@@ -106,9 +106,7 @@ Torture straightRow(int rows, int columns, double share) {
   torture.scene.pins.kind = PinKind::kTopCorners;
   torture.scene.hang.to.x() = share;
   torture.recovers = false;
-  // Links within their tolerance e let the row sag by sqrt(3 e / 8) of its width, the cloth by two thirds of that on the mean; it may
-  // lie anywhere between, and get there by a swing of the same energy.
-  torture.energy_gain = 2.0 * 2.0 / 3.0 * std::sqrt(3.0 / 8.0 * 1e-3);
+  torture.energy_gain = slackGain(1e-3);
   return torture;
 }
 

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <sstream>
+
+#include "energy_books.h"
 
 namespace curtain_test {
 namespace {
@@ -24,14 +25,6 @@ constexpr double kStays = 0.5;  // [s] at rest, or it has only gone by
 constexpr double kLongestRecovery = 40.0;  // [s]; what asks for more is not waited for
 constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
 
-double cloth_mass(const Simulator& simulator) {
-  double sum = 0.0;
-  for (int i = 0; i < simulator.rows(); ++i) {
-    for (int j = 0; j < simulator.columns(); ++j) sum += simulator.pinned({i, j}) ? 0.0 : simulator.mass({i, j});
-  }
-  return sum;
-}
-
 // Energy of the cloth at rest, hanging as it does where nothing torments it: in thick air, until it sleeps.
 double restEnergy(Scene scene) {
   scene.wind.clear();
@@ -44,67 +37,6 @@ double restEnergy(Scene scene) {
   for (int f = 0; f < 1200 && simulator.statistics().asleep_frames == 0; ++f) simulator.step();
   return simulator.energy().potential;
 }
-
-// Energy of the state's nodes that can move: pins lift nothing but themselves.
-double freeEnergy(const Simulator& simulator) {
-  const Energy energy = simulator.energy();
-  double of_pins = 0.0;
-  for (int i = 0; i < simulator.rows(); ++i) {
-    for (int j = 0; j < simulator.columns(); ++j) {
-      if (simulator.pinned({i, j})) of_pins -= simulator.mass({i, j}) * simulator.scene().gravity.dot(simulator.position({i, j}));
-    }
-  }
-  return energy.kinetic + energy.potential - of_pins;
-}
-
-// Work that was put in so many frames ago is no excuse any more.
-constexpr std::size_t kRemembered = 60;
-
-// Follows the ledger: how far the energy has risen above what was put in, over what moves: m g H, the kinetic energy meanwhile and the
-// works of the last frames. Two accounts, and what counts is what both see: the ledger's own kinetic energy (leapfrog's, half a
-// substep late, exact for any force), and the energy of the synchronised state (free of what that wavers by on smooth motion, but half
-// a kick ahead of a sudden force).
-class Books {
- public:
-  explicit Books(double weight_scale) : scale_(weight_scale), works_(kRemembered, 0.0) {}
-
-  void open(const Simulator& simulator) {
-    last_energy_ = freeEnergy(simulator);
-    own_.most_kinetic = synchronised_.most_kinetic = simulator.energy().kinetic;
-  }
-  void look(const Simulator& simulator, bool gravity_changes) {
-    const Work work = simulator.work();
-    const double forces = work.forces - last_.forces, pins = work.pins - last_.pins, obstacles = work.obstacles - last_.obstacles;
-    works_[frame_++ % kRemembered] = std::abs(forces) + std::abs(pins) + std::abs(obstacles);
-    const double moves = std::accumulate(works_.begin(), works_.end(), scale_);
-    const double put_in = forces + pins + obstacles, kinetic = simulator.energy().kinetic, energy = freeEnergy(simulator);
-    const double own = own_.add(work.kinetic - last_.kinetic - (work.gravity - last_.gravity) - put_in, kinetic, moves);
-    const double synchronised = synchronised_.add(energy - last_energy_ - put_in, kinetic, moves);
-    worst_ = std::max(worst_, gravity_changes ? own : std::min(own, synchronised));
-    last_ = work;
-    last_energy_ = energy;
-  }
-  double gain() const { return worst_; }
-
- private:
-  struct Account {
-    double level = 0.0, lowest = 0.0, most_kinetic = 0.0;
-    double add(double change, double kinetic, double moves) {
-      level += change;
-      if (level <= lowest) {
-        lowest = level;
-        most_kinetic = 0.0;
-      }
-      most_kinetic = std::max(most_kinetic, kinetic);
-      return (level - lowest) / (moves + most_kinetic);
-    }
-  };
-  Work last_;
-  Account own_, synchronised_;
-  double scale_, last_energy_ = 0.0, worst_ = 0.0;
-  std::vector<double> works_;
-  std::size_t frame_ = 0;
-};
 
 bool allFinite(const Simulator& simulator, std::vector<Vec3>& scratch) {
   const auto finite = [](const Vec3& v) { return v.allFinite(); };
@@ -119,7 +51,7 @@ struct Run {
   std::uint64_t hash = 0;
 };
 
-void lookAtFrame(const Simulator& simulator, bool gravity_changes, std::vector<Vec3>& scratch, Books& books, Trial& trial) {
+void lookAtFrame(const Simulator& simulator, bool gravity_changes, std::vector<Vec3>& scratch, EnergyBooks& books, Trial& trial) {
   const Statistics& s = simulator.statistics();
   trial.milliseconds = std::max(trial.milliseconds, 1e3 * s.step_seconds);
   trial.seconds += s.step_seconds;
@@ -128,7 +60,7 @@ void lookAtFrame(const Simulator& simulator, bool gravity_changes, std::vector<V
 }
 
 // The torture alone. Returns the hash of where it ends.
-std::uint64_t torment(const Torture& torture, Books& books, Simulator& simulator, Trial& trial) {
+std::uint64_t torment(const Torture& torture, EnergyBooks& books, Simulator& simulator, Trial& trial) {
   Random random(7);
   std::vector<Vec3> scratch;
   if (torture.begin) torture.begin(simulator);
@@ -148,7 +80,7 @@ std::uint64_t torment(const Torture& torture, Books& books, Simulator& simulator
 }
 
 // And what comes after it.
-void recover(const Torture& torture, double scale, Books& books, Simulator& simulator, Trial& trial) {
+void recover(const Torture& torture, double scale, EnergyBooks& books, Simulator& simulator, Trial& trial) {
   trial.recovery = trial.recovery_allowed = kNever;
   std::vector<Vec3> scratch;
   const auto oneFrame = [&] {
@@ -167,7 +99,7 @@ void recover(const Torture& torture, double scale, Books& books, Simulator& simu
     return energy.kinetic + energy.potential - rest;
   };
   const AirParams& air = torture.scene.air;
-  const double per_mass = air.density * air.inside * torture.scene.cloth.height * torture.scene.cloth.width / cloth_mass(simulator);
+  const double per_mass = air.density * air.inside * torture.scene.cloth.height * torture.scene.cloth.width / freeMass(simulator);
   const double start = simulator.time();
   const double swing = 2.0 * 3.14159 * std::sqrt(2.0 / 3.0 * torture.scene.cloth.height / torture.scene.gravity.norm());
   const double allowed = kFall + swing + kPatience * std::max(0.0, std::log(above() / (kAtRest * scale))) / per_mass;
@@ -210,9 +142,9 @@ Trial carryOut(const Torture& torture, Method method, bool twice) {
   Scene scene = torture.scene;
   scene.solver.method = method;
   Simulator simulator(scene);
-  const double scale = std::max(1e-12, cloth_mass(simulator) * std::max(1e-3, scene.gravity.norm()) * scene.cloth.height);
+  const double scale = weightScale(simulator);
   Trial trial;
-  Books books(scale);
+  EnergyBooks books(scale);
   const std::uint64_t hash = torment(torture, books, simulator, trial);
   if (trial.finite) recover(torture, scale, books, simulator, trial);
   trial.energy_gain = books.gain();
@@ -225,7 +157,7 @@ Trial carryOut(const Torture& torture, Method method, bool twice) {
   if (twice) {
     Simulator again(scene);
     Trial other;
-    Books scrap(scale);
+    EnergyBooks scrap(scale);
     trial.repeated = true;
     trial.same_bits = torment(torture, scrap, again, other) == hash;
   }
