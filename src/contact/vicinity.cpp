@@ -32,8 +32,10 @@ constexpr double kRounding = 1e-9;
 constexpr double kMostSubsteps = 16.0;
 constexpr double kLongestWay = 1.0;
 constexpr double kLongestWayOfPairs = 0.5;
-// Room for pairs with a mesh, per node.
+// Room for pairs with a mesh, per node of the cloth and per edge or corner of the mesh: either may be the finer one. Without room the
+// cloth is held where it is, and a mesh that goes on goes through it.
 constexpr std::size_t kPairsPerNode = 8;
+constexpr std::size_t kPairsPerFeature = 4;
 
 double longestEdge(const ClothPattern& pattern) {
   const Grid& grid = pattern.grid;
@@ -153,7 +155,7 @@ Vicinity::Vicinity(const ClothPattern& pattern, const ObstacleShape& shape, doub
   taken_.reserve(count);
   nodes_.reserve(count);
   if (shape.convex() != nullptr) faces_.reserve(elements_wanted_ ? 2 * count : 0);
-  else pairs_.reserve(kPairsPerNode * count);
+  else pairs_.reserve(kPairsPerNode * count + kPairsPerFeature * (shape.features()->edges().size() + shape.features()->vertices().size()));
   if (shape.convex() == nullptr) rough_ = RoughFeatures(*shape.features(), {kOverlong * longest, kept_, core});
 }
 
