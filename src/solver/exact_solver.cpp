@@ -114,7 +114,8 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const Making& making) noexcept
     all.settled = solved.within;
     all.late = all.late || (solved.end == SweepEnd::kOutOfTime && !solved.within);
     if (contacts == nullptr) return all;
-    if (free_ && !last_resort && !held_.any() && making.start.keep == nullptr && !pressesOnObstacle(*contacts)) keepMomentum(making.start);
+    const bool keeps = free_ && !last_resort && !held_.any() && making.start.keep == nullptr;
+    if (keeps && anyPushes(*contacts) && !pressesOnObstacle(*contacts)) keepMomentum(making.start);
     if (!solved.within && (!last_resort || all.late || solved.end == SweepEnd::kDiverged)) return all;
     const ContactFinder::Verdict verdict = finder->verify(from, next, solved.within);
     making.clock.lap(Stage::kContact);

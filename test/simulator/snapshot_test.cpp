@@ -209,10 +209,10 @@ TEST(Snapshot, HasAVersionForEveryLayout) {
   const std::string snapshot = Simulator(all).snapshot();
   ASSERT_FALSE(unpackSnapshot(snapshot, parts).has_value());
   EXPECT_EQ(kSnapshotVersion, 4U);
-  EXPECT_EQ(parts.layout, 713396254U);
+  EXPECT_EQ(parts.layout, 1600950261U);
   const std::string plain = Simulator(flatScene(4, 5)).snapshot();
   ASSERT_FALSE(unpackSnapshot(plain, parts).has_value());
-  EXPECT_EQ(parts.layout, 518113116U);
+  EXPECT_EQ(parts.layout, 371454989U);
 }
 
 }  // namespace
