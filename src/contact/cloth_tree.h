@@ -115,7 +115,8 @@ class ClothTree {
   void pair(std::uint32_t one, std::uint32_t other, Candidates& out) noexcept;
   void quadSelf(std::uint32_t node, Candidates& out) noexcept;
   void quadPair(std::uint32_t one, std::uint32_t other, Candidates& out) noexcept;
-  void dropApart(std::size_t first_vertex, std::size_t first_edge, Candidates& out) const noexcept;
+  void makeRoom(Candidates& out) noexcept;
+  void dropApart(Candidates& out) noexcept;
   bool flatTogether(std::uint32_t one, std::uint32_t other) noexcept;
   enum class InWindow { kNone, kBent, kFlat };
   InWindow inFlatWindow(const QuadRectangle& one, const QuadRectangle& other) noexcept;
@@ -163,6 +164,7 @@ class ClothTree {
   std::vector<ElementBoxes> element_boxes_;    // of quads, and the second set of the last one
   std::vector<std::uint32_t> quad_refits_;     // of quads: the refit that their ways are of
   std::vector<QuadWays> quad_ways_;
+  std::size_t first_vertex_ = 0, first_edge_ = 0;  // of the candidates whose elements may yet be proved to stay apart
   std::uint32_t queries_ = 0;
   std::size_t window_groups_ = 0;              // of four windows of 2 x 2 quads, in a row of them
   std::vector<std::uint32_t> window_queries_;  // of groups: the query that windows_flat_ is of

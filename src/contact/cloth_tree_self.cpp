@@ -76,14 +76,21 @@ void ClothTree::collectSelfOf(const std::vector<std::uint8_t>& marked, double re
 void ClothTree::collectWanted(double reach, Candidates& out) noexcept {
   reach_ = static_cast<float>(reach) * (1.0f + 2.0f * std::numeric_limits<float>::epsilon()) + rounding_;
   ++queries_;
-  const std::size_t first_vertex = out.vertex_triangles.size(), first_edge = out.edge_edges.size();
+  first_vertex_ = out.vertex_triangles.size();
+  first_edge_ = out.edge_edges.size();
   self(0, out);
-  dropApart(first_vertex, first_edge, out);
+  dropApart(out);
+}
+
+// Of long quads boxes along the axes meet by the thousand, of which few come near.
+void ClothTree::makeRoom(Candidates& out) noexcept {
+  constexpr std::size_t kMostOfTwoQuads = 32;
+  if (std::max(out.vertex_triangles.size(), out.edge_edges.size()) + kMostOfTwoQuads > out.room) dropApart(out);
 }
 
 // Boxes along the axes let through many times the pairs that come near.
-void ClothTree::dropApart(std::size_t first_vertex, std::size_t first_edge, Candidates& out) const noexcept {
-  const auto filter = [&](auto& pairs, std::size_t first, const auto& stay_apart) {
+void ClothTree::dropApart(Candidates& out) noexcept {
+  const auto filter = [&](auto& pairs, std::size_t& first, const auto& stay_apart) {
     std::size_t kept = first;
     for (std::size_t from = first; from < pairs.size(); from += 4) {
       const std::size_t count = std::min<std::size_t>(4, pairs.size() - from);
@@ -96,9 +103,10 @@ void ClothTree::dropApart(std::size_t first_vertex, std::size_t first_edge, Cand
       }
     }
     pairs.erase(pairs.begin() + static_cast<std::ptrdiff_t>(kept), pairs.end());
+    first = kept;
   };
-  filter(out.vertex_triangles, first_vertex, vertexStaysApart);
-  filter(out.edge_edges, first_edge, edgesStayApart);
+  filter(out.vertex_triangles, first_vertex_, vertexStaysApart);
+  filter(out.edge_edges, first_edge_, edgesStayApart);
 }
 
 void ClothTree::self(std::uint32_t node, Candidates& out) noexcept {
@@ -219,6 +227,7 @@ ClothTree::OpenQuad ClothTree::openQuad(std::uint32_t node) noexcept {
 
 void ClothTree::quadSelf(std::uint32_t node, Candidates& out) noexcept {
   if (inFlatWindow(nodes_[node].quads, nodes_[node].quads) == InWindow::kFlat) return;
+  makeRoom(out);
   const OpenQuad quad = openQuad(node);
   const auto never = [] { return false; };  // flat: has been asked
   for (const bool second : {false, true}) {
@@ -235,6 +244,7 @@ void ClothTree::quadPair(std::uint32_t one, std::uint32_t other, Candidates& out
   const InWindow window = inFlatWindow(nodes_[one].quads, nodes_[other].quads);
   if (window == InWindow::kFlat) return;
   if (window == InWindow::kNone && quadWays(one).staysApart(quadWays(other), reach_, rounding_)) return;
+  makeRoom(out);
   const OpenQuad p = openQuad(one), q = openQuad(other);
   // Boxes of slopes are for neighbours that no window holds: around the seam, and in cloth of a single row or column.
   // Asked at the first pair that would be added, for most pairs of quads have none.

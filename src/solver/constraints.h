@@ -52,10 +52,14 @@ class Constraints {
 
   // ---- what a solve is made of
 
+  /// The same substep may be solved more than once, each time with more contacts.
+  void beginSolve() noexcept { net_ready_ = false; }
+
   struct RodsAim {
     bool follow;           ///< along the directions of the present positions
     double stop;           ///< relative violation that an iteration may end from
     double leave_alone;    ///< blocks of columns within it are not touched
+    double most_residual;  ///< beyond it a solve has failed
   };
   struct RodsProgress {
     bool converged = true;
@@ -70,11 +74,14 @@ class Constraints {
 
   /// Directions of all links are those of the positions as they are now.
   void followDirections() noexcept;
+  /// Strings pull along their directions at the start of the substep, rods as they do.
+  void takeDirections(const Field3& start) noexcept;
 
   struct NetAim {
     double residual;  ///< the largest relative violation
     double enough;    ///< reduction of it to stop at
     double damping;   ///< Levenberg-Marquardt term, over the diagonal
+    bool newton;      ///< strings leave and join within the solve
   };
   /// One step of all taut strings and contacts. The nodes move by their part of it; the rods' own solve comes next.
   void solveNet(const NetAim& aim, Contacts* contacts) noexcept;
@@ -152,6 +159,7 @@ class Constraints {
   bool directions_set_ = false;  // of the weft, in this substep
   bool measured_ = false;        // violation_ and active_ are of the positions as they are
   double middle_rest_;
+  bool net_ready_ = false;       // of directions at the start of the substep
   Field violation_, active_, change_;
   Field free_per_square_;  // of weft links with an end that can move: 1 / rest length^2 [1/m^2]; others: 0
   std::vector<WarpMotion> block_motion_;

@@ -21,7 +21,7 @@ Constraints::RodsProgress Constraints::solveBlock(const LineSolve& warp, const R
     if (aim.follow) setWarpDirections(pattern_.grid, block, next, warp_.direction);
     const LineOutcome outcome = warpNewton(warp, scratch_, block);
     if (iteration == 0) progress.first_residual = std::max(progress.first_residual, outcome.residual);
-    if (!outcome.sound || !std::isfinite(outcome.residual)) break;
+    if (!outcome.sound || !(outcome.residual < aim.most_residual)) break;
     if (outcome.residual <= aim.stop) return progress;
   }
   progress.converged = false;
@@ -81,17 +81,28 @@ void Constraints::followDirections() noexcept {
   forEachBlock([&](int block) { setWarpDirections(pattern_.grid, block, next, warp_.direction); });
   setWeftDirectionsAt(next);
   net_.begin(next, inertia_.inverse(), held_.movingSpan());
-  directions_set_ = true;
+  directions_set_ = net_ready_ = true;
+}
+
+void Constraints::takeDirections(const Field3& start) noexcept {
+  if (net_ready_) return;
+  if (!directions_set_) setWeftDirectionsAt(start);
+  net_.begin(start, inertia_.inverse(), held_.movingSpan());
+  directions_set_ = net_ready_ = true;
 }
 
 void Constraints::solveNet(const NetAim& aim, Contacts* contacts) noexcept {
   if (!measured_) measureStrings();
   measured_ = false;
   const LineSolve weft = wefts();
-  // Where nothing touches strings leave and join within the solve.
-  const Field* const multiplier = contacts == nullptr || contacts->empty() ? &weft_.multiplier : nullptr;
+  const Field* const multiplier = aim.newton ? &weft_.multiplier : nullptr;
   net_.solve(violation_, active_, {contacts, &next, false},
              {aim.residual * middle_rest_, aim.damping, aim.enough, kGradientIterations, multiplier}, change_);
+  const double move = aim.residual > kWatchMoves ? std::sqrt(worstOfRows([&](int i) { return weftMoveSquared(weft, i, change_); })) : 0.0;
+  const double share = move > kLargestMove ? kLargestMove / move : 1.0;
+  if (share != 1.0) {
+    for (double& change : change_) change *= share;
+  }
   worstOfRows([&](int i) {
     takeUpWeft(weft_, pattern_.grid, i, change_);
     pullWeft(weft, i, change_);
@@ -99,7 +110,7 @@ void Constraints::solveNet(const NetAim& aim, Contacts* contacts) noexcept {
   });
   if (contacts == nullptr) return;
   net_.forEachContactChange([&](std::uint32_t index, double push, const Vec3& slide) {
-    takeUpContact(inertia_.inverse(), push, slide, (*contacts)[index], next);
+    takeUpContact(inertia_.inverse(), share * push, share * slide, (*contacts)[index], next);
   });
 }
 

@@ -96,7 +96,7 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const Making& making) noexcept
   const SubstepPlan& plan = making.plan;
   const bool last_resort = plan.isLastResort();
   const Field3 &from = making.state.position, &next = constraints_.next;
-  const SweepTask task{making.scheme.rules().follows, last_resort, plan.precise, making.forces.gravity.norm() * plan.h * plan.h};
+  const SweepTask task{making.start.state.position, making.scheme.rules().follows, last_resort, plan.precise, making.forces.gravity.norm() * plan.h * plan.h};
   ContactFinder* const finder = making.finder;
   Contacts* const contacts = finder != nullptr ? &finder->begin(from, next, plan.h) : nullptr;
   if (finder != nullptr) making.clock.lap(Stage::kContact);
@@ -114,8 +114,7 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const Making& making) noexcept
     all.settled = solved.within;
     all.late = all.late || (solved.end == SweepEnd::kOutOfTime && !solved.within);
     if (contacts == nullptr) return all;
-    const bool keeps = free_ && !last_resort && !held_.any() && making.start.keep == nullptr;
-    if (keeps && anyPushes(*contacts) && !pressesOnObstacle(*contacts)) keepMomentum(making.start);
+    if (free_ && !last_resort && !held_.any() && making.start.keep == nullptr && !pressesOnObstacle(*contacts)) keepMomentum(making.start);
     if (!solved.within && (!last_resort || all.late || solved.end == SweepEnd::kDiverged)) return all;
     const ContactFinder::Verdict verdict = finder->verify(from, next, solved.within);
     making.clock.lap(Stage::kContact);
@@ -140,16 +139,17 @@ bool ExactSolver::struck(const Progress& progress) const noexcept {
 
 // Whether it may be taken: it has found no energy, and nothing that sleeps would have moved.
 void ExactSolver::judge(const Making& making, Progress& progress, SubstepOutcome& outcome) noexcept {
-  if (progress.late) {
+  const bool last_resort = making.plan.isLastResort();
+  if (progress.late || (last_resort && progress.alone())) {
     progress.most_kinetic = guard_.most(making.start, constraints_.next);
-  } else if ((progress.settled || making.plan.isLastResort()) && progress.alone()) {
+  } else if (progress.settled && progress.alone()) {
     const KineticGuard::Finding finding =
         guard_.look(making.scheme.rules(), constraints_.stringsAct(), making.start, constraints_.next);
     progress.most_kinetic = finding.most;
-    if (finding.jumps && !making.plan.isLastResort()) progress.settled = false;
+    if (finding.jumps) progress.settled = false;
   }
   if (held_.any()) {
-    const bool stuck = progress.crossed || (making.plan.isLastResort() && !progress.settled);
+    const bool stuck = progress.crossed || (last_resort && !progress.settled);
     const LinkSet* const strings = constraints_.stringsAct() ? &constraints_.strings() : nullptr;
     outcome.disturbed = held_.disturbedBy(strings, progress.contacts, 1.0 / making.scale(), making.forces.gravity.norm(), stuck);
   }
@@ -170,8 +170,9 @@ void ExactSolver::boundPath(const Making& making, const Progress& progress, Subs
     outcome.share = bound.share;
     outcome.momentum_cut += bound.moment / making.plan.h;
   }
-  // Bounded, cloth on moving pins goes another path than was verified. Where that leads through something even the pins wait.
-  if (outcome.share < 1.0 && last_resort_.pinsMove() && making.finder != nullptr &&
+  // Bounded or held back, cloth on moving pins goes another path than was verified. Where that leads through something even the pins
+  // wait.
+  if ((outcome.share < 1.0 || progress.crossed) && last_resort_.pinsMove() && making.finder != nullptr &&
       making.finder->verify(making.state.position, next, true) != ContactFinder::Verdict::kClear) {
     next = making.state.position;
     outcome.share = 0.0;
@@ -208,20 +209,28 @@ double ExactSolver::turning(double kick) const noexcept {
   return std::sqrt(std::sqrt(constraints_.bent() / ((pattern_.grid.rows - 1) * pattern_.grid.columns)) / std::abs(kick));
 }
 
-// Of a cloth that nothing holds: what the solve has added to its momentum is taken out of the whole.
+// Of a cloth that nothing holds: what the solve has added to its momentum is taken out of the whole, by a motion that keeps all lengths.
 void ExactSolver::keepMomentum(const SubstepStart& start) noexcept {
   const Field3& from = start.state.position;
   Field3& next = constraints_.next;
-  Momentum missing;
+  const auto missing = [&] {
+    Momentum sum;
+    for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+      const Vec3 wanted = start.state.velocity.at(n) + start.kick * pattern_.inverse_mass[n] * start.force.at(n);
+      const Vec3 p = pattern_.mass[n] * (wanted - (next.at(n) - from.at(n)) / start.h);
+      sum.linear += p;
+      sum.angular += from.at(n).cross(p);
+    }
+    return sum;
+  };
+  const RigidMotion::Displacement carry = rigidMotion(pattern_, from, missing()).over(start.h);
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    const Vec3 wanted = start.state.velocity.at(n) + start.kick * pattern_.inverse_mass[n] * start.force.at(n);
-    const Vec3 p = pattern_.mass[n] * (wanted - (next.at(n) - from.at(n)) / start.h);
-    missing.linear += p;
-    missing.angular += from.at(n).cross(p);
+    if (pattern_.mass[n] > 0.0) next.set(n, carry(next.at(n)));
   }
-  const RigidMotion motion = rigidMotion(pattern_, from, missing);
+  // What a turn by a small angle leaves is of its square; lengths change by the square of that.
+  const RigidMotion rest = rigidMotion(pattern_, from, missing());
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    if (pattern_.mass[n] > 0.0) next.add(n, start.h * motion.at(from.at(n)));
+    if (pattern_.mass[n] > 0.0) next.add(n, start.h * rest.at(from.at(n)));
   }
 }
 
@@ -234,10 +243,9 @@ void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& f
     out.set(n, step.keep * state.velocity.at(n) + age * step.gain * w * forces.force->at(n));
   }
   if (age == 0.0) return;
-  const double most = guard_.most(out);
+  const double most = guard_.most(out, contacts != nullptr ? fastestSurface(*contacts) : 0.0);
   projectVelocity(state.position, contacts, age / inertia_.tensions().scale, out);
-  // What links that can't hold pull is beyond all measure.
-  if (contacts == nullptr || !anyPushes(*contacts)) guard_.bound(most, out);
+  guard_.bound(most, out);  // what links that can't hold pull is beyond all measure
 }
 
 // A free cloth keeps its momentum.

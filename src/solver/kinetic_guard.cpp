@@ -38,7 +38,9 @@ double KineticGuard::most(const SubstepStart& start, const Field3& end) const no
   return mostOf(sumsOf(start, end).predicted, drivenBy(start.state.velocity));
 }
 
-double KineticGuard::most(const Field3& velocity) const noexcept { return mostOf(kineticOf(velocity), drivenBy(velocity)); }
+double KineticGuard::most(const Field3& velocity, double surface) const noexcept {
+  return mostOf(kineticOf(velocity), drivenBy(velocity, surface));
+}
 
 void KineticGuard::bound(double most, Field3& velocity) const noexcept {
   const double sum = kineticOf(velocity);
@@ -94,9 +96,9 @@ double KineticGuard::kineticOf(const Field3& velocity) const noexcept {
   return sum;
 }
 
-// All of the cloth at the speed of its fastest pin.
-double KineticGuard::drivenBy(const Field3& velocity) const noexcept {
-  double mass = 0.0, fastest = 0.0;
+// All of the cloth at the speed of its fastest pin, or of what it touches.
+double KineticGuard::drivenBy(const Field3& velocity, double surface) const noexcept {
+  double mass = 0.0, fastest = surface * surface;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     if (inertia_.masses()[n] > 0.0) {
       mass += pattern_.mass[n];

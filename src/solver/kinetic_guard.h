@@ -27,8 +27,8 @@ class KineticGuard {
 
   /// Twice the largest kinetic energy of such a substep [J]: of free nodes without links, and what pins put in.
   double most(const SubstepStart& start, const Field3& end) const noexcept;
-  /// The same of velocities that links are to act on [m/s].
-  double most(const Field3& velocity) const noexcept;
+  /// The same of velocities that links are to act on [m/s]. What is touched puts in as pins do; surface: the fastest of it [m/s].
+  double most(const Field3& velocity, double surface) const noexcept;
 
   /// Slows free nodes down, all alike, to twice that energy [J] at most.
   void bound(double most, Field3& velocity) const noexcept;
@@ -39,7 +39,7 @@ class KineticGuard {
   };
   Sums sumsOf(const SubstepStart& start, const Field3& end) const noexcept;
   double kineticOf(const Field3& velocity) const noexcept;
-  double drivenBy(const Field3& velocity) const noexcept;
+  double drivenBy(const Field3& velocity, double surface = 0.0) const noexcept;
   double fromTolerance(double h) const noexcept;
 
   const ClothPattern& pattern_;

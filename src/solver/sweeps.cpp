@@ -7,6 +7,11 @@
 #include "solver/constants.h"
 
 namespace curtain {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
 
 bool StallWatch::stalls(int sweeps, double residual) noexcept {
   if (sweeps % kStallWindow != 0) return false;
@@ -78,13 +83,14 @@ SweepOutcome Sweeps::run(const SweepTask& task, Contacts* contacts, StageClock& 
   SweepDamping damping;
   StallWatch watch;
   bool follow = task.follows;
-  double before = std::numeric_limits<double>::infinity(), touch = 0.0;
+  double before = kInfinity, touch = 0.0;
   best_ = Best();
+  constraints_.beginSolve();
   while (outcome.sweeps < most_sweeps_) {
     const bool first = outcome.sweeps == 0;
     const Aim aim = aimOf(task, first, touches, outcome.sweeps);
     const Constraints::RodsProgress rods = constraints_.solveRods(
-        {follow, task.precise ? kPreciseStop : kNewtonStop, first ? 0.0 : kLeaveAlone * aim.links});
+        {follow, task.precise ? kPreciseStop : first && !constraints_.weftPulls() ? kNewtonStop : kNewtonStopLater, first ? 0.0 : kLeaveAlone * aim.links, task.last_resort ? kInfinity : kMostViolation});
     clock.lap(Stage::kWarp);
     if (!rods.converged && !task.last_resort) return {SweepEnd::kDiverged, false, outcome.sweeps};
     ++outcome.sweeps;
@@ -110,11 +116,14 @@ SweepOutcome Sweeps::run(const SweepTask& task, Contacts* contacts, StageClock& 
     }
     before = residual;
     if (undone || now.strings > aim.alone * aim.links || touch > aim.alone * aim.contact) {
-      follow = true;
-      constraints_.followDirections();
-      const double worth = touches || task.last_resort ? kReduction : residual;
+      // Contact settles better along given directions.
+      follow = follow || !touches;
+      if (follow) constraints_.followDirections();
+      else constraints_.takeDirections(task.start);
+      const bool newton = !touches && !task.last_resort;
+      const double worth = newton ? residual : follow ? kReduction : kContactReduction;
       const double enough = std::min(kReduction, std::max(kReduction * aim.links / residual, worth));
-      constraints_.solveNet({residual, enough, damping.at(residual)}, contacts);
+      constraints_.solveNet({residual, enough, damping.at(residual), newton}, contacts);
     }
     clock.lap(Stage::kWeft);
     if (clock.late()) {

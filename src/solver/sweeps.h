@@ -5,7 +5,8 @@
 //
 // Directions of the substep's start do for a leapfrog step as long as they have a solution. What its first sweep leaves is corrected
 // along the present directions, all of it: forces along the directions at the start may have no solution at all where a flat net
-// shears, and a correction along one set of directions taken back along another is a force that does work.
+// shears, and a correction along one set of directions taken back along another is a force that does work. In contact they are kept:
+// what is dropped on a box gains energy else (test/stress).
 #pragma once
 
 #include <limits>
@@ -32,6 +33,7 @@ struct SweepOutcome {
 
 /// What is to be solved.
 struct SweepTask {
+  const Field3& start;     ///< where directions at the substep's start are taken [m]
   bool follows;            ///< links pull along their directions at its end
   bool last_resort;        ///< monotone: a sweep that makes the sum of squares no smaller is undone
   bool precise;            ///< rods are solved to rounding

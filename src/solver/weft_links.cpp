@@ -223,6 +223,34 @@ CURTAIN_WIDE void pullWeft(const LineSolve& line, int i, const Field& multiplier
   });
 }
 
+CURTAIN_WIDE double weftMoveSquared(const LineSolve& line, int i, const Field& multiplier) noexcept {
+  const Grid& grid = line.pattern.grid;
+  const std::size_t row = grid.row(i);
+  const auto last = static_cast<std::size_t>(grid.columns) - 1;
+  const double* const w = line.inverse_inertia.data() + row;
+  const double* const s = multiplier.data() + row;
+  const double* const dx = line.links.direction.x.data() + row;
+  const double* const dy = line.links.direction.y.data() + row;
+  const double* const dz = line.links.direction.z.data() + row;
+  const double* const per_square = line.pattern.weft_per_square.data() + row;
+  double worst = 0.0;
+  overColumns(line.span, last, [&](std::size_t first, std::size_t end) {
+    double largest = 0.0;
+#pragma omp simd reduction(max : largest)
+    for (std::size_t j = first; j < end; ++j) {
+      const double x = w[j] * (s[j + 1] * dx[j + 1] - s[j] * dx[j]);
+      const double y = w[j] * (s[j + 1] * dy[j + 1] - s[j] * dy[j]);
+      const double z = w[j] * (s[j + 1] * dz[j + 1] - s[j] * dz[j]);
+      const double size = (x * x + y * y + z * z) * per_square[j + 1];
+      largest = largest > size ? largest : size;
+    }
+    worst = largest;
+  });
+  const auto wrapped = [&](const double* d) { return w[last] * ((grid.closed ? s[0] * d[0] : 0.0) - s[last] * d[last]); };
+  const double x = wrapped(dx), y = wrapped(dy), z = wrapped(dz);
+  return std::max(worst, (x * x + y * y + z * z) * per_square[last]);
+}
+
 CURTAIN_WIDE double weftStretch(const ClothPattern& pattern, const Field3& position) noexcept {
   const Grid& grid = pattern.grid;
   const auto columns = static_cast<std::size_t>(grid.columns);

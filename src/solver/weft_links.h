@@ -40,6 +40,9 @@ void takeUpWeft(LinkSet& links, const Grid& grid, int row, Field& change) noexce
 /// Moves a row's nodes by multipliers (all of them: warm start; or a change) along the links' directions.
 void pullWeft(const LineSolve& line, int row, const Field& multiplier) noexcept;
 
+/// How far pullWeft would move the row's node that goes farthest, over the rest length of a link, squared.
+double weftMoveSquared(const LineSolve& line, int row, const Field& multiplier) noexcept;
+
 /// Largest relative overlength of any weft link with a free end.
 double weftStretch(const ClothPattern& pattern, const Field3& position) noexcept;
 

@@ -327,6 +327,22 @@ TEST(ClothTree, MissesNoPairOfRoughCloth) {
   EXPECT_GT(candidates, 1000);
 }
 
+// Boxes of long quads that lie slantwise meet by the thousand.
+TEST(ClothTree, FindsRoomForPairsOfLongQuads) {
+  const ClothPattern pattern = squareCloth(80, 4, 0.02);
+  const Vec3 along = Vec3(1.0, 1.0, 1.0).normalized(), down = Vec3(1.0, -1.0, 0.0).normalized();
+  const Field3 cloth = placed(pattern.grid, [&](int i, int j) -> Vec3 { return 0.7 * j * along + 0.012 * i * down; });
+  ClothTree tree(pattern);
+  Candidates candidates;
+  tree.reserve(candidates);
+  tree.refit(cloth, cloth);
+  tree.collectSelf(0.02, candidates);
+  EXPECT_FALSE(candidates.full);
+  EXPECT_FALSE(candidates.edge_edges.empty());
+  const Motion motion{"long quads", pattern, cloth, cloth, 0.02};
+  Oracle(motion).check(candidates);
+}
+
 TEST(ClothTree, MissesNoPairOfRandomClouds) {
   Random random(7);
   for (const bool closed : {false, true}) {

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "cloth/cloth.h"
 #include "judge/dice.h"
+#include "solver/weft_links.h"
 
 namespace curtain_test {
 namespace {
@@ -130,6 +132,14 @@ void close(Dice& dice, Scene& scene) {
   if (!validate(scene).empty()) scene.cloth.hem_width.reset();
 }
 
+// A trapezium whose rods all have one length is not flat. It begins flat all the same, with wefts that the first substeps take up; not
+// where that is more than a tenth of a link.
+bool beginsTorn(const Scene& scene) {
+  if (!scene.cloth.hem_width) return false;
+  const ClothPattern pattern = makePattern(scene);
+  return weftStretch(pattern, makeInitialState(scene, pattern).position) > 0.1;
+}
+
 // What came to be drawn later, by dice of its own: the scenes of seeds keep all the rest. The paper's method keeps its rods where
 // nothing touches.
 void drawMore(Drawn& drawn) {
@@ -183,6 +193,7 @@ Drawn draw(Kind kind, std::uint64_t seed) {
   if (kind == Kind::kSudden) drawPlate(dice, drawn);
   else drawMore(drawn);
   if (!validate(scene).empty()) scene.cloth.hem_width.reset();  // tapered more than its rods can slant
+  if (beginsTorn(scene)) scene.cloth.hem_width.reset();
   return drawn;
 }
 
