@@ -11,10 +11,12 @@
 namespace curtain {
 namespace {
 
-// predicted: without links; driven: of all the mass at the speed of the fastest pin; both twice an energy [J].
+// predicted: without links; driven: of all the mass at the speed of the fastest pin; both twice an energy [J]. The root is of a ratio:
+// in other units it has the same bits.
 double mostOf(double predicted, double driven) noexcept {
-  const double root = std::sqrt(predicted) + 2.0 * std::sqrt(driven);
-  return root * root;
+  if (!(predicted > 0.0)) return 4.0 * driven;
+  const double factor = 1.0 + 2.0 * std::sqrt(driven / predicted);
+  return factor * factor * predicted;
 }
 
 }  // namespace
