@@ -132,12 +132,16 @@ SweepOutcome Sweeps::run(const SweepTask& task, Contacts* contacts, StageClock& 
     }
     if (!task.last_resort && watch.stalls(outcome.sweeps, std::max(rods.first_residual, residual))) break;
   }
+  return conclude(outcome, touch, contacts);
+}
+
+// Slower than it should, but what was asked for may be reached all the same.
+SweepOutcome Sweeps::conclude(SweepOutcome outcome, double touch, Contacts* contacts) noexcept {
   if (std::isfinite(best_.merit)) {
     if (outcome.end == SweepEnd::kDiverged) outcome.end = SweepEnd::kStalled;
     constraints_.goBack(contacts);
-    if (touches) touch = contactResidual(*contacts, constraints_.next, false);
+    if (contacts != nullptr && !contacts->empty()) touch = contactResidual(*contacts, constraints_.next, false);
   }
-  // Slower than it should, but what was asked for may be reached all the same.
   outcome.within = outcome.end != SweepEnd::kDiverged && isWithin(touch);
   return outcome;
 }

@@ -92,6 +92,7 @@ class Sweeps {
     double merit = std::numeric_limits<double>::infinity(), residual = 0.0;
   };
   bool keepOrUndo(double& residual, const Residual& now, Contacts* contacts, SweepDamping& damping) noexcept;
+  SweepOutcome conclude(SweepOutcome outcome, double touch, Contacts* contacts) noexcept;
   bool isWithin(double touch) noexcept;
 
   Constraints& constraints_;
