@@ -57,6 +57,7 @@ constexpr double kStallFactor = 0.8;
 // Levenberg-Marquardt term of the weft's solve, over the diagonal: in proportion to the residual, so that it vanishes as
 // the solve ends. Constant, it leaves combinations that hardly move anything to creep by a few percent a sweep.
 constexpr double kDampingPerResidual = 0.05;
+constexpr double kLargestDamping = 0.1;
 // In the last resort sweeps must make the sum of squares smaller: a step a thousand times shorter than Jacobi's that does not has
 // nothing left to gain.
 constexpr double kMostDamping = 1e3;
@@ -101,8 +102,10 @@ constexpr double kForcedGrowth = 2.0;
 
 // ---- Velocities at the time of the positions -------------------------------------------------------------------------
 
-// Rounds of the linear velocity projection at most, until the rate of what it takes out is this share of what it was.
-constexpr int kVelocityRounds = 8;
+// Rounds of the linear velocity projection at most, until the rate of what it takes out is this share of what it was. More than two
+// without contact: rows between trembling pins gain energy.
+constexpr int kVelocityRounds = 2;
+constexpr int kContactRounds = 8;  // whose rows are damped
 constexpr double kVelocityReduction = 1e-3;
 constexpr double kVelocityDamping = 1e-4;
 constexpr int kVelocityIterations = 24;

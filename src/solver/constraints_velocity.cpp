@@ -42,7 +42,7 @@ void Constraints::project(const Field3& position, const Contacts* contacts, doub
   if (alone) return;
   net_.begin(position, inertia_.masses(), held_.movingSpan());
   double first_rate = 0.0;
-  for (int round = 0; round < kVelocityRounds; ++round) {
+  for (int round = 0; round < (presses ? kContactRounds : kVelocityRounds); ++round) {
     double rate = worstOfRows([&](int i) { return measureWeftRates(weft, i, violation_, active_); });
     if (presses) rate = std::max(rate, contactRate(*contacts, velocity) / middle_rest_);
     if (round == 0) first_rate = rate;

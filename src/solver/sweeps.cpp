@@ -80,7 +80,7 @@ bool Sweeps::isWithin(double touch) noexcept {
 SweepOutcome Sweeps::run(const SweepTask& task, Contacts* contacts, StageClock& clock) noexcept {
   const bool touches = contacts != nullptr && !contacts->empty();
   SweepOutcome outcome;
-  SweepDamping damping;
+  SweepDamping damping(task.last_resort ? kMostDamping : kLargestDamping);
   StallWatch watch;
   bool follow = task.follows;
   double before = kInfinity, touch = 0.0;

@@ -43,16 +43,19 @@ struct SweepTask {
 /// How much a sweep's solve of strings and contacts is damped: the more the more sweeps went wrong.
 class SweepDamping {
  public:
+  /// largest: Levenberg-Marquardt term over the diagonal.
+  explicit SweepDamping(double largest) noexcept : largest_(largest) {}
   void better() noexcept { factor_ = std::max(1.0, factor_ / kLessCaution); }
   void worse() noexcept { factor_ *= kMoreCaution; }
-  /// Levenberg-Marquardt term at this residual, over the diagonal.
-  double at(double residual) const noexcept { return std::min(kMostDamping, wanted(residual)); }
+  /// The term at this residual.
+  double at(double residual) const noexcept { return std::min(largest_, wanted(residual)); }
   /// Nothing is left to gain by more of it.
-  bool exhausted(double residual) const noexcept { return wanted(residual) > kMostDamping; }
+  bool exhausted(double residual) const noexcept { return wanted(residual) > largest_; }
 
  private:
   double wanted(double residual) const noexcept { return factor_ * kDampingPerResidual * residual; }
 
+  const double largest_;
   double factor_ = 1.0;
 };
 

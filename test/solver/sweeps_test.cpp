@@ -143,7 +143,7 @@ TEST(Sweeps, TheLastResortMakesTheSumOfSquaresSmaller) {
 }
 
 TEST(SweepDamping, GrowsWithSweepsThatWentWrongUpToItsLargest) {
-  SweepDamping damping;
+  SweepDamping damping(0.1);
   const double first = damping.at(1e-3);
   EXPECT_GT(first, 0.0);
   EXPECT_FALSE(damping.exhausted(1e-3));
@@ -156,7 +156,7 @@ TEST(SweepDamping, GrowsWithSweepsThatWentWrongUpToItsLargest) {
 }
 
 TEST(SweepDamping, VanishesWithTheResidual) {
-  const SweepDamping damping;
+  const SweepDamping damping(0.1);
   EXPECT_EQ(damping.at(2e-6), 2.0 * damping.at(1e-6));
   EXPECT_EQ(damping.at(0.0), 0.0);
 }
