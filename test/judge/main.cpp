@@ -61,7 +61,7 @@ class Session {
   explicit Session(const Options& options) : options_(options) {
     if (options.csv.empty()) return;
     csv_.open(options.csv);
-    csv_ << "kind,seed,rows,columns,frames,substeps,rejected,sweeps,last_resort,stops,momentum_cut,most_solves,stretch,energy_gain,energy_finer,seconds,slowest_frame_s,holds\n";
+    csv_ << "kind,seed,method,rows,columns,frames,substeps,rejected,sweeps,last_resort,stops,momentum_cut,most_solves,stretch,energy_gain,energy_finer,seconds,slowest_frame_s,holds\n";
   }
 
   void hear(const Drawn& drawn, const std::string& name) {
@@ -98,7 +98,7 @@ class Session {
   }
   void record(const Drawn& drawn, const Verdict& v) {
     if (!csv_.is_open()) return;
-    csv_ << kindName(drawn.kind) << ',' << drawn.seed << ',' << drawn.scene.cloth.rows << ',' << drawn.scene.cloth.columns << ','
+    csv_ << kindName(drawn.kind) << ',' << drawn.seed << ',' << toString(drawn.scene.solver.method) << ',' << drawn.scene.cloth.rows << ',' << drawn.scene.cloth.columns << ','
          << v.frames << ',' << v.substeps << ',' << v.rejected << ',' << v.sweeps << ',' << v.last_resort << ',' << v.stops << ','
          << v.momentum_cut << ',' << v.most_solves << ',' << v.stretch << ',' << v.energy_gain << ',' << v.energy_finer << ',' << v.seconds << ',' << v.slowest << ',' << v.holds() << '\n';
     csv_.flush();
