@@ -108,7 +108,7 @@ TEST_P(RigidMotion, Turned) {
 }
 
 TEST_P(RigidMotion, Shifted) {
-  for (const std::uint64_t seed : seeds(2)) {
+  for (const std::uint64_t seed : seeds(8)) {
     const Trial trial = trialOf(seed);
     if (!trial.fit) continue;
     Random random(seed + 200);
