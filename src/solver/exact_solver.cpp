@@ -111,6 +111,7 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const Making& making) noexcept
     const SweepOutcome solved = sweeps_.run(task, contacts, making.clock);
     all.sweeps += solved.sweeps;
     all.end = solved.end;
+    all.surprise = solved.surprise;
     all.settled = solved.within;
     all.late = all.late || (solved.end == SweepEnd::kOutOfTime && !solved.within);
     if (contacts == nullptr) return all;
@@ -142,9 +143,8 @@ void ExactSolver::judge(const Making& making, Progress& progress, SubstepOutcome
   const bool last_resort = making.plan.isLastResort();
   if (progress.late || (last_resort && progress.alone())) {
     progress.most_kinetic = guard_.most(making.start, constraints_.next);
-  } else if (progress.settled && progress.alone()) {
-    const KineticGuard::Finding finding =
-        guard_.look(making.scheme.rules(), constraints_.stringsAct(), making.start, constraints_.next);
+  } else if (progress.settled && progress.alone() && (constraints_.stringsAct() || !KineticGuard::foreseen(progress.surprise))) {
+    const KineticGuard::Finding finding = guard_.look(making.start, constraints_.next);
     progress.most_kinetic = finding.most;
     if (finding.jumps) progress.settled = false;
   }

@@ -93,6 +93,7 @@ class ExactSolver {
     bool settled = false;    // every link is within the user's tolerance
     bool crossed = false;    // something would go through something
     bool late = false;       // its time was over before it had settled
+    double surprise = 0.0;   // SweepOutcome::surprise
     double most_kinetic = std::numeric_limits<double>::infinity();  // twice what it may have [J]
     int sweeps = 0;
     const Contacts* contacts = nullptr;  // null: nothing can touch

@@ -21,9 +21,10 @@ double mostOf(double predicted, double driven) noexcept {
 
 }  // namespace
 
-KineticGuard::Finding KineticGuard::look(const Scheme::Rules& rules, bool strings_pull, const SubstepStart& start,
-                                         const Field3& end) const noexcept {
-  if (!rules.rods_gain && !strings_pull) return {};
+// A rod that is predicted longer by a share e has turned by sqrt(2 e), and has given e / 2 of its energy.
+bool KineticGuard::foreseen(double surprise) noexcept { return surprise <= 2.0 * (kMostAdded - 1.0); }
+
+KineticGuard::Finding KineticGuard::look(const SubstepStart& start, const Field3& end) const noexcept {
   const Sums sums = sumsOf(start, end);
   if (!(sums.stepped > kMostAdded * sums.predicted)) return {};
   const double driven = drivenBy(start.state.velocity);

@@ -7,7 +7,8 @@
 
 #include <limits>
 
-#include "solver/scheme.h"
+#include "solver/node_inertia.h"
+#include "solver/warp_solver.h"
 
 namespace curtain {
 
@@ -22,8 +23,11 @@ class KineticGuard {
     double most = std::numeric_limits<double>::infinity();  ///< finite: it gains more than by the scheme's own error; to be bounded by this
     bool jumps = false;                                     ///< nodes lie in another way than before: the substep has failed
   };
+  /// Whether a substep of rods alone needs no look: surprise is the most that its prediction, with the last substep's multipliers,
+  /// lacked of a rod's length, relative.
+  static bool foreseen(double surprise) noexcept;
   /// Of a substep that was solved, from start to end, with nothing that touches.
-  Finding look(const Scheme::Rules& rules, bool strings_pull, const SubstepStart& start, const Field3& end) const noexcept;
+  Finding look(const SubstepStart& start, const Field3& end) const noexcept;
 
   /// Twice the largest kinetic energy of such a substep [J]: of free nodes without links, and what pins put in.
   double most(const SubstepStart& start, const Field3& end) const noexcept;

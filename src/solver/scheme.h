@@ -16,7 +16,6 @@ class Scheme {
     bool follows;          ///< links pull along their directions at the end of the step, not at its start
     bool backward;         ///< damping acts on the velocities at the end
     double age;            ///< velocities belong to positions so much of a step before, as a share of it
-    bool rods_gain;        ///< a substep may find more kinetic energy than there was without links, even where no string pulls
     bool remembers;        ///< steps before the last one: it must know of blows
   };
 

@@ -92,13 +92,14 @@ SweepOutcome Sweeps::run(const SweepTask& task, Contacts* contacts, StageClock& 
     const Constraints::RodsProgress rods = constraints_.solveRods(
         {follow, task.precise ? kPreciseStop : first && !constraints_.weftPulls() ? kNewtonStop : kNewtonStopLater, first ? 0.0 : kLeaveAlone * aim.links, task.last_resort ? kInfinity : kMostViolation});
     clock.lap(Stage::kWarp);
+    if (first) outcome.surprise = rods.first_residual;
     if (!rods.converged && !task.last_resort) return {SweepEnd::kDiverged, false, outcome.sweeps};
     ++outcome.sweeps;
     const Residual now = look(contacts, rods, first, outcome.sweeps, clock);
     touch = now.touch;
     if (reached(aim, now)) {
       clock.lap(Stage::kWeft);
-      return {SweepEnd::kConverged, true, outcome.sweeps};
+      return {SweepEnd::kConverged, true, outcome.sweeps, outcome.surprise};
     }
     double residual = std::max(now.strings, touch / constraints_.middleRest());
     if (!std::isfinite(residual)) {

@@ -29,6 +29,7 @@ struct SweepOutcome {
   SweepEnd end = SweepEnd::kStalled;
   bool within = false;  ///< links and contacts are within the user's tolerance
   int sweeps = 0;
+  double surprise = 0.0;  ///< most that a rod lacked where it began, relative
 };
 
 /// What is to be solved.

@@ -15,7 +15,6 @@ namespace {
 using namespace curtain_test;
 
 constexpr double kStep = 0.01;
-constexpr Scheme::Rules kRules = {false, false, 0.0, true, false};
 
 // Cloth that moves at 1 m/s along x, with no forces.
 struct Moving {
@@ -49,19 +48,11 @@ struct Moving {
 
 TEST(KineticGuard, FindsWhatASubstepHasGained) {
   const Moving cloth;
-  const auto look = [&](double energy) { return cloth.guard.look(kRules, true, cloth.start(), cloth.end(std::sqrt(energy))); };
+  const auto look = [&](double energy) { return cloth.guard.look(cloth.start(), cloth.end(std::sqrt(energy))); };
   EXPECT_FALSE(std::isfinite(look(0.5).most));
   EXPECT_FALSE(std::isfinite(look(1.0).most));
   EXPECT_NEAR(look(1.2).most, cloth.guard.most(cloth.state.velocity, 0.0), 64.0 * kEps);
   EXPECT_TRUE(look(1.2).jumps);
-}
-
-TEST(KineticGuard, LooksAtRodsAloneOnlyWhereTheyMayGain) {
-  const Moving cloth;
-  Scheme::Rules rules = kRules;
-  rules.rods_gain = false;
-  EXPECT_FALSE(cloth.guard.look(rules, false, cloth.start(), cloth.end(9.0)).jumps);
-  EXPECT_TRUE(cloth.guard.look(rules, true, cloth.start(), cloth.end(9.0)).jumps);
 }
 
 // Pins that go by at the cloth's speed: seen from them it may turn round, and go at three times that.

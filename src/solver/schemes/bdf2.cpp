@@ -7,7 +7,7 @@
 
 namespace curtain {
 
-Bdf2::Bdf2(const ClothPattern& pattern) : Scheme({true, true, 0.0, true, true}), pattern_(pattern) {
+Bdf2::Bdf2(const ClothPattern& pattern) : Scheme({true, true, 0.0, true}), pattern_(pattern) {
   for (Field3* field : {&memory_.position, &memory_.velocity, &base_.position, &base_.velocity}) field->assign(pattern.grid.size(), 0.0);
 }
 

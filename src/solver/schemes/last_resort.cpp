@@ -8,7 +8,7 @@
 
 namespace curtain {
 
-LastResort::LastResort(const ClothPattern& pattern) : Scheme({true, false, 0.5, true, false}), pattern_(pattern) {
+LastResort::LastResort(const ClothPattern& pattern) : Scheme({true, false, 0.5, false}), pattern_(pattern) {
   const Grid& grid = pattern.grid;
   for (Field3* field : {&base_.position, &base_.velocity, &no_force_}) field->assign(grid.size(), 0.0);
   shortest_.assign(grid.size(), std::numeric_limits<double>::infinity());
