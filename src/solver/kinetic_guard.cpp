@@ -11,26 +11,38 @@
 namespace curtain {
 namespace {
 
-// predicted: without links; driven: of all the mass at the speed of the fastest pin; both twice an energy [J]. The root is of a ratio:
+// put_in: without links; driven: of all the mass at the speed of the fastest pin; both twice an energy [J]. The root is of a ratio:
 // in other units it has the same bits.
-double mostOf(double predicted, double driven) noexcept {
-  if (!(predicted > 0.0)) return 4.0 * driven;
-  const double factor = 1.0 + 2.0 * std::sqrt(driven / predicted);
-  return factor * factor * predicted;
+double mostOf(double put_in, double driven) noexcept {
+  if (!(put_in > 0.0)) return 4.0 * driven;
+  const double factor = 1.0 + 2.0 * std::sqrt(driven / put_in);
+  return factor * factor * put_in;
+}
+
+std::vector<std::size_t> pinsOf(const ClothPattern& pattern) {
+  std::vector<std::size_t> pins;
+  for (std::size_t n = 0; n < pattern.grid.size(); ++n) {
+    if (pattern.pinned[n] != 0) pins.push_back(n);
+  }
+  return pins;
 }
 
 }  // namespace
+
+KineticGuard::KineticGuard(const ClothPattern& pattern, const NodeInertia& inertia, double stretch_tolerance, double links)
+    : pattern_(pattern), inertia_(inertia), stretch_tolerance_(stretch_tolerance), links_(links), pins_(pinsOf(pattern)) {}
 
 // A rod that is predicted longer by a share e has turned by sqrt(2 e), and has given e / 2 of its energy.
 bool KineticGuard::foreseen(double surprise) noexcept { return surprise <= 2.0 * (kMostAdded - 1.0); }
 
 KineticGuard::Finding KineticGuard::look(const SubstepStart& start, const Field3& end) const noexcept {
-  const Sums sums = sumsOf(start, end);
-  if (!(sums.stepped > kMostAdded * sums.predicted)) return {};
-  const double driven = drivenBy(start.state.velocity);
+  const Vec3 frame = frameOf(start.state.velocity);
+  const Sums sums = sumsOf(start, end, frame);
+  if (!(sums.stepped > kMostAdded * sums.put_in)) return {};
+  const double driven = drivenBy(start.state.velocity, frame);
   Finding finding;
-  const double most = mostOf(sums.predicted, driven);
-  if (!(sums.stepped > mostOf(kMostAdded * sums.predicted, driven))) return finding;
+  const double most = mostOf(sums.put_in, driven);
+  if (!(sums.stepped > mostOf(kMostAdded * sums.put_in, driven))) return finding;
   finding.most = most;
   // What its links may lack of their lengths would be more still in a shorter one.
   finding.jumps = sums.stepped > most + fromTolerance(start.h);
@@ -38,75 +50,84 @@ KineticGuard::Finding KineticGuard::look(const SubstepStart& start, const Field3
 }
 
 double KineticGuard::most(const SubstepStart& start, const Field3& end) const noexcept {
-  return mostOf(sumsOf(start, end).predicted, drivenBy(start.state.velocity));
+  const Vec3 frame = frameOf(start.state.velocity);
+  return mostOf(sumsOf(start, end, frame).put_in, drivenBy(start.state.velocity, frame));
 }
 
 double KineticGuard::most(const Field3& velocity, double surface) const noexcept {
-  return mostOf(kineticOf(velocity), drivenBy(velocity, surface));
+  const Vec3 frame = frameOf(velocity);
+  return mostOf(kineticOf(velocity, frame), drivenBy(velocity, frame, surface > 0.0 ? surface + frame.norm() : 0.0));
 }
 
 void KineticGuard::bound(double most, Field3& velocity) const noexcept {
-  const double sum = kineticOf(velocity);
+  const Vec3 frame = frameOf(velocity);
+  const double sum = kineticOf(velocity, frame);
   if (!(sum > most)) return;
   const double share = std::sqrt(most / sum);
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    if (inertia_.masses()[n] > 0.0) velocity.set(n, share * velocity.at(n));  // pins go where they are told to
+    if (inertia_.masses()[n] > 0.0) velocity.set(n, frame + share * (velocity.at(n) - frame));  // pins go where they are told to
   }
 }
 
 // By lanes, so that the sums have one order, whatever the processor's width.
-CURTAIN_WIDE KineticGuard::Sums KineticGuard::sumsOf(const SubstepStart& start, const Field3& end) const noexcept {
+CURTAIN_WIDE KineticGuard::Sums KineticGuard::sumsOf(const SubstepStart& start, const Field3& end, const Vec3& frame) const noexcept {
   const std::size_t size = pattern_.grid.size();
   const Field3 &from = start.state.position, &velocity = start.state.velocity;
   const double* const mass = pattern_.mass.data();
   const double* const free = inertia_.masses().data();
-  const double* const inverse = inertia_.inverse().data();
   // Read in any case, from where there is something: masked loads from nowhere cost a hundred times as much.
   const bool damped = start.keep != nullptr;
   const double* const keep = damped ? start.keep->data() : mass;
   const double per_step = 1.0 / start.h, kick = start.kick;
-  std::array<double, kLane> stepped{}, predicted{};
-  const auto add = [&](const Field& x_next, const Field& x_from, const Field& v_field, const Field& f_field) {
+  std::array<double, kLane> stepped{}, put_in{};
+  const auto add = [&](const Field& x_next, const Field& x_from, const Field& v_field, const Field& f_field, double u) {
     const double *const x = x_next.data(), *const a = x_from.data(), *const v = v_field.data(), *const f = f_field.data();
     for (std::size_t n = 0; n < size; n += kLane) {
 #pragma omp simd
       for (std::size_t l = 0; l < kLane; ++l) {
-        const double whole = mass[n + l], m = free[n + l] > 0.0 ? whole : 0.0;
-        const double made = per_step * (x[n + l] - a[n + l]);
+        const double whole = mass[n + l];
+        const double m = free[n + l] > 0.0 ? whole : 0.0, time = free[n + l] > 0.0 ? kick : 0.0;
+        const double made = per_step * (x[n + l] - a[n + l]) - u;
         const double kept = keep[n + l];
-        const double without = (damped ? kept : 1.0) * v[n + l] + kick * inverse[n + l] * f[n + l];
+        const double before = (damped ? kept : 1.0) * v[n + l] - u;
         stepped[l] += m * made * made;
-        predicted[l] += m * without * without;
+        put_in[l] += m * before * before + time * f[n + l] * (before + made);
       }
     }
   };
-  add(end.x, from.x, velocity.x, start.force.x);
-  add(end.y, from.y, velocity.y, start.force.y);
-  add(end.z, from.z, velocity.z, start.force.z);
+  add(end.x, from.x, velocity.x, start.force.x, frame.x());
+  add(end.y, from.y, velocity.y, start.force.y, frame.y());
+  add(end.z, from.z, velocity.z, start.force.z, frame.z());
   Sums sums;
   for (std::size_t l = 0; l < kLane; ++l) {
     sums.stepped += stepped[l];
-    sums.predicted += predicted[l];
+    sums.put_in += put_in[l];
   }
   return sums;
 }
 
-double KineticGuard::kineticOf(const Field3& velocity) const noexcept {
+double KineticGuard::kineticOf(const Field3& velocity, const Vec3& frame) const noexcept {
   double sum = 0.0;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    if (inertia_.masses()[n] > 0.0) sum += pattern_.mass[n] * velocity.at(n).squaredNorm();
+    if (inertia_.masses()[n] > 0.0) sum += pattern_.mass[n] * (velocity.at(n) - frame).squaredNorm();
   }
   return sum;
 }
 
+Vec3 KineticGuard::frameOf(const Field3& velocity) const noexcept {
+  Vec3 sum = Vec3::Zero();
+  for (const std::size_t pin : pins_) sum += velocity.at(pin);
+  return pins_.empty() ? sum : sum / static_cast<double>(pins_.size());
+}
+
 // All of the cloth at the speed of its fastest pin, or of what it touches.
-double KineticGuard::drivenBy(const Field3& velocity, double surface) const noexcept {
+double KineticGuard::drivenBy(const Field3& velocity, const Vec3& frame, double surface) const noexcept {
   double mass = 0.0, fastest = surface * surface;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     if (inertia_.masses()[n] > 0.0) {
       mass += pattern_.mass[n];
-    } else {
-      fastest = std::max(fastest, velocity.at(n).squaredNorm());
+    } else if (pattern_.mass[n] > 0.0) {
+      fastest = std::max(fastest, (velocity.at(n) - frame).squaredNorm());
     }
   }
   return mass * fastest;

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a substep may have of kinetic energy. Links that hold do no work but what pins put in: seen from pins that go by at u the cloth
-// has no more than it would have without links, so its sqrt of twice the kinetic energy grows by 2 u sqrt(M) at most. Pins that draw a
-// flat string taut put in more, against what it bears; that is left out.
+// What a substep may have of kinetic energy. Links that hold do no work, seen from pins that all move alike: the cloth has what it had
+// and what forces put in over the mean of its velocities before and after. Past pins that go by at u its sqrt of twice the kinetic
+// energy grows by 2 u sqrt(M) at most. Pins that draw a flat string taut put in more, against what it bears; that is left out.
 #pragma once
 
+#include <cstddef>
 #include <limits>
+#include <vector>
 
 #include "solver/node_inertia.h"
 #include "solver/warp_solver.h"
 
 namespace curtain {
 
-/// Not thread-safe. Allocates nothing.
+/// Not thread-safe. Allocates nothing after construction. Energies are those seen from the mean velocity of the pins.
 class KineticGuard {
  public:
   /// stretch_tolerance  relative; links  [m], for scale. pattern and inertia must outlive this.
-  KineticGuard(const ClothPattern& pattern, const NodeInertia& inertia, double stretch_tolerance, double links) noexcept
-      : pattern_(pattern), inertia_(inertia), stretch_tolerance_(stretch_tolerance), links_(links) {}
+  KineticGuard(const ClothPattern& pattern, const NodeInertia& inertia, double stretch_tolerance, double links);
 
   struct Finding {
     double most = std::numeric_limits<double>::infinity();  ///< finite: it gains more than by the scheme's own error; to be bounded by this
@@ -39,16 +40,18 @@ class KineticGuard {
 
  private:
   struct Sums {
-    double stepped = 0.0, predicted = 0.0;  // twice the kinetic energies of the path that nodes have gone, and would without links [J]
+    double stepped = 0.0, put_in = 0.0;  // twice the kinetic energies of the path that nodes have gone, and without links' work on it [J]
   };
-  Sums sumsOf(const SubstepStart& start, const Field3& end) const noexcept;
-  double kineticOf(const Field3& velocity) const noexcept;
-  double drivenBy(const Field3& velocity, double surface = 0.0) const noexcept;
+  Sums sumsOf(const SubstepStart& start, const Field3& end, const Vec3& frame) const noexcept;
+  Vec3 frameOf(const Field3& velocity) const noexcept;
+  double kineticOf(const Field3& velocity, const Vec3& frame) const noexcept;
+  double drivenBy(const Field3& velocity, const Vec3& frame, double surface = 0.0) const noexcept;
   double fromTolerance(double h) const noexcept;
 
   const ClothPattern& pattern_;
   const NodeInertia& inertia_;
   const double stretch_tolerance_, links_;
+  const std::vector<std::size_t> pins_;
 };
 
 }  // namespace curtain
