@@ -141,12 +141,13 @@ bool ExactSolver::struck(const Progress& progress) const noexcept {
 // Whether it may be taken: it has found no energy, and nothing that sleeps would have moved.
 void ExactSolver::judge(const Making& making, Progress& progress, SubstepOutcome& outcome) noexcept {
   const bool last_resort = making.plan.isLastResort();
-  if (progress.late || (last_resort && progress.alone())) {
+  const double surface = progress.contacts != nullptr ? fastestSurface(*progress.contacts) : 0.0;
+  if (progress.late || last_resort) {
     // The last resort cuts what forces do, and their work with it: what they did is what counts.
     const SubstepStart uncut{making.state, *making.forces.force, nullptr, inertia_.keep(), making.kick, making.step};
-    progress.most_kinetic = guard_.most(last_resort ? uncut : making.start, constraints_.next);
-  } else if (progress.settled && progress.alone() && (constraints_.stringsAct() || !KineticGuard::foreseen(progress.surprise))) {
-    const KineticGuard::Finding finding = guard_.look(making.start, constraints_.next);
+    progress.most_kinetic = guard_.most(last_resort ? uncut : making.start, constraints_.next, surface);
+  } else if (progress.settled && (!progress.alone() || constraints_.stringsAct() || !KineticGuard::foreseen(progress.surprise))) {
+    const KineticGuard::Finding finding = guard_.look(making.start, constraints_.next, surface);
     progress.most_kinetic = finding.most;
     if (finding.jumps) progress.settled = false;
   }

@@ -35,11 +35,11 @@ KineticGuard::KineticGuard(const ClothPattern& pattern, const NodeInertia& inert
 // A rod that is predicted longer by a share e has turned by sqrt(2 e), and has given e / 2 of its energy.
 bool KineticGuard::foreseen(double surprise) noexcept { return surprise <= 2.0 * (kMostAdded - 1.0); }
 
-KineticGuard::Finding KineticGuard::look(const SubstepStart& start, const Field3& end) const noexcept {
+KineticGuard::Finding KineticGuard::look(const SubstepStart& start, const Field3& end, double surface) const noexcept {
   const Vec3 frame = frameOf(start.state.velocity);
   const Sums sums = sumsOf(start, end, frame);
   if (!(sums.stepped > kMostAdded * sums.put_in)) return {};
-  const double driven = drivenBy(start.state.velocity, frame);
+  const double driven = drivenBy(start.state.velocity, frame, surface);
   Finding finding;
   const double most = mostOf(sums.put_in, driven);
   if (!(sums.stepped > mostOf(kMostAdded * sums.put_in, driven))) return finding;
@@ -49,14 +49,14 @@ KineticGuard::Finding KineticGuard::look(const SubstepStart& start, const Field3
   return finding;
 }
 
-double KineticGuard::most(const SubstepStart& start, const Field3& end) const noexcept {
+double KineticGuard::most(const SubstepStart& start, const Field3& end, double surface) const noexcept {
   const Vec3 frame = frameOf(start.state.velocity);
-  return mostOf(sumsOf(start, end, frame).put_in, drivenBy(start.state.velocity, frame));
+  return mostOf(sumsOf(start, end, frame).put_in, drivenBy(start.state.velocity, frame, surface));
 }
 
 double KineticGuard::most(const Field3& velocity, double surface) const noexcept {
   const Vec3 frame = frameOf(velocity);
-  return mostOf(kineticOf(velocity, frame), drivenBy(velocity, frame, surface > 0.0 ? surface + frame.norm() : 0.0));
+  return mostOf(kineticOf(velocity, frame), drivenBy(velocity, frame, surface));
 }
 
 void KineticGuard::bound(double most, Field3& velocity) const noexcept {
@@ -122,7 +122,8 @@ Vec3 KineticGuard::frameOf(const Field3& velocity) const noexcept {
 
 // All of the cloth at the speed of its fastest pin, or of what it touches.
 double KineticGuard::drivenBy(const Field3& velocity, const Vec3& frame, double surface) const noexcept {
-  double mass = 0.0, fastest = surface * surface;
+  const double passes = surface > 0.0 ? surface + frame.norm() : 0.0;
+  double mass = 0.0, fastest = passes * passes;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     if (inertia_.masses()[n] > 0.0) {
       mass += pattern_.mass[n];

@@ -27,12 +27,12 @@ class KineticGuard {
   /// Whether a substep of rods alone needs no look: surprise is the most that its prediction, with the last substep's multipliers,
   /// lacked of a rod's length, relative.
   static bool foreseen(double surprise) noexcept;
-  /// Of a substep that was solved, from start to end, with nothing that touches.
-  Finding look(const SubstepStart& start, const Field3& end) const noexcept;
+  /// Of a substep that was solved, from start to end. surface: the fastest of what is touched [m/s]; 0: nothing, or it is at rest.
+  Finding look(const SubstepStart& start, const Field3& end, double surface) const noexcept;
 
   /// Twice the largest kinetic energy of such a substep [J]: of free nodes without links, and what pins put in.
-  double most(const SubstepStart& start, const Field3& end) const noexcept;
-  /// The same of velocities that links are to act on [m/s]. What is touched puts in as pins do; surface: the fastest of it [m/s].
+  double most(const SubstepStart& start, const Field3& end, double surface) const noexcept;
+  /// The same of velocities that links are to act on [m/s].
   double most(const Field3& velocity, double surface) const noexcept;
 
   /// Slows free nodes down, all alike, to twice that energy [J] at most.
@@ -45,7 +45,7 @@ class KineticGuard {
   Sums sumsOf(const SubstepStart& start, const Field3& end, const Vec3& frame) const noexcept;
   Vec3 frameOf(const Field3& velocity) const noexcept;
   double kineticOf(const Field3& velocity, const Vec3& frame) const noexcept;
-  double drivenBy(const Field3& velocity, const Vec3& frame, double surface = 0.0) const noexcept;
+  double drivenBy(const Field3& velocity, const Vec3& frame, double surface) const noexcept;
   double fromTolerance(double h) const noexcept;
 
   const ClothPattern& pattern_;

@@ -48,7 +48,7 @@ struct Moving {
 
 TEST(KineticGuard, FindsWhatASubstepHasGained) {
   const Moving cloth;
-  const auto look = [&](double energy) { return cloth.guard.look(cloth.start(), cloth.end(std::sqrt(energy))); };
+  const auto look = [&](double energy) { return cloth.guard.look(cloth.start(), cloth.end(std::sqrt(energy)), 0.0); };
   EXPECT_FALSE(std::isfinite(look(0.5).most));
   EXPECT_FALSE(std::isfinite(look(1.0).most));
   EXPECT_NEAR(look(1.2).most, cloth.guard.most(cloth.state.velocity, 0.0), 64.0 * kEps);
@@ -58,14 +58,14 @@ TEST(KineticGuard, FindsWhatASubstepHasGained) {
 // Pins that go by at the cloth's speed: seen from them it may turn round, and go at three times that.
 TEST(KineticGuard, PinsMayPutEnergyIn) {
   Moving cloth(PinKind::kTop);
-  const double alone = cloth.guard.most(cloth.start(), cloth.end(1.0));
+  const double alone = cloth.guard.most(cloth.start(), cloth.end(1.0), 0.0);
   double pinned = 0.0, free = 0.0;
   for (std::size_t n = 0; n < cloth.pattern.grid.size(); ++n) {
     (cloth.pattern.inverse_mass[n] > 0.0 ? free : pinned) += cloth.pattern.mass[n];
     if (cloth.pattern.inverse_mass[n] <= 0.0) cloth.state.velocity.set(n, Vec3::UnitX());
   }
   EXPECT_NEAR(alone, free, 16.0 * kEps * free);
-  EXPECT_NEAR(cloth.guard.most(cloth.start(), cloth.end(1.0)), 9.0 * free, 64.0 * 9.0 * kEps * free);
+  EXPECT_NEAR(cloth.guard.most(cloth.start(), cloth.end(1.0), 0.0), 9.0 * free, 64.0 * 9.0 * kEps * free);
 }
 
 TEST(KineticGuard, SlowsFreeNodesDownAndNotPins) {
