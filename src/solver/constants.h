@@ -72,7 +72,7 @@ constexpr double kMostGrowth = 2.0;
 
 // Way of an obstacle's surface in a substep that links could not be brought to their lengths in, over the shortest link.
 constexpr double kMostWayOfSurface = 0.2;
-// Kinetic energy of a step over that without links, from which it has found another way for the links to lie: where it follows
+// Kinetic energy of a step over that without the work of links, from which it has found another way for the links to lie: where it follows
 // the motion links take energy out. Links turn in a step, and leapfrog's energy wavers, or bdf2's base lies off them, by the square
 // of that angle: 0.03 where they turn by 0.17 rad. What no shorter step would lack less is taken out of the velocities instead.
 constexpr double kMostAdded = 1.03;

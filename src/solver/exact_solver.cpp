@@ -138,16 +138,20 @@ bool ExactSolver::struck(const Progress& progress) const noexcept {
          });
 }
 
+// Rods alone find no energy in steady motion where they pull along the directions that they have half way between the velocities.
+bool ExactSolver::isForeseen(const Making& making, const Progress& progress) const noexcept {
+  const bool rods_alone = progress.alone() && !constraints_.stringsAct();
+  return rods_alone && !making.scheme.rules().follows && KineticGuard::foreseen(progress.surprise);
+}
+
 // Whether it may be taken: it has found no energy, and nothing that sleeps would have moved.
 void ExactSolver::judge(const Making& making, Progress& progress, SubstepOutcome& outcome) noexcept {
   const bool last_resort = making.plan.isLastResort();
   const double surface = progress.contacts != nullptr ? fastestSurface(*progress.contacts) : 0.0;
   if (progress.late || last_resort) {
-    // The last resort cuts what forces do, and their work with it: what they did is what counts.
-    const SubstepStart uncut{making.state, *making.forces.force, nullptr, inertia_.keep(), making.kick, making.step};
-    progress.most_kinetic = guard_.most(last_resort ? uncut : making.start, constraints_.next, surface);
-  } else if (progress.settled && (!progress.alone() || constraints_.stringsAct() || !KineticGuard::foreseen(progress.surprise))) {
-    const KineticGuard::Finding finding = guard_.look(making.start, constraints_.next, surface);
+    progress.most_kinetic = guard_.most(making.scheme.rules(), making.start, constraints_.next, surface);
+  } else if (progress.settled && !isForeseen(making, progress)) {
+    const KineticGuard::Finding finding = guard_.look(making.scheme.rules(), making.start, constraints_.next, surface);
     progress.most_kinetic = finding.most;
     if (finding.jumps) progress.settled = false;
   }

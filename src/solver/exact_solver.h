@@ -108,6 +108,7 @@ class ExactSolver {
   void boundPath(const Making& making, const Progress& progress, SubstepOutcome& outcome) noexcept;
   void take(const Making& making, const Progress& progress, SubstepOutcome& outcome) noexcept;
   bool struck(const Progress& progress) const noexcept;
+  bool isForeseen(const Making& making, const Progress& progress) const noexcept;
   void keepMomentum(const SubstepStart& start) noexcept;
   void projectVelocity(const Field3& position, const Contacts* contacts, double share, Field3& out) noexcept;
   double turning(double kick) const noexcept;

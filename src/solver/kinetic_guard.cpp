@@ -35,9 +35,9 @@ KineticGuard::KineticGuard(const ClothPattern& pattern, const NodeInertia& inert
 // A rod that is predicted longer by a share e has turned by sqrt(2 e), and has given e / 2 of its energy.
 bool KineticGuard::foreseen(double surprise) noexcept { return surprise <= 2.0 * (kMostAdded - 1.0); }
 
-KineticGuard::Finding KineticGuard::look(const SubstepStart& start, const Field3& end, double surface) const noexcept {
+KineticGuard::Finding KineticGuard::look(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end, double surface) const noexcept {
   const Vec3 frame = frameOf(start.state.velocity);
-  const Sums sums = sumsOf(start, end, frame);
+  const Sums sums = sumsOf(start, end, frame, rules.follows);
   if (!(sums.stepped > kMostAdded * sums.put_in)) return {};
   const double driven = drivenBy(start.state.velocity, frame, surface);
   Finding finding;
@@ -49,9 +49,9 @@ KineticGuard::Finding KineticGuard::look(const SubstepStart& start, const Field3
   return finding;
 }
 
-double KineticGuard::most(const SubstepStart& start, const Field3& end, double surface) const noexcept {
+double KineticGuard::most(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end, double surface) const noexcept {
   const Vec3 frame = frameOf(start.state.velocity);
-  return mostOf(sumsOf(start, end, frame).put_in, drivenBy(start.state.velocity, frame, surface));
+  return mostOf(sumsOf(start, end, frame, rules.follows).put_in, drivenBy(start.state.velocity, frame, surface));
 }
 
 double KineticGuard::most(const Field3& velocity, double surface) const noexcept {
@@ -60,17 +60,17 @@ double KineticGuard::most(const Field3& velocity, double surface) const noexcept
 }
 
 void KineticGuard::bound(double most, Field3& velocity) const noexcept {
-  const Vec3 frame = frameOf(velocity);
-  const double sum = kineticOf(velocity, frame);
-  if (!(sum > most)) return;
-  const double share = std::sqrt(most / sum);
+  const double excess = kineticOf(velocity, frameOf(velocity)) - most;
+  if (!(excess > 0.0)) return;
+  const double sum = kineticOf(velocity, Vec3::Zero());
+  const double share = std::sqrt(std::max(0.0, sum - excess) / sum);
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    if (inertia_.masses()[n] > 0.0) velocity.set(n, frame + share * (velocity.at(n) - frame));  // pins go where they are told to
+    if (inertia_.masses()[n] > 0.0) velocity.set(n, share * velocity.at(n));  // pins go where they are told to
   }
 }
 
 // By lanes, so that the sums have one order, whatever the processor's width.
-CURTAIN_WIDE KineticGuard::Sums KineticGuard::sumsOf(const SubstepStart& start, const Field3& end, const Vec3& frame) const noexcept {
+CURTAIN_WIDE KineticGuard::Sums KineticGuard::sumsOf(const SubstepStart& start, const Field3& end, const Vec3& frame, bool backward) const noexcept {
   const std::size_t size = pattern_.grid.size();
   const Field3 &from = start.state.position, &velocity = start.state.velocity;
   const double* const mass = pattern_.mass.data();
@@ -91,7 +91,8 @@ CURTAIN_WIDE KineticGuard::Sums KineticGuard::sumsOf(const SubstepStart& start, 
         const double kept = keep[n + l];
         const double before = (damped ? kept : 1.0) * v[n + l] - u;
         stepped[l] += m * made * made;
-        put_in[l] += m * before * before + time * f[n + l] * (before + made);
+        const double gains = time * f[n + l], without = before + free[n + l] * gains;
+        put_in[l] += m * before * before + gains * (before + (backward ? without : made));
       }
     }
   };

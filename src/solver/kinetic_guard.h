@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What a substep may have of kinetic energy. Links that hold do no work, seen from pins that all move alike: the cloth has what it had
-// and what forces put in over the mean of its velocities before and after. Past pins that go by at u its sqrt of twice the kinetic
-// energy grows by 2 u sqrt(M) at most. Pins that draw a flat string taut put in more, against what it bears; that is left out.
+// and what forces put in over the mean of its velocities before and after. Along directions at the end links can only shorten what the
+// velocities would be without them, so there forces put in what they would then. Past pins that go by at u its sqrt of twice the
+// kinetic energy grows by 2 u sqrt(M) at most. Pins that draw a flat string taut put in more, against what it bears; that is left out.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,7 @@
 #include <vector>
 
 #include "solver/node_inertia.h"
-#include "solver/warp_solver.h"
+#include "solver/scheme.h"
 
 namespace curtain {
 
@@ -28,21 +29,21 @@ class KineticGuard {
   /// lacked of a rod's length, relative.
   static bool foreseen(double surprise) noexcept;
   /// Of a substep that was solved, from start to end. surface: the fastest of what is touched [m/s]; 0: nothing, or it is at rest.
-  Finding look(const SubstepStart& start, const Field3& end, double surface) const noexcept;
+  Finding look(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end, double surface) const noexcept;
 
   /// Twice the largest kinetic energy of such a substep [J]: of free nodes without links, and what pins put in.
-  double most(const SubstepStart& start, const Field3& end, double surface) const noexcept;
+  double most(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end, double surface) const noexcept;
   /// The same of velocities that links are to act on [m/s].
   double most(const Field3& velocity, double surface) const noexcept;
 
-  /// Slows free nodes down, all alike, to twice that energy [J] at most.
+  /// Takes out what is above twice that energy [J]: slows free nodes down, all alike and to rest: nothing is put in by that.
   void bound(double most, Field3& velocity) const noexcept;
 
  private:
   struct Sums {
     double stepped = 0.0, put_in = 0.0;  // twice the kinetic energies of the path that nodes have gone, and without links' work on it [J]
   };
-  Sums sumsOf(const SubstepStart& start, const Field3& end, const Vec3& frame) const noexcept;
+  Sums sumsOf(const SubstepStart& start, const Field3& end, const Vec3& frame, bool backward) const noexcept;
   Vec3 frameOf(const Field3& velocity) const noexcept;
   double kineticOf(const Field3& velocity, const Vec3& frame) const noexcept;
   double drivenBy(const Field3& velocity, const Vec3& frame, double surface) const noexcept;

@@ -54,6 +54,8 @@ class Court {
         if (i > 0) shortest_rod_ = std::min(shortest_rod_, (simulator_.position({i, j}) - simulator_.position({i - 1, j})).norm());
       }
     }
+    const Happenings& happenings = drawn.happenings;
+    pulls_known_ = (happenings.pin_swing.isZero() && happenings.pin_jerk.isZero()) || !rodsStraightBetweenPins();
     every_ = std::max(1, static_cast<int>(cloth.rows * cloth.columns * drawn.seconds * drawn.scene.solver.frame_rate / kNodesLookedAt));
     simulator_.countWork(rigour.energy && !paper_);
     books_.open(simulator_);
@@ -108,6 +110,22 @@ class Court {
     Vec3 move = std::sin(2.0 * kPi * happenings.pin_frequency * (time + frame)) * happenings.pin_swing;
     if (after) move += (finer_ == 1 ? 1.0 : std::min(1.0, (time + frame - happenings.at) / (finer_ * frame))) * happenings.pin_jerk;
     for (const Pin& pin : pins_) simulator_.movePin(pin.node, pin.place + move);
+  }
+
+  // Rods drawn straight between pins of a column: what they pull has no one answer, so the work of pins that move has none.
+  bool rodsStraightBetweenPins() const {
+    const double tolerance = kToleranceShare * drawn_.scene.solver.stretch_tolerance;
+    for (const Pin& below : pins_) {
+      double rods = 0.0;
+      for (int i = below.node.row - 1; i >= 0; --i) {
+        const NodeIndex node{i, below.node.column};
+        rods += (simulator_.position(node) - simulator_.position({i + 1, node.column})).norm();
+        if (!simulator_.pinned(node)) continue;
+        if (i + 1 < below.node.row && (simulator_.position(node) - below.place).norm() > (1.0 - tolerance) * rods) return true;
+        break;
+      }
+    }
+    return false;
   }
 
   bool clear(int obstacle) const {
@@ -196,7 +214,7 @@ class Court {
     if (rigour_.energy || rigour_.brute_force) lookAtObstacles();
     // Cloth that is jammed is pushed at by no known force.
     const bool free = std::all_of(judged_.begin(), judged_.end(), [](bool judged) { return judged; });
-    if (rigour_.energy && !paper_ && free) {
+    if (rigour_.energy && !paper_ && free && pulls_known_) {
       books_.look(simulator_, !drawn_.happenings.gravity.isZero());
       verdict_.energy_gain = books_.gain();
     }
@@ -230,6 +248,7 @@ class Court {
   EnergyBooks books_;
   bool crossed_at_start_ = false;
   bool happened_ = false;
+  bool pulls_known_ = true;
   int every_ = 1;
   Verdict verdict_;
 };

@@ -132,7 +132,6 @@ Torture drawnStraight() {
     simulator.movePin({0, 9}, Vec3(width, 0.0, 2.0));
   };
   torture.kinetic = torture.energy_gain;
-  torture.known_failures = {Method::kLeapfrog};  // 3.0e-2
   torture.energy_gain = std::numeric_limits<double>::infinity();
   return torture;
 }
