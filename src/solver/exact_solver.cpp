@@ -148,9 +148,9 @@ bool ExactSolver::isForeseen(const Making& making, const Progress& progress) con
 void ExactSolver::judge(const Making& making, Progress& progress, SubstepOutcome& outcome) noexcept {
   const bool last_resort = making.plan.isLastResort();
   const double surface = progress.contacts != nullptr ? fastestSurface(*progress.contacts) : 0.0;
-  if (progress.late || last_resort) {
+  if (progress.late || (last_resort && progress.alone())) {
     progress.most_kinetic = guard_.most(making.scheme.rules(), making.start, constraints_.next, surface);
-  } else if (progress.settled && !isForeseen(making, progress)) {
+  } else if (!last_resort && progress.settled && !isForeseen(making, progress)) {
     const KineticGuard::Finding finding = guard_.look(making.scheme.rules(), making.start, constraints_.next, surface);
     progress.most_kinetic = finding.most;
     if (finding.jumps) progress.settled = false;
