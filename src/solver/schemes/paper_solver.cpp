@@ -230,14 +230,20 @@ void PaperSolver::slowDown(const Chain& chain, double most, double energy, const
 }
 
 // Where the rebuilt cloth would go through something, contact moves its nodes once more, and holds what still would; rods give way there.
-void PaperSolver::holdBack(ContactFinder& finder, Contacts& contacts, double h, ClothState& state) noexcept {
-  if (finder.verify(start_, state.position, false) == ContactFinder::Verdict::kClear) return;
+// False: something goes through all the same, for a pin does.
+bool PaperSolver::holdBack(ContactFinder& finder, Contacts& contacts, double h, ClothState& state) noexcept {
+  const auto clear = [&] { return finder.verify(start_, state.position, false) == ContactFinder::Verdict::kClear; };
+  if (clear()) return true;
   rebuilt_ = state.position;
   project(contacts, state.position);
-  if (finder.verify(start_, state.position, false) != ContactFinder::Verdict::kClear) finder.hold(start_, state.position);
+  if (!clear()) {
+    finder.hold(start_, state.position);
+    if (!clear()) return false;
+  }
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     if (pattern_.inverse_mass[n] > 0.0) state.velocity.add(n, (state.position.at(n) - rebuilt_.at(n)) / h);
   }
+  return true;
 }
 
 void PaperSolver::project(Contacts& contacts, Field3& position) const noexcept {
@@ -287,10 +293,10 @@ SubstepOutcome PaperSolver::substep(const NodeForces& forces, double h, ContactF
   clock.lap(Stage::kContact);
   for (const Chain& chain : chains_) rebuild(chain, h, state);
   clock.lap(Stage::kWarp);
-  if (contacts != nullptr) holdBack(*finder, *contacts, h, state);
+  const bool held = contacts == nullptr || holdBack(*finder, *contacts, h, state);
   boundEnergy(forces, state);
   if (contacts != nullptr) stopApproach(*contacts, state.velocity);
-  const bool sound = this->sound(state, h);
+  const bool sound = held && this->sound(state, h);
   if (!sound) stop(state);
   clock.lap(Stage::kContact);
   state.velocity_age = 0.0;
@@ -298,6 +304,7 @@ SubstepOutcome PaperSolver::substep(const NodeForces& forces, double h, ContactF
   outcome.accepted = true;
   outcome.settled = sound;
   outcome.share = sound ? 1.0 : 0.0;
+  outcome.pins_wait = !held;
   outcome.sweeps = 1;
   outcome.scale = h * h;
   outcome.kick = h;

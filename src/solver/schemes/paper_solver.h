@@ -63,7 +63,7 @@ class PaperSolver {
   void adjustBetweenPins(Field3& position) noexcept;
   void project(Contacts& contacts, Field3& position) const noexcept;
   void rebuild(const Chain& chain, double h, ClothState& state) const noexcept;
-  void holdBack(ContactFinder& finder, Contacts& contacts, double h, ClothState& state) noexcept;
+  bool holdBack(ContactFinder& finder, Contacts& contacts, double h, ClothState& state) noexcept;
   void stopApproach(const Contacts& contacts, Field3& velocity) const noexcept;
   void stop(ClothState& state) const noexcept;
   bool sound(const ClothState& state, double h) const noexcept;
