@@ -10,12 +10,12 @@
 // beside them saves time and changes no bit of a result.
 #pragma once
 
-#include "contact/kept_pairs.h"
-#include "contact/obstacle_contacts.h"
-#include "contact/obstacle_set.h"
-#include "contact/self_contacts.h"
-#include "contact/taut_net.h"
-#include "contact/zones.h"
+#include "contact/broad_phase/kept_pairs.h"
+#include "contact/broad_phase/taut_net.h"
+#include "contact/response/obstacle_contacts.h"
+#include "contact/response/self_contacts.h"
+#include "contact/response/zones.h"
+#include "contact/shapes/obstacle_set.h"
 #include "solver/substep.h"
 
 namespace curtain {

@@ -21,8 +21,8 @@
 #include <vector>
 
 #include "cloth/folds.h"
-#include "contact/element_clearance.h"
-#include "contact/obstacle_set.h"
+#include "contact/narrow_phase/element_clearance.h"
+#include "contact/shapes/obstacle_set.h"
 #include "curtain_sim/fine_mesh.h"
 
 namespace curtain {

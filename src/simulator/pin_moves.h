@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Pinned nodes on their way to where they are told to be. They go evenly over a frame. One that has not got there follows in the
-// next frames, no faster than followingSpeed() of the obstacles (contact/obstacle_set.h).
+// next frames, no faster than followingSpeed() of the obstacles (contact/shapes/obstacle_set.h).
 #pragma once
 
 #include <vector>

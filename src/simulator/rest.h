@@ -18,7 +18,7 @@
 
 #include "cloth/cloth.h"
 #include "cloth/column_set.h"
-#include "contact/obstacle_set.h"
+#include "contact/shapes/obstacle_set.h"
 #include "solver/contacts.h"
 
 namespace curtain {

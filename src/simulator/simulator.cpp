@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "contact/piercings.h"
+#include "contact/oracle/piercings.h"
 #include "scene/fnv1a.h"
 #include "scene/ranges.h"
 #include "simulator/self_crossings.h"

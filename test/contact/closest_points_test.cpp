@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Closest points of a point and a triangle and of two segments, against distances found in other ways.
-#include "contact/closest_points.h"
+#include "contact/narrow_phase/closest_points.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 //
 // The broad phase against all pairs of elements: it names each pair once whose swept boxes come within reach, leaves
 // out only what stays further apart than that, and leaves out all of flat and gently pleated cloth.
-#include "contact/cloth_tree.h"
+#include "contact/broad_phase/cloth_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include <functional>
 #include <set>
 
-#include "contact/kept_pairs.h"
-#include "contact/staying_apart.h"
-#include "contact/triangle_mesh_tree.h"
+#include "contact/broad_phase/kept_pairs.h"
+#include "contact/narrow_phase/staying_apart.h"
+#include "contact/shapes/triangle_mesh_tree.h"
 #include "count_allocations.h"
 #include "testing.h"
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Patches of triangles and their clearance from obstacles, against dense samples of the patch.
-#include "contact/element_clearance.h"
+#include "contact/narrow_phase/element_clearance.h"
 
 #include <gtest/gtest.h>
 
 #include <map>
 #include <string>
 
-#include "contact/shapes.h"
-#include "contact/triangle_mesh.h"
+#include "contact/shapes/shapes.h"
+#include "contact/shapes/triangle_mesh.h"
 #include "testing.h"
 
 namespace curtain {

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "contact/mesh_loader.h"
+#include "contact/shapes/mesh_loader.h"
 
 namespace {
 

@@ -13,9 +13,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "contact/mesh_loader.h"
-#include "contact/shapes.h"
-#include "contact/triangle_mesh.h"
+#include "contact/shapes/mesh_loader.h"
+#include "contact/shapes/shapes.h"
+#include "contact/shapes/triangle_mesh.h"
 
 namespace curtain {
 namespace {

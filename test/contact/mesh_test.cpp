@@ -12,8 +12,8 @@
 #include <random>
 #include <utility>
 
-#include "contact/shapes.h"
-#include "contact/triangle_mesh.h"
+#include "contact/shapes/shapes.h"
+#include "contact/shapes/triangle_mesh.h"
 
 namespace curtain {
 namespace {

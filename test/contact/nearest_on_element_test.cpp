@@ -10,7 +10,7 @@
 #include <map>
 #include <string>
 
-#include "contact/shapes.h"
+#include "contact/shapes/shapes.h"
 #include "testing.h"
 
 namespace curtain {

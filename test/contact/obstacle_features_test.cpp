@@ -2,7 +2,7 @@
 //
 // Corners, edges and triangles of boxes and meshes: all of them, once, with the right bend and the right outside; and
 // found in a box as a search through all of them finds them.
-#include "contact/obstacle_features.h"
+#include "contact/shapes/obstacle_features.h"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +13,9 @@
 #include <set>
 #include <utility>
 
-#include "contact/mesh_loader.h"
-#include "contact/shapes.h"
-#include "contact/triangle_mesh.h"
+#include "contact/shapes/mesh_loader.h"
+#include "contact/shapes/shapes.h"
+#include "contact/shapes/triangle_mesh.h"
 #include "testing.h"
 
 namespace curtain {

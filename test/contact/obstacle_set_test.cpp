@@ -7,7 +7,7 @@
 #include <string>
 
 #include "cloth/archive.h"
-#include "contact/obstacle_set.h"
+#include "contact/shapes/obstacle_set.h"
 #include "testing.h"
 
 namespace curtain {

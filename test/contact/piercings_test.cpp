@@ -2,7 +2,7 @@
 //
 // The oracle for parts of the cloth inside obstacles, on cases whose answer can be counted by hand, and against dense
 // sampling of the cloth.
-#include "contact/piercings.h"
+#include "contact/oracle/piercings.h"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "contact/shapes.h"
-#include "contact/triangle_mesh.h"
+#include "contact/shapes/shapes.h"
+#include "contact/shapes/triangle_mesh.h"
 #include "curtain_sim/simulator.h"
 #include "testing.h"
 

@@ -2,7 +2,7 @@
 //
 // The analytic obstacles give the exact signed distance with its gradient everywhere, and give a node back to the
 // side it came from.
-#include "contact/shapes.h"
+#include "contact/shapes/shapes.h"
 
 #include <gtest/gtest.h>
 

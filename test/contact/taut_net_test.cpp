@@ -2,14 +2,14 @@
 //
 // What the net says stays flat does: no two elements that share no node come within the reach, at any time on the way. And
 // it says so of cloth that hangs, turns and bends.
-#include "contact/taut_net.h"
+#include "contact/broad_phase/taut_net.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "contact/cloth_tree.h"
-#include "contact/self_contacts.h"
+#include "contact/broad_phase/cloth_tree.h"
+#include "contact/response/self_contacts.h"
 #include "testing.h"
 
 namespace curtain {

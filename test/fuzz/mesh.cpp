@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "contact/obstacle_features.h"
+#include "contact/shapes/obstacle_features.h"
 #include "curtain_sim/obstacle_shape.h"
 #include "fuzz/checks.h"
 

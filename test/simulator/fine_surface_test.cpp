@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/piercings.h"
+#include "contact/oracle/piercings.h"
 #include "curtain_sim/simulator.h"
 #include "testing.h"
 

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/closest_points.h"
+#include "contact/narrow_phase/closest_points.h"
 #include "curtain_sim/scene_yaml.h"
 #include "curtain_sim/simulator.h"
 #include "testing.h"

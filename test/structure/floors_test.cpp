@@ -4,6 +4,10 @@
 // header has its floor in the list below.
 //
 //   0 scene < 1 cloth < 2 forces < 3 solver, contact < 4 simulator < 5 ros < 6 programs
+//
+// So do the rooms of contact, with what puts them together above them:
+//
+//   0 shapes < 1 narrow_phase, oracle < 2 broad_phase < 3 response < 4 contact's own files
 #include <gtest/gtest.h>
 
 #include <map>
@@ -20,6 +24,8 @@ using curtain_test::SourceFile;
 
 const std::map<std::string, int> kFolders = {{"scene", 0},  {"cloth", 1},     {"forces", 2}, {"solver", 3},
                                              {"contact", 3}, {"simulator", 4}, {"ros", 5}};
+const std::map<std::string, int> kContactRooms = {{"shapes", 0}, {"narrow_phase", 1}, {"oracle", 1}, {"broad_phase", 2}, {"response", 3}};
+constexpr int kAboveRooms = 4;
 constexpr int kRos = 5;
 constexpr int kPrograms = 6;
 
@@ -124,6 +130,29 @@ TEST(Floors, NoFileIncludesAHigherOne) {
     }
   }
   EXPECT_GT(checked, 100);
+}
+
+/// Of what lies in contact, as seen from there: "response/zones.h".
+int roomOf(const std::string& inside) {
+  const std::string folder = firstFolder(inside);
+  if (folder.empty()) return kAboveRooms;
+  const auto found = kContactRooms.find(folder);
+  EXPECT_NE(found, kContactRooms.end()) << inside << " is in no room that this test knows";
+  return found == kContactRooms.end() ? kAboveRooms : found->second;
+}
+
+TEST(Floors, ContactsRoomsHaveAnOrder) {
+  int checked = 0;
+  for (const SourceFile& file : sourceFiles("src")) {
+    if (file.name.rfind("src/contact/", 0) != 0) continue;
+    const int room = roomOf(file.name.substr(12));
+    for (const Include& include : includesOf(file)) {
+      if (include.file.rfind("contact/", 0) != 0) continue;
+      EXPECT_LE(roomOf(include.file.substr(8)), room) << file.name << " includes " << include.file;
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 50);
 }
 
 TEST(Floors, PublicHeadersIncludeNoPrivateOnes) {

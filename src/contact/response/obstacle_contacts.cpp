@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "contact/response/obstacle_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "contact/broad_phase/cloth_reach.h"
+#include "contact/narrow_phase/candidates.h"
+
+namespace curtain {
+namespace {
+
+// Faces and edges are let come nearer than nodes, to this share of the thickness: few of them need a contact then.
+constexpr double kCore = 0.3;
+// The order in which the contacts of an obstacle are kept; of two of the same parts, the one that asks for less comes first.
+auto orderOf(const Contact& c) { return std::tie(c.nodes, c.node, c.source); }
+bool firstOfOne(const Contact& a, const Contact& b) {
+  if (orderOf(a) != orderOf(b)) return orderOf(a) < orderOf(b);
+  return std::tie(a.offset, a.weight) < std::tie(b.offset, b.weight);
+}
+bool alike(const Contact& a, const Contact& b) { return orderOf(a) == orderOf(b); }
+
+}  // namespace
+
+ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles)
+    : pattern_(pattern),
+      thickness_(params.thickness),
+      recovery_speed_(params.recovery_speed),
+      obstacles_(obstacles),
+      bounds_(pattern) {
+  const auto count = static_cast<std::size_t>(obstacles.count());
+  if (count == 0) return;
+  near_.reserve(count);
+  for (const MovingObstacle& moving : obstacles.moving()) near_.emplace_back(pattern, *moving.shape, thickness_, kCore * thickness_);
+  active_.assign(count, 0);
+  loads_.assign(count, Load());
+  crossings_.reserve(pattern.grid.nodeCount());
+  carried_by_.assign(pattern.grid.size(), -1);
+  carried_.reserve(pattern.grid.nodeCount());
+}
+
+// Box around the cloth on its way, and what may touch beyond it.
+Eigen::AlignedBox3d ObstacleContacts::reached(Eigen::AlignedBox3d box) const noexcept {
+  const double margin = 2.0 * thickness_;
+  box.min().array() -= margin;
+  box.max().array() += margin;
+  return box;
+}
+
+ObstacleStanding ObstacleContacts::standing(int obstacle, const Field3& position) const noexcept {
+  const MovingObstacle& moving = obstacles_.moving()[static_cast<std::size_t>(obstacle)];
+  if (!moving.present) return ObstacleStanding::kAbsent;
+  const bool near = reached(boxAround(pattern_.grid, position, position)).intersects(moving.sweptBounds());
+  return near ? ObstacleStanding::kNear : ObstacleStanding::kFar;
+}
+
+bool ObstacleContacts::anyWithin(const Eigen::AlignedBox3d& box) const noexcept {
+  const auto is_within = [&box](const MovingObstacle& moving) {
+    return moving.present && box.intersects(moving.sweptBounds());
+  };
+  return std::any_of(obstacles_.moving().begin(), obstacles_.moving().end(), is_within);
+}
+
+void ObstacleContacts::begin(const Field3& start, const Field3& predicted, double h, bool slippery, Contacts& contacts) noexcept {
+  h_ = h;
+  slippery_ = slippery;
+  std::fill(active_.begin(), active_.end(), std::uint8_t{0});
+  if (obstacles_.sweptBounds().isEmpty()) return;
+  start_box_ = bounds_.around(start);
+  if (!activate(start, predicted, true)) return;
+  for (const int index : obstacles_.byName()) {
+    const auto n = static_cast<std::size_t>(index);
+    if (active_[n] == 0) continue;
+    const ObstacleSubstep substep = substepOf(n);
+    collectNodes(substep, pattern_, near_[n], contacts);
+    const auto elements = static_cast<std::ptrdiff_t>(contacts.size());
+    if (!near_[n].faces().empty()) collectFaces(substep, pattern_, near_[n], contacts);
+    if (!near_[n].pairs().empty()) collectPairs(substep, pattern_, near_[n], contacts);
+    std::sort(contacts.begin() + elements, contacts.end(), firstOfOne);
+    contacts.erase(std::unique(contacts.begin() + elements, contacts.end(), alike), contacts.end());
+  }
+}
+
+// Lists what is near for the way from start to end, of the obstacles that the cloth may come near on it; false: of none.
+// Those that are not active yet become so. Some 30 nodes will do for what is not close, where links hold.
+bool ObstacleContacts::activate(const Field3& start, const Field3& end, bool links_hold) noexcept {
+  if (obstacles_.sweptBounds().isEmpty()) return false;
+  if (links_hold) {
+    const Vec3 way = Vec3::Constant(bounds_.farthest(start, end));
+    const Eigen::AlignedBox3d box = reached({start_box_.min() - way, start_box_.max() + way});
+    if (!box.intersects(obstacles_.sweptBounds()) || !anyWithin(box)) return false;
+  }
+  const Eigen::AlignedBox3d box = reached(boxAround(pattern_.grid, start, end));
+  bool any = false;
+  for (std::size_t n = 0; n < near_.size(); ++n) {
+    const MovingObstacle& moving = obstacles_.moving()[n];
+    if (!moving.present || !(active_[n] != 0 || box.intersects(moving.sweptBounds()))) continue;
+    if (active_[n] != 0) near_[n].follow(moving, start, end, h_);
+    else near_[n].prepare(moving, start, end, h_);
+    active_[n] = 1;
+    any = true;
+  }
+  return any;
+}
+
+void ObstacleContacts::findCrossings(const Field3& start, const Field3& end, bool links_hold) noexcept {
+  crossings_.clear();
+  full_ = false;
+  if (!activate(start, end, links_hold)) return;
+  for (const int index : obstacles_.byName()) {
+    const auto n = static_cast<std::size_t>(index);
+    if (active_[n] == 0) continue;
+    const ObstacleSubstep substep = substepOf(n);
+    crossingNodes(substep, pattern_, near_[n], crossings_);
+    const auto elements = static_cast<std::ptrdiff_t>(crossings_.size());
+    if (!near_[n].faces().empty()) crossingFaces(substep, pattern_, near_[n], crossings_);
+    if (!near_[n].pairs().empty()) crossingPairs(substep, pattern_, near_[n], crossings_);
+    std::sort(crossings_.begin() + elements, crossings_.end(),
+              [](const Crossing& a, const Crossing& b) { return std::tie(a.node, a.contact.source) < std::tie(b.node, b.contact.source); });
+    full_ = full_ || near_[n].full();
+  }
+}
+
+int ObstacleContacts::verify(const Field3& start, const Field3& end, bool links_hold, Contacts& contacts) noexcept {
+  findCrossings(start, end, links_hold);
+  for (const Crossing& crossing : crossings_) addWithinRoom(crossing.contact, contacts);
+  return static_cast<int>(crossings_.size());
+}
+
+int ObstacleContacts::carry(const Field3& start, Field3& end) noexcept {
+  findCrossings(start, end, false);
+  int count = 0;
+  for (const Crossing& crossing : crossings_) {
+    bool news = false;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(crossing.nodes); ++k) {
+      news = carryNode(crossing.node[k], crossing.contact.obstacle, start, end) || news;
+    }
+    count += news ? 1 : 0;
+  }
+  return count;
+}
+
+// False: it already goes along with one, or can't.
+bool ObstacleContacts::carryNode(std::uint32_t node, int obstacle, const Field3& start, Field3& end) noexcept {
+  if (carried_by_[node] >= 0 || pattern_.inverse_mass[node] <= 0.0) return false;
+  const MovingObstacle& moving = obstacles_.moving()[static_cast<std::size_t>(obstacle)];
+  carried_by_[node] = obstacle;
+  carried_.push_back(node);
+  end.set(node, moving.after.toWorld(moving.before.toLocal(start.at(node))));
+  return true;
+}
+
+bool ObstacleContacts::carryAlong(std::size_t a, std::size_t b, const Field3& start, Field3& end) noexcept {
+  if (carried_by_.empty() || (carried_by_[a] < 0) == (carried_by_[b] < 0)) return false;
+  return carryNode(static_cast<std::uint32_t>(carried_by_[a] < 0 ? a : b), std::max(carried_by_[a], carried_by_[b]), start, end);
+}
+
+void ObstacleContacts::stopRest(const Field3& start, Field3& end) const noexcept {
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    if (carried_by_[n] < 0 && pattern_.inverse_mass[n] > 0.0) end.set(n, start.at(n));
+  }
+}
+
+void ObstacleContacts::endCarrying() noexcept {
+  for (const std::uint32_t node : carried_) carried_by_[node] = -1;
+  carried_.clear();
+}
+
+void ObstacleContacts::remember(const Contacts& pushing, const Field3& position, double h, double scale) noexcept {
+  loaded_for_ += h;
+  for (std::size_t n = 0; n < near_.size(); ++n) {
+    if (active_[n] != 0) near_[n].advance(h);
+    loads_[n].contacts = 0;
+  }
+  for (const Contact& contact : pushing) {
+    if (contact.obstacle == Contact::kCloth) continue;
+    const auto obstacle = static_cast<std::size_t>(contact.obstacle);
+    const Vec3 impulse = (-h / scale) * (contact.push * contact.normal + contact.slide);
+    const Vec3 arm = contact.point(position) - obstacles_.moving()[obstacle].after.translation;
+    loads_[obstacle].impulse += impulse;
+    loads_[obstacle].angular += arm.cross(impulse);
+    ++loads_[obstacle].contacts;
+  }
+}
+
+void ObstacleContacts::clearCaches() noexcept {
+  for (Vicinity& vicinity : near_) vicinity.forget();
+}
+
+void ObstacleContacts::beginFrame(bool links_hold) noexcept {
+  bounds_.setLinksHold(links_hold);
+  std::fill(loads_.begin(), loads_.end(), Load());
+  loaded_for_ = 0.0;
+}
+
+ContactWrench ObstacleContacts::wrench(int obstacle) const noexcept {
+  const Load& load = loads_[static_cast<std::size_t>(obstacle)];
+  if (!(loaded_for_ > 0.0)) return {};
+  return {load.impulse / loaded_for_, load.angular / loaded_for_, load.contacts};
+}
+
+double ObstacleContacts::deepest(const Contacts& contacts, const Field3& position) const noexcept {
+  double deepest = 0.0;
+  for (const Contact& contact : contacts) {
+    if (contact.obstacle == Contact::kCloth || contact.nodes > 1) continue;
+    const auto obstacle = static_cast<std::size_t>(contact.obstacle);
+    const Vec3 local = obstacles_.moving()[obstacle].after.toLocal(position.at(contact.node[0]));
+    const NodePlane& plane = near_[obstacle].plane(contact.node[0]);
+    if (plane.kind != NodePlane::Kind::kUnknown && plane.lowerBound(local) > 0.0) continue;
+    SurfacePoint surface;
+    if (near_[obstacle].shape().query(local, local, 0.0, surface)) deepest = std::max(deepest, -surface.distance);
+  }
+  return deepest;
+}
+
+}  // namespace curtain

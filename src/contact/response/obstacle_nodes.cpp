@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Nodes against one obstacle. A query of a mesh costs about a microsecond: it is left out where the plane that was last found
+// shows that the node is far enough.
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "contact/narrow_phase/candidates.h"
+#include "contact/response/obstacle_touch.h"
+#include "contact/shapes/shapes.h"
+
+namespace curtain {
+namespace {
+
+// What is too close when a substep starts (an obstacle appeared there or jumped) is brought out slowly, not at once: the way
+// out must not become a blow. Inside the obstacle so many times as fast as inside the gap around it.
+constexpr double kFasterInside = 20.0;
+// Share of what is to be kept that may lack.
+constexpr double kSlack = 0.1;
+// Over the thickness: nearer than this at the end is through.
+constexpr double kLeast = 0.02;
+
+// Neither end is near, and nothing is between.
+bool staysClear(const NodePlane& plane, const Vec3& from, const Vec3& to, double reach) {
+  if (plane.kind == NodePlane::Kind::kUnknown) return false;
+  const double first = plane.lowerBound(from), last = plane.lowerBound(to);
+  return first > 0.0 && last > reach && first + last > (to - from).norm();
+}
+
+}  // namespace
+
+double letOut(double distance, double kept, const ObstacleSubstep& substep) noexcept {
+  if (distance >= kept) return kept;
+  const double least = (1.0 - kSlack) * kept;
+  if (distance >= least) return distance;
+  const double speed = distance < 0.0 ? kFasterInside * substep.recovery_speed : substep.recovery_speed;
+  return std::min(least, distance + std::min(speed * substep.h, substep.most_recovery));
+}
+
+bool makeContact(const ObstacleSubstep& substep, const ClothPattern& pattern, const TouchPoint& point, Contact& contact) noexcept {
+  const MovingObstacle& moving = substep.moving;
+  contact.nodes = 0;
+  bool moves = false;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(point.nodes); ++k) {
+    if (point.weight[k] == 0.0) continue;
+    const auto at = static_cast<std::size_t>(contact.nodes++);
+    contact.node[at] = point.node[k];
+    contact.weight[at] = point.weight[k];
+    moves = moves || pattern.inverse_mass[point.node[k]] > 0.0;
+  }
+  contact.obstacle = substep.obstacle;
+  contact.normal = moving.after.rotation * point.normal;
+  contact.offset = point.height + contact.normal.dot(moving.after.translation);
+  // Nothing holds a node back on its way out: friction there could lock cloth around an edge for good.
+  contact.friction = substep.slippery || point.distance < 0.0 ? 0.0 : moving.friction;
+  contact.recovery = point.recovery;
+  contact.carried = moving.after.toWorld(point.start);
+  contact.surface_velocity = (contact.carried - moving.before.toWorld(point.start)) / substep.h;
+  return moves;
+}
+
+namespace {
+
+Contact nodeContact(const ObstacleSubstep& substep, const ClothPattern& pattern, std::uint32_t node, const Vicinity& near,
+                    const SurfacePoint& surface, double distance) {
+  TouchPoint point;
+  point.node[0] = node;
+  point.weight[0] = 1.0;
+  point.start = near.startOf(node);
+  point.normal = surface.normal;
+  point.height = surface.normal.dot(near.endOf(node)) - surface.distance;
+  point.keep(distance, near.thickness(), substep);
+  Contact contact;
+  makeContact(substep, pattern, point, contact);
+  return contact;
+}
+
+// The side on which what is inside a convex obstacle comes out together. Each node's own nearest exit may draw the cloth apart: of a
+// box in its middle some leave upwards and some sideways, and links that hold keep them all inside. It is the one of the nodes' own exits
+// by which the deepest of them has the shortest path.
+class CommonExit {
+ public:
+  CommonExit(const ObstacleSubstep& substep, const Vicinity& near) : shape_(substep.moving.shape->convex()) {
+    if (shape_ == nullptr) return;
+    for (const std::uint32_t node : near.nodes()) {
+      if (near.distanceOf(node) < 0.0) addCandidate(shape_->nearest(near.startOf(node)).normal);
+    }
+    if (count_ < 2) return;
+    double shallowest = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < count_; ++k) {
+      const double depth = depthAlong(candidates_[static_cast<std::size_t>(k)], near);
+      if (!(depth < shallowest)) continue;
+      shallowest = depth;
+      normal_ = candidates_[static_cast<std::size_t>(k)];
+      any_ = true;
+    }
+  }
+
+  /// Of a node that leaves on another side: takes it to the common one.
+  void lead(const Vec3& from, const Vec3& to, double& distance, SurfacePoint& surface) const noexcept {
+    if (!any_ || distance >= 0.0 || surface.normal.dot(normal_) >= kSameSide) return;
+    const double reach = shape_->support(normal_);
+    distance = normal_.dot(from) - reach;
+    surface.distance = normal_.dot(to) - reach;
+    surface.normal = normal_;
+  }
+
+ private:
+  static constexpr int kMost = 16;           // sides to choose among; round shapes have as many as there are nodes
+  static constexpr double kAlike = 0.9;      // cosine from which two are one
+
+  void addCandidate(const Vec3& normal) noexcept {
+    for (int k = 0; k < count_; ++k) {
+      if (candidates_[static_cast<std::size_t>(k)].dot(normal) > kAlike) return;
+    }
+    if (count_ < kMost) candidates_[static_cast<std::size_t>(count_++)] = normal;
+  }
+  double depthAlong(const Vec3& normal, const Vicinity& near) const noexcept {
+    double deepest = 0.0;
+    for (const std::uint32_t node : near.nodes()) {
+      if (near.distanceOf(node) < 0.0) deepest = std::max(deepest, shape_->support(normal) - normal.dot(near.startOf(node)));
+    }
+    return deepest;
+  }
+
+  const ConvexShape* shape_;
+  std::array<Vec3, kMost> candidates_;
+  int count_ = 0;
+  bool any_ = false;
+  Vec3 normal_ = Vec3::UnitZ();
+};
+
+}  // namespace
+
+void collectNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, Vicinity& near, Contacts& contacts) noexcept {
+  const double reach = near.nodeReach();
+  const CommonExit exit(substep, near);
+  for (const std::uint32_t node : near.nodes()) {
+    const Vec3 from = near.startOf(node), to = near.endOf(node);
+    NodePlane& plane = near.plane(node);
+    SurfacePoint surface;
+    if (near.isPinned(node) || staysClear(plane, from, to, reach) || !near.shape().query(from, to, reach, surface)) continue;
+    if (surface.distance >= 0.0) plane = {to, surface, NodePlane::Kind::kFound};
+    double distance = near.distanceOf(node);
+    exit.lead(from, to, distance, surface);
+    addWithinRoom(nodeContact(substep, pattern, node, near, surface, distance), contacts);
+  }
+}
+
+void crossingNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, const Vicinity& near,
+                   std::vector<Crossing>& crossings) noexcept {
+  const double most = kLeast * near.thickness();
+  for (const std::uint32_t node : near.nodes()) {
+    const Vec3 from = near.startOf(node), to = near.endOf(node);
+    const double distance = near.distanceOf(node);
+    SurfacePoint surface;
+    if (near.isPinned(node) || distance <= 0.0 || staysClear(near.plane(node), from, to, most)) continue;
+    if (!near.shape().query(from, to, most, surface) || surface.distance >= std::min(most, 0.5 * distance)) continue;
+    Crossing crossing;
+    crossing.node[0] = node;
+    crossing.contact = nodeContact(substep, pattern, node, near, surface, distance);
+    addWithinRoom(crossing, crossings);
+  }
+}
+
+}  // namespace curtain

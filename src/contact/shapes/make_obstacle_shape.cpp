@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "contact/shapes/mesh_loader.h"
+#include "contact/shapes/shapes.h"
+#include "contact/shapes/triangle_mesh.h"
+
+namespace curtain {
+namespace {
+
+/// validate() says the same of whole scenes; a shape built without it must not compute with nonsense either.
+double positive(const ObstacleParams& obstacle, const std::string& key, double value) {
+  if (!(value > 0.0 && std::isfinite(value))) {
+    std::ostringstream text;
+    text << "obstacle '" << obstacle.name << "': " << key << " must be finite and > 0, is " << value;
+    throw std::invalid_argument(text.str());
+  }
+  return value;
+}
+
+std::unique_ptr<const ObstacleShape> makeMesh(const ObstacleParams& obstacle, const MeshResolver& resolve) {
+  const std::string who = "obstacle '" + obstacle.name + "': ";
+  for (const double factor : obstacle.scale) {
+    if (!(std::isfinite(factor) && factor != 0.0)) {
+      throw std::invalid_argument(who + "scale must be finite and not 0");
+    }
+  }
+  const std::string path = resolve(obstacle.mesh);
+  if (path.empty()) {
+    throw std::invalid_argument(who + "mesh '" + obstacle.mesh +
+                                "' cannot be resolved (package:// needs the package on ROS_PACKAGE_PATH)");
+  }
+  return std::make_unique<const TriangleMeshShape>(loadMesh(path, obstacle.scale, obstacle.name));
+}
+
+}  // namespace
+
+std::unique_ptr<const ObstacleShape> makeObstacleShape(const ObstacleParams& obstacle, const MeshResolver& resolve) {
+  switch (obstacle.shape) {
+    case ShapeKind::kSphere:
+      return std::make_unique<const SphereShape>(positive(obstacle, "radius", obstacle.radius));
+    case ShapeKind::kBox:
+      for (const double edge : obstacle.size) {
+        positive(obstacle, "size", edge);
+      }
+      return std::make_unique<const BoxShape>(obstacle.size);
+    case ShapeKind::kCylinder:
+      return std::make_unique<const CylinderShape>(positive(obstacle, "radius", obstacle.radius),
+                                                   positive(obstacle, "length", obstacle.length));
+    case ShapeKind::kCapsule:
+      return std::make_unique<const CapsuleShape>(positive(obstacle, "radius", obstacle.radius),
+                                                  positive(obstacle, "length", obstacle.length));
+    case ShapeKind::kPlane:
+      return std::make_unique<const PlaneShape>();
+    case ShapeKind::kMesh:
+      return makeMesh(obstacle, resolve);
+  }
+  throw std::invalid_argument("obstacle '" + obstacle.name + "': unknown shape");
+}
+
+}  // namespace curtain

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "contact/shapes/obstacle_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace curtain {
+namespace {
+
+// Between two poses of one frame: the angle is small, so the normalised chord does for the arc (error angle^3 / 100).
+Pose between(const Pose& a, const Pose& b, double share) {
+  Pose pose;
+  pose.position = a.position + share * (b.position - a.position);
+  const double sign = a.orientation.dot(b.orientation) < 0.0 ? -1.0 : 1.0;
+  pose.orientation.coeffs() = (1.0 - share) * a.orientation.coeffs() + (sign * share) * b.orientation.coeffs();
+  pose.orientation.normalize();
+  return pose;
+}
+
+bool samePlace(const Pose& a, const Pose& b) {
+  return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs();
+}
+
+Eigen::AlignedBox3d boxAround(const Eigen::AlignedBox3d& box, const Transform& transform) {
+  if (!std::isfinite(box.min().sum()) || !std::isfinite(box.max().sum())) {  // a plane is everywhere
+    return {Vec3::Constant(-std::numeric_limits<double>::infinity()),
+            Vec3::Constant(std::numeric_limits<double>::infinity())};
+  }
+  const Vec3 middle = transform.toWorld(box.center());
+  const Vec3 half = transform.rotation.cwiseAbs() * (0.5 * box.sizes());
+  return {middle - half, middle + half};
+}
+
+}  // namespace
+
+Pose poseAt(const std::vector<PoseKey>& motion, double time) noexcept {
+  if (time <= motion.front().time) return motion.front().pose;
+  for (std::size_t k = 1; k < motion.size(); ++k) {
+    const PoseKey& a = motion[k - 1];
+    const PoseKey& b = motion[k];
+    if (time > b.time) continue;
+    const double share = (time - a.time) / (b.time - a.time);
+    return {a.pose.position + share * (b.pose.position - a.pose.position),
+            a.pose.orientation.slerp(share, b.pose.orientation)};
+  }
+  return motion.back().pose;
+}
+
+void MovingObstacle::move(const Transform& from, const Transform& to) noexcept {
+  before = from;
+  after = to;
+  swept_ = boxAround(bounds, before).merged(boxAround(bounds, after));
+}
+
+double followingSpeed(const Scene& scene) noexcept {
+  const double gravity = scene.gravity.norm();
+  return gravity > 0.0 ? std::sqrt(2.0 * gravity * scene.cloth.height) : std::numeric_limits<double>::infinity();
+}
+
+ObstacleSet::ObstacleSet(const Scene& scene, const MeshResolver& resolve)
+    : frame_length_(1.0 / scene.solver.frame_rate), following_speed_(followingSpeed(scene)) {
+  for (const ObstacleParams& params : scene.obstacles) {
+    Item item;
+    item.shape = makeObstacleShape(params, resolve);
+    item.motion = params.motion;
+    item.initial = params.motion.empty() ? params.pose : poseAt(params.motion, 0.0);
+    MovingObstacle moving;
+    moving.shape = item.shape.get();
+    moving.bounds = item.shape->bounds();
+    moving.friction = std::isnan(params.friction) ? scene.contact.friction : params.friction;
+    items_.push_back(std::move(item));
+    moving_.push_back(moving);
+  }
+  by_name_.resize(items_.size());
+  std::iota(by_name_.begin(), by_name_.end(), 0);
+  std::sort(by_name_.begin(), by_name_.end(),
+            [&scene](int a, int b) { return scene.obstacles[at(a)].name < scene.obstacles[at(b)].name; });
+  rank_.resize(items_.size());
+  for (std::size_t n = 0; n < by_name_.size(); ++n) rank_[at(by_name_[n])] = static_cast<int>(n);
+  reset();
+}
+
+bool ObstacleSet::anyPresent() const noexcept {
+  return std::any_of(moving_.begin(), moving_.end(), [](const MovingObstacle& m) { return m.present; });
+}
+
+void ObstacleSet::reset() noexcept {
+  for (std::size_t n = 0; n < items_.size(); ++n) {
+    items_[n].left = items_[n].begin = items_[n].end = items_[n].initial;
+    items_[n].scripted = !items_[n].motion.empty();
+    items_[n].moved = items_[n].placed = items_[n].behind = false;
+    items_[n].own_way = 0.0;
+    items_[n].share = 1.0;
+    moving_[n].present = true;
+  }
+  at_rest_ = false;
+  setSubstep(1.0, 1.0);
+}
+
+void ObstacleSet::setPresent(int index, bool present) noexcept {
+  Item& item = items_[at(index)];
+  item.moved = item.moved || present != moving_[at(index)].present;
+  item.placed = at_rest_ = false;  // its motion went on without it
+  moving_[at(index)].present = present;
+}
+
+bool ObstacleSet::anyMoved() const noexcept {
+  return std::any_of(items_.begin(), items_.end(), [](const Item& item) { return item.moved; });
+}
+
+Eigen::AlignedBox3d ObstacleSet::leftBox(int index) const noexcept {
+  return boxAround(moving_[at(index)].bounds, Transform(items_[at(index)].left));
+}
+
+void ObstacleSet::setPose(int index, const Pose& pose, bool jump) noexcept {
+  Item& item = items_[at(index)];
+  item.scripted = false;
+  item.moved = item.moved || !samePlace(pose, item.end);
+  moveOn(at(index), pose);
+  item.placed = at_rest_ = false;
+  if (!jump) return;
+  item.begin = pose;
+  item.behind = false;
+  moving_[at(index)].move(Transform(pose), Transform(pose));
+}
+
+void ObstacleSet::beginFrame(double end_time) noexcept {
+  for (std::size_t n = 0; n < items_.size(); ++n) {
+    Item& item = items_[n];
+    if (item.scripted) {
+      moveOn(n, poseAt(item.motion, end_time));
+      item.moved = item.moved || !samePlace(item.begin, item.end);
+    }
+    item.share = 1.0;
+    if (!item.behind) continue;
+    const double way = wayBetween(item.begin, item.end, n);
+    const double allowed = std::max(item.own_way, following_speed_ * frame_length_);
+    if (way > allowed) item.share = allowed / way;
+  }
+}
+
+// Of the point that goes farthest, at most [m].
+double ObstacleSet::wayBetween(const Pose& a, const Pose& b, std::size_t index) const noexcept {
+  const Eigen::AlignedBox3d& box = moving_[index].bounds;
+  const double radius = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).norm();
+  const double turned = a.orientation.angularDistance(b.orientation);
+  return (b.position - a.position).norm() + (std::isfinite(radius) ? radius * turned : 0.0);
+}
+
+void ObstacleSet::moveOn(std::size_t index, const Pose& pose) noexcept {
+  Item& item = items_[index];
+  if (item.behind) item.own_way = wayBetween(item.end, pose, index);
+  item.end = pose;
+}
+
+double ObstacleSet::path(int index) const noexcept {
+  const Item& item = items_[at(index)];
+  return item.share * wayBetween(item.begin, item.end, at(index));
+}
+
+void ObstacleSet::setSubstep(double from, double to) noexcept {
+  if (at_rest_ && !anyMoved()) return;
+  at_rest_ = true;
+  swept_.setEmpty();
+  for (std::size_t n = 0; n < items_.size(); ++n) {
+    Item& item = items_[n];
+    if (!moving_[n].present) continue;
+    if (!samePlace(item.begin, item.end)) {
+      moving_[n].move(Transform(between(item.begin, item.end, from * item.share)),
+                      Transform(between(item.begin, item.end, to * item.share)));
+      item.placed = at_rest_ = false;
+    } else if (!item.placed) {
+      moving_[n].move(Transform(item.end), Transform(item.end));
+      item.placed = true;
+    }
+    swept_.extend(moving_[n].sweptBounds());
+  }
+}
+
+void ObstacleSet::endFrame(double share) noexcept {
+  for (Item& item : items_) {
+    const double made = share * item.share;
+    item.begin = made >= 1.0 ? item.end : between(item.begin, item.end, made);
+    item.moved = item.behind = !samePlace(item.begin, item.end);
+    item.own_way = 0.0;
+    item.left = item.begin;
+  }
+}
+
+}  // namespace curtain

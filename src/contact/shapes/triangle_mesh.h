@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// An obstacle made of triangles. A watertight mesh is a solid with an exact signed distance; any other mesh is
+// a thin shell with the free side where the node came from.
+#pragma once
+
+#include <memory>
+
+#include "contact/shapes/obstacle_features.h"
+#include "contact/shapes/triangle_mesh_grid.h"
+#include "contact/shapes/triangle_mesh_topology.h"
+#include "contact/shapes/triangle_mesh_tree.h"
+
+namespace curtain {
+
+class TriangleMeshShape final : public ObstacleShape {
+ public:
+  /// Corners finite [m], equal corners shared, at least one triangle of nonzero area.
+  explicit TriangleMeshShape(ShapeTriangles mesh);
+
+  bool query(const Vec3& previous, const Vec3& current, double reach, SurfacePoint& out) const noexcept override;
+  Eigen::AlignedBox3d bounds() const override { return tree_.bounds(); }
+  ShapeTriangles triangles() const override { return topology_.mesh; }
+
+  const ObstacleFeatures* features() const noexcept override { return &features_; }
+
+  /// Every edge has two triangles that agree on the outside, and there is an inside.
+  bool watertight() const { return topology_.watertight; }
+
+ private:
+  bool querySolid(const Vec3& previous, const Vec3& current, double reach, SurfacePoint& out) const noexcept;
+  bool queryShell(const Vec3& previous, const Vec3& current, double reach, SurfacePoint& out) const noexcept;
+
+  /// Tangent plane of the triangle that the way previous -> current goes in by; false: it goes in nowhere.
+  bool entry(const Vec3& previous, const Vec3& current, SurfacePoint& out) const noexcept;
+  const Vec3& pseudonormal(const NearestTriangle& nearest) const noexcept;
+  /// Signed distance and gradient at `point`, given its nearest triangle; an open mesh counts as outside.
+  SurfacePoint surfacePoint(const Vec3& point, const NearestTriangle& nearest) const noexcept;
+  double gridDistance(const Vec3& point, double bound) const;
+
+  MeshTopology topology_;
+  ObstacleFeatures features_;
+  TriangleMeshTree tree_;
+  double tiny_ = 0.0;  // distance below which a direction to the surface is rounding [m]
+  std::unique_ptr<const DistanceGrid> grid_;
+};
+
+}  // namespace curtain
