@@ -91,12 +91,18 @@ ExactSolver::Making ExactSolver::predict(const SubstepPlan& plan, const NodeForc
   return making;
 }
 
+double ExactSolver::meanSquare(const Field3& velocity) const noexcept {
+  double sum = 0.0;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) sum += velocity.at(n).squaredNorm();
+  return sum / static_cast<double>(pattern_.grid.nodeCount());
+}
+
 // Solves, and solves again with what the finder has to add, until nothing goes through anything or that does not help.
 ExactSolver::Progress ExactSolver::solveAndVerify(const Making& making) noexcept {
   const SubstepPlan& plan = making.plan;
   const bool last_resort = plan.isLastResort();
   const Field3 &from = making.state.position, &next = constraints_.next;
-  const SweepTask task{making.start.state.position, making.scheme.rules().follows, last_resort, plan.precise, making.forces.gravity.norm() * plan.h * plan.h};
+  SweepTask task{making.start.state.position, making.scheme.rules().follows, last_resort, plan.precise, making.forces.gravity.norm() * plan.h * plan.h, 0.0};
   ContactFinder* const finder = making.finder;
   Contacts* const contacts = finder != nullptr ? &finder->begin(from, next, plan.h) : nullptr;
   if (finder != nullptr) making.clock.lap(Stage::kContact);
@@ -107,6 +113,7 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const Making& making) noexcept
     if (contacts != nullptr) {
       beginContacts(inertia_.inverse(), making.ratio, known, *contacts, constraints_.next);
       known = contacts->size();
+      if (known > 0 && task.path == 0.0) task.path = plan.h * std::sqrt(meanSquare(making.state.velocity));
     }
     const SweepOutcome solved = sweeps_.run(task, contacts, making.clock);
     all.sweeps += solved.sweeps;

@@ -107,6 +107,7 @@ class ExactSolver {
   void judge(const Making& making, Progress& progress, SubstepOutcome& outcome) noexcept;
   void boundPath(const Making& making, const Progress& progress, SubstepOutcome& outcome) noexcept;
   void take(const Making& making, const Progress& progress, SubstepOutcome& outcome) noexcept;
+  double meanSquare(const Field3& velocity) const noexcept;
   bool struck(const Progress& progress) const noexcept;
   bool isForeseen(const Making& making, const Progress& progress) const noexcept;
   void keepMomentum(const SubstepStart& start) noexcept;

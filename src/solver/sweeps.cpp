@@ -28,8 +28,12 @@ Sweeps::Sweeps(Constraints& constraints, const NodeInertia& inertia, double tole
       most_sweeps_(most_sweeps) {}
 
 Sweeps::Aim Sweeps::aimOf(const SweepTask& task, bool first, bool touches, int sweeps) const noexcept {
-  double strict = 1.0;
-  if (sweeps < kStrictSweeps && touches) strict = kStrictShare;
+  double strict = 1.0, contact = contact_tolerance_;
+  if (touches) {
+    const double share = kShareOfPath * task.path / contact_tolerance_;
+    contact *= std::clamp(share, sweeps < kStrictSweeps ? kStrictShare : 1.0, task.last_resort ? 1.0 : kMostTouch);
+    if (sweeps < kStrictSweeps) strict = std::clamp(share, kStrictShare, 1.0);
+  }
   if (sweeps < kStrictSweeps && !touches && (constraints_.weftPulls() || constraints_.stringsAct())) {
     // What the last resort leaves the far shorter steps after it would have to mend at once: by a blow.
     strict = task.last_resort         ? kLastResortShare
@@ -37,7 +41,7 @@ Sweeps::Aim Sweeps::aimOf(const SweepTask& task, bool first, bool touches, int s
                                       : 1.0;
   }
   const bool cautious = first && !task.last_resort;
-  return {strict * tolerance_, strict * contact_tolerance_, cautious ? kFirstSweepShare : 1.0, cautious ? kFirstSweepShare : kLeaveAlone};
+  return {strict * tolerance_, contact, cautious ? kFirstSweepShare : 1.0, cautious ? kFirstSweepShare : kLeaveAlone};
 }
 
 // Friction takes its turn before contacts are looked at.
@@ -74,7 +78,7 @@ bool Sweeps::keepOrUndo(double& residual, const Residual& now, Contacts* contact
 
 bool Sweeps::isWithin(double touch) noexcept {
   const double allowed = tolerance_ / kInnerTolerance;
-  return touch <= contact_tolerance_ && constraints_.rodsResidual() <= allowed && constraints_.stringsResidual() <= allowed;
+  return touch <= most_touch_ && constraints_.rodsResidual() <= allowed && constraints_.stringsResidual() <= allowed;
 }
 
 SweepOutcome Sweeps::run(const SweepTask& task, Contacts* contacts, StageClock& clock) noexcept {
@@ -85,6 +89,7 @@ SweepOutcome Sweeps::run(const SweepTask& task, Contacts* contacts, StageClock& 
   bool follow = task.follows;
   double before = kInfinity, touch = 0.0;
   best_ = Best();
+  most_touch_ = aimOf(task, false, touches, kStrictSweeps).contact;
   constraints_.beginSolve();
   while (outcome.sweeps < most_sweeps_) {
     const bool first = outcome.sweeps == 0;

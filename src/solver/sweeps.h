@@ -39,6 +39,7 @@ struct SweepTask {
   bool last_resort;        ///< monotone: a sweep that makes the sum of squares no smaller is undone
   bool precise;            ///< rods are solved to rounding
   double weight_path;      ///< that weight moves a node by in the substep [m]
+  double path;             ///< that nodes go in it at the speed they have, RMS [m]; read where something touches
 };
 
 /// How much a sweep's solve of strings and contacts is damped: the more the more sweeps went wrong.
@@ -105,6 +106,7 @@ class Sweeps {
   const double contact_tolerance_;  // [m]
   const int most_sweeps_;
   Best best_;  // of a monotone solve
+  double most_touch_ = 0.0;  // that contacts may lack in the end [m]
 };
 
 }  // namespace curtain

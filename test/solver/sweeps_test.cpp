@@ -33,7 +33,7 @@ struct Solve {
     constraints.begin({state, force, nullptr, nullptr, kStep, kStep}, 0.0);
   }
   SweepOutcome run(bool last_resort = false) {
-    const SweepTask task{state.position, last_resort, last_resort, false, 0.0};
+    const SweepTask task{state.position, last_resort, last_resort, false, 0.0, 0.0};
     return sweeps.run(task, nullptr, clock);
   }
   double stretch() const {
