@@ -184,9 +184,9 @@ void ExactSolver::boundPath(const Making& making, const Progress& progress, Subs
     outcome.share = bound.share;
     outcome.momentum_cut += bound.moment / making.plan.h;
   }
-  // Bounded or held back, cloth on moving pins goes another path than was verified. Where that leads through something even the pins
-  // wait.
-  if ((outcome.share < 1.0 || progress.crossed) && last_resort_.pinsMove() && making.finder != nullptr &&
+  // Held back, or bounded on moving pins, cloth goes another path than was verified. Where that leads through something it stays where
+  // it is, and even the pins wait.
+  if ((progress.crossed || (outcome.share < 1.0 && last_resort_.pinsMove())) && making.finder != nullptr &&
       making.finder->verify(making.state.position, next, true) != ContactFinder::Verdict::kClear) {
     next = making.state.position;
     outcome.share = 0.0;
