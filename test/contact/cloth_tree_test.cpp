@@ -606,11 +606,10 @@ TEST(KeptPairs, AreDescendedForOnceByClothAtRest) {
 TEST(ClothTree, EveryElementBelongsToOneQuad) {
   for (const bool closed : {false, true}) {
     const ClothPattern pattern = squareCloth(7, 9, 0.025, closed);
-    const ClothTree tree(pattern);
     std::multiset<Elements> found;
     const int quads = 6 * pattern.grid.linkCount();
     for (int q = 0; q < quads; ++q) {
-      const QuadElements quad = tree.quad(static_cast<std::uint32_t>(q));
+      const QuadElements quad = quadElements(pattern.grid, q / pattern.grid.linkCount(), q % pattern.grid.linkCount());
       for (int k = 0; k < quad.vertex_count; ++k) found.insert({quad.vertices[static_cast<std::size_t>(k)]});
       for (int k = 0; k < quad.edge_count; ++k) {
         const MeshEdge& edge = quad.edges[static_cast<std::size_t>(k)];
@@ -623,38 +622,6 @@ TEST(ClothTree, EveryElementBelongsToOneQuad) {
     EXPECT_EQ(found.size(), vertices + edges + triangles);
     EXPECT_EQ(std::set<Elements>(found.begin(), found.end()).size(), found.size());
   }
-}
-
-TEST(ClothTree, CollectsTheQuadsThatMeetABox) {
-  const ClothPattern pattern = squareCloth(20, 22);
-  Random random(3);
-  const Field3 start = rotated(heap(pattern.grid, 4), 0.2, {3.0, 4.0, 5.0}), end = moved(pattern, start, 0.01, 1);
-  ClothTree tree(pattern);
-  tree.refit(start, end);
-  std::size_t most = 0;
-  for (int round = 0; round < 200; ++round) {
-    const Vec3 centre =
-        start.at(pattern.grid.index(static_cast<int>(random.between(0.0, 20.0)), 7)) + random.inBox(0.1);
-    const double size = round == 0 ? 1e9 : random.between(0.0, 0.1);
-    const Eigen::AlignedBox3d box(centre - Vec3::Constant(size), centre + Vec3::Constant(size));
-    std::vector<std::uint32_t> quads;
-    tree.collectBox(box, quads);
-    std::set<std::uint32_t> found(quads.begin(), quads.end());
-    EXPECT_EQ(found.size(), quads.size());
-    most = std::max(most, found.size());
-    for (std::uint32_t q = 0; q < 19 * 21; ++q) {
-      Eigen::AlignedBox3d swept;
-      for (const std::uint32_t n : tree.quad(q).corners) swept.extend(start.at(n)).extend(end.at(n));
-      const double gap = (box.min() - swept.max()).cwiseMax(swept.min() - box.max()).maxCoeff();
-      if (std::abs(gap) > 1e-5) {
-        EXPECT_EQ(found.count(q), gap <= 0.0 ? 1u : 0u) << gap;
-      }
-    }
-  }
-  EXPECT_EQ(most, 19u * 21u) << "of a box around all";
-  std::vector<std::uint32_t> quads;
-  tree.collectBox(Eigen::AlignedBox3d(), quads);
-  EXPECT_TRUE(quads.empty());
 }
 
 }  // namespace

@@ -129,30 +129,4 @@ std::uint32_t ClothTree::split(const QuadRectangle& quads, std::uint32_t block) 
   return index;
 }
 
-void ClothTree::collectBox(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& quads) noexcept {
-  if (box.isEmpty()) return;
-  // What lies beyond twice the cloth's reach may as well lie there; so no coordinate is rounded by more than twice what
-  // the cloth's own are.
-  const double limit = 2.0 * static_cast<double>(largest_) + 1e-30;
-  const Vec3 low = (box.min() - origin_).cwiseMax(-limit).cwiseMin(limit);
-  const Vec3 high = (box.max() - origin_).cwiseMax(-limit).cwiseMin(limit);
-  FloatBox target{Eigen::Array4f::Zero(), Eigen::Array4f::Zero()};
-  target.low.head<3>() = low.cast<float>().array();
-  target.high.head<3>() = high.cast<float>().array();
-  meeting(0, target, 2.0f * rounding_, quads);
-}
-
-void ClothTree::meeting(std::uint32_t index, const FloatBox& box, float reach,
-                        std::vector<std::uint32_t>& quads) noexcept {
-  if (!boxes_[index].meets(box, reach)) return;
-  const Node& node = nodes_[index];
-  if (node.second == kNone) {
-    quads.push_back(static_cast<std::uint32_t>(node.quads.row * grid_.linkCount() + node.quads.column));
-    return;
-  }
-  lookInto(index);
-  meeting(index + 1, box, reach, quads);
-  meeting(node.second, box, reach, quads);
-}
-
 }  // namespace curtain

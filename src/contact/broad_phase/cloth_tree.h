@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Which parts of the moving cloth may come near each other, or near a box: a binary tree over rectangles of quads,
+// Which parts of the moving cloth may come near each other: a binary tree over rectangles of quads,
 // built once and refitted to every motion. A rectangle that is flat enough (contact/narrow_phase/flatness.h) is not looked into; single
 // quads that planes part (contact/broad_phase/quad_ways.h), neighbours in a window of 2 x 2 quads that is flat, and elements that stay
 // apart (contact/narrow_phase/staying_apart.h) are left out.
@@ -15,7 +15,6 @@
 //      ...   ...      ...   ...        filled on demand, down to single quads
 #pragma once
 
-#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -55,15 +54,6 @@ class ClothTree {
 
   /// The same of pairs that have a node that is marked (not 0; of the grid's size), and of some that have none.
   void collectSelfOf(const std::vector<std::uint8_t>& marked, double reach, Candidates& out) noexcept;
-
-  /// Appends the quads (see quad()) whose swept box meets `box` [m].
-  void collectBox(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& quads) noexcept;
-
-  /// What belongs to a quad that collectBox named. Every vertex, edge and triangle belongs to exactly one quad.
-  QuadElements quad(std::uint32_t index) const noexcept {
-    const auto columns = static_cast<std::uint32_t>(grid_.linkCount());
-    return quadElements(grid_, static_cast<int>(index / columns), static_cast<int>(index % columns));
-  }
 
   /// Most by which a difference is rounded of two coordinates that were brought to single precision relative to `origin`
   /// [m], and are of no larger magnitude than `largest` [m] then.
@@ -109,7 +99,6 @@ class ClothTree {
     blocks_[block].filled = true;
   }
 
-  void meeting(std::uint32_t node, const FloatBox& box, float reach, std::vector<std::uint32_t>& quads) noexcept;
   void collectWanted(double reach, Candidates& out) noexcept;
   void self(std::uint32_t node, Candidates& out) noexcept;
   void pair(std::uint32_t one, std::uint32_t other, Candidates& out) noexcept;
@@ -151,7 +140,6 @@ class ClothTree {
   std::array<Floats, 3> start_, end_;  // [m] from origin_
   std::array<Floats, 18> columns_;     // of a strip: low and high of box, u, v along x, y, z
   Vec3 origin_ = Vec3::Zero();         // [m]
-  float largest_ = 0.0f;               // magnitude of the copied coordinates [m]
   float rounding_ = 0.0f;              // most by which a difference of two copied coordinates is rounded [m]
   float reach_ = 0.0f;                 // of the query, rounding included [m]
 

@@ -124,8 +124,7 @@ void ClothTree::refit(const Field3& start, const Field3& end) noexcept {
   ++refits_;
   for (const std::uint32_t node : upper_) mergeChildren(node);
   const FloatBox& all = boxes_[0];
-  largest_ = all.low.abs().max(all.high.abs()).maxCoeff();
-  rounding_ = roundingOf(largest_, origin_);
+  rounding_ = roundingOf(all.low.abs().max(all.high.abs()).maxCoeff(), origin_);
 }
 
 float ClothTree::roundingOf(float largest, const Vec3& origin) noexcept {
