@@ -212,6 +212,7 @@ std::vector<Problem> Simulator::setGravity(const Vec3& gravity) {
   if (!good) return {{"gravity", "must be 3 times " + range.text()}};
   Impl& im = *impl_;
   if (gravity == im.scene.gravity) return {};
+  im.motion.velocities();  // at the time of the positions, by the forces that made them
   im.scene.gravity = gravity;
   im.takeGravity();
   im.guard.forget();
@@ -223,6 +224,7 @@ std::vector<Problem> Simulator::setGravity(const Vec3& gravity) {
 std::vector<Problem> Simulator::setAir(const AirParams& air) {
   std::vector<Problem> problems = validate(air, "air");
   if (!problems.empty()) return problems;
+  impl_->motion.velocities();  // as in setGravity()
   impl_->scene.air = air;
   impl_->motion.forces.takeAir();
   impl_->sleep.takeLimits();

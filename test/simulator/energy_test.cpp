@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The total energy of undamped cloth: of a swing over a minute it has no trend, and whips whose tension makes substeps change do
-// not collect any.
+// not collect any. And it is the same whoever asks for it, whenever.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -104,6 +104,19 @@ INSTANTIATE_TEST_SUITE_P(Methods, WhipEnergy,
                          [](const auto& named) {
                            return toString(std::get<0>(named.param)) + (std::get<1>(named.param) > 0 ? "Fixed" : "");
                          });
+
+// Gravity that changes between two frames: velocities are still those that the old one made, whether they were asked for or not.
+TEST(Energy, IsOfTheForcesThatWere) {
+  const Scene scene = curtain_test::chainScene(20);
+  Simulator asked(scene), unasked(scene);
+  for (Simulator* simulator : {&asked, &unasked}) {
+    for (int frame = 0; frame < 5; ++frame) simulator->step();
+  }
+  const Energy before = asked.energy();
+  for (Simulator* simulator : {&asked, &unasked}) EXPECT_TRUE(simulator->setGravity({20.0, -10.0, 5.0}).empty());
+  EXPECT_EQ(asked.energy().kinetic, before.kinetic);
+  EXPECT_EQ(unasked.energy().kinetic, before.kinetic);
+}
 
 }  // namespace
 }  // namespace curtain
