@@ -75,8 +75,8 @@ struct ContactWrench {
 struct Work {
   double gravity = 0.0;    ///< what the potential energy has fallen by
   double forces = 0.0;     ///< of winds and drags
-  double pins = 0.0;       ///< of those that were moved; Method::kPaper does not know, nor does any where rods are drawn straight between
-                           ///< pins of a column: what these pull has no one answer then
+  double pins = 0.0;       ///< of those that were moved; Method::kPaper does not know, nor does any where links are drawn straight between
+                           ///< two pins: what these pull has no one answer then
   double obstacles = 0.0;  ///< that moved
   double kinetic = 0.0;    ///< what the kinetic energy has grown by
 };

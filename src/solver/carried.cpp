@@ -63,6 +63,7 @@ void ExactSolver::resume(const ColumnSet& held, const ClothState& state) noexcep
   held_.resume(held);
   inertia_.hold(held);
   constraints_.resume(state);
+  gained_ = {};
 }
 
 // Ranges keep the number of a frame's substeps bounded; next() itself sees to the other numbers.

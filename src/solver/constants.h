@@ -40,7 +40,7 @@ constexpr double kWatchMoves = 1e-3;  // relative violation below which no solve
 // multipliers carry over.
 constexpr int kRubSweeps = 3;
 // What is left over becomes motion, so contact is aimed at in proportion to the motion: to this share of the way that nodes go in the
-// substep (RMS), but no further than so many tolerances, beyond which there are no fewer sweeps. Never in the last resort: what is
+// substep (RMS, past their mean), but no further than so many tolerances, beyond which there are no fewer sweeps. Never in the last resort: what is
 // thrown at cloth at 50 m/s pierced it.
 constexpr double kShareOfPath = 0.01;
 constexpr double kMostTouch = 4.0;

@@ -68,6 +68,14 @@ double fastestSurface(const Contacts& contacts) noexcept {
   return std::sqrt(fastest);
 }
 
+double fastestDrive(const Contacts& contacts, const Field3& start, double h) noexcept {
+  double fastest = fastestSurface(contacts);
+  for (const Contact& contact : contacts) {
+    if (contact.pushes()) fastest = std::max(fastest, (contact.offset - contact.normal.dot(contact.point(start))) / std::abs(h));
+  }
+  return fastest;
+}
+
 bool anyPushes(const Contacts& contacts) noexcept {
   return std::any_of(contacts.begin(), contacts.end(), [](const Contact& contact) { return contact.pushes(); });
 }

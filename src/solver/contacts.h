@@ -77,6 +77,9 @@ double contactRate(const Contacts& contacts, const Field3& velocity) noexcept;
 /// Of the obstacles' points that are pushed on [m/s].
 double fastestSurface(const Contacts& contacts) noexcept;
 
+/// The fastest that contacts drive points [m/s]: with what they touch, or out of where they were at `start` [m] in a step of h [s].
+double fastestDrive(const Contacts& contacts, const Field3& start, double h) noexcept;
+
 /// Whether any of them pushes.
 bool anyPushes(const Contacts& contacts) noexcept;
 

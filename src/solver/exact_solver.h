@@ -124,6 +124,10 @@ class ExactSolver {
   Constraints constraints_;
   Sweeps sweeps_;
   KineticGuard guard_;
+  struct Gained {
+    double h = 0.0, gain = 0.0;  // [s], twice the energy [J]
+  };
+  Gained gained_;  // by the last attempt of the substep that is being made
   Leapfrog leapfrog_;
   Bdf2 bdf2_;
   Implicit implicit_;

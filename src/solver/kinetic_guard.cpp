@@ -32,7 +32,7 @@ std::vector<std::size_t> pinsOf(const ClothPattern& pattern) {
 KineticGuard::KineticGuard(const ClothPattern& pattern, const NodeInertia& inertia, double stretch_tolerance, double links)
     : pattern_(pattern), inertia_(inertia), stretch_tolerance_(stretch_tolerance), links_(links), pins_(pinsOf(pattern)) {}
 
-// A rod that is predicted longer by a share e has turned by sqrt(2 e), and has given e / 2 of its energy.
+// From rest, a rod that is predicted longer by a share e has turned by sqrt(2 e), and is given e / 2 of its energy.
 bool KineticGuard::foreseen(double surprise) noexcept { return surprise <= 2.0 * (kMostAdded - 1.0); }
 
 KineticGuard::Finding KineticGuard::look(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end, double surface) const noexcept {
@@ -44,6 +44,7 @@ KineticGuard::Finding KineticGuard::look(const Scheme::Rules& rules, const Subst
   const double most = mostOf(sums.put_in, driven);
   if (!(sums.stepped > mostOf(kMostAdded * sums.put_in, driven))) return finding;
   finding.most = most;
+  finding.gain = sums.stepped - most;
   // What its links may lack of their lengths would be more still in a shorter one.
   finding.jumps = sums.stepped > most + fromTolerance(start.h);
   return finding;
@@ -60,10 +61,14 @@ double KineticGuard::most(const Field3& velocity, double surface) const noexcept
 }
 
 void KineticGuard::bound(double most, Field3& velocity) const noexcept {
-  const double excess = kineticOf(velocity, frameOf(velocity)) - most;
-  if (!(excess > 0.0)) return;
-  const double sum = kineticOf(velocity, Vec3::Zero());
-  const double share = std::sqrt(std::max(0.0, sum - excess) / sum);
+  const Vec3 frame = frameOf(velocity);
+  const double seen = kineticOf(velocity, frame);
+  if (!(seen > most)) return;
+  const double all = frame.isZero(0.0) ? seen : kineticOf(velocity, Vec3::Zero());
+  if (!(all > 0.0)) return;
+  // Where they are the same: what links that can't hold pull is beyond all measure, and a difference would be nothing.
+  const double left = frame.isZero(0.0) ? most : all - (seen - most);
+  const double share = std::sqrt(std::max(0.0, left) / all);
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     if (inertia_.masses()[n] > 0.0) velocity.set(n, share * velocity.at(n));  // pins go where they are told to
   }
@@ -135,9 +140,9 @@ double KineticGuard::drivenBy(const Field3& velocity, const Vec3& frame, double 
   return mass * fastest;
 }
 
-// What links may lack of their lengths comes out of a substep as speed.
+// What links may lack of their lengths where a substep begins, and have too much where it ends, comes out of it as speed.
 double KineticGuard::fromTolerance(double h) const noexcept {
-  const double speed = stretch_tolerance_ * links_ / h;
+  const double speed = 2.0 * stretch_tolerance_ * links_ / h;
   double mass = 0.0;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) mass += inertia_.masses()[n] > 0.0 ? pattern_.mass[n] : 0.0;
   return mass * speed * speed;

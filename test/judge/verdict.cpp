@@ -55,7 +55,7 @@ class Court {
       }
     }
     const Happenings& happenings = drawn.happenings;
-    pulls_known_ = (happenings.pin_swing.isZero() && happenings.pin_jerk.isZero()) || !rodsStraightBetweenPins();
+    pulls_known_ = (happenings.pin_swing.isZero() && happenings.pin_jerk.isZero()) || !linksStraightBetweenPins();
     every_ = std::max(1, static_cast<int>(cloth.rows * cloth.columns * drawn.seconds * drawn.scene.solver.frame_rate / kNodesLookedAt));
     simulator_.countWork(rigour.energy && !paper_);
     books_.open(simulator_);
@@ -112,20 +112,22 @@ class Court {
     for (const Pin& pin : pins_) simulator_.movePin(pin.node, pin.place + move);
   }
 
-  // Rods drawn straight between pins of a column: what they pull has no one answer, so the work of pins that move has none.
-  bool rodsStraightBetweenPins() const {
+  // Links drawn straight between two pins of a column or row: what they pull has no one answer, so the work of pins that move has none.
+  bool linksStraightBetweenPins() const {
     const double tolerance = kToleranceShare * drawn_.scene.solver.stretch_tolerance;
-    for (const Pin& below : pins_) {
-      double rods = 0.0;
-      for (int i = below.node.row - 1; i >= 0; --i) {
-        const NodeIndex node{i, below.node.column};
-        rods += (simulator_.position(node) - simulator_.position({i + 1, node.column})).norm();
+    const auto straight = [&](const Pin& from, int down, int right) {
+      double links = 0.0;
+      NodeIndex last = from.node;
+      for (NodeIndex node{last.row - down, last.column - right}; node.row >= 0 && node.column >= 0; node.row -= down, node.column -= right) {
+        links += (simulator_.position(node) - simulator_.position(last)).norm();
+        last = node;
         if (!simulator_.pinned(node)) continue;
-        if (i + 1 < below.node.row && (simulator_.position(node) - below.place).norm() > (1.0 - tolerance) * rods) return true;
-        break;
+        const bool apart = from.node.row - node.row + from.node.column - node.column > 1;
+        return apart && (simulator_.position(node) - from.place).norm() > (1.0 - tolerance) * links;
       }
-    }
-    return false;
+      return false;
+    };
+    return std::any_of(pins_.begin(), pins_.end(), [&](const Pin& pin) { return straight(pin, 1, 0) || straight(pin, 0, 1); });
   }
 
   bool clear(int obstacle) const {

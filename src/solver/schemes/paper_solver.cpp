@@ -230,7 +230,7 @@ void PaperSolver::slowDown(const Chain& chain, double most, double energy, const
 }
 
 // Where the rebuilt cloth would go through something, contact moves its nodes once more, and holds what still would; rods give way there.
-// False: something goes through all the same, for a pin does.
+// False: something goes through all the same, or there is no room for what might.
 bool PaperSolver::holdBack(ContactFinder& finder, Contacts& contacts, double h, ClothState& state) noexcept {
   const auto clear = [&] { return finder.verify(start_, state.position, false) == ContactFinder::Verdict::kClear; };
   if (clear()) return true;
@@ -304,7 +304,7 @@ SubstepOutcome PaperSolver::substep(const NodeForces& forces, double h, ContactF
   outcome.accepted = true;
   outcome.settled = sound;
   outcome.share = sound ? 1.0 : 0.0;
-  outcome.pins_wait = !held;
+  outcome.pins_wait = !sound;
   outcome.sweeps = 1;
   outcome.scale = h * h;
   outcome.kick = h;
