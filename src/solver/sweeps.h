@@ -39,7 +39,7 @@ struct SweepTask {
   bool last_resort;        ///< monotone: a sweep that makes the sum of squares no smaller is undone
   bool precise;            ///< rods are solved to rounding
   double weight_path;      ///< that weight moves a node by in the substep [m]
-  double path;             ///< that nodes go in it at the speed they have, RMS [m]; read where something touches
+  double path;             ///< that nodes go in it at the speed they have, RMS past their mean [m]; read where something touches
 };
 
 /// How much a sweep's solve of strings and contacts is damped: the more the more sweeps went wrong.

@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "solver/contacts.h"
 #include "testing.h"
 
 namespace curtain {
@@ -109,6 +110,35 @@ TEST(KineticGuard, SlowsFreeNodesDownAndNotPins) {
   cloth.guard.bound(0.25 * cloth.freeMass(), velocity);
   EXPECT_NEAR(velocity.at(node).x(), 0.5, 64.0 * kEps);
   EXPECT_EQ(velocity.at(pin), Vec3(Vec3::Zero()));
+}
+
+// What links that can't hold pull is beyond all measure; and cloth at rest beside pins that move is slowed down by nothing.
+TEST(KineticGuard, BoundsWhatIsBeyondMeasure) {
+  Moving cloth;
+  const double most = 0.25 * cloth.freeMass();
+  Field3 velocity = cloth.state.velocity;
+  for (std::size_t n = 0; n < cloth.pattern.grid.size(); ++n) velocity.set(n, 1e12 * velocity.at(n));
+  cloth.guard.bound(most, velocity);
+  EXPECT_NEAR(velocity.at(cloth.pattern.grid.index(3, 2)).x(), 0.5, 64.0 * kEps);
+  Moving beside(PinKind::kTop);
+  Field3 resting = beside.state.velocity;
+  resting.assign(beside.pattern.grid.size(), 0.0);
+  for (int j = 0; j < beside.pattern.grid.columns; ++j) resting.set(beside.pattern.grid.index(0, j), Vec3::UnitX());
+  beside.guard.bound(0.0, resting);
+  EXPECT_EQ(resting.at(beside.pattern.grid.index(3, 2)), Vec3(Vec3::Zero()));
+}
+
+// What is inside its gap comes out of it within the step: that counts as what drives it, unless nothing pushes.
+TEST(Contacts, DrivePointsOutOfWhereTheyWere) {
+  const Moving cloth;
+  Contact contact;
+  contact.node[0] = static_cast<std::uint32_t>(cloth.pattern.grid.index(3, 2));
+  contact.weight[0] = 1.0;
+  contact.normal = Vec3::UnitZ();
+  contact.offset = cloth.state.position.at(contact.node[0]).z() + 2e-3;
+  EXPECT_EQ(fastestDrive({contact}, cloth.state.position, kStep), 0.0);
+  contact.push = 1.0;
+  EXPECT_NEAR(fastestDrive({contact}, cloth.state.position, kStep), 2e-3 / kStep, 1e3 * kEps);
 }
 
 }  // namespace
