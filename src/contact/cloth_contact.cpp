@@ -20,27 +20,24 @@ constexpr double kFlatReach = 1.25;
 // Parts that go along with an obstacle may take more with them: so many times at most.
 constexpr int kCarryRounds = 64;
 
+// What goes through comes this near, over the gap, with room for what measuring it leaves uncertain.
+constexpr double kCrossingReach = 2.0 * SelfContacts::kLeastShare;
 // Contacts that there is room for, per node.
 constexpr std::size_t kRoomPerNode = 8;
 
-// Share of nodes that may end elsewhere than predicted: pairs of more are found faster together with all others.
-constexpr double kMostAstray = 0.1;
-
-double squaredDistance(const Field3& a, const Field3& b, std::size_t n) noexcept {
-  const double x = a.x[n] - b.x[n], y = a.y[n] - b.y[n], z = a.z[n] - b.z[n];
-  return x * x + y * y + z * z;
-}
-
-// Nodes whose two positions are not within a distance, squared. Counted in doubles, all lanes being of one width.
-CURTAIN_WIDE double countApart(const Field3& a, const Field3& b, double most_squared) noexcept {
+// Marks the nodes whose two positions are not within a distance, squared; returns their number. Padding is at one place.
+CURTAIN_WIDE std::size_t markApart(const Field3& a, const Field3& b, double most_squared, std::vector<std::uint8_t>& marks) noexcept {
   const double *const ax = a.x.data(), *const ay = a.y.data(), *const az = a.z.data();
   const double *const bx = b.x.data(), *const by = b.y.data(), *const bz = b.z.data();
-  const std::size_t nodes = a.x.size();
-  double count = 0.0;
+  std::uint8_t* const mark = marks.data();
+  const std::size_t nodes = marks.size();
+  std::size_t count = 0;
 #pragma omp simd reduction(+ : count)
   for (std::size_t n = 0; n < nodes; ++n) {
     const double x = ax[n] - bx[n], y = ay[n] - by[n], z = az[n] - bz[n];
-    count += x * x + y * y + z * z <= most_squared ? 0.0 : 1.0;
+    const bool apart = x * x + y * y + z * z > most_squared;
+    mark[n] = apart ? 1 : 0;
+    count += apart ? 1 : 0;
   }
   return count;
 }
@@ -120,17 +117,14 @@ bool ClothContact::staysFlat(const Field3& end, bool settled) noexcept {
   return flat_ && settled && net_.staysFlat(end, kFlatReach * self_.gap());
 }
 
-// Candidates for the way from start to end: pairs that come within twice their least distance, for sure. Those for the predicted
-// way do, but for nodes that end too far from where they were predicted.
+// Candidates for the way from start to end: pairs that come within the reach, for sure. Those for the predicted way do, but for nodes that
+// end too far from where they were predicted.
 void ClothContact::findOnWay(const Field3& start, const Field3& end) noexcept {
-  const double reach = 2.0 * SelfContacts::kLeastShare * self_.gap();
-  const double most = 0.5 * (self_.gap() - reach);
-  const double count = flat_ ? 0.0 : countApart(end, predicted_, most * most);
-  if (flat_ || count > kMostAstray * static_cast<double>(pattern_.grid.nodeCount())) {
+  const double reach = kCrossingReach * self_.gap(), most = 0.5 * (self_.gap() - reach);
+  if (flat_) {
     flat_ = false;
     find(start, end, self_.gap());
-  } else if (count > 0.0) {
-    for (std::size_t n = 0; n < pattern_.grid.size(); ++n) astray_[n] = squaredDistance(end, predicted_, n) <= most * most ? 0 : 1;
+  } else if (markApart(end, predicted_, most * most, astray_) > 0) {
     pairs_.collectOf(astray_, start, end, reach, candidates_);
   }
 }
@@ -164,7 +158,7 @@ void ClothContact::holdToObstacles(const Field3& start, Field3& end) noexcept {
   for (int round = 0; round < kCarryRounds && !done; ++round) {
     int count = touch_.carry(start, end);
     if (self_wanted_ && count > 0) {
-      find(start, end, self_.gap());
+      find(start, end, kCrossingReach * self_.gap());
       self_.forEachCrossing(candidates_, start, end, [&](const PairKey& pair) {
         for (const std::uint32_t node : pair.node) count += touch_.carryAlong(pair.node[0], node, start, end) ? 1 : 0;
       });
@@ -197,7 +191,7 @@ void ClothContact::holdSelf(const Field3& start, Field3& end) noexcept {
 int ClothContact::joinCrossings(const Field3& start, const Field3& end) noexcept {
   int count = 0;
   if (!self_wanted_) return count;
-  find(start, end, self_.gap());
+  find(start, end, kCrossingReach * self_.gap());
   self_.forEachCrossing(candidates_, start, end, [&](const PairKey& pair) {
     for (std::size_t k = 1; k < 4; ++k) zones_.join(pair.node[0], pair.node[k]);
     ++count;
@@ -245,7 +239,6 @@ void ClothContact::forget() noexcept {
 
 void ClothContact::clearCaches() noexcept {
   net_.forget();
-  pairs_.forget();
   touch_.clearCaches();
 }
 

@@ -10,7 +10,7 @@
 // beside them saves time and changes no bit of a result.
 #pragma once
 
-#include "contact/broad_phase/kept_pairs.h"
+#include "contact/broad_phase/cloth_pairs.h"
 #include "contact/broad_phase/taut_net.h"
 #include "contact/response/obstacle_contacts.h"
 #include "contact/response/self_contacts.h"
@@ -92,7 +92,7 @@ class ClothContact : public ContactFinder {
   int zone_iterations_;
   ObstacleContacts touch_;
   SelfContacts self_;
-  KeptPairs pairs_;
+  ClothPairs pairs_;
   TautNet net_;
   Candidates candidates_;     // of the way from the substep's start to predicted_
   Field3 predicted_;

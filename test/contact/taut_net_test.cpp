@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "contact/broad_phase/cloth_tree.h"
+#include "contact/broad_phase/cloth_pairs.h"
 #include "contact/response/self_contacts.h"
 #include "testing.h"
 
@@ -27,12 +27,10 @@ Field3 mixture(const Field3& start, const Field3& end, double share) {
   return at;
 }
 
-// Distance of the nearest two elements on the way, at instants of it; infinite where the tree names no pair.
+// Distance of the nearest two elements on the way, at instants of it; infinite where no pair is named.
 double nearest(const ClothPattern& pattern, const Field3& start, const Field3& end) {
-  ClothTree tree(pattern);
   Candidates near;
-  tree.refit(start, end);
-  tree.collectSelf(2.0 * kReach, near);
+  ClothPairs(pattern).collect(start, end, 2.0 * kReach, near);
   double least = std::numeric_limits<double>::infinity();
   for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
     const Field3 at = mixture(start, end, share);

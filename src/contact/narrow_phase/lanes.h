@@ -27,6 +27,12 @@ inline Lanes loadLanes(const float* from) {
 inline Lanes lesser(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
 inline Lanes greater(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
 inline Lanes rootOf(const Lanes& a) { return Lanes{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])}; }
+/// Lane k: the least lane of the kth.
+inline Lanes leastOfEach(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d) {
+  const Lanes ab = lesser(__builtin_shufflevector(a, b, 0, 1, 4, 5), __builtin_shufflevector(a, b, 2, 3, 6, 7));
+  const Lanes cd = lesser(__builtin_shufflevector(c, d, 0, 1, 4, 5), __builtin_shufflevector(c, d, 2, 3, 6, 7));
+  return lesser(__builtin_shufflevector(ab, cd, 0, 2, 4, 6), __builtin_shufflevector(ab, cd, 1, 3, 5, 7));
+}
 inline float leastLane(const Lanes& a) {
   const float p = a[0] < a[1] ? a[0] : a[1], q = a[2] < a[3] ? a[2] : a[3];
   return p < q ? p : q;

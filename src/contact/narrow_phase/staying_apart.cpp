@@ -1,101 +1,161 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "contact/narrow_phase/staying_apart.h"
 
-#include "contact/narrow_phase/lanes.h"
+#include "contact/narrow_phase/lanes8.h"
 
 namespace curtain {
 namespace {
 
-inline Lanes cut(const Lanes& a) { return lesser(greater(a, Lanes{}), lanesOf(1.0f)); }
+using Lanes = Eight::Lanes;
+using Vectors = Eight::Vectors;
+using Quarter = float __attribute__((vector_size(16)));
 
-/// The four nodes of four pairs at one instant.
-using Places = std::array<LaneVectors, 4>;
+static_assert(kPairsAtOnce == Eight::kCount);
 
-Places gather(const std::array<FourNodes, 4>& pairs, const NodeWay* ways, Eigen::Array4f NodeWay::*instant) {
-  const auto lanes = [](const Eigen::Array4f& place) { return loadLanes(place.data()); };
-  Places at;
+/// The four nodes of eight pairs at one instant.
+struct Places {
+  Vectors node[4];
+};
+
+CURTAIN_INTO_WIDE void gather(const std::array<FourNodes, 8>& pairs, const Eigen::Array4f* places, Places& at) {
   for (std::size_t n = 0; n < 4; ++n) {
-    const Lanes a = lanes(ways[pairs[0][n]].*instant), b = lanes(ways[pairs[1][n]].*instant);
-    const Lanes c = lanes(ways[pairs[2][n]].*instant), d = lanes(ways[pairs[3][n]].*instant);
-    at[n].x = Lanes{a[0], b[0], c[0], d[0]};
-    at[n].y = Lanes{a[1], b[1], c[1], d[1]};
-    at[n].z = Lanes{a[2], b[2], c[2], d[2]};
+    Quarter q[8];
+    for (std::size_t k = 0; k < 8; ++k) std::memcpy(&q[k], places[pairs[k][n]].data(), sizeof q[k]);
+    // Pairs k and k + 4 side by side, and then components across.
+    const Lanes a = __builtin_shufflevector(q[0], q[4], 0, 1, 2, 3, 4, 5, 6, 7), b = __builtin_shufflevector(q[1], q[5], 0, 1, 2, 3, 4, 5, 6, 7);
+    const Lanes c = __builtin_shufflevector(q[2], q[6], 0, 1, 2, 3, 4, 5, 6, 7), d = __builtin_shufflevector(q[3], q[7], 0, 1, 2, 3, 4, 5, 6, 7);
+    const Lanes ab = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13), cd = __builtin_shufflevector(c, d, 0, 8, 1, 9, 4, 12, 5, 13);
+    const Lanes ab_z = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15), cd_z = __builtin_shufflevector(c, d, 2, 10, 3, 11, 6, 14, 7, 15);
+    at.node[n].x = __builtin_shufflevector(ab, cd, 0, 1, 8, 9, 4, 5, 12, 13);
+    at.node[n].y = __builtin_shufflevector(ab, cd, 2, 3, 10, 11, 6, 7, 14, 15);
+    at.node[n].z = __builtin_shufflevector(ab_z, cd_z, 0, 1, 8, 9, 4, 5, 12, 13);
   }
-  return at;
 }
 
 // A divisor, or something else where it is none. What comes out decides on a direction alone; but no length may be built
 // in, or cloth in other units would get other pairs.
-inline Lanes orElse(const Lanes& divisor, const Lanes& other) { return divisor > 0.0f ? divisor : other; }
+CURTAIN_INTO_WIDE void divide(Lanes& value, const Lanes& divisor, const Lanes& other) { value /= divisor > 0.0f ? divisor : other; }
 
-// How far the first edge is beyond the second along a direction, at one instant.
-inline Lanes edgeBeyond(const LaneVectors& way, const Places& at) {
-  return lesser(lesser(dot(way, at[0] - at[2]), dot(way, at[0] - at[3])),
-                lesser(dot(way, at[1] - at[2]), dot(way, at[1] - at[3])));
+// How far the first `first` nodes are beyond the others along a direction.
+CURTAIN_INTO_WIDE void beyond(const Vectors& way, const Places& at, std::size_t first, Lanes& least) {
+  Lanes height[4];
+  for (std::size_t n = 0; n < 4; ++n) Eight::dot(way, at.node[n], height[n]);
+  // From the first node's, whose rounding is that of near things.
+  least = height[0];
+  if (first == 2) Eight::lower(least, height[1]);
+  Lanes most = height[3];
+  for (std::size_t n = first; n < 3; ++n) most = height[n] > most ? height[n] : most;
+  least -= most;
 }
 
-// The same of a vertex and a triangle.
-inline Lanes vertexBeyond(const LaneVectors& way, const Places& at) {
-  return lesser(dot(way, at[0] - at[1]), lesser(dot(way, at[0] - at[2]), dot(way, at[0] - at[3])));
+// The reach with what rounding may add: places are off by `rounding` in every component and no further away than the cloth is long, and
+// their product with a direction adds three roundings of that; a multiple stands for all.
+CURTAIN_INTO_WIDE float certain(float reach, float rounding) { return (reach + 16.0f * rounding) * (1.0f + 1e-5f); }
+
+// Lanes where the elements are further apart along `way` than so much, at both instants.
+CURTAIN_INTO_WIDE std::uint32_t separates(const Vectors& way, const Places& start, const Places& end, std::size_t first, float least) {
+  Lanes at_start, at_end, squared;
+  beyond(way, start, first, at_start);
+  beyond(way, end, first, at_end);
+  Eight::lower(at_start, at_end);
+  Eight::dot(way, way, squared);
+  return Eight::bitsOf((at_start > 0.0f) & (at_start * at_start > (least * least) * squared));
+}
+
+CURTAIN_INTO_WIDE void halfWay(const Places& start, const Places& end, Places& sum) {
+  sum = start;
+  for (std::size_t n = 0; n < 4; ++n) sum.node[n].add(end.node[n]);
 }
 
 // From the closest point of a segment to the point that is at `from` from its start.
-inline LaneVectors fromSegment(const LaneVectors& from, const LaneVectors& segment) {
-  return from - cut(dot(from, segment) / orElse(dot(segment, segment), lanesOf(1.0f))) * segment;
+CURTAIN_INTO_WIDE void fromSegment(const Vectors& from, const Vectors& segment, Vectors& way) {
+  Lanes share, squared;
+  Eight::dot(from, segment, share);
+  Eight::dot(segment, segment, squared);
+  divide(share, squared, Lanes{} + 1.0f);
+  Eight::cut(share);
+  way = from;
+  way.subtract(share, segment);
 }
 
-// The reach with what rounding may add: differences of places are off by `rounding` in every component and no longer
-// than the cloth, and their product with a direction adds three roundings of that; a multiple stands for all.
-inline float certain(float reach, float rounding) { return (reach + 8.0f * rounding) * (1.0f + 1e-5f); }
+CURTAIN_WIDE std::uint32_t edgesApart(const std::array<FourNodes, 8>& pairs, const NodeWays& ways, float reach, float rounding) {
+  Places start, end, half;
+  gather(pairs, ways.start, start);
+  gather(pairs, ways.end, end);
+  halfWay(start, end, half);
+  Vectors ab, cd, ca;
+  Eight::difference(half.node[1], half.node[0], ab);
+  Eight::difference(half.node[3], half.node[2], cd);
+  Eight::difference(half.node[0], half.node[2], ca);
+  Lanes ab_ab, cd_cd, ab_cd, ca_ab, ca_cd;
+  Eight::dot(ab, ab, ab_ab);
+  Eight::dot(cd, cd, cd_cd);
+  Eight::dot(ab, cd, ab_cd);
+  Eight::dot(ca, ab, ca_ab);
+  Eight::dot(ca, cd, ca_cd);
+  const Lanes one = Lanes{} + 1.0f;
+  ab_ab = ab_ab > 0.0f ? ab_ab : one;
+  cd_cd = cd_cd > 0.0f ? cd_cd : one;
+  // Ericson, Real-Time Collision Detection, 5.1.9.
+  const Lanes squares = ab_ab * cd_cd;
+  Lanes s = ab_cd * ca_cd - ca_ab * cd_cd;
+  divide(s, squares - ab_cd * ab_cd, squares);
+  Eight::cut(s);
+  Lanes t = (ab_cd * s + ca_cd) / cd_cd;
+  Eight::cut(t);
+  s = (ab_cd * t - ca_ab) / ab_ab;
+  Eight::cut(s);
+  Vectors way = ca;
+  way.subtract(-s, ab);
+  way.subtract(t, cd);
+  return separates(way, start, end, 2, certain(reach, rounding));
+}
 
-// Lanes where `least` exceeds the length of `way` times `beyond`.
-inline std::uint32_t exceeding(const Lanes& least, const LaneVectors& way, float beyond) {
-  const Lanes limit = dot(way, way) * (beyond * beyond), squared = least * least;
-  std::uint32_t lanes = 0;
-  for (std::size_t k = 0; k < 4; ++k) {
-    // A value of its own: g++ 12 reads an unset index where UBSan watches both the shift and the lanes of its operand.
-    const bool exceeds = least[k] > 0.0f && squared[k] > limit[k];
-    lanes |= static_cast<std::uint32_t>(exceeds) << k;
-  }
-  return lanes;
+CURTAIN_WIDE std::uint32_t vertexApart(const std::array<FourNodes, 8>& pairs, const NodeWays& ways, float reach, float rounding) {
+  Places start, end, half;
+  gather(pairs, ways.start, start);
+  gather(pairs, ways.end, end);
+  halfWay(start, end, half);
+  const float least = certain(reach, rounding);
+  // Above the face the normal is the way; beside it, the one from the closest point of its edges.
+  Vectors ap, ab, ac, up;
+  Eight::difference(half.node[0], half.node[1], ap);
+  Eight::difference(half.node[2], half.node[1], ab);
+  Eight::difference(half.node[3], half.node[1], ac);
+  Eight::cross(ab, ac, up);
+  Lanes height;
+  Eight::dot(up, ap, height);
+  const Lanes one = Lanes{} + 1.0f;
+  up.scale(height < 0.0f ? -one : one);
+  const std::uint32_t above = separates(up, start, end, 1, least);
+  if (above == 0xFFU) return above;
+  Vectors bp, bc, from_ab, from_ac, from_bc;
+  Eight::difference(half.node[0], half.node[2], bp);
+  Eight::difference(half.node[3], half.node[2], bc);
+  fromSegment(ap, ab, from_ab);
+  fromSegment(ap, ac, from_ac);
+  fromSegment(bp, bc, from_bc);
+  Lanes to_ab, to_ac, to_bc;
+  Eight::dot(from_ab, from_ab, to_ab);
+  Eight::dot(from_ac, from_ac, to_ac);
+  Eight::dot(from_bc, from_bc, to_bc);
+  Vectors way;
+  const auto ab_first = to_ab < to_ac;
+  const auto bc_first = to_bc < (ab_first ? to_ab : to_ac);
+  way.x = bc_first ? from_bc.x : (ab_first ? from_ab.x : from_ac.x);
+  way.y = bc_first ? from_bc.y : (ab_first ? from_ab.y : from_ac.y);
+  way.z = bc_first ? from_bc.z : (ab_first ? from_ab.z : from_ac.z);
+  return above | separates(way, start, end, 1, least);
 }
 
 }  // namespace
 
-std::uint32_t edgesStayApart(const std::array<FourNodes, 4>& pairs, const NodeWay* ways, float reach,
-                             float rounding) noexcept {
-  const Places start = gather(pairs, ways, &NodeWay::start), end = gather(pairs, ways, &NodeWay::end);
-  const LaneVectors a = start[0] + end[0], c = start[2] + end[2];
-  const LaneVectors ab = start[1] + end[1] - a, cd = start[3] + end[3] - c, ca = a - c;
-  const Lanes ab_ab = orElse(dot(ab, ab), lanesOf(1.0f)), cd_cd = orElse(dot(cd, cd), lanesOf(1.0f));
-  const Lanes ab_cd = dot(ab, cd), ca_ab = dot(ca, ab), ca_cd = dot(ca, cd);
-  // Ericson, Real-Time Collision Detection, 5.1.9.
-  const Lanes squares = ab_ab * cd_cd;
-  const Lanes s = cut((ab_cd * ca_cd - ca_ab * cd_cd) / orElse(squares - ab_cd * ab_cd, squares));
-  const Lanes t = cut((ab_cd * s + ca_cd) / cd_cd);
-  const LaneVectors way = ca + cut((ab_cd * t - ca_ab) / ab_ab) * ab - t * cd;
-  return exceeding(lesser(edgeBeyond(way, start), edgeBeyond(way, end)), way, certain(reach, rounding));
+std::uint32_t edgesStayApart(const std::array<FourNodes, kPairsAtOnce>& pairs, const NodeWays& ways, float reach, float rounding) noexcept {
+  return edgesApart(pairs, ways, reach, rounding);
 }
 
-std::uint32_t vertexStaysApart(const std::array<FourNodes, 4>& pairs, const NodeWay* ways, float reach,
-                               float rounding) noexcept {
-  const Places start = gather(pairs, ways, &NodeWay::start), end = gather(pairs, ways, &NodeWay::end);
-  const float beyond = certain(reach, rounding);
-  const LaneVectors p = start[0] + end[0], a = start[1] + end[1], b = start[2] + end[2], c = start[3] + end[3];
-  const LaneVectors ap = p - a, ab = b - a, ac = c - a;
-  // Above the face the normal is the way; beside it, the one from the closest point of its edges.
-  const LaneVectors normal = cross(ab, ac);
-  const LaneVectors up = (dot(normal, ap) < 0.0f ? lanesOf(-1.0f) : lanesOf(1.0f)) * normal;
-  const std::uint32_t above = exceeding(lesser(vertexBeyond(up, start), vertexBeyond(up, end)), up, beyond);
-  if (above == 0xFU) return above;
-  const LaneVectors from_ab = fromSegment(ap, ab), from_ac = fromSegment(ap, ac), from_bc = fromSegment(p - b, c - b);
-  const Lanes to_ab = dot(from_ab, from_ab), to_ac = dot(from_ac, from_ac), to_bc = dot(from_bc, from_bc);
-  const auto ab_first = to_ab < to_ac;
-  const auto bc_first = to_bc < lesser(to_ab, to_ac);
-  const LaneVectors way{bc_first ? from_bc.x : ab_first ? from_ab.x : from_ac.x,
-                    bc_first ? from_bc.y : ab_first ? from_ab.y : from_ac.y,
-                    bc_first ? from_bc.z : ab_first ? from_ab.z : from_ac.z};
-  return above | exceeding(lesser(vertexBeyond(way, start), vertexBeyond(way, end)), way, beyond);
+std::uint32_t vertexStaysApart(const std::array<FourNodes, kPairsAtOnce>& pairs, const NodeWays& ways, float reach, float rounding) noexcept {
+  return vertexApart(pairs, ways, reach, rounding);
 }
 
 }  // namespace curtain

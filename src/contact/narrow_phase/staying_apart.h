@@ -5,25 +5,26 @@
 // proves it; the one between the points that are closest half way does so for nearly all pairs that stay apart.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
-
-#include "contact/narrow_phase/candidates.h"
-#include "contact/narrow_phase/element_boxes.h"
 
 namespace curtain {
 
 /// Nodes of two elements that share none: of a vertex and a triangle, or of two edges.
 using FourNodes = std::array<std::uint32_t, 4>;
 
-inline FourNodes nodesOf(const VertexTriangle& c) { return {c.vertex, c.triangle[0], c.triangle[1], c.triangle[2]}; }
-inline FourNodes nodesOf(const EdgeEdge& c) { return {c.first[0], c.first[1], c.second[0], c.second[1]}; }
+/// Where nodes are at two instants, by their indices [m]; the fourth lane is 0.
+struct NodeWays {
+  const Eigen::Array4f *start, *end;
+};
 
-/// Bit k is set where the elements of pair k of four are certain to stay further apart than `reach` [m]. Differences of two
+/// Eight pairs at once.
+constexpr std::size_t kPairsAtOnce = 8;
+
+/// Bit k is set where the elements of pair k are certain to stay further apart than `reach` [m]. Differences of two
 /// places may be rounded by `rounding` [m].
-std::uint32_t edgesStayApart(const std::array<FourNodes, 4>& pairs, const NodeWay* ways, float reach,
-                             float rounding) noexcept;
-std::uint32_t vertexStaysApart(const std::array<FourNodes, 4>& pairs, const NodeWay* ways, float reach,
-                               float rounding) noexcept;
+std::uint32_t edgesStayApart(const std::array<FourNodes, kPairsAtOnce>& pairs, const NodeWays& ways, float reach, float rounding) noexcept;
+std::uint32_t vertexStaysApart(const std::array<FourNodes, kPairsAtOnce>& pairs, const NodeWays& ways, float reach, float rounding) noexcept;
 
 }  // namespace curtain

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "contact/broad_phase/block_pyramid.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "cloth/wide.h"
+
+namespace curtain {
+namespace {
+
+// Floats that whole vectors may read before the first and behind the last.
+constexpr std::size_t kBeyond = 16;
+constexpr int kMostAtTop = 4;
+constexpr float kNowhere = 1e30f;
+
+// Of a row of quads, from the nodes above and below at both instants.
+CURTAIN_WIDE void rangesOfQuads(const float* __restrict start, const float* __restrict end, std::size_t stride, std::size_t count,
+                                float* __restrict low, float* __restrict high) {
+  const auto least = [](float a, float b) { return a < b ? a : b; };
+  const auto most = [](float a, float b) { return a < b ? b : a; };
+#pragma omp simd
+  for (std::size_t j = 0; j < count; ++j) {
+    const float a = start[j], b = start[j + 1], c = start[stride + j], d = start[stride + j + 1];
+    const float e = end[j], f = end[j + 1], g = end[stride + j], h = end[stride + j + 1];
+    low[j] = least(least(least(a, b), least(c, d)), least(least(e, f), least(g, h)));
+    high[j] = most(most(most(a, b), most(c, d)), most(most(e, f), most(g, h)));
+  }
+}
+
+// Of a row of blocks, from the two rows of their children (or the same one twice).
+CURTAIN_WIDE void rangesOfBlocks(const float* __restrict low_above, const float* __restrict low_below, const float* __restrict high_above,
+                                 const float* __restrict high_below, std::size_t count, float* __restrict low, float* __restrict high) {
+  const auto least = [](float a, float b) { return a < b ? a : b; };
+  const auto most = [](float a, float b) { return a < b ? b : a; };
+#pragma omp simd
+  for (std::size_t j = 0; j < count; ++j) {
+    low[j] = least(least(low_above[2 * j], low_above[2 * j + 1]), least(low_below[2 * j], low_below[2 * j + 1]));
+    high[j] = most(most(high_above[2 * j], high_above[2 * j + 1]), most(high_below[2 * j], high_below[2 * j + 1]));
+  }
+}
+
+// Low and high of each box, four floats each, whole fours of boxes.
+CURTAIN_WIDE void boxesOneByOne(const std::array<const float*, 3>& low, const std::array<const float*, 3>& high, std::size_t count, float* boxes) {
+  using Four = float __attribute__((vector_size(16)));
+  const auto across = [&](const std::array<const float*, 3>& from, std::size_t k, float* to) {
+    Four x, y, z, zero = Four{};
+    std::memcpy(&x, from[0] + k, sizeof x);
+    std::memcpy(&y, from[1] + k, sizeof y);
+    std::memcpy(&z, from[2] + k, sizeof z);
+    const Four xy = __builtin_shufflevector(x, y, 0, 4, 1, 5), xy_high = __builtin_shufflevector(x, y, 2, 6, 3, 7);
+    const Four z_zero = __builtin_shufflevector(z, zero, 0, 4, 1, 5), z_high = __builtin_shufflevector(z, zero, 2, 6, 3, 7);
+    const Four out[4] = {__builtin_shufflevector(xy, z_zero, 0, 1, 4, 5), __builtin_shufflevector(xy, z_zero, 2, 3, 6, 7),
+                         __builtin_shufflevector(xy_high, z_high, 0, 1, 4, 5), __builtin_shufflevector(xy_high, z_high, 2, 3, 6, 7)};
+    for (std::size_t box = 0; box < 4; ++box) std::memcpy(to + 8 * box, &out[box], sizeof out[box]);
+  };
+  for (std::size_t k = 0; k < count; k += 4) {
+    across(low, k, boxes + 8 * k);
+    across(high, k, boxes + 8 * k + 4);
+  }
+}
+
+}  // namespace
+
+BlockPyramid::BlockPyramid(const Grid& grid) : grid_(grid) {
+  std::size_t size = kBeyond;
+  for (int rows = grid.rows - 1, columns = grid.linkCount();; rows = (rows + 1) / 2, columns = (columns + 1) / 2) {
+    // One more for an odd column's missing neighbour.
+    const auto wide = static_cast<std::size_t>(columns + (grid.closed ? 2 : 1) * kReach);
+    const std::size_t stride = (wide + 7) / 8 * 8;
+    levels_.push_back({rows, columns, size, stride});
+    wanted_rows_.emplace_back(static_cast<std::size_t>(rows), std::uint8_t{1});
+    size += (static_cast<std::size_t>(rows) + kReach + 1) * stride;
+    if (rows <= kMostAtTop && columns <= kMostAtTop) break;
+  }
+  size += kBeyond;
+  for (std::size_t k = 0; k < 3; ++k) {
+    lows_[k].assign(size, kNowhere);
+    highs_[k].assign(size, -kNowhere);
+  }
+  wanted_.assign(size, 1);
+  boxes_.assign(size, {Eigen::Array4f::Zero(), Eigen::Array4f::Zero()});
+}
+
+void BlockPyramid::wrapAround(const Level& level, Floats& values) const noexcept {
+  if (!grid_.closed) return;
+  const auto columns = static_cast<std::ptrdiff_t>(level.columns);
+  for (int i = 0; i < level.rows; ++i) {
+    float* const row = &values[level.at(i, 0)];
+    for (std::ptrdiff_t j = 0; j < kReach; ++j) {
+      row[columns + j] = row[j % columns];
+      row[-1 - j] = row[columns - 1 - j % columns];
+    }
+  }
+}
+
+void BlockPyramid::refit(const MovingNodes& nodes) noexcept {
+  boxesOfQuads(nodes);
+  for (std::size_t level = 1; level < levels_.size(); ++level) boxesOf(level);
+  for (const Level& level : levels_) {
+    boxesOneByOne({&lows_[0][level.first], &lows_[1][level.first], &lows_[2][level.first]}, {&highs_[0][level.first], &highs_[1][level.first], &highs_[2][level.first]},
+                  static_cast<std::size_t>(level.rows) * level.stride, boxes_[level.first].low.data());
+  }
+}
+
+void BlockPyramid::wantAll() noexcept {
+  std::fill(wanted_.begin(), wanted_.end(), std::uint8_t{1});
+  for (std::vector<std::uint8_t>& rows : wanted_rows_) std::fill(rows.begin(), rows.end(), std::uint8_t{1});
+}
+
+void BlockPyramid::want(const std::vector<std::uint8_t>& marked) noexcept {
+  const Level& quads = levels_.front();
+  for (std::vector<std::uint8_t>& rows : wanted_rows_) std::fill(rows.begin(), rows.end(), std::uint8_t{0});
+  for (int i = 0; i < quads.rows; ++i) {
+    for (int j = 0; j < quads.columns; ++j) {
+      const int right = j + 1 < grid_.columns ? j + 1 : 0;
+      const std::uint8_t wanted = marked[grid_.index(i, j)] | marked[grid_.index(i, right)] | marked[grid_.index(i + 1, j)] | marked[grid_.index(i + 1, right)];
+      wanted_[quads.at(i, j)] = wanted;
+      wanted_rows_[0][static_cast<std::size_t>(i)] |= wanted;
+    }
+  }
+  for (std::size_t at_level = 1; at_level < levels_.size(); ++at_level) {
+    const Level &level = levels_[at_level], &below = levels_[at_level - 1];
+    for (int i = 0; i < level.rows; ++i) {
+      for (int j = 0; j < level.columns; ++j) {
+        const int row = std::min(2 * i + 1, below.rows - 1), column = std::min(2 * j + 1, below.columns - 1);
+        const std::uint8_t wanted = wanted_[below.at(2 * i, 2 * j)] | wanted_[below.at(2 * i, column)] | wanted_[below.at(row, 2 * j)] | wanted_[below.at(row, column)];
+        wanted_[level.at(i, j)] = wanted;
+        wanted_rows_[at_level][static_cast<std::size_t>(i)] |= wanted;
+      }
+    }
+  }
+}
+
+void BlockPyramid::boxesOfQuads(const MovingNodes& nodes) noexcept {
+  const Level& level = levels_.front();
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (int i = 0; i < level.rows; ++i) {
+      const std::size_t from = static_cast<std::size_t>(i) * nodes.stride, to = level.at(i, 0);
+      rangesOfQuads(&nodes.start[k][from], &nodes.end[k][from], nodes.stride, static_cast<std::size_t>(level.columns), &lows_[k][to], &highs_[k][to]);
+    }
+    wrapAround(level, lows_[k]);
+    wrapAround(level, highs_[k]);
+  }
+}
+
+void BlockPyramid::boxesOf(std::size_t at_level) noexcept {
+  const Level &level = levels_[at_level], &below = levels_[at_level - 1];
+  const auto pairs = static_cast<std::size_t>(below.columns / 2);
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (int i = 0; i < level.rows; ++i) {
+      const std::size_t first = below.at(2 * i, 0), second = below.at(std::min(2 * i + 1, below.rows - 1), 0), to = level.at(i, 0);
+      rangesOfBlocks(&lows_[k][first], &lows_[k][second], &highs_[k][first], &highs_[k][second], pairs, &lows_[k][to], &highs_[k][to]);
+      if (below.columns % 2 == 0) continue;
+      lows_[k][to + pairs] = std::min(lows_[k][first + 2 * pairs], lows_[k][second + 2 * pairs]);
+      highs_[k][to + pairs] = std::max(highs_[k][first + 2 * pairs], highs_[k][second + 2 * pairs]);
+    }
+    wrapAround(level, lows_[k]);
+    wrapAround(level, highs_[k]);
+  }
+}
+
+}  // namespace curtain

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Which elements of the moving cloth may come near each other: neighbours by windows (windows.h), all others by blocks
+// (block_pairs.h), then single quads that a plane parts (narrow_phase/quad_ways.h), and elements that stay apart
+// (narrow_phase/staying_apart.h). What the whole cloth does together is left out first. Nothing is kept from look to look.
+#pragma once
+
+#include <vector>
+
+#include "contact/broad_phase/block_pairs.h"
+#include "contact/broad_phase/block_pyramid.h"
+#include "contact/broad_phase/windows.h"
+#include "contact/narrow_phase/candidates.h"
+#include "contact/narrow_phase/quad_ways.h"
+
+namespace curtain {
+
+/// Not thread-safe.
+class ClothPairs {
+ public:
+  /// Candidates that room is made for, per node of the cloth.
+  static constexpr std::size_t kRoomPerNode = 64;
+
+  /// Takes the grid, the rest lengths and which nodes are immovable (inverse_mass 0). At least 2 x 2 nodes.
+  explicit ClothPairs(const ClothPattern& pattern);
+
+  /// Appends every pair (vertex, triangle) and (edge, edge) that shares no node, has a node that can move, and comes within `reach`
+  /// [m, >= 0] at some time while nodes move straight from start to end (finite, of the grid's size); and some that do not, but
+  /// are too near to tell. Each comes once, but for closed cloth of three or four columns. Allocates nothing: what `out` has no room for
+  /// is left out, and it says so; see reserve(). Rounding only ever adds pairs.
+  void collect(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept;
+
+  /// The same of pairs that have a node that is marked (not 0; of the grid's size), and of some that have none.
+  void collectOf(const std::vector<std::uint8_t>& marked, const Field3& start, const Field3& end, double reach, Candidates& out) noexcept;
+
+  /// Makes room for kRoomPerNode candidates of either kind per node.
+  void reserve(Candidates& out) const { out.reserve(kRoomPerNode * grid_.nodeCount()); }
+
+ private:
+  void collectWanted(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept;
+  void take(const Field3& start, const Field3& end) noexcept;
+  const QuadWays& quadWays(std::uint32_t quad) noexcept;
+  void collectQuads(float reach, Candidates& out) noexcept;
+  void dropApart(float reach, Candidates& out) noexcept;
+
+  Grid grid_;
+  ElementPairs elements_;
+  BlockPyramid pyramid_;
+  BlockPairs pairs_;
+  Windows windows_;
+  MovingNodes nodes_;                            // from the first node's start, less the mean motion
+  std::vector<Eigen::Array4f> starts_, ends_;    // the same, one by one, by the nodes' indices
+  float rounding_ = 0.0f;                        // most by which a difference of two of these coordinates is rounded [m]
+  std::uint32_t look_ = 0;
+  std::vector<std::uint32_t> quad_looks_;        // of quads: the look that their ways are of
+  std::vector<QuadWays> quad_ways_;
+  std::vector<FourNodes> vertices_, edges_;      // pairs of elements that may come near
+};
+
+}  // namespace curtain

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The pairs of elements that two quads own (cloth/coarse_mesh.h): of all pairs of quads, every pair of elements comes once.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "cloth/cloth.h"
+#include "cloth/coarse_mesh.h"
+
+namespace curtain {
+
+/// Pairs of elements that share no node and have one that can move.
+class ElementPairs {
+ public:
+  /// All nodes can move.
+  explicit ElementPairs(const Grid& grid) : grid_(grid), immovable_(grid.size(), 0) {}
+  explicit ElementPairs(const ClothPattern& pattern) : grid_(pattern.grid), immovable_(pattern.grid.size()) {
+    for (std::size_t n = 0; n < immovable_.size(); ++n) immovable_[n] = pattern.inverse_mass[n] == 0.0 ? 1 : 0;
+  }
+
+  bool canMove(const std::array<std::uint32_t, 4>& nodes) const noexcept {
+    return (immovable_[nodes[0]] & immovable_[nodes[1]] & immovable_[nodes[2]] & immovable_[nodes[3]]) == 0;
+  }
+
+  /// Calls vertex(nodes) and edge(nodes) for those of the quads at (row_p, column_p) and (row_q, column_q), which may be one.
+  template <typename Vertex, typename Edge>
+  void forEach(int row_p, int column_p, int row_q, int column_q, const Vertex& vertex, const Edge& edge) const {
+    const QuadElements p = quadElements(grid_, row_p, column_p), q = quadElements(grid_, row_q, column_q);
+    const bool one = row_p == row_q && column_p == column_q;
+    forEachOf(p, q, vertex);
+    if (!one) forEachOf(q, p, vertex);
+    for (int k = 0; k < p.edge_count; ++k) {
+      for (int l = one ? k + 1 : 0; l < q.edge_count; ++l) {
+        const MeshEdge &a = p.edges[static_cast<std::size_t>(k)], &b = q.edges[static_cast<std::size_t>(l)];
+        if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1]) continue;
+        const std::array<std::uint32_t, 4> nodes{a[0], a[1], b[0], b[1]};
+        if (canMove(nodes)) edge(nodes);
+      }
+    }
+  }
+
+ private:
+  template <typename Vertex>
+  void forEachOf(const QuadElements& p, const QuadElements& q, const Vertex& vertex) const {
+    for (int k = 0; k < p.vertex_count; ++k) {
+      const std::uint32_t v = p.vertices[static_cast<std::size_t>(k)];
+      for (const MeshTriangle& t : q.triangles) {
+        if (v == t[0] || v == t[1] || v == t[2]) continue;
+        const std::array<std::uint32_t, 4> nodes{v, t[0], t[1], t[2]};
+        if (canMove(nodes)) vertex(nodes);
+      }
+    }
+  }
+
+  Grid grid_;
+  std::vector<std::uint8_t> immovable_;  // of nodes
+};
+
+}  // namespace curtain

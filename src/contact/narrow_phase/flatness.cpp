@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "contact/narrow_phase/flatness.h"
+
+#include "contact/narrow_phase/lanes8.h"
+
+namespace curtain {
+namespace {
+
+using Lanes = Eight::Lanes;
+using Vectors = Eight::Vectors;
+
+static_assert(EvenWindows::kCount == Eight::kCount);
+
+template <int high, int wide>
+CURTAIN_INTO_WIDE std::uint32_t findEven(const EvenWindows& windows) {
+  constexpr float kLeastSine = 0.01f;      // squared
+  constexpr float kLeastSlope = 1e-4f;     // of the sum, squared
+  constexpr float kRoundedSlopes = 2e-5f;  // of lambda: U, V, a, b are rounded
+  constexpr float kTiny = 1e-20f;
+  Vectors u[2][3][2], v[2][2][3];
+  Vectors mean_u{}, mean_v{};
+  Lanes most_u{};
+  float most_v = 0.0f;
+  for (int n = 0; n < 2; ++n) {
+    Vectors at[3][3];
+    for (int i = 0; i <= high; ++i) {
+      for (int j = 0; j <= wide; ++j) {
+        const std::size_t node = static_cast<std::size_t>(i) * windows.stride + static_cast<std::size_t>(j);
+        Eight::load(windows.places[n][0] + node, at[i][j].x);
+        Eight::load(windows.places[n][1] + node, at[i][j].y);
+        Eight::load(windows.places[n][2] + node, at[i][j].z);
+      }
+    }
+    const auto slope = [](const Vectors& from, const Vectors& to, const Lanes& per, Vectors& out) {
+      out = {to.x - from.x, to.y - from.y, to.z - from.z};
+      out.scale(per);
+    };
+    for (int j = 0; j < wide; ++j) {
+      Lanes per;
+      Eight::load(windows.per_spacing_u + j, per);
+      most_u = most_u > per ? most_u : per;
+      for (int i = 0; i <= high; ++i) {
+        slope(at[i][j], at[i][j + 1], per, u[n][i][j]);
+        mean_u.add(u[n][i][j]);
+      }
+    }
+    for (int i = 0; i < high; ++i) {
+      const Lanes per = Lanes{} + windows.per_spacing_v[i];
+      most_v = most_v > windows.per_spacing_v[i] ? most_v : windows.per_spacing_v[i];
+      for (int j = 0; j <= wide; ++j) {
+        slope(at[i][j], at[i + 1][j], per, v[n][i][j]);
+        mean_v.add(v[n][i][j]);
+      }
+    }
+  }
+  Lanes square_u, square_v, cosine, per_root;
+  Eight::dot(mean_u, mean_u, square_u);
+  Eight::dot(mean_v, mean_v, square_v);
+  Eight::inverseRoot(square_u + kTiny, per_root);
+  mean_u.scale(per_root);
+  Eight::inverseRoot(square_v + kTiny, per_root);
+  mean_v.scale(per_root);
+  Eight::dot(mean_u, mean_v, cosine);
+  const Lanes plus = 1.0f + cosine, minus = 1.0f - cosine;
+  Lanes per_plus, per_minus;
+  Eight::inverseRoot(plus > kTiny ? plus : Lanes{} + kTiny, per_plus);
+  Eight::inverseRoot(minus > kTiny ? minus : Lanes{} + kTiny, per_minus);
+  per_plus *= 0.5f;
+  per_minus *= 0.5f;
+  Vectors a{(mean_u.x + mean_v.x) * per_plus, (mean_u.y + mean_v.y) * per_plus, (mean_u.z + mean_v.z) * per_plus};
+  const Vectors skew{(mean_u.x - mean_v.x) * per_minus, (mean_u.y - mean_v.y) * per_minus, (mean_u.z - mean_v.z) * per_minus};
+  const Vectors b{a.x - skew.x, a.y - skew.y, a.z - skew.z};
+  a.add(skew);
+  // What lambda must exceed: reach over the least altitude of a triangle. Slopes are rounded by a few units of the largest coordinate over the
+  // spacing.
+  Lanes limit;
+  const Lanes squares = most_u * most_u + most_v * most_v;
+  Eight::inverseRoot(squares, limit);
+  limit = (1.0f + 1e-4f) * (windows.reach * (squares * limit) + (16.0f * windows.rounding) * (most_u > most_v ? most_u : Lanes{} + most_v)) + kRoundedSlopes;
+  auto even = ((plus < minus ? plus : minus) > kLeastSine) & ((square_u < square_v ? square_u : square_v) > kLeastSlope);
+  // Both eigenvalues of the symmetric part exceed the limit.
+  const auto narrow = [&](const Vectors& du, const Vectors& dv) {
+    Lanes along_u, along_v, across_u, across_v;
+    Eight::dot(du, a, along_u);
+    Eight::dot(dv, b, along_v);
+    Eight::dot(du, b, across_u);
+    Eight::dot(dv, a, across_v);
+    along_u -= limit;
+    along_v -= limit;
+    const Lanes across = 0.5f * (across_u + across_v);
+    even &= (along_u > 0.0f) & (along_v > 0.0f) & (along_u * along_v > across * across);
+  };
+  for (int n = 0; n < 2; ++n) {
+    for (int i = 0; i < high; ++i) {
+      for (int j = 0; j < wide; ++j) {
+        narrow(u[n][i][j], v[n][i][j]);
+        narrow(u[n][i + 1][j], v[n][i][j + 1]);
+      }
+    }
+  }
+  return Eight::bitsOf(even);
+}
+
+CURTAIN_WIDE std::uint32_t findEvenSquares(const EvenWindows& windows) { return findEven<2, 2>(windows); }
+
+}  // namespace
+
+std::uint32_t EvenWindows::find() const noexcept {
+  if (high == 2 && wide == 2) return findEvenSquares(*this);
+  if (high == 2) return findEven<2, 1>(*this);
+  return wide == 2 ? findEven<1, 2>(*this) : findEven<1, 1>(*this);
+}
+
+}  // namespace curtain
