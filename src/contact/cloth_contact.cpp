@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <tuple>
 
-#include "cloth/wide.h"
-
 namespace curtain {
 namespace {
 
@@ -25,23 +23,6 @@ constexpr double kCrossingReach = 2.0 * SelfContacts::kLeastShare;
 // Contacts that there is room for, per node.
 constexpr std::size_t kRoomPerNode = 8;
 
-// Marks the nodes whose two positions are not within a distance, squared; returns their number. Padding is at one place.
-CURTAIN_WIDE std::size_t markApart(const Field3& a, const Field3& b, double most_squared, std::vector<std::uint8_t>& marks) noexcept {
-  const double *const ax = a.x.data(), *const ay = a.y.data(), *const az = a.z.data();
-  const double *const bx = b.x.data(), *const by = b.y.data(), *const bz = b.z.data();
-  std::uint8_t* const mark = marks.data();
-  const std::size_t nodes = marks.size();
-  std::size_t count = 0;
-#pragma omp simd reduction(+ : count)
-  for (std::size_t n = 0; n < nodes; ++n) {
-    const double x = ax[n] - bx[n], y = ay[n] - by[n], z = az[n] - bz[n];
-    const bool apart = x * x + y * y + z * z > most_squared;
-    mark[n] = apart ? 1 : 0;
-    count += apart ? 1 : 0;
-  }
-  return count;
-}
-
 }  // namespace
 
 ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles,
@@ -60,8 +41,6 @@ ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& par
   last_.reserve(kRoomPerNode * pattern.grid.nodeCount());
   if (!params.self) return;
   pairs_.reserve(candidates_);
-  predicted_.assign(pattern.grid.size(), 0.0);
-  astray_.assign(pattern.grid.size(), 0);
 }
 
 // The cloth with itself first, then obstacles by their names.
@@ -73,7 +52,6 @@ bool ClothContact::before(const Contact& a, const Contact& b) const noexcept {
 void ClothContact::find(const Field3& start, const Field3& end, double reach) noexcept {
   candidates_.clear();
   pairs_.collect(start, end, reach, candidates_);
-  predicted_ = end;
 }
 
 // Xorshift (Marsaglia 2003): never 0 again once it is not.
@@ -117,24 +95,14 @@ bool ClothContact::staysFlat(const Field3& end, bool settled) noexcept {
   return flat_ && settled && net_.staysFlat(end, kFlatReach * self_.gap());
 }
 
-// Candidates for the way from start to end: pairs that come within the reach, for sure. Those for the predicted way do, but for nodes that
-// end too far from where they were predicted.
-void ClothContact::findOnWay(const Field3& start, const Field3& end) noexcept {
-  const double reach = kCrossingReach * self_.gap(), most = 0.5 * (self_.gap() - reach);
-  if (flat_) {
-    flat_ = false;
-    find(start, end, self_.gap());
-  } else if (markApart(end, predicted_, most * most, astray_) > 0) {
-    pairs_.collectOf(astray_, start, end, reach, candidates_);
-  }
-}
-
 ContactFinder::Verdict ClothContact::verify(const Field3& start, const Field3& end, bool settled) noexcept {
   if (clearing_ != 0) clearAtRandom();
   int added = 0;
   bool full = false;
   if (self_wanted_ && !staysFlat(end, settled)) {
-    findOnWay(start, end);
+    if (flat_) find(start, end, self_.gap());
+    else pairs_.collectElsewhere(start, end, kCrossingReach * self_.gap(), candidates_);
+    flat_ = false;
     added = self_.verify(candidates_, start, end, h_, contacts_);
     full = self_.full();
   }

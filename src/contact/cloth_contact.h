@@ -79,7 +79,6 @@ class ClothContact : public ContactFinder {
   void clearAtRandom() noexcept;
   bool staysFlat(const Field3& end, bool settled) noexcept;
   void find(const Field3& start, const Field3& end, double reach) noexcept;
-  void findOnWay(const Field3& start, const Field3& end) noexcept;
   void warmStart() noexcept;
   bool before(const Contact& a, const Contact& b) const noexcept;
   int joinCrossings(const Field3& start, const Field3& end) noexcept;
@@ -94,9 +93,7 @@ class ClothContact : public ContactFinder {
   SelfContacts self_;
   ClothPairs pairs_;
   TautNet net_;
-  Candidates candidates_;     // of the way from the substep's start to predicted_
-  Field3 predicted_;
-  std::vector<std::uint8_t> astray_;  // by node: it ends elsewhere
+  Candidates candidates_;     // of the way from the substep's start to where nodes were predicted, and to elsewhere
   Zones zones_;
   Contacts contacts_, last_;  // of this substep; of the last accepted one, those that pushed, in their order
   double h_ = 0.0;            // of this substep [s]

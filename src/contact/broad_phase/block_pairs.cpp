@@ -9,9 +9,6 @@
 namespace curtain {
 namespace {
 
-// Pairs that there is room for, per quad.
-constexpr std::size_t kRoom = 64;
-
 struct Boxes {
   const float *low[3], *high[3];
 };
@@ -40,11 +37,10 @@ CURTAIN_WIDE bool nearPairs(const Boxes& p, const Boxes& q, const std::vector<st
 
 }  // namespace
 
-BlockPairs::BlockPairs(const BlockPyramid& pyramid) : pyramid_(pyramid) {
+BlockPairs::BlockPairs(BlockPyramid& pyramid) : pyramid_(pyramid) {
   const BlockPyramid::Level& quads = pyramid.levels().front();
   makeRings();
   near_.assign(quads.stride, 0);
-  found_.reserve(kRoom * static_cast<std::size_t>(quads.rows) * static_cast<std::size_t>(quads.columns));
 }
 
 void BlockPairs::makeRings() {
@@ -64,7 +60,7 @@ void BlockPairs::makeRings() {
           }
           if (std::all_of(ring.needed[odd].begin(), ring.needed[odd].end(), [](std::uint8_t bits) { return bits == 0; })) ring.needed[odd].clear();
         }
-        rings_.push_back(std::move(ring));
+        if (!ring.needed[0].empty() || !ring.needed[1].empty()) rings_.push_back(std::move(ring));
       }
     }
   }
@@ -96,62 +92,39 @@ bool BlockPairs::isNeeded(std::size_t at_level, const Offset& offset, int i, int
   return std::max(rows, across(pyramid_.levels()[at_level + 1], j / 2, columnBeyond(level, j, offset) / 2)) < 2;
 }
 
-void BlockPairs::findAt(const Ring& ring) noexcept {
+// Whether there are any in a row; near_ tells which.
+bool BlockPairs::findNear(const Ring& ring, int row) noexcept {
   const BlockPyramid::Level& level = pyramid_.levels()[ring.level];
-  const Offset& offset = ring.offset;
+  const std::vector<std::uint8_t>& needed = ring.needed[static_cast<std::size_t>(row % 2)];
+  if (needed.empty() || !pyramid_.areRowsAsked(ring.level, row, row + ring.offset.down)) return false;
   const auto boxes = [this](std::size_t first) {
     const auto &low = pyramid_.lows(), &high = pyramid_.highs();
     return Boxes{{&low[0][first], &low[1][first], &low[2][first]}, {&high[0][first], &high[1][first], &high[2][first]}};
   };
-  for (int i = 0; i + offset.down < level.rows; ++i) {
-    const std::vector<std::uint8_t>& needed = ring.needed[static_cast<std::size_t>(i % 2)];
-    if (!pyramid_.isRowWanted(ring.level, i) && !pyramid_.isRowWanted(ring.level, i + offset.down)) continue;
-    const std::size_t first = level.at(i, 0), second = level.at(i + offset.down, offset.right);
-    if (!nearPairs(boxes(first), boxes(second), needed, reach_, near_.data())) continue;
-    for (std::size_t group = 0; group < needed.size(); ++group) {
-      for (std::uint32_t bits = near_[group]; bits != 0; bits &= bits - 1) {
-        const int j = static_cast<int>(8 * group) + __builtin_ctz(bits);
-        follow(ring.level, level.at(i, j), level.at(i + offset.down, columnBeyond(level, j, offset)));
-      }
-    }
-  }
+  return nearPairs(boxes(level.at(row, 0)), boxes(level.at(row + ring.offset.down, ring.offset.right)), needed, reach_, near_.data());
 }
 
-// Down to quads whose boxes come near.
-void BlockPairs::follow(std::size_t at_level, std::size_t a, std::size_t b) noexcept {
-  if (!pyramid_.isWanted(a) && !pyramid_.isWanted(b)) return;
-  if (at_level == 0) {
-    full_ = full_ || found_.size() == found_.capacity();
-    if (!full_) found_.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)});
-    return;
-  }
+// Those of a block's children that come near another block; returns how many.
+std::size_t BlockPairs::childrenNear(std::size_t at_level, std::size_t block, std::size_t other, std::array<std::size_t, 4>& children) noexcept {
   const BlockPyramid::Level &level = pyramid_.levels()[at_level], &below = pyramid_.levels()[at_level - 1];
-  const auto childrenNear = [&](std::size_t block, std::size_t other, std::array<std::size_t, 4>& children) {
-    const int i = level.rowOf(block), j = level.columnOf(block);
-    std::size_t count = 0;
-    for (int row = 2 * i; row < std::min(2 * i + 2, below.rows); ++row) {
-      for (int column = 2 * j; column < std::min(2 * j + 2, below.columns); ++column) {
-        children[count] = below.at(row, column);
-        count += pyramid_.meet(children[count], other, reach_) ? 1 : 0;
-      }
-    }
-    return count;
-  };
-  std::array<std::size_t, 4> of_a, of_b;
-  const std::size_t count_a = childrenNear(a, b, of_a), count_b = count_a == 0 ? 0 : childrenNear(b, a, of_b);
-  for (std::size_t k = 0; k < count_a; ++k) {
-    for (std::size_t l = 0; l < count_b; ++l) {
-      if (pyramid_.meet(of_a[k], of_b[l], reach_)) follow(at_level - 1, of_a[k], of_b[l]);
+  const int i = level.rowOf(block), j = level.columnOf(block);
+  std::size_t count = 0;
+  for (int row = 2 * i; row < std::min(2 * i + 2, below.rows); ++row) {
+    for (int column = 2 * j; column < std::min(2 * j + 2, below.columns); ++column) {
+      const std::size_t child = below.at(row, column);
+      if (pyramid_.meet(child, other, reach_)) children[count++] = child;
     }
   }
+  return count;
 }
 
-bool BlockPairs::find(float reach) noexcept {
+bool BlockPairs::any(float reach, std::size_t from_level) noexcept {
   reach_ = reach;
-  full_ = false;
-  found_.clear();
-  for (const Ring& ring : rings_) findAt(ring);
-  return !full_;
+  bool found = false;
+  for (const Ring& ring : rings_) {
+    if (ring.level >= from_level) findAt(ring, [&](std::size_t, std::size_t) { found = true; });
+  }
+  return found;
 }
 
 }  // namespace curtain

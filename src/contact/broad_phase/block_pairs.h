@@ -16,18 +16,23 @@ namespace curtain {
 /// Not thread-safe.
 class BlockPairs {
  public:
-  /// Two quads, by their places in the pyramid.
-  struct Pair {
-    std::uint32_t a, b;
-  };
-
   /// pyramid must outlive this.
-  explicit BlockPairs(const BlockPyramid& pyramid);
+  explicit BlockPairs(BlockPyramid& pyramid);
 
-  /// Finds all with a quad that is wanted and boxes no further apart than `reach` [m] along every axis. Allocates nothing; false: no
-  /// room for all.
-  bool find(float reach) noexcept;
-  const std::vector<Pair>& found() const noexcept { return found_; }
+  /// Whether there are any, asked for or not, in blocks of a level or above that do not touch.
+  bool any(float reach, std::size_t from_level) noexcept;
+  /// Calls take(a, b) for all quads, by their places in the pyramid, that are asked for, have boxes no further apart than `reach` [m] along
+  /// every axis, and are in blocks of a level or above that do not touch. Allocates nothing.
+  template <typename Take>
+  void find(float reach, std::size_t from_level, const Take& take) noexcept {
+    reach_ = reach;
+    for (const Ring& ring : rings_) {
+      if (ring.level < from_level) continue;
+      findAt(ring, [&](std::size_t a, std::size_t b) {
+        if (pyramid_.isAsked(a, b)) follow(ring.level, a, b, take);
+      });
+    }
+  }
 
  private:
   struct Offset {
@@ -44,15 +49,44 @@ class BlockPairs {
   int columnBeyond(const BlockPyramid::Level& level, int j, const Offset& offset) const noexcept;
   int across(const BlockPyramid::Level& level, int j, int k) const noexcept;
   bool isNeeded(std::size_t level, const Offset& offset, int i, int j) const noexcept;
-  void findAt(const Ring& ring) noexcept;
-  void follow(std::size_t level, std::size_t a, std::size_t b) noexcept;
+  bool findNear(const Ring& ring, int row) noexcept;
+  // Calls take(a, b) for the blocks that are near.
+  template <typename Take>
+  void findAt(const Ring& ring, const Take& take) noexcept {
+    const BlockPyramid::Level& level = pyramid_.levels()[ring.level];
+    for (int i = 0; i + ring.offset.down < level.rows; ++i) {
+      if (!findNear(ring, i)) continue;
+      const std::size_t groups = ring.needed[static_cast<std::size_t>(i % 2)].size();
+      for (std::size_t group = 0; group < groups; ++group) {
+        for (std::uint32_t bits = near_[group]; bits != 0; bits &= bits - 1) {
+          const int j = static_cast<int>(8 * group) + __builtin_ctz(bits);
+          take(level.at(i, j), level.at(i + ring.offset.down, columnBeyond(level, j, ring.offset)));
+        }
+      }
+    }
+  }
+  std::size_t childrenNear(std::size_t level, std::size_t block, std::size_t other, std::array<std::size_t, 4>& children) noexcept;
+  // Down to quads whose boxes come near.
+  template <typename Take>
+  void follow(std::size_t level, std::size_t a, std::size_t b, const Take& take) noexcept {
+    if (!pyramid_.isMarked(a, b)) return;
+    if (level == 0) {
+      take(a, b);
+      return;
+    }
+    std::array<std::size_t, 4> of_a, of_b;
+    const std::size_t count_a = childrenNear(level, a, b, of_a), count_b = count_a == 0 ? 0 : childrenNear(level, b, a, of_b);
+    for (std::size_t k = 0; k < count_a; ++k) {
+      for (std::size_t l = 0; l < count_b; ++l) {
+        if (pyramid_.meet(of_a[k], of_b[l], reach_)) follow(level - 1, of_a[k], of_b[l], take);
+      }
+    }
+  }
 
-  const BlockPyramid& pyramid_;
+  BlockPyramid& pyramid_;
   std::vector<Ring> rings_;
   std::vector<std::uint8_t> near_;  // of a row, as needed
-  std::vector<Pair> found_;
   float reach_ = 0.0f;
-  bool full_ = false;
 };
 
 }  // namespace curtain

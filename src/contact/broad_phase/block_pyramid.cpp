@@ -69,7 +69,7 @@ BlockPyramid::BlockPyramid(const Grid& grid) : grid_(grid) {
     const auto wide = static_cast<std::size_t>(columns + (grid.closed ? 2 : 1) * kReach);
     const std::size_t stride = (wide + 7) / 8 * 8;
     levels_.push_back({rows, columns, size, stride});
-    wanted_rows_.emplace_back(static_cast<std::size_t>(rows), std::uint8_t{1});
+    selected_rows_.emplace_back(static_cast<std::size_t>(rows), std::uint8_t{kMarked | kUneven});
     size += (static_cast<std::size_t>(rows) + kReach + 1) * stride;
     if (rows <= kMostAtTop && columns <= kMostAtTop) break;
   }
@@ -78,7 +78,7 @@ BlockPyramid::BlockPyramid(const Grid& grid) : grid_(grid) {
     lows_[k].assign(size, kNowhere);
     highs_[k].assign(size, -kNowhere);
   }
-  wanted_.assign(size, 1);
+  selected_.assign(size, kMarked | kUneven);
   boxes_.assign(size, {Eigen::Array4f::Zero(), Eigen::Array4f::Zero()});
 }
 
@@ -94,29 +94,36 @@ void BlockPyramid::wrapAround(const Level& level, Floats& values) const noexcept
   }
 }
 
-void BlockPyramid::refit(const MovingNodes& nodes) noexcept {
-  boxesOfQuads(nodes);
-  for (std::size_t level = 1; level < levels_.size(); ++level) boxesOf(level);
+void BlockPyramid::refitBelow(std::size_t level, const MovingNodes& nodes) noexcept {
+  if (level > 0) boxesOfQuads(nodes);
+  mergeUpwards(1, level);
+  one_by_one_ = false;
+}
+
+void BlockPyramid::fillOneByOne() noexcept {
+  one_by_one_ = true;
   for (const Level& level : levels_) {
     boxesOneByOne({&lows_[0][level.first], &lows_[1][level.first], &lows_[2][level.first]}, {&highs_[0][level.first], &highs_[1][level.first], &highs_[2][level.first]},
                   static_cast<std::size_t>(level.rows) * level.stride, boxes_[level.first].low.data());
   }
 }
 
-void BlockPyramid::wantAll() noexcept {
-  std::fill(wanted_.begin(), wanted_.end(), std::uint8_t{1});
-  for (std::vector<std::uint8_t>& rows : wanted_rows_) std::fill(rows.begin(), rows.end(), std::uint8_t{1});
+void BlockPyramid::select(const std::vector<std::uint8_t>* marked) noexcept {
+  constexpr std::uint8_t kAll = kMarked | kUneven;
+  std::fill(selected_.begin(), selected_.end(), kAll);
+  for (std::vector<std::uint8_t>& rows : selected_rows_) std::fill(rows.begin(), rows.end(), kAll);
+  if (marked == nullptr) return;
+  selectMarked(*marked);
+  selectRows();
 }
 
-void BlockPyramid::want(const std::vector<std::uint8_t>& marked) noexcept {
+void BlockPyramid::selectMarked(const std::vector<std::uint8_t>& marked) noexcept {
+  const auto set = [this](std::size_t block, bool on) { selected_[block] = on ? kMarked | kUneven : kUneven; };
   const Level& quads = levels_.front();
-  for (std::vector<std::uint8_t>& rows : wanted_rows_) std::fill(rows.begin(), rows.end(), std::uint8_t{0});
   for (int i = 0; i < quads.rows; ++i) {
     for (int j = 0; j < quads.columns; ++j) {
       const int right = j + 1 < grid_.columns ? j + 1 : 0;
-      const std::uint8_t wanted = marked[grid_.index(i, j)] | marked[grid_.index(i, right)] | marked[grid_.index(i + 1, j)] | marked[grid_.index(i + 1, right)];
-      wanted_[quads.at(i, j)] = wanted;
-      wanted_rows_[0][static_cast<std::size_t>(i)] |= wanted;
+      set(quads.at(i, j), (marked[grid_.index(i, j)] | marked[grid_.index(i, right)] | marked[grid_.index(i + 1, j)] | marked[grid_.index(i + 1, right)]) != 0);
     }
   }
   for (std::size_t at_level = 1; at_level < levels_.size(); ++at_level) {
@@ -124,10 +131,29 @@ void BlockPyramid::want(const std::vector<std::uint8_t>& marked) noexcept {
     for (int i = 0; i < level.rows; ++i) {
       for (int j = 0; j < level.columns; ++j) {
         const int row = std::min(2 * i + 1, below.rows - 1), column = std::min(2 * j + 1, below.columns - 1);
-        const std::uint8_t wanted = wanted_[below.at(2 * i, 2 * j)] | wanted_[below.at(2 * i, column)] | wanted_[below.at(row, 2 * j)] | wanted_[below.at(row, column)];
-        wanted_[level.at(i, j)] = wanted;
-        wanted_rows_[at_level][static_cast<std::size_t>(i)] |= wanted;
+        const auto at = [&](int k, int l) { return selected_[below.at(k, l)]; };
+        set(level.at(i, j), ((at(2 * i, 2 * j) | at(2 * i, column) | at(row, 2 * j) | at(row, column)) & kMarked) != 0);
       }
+    }
+  }
+}
+
+void BlockPyramid::leaveOutWithin(std::size_t at_level, int row, int column) noexcept {
+  for (std::size_t level = 0; level < at_level; ++level) {
+    const Level& blocks = levels_[level];
+    const int along = 1 << (at_level - level);
+    for (int i = row * along; i < std::min((row + 1) * along, blocks.rows); ++i) {
+      for (int j = column * along; j < std::min((column + 1) * along, blocks.columns); ++j) selected_[blocks.at(i, j)] &= kMarked;
+    }
+  }
+}
+
+void BlockPyramid::selectRows() noexcept {
+  for (std::size_t level = 0; level < levels_.size(); ++level) {
+    for (int i = 0; i < levels_[level].rows; ++i) {
+      std::uint8_t any = 0;
+      for (int j = 0; j < levels_[level].columns; ++j) any |= selected_[levels_[level].at(i, j)];
+      selected_rows_[level][static_cast<std::size_t>(i)] = any;
     }
   }
 }
@@ -144,19 +170,22 @@ void BlockPyramid::boxesOfQuads(const MovingNodes& nodes) noexcept {
   }
 }
 
-void BlockPyramid::boxesOf(std::size_t at_level) noexcept {
-  const Level &level = levels_[at_level], &below = levels_[at_level - 1];
-  const auto pairs = static_cast<std::size_t>(below.columns / 2);
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (int i = 0; i < level.rows; ++i) {
-      const std::size_t first = below.at(2 * i, 0), second = below.at(std::min(2 * i + 1, below.rows - 1), 0), to = level.at(i, 0);
-      rangesOfBlocks(&lows_[k][first], &lows_[k][second], &highs_[k][first], &highs_[k][second], pairs, &lows_[k][to], &highs_[k][to]);
-      if (below.columns % 2 == 0) continue;
-      lows_[k][to + pairs] = std::min(lows_[k][first + 2 * pairs], lows_[k][second + 2 * pairs]);
-      highs_[k][to + pairs] = std::max(highs_[k][first + 2 * pairs], highs_[k][second + 2 * pairs]);
+// Levels from one on up to another from those below.
+void BlockPyramid::mergeUpwards(std::size_t from, std::size_t to) noexcept {
+  for (std::size_t at_level = from; at_level < to; ++at_level) {
+    const Level &level = levels_[at_level], &below = levels_[at_level - 1];
+    const auto pairs = static_cast<std::size_t>(below.columns / 2);
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (int i = 0; i < level.rows; ++i) {
+        const std::size_t first = below.at(2 * i, 0), second = below.at(std::min(2 * i + 1, below.rows - 1), 0), place = level.at(i, 0);
+        rangesOfBlocks(&lows_[k][first], &lows_[k][second], &highs_[k][first], &highs_[k][second], pairs, &lows_[k][place], &highs_[k][place]);
+        if (below.columns % 2 == 0) continue;
+        lows_[k][place + pairs] = std::min(lows_[k][first + 2 * pairs], lows_[k][second + 2 * pairs]);
+        highs_[k][place + pairs] = std::max(highs_[k][first + 2 * pairs], highs_[k][second + 2 * pairs]);
+      }
+      wrapAround(level, lows_[k]);
+      wrapAround(level, highs_[k]);
     }
-    wrapAround(level, lows_[k]);
-    wrapAround(level, highs_[k]);
   }
 }
 

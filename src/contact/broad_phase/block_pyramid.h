@@ -46,20 +46,53 @@ class BlockPyramid {
   /// Places of the arrays altogether.
   std::size_t size() const noexcept { return lows_[0].size(); }
 
-  /// From now on wanted are the quads with a node that is marked (not 0; of the grid's size), or all.
-  void want(const std::vector<std::uint8_t>& marked) noexcept;
-  void wantAll() noexcept;
-  bool isWanted(std::size_t block) const noexcept { return wanted_[block] != 0; }
-  /// Whether any block of a row is.
-  bool isRowWanted(std::size_t level, int row) const noexcept { return wanted_rows_[level][static_cast<std::size_t>(row)] != 0; }
+  /// From now on pairs are asked for that have a quad with a node which is marked (not 0; of the grid's size); null: all.
+  void select(const std::vector<std::uint8_t>* marked) noexcept;
+  /// And of those within blocks of a level that touch, only where both blocks are uneven(row, column).
+  template <typename Uneven>
+  void leaveOut(std::size_t level, const Uneven& uneven) noexcept {
+    const Level& even = levels_[level];
+    for (int i = 0; i < even.rows; ++i) {
+      for (int j = 0; j < even.columns; ++j) {
+        if (!uneven(i, j)) leaveOutWithin(level, i, j);
+      }
+    }
+    selectRows();
+  }
+  /// Of two blocks: whether any pair of their quads is asked for, wherever these are; whether it is if they are in blocks that touch.
+  bool isMarked(std::size_t a, std::size_t b) const noexcept { return ((selected_[a] | selected_[b]) & kMarked) != 0; }
+  bool isAsked(std::size_t a, std::size_t b) const noexcept { return isAsked(selected_[a], selected_[b]); }
+  /// The same of any two blocks of two rows.
+  bool areRowsAsked(std::size_t level, int a, int b) const noexcept {
+    return isAsked(selected_rows_[level][static_cast<std::size_t>(a)], selected_rows_[level][static_cast<std::size_t>(b)]);
+  }
 
-  /// Fits the boxes to nodes that move straight from one instant to the other.
-  void refit(const MovingNodes& nodes) noexcept;
+  /// Fits the boxes of a level and those above to what is said of it: low(row, column, axis), high(row, column, axis) [m].
+  template <typename Low, typename High>
+  void refitFrom(std::size_t at_level, const Low& low, const High& high) noexcept {
+    const Level& level = levels_[at_level];
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto k = static_cast<std::size_t>(axis);
+      for (int i = 0; i < level.rows; ++i) {
+        for (int j = 0; j < level.columns; ++j) {
+          lows_[k][level.at(i, j)] = low(i, j, axis);
+          highs_[k][level.at(i, j)] = high(i, j, axis);
+        }
+      }
+      wrapAround(level, lows_[k]);
+      wrapAround(level, highs_[k]);
+    }
+    mergeUpwards(at_level + 1, levels_.size());
+    one_by_one_ = false;
+  }
+  /// And those below it to nodes that move straight from one instant to the other.
+  void refitBelow(std::size_t level, const MovingNodes& nodes) noexcept;
 
   const std::array<Floats, 3>& lows() const noexcept { return lows_; }
   const std::array<Floats, 3>& highs() const noexcept { return highs_; }
   /// Whether two boxes are no further apart than `reach` along every axis [m].
-  bool meet(std::size_t a, std::size_t b, float reach) const noexcept {
+  bool meet(std::size_t a, std::size_t b, float reach) noexcept {
+    if (!one_by_one_) fillOneByOne();
     const Box &p = boxes_[a], &q = boxes_[b];
     return ((p.low - q.high).max(q.low - p.high) <= reach).all();
   }
@@ -69,17 +102,23 @@ class BlockPyramid {
     Eigen::Array4f low, high;  // the fourth lane is 0
   };
 
+  void fillOneByOne() noexcept;
   void wrapAround(const Level& level, Floats& values) const noexcept;
   void boxesOfQuads(const MovingNodes& nodes) noexcept;
-  void boxesOf(std::size_t level) noexcept;
-  void mergeWanted() noexcept;
+  void mergeUpwards(std::size_t from, std::size_t to) noexcept;
+  static constexpr std::uint8_t kMarked = 1, kUneven = 2;
+  static bool isAsked(std::uint8_t a, std::uint8_t b) noexcept { return ((a | b) & kMarked) != 0 && (a & b & kUneven) != 0; }
+  void selectMarked(const std::vector<std::uint8_t>& marked) noexcept;
+  void leaveOutWithin(std::size_t level, int row, int column) noexcept;
+  void selectRows() noexcept;
 
   Grid grid_;
   std::vector<Level> levels_;
   std::array<Floats, 3> lows_, highs_;  // [m]
-  std::vector<Box> boxes_;              // the same, one by one
-  std::vector<std::uint8_t> wanted_;                    // of blocks
-  std::vector<std::vector<std::uint8_t>> wanted_rows_;  // of levels
+  std::vector<Box> boxes_;              // the same, one by one, when they are asked for
+  bool one_by_one_ = false;
+  std::vector<std::uint8_t> selected_;                    // of blocks
+  std::vector<std::vector<std::uint8_t>> selected_rows_;  // of levels
 };
 
 }  // namespace curtain

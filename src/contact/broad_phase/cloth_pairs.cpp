@@ -10,22 +10,18 @@
 namespace curtain {
 namespace {
 
+// Blocks that are asked whether they are even: of 8 x 8 quads.
+constexpr std::size_t kEvenLevel = 3;
+// The mean motion is that of one of so many rows.
+constexpr int kSampledRows = 4;
 // Floats beyond the end of an array that whole vectors may read.
 constexpr std::size_t kBeyond = 16;
 // Largest error of a number rounded to single precision, relative to it.
 constexpr float kUnit = 0.5f * std::numeric_limits<float>::epsilon();
 
-// Returns the largest magnitude.
-CURTAIN_WIDE float copyRow(const double* __restrict from, double origin, std::size_t count, float* __restrict to) {
-  float largest = 0.0f;
-#pragma omp simd reduction(max : largest)
-  for (std::size_t j = 0; j < count; ++j) {
-    const auto value = static_cast<float>(from[j] - origin);
-    const float size = value < 0.0f ? -value : value;
-    to[j] = value;
-    largest = largest > size ? largest : size;
-  }
-  return largest;
+CURTAIN_WIDE void subtract(const double* __restrict from, double origin, std::size_t count, float* __restrict to) {
+#pragma omp simd
+  for (std::size_t j = 0; j < count; ++j) to[j] = static_cast<float>(from[j] - origin);
 }
 
 CURTAIN_WIDE double sumOfDifferences(const double* __restrict from, const double* __restrict to, std::size_t count) {
@@ -33,6 +29,30 @@ CURTAIN_WIDE double sumOfDifferences(const double* __restrict from, const double
 #pragma omp simd reduction(+ : sum)
   for (std::size_t j = 0; j < count; ++j) sum += to[j] - from[j];
   return sum;
+}
+
+struct Doubles3 {
+  const double *x, *y, *z;
+};
+
+struct Floats3 {
+  const float *x, *y, *z;
+};
+
+// Counted in floats, all lanes being of one width.
+CURTAIN_WIDE std::size_t markRow(const Doubles3& at, const Floats3& expected, const Vec3& origin, float most_squared, std::size_t count, std::uint8_t* __restrict marks) {
+  const Doubles3 p = at;
+  const Floats3 q = expected;
+  const double ox = origin.x(), oy = origin.y(), oz = origin.z();
+  float marked = 0.0f;
+#pragma omp simd reduction(+ : marked)
+  for (std::size_t j = 0; j < count; ++j) {
+    const float x = static_cast<float>(p.x[j] - ox) - q.x[j], y = static_cast<float>(p.y[j] - oy) - q.y[j], z = static_cast<float>(p.z[j] - oz) - q.z[j];
+    const float apart = x * x + y * y + z * z > most_squared ? 1.0f : 0.0f;
+    marks[j] = apart > 0.0f ? 1 : 0;
+    marked += apart;
+  }
+  return static_cast<std::size_t>(marked);
 }
 
 // Those of pairs that do not stay apart go to take().
@@ -52,80 +72,122 @@ void dropApart(const std::vector<FourNodes>& pairs, const StayApart& stay_apart,
 }  // namespace
 
 ClothPairs::ClothPairs(const ClothPattern& pattern)
-    : grid_(pattern.grid), elements_(pattern), pyramid_(pattern.grid), pairs_(pyramid_), windows_(pattern, elements_) {
-  nodes_.stride = static_cast<std::size_t>(grid_.closed ? Grid::strideFor(grid_.columns + 2) : grid_.stride);
-  for (std::array<BlockPyramid::Floats, 3>* const instant : {&nodes_.start, &nodes_.end}) {
-    for (BlockPyramid::Floats& component : *instant) component.assign(static_cast<std::size_t>(grid_.rows) * nodes_.stride + kBeyond, 0.0f);
+    : grid_(pattern.grid),
+      elements_(pattern),
+      pyramid_(pattern.grid),
+      even_level_(std::min(kEvenLevel, pyramid_.levels().size() - 1)),
+      even_(pattern, pyramid_.levels()[even_level_], 1 << even_level_),
+      pairs_(pyramid_),
+      windows_(pattern, elements_) {
+  for (MovingNodes* const nodes : {&expected_.nodes, &elsewhere_.nodes}) {
+    nodes->stride = static_cast<std::size_t>(grid_.closed ? Grid::strideFor(grid_.columns + 2) : grid_.stride);
+    const std::size_t size = static_cast<std::size_t>(grid_.rows) * nodes->stride + kBeyond;
+    for (BlockPyramid::Floats& component : nodes->start) component.assign(size, 0.0f);
+    for (BlockPyramid::Floats& component : nodes->end) component.assign(size, 0.0f);
   }
+  marked_.assign(grid_.size(), 0);
   starts_.assign(grid_.size(), Eigen::Array4f::Zero());
   ends_ = starts_;
   quad_looks_.assign(pyramid_.size(), 0);
   quad_ways_.resize(pyramid_.size());
-  // Those of neighbours, and of two quads more.
+  // Those of neighbours are fewer, all together.
   vertices_.reserve(kRoomPerNode * grid_.nodeCount());
   edges_.reserve(kRoomPerNode * grid_.nodeCount());
 }
 
-void ClothPairs::take(const Field3& start, const Field3& end) noexcept {
+void ClothPairs::take(const Field3& start, const Field3& end, Motion& motion) noexcept {
   const auto stride = static_cast<std::size_t>(grid_.stride), columns = static_cast<std::size_t>(grid_.columns);
-  const Vec3 origin = start.at(0);
-  float largest = 0.0f;
-  double furthest = origin.cwiseAbs().maxCoeff();
-  const auto component = [&](const Field& from, const Field& to, Eigen::Index axis) {
-    const auto at = static_cast<std::size_t>(axis);
-    double motion = 0.0;
-    for (int i = 0; i < grid_.rows; ++i) motion += sumOfDifferences(&from[grid_.row(i)], &to[grid_.row(i)], columns);
-    motion /= static_cast<double>(grid_.nodeCount());
-    furthest = std::max(furthest, std::abs(origin[axis] + motion));
-    for (std::size_t i = 0; i < static_cast<std::size_t>(grid_.rows); ++i) {
-      float *const start_row = &nodes_.start[at][i * nodes_.stride], *const end_row = &nodes_.end[at][i * nodes_.stride];
-      largest = std::max(largest, copyRow(&from[i * stride], origin[axis], columns, start_row));
-      largest = std::max(largest, copyRow(&to[i * stride], origin[axis] + motion, columns, end_row));
-      if (!grid_.closed) continue;
-      std::copy(start_row, start_row + 2, start_row + columns);
-      std::copy(end_row, end_row + 2, end_row + columns);
+  MovingNodes& nodes = motion.nodes;
+  motion.start = start.at(0);
+  const auto copy = [&](const Field& from, double origin, BlockPyramid::Floats& to) {
+    if (!grid_.closed) {
+      subtract(from.data(), origin, from.size(), to.data());
+      return;
     }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(grid_.rows); ++i) {
+      float* const row = &to[i * nodes.stride];
+      subtract(&from[i * stride], origin, columns, row);
+      std::copy(row, row + 2, row + columns);
+    }
+  };
+  const auto component = [&](const Field& from, const Field& to, Eigen::Index axis) {
+    double sum = 0.0, sampled = 0.0;
+    for (int i = 0; i < grid_.rows; i += kSampledRows) {
+      sum += sumOfDifferences(&from[grid_.row(i)], &to[grid_.row(i)], columns);
+      sampled += static_cast<double>(columns);
+    }
+    motion.end[axis] = motion.start[axis] + sum / sampled;
+    copy(from, motion.start[axis], nodes.start[static_cast<std::size_t>(axis)]);
+    copy(to, motion.end[axis], nodes.end[static_cast<std::size_t>(axis)]);
   };
   component(start.x, end.x, 0);
   component(start.y, end.y, 1);
   component(start.z, end.z, 2);
+  even_.measure(nodes);
+  const auto low = [this](int i, int j, int axis) { return even_.low(i, j, axis); };
+  const auto high = [this](int i, int j, int axis) { return even_.high(i, j, axis); };
+  pyramid_.refitFrom(even_level_, low, high);
   // Each of two coordinates is rounded once, and so is their difference, which is at most twice as large; the step to the origin rounds in
   // double precision.
-  rounding_ = 4.0f * kUnit * largest + 1e-15f * static_cast<float>(furthest);
+  motion.rounding = 4.0f * kUnit * even_.largest() + 1e-15f * static_cast<float>(motion.start.cwiseAbs().cwiseMax(motion.end.cwiseAbs()).maxCoeff());
+}
+
+void ClothPairs::placeOneByOne(const MovingNodes& nodes) noexcept {
   for (std::size_t i = 0; i < static_cast<std::size_t>(grid_.rows); ++i) {
-    for (std::size_t j = 0; j < columns; ++j) {
-      const std::size_t from = i * nodes_.stride + j, to = i * stride + j;
-      starts_[to] = {nodes_.start[0][from], nodes_.start[1][from], nodes_.start[2][from], 0.0f};
-      ends_[to] = {nodes_.end[0][from], nodes_.end[1][from], nodes_.end[2][from], 0.0f};
+    for (std::size_t j = 0; j < static_cast<std::size_t>(grid_.columns); ++j) {
+      const std::size_t from = i * nodes.stride + j, to = i * static_cast<std::size_t>(grid_.stride) + j;
+      starts_[to] = {nodes.start[0][from], nodes.start[1][from], nodes.start[2][from], 0.0f};
+      ends_[to] = {nodes.end[0][from], nodes.end[1][from], nodes.end[2][from], 0.0f};
     }
   }
 }
 
 void ClothPairs::collect(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept {
-  pyramid_.wantAll();
-  collectWanted(start, end, reach, out);
+  reach_ = reach;
+  take(start, end, expected_);
+  collectOf(nullptr, expected_, reach, out);
 }
 
-void ClothPairs::collectOf(const std::vector<std::uint8_t>& marked, const Field3& start, const Field3& end, double reach, Candidates& out) noexcept {
-  pyramid_.want(marked);
-  collectWanted(start, end, reach, out);
+// Where neither of two elements ends further than this from where it was expected to, they were candidates.
+void ClothPairs::collectElsewhere(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept {
+  if (markElsewhere(end, 0.5 * (reach_ - reach)) == 0) return;
+  take(start, end, elsewhere_);
+  collectOf(&marked_, elsewhere_, reach, out);
 }
 
-void ClothPairs::collectWanted(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept {
-  take(start, end);
+// Marks the nodes that end further than that from where they were expected to; returns their number.
+std::size_t ClothPairs::markElsewhere(const Field3& end, double most) noexcept {
+  const float certain = static_cast<float>(most) - 2.0f * expected_.rounding;
+  const float most_squared = certain > 0.0f ? certain * certain * (1.0f - 1e-5f) : -1.0f;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(grid_.rows); ++i) {
+    const std::size_t n = i * static_cast<std::size_t>(grid_.stride), m = i * expected_.nodes.stride;
+    const Floats3 expected{&expected_.nodes.end[0][m], &expected_.nodes.end[1][m], &expected_.nodes.end[2][m]};
+    count += markRow({&end.x[n], &end.y[n], &end.z[n]}, expected, expected_.end, most_squared, static_cast<std::size_t>(grid_.columns), &marked_[n]);
+  }
+  return count;
+}
+
+void ClothPairs::collectOf(const std::vector<std::uint8_t>* marked, const Motion& motion, double reach, Candidates& out) noexcept {
   ++look_;
-  pyramid_.refit(nodes_);
-  const float certain = static_cast<float>(reach) * (1.0f + 2.0f * std::numeric_limits<float>::epsilon());
+  const float certain = static_cast<float>(reach) * (1.0f + 2.0f * std::numeric_limits<float>::epsilon()), rounding = motion.rounding;
+  pyramid_.select(marked);
+  const bool uneven = even_.find(certain, rounding);
+  if (!uneven && !pairs_.any(certain + rounding, even_level_)) return;
+  pyramid_.refitBelow(even_level_, motion.nodes);
+  if (uneven) {
+    pyramid_.leaveOut(even_level_, [this](int i, int j) { return even_.isUneven(i, j); });
+    windows_.find(motion.nodes, pyramid_, certain, rounding);
+  }
+  placeOneByOne(motion.nodes);
   vertices_.clear();
   edges_.clear();
-  windows_.find(nodes_, pyramid_, certain, rounding_);
-  windows_.forEachPair([this](const FourNodes& nodes) { vertices_.push_back(nodes); }, [this](const FourNodes& nodes) { edges_.push_back(nodes); });
-  if (!pairs_.find(certain + rounding_)) out.full = true;
-  collectQuads(certain, out);
-  dropApart(certain, out);
+  if (uneven) windows_.forEachPair([this](const FourNodes& nodes) { vertices_.push_back(nodes); }, [this](const FourNodes& nodes) { edges_.push_back(nodes); });
+  pairs_.find(certain + rounding, uneven ? 0 : even_level_, [&](std::size_t a, std::size_t b) { addQuads(a, b, certain, rounding, out); });
+  dropApart(certain, rounding, out);
 }
 
-const QuadWays& ClothPairs::quadWays(std::uint32_t quad) noexcept {
+const QuadWays& ClothPairs::quadWays(std::size_t quad) noexcept {
   if (quad_looks_[quad] != look_) {
     quad_looks_[quad] = look_;
     const BlockPyramid::Level& quads = pyramid_.levels().front();
@@ -134,22 +196,20 @@ const QuadWays& ClothPairs::quadWays(std::uint32_t quad) noexcept {
   return quad_ways_[quad];
 }
 
-void ClothPairs::collectQuads(float reach, Candidates& out) noexcept {
+void ClothPairs::addQuads(std::size_t a, std::size_t b, float reach, float rounding, Candidates& out) noexcept {
+  if (quadWays(a).staysApart(quadWays(b), reach, rounding)) return;
+  constexpr std::size_t kMostOfTwoQuads = 32;
+  if (std::max(vertices_.size(), edges_.size()) + kMostOfTwoQuads > vertices_.capacity()) dropApart(reach, rounding, out);
   const BlockPyramid::Level& quads = pyramid_.levels().front();
-  for (const BlockPairs::Pair& pair : pairs_.found()) {
-    if (quadWays(pair.a).staysApart(quadWays(pair.b), reach, rounding_)) continue;
-    constexpr std::size_t kMostOfTwoQuads = 32;
-    if (std::max(vertices_.size(), edges_.size()) + kMostOfTwoQuads > vertices_.capacity()) dropApart(reach, out);
-    elements_.forEach(quads.rowOf(pair.a), quads.columnOf(pair.a), quads.rowOf(pair.b), quads.columnOf(pair.b),
-                      [this](const FourNodes& nodes) { vertices_.push_back(nodes); }, [this](const FourNodes& nodes) { edges_.push_back(nodes); });
-  }
+  elements_.forEach(quads.rowOf(a), quads.columnOf(a), quads.rowOf(b), quads.columnOf(b), [this](const FourNodes& nodes) { vertices_.push_back(nodes); },
+                    [this](const FourNodes& nodes) { edges_.push_back(nodes); });
 }
 
-void ClothPairs::dropApart(float reach, Candidates& out) noexcept {
+void ClothPairs::dropApart(float reach, float rounding, Candidates& out) noexcept {
   const NodeWays ways{starts_.data(), ends_.data()};
-  curtain::dropApart(vertices_, [&](const auto& some) { return vertexStaysApart(some, ways, reach, rounding_); },
+  curtain::dropApart(vertices_, [&](const auto& some) { return vertexStaysApart(some, ways, reach, rounding); },
                      [&](const FourNodes& n) { out.add(VertexTriangle{n[0], {n[1], n[2], n[3]}}); });
-  curtain::dropApart(edges_, [&](const auto& some) { return edgesStayApart(some, ways, reach, rounding_); },
+  curtain::dropApart(edges_, [&](const auto& some) { return edgesStayApart(some, ways, reach, rounding); },
                      [&](const FourNodes& n) { out.add(EdgeEdge{{n[0], n[1]}, {n[2], n[3]}}); });
   vertices_.clear();
   edges_.clear();

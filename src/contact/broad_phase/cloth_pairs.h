@@ -9,6 +9,7 @@
 
 #include "contact/broad_phase/block_pairs.h"
 #include "contact/broad_phase/block_pyramid.h"
+#include "contact/broad_phase/even_blocks.h"
 #include "contact/broad_phase/windows.h"
 #include "contact/narrow_phase/candidates.h"
 #include "contact/narrow_phase/quad_ways.h"
@@ -30,27 +31,40 @@ class ClothPairs {
   /// is left out, and it says so; see reserve(). Rounding only ever adds pairs.
   void collect(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept;
 
-  /// The same of pairs that have a node that is marked (not 0; of the grid's size), and of some that have none.
-  void collectOf(const std::vector<std::uint8_t>& marked, const Field3& start, const Field3& end, double reach, Candidates& out) noexcept;
+  /// After collect() with the same start and a larger reach: appends to its candidates what they lack of those that come within `reach` [m]
+  /// while nodes move from there to end.
+  void collectElsewhere(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept;
 
   /// Makes room for kRoomPerNode candidates of either kind per node.
   void reserve(Candidates& out) const { out.reserve(kRoomPerNode * grid_.nodeCount()); }
 
  private:
-  void collectWanted(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept;
-  void take(const Field3& start, const Field3& end) noexcept;
-  const QuadWays& quadWays(std::uint32_t quad) noexcept;
-  void collectQuads(float reach, Candidates& out) noexcept;
-  void dropApart(float reach, Candidates& out) noexcept;
+  /// Where nodes are, and what that is relative to.
+  struct Motion {
+    MovingNodes nodes;
+    Vec3 start = Vec3::Zero(), end = Vec3::Zero();  // the origins at both instants: the first node's start, the end with the mean motion [m]
+    float rounding = 0.0f;                          // most by which a difference of two coordinates is rounded [m]
+  };
+
+  void take(const Field3& start, const Field3& end, Motion& motion) noexcept;
+  std::size_t markElsewhere(const Field3& end, double most) noexcept;
+  void collectOf(const std::vector<std::uint8_t>* marked, const Motion& motion, double reach, Candidates& out) noexcept;
+  void placeOneByOne(const MovingNodes& nodes) noexcept;
+  const QuadWays& quadWays(std::size_t quad) noexcept;
+  void addQuads(std::size_t a, std::size_t b, float reach, float rounding, Candidates& out) noexcept;
+  void dropApart(float reach, float rounding, Candidates& out) noexcept;
 
   Grid grid_;
   ElementPairs elements_;
   BlockPyramid pyramid_;
+  std::size_t even_level_;
+  EvenBlocks even_;  // of that level
   BlockPairs pairs_;
   Windows windows_;
-  MovingNodes nodes_;                            // from the first node's start, less the mean motion
-  std::vector<Eigen::Array4f> starts_, ends_;    // the same, one by one, by the nodes' indices
-  float rounding_ = 0.0f;                        // most by which a difference of two of these coordinates is rounded [m]
+  Motion expected_, elsewhere_;                  // of the last collect(), of collectElsewhere()
+  double reach_ = 0.0;                           // of the last collect() [m]
+  std::vector<std::uint8_t> marked_;             // by node: it ends elsewhere
+  std::vector<Eigen::Array4f> starts_, ends_;    // of the motion that is looked at, one by one, by the nodes' indices
   std::uint32_t look_ = 0;
   std::vector<std::uint32_t> quad_looks_;        // of quads: the look that their ways are of
   std::vector<QuadWays> quad_ways_;

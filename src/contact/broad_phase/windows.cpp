@@ -60,7 +60,7 @@ void Windows::makeOffsets() {
 void Windows::find(const MovingNodes& nodes, const BlockPyramid& pyramid, float reach, float rounding) noexcept {
   bent_.clear();
   for (int i = 0; i < rows_; ++i) {
-    if (!pyramid.isRowWanted(0, i) && !pyramid.isRowWanted(0, i + high_ - 1)) continue;
+    if (!pyramid.areRowsAsked(0, i, i + high_ - 1)) continue;
     for (int j = 0; j < columns_; j += static_cast<int>(EvenWindows::kCount)) {
       const std::size_t node = static_cast<std::size_t>(i) * nodes.stride + static_cast<std::size_t>(j);
       const EvenWindows windows{high_, wide_, nodes.stride,

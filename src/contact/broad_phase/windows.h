@@ -19,10 +19,11 @@ class Windows {
   /// elements must outlive this.
   Windows(const ClothPattern& pattern, const ElementPairs& elements);
 
-  /// Finds the windows with a quad that is wanted which are not even enough to keep `reach` [m]. rounding [m]: of a difference of two
+  /// Finds the windows, of rows that are asked for, that are not even enough to keep `reach` [m]. rounding [m]: of a difference of two
   /// coordinates. Allocates nothing.
   void find(const MovingNodes& nodes, const BlockPyramid& pyramid, float reach, float rounding) noexcept;
 
+  bool any() const noexcept { return !bent_.empty(); }
   /// Calls vertex(nodes) and edge(nodes) for the pairs of elements of those. Of the quads that several windows hold, the first one has them.
   template <typename Vertex, typename Edge>
   void forEachPair(const Vertex& vertex, const Edge& edge) const {
