@@ -13,25 +13,17 @@
 namespace curtain {
 namespace {
 
-// Margin for nodes to stray from their path, over the thickness: what is looked for beyond the reach grows with it. At least,
-// and where pairs with a mesh are looked for, which become many soon; at most where faces are, and where nodes alone are. It
-// grows where lists end early.
-constexpr double kLeastSlack = 0.25;
-constexpr double kMostSlack = 1.0;
-constexpr double kMostSlackOfNodes = 4.0;
-constexpr double kSlackGrowth = 1.5;
-constexpr double kSlackDecay = 0.98;
+// Margin for nodes to stray from their path, over the thickness: pairs with a mesh become many soon.
+constexpr double kSlack = 0.25;
 // A plane found within this share of the thickness tells enough of a node's distance.
 constexpr double kCloseBy = 0.25;
 // Nodes at this share of the thickness keep it: a tenth may lack, and what the solver leaves.
 constexpr double kKept = 0.85;
 // Rounding of distances, relative.
 constexpr double kRounding = 1e-9;
-// The expected path goes on for so many substeps at most, and no further than this over the cloth's longest edge; against
-// meshes over the thickness.
+// The expected path goes on for so many substeps at most, and no further than this over the thickness.
 constexpr double kMostSubsteps = 16.0;
-constexpr double kLongestWay = 1.0;
-constexpr double kLongestWayOfPairs = 0.5;
+constexpr double kLongestWay = 0.5;
 // Room for pairs with a mesh, per node of the cloth and per edge or corner of the mesh: either may be the finer one. Without room the
 // cloth is held where it is, and a mesh that goes on goes through it.
 constexpr std::size_t kPairsPerNode = 8;
@@ -76,7 +68,7 @@ double longestEdge(const Grid& grid, const Field3& position) noexcept {
 }
 
 // Nodes as seen from the obstacle.
-CURTAIN_WIDE void toLocal(const Transform& place, const Field3& position, std::size_t size, Field3& out) noexcept {
+CURTAIN_WIDE void seenFrom(const Transform& place, const Field3& position, std::size_t size, Field3& out) noexcept {
   const Eigen::Matrix3d& r = place.rotation;
   const double xx = r(0, 0), xy = r(1, 0), xz = r(2, 0), yx = r(0, 1), yy = r(1, 1), yz = r(2, 1);
   const double zx = r(0, 2), zy = r(1, 2), zz = r(2, 2);
@@ -138,7 +130,7 @@ double smoothRadius(const ObstacleShape& shape) {
 
 Vicinity::Vicinity(const ClothPattern& pattern, const ObstacleShape& shape, double thickness, double core)
     : pattern_(pattern), shape_(shape), thickness_(thickness), core_(core), kept_(kKept * thickness),
-      slack_(kLeastSlack * thickness) {
+      slack_(kSlack * thickness) {
   // Sagitta of the longest edge between two nodes that keep the thickness, less the tenth of it that they may lack.
   const double longest = longestEdge(pattern);
   const double radius = smoothRadius(shape) + 0.9 * thickness;
@@ -154,15 +146,24 @@ Vicinity::Vicinity(const ClothPattern& pattern, const ObstacleShape& shape, doub
   keeps_.assign(size, 1);
   taken_.reserve(count);
   nodes_.reserve(count);
-  if (shape.convex() != nullptr) faces_.reserve(elements_wanted_ ? 2 * count : 0);
-  else pairs_.reserve(kPairsPerNode * count + kPairsPerFeature * (shape.features()->edges().size() + shape.features()->vertices().size()));
+  looked_at_.assign(size, 0);
+  boxes_meet_.assign(size, 0);
+  if (shape.convex() == nullptr) {
+    pairs_.reserve(kPairsPerNode * count + kPairsPerFeature * (shape.features()->edges().size() + shape.features()->vertices().size()));
+  } else if (elements_wanted_) {
+    faces_.reserve(2 * count);
+    face_planes_.resize(2 * size);
+  }
   if (shape.convex() == nullptr) rough_ = RoughFeatures(*shape.features(), {kOverlong * longest, kept_, core});
 }
 
+void Vicinity::toLocal(const Transform& place, const Field3& position, Field3& out) noexcept { seenFrom(place, position, position.x.size(), out); }
+
 void Vicinity::forget() noexcept {
   length_ = 0.0;
-  slack_ = kLeastSlack * thickness_;
   std::fill(planes_.begin(), planes_.end(), NodePlane());
+  std::fill(face_planes_.begin(), face_planes_.end(), NodePlane());
+  std::fill(looked_at_.begin(), looked_at_.end(), 0U);
   std::fill(is_taken_.begin(), is_taken_.end(), std::uint8_t{0});
   std::fill(distance_.begin(), distance_.end(), thickness_);
   for (auto* list : {&nodes_, &taken_}) list->clear();
@@ -175,10 +176,14 @@ double Vicinity::strayed(const Transform& place, const Field3& position, double 
 }
 
 void Vicinity::prepare(const MovingObstacle& moving, const Field3& start, const Field3& predicted, double h) noexcept {
+  if (shape_.convex() != nullptr) {
+    startConvex(moving, start);
+    listConvex(moving, predicted, elementReach() + kLeast * thickness_);
+    return;
+  }
   const bool reaches = elapsed_ + h <= length_ * (1.0 + 1e-9);
   // Room to stray for the solve, too.
   if (!reaches || !(strayed(moving.after, predicted, h) <= 0.5 * slack_) || !(strayed(moving.before, start, 0.0) <= slack_)) {
-    adaptSlack(reaches);
     rebuild(moving, start, predicted, h);
     return;
   }
@@ -187,8 +192,11 @@ void Vicinity::prepare(const MovingObstacle& moving, const Field3& start, const 
 }
 
 void Vicinity::follow(const MovingObstacle& moving, const Field3& start, const Field3& end, double h) noexcept {
+  if (shape_.convex() != nullptr) {
+    listConvex(moving, end, crossingReach());
+    return;
+  }
   if (!(strayed(moving.after, end, h) <= slack_)) {
-    adaptSlack(true);
     rebuild(moving, start, end, h);
     return;
   }
@@ -217,12 +225,6 @@ bool Vicinity::measureStart() noexcept {
   return as_expected;
 }
 
-// early: lists ended because a node strayed.
-void Vicinity::adaptSlack(bool early) noexcept {
-  const double most = shape_.convex() == nullptr ? kLeastSlack : elements_wanted_ ? kMostSlack : kMostSlackOfNodes;
-  slack_ = std::clamp((early ? kSlackGrowth : kSlackDecay) * slack_, kLeastSlack * thickness_, most * thickness_);
-}
-
 void Vicinity::takeOver(const MovingObstacle& moving, const Field3& start, const Field3& end) noexcept {
   for (const std::uint32_t n : taken_) {
     start_.set(n, moving.before.toLocal(start.at(n)));
@@ -232,11 +234,10 @@ void Vicinity::takeOver(const MovingObstacle& moving, const Field3& start, const
 
 // New lists.
 void Vicinity::look(const MovingObstacle& moving, const Field3& start, const Field3& predicted, double h) noexcept {
-  const std::size_t size = pattern_.grid.size();
-  toLocal(moving.before, start, size, from_);
-  toLocal(moving.after, predicted, size, to_);
+  toLocal(moving.before, start, from_);
+  toLocal(moving.after, predicted, to_);
   const double move = std::sqrt(farthest(moving.after, predicted, from_, from_, 0.0, pattern_.mass));
-  const double most = shape_.convex() == nullptr ? kLongestWayOfPairs * thickness_ : kLongestWay * longestEdge(pattern_.grid, from_);
+  const double most = kLongestWay * thickness_;
   // A cloth at rest goes on for ever.
   const double substeps = std::clamp(most / std::max(move, most / kMostSubsteps), 1.0, kMostSubsteps);
   length_ = substeps * h;
@@ -260,7 +261,7 @@ void Vicinity::lookAtNodes() noexcept {
   nodes_.clear();
   const Grid& grid = pattern_.grid;
   const double reach = nodeReach() + slack_;
-  const bool elements = elements_wanted_ && (shape_.convex() != nullptr || !rough_.empty());
+  const bool elements = elements_wanted_ && !rough_.empty();
   const double element_reach = std::max(reach, elements ? elementReach() + slack_ + longest_ : 0.0);
   const Eigen::AlignedBox3d box = shape_.bounds();
   for (int i = 0; i < grid.rows; ++i) {
@@ -307,7 +308,6 @@ void Vicinity::takeNodes(const std::uint32_t* first, std::size_t count) noexcept
 }
 
 void Vicinity::lookAtElements() noexcept {
-  faces_.clear();
   pairs_.clear();
   const Grid& grid = pattern_.grid;
   // Every point of an element is within its longest edge of any of its nodes.
@@ -320,31 +320,12 @@ void Vicinity::lookAtElements() noexcept {
                                       std::min(bound_[below + left], bound_[below + right]));
       if (nearest > reach) continue;
       const QuadElements quad = quadElements(grid, i, j);
-      if (shape_.convex() != nullptr) {
-        for (const MeshTriangle& triangle : quad.triangles) addFace(triangle);
-        continue;
-      }
       bool keep = true;
       for (const std::uint32_t n : quad.corners) keep = keep && keeps_[n] != 0;
       if (!keep) addPairs(quad, *shape_.features());
       else if (!rough_.empty()) addPairs(quad, rough_);
     }
   }
-}
-
-// Unless a tangent plane shows that it stays clear.
-void Vicinity::addFace(const MeshTriangle& triangle) noexcept {
-  const double reach = elementReach() + slack_;
-  for (const std::uint32_t a : triangle) {
-    if (planes_[a].kind != NodePlane::Kind::kFound) continue;
-    double lowest = std::numeric_limits<double>::infinity();
-    for (const std::uint32_t k : triangle) {
-      lowest = std::min(lowest, std::min(planes_[a].height(from_.at(k)), planes_[a].height(to_.at(k))));
-    }
-    if (lowest > reach) return;
-  }
-  faces_.push_back(triangle);
-  takeNodes(triangle.data(), 3);
 }
 
 template <typename Features>

@@ -43,6 +43,12 @@ struct NodePlane {
 
 class Vicinity {
  public:
+  /// A face of the cloth, and its own number.
+  struct Face {
+    MeshTriangle node;
+    std::uint32_t index;
+  };
+
   /// thickness: kept between nodes and obstacle [m]; core: between faces and obstacle; pattern and shape must outlive this.
   /// Allocates all there is to.
   Vicinity(const ClothPattern& pattern, const ObstacleShape& shape, double thickness, double core);
@@ -56,7 +62,7 @@ class Vicinity {
   void forget() noexcept;
 
   const std::vector<std::uint32_t>& nodes() const noexcept { return nodes_; }
-  const std::vector<MeshTriangle>& faces() const noexcept { return faces_; }
+  const std::vector<Face>& faces() const noexcept { return faces_; }
   const std::vector<FeaturePair>& pairs() const noexcept { return pairs_; }
 
   /// Of a listed node (or one of a listed element), in the obstacle's frame [m].
@@ -64,6 +70,10 @@ class Vicinity {
   Vec3 endOf(std::size_t node) const noexcept { return end_.at(node); }
   NodePlane& plane(std::size_t node) noexcept { return planes_[node]; }
   const NodePlane& plane(std::size_t node) const noexcept { return planes_[node]; }
+
+  /// The plane at a face's nearest point, once that is known.
+  NodePlane& facePlane(const Face& face) noexcept { return face_planes_[face.index]; }
+  const NodePlane& facePlane(const Face& face) const noexcept { return face_planes_[face.index]; }
 
   /// Signed distance at the start of the substep, or the thickness when it is more [m].
   double distanceOf(std::size_t node) const noexcept { return distance_[node]; }
@@ -79,6 +89,10 @@ class Vicinity {
   /// What comes nearer in a substep is listed, for certain [m].
   double nodeReach() const noexcept { return 1.5 * thickness_; }
   double elementReach() const noexcept { return 0.5 * thickness_; }
+  /// What comes nearer would go through, with room for what times of impact are early by [m].
+  double crossingReach() const noexcept { return 2.0 * kLeast * thickness_; }
+  /// Over the thickness: nearer than this is through.
+  static constexpr double kLeast = 0.02;
   /// A list had no room for all there was: what is near is not known.
   bool full() const noexcept { return full_; }
 
@@ -86,10 +100,15 @@ class Vicinity {
   void rebuild(const MovingObstacle& moving, const Field3& start, const Field3& end, double h) noexcept;
   void look(const MovingObstacle& moving, const Field3& start, const Field3& predicted, double h) noexcept;
   bool measureStart() noexcept;
-  void adaptSlack(bool early) noexcept;
   void lookAtNodes() noexcept;
   void lookAtElements() noexcept;
-  void addFace(const MeshTriangle& triangle) noexcept;
+  static void toLocal(const Transform& place, const Field3& position, Field3& out) noexcept;
+  void startConvex(const MovingObstacle& moving, const Field3& start) noexcept;
+  void listConvex(const MovingObstacle& moving, const Field3& end, double reach) noexcept;
+  void listNodes(const Eigen::AlignedBox3d& box) noexcept;
+  void listFaces(const Eigen::AlignedBox3d& box, double reach) noexcept;
+  void lookAtStart(std::size_t node) noexcept;
+  bool staysOver(const Face& face, double reach) noexcept;
   template <typename Features>
   void addPairs(const QuadElements& quad, const Features& features) noexcept;
   template <typename Features>
@@ -112,14 +131,18 @@ class Vicinity {
   Field3 from_, to_;                     // its ends, obstacle's frame [m]
   Field3 start_, end_;                   // of this substep, of the nodes in taken_
   std::vector<NodePlane> planes_;        // by node
-  std::vector<double> bound_;            // by node: nearest that it may come on its way [m]
+  std::vector<double> bound_;            // by node: nearest that it may come on its way; of a convex shape: its distance where it starts [m]
   std::vector<double> distance_;         // by node, see distanceOf(); the thickness for those not listed
   std::vector<std::uint8_t> keeps_;      // by node: the lists count on it not to be close
+  std::uint32_t substep_ = 0;
+  std::vector<std::uint32_t> looked_at_;   // by node: the substep at whose start its plane was found, of a convex shape
+  std::vector<std::uint8_t> boxes_meet_;   // scratch of a row
   bool full_ = false;
   std::vector<std::uint8_t> is_taken_;   // by node
   std::vector<std::uint32_t> taken_;     // nodes whose positions are taken over
   std::vector<std::uint32_t> nodes_;     // pinned ones too
-  std::vector<MeshTriangle> faces_;
+  std::vector<Face> faces_;
+  std::vector<NodePlane> face_planes_;     // by the faces' numbers, of a convex shape
   std::vector<FeaturePair> pairs_;
 };
 

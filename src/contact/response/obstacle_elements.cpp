@@ -17,9 +17,6 @@
 namespace curtain {
 namespace {
 
-// Over the thickness: nearer than this on the way is through.
-constexpr double kLeast = 0.02;
-
 using Corners = std::array<Vec3, 3>;
 
 Corners startOf(const Vicinity& near, const std::array<std::uint32_t, 3>& node) {
@@ -42,20 +39,6 @@ double longestWay(const Corners& a, const Corners& b) {
 bool comesOut(const std::array<std::uint32_t, 3>& node, std::size_t nodes, const Vicinity& near) {
   for (std::size_t k = 0; k < nodes; ++k) {
     if (near.isInside(node[k])) return true;
-  }
-  return false;
-}
-
-// A tangent plane of a convex shape has the whole way of the face on its far side. With a margin for what times of impact are
-// early by: which planes are known must not tell.
-bool staysClear(const Vicinity& near, const MeshTriangle& face, const Corners& start, const Corners& end, double distance) {
-  const double reach = distance + kLeast * near.thickness();
-  for (const std::uint32_t node : face) {
-    const NodePlane& plane = near.plane(node);
-    if (plane.kind != NodePlane::Kind::kFound) continue;
-    double lowest = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < 3; ++k) lowest = std::min({lowest, plane.height(start[k]), plane.height(end[k])});
-    if (lowest > reach) return true;
   }
   return false;
 }
@@ -164,17 +147,17 @@ void add(const ObstacleSubstep& substep, const ClothPattern& pattern, TouchPoint
 
 }  // namespace
 
-void collectFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, const Vicinity& near, Contacts& contacts) noexcept {
+void collectFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, Vicinity& near, Contacts& contacts) noexcept {
   const ConvexShape& shape = *near.shape().convex();
   const double listed = near.elementReach();
-  for (const MeshTriangle& face : near.faces()) {
-    if (comesOut(face, 3, near)) continue;
-    const Corners start = startOf(near, face), end = endOf(near, face);
-    if (staysClear(near, face, start, end, listed)) continue;
+  for (const Vicinity::Face& face : near.faces()) {
+    if (comesOut(face.node, 3, near)) continue;
+    const Corners start = startOf(near, face.node), end = endOf(near, face.node);
     ElementPoint nearest, then;
     const bool close = shape.nearestOnTriangle(start, near.thickness(), nearest);
+    if (close) near.facePlane(face) = {mix(nearest.weights, start), nearest.surface, NodePlane::Kind::kFound};
     if (close && (nearest.surface.distance <= listed || shape.nearestOnTriangle(end, listed, then))) {
-      TouchPoint point = touchPoint(face, nearest, start, start);
+      TouchPoint point = touchPoint(face.node, nearest, start, start);
       if (point.normal.dot(mix(point.weight, end)) - point.height > listed) continue;
       add(substep, pattern, point, nearest.surface.distance, near.core(), 0, contacts);
       continue;
@@ -183,7 +166,7 @@ void collectFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, c
     if (!time) continue;
     const Corners at = between(start, end, *time);
     if (!shape.nearestOnTriangle(at, listed, nearest)) continue;
-    TouchPoint point = touchPoint(face, nearest, at, start);
+    TouchPoint point = touchPoint(face.node, nearest, at, start);
     add(substep, pattern, point, near.thickness(), near.core(), 0, contacts);
   }
 }
@@ -191,11 +174,10 @@ void collectFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, c
 void crossingFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, const Vicinity& near,
                    std::vector<Crossing>& crossings) noexcept {
   const ConvexShape& shape = *near.shape().convex();
-  const double most = kLeast * near.thickness();
-  for (const MeshTriangle& face : near.faces()) {
-    if (comesOut(face, 3, near)) continue;
-    const Corners start = startOf(near, face), end = endOf(near, face);
-    if (staysClear(near, face, start, end, most)) continue;
+  const double most = Vicinity::kLeast * near.thickness();
+  for (const Vicinity::Face& face : near.faces()) {
+    if (comesOut(face.node, 3, near)) continue;
+    const Corners start = startOf(near, face.node), end = endOf(near, face.node);
     ElementPoint nearest;
     const bool close = shape.nearestOnTriangle(start, near.thickness(), nearest);
     const double distance = close ? nearest.surface.distance : near.thickness();
@@ -204,10 +186,10 @@ void crossingFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, 
     if (!time) continue;
     const Corners at = between(start, end, *time);
     if (!shape.nearestOnTriangle(at, std::numeric_limits<double>::infinity(), nearest)) continue;
-    TouchPoint point = touchPoint(face, nearest, at, start);
+    TouchPoint point = touchPoint(face.node, nearest, at, start);
     point.keep(distance, near.core(), substep);
     Crossing crossing;
-    crossing.node = face;
+    crossing.node = face.node;
     crossing.nodes = 3;
     if (makeContact(substep, pattern, point, crossing.contact)) addWithinRoom(crossing, crossings);
   }
@@ -252,7 +234,7 @@ void collectPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, c
 void crossingPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, const Vicinity& near,
                    std::vector<Crossing>& crossings) noexcept {
   const ObstacleFeatures& features = *near.shape().features();
-  const double most = kLeast * near.thickness();
+  const double most = Vicinity::kLeast * near.thickness();
   for (const FeaturePair& pair : near.pairs()) {
     if (isLeftOut(pair, near)) continue;
     const Corners start = startOf(near, pair.node), end = endOf(near, pair.node);

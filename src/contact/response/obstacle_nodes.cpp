@@ -18,8 +18,6 @@ namespace {
 constexpr double kFasterInside = 20.0;
 // Share of what is to be kept that may lack.
 constexpr double kSlack = 0.1;
-// Over the thickness: nearer than this at the end is through.
-constexpr double kLeast = 0.02;
 
 // Neither end is near, and nothing is between.
 bool staysClear(const NodePlane& plane, const Vec3& from, const Vec3& to, double reach) {
@@ -150,7 +148,7 @@ void collectNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, V
 
 void crossingNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, const Vicinity& near,
                    std::vector<Crossing>& crossings) noexcept {
-  const double most = kLeast * near.thickness();
+  const double most = Vicinity::kLeast * near.thickness();
   for (const std::uint32_t node : near.nodes()) {
     const Vec3 from = near.startOf(node), to = near.endOf(node);
     const double distance = near.distanceOf(node);

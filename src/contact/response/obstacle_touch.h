@@ -39,7 +39,7 @@ double letOut(double distance, double kept, const ObstacleSubstep& substep) noex
 /// Contacts of nodes that touch on their way, in the nodes' order. Refreshes the vicinity's planes.
 void collectNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, Vicinity& near, Contacts& contacts) noexcept;
 /// Of faces and edges. Several may be alike.
-void collectFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, const Vicinity& near, Contacts& contacts) noexcept;
+void collectFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, Vicinity& near, Contacts& contacts) noexcept;
 void collectPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, const Vicinity& near, Contacts& contacts) noexcept;
 
 /// What would go through on the way that the vicinity followed. Parts that are through where it starts are not.
