@@ -14,6 +14,8 @@ namespace {
 constexpr std::size_t kEvenLevel = 3;
 // The mean motion is that of one of so many rows.
 constexpr int kSampledRows = 4;
+// Pairs of quads that wait to be looked at together.
+constexpr std::size_t kQuadsAtOnce = 1024;
 // Floats beyond the end of an array that whole vectors may read.
 constexpr std::size_t kBeyond = 16;
 // Largest error of a number rounded to single precision, relative to it.
@@ -88,8 +90,7 @@ ClothPairs::ClothPairs(const ClothPattern& pattern)
   marked_.assign(grid_.size(), 0);
   starts_.assign(grid_.size(), Eigen::Array4f::Zero());
   ends_ = starts_;
-  quad_looks_.assign(pyramid_.size(), 0);
-  quad_ways_.resize(pyramid_.size());
+  quads_.reserve(kQuadsAtOnce);
   // Those of neighbours are fewer, all together.
   vertices_.reserve(kRoomPerNode * grid_.nodeCount());
   edges_.reserve(kRoomPerNode * grid_.nodeCount());
@@ -169,7 +170,6 @@ std::size_t ClothPairs::markElsewhere(const Field3& end, double most) noexcept {
 }
 
 void ClothPairs::collectOf(const std::vector<std::uint8_t>* marked, const Motion& motion, double reach, Candidates& out) noexcept {
-  ++look_;
   const float certain = static_cast<float>(reach) * (1.0f + 2.0f * std::numeric_limits<float>::epsilon()), rounding = motion.rounding;
   pyramid_.select(marked);
   const bool uneven = even_.find(certain, rounding);
@@ -183,26 +183,52 @@ void ClothPairs::collectOf(const std::vector<std::uint8_t>* marked, const Motion
   vertices_.clear();
   edges_.clear();
   if (uneven) windows_.forEachPair([this](const FourNodes& nodes) { vertices_.push_back(nodes); }, [this](const FourNodes& nodes) { edges_.push_back(nodes); });
-  pairs_.find(certain + rounding, uneven ? 0 : even_level_, [&](std::size_t a, std::size_t b) { addQuads(a, b, certain, rounding, out); });
+  quads_.clear();
+  pairs_.find(certain + rounding, uneven ? 0 : even_level_, [&](std::size_t a, std::size_t b) {
+    if (quads_.size() == quads_.capacity()) addElements(certain, rounding, out);
+    quads_.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)});
+  });
+  addElements(certain, rounding, out);
   dropApart(certain, rounding, out);
 }
 
-const QuadWays& ClothPairs::quadWays(std::size_t quad) noexcept {
-  if (quad_looks_[quad] != look_) {
-    quad_looks_[quad] = look_;
-    const BlockPyramid::Level& quads = pyramid_.levels().front();
-    quad_ways_[quad].fill(quadElements(grid_, quads.rowOf(quad), quads.columnOf(quad)).corners, {starts_.data(), ends_.data()});
+// Leaves the pairs of quads that are not told to stay apart.
+void ClothPairs::keepNear(QuadsStayApart stay_apart, float reach, float rounding) noexcept {
+  const NodeWays ways{starts_.data(), ends_.data()};
+  const BlockPyramid::Level& level = pyramid_.levels().front();
+  const auto corners = [&](std::size_t quad) {
+    const int i = level.rowOf(quad), j = level.columnOf(quad), right = j + 1 < grid_.columns ? j + 1 : 0;
+    const auto node = [&](int row, int column) { return static_cast<std::uint32_t>(grid_.index(row, column)); };
+    return FourNodes{node(i, j), node(i, right), node(i + 1, j), node(i + 1, right)};
+  };
+  std::size_t kept = 0;
+  for (std::size_t first = 0; first < quads_.size(); first += kPairsAtOnce) {
+    const std::size_t count = std::min(kPairsAtOnce, quads_.size() - first);
+    std::array<TwoQuads, kPairsAtOnce> some;
+    for (std::size_t k = 0; k < kPairsAtOnce; ++k) {
+      const QuadPair& pair = quads_[first + std::min(k, count - 1)];
+      some[k] = {corners(pair.a), corners(pair.b)};
+    }
+    const std::uint32_t apart = stay_apart(some, ways, reach, rounding);
+    for (std::size_t k = 0; k < count; ++k) {
+      if ((apart >> k & 1U) == 0) quads_[kept++] = quads_[first + k];
+    }
   }
-  return quad_ways_[quad];
+  quads_.resize(kept);
 }
 
-void ClothPairs::addQuads(std::size_t a, std::size_t b, float reach, float rounding, Candidates& out) noexcept {
-  if (quadWays(a).staysApart(quadWays(b), reach, rounding)) return;
-  constexpr std::size_t kMostOfTwoQuads = 32;
-  if (std::max(vertices_.size(), edges_.size()) + kMostOfTwoQuads > vertices_.capacity()) dropApart(reach, rounding, out);
-  const BlockPyramid::Level& quads = pyramid_.levels().front();
-  elements_.forEach(quads.rowOf(a), quads.columnOf(a), quads.rowOf(b), quads.columnOf(b), [this](const FourNodes& nodes) { vertices_.push_back(nodes); },
-                    [this](const FourNodes& nodes) { edges_.push_back(nodes); });
+// Of the quads that wait.
+void ClothPairs::addElements(float reach, float rounding, Candidates& out) noexcept {
+  keepNear(quadsStayApart, reach, rounding);
+  keepNear(quadsStayApartSomehow, reach, rounding);
+  const BlockPyramid::Level& level = pyramid_.levels().front();
+  for (const QuadPair& pair : quads_) {
+    constexpr std::size_t kMostOfTwoQuads = 32;
+    if (std::max(vertices_.size(), edges_.size()) + kMostOfTwoQuads > vertices_.capacity()) dropApart(reach, rounding, out);
+    elements_.forEach(level.rowOf(pair.a), level.columnOf(pair.a), level.rowOf(pair.b), level.columnOf(pair.b),
+                      [this](const FourNodes& nodes) { vertices_.push_back(nodes); }, [this](const FourNodes& nodes) { edges_.push_back(nodes); });
+  }
+  quads_.clear();
 }
 
 void ClothPairs::dropApart(float reach, float rounding, Candidates& out) noexcept {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Which elements of the moving cloth may come near each other: neighbours by windows (windows.h), all others by blocks
-// (block_pairs.h), then single quads that a plane parts (narrow_phase/quad_ways.h), and elements that stay apart
+// (block_pairs.h), then single quads that a plane parts (narrow_phase/quads_apart.h), and elements that stay apart
 // (narrow_phase/staying_apart.h). What the whole cloth does together is left out first. Nothing is kept from look to look.
 #pragma once
 
@@ -12,7 +12,7 @@
 #include "contact/broad_phase/even_blocks.h"
 #include "contact/broad_phase/windows.h"
 #include "contact/narrow_phase/candidates.h"
-#include "contact/narrow_phase/quad_ways.h"
+#include "contact/narrow_phase/quads_apart.h"
 
 namespace curtain {
 
@@ -50,8 +50,12 @@ class ClothPairs {
   std::size_t markElsewhere(const Field3& end, double most) noexcept;
   void collectOf(const std::vector<std::uint8_t>* marked, const Motion& motion, double reach, Candidates& out) noexcept;
   void placeOneByOne(const MovingNodes& nodes) noexcept;
-  const QuadWays& quadWays(std::size_t quad) noexcept;
-  void addQuads(std::size_t a, std::size_t b, float reach, float rounding, Candidates& out) noexcept;
+  struct QuadPair {
+    std::uint32_t a, b;  // places in the pyramid
+  };
+  using QuadsStayApart = std::uint32_t (*)(const std::array<TwoQuads, kPairsAtOnce>&, const NodeWays&, float, float) noexcept;
+  void keepNear(QuadsStayApart stay_apart, float reach, float rounding) noexcept;
+  void addElements(float reach, float rounding, Candidates& out) noexcept;
   void dropApart(float reach, float rounding, Candidates& out) noexcept;
 
   Grid grid_;
@@ -65,9 +69,7 @@ class ClothPairs {
   double reach_ = 0.0;                           // of the last collect() [m]
   std::vector<std::uint8_t> marked_;             // by node: it ends elsewhere
   std::vector<Eigen::Array4f> starts_, ends_;    // of the motion that is looked at, one by one, by the nodes' indices
-  std::uint32_t look_ = 0;
-  std::vector<std::uint32_t> quad_looks_;        // of quads: the look that their ways are of
-  std::vector<QuadWays> quad_ways_;
+  std::vector<QuadPair> quads_;                  // that may be near, and wait to be looked at together
   std::vector<FourNodes> vertices_, edges_;      // pairs of elements that may come near
 };
 

@@ -9,6 +9,13 @@
 
 namespace curtain {
 
+struct Range {
+  double low, high;
+};
+
+/// What all of two arrays are within.
+Range rangeOf(const double* a, const double* b, std::size_t count) noexcept;
+
 /// Around all nodes, at both.
 Eigen::AlignedBox3d boxAround(const Grid& grid, const Field3& start, const Field3& end) noexcept;
 

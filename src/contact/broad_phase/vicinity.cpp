@@ -147,7 +147,7 @@ Vicinity::Vicinity(const ClothPattern& pattern, const ObstacleShape& shape, doub
   taken_.reserve(count);
   nodes_.reserve(count);
   looked_at_.assign(size, 0);
-  boxes_meet_.assign(size, 0);
+  row_boxes_.resize(static_cast<std::size_t>(pattern.grid.rows));
   if (shape.convex() == nullptr) {
     pairs_.reserve(kPairsPerNode * count + kPairsPerFeature * (shape.features()->edges().size() + shape.features()->vertices().size()));
   } else if (elements_wanted_) {

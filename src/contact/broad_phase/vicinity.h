@@ -136,7 +136,7 @@ class Vicinity {
   std::vector<std::uint8_t> keeps_;      // by node: the lists count on it not to be close
   std::uint32_t substep_ = 0;
   std::vector<std::uint32_t> looked_at_;   // by node: the substep at whose start its plane was found, of a convex shape
-  std::vector<std::uint8_t> boxes_meet_;   // scratch of a row
+  std::vector<Eigen::AlignedBox3d> row_boxes_;  // around the nodes' ways, of a convex shape [m]
   bool full_ = false;
   std::vector<std::uint8_t> is_taken_;   // by node
   std::vector<std::uint32_t> taken_;     // nodes whose positions are taken over

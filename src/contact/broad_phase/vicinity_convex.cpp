@@ -5,48 +5,19 @@
 #include <algorithm>
 #include <limits>
 
-#include "cloth/wide.h"
+#include "contact/broad_phase/cloth_reach.h"
 #include "contact/broad_phase/vicinity.h"
 #include "contact/shapes/shapes.h"
 
 namespace curtain {
 namespace {
 
-/// One component of places at both instants, and what the box leaves free below and above.
-struct Component {
-  const double *start, *end;
-  double low, high;
-};
-
-CURTAIN_INTO_WIDE double lesser(double a, double b) { return a < b ? a : b; }
-CURTAIN_INTO_WIDE double greater(double a, double b) { return a < b ? b : a; }
-
-// How far the ways of `high` rows and `wide` columns of nodes from the jth on stay out of a slab.
-CURTAIN_INTO_WIDE double outside(const Component& c, std::size_t j, std::size_t right, std::size_t down) {
-  const double a = c.start[j], b = c.start[j + right], d = c.start[j + down], e = c.start[j + down + right];
-  const double f = c.end[j], g = c.end[j + right], h = c.end[j + down], k = c.end[j + down + right];
-  const double low = lesser(lesser(lesser(a, b), lesser(d, e)), lesser(lesser(f, g), lesser(h, k)));
-  const double high = greater(greater(greater(a, b), greater(d, e)), greater(greater(f, g), greater(h, k)));
-  return greater(c.low - high, low - c.high);
-}
-
-// Which nodes (right and down 0) or quads of a row have ways whose boxes meet one; returns whether any has.
-CURTAIN_WIDE bool meeting(const Component* components, std::size_t right, std::size_t down, std::size_t count, std::uint8_t* __restrict meet) noexcept {
-  const Component x = components[0], y = components[1], z = components[2];
-  double any = 0.0;
-#pragma omp simd reduction(+ : any)
-  for (std::size_t j = 0; j < count; ++j) {
-    const double most = greater(outside(x, j, right, down), greater(outside(y, j, right, down), outside(z, j, right, down)));
-    const double meets = most <= 0.0 ? 1.0 : 0.0;
-    any += meets;
-    meet[j] = meets > 0.0 ? 1 : 0;
-  }
-  return any > 0.0;
-}
-
-std::array<Component, 3> componentsOf(const Field3& start, const Field3& end, std::size_t first, const Eigen::AlignedBox3d& box) {
-  return {Component{&start.x[first], &end.x[first], box.min().x(), box.max().x()}, Component{&start.y[first], &end.y[first], box.min().y(), box.max().y()},
-          Component{&start.z[first], &end.z[first], box.min().z(), box.max().z()}};
+// The box around the ways of a row of nodes.
+Eigen::AlignedBox3d boxOfRow(const Field3& start, const Field3& end, std::size_t first, std::size_t count) {
+  const Range x = rangeOf(&start.x[first], &end.x[first], count);
+  const Range y = rangeOf(&start.y[first], &end.y[first], count);
+  const Range z = rangeOf(&start.z[first], &end.z[first], count);
+  return {Vec3(x.low, y.low, z.low), Vec3(x.high, y.high, z.high)};
 }
 
 }  // namespace
@@ -59,6 +30,9 @@ void Vicinity::startConvex(const MovingObstacle& moving, const Field3& start) no
 
 void Vicinity::listConvex(const MovingObstacle& moving, const Field3& end, double reach) noexcept {
   toLocal(moving.after, end, end_);
+  for (int i = 0; i < pattern_.grid.rows; ++i) {
+    row_boxes_[static_cast<std::size_t>(i)] = boxOfRow(start_, end_, pattern_.grid.row(i), static_cast<std::size_t>(pattern_.grid.columns));
+  }
   const auto within = [this](double around) {
     const Eigen::AlignedBox3d box = shape_.bounds();
     return Eigen::AlignedBox3d(box.min().array() - around, box.max().array() + around);
@@ -80,11 +54,9 @@ void Vicinity::listNodes(const Eigen::AlignedBox3d& box) noexcept {
   const Grid& grid = pattern_.grid;
   nodes_.clear();
   for (int i = 0; i < grid.rows; ++i) {
-    const std::size_t first = grid.row(i);
-    if (!meeting(componentsOf(start_, end_, first, box).data(), 0, 0, static_cast<std::size_t>(grid.columns), boxes_meet_.data())) continue;
-    for (std::size_t j = 0; j < static_cast<std::size_t>(grid.columns); ++j) {
-      if (boxes_meet_[j] == 0) continue;
-      const std::size_t n = first + j;
+    if (!row_boxes_[static_cast<std::size_t>(i)].intersects(box)) continue;
+    for (std::size_t n = grid.row(i); n < grid.index(i, grid.columns); ++n) {
+      if (!Eigen::AlignedBox3d(start_.at(n)).extend(end_.at(n)).intersects(box)) continue;
       lookAtStart(n);
       const double distance = bound_[n];
       if (distance - (end_.at(n) - start_.at(n)).norm() > nodeReach()) continue;
@@ -113,21 +85,22 @@ bool Vicinity::staysOver(const Face& face, double reach) noexcept {
 void Vicinity::listFaces(const Eigen::AlignedBox3d& box, double reach) noexcept {
   const Grid& grid = pattern_.grid;
   faces_.clear();
-  const auto add = [&](int i, int j) {
-    const QuadElements quad = quadElements(grid, i, j);
-    auto index = static_cast<std::uint32_t>(2 * grid.index(i, j));
-    for (const MeshTriangle& triangle : quad.triangles) {
-      const Face face{triangle, index++};
-      if (!staysOver(face, reach)) faces_.push_back(face);
-    }
+  const auto boxOf = [this](const std::array<std::uint32_t, 4>& corners) {
+    Eigen::AlignedBox3d around;
+    for (const std::uint32_t n : corners) around.extend(start_.at(n)).extend(end_.at(n));
+    return around;
   };
   for (int i = 0; i + 1 < grid.rows; ++i) {
-    const bool any = meeting(componentsOf(start_, end_, grid.row(i), box).data(), 1, static_cast<std::size_t>(grid.stride),
-                             static_cast<std::size_t>(grid.columns - 1), boxes_meet_.data());
-    for (int j = 0; any && j + 1 < grid.columns; ++j) {
-      if (boxes_meet_[static_cast<std::size_t>(j)] != 0) add(i, j);
+    if (!row_boxes_[static_cast<std::size_t>(i)].merged(row_boxes_[static_cast<std::size_t>(i) + 1]).intersects(box)) continue;
+    for (int j = 0; j < grid.linkCount(); ++j) {
+      const QuadElements quad = quadElements(grid, i, j);
+      if (!boxOf(quad.corners).intersects(box)) continue;
+      auto index = static_cast<std::uint32_t>(2 * grid.index(i, j));
+      for (const MeshTriangle& triangle : quad.triangles) {
+        const Face face{triangle, index++};
+        if (!staysOver(face, reach)) faces_.push_back(face);
+      }
     }
-    if (grid.closed) add(i, grid.columns - 1);
   }
 }
 

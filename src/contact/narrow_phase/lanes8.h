@@ -4,6 +4,7 @@
 // References and no results: vectors wider than the machine's have no settled way of being returned.
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -67,6 +68,21 @@ struct Eight {
 #pragma omp simd
     for (std::size_t k = 0; k < kCount; ++k) values[k] = 1.0f / std::sqrt(values[k]);
     std::memcpy(&to, values, sizeof to);
+  }
+  /// Places of eight nodes, by their indices; component by component.
+  template <typename NodeOf>
+  static CURTAIN_INTO_WIDE void gather(const Eigen::Array4f* places, const NodeOf& node_of, Vectors& to) {
+    using Quarter = float __attribute__((vector_size(16)));
+    Quarter q[kCount];
+    for (std::size_t k = 0; k < kCount; ++k) std::memcpy(&q[k], places[node_of(k)].data(), sizeof q[k]);
+    // Nodes k and k + 4 side by side, and then components across.
+    const Lanes a = __builtin_shufflevector(q[0], q[4], 0, 1, 2, 3, 4, 5, 6, 7), b = __builtin_shufflevector(q[1], q[5], 0, 1, 2, 3, 4, 5, 6, 7);
+    const Lanes c = __builtin_shufflevector(q[2], q[6], 0, 1, 2, 3, 4, 5, 6, 7), d = __builtin_shufflevector(q[3], q[7], 0, 1, 2, 3, 4, 5, 6, 7);
+    const Lanes ab = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13), cd = __builtin_shufflevector(c, d, 0, 8, 1, 9, 4, 12, 5, 13);
+    const Lanes ab_z = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15), cd_z = __builtin_shufflevector(c, d, 2, 10, 3, 11, 6, 14, 7, 15);
+    to.x = __builtin_shufflevector(ab, cd, 0, 1, 8, 9, 4, 5, 12, 13);
+    to.y = __builtin_shufflevector(ab, cd, 2, 3, 10, 11, 6, 7, 14, 15);
+    to.z = __builtin_shufflevector(ab_z, cd_z, 0, 1, 8, 9, 4, 5, 12, 13);
   }
   /// Bit k: lane k is true (its sign bit is set).
   template <typename Truth>

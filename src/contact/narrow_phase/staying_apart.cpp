@@ -8,7 +8,6 @@ namespace {
 
 using Lanes = Eight::Lanes;
 using Vectors = Eight::Vectors;
-using Quarter = float __attribute__((vector_size(16)));
 
 static_assert(kPairsAtOnce == Eight::kCount);
 
@@ -18,18 +17,7 @@ struct Places {
 };
 
 CURTAIN_INTO_WIDE void gather(const std::array<FourNodes, 8>& pairs, const Eigen::Array4f* places, Places& at) {
-  for (std::size_t n = 0; n < 4; ++n) {
-    Quarter q[8];
-    for (std::size_t k = 0; k < 8; ++k) std::memcpy(&q[k], places[pairs[k][n]].data(), sizeof q[k]);
-    // Pairs k and k + 4 side by side, and then components across.
-    const Lanes a = __builtin_shufflevector(q[0], q[4], 0, 1, 2, 3, 4, 5, 6, 7), b = __builtin_shufflevector(q[1], q[5], 0, 1, 2, 3, 4, 5, 6, 7);
-    const Lanes c = __builtin_shufflevector(q[2], q[6], 0, 1, 2, 3, 4, 5, 6, 7), d = __builtin_shufflevector(q[3], q[7], 0, 1, 2, 3, 4, 5, 6, 7);
-    const Lanes ab = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13), cd = __builtin_shufflevector(c, d, 0, 8, 1, 9, 4, 12, 5, 13);
-    const Lanes ab_z = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15), cd_z = __builtin_shufflevector(c, d, 2, 10, 3, 11, 6, 14, 7, 15);
-    at.node[n].x = __builtin_shufflevector(ab, cd, 0, 1, 8, 9, 4, 5, 12, 13);
-    at.node[n].y = __builtin_shufflevector(ab, cd, 2, 3, 10, 11, 6, 7, 14, 15);
-    at.node[n].z = __builtin_shufflevector(ab_z, cd_z, 0, 1, 8, 9, 4, 5, 12, 13);
-  }
+  for (std::size_t n = 0; n < 4; ++n) Eight::gather(places, [&](std::size_t k) { return pairs[k][n]; }, at.node[n]);
 }
 
 // A divisor, or something else where it is none. What comes out decides on a direction alone; but no length may be built
