@@ -41,6 +41,13 @@ class NetContacts {
   /// Room for the rows of so many contacts.
   void reserve(std::size_t contacts) { rows_.reserve(3 * contacts); }
   bool any() const noexcept { return !rows_.empty(); }
+  /// Calls take(node), as numbered in NetSolver, for the nodes of all rows, some of them more than once.
+  template <typename Take>
+  void forEachNode(const Take& take) const {
+    for (const Row& row : rows_) {
+      for (int k = 0; k < row.nodes; ++k) take(row.node[static_cast<std::size_t>(k)]);
+    }
+  }
 
   /// Residual . residual over the diagonal.
   double aligned() const noexcept { return aligned_; }

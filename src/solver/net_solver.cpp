@@ -41,6 +41,7 @@ NetSolver::NetSolver(const ClothPattern& pattern, const Workers& workers)
   };
   per_warp_rest_ = reciprocal(pattern.warp_rest);
   per_weft_rest_ = reciprocal(pattern.weft_rest);
+  pushed_.assign(size / kColumns, 0);
   taut_.assign(static_cast<std::size_t>(row_blocks_), 0);
   partial_.assign(static_cast<std::size_t>(row_blocks_), 0.0);
 }
@@ -253,12 +254,18 @@ bool NetSolver::changeStrings(Real goal) noexcept {
 
 // Numbers that are not finite end the iteration before they reach the vectors. Among contacts strings stay what they were: rows that
 // are damped so much find no set.
+void NetSolver::findPushed() noexcept {
+  std::fill(pushed_.begin(), pushed_.end(), std::uint8_t{0});
+  contacts_.forEachNode([this](std::uint32_t node) { pushed_[node / kColumns] = 1; });
+}
+
 NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active, const ContactValues& contacts, const Aim& aim,
                                     Field& change) noexcept {
   Outcome outcome;
   damping_ = static_cast<float>(aim.damping);
   violation_scale_ = aim.largest;
   contacts_.load({pattern_.grid, stride_, weight_.data(), inertia_scale_, violation_scale_, damping_}, contacts);
+  findPushed();
   workers_.run(row_blocks_, [&](int b) { load(violation, active, aim.multiplier, b); });
   const bool changes = aim.multiplier != nullptr && !contacts_.any();
   sumOverRowBlocks([&](int b) {

@@ -92,6 +92,8 @@ class NetSolver {
   double precondition(int row_block) noexcept;
   void conjugate(int row_block, Real beta) noexcept;
   void addPushes(int row) noexcept;
+  void findPushed() noexcept;
+  bool isPushed(int row, int block) const noexcept { return pushed_[static_cast<std::size_t>(row * (static_cast<int>(stride_) / kColumns) + block)] != 0; }
   double applySchur() noexcept;
   double step(Real alpha) noexcept;
   bool changeStrings(Real goal) noexcept;
@@ -124,6 +126,7 @@ class NetSolver {
   Values3 move_;                       // of the nodes, where contacts ask for it
   Values3 push_;                       // the contacts' search direction on the nodes; zero outside a product
   NetContacts contacts_;
+  std::vector<std::uint8_t> pushed_;   // by row and block of columns: a contact has a node there
   Values mask_, residual_, preconditioned_, pull_, product_, solution_;
   Values least_;                       // that the solution may be: minus the multipliers
   Values interleaved_;                 // scratch of precondition()

@@ -107,7 +107,7 @@ CURTAIN_WIDE void NetSolver::answerOfRods(int block) noexcept {
       s[j] = above_left[j] * p[j] + above_right[j] * p[j + 1] + below_left[j] * p_above[j] + below_right[j] * p_above[j + 1] -
              lower_above[j] * s_above[j];
     }
-    if (!contacts_.any()) continue;
+    if (!contacts_.any() || !(isPushed(i, block) || isPushed(i - 1, block))) continue;
     const float *const w = &weight_[k], *const w_above = &weight_[above];
     const float *const nx = &warp_.x[k], *const ny = &warp_.y[k], *const nz = &warp_.z[k];
     const float *const px = &push_.x[k], *const py = &push_.y[k], *const pz = &push_.z[k];
@@ -129,7 +129,7 @@ CURTAIN_WIDE void NetSolver::answerOfRods(int block) noexcept {
   }
 }
 
-// move_ = what the nodes of a block of columns do.
+// move_ = what the nodes of a block of columns do, where contacts are.
 CURTAIN_WIDE void NetSolver::moveNodes(int block) noexcept {
   const std::size_t first = static_cast<std::size_t>(block) * kColumns;
   const auto move = [&](std::size_t k, const Values& warp, const Values& weft, const Values& push, Values& out) {
@@ -142,6 +142,7 @@ CURTAIN_WIDE void NetSolver::moveNodes(int block) noexcept {
     }
   };
   for (int i = 0; i < pattern_.grid.rows; ++i) {
+    if (!isPushed(i, block)) continue;
     const std::size_t k = row(i) + first;
     move(k, warp_.x, weft_.x, push_.x, move_.x);
     move(k, warp_.y, weft_.y, push_.y, move_.y);
@@ -191,8 +192,16 @@ CURTAIN_INTO_WIDE void NetSolver::addPushes(int i) noexcept {
            fz[j] * (w[left] * pz[left] - w[j] * pz[j]);
   };
   if (pattern_.grid.closed) q[0] += pushed(columns - 1, 0);
+  bool before = false;
+  for (std::size_t first = 0; first < columns; first += kColumns) {
+    const bool here = isPushed(i, static_cast<int>(first) / kColumns);
+    if (here || before) {
+      const std::size_t end = std::min(first + kColumns, columns);
 #pragma omp simd
-  for (std::size_t j = 1; j < columns; ++j) q[j] += pushed(j - 1, j);
+      for (std::size_t j = std::max<std::size_t>(first, 1); j < end; ++j) q[j] += pushed(j - 1, j);
+    }
+    before = here;
+  }
 }
 
 // Links of a block of rows that would push, or have become too long.
