@@ -27,6 +27,12 @@ foreach(floor scene cloth forces solver contact simulator properties batch fuzz)
   curtain_add_tests(${floor})
 endforeach()
 
+# Against another library's answers.
+find_package(fcl QUIET)
+if(fcl_FOUND)
+  curtain_add_tests(oracle fcl)
+endif()
+
 if(catkin_FOUND)
   include(cmake/ros_tests.cmake)
 endif()

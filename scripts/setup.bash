@@ -11,7 +11,7 @@ curtain_packages_build=(
 curtain_packages_run=(python3-roslaunch libnodeletlib-tools tf2-tools rosbash python3-rospy python3-tf2-ros
   python3-visualization-msgs python3-rostopic python3-rosnode)
 curtain_packages_view=(rviz)
-curtain_packages_test=(librostest-dev python3-rostest libgtest-dev libgmock-dev xvfb xdotool imagemagick libgl1-mesa-dri
+curtain_packages_test=(libfcl-dev librostest-dev python3-rostest libgtest-dev libgmock-dev xvfb xdotool imagemagick libgl1-mesa-dri
   valgrind python3-diagnostic-msgs python3-rosmaster)
 
 # Installs the packages among its arguments that are missing.
