@@ -182,7 +182,11 @@ void ClothPairs::collectOf(const std::vector<std::uint8_t>* marked, const Motion
   placeOneByOne(motion.nodes);
   vertices_.clear();
   edges_.clear();
-  if (uneven) windows_.forEachPair([this](const FourNodes& nodes) { vertices_.push_back(nodes); }, [this](const FourNodes& nodes) { edges_.push_back(nodes); });
+  const NodeWays ways{starts_.data(), ends_.data()};
+  if (uneven) {
+    windows_.forEachPair(ways, certain + rounding, [this](const FourNodes& nodes) { vertices_.push_back(nodes); },
+                         [this](const FourNodes& nodes) { edges_.push_back(nodes); });
+  }
   quads_.clear();
   pairs_.find(certain + rounding, uneven ? 0 : even_level_, [&](std::size_t a, std::size_t b) {
     if (quads_.size() == quads_.capacity()) addElements(certain, rounding, out);

@@ -39,22 +39,24 @@ Windows::Windows(const ClothPattern& pattern, const ElementPairs& elements)
   per_spacing_v_.assign(static_cast<std::size_t>(grid_.rows), 1.0f);
   for (int i = 0; i + 1 < grid_.rows; ++i) per_spacing_v_[static_cast<std::size_t>(i)] = static_cast<float>(1.0 / meanWarp(pattern, i));
   bent_.reserve(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(columns_));
-  makeOffsets();
+  makeLocalPairs();
 }
 
-void Windows::makeOffsets() {
+void Windows::makeLocalPairs() {
   if (rows_ < 2 || grid_.columns < 4) return;
   const ElementPairs all(grid_);
-  const auto addTo = [this](std::vector<FourNodes>& offsets) {
-    return [this, &offsets](FourNodes nodes) {
-      for (std::uint32_t& node : nodes) node -= static_cast<std::uint32_t>(grid_.index(0, 0));
-      offsets.push_back(nodes);
+  const auto addTo = [this](std::vector<LocalPair>& pairs) {
+    return [this, &pairs](const FourNodes& nodes) {
+      LocalPair local;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const auto stride = static_cast<std::uint32_t>(grid_.stride);
+        local[k] = static_cast<std::uint8_t>(nodes[k] / stride * 3 + nodes[k] % stride);
+      }
+      pairs.push_back(local);
     };
   };
-  const int pairs[5][4] = {{0, 0, 0, 0}, {0, 0, 0, 1}, {0, 0, 1, 0}, {0, 0, 1, 1}, {0, 1, 1, 0}};
-  for (const auto& [row_p, column_p, row_q, column_q] : pairs) {
-    all.forEach(row_p, column_p, row_q, column_q, addTo(vertex_offsets_), addTo(edge_offsets_));
-  }
+  const int quads[5][4] = {{0, 0, 0, 0}, {0, 0, 0, 1}, {0, 0, 1, 0}, {0, 0, 1, 1}, {0, 1, 1, 0}};
+  for (const auto& [row_p, column_p, row_q, column_q] : quads) all.forEach(row_p, column_p, row_q, column_q, addTo(vertices_), addTo(edges_));
 }
 
 void Windows::find(const MovingNodes& nodes, const BlockPyramid& pyramid, float reach, float rounding) noexcept {

@@ -24,23 +24,13 @@ class Windows {
   void find(const MovingNodes& nodes, const BlockPyramid& pyramid, float reach, float rounding) noexcept;
 
   bool any() const noexcept { return !bent_.empty(); }
-  /// Calls vertex(nodes) and edge(nodes) for the pairs of elements of those. Of the quads that several windows hold, the first one has them.
+  /// Calls vertex(nodes) and edge(nodes) for the pairs of elements of those, but for some whose boxes are further apart than `reach` [m] along
+  /// an axis. Of the quads that several windows hold, the first one has them.
   template <typename Vertex, typename Edge>
-  void forEachPair(const Vertex& vertex, const Edge& edge) const {
+  void forEachPair(const NodeWays& ways, float reach, const Vertex& vertex, const Edge& edge) const {
     for (const Window& window : bent_) {
-      if (window.row + 1 == rows_ || window.column + 4 > grid_.columns) {
-        forEachPairOf(window, vertex, edge);
-        continue;
-      }
-      const auto first = static_cast<std::uint32_t>(grid_.index(window.row, window.column));
-      const auto forEach = [&](const std::vector<FourNodes>& offsets, const auto& take) {
-        for (const FourNodes& offset : offsets) {
-          const FourNodes nodes{first + offset[0], first + offset[1], first + offset[2], first + offset[3]};
-          if (elements_.canMove(nodes)) take(nodes);
-        }
-      };
-      forEach(vertex_offsets_, vertex);
-      forEach(edge_offsets_, edge);
+      if (window.row + 1 == rows_ || window.column + 4 > grid_.columns) forEachPairOf(window, vertex, edge);
+      else forEachNearPairOf(window, ways, reach, vertex, edge);
     }
   }
 
@@ -48,6 +38,35 @@ class Windows {
   struct Window {
     int row, column;
   };
+
+  /// Two elements of a window that is neither in the last row nor column: their nodes, row by row of three.
+  using LocalPair = std::array<std::uint8_t, 4>;
+  struct Box {
+    Eigen::Array4f low, high;  // the fourth lane is 0
+    Box merged(const Box& other) const noexcept { return {low.min(other.low), high.max(other.high)}; }
+    bool meets(const Box& other, float reach) const noexcept { return ((low - other.high).max(other.low - high) <= reach).all(); }
+  };
+
+  template <typename Vertex, typename Edge>
+  void forEachNearPairOf(const Window& window, const NodeWays& ways, float reach, const Vertex& vertex, const Edge& edge) const {
+    std::array<std::uint32_t, 9> nodes;
+    std::array<Box, 9> boxes;
+    for (int k = 0; k < 9; ++k) {
+      const std::size_t n = grid_.index(window.row + k / 3, window.column + k % 3);
+      nodes[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(n);
+      boxes[static_cast<std::size_t>(k)] = {ways.start[n].min(ways.end[n]), ways.start[n].max(ways.end[n])};
+    }
+    const auto take = [&](const LocalPair& pair, const auto& taker) {
+      const FourNodes four{nodes[pair[0]], nodes[pair[1]], nodes[pair[2]], nodes[pair[3]]};
+      if (elements_.canMove(four)) taker(four);
+    };
+    for (const LocalPair& pair : vertices_) {
+      if (boxes[pair[0]].meets(boxes[pair[1]].merged(boxes[pair[2]]).merged(boxes[pair[3]]), reach)) take(pair, vertex);
+    }
+    for (const LocalPair& pair : edges_) {
+      if (boxes[pair[0]].merged(boxes[pair[1]]).meets(boxes[pair[2]].merged(boxes[pair[3]]), reach)) take(pair, edge);
+    }
+  }
 
   template <typename Vertex, typename Edge>
   void forEachPairOf(const Window& window, const Vertex& vertex, const Edge& edge) const {
@@ -60,14 +79,14 @@ class Windows {
       }
     }
   }
-  void makeOffsets();
+  void makeLocalPairs();
 
   Grid grid_;
   const ElementPairs& elements_;
   int high_, wide_;     // quads of a window
   int rows_, columns_;  // of windows
   BlockPyramid::Floats per_spacing_u_, per_spacing_v_;      // [1/m] of columns, of rows of quads
-  std::vector<FourNodes> vertex_offsets_, edge_offsets_;  // from the first node of a window that is neither in the last row nor column
+  std::vector<LocalPair> vertices_, edges_;
   std::vector<Window> bent_;
 };
 

@@ -16,6 +16,9 @@ constexpr std::size_t kRoomPerNode = 8;
 // contact at rest must not be shaken by what the solve left over.
 constexpr double kSlack = 0.1;
 
+// Of two distances that are one but for rounding, relative.
+constexpr double kSame = 1e-9;
+
 Vec3 mix(const std::array<double, 4>& weight, const std::array<Vec3, 4>& at) {
   return weight[0] * at[0] + weight[1] * at[1] + weight[2] * at[2] + weight[3] * at[3];
 }
@@ -68,6 +71,7 @@ ClosestPoints closestPoints(bool edges, const std::array<Vec3, 4>& at) noexcept 
 SelfContacts::SelfContacts(const ClothPattern& pattern, double gap, const ContactParams& params)
     : gap_(gap), friction_(params.friction), recovery_speed_(params.recovery_speed) {
   pairs_.reserve(kRoomPerNode * pattern.grid.nodeCount());
+  closest_.reserve(kRoomPerNode * pattern.grid.nodeCount());
 }
 
 double SelfContacts::offsetAt(double distance, double h) const noexcept {
@@ -119,6 +123,31 @@ bool SelfContacts::touches(const PairKey& key, const Field3& start, const Field3
   return closest.distance <= gap_ || closestPoints(key.edges, to).distance <= gap_;
 }
 
+// Where a vertex is closest to the border of a triangle, and no further from another one there, that one says the same or more.
+bool SelfContacts::isToldByAnother(std::size_t k) const noexcept {
+  const PairKey& key = pairs_[k];
+  const ClosestPoints& closest = closest_[k];
+  const auto isOnBorder = [&](std::size_t n) { return closest.weight[n] != 0.0; };
+  if (key.edges || (isOnBorder(1) && isOnBorder(2) && isOnBorder(3))) return false;
+  const auto tells = [&](std::size_t other) {
+    const PairKey& its = pairs_[other];
+    if (other == k || its.edges) return false;
+    for (std::size_t n = 1; n < 4; ++n) {
+      if (isOnBorder(n) && std::find(its.node.begin() + 1, its.node.end(), key.node[n]) == its.node.end()) return false;
+    }
+    const double more = closest.distance - closest_[other].distance;
+    return std::abs(more) <= kSame * closest.distance ? other < k : more > 0.0;
+  };
+  // Those of a vertex are side by side.
+  for (std::size_t other = k; other-- > 0 && pairs_[other].node[0] == key.node[0];) {
+    if (tells(other)) return true;
+  }
+  for (std::size_t other = k + 1; other < pairs_.size() && pairs_[other].node[0] == key.node[0]; ++other) {
+    if (tells(other)) return true;
+  }
+  return false;
+}
+
 void SelfContacts::collect(const Candidates& candidates, const Contacts& last, const Field3& start, const Field3& predicted,
                            double h, Contacts& contacts) noexcept {
   full_ = false;
@@ -127,9 +156,12 @@ void SelfContacts::collect(const Candidates& candidates, const Contacts& last, c
     if (contact.obstacle == Contact::kCloth) addWithinRoom(PairKey{contact.node, contact.source == 1}, pairs_);
   }
   sortPairs();
-  for (const PairKey& key : pairs_) {
-    const ClosestPoints closest = closestPoints(key.edges, corners(key, start));
-    if (!closest.inside || closest.distance <= 0.0) continue;
+  closest_.clear();
+  for (const PairKey& key : pairs_) closest_.push_back(closestPoints(key.edges, corners(key, start)));
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    const PairKey& key = pairs_[k];
+    const ClosestPoints& closest = closest_[k];
+    if (!closest.inside || closest.distance <= 0.0 || isToldByAnother(k)) continue;
     Contact contact = makeContact(key, closest);
     contact.offset = offsetAt(closest.distance, h);
     addWithinRoom(contact, contacts);

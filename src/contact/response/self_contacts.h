@@ -76,6 +76,7 @@ class SelfContacts {
   template <typename Wanted>
   void select(const Candidates& candidates, const Wanted& wanted) noexcept;
   void sortPairs() noexcept;
+  bool isToldByAnother(std::size_t pair) const noexcept;
   static std::array<Vec3, 4> corners(const PairKey& key, const Field3& position) noexcept {
     return {position.at(key.node[0]), position.at(key.node[1]), position.at(key.node[2]), position.at(key.node[3])};
   }
@@ -85,6 +86,7 @@ class SelfContacts {
   double gap_, friction_, recovery_speed_;
   double most_recovery_ = std::numeric_limits<double>::infinity();  // in a substep [m]
   std::vector<PairKey> pairs_;  // that touch or cross
+  std::vector<ClosestPoints> closest_;  // of those that touch, where the substep starts
   bool full_ = false;
 };
 
