@@ -252,13 +252,13 @@ bool NetSolver::changeStrings(Real goal) noexcept {
   return true;
 }
 
-// Numbers that are not finite end the iteration before they reach the vectors. Among contacts strings stay what they were: rows that
-// are damped so much find no set.
 void NetSolver::findPushed() noexcept {
   std::fill(pushed_.begin(), pushed_.end(), std::uint8_t{0});
   contacts_.forEachNode([this](std::uint32_t node) { pushed_[node / kColumns] = 1; });
 }
 
+// Numbers that are not finite end the iteration before they reach the vectors. Among contacts strings stay what they were: rows that
+// are damped so much find no set.
 NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active, const ContactValues& contacts, const Aim& aim,
                                     Field& change) noexcept {
   Outcome outcome;
