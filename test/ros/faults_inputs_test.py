@@ -134,7 +134,8 @@ class FaultsInputsTest(unittest.TestCase):
         lines = [m.msg for m in self.log.messages() if m.name == NODE]
         self.assertTrue(any("no longer than 255 bytes" in line for line in lines), lines)
         self.assertLess(max(len(line) for line in lines), 1000)
-        self.assertTrue(all("\n" not in line for line in lines if "255 bytes" in line))
+        # Which of them is told depends on when they come; two things are wrong with some, a line of each.
+        self.assertTrue(all(line.count("\n") <= 1 for line in lines if "255 bytes" in line))
         self.assertIn("255 bytes", self.diagnostics.wait_for("inputs", WARN, "bad values")["last dropped"])
         self.goes_on()
 
