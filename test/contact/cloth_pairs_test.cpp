@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The broad phase against all pairs of elements: it names each pair once that comes within reach, only pairs of the mesh, and
-// none of flat and gently pleated cloth.
+// The broad phase against all pairs of elements: it names each pair once that comes within reach, only pairs of the
+// mesh, and none of flat and gently pleated cloth.
 #include "contact/broad_phase/cloth_pairs.h"
 
 #include <gtest/gtest.h>
@@ -464,7 +464,8 @@ TEST(ClothPairs, UsedAreAsFreshAndAllocateNothing) {
   EXPECT_EQ(inOrder(expected), inOrder(candidates));
 }
 
-// Most of what the axes' boxes let through is far away: tilted layers 10 mm apart, and cloth that is swept along as a whole.
+// Most of what the axes' boxes let through is far away: tilted layers 10 mm apart, and cloth that is swept along as a
+// whole.
 TEST(ClothPairs, NamesNoPairOfTiltedLayersThatStayApart) {
   const ClothPattern pattern = squareCloth(24, 9);
   const Field3 folded = placed(pattern.grid, [](int i, int j) {
@@ -511,14 +512,16 @@ TEST(StayingApart, IsProvedOfWhatStaysApartAlone) {
     }
     const double reach = random.between(0.0, 0.01);
     for (const bool edges : {false, true}) {
-      const auto lanes = (edges ? edgesStayApart : vertexStaysApart)(pairs, {starts.data(), ends.data()}, static_cast<float>(reach), 1e-7f);
+      const auto lanes = (edges ? edgesStayApart : vertexStaysApart)(pairs, {starts.data(), ends.data()},
+                                                                     static_cast<float>(reach), 1e-7f);
       for (std::size_t k = 0; k < kPairsAtOnce; ++k) {
         double least = 1e300;
         for (int instant = 0; instant <= 32; ++instant) {
           const double t = instant / 32.0;
           const auto at = [&](std::size_t n) -> Vec3 {
             const std::uint32_t node = pairs[k][n];
-            return ((1.0 - t) * starts[node].head<3>().cast<double>() + t * ends[node].head<3>().cast<double>()).matrix();
+            return ((1.0 - t) * starts[node].head<3>().cast<double>() + t * ends[node].head<3>().cast<double>())
+                .matrix();
           };
           least = std::min(least, edges ? distanceOfSegments(at(0), at(1), at(2), at(3))
                                         : std::sqrt(nearestOnTriangle(at(0), at(1), at(2), at(3)).distance_squared));
@@ -579,14 +582,16 @@ TEST(ClothPairs, OfNodesThatEndElsewhereAreFound) {
     std::size_t more = 0;
     for (int round = 0; round < 20; ++round) {
       const auto seed = static_cast<std::uint64_t>(round + 1);
-      const Field3 start = rotated(heap(pattern.grid, seed), 0.2 * round), expected = moved(pattern, start, 0.004, seed);
+      const Field3 start = rotated(heap(pattern.grid, seed), 0.2 * round),
+                   expected = moved(pattern, start, 0.004, seed);
       Candidates all;
       pairs.collect(start, expected, 0.006, all);
       const std::size_t before = all.edge_edges.size();
       for (int look = 0; look < 2; ++look) {
         Field3 end = moved(pattern, expected, 0.001, seed + 7);
         for (int k = 0; k < 1 + round; ++k) {
-          const std::size_t n = pattern.grid.index(static_cast<int>(random.between(0.0, 13.99)), static_cast<int>(random.between(0.0, 12.99)));
+          const std::size_t n = pattern.grid.index(static_cast<int>(random.between(0.0, 13.99)),
+                                                   static_cast<int>(random.between(0.0, 12.99)));
           end.set(n, end.at(n) + random.inBox(0.02));
         }
         pairs.collectElsewhere(start, end, 0.0005, all);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Distances of triangles from the analytic obstacles against those of the Flexible Collision Library, which finds them by GJK with
-// libccd: an answer that none of our code has a part in.
+// Distances of triangles from the analytic obstacles against those of the Flexible Collision Library, which finds them
+// by GJK with libccd: an answer that none of our code has a part in.
 #include <fcl/fcl.h>
 #include <gtest/gtest.h>
 
@@ -35,7 +35,8 @@ std::vector<Solid> solids() {
 }
 
 double longestEdge(const Triangle& corners) {
-  return std::max({(corners[1] - corners[0]).norm(), (corners[2] - corners[1]).norm(), (corners[0] - corners[2]).norm()});
+  return std::max(
+      {(corners[1] - corners[0]).norm(), (corners[2] - corners[1]).norm(), (corners[0] - corners[2]).norm()});
 }
 
 // Not above zero where they overlap.
@@ -44,7 +45,8 @@ double theirDistance(const Solid& solid, const Triangle& corners) {
   triangle->beginModel();
   triangle->addTriangle(corners[0], corners[1], corners[2]);
   triangle->endModel();
-  const fcl::CollisionObjectd one(triangle, fcl::Transform3d::Identity()), other(solid.theirs, fcl::Transform3d::Identity());
+  const fcl::CollisionObjectd one(triangle, fcl::Transform3d::Identity()),
+      other(solid.theirs, fcl::Transform3d::Identity());
   fcl::DistanceRequestd request;
   request.gjk_solver_type = fcl::GST_LIBCCD;
   request.distance_tolerance = 1e-9;
@@ -62,14 +64,17 @@ TEST(FclOracle, TrianglesAreAsFarFromSolids) {
     for (int round = 0; round < 3000; ++round) {
       const Vec3 middle = random.inBox(1.2);
       const double size = round % 2 == 0 ? 0.05 : 1.0;
-      const Triangle corners{Vec3(middle + random.inBox(size)), Vec3(middle + random.inBox(size)), Vec3(middle + random.inBox(size))};
+      const Triangle corners{Vec3(middle + random.inBox(size)), Vec3(middle + random.inBox(size)),
+                             Vec3(middle + random.inBox(size))};
       const double theirs = theirDistance(solid, corners);
       ElementPoint ours;
       ASSERT_TRUE(solid.ours->nearestOnTriangle(corners, std::numeric_limits<double>::infinity(), ours));
       if (theirs > 0.0) {
-        // GJK ends with two points that are so far apart: the truth is no further, and ours is no more above it than it says.
+        // GJK ends with two points that are so far apart: the truth is no further, and ours is no more above it than it
+        // says.
         EXPECT_LE(ours.lower_bound, theirs + kRounding) << solid.name << ", round " << round;
-        EXPECT_LE(ours.surface.distance, theirs + kElementAccuracy * longestEdge(corners)) << solid.name << ", round " << round;
+        EXPECT_LE(ours.surface.distance, theirs + kElementAccuracy * longestEdge(corners))
+            << solid.name << ", round " << round;
         ++outside;
       } else {
         EXPECT_LE(ours.surface.distance, kElementAccuracy * longestEdge(corners)) << solid.name << ", round " << round;

@@ -13,9 +13,10 @@ struct Boxes {
   const float *low[3], *high[3];
 };
 
-// Pairs of boxes side by side that are no further apart than the reach along every axis, as bits of eight each, of those that are needed;
-// returns whether there are any.
-CURTAIN_WIDE bool nearPairs(const Boxes& p, const Boxes& q, const std::vector<std::uint8_t>& needed, float reach, std::uint8_t* near) {
+// Pairs of boxes side by side that are no further apart than the reach along every axis, as bits of eight each, of
+// those that are needed; returns whether there are any.
+CURTAIN_WIDE bool nearPairs(const Boxes& p, const Boxes& q, const std::vector<std::uint8_t>& needed, float reach,
+                            std::uint8_t* near) {
   std::uint32_t any = 0;
   for (std::size_t group = 0; group < needed.size(); ++group) {
     Eight::Lanes widest = Eight::Lanes{} - 1.0f;
@@ -58,7 +59,9 @@ void BlockPairs::makeRings() {
             auto& bits = ring.needed[odd][static_cast<std::size_t>(j) / 8];
             bits = static_cast<std::uint8_t>(bits | 1U << (j % 8));
           }
-          if (std::all_of(ring.needed[odd].begin(), ring.needed[odd].end(), [](std::uint8_t bits) { return bits == 0; })) ring.needed[odd].clear();
+          if (std::all_of(ring.needed[odd].begin(), ring.needed[odd].end(),
+                          [](std::uint8_t bits) { return bits == 0; }))
+            ring.needed[odd].clear();
         }
         if (!ring.needed[0].empty() || !ring.needed[1].empty()) rings_.push_back(std::move(ring));
       }
@@ -83,7 +86,9 @@ bool BlockPairs::isNeeded(std::size_t at_level, const Offset& offset, int i, int
   if (pyramid_.closed()) {
     // A pair that is at two offsets is taken at one of them.
     if (2 * std::abs(offset.right) > level.columns) return false;
-    if (2 * std::abs(offset.right) == level.columns && (offset.down == 0 ? j + offset.right >= level.columns : offset.right < 0)) return false;
+    if (2 * std::abs(offset.right) == level.columns &&
+        (offset.down == 0 ? j + offset.right >= level.columns : offset.right < 0))
+      return false;
   } else if (j + offset.right < 0 || j + offset.right >= level.columns) {
     return false;
   }
@@ -101,11 +106,13 @@ bool BlockPairs::findNear(const Ring& ring, int row) noexcept {
     const auto &low = pyramid_.lows(), &high = pyramid_.highs();
     return Boxes{{&low[0][first], &low[1][first], &low[2][first]}, {&high[0][first], &high[1][first], &high[2][first]}};
   };
-  return nearPairs(boxes(level.at(row, 0)), boxes(level.at(row + ring.offset.down, ring.offset.right)), needed, reach_, near_.data());
+  return nearPairs(boxes(level.at(row, 0)), boxes(level.at(row + ring.offset.down, ring.offset.right)), needed, reach_,
+                   near_.data());
 }
 
 // Those of a block's children that come near another block; returns how many.
-std::size_t BlockPairs::childrenNear(std::size_t at_level, std::size_t block, std::size_t other, std::array<std::size_t, 4>& children) noexcept {
+std::size_t BlockPairs::childrenNear(std::size_t at_level, std::size_t block, std::size_t other,
+                                     std::array<std::size_t, 4>& children) noexcept {
   const BlockPyramid::Level &level = pyramid_.levels()[at_level], &below = pyramid_.levels()[at_level - 1];
   const int i = level.rowOf(block), j = level.columnOf(block);
   std::size_t count = 0;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Pairs of quads without a common node whose boxes come near each other. Of every level all pairs of blocks are asked that do not touch
-// while their parents do, so that every pair of quads is in just one pair of their ancestors. Such pairs are at few offsets from each
-// other: at each, those of a whole level lie side by side in memory. A pair whose boxes come near is followed down to its quads.
+// Pairs of quads without a common node whose boxes come near each other. Of every level all pairs of blocks are asked
+// that do not touch while their parents do, so that every pair of quads is in just one pair of their ancestors. Such
+// pairs are at few offsets from each other: at each, those of a whole level lie side by side in memory. A pair whose
+// boxes come near is followed down to its quads.
 #pragma once
 
 #include <array>
@@ -21,8 +22,8 @@ class BlockPairs {
 
   /// Whether there are any, asked for or not, in blocks of a level or above that do not touch.
   bool any(float reach, std::size_t from_level) noexcept;
-  /// Calls take(a, b) for all quads, by their places in the pyramid, that are asked for, have boxes no further apart than `reach` [m] along
-  /// every axis, and are in blocks of a level or above that do not touch. Allocates nothing.
+  /// Calls take(a, b) for all quads, by their places in the pyramid, that are asked for, have boxes no further apart
+  /// than `reach` [m] along every axis, and are in blocks of a level or above that do not touch. Allocates nothing.
   template <typename Take>
   void find(float reach, std::size_t from_level, const Take& take) noexcept {
     reach_ = reach;
@@ -65,7 +66,8 @@ class BlockPairs {
       }
     }
   }
-  std::size_t childrenNear(std::size_t level, std::size_t block, std::size_t other, std::array<std::size_t, 4>& children) noexcept;
+  std::size_t childrenNear(std::size_t level, std::size_t block, std::size_t other,
+                           std::array<std::size_t, 4>& children) noexcept;
   // Down to quads whose boxes come near.
   template <typename Take>
   void follow(std::size_t level, std::size_t a, std::size_t b, const Take& take) noexcept {
@@ -75,7 +77,8 @@ class BlockPairs {
       return;
     }
     std::array<std::size_t, 4> of_a, of_b;
-    const std::size_t count_a = childrenNear(level, a, b, of_a), count_b = count_a == 0 ? 0 : childrenNear(level, b, a, of_b);
+    const std::size_t count_a = childrenNear(level, a, b, of_a),
+                      count_b = count_a == 0 ? 0 : childrenNear(level, b, a, of_b);
     for (std::size_t k = 0; k < count_a; ++k) {
       for (std::size_t l = 0; l < count_b; ++l) {
         if (pyramid_.meet(of_a[k], of_b[l], reach_)) follow(level - 1, of_a[k], of_b[l], take);

@@ -15,8 +15,8 @@ constexpr int kMostAtTop = 4;
 constexpr float kNowhere = 1e30f;
 
 // Of a row of quads, from the nodes above and below at both instants.
-CURTAIN_WIDE void rangesOfQuads(const float* __restrict start, const float* __restrict end, std::size_t stride, std::size_t count,
-                                float* __restrict low, float* __restrict high) {
+CURTAIN_WIDE void rangesOfQuads(const float* __restrict start, const float* __restrict end, std::size_t stride,
+                                std::size_t count, float* __restrict low, float* __restrict high) {
   const auto least = [](float a, float b) { return a < b ? a : b; };
   const auto most = [](float a, float b) { return a < b ? b : a; };
 #pragma omp simd
@@ -29,8 +29,9 @@ CURTAIN_WIDE void rangesOfQuads(const float* __restrict start, const float* __re
 }
 
 // Of a row of blocks, from the two rows of their children (or the same one twice).
-CURTAIN_WIDE void rangesOfBlocks(const float* __restrict low_above, const float* __restrict low_below, const float* __restrict high_above,
-                                 const float* __restrict high_below, std::size_t count, float* __restrict low, float* __restrict high) {
+CURTAIN_WIDE void rangesOfBlocks(const float* __restrict low_above, const float* __restrict low_below,
+                                 const float* __restrict high_above, const float* __restrict high_below,
+                                 std::size_t count, float* __restrict low, float* __restrict high) {
   const auto least = [](float a, float b) { return a < b ? a : b; };
   const auto most = [](float a, float b) { return a < b ? b : a; };
 #pragma omp simd
@@ -41,7 +42,8 @@ CURTAIN_WIDE void rangesOfBlocks(const float* __restrict low_above, const float*
 }
 
 // Low and high of each box, four floats each, whole fours of boxes.
-CURTAIN_WIDE void boxesOneByOne(const std::array<const float*, 3>& low, const std::array<const float*, 3>& high, std::size_t count, float* boxes) {
+CURTAIN_WIDE void boxesOneByOne(const std::array<const float*, 3>& low, const std::array<const float*, 3>& high,
+                                std::size_t count, float* boxes) {
   using Four = float __attribute__((vector_size(16)));
   const auto across = [&](const std::array<const float*, 3>& from, std::size_t k, float* to) {
     Four x, y, z, zero = Four{};
@@ -49,9 +51,11 @@ CURTAIN_WIDE void boxesOneByOne(const std::array<const float*, 3>& low, const st
     std::memcpy(&y, from[1] + k, sizeof y);
     std::memcpy(&z, from[2] + k, sizeof z);
     const Four xy = __builtin_shufflevector(x, y, 0, 4, 1, 5), xy_high = __builtin_shufflevector(x, y, 2, 6, 3, 7);
-    const Four z_zero = __builtin_shufflevector(z, zero, 0, 4, 1, 5), z_high = __builtin_shufflevector(z, zero, 2, 6, 3, 7);
-    const Four out[4] = {__builtin_shufflevector(xy, z_zero, 0, 1, 4, 5), __builtin_shufflevector(xy, z_zero, 2, 3, 6, 7),
-                         __builtin_shufflevector(xy_high, z_high, 0, 1, 4, 5), __builtin_shufflevector(xy_high, z_high, 2, 3, 6, 7)};
+    const Four z_zero = __builtin_shufflevector(z, zero, 0, 4, 1, 5),
+               z_high = __builtin_shufflevector(z, zero, 2, 6, 3, 7);
+    const Four out[4] = {
+        __builtin_shufflevector(xy, z_zero, 0, 1, 4, 5), __builtin_shufflevector(xy, z_zero, 2, 3, 6, 7),
+        __builtin_shufflevector(xy_high, z_high, 0, 1, 4, 5), __builtin_shufflevector(xy_high, z_high, 2, 3, 6, 7)};
     for (std::size_t box = 0; box < 4; ++box) std::memcpy(to + 8 * box, &out[box], sizeof out[box]);
   };
   for (std::size_t k = 0; k < count; k += 4) {
@@ -65,7 +69,6 @@ CURTAIN_WIDE void boxesOneByOne(const std::array<const float*, 3>& low, const st
 BlockPyramid::BlockPyramid(const Grid& grid) : grid_(grid) {
   std::size_t size = kBeyond;
   for (int rows = grid.rows - 1, columns = grid.linkCount();; rows = (rows + 1) / 2, columns = (columns + 1) / 2) {
-    // One more for an odd column's missing neighbour.
     const auto wide = static_cast<std::size_t>(columns + (grid.closed ? 2 : 1) * kReach);
     const std::size_t stride = (wide + 7) / 8 * 8;
     levels_.push_back({rows, columns, size, stride});
@@ -103,7 +106,8 @@ void BlockPyramid::refitBelow(std::size_t level, const MovingNodes& nodes) noexc
 void BlockPyramid::fillOneByOne() noexcept {
   one_by_one_ = true;
   for (const Level& level : levels_) {
-    boxesOneByOne({&lows_[0][level.first], &lows_[1][level.first], &lows_[2][level.first]}, {&highs_[0][level.first], &highs_[1][level.first], &highs_[2][level.first]},
+    boxesOneByOne({&lows_[0][level.first], &lows_[1][level.first], &lows_[2][level.first]},
+                  {&highs_[0][level.first], &highs_[1][level.first], &highs_[2][level.first]},
                   static_cast<std::size_t>(level.rows) * level.stride, boxes_[level.first].low.data());
   }
 }
@@ -123,7 +127,8 @@ void BlockPyramid::selectMarked(const std::vector<std::uint8_t>& marked) noexcep
   for (int i = 0; i < quads.rows; ++i) {
     for (int j = 0; j < quads.columns; ++j) {
       const int right = j + 1 < grid_.columns ? j + 1 : 0;
-      set(quads.at(i, j), (marked[grid_.index(i, j)] | marked[grid_.index(i, right)] | marked[grid_.index(i + 1, j)] | marked[grid_.index(i + 1, right)]) != 0);
+      set(quads.at(i, j), (marked[grid_.index(i, j)] | marked[grid_.index(i, right)] | marked[grid_.index(i + 1, j)] |
+                           marked[grid_.index(i + 1, right)]) != 0);
     }
   }
   for (std::size_t at_level = 1; at_level < levels_.size(); ++at_level) {
@@ -143,7 +148,8 @@ void BlockPyramid::leaveOutWithin(std::size_t at_level, int row, int column) noe
     const Level& blocks = levels_[level];
     const int along = 1 << (at_level - level);
     for (int i = row * along; i < std::min((row + 1) * along, blocks.rows); ++i) {
-      for (int j = column * along; j < std::min((column + 1) * along, blocks.columns); ++j) selected_[blocks.at(i, j)] &= kMarked;
+      for (int j = column * along; j < std::min((column + 1) * along, blocks.columns); ++j)
+        selected_[blocks.at(i, j)] &= kMarked;
     }
   }
 }
@@ -163,7 +169,8 @@ void BlockPyramid::boxesOfQuads(const MovingNodes& nodes) noexcept {
   for (std::size_t k = 0; k < 3; ++k) {
     for (int i = 0; i < level.rows; ++i) {
       const std::size_t from = static_cast<std::size_t>(i) * nodes.stride, to = level.at(i, 0);
-      rangesOfQuads(&nodes.start[k][from], &nodes.end[k][from], nodes.stride, static_cast<std::size_t>(level.columns), &lows_[k][to], &highs_[k][to]);
+      rangesOfQuads(&nodes.start[k][from], &nodes.end[k][from], nodes.stride, static_cast<std::size_t>(level.columns),
+                    &lows_[k][to], &highs_[k][to]);
     }
     wrapAround(level, lows_[k]);
     wrapAround(level, highs_[k]);
@@ -177,8 +184,10 @@ void BlockPyramid::mergeUpwards(std::size_t from, std::size_t to) noexcept {
     const auto pairs = static_cast<std::size_t>(below.columns / 2);
     for (std::size_t k = 0; k < 3; ++k) {
       for (int i = 0; i < level.rows; ++i) {
-        const std::size_t first = below.at(2 * i, 0), second = below.at(std::min(2 * i + 1, below.rows - 1), 0), place = level.at(i, 0);
-        rangesOfBlocks(&lows_[k][first], &lows_[k][second], &highs_[k][first], &highs_[k][second], pairs, &lows_[k][place], &highs_[k][place]);
+        const std::size_t first = below.at(2 * i, 0), second = below.at(std::min(2 * i + 1, below.rows - 1), 0),
+                          place = level.at(i, 0);
+        rangesOfBlocks(&lows_[k][first], &lows_[k][second], &highs_[k][first], &highs_[k][second], pairs,
+                       &lows_[k][place], &highs_[k][place]);
         if (below.columns % 2 == 0) continue;
         lows_[k][place + pairs] = std::min(lows_[k][first + 2 * pairs], lows_[k][second + 2 * pairs]);
         highs_[k][place + pairs] = std::max(highs_[k][first + 2 * pairs], highs_[k][second + 2 * pairs]);

@@ -2,7 +2,6 @@
 #include "contact/broad_phase/cloth_pairs.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "cloth/wide.h"
@@ -42,14 +41,16 @@ struct Floats3 {
 };
 
 // Counted in floats, all lanes being of one width.
-CURTAIN_WIDE std::size_t markRow(const Doubles3& at, const Floats3& expected, const Vec3& origin, float most_squared, std::size_t count, std::uint8_t* __restrict marks) {
+CURTAIN_WIDE std::size_t markRow(const Doubles3& at, const Floats3& expected, const Vec3& origin, float most_squared,
+                                 std::size_t count, std::uint8_t* __restrict marks) {
   const Doubles3 p = at;
   const Floats3 q = expected;
   const double ox = origin.x(), oy = origin.y(), oz = origin.z();
   float marked = 0.0f;
 #pragma omp simd reduction(+ : marked)
   for (std::size_t j = 0; j < count; ++j) {
-    const float x = static_cast<float>(p.x[j] - ox) - q.x[j], y = static_cast<float>(p.y[j] - oy) - q.y[j], z = static_cast<float>(p.z[j] - oz) - q.z[j];
+    const float x = static_cast<float>(p.x[j] - ox) - q.x[j], y = static_cast<float>(p.y[j] - oy) - q.y[j],
+                z = static_cast<float>(p.z[j] - oz) - q.z[j];
     const float apart = x * x + y * y + z * z > most_squared ? 1.0f : 0.0f;
     marks[j] = apart > 0.0f ? 1 : 0;
     marked += apart;
@@ -76,11 +77,12 @@ void dropApart(const std::vector<FourNodes>& pairs, const StayApart& stay_apart,
 ClothPairs::ClothPairs(const ClothPattern& pattern)
     : grid_(pattern.grid),
       elements_(pattern),
+      per_spacing_(pattern),
       pyramid_(pattern.grid),
       even_level_(std::min(kEvenLevel, pyramid_.levels().size() - 1)),
-      even_(pattern, pyramid_.levels()[even_level_], 1 << even_level_),
+      even_(pattern.grid, per_spacing_, pyramid_.levels()[even_level_], 1 << even_level_),
       pairs_(pyramid_),
-      windows_(pattern, elements_) {
+      windows_(pattern.grid, per_spacing_, elements_) {
   for (MovingNodes* const nodes : {&expected_.nodes, &elsewhere_.nodes}) {
     nodes->stride = static_cast<std::size_t>(grid_.closed ? Grid::strideFor(grid_.columns + 2) : grid_.stride);
     const std::size_t size = static_cast<std::size_t>(grid_.rows) * nodes->stride + kBeyond;
@@ -128,9 +130,10 @@ void ClothPairs::take(const Field3& start, const Field3& end, Motion& motion) no
   const auto low = [this](int i, int j, int axis) { return even_.low(i, j, axis); };
   const auto high = [this](int i, int j, int axis) { return even_.high(i, j, axis); };
   pyramid_.refitFrom(even_level_, low, high);
-  // Each of two coordinates is rounded once, and so is their difference, which is at most twice as large; the step to the origin rounds in
-  // double precision.
-  motion.rounding = 4.0f * kUnit * even_.largest() + 1e-15f * static_cast<float>(motion.start.cwiseAbs().cwiseMax(motion.end.cwiseAbs()).maxCoeff());
+  // Each of two coordinates is rounded once, and so is their difference, which is at most twice as large; the step to
+  // the origin rounds in double precision.
+  motion.rounding = 4.0f * kUnit * even_.largest() +
+                    1e-15f * static_cast<float>(motion.start.cwiseAbs().cwiseMax(motion.end.cwiseAbs()).maxCoeff());
 }
 
 void ClothPairs::placeOneByOne(const MovingNodes& nodes) noexcept {
@@ -164,13 +167,16 @@ std::size_t ClothPairs::markElsewhere(const Field3& end, double most) noexcept {
   for (std::size_t i = 0; i < static_cast<std::size_t>(grid_.rows); ++i) {
     const std::size_t n = i * static_cast<std::size_t>(grid_.stride), m = i * expected_.nodes.stride;
     const Floats3 expected{&expected_.nodes.end[0][m], &expected_.nodes.end[1][m], &expected_.nodes.end[2][m]};
-    count += markRow({&end.x[n], &end.y[n], &end.z[n]}, expected, expected_.end, most_squared, static_cast<std::size_t>(grid_.columns), &marked_[n]);
+    count += markRow({&end.x[n], &end.y[n], &end.z[n]}, expected, expected_.end, most_squared,
+                     static_cast<std::size_t>(grid_.columns), &marked_[n]);
   }
   return count;
 }
 
-void ClothPairs::collectOf(const std::vector<std::uint8_t>* marked, const Motion& motion, double reach, Candidates& out) noexcept {
-  const float certain = static_cast<float>(reach) * (1.0f + 2.0f * std::numeric_limits<float>::epsilon()), rounding = motion.rounding;
+void ClothPairs::collectOf(const std::vector<std::uint8_t>* marked, const Motion& motion, double reach,
+                           Candidates& out) noexcept {
+  const float certain = static_cast<float>(reach) * (1.0f + 2.0f * std::numeric_limits<float>::epsilon()),
+              rounding = motion.rounding;
   pyramid_.select(marked);
   const bool uneven = even_.find(certain, rounding);
   if (!uneven && !pairs_.any(certain + rounding, even_level_)) return;
@@ -184,8 +190,9 @@ void ClothPairs::collectOf(const std::vector<std::uint8_t>* marked, const Motion
   edges_.clear();
   const NodeWays ways{starts_.data(), ends_.data()};
   if (uneven) {
-    windows_.forEachPair(ways, certain + rounding, [this](const FourNodes& nodes) { vertices_.push_back(nodes); },
-                         [this](const FourNodes& nodes) { edges_.push_back(nodes); });
+    windows_.forEachPair(
+        ways, certain + rounding, [this](const FourNodes& nodes) { vertices_.push_back(nodes); },
+        [this](const FourNodes& nodes) { edges_.push_back(nodes); });
   }
   quads_.clear();
   pairs_.find(certain + rounding, uneven ? 0 : even_level_, [&](std::size_t a, std::size_t b) {
@@ -228,19 +235,28 @@ void ClothPairs::addElements(float reach, float rounding, Candidates& out) noexc
   const BlockPyramid::Level& level = pyramid_.levels().front();
   for (const QuadPair& pair : quads_) {
     constexpr std::size_t kMostOfTwoQuads = 32;
-    if (std::max(vertices_.size(), edges_.size()) + kMostOfTwoQuads > vertices_.capacity()) dropApart(reach, rounding, out);
-    elements_.forEach(level.rowOf(pair.a), level.columnOf(pair.a), level.rowOf(pair.b), level.columnOf(pair.b),
-                      [this](const FourNodes& nodes) { vertices_.push_back(nodes); }, [this](const FourNodes& nodes) { edges_.push_back(nodes); });
+    if (std::max(vertices_.size(), edges_.size()) + kMostOfTwoQuads > vertices_.capacity())
+      dropApart(reach, rounding, out);
+    elements_.forEach(
+        level.rowOf(pair.a), level.columnOf(pair.a), level.rowOf(pair.b), level.columnOf(pair.b),
+        [this](const FourNodes& nodes) { vertices_.push_back(nodes); },
+        [this](const FourNodes& nodes) { edges_.push_back(nodes); });
   }
   quads_.clear();
 }
 
 void ClothPairs::dropApart(float reach, float rounding, Candidates& out) noexcept {
   const NodeWays ways{starts_.data(), ends_.data()};
-  curtain::dropApart(vertices_, [&](const auto& some) { return vertexStaysApart(some, ways, reach, rounding); },
-                     [&](const FourNodes& n) { out.add(VertexTriangle{n[0], {n[1], n[2], n[3]}}); });
-  curtain::dropApart(edges_, [&](const auto& some) { return edgesStayApart(some, ways, reach, rounding); },
-                     [&](const FourNodes& n) { out.add(EdgeEdge{{n[0], n[1]}, {n[2], n[3]}}); });
+  curtain::dropApart(
+      vertices_, [&](const auto& some) { return vertexStaysApart(some, ways, reach, rounding); },
+      [&](const FourNodes& n) {
+        out.add(VertexTriangle{n[0], {n[1], n[2], n[3]}});
+      });
+  curtain::dropApart(
+      edges_, [&](const auto& some) { return edgesStayApart(some, ways, reach, rounding); },
+      [&](const FourNodes& n) {
+        out.add(EdgeEdge{{n[0], n[1]}, {n[2], n[3]}});
+      });
   vertices_.clear();
   edges_.clear();
 }

@@ -2,9 +2,12 @@
 //
 // Which elements of the moving cloth may come near each other: neighbours by windows (windows.h), all others by blocks
 // (block_pairs.h), then single quads that a plane parts (narrow_phase/quads_apart.h), and elements that stay apart
-// (narrow_phase/staying_apart.h). What the whole cloth does together is left out first. Nothing is kept from look to look.
+// (narrow_phase/staying_apart.h). What the whole cloth does together is left out first. Nothing is kept from look to
+// look.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "contact/broad_phase/block_pairs.h"
@@ -25,14 +28,15 @@ class ClothPairs {
   /// Takes the grid, the rest lengths and which nodes are immovable (inverse_mass 0). At least 2 x 2 nodes.
   explicit ClothPairs(const ClothPattern& pattern);
 
-  /// Appends every pair (vertex, triangle) and (edge, edge) that shares no node, has a node that can move, and comes within `reach`
-  /// [m, >= 0] at some time while nodes move straight from start to end (finite, of the grid's size); and some that do not, but
-  /// are too near to tell. Each comes once, but for closed cloth of three or four columns. Allocates nothing: what `out` has no room for
-  /// is left out, and it says so; see reserve(). Rounding only ever adds pairs.
+  /// Appends every pair (vertex, triangle) and (edge, edge) that shares no node, has a node that can move, and comes
+  /// within `reach` [m, >= 0] at some time while nodes move straight from start to end (finite, of the grid's size);
+  /// and some that do not, but are too near to tell. Each comes once, but for closed cloth of three or four columns.
+  /// Allocates nothing: what `out` has no room for is left out, and it says so; see reserve(). Rounding only ever adds
+  /// pairs.
   void collect(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept;
 
-  /// After collect() with the same start and a larger reach: appends to its candidates what they lack of those that come within `reach` [m]
-  /// while nodes move from there to end.
+  /// After collect() with the same start and a larger reach: appends to its candidates what they lack of those that
+  /// come within `reach` [m] while nodes move from there to end.
   void collectElsewhere(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept;
 
   /// Makes room for kRoomPerNode candidates of either kind per node.
@@ -42,8 +46,9 @@ class ClothPairs {
   /// Where nodes are, and what that is relative to.
   struct Motion {
     MovingNodes nodes;
-    Vec3 start = Vec3::Zero(), end = Vec3::Zero();  // the origins at both instants: the first node's start, the end with the mean motion [m]
-    float rounding = 0.0f;                          // most by which a difference of two coordinates is rounded [m]
+    Vec3 start = Vec3::Zero(),
+         end = Vec3::Zero();  // the origins at both instants: the first node's start, the end with the mean motion [m]
+    float rounding = 0.0f;    // most by which a difference of two coordinates is rounded [m]
   };
 
   void take(const Field3& start, const Field3& end, Motion& motion) noexcept;
@@ -53,24 +58,26 @@ class ClothPairs {
   struct QuadPair {
     std::uint32_t a, b;  // places in the pyramid
   };
-  using QuadsStayApart = std::uint32_t (*)(const std::array<TwoQuads, kPairsAtOnce>&, const NodeWays&, float, float) noexcept;
+  using QuadsStayApart = std::uint32_t (*)(const std::array<TwoQuads, kPairsAtOnce>&, const NodeWays&, float,
+                                           float) noexcept;
   void keepNear(QuadsStayApart stay_apart, float reach, float rounding) noexcept;
   void addElements(float reach, float rounding, Candidates& out) noexcept;
   void dropApart(float reach, float rounding, Candidates& out) noexcept;
 
   Grid grid_;
   ElementPairs elements_;
+  Spacings per_spacing_;
   BlockPyramid pyramid_;
   std::size_t even_level_;
   EvenBlocks even_;  // of that level
   BlockPairs pairs_;
   Windows windows_;
-  Motion expected_, elsewhere_;                  // of the last collect(), of collectElsewhere()
-  double reach_ = 0.0;                           // of the last collect() [m]
-  std::vector<std::uint8_t> marked_;             // by node: it ends elsewhere
-  std::vector<Eigen::Array4f> starts_, ends_;    // of the motion that is looked at, one by one, by the nodes' indices
-  std::vector<QuadPair> quads_;                  // that may be near, and wait to be looked at together
-  std::vector<FourNodes> vertices_, edges_;      // pairs of elements that may come near
+  Motion expected_, elsewhere_;                // of the last collect(), of collectElsewhere()
+  double reach_ = 0.0;                         // of the last collect() [m]
+  std::vector<std::uint8_t> marked_;           // by node: it ends elsewhere
+  std::vector<Eigen::Array4f> starts_, ends_;  // of the motion that is looked at, one by one, by the nodes' indices
+  std::vector<QuadPair> quads_;                // that may be near, and wait to be looked at together
+  std::vector<FourNodes> vertices_, edges_;    // pairs of elements that may come near
 };
 
 }  // namespace curtain

@@ -4,9 +4,8 @@
 #include "cloth/wide.h"
 
 namespace curtain {
-namespace {
 
-CURTAIN_WIDE Range rangeOfBoth(const double* a, const double* b, std::size_t count) noexcept {
+CURTAIN_WIDE Range rangeOf(const double* a, const double* b, std::size_t count) noexcept {
   double low = a[0], high = a[0];
 #pragma omp simd reduction(min : low) reduction(max : high)
   for (std::size_t n = 0; n < count; ++n) {
@@ -17,10 +16,6 @@ CURTAIN_WIDE Range rangeOfBoth(const double* a, const double* b, std::size_t cou
   }
   return {low, high};
 }
-
-}  // namespace
-
-Range rangeOf(const double* a, const double* b, std::size_t count) noexcept { return rangeOfBoth(a, b, count); }
 
 Eigen::AlignedBox3d boxAround(const Grid& grid, const Field3& start, const Field3& end) noexcept {
   Eigen::AlignedBox3d box;

@@ -28,7 +28,8 @@ CURTAIN_INTO_WIDE void widen(const Lanes& value, Lanes& low, Lanes& high) {
 
 CURTAIN_INTO_WIDE void store(const Lanes& value, float* to) { std::memcpy(to, &value, sizeof value); }
 
-// Of every column: what its nodes, the links to the next column and its rods are within. The value of u in the last column means nothing.
+// Of every column: what its nodes, the links to the next column and its rods are within. The value of u in the last
+// column means nothing.
 CURTAIN_WIDE void columnRanges(const Strip& s) {
   for (std::size_t j = 0; j < s.columns; j += Eight::kCount) {
     const float *start = s.start + j, *end = s.end + j;
@@ -75,21 +76,9 @@ float mostOf(const float* from, const float* to) { return *std::max_element(from
 
 }  // namespace
 
-EvenBlocks::EvenBlocks(const ClothPattern& pattern, const BlockPyramid::Level& level, int quads_along)
-    : grid_(pattern.grid), rows_(level.rows), columns_(level.columns), along_(quads_along) {
+EvenBlocks::EvenBlocks(const Grid& grid, const Spacings& per_spacing, const BlockPyramid::Level& level, int quads_along)
+    : grid_(grid), rows_(level.rows), columns_(level.columns), along_(quads_along), per_spacing_(per_spacing) {
   const auto padded = static_cast<std::size_t>(Grid::strideFor(grid_.columns + 2)) + 2 * Eight::kCount;
-  per_spacing_u_.assign(padded, 1.0f);
-  per_spacing_v_.assign(static_cast<std::size_t>(grid_.rows), 1.0f);
-  for (int j = 0; j < grid_.linkCount(); ++j) {
-    double sum = 0.0;
-    for (int i = 0; i < grid_.rows; ++i) sum += pattern.weft_rest[grid_.index(i, (j + 1) % grid_.columns)];
-    per_spacing_u_[static_cast<std::size_t>(j)] = static_cast<float>(grid_.rows / sum);
-  }
-  for (int i = 0; i + 1 < grid_.rows; ++i) {
-    double sum = 0.0;
-    for (int j = 0; j < grid_.columns; ++j) sum += pattern.warp_rest[grid_.index(i + 1, j)];
-    per_spacing_v_[static_cast<std::size_t>(i)] = static_cast<float>(grid_.columns / sum);
-  }
   for (MovingNodes::Floats& floats : ranges_) floats.assign(padded, 0.0f);
   slopes_.resize(static_cast<std::size_t>(rows_ * columns_));
   boxes_.assign(slopes_.size(), {Eigen::Array4f::Zero(), Eigen::Array4f::Zero()});
@@ -97,12 +86,12 @@ EvenBlocks::EvenBlocks(const ClothPattern& pattern, const BlockPyramid::Level& l
   for (int i = 0; i < rows_; ++i) {
     for (int j = 0; j < columns_; ++j) {
       Slopes& slopes = slopes_[at(i, j)];
-      const auto largest = [&](const MovingNodes::Floats& per, int at, int count) {
+      const auto largest = [&](const Spacings::Floats& per, int at, int count) {
         return mostOf(per.data() + at * along_, per.data() + std::min((at + 1) * along_, count));
       };
       slopes.u.low = slopes.u.high = slopes.v.low = slopes.v.high = Eigen::Array4f::Zero();
-      slopes.spacing_u = 1.0f / largest(per_spacing_u_, j, grid_.linkCount());
-      slopes.spacing_v = 1.0f / largest(per_spacing_v_, i, grid_.rows - 1);
+      slopes.spacing_u = 1.0f / largest(per_spacing_.u, j, grid_.linkCount());
+      slopes.spacing_v = 1.0f / largest(per_spacing_.v, i, grid_.rows - 1);
     }
   }
 }
@@ -113,13 +102,13 @@ void EvenBlocks::measureStrip(const MovingNodes& nodes, int strip) noexcept {
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t first = static_cast<std::size_t>(row) * nodes.stride;
     const auto out = [&](std::size_t what) { return ranges_[6 * k + what].data(); };
-    columnRanges({&nodes.start[k][first], &nodes.end[k][first], nodes.stride, columns, rows, per_spacing_u_.data(),
-                  per_spacing_v_.data() + row, out(0), out(1), out(2), out(3), out(4), out(5)});
+    columnRanges({&nodes.start[k][first], &nodes.end[k][first], nodes.stride, columns, rows, per_spacing_.u.data(),
+                  per_spacing_.v.data() + row, out(0), out(1), out(2), out(3), out(4), out(5)});
     for (int b = 0; b < columns_; ++b) {
       Slopes& slopes = slopes_[at(strip, b)];
       const int from = b * along_, to = std::min(from + along_, grid_.linkCount());
       const auto axis = static_cast<Eigen::Index>(k);
-      Box& box = boxes_[at(strip, b)];
+      MovingBox& box = boxes_[at(strip, b)];
       box.low[axis] = leastOf(out(0) + from, out(0) + to + 1);
       box.high[axis] = mostOf(out(1) + from, out(1) + to + 1);
       slopes.u.low[axis] = leastOf(out(2) + from, out(2) + to);
@@ -136,7 +125,7 @@ void EvenBlocks::measure(const MovingNodes& nodes) noexcept {
 
 float EvenBlocks::largest() const noexcept {
   Eigen::Array4f largest = Eigen::Array4f::Zero();
-  for (const Box& box : boxes_) largest = largest.max(box.low.abs()).max(box.high.abs());
+  for (const MovingBox& box : boxes_) largest = largest.max(box.low.abs()).max(box.high.abs());
   return largest.maxCoeff();
 }
 
@@ -146,7 +135,8 @@ bool EvenBlocks::find(float reach, float rounding) noexcept {
   const int last_row = std::max(rows_ - 1, 1), last_column = grid_.closed ? columns_ : std::max(columns_ - 1, 1);
   for (int i = 0; i < last_row; ++i) {
     for (int j = 0; j < last_column; ++j) {
-      const int below = std::min(i + 1, rows_ - 1), right = grid_.closed ? (j + 1) % columns_ : std::min(j + 1, columns_ - 1);
+      const int below = std::min(i + 1, rows_ - 1),
+                right = grid_.closed ? (j + 1) % columns_ : std::min(j + 1, columns_ - 1);
       Slopes window = slopes_[at(i, j)];
       window.merge(slopes_[at(i, right)]);
       window.merge(slopes_[at(below, j)]);

@@ -67,23 +67,6 @@ double longestEdge(const Grid& grid, const Field3& position) noexcept {
   return std::sqrt(warp) + std::sqrt(weft);
 }
 
-// Nodes as seen from the obstacle.
-CURTAIN_WIDE void seenFrom(const Transform& place, const Field3& position, std::size_t size, Field3& out) noexcept {
-  const Eigen::Matrix3d& r = place.rotation;
-  const double xx = r(0, 0), xy = r(1, 0), xz = r(2, 0), yx = r(0, 1), yy = r(1, 1), yz = r(2, 1);
-  const double zx = r(0, 2), zy = r(1, 2), zz = r(2, 2);
-  const double tx = place.translation.x(), ty = place.translation.y(), tz = place.translation.z();
-  const double *const px = position.x.data(), *const py = position.y.data(), *const pz = position.z.data();
-  double *const ox = out.x.data(), *const oy = out.y.data(), *const oz = out.z.data();
-#pragma omp simd
-  for (std::size_t n = 0; n < size; ++n) {
-    const double x = px[n] - tx, y = py[n] - ty, z = pz[n] - tz;
-    ox[n] = xx * x + xy * y + xz * z;
-    oy[n] = yx * x + yy * y + yz * z;
-    oz[n] = zx * x + zy * y + zz * z;
-  }
-}
-
 // The largest square of the distance between position (as seen from place) and from + share (to - from); infinite when one is
 // not finite. mass 0 is padding.
 CURTAIN_WIDE double farthest(const Transform& place, const Field3& position, const Field3& from, const Field3& to, double share,
@@ -150,14 +133,30 @@ Vicinity::Vicinity(const ClothPattern& pattern, const ObstacleShape& shape, doub
   row_boxes_.resize(static_cast<std::size_t>(pattern.grid.rows));
   if (shape.convex() == nullptr) {
     pairs_.reserve(kPairsPerNode * count + kPairsPerFeature * (shape.features()->edges().size() + shape.features()->vertices().size()));
+    rough_ = RoughFeatures(*shape.features(), {kOverlong * longest, kept_, core});
   } else if (elements_wanted_) {
     faces_.reserve(2 * count);
     face_planes_.resize(2 * size);
   }
-  if (shape.convex() == nullptr) rough_ = RoughFeatures(*shape.features(), {kOverlong * longest, kept_, core});
 }
 
-void Vicinity::toLocal(const Transform& place, const Field3& position, Field3& out) noexcept { seenFrom(place, position, position.x.size(), out); }
+// Nodes as seen from the obstacle.
+CURTAIN_WIDE void Vicinity::toLocal(const Transform& place, const Field3& position, Field3& out) noexcept {
+  const Eigen::Matrix3d& r = place.rotation;
+  const double xx = r(0, 0), xy = r(1, 0), xz = r(2, 0), yx = r(0, 1), yy = r(1, 1), yz = r(2, 1);
+  const double zx = r(0, 2), zy = r(1, 2), zz = r(2, 2);
+  const double tx = place.translation.x(), ty = place.translation.y(), tz = place.translation.z();
+  const double *const px = position.x.data(), *const py = position.y.data(), *const pz = position.z.data();
+  double *const ox = out.x.data(), *const oy = out.y.data(), *const oz = out.z.data();
+  const std::size_t size = position.x.size();
+#pragma omp simd
+  for (std::size_t n = 0; n < size; ++n) {
+    const double x = px[n] - tx, y = py[n] - ty, z = pz[n] - tz;
+    ox[n] = xx * x + xy * y + xz * z;
+    oy[n] = yx * x + yy * y + yz * z;
+    oz[n] = zx * x + zy * y + zz * z;
+  }
+}
 
 void Vicinity::forget() noexcept {
   length_ = 0.0;

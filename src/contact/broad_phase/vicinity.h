@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Candidates for contact with one obstacle: all in the obstacle's frame, where it rests. Nodes are expected to go straight on.
-// The lists serve while no node is further than a slack from its expected path, which is measured in every substep: then they
-// hold all that comes within reach, and who takes them asks each candidate for its own distance. So nothing tells how old
-// they are.
+// Candidates for contact with one obstacle: all in the obstacle's frame, where it rests.
 //
 //      expected path          nodes    those that may come within nodeReach()
 //   A ------------> B         faces    triangles that may come within elementReach() (convex shapes)
 //      ( obstacle )           pairs    cloth edge x obstacle edge, cloth triangle x obstacle corner that may (meshes)
+//
+// Near a convex shape they are found anew for every way. Near a mesh nodes are expected to go straight on, and the lists serve
+// while none is further than a slack from its expected path, which is measured in every substep. Either way they hold all
+// that comes within reach, and who takes them asks each candidate for its own distance: nothing tells how old they are.
 #pragma once
 
 #include <array>

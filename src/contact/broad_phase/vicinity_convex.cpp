@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What is near a convex obstacle in one substep: nodes and faces whose boxes meet its own. Its nearest point is soon found, and a plane that
-// touches it there once shows for ever how far nodes and faces are from it at least: that of a face's own nearest point, or of its nodes'.
+// What is near a convex obstacle in one substep: nodes and faces whose boxes meet its own. Its nearest point is soon
+// found, and a plane that touches it there once shows for ever how far nodes and faces are from it at least: that of a
+// face's own nearest point, or of its nodes'.
 #include <algorithm>
 #include <limits>
 
@@ -31,7 +32,8 @@ void Vicinity::startConvex(const MovingObstacle& moving, const Field3& start) no
 void Vicinity::listConvex(const MovingObstacle& moving, const Field3& end, double reach) noexcept {
   toLocal(moving.after, end, end_);
   for (int i = 0; i < pattern_.grid.rows; ++i) {
-    row_boxes_[static_cast<std::size_t>(i)] = boxOfRow(start_, end_, pattern_.grid.row(i), static_cast<std::size_t>(pattern_.grid.columns));
+    row_boxes_[static_cast<std::size_t>(i)] =
+        boxOfRow(start_, end_, pattern_.grid.row(i), static_cast<std::size_t>(pattern_.grid.columns));
   }
   const auto within = [this](double around) {
     const Eigen::AlignedBox3d box = shape_.bounds();
@@ -70,7 +72,8 @@ void Vicinity::listNodes(const Eigen::AlignedBox3d& box) noexcept {
 bool Vicinity::staysOver(const Face& face, double reach) noexcept {
   const auto isOver = [&](const NodePlane& plane) {
     double lowest = std::numeric_limits<double>::infinity();
-    for (const std::uint32_t k : face.node) lowest = std::min({lowest, plane.height(start_.at(k)), plane.height(end_.at(k))});
+    for (const std::uint32_t k : face.node)
+      lowest = std::min({lowest, plane.height(start_.at(k)), plane.height(end_.at(k))});
     return lowest > reach;
   };
   const NodePlane& own = face_planes_[face.index];
@@ -91,7 +94,8 @@ void Vicinity::listFaces(const Eigen::AlignedBox3d& box, double reach) noexcept 
     return around;
   };
   for (int i = 0; i + 1 < grid.rows; ++i) {
-    if (!row_boxes_[static_cast<std::size_t>(i)].merged(row_boxes_[static_cast<std::size_t>(i) + 1]).intersects(box)) continue;
+    if (!row_boxes_[static_cast<std::size_t>(i)].merged(row_boxes_[static_cast<std::size_t>(i) + 1]).intersects(box))
+      continue;
     for (int j = 0; j < grid.linkCount(); ++j) {
       const QuadElements quad = quadElements(grid, i, j);
       if (!boxOf(quad.corners).intersects(box)) continue;

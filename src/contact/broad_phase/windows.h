@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Neighbours: quads that have a node in common, in windows of 2 x 2 quads (or fewer, where there are no more). A window that is even enough
-// (narrow_phase/flatness.h) keeps its elements apart.
+// Neighbours: quads that have a node in common, in windows of 2 x 2 quads (or fewer, where there are no more). A window
+// that is even enough (narrow_phase/flatness.h) keeps its elements apart.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "contact/broad_phase/block_pyramid.h"
 #include "contact/narrow_phase/element_pairs.h"
+#include "contact/narrow_phase/flatness.h"
 #include "contact/narrow_phase/staying_apart.h"
 
 namespace curtain {
@@ -16,21 +19,23 @@ namespace curtain {
 /// Not thread-safe.
 class Windows {
  public:
-  /// elements must outlive this.
-  Windows(const ClothPattern& pattern, const ElementPairs& elements);
+  /// per_spacing and elements must outlive this.
+  Windows(const Grid& grid, const Spacings& per_spacing, const ElementPairs& elements);
 
-  /// Finds the windows, of rows that are asked for, that are not even enough to keep `reach` [m]. rounding [m]: of a difference of two
-  /// coordinates. Allocates nothing.
+  /// Finds the windows, of rows that are asked for, that are not even enough to keep `reach` [m]. rounding [m]: of a
+  /// difference of two coordinates. Allocates nothing.
   void find(const MovingNodes& nodes, const BlockPyramid& pyramid, float reach, float rounding) noexcept;
 
   bool any() const noexcept { return !bent_.empty(); }
-  /// Calls vertex(nodes) and edge(nodes) for the pairs of elements of those, but for some whose boxes are further apart than `reach` [m] along
-  /// an axis. Of the quads that several windows hold, the first one has them.
+  /// Calls vertex(nodes) and edge(nodes) for the pairs of elements of those, but for some whose boxes are further apart
+  /// than `reach` [m] along an axis. Of the quads that several windows hold, the first one has them.
   template <typename Vertex, typename Edge>
   void forEachPair(const NodeWays& ways, float reach, const Vertex& vertex, const Edge& edge) const {
     for (const Window& window : bent_) {
-      if (window.row + 1 == rows_ || window.column + 4 > grid_.columns) forEachPairOf(window, vertex, edge);
-      else forEachNearPairOf(window, ways, reach, vertex, edge);
+      if (window.row + 1 == rows_ || window.column + 4 > grid_.columns)
+        forEachPairOf(window, vertex, edge);
+      else
+        forEachNearPairOf(window, ways, reach, vertex, edge);
     }
   }
 
@@ -41,16 +46,12 @@ class Windows {
 
   /// Two elements of a window that is neither in the last row nor column: their nodes, row by row of three.
   using LocalPair = std::array<std::uint8_t, 4>;
-  struct Box {
-    Eigen::Array4f low, high;  // the fourth lane is 0
-    Box merged(const Box& other) const noexcept { return {low.min(other.low), high.max(other.high)}; }
-    bool meets(const Box& other, float reach) const noexcept { return ((low - other.high).max(other.low - high) <= reach).all(); }
-  };
 
   template <typename Vertex, typename Edge>
-  void forEachNearPairOf(const Window& window, const NodeWays& ways, float reach, const Vertex& vertex, const Edge& edge) const {
+  void forEachNearPairOf(const Window& window, const NodeWays& ways, float reach, const Vertex& vertex,
+                         const Edge& edge) const {
     std::array<std::uint32_t, 9> nodes;
-    std::array<Box, 9> boxes;
+    std::array<MovingBox, 9> boxes;
     for (int k = 0; k < 9; ++k) {
       const std::size_t n = grid_.index(window.row + k / 3, window.column + k % 3);
       nodes[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(n);
@@ -75,7 +76,8 @@ class Windows {
       for (int q = p; q < high_ * wide_; ++q) {
         if ((p / wide_ > 0 && !last_row) || (std::min(p % wide_, q % wide_) > 0 && !last_column)) continue;
         const auto around = [&](int k) { return (window.column + k) % grid_.linkCount(); };
-        elements_.forEach(window.row + p / wide_, around(p % wide_), window.row + q / wide_, around(q % wide_), vertex, edge);
+        elements_.forEach(window.row + p / wide_, around(p % wide_), window.row + q / wide_, around(q % wide_), vertex,
+                          edge);
       }
     }
   }
@@ -83,9 +85,9 @@ class Windows {
 
   Grid grid_;
   const ElementPairs& elements_;
+  const Spacings& per_spacing_;
   int high_, wide_;     // quads of a window
   int rows_, columns_;  // of windows
-  BlockPyramid::Floats per_spacing_u_, per_spacing_v_;      // [1/m] of columns, of rows of quads
   std::vector<LocalPair> vertices_, edges_;
   std::vector<Window> bent_;
 };

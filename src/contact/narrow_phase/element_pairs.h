@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The pairs of elements that two quads own (cloth/coarse_mesh.h): of all pairs of quads, every pair of elements comes once.
+// The pairs of elements that two quads own (cloth/coarse_mesh.h): of all pairs of quads, every pair of elements comes
+// once.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "cloth/cloth.h"
@@ -25,7 +27,8 @@ class ElementPairs {
     return (immovable_[nodes[0]] & immovable_[nodes[1]] & immovable_[nodes[2]] & immovable_[nodes[3]]) == 0;
   }
 
-  /// Calls vertex(nodes) and edge(nodes) for those of the quads at (row_p, column_p) and (row_q, column_q), which may be one.
+  /// Calls vertex(nodes) and edge(nodes) for those of the quads at (row_p, column_p) and (row_q, column_q), which may
+  /// be one.
   template <typename Vertex, typename Edge>
   void forEach(int row_p, int column_p, int row_q, int column_q, const Vertex& vertex, const Edge& edge) const {
     const QuadElements p = quadElements(grid_, row_p, column_p), q = quadElements(grid_, row_q, column_q);

@@ -68,16 +68,20 @@ CURTAIN_INTO_WIDE std::uint32_t findEven(const EvenWindows& windows) {
   per_plus *= 0.5f;
   per_minus *= 0.5f;
   Vectors a{(mean_u.x + mean_v.x) * per_plus, (mean_u.y + mean_v.y) * per_plus, (mean_u.z + mean_v.z) * per_plus};
-  const Vectors skew{(mean_u.x - mean_v.x) * per_minus, (mean_u.y - mean_v.y) * per_minus, (mean_u.z - mean_v.z) * per_minus};
+  const Vectors skew{(mean_u.x - mean_v.x) * per_minus, (mean_u.y - mean_v.y) * per_minus,
+                     (mean_u.z - mean_v.z) * per_minus};
   const Vectors b{a.x - skew.x, a.y - skew.y, a.z - skew.z};
   a.add(skew);
-  // What lambda must exceed: reach over the least altitude of a triangle. Slopes are rounded by a few units of the largest coordinate over the
-  // spacing.
+  // What lambda must exceed: reach over the least altitude of a triangle. Slopes are rounded by a few units of the
+  // largest coordinate over the spacing.
   Lanes limit;
   const Lanes squares = most_u * most_u + most_v * most_v;
   Eight::inverseRoot(squares, limit);
-  limit = (1.0f + 1e-4f) * (windows.reach * (squares * limit) + (16.0f * windows.rounding) * (most_u > most_v ? most_u : Lanes{} + most_v)) + kRoundedSlopes;
-  auto even = ((plus < minus ? plus : minus) > kLeastSine) & ((square_u < square_v ? square_u : square_v) > kLeastSlope);
+  limit = (1.0f + 1e-4f) * (windows.reach * (squares * limit) +
+                            (16.0f * windows.rounding) * (most_u > most_v ? most_u : Lanes{} + most_v)) +
+          kRoundedSlopes;
+  auto even =
+      ((plus < minus ? plus : minus) > kLeastSine) & ((square_u < square_v ? square_u : square_v) > kLeastSlope);
   // Both eigenvalues of the symmetric part exceed the limit.
   const auto narrow = [&](const Vectors& du, const Vectors& dv) {
     Lanes along_u, along_v, across_u, across_v;
@@ -104,6 +108,23 @@ CURTAIN_INTO_WIDE std::uint32_t findEven(const EvenWindows& windows) {
 CURTAIN_WIDE std::uint32_t findEvenSquares(const EvenWindows& windows) { return findEven<2, 2>(windows); }
 
 }  // namespace
+
+Spacings::Spacings(const ClothPattern& pattern) {
+  const Grid& grid = pattern.grid;
+  const int quads = grid.linkCount();
+  u.assign(static_cast<std::size_t>(Grid::strideFor(grid.columns + 2)) + 2 * Eight::kCount, 1.0f);
+  v.assign(static_cast<std::size_t>(grid.rows), 1.0f);
+  for (int j = 0; j < quads + (grid.closed ? 1 : 0); ++j) {
+    double sum = 0.0;
+    for (int i = 0; i < grid.rows; ++i) sum += pattern.weft_rest[grid.index(i, (j % quads + 1) % grid.columns)];
+    u[static_cast<std::size_t>(j)] = static_cast<float>(grid.rows / sum);
+  }
+  for (int i = 0; i + 1 < grid.rows; ++i) {
+    double sum = 0.0;
+    for (int j = 0; j < grid.columns; ++j) sum += pattern.warp_rest[grid.index(i + 1, j)];
+    v[static_cast<std::size_t>(i)] = static_cast<float>(grid.columns / sum);
+  }
+}
 
 std::uint32_t EvenWindows::find() const noexcept {
   if (high == 2 && wide == 2) return findEvenSquares(*this);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Vectors of eight things side by side, in single precision, for functions that are compiled for wider registers too (cloth/wide.h).
-// References and no results: vectors wider than the machine's have no settled way of being returned.
+// Vectors of eight things side by side, in single precision, for functions that are compiled for wider registers too
+// (cloth/wide.h). References and no results: vectors wider than the machine's have no settled way of being returned.
 #pragma once
 
 #include <Eigen/Core>
@@ -46,7 +46,9 @@ struct Eight {
   };
 
   static CURTAIN_INTO_WIDE void load(const float* from, Lanes& to) { std::memcpy(&to, from, sizeof to); }
-  static CURTAIN_INTO_WIDE void dot(const Vectors& a, const Vectors& b, Lanes& to) { to = a.x * b.x + a.y * b.y + a.z * b.z; }
+  static CURTAIN_INTO_WIDE void dot(const Vectors& a, const Vectors& b, Lanes& to) {
+    to = a.x * b.x + a.y * b.y + a.z * b.z;
+  }
   static CURTAIN_INTO_WIDE void cross(const Vectors& a, const Vectors& b, Vectors& to) {
     to.x = a.y * b.z - a.z * b.y;
     to.y = a.z * b.x - a.x * b.z;
@@ -76,10 +78,14 @@ struct Eight {
     Quarter q[kCount];
     for (std::size_t k = 0; k < kCount; ++k) std::memcpy(&q[k], places[node_of(k)].data(), sizeof q[k]);
     // Nodes k and k + 4 side by side, and then components across.
-    const Lanes a = __builtin_shufflevector(q[0], q[4], 0, 1, 2, 3, 4, 5, 6, 7), b = __builtin_shufflevector(q[1], q[5], 0, 1, 2, 3, 4, 5, 6, 7);
-    const Lanes c = __builtin_shufflevector(q[2], q[6], 0, 1, 2, 3, 4, 5, 6, 7), d = __builtin_shufflevector(q[3], q[7], 0, 1, 2, 3, 4, 5, 6, 7);
-    const Lanes ab = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13), cd = __builtin_shufflevector(c, d, 0, 8, 1, 9, 4, 12, 5, 13);
-    const Lanes ab_z = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15), cd_z = __builtin_shufflevector(c, d, 2, 10, 3, 11, 6, 14, 7, 15);
+    const Lanes a = __builtin_shufflevector(q[0], q[4], 0, 1, 2, 3, 4, 5, 6, 7),
+                b = __builtin_shufflevector(q[1], q[5], 0, 1, 2, 3, 4, 5, 6, 7);
+    const Lanes c = __builtin_shufflevector(q[2], q[6], 0, 1, 2, 3, 4, 5, 6, 7),
+                d = __builtin_shufflevector(q[3], q[7], 0, 1, 2, 3, 4, 5, 6, 7);
+    const Lanes ab = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13),
+                cd = __builtin_shufflevector(c, d, 0, 8, 1, 9, 4, 12, 5, 13);
+    const Lanes ab_z = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15),
+                cd_z = __builtin_shufflevector(c, d, 2, 10, 3, 11, 6, 14, 7, 15);
     to.x = __builtin_shufflevector(ab, cd, 0, 1, 8, 9, 4, 5, 12, 13);
     to.y = __builtin_shufflevector(ab, cd, 2, 3, 10, 11, 6, 7, 14, 15);
     to.z = __builtin_shufflevector(ab_z, cd_z, 0, 1, 8, 9, 4, 5, 12, 13);

@@ -16,10 +16,19 @@ struct Corners {
   Vectors one[4], other[4];
 };
 
-CURTAIN_INTO_WIDE void gather(const std::array<TwoQuads, 8>& pairs, const Eigen::Array4f* places, Corners& at) {
+// At both instants, and summed up over them: half way, twice.
+CURTAIN_INTO_WIDE void gather(const std::array<TwoQuads, kPairsAtOnce>& pairs, const NodeWays& ways, Corners& start,
+                              Corners& end, Corners& half) {
   for (std::size_t n = 0; n < 4; ++n) {
-    Eight::gather(places, [&](std::size_t k) { return pairs[k].one[n]; }, at.one[n]);
-    Eight::gather(places, [&](std::size_t k) { return pairs[k].other[n]; }, at.other[n]);
+    const auto take = [&](FourNodes TwoQuads::*quad, Vectors(Corners::*corners)[4]) {
+      const auto node_of = [&](std::size_t k) { return (pairs[k].*quad)[n]; };
+      Eight::gather(ways.start, node_of, (start.*corners)[n]);
+      Eight::gather(ways.end, node_of, (end.*corners)[n]);
+      (half.*corners)[n] = (start.*corners)[n];
+      (half.*corners)[n].add((end.*corners)[n]);
+    };
+    take(&TwoQuads::one, &Corners::one);
+    take(&TwoQuads::other, &Corners::other);
   }
 }
 
@@ -50,14 +59,6 @@ CURTAIN_INTO_WIDE std::uint32_t separates(const Vectors& way, const Corners& sta
 // Coordinates are rounded, and so are three products and sums of each: a multiple stands for all.
 CURTAIN_INTO_WIDE float certain(float reach, float rounding) { return (reach + 16.0f * rounding) * (1.0f + 1e-5f); }
 
-CURTAIN_INTO_WIDE void halfWay(const Corners& start, const Corners& end, Corners& sum) {
-  sum = start;
-  for (std::size_t n = 0; n < 4; ++n) {
-    sum.one[n].add(end.one[n]);
-    sum.other[n].add(end.other[n]);
-  }
-}
-
 // From the first quads' middles to the others', four times.
 CURTAIN_INTO_WIDE void betweenMiddles(const Corners& at, Vectors& way) {
   way = at.other[0];
@@ -80,11 +81,12 @@ CURTAIN_INTO_WIDE void across(const Vectors (&corners)[4], const Vectors& betwee
   way.scale(side < 0.0f ? -one : one);
 }
 
-CURTAIN_WIDE std::uint32_t quadsApart(const std::array<TwoQuads, 8>& pairs, const NodeWays& ways, float reach, float rounding) {
+}  // namespace
+
+CURTAIN_WIDE std::uint32_t quadsStayApart(const std::array<TwoQuads, kPairsAtOnce>& pairs, const NodeWays& ways,
+                                          float reach, float rounding) noexcept {
   Corners start, end, half;
-  gather(pairs, ways.start, start);
-  gather(pairs, ways.end, end);
-  halfWay(start, end, half);
+  gather(pairs, ways, start, end, half);
   const float least = certain(reach, rounding);
   Vectors between, way;
   betweenMiddles(half, between);
@@ -97,11 +99,10 @@ CURTAIN_WIDE std::uint32_t quadsApart(const std::array<TwoQuads, 8>& pairs, cons
   return apart | separates(way, start, end, least);
 }
 
-CURTAIN_WIDE std::uint32_t quadsApartSomehow(const std::array<TwoQuads, 8>& pairs, const NodeWays& ways, float reach, float rounding) {
+CURTAIN_WIDE std::uint32_t quadsStayApartSomehow(const std::array<TwoQuads, kPairsAtOnce>& pairs, const NodeWays& ways,
+                                                 float reach, float rounding) noexcept {
   Corners start, end, half;
-  gather(pairs, ways.start, start);
-  gather(pairs, ways.end, end);
-  halfWay(start, end, half);
+  gather(pairs, ways, start, end, half);
   const float least = certain(reach, rounding);
   Vectors way;
   betweenMiddles(half, way);
@@ -139,16 +140,6 @@ CURTAIN_WIDE std::uint32_t quadsApartSomehow(const std::array<TwoQuads, 8>& pair
     if (step > 0) apart |= separates(way, start, end, least);
   }
   return apart;
-}
-
-}  // namespace
-
-std::uint32_t quadsStayApart(const std::array<TwoQuads, kPairsAtOnce>& pairs, const NodeWays& ways, float reach, float rounding) noexcept {
-  return quadsApart(pairs, ways, reach, rounding);
-}
-
-std::uint32_t quadsStayApartSomehow(const std::array<TwoQuads, kPairsAtOnce>& pairs, const NodeWays& ways, float reach, float rounding) noexcept {
-  return quadsApartSomehow(pairs, ways, reach, rounding);
 }
 
 }  // namespace curtain

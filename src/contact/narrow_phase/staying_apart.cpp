@@ -16,13 +16,23 @@ struct Places {
   Vectors node[4];
 };
 
-CURTAIN_INTO_WIDE void gather(const std::array<FourNodes, 8>& pairs, const Eigen::Array4f* places, Places& at) {
-  for (std::size_t n = 0; n < 4; ++n) Eight::gather(places, [&](std::size_t k) { return pairs[k][n]; }, at.node[n]);
+// At both instants, and summed up over them: half way, twice.
+CURTAIN_INTO_WIDE void gather(const std::array<FourNodes, kPairsAtOnce>& pairs, const NodeWays& ways, Places& start,
+                              Places& end, Places& half) {
+  for (std::size_t n = 0; n < 4; ++n) {
+    const auto node_of = [&](std::size_t k) { return pairs[k][n]; };
+    Eight::gather(ways.start, node_of, start.node[n]);
+    Eight::gather(ways.end, node_of, end.node[n]);
+    half.node[n] = start.node[n];
+    half.node[n].add(end.node[n]);
+  }
 }
 
-// A divisor, or something else where it is none. What comes out decides on a direction alone; but no length may be built
-// in, or cloth in other units would get other pairs.
-CURTAIN_INTO_WIDE void divide(Lanes& value, const Lanes& divisor, const Lanes& other) { value /= divisor > 0.0f ? divisor : other; }
+// A divisor, or something else where it is none. What comes out decides on a direction alone; but no length may be
+// built in, or cloth in other units would get other pairs.
+CURTAIN_INTO_WIDE void divide(Lanes& value, const Lanes& divisor, const Lanes& other) {
+  value /= divisor > 0.0f ? divisor : other;
+}
 
 // How far the first `first` nodes are beyond the others along a direction.
 CURTAIN_INTO_WIDE void beyond(const Vectors& way, const Places& at, std::size_t first, Lanes& least) {
@@ -36,23 +46,19 @@ CURTAIN_INTO_WIDE void beyond(const Vectors& way, const Places& at, std::size_t 
   least -= most;
 }
 
-// The reach with what rounding may add: places are off by `rounding` in every component and no further away than the cloth is long, and
-// their product with a direction adds three roundings of that; a multiple stands for all.
+// The reach with what rounding may add: places are off by `rounding` in every component and no further away than the
+// cloth is long, and their product with a direction adds three roundings of that; a multiple stands for all.
 CURTAIN_INTO_WIDE float certain(float reach, float rounding) { return (reach + 16.0f * rounding) * (1.0f + 1e-5f); }
 
 // Lanes where the elements are further apart along `way` than so much, at both instants.
-CURTAIN_INTO_WIDE std::uint32_t separates(const Vectors& way, const Places& start, const Places& end, std::size_t first, float least) {
+CURTAIN_INTO_WIDE std::uint32_t separates(const Vectors& way, const Places& start, const Places& end, std::size_t first,
+                                          float least) {
   Lanes at_start, at_end, squared;
   beyond(way, start, first, at_start);
   beyond(way, end, first, at_end);
   Eight::lower(at_start, at_end);
   Eight::dot(way, way, squared);
   return Eight::bitsOf((at_start > 0.0f) & (at_start * at_start > (least * least) * squared));
-}
-
-CURTAIN_INTO_WIDE void halfWay(const Places& start, const Places& end, Places& sum) {
-  sum = start;
-  for (std::size_t n = 0; n < 4; ++n) sum.node[n].add(end.node[n]);
 }
 
 // From the closest point of a segment to the point that is at `from` from its start.
@@ -66,11 +72,12 @@ CURTAIN_INTO_WIDE void fromSegment(const Vectors& from, const Vectors& segment, 
   way.subtract(share, segment);
 }
 
-CURTAIN_WIDE std::uint32_t edgesApart(const std::array<FourNodes, 8>& pairs, const NodeWays& ways, float reach, float rounding) {
+}  // namespace
+
+CURTAIN_WIDE std::uint32_t edgesStayApart(const std::array<FourNodes, kPairsAtOnce>& pairs, const NodeWays& ways,
+                                          float reach, float rounding) noexcept {
   Places start, end, half;
-  gather(pairs, ways.start, start);
-  gather(pairs, ways.end, end);
-  halfWay(start, end, half);
+  gather(pairs, ways, start, end, half);
   Vectors ab, cd, ca;
   Eight::difference(half.node[1], half.node[0], ab);
   Eight::difference(half.node[3], half.node[2], cd);
@@ -99,11 +106,10 @@ CURTAIN_WIDE std::uint32_t edgesApart(const std::array<FourNodes, 8>& pairs, con
   return separates(way, start, end, 2, certain(reach, rounding));
 }
 
-CURTAIN_WIDE std::uint32_t vertexApart(const std::array<FourNodes, 8>& pairs, const NodeWays& ways, float reach, float rounding) {
+CURTAIN_WIDE std::uint32_t vertexStaysApart(const std::array<FourNodes, kPairsAtOnce>& pairs, const NodeWays& ways,
+                                            float reach, float rounding) noexcept {
   Places start, end, half;
-  gather(pairs, ways.start, start);
-  gather(pairs, ways.end, end);
-  halfWay(start, end, half);
+  gather(pairs, ways, start, end, half);
   const float least = certain(reach, rounding);
   // Above the face the normal is the way; beside it, the one from the closest point of its edges.
   Vectors ap, ab, ac, up;
@@ -134,16 +140,6 @@ CURTAIN_WIDE std::uint32_t vertexApart(const std::array<FourNodes, 8>& pairs, co
   way.y = bc_first ? from_bc.y : (ab_first ? from_ab.y : from_ac.y);
   way.z = bc_first ? from_bc.z : (ab_first ? from_ab.z : from_ac.z);
   return above | separates(way, start, end, 1, least);
-}
-
-}  // namespace
-
-std::uint32_t edgesStayApart(const std::array<FourNodes, kPairsAtOnce>& pairs, const NodeWays& ways, float reach, float rounding) noexcept {
-  return edgesApart(pairs, ways, reach, rounding);
-}
-
-std::uint32_t vertexStaysApart(const std::array<FourNodes, kPairsAtOnce>& pairs, const NodeWays& ways, float reach, float rounding) noexcept {
-  return vertexApart(pairs, ways, reach, rounding);
 }
 
 }  // namespace curtain

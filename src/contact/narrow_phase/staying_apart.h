@@ -24,7 +24,9 @@ constexpr std::size_t kPairsAtOnce = 8;
 
 /// Bit k is set where the elements of pair k are certain to stay further apart than `reach` [m]. Differences of two
 /// places may be rounded by `rounding` [m].
-std::uint32_t edgesStayApart(const std::array<FourNodes, kPairsAtOnce>& pairs, const NodeWays& ways, float reach, float rounding) noexcept;
-std::uint32_t vertexStaysApart(const std::array<FourNodes, kPairsAtOnce>& pairs, const NodeWays& ways, float reach, float rounding) noexcept;
+std::uint32_t edgesStayApart(const std::array<FourNodes, kPairsAtOnce>& pairs, const NodeWays& ways, float reach,
+                             float rounding) noexcept;
+std::uint32_t vertexStaysApart(const std::array<FourNodes, kPairsAtOnce>& pairs, const NodeWays& ways, float reach,
+                               float rounding) noexcept;
 
 }  // namespace curtain

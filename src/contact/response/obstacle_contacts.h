@@ -9,8 +9,8 @@
 //   vicinity (vicinity.h)   candidates
 //   touch (obstacle_touch.h)  of those, what touches in the substep
 //
-// All of it follows from where the nodes start and end: candidates are kept from
-// substep to substep as long as motion that is measured allows, and no result depends on that.
+// All of it follows from where the nodes start and end: what is kept from substep to substep (planes of a convex shape's
+// surface, candidates near a mesh) serves as long as motion that is measured allows, and no result depends on that.
 #pragma once
 
 #include <limits>

@@ -16,9 +16,6 @@ constexpr std::size_t kRoomPerNode = 8;
 // contact at rest must not be shaken by what the solve left over.
 constexpr double kSlack = 0.1;
 
-// Of two distances that are one but for rounding, relative.
-constexpr double kSame = 1e-9;
-
 Vec3 mix(const std::array<double, 4>& weight, const std::array<Vec3, 4>& at) {
   return weight[0] * at[0] + weight[1] * at[1] + weight[2] * at[2] + weight[3] * at[3];
 }
@@ -123,7 +120,8 @@ bool SelfContacts::touches(const PairKey& key, const Field3& start, const Field3
   return closest.distance <= gap_ || closestPoints(key.edges, to).distance <= gap_;
 }
 
-// Where a vertex is closest to the border of a triangle, and no further from another one there, that one says the same or more.
+// Where a vertex is closest to the border of a triangle, another triangle there that is nearer says the same or more: contacts are
+// where the distance to the surface is least. Of equal distances the first one stays.
 bool SelfContacts::isToldByAnother(std::size_t k) const noexcept {
   const PairKey& key = pairs_[k];
   const ClosestPoints& closest = closest_[k];
@@ -131,12 +129,13 @@ bool SelfContacts::isToldByAnother(std::size_t k) const noexcept {
   if (key.edges || (isOnBorder(1) && isOnBorder(2) && isOnBorder(3))) return false;
   const auto tells = [&](std::size_t other) {
     const PairKey& its = pairs_[other];
-    if (other == k || its.edges) return false;
+    const double distance = closest_[other].distance;
+    if (its.edges || !(distance > 0.0)) return false;
+    if (distance > closest.distance || (distance == closest.distance && other > k)) return false;
     for (std::size_t n = 1; n < 4; ++n) {
       if (isOnBorder(n) && std::find(its.node.begin() + 1, its.node.end(), key.node[n]) == its.node.end()) return false;
     }
-    const double more = closest.distance - closest_[other].distance;
-    return std::abs(more) <= kSame * closest.distance ? other < k : more > 0.0;
+    return true;
   };
   // Those of a vertex are side by side.
   for (std::size_t other = k; other-- > 0 && pairs_[other].node[0] == key.node[0];) {
