@@ -185,6 +185,51 @@ TEST(Mesh, treeAnswersAsAllTrianglesForRandomSoups) {
   }
 }
 
+/// Corners lie on a lattice and points on its halves: many triangles are equally far.
+TEST(Mesh, trianglesNearAnswerAsTheTree) {
+  Random random;
+  const auto halves = [&](double half) { return Vec3((4.0 * random.inBox(half)).array().round() / 4.0); };
+  int ties = 0, held = 0;
+  for (const int count : {1, 5, 17, 400}) {
+    ShapeTriangles soup;
+    while (static_cast<int>(soup.triangles.size()) < count) {
+      const Vec3 a = halves(1.0), b = a + halves(0.5), c = a + halves(0.5);
+      if ((b - a).cross(c - a).norm() == 0.0) continue;
+      const int first = static_cast<int>(soup.corners.size());
+      soup.corners.insert(soup.corners.end(), {a, b, c});
+      soup.triangles.emplace_back(first, first + 1, first + 2);
+    }
+    const TriangleMeshTree tree(soup);
+    Vec3 point = Vec3::Zero();
+    TrianglesNear near;
+    for (int k = 0; k < 4000; ++k) {
+      if (k % 50 == 0) point = halves(2.0);
+      else if (k % 2 == 0) point += random.inBox(0.1);
+      else point = (8.0 * point).array().round() / 8.0;
+      const double limit = std::pow(random.uniform(0.0, 1.0), 2);
+      const double room = 0.1 * (k % 7);
+      const Vec3 centre = near.centre;
+      NearestTriangle sought, found;
+      const bool is_near = tree.nearest(point, limit, sought);
+      ASSERT_EQ(tree.nearest(point, limit, room, near, found), is_near) << point.transpose();
+      held += near.centre == centre && centre != point;
+      if (!is_near) continue;
+      EXPECT_EQ(found.triangle, sought.triangle) << point.transpose();
+      EXPECT_EQ(found.distance_squared, sought.distance_squared);
+      EXPECT_EQ(found.point, sought.point);
+      int as_near = 0;
+      for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+        const NearestTriangle one = nearestOnTriangle(point, cornerOf(soup, t, 0), cornerOf(soup, t, 1), cornerOf(soup, t, 2));
+        as_near += one.distance_squared == sought.distance_squared;
+        EXPECT_FALSE(one.distance_squared == sought.distance_squared && t < sought.triangle);
+      }
+      ties += as_near > 1;
+    }
+  }
+  EXPECT_GT(ties, 200);
+  EXPECT_GT(held, 1000);
+}
+
 /// First fraction at which from -> to meets a triangle (Moeller, Trumbore 1997, and nothing else); > 1: none.
 double bruteHit(const ShapeTriangles& mesh, const Vec3& from, const Vec3& to, double& margin) {
   double first = 2.0;

@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Candidates for contact with one obstacle: all in the obstacle's frame, where it rests.
+// Candidates for contact with one obstacle in one substep: all in the obstacle's frame, where it rests.
 //
-//      expected path          nodes    those that may come within nodeReach()
-//   A ------------> B         faces    triangles that may come within elementReach() (convex shapes)
-//      ( obstacle )           pairs    cloth edge x obstacle edge, cloth triangle x obstacle corner that may (meshes)
+//                            nodes    those that may come within nodeReach()
+//   start ------------> end  faces    triangles that may come within a reach (convex shapes)
+//      ( obstacle )          pairs    cloth edge x obstacle edge, cloth triangle x obstacle corner that may (meshes)
 //
-// Near a convex shape they are found anew for every way. Near a mesh nodes are expected to go straight on, and the lists serve
-// while none is further than a slack from its expected path, which is measured in every substep. Either way they hold all
-// that comes within reach, and who takes them asks each candidate for its own distance: nothing tells how old they are.
+// They are found anew for every way; what is kept from one to the next is true of the obstacle wherever the cloth is:
+// its surface as nodes last saw it, planes that all of it is behind.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
 
 #include "cloth/cloth.h"
 #include "cloth/coarse_mesh.h"
+#include "contact/broad_phase/mesh_windows.h"
 #include "contact/shapes/obstacle_set.h"
-#include "contact/shapes/rough_features.h"
+#include "contact/shapes/triangle_mesh.h"
 
 namespace curtain {
 
@@ -27,13 +28,12 @@ struct FeaturePair {
   std::array<std::uint32_t, 3> node{};
   std::uint32_t feature = 0;  ///< index of the edge or the corner in the obstacle's features
   bool edges = false;
-  bool smooth = false;        ///< a cloth whose nodes keep their distance can't come near it: see RoughFeatures
 };
 
 /// The surface as it was found from a point.
 struct NodePlane {
-  Vec3 at = Vec3::Zero();                  ///< that point [m]
-  SurfacePoint surface;                    ///< distance: at least that when not found
+  Vec3 at = Vec3::Zero();  ///< that point [m]
+  SurfacePoint surface;    ///< distance: at least that when not found
   enum class Kind : std::uint8_t { kUnknown, kFar, kFound } kind = Kind::kUnknown;
 
   /// No point of the surface is nearer to p than this, for certain [m]; of use outside.
@@ -50,16 +50,14 @@ class Vicinity {
     std::uint32_t index;
   };
 
-  /// thickness: kept between nodes and obstacle [m]; core: between faces and obstacle; pattern and shape must outlive this.
-  /// Allocates all there is to.
+  /// thickness: kept between nodes and obstacle [m]; core: between faces and obstacle; pattern and shape must outlive
+  /// this. Allocates all there is to.
   Vicinity(const ClothPattern& pattern, const ObstacleShape& shape, double thickness, double core);
 
-  /// Makes sure that the lists hold for a substep of h [s] from start to predicted, and takes these positions over.
-  void prepare(const MovingObstacle& moving, const Field3& start, const Field3& predicted, double h) noexcept;
-  /// The same for another end of the same substep: where nodes really go.
-  void follow(const MovingObstacle& moving, const Field3& start, const Field3& end, double h) noexcept;
-  /// The substep was accepted: the next one is expected further on the path.
-  void advance(double h) noexcept { elapsed_ += h; }
+  /// Lists what may touch in a substep from start to predicted, and takes these positions over.
+  void prepare(const MovingObstacle& moving, const Field3& start, const Field3& predicted) noexcept;
+  /// What may go through on another way from that start: where nodes really go.
+  void follow(const MovingObstacle& moving, const Field3& end) noexcept;
   void forget() noexcept;
 
   const std::vector<std::uint32_t>& nodes() const noexcept { return nodes_; }
@@ -69,6 +67,11 @@ class Vicinity {
   /// Of a listed node (or one of a listed element), in the obstacle's frame [m].
   Vec3 startOf(std::size_t node) const noexcept { return start_.at(node); }
   Vec3 endOf(std::size_t node) const noexcept { return end_.at(node); }
+  /// The shape's query() for a node.
+  bool query(std::size_t node, const Vec3& previous, const Vec3& current, double reach, SurfacePoint& out) noexcept {
+    if (mesh_ == nullptr) return shape_.query(previous, current, reach, out);
+    return mesh_->query(previous, current, reach, thickness_, triangles_[node], out);
+  }
   NodePlane& plane(std::size_t node) noexcept { return planes_[node]; }
   const NodePlane& plane(std::size_t node) const noexcept { return planes_[node]; }
 
@@ -77,11 +80,11 @@ class Vicinity {
   const NodePlane& facePlane(const Face& face) const noexcept { return face_planes_[face.index]; }
 
   /// Signed distance at the start of the substep, or the thickness when it is more [m].
-  double distanceOf(std::size_t node) const noexcept { return distance_[node]; }
+  double distanceOf(std::size_t node) const noexcept {
+    return looked_at_[node] == substep_ ? std::min(distance_[node], thickness_) : thickness_;
+  }
   /// The node starts the substep inside the obstacle; what has such a node is on its way out, and nothing may stop it.
-  bool isInside(std::size_t node) const noexcept { return distance_[node] < 0.0 && !isPinned(node); }
-  /// The node starts the substep nearer than nodes are kept.
-  bool isClose(std::size_t node) const noexcept { return distance_[node] < kept_; }
+  bool isInside(std::size_t node) const noexcept { return distanceOf(node) < 0.0 && !isPinned(node); }
   bool isPinned(std::size_t node) const noexcept { return pattern_.inverse_mass[node] <= 0.0; }
 
   const ObstacleShape& shape() const noexcept { return shape_; }
@@ -89,7 +92,7 @@ class Vicinity {
   double core() const noexcept { return core_; }
   /// What comes nearer in a substep is listed, for certain [m].
   double nodeReach() const noexcept { return 1.5 * thickness_; }
-  double elementReach() const noexcept { return 0.5 * thickness_; }
+  double elementReach() const noexcept { return 0.4 * thickness_; }
   /// What comes nearer would go through, with room for what times of impact are early by [m].
   double crossingReach() const noexcept { return 2.0 * kLeast * thickness_; }
   /// Over the thickness: nearer than this is through.
@@ -98,52 +101,41 @@ class Vicinity {
   bool full() const noexcept { return full_; }
 
  private:
-  void rebuild(const MovingObstacle& moving, const Field3& start, const Field3& end, double h) noexcept;
-  void look(const MovingObstacle& moving, const Field3& start, const Field3& predicted, double h) noexcept;
-  bool measureStart() noexcept;
-  void lookAtNodes() noexcept;
-  void lookAtElements() noexcept;
   static void toLocal(const Transform& place, const Field3& position, Field3& out) noexcept;
-  void startConvex(const MovingObstacle& moving, const Field3& start) noexcept;
-  void listConvex(const MovingObstacle& moving, const Field3& end, double reach) noexcept;
-  void listNodes(const Eigen::AlignedBox3d& box) noexcept;
-  void listFaces(const Eigen::AlignedBox3d& box, double reach) noexcept;
+  void list(const MovingObstacle& moving, const Field3& end, double reach) noexcept;
+  void listNodes() noexcept;
   void lookAtStart(std::size_t node) noexcept;
+  Eigen::AlignedBox3d boundsWithin(double around) const noexcept;
+  Eigen::AlignedBox3d boxOf(const std::array<std::uint32_t, 4>& corners) const noexcept;
+  Eigen::AlignedBox3d boxOfRows(int i) const noexcept {
+    return row_boxes_[static_cast<std::size_t>(i)].merged(row_boxes_[static_cast<std::size_t>(i) + 1]);
+  }
+  void listFaces(double reach) noexcept;
   bool staysOver(const Face& face, double reach) noexcept;
-  template <typename Features>
-  void addPairs(const QuadElements& quad, const Features& features) noexcept;
-  template <typename Features>
-  void addEdgePairs(const MeshEdge& edge, const Features& features) noexcept;
-  template <typename Features>
-  void addCornerPairs(const MeshTriangle& triangle, const Features& features) noexcept;
+  void listPairs(double reach) noexcept;
+  void listPairsOf(const QuadElements& quad, const QuadWay& way, double reach) noexcept;
+  void addEdgePair(const MeshEdge& edge, std::uint32_t index, const ObstacleEdge& other, double reach) noexcept;
+  void addCornerPair(const MeshTriangle& triangle, std::uint32_t index, const ObstacleVertex& corner,
+                     double reach) noexcept;
   void addPair(const FeaturePair& pair) noexcept;
-  void takeNodes(const std::uint32_t* first, std::size_t count) noexcept;
-  void takeOver(const MovingObstacle& moving, const Field3& start, const Field3& end) noexcept;
-  double strayed(const Transform& place, const Field3& position, double h) const noexcept;
 
   const ClothPattern& pattern_;
   const ObstacleShape& shape_;
-  double thickness_, core_, kept_;
-  double longest_ = 0.0;  // edge of the cloth's mesh on the expected path [m]
+  const TriangleMeshShape* mesh_;
+  double thickness_, core_;
   bool elements_wanted_;
-  RoughFeatures rough_;  // of a mesh, while the nodes keep their distance
-  double slack_;     // [m]
-  double length_ = 0.0, elapsed_ = 0.0;  // of the expected path, and gone of it [s]; length 0: there is none
-  Field3 from_, to_;                     // its ends, obstacle's frame [m]
-  Field3 start_, end_;                   // of this substep, of the nodes in taken_
-  std::vector<NodePlane> planes_;        // by node
-  std::vector<double> bound_;            // by node: nearest that it may come on its way; of a convex shape: its distance where it starts [m]
-  std::vector<double> distance_;         // by node, see distanceOf(); the thickness for those not listed
-  std::vector<std::uint8_t> keeps_;      // by node: the lists count on it not to be close
+  Field3 start_, end_;             // of this substep [m]
+  std::vector<NodePlane> planes_;  // by node
+  std::vector<double> distance_;   // by node: where it was last looked at, at least that when the surface was far [m]
   std::uint32_t substep_ = 0;
-  std::vector<std::uint32_t> looked_at_;   // by node: the substep at whose start its plane was found, of a convex shape
-  std::vector<Eigen::AlignedBox3d> row_boxes_;  // around the nodes' ways, of a convex shape [m]
+  std::vector<std::uint32_t> looked_at_;        // by node: the substep at whose start it was
+  std::vector<Eigen::AlignedBox3d> row_boxes_;  // around the nodes' ways [m]
   bool full_ = false;
-  std::vector<std::uint8_t> is_taken_;   // by node
-  std::vector<std::uint32_t> taken_;     // nodes whose positions are taken over
-  std::vector<std::uint32_t> nodes_;     // pinned ones too
+  std::vector<std::uint32_t> nodes_;  // pinned ones too
   std::vector<Face> faces_;
-  std::vector<NodePlane> face_planes_;     // by the faces' numbers, of a convex shape
+  std::vector<NodePlane> face_planes_;    // by the faces' numbers, of a convex shape
+  std::vector<TrianglesNear> triangles_;  // by node, of a mesh
+  MeshWindows windows_;                   // of a mesh
   std::vector<FeaturePair> pairs_;
 };
 

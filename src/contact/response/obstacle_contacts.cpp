@@ -96,8 +96,8 @@ bool ObstacleContacts::activate(const Field3& start, const Field3& end, bool lin
   for (std::size_t n = 0; n < near_.size(); ++n) {
     const MovingObstacle& moving = obstacles_.moving()[n];
     if (!moving.present || !(active_[n] != 0 || box.intersects(moving.sweptBounds()))) continue;
-    if (active_[n] != 0) near_[n].follow(moving, start, end, h_);
-    else near_[n].prepare(moving, start, end, h_);
+    if (active_[n] != 0) near_[n].follow(moving, end);
+    else near_[n].prepare(moving, start, end);
     active_[n] = 1;
     any = true;
   }
@@ -169,10 +169,7 @@ void ObstacleContacts::endCarrying() noexcept {
 
 void ObstacleContacts::remember(const Contacts& pushing, const Field3& position, double h, double scale) noexcept {
   loaded_for_ += h;
-  for (std::size_t n = 0; n < near_.size(); ++n) {
-    if (active_[n] != 0) near_[n].advance(h);
-    loads_[n].contacts = 0;
-  }
+  for (Load& load : loads_) load.contacts = 0;
   for (const Contact& contact : pushing) {
     if (contact.obstacle == Contact::kCloth) continue;
     const auto obstacle = static_cast<std::size_t>(contact.obstacle);

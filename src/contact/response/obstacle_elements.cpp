@@ -43,14 +43,6 @@ bool comesOut(const std::array<std::uint32_t, 3>& node, std::size_t nodes, const
   return false;
 }
 
-// Whether the lists have it only for others: it can't be met where nodes keep their distance.
-bool isLeftOut(const FeaturePair& pair, const Vicinity& near) {
-  const std::size_t nodes = pair.edges ? 2 : 3;
-  if (comesOut(pair.node, nodes, near)) return true;
-  return pair.smooth && std::none_of(pair.node.begin(), pair.node.begin() + static_cast<std::ptrdiff_t>(nodes),
-                                     [&near](std::uint32_t node) { return near.isClose(node); });
-}
-
 // Tells features apart in the order of contacts.
 std::uint32_t sourceOf(const FeaturePair& pair) { return 2 * pair.feature + (pair.edges ? 1 : 0); }
 
@@ -199,7 +191,7 @@ void collectPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, c
   const ObstacleFeatures& features = *near.shape().features();
   const double listed = near.elementReach();
   for (const FeaturePair& pair : near.pairs()) {
-    if (isLeftOut(pair, near)) continue;
+    if (comesOut(pair.node, pair.edges ? 2 : 3, near)) continue;
     const Corners start = startOf(near, pair.node), end = endOf(near, pair.node);
     if (staysOver(pair, features, start, end, listed)) continue;
     const PairPoint first = closest(pair, features, start);
@@ -236,7 +228,7 @@ void crossingPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, 
   const ObstacleFeatures& features = *near.shape().features();
   const double most = Vicinity::kLeast * near.thickness();
   for (const FeaturePair& pair : near.pairs()) {
-    if (isLeftOut(pair, near)) continue;
+    if (comesOut(pair.node, pair.edges ? 2 : 3, near)) continue;
     const Corners start = startOf(near, pair.node), end = endOf(near, pair.node);
     if (staysOver(pair, features, start, end, most)) continue;
     const PairPoint first = closest(pair, features, start);

@@ -138,7 +138,7 @@ void collectNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, V
     const Vec3 from = near.startOf(node), to = near.endOf(node);
     NodePlane& plane = near.plane(node);
     SurfacePoint surface;
-    if (near.isPinned(node) || staysClear(plane, from, to, reach) || !near.shape().query(from, to, reach, surface)) continue;
+    if (near.isPinned(node) || staysClear(plane, from, to, reach) || !near.query(node, from, to, reach, surface)) continue;
     if (surface.distance >= 0.0) plane = {to, surface, NodePlane::Kind::kFound};
     double distance = near.distanceOf(node);
     exit.lead(from, to, distance, surface);
@@ -146,7 +146,7 @@ void collectNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, V
   }
 }
 
-void crossingNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, const Vicinity& near,
+void crossingNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, Vicinity& near,
                    std::vector<Crossing>& crossings) noexcept {
   const double most = Vicinity::kLeast * near.thickness();
   for (const std::uint32_t node : near.nodes()) {
@@ -154,7 +154,7 @@ void crossingNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, 
     const double distance = near.distanceOf(node);
     SurfacePoint surface;
     if (near.isPinned(node) || distance <= 0.0 || staysClear(near.plane(node), from, to, most)) continue;
-    if (!near.shape().query(from, to, most, surface) || surface.distance >= std::min(most, 0.5 * distance)) continue;
+    if (!near.query(node, from, to, most, surface) || surface.distance >= std::min(most, 0.5 * distance)) continue;
     Crossing crossing;
     crossing.node[0] = node;
     crossing.contact = nodeContact(substep, pattern, node, near, surface, distance);

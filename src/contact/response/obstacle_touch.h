@@ -43,7 +43,7 @@ void collectFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, V
 void collectPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, const Vicinity& near, Contacts& contacts) noexcept;
 
 /// What would go through on the way that the vicinity followed. Parts that are through where it starts are not.
-void crossingNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, const Vicinity& near,
+void crossingNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, Vicinity& near,
                    std::vector<Crossing>& crossings) noexcept;
 void crossingFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, const Vicinity& near,
                    std::vector<Crossing>& crossings) noexcept;

@@ -86,6 +86,15 @@ class ObstacleFeatures {
   void forEachTriangleIn(const Eigen::AlignedBox3d& box, F&& f) const {
     visit(triangle_tree_, triangles_, box, f);
   }
+  /// The same of one feature.
+  template <typename F>
+  void ifVertexIn(const Eigen::AlignedBox3d& box, std::uint32_t n, F&& f) const {
+    if (touches(vertices_[n], box)) f(n, vertices_[n]);
+  }
+  template <typename F>
+  void ifEdgeIn(const Eigen::AlignedBox3d& box, std::uint32_t n, F&& f) const {
+    if (touches(edges_[n], box)) f(n, edges_[n]);
+  }
 
  private:
   static Vec3 low(const ObstacleVertex& v) { return v.position; }
@@ -95,14 +104,15 @@ class ObstacleFeatures {
   static Vec3 low(const ObstacleTriangle& t) { return t.corners[0].cwiseMin(t.corners[1]).cwiseMin(t.corners[2]); }
   static Vec3 high(const ObstacleTriangle& t) { return t.corners[0].cwiseMax(t.corners[1]).cwiseMax(t.corners[2]); }
 
+  template <typename Feature>
+  static bool touches(const Feature& feature, const Eigen::AlignedBox3d& box) {
+    return (low(feature).array() <= box.max().array()).all() && (high(feature).array() >= box.min().array()).all();
+  }
   template <typename Feature, typename F>
   static void visit(const BoxTree& tree, const std::vector<Feature>& features, const Eigen::AlignedBox3d& box, F& f) {
     tree.forEachRunIn(box, [&](std::uint32_t first, std::uint32_t last) {
       for (std::uint32_t n = first; n < last; ++n) {
-        const Feature& feature = features[n];
-        const bool touches = (low(feature).array() <= box.max().array()).all() &&
-                             (high(feature).array() >= box.min().array()).all();
-        if (touches) f(n, feature);
+        if (touches(features[n], box)) f(n, features[n]);
       }
     });
   }

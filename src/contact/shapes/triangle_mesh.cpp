@@ -94,13 +94,8 @@ bool TriangleMeshShape::entry(const Vec3& previous, const Vec3& current, Surface
   return out.distance < 0.0;  // not so: the way leads out of the solid
 }
 
-bool TriangleMeshShape::query(const Vec3& previous, const Vec3& current, double reach,
-                              SurfacePoint& out) const noexcept {
-  return topology_.watertight ? querySolid(previous, current, reach, out)
-                              : queryShell(previous, current, reach, out);
-}
-
-bool TriangleMeshShape::querySolid(const Vec3& previous, const Vec3& current, double reach,
+template <typename Search>
+bool TriangleMeshShape::querySolid(const Vec3& previous, const Vec3& current, double reach, Search&& search,
                                    SurfacePoint& out) const noexcept {
   const double motion = (current - previous).norm();
   const DistanceGrid::Bracket bracket = grid_->bracket(current);
@@ -112,7 +107,7 @@ bool TriangleMeshShape::querySolid(const Vec3& previous, const Vec3& current, do
   const double bound = std::max(std::abs(bracket.low), std::abs(bracket.high));
   const double limit = bracket.low < 0.0 ? bound : std::min(wanted, bound);
   NearestTriangle nearest;
-  if (!tree_.nearest(current, limit * limit, nearest)) {
+  if (!search(limit * limit, nearest)) {
     return false;
   }
   const SurfacePoint surface = surfacePoint(current, nearest);
@@ -129,13 +124,14 @@ bool TriangleMeshShape::querySolid(const Vec3& previous, const Vec3& current, do
   return true;
 }
 
-bool TriangleMeshShape::queryShell(const Vec3& previous, const Vec3& current, double reach,
+template <typename Search>
+bool TriangleMeshShape::queryShell(const Vec3& previous, const Vec3& current, double reach, Search&& search,
                                    SurfacePoint& out) const noexcept {
   const double motion = (current - previous).norm();
   const DistanceGrid::Bracket bracket = grid_->bracket(current);
   const double limit = std::min(std::max(reach, motion), bracket.high);
   NearestTriangle nearest;
-  if (!(bracket.low <= limit) || !tree_.nearest(current, limit * limit, nearest)) {
+  if (!(bracket.low <= limit) || !search(limit * limit, nearest)) {
     return false;
   }
   const SurfacePoint surface = surfacePoint(current, nearest);
@@ -153,6 +149,20 @@ bool TriangleMeshShape::queryShell(const Vec3& previous, const Vec3& current, do
     out.normal = -out.normal;
   }
   return true;
+}
+
+bool TriangleMeshShape::query(const Vec3& previous, const Vec3& current, double reach,
+                              SurfacePoint& out) const noexcept {
+  return queryBy(
+      previous, current, reach,
+      [&](double limit, NearestTriangle& nearest) { return tree_.nearest(current, limit, nearest); }, out);
+}
+
+bool TriangleMeshShape::query(const Vec3& previous, const Vec3& current, double reach, double room, TrianglesNear& near,
+                              SurfacePoint& out) const noexcept {
+  return queryBy(
+      previous, current, reach,
+      [&](double limit, NearestTriangle& nearest) { return tree_.nearest(current, limit, room, near, nearest); }, out);
 }
 
 }  // namespace curtain

@@ -19,6 +19,10 @@ class TriangleMeshShape final : public ObstacleShape {
   explicit TriangleMeshShape(ShapeTriangles mesh);
 
   bool query(const Vec3& previous, const Vec3& current, double reach, SurfacePoint& out) const noexcept override;
+  /// The same answer, sooner where `near` was found for a point nearby. Finds it anew where it does not do, with so
+  /// much room for the point to move [m].
+  bool query(const Vec3& previous, const Vec3& current, double reach, double room, TrianglesNear& near,
+             SurfacePoint& out) const noexcept;
   Eigen::AlignedBox3d bounds() const override { return tree_.bounds(); }
   ShapeTriangles triangles() const override { return topology_.mesh; }
 
@@ -28,8 +32,18 @@ class TriangleMeshShape final : public ObstacleShape {
   bool watertight() const { return topology_.watertight; }
 
  private:
-  bool querySolid(const Vec3& previous, const Vec3& current, double reach, SurfacePoint& out) const noexcept;
-  bool queryShell(const Vec3& previous, const Vec3& current, double reach, SurfacePoint& out) const noexcept;
+  template <typename Search>
+  bool querySolid(const Vec3& previous, const Vec3& current, double reach, Search&& search,
+                  SurfacePoint& out) const noexcept;
+  template <typename Search>
+  bool queryShell(const Vec3& previous, const Vec3& current, double reach, Search&& search,
+                  SurfacePoint& out) const noexcept;
+  template <typename Search>
+  bool queryBy(const Vec3& previous, const Vec3& current, double reach, Search&& search,
+               SurfacePoint& out) const noexcept {
+    return topology_.watertight ? querySolid(previous, current, reach, search, out)
+                                : queryShell(previous, current, reach, search, out);
+  }
 
   /// Tangent plane of the triangle that the way previous -> current goes in by; false: it goes in nowhere.
   bool entry(const Vec3& previous, const Vec3& current, SurfacePoint& out) const noexcept;

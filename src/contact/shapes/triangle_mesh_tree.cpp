@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace curtain {
@@ -13,6 +14,9 @@ constexpr std::uint32_t kLeafSize = 4;
 
 /// Depth is at most 32 (halving of a 32-bit count) and each level leaves one sibling behind.
 constexpr int kStackSize = 64;
+
+/// Squares of distances round by less, relative: of triangles that are equally far none is passed over.
+constexpr double kRounding = 1e-12;
 
 double distanceSquared(const Vec3& point, const Vec3& low, const Vec3& high) {
   return (low - point).cwiseMax(point - high).cwiseMax(0.0).squaredNorm();
@@ -85,6 +89,22 @@ class Segment {
   double shear_y_ = 0.0;
   double shear_z_ = 0.0;
 };
+
+// Puts a triangle into its place; without room the furthest one is left out, and bounds all that are.
+void insert(std::uint32_t place, double distance, TrianglesNear& near) {
+  std::size_t k = near.count;
+  if (k == TrianglesNear::kMost)
+    near.radius = near.distances[--k];
+  else
+    ++near.count;
+  if (distance >= near.radius) return;
+  for (; k > 0 && near.distances[k - 1] > distance; --k) {
+    near.distances[k] = near.distances[k - 1];
+    near.places[k] = near.places[k - 1];
+  }
+  near.distances[k] = distance;
+  near.places[k] = place;
+}
 
 }  // namespace
 
@@ -190,21 +210,32 @@ void TriangleMeshTree::split(std::uint32_t node, std::uint32_t first, std::uint3
                   nodes_[child].high.cwiseMax(nodes_[child + 1].high), child, 0};
 }
 
+// Takes the triangle if it is nearer than the best, or as near and comes first in the input.
+bool TriangleMeshTree::take(const Vec3& point, std::uint32_t place, NearestTriangle& best) const noexcept {
+  const Triangle& triangle = triangles_[place];
+  NearestTriangle candidate = nearestOnTriangle(point, triangle.corners[0], triangle.corners[1], triangle.corners[2]);
+  candidate.triangle = triangle.index;
+  const bool better = candidate.distance_squared < best.distance_squared ||
+                      (candidate.distance_squared == best.distance_squared && candidate.triangle < best.triangle);
+  if (better) best = candidate;
+  return better;
+}
+
 bool TriangleMeshTree::nearest(const Vec3& point, double limit_squared, NearestTriangle& out) const noexcept {
   struct Entry {
     std::uint32_t node;
     double distance_squared;
   };
   std::array<Entry, kStackSize> stack;
-  int size = 0;
+  std::size_t size = 0;
   bool found = false;
-  double best = limit_squared;
-  stack[static_cast<std::size_t>(size++)] = {0, distanceSquared(point, nodes_[0].low, nodes_[0].high)};
+  NearestTriangle best;
+  best.distance_squared = limit_squared;
+  best.triangle = std::numeric_limits<std::uint32_t>::max();
+  stack[size++] = {0, distanceSquared(point, nodes_[0].low, nodes_[0].high)};
   while (size > 0) {
-    const Entry entry = stack[static_cast<std::size_t>(--size)];
-    if (!(entry.distance_squared <= best)) {
-      continue;
-    }
+    const Entry entry = stack[--size];
+    if (!(entry.distance_squared <= best.distance_squared * (1.0 + kRounding))) continue;
     const Node& node = nodes_[entry.node];
     if (node.count == 0) {
       const Node& left = nodes_[node.first];
@@ -212,23 +243,64 @@ bool TriangleMeshTree::nearest(const Vec3& point, double limit_squared, NearestT
       const Entry one{node.first, distanceSquared(point, left.low, left.high)};
       const Entry other{node.first + 1, distanceSquared(point, right.low, right.high)};
       const bool one_first = one.distance_squared <= other.distance_squared;
-      stack[static_cast<std::size_t>(size++)] = one_first ? other : one;
-      stack[static_cast<std::size_t>(size++)] = one_first ? one : other;
+      stack[size++] = one_first ? other : one;
+      stack[size++] = one_first ? one : other;
+      continue;
+    }
+    for (std::uint32_t t = node.first; t < node.first + node.count; ++t) found = take(point, t, best) || found;
+  }
+  if (found) out = best;
+  return found;
+}
+
+bool TriangleMeshTree::nearest(const Vec3& point, double limit_squared, double room, TrianglesNear& near,
+                               NearestTriangle& out) const noexcept {
+  const double moved = (point - near.centre).norm();
+  const double seen = near.radius - moved;
+  if (seen > 0.0) {
+    NearestTriangle best;
+    best.distance_squared = seen * seen * (1.0 - kRounding);  // none of the others is as near
+    best.triangle = 0;
+    double distance = seen;
+    bool found = false;
+    for (std::size_t k = 0; k < near.count && near.distances[k] - moved <= distance * (1.0 + kRounding); ++k) {
+      if (!take(point, near.places[k], best)) continue;
+      distance = std::sqrt(best.distance_squared);
+      found = true;
+    }
+    if (found || limit_squared <= best.distance_squared) {
+      if (!(found && best.distance_squared <= limit_squared)) return false;
+      out = best;
+      return true;
+    }
+  }
+  if (!nearest(point, limit_squared, out)) return false;
+  collect(point, std::sqrt(out.distance_squared) + room, near);
+  return true;
+}
+
+// The triangles nearest to a point, of those that come within a radius.
+void TriangleMeshTree::collect(const Vec3& point, double radius, TrianglesNear& near) const noexcept {
+  near.centre = point;
+  near.radius = radius;
+  near.count = 0;
+  std::array<std::uint32_t, kStackSize> stack;
+  std::size_t size = 0;
+  stack[size++] = 0;
+  while (size > 0) {
+    const Node& node = nodes_[stack[--size]];
+    if (distanceSquared(point, node.low, node.high) > near.radius * near.radius) continue;
+    if (node.count == 0) {
+      stack[size++] = node.first + 1;
+      stack[size++] = node.first;
       continue;
     }
     for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
-      const Triangle& triangle = triangles_[t];
-      const NearestTriangle candidate =
-          nearestOnTriangle(point, triangle.corners[0], triangle.corners[1], triangle.corners[2]);
-      if (candidate.distance_squared < best || (!found && candidate.distance_squared <= best)) {
-        found = true;
-        best = candidate.distance_squared;
-        out = candidate;
-        out.triangle = triangle.index;
-      }
+      const std::array<Vec3, 3>& at = triangles_[t].corners;
+      const double distance = std::sqrt(nearestOnTriangle(point, at[0], at[1], at[2]).distance_squared);
+      if (distance < near.radius) insert(t, distance, near);
     }
   }
-  return found;
 }
 
 bool TriangleMeshTree::firstHit(const Vec3& from, const Vec3& to, double least_fraction,
@@ -255,8 +327,7 @@ bool TriangleMeshTree::firstHit(const Vec3& from, const Vec3& to, double least_f
     }
     for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
       double fraction = 0.0;
-      if (segment.hits(triangles_[t].corners, fraction) && fraction >= least_fraction &&
-          (!found || fraction < last)) {
+      if (segment.hits(triangles_[t].corners, fraction) && fraction >= least_fraction && (!found || fraction < last)) {
         found = true;
         last = fraction;
         out = {fraction, triangles_[t].index};

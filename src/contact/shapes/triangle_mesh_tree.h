@@ -29,6 +29,17 @@ struct TriangleHit {
   std::uint32_t triangle = 0;  ///< index in the tree's input
 };
 
+/// The triangles nearest to a point, the nearest first: while it does not go far, its nearest one is among the first of
+/// them.
+struct TrianglesNear {
+  static constexpr std::size_t kMost = 16;
+  Vec3 centre = Vec3::Zero();  ///< the point [m]
+  double radius = -1.0;        ///< all others are at least that far from it; negative: nothing is known [m]
+  std::size_t count = 0;
+  std::array<double, kMost> distances{};      ///< [m]
+  std::array<std::uint32_t, kMost> places{};  ///< in the tree
+};
+
 /// Nearest point of the triangle (a, b, c), which may not have zero area; fills all but `triangle`.
 NearestTriangle nearestOnTriangle(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c) noexcept;
 
@@ -37,8 +48,13 @@ class TriangleMeshTree {
   /// Finite triangles of nonzero area, at least one. O(n log n).
   explicit TriangleMeshTree(const ShapeTriangles& mesh);
 
-  /// Nearest triangle not further than sqrt(limit_squared); false: none. Allocates nothing.
+  /// Nearest triangle not further than sqrt(limit_squared), of several the first in the input; false: none. Allocates
+  /// nothing.
   bool nearest(const Vec3& point, double limit_squared, NearestTriangle& out) const noexcept;
+  /// The same answer, sooner where `near` was found for a point nearby; finds it anew where it does not do, with so
+  /// much room for the point to move [m].
+  bool nearest(const Vec3& point, double limit_squared, double room, TrianglesNear& near,
+               NearestTriangle& out) const noexcept;
 
   /// First triangle on the way from -> to, both sides count; false: none. Does not slip through between
   /// triangles that share an edge. Triangles the segment touches at less than `least_fraction` do not count.
@@ -60,6 +76,9 @@ class TriangleMeshTree {
 
   void split(std::uint32_t node, std::uint32_t first, std::uint32_t count, const std::vector<Vec3>& centres,
              std::vector<std::uint32_t>& order, const ShapeTriangles& mesh);
+
+  bool take(const Vec3& point, std::uint32_t place, NearestTriangle& best) const noexcept;
+  void collect(const Vec3& point, double radius, TrianglesNear& near) const noexcept;
 
   std::vector<Node> nodes_;
   std::vector<Triangle> triangles_;

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Faces and edges of the cloth that are near an obstacle on their way. Near a convex shape a plane that touches it
+// shows how far a face is from it at least: that of the face's own nearest point, or of its nodes'. Near a mesh windows
+// tell which quads are clear (mesh_windows.h).
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "contact/broad_phase/vicinity.h"
+#include "contact/narrow_phase/closest_points.h"
+#include "contact/shapes/shapes.h"
+
+namespace curtain {
+
+Eigen::AlignedBox3d Vicinity::boxOf(const std::array<std::uint32_t, 4>& corners) const noexcept {
+  Eigen::AlignedBox3d around;
+  for (const std::uint32_t n : corners) around.extend(start_.at(n)).extend(end_.at(n));
+  return around;
+}
+
+// A plane has both ends of the face's way on its far side. What was found earlier is asked first.
+bool Vicinity::staysOver(const Face& face, double reach) noexcept {
+  const auto isOver = [&](const NodePlane& plane) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t k : face.node)
+      lowest = std::min({lowest, plane.height(start_.at(k)), plane.height(end_.at(k))});
+    return lowest > reach;
+  };
+  const NodePlane& own = face_planes_[face.index];
+  if (own.kind == NodePlane::Kind::kFound && isOver(own)) return true;
+  for (const std::uint32_t node : face.node) {
+    lookAtStart(node);
+    if (isOver(planes_[node])) return true;
+  }
+  return false;
+}
+
+void Vicinity::listFaces(double reach) noexcept {
+  const Grid& grid = pattern_.grid;
+  const Eigen::AlignedBox3d box = boundsWithin(reach);
+  faces_.clear();
+  for (int i = 0; i + 1 < grid.rows; ++i) {
+    if (!boxOfRows(i).intersects(box)) continue;
+    for (int j = 0; j < grid.linkCount(); ++j) {
+      const QuadElements quad = quadElements(grid, i, j);
+      if (!boxOf(quad.corners).intersects(box)) continue;
+      auto index = static_cast<std::uint32_t>(2 * grid.index(i, j));
+      for (const MeshTriangle& triangle : quad.triangles) {
+        const Face face{triangle, index++};
+        if (!staysOver(face, reach)) faces_.push_back(face);
+      }
+    }
+  }
+}
+
+void Vicinity::listPairs(double reach) noexcept {
+  const Grid& grid = pattern_.grid;
+  const Eigen::AlignedBox3d box = boundsWithin(reach);
+  pairs_.clear();
+  full_ = false;
+  for (int i = 0; i + 1 < grid.rows; ++i) {
+    if (!boxOfRows(i).intersects(box)) continue;
+    const std::vector<QuadView>& views = windows_.ask(i, start_, end_, reach);
+    for (int j = 0; j < grid.linkCount(); ++j) {
+      QuadView view = views[static_cast<std::size_t>(j)];
+      if (view == QuadView::kClear) continue;
+      const QuadElements quad = quadElements(grid, i, j);
+      if (!boxOf(quad.corners).intersects(box)) continue;
+      const QuadWay way(quad, start_, end_);
+      if (view == QuadView::kUnknown) view = windows_.renew(quad, way, reach);
+      if (view == QuadView::kNear) listPairsOf(quad, way, reach);
+    }
+  }
+}
+
+void Vicinity::listPairsOf(const QuadElements& quad, const QuadWay& way, double reach) noexcept {
+  Eigen::AlignedBox3d box = boxOf(quad.corners);
+  box.min().array() -= reach;
+  box.max().array() += reach;
+  // Over the plane through a feature, which is faster to tell than the distance.
+  windows_.forEachNear(
+      quad, way, reach, box,
+      [&](std::uint32_t index, const ObstacleEdge& edge) {
+        if (way.lowest(edge.outward, edge.ends[0]) > reach) return;
+        for (int k = 0; k < quad.edge_count; ++k)
+          addEdgePair(quad.edges[static_cast<std::size_t>(k)], index, edge, reach);
+      },
+      [&](std::uint32_t index, const ObstacleVertex& corner) {
+        if (way.lowest(corner.outward, corner.position) > reach) return;
+        for (const MeshTriangle& triangle : quad.triangles) addCornerPair(triangle, index, corner, reach);
+      });
+}
+
+void Vicinity::addPair(const FeaturePair& pair) noexcept {
+  full_ = full_ || pairs_.size() == pairs_.capacity();
+  if (!full_) pairs_.push_back(pair);
+}
+
+// Nodes are never further than half their way from its middle.
+void Vicinity::addEdgePair(const MeshEdge& edge, std::uint32_t index, const ObstacleEdge& other,
+                           double reach) noexcept {
+  const Vec3 a = start_.at(edge[0]), b = start_.at(edge[1]);
+  const Vec3 c = end_.at(edge[0]), d = end_.at(edge[1]);
+  const double limit = reach + 0.5 * std::sqrt(std::max((c - a).squaredNorm(), (d - b).squaredNorm()));
+  const Vec3 p = 0.5 * (a + c), q = 0.5 * (b + d);
+  if (std::min(other.outward.dot(p - other.ends[0]), other.outward.dot(q - other.ends[0])) > limit) return;
+  if (closestOnSegments(p, q, other.ends[0], other.ends[1]).distance_squared > limit * limit) return;
+  addPair({{edge[0], edge[1], 0}, index, true});
+}
+
+void Vicinity::addCornerPair(const MeshTriangle& triangle, std::uint32_t index, const ObstacleVertex& corner,
+                             double reach) noexcept {
+  std::array<Vec3, 3> at;
+  double way = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 now = start_.at(triangle[k]), then = end_.at(triangle[k]);
+    at[k] = 0.5 * (now + then);
+    way = std::max(way, (then - now).squaredNorm());
+  }
+  const double limit = reach + 0.5 * std::sqrt(way);
+  if (closestOnTriangle(corner.position, at[0], at[1], at[2]).distance_squared > limit * limit) return;
+  addPair({triangle, index, false});
+}
+
+}  // namespace curtain
