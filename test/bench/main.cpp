@@ -24,6 +24,7 @@ const std::vector<Study>& studies() {
                                          {"scaling", studyScaling},
                                          {"stages", studyStages},
                                          {"contact", studyContact},
+                                         {"contact_frames", studyContactFrames},
                                          {"ccd", studyCcd},
                                          {"features", studyFeatures}};
   return all;
@@ -33,7 +34,7 @@ namespace {
 
 int usage() {
   std::fprintf(stderr,
-               "usage: curtain_bench [--out FOLDER] [--quick] [--repeats N] [--bullet] [--methods] [STUDY…]\nstudies:");
+               "usage: curtain_bench [--out FOLDER] [--quick] [--repeats N] [--scene PART] [--bullet] [--methods] [STUDY…]\nstudies:");
   for (const Study& study : studies()) std::fprintf(stderr, " %s", study.name.c_str());
   std::fprintf(stderr, "\n");
   return 2;
@@ -62,6 +63,8 @@ int benchMain(int count, char** words) {
       return 0;
     } else if (word == "--out" && w + 1 < count) {
       options.folder = words[++w];
+    } else if (word == "--scene" && w + 1 < count) {
+      options.scene = words[++w];
     } else if (word == "--repeats" && w + 1 < count) {
       options.repeats = std::atoi(words[++w]);
       if (options.repeats < 1) return usage();

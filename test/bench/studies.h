@@ -12,6 +12,7 @@ struct Options {
   std::string folder = ".";  ///< where the tables go
   bool quick = false;        ///< fewer settings and sizes, shorter runs
   int repeats = 5;           ///< of the runs whose time counts
+  std::string scene;         ///< contact_frames: only scenes whose name has this in it
 };
 
 struct Study {
@@ -30,6 +31,7 @@ void studyGusts(const Options& options);
 void studyScaling(const Options& options);
 void studyStages(const Options& options);
 void studyContact(const Options& options);
+void studyContactFrames(const Options& options);
 void studyCcd(const Options& options);
 void studyFeatures(const Options& options);
 
