@@ -24,6 +24,7 @@ double FrameLoop::make() {
   pins_waited_ = false;
   controls_.beginFrame();
   const double length = motion_.times.length();
+  const Workers::Shift shift(motion_.workers);
   double done = 0.0;
   while (length - done > 1e-9 * length) {
     if (budget_.any() && budget_.over(Budget::Clock::now())) return done / length;

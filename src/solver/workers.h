@@ -19,26 +19,42 @@ class Workers {
 
   int threads() const { return threads_; }
 
-  /// Calls block(0) … block(count - 1), each once; returns when all are done. block must not throw.
+  /// While it lives other threads stand by, so that a loop of a few microseconds is worth sharing. One at a time.
+  class Shift {
+   public:
+    explicit Shift(const Workers& workers);
+    ~Shift();
+    Shift(const Shift&) = delete;
+    Shift& operator=(const Shift&) = delete;
+
+   private:
+    const Workers& workers_;
+  };
+
+  /// Calls block(0) … block(count - 1), each once; returns when all are done. Outside of a shift the caller does them alone. block
+  /// must not throw, nor run another loop.
   template <typename Block>
   void run(int count, const Block& block) const {
-    if (threads_ == 1 || count == 1) {
+    if (!onShift() || count < 2 || count > kMostBlocks) {
       for (int b = 0; b < count; ++b) block(b);
       return;
     }
-    spread(count, [](const void* self, int b) { (*static_cast<const Block*>(self))(b); }, &block);
+    share(count, [](const void* self, int b) { (*static_cast<const Block*>(self))(b); }, &block);
   }
 
  private:
-  void spread(int count, void (*call)(const void*, int), const void* block) const;
+  static constexpr int kMostBlocks = 0xffff;
 
-  struct Arena;
+  bool onShift() const noexcept;
+  void share(int count, void (*call)(const void*, int), const void* block) const;
+
+  struct Crew;
   int threads_;
-  std::unique_ptr<Arena> arena_;
+  std::unique_ptr<Crew> crew_;
 };
 
-/// Threads for a cloth of so many nodes when `asked` is 0 (auto): one below the size from which more pay, else as many
-/// as the machine has.
+/// Threads for a cloth of so many nodes when `asked` is 0 (auto): one below the size from which more pay, and no more than the
+/// machine has.
 int threadsFor(int asked, std::size_t node_count);
 
 }  // namespace curtain
