@@ -26,14 +26,14 @@ constexpr std::size_t kRoomPerNode = 8;
 }  // namespace
 
 ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles,
-                           double stretch_tolerance)
+                           double stretch_tolerance, const Workers& workers)
     : pattern_(pattern),
       obstacles_(obstacles),
       self_wanted_(params.self),
       zone_iterations_(params.zone_iterations),
       touch_(pattern, params, obstacles),
       self_(pattern, std::min(params.thickness, kGapPerLink * shortestLink(pattern)), params),
-      pairs_(pattern),
+      pairs_(pattern, &workers),
       net_(pattern, stretch_tolerance),
       zones_(pattern) {
   if (obstacles.count() == 0 && !params.self) return;

@@ -22,8 +22,9 @@ namespace curtain {
 
 class ClothContact : public ContactFinder {
  public:
-  /// stretch_tolerance: of links in a substep that settles, relative; pattern and obstacles must outlive this.
-  ClothContact(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles, double stretch_tolerance);
+  /// stretch_tolerance: of links in a substep that settles, relative; pattern, obstacles and workers must outlive this.
+  ClothContact(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles, double stretch_tolerance,
+               const Workers& workers);
 
   /// There is something to look for at all.
   bool wanted() const noexcept { return self_wanted_ || obstacles_.anyPresent(); }

@@ -14,9 +14,9 @@ Motion::Motion(const Scene& scene_, const ClothPattern& pattern_, const FrameTim
       state(initial),
       forces(scene, pattern),
       obstacles(scene, resolve),
-      contact(pattern, scene.contact, obstacles, scene.solver.stretch_tolerance),
-      lag(pattern, times, obstacles, contact),
       workers(threadsFor(scene.solver.threads, pattern.grid.nodeCount())),
+      contact(pattern, scene.contact, obstacles, scene.solver.stretch_tolerance, workers),
+      lag(pattern, times, obstacles, contact),
       exact(pattern, scene.solver.stretch_tolerance, scene.solver.max_sweeps, workers),
       paper(pattern),
       ledger(pattern) {

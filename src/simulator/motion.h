@@ -54,9 +54,9 @@ struct Motion {
   ClothState state;
   ForceField forces;
   ObstacleSet obstacles;
+  Workers workers;
   ClothContact contact;
   ObstacleLag lag;
-  Workers workers;
   ExactSolver exact;
   PaperSolver paper;
   EnergyLedger ledger;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A loop is shared by taking blocks from its two ends: the caller takes the first that is left, all others the last. So each
-// thread meets the same blocks in every loop, and finds their numbers in its own cache. Nobody waits for a thread that has not come:
-// blocks that nobody else takes are the caller's.
+// A loop is shared by taking blocks from its two ends: the caller takes the first that is left, all others the last. So
+// each thread meets the same blocks in every loop, and finds their numbers in its own cache. Nobody waits for a thread
+// that has not come: blocks that nobody else takes are the caller's.
 #include "solver/workers.h"
 
 #include <tbb/task_arena.h>
@@ -20,6 +20,11 @@ namespace {
 
 // Handing over takes about a microsecond a loop. A solve's loops take so long from here on that two threads gain.
 constexpr std::size_t kNodesPerThread = 4000;
+
+// The caller's core is not among those that others may use.
+int helpersFor(int threads) noexcept {
+  return std::min(threads, std::max(1, static_cast<int>(std::thread::hardware_concurrency()))) - 1;
+}
 
 // Looks at what is to be done before a thread that has nothing to do lets others use its core.
 constexpr int kLooksBeforeYield = 4000;
@@ -41,13 +46,14 @@ std::uint64_t packed(const Left& left) noexcept {
 }
 
 Left unpacked(std::uint64_t bits) noexcept {
-  return {static_cast<std::uint32_t>(bits >> 32U), static_cast<std::uint16_t>(bits >> 16U), static_cast<std::uint16_t>(bits)};
+  return {static_cast<std::uint32_t>(bits >> 32U), static_cast<std::uint16_t>(bits >> 16U),
+          static_cast<std::uint16_t>(bits)};
 }
 
 }  // namespace
 
 struct Workers::Crew {
-  explicit Crew(int threads) : arena(threads) {}
+  explicit Crew(int count) : arena(count + 1), helpers(count) {}
 
   // Takes a block; -1: none is left.
   int take(bool from_front) noexcept {
@@ -56,7 +62,8 @@ struct Workers::Crew {
       Left now = unpacked(seen);
       if (now.first >= now.end) return -1;
       const int block = from_front ? now.first++ : --now.end;
-      if (left.compare_exchange_weak(seen, packed(now), std::memory_order_acq_rel, std::memory_order_acquire)) return block;
+      if (left.compare_exchange_weak(seen, packed(now), std::memory_order_acq_rel, std::memory_order_acquire))
+        return block;
     }
   }
 
@@ -79,6 +86,7 @@ struct Workers::Crew {
   }
 
   tbb::task_arena arena;
+  const int helpers;
   alignas(64) std::atomic<std::uint64_t> left{0};
   alignas(64) std::atomic<int> undone{0};
   alignas(64) std::atomic<bool> open{false};
@@ -90,7 +98,8 @@ struct Workers::Crew {
 };
 
 Workers::Workers(int threads)
-    : threads_(std::max(1, threads)), crew_(threads_ > 1 ? std::make_unique<Crew>(threads_) : nullptr) {}
+    : threads_(std::max(1, threads)),
+      crew_(helpersFor(threads_) > 0 ? std::make_unique<Crew>(helpersFor(threads_)) : nullptr) {}
 
 Workers::~Workers() {
   while (crew_ != nullptr && crew_->inside.load(std::memory_order_acquire) > 0) std::this_thread::yield();
@@ -103,7 +112,7 @@ Workers::Shift::Shift(const Workers& workers) : workers_(workers) {
   if (crew == nullptr) return;
   crew->open.store(true, std::memory_order_release);
   // Some of the last shift may still be there, or still be on their way.
-  while (crew->inside.load(std::memory_order_acquire) < workers.threads_ - 1) {
+  while (crew->inside.load(std::memory_order_acquire) < crew->helpers) {
     crew->inside.fetch_add(1, std::memory_order_acq_rel);
     crew->arena.enqueue([crew] { crew->help(); });
   }
@@ -126,8 +135,10 @@ void Workers::share(int count, void (*call)(const void*, int), const void* block
   }
   if (crew.undone.fetch_sub(own, std::memory_order_acq_rel) == own) return;
   for (int looks = 0; crew.undone.load(std::memory_order_acquire) > 0;) {
-    if (++looks < kLooksBeforeYield) pause();
-    else std::this_thread::yield();
+    if (++looks < kLooksBeforeYield)
+      pause();
+    else
+      std::this_thread::yield();
   }
 }
 

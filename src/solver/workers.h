@@ -31,15 +31,16 @@ class Workers {
     const Workers& workers_;
   };
 
-  /// Calls block(0) … block(count - 1), each once; returns when all are done. Outside of a shift the caller does them alone. block
-  /// must not throw, nor run another loop.
+  /// Calls block(0) … block(count - 1), each once; returns when all are done. Outside of a shift the caller does them
+  /// alone. block must not throw, nor run another loop.
   template <typename Block>
   void run(int count, const Block& block) const {
     if (!onShift() || count < 2 || count > kMostBlocks) {
       for (int b = 0; b < count; ++b) block(b);
       return;
     }
-    share(count, [](const void* self, int b) { (*static_cast<const Block*>(self))(b); }, &block);
+    share(
+        count, [](const void* self, int b) { (*static_cast<const Block*>(self))(b); }, &block);
   }
 
  private:
@@ -53,8 +54,8 @@ class Workers {
   std::unique_ptr<Crew> crew_;
 };
 
-/// Threads for a cloth of so many nodes when `asked` is 0 (auto): one below the size from which more pay, and no more than the
-/// machine has.
+/// Threads for a cloth of so many nodes when `asked` is 0 (auto): one below the size from which more pay, and no more
+/// than the machine has.
 int threadsFor(int asked, std::size_t node_count);
 
 }  // namespace curtain

@@ -28,7 +28,8 @@ std::map<std::pair<int, int>, int> named(BlockPyramid& pyramid, const Grid& grid
   const BlockPyramid::Level& quads = pyramid.levels()[0];
   const auto number = [&](std::size_t quad) { return quads.rowOf(quad) * quads.columns + quads.columnOf(quad); };
   std::map<std::pair<int, int>, int> found;
-  BlockPairs(pyramid).find(1.0f, 0, [&](std::size_t a, std::size_t b) {
+  pyramid.fillOneByOne();
+  BlockPairs(pyramid).find(1.0f, 0, {}, [&](std::size_t a, std::size_t b) {
     ++found[std::minmax({number(a), number(b)})];
   });
   return found;

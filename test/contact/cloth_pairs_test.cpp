@@ -213,11 +213,24 @@ class Oracle {
   const Motion motion_;
 };
 
-/// Candidates of the motion, held against the oracle.
+template <typename Pair>
+std::multiset<ElementPair> named(const std::vector<Pair>& pairs) {
+  std::multiset<ElementPair> all;
+  for (const Pair& pair : pairs) all.insert(pairOf(pair));
+  return all;
+}
+
+/// Candidates of the motion, held against the oracle and against those that several threads find.
 Candidates checked(const Motion& motion, int* left_out = nullptr) {
   ClothPairs pairs(motion.pattern);
   Candidates candidates;
   pairs.collect(motion.start, motion.end, motion.reach, candidates);
+  const Workers workers(3);
+  const Workers::Shift standing_by(workers);
+  Candidates by_several;
+  ClothPairs(motion.pattern, &workers).collect(motion.start, motion.end, motion.reach, by_several);
+  EXPECT_EQ(named(by_several.vertex_triangles), named(candidates.vertex_triangles)) << motion.name;
+  EXPECT_EQ(named(by_several.edge_edges), named(candidates.edge_edges)) << motion.name;
   Oracle oracle(motion);
   oracle.check(candidates);
   if (left_out != nullptr) *left_out = oracle.left_out;

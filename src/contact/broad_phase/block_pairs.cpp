@@ -38,11 +38,7 @@ CURTAIN_WIDE bool nearPairs(const Boxes& p, const Boxes& q, const std::vector<st
 
 }  // namespace
 
-BlockPairs::BlockPairs(BlockPyramid& pyramid) : pyramid_(pyramid) {
-  const BlockPyramid::Level& quads = pyramid.levels().front();
-  makeRings();
-  near_.assign(quads.stride, 0);
-}
+BlockPairs::BlockPairs(const BlockPyramid& pyramid) : pyramid_(pyramid) { makeRings(); }
 
 void BlockPairs::makeRings() {
   for (std::size_t level = 0; level < pyramid_.levels().size(); ++level) {
@@ -97,8 +93,8 @@ bool BlockPairs::isNeeded(std::size_t at_level, const Offset& offset, int i, int
   return std::max(rows, across(pyramid_.levels()[at_level + 1], j / 2, columnBeyond(level, j, offset) / 2)) < 2;
 }
 
-// Whether there are any in a row; near_ tells which.
-bool BlockPairs::findNear(const Ring& ring, int row) noexcept {
+// Whether there are any in a row; near tells which.
+bool BlockPairs::findNear(const Ring& ring, int row, float reach, NearBits& near) const noexcept {
   const BlockPyramid::Level& level = pyramid_.levels()[ring.level];
   const std::vector<std::uint8_t>& needed = ring.needed[static_cast<std::size_t>(row % 2)];
   if (needed.empty() || !pyramid_.areRowsAsked(ring.level, row, row + ring.offset.down)) return false;
@@ -106,30 +102,29 @@ bool BlockPairs::findNear(const Ring& ring, int row) noexcept {
     const auto &low = pyramid_.lows(), &high = pyramid_.highs();
     return Boxes{{&low[0][first], &low[1][first], &low[2][first]}, {&high[0][first], &high[1][first], &high[2][first]}};
   };
-  return nearPairs(boxes(level.at(row, 0)), boxes(level.at(row + ring.offset.down, ring.offset.right)), needed, reach_,
-                   near_.data());
+  return nearPairs(boxes(level.at(row, 0)), boxes(level.at(row + ring.offset.down, ring.offset.right)), needed, reach,
+                   near.data());
 }
 
 // Those of a block's children that come near another block; returns how many.
-std::size_t BlockPairs::childrenNear(std::size_t at_level, std::size_t block, std::size_t other,
-                                     std::array<std::size_t, 4>& children) noexcept {
+std::size_t BlockPairs::childrenNear(std::size_t at_level, std::size_t block, std::size_t other, float reach,
+                                     std::array<std::size_t, 4>& children) const noexcept {
   const BlockPyramid::Level &level = pyramid_.levels()[at_level], &below = pyramid_.levels()[at_level - 1];
   const int i = level.rowOf(block), j = level.columnOf(block);
   std::size_t count = 0;
   for (int row = 2 * i; row < std::min(2 * i + 2, below.rows); ++row) {
     for (int column = 2 * j; column < std::min(2 * j + 2, below.columns); ++column) {
       const std::size_t child = below.at(row, column);
-      if (pyramid_.meet(child, other, reach_)) children[count++] = child;
+      if (pyramid_.meet(child, other, reach)) children[count++] = child;
     }
   }
   return count;
 }
 
-bool BlockPairs::any(float reach, std::size_t from_level) noexcept {
-  reach_ = reach;
+bool BlockPairs::any(float reach, std::size_t from_level) const noexcept {
   bool found = false;
   for (const Ring& ring : rings_) {
-    if (ring.level >= from_level) findAt(ring, [&](std::size_t, std::size_t) { found = true; });
+    if (ring.level >= from_level) findAt(ring, reach, Share(), [&](std::size_t, std::size_t) { found = true; });
   }
   return found;
 }

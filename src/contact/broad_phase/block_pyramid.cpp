@@ -100,11 +100,9 @@ void BlockPyramid::wrapAround(const Level& level, Floats& values) const noexcept
 void BlockPyramid::refitBelow(std::size_t level, const MovingNodes& nodes) noexcept {
   if (level > 0) boxesOfQuads(nodes);
   mergeUpwards(1, level);
-  one_by_one_ = false;
 }
 
 void BlockPyramid::fillOneByOne() noexcept {
-  one_by_one_ = true;
   for (const Level& level : levels_) {
     boxesOneByOne({&lows_[0][level.first], &lows_[1][level.first], &lows_[2][level.first]},
                   {&highs_[0][level.first], &highs_[1][level.first], &highs_[2][level.first]},

@@ -104,21 +104,18 @@ class BlockPyramid {
       wrapAround(level, highs_[k]);
     }
     mergeUpwards(at_level + 1, levels_.size());
-    one_by_one_ = false;
   }
   /// And those below it to nodes that move straight from one instant to the other.
   void refitBelow(std::size_t level, const MovingNodes& nodes) noexcept;
 
   const std::array<Floats, 3>& lows() const noexcept { return lows_; }
   const std::array<Floats, 3>& highs() const noexcept { return highs_; }
+  /// After the last of these and before meet().
+  void fillOneByOne() noexcept;
   /// Whether two boxes are no further apart than `reach` along every axis [m].
-  bool meet(std::size_t a, std::size_t b, float reach) noexcept {
-    if (!one_by_one_) fillOneByOne();
-    return boxes_[a].meets(boxes_[b], reach);
-  }
+  bool meet(std::size_t a, std::size_t b, float reach) const noexcept { return boxes_[a].meets(boxes_[b], reach); }
 
  private:
-  void fillOneByOne() noexcept;
   void wrapAround(const Level& level, Floats& values) const noexcept;
   void boxesOfQuads(const MovingNodes& nodes) noexcept;
   void mergeUpwards(std::size_t from, std::size_t to) noexcept;
@@ -132,9 +129,8 @@ class BlockPyramid {
 
   Grid grid_;
   std::vector<Level> levels_;
-  std::array<Floats, 3> lows_, highs_;  // [m]
-  std::vector<MovingBox> boxes_;        // the same, one by one, when they are asked for
-  bool one_by_one_ = false;
+  std::array<Floats, 3> lows_, highs_;                    // [m]
+  std::vector<MovingBox> boxes_;                          // the same, one by one
   std::vector<std::uint8_t> selected_;                    // of blocks
   std::vector<std::vector<std::uint8_t>> selected_rows_;  // of levels
 };

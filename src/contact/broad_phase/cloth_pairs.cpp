@@ -15,6 +15,14 @@ constexpr std::size_t kEvenLevel = 3;
 constexpr int kSampledRows = 4;
 // Pairs of quads that wait to be looked at together.
 constexpr std::size_t kQuadsAtOnce = 1024;
+// Shares of a look, which take differently long, for each of several threads; and the room of each over its part.
+constexpr std::size_t kSharesPerThread = 4;
+constexpr std::size_t kRoomOverPart = 2;
+
+std::size_t sharesFor(const Workers* workers) {
+  const std::size_t threads = workers == nullptr ? 1 : static_cast<std::size_t>(workers->threads());
+  return threads == 1 ? 1 : kSharesPerThread * threads;
+}
 // Floats beyond the end of an array that whole vectors may read.
 constexpr std::size_t kBeyond = 16;
 // Largest error of a number rounded to single precision, relative to it.
@@ -58,23 +66,24 @@ CURTAIN_WIDE std::size_t markRow(const Doubles3& at, const Floats3& expected, co
   return static_cast<std::size_t>(marked);
 }
 
-// Those of pairs that do not stay apart go to take().
-template <typename StayApart, typename Take>
-void dropApart(const std::vector<FourNodes>& pairs, const StayApart& stay_apart, const Take& take) noexcept {
-  for (std::size_t first = 0; first < pairs.size(); first += kPairsAtOnce) {
+// Leaves those of the pairs from `near` on that do not stay apart.
+template <typename StayApart>
+void keepNotApart(const StayApart& stay_apart, std::vector<FourNodes>& pairs, std::size_t& near) noexcept {
+  for (std::size_t first = near; first < pairs.size(); first += kPairsAtOnce) {
     const std::size_t count = std::min(kPairsAtOnce, pairs.size() - first);
     std::array<FourNodes, kPairsAtOnce> some;
     for (std::size_t k = 0; k < kPairsAtOnce; ++k) some[k] = pairs[first + std::min(k, count - 1)];
     const std::uint32_t apart = stay_apart(some);
     for (std::size_t k = 0; k < count; ++k) {
-      if ((apart >> k & 1U) == 0) take(some[k]);
+      if ((apart >> k & 1U) == 0) pairs[near++] = some[k];
     }
   }
+  pairs.resize(near);
 }
 
 }  // namespace
 
-ClothPairs::ClothPairs(const ClothPattern& pattern)
+ClothPairs::ClothPairs(const ClothPattern& pattern, const Workers* workers)
     : grid_(pattern.grid),
       elements_(pattern),
       per_spacing_(pattern),
@@ -82,7 +91,9 @@ ClothPairs::ClothPairs(const ClothPattern& pattern)
       even_level_(std::min(kEvenLevel, pyramid_.levels().size() - 1)),
       even_(pattern.grid, per_spacing_, pyramid_.levels()[even_level_], 1 << even_level_),
       pairs_(pyramid_),
-      windows_(pattern.grid, per_spacing_, elements_) {
+      windows_(pattern.grid, per_spacing_, elements_),
+      workers_(workers),
+      shares_(sharesFor(workers)) {
   for (MovingNodes* const nodes : {&expected_.nodes, &elsewhere_.nodes}) {
     nodes->stride = static_cast<std::size_t>(grid_.closed ? Grid::strideFor(grid_.columns + 2) : grid_.stride);
     const std::size_t size = static_cast<std::size_t>(grid_.rows) * nodes->stride + kBeyond;
@@ -92,10 +103,11 @@ ClothPairs::ClothPairs(const ClothPattern& pattern)
   marked_.assign(grid_.size(), 0);
   starts_.assign(grid_.size(), Eigen::Array4f::Zero());
   ends_ = starts_;
-  quads_.reserve(kQuadsAtOnce);
-  // Those of neighbours are fewer, all together.
-  vertices_.reserve(kRoomPerNode * grid_.nodeCount());
-  edges_.reserve(kRoomPerNode * grid_.nodeCount());
+  for (Share& share : shares_) {
+    share.quads.reserve(kQuadsAtOnce);
+    for (Pairs* const pairs : {&share.vertices, &share.edges})
+      pairs->nodes.reserve(std::min(shares_.size(), kRoomOverPart) * kRoomPerNode * grid_.nodeCount() / shares_.size());
+  }
 }
 
 void ClothPairs::take(const Field3& start, const Field3& end, Motion& motion) noexcept {
@@ -181,31 +193,42 @@ void ClothPairs::collectOf(const std::vector<std::uint8_t>* marked, const Motion
   const bool uneven = even_.find(certain, rounding);
   if (!uneven && !pairs_.any(certain + rounding, even_level_)) return;
   pyramid_.refitBelow(even_level_, motion.nodes);
+  pyramid_.fillOneByOne();
   if (uneven) {
     pyramid_.leaveOut(even_level_, [this](int i, int j) { return even_.isUneven(i, j); });
     windows_.find(motion.nodes, pyramid_, certain, rounding);
   }
   placeOneByOne(motion.nodes);
-  vertices_.clear();
-  edges_.clear();
-  const NodeWays ways{starts_.data(), ends_.data()};
-  if (uneven) {
+  const Look look{certain, rounding, uneven, &out};
+  const auto collect_one = [&](int s) { collectShare(look, s, shares_[static_cast<std::size_t>(s)]); };
+  const int count = static_cast<int>(shares_.size());
+  if (workers_ != nullptr)
+    workers_->run(count, collect_one);
+  else
+    for (int s = 0; s < count; ++s) collect_one(s);
+  for (Share& share : shares_) handOver(look, share);
+}
+
+void ClothPairs::collectShare(const Look& look, int index, Share& share) const noexcept {
+  const float around = look.reach + look.rounding;
+  if (look.uneven) {
     windows_.forEachPair(
-        ways, certain + rounding, [this](const FourNodes& nodes) { vertices_.push_back(nodes); },
-        [this](const FourNodes& nodes) { edges_.push_back(nodes); });
+        ways(), around, static_cast<std::size_t>(index), shares_.size(),
+        [&](const FourNodes& nodes) { addVertex(look, nodes, share); },
+        [&](const FourNodes& nodes) { addEdge(look, nodes, share); });
   }
-  quads_.clear();
-  pairs_.find(certain + rounding, uneven ? 0 : even_level_, [&](std::size_t a, std::size_t b) {
-    if (quads_.size() == quads_.capacity()) addElements(certain, rounding, out);
-    quads_.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)});
-  });
-  addElements(certain, rounding, out);
-  dropApart(certain, rounding, out);
+  pairs_.find(around, look.uneven ? 0 : even_level_, {index, static_cast<int>(shares_.size())},
+              [&](std::size_t a, std::size_t b) {
+                if (share.quads.size() == share.quads.capacity()) addElements(look, share);
+                share.quads.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)});
+              });
+  addElements(look, share);
+  dropApartVertices(look, share);
+  dropApartEdges(look, share);
 }
 
 // Leaves the pairs of quads that are not told to stay apart.
-void ClothPairs::keepNear(QuadsStayApart stay_apart, float reach, float rounding) noexcept {
-  const NodeWays ways{starts_.data(), ends_.data()};
+void ClothPairs::keepNear(QuadsStayApart stay_apart, const Look& look, std::vector<QuadPair>& quads) const noexcept {
   const BlockPyramid::Level& level = pyramid_.levels().front();
   const auto corners = [&](std::size_t quad) {
     const int i = level.rowOf(quad), j = level.columnOf(quad), right = j + 1 < grid_.columns ? j + 1 : 0;
@@ -213,52 +236,66 @@ void ClothPairs::keepNear(QuadsStayApart stay_apart, float reach, float rounding
     return FourNodes{node(i, j), node(i, right), node(i + 1, j), node(i + 1, right)};
   };
   std::size_t kept = 0;
-  for (std::size_t first = 0; first < quads_.size(); first += kPairsAtOnce) {
-    const std::size_t count = std::min(kPairsAtOnce, quads_.size() - first);
+  for (std::size_t first = 0; first < quads.size(); first += kPairsAtOnce) {
+    const std::size_t count = std::min(kPairsAtOnce, quads.size() - first);
     std::array<TwoQuads, kPairsAtOnce> some;
     for (std::size_t k = 0; k < kPairsAtOnce; ++k) {
-      const QuadPair& pair = quads_[first + std::min(k, count - 1)];
+      const QuadPair& pair = quads[first + std::min(k, count - 1)];
       some[k] = {corners(pair.a), corners(pair.b)};
     }
-    const std::uint32_t apart = stay_apart(some, ways, reach, rounding);
+    const std::uint32_t apart = stay_apart(some, ways(), look.reach, look.rounding);
     for (std::size_t k = 0; k < count; ++k) {
-      if ((apart >> k & 1U) == 0) quads_[kept++] = quads_[first + k];
+      if ((apart >> k & 1U) == 0) quads[kept++] = quads[first + k];
     }
   }
-  quads_.resize(kept);
+  quads.resize(kept);
 }
 
 // Of the quads that wait.
-void ClothPairs::addElements(float reach, float rounding, Candidates& out) noexcept {
-  keepNear(quadsStayApart, reach, rounding);
-  keepNear(quadsStayApartSomehow, reach, rounding);
+void ClothPairs::addElements(const Look& look, Share& share) const noexcept {
+  keepNear(quadsStayApart, look, share.quads);
+  keepNear(quadsStayApartSomehow, look, share.quads);
   const BlockPyramid::Level& level = pyramid_.levels().front();
-  for (const QuadPair& pair : quads_) {
-    constexpr std::size_t kMostOfTwoQuads = 32;
-    if (std::max(vertices_.size(), edges_.size()) + kMostOfTwoQuads > vertices_.capacity())
-      dropApart(reach, rounding, out);
+  for (const QuadPair& pair : share.quads) {
     elements_.forEach(
         level.rowOf(pair.a), level.columnOf(pair.a), level.rowOf(pair.b), level.columnOf(pair.b),
-        [this](const FourNodes& nodes) { vertices_.push_back(nodes); },
-        [this](const FourNodes& nodes) { edges_.push_back(nodes); });
+        [&](const FourNodes& nodes) { addVertex(look, nodes, share); },
+        [&](const FourNodes& nodes) { addEdge(look, nodes, share); });
   }
-  quads_.clear();
+  share.quads.clear();
 }
 
-void ClothPairs::dropApart(float reach, float rounding, Candidates& out) noexcept {
-  const NodeWays ways{starts_.data(), ends_.data()};
-  curtain::dropApart(
-      vertices_, [&](const auto& some) { return vertexStaysApart(some, ways, reach, rounding); },
-      [&](const FourNodes& n) {
-        out.add(VertexTriangle{n[0], {n[1], n[2], n[3]}});
-      });
-  curtain::dropApart(
-      edges_, [&](const auto& some) { return edgesStayApart(some, ways, reach, rounding); },
-      [&](const FourNodes& n) {
-        out.add(EdgeEdge{{n[0], n[1]}, {n[2], n[3]}});
-      });
-  vertices_.clear();
-  edges_.clear();
+// Where there is no room for more, those that wait are looked at, and what is near goes to where it all goes.
+void ClothPairs::addVertex(const Look& look, const FourNodes& nodes, Share& share) const noexcept {
+  if (share.vertices.isFull()) dropApartVertices(look, share);
+  if (share.vertices.isFull()) handOver(look, share);
+  share.vertices.nodes.push_back(nodes);
+}
+
+void ClothPairs::addEdge(const Look& look, const FourNodes& nodes, Share& share) const noexcept {
+  if (share.edges.isFull()) dropApartEdges(look, share);
+  if (share.edges.isFull()) handOver(look, share);
+  share.edges.nodes.push_back(nodes);
+}
+
+// What is near of a share. One thread after the other: it hardly ever comes to this before all are done.
+void ClothPairs::handOver(const Look& look, Share& share) const noexcept {
+  dropApartVertices(look, share);
+  dropApartEdges(look, share);
+  const std::lock_guard<std::mutex> alone(handing_over_);
+  for (const FourNodes& n : share.vertices.nodes) look.out->add(VertexTriangle{n[0], {n[1], n[2], n[3]}});
+  for (const FourNodes& n : share.edges.nodes) look.out->add(EdgeEdge{{n[0], n[1]}, {n[2], n[3]}});
+  share.clear();
+}
+
+void ClothPairs::dropApartVertices(const Look& look, Share& share) const noexcept {
+  keepNotApart([&](const auto& some) { return vertexStaysApart(some, ways(), look.reach, look.rounding); },
+               share.vertices.nodes, share.vertices.near);
+}
+
+void ClothPairs::dropApartEdges(const Look& look, Share& share) const noexcept {
+  keepNotApart([&](const auto& some) { return edgesStayApart(some, ways(), look.reach, look.rounding); },
+               share.edges.nodes, share.edges.near);
 }
 
 }  // namespace curtain

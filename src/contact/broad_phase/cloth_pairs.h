@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <mutex>
 #include <vector>
 
 #include "contact/broad_phase/block_pairs.h"
@@ -16,6 +17,7 @@
 #include "contact/broad_phase/windows.h"
 #include "contact/narrow_phase/candidates.h"
 #include "contact/narrow_phase/quads_apart.h"
+#include "solver/workers.h"
 
 namespace curtain {
 
@@ -25,14 +27,15 @@ class ClothPairs {
   /// Candidates that room is made for, per node of the cloth.
   static constexpr std::size_t kRoomPerNode = 64;
 
-  /// Takes the grid, the rest lengths and which nodes are immovable (inverse_mass 0). At least 2 x 2 nodes.
-  explicit ClothPairs(const ClothPattern& pattern);
+  /// Takes the grid, the rest lengths and which nodes are immovable (inverse_mass 0). At least 2 x 2 nodes. workers
+  /// share the looks, and must outlive this; null: the caller is alone.
+  explicit ClothPairs(const ClothPattern& pattern, const Workers* workers = nullptr);
 
   /// Appends every pair (vertex, triangle) and (edge, edge) that shares no node, has a node that can move, and comes
   /// within `reach` [m, >= 0] at some time while nodes move straight from start to end (finite, of the grid's size);
   /// and some that do not, but are too near to tell. Each comes once, but for closed cloth of three or four columns.
-  /// Allocates nothing: what `out` has no room for is left out, and it says so; see reserve(). Rounding only ever adds
-  /// pairs.
+  /// Allocates nothing: what `out` has no room for is left out, and it says so; see reserve(). Rounding
+  /// only ever adds pairs.
   void collect(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept;
 
   /// After collect() with the same start and a larger reach: appends to its candidates what they lack of those that
@@ -55,14 +58,44 @@ class ClothPairs {
   std::size_t markElsewhere(const Field3& end, double most) noexcept;
   void collectOf(const std::vector<std::uint8_t>* marked, const Motion& motion, double reach, Candidates& out) noexcept;
   void placeOneByOne(const MovingNodes& nodes) noexcept;
+
   struct QuadPair {
     std::uint32_t a, b;  // places in the pyramid
   };
+  /// Pairs of elements: the first `near` of them are near, the others have not been looked at yet.
+  struct Pairs {
+    std::vector<FourNodes> nodes;
+    std::size_t near = 0;
+    bool isFull() const noexcept { return nodes.size() == nodes.capacity(); }
+  };
+  /// What one of equal shares of the blocks and windows has led to.
+  struct Share {
+    std::vector<QuadPair> quads;  // that may be near, and wait to be looked at together
+    Pairs vertices, edges;
+    void clear() noexcept {
+      for (Pairs* const pairs : {&vertices, &edges}) {
+        pairs->nodes.clear();
+        pairs->near = 0;
+      }
+    }
+  };
+  /// What is looked for.
+  struct Look {
+    float reach, rounding;
+    bool uneven;  // so are some blocks
+    Candidates* out;
+  };
   using QuadsStayApart = std::uint32_t (*)(const std::array<TwoQuads, kPairsAtOnce>&, const NodeWays&, float,
                                            float) noexcept;
-  void keepNear(QuadsStayApart stay_apart, float reach, float rounding) noexcept;
-  void addElements(float reach, float rounding, Candidates& out) noexcept;
-  void dropApart(float reach, float rounding, Candidates& out) noexcept;
+  NodeWays ways() const noexcept { return {starts_.data(), ends_.data()}; }
+  void collectShare(const Look& look, int index, Share& share) const noexcept;
+  void keepNear(QuadsStayApart stay_apart, const Look& look, std::vector<QuadPair>& quads) const noexcept;
+  void addElements(const Look& look, Share& share) const noexcept;
+  void addVertex(const Look& look, const FourNodes& nodes, Share& share) const noexcept;
+  void addEdge(const Look& look, const FourNodes& nodes, Share& share) const noexcept;
+  void handOver(const Look& look, Share& share) const noexcept;
+  void dropApartVertices(const Look& look, Share& share) const noexcept;
+  void dropApartEdges(const Look& look, Share& share) const noexcept;
 
   Grid grid_;
   ElementPairs elements_;
@@ -76,8 +109,9 @@ class ClothPairs {
   double reach_ = 0.0;                         // of the last collect() [m]
   std::vector<std::uint8_t> marked_;           // by node: it ends elsewhere
   std::vector<Eigen::Array4f> starts_, ends_;  // of the motion that is looked at, one by one, by the nodes' indices
-  std::vector<QuadPair> quads_;                // that may be near, and wait to be looked at together
-  std::vector<FourNodes> vertices_, edges_;    // pairs of elements that may come near
+  const Workers* workers_;
+  std::vector<Share> shares_;  // empty between looks
+  mutable std::mutex handing_over_;
 };
 
 }  // namespace curtain

@@ -28,10 +28,14 @@ class Windows {
 
   bool any() const noexcept { return !bent_.empty(); }
   /// Calls vertex(nodes) and edge(nodes) for the pairs of elements of those, but for some whose boxes are further apart
-  /// than `reach` [m] along an axis. Of the quads that several windows hold, the first one has them.
+  /// than `reach` [m] along an axis. Of the quads that several windows hold, the first one has them. Of one of equal
+  /// shares of the windows: number `share` of `shares`. Thread-safe.
   template <typename Vertex, typename Edge>
-  void forEachPair(const NodeWays& ways, float reach, const Vertex& vertex, const Edge& edge) const {
-    for (const Window& window : bent_) {
+  void forEachPair(const NodeWays& ways, float reach, std::size_t share, std::size_t shares, const Vertex& vertex,
+                   const Edge& edge) const {
+    const std::size_t end = bent_.size() * (share + 1) / shares;
+    for (std::size_t k = bent_.size() * share / shares; k < end; ++k) {
+      const Window& window = bent_[k];
       if (window.row + 1 == rows_ || window.column + 4 > grid_.columns)
         forEachPairOf(window, vertex, edge);
       else
