@@ -31,7 +31,7 @@ ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& par
       obstacles_(obstacles),
       self_wanted_(params.self),
       zone_iterations_(params.zone_iterations),
-      touch_(pattern, params, obstacles),
+      touch_(pattern, params, obstacles, workers),
       self_(pattern, std::min(params.thickness, kGapPerLink * shortestLink(pattern)), params),
       pairs_(pattern, &workers),
       net_(pattern, stretch_tolerance),

@@ -18,6 +18,8 @@ class Workers {
   Workers& operator=(const Workers&) = delete;
 
   int threads() const { return threads_; }
+  /// To cut work into whose parts take differently long.
+  int shares() const { return threads_ == 1 ? 1 : kSharesPerThread * threads_; }
 
   /// While it lives other threads stand by, so that a loop of a few microseconds is worth sharing. One at a time.
   class Shift {
@@ -45,6 +47,7 @@ class Workers {
 
  private:
   static constexpr int kMostBlocks = 0xffff;
+  static constexpr int kSharesPerThread = 4;
 
   bool onShift() const noexcept;
   void share(int count, void (*call)(const void*, int), const void* block) const;

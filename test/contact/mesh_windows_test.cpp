@@ -102,11 +102,11 @@ struct Seen {
 void look(MeshWindows& windows, const Grid& grid, const ObstacleFeatures& features, const Field3& start,
           const Field3& end, double reach, Seen& seen) {
   for (int i = 0; i + 1 < grid.rows; ++i) {
-    const std::vector<QuadView> views = windows.ask(i, start, end, reach);
+    const QuadView* const views = windows.ask(i, start, end, reach);
     for (int j = 0; j < grid.linkCount(); ++j) {
       const QuadElements quad = quadElements(grid, i, j);
       const QuadWay way(quad, start, end);
-      QuadView view = views[static_cast<std::size_t>(j)];
+      QuadView view = views[j];
       if (view == QuadView::kUnknown)
         view = windows.renew(quad, way, reach);
       else
@@ -208,10 +208,10 @@ TEST(MeshWindows, CallNothingClearThatIsNotANumberOrFarAway) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e200}) {
     Field3 end = start;
     end.y[grid.index(1, 4)] = bad;
-    const std::vector<QuadView> views = windows.ask(0, start, end, 0.01);
+    const QuadView* const views = windows.ask(0, start, end, 0.01);
     for (int j = 0; j < grid.linkCount(); ++j) {
       const bool has_it = j == 3 || j == 4;
-      EXPECT_EQ(views[static_cast<std::size_t>(j)], has_it ? QuadView::kUnknown : QuadView::kClear)
+      EXPECT_EQ(views[j], has_it ? QuadView::kUnknown : QuadView::kClear)
           << bad << " quad " << j;
     }
   }

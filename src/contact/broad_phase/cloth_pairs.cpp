@@ -15,14 +15,8 @@ constexpr std::size_t kEvenLevel = 3;
 constexpr int kSampledRows = 4;
 // Pairs of quads that wait to be looked at together.
 constexpr std::size_t kQuadsAtOnce = 1024;
-// Shares of a look, which take differently long, for each of several threads; and the room of each over its part.
-constexpr std::size_t kSharesPerThread = 4;
+// Room of a share of a look over its part of all there is room for.
 constexpr std::size_t kRoomOverPart = 2;
-
-std::size_t sharesFor(const Workers* workers) {
-  const std::size_t threads = workers == nullptr ? 1 : static_cast<std::size_t>(workers->threads());
-  return threads == 1 ? 1 : kSharesPerThread * threads;
-}
 // Floats beyond the end of an array that whole vectors may read.
 constexpr std::size_t kBeyond = 16;
 // Largest error of a number rounded to single precision, relative to it.
@@ -93,7 +87,7 @@ ClothPairs::ClothPairs(const ClothPattern& pattern, const Workers* workers)
       pairs_(pyramid_),
       windows_(pattern.grid, per_spacing_, elements_),
       workers_(workers),
-      shares_(sharesFor(workers)) {
+      shares_(workers == nullptr ? 1 : static_cast<std::size_t>(workers->shares())) {
   for (MovingNodes* const nodes : {&expected_.nodes, &elsewhere_.nodes}) {
     nodes->stride = static_cast<std::size_t>(grid_.closed ? Grid::strideFor(grid_.columns + 2) : grid_.stride);
     const std::size_t size = static_cast<std::size_t>(grid_.rows) * nodes->stride + kBeyond;

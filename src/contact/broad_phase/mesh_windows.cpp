@@ -122,12 +122,12 @@ MeshWindows::MeshWindows(const Grid& grid, const ObstacleShape& mesh) : grid_(gr
   radius_.assign(grid.size(), -1.0);
   top_.assign(grid.size(), 0.0);
   tallest_.resize(grid.size());
-  views_.assign(static_cast<std::size_t>(grid.columns), QuadView::kUnknown);
+  views_.assign(grid.size(), QuadView::kUnknown);
 }
 
 void MeshWindows::forget() noexcept { std::fill(radius_.begin(), radius_.end(), -1.0); }
 
-const std::vector<QuadView>& MeshWindows::ask(int row, const Field3& start, const Field3& end, double reach) noexcept {
+const QuadView* MeshWindows::ask(int row, const Field3& start, const Field3& end, double reach) noexcept {
   const auto columns = static_cast<std::size_t>(grid_.columns);
   const std::size_t above = grid_.row(row), below = grid_.row(row + 1);
   const auto askFrom = [&](std::size_t left, std::size_t right, std::size_t count) {
@@ -137,11 +137,11 @@ const std::vector<QuadView>& MeshWindows::ask(int row, const Field3& start, cons
            {placesOf(start, n), placesOf(start, above + right), placesOf(start, below + left),
             placesOf(start, below + right), placesOf(end, n), placesOf(end, above + right), placesOf(end, below + left),
             placesOf(end, below + right)},
-           reach, count, &views_[left]);
+           reach, count, &views_[n]);
   };
   askFrom(0, 1, columns - 1);
   if (grid_.closed) askFrom(columns - 1, 0, 1);
-  return views_;
+  return &views_[above];
 }
 
 QuadView MeshWindows::renew(const QuadElements& quad, const QuadWay& way, double reach) noexcept {

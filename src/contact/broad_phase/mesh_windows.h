@@ -54,8 +54,9 @@ class MeshWindows {
   MeshWindows(const Grid& grid, const ObstacleShape& mesh);
 
   /// What the windows tell of the quads between rows `row` and `row + 1` while their corners go straight from start to
-  /// end (obstacle's frame), for a reach [m]; by the quad's column.
-  const std::vector<QuadView>& ask(int row, const Field3& start, const Field3& end, double reach) noexcept;
+  /// end (obstacle's frame), for a reach [m]; by the quad's column. Good until that row is asked again. Thread-safe for
+  /// different rows, as is renew().
+  const QuadView* ask(int row, const Field3& start, const Field3& end, double reach) noexcept;
   /// Makes a window for a quad's way.
   QuadView renew(const QuadElements& quad, const QuadWay& way, double reach) noexcept;
   void forget() noexcept;
@@ -110,7 +111,7 @@ class MeshWindows {
   Field3 normal_;  // unit, the way out of the mesh; zero where it is far
   Field top_;      // of the highest feature in the ball [m]
   std::vector<Tallest> tallest_;
-  std::vector<QuadView> views_;
+  std::vector<QuadView> views_;  // of the quads, as the windows
 };
 
 }  // namespace curtain

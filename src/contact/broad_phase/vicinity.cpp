@@ -16,6 +16,10 @@ namespace {
 // Without room the cloth is held where it is, and a mesh that goes on goes through it.
 constexpr std::size_t kPairsPerNode = 8;
 constexpr std::size_t kPairsPerFeature = 4;
+// Room of a share of them over its part.
+constexpr std::size_t kRoomOverPart = 2;
+// Nodes that one thread looks at at once.
+constexpr std::size_t kNodesAtOnce = 64;
 
 double longestEdge(const ClothPattern& pattern) {
   const Grid& grid = pattern.grid;
@@ -47,9 +51,11 @@ Eigen::AlignedBox3d boxOfRow(const Field3& start, const Field3& end, std::size_t
 
 }  // namespace
 
-Vicinity::Vicinity(const ClothPattern& pattern, const ObstacleShape& shape, double thickness, double core)
+Vicinity::Vicinity(const ClothPattern& pattern, const ObstacleShape& shape, double thickness, double core,
+                   const Workers& workers)
     : pattern_(pattern),
       shape_(shape),
+      workers_(workers),
       mesh_(dynamic_cast<const TriangleMeshShape*>(&shape)),
       thickness_(thickness),
       core_(core) {
@@ -64,11 +70,17 @@ Vicinity::Vicinity(const ClothPattern& pattern, const ObstacleShape& shape, doub
   planes_.resize(size);
   distance_.assign(size, thickness);
   nodes_.reserve(count);
+  near_.assign(size, 0);
+  ends_.reserve(count);
+  found_.reserve(count);
   looked_at_.assign(size, 0);
   row_boxes_.resize(static_cast<std::size_t>(pattern.grid.rows));
   if (mesh_ != nullptr) {
-    pairs_.reserve(kPairsPerNode * count +
-                   kPairsPerFeature * (shape.features()->edges().size() + shape.features()->vertices().size()));
+    const std::size_t room = kPairsPerNode * count + kPairsPerFeature * (shape.features()->edges().size() +
+                                                                         shape.features()->vertices().size());
+    pairs_.reserve(room);
+    shares_.resize(static_cast<std::size_t>(workers.shares()));
+    for (Pairs& share : shares_) share.list.reserve(std::min(shares_.size(), kRoomOverPart) * room / shares_.size());
     triangles_.resize(size);
     windows_ = MeshWindows(pattern.grid, shape);
   } else if (elements_wanted_) {
@@ -153,24 +165,54 @@ void Vicinity::lookAtStart(std::size_t node) noexcept {
   distance_[node] = plane.surface.distance;
 }
 
+bool Vicinity::isNear(std::size_t node, const Eigen::AlignedBox3d& box) noexcept {
+  const double reach = nodeReach();
+  const Vec3 at = start_.at(node);
+  const double way = (end_.at(node) - at).norm();
+  const NodePlane& plane = planes_[node];
+  if (plane.kind != NodePlane::Kind::kUnknown && plane.lowerBound(at) - way > reach) return false;
+  if (!Eigen::AlignedBox3d(at).extend(end_.at(node)).intersects(box)) return false;
+  lookAtStart(node);
+  return !(distance_[node] - way > reach);
+}
+
 void Vicinity::listNodes() noexcept {
   const Grid& grid = pattern_.grid;
-  const double reach = nodeReach();
-  const Eigen::AlignedBox3d box = boundsWithin(reach);
+  const Eigen::AlignedBox3d box = boundsWithin(nodeReach());
+  const auto is_near = [&](int i) { return row_boxes_[static_cast<std::size_t>(i)].intersects(box); };
+  workers_.run(grid.rows, [&](int i) {
+    if (!is_near(i)) return;
+    for (std::size_t n = grid.row(i); n < grid.index(i, grid.columns); ++n) near_[n] = isNear(n, box) ? 1 : 0;
+  });
   nodes_.clear();
   for (int i = 0; i < grid.rows; ++i) {
-    if (!row_boxes_[static_cast<std::size_t>(i)].intersects(box)) continue;
+    if (!is_near(i)) continue;
     for (std::size_t n = grid.row(i); n < grid.index(i, grid.columns); ++n) {
-      const Vec3 at = start_.at(n);
-      const double way = (end_.at(n) - at).norm();
-      const NodePlane& plane = planes_[n];
-      if (plane.kind != NodePlane::Kind::kUnknown && plane.lowerBound(at) - way > reach) continue;
-      if (!Eigen::AlignedBox3d(at).extend(end_.at(n)).intersects(box)) continue;
-      lookAtStart(n);
-      if (distance_[n] - way > reach) continue;
-      nodes_.push_back(static_cast<std::uint32_t>(n));
+      if (near_[n] != 0) nodes_.push_back(static_cast<std::uint32_t>(n));
     }
   }
+}
+
+std::vector<Vicinity::NodeEnd>& Vicinity::lookAtEnds(double reach) noexcept {
+  ends_.resize(nodes_.size());
+  found_.resize(nodes_.size());
+  workers_.run(static_cast<int>((nodes_.size() + kNodesAtOnce - 1) / kNodesAtOnce), [&](int chunk) {
+    const std::size_t first = static_cast<std::size_t>(chunk) * kNodesAtOnce;
+    for (std::size_t k = first; k < std::min(first + kNodesAtOnce, nodes_.size()); ++k) {
+      const std::uint32_t node = nodes_[k];
+      const Vec3 from = start_.at(node), to = end_.at(node);
+      ends_[k].node = node;
+      const bool found = !isPinned(node) && !planes_[node].isClearOf(from, to, reach) &&
+                         query(node, from, to, reach, ends_[k].surface);
+      found_[k] = found ? 1 : 0;
+    }
+  });
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < ends_.size(); ++k) {
+    if (found_[k] != 0) ends_[count++] = ends_[k];
+  }
+  ends_.resize(count);
+  return ends_;
 }
 
 }  // namespace curtain

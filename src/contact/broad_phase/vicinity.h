@@ -18,8 +18,10 @@
 #include "cloth/cloth.h"
 #include "cloth/coarse_mesh.h"
 #include "contact/broad_phase/mesh_windows.h"
+#include "contact/narrow_phase/candidates.h"
 #include "contact/shapes/obstacle_set.h"
 #include "contact/shapes/triangle_mesh.h"
+#include "solver/workers.h"
 
 namespace curtain {
 
@@ -38,6 +40,12 @@ struct NodePlane {
 
   /// No point of the surface is nearer to p than this, for certain [m]; of use outside.
   double lowerBound(const Vec3& p) const noexcept { return surface.distance - (p - at).norm(); }
+  /// Neither end of a way is within reach, and nothing is between, for certain.
+  bool isClearOf(const Vec3& from, const Vec3& to, double reach) const noexcept {
+    if (kind == Kind::kUnknown) return false;
+    const double first = lowerBound(from), last = lowerBound(to);
+    return first > 0.0 && last > reach && first + last > (to - from).norm();
+  }
   /// Height over the tangent plane [m]; of a convex shape a lower bound of the distance.
   double height(const Vec3& p) const noexcept { return surface.distance + surface.normal.dot(p - at); }
 };
@@ -50,9 +58,10 @@ class Vicinity {
     std::uint32_t index;
   };
 
-  /// thickness: kept between nodes and obstacle [m]; core: between faces and obstacle; pattern and shape must outlive
-  /// this. Allocates all there is to.
-  Vicinity(const ClothPattern& pattern, const ObstacleShape& shape, double thickness, double core);
+  /// thickness: kept between nodes and obstacle [m]; core: between faces and obstacle; pattern, shape and workers must
+  /// outlive this. Allocates all there is to.
+  Vicinity(const ClothPattern& pattern, const ObstacleShape& shape, double thickness, double core,
+           const Workers& workers);
 
   /// Lists what may touch in a substep from start to predicted, and takes these positions over.
   void prepare(const MovingObstacle& moving, const Field3& start, const Field3& predicted) noexcept;
@@ -67,11 +76,14 @@ class Vicinity {
   /// Of a listed node (or one of a listed element), in the obstacle's frame [m].
   Vec3 startOf(std::size_t node) const noexcept { return start_.at(node); }
   Vec3 endOf(std::size_t node) const noexcept { return end_.at(node); }
-  /// The shape's query() for a node.
-  bool query(std::size_t node, const Vec3& previous, const Vec3& current, double reach, SurfacePoint& out) noexcept {
-    if (mesh_ == nullptr) return shape_.query(previous, current, reach, out);
-    return mesh_->query(previous, current, reach, thickness_, triangles_[node], out);
-  }
+  /// The surface as a node finds it where it ends, or where it went through it on the way.
+  struct NodeEnd {
+    std::uint32_t node;
+    SurfacePoint surface;
+  };
+  /// Of the listed nodes that can move those that end within reach or have gone through [m]. Good until it is asked
+  /// again.
+  std::vector<NodeEnd>& lookAtEnds(double reach) noexcept;
   NodePlane& plane(std::size_t node) noexcept { return planes_[node]; }
   const NodePlane& plane(std::size_t node) const noexcept { return planes_[node]; }
 
@@ -103,7 +115,12 @@ class Vicinity {
  private:
   static void toLocal(const Transform& place, const Field3& position, Field3& out) noexcept;
   void list(const MovingObstacle& moving, const Field3& end, double reach) noexcept;
+  bool query(std::size_t node, const Vec3& previous, const Vec3& current, double reach, SurfacePoint& out) noexcept {
+    if (mesh_ == nullptr) return shape_.query(previous, current, reach, out);
+    return mesh_->query(previous, current, reach, thickness_, triangles_[node], out);
+  }
   void listNodes() noexcept;
+  bool isNear(std::size_t node, const Eigen::AlignedBox3d& box) noexcept;
   void lookAtStart(std::size_t node) noexcept;
   Eigen::AlignedBox3d boundsWithin(double around) const noexcept;
   Eigen::AlignedBox3d boxOf(const std::array<std::uint32_t, 4>& corners) const noexcept;
@@ -112,15 +129,23 @@ class Vicinity {
   }
   void listFaces(double reach) noexcept;
   bool staysOver(const Face& face, double reach) noexcept;
+  /// Of one share of the rows.
+  struct Pairs {
+    std::vector<FeaturePair> list;
+    bool full = false;
+    void add(const FeaturePair& pair) noexcept { full = !addWithinRoom(pair, list) || full; }
+  };
   void listPairs(double reach) noexcept;
-  void listPairsOf(const QuadElements& quad, const QuadWay& way, double reach) noexcept;
-  void addEdgePair(const MeshEdge& edge, std::uint32_t index, const ObstacleEdge& other, double reach) noexcept;
-  void addCornerPair(const MeshTriangle& triangle, std::uint32_t index, const ObstacleVertex& corner,
-                     double reach) noexcept;
-  void addPair(const FeaturePair& pair) noexcept;
+  void listPairsOfRow(int row, const Eigen::AlignedBox3d& box, double reach, Pairs& out) noexcept;
+  void listPairsOf(const QuadElements& quad, const QuadWay& way, double reach, Pairs& out) const noexcept;
+  void addEdgePair(const MeshEdge& edge, std::uint32_t index, const ObstacleEdge& other, double reach,
+                   Pairs& out) const noexcept;
+  void addCornerPair(const MeshTriangle& triangle, std::uint32_t index, const ObstacleVertex& corner, double reach,
+                     Pairs& out) const noexcept;
 
   const ClothPattern& pattern_;
   const ObstacleShape& shape_;
+  const Workers& workers_;
   const TriangleMeshShape* mesh_;
   double thickness_, core_;
   bool elements_wanted_;
@@ -132,11 +157,15 @@ class Vicinity {
   std::vector<Eigen::AlignedBox3d> row_boxes_;  // around the nodes' ways [m]
   bool full_ = false;
   std::vector<std::uint32_t> nodes_;  // pinned ones too
+  std::vector<std::uint8_t> near_;    // by node: it is one of them
+  std::vector<NodeEnd> ends_;
+  std::vector<std::uint8_t> found_;  // by place in nodes_: its end is in ends_
   std::vector<Face> faces_;
   std::vector<NodePlane> face_planes_;    // by the faces' numbers, of a convex shape
   std::vector<TrianglesNear> triangles_;  // by node, of a mesh
   MeshWindows windows_;                   // of a mesh
   std::vector<FeaturePair> pairs_;
+  std::vector<Pairs> shares_;  // of pairs_
 };
 
 }  // namespace curtain

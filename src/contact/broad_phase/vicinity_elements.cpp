@@ -55,26 +55,39 @@ void Vicinity::listFaces(double reach) noexcept {
 }
 
 void Vicinity::listPairs(double reach) noexcept {
-  const Grid& grid = pattern_.grid;
   const Eigen::AlignedBox3d box = boundsWithin(reach);
+  const int rows = pattern_.grid.rows - 1, count = static_cast<int>(shares_.size());
+  workers_.run(count, [&](int s) {
+    Pairs& share = shares_[static_cast<std::size_t>(s)];
+    share.list.clear();
+    share.full = false;
+    for (int i = rows * s / count; i < rows * (s + 1) / count; ++i) {
+      if (boxOfRows(i).intersects(box)) listPairsOfRow(i, box, reach, share);
+    }
+  });
   pairs_.clear();
   full_ = false;
-  for (int i = 0; i + 1 < grid.rows; ++i) {
-    if (!boxOfRows(i).intersects(box)) continue;
-    const std::vector<QuadView>& views = windows_.ask(i, start_, end_, reach);
-    for (int j = 0; j < grid.linkCount(); ++j) {
-      QuadView view = views[static_cast<std::size_t>(j)];
-      if (view == QuadView::kClear) continue;
-      const QuadElements quad = quadElements(grid, i, j);
-      if (!boxOf(quad.corners).intersects(box)) continue;
-      const QuadWay way(quad, start_, end_);
-      if (view == QuadView::kUnknown) view = windows_.renew(quad, way, reach);
-      if (view == QuadView::kNear) listPairsOf(quad, way, reach);
-    }
+  for (const Pairs& share : shares_) {
+    full_ = full_ || share.full || pairs_.size() + share.list.size() > pairs_.capacity();
+    if (!full_) pairs_.insert(pairs_.end(), share.list.begin(), share.list.end());
   }
 }
 
-void Vicinity::listPairsOf(const QuadElements& quad, const QuadWay& way, double reach) noexcept {
+void Vicinity::listPairsOfRow(int row, const Eigen::AlignedBox3d& box, double reach, Pairs& out) noexcept {
+  const Grid& grid = pattern_.grid;
+  const QuadView* const views = windows_.ask(row, start_, end_, reach);
+  for (int j = 0; j < grid.linkCount(); ++j) {
+    QuadView view = views[j];
+    if (view == QuadView::kClear) continue;
+    const QuadElements quad = quadElements(grid, row, j);
+    if (!boxOf(quad.corners).intersects(box)) continue;
+    const QuadWay way(quad, start_, end_);
+    if (view == QuadView::kUnknown) view = windows_.renew(quad, way, reach);
+    if (view == QuadView::kNear) listPairsOf(quad, way, reach, out);
+  }
+}
+
+void Vicinity::listPairsOf(const QuadElements& quad, const QuadWay& way, double reach, Pairs& out) const noexcept {
   Eigen::AlignedBox3d box = boxOf(quad.corners);
   box.min().array() -= reach;
   box.max().array() += reach;
@@ -84,33 +97,28 @@ void Vicinity::listPairsOf(const QuadElements& quad, const QuadWay& way, double 
       [&](std::uint32_t index, const ObstacleEdge& edge) {
         if (way.lowest(edge.outward, edge.ends[0]) > reach) return;
         for (int k = 0; k < quad.edge_count; ++k)
-          addEdgePair(quad.edges[static_cast<std::size_t>(k)], index, edge, reach);
+          addEdgePair(quad.edges[static_cast<std::size_t>(k)], index, edge, reach, out);
       },
       [&](std::uint32_t index, const ObstacleVertex& corner) {
         if (way.lowest(corner.outward, corner.position) > reach) return;
-        for (const MeshTriangle& triangle : quad.triangles) addCornerPair(triangle, index, corner, reach);
+        for (const MeshTriangle& triangle : quad.triangles) addCornerPair(triangle, index, corner, reach, out);
       });
 }
 
-void Vicinity::addPair(const FeaturePair& pair) noexcept {
-  full_ = full_ || pairs_.size() == pairs_.capacity();
-  if (!full_) pairs_.push_back(pair);
-}
-
 // Nodes are never further than half their way from its middle.
-void Vicinity::addEdgePair(const MeshEdge& edge, std::uint32_t index, const ObstacleEdge& other,
-                           double reach) noexcept {
+void Vicinity::addEdgePair(const MeshEdge& edge, std::uint32_t index, const ObstacleEdge& other, double reach,
+                           Pairs& out) const noexcept {
   const Vec3 a = start_.at(edge[0]), b = start_.at(edge[1]);
   const Vec3 c = end_.at(edge[0]), d = end_.at(edge[1]);
   const double limit = reach + 0.5 * std::sqrt(std::max((c - a).squaredNorm(), (d - b).squaredNorm()));
   const Vec3 p = 0.5 * (a + c), q = 0.5 * (b + d);
   if (std::min(other.outward.dot(p - other.ends[0]), other.outward.dot(q - other.ends[0])) > limit) return;
   if (closestOnSegments(p, q, other.ends[0], other.ends[1]).distance_squared > limit * limit) return;
-  addPair({{edge[0], edge[1], 0}, index, true});
+  out.add({{edge[0], edge[1], 0}, index, true});
 }
 
 void Vicinity::addCornerPair(const MeshTriangle& triangle, std::uint32_t index, const ObstacleVertex& corner,
-                             double reach) noexcept {
+                             double reach, Pairs& out) const noexcept {
   std::array<Vec3, 3> at;
   double way = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -120,7 +128,7 @@ void Vicinity::addCornerPair(const MeshTriangle& triangle, std::uint32_t index, 
   }
   const double limit = reach + 0.5 * std::sqrt(way);
   if (closestOnTriangle(corner.position, at[0], at[1], at[2]).distance_squared > limit * limit) return;
-  addPair({triangle, index, false});
+  out.add({triangle, index, false});
 }
 
 }  // namespace curtain

@@ -23,7 +23,8 @@ bool alike(const Contact& a, const Contact& b) { return orderOf(a) == orderOf(b)
 
 }  // namespace
 
-ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles)
+ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles,
+                                   const Workers& workers)
     : pattern_(pattern),
       thickness_(params.thickness),
       recovery_speed_(params.recovery_speed),
@@ -32,7 +33,7 @@ ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, const ContactPar
   const auto count = static_cast<std::size_t>(obstacles.count());
   if (count == 0) return;
   near_.reserve(count);
-  for (const MovingObstacle& moving : obstacles.moving()) near_.emplace_back(pattern, *moving.shape, thickness_, kCore * thickness_);
+  for (const MovingObstacle& moving : obstacles.moving()) near_.emplace_back(pattern, *moving.shape, thickness_, kCore * thickness_, workers);
   active_.assign(count, 0);
   loads_.assign(count, Load());
   crossings_.reserve(pattern.grid.nodeCount());

@@ -31,7 +31,7 @@ enum class ObstacleStanding { kAbsent, kFar, kNear };
 class ObstacleContacts {
  public:
   /// Of params thickness and recovery_speed; pattern and obstacles must outlive this.
-  ObstacleContacts(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles);
+  ObstacleContacts(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles, const Workers& workers);
 
   /// Begins a substep of h [s]: adds what may touch on the way from start to predicted, in the order of the obstacles' names, of
   /// the contacts' nodes and features. slippery: without friction.

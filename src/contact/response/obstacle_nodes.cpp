@@ -19,13 +19,6 @@ constexpr double kFasterInside = 20.0;
 // Share of what is to be kept that may lack.
 constexpr double kSlack = 0.1;
 
-// Neither end is near, and nothing is between.
-bool staysClear(const NodePlane& plane, const Vec3& from, const Vec3& to, double reach) {
-  if (plane.kind == NodePlane::Kind::kUnknown) return false;
-  const double first = plane.lowerBound(from), last = plane.lowerBound(to);
-  return first > 0.0 && last > reach && first + last > (to - from).norm();
-}
-
 }  // namespace
 
 double letOut(double distance, double kept, const ObstacleSubstep& substep) noexcept {
@@ -134,12 +127,11 @@ class CommonExit {
 void collectNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, Vicinity& near, Contacts& contacts) noexcept {
   const double reach = near.nodeReach();
   const CommonExit exit(substep, near);
-  for (const std::uint32_t node : near.nodes()) {
+  for (Vicinity::NodeEnd& end : near.lookAtEnds(reach)) {
+    const std::uint32_t node = end.node;
     const Vec3 from = near.startOf(node), to = near.endOf(node);
-    NodePlane& plane = near.plane(node);
-    SurfacePoint surface;
-    if (near.isPinned(node) || staysClear(plane, from, to, reach) || !near.query(node, from, to, reach, surface)) continue;
-    if (surface.distance >= 0.0) plane = {to, surface, NodePlane::Kind::kFound};
+    SurfacePoint& surface = end.surface;
+    if (surface.distance >= 0.0) near.plane(node) = {to, surface, NodePlane::Kind::kFound};
     double distance = near.distanceOf(node);
     exit.lead(from, to, distance, surface);
     addWithinRoom(nodeContact(substep, pattern, node, near, surface, distance), contacts);
@@ -149,15 +141,12 @@ void collectNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, V
 void crossingNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, Vicinity& near,
                    std::vector<Crossing>& crossings) noexcept {
   const double most = Vicinity::kLeast * near.thickness();
-  for (const std::uint32_t node : near.nodes()) {
-    const Vec3 from = near.startOf(node), to = near.endOf(node);
-    const double distance = near.distanceOf(node);
-    SurfacePoint surface;
-    if (near.isPinned(node) || distance <= 0.0 || staysClear(near.plane(node), from, to, most)) continue;
-    if (!near.query(node, from, to, most, surface) || surface.distance >= std::min(most, 0.5 * distance)) continue;
+  for (const Vicinity::NodeEnd& end : near.lookAtEnds(most)) {
+    const double distance = near.distanceOf(end.node);
+    if (distance <= 0.0 || end.surface.distance >= std::min(most, 0.5 * distance)) continue;
     Crossing crossing;
-    crossing.node[0] = node;
-    crossing.contact = nodeContact(substep, pattern, node, near, surface, distance);
+    crossing.node[0] = end.node;
+    crossing.contact = nodeContact(substep, pattern, end.node, near, end.surface, distance);
     addWithinRoom(crossing, crossings);
   }
 }
