@@ -52,6 +52,24 @@ Scene skirt() {
   return scene;
 }
 
+// 44 x 40 nodes that touch themselves, a ball and a mesh, on which they are blown.
+Scene curtainInContact() {
+  Scene scene = gatheredCurtain();
+  scene.contact.self = true;
+  ObstacleParams ball;
+  ball.name = "ball";
+  ball.radius = 0.2;
+  ball.pose.position = Vec3(0.2, 0.35, 1.5);
+  ObstacleParams body = ball;
+  body.name = "body";
+  body.shape = ShapeKind::kMesh;
+  body.mesh = CURTAIN_SOURCE_DIR "/test/meshes/icosphere.stl";
+  body.scale = Vec3::Constant(0.2);
+  body.pose.position = Vec3(0.4, 0.4, 1.0);
+  scene.obstacles = {ball, body};
+  return scene;
+}
+
 struct Case {
   const char* name;
   Scene (*scene)();
@@ -73,6 +91,7 @@ TEST_P(ThreadCount, DoesNotChangeABit) {
     EXPECT_TRUE(s.finite);
     EXPECT_GT(s.sweeps, s.substeps) << "no string is taut: nothing is shared out";
     EXPECT_NE(simulator.stateHash(), start);
+    for (int n = 0; n < simulator.obstacleCount(); ++n) EXPECT_GT(simulator.contactWrench(n).contacts, 0) << n;
     if (threads == 1) {
       hash = simulator.stateHash();
       sweeps = s.sweeps;
@@ -84,7 +103,8 @@ TEST_P(ThreadCount, DoesNotChangeABit) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ThreadCount,
                          ::testing::Values(Case{"GatheredCurtain", gatheredCurtain},
-                                           Case{"SheetOnTwoCorners", sheetOnTwoCorners}, Case{"Skirt", skirt}),
+                                           Case{"SheetOnTwoCorners", sheetOnTwoCorners}, Case{"Skirt", skirt},
+                                           Case{"CurtainInContact", curtainInContact}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
