@@ -22,6 +22,22 @@ struct Points {
   }
 };
 
+/// A ball that goes straight from one place to another and stays there.
+struct MovingBall {
+  double radius = 0.0;  ///< [m]; 0: there is none
+  double margin = 0.0;  ///< kept from it [m]
+  double friction = 0.0;
+  std::array<double, 3> from{}, to{};  ///< [m]
+  double seconds = 1.0;                ///< that it takes
+
+  std::array<double, 3> at(double time) const {
+    const double share = time < seconds ? time / seconds : 1.0;
+    std::array<double, 3> place{};
+    for (std::size_t k = 0; k < 3; ++k) place[k] = from[k] + share * (to[k] - from[k]);
+    return place;
+  }
+};
+
 /// The scene as every method gets it: taken from the simulator's public interface, so that it is the very same scene.
 struct ClothStart {
   int rows = 0;
@@ -34,6 +50,7 @@ struct ClothStart {
   std::array<double, 3> gravity{};  ///< [m/s^2]
   double damping = 0.0;  ///< [1/s] velocities go with e^(-damping t); 0 but where a study wants the state of rest
   double frame_seconds = 1.0 / 60.0;
+  MovingBall ball;  ///< btSoftBody alone knows it
 
   std::size_t count() const { return static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns); }
 };

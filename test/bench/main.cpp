@@ -25,6 +25,7 @@ const std::vector<Study>& studies() {
                                          {"stages", studyStages},
                                          {"contact", studyContact},
                                          {"contact_frames", studyContactFrames},
+                                         {"contact_peers", studyContactPeers},
                                          {"ccd", studyCcd},
                                          {"features", studyFeatures}};
   return all;

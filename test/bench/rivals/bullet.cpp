@@ -1,28 +1,90 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // btSoftBody of Bullet Physics as its package installs it. The soft body is stepped by itself, without a world around
-// it: no broad phase, no contacts, nothing that the other rivals need not pay for. Its links hold both ways, so it
-// takes part only where the weft is never slack.
+// it: no broad phase, no contacts, nothing that the other rivals need not pay for; but where there is a ball, in a
+// btSoftRigidDynamicsWorld with it. Its links hold both ways, so it takes part only where the weft is never slack.
 #include <cmath>
 
 #include "BulletSoftBody/btSoftBody.h"
+#include "BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h"
+#include "BulletSoftBody/btSoftRigidDynamicsWorld.h"
+#include "btBulletDynamicsCommon.h"
 #include "bench/rivals/rivals.h"
 
 namespace curtain_bench {
 namespace {
 
+btVector3 vector(const std::array<double, 3>& v) {
+  return {static_cast<btScalar>(v[0]), static_cast<btScalar>(v[1]), static_cast<btScalar>(v[2])};
+}
+
+// The ball, and what Bullet needs to let a soft body touch it.
+class World {
+ public:
+  World(const ClothStart& start, btSoftBodyWorldInfo& info)
+      : path_(start.ball),
+        dispatcher_(&configuration_),
+        world_(&dispatcher_, &broadphase_, &solver_, &configuration_),
+        shape_(static_cast<btScalar>(start.ball.radius)),
+        ball_(btRigidBody::btRigidBodyConstructionInfo(0, nullptr, &shape_)) {
+    world_.setGravity(info.m_gravity);
+    info.m_broadphase = &broadphase_;
+    info.m_dispatcher = &dispatcher_;
+    info.m_sparsesdf.Initialize();
+    ball_.setCollisionFlags(ball_.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
+    ball_.setActivationState(DISABLE_DEACTIVATION);
+    ball_.setFriction(static_cast<btScalar>(path_.friction));
+    place();
+    world_.addRigidBody(&ball_);
+  }
+  ~World() {
+    if (body_ != nullptr) world_.removeSoftBody(body_);
+    world_.removeRigidBody(&ball_);
+  }
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  void add(btSoftBody& body) {
+    body_ = &body;
+    body.m_cfg.collisions = btSoftBody::fCollision::SDF_RS;
+    body.m_cfg.kDF = static_cast<btScalar>(path_.friction);
+    body.getCollisionShape()->setMargin(static_cast<btScalar>(path_.margin));
+    world_.addSoftBody(&body);
+  }
+
+  void step(double h) {
+    time_ += h;
+    place();
+    world_.stepSimulation(static_cast<btScalar>(h), 0);
+  }
+
+ private:
+  void place() { ball_.setWorldTransform(btTransform(btQuaternion::getIdentity(), vector(path_.at(time_)))); }
+
+  MovingBall path_;
+  double time_ = 0.0;
+  btSoftBodyRigidBodyCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_;
+  btDbvtBroadphase broadphase_;
+  btSequentialImpulseConstraintSolver solver_;
+  btSoftRigidDynamicsWorld world_;
+  btSphereShape shape_;
+  btRigidBody ball_;
+  btSoftBody* body_ = nullptr;
+};
+
 class Bullet : public Contestant {
  public:
   Bullet(const ClothStart& start, const BulletSettings& settings)
       : substeps_(settings.substeps), h_(start.frame_seconds / settings.substeps) {
-    info_.m_gravity = vector(start.gravity[0], start.gravity[1], start.gravity[2]);
+    info_.m_gravity = vector(start.gravity);
     info_.air_density = 0;
     info_.water_density = 0;
     const std::size_t nodes = start.count();
     btAlignedObjectArray<btVector3> places;
     btAlignedObjectArray<btScalar> masses;
     for (std::size_t n = 0; n < nodes; ++n) {
-      places.push_back(vector(start.positions.x[n], start.positions.y[n], start.positions.z[n]));
+      places.push_back(vector({start.positions.x[n], start.positions.y[n], start.positions.z[n]}));
       masses.push_back(start.pinned[n] != 0 ? btScalar(0) : static_cast<btScalar>(start.mass[n]));
     }
     body_ = std::make_unique<btSoftBody>(&info_, static_cast<int>(nodes), &places[0], &masses[0]);
@@ -33,10 +95,17 @@ class Bullet : public Contestant {
     body_->m_cfg.collisions = 0;
     body_->m_cfg.kDP = static_cast<btScalar>(1.0 - std::exp(-start.damping * h_));
     if (settings.velocity_iterations > 0) body_->m_cfg.m_vsequence.push_back(btSoftBody::eVSolver::Linear);
+    if (start.ball.radius <= 0.0) return;
+    world_ = std::make_unique<World>(start, info_);
+    world_->add(*body_);
   }
 
   void frame() override {
     for (int s = 0; s < substeps_; ++s) {
+      if (world_ != nullptr) {
+        world_->step(h_);
+        continue;
+      }
       body_->predictMotion(static_cast<btScalar>(h_));
       body_->solveConstraints();
       body_->integrateMotion();
@@ -56,10 +125,6 @@ class Bullet : public Contestant {
   int substeps() const override { return substeps_; }
 
  private:
-  static btVector3 vector(double x, double y, double z) {
-    return {static_cast<btScalar>(x), static_cast<btScalar>(y), static_cast<btScalar>(z)};
-  }
-
   static void store(const btVector3& from, int node, Points& out) {
     const auto n = static_cast<std::size_t>(node);
     out.x[n] = static_cast<double>(from.x());
@@ -92,6 +157,7 @@ class Bullet : public Contestant {
 
   btSoftBodyWorldInfo info_;
   std::unique_ptr<btSoftBody> body_;
+  std::unique_ptr<World> world_;  // refers to the body
   int substeps_ = 1;
   double h_ = 0.0;  // [s]
 };
