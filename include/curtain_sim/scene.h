@@ -182,7 +182,7 @@ struct SolverParams {
                                     ///< 0 = none asked for: substeps from stability alone
   double rest_speed = 1e-4;         ///< columns that move less than this for a while fall asleep [m/s], [0..1]; 0 = none ever does
   double budget_ms = 0.0;           ///< computing time that a frame may take [ms], [0..1e6]; 0 = as much as it needs
-  int threads = 0;                  ///< that step one cloth [1..256]; 0 = auto: one for small cloth, else all there are
+  int threads = 0;                  ///< that step one cloth [1..256]; 0 = auto: one for every 4000 nodes, as far as there are cores
   int max_substeps = 128;           ///< cap of auto per frame [1..10000]; where a solve fails there: the last resort
   int max_sweeps = 60;              ///< cap of warp/weft/contact sweeps per substep [1..10000]
   std::uint64_t seed = 1;           ///< of every random number
