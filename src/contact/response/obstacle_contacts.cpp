@@ -37,6 +37,7 @@ ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, const ContactPar
   active_.assign(count, 0);
   loads_.assign(count, Load());
   crossings_.reserve(pattern.grid.nodeCount());
+  pierced_.reserve(2 * pattern.grid.nodeCount());
   carried_by_.assign(pattern.grid.size(), -1);
   carried_.reserve(pattern.grid.nodeCount());
 }
@@ -74,12 +75,15 @@ void ObstacleContacts::begin(const Field3& start, const Field3& predicted, doubl
     const auto n = static_cast<std::size_t>(index);
     if (active_[n] == 0) continue;
     const ObstacleSubstep substep = substepOf(n);
-    collectNodes(substep, pattern_, near_[n], contacts);
-    const auto elements = static_cast<std::ptrdiff_t>(contacts.size());
-    if (!near_[n].faces().empty()) collectFaces(substep, pattern_, near_[n], contacts);
+    const auto first = static_cast<std::ptrdiff_t>(contacts.size());
+    pierced_.clear();
+    if (!near_[n].faces().empty()) collectFaces(substep, pattern_, near_[n], pierced_, contacts);
     if (!near_[n].pairs().empty()) collectPairs(substep, pattern_, near_[n], contacts);
-    std::sort(contacts.begin() + elements, contacts.end(), firstOfOne);
-    contacts.erase(std::unique(contacts.begin() + elements, contacts.end(), alike), contacts.end());
+    const CommonExit exit(pattern_.grid, near_[n], pierced_);
+    letOutFaces(substep, pattern_, near_[n], exit, pierced_, contacts);
+    collectNodes(substep, pattern_, near_[n], exit, contacts);
+    std::sort(contacts.begin() + first, contacts.end(), firstOfOne);
+    contacts.erase(std::unique(contacts.begin() + first, contacts.end(), alike), contacts.end());
   }
 }
 

@@ -101,6 +101,7 @@ class ObstacleContacts {
   double h_ = 0.0;                    // [s]
   bool full_ = false;
   std::vector<Crossing> crossings_;
+  std::vector<PiercedFace> pierced_;
   std::vector<std::int32_t> carried_by_;  // by node: obstacle, or -1
   std::vector<std::uint32_t> carried_;
   std::vector<Load> loads_;           // by obstacle

@@ -139,7 +139,8 @@ void add(const ObstacleSubstep& substep, const ClothPattern& pattern, TouchPoint
 
 }  // namespace
 
-void collectFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, Vicinity& near, Contacts& contacts) noexcept {
+void collectFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, Vicinity& near,
+                  std::vector<PiercedFace>& pierced, Contacts& contacts) noexcept {
   const ConvexShape& shape = *near.shape().convex();
   const double listed = near.elementReach();
   for (const Vicinity::Face& face : near.faces()) {
@@ -148,6 +149,10 @@ void collectFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, V
     ElementPoint nearest, then;
     const bool close = shape.nearestOnTriangle(start, near.thickness(), nearest);
     if (close) near.facePlane(face) = {mix(nearest.weights, start), nearest.surface, NodePlane::Kind::kFound};
+    if (close && nearest.surface.distance < 0.0) {
+      addWithinRoom(PiercedFace{face.node, nearest}, pierced);
+      continue;
+    }
     if (close && (nearest.surface.distance <= listed || shape.nearestOnTriangle(end, listed, then))) {
       TouchPoint point = touchPoint(face.node, nearest, start, start);
       if (point.normal.dot(mix(point.weight, end)) - point.height > listed) continue;
@@ -160,6 +165,19 @@ void collectFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, V
     if (!shape.nearestOnTriangle(at, listed, nearest)) continue;
     TouchPoint point = touchPoint(face.node, nearest, at, start);
     add(substep, pattern, point, near.thickness(), near.core(), 0, contacts);
+  }
+}
+
+void letOutFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, const Vicinity& near, const CommonExit& exit,
+                 const std::vector<PiercedFace>& pierced, Contacts& contacts) noexcept {
+  const double listed = near.elementReach();
+  for (const PiercedFace& face : pierced) {
+    const Corners start = startOf(near, face.node), end = endOf(near, face.node);
+    ElementPoint point_inside = face.deepest;
+    point_inside.surface = exit.lead(mix(face.deepest.weights, start), face.deepest.surface);
+    TouchPoint point = touchPoint(face.node, point_inside, start, start);
+    if (point.normal.dot(mix(point.weight, end)) - point.height > listed) continue;
+    add(substep, pattern, point, point_inside.surface.distance, near.core(), 0, contacts);
   }
 }
 

@@ -3,12 +3,10 @@
 // Nodes against one obstacle. A query of a mesh costs about a microsecond: it is left out where the plane that was last found
 // shows that the node is far enough.
 #include <algorithm>
-#include <array>
-#include <limits>
 
 #include "contact/narrow_phase/candidates.h"
+#include "contact/response/common_exit.h"
 #include "contact/response/obstacle_touch.h"
-#include "contact/shapes/shapes.h"
 
 namespace curtain {
 namespace {
@@ -67,73 +65,24 @@ Contact nodeContact(const ObstacleSubstep& substep, const ClothPattern& pattern,
   return contact;
 }
 
-// The side on which what is inside a convex obstacle comes out together. Each node's own nearest exit may draw the cloth apart: of a
-// box in its middle some leave upwards and some sideways, and links that hold keep them all inside. It is the one of the nodes' own exits
-// by which the deepest of them has the shortest path.
-class CommonExit {
- public:
-  CommonExit(const ObstacleSubstep& substep, const Vicinity& near) : shape_(substep.moving.shape->convex()) {
-    if (shape_ == nullptr) return;
-    for (const std::uint32_t node : near.nodes()) {
-      if (near.distanceOf(node) < 0.0) addCandidate(shape_->nearest(near.startOf(node)).normal);
-    }
-    if (count_ < 2) return;
-    double shallowest = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < count_; ++k) {
-      const double depth = depthAlong(candidates_[static_cast<std::size_t>(k)], near);
-      if (!(depth < shallowest)) continue;
-      shallowest = depth;
-      normal_ = candidates_[static_cast<std::size_t>(k)];
-      any_ = true;
-    }
-  }
-
-  /// Of a node that leaves on another side: takes it to the common one.
-  void lead(const Vec3& from, const Vec3& to, double& distance, SurfacePoint& surface) const noexcept {
-    if (!any_ || distance >= 0.0 || surface.normal.dot(normal_) >= kSameSide) return;
-    const double reach = shape_->support(normal_);
-    distance = normal_.dot(from) - reach;
-    surface.distance = normal_.dot(to) - reach;
-    surface.normal = normal_;
-  }
-
- private:
-  static constexpr int kMost = 16;           // sides to choose among; round shapes have as many as there are nodes
-  static constexpr double kAlike = 0.9;      // cosine from which two are one
-
-  void addCandidate(const Vec3& normal) noexcept {
-    for (int k = 0; k < count_; ++k) {
-      if (candidates_[static_cast<std::size_t>(k)].dot(normal) > kAlike) return;
-    }
-    if (count_ < kMost) candidates_[static_cast<std::size_t>(count_++)] = normal;
-  }
-  double depthAlong(const Vec3& normal, const Vicinity& near) const noexcept {
-    double deepest = 0.0;
-    for (const std::uint32_t node : near.nodes()) {
-      if (near.distanceOf(node) < 0.0) deepest = std::max(deepest, shape_->support(normal) - normal.dot(near.startOf(node)));
-    }
-    return deepest;
-  }
-
-  const ConvexShape* shape_;
-  std::array<Vec3, kMost> candidates_;
-  int count_ = 0;
-  bool any_ = false;
-  Vec3 normal_ = Vec3::UnitZ();
-};
-
 }  // namespace
 
-void collectNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, Vicinity& near, Contacts& contacts) noexcept {
+void collectNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, Vicinity& near, const CommonExit& exit,
+                  Contacts& contacts) noexcept {
   const double reach = near.nodeReach();
-  const CommonExit exit(substep, near);
   for (Vicinity::NodeEnd& end : near.lookAtEnds(reach)) {
     const std::uint32_t node = end.node;
     const Vec3 from = near.startOf(node), to = near.endOf(node);
     SurfacePoint& surface = end.surface;
     if (surface.distance >= 0.0) near.plane(node) = {to, surface, NodePlane::Kind::kFound};
     double distance = near.distanceOf(node);
-    exit.lead(from, to, distance, surface);
+    if (distance < 0.0) {
+      const SurfacePoint led = exit.lead(from, surface);
+      if (led.normal != surface.normal) {
+        distance = led.distance;
+        surface = {led.distance + led.normal.dot(to - from), led.normal};
+      }
+    }
     addWithinRoom(nodeContact(substep, pattern, node, near, surface, distance), contacts);
   }
 }

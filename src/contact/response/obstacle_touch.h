@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "contact/broad_phase/vicinity.h"
+#include "contact/response/common_exit.h"
 #include "contact/shapes/obstacle_set.h"
 #include "solver/contacts.h"
 
@@ -36,10 +37,14 @@ struct Crossing {
 /// [m]: what is nearer comes out slowly, and not at all when it lacks less than a tenth: a contact at rest must not be shaken.
 double letOut(double distance, double kept, const ObstacleSubstep& substep) noexcept;
 
-/// Contacts of nodes that touch on their way, in the nodes' order. Refreshes the vicinity's planes.
-void collectNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, Vicinity& near, Contacts& contacts) noexcept;
-/// Of faces and edges. Several may be alike.
-void collectFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, Vicinity& near, Contacts& contacts) noexcept;
+/// Contacts of nodes that touch on their way. Refreshes the vicinity's planes.
+void collectNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, Vicinity& near, const CommonExit& exit,
+                  Contacts& contacts) noexcept;
+/// Of faces and edges. Several may be alike. Faces that start inside are left to letOutFaces().
+void collectFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, Vicinity& near,
+                  std::vector<PiercedFace>& pierced, Contacts& contacts) noexcept;
+void letOutFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, const Vicinity& near, const CommonExit& exit,
+                 const std::vector<PiercedFace>& pierced, Contacts& contacts) noexcept;
 void collectPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, const Vicinity& near, Contacts& contacts) noexcept;
 
 /// What would go through on the way that the vicinity followed. Parts that are through where it starts are not.
