@@ -1,13 +1,13 @@
 # Sourced by run. Also with floating-point traps: the build is a Debug one. -O1: a fifth of the time to run of -O0, hardly more to
 # build. The engine is watched and not its tests, which take as long to build.
 # Not the torture suite nor the properties: minutes of stepping that the made-up scenes of test/fuzz do in seconds.
-tests=(solver batch fuzz)
+tests=(batch fuzz)
 if [ "${1:-}" = quick ]; then
   shift
   not=null,alignment  # half of the time to build; a null pointer AddressSanitizer sees, too
 else
   not=
-  tests+=(scene cloth forces contact simulator)
+  tests+=(scene cloth forces solver contact simulator)
 fi
 configure Debug "-O1 -g1 -fno-omit-frame-pointer" -DCURTAIN_SANITIZE=address,undefined,float-cast-overflow \
   -DCURTAIN_SANITIZE_NOT="$not" -DCURTAIN_PRECOMPILED=all -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON
