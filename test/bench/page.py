@@ -253,7 +253,7 @@ def contact_frames():
         lines.append('| %s | %s ms | %s ms | %s ms | %.1f | %.0f | %s |' % (
             row['scene'].replace(';', ','), figure(value(row, 'ms_median_min')), figure(value(row, 'ms_99_min')),
             figure(value(row, 'ms_longest_min')), float(row['substeps']), float(row['sweeps']), row['contacts']))
-    return lines + ['']
+    return lines + ['\n']
 
 
 def contact_peers():
@@ -267,14 +267,12 @@ def contact_peers():
             row['method'], row['setting'].replace(';', ','), figure(value(row, 'ms_median')), figure(value(row, 'ms_longest')),
             figure(value(row, 'stretch')), row['nodes_inside'], figure(value(row, 'deepest_mm'))))
     return lines + [
-        '',
-        'NvCloth, measured in November 2026 beside an earlier engine of ours on another scene: 44 x 40 and 105 x 96 nodes gathered to 0.6 m in a',
+        '\nNvCloth, measured in November 2026 beside an earlier engine of ours on another scene: 44 x 40 and 105 x 96 nodes gathered to 0.6 m in a',
         'steady wind of 6 Pa, a ball of 0.15 m that swings, self-collision; medians (99 %), stretch along warp / weft. It computes in single',
         'precision, knows particles only, and promises nothing of what is between them.\n',
         '| NvCloth | 44 x 40 | stretch | 105 x 96 | stretch |', '|---|---|---|---|---|',
         '| 300 Hz (default) | 1.3 (1.5) ms | 26 / 77 % | 8.3 (9.6) ms | 206 / 526 % |',
-        '| 2400 Hz | 8.8 (11) ms | 3.7 / 4.5 % | 68 (79) ms | 8.4 / 18 % |',
-        '']
+        '| 2400 Hz | 8.8 (11) ms | 3.7 / 4.5 % | 68 (79) ms | 8.4 / 18 % |\n']
 
 
 def ccd():

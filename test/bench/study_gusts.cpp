@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The gathered curtain of config/scenes/curtain.yaml without its ball, in its gusting fan and in the same fan without
+// The gathered curtain of config/scenes/curtain.yaml without contact, in its gusting fan and in the same fan without
 // gusts: time a frame, and how far a run is from our finest one as time goes on. Ours only: the rivals have no wind.
 #include <algorithm>
 #include <cmath>
@@ -20,6 +20,7 @@ curtain::Scene curtainScene(bool gusts) {
   if (!reading.problems.empty()) throw std::runtime_error(curtain::describe(reading.problems));
   curtain::Scene scene = reading.scene;
   scene.obstacles.clear();
+  scene.contact.self = false;
   if (!gusts) {
     for (curtain::WindParams& wind : scene.wind) wind.unsteadiness = 0.0;
   }
