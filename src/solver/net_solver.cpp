@@ -44,6 +44,7 @@ NetSolver::NetSolver(const ClothPattern& pattern, const Workers& workers)
   pushed_.assign(size / kColumns, 0);
   taut_.assign(static_cast<std::size_t>(row_blocks_), 0);
   partial_.assign(static_cast<std::size_t>(row_blocks_), 0.0);
+  changed_ = partial_;
 }
 
 void NetSolver::reset() noexcept {
@@ -240,11 +241,12 @@ double NetSolver::step(Real alpha) noexcept {
 // Lets strings leave and join; false: none does.
 bool NetSolver::changeStrings(Real goal) noexcept {
   if (sumOverRowBlocks([&](int b) { return countChanges(b, goal); }) == 0.0) return false;
-  const double leave = sumOverRowBlocks([&](int b) {
-    const bool changes = partial_[static_cast<std::size_t>(b)] > 0.0;
-    const double leave_here = changeSet(b, goal);
-    if (changes) factorWeft(b);
-    return leave_here;
+  changed_ = partial_;
+  const double leave = sumOverRowBlocks([&](int b) { return changeSet(b, goal); });
+  // Not in the same loop: whole vectors are read, with the first link of the block below.
+  sumOverRowBlocks([&](int b) {
+    if (changed_[static_cast<std::size_t>(b)] > 0.0) factorWeft(b);
+    return 0.0;
   });
   if (leave == 0.0) return true;
   applySchur();

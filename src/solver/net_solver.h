@@ -132,6 +132,7 @@ class NetSolver {
   Values interleaved_;                 // scratch of precondition()
   std::vector<std::uint8_t> taut_;     // row blocks with a link that takes part
   std::vector<double> partial_;        // sums of the row blocks
+  std::vector<double> changed_;        // links of the row blocks that leave or join
 };
 
 }  // namespace curtain
