@@ -12,11 +12,14 @@
 #include <random>
 #include <utility>
 
+#include "contact/bumpy_sphere.h"
 #include "contact/shapes/shapes.h"
 #include "contact/shapes/triangle_mesh.h"
 
 namespace curtain {
 namespace {
+
+using curtain_test::bumpySphere;
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -31,35 +34,6 @@ class Random {
  private:
   std::mt19937 engine_{11};
 };
-
-/// Closed surface of revolution-like grid: radius(longitude, latitude) times the direction; 2 * rings * segments
-/// triangles about. The wiggle makes it neither convex nor smooth.
-ShapeTriangles bumpySphere(int rings, int segments, double wiggle) {
-  ShapeTriangles mesh;
-  const auto add = [&](double latitude, double longitude) {
-    const double radius = 1.0 + wiggle * std::sin(5.0 * longitude) * std::cos(3.0 * latitude) * std::cos(latitude);
-    mesh.corners.emplace_back(radius * std::cos(latitude) * std::cos(longitude),
-                              radius * std::cos(latitude) * std::sin(longitude), radius * std::sin(latitude));
-  };
-  add(-0.5 * kPi, 0.0);
-  for (int r = 1; r < rings; ++r) {
-    for (int s = 0; s < segments; ++s) {
-      add(kPi * (static_cast<double>(r) / rings - 0.5), 2.0 * kPi * s / segments);
-    }
-  }
-  add(0.5 * kPi, 0.0);
-  const auto corner = [segments](int ring, int s) { return 1 + (ring - 1) * segments + s % segments; };
-  const int top = static_cast<int>(mesh.corners.size()) - 1;
-  for (int s = 0; s < segments; ++s) {
-    mesh.triangles.emplace_back(0, corner(1, s + 1), corner(1, s));
-    for (int r = 1; r + 1 < rings; ++r) {
-      mesh.triangles.emplace_back(corner(r, s), corner(r, s + 1), corner(r + 1, s + 1));
-      mesh.triangles.emplace_back(corner(r, s), corner(r + 1, s + 1), corner(r + 1, s));
-    }
-    mesh.triangles.emplace_back(corner(rings - 1, s), corner(rings - 1, s + 1), top);
-  }
-  return mesh;
-}
 
 /// Square of n x n cells, side 1 around the origin, in z = height.
 ShapeTriangles sheet(int n, double height) {

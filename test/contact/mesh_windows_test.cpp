@@ -11,6 +11,7 @@
 #include <limits>
 #include <set>
 
+#include "contact/bumpy_sphere.h"
 #include "contact/narrow_phase/closest_points.h"
 #include "contact/shapes/triangle_mesh.h"
 #include "testing.h"
@@ -18,34 +19,8 @@
 namespace curtain {
 namespace {
 
-using curtain_test::kPi;
+using curtain_test::bumpySphere;
 using curtain_test::Random;
-
-/// Closed and neither convex nor smooth; of 2 * rings * segments triangles about, with a radius of about 1.
-ShapeTriangles bumpyBall(int rings, int segments, double wiggle) {
-  ShapeTriangles mesh;
-  const auto add = [&](double latitude, double longitude) {
-    const double radius = 1.0 + wiggle * std::sin(9.0 * longitude) * std::cos(7.0 * latitude) * std::cos(latitude);
-    mesh.corners.emplace_back(radius * Vec3(std::cos(latitude) * std::cos(longitude),
-                                            std::cos(latitude) * std::sin(longitude), std::sin(latitude)));
-  };
-  add(-0.5 * kPi, 0.0);
-  for (int r = 1; r < rings; ++r) {
-    for (int s = 0; s < segments; ++s) add(kPi * (static_cast<double>(r) / rings - 0.5), 2.0 * kPi * s / segments);
-  }
-  add(0.5 * kPi, 0.0);
-  const auto corner = [segments](int ring, int s) { return 1 + (ring - 1) * segments + s % segments; };
-  const int top = static_cast<int>(mesh.corners.size()) - 1;
-  for (int s = 0; s < segments; ++s) {
-    mesh.triangles.emplace_back(0, corner(1, s + 1), corner(1, s));
-    for (int r = 1; r + 1 < rings; ++r) {
-      mesh.triangles.emplace_back(corner(r, s), corner(r, s + 1), corner(r + 1, s + 1));
-      mesh.triangles.emplace_back(corner(r, s), corner(r + 1, s + 1), corner(r + 1, s));
-    }
-    mesh.triangles.emplace_back(corner(rings - 1, s), corner(rings - 1, s + 1), top);
-  }
-  return mesh;
-}
 
 /// Triangles of some `size` [m] anywhere in a box: both sides of each are free.
 ShapeTriangles soup(int count, double size, Random& random) {
@@ -167,7 +142,7 @@ Seen wander(const Grid& grid, const TriangleMeshShape& mesh, double link, double
 }
 
 TEST(MeshWindows, MissNothingOfASolid) {
-  const TriangleMeshShape mesh(bumpyBall(24, 40, 0.03));
+  const TriangleMeshShape mesh(bumpySphere(24, 40, 0.03, 9.0, 7.0));
   ASSERT_TRUE(mesh.watertight());
   for (const bool closed : {false, true}) {
     const Seen seen = wander(Grid{4, 5, closed}, mesh, 0.06, 0.02, 7);
@@ -186,14 +161,14 @@ TEST(MeshWindows, MissNothingOfAShell) {
 }
 
 TEST(MeshWindows, MissNothingWhereThereIsMuchMoreThanTheyKeep) {
-  const TriangleMeshShape mesh(bumpyBall(60, 100, 0.02));
+  const TriangleMeshShape mesh(bumpySphere(60, 100, 0.02, 9.0, 7.0));
   const Seen seen = wander(Grid{3, 3, false}, mesh, 0.3, 0.0, 9);
   EXPECT_GT(seen.near, 50);
   EXPECT_GT(seen.most, 100);
 }
 
 TEST(MeshWindows, CallNothingClearThatIsNotANumberOrFarAway) {
-  const TriangleMeshShape mesh(bumpyBall(24, 40, 0.03));
+  const TriangleMeshShape mesh(bumpySphere(24, 40, 0.03, 9.0, 7.0));
   const Grid grid{3, 9, false};
   MeshWindows windows(grid, mesh);
   Field3 start;

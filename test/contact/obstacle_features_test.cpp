@@ -13,6 +13,7 @@
 #include <set>
 #include <utility>
 
+#include "contact/bumpy_sphere.h"
 #include "contact/shapes/mesh_loader.h"
 #include "contact/shapes/shapes.h"
 #include "contact/shapes/triangle_mesh.h"
@@ -22,6 +23,7 @@ namespace curtain {
 namespace {
 
 using curtain_test::kPi;
+using curtain_test::bumpySphere;
 using curtain_test::Random;
 
 int countOf(const ObstacleFeatures& features, EdgeBend bend) {
@@ -101,32 +103,6 @@ ShapeTriangles angleBar() {
     const int next = (k + 1) % 6;
     mesh.triangles.emplace_back(k, next, 6 + next);
     mesh.triangles.emplace_back(k, 6 + next, 6 + k);
-  }
-  return mesh;
-}
-
-/// Closed sphere with a wiggle, 2 (rings - 1) segments triangles.
-ShapeTriangles bumpySphere(int rings, int segments, double wiggle) {
-  ShapeTriangles mesh;
-  const auto add = [&](double latitude, double longitude) {
-    const double radius = 1.0 + wiggle * std::sin(5.0 * longitude) * std::cos(3.0 * latitude) * std::cos(latitude);
-    mesh.corners.emplace_back(radius * std::cos(latitude) * std::cos(longitude),
-                              radius * std::cos(latitude) * std::sin(longitude), radius * std::sin(latitude));
-  };
-  add(-0.5 * kPi, 0.0);
-  for (int r = 1; r < rings; ++r) {
-    for (int s = 0; s < segments; ++s) add(kPi * (static_cast<double>(r) / rings - 0.5), 2.0 * kPi * s / segments);
-  }
-  add(0.5 * kPi, 0.0);
-  const auto corner = [segments](int ring, int s) { return 1 + (ring - 1) * segments + s % segments; };
-  const int top = static_cast<int>(mesh.corners.size()) - 1;
-  for (int s = 0; s < segments; ++s) {
-    mesh.triangles.emplace_back(0, corner(1, s + 1), corner(1, s));
-    for (int r = 1; r + 1 < rings; ++r) {
-      mesh.triangles.emplace_back(corner(r, s), corner(r, s + 1), corner(r + 1, s + 1));
-      mesh.triangles.emplace_back(corner(r, s), corner(r + 1, s + 1), corner(r + 1, s));
-    }
-    mesh.triangles.emplace_back(corner(rings - 1, s), corner(rings - 1, s + 1), top);
   }
   return mesh;
 }

@@ -46,10 +46,11 @@ TEST(Workers, SeeWhatTheLoopBeforeHasWritten) {
 }
 
 TEST(Workers, HelpWhenBlocksTakeLong) {
-  if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "one core";
+  // There is nobody to help on one core.
+  const std::size_t expected = std::thread::hardware_concurrency() < 2 ? 1 : 2;
   const Workers workers(2);
   std::set<std::thread::id> seen;
-  for (int attempt = 0; attempt < 1000 && seen.size() < 2; ++attempt) {
+  for (int attempt = 0; attempt < 1000 && seen.size() < expected; ++attempt) {
     const Workers::Shift standing_by(workers);
     std::vector<std::thread::id> by(2);
     std::atomic<int> begun{0};
@@ -61,7 +62,7 @@ TEST(Workers, HelpWhenBlocksTakeLong) {
     });
     seen.insert(by.begin(), by.end());
   }
-  EXPECT_EQ(seen.size(), 2U);
+  EXPECT_EQ(seen.size(), expected);
 }
 
 TEST(Workers, WithoutAShiftTheCallerIsAlone) {

@@ -262,21 +262,26 @@ void ClothPairs::addElements(const Look& look, Share& share) const noexcept {
 // Where there is no room for more, those that wait are looked at, and what is near goes to where it all goes.
 void ClothPairs::addVertex(const Look& look, const FourNodes& nodes, Share& share) const noexcept {
   if (share.vertices.isFull()) dropApartVertices(look, share);
-  if (share.vertices.isFull()) handOver(look, share);
+  if (share.vertices.isFull()) makeRoom(look, share);
   share.vertices.nodes.push_back(nodes);
 }
 
 void ClothPairs::addEdge(const Look& look, const FourNodes& nodes, Share& share) const noexcept {
   if (share.edges.isFull()) dropApartEdges(look, share);
-  if (share.edges.isFull()) handOver(look, share);
+  if (share.edges.isFull()) makeRoom(look, share);
   share.edges.nodes.push_back(nodes);
 }
 
-// What is near of a share. One thread after the other: it hardly ever comes to this before all are done.
-void ClothPairs::handOver(const Look& look, Share& share) const noexcept {
+// While others may do the same.
+void ClothPairs::makeRoom(const Look& look, Share& share) const noexcept {
   dropApartVertices(look, share);
   dropApartEdges(look, share);
-  const std::lock_guard<std::mutex> alone(handing_over_);
+  const std::lock_guard<std::mutex> alone(making_room_);
+  handOver(look, share);
+}
+
+// What is near of a share.
+void ClothPairs::handOver(const Look& look, Share& share) noexcept {
   for (const FourNodes& n : share.vertices.nodes) look.out->add(VertexTriangle{n[0], {n[1], n[2], n[3]}});
   for (const FourNodes& n : share.edges.nodes) look.out->add(EdgeEdge{{n[0], n[1]}, {n[2], n[3]}});
   share.clear();

@@ -93,7 +93,8 @@ class ClothPairs {
   void addElements(const Look& look, Share& share) const noexcept;
   void addVertex(const Look& look, const FourNodes& nodes, Share& share) const noexcept;
   void addEdge(const Look& look, const FourNodes& nodes, Share& share) const noexcept;
-  void handOver(const Look& look, Share& share) const noexcept;
+  void makeRoom(const Look& look, Share& share) const noexcept;
+  static void handOver(const Look& look, Share& share) noexcept;
   void dropApartVertices(const Look& look, Share& share) const noexcept;
   void dropApartEdges(const Look& look, Share& share) const noexcept;
 
@@ -110,8 +111,8 @@ class ClothPairs {
   std::vector<std::uint8_t> marked_;           // by node: it ends elsewhere
   std::vector<Eigen::Array4f> starts_, ends_;  // of the motion that is looked at, one by one, by the nodes' indices
   const Workers* workers_;
-  std::vector<Share> shares_;  // empty between looks
-  mutable std::mutex handing_over_;
+  std::vector<Share> shares_;       // empty between looks
+  mutable std::mutex making_room_;  // where a share has none; there is plenty
 };
 
 }  // namespace curtain

@@ -2,17 +2,12 @@
 //
 // What of a mesh the quads of the cloth may come near in a substep, mostly told without asking the mesh:
 //
-//            o---o  quad on its way      A window is a ball around a quad and a plane that the mesh's edges and corners
-//            in the
-//        .---|---|---.                   ball are under, those of them that cloth can touch. It says something of the
-//        mesh
-//       /    o---o    \                  alone, so it holds for ever, whatever the cloth does. A quad whose corners
-//       stay in
-//      |===============|  plane          the ball and over the plane, both by more than a reach, from where they start
-//      to
-//       \  /\_  _/\_  /                  where they end, keeps that reach: it lies within its corners' hull, and what
-//       is
-//        '-/---\----'   mesh            out of the ball is further off than the ball's border.
+//            o---o  quad on its way    A window is a ball around a quad, and a plane that the mesh's edges and
+//        .---|---|---.                 corners in the ball are under, those that cloth can touch. It tells of the
+//       /    o---o    \                mesh alone, so it holds for ever, whatever the cloth does. A quad whose
+//      |===============|  plane        corners stay in the ball and over the plane, both by more than a reach,
+//       \  /\_  _/\_  /                from where they start to where they end, keeps that reach: it lies within
+//        '-/---\----'   mesh           its corners' hull, and what is out of the ball is further off than its border.
 #pragma once
 
 #include <array>

@@ -4,11 +4,10 @@
 // node's own nearest exit may draw the cloth apart: of a box in its middle some leave upwards and some sideways, and
 // links that hold keep them all inside.
 //
-//            ___________          Cloth that passes through a box has two ways out, across itself. Along itself there
-//            is none, however
-//      o----|--o--o--o--|----o    near that side is: the cloth beyond the far side would be drawn through. It is one
-//      only where the cloth
-//           |___________|         ends inside.
+//            ___________          Cloth that passes through a box has two ways out, across itself. Along
+//           |           |         itself there is none, however near that side is: the cloth beyond the far
+//      o----|--o--o--o--|----o    side would be drawn through. It is one only where the cloth ends inside.
+//           |___________|
 #pragma once
 
 #include <array>
