@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Edges and triangles against the analytic obstacles: the nearest (deepest) point, its certified lower bound, and when a
-// moving element first comes near, all against dense sampling of distances that shapes_test.cpp has checked.
+// Edges and triangles against the analytic obstacles: the nearest (deepest) point, its certified lower bound, and when
+// a moving element first comes near, all against dense sampling of distances that shapes_test.cpp has checked.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include <string>
 
 #include "contact/shapes/shapes.h"
+#include "../../docs/examples/rounded_box.h"
 #include "testing.h"
 
 namespace curtain {
@@ -27,8 +28,10 @@ const BoxShape kBox(Vec3(1.0, 1.6, 0.6));
 const CylinderShape kCylinder(0.5, 1.4);
 const CapsuleShape kCapsule(0.4, 1.2);
 const PlaneShape kPlane;
-const std::map<std::string, const ConvexShape*> kSolids = {
-    {"sphere", &kSphere}, {"box", &kBox}, {"cylinder", &kCylinder}, {"capsule", &kCapsule}, {"plane", &kPlane}};
+const RoundedBoxShape kRoundedBox(Vec3(1.0, 1.2, 0.8), 0.2);
+const std::map<std::string, const ConvexShape*> kSolids = {{"sphere", &kSphere},     {"box", &kBox},
+                                                           {"cylinder", &kCylinder}, {"capsule", &kCapsule},
+                                                           {"plane", &kPlane},       {"rounded box", &kRoundedBox}};
 
 template <std::size_t N>
 Vec3 pointAt(const std::array<Vec3, N>& corners, const std::array<double, 3>& weights) {
@@ -63,8 +66,8 @@ void forEachSample(int n, F&& f) {
   }
 }
 
-/// Everything a nearest point promises. The bound is below every sample and the point within the accuracy of the bound: so
-/// it is the nearest one.
+/// Everything a nearest point promises. The bound is below every sample and the point within the accuracy of the bound:
+/// so it is the nearest one.
 template <std::size_t N>
 void checkNearest(const std::string& name, const ConvexShape& shape, const std::array<Vec3, N>& corners, int n) {
   ElementPoint nearest;
@@ -130,9 +133,9 @@ TEST(NearestOnElement, HoldsOnALattice) {
   }
 }
 
-// What is as deep on one side of a middle as on the other leaves on the side that most of the element is on, not on that of
-// larger coordinates: the image of an element in a mirror leaves as the image, to the bit (a capsule is gone through
-// from one end: across z but for rounding). Elements whose own middle is in the mirror have no such side.
+// What is as deep on one side of a middle as on the other leaves on the side that most of the element is on, not on
+// that of larger coordinates: the image of an element in a mirror leaves as the image, to the bit (a capsule is gone
+// through from one end: across z but for rounding). Elements whose own middle is in the mirror have no such side.
 template <std::size_t N>
 void checkMirrored(const std::string& name, const ConvexShape& shape, const std::array<Vec3, N>& corners, int axis) {
   Vec3 middle = Vec3::Zero();
@@ -180,9 +183,9 @@ TEST(NearestOnElement, HoldsForElementsWithoutAreaOrLength) {
       const double t = random.between(-0.5, 1.5);
       const Vec3 on = a + t * (b - a);
       const Vec3 beside = on + std::pow(10.0, random.between(-17.0, -6.0)) * random.inBox(1.0);
-      for (const Triangle& corners : {Triangle{a, a, a}, Triangle{a, b, a}, Triangle{a, b, on}, Triangle{on, b, a},
-                                      Triangle{a, beside, b}, Triangle{a, a + 1e-200 * b, a + 1e-200 * on},
-                                      Triangle{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}}) {
+      for (const Triangle& corners :
+           {Triangle{a, a, a}, Triangle{a, b, a}, Triangle{a, b, on}, Triangle{on, b, a}, Triangle{a, beside, b},
+            Triangle{a, a + 1e-200 * b, a + 1e-200 * on}, Triangle{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}}) {
         checkNearest(name, *shape, corners, 20);
       }
       checkNearest(name, *shape, Edge{a, a}, 1);
@@ -245,8 +248,8 @@ std::array<Vec3, N> between(const std::array<Vec3, N>& start, const std::array<V
   return corners;
 }
 
-/// The time of impact is not after the first sample that is nearer, and at that time the element is all but there, unless
-/// it turns past at a hair's breadth: those are counted as early.
+/// The time of impact is not after the first sample that is nearer, and at that time the element is all but there,
+/// unless it turns past at a hair's breadth: those are counted as early.
 template <std::size_t N>
 void checkImpact(const std::string& name, const ConvexShape& shape, const std::array<Vec3, N>& start,
                  const std::array<Vec3, N>& end, double min_distance, int& impacts, int& early) {

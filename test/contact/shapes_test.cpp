@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "../../docs/examples/rounded_box.h"
+
 namespace curtain {
 namespace {
 
@@ -37,8 +39,10 @@ const BoxShape kBox(Vec3(1.0, 1.6, 0.6));
 const CylinderShape kCylinder(0.5, 1.4);
 const CapsuleShape kCapsule(0.4, 1.2);
 const PlaneShape kPlane;
-const std::map<std::string, const ConvexShape*> kSolids = {
-    {"sphere", &kSphere}, {"box", &kBox}, {"cylinder", &kCylinder}, {"capsule", &kCapsule}, {"plane", &kPlane}};
+const RoundedBoxShape kRoundedBox(Vec3(1.0, 1.2, 0.8), 0.2);
+const std::map<std::string, const ConvexShape*> kSolids = {{"sphere", &kSphere},     {"box", &kBox},
+                                                           {"cylinder", &kCylinder}, {"capsule", &kCapsule},
+                                                           {"plane", &kPlane},       {"rounded box", &kRoundedBox}};
 
 /// A node that does not move: only the distance counts.
 bool queryAtRest(const ObstacleShape& shape, const Vec3& point, double reach, SurfacePoint& out) {
@@ -109,6 +113,9 @@ bool isInside(const std::string& name, const Vec3& p) {
   }
   if (name == "box") {
     return std::abs(p.x()) < 0.5 && std::abs(p.y()) < 0.8 && std::abs(p.z()) < 0.3;
+  }
+  if (name == "rounded box") {
+    return (p.cwiseAbs() - Vec3(0.3, 0.4, 0.2)).cwiseMax(0.0).squaredNorm() < 0.04;
   }
   const double radial_squared = p.x() * p.x() + p.y() * p.y();
   if (name == "cylinder") {
@@ -210,11 +217,16 @@ TEST(Shapes, knownValues) {
 
 TEST(Shapes, centresAxesEdgesAndCornersHaveAUnitNormalAndTheRightDistance) {
   const std::vector<std::pair<const ConvexShape*, std::pair<Vec3, double>>> cases = {
-      {&kSphere, {Vec3::Zero(), -0.7}},          {&kBox, {Vec3::Zero(), -0.3}},
-      {&kCylinder, {Vec3::Zero(), -0.5}},        {&kCapsule, {Vec3::Zero(), -0.4}},
-      {&kCylinder, {Vec3(0.0, 0.0, 0.6), -0.1}}, {&kCapsule, {Vec3(0.0, 0.0, 0.6), -0.4}},
-      {&kCylinder, {Vec3(0.0, 0.0, 0.7), 0.0}},  {&kCylinder, {Vec3(0.5, 0.0, 0.7), 0.0}},
-      {&kBox, {Vec3(0.5, 0.8, 0.3), 0.0}},       {&kBox, {Vec3(-0.5, 0.8, 0.1), 0.0}},
+      {&kSphere, {Vec3::Zero(), -0.7}},
+      {&kBox, {Vec3::Zero(), -0.3}},
+      {&kCylinder, {Vec3::Zero(), -0.5}},
+      {&kCapsule, {Vec3::Zero(), -0.4}},
+      {&kCylinder, {Vec3(0.0, 0.0, 0.6), -0.1}},
+      {&kCapsule, {Vec3(0.0, 0.0, 0.6), -0.4}},
+      {&kCylinder, {Vec3(0.0, 0.0, 0.7), 0.0}},
+      {&kCylinder, {Vec3(0.5, 0.0, 0.7), 0.0}},
+      {&kBox, {Vec3(0.5, 0.8, 0.3), 0.0}},
+      {&kBox, {Vec3(-0.5, 0.8, 0.1), 0.0}},
       {&kPlane, {Vec3::Zero(), 0.0}}};
   for (const auto& [shape, expected] : cases) {
     const SurfacePoint surface = shape->nearest(expected.first);
@@ -334,7 +346,7 @@ bool marchedEntry(const std::string& name, const Vec3& from, const Vec3& to, Vec
 
 TEST(Shapes, entryAgreesWithMarchingAlongTheWay) {
   Random random;
-  for (const char* const name : {"sphere", "box", "cylinder", "capsule"}) {
+  for (const char* const name : {"sphere", "box", "cylinder", "capsule", "rounded box"}) {
     const ConvexShape& shape = *kSolids.at(name);
     int passed = 0;
     for (int k = 0; k < 1500; ++k) {

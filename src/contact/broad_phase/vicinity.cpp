@@ -7,7 +7,7 @@
 
 #include "cloth/wide.h"
 #include "contact/broad_phase/cloth_reach.h"
-#include "contact/shapes/shapes.h"
+#include "contact/shapes/convex_shape.h"
 
 namespace curtain {
 namespace {
@@ -33,14 +33,6 @@ double longestEdge(const ClothPattern& pattern) {
   return warp + weft;  // nothing holds the faces' diagonals but their sides
 }
 
-// Smallest radius a smooth shape bends by; 0: it has edges. Infinite: it is flat.
-double smoothRadius(const ObstacleShape& shape) {
-  if (dynamic_cast<const PlaneShape*>(&shape) != nullptr) return std::numeric_limits<double>::infinity();
-  const bool round =
-      dynamic_cast<const SphereShape*>(&shape) != nullptr || dynamic_cast<const CapsuleShape*>(&shape) != nullptr;
-  return round ? 0.5 * shape.bounds().sizes().minCoeff() : 0.0;
-}
-
 // The box around the ways of a row of nodes.
 Eigen::AlignedBox3d boxOfRow(const Field3& start, const Field3& end, std::size_t first, std::size_t count) {
   const Range x = rangeOf(&start.x[first], &end.x[first], count);
@@ -61,7 +53,7 @@ Vicinity::Vicinity(const ClothPattern& pattern, const ObstacleShape& shape, doub
       core_(core) {
   // Sagitta of the longest edge between two nodes that keep the thickness, less the tenth of it that they may lack.
   const double longest = longestEdge(pattern);
-  const double radius = smoothRadius(shape) + 0.9 * thickness;
+  const double radius = (shape.convex() != nullptr ? shape.convex()->smoothRadius() : 0.0) + 0.9 * thickness;
   const double half = 0.5 * longest;
   const double sagitta = half < radius ? radius - std::sqrt((radius - half) * (radius + half)) : radius;
   elements_wanted_ = std::isfinite(radius) && sagitta > 0.9 * thickness - core;

@@ -9,7 +9,7 @@
 
 #include "contact/broad_phase/vicinity.h"
 #include "contact/narrow_phase/closest_points.h"
-#include "contact/shapes/shapes.h"
+#include "contact/shapes/convex_shape.h"
 
 namespace curtain {
 

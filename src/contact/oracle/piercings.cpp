@@ -8,7 +8,7 @@
 
 #include "cloth/coarse_mesh.h"
 #include "contact/shapes/obstacle_features.h"
-#include "contact/shapes/shapes.h"
+#include "contact/shapes/convex_shape.h"
 
 namespace curtain {
 namespace {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "contact/broad_phase/vicinity.h"
-#include "contact/shapes/shapes.h"
+#include "contact/shapes/convex_shape.h"
 
 namespace curtain {
 

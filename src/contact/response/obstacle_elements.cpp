@@ -11,7 +11,7 @@
 #include "contact/narrow_phase/candidates.h"
 #include "contact/narrow_phase/closest_points.h"
 #include "contact/response/obstacle_touch.h"
-#include "contact/shapes/shapes.h"
+#include "contact/shapes/convex_shape.h"
 #include "curtain_sim/ccd.h"
 
 namespace curtain {

@@ -14,7 +14,7 @@
 #include <array>
 #include <limits>
 
-#include "contact/shapes/shapes.h"
+#include "contact/shapes/convex_shape.h"
 
 namespace curtain {
 namespace tangents {

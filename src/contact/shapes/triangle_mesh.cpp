@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "contact/shapes/shapes.h"
+#include "contact/shapes/convex_shape.h"
 
 namespace curtain {
 namespace {
