@@ -26,7 +26,7 @@
 namespace curtain {
 
 /// To be raised with every change of what is carried, or of what it means. test/simulator/snapshot_test.cpp keeps watch.
-constexpr std::uint32_t kSnapshotVersion = 4;
+constexpr std::uint32_t kSnapshotVersion = 5;
 
 /// Bytes that all snapshots begin with, up to the scene.
 constexpr std::size_t kSnapshotHeader = 48;

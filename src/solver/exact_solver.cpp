@@ -178,6 +178,7 @@ void ExactSolver::judge(const Making& making, Progress& progress, SubstepOutcome
     outcome.disturbed = held_.disturbedBy(strings, progress.contacts, 1.0 / making.scale(), making.forces.gravity.norm(), stuck);
   }
   outcome.sweeps = progress.sweeps;
+  outcome.touches = !progress.alone();
   outcome.settled = progress.settled;
   outcome.late = progress.late;
 }

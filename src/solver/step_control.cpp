@@ -107,7 +107,7 @@ SubstepPlan StepControl::next(double remaining, const ExactSolver& solver) noexc
     wanted = std::max(smallest, std::min({for_phase, for_turn, frame_ / asked_, surface_step_}));
   }
   double step = std::min(wanted, std::max(limit_, smallest));
-  if (trust_.bounded() && method_ != Method::kPaper) {
+  if (trust_.rules(frame_begins) && method_ != Method::kPaper) {
     plan.scheme = SchemeKind::kLastResort;
     plan.reach = trust_.reach();
     plan.precise = false;
@@ -140,10 +140,9 @@ void StepControl::watch(const SubstepOutcome& outcome) noexcept {
 void StepControl::accepted(const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept {
   watch(outcome);
   surface_step_ = outcome.longest_step;
-  if (plan.isLastResort()) {
-    if (outcome.settled) trust_.succeeded();
-    else trust_.failed();
-  }
+  if (!plan.isLastResort()) trust_.reset();
+  else if (outcome.settled) trust_.succeeded();
+  else trust_.failed(outcome.touches);
   if (limit_ < frame_ && ++good_ >= kGoodToGrow) {
     limit_ = std::min(frame_, limit_ * kLimitGrowth);
     good_ = 0;
@@ -151,9 +150,10 @@ void StepControl::accepted(const SubstepPlan& plan, const SubstepOutcome& outcom
 }
 
 void StepControl::rejected(const SubstepPlan& plan) noexcept {
-  limit_ = 0.5 * plan.h;
-  if (limit_ < frame_ / max_substeps_) trust_.failed();
   good_ = 0;
+  if (trust_.bounded()) return trust_.schemeFailed();
+  limit_ = 0.5 * plan.h;
+  if (limit_ < frame_ / max_substeps_) trust_.schemeFailed();
 }
 
 void StepControl::tookTooLong(const SubstepPlan& plan) noexcept {

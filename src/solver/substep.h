@@ -67,6 +67,7 @@ struct SubstepOutcome {
   bool settled = false;        ///< every link is within the tolerance
   bool disturbed = false;      ///< columns that are held would move: wake them and make the substep again
   bool late = false;           ///< its time was over before it had settled
+  bool touches = false;        ///< something presses
   int sweeps = 0;
   double scale = 0.0;          ///< h times the time the forces acted for [s^2]
   double kick = 0.0;           ///< the time the forces acted for [s]

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// How far nodes may go in a substep at the smallest step, in lengths of their shortest link: without bound until a solve fails, then
-// less with every failure, and more again with every success.
+// How far nodes may go in a substep of the last resort, in lengths of their shortest link: without bound until a solve at the smallest
+// step fails, then less with every failure, and more again with every success. Where the last resort does not settle in contact, the
+// scheme itself is tried again at the next frame: what rests on something needs no bound, and its solve settles where a monotone one
+// stalls.
 #pragma once
 
 #include <algorithm>
@@ -16,16 +18,32 @@ class TrustRegion {
  public:
   double reach() const noexcept { return reach_; }  ///< infinite: no bound
   bool bounded() const noexcept { return reach_ < std::numeric_limits<double>::infinity(); }
-  void failed() noexcept { reach_ = bounded() ? std::max(kLeastReach, kReachShrink * reach_) : kFirstReach; }
+  /// The next substep is the last resort's.
+  bool rules(bool frame_begins) const noexcept { return bounded() && !(frame_begins && retry_); }
+  /// The scheme itself has failed, for the first time or again.
+  void schemeFailed() noexcept {
+    reach_ = std::min(reach_, kFirstReach);
+    retry_ = false;
+  }
+  /// The last resort has; touches: in contact.
+  void failed(bool touches) noexcept {
+    reach_ = std::max(kLeastReach, kReachShrink * reach_);
+    retry_ = touches;
+  }
   void succeeded() noexcept {
     reach_ *= kReachGrowth;
+    retry_ = false;
     if (reach_ > kUnbounded) reset();
   }
-  void reset() noexcept { reach_ = std::numeric_limits<double>::infinity(); }
-  void carry(Archive& archive) { archive.within("reach", reach_, 0.0, std::numeric_limits<double>::infinity()); }
+  void reset() noexcept { *this = TrustRegion(); }
+  void carry(Archive& archive) {
+    archive.within("reach", reach_, 0.0, std::numeric_limits<double>::infinity());
+    archive.flag("retry", retry_);
+  }
 
  private:
   double reach_ = std::numeric_limits<double>::infinity();
+  bool retry_ = false;
 };
 
 }  // namespace curtain

@@ -208,11 +208,11 @@ TEST(Snapshot, HasAVersionForEveryLayout) {
   SnapshotParts parts;
   const std::string snapshot = Simulator(all).snapshot();
   ASSERT_FALSE(unpackSnapshot(snapshot, parts).has_value());
-  EXPECT_EQ(kSnapshotVersion, 4U);
-  EXPECT_EQ(parts.layout, 1600950261U);
+  EXPECT_EQ(kSnapshotVersion, 5U);
+  EXPECT_EQ(parts.layout, 1887345276U);
   const std::string plain = Simulator(flatScene(4, 5)).snapshot();
   ASSERT_FALSE(unpackSnapshot(plain, parts).has_value());
-  EXPECT_EQ(parts.layout, 371454989U);
+  EXPECT_EQ(parts.layout, 3649772723U);
 }
 
 }  // namespace

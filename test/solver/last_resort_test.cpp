@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The two bounds that make a substep end well whatever acts: predicted motion is cut, and the path to what was solved is taken only as
-// far as links hold.
+// The two bounds that make a substep end well whatever acts: predicted motion is cut, and the path to what was solved
+// is taken only as far as links hold.
 #include "solver/schemes/last_resort.h"
-#include "solver/trust_region.h"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/trust_region.h"
 #include "solver/warp_solver.h"
 #include "solver/weft_links.h"
 #include "testing.h"
@@ -21,7 +21,11 @@ namespace {
 using namespace curtain_test;
 
 struct Cloth {
-  explicit Cloth(Scene given) : scene(std::move(given)), pattern(makePattern(scene)), state(makeInitialState(scene, pattern)), resort(pattern) {}
+  explicit Cloth(Scene given)
+      : scene(std::move(given)),
+        pattern(makePattern(scene)),
+        state(makeInitialState(scene, pattern)),
+        resort(pattern) {}
 
   double stretchOf(const Field3& position) const {
     const Stretch warp = warpStretch(pattern, position);
@@ -82,7 +86,8 @@ TEST(LastResort, ADirectionlessVelocityIsDropped) {
   EXPECT_EQ(velocity.at(node), Vec3(Vec3::Zero()));
 }
 
-// Cloth that goes along with its pins is not cut, however fast they are, and where a path is cut to nothing it still follows them.
+// Cloth that goes along with its pins is not cut, however fast they are, and where a path is cut to nothing it still
+// follows them.
 TEST(LastResort, ClothFollowsTheRigidMotionOfItsPins) {
   Cloth cloth(pinnedBy(PinKind::kTop));
   const double h = 1e-2;
@@ -97,7 +102,8 @@ TEST(LastResort, ClothFollowsTheRigidMotionOfItsPins) {
   }
   cloth.resort.cut(cloth.state.position, cloth.pattern.inverse_mass, h, 1e-5, velocity);
   EXPECT_TRUE(cloth.resort.pinsMove());
-  // Pins go straight on, the cloth turns about the row they stand on: links leave their lengths by the square of the angle they turn by.
+  // Pins go straight on, the cloth turns about the row they stand on: links leave their lengths by the square of the
+  // angle they turn by.
   const double angle = h * turn.norm();
   EXPECT_LE(cloth.stretchOf(cloth.resort.follows()), angle * angle);
 }
@@ -150,7 +156,8 @@ TEST(LastResort, LinksThatBeginBeyondTheBoundGetNoWorse) {
   EXPECT_EQ(cloth.resort.bound(cloth.pattern.inverse_mass, 1e-3, better).share, 1.0);
 }
 
-// Far beyond the bound, as after pins that were pulled apart or a state that was put there, any end will do that is better as a whole.
+// Far beyond the bound, as after pins that were pulled apart or a state that was put there, any end will do that is
+// better as a whole.
 TEST(LastResort, LinksFarBeyondTheBoundComeBackAsTheyCan) {
   Cloth cloth(pinnedBy(PinKind::kTop));
   Field3 start = cloth.state.position;
@@ -166,10 +173,10 @@ TEST(LastResort, LinksFarBeyondTheBoundComeBackAsTheyCan) {
 TEST(TrustRegion, ShrinksWithFailuresAndGrowsUntilItBoundsNothing) {
   TrustRegion trust;
   EXPECT_FALSE(trust.bounded());
-  trust.failed();
+  trust.schemeFailed();
   const double first = trust.reach();
   EXPECT_TRUE(trust.bounded());
-  for (int k = 0; k < 100; ++k) trust.failed();
+  for (int k = 0; k < 100; ++k) trust.failed(false);
   const double least = trust.reach();
   EXPECT_GT(least, 0.0);
   EXPECT_LT(least, 1e-3 * first);
@@ -181,6 +188,25 @@ TEST(TrustRegion, ShrinksWithFailuresAndGrowsUntilItBoundsNothing) {
     ++successes;
   }
   EXPECT_LT(successes, 100);
+}
+
+TEST(TrustRegion, LetsTheSchemeTryAgainAtAFrameAfterAFailureInContact) {
+  TrustRegion trust;
+  EXPECT_FALSE(trust.rules(true));
+  trust.schemeFailed();
+  EXPECT_TRUE(trust.rules(true));
+  trust.failed(true);
+  EXPECT_TRUE(trust.rules(false));
+  EXPECT_FALSE(trust.rules(true));
+  const double reach = trust.reach();
+  trust.schemeFailed();
+  EXPECT_TRUE(trust.rules(true));
+  EXPECT_EQ(trust.reach(), reach);
+  trust.failed(true);
+  trust.succeeded();
+  EXPECT_TRUE(trust.rules(true));
+  trust.failed(false);
+  EXPECT_TRUE(trust.rules(true));
 }
 
 }  // namespace
