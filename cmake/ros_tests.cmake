@@ -16,8 +16,6 @@ add_dependencies(test_ros_sharing ${curtain_sim_EXPORTED_TARGETS})
 add_executable(curtain_flood EXCLUDE_FROM_ALL test/ros/flood.cpp)
 target_link_libraries(curtain_flood curtain_ros curtain_warnings)
 add_dependencies(tests curtain_flood)
-set_target_properties(curtain_flood PROPERTIES
-  RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
 
 file(GLOB CURTAIN_ROSTESTS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS test/ros/*.test)
 list(REMOVE_ITEM CURTAIN_ROSTESTS test/ros/sharing.test)
