@@ -26,9 +26,6 @@ struct ShapeTriangles {
   std::vector<Eigen::Vector3i> triangles;
 };
 
-class ConvexShape;
-class ObstacleFeatures;
-
 /// Geometry of an obstacle. Immutable after construction: any number of threads may query it.
 class ObstacleShape {
  public:
@@ -47,13 +44,6 @@ class ObstacleShape {
 
   /// Triangles for drawing; a plane gives a finite square around its origin.
   virtual ShapeTriangles triangles() const = 0;
-
-  /// Corners, edges and triangles of an obstacle with flat faces (box, mesh), else nullptr. Lives as long as the shape.
-  virtual const ObstacleFeatures* features() const noexcept { return nullptr; }
-
-  /// The shape itself when it is one of the analytic convex ones, which know their distance to edges and triangles;
-  /// nullptr for meshes.
-  virtual const ConvexShape* convex() const noexcept { return nullptr; }
 };
 
 /// Turns a mesh URL into a path of the file system; returns "" when it can't.

@@ -20,7 +20,7 @@ using curtain_test::Random;
 constexpr int kSamples = 40;  // along a side
 
 /// Least distance of the samples; a sample lies within the longest side / kSamples of every point.
-double sampledDistance(const ObstacleShape& shape, const Transform& place, const std::vector<Vec3>& points,
+double sampledDistance(const ContactShape& shape, const Transform& place, const std::vector<Vec3>& points,
                        const MeshTriangle& triangle) {
   double least = 10.0;
   const Vec3 a = points[triangle[0]], b = points[triangle[1]], c = points[triangle[2]];
@@ -41,8 +41,9 @@ TEST(ElementClearance, AgreesWithSamples) {
   const CapsuleShape capsule(0.3, 0.6);
   const PlaneShape plane;
   const TriangleMeshShape mesh(cylinder.triangles());
-  const std::map<std::string, const ObstacleShape*> shapes = {{"sphere", &sphere},   {"box", &box},     {"cylinder", &cylinder},
-                                                              {"capsule", &capsule}, {"plane", &plane}, {"mesh", &mesh}};
+  const std::map<std::string, const ContactShape*> shapes = {{"sphere", &sphere},     {"box", &box},
+                                                             {"cylinder", &cylinder}, {"capsule", &capsule},
+                                                             {"plane", &plane},       {"mesh", &mesh}};
   Random random(3);
   ElementClearance clearance;
   for (const auto& [name, shape] : shapes) {

@@ -97,7 +97,7 @@ TEST(Piercings, OfACornerThatEdgesCut) {
     cloth.set(grid.index(i, 0), Vec3(4.5, 0.3 * i, 0.52));
     cloth.set(grid.index(i, 1), Vec3(5.02, 0.3 * i, 0.0));
   }
-  for (const ObstacleShape* shape : {static_cast<const ObstacleShape*>(&box), static_cast<const ObstacleShape*>(&mesh)}) {
+  for (const ContactShape* shape : {static_cast<const ContactShape*>(&box), static_cast<const ContactShape*>(&mesh)}) {
     expectCount(countPiercings(*shape, Transform(), grid, cloth, kTolerance), 0, 3, 2, "over the ridge");
   }
 }
@@ -151,7 +151,7 @@ TEST(Piercings, OfThePlane) {
 }
 
 /// Whether a sample of the element is deeper than the limit.
-bool sampledDeep(const ObstacleShape& shape, const Vec3& a, const Vec3& b, const Vec3& c, double limit) {
+bool sampledDeep(const ContactShape& shape, const Vec3& a, const Vec3& b, const Vec3& c, double limit) {
   constexpr int kSteps = 40;
   for (int i = 0; i <= kSteps; ++i) {
     for (int j = 0; i + j <= kSteps; ++j) {
@@ -171,7 +171,7 @@ TEST(Piercings, AgreeWithSamplesOfTheCloth) {
   const CylinderShape cylinder(0.3, 0.8);
   const CapsuleShape capsule(0.3, 0.6);
   const TriangleMeshShape mesh(cylinder.triangles());
-  const std::map<std::string, const ObstacleShape*> shapes = {
+  const std::map<std::string, const ContactShape*> shapes = {
       {"sphere", &sphere}, {"box", &box}, {"cylinder", &cylinder}, {"capsule", &capsule}, {"mesh", &mesh}};
   Random random(1);
   const Grid grid(2, 2, false);

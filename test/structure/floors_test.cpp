@@ -12,6 +12,7 @@
 
 #include <map>
 #include <optional>
+#include <regex>
 #include <set>
 
 #include "structure/source_files.h"
@@ -160,6 +161,30 @@ TEST(Floors, PublicHeadersIncludeNoPrivateOnes) {
     for (const Include& include : includesOf(file)) {
       if (include.quoted) { EXPECT_EQ(firstFolder(include.file), "curtain_sim") << file.name << ": " << include.file; }
     }
+  }
+}
+
+// A type that a public header only declares is one that its users can't use: of ours, a class's own implementation
+// alone.
+TEST(Floors, PublicHeadersDefineTheTypesTheyName) {
+  std::set<std::string> defined;
+  std::map<std::string, std::string> declared;
+  const std::regex type(R"(^ *(?:class|struct|enum class) (\w+)( *[;:{]| final))");
+  for (const SourceFile& file : sourceFiles("include")) {
+    for (const std::string& line : lines(file.text)) {
+      std::smatch match;
+      if (!std::regex_search(line, match, type)) continue;
+      if (match[2] == ";")
+        declared[match[1]] = file.name;
+      else
+        defined.insert(match[1]);
+    }
+  }
+  EXPECT_GT(defined.size(), 20u);
+  EXPECT_EQ(declared.count("Impl"), 1u) << "the test must recognise declarations";
+  for (const auto& [name, file] : declared) {
+    const bool of_yaml_cpp = name == "Node" && file == "include/curtain_sim/scene_yaml.h";
+    EXPECT_TRUE(defined.count(name) > 0 || name == "Impl" || of_yaml_cpp) << file << " declares " << name;
   }
 }
 

@@ -117,7 +117,7 @@ void MeshWindows::Tallest::insert(double height, std::uint32_t feature) noexcept
   features[k] = feature;
 }
 
-MeshWindows::MeshWindows(const Grid& grid, const ObstacleShape& mesh) : grid_(grid), mesh_(&mesh) {
+MeshWindows::MeshWindows(const Grid& grid, const ContactShape& mesh) : grid_(grid), mesh_(&mesh) {
   for (Field3* field : {&centre_, &normal_}) field->assign(grid.size(), 0.0);
   radius_.assign(grid.size(), -1.0);
   top_.assign(grid.size(), 0.0);

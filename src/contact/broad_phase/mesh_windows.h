@@ -17,6 +17,7 @@
 
 #include "cloth/coarse_mesh.h"
 #include "cloth/field.h"
+#include "contact/shapes/contact_shape.h"
 #include "contact/shapes/obstacle_features.h"
 
 namespace curtain {
@@ -46,7 +47,7 @@ class MeshWindows {
  public:
   MeshWindows() = default;
   /// For a cloth of that grid and a mesh, which must outlive this.
-  MeshWindows(const Grid& grid, const ObstacleShape& mesh);
+  MeshWindows(const Grid& grid, const ContactShape& mesh);
 
   /// What the windows tell of the quads between rows `row` and `row + 1` while their corners go straight from start to
   /// end (obstacle's frame), for a reach [m]; by the quad's column. Good until that row is asked again. Thread-safe for
@@ -100,7 +101,7 @@ class MeshWindows {
   };
 
   Grid grid_;
-  const ObstacleShape* mesh_ = nullptr;
+  const ContactShape* mesh_ = nullptr;
   Field3 centre_;  // of the balls, by the quads' upper left nodes [m]
   Field radius_;   // negative: there is no window yet [m]
   Field3 normal_;  // unit, the way out of the mesh; zero where it is far

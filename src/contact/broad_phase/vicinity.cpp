@@ -43,7 +43,7 @@ Eigen::AlignedBox3d boxOfRow(const Field3& start, const Field3& end, std::size_t
 
 }  // namespace
 
-Vicinity::Vicinity(const ClothPattern& pattern, const ObstacleShape& shape, double thickness, double core,
+Vicinity::Vicinity(const ClothPattern& pattern, const ContactShape& shape, double thickness, double core,
                    const Workers& workers)
     : pattern_(pattern),
       shape_(shape),

@@ -60,7 +60,7 @@ class Vicinity {
 
   /// thickness: kept between nodes and obstacle [m]; core: between faces and obstacle; pattern, shape and workers must
   /// outlive this. Allocates all there is to.
-  Vicinity(const ClothPattern& pattern, const ObstacleShape& shape, double thickness, double core,
+  Vicinity(const ClothPattern& pattern, const ContactShape& shape, double thickness, double core,
            const Workers& workers);
 
   /// Lists what may touch in a substep from start to predicted, and takes these positions over.
@@ -99,7 +99,7 @@ class Vicinity {
   bool isInside(std::size_t node) const noexcept { return distanceOf(node) < 0.0 && !isPinned(node); }
   bool isPinned(std::size_t node) const noexcept { return pattern_.inverse_mass[node] <= 0.0; }
 
-  const ObstacleShape& shape() const noexcept { return shape_; }
+  const ContactShape& shape() const noexcept { return shape_; }
   double thickness() const noexcept { return thickness_; }
   double core() const noexcept { return core_; }
   /// What comes nearer in a substep is listed, for certain [m].
@@ -144,7 +144,7 @@ class Vicinity {
                      Pairs& out) const noexcept;
 
   const ClothPattern& pattern_;
-  const ObstacleShape& shape_;
+  const ContactShape& shape_;
   const Workers& workers_;
   const TriangleMeshShape* mesh_;
   double thickness_, core_;

@@ -59,7 +59,7 @@ bool areNear(const Corners& a, const Corners& b, double clearance) {
 
 }  // namespace
 
-bool ElementClearance::keeps(const ObstacleShape& shape, const Transform& place, const std::vector<Vec3>& points,
+bool ElementClearance::keeps(const ContactShape& shape, const Transform& place, const std::vector<Vec3>& points,
                              const std::vector<MeshTriangle>& triangles, double clearance) {
   local_.clear();
   for (const Vec3& point : points) local_.push_back(place.toLocal(point));

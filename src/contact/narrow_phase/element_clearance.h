@@ -20,7 +20,7 @@ class ElementClearance {
   /// wholly outside.
   ///   points     [m], world frame, finite
   ///   triangles  indices into points; two equal corners make an edge of it
-  bool keeps(const ObstacleShape& shape, const Transform& place, const std::vector<Vec3>& points,
+  bool keeps(const ContactShape& shape, const Transform& place, const std::vector<Vec3>& points,
              const std::vector<MeshTriangle>& triangles, double clearance);
 
  private:

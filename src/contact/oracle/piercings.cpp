@@ -96,13 +96,13 @@ std::optional<double> crossing(const Edge& segment, const Triangle& triangle, do
   return height_p / (height_p - height_q);
 }
 
-bool isDeep(const ObstacleShape& shape, const Vec3& point, double tolerance) {
+bool isDeep(const ContactShape& shape, const Vec3& point, double tolerance) {
   SurfacePoint surface;
   return shape.query(point, point, 0.0, surface) && surface.distance < -tolerance;
 }
 
 /// An edge of the cloth in a solid mesh: only between crossings can it be inside.
-bool dipsInto(const ObstacleShape& solid, const ObstacleFeatures& features, const Edge& edge, double tolerance) {
+bool dipsInto(const ContactShape& solid, const ObstacleFeatures& features, const Edge& edge, double tolerance) {
   std::vector<double> fractions{0.0, 1.0};
   const Eigen::AlignedBox3d box = boxOf(edge);
   for (const ObstacleTriangle& triangle : features.triangles()) {
@@ -146,7 +146,7 @@ Piercings countInConvex(const ConvexShape& shape, const ClothMesh& mesh, double 
   return count;
 }
 
-Piercings countInMesh(const ObstacleShape& shape, const ObstacleFeatures& features, const ClothMesh& mesh,
+Piercings countInMesh(const ContactShape& shape, const ObstacleFeatures& features, const ClothMesh& mesh,
                       double tolerance) {
   Piercings count;
   const bool closed = features.closed();
@@ -165,20 +165,20 @@ Piercings countInMesh(const ObstacleShape& shape, const ObstacleFeatures& featur
   return count;
 }
 
-Piercings judge(const ObstacleShape& shape, const ClothMesh& mesh, double tolerance) {
+Piercings judge(const ContactShape& shape, const ClothMesh& mesh, double tolerance) {
   if (shape.convex() != nullptr) return countInConvex(*shape.convex(), mesh, tolerance);
   return shape.features() == nullptr ? Piercings() : countInMesh(shape, *shape.features(), mesh, tolerance);
 }
 
 }  // namespace
 
-Piercings countPiercings(const ObstacleShape& shape, const Transform& place, const Grid& grid, const Field3& position,
+Piercings countPiercings(const ContactShape& shape, const Transform& place, const Grid& grid, const Field3& position,
                          double depth_tolerance) {
   const auto point = [&](std::uint32_t node) { return place.toLocal(position.at(node)); };
   return judge(shape, makeMesh(makeCoarseMesh(grid).triangles, point), depth_tolerance);
 }
 
-Piercings countPiercings(const ObstacleShape& shape, const Transform& place, const std::vector<Vec3>& points,
+Piercings countPiercings(const ContactShape& shape, const Transform& place, const std::vector<Vec3>& points,
                          const std::vector<MeshTriangle>& triangles, double depth_tolerance) {
   const auto point = [&](std::uint32_t node) { return place.toLocal(points[node]); };
   return judge(shape, makeMesh(triangles, point), depth_tolerance);

@@ -21,12 +21,12 @@ namespace curtain {
 /// both sides. Faces count when one of their edges does, or an edge of the mesh goes through them in the same way. Cloth
 /// that is wholly on the wrong side of a shell can't be told from cloth on the right one.
 /// Every element against every triangle whose box touches its own; allocates. Padding nodes are not looked at.
-Piercings countPiercings(const ObstacleShape& shape, const Transform& place, const Grid& grid, const Field3& position,
+Piercings countPiercings(const ContactShape& shape, const Transform& place, const Grid& grid, const Field3& position,
                          double depth_tolerance);
 
 /// The same for any triangle mesh; `triangles` are indices into `points` [m], world frame. Points that no triangle has
 /// are not looked at. Triangles without area are fine.
-Piercings countPiercings(const ObstacleShape& shape, const Transform& place, const std::vector<Vec3>& points,
+Piercings countPiercings(const ContactShape& shape, const Transform& place, const std::vector<Vec3>& points,
                          const std::vector<MeshTriangle>& triangles, double depth_tolerance);
 
 }  // namespace curtain

@@ -19,7 +19,7 @@
 #include <array>
 #include <optional>
 
-#include "curtain_sim/obstacle_shape.h"
+#include "contact/shapes/contact_shape.h"
 
 namespace curtain {
 
@@ -48,7 +48,7 @@ constexpr double kElementAccuracy = 1e-7;
 constexpr double kSameSide = 0.5;
 
 /// A convex solid.
-class ConvexShape : public ObstacleShape {
+class ConvexShape : public ContactShape {
  public:
   bool query(const Vec3& previous, const Vec3& current, double reach, SurfacePoint& out) const noexcept final;
   const ConvexShape* convex() const noexcept final { return this; }

@@ -20,7 +20,7 @@ double positive(const ObstacleParams& obstacle, const std::string& key, double v
   return value;
 }
 
-std::unique_ptr<const ObstacleShape> makeMesh(const ObstacleParams& obstacle, const MeshResolver& resolve) {
+std::unique_ptr<const ContactShape> makeMesh(const ObstacleParams& obstacle, const MeshResolver& resolve) {
   const std::string who = "obstacle '" + obstacle.name + "': ";
   for (const double factor : obstacle.scale) {
     if (!(std::isfinite(factor) && factor != 0.0)) {
@@ -37,7 +37,7 @@ std::unique_ptr<const ObstacleShape> makeMesh(const ObstacleParams& obstacle, co
 
 }  // namespace
 
-std::unique_ptr<const ObstacleShape> makeObstacleShape(const ObstacleParams& obstacle, const MeshResolver& resolve) {
+std::unique_ptr<const ContactShape> makeContactShape(const ObstacleParams& obstacle, const MeshResolver& resolve) {
   switch (obstacle.shape) {
     case ShapeKind::kSphere:
       return std::make_unique<const SphereShape>(positive(obstacle, "radius", obstacle.radius));
@@ -58,6 +58,10 @@ std::unique_ptr<const ObstacleShape> makeObstacleShape(const ObstacleParams& obs
       return makeMesh(obstacle, resolve);
   }
   throw std::invalid_argument("obstacle '" + obstacle.name + "': unknown shape");
+}
+
+std::unique_ptr<const ObstacleShape> makeObstacleShape(const ObstacleParams& obstacle, const MeshResolver& resolve) {
+  return makeContactShape(obstacle, resolve);
 }
 
 }  // namespace curtain

@@ -63,7 +63,7 @@ ObstacleSet::ObstacleSet(const Scene& scene, const MeshResolver& resolve)
     : frame_length_(1.0 / scene.solver.frame_rate), following_speed_(followingSpeed(scene)) {
   for (const ObstacleParams& params : scene.obstacles) {
     Item item;
-    item.shape = makeObstacleShape(params, resolve);
+    item.shape = makeContactShape(params, resolve);
     item.motion = params.motion;
     item.initial = params.motion.empty() ? params.pose : poseAt(params.motion, 0.0);
     MovingObstacle moving;

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "curtain_sim/obstacle_shape.h"
+#include "contact/shapes/contact_shape.h"
 #include "curtain_sim/scene.h"
 
 namespace curtain {
@@ -32,7 +32,7 @@ struct Transform {
 
 /// An obstacle as it is during one substep.
 struct MovingObstacle {
-  const ObstacleShape* shape = nullptr;
+  const ContactShape* shape = nullptr;
   double friction = 0.0;
   bool present = true;
   Eigen::AlignedBox3d bounds;  ///< of the shape, its own frame
@@ -58,7 +58,7 @@ class ObstacleSet {
   const Pose& pose(int index) const { return items_[at(index)].end; }
   /// Where it has got to; behind the pose when the last frame ended early.
   const Pose& reached(int index) const { return items_[at(index)].begin; }
-  const ObstacleShape& shape(int index) const { return *items_[at(index)].shape; }
+  const ContactShape& shape(int index) const { return *items_[at(index)].shape; }
   bool present(int index) const { return moving_[at(index)].present; }
   void setPresent(int index, bool present) noexcept;
 
@@ -97,7 +97,7 @@ class ObstacleSet {
 
  private:
   struct Item {
-    std::unique_ptr<const ObstacleShape> shape;
+    std::unique_ptr<const ContactShape> shape;
     std::vector<PoseKey> motion;
     Pose initial;
     Pose left;   // where the last frame left it

@@ -6,6 +6,7 @@
 
 #include <memory>
 
+#include "contact/shapes/contact_shape.h"
 #include "contact/shapes/obstacle_features.h"
 #include "contact/shapes/triangle_mesh_grid.h"
 #include "contact/shapes/triangle_mesh_topology.h"
@@ -13,7 +14,7 @@
 
 namespace curtain {
 
-class TriangleMeshShape final : public ObstacleShape {
+class TriangleMeshShape final : public ContactShape {
  public:
   /// Corners finite [m], equal corners shared, at least one triangle of nonzero area.
   explicit TriangleMeshShape(ShapeTriangles mesh);
