@@ -61,3 +61,4 @@ if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT CMAKE_CXX_FLAGS MATCHES "-fsaniti
 endif()
 include(cmake/stress.cmake)
 include(cmake/judge.cmake)
+include(cmake/packaging_tests.cmake)
