@@ -1,5 +1,5 @@
-# find_package(curtain_sim): the target curtain_sim::engine. Without catkin this is the whole config file, with catkin the end of the
-# one that it writes.
+# find_package(curtain_sim): the target curtain_sim::engine. Without catkin this is the whole config file, with catkin
+# the end of the one that it writes.
 include(CMakeFindDependencyMacro)
 find_dependency(Eigen3)
 find_dependency(yaml-cpp)

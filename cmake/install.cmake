@@ -1,4 +1,5 @@
-# What `cmake --install` copies: the engine with its headers, CMake package and scenes, curtain_batch; with catkin the node, too.
+# What `cmake --install` copies: the engine with its headers, CMake package and scenes, curtain_batch; with catkin the
+# node, too.
 if(NOT catkin_FOUND)
   include(GNUInstallDirs)
   set(curtain_bin ${CMAKE_INSTALL_BINDIR})
@@ -26,7 +27,8 @@ install(EXPORT curtain_sim-targets NAMESPACE curtain_sim:: DESTINATION ${curtain
 
 if(NOT catkin_FOUND)
   include(CMakePackageConfigHelpers)
-  write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/curtain_simConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+  write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/curtain_simConfigVersion.cmake
+    COMPATIBILITY SameMinorVersion)
   #catkin_lint: ignore_once missing_file
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/curtain_simConfigVersion.cmake DESTINATION ${curtain_config})
   install(FILES cmake/curtain_sim-engine.cmake DESTINATION ${curtain_config} RENAME curtain_simConfig.cmake)
