@@ -1,5 +1,5 @@
 # The ROS library, node and nodelet.
-file(GLOB CURTAIN_ROS_SOURCES CONFIGURE_DEPENDS src/ros/*.cpp)
+file(GLOB CURTAIN_ROS_SOURCES CONFIGURE_DEPENDS src/ros/*.cpp src/ros/*/*.cpp)
 add_library(curtain_ros STATIC ${CURTAIN_ROS_SOURCES})
 add_dependencies(curtain_ros ${curtain_sim_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
 target_include_directories(curtain_ros PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/src)

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <utility>
 
-#include "ros/conversions.h"
+#include "ros/outputs/to_messages.h"
 
 namespace curtain_ros {
 
@@ -28,7 +28,8 @@ curtain::Simulator makeSimulator(const curtain::Scene& scene, const std::string&
 }
 
 // What the node listens to, as roscpp calls it.
-std::vector<std::string> inputTopics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const Inputs& inputs) {
+std::vector<std::string> inputTopics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
+                                     const Inputs& inputs) {
   std::vector<std::string> topics = inputs.topics();
   for (const char* tf : {"/tf", "/tf_static"}) topics.push_back(node.resolveName(tf));
   topics.push_back(private_node.resolveName("handles/feedback"));
@@ -66,8 +67,8 @@ CurtainNode::CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& pri
     queues_.look();
     master_.look();
   });
-  diagnostics_ = std::make_unique<Diagnostics>(node, private_node, reading.node.diagnostic_period, clock_.simulated(), desk_,
-                                               master_);
+  diagnostics_ = std::make_unique<Diagnostics>(node, private_node, reading.node.diagnostic_period, clock_.simulated(),
+                                               desk_, master_);
 }
 
 void CurtainNode::stop() {

@@ -5,8 +5,8 @@
 //   wait for the clock -> letters -> obstacle frames -> step -> publish
 //
 // Callbacks run in whoever spins the given handles' queue and only leave letters; no lock is held while solving or
-// publishing. What asks others and may have to wait, the watch on the master and the diagnostics, has threads of its own.
-// The same class serves the node program and the nodelet.
+// publishing. What asks others and may have to wait, the watch on the master and the diagnostics, has threads of its
+// own. The same class serves the node program and the nodelet.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -18,21 +18,21 @@
 
 #include "curtain_sim/Statistics.h"
 #include "curtain_sim/simulator.h"
-#include "ros/diagnostics.h"
-#include "ros/frames.h"
-#include "ros/handles.h"
-#include "ros/health.h"
-#include "ros/inputs.h"
-#include "ros/master_watch.h"
-#include "ros/node_clock.h"
-#include "ros/obstacle_tracker.h"
-#include "ros/outputs.h"
-#include "ros/parameters.h"
-#include "ros/periodic.h"
-#include "ros/plan_log.h"
-#include "ros/queue_watch.h"
-#include "ros/snapshot_keeper.h"
-#include "ros/step_clock.h"
+#include "ros/frames/frames.h"
+#include "ros/health/diagnostics.h"
+#include "ros/health/health.h"
+#include "ros/inputs/handles.h"
+#include "ros/inputs/inputs.h"
+#include "ros/obstacles/obstacle_tracker.h"
+#include "ros/outputs/outputs.h"
+#include "ros/outputs/plan_log.h"
+#include "ros/parameters/parameters.h"
+#include "ros/snapshots/snapshot_keeper.h"
+#include "ros/time/node_clock.h"
+#include "ros/time/periodic.h"
+#include "ros/time/step_clock.h"
+#include "ros/watch/master_watch.h"
+#include "ros/watch/queue_watch.h"
 
 namespace curtain_ros {
 
@@ -46,8 +46,8 @@ class CurtainNode {
 
   ~CurtainNode() { stop(); }
 
-  /// Makes no more frames, and writes the last snapshot where one is asked for: within the computing time of a frame, and what
-  /// the disk takes. Asks nobody else: what remains for the destructor may have to wait for the ROS master.
+  /// Makes no more frames, and writes the last snapshot where one is asked for: within the computing time of a frame,
+  /// and what the disk takes. Asks nobody else: what remains for the destructor may have to wait for the ROS master.
   void stop();
 
   CurtainNode(const CurtainNode&) = delete;

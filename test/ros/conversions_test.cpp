@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Messages become engine structs in the world frame, or problems that name the field.
-#include "ros/conversions.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
 #include "curtain_sim/simulator.h"
-#include "ros/handles.h"
-#include "ros/shown.h"
+#include "ros/inputs/handles.h"
+#include "ros/inputs/read_messages.h"
+#include "ros/outputs/to_messages.h"
 
 namespace curtain_ros {
 namespace {
@@ -171,9 +170,9 @@ TEST(Conversions, NamesAreShort) {
 
 // What a problem says of an id stands on one line of the log.
 TEST(Conversions, NamesAreShownOnALine) {
-  EXPECT_EQ(shown("fan"), "fan");
-  EXPECT_EQ(shown("a\nb\x1b[31m\x7f"), "a?b?[31m?");
-  EXPECT_EQ(shown(std::string(100, 'x'), 10), "xxxxxxxxxx… (100 bytes)");
+  EXPECT_EQ(forLog("fan"), "fan");
+  EXPECT_EQ(forLog("a\nb\x1b[31m\x7f"), "a?b?[31m?");
+  EXPECT_EQ(forLog(std::string(100, 'x'), 10), "xxxxxxxxxx… (100 bytes)");
 }
 
 TEST(Conversions, HeadsAreChecked) {

@@ -43,7 +43,8 @@ class Sender {
     message.id = "w" + std::to_string(integer(0, 399));
     message.action = action<WindSource>();
     message.header.frame_id = integer(0, 1) == 0 ? "" : "world";
-    for (double* p : {&message.pose.position.x, &message.pose.position.y, &message.pose.position.z}) *p = number(-5.0, 5.0);
+    for (double* p : {&message.pose.position.x, &message.pose.position.y, &message.pose.position.z})
+      *p = number(-5.0, 5.0);
     auto& q = message.pose.orientation;
     for (double* p : {&q.x, &q.y, &q.z, &q.w}) *p = number(0.1, 1.0);
     message.radius = number(0.01, 3.0);
@@ -113,7 +114,8 @@ int main(int argc, char** argv) {
   ros::NodeHandle node;
   ros::Publisher winds = node.advertise<WindSource>("wind_source", 0);  // 0: as many as there are, none dropped here
   ros::Publisher drags = node.advertise<DragForce>("drag_force", 0);
-  while (ros::ok() && (winds.getNumSubscribers() == 0 || drags.getNumSubscribers() == 0)) ros::WallDuration(0.01).sleep();
+  while (ros::ok() && (winds.getNumSubscribers() == 0 || drags.getNumSubscribers() == 0))
+    ros::WallDuration(0.01).sleep();
 
   const ros::SteadyTime start = ros::SteadyTime::now();
   for (long sent = 0; sent < count && ros::ok(); ++sent) {

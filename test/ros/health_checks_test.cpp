@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A node that is well says OK; each fault turns its own status to the level that health_checks.h states, and back once it
-// is over for five seconds.
-#include "ros/health_checks.h"
+// A node that is well says OK; each fault turns its own status to the level that health_checks.h states, and back once
+// it is over for five seconds.
+#include "ros/health/health_checks.h"
 
 #include <gtest/gtest.h>
 
@@ -27,8 +27,8 @@ Health well() {
   return health;
 }
 
-DiagnosticStatusWrapper simulation(const Health& health, double now, Rises& rises, double last_frame, bool simulated = false,
-                                   bool stands = false) {
+DiagnosticStatusWrapper simulation(const Health& health, double now, Rises& rises, double last_frame,
+                                   bool simulated = false, bool stands = false) {
   DiagnosticStatusWrapper status;
   checkSimulation(health, {at(now), at(last_frame), simulated, stands}, rises, status);
   return status;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Letters come out in order, once; the oldest make room when there are too many, and are counted.
-#include "ros/mailbox.h"
+#include "ros/inputs/mailbox.h"
 
 #include <gtest/gtest.h>
 

@@ -9,9 +9,9 @@
 
 #include "count_allocations.h"
 #include "curtain_sim/scene_yaml.h"
-#include "ros/markers.h"
-#include "ros/pace.h"
-#include "ros/state_messages.h"
+#include "ros/outputs/markers.h"
+#include "ros/outputs/state_messages.h"
+#include "ros/time/pace.h"
 
 namespace curtain_ros {
 namespace {
@@ -187,7 +187,8 @@ TEST(Messages, OfTheSameShapeAreNotFilledAgain) {
 // The topology is what clients may rely on unless they ask for less.
 TEST(MeshMarker, HasTheFineTrianglesUnlessLessIsAskedFor) {
   curtain::Scene scene = shippedScene("curtain");
-  for (curtain::WindParams& wind : scene.wind) wind.unsteadiness = 0.0;  // what folds need depends on how they are blown about
+  for (curtain::WindParams& wind : scene.wind)
+    wind.unsteadiness = 0.0;  // what folds need depends on how they are blown about
   curtain::Simulator simulator(scene);
   for (int frame = 0; frame < 30; ++frame) simulator.step();
   Messages messages(simulator);

@@ -2,7 +2,7 @@
 //
 // The node's parameters are read strictly: wrong types, text for numbers, unknown keys and values out of range are
 // all named at once; a parameter tree and a scene file of the same text give the same scene.
-#include "ros/parameters.h"
+#include "ros/parameters/parameters.h"
 
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
@@ -12,7 +12,7 @@
 #include <set>
 
 #include "curtain_sim/scene_yaml.h"
-#include "ros/xmlrpc_yaml.h"
+#include "ros/parameters/xmlrpc_yaml.h"
 
 namespace curtain_ros {
 namespace {
@@ -118,7 +118,8 @@ TEST(Parameters, WrongTypesAndRangesOfTheNodesOwnAreNamed) {
   EXPECT_TRUE(names(readWith("handles", value(1)).problems, "handles: must be true or false"));
   EXPECT_TRUE(names(readWith("world_frame", value("")).problems, "world_frame"));
   EXPECT_TRUE(names(readWith("snapshot_file", value(1)).problems, "snapshot_file: must be a text"));
-  EXPECT_TRUE(names(readWith("snapshot_period", value(0.0)).problems, "snapshot_period: must be a number in [0.1, 86400.0]"));
+  EXPECT_TRUE(
+      names(readWith("snapshot_period", value(0.0)).problems, "snapshot_period: must be a number in [0.1, 86400.0]"));
   EXPECT_TRUE(names(readWith("diagnostic_period", value(0.0)).problems, "must be a number in [0.1, 3600.0]"));
   EXPECT_TRUE(names(readWith("world_frame", value(3)).problems, "world_frame"));
   EXPECT_TRUE(readWith("mesh_rate", value(25)).problems.empty()) << "an integer is a number";

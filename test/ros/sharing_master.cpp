@@ -10,8 +10,8 @@
 #include <functional>
 #include <set>
 
-#include "ros/handles.h"
-#include "ros/outputs.h"
+#include "ros/inputs/handles.h"
+#include "ros/outputs/outputs.h"
 
 namespace curtain_ros {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Snapshots are taken by the node's clock, written by another thread, and all are accounted for; what is no snapshot is left
-// alone.
-#include "ros/snapshot_keeper.h"
+// Snapshots are taken by the node's clock, written by another thread, and all are accounted for; what is no snapshot is
+// left alone.
+#include "ros/snapshots/snapshot_keeper.h"
 
 #include <gtest/gtest.h>
 #include <ros/time.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Stamps follow ROS time and never go back, whatever happens between two readings of two clocks; only a clock that was set
-// back takes them along, and that is counted.
-#include "ros/stamp_keeper.h"
+// Stamps follow ROS time and never go back, whatever happens between two readings of two clocks; only a clock that was
+// set back takes them along, and that is counted.
+#include "ros/time/stamp_keeper.h"
 
 #include <gtest/gtest.h>
 
@@ -55,7 +55,8 @@ TEST(StampKeeper, FollowsAClockThatIsSet) {
 TEST(StampKeeper, FollowsAClockThatIsSetWhileReadingsAreBad) {
   StampKeeper keeper;
   keeper.stamp(kFrame, {kOffset, 100});
-  EXPECT_EQ(keeper.stamp(2 * kFrame, {kOffset + 3600 * kSecond, 5 * kMillisecond}), kOffset + 3600 * kSecond + 2 * kFrame);
+  EXPECT_EQ(keeper.stamp(2 * kFrame, {kOffset + 3600 * kSecond, 5 * kMillisecond}),
+            kOffset + 3600 * kSecond + 2 * kFrame);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 //
 // Frames lie on a fixed grid of times; late ones are made up for up to a cap and counted beyond it; a clock that
 // jumps back starts a new grid.
-#include "ros/step_clock.h"
+#include "ros/time/step_clock.h"
 
 #include <gtest/gtest.h>
 

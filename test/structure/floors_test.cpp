@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The house keeps its floors: a file includes only its own floor or a lower one, only the top knows ROS, and every public
-// header has its floor in the list below.
+// The house keeps its floors: a file includes only its own floor or a lower one, only the top knows ROS, and every
+// public header has its floor in the list below.
 //
 //   0 scene < 1 cloth < 2 forces < 3 solver, contact < 4 simulator < 5 ros < 6 programs
 //
-// So do the rooms of contact, with what puts them together above them:
+// So do the rooms of contact and of ros, with what puts them together above them:
 //
 //   0 shapes < 1 narrow_phase, oracle < 2 broad_phase < 3 response < 4 contact's own files
+//   0 parameters, time, frames < 1 inputs, obstacles, outputs, snapshots, watch < 2 health < 3 ros' own files
+//
+// Rooms of ros at the same height do not know each other.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -20,25 +23,40 @@
 namespace {
 
 using curtain_test::lines;
-using curtain_test::sourceFiles;
 using curtain_test::SourceFile;
+using curtain_test::sourceFiles;
 
-const std::map<std::string, int> kFolders = {{"scene", 0},  {"cloth", 1},     {"forces", 2}, {"solver", 3},
+const std::map<std::string, int> kFolders = {{"scene", 0},   {"cloth", 1},     {"forces", 2}, {"solver", 3},
                                              {"contact", 3}, {"simulator", 4}, {"ros", 5}};
-const std::map<std::string, int> kContactRooms = {{"shapes", 0}, {"narrow_phase", 1}, {"oracle", 1}, {"broad_phase", 2}, {"response", 3}};
+using Rooms = std::map<std::string, int>;
+const Rooms kContactRooms = {{"shapes", 0}, {"narrow_phase", 1}, {"oracle", 1}, {"broad_phase", 2}, {"response", 3}};
+const Rooms kRosRooms = {{"parameters", 0}, {"time", 0},      {"frames", 0}, {"inputs", 1}, {"obstacles", 1},
+                         {"outputs", 1},    {"snapshots", 1}, {"watch", 1},  {"health", 2}};
 constexpr int kAboveRooms = 4;
 constexpr int kRos = 5;
 constexpr int kPrograms = 6;
 
 // Complete: a public header that is not here fails the test. statistics.h is a plain struct that solvers fill.
-const std::map<std::string, int> kPublicHeaders = {{"plan.h", 4}, {"scene.h", 0},     {"scene_yaml.h", 0},     {"statistics.h", 0},
-                                                   {"fine_mesh.h", 1}, {"mesh_reducer.h", 1}, {"obstacle_shape.h", 3},
-                                                   {"ccd.h", 3},       {"simulator.h", 4}, {"snapshot_file.h", 4}};
+const std::map<std::string, int> kPublicHeaders = {
+    {"plan.h", 4},         {"scene.h", 0},          {"scene_yaml.h", 0}, {"statistics.h", 0}, {"fine_mesh.h", 1},
+    {"mesh_reducer.h", 1}, {"obstacle_shape.h", 3}, {"ccd.h", 3},        {"simulator.h", 4},  {"snapshot_file.h", 4}};
 
 // What only the floors from ros up may include, by the first folder of the name.
-const std::set<std::string> kRosFolders = {"ros",      "tf2",      "tf2_ros",             "xmlrpcpp", "pluginlib",
-                                           "nodelet",  "rosgraph_msgs", "interactive_markers", "catkin", "class_loader",
-                                           "diagnostic_updater", "roslib",   "message_filters", "dynamic_reconfigure", "rospack"};
+const std::set<std::string> kRosFolders = {"ros",
+                                           "tf2",
+                                           "tf2_ros",
+                                           "xmlrpcpp",
+                                           "pluginlib",
+                                           "nodelet",
+                                           "rosgraph_msgs",
+                                           "interactive_markers",
+                                           "catkin",
+                                           "class_loader",
+                                           "diagnostic_updater",
+                                           "roslib",
+                                           "message_filters",
+                                           "dynamic_reconfigure",
+                                           "rospack"};
 
 bool isMessage(const std::string& header) {
   const std::string name = header.substr(0, header.size() - 2);
@@ -125,41 +143,54 @@ TEST(Floors, NoFileIncludesAHigherOne) {
       if (!ours) continue;
       const std::optional<int> below = floorOfInclude(include);
       ASSERT_TRUE(below.has_value()) << file.name << " includes " << include.file << ": not ours, or no floor is known";
-      EXPECT_LE(*below, *floor) << file.name << " (floor " << *floor << ") includes " << include.file << " (floor " << *below
-                                << ")";
+      EXPECT_LE(*below, *floor) << file.name << " (floor " << *floor << ") includes " << include.file << " (floor "
+                                << *below << ")";
       ++checked;
     }
   }
   EXPECT_GT(checked, 100);
 }
 
-/// Of what lies in contact, as seen from there: "response/zones.h".
-int roomOf(const std::string& inside) {
-  const std::string folder = firstFolder(inside);
+/// The room of a file; name: as seen from the floor's folder, "response/zones.h".
+int roomOf(const Rooms& rooms, const std::string& name) {
+  const std::string folder = firstFolder(name);
   if (folder.empty()) return kAboveRooms;
-  const auto found = kContactRooms.find(folder);
-  EXPECT_NE(found, kContactRooms.end()) << inside << " is in no room that this test knows";
-  return found == kContactRooms.end() ? kAboveRooms : found->second;
+  const auto found = rooms.find(folder);
+  EXPECT_NE(found, rooms.end()) << name << " is in no room that this test knows";
+  return found == rooms.end() ? kAboveRooms : found->second;
 }
 
-TEST(Floors, ContactsRoomsHaveAnOrder) {
+/// Includes within the floor that have been checked. strangers: rooms at the same height do not know each other.
+int checkRooms(const std::string& floor, const Rooms& rooms, bool strangers) {
   int checked = 0;
-  for (const SourceFile& file : sourceFiles("src")) {
-    if (file.name.rfind("src/contact/", 0) != 0) continue;
-    const int room = roomOf(file.name.substr(12));
+  for (const SourceFile& file : sourceFiles("src/" + floor)) {
+    const std::string inside = file.name.substr(floor.size() + 5);  // "src/", "/"
+    const int room = roomOf(rooms, inside);
     for (const Include& include : includesOf(file)) {
-      if (include.file.rfind("contact/", 0) != 0) continue;
-      EXPECT_LE(roomOf(include.file.substr(8)), room) << file.name << " includes " << include.file;
+      if (!include.quoted || firstFolder(include.file) != floor) continue;
+      const std::string other = include.file.substr(floor.size() + 1);
+      EXPECT_LE(roomOf(rooms, other), room) << file.name << " includes " << include.file;
+      const bool same = firstFolder(other) == firstFolder(inside);
+      if (strangers && !same) {
+        EXPECT_NE(roomOf(rooms, other), room) << file.name << " includes " << include.file;
+      }
       ++checked;
     }
   }
-  EXPECT_GT(checked, 50);
+  return checked;
+}
+
+TEST(Floors, RoomsHaveAnOrder) {
+  EXPECT_GT(checkRooms("contact", kContactRooms, false), 50);
+  EXPECT_GT(checkRooms("ros", kRosRooms, true), 50);
 }
 
 TEST(Floors, PublicHeadersIncludeNoPrivateOnes) {
   for (const SourceFile& file : sourceFiles("include")) {
     for (const Include& include : includesOf(file)) {
-      if (include.quoted) { EXPECT_EQ(firstFolder(include.file), "curtain_sim") << file.name << ": " << include.file; }
+      if (include.quoted) {
+        EXPECT_EQ(firstFolder(include.file), "curtain_sim") << file.name << ": " << include.file;
+      }
     }
   }
 }

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/frames/frames.h"
+
+#include <tf2/exceptions.h>
+
+namespace curtain_ros {
+
+namespace {
+
+// Long enough for static and slow (10 Hz) frames to reach a new listener, short enough to call a wrong name wrong.
+const ros::WallDuration kYouth(1.0);
+
+// [m] A frame that is said to be further away is not taken: sums with its position would lose the cloth's digits.
+constexpr double kFarthest = 1e9;
+
+std::string withoutSlash(const std::string& frame) {
+  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
+}
+
+}  // namespace
+
+Frames::Frames(const ros::NodeHandle& node, const std::string& world_frame)
+    : node_(node), world_(withoutSlash(world_frame)) {}
+
+bool Frames::isWorld(const std::string& frame) const { return frame.empty() || withoutSlash(frame) == world_; }
+
+void Frames::listen() {
+  if (listener_) return;
+  buffer_ = std::make_unique<tf2_ros::Buffer>();
+  listener_ = std::make_unique<tf2_ros::TransformListener>(*buffer_, node_, true, ros::TransportHints().tcpNoDelay());
+  listening_since_ = ros::SteadyTime::now();
+}
+
+FrameLookup Frames::lookup(const std::string& frame, const ros::Time& time) {
+  FrameLookup result;
+  if (isWorld(frame)) {
+    result.known = true;
+    return result;
+  }
+  listen();
+  try {
+    const geometry_msgs::TransformStamped t = buffer_->lookupTransform(world_, withoutSlash(frame), time);
+    const auto& p = t.transform.translation;
+    const auto& q = t.transform.rotation;
+    result.pose.position = curtain::Vec3(p.x, p.y, p.z);
+    result.pose.orientation = Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
+    result.stamp = t.header.stamp;
+    result.known =
+        result.pose.position.cwiseAbs().maxCoeff() <= kFarthest && result.pose.orientation.coeffs().allFinite();
+    if (!result.known) result.error = "its transform is not finite, or further than 1.0e9 m away";
+  } catch (const tf2::TransformException& e) {
+    result.error = e.what();
+    result.may_come = ros::SteadyTime::now() - listening_since_ < kYouth;
+  }
+  return result;
+}
+
+void Frames::clear() {
+  if (buffer_) buffer_->clear();
+}
+
+}  // namespace curtain_ros

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Floor 5: handles on the hem that can be dragged in rviz. A handle in somebody's hand pulls its node on a spring,
+// through the same mailbox as drag_force; one that is let go follows its node.
+#pragma once
+
+#include <interactive_markers/interactive_marker_server.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <visualization_msgs/InteractiveMarkerFeedback.h>
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "curtain_sim/simulator.h"
+#include "ros/inputs/inputs.h"
+#include "ros/parameters/parameters.h"
+#include "ros/time/pace.h"
+
+namespace curtain_ros {
+
+/// Columns of the hem that get a handle: five, evenly spread, both corners among them (fewer on a narrow cloth;
+/// closed cloth has no corners).
+std::vector<int> handleColumns(const curtain::ClothParams& cloth);
+
+/// Built and updated by the simulation thread; feedback comes in on any other.
+class Handles {
+ public:
+  /// Serves ~handles. inputs must outlive this.
+  Handles(ros::NodeHandle private_node, const NodeParams& params, const curtain::Simulator& simulator, Inputs& inputs);
+
+  /// To be called each frame: about ten times a second the handles go to their nodes, if somebody looks and either may
+  /// have moved.
+  void update(const curtain::Simulator& simulator);
+
+ private:
+  struct Handle {
+    std::string name;
+    curtain::NodeIndex node;
+  };
+
+  void onFeedback(const Handle& handle, const visualization_msgs::InteractiveMarkerFeedback& feedback);
+
+  double stiffness_;
+  Inputs& inputs_;
+  RateDivider rate_;
+  std::vector<Handle> handles_;
+  std::optional<std::uint64_t> shown_;  // revision of the nodes that the handles were taken to
+  std::atomic<bool> touched_{false};    // somebody had a handle in the hand since: it need not be at its node
+  interactive_markers::InteractiveMarkerServer server_;
+  ros::Publisher update_watch_;  // shares the server's topic: says whether somebody looks
+};
+
+}  // namespace curtain_ros

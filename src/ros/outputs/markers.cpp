@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/outputs/markers.h"
+
+#include <cmath>
+
+#include "ros/frames/geometry.h"
+#include "scene/pi.h"
+
+namespace curtain_ros {
+
+using curtain::Vec3;
+using visualization_msgs::Marker;
+
+namespace {
+
+// Places in the array; obstacles follow.
+enum Slot { kWires, kNodes, kFolds, kWind, kFirstObstacle };
+
+// Sizes in the picture [m].
+constexpr double kWireWidth = 0.002;
+constexpr double kNodeSize = 0.012;
+constexpr double kFoldSize = 0.006;
+constexpr double kWindWidth = 0.004;
+constexpr double kWindLength = 0.5;  // of the drawn part of a cone
+constexpr int kWindSpokes = 12;
+
+std_msgs::ColorRGBA colour(float r, float g, float b) {
+  std_msgs::ColorRGBA c;
+  c.r = r;
+  c.g = g;
+  c.b = b;
+  c.a = 1.0F;  // less than 1 would stop rviz from writing depth
+  return c;
+}
+
+Marker makeMarker(const std::string& frame, const std::string& name_space, int type, double size,
+                  const std_msgs::ColorRGBA& c) {
+  Marker marker;
+  marker.header.frame_id = frame;
+  marker.ns = name_space;
+  marker.type = type;
+  marker.action = Marker::ADD;
+  marker.pose.orientation.w = 1.0;
+  marker.scale.x = marker.scale.y = marker.scale.z = size;
+  marker.color = c;
+  return marker;
+}
+
+const std_msgs::ColorRGBA kCloth = colour(0.85F, 0.20F, 0.24F);
+const Vec3 kLight = Vec3(0.45, -0.75, 0.5).normalized();
+constexpr float kAmbient = 0.25F;
+
+// brightness: cosine between light and normal, either side.
+std_msgs::ColorRGBA shaded(const std_msgs::ColorRGBA& c, double brightness) {
+  const float light = kAmbient + (1.0F - kAmbient) * static_cast<float>(brightness);
+  return colour(light * c.r, light * c.g, light * c.b);
+}
+
+// rviz complains about markers without points: an empty one is taken away instead.
+void showUnlessEmpty(Marker& marker) { marker.action = marker.points.empty() ? Marker::DELETE : Marker::ADD; }
+
+using Points = std::vector<geometry_msgs::Point>;
+
+void addLine(const Vec3& a, const Vec3& b, Points& points) {
+  points.push_back(toPoint(a));
+  points.push_back(toPoint(b));
+}
+
+void buildWires(const std::vector<Vec3>& nodes, int rows, int columns, bool closed, Points& points) {
+  const auto at = [&](int row, int column) -> const Vec3& {
+    return nodes[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column)];
+  };
+  points.clear();
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      if (row + 1 < rows) addLine(at(row, column), at(row + 1, column), points);
+      if (column + 1 < columns) addLine(at(row, column), at(row, column + 1), points);
+    }
+    if (closed) addLine(at(row, columns - 1), at(row, 0), points);
+  }
+}
+
+// Disc, spokes and the circle at the end of the drawn part.
+void addCone(const curtain::WindParams& wind, Points& points) {
+  const Vec3 axis = wind.direction.normalized();
+  const Vec3 u = axis.unitOrthogonal();
+  const Vec3 v = axis.cross(u);
+  const double far_radius = wind.radius + kWindLength * std::tan(wind.half_angle);
+  const auto corner = [&](int spoke, double along, double radius) -> Vec3 {
+    const double angle = 2.0 * curtain::kPi * spoke / kWindSpokes;
+    return wind.position + along * axis + radius * (std::cos(angle) * u + std::sin(angle) * v);
+  };
+  for (int i = 0; i < kWindSpokes; ++i) {
+    addLine(corner(i, 0.0, wind.radius), corner(i + 1, 0.0, wind.radius), points);
+    addLine(corner(i, kWindLength, far_radius), corner(i + 1, kWindLength, far_radius), points);
+    addLine(corner(i, 0.0, wind.radius), corner(i, kWindLength, far_radius), points);
+  }
+}
+
+void addTriangles(const std::vector<Vec3>& corners, const std::vector<Eigen::Vector3i>& triangles, Points& points) {
+  points.reserve(3 * triangles.size());
+  for (const Eigen::Vector3i& triangle : triangles) {
+    for (const int corner : triangle) points.push_back(toPoint(corners[static_cast<std::size_t>(corner)]));
+  }
+}
+
+visualization_msgs::MarkerArray blankDetails(const std::string& frame, const curtain::Simulator& simulator) {
+  visualization_msgs::MarkerArray array;
+  array.markers = {
+      makeMarker(frame, "wires", Marker::LINE_LIST, kWireWidth, colour(0.95F, 0.95F, 0.95F)),
+      makeMarker(frame, "nodes", Marker::POINTS, kNodeSize, colour(0.10F, 0.75F, 0.95F)),
+      makeMarker(frame, "folds", Marker::POINTS, kFoldSize, colour(0.95F, 0.85F, 0.30F)),
+      makeMarker(frame, "wind", Marker::LINE_LIST, kWindWidth, colour(0.55F, 0.80F, 1.00F)),
+  };
+  for (int i = 0; i < simulator.obstacleCount(); ++i) {  // shapes never change: their triangles are made once
+    Marker marker = makeMarker(frame, "obstacles", Marker::TRIANGLE_LIST, 1.0, colour(0.45F, 0.50F, 0.58F));
+    marker.id = i;
+    const curtain::ShapeTriangles shape = simulator.obstacleShape(i).triangles();
+    addTriangles(shape.corners, shape.triangles, marker.points);
+    array.markers.push_back(marker);
+  }
+  return array;
+}
+
+}  // namespace
+
+MeshMarker::MeshMarker(const std::string& world_frame, Shape& shape)
+    : shape_(shape),
+      reducer_(shape.simulator().fineMeshTopology()),
+      pool_(makeMarker(world_frame, "mesh", Marker::TRIANGLE_LIST, 1.0, kCloth)) {}
+
+std::uint64_t MeshMarker::look(const curtain::MeshDetail& detail) {
+  if (revision_ != shape_.revision() || !(detail_ == detail)) ++picture_;
+  revision_ = shape_.revision();
+  detail_ = detail;
+  return picture_;
+}
+
+Marker::ConstPtr MeshMarker::build(const ros::Time& stamp) {
+  if (drawn_ != picture_) draw();
+  auto& [marker, picture] = pool_.take();
+  if (picture != drawn_) fill(*marker);
+  picture = drawn_;
+  marker->header.stamp = stamp;
+  return marker;
+}
+
+// rviz lights triangles from one side, flat, and would show the back of the cloth black; so the light is in the
+// vertices' colours, smooth and the same on both sides.
+void MeshMarker::draw() {
+  drawn_ = picture_;
+  triangles_ = &reducer_.reduce(shape_.fineMesh(), detail_);
+  curtain::fineMeshNormals(*triangles_, shape_.fineMesh(), normals_);
+  colours_.resize(normals_.size());
+  for (std::size_t i = 0; i < normals_.size(); ++i) {
+    colours_[i] = shaded(kCloth, std::abs(normals_[i].dot(kLight)));
+  }
+}
+
+void MeshMarker::fill(Marker& marker) const {
+  const std::vector<Vec3>& positions = shape_.fineMesh().positions;
+  marker.points.resize(3 * triangles_->size());
+  marker.colors.resize(marker.points.size());
+  std::size_t to = 0;
+  for (const auto& triangle : *triangles_) {
+    for (const std::uint32_t node : triangle) {
+      marker.points[to] = toPoint(positions[node]);
+      marker.colors[to++] = colours_[node];
+    }
+  }
+}
+
+DetailMarkers::DetailMarkers(const std::string& world_frame, Shape& shape)
+    : shape_(shape), pool_(blankDetails(world_frame, shape.simulator())) {}
+
+std::uint64_t DetailMarkers::look() {
+  const curtain::Simulator& simulator = shape_.simulator();
+  cones_now_.clear();
+  for (const curtain::WindParams& source : simulator.winds()) {
+    if (source.start <= simulator.time() && simulator.time() < source.end) addCone(source, cones_now_);
+  }
+  const bool winds_changed = cones_now_ != cones_;
+  if (winds_changed) {
+    std::swap(cones_, cones_now_);
+    ++winds_;
+  }
+  if (winds_changed || revision_ != shape_.revision()) ++picture_;
+  revision_ = shape_.revision();
+  return picture_;
+}
+
+visualization_msgs::MarkerArray::ConstPtr DetailMarkers::build(const ros::Time& stamp) {
+  auto& [array, content] = pool_.take();
+  if (content.shape != revision_) fill(*array);
+  content.shape = revision_;
+  Marker& wind = array->markers[kWind];
+  if (content.winds != winds_) wind.points = cones_;
+  content.winds = winds_;
+  showUnlessEmpty(wind);
+  for (Marker& marker : array->markers) marker.header.stamp = stamp;
+  return array;
+}
+
+void DetailMarkers::fill(visualization_msgs::MarkerArray& array) {
+  const curtain::Simulator& simulator = shape_.simulator();
+  const std::vector<Vec3>& positions = shape_.nodes();
+  buildWires(positions, simulator.rows(), simulator.columns(), simulator.scene().cloth.closed,
+             array.markers[kWires].points);
+
+  Points& nodes = array.markers[kNodes].points;
+  nodes.resize(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) nodes[i] = toPoint(positions[i]);
+
+  const curtain::FineMesh& mesh = shape_.fineMesh();
+  const curtain::FineMeshTopology& topology = simulator.fineMeshTopology();
+  Marker& folds = array.markers[kFolds];
+  folds.points.clear();
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const int column = static_cast<int>(i % static_cast<std::size_t>(topology.columns));
+    if (column % topology.folds != 0) folds.points.push_back(toPoint(mesh.positions[i]));
+  }
+  showUnlessEmpty(folds);
+
+  for (int i = 0; i < simulator.obstacleCount(); ++i) {
+    place(array.markers[static_cast<std::size_t>(kFirstObstacle) + static_cast<std::size_t>(i)], i);
+  }
+}
+
+void DetailMarkers::place(Marker& marker, int obstacle) const {
+  const curtain::Simulator& simulator = shape_.simulator();
+  const curtain::Pose& pose = simulator.obstaclePose(obstacle);
+  marker.action = simulator.obstaclePresent(obstacle) ? Marker::ADD : Marker::DELETE;
+  marker.pose.position = toPoint(pose.position);
+  marker.pose.orientation.x = pose.orientation.x();
+  marker.pose.orientation.y = pose.orientation.y();
+  marker.pose.orientation.z = pose.orientation.z();
+  marker.pose.orientation.w = pose.orientation.w();
+}
+
+}  // namespace curtain_ros
