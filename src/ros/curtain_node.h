@@ -2,11 +2,15 @@
 //
 // Floor 5: the wiring of a curtain in ROS. A thread of its own makes the frames:
 //
-//   wait for the clock -> letters -> obstacle frames -> step -> publish
+//   wait for the clock -> messages -> obstacle frames -> step -> publish
 //
-// Callbacks run in whoever spins the given handles' queue and only leave letters; no lock is held while solving or
-// publishing. What asks others and may have to wait, the watch on the master and the diagnostics, has threads of its
-// own. The same class serves the node program and the nodelet.
+// Callbacks run in whoever spins the given handles' queue and only leave messages; no lock is held while solving or
+// publishing. Diagnostics, snapshots and the watch on roscpp, which may have to wait for others, have threads of their
+// own. The same class serves the node program and the nodelet. The rooms, each knows only those above it:
+//
+//   parameters  time  frames                      what the node is told; when frames are due; poses on tf2
+//   inputs  obstacles  outputs  snapshots  watch  what it does; watch, which looks into roscpp, can be switched off
+//   health                                        what it says of itself on /diagnostics
 #pragma once
 
 #include <ros/node_handle.h>
@@ -16,23 +20,17 @@
 #include <mutex>
 #include <thread>
 
-#include "curtain_sim/Statistics.h"
 #include "curtain_sim/simulator.h"
 #include "ros/frames/frames.h"
 #include "ros/health/diagnostics.h"
-#include "ros/health/health.h"
 #include "ros/inputs/handles.h"
 #include "ros/inputs/inputs.h"
 #include "ros/obstacles/obstacle_tracker.h"
 #include "ros/outputs/outputs.h"
-#include "ros/outputs/plan_log.h"
 #include "ros/parameters/parameters.h"
 #include "ros/snapshots/snapshot_keeper.h"
-#include "ros/time/node_clock.h"
-#include "ros/time/periodic.h"
-#include "ros/time/step_clock.h"
-#include "ros/watch/master_watch.h"
-#include "ros/watch/queue_watch.h"
+#include "ros/time/frame_clock.h"
+#include "ros/watch/roscpp_watch.h"
 
 namespace curtain_ros {
 
@@ -54,15 +52,14 @@ class CurtainNode {
   CurtainNode& operator=(const CurtainNode&) = delete;
 
  private:
-  CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node, ParameterReading reading);
+  CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const ParameterReading& reading);
 
   void run();
+  void makeFrames(std::int64_t now);
   void makeFrame(const ros::Time& stamp, bool latest);
   void restart();
   void waitForNextFrame();
-  void warnOfDroppedFrames();
   bool stopping();
-  void measureSpeed();
   curtain_sim::Statistics nodeStatistics() const;
   Health health() const;
 
@@ -72,31 +69,17 @@ class CurtainNode {
   ObstacleTracker obstacles_;
   Outputs outputs_;
   std::unique_ptr<Handles> handles_;  // none unless ~handles
-  PlanLog plan_log_;
-  NodeClock clock_;
-  StepClock step_clock_;
-
+  FrameClock clock_;
+  SnapshotKeeper snapshots_;
+  std::unique_ptr<RoscppWatch> watch_;  // none unless ~watch_roscpp
   std::uint32_t restarts_ = 0;
   std::uint32_t not_finite_ = 0;
-  std::uint32_t clock_jumps_back_ = 0;
-  std::uint32_t warned_set_back_ = 0;
-  std::uint64_t warned_dropped_ = 0;
-  // Real-time factor: simulated and monotonic time at the start of the stretch that is measured now.
-  std::int64_t measured_frames_ = 0;
-  ros::SteadyTime measured_since_;
-  double real_time_factor_ = 0.0;
-
-  SnapshotKeeper snapshots_;
-  HealthDesk desk_;
-  MasterWatch master_;
-  QueueWatch queues_;
 
   std::mutex stop_mutex_;
   std::condition_variable stop_signal_;
   bool stop_ = false;
+  Diagnostics diagnostics_;
   std::thread thread_;
-  std::unique_ptr<Periodic> watches_;
-  std::unique_ptr<Diagnostics> diagnostics_;
 };
 
 }  // namespace curtain_ros

@@ -9,7 +9,7 @@
 #include "curtain_sim/simulator.h"
 #include "ros/inputs/handles.h"
 #include "ros/inputs/read_messages.h"
-#include "ros/outputs/to_messages.h"
+#include "ros/outputs/state_messages.h"
 
 namespace curtain_ros {
 namespace {

@@ -178,6 +178,24 @@ class FaultsProcessTest(unittest.TestCase):
         self.assertEqual(node.wait(), 0)
         curtain.close()
 
+    def test_5_watches_nothing(self):
+        """Without ~watch_roscpp it makes its frames whatever becomes of the master, and tells a new one nothing."""
+        master = OwnMaster()
+        self.start(master.process)
+        node = self.start(NodeProcess(NAME, {"handles": False, "watch_roscpp": False, "scene": SCENE}, master=master.uri))
+        listener = self.start(Watcher(NAME, master=master.uri))
+        wait_until(lambda: listener.count() > 0, "it hears the curtain")
+        master.process.kill()
+        wait_until(lambda: not master.is_online(), "the master is gone")
+        master.start()
+        self.start(master.process)
+        heard = listener.count()
+        wait_until(lambda: listener.count() > heard + 180, "who listened hears it on")  # three checks of a watch
+        self.assertFalse(any(master.registrations(NAME)))
+        self.assertNotIn("WARN", node.output())
+        node.interrupt()
+        self.assertEqual(node.wait(), 0, node.output())
+
 
 if __name__ == "__main__":
     rostest.rosrun("curtain_sim", "faults_process", FaultsProcessTest, sys.argv)

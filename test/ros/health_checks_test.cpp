@@ -36,13 +36,19 @@ DiagnosticStatusWrapper simulation(const Health& health, double now, Rises& rise
 
 DiagnosticStatusWrapper inputs(const Health& health, double now, Rises& rises) {
   DiagnosticStatusWrapper status;
-  checkInputs(health, at(now), rises, status);
+  checkInputs(health, {at(now), {}}, rises, status);
   return status;
 }
 
 DiagnosticStatusWrapper obstacles(const Health& health, double now, Rises& rises) {
   DiagnosticStatusWrapper status;
-  checkObstacles(health, at(now), rises, status);
+  checkObstacles(health, {at(now), {}}, rises, status);
+  return status;
+}
+
+DiagnosticStatusWrapper master(const Health& health, double now, Rises& rises) {
+  DiagnosticStatusWrapper status;
+  checkMaster(health, {at(now), {}}, rises, status);
   return status;
 }
 
@@ -51,10 +57,8 @@ TEST(HealthChecks, ANodeThatIsWellIsOk) {
   EXPECT_EQ(simulation(well(), 0.0, rises, 0.0).level, DiagnosticStatus::OK);
   EXPECT_EQ(inputs(well(), 0.0, rises).level, DiagnosticStatus::OK);
   EXPECT_EQ(obstacles(well(), 0.0, rises).level, DiagnosticStatus::OK);
-  DiagnosticStatusWrapper master;
-  checkMaster(true, 0, at(0.0), rises, master);
-  EXPECT_EQ(master.level, DiagnosticStatus::OK);
-  EXPECT_FALSE(master.message.empty());
+  EXPECT_EQ(master(well(), 0.0, rises).level, DiagnosticStatus::OK);
+  EXPECT_EQ(master(well(), 0.0, rises).message, "knows the node");
 }
 
 struct Counted {
@@ -168,7 +172,7 @@ TEST(HealthChecks, SnapshotsSayWhatIsWrong) {
     Health health = well();
     health.snapshots = snapshots;
     DiagnosticStatusWrapper status;
-    checkSnapshots(health, at(now), rises, status);
+    checkSnapshots(health, {at(now), {}}, rises, status);
     return status;
   };
   SnapshotHealth snapshots;
@@ -184,20 +188,27 @@ TEST(HealthChecks, SnapshotsSayWhatIsWrong) {
   snapshots.foreign = true;
   EXPECT_EQ(check(snapshots, 10.0).level, DiagnosticStatus::WARN);
   snapshots = SnapshotHealth();
-  snapshots.counts.replaced = 1;
+  snapshots.replaced = 1;
   EXPECT_EQ(check(snapshots, 20.0).level, DiagnosticStatus::WARN);
 }
 
 TEST(HealthChecks, MasterThatIsGoneOrForgotIsWarnedOf) {
   Rises rises;
-  DiagnosticStatusWrapper status;
-  checkMaster(false, 0, at(0.0), rises, status);
-  EXPECT_EQ(status.level, DiagnosticStatus::WARN);
-  status.clear();
-  checkMaster(true, 1, at(0.0), rises, status);
-  EXPECT_EQ(status.level, DiagnosticStatus::WARN);
-  checkMaster(true, 1, at(6.0), rises, status);
-  EXPECT_EQ(status.level, DiagnosticStatus::OK);
+  Health health = well();
+  health.master_answers = false;
+  EXPECT_EQ(master(health, 0.0, rises).level, DiagnosticStatus::WARN);
+  health = well();
+  health.statistics.masters_lost = 1;
+  EXPECT_EQ(master(health, 0.0, rises).level, DiagnosticStatus::WARN);
+  EXPECT_EQ(master(health, 6.0, rises).level, DiagnosticStatus::OK);
+}
+
+TEST(HealthChecks, MasterThatIsNotWatchedIsOk) {
+  Rises rises;
+  Health health = well();
+  health.master_watched = false;
+  EXPECT_EQ(master(health, 0.0, rises).level, DiagnosticStatus::OK);
+  EXPECT_EQ(master(health, 0.0, rises).message, "not watched");
 }
 
 }  // namespace

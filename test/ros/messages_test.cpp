@@ -50,28 +50,28 @@ curtain::WindParams fan(double pressure) {
 class Messages {
  public:
   explicit Messages(const curtain::Simulator& simulator)
-      : shape(simulator),
-        state(withFolds(), shape),
+      : geometry(simulator),
+        state(withFolds(), geometry),
         contacts(withFolds()),
-        mesh("world", shape),
-        details("world", shape) {}
+        mesh("world", geometry),
+        details("world", geometry) {}
 
   visualization_msgs::Marker::ConstPtr buildMesh() {
-    mesh.look(detail);
+    mesh.update(detail);
     return mesh.build(stamp);
   }
   visualization_msgs::MarkerArray::ConstPtr buildDetails() {
-    details.look();
+    details.update();
     return details.build(stamp);
   }
   void buildAll() {
     state.build(stamp, {});
-    contacts.build(shape.simulator(), stamp);
+    contacts.build(geometry.simulator(), stamp);
     buildMesh();
     buildDetails();
   }
 
-  Shape shape;
+  GeometryCache geometry;
   StateMessages state;
   ContactMessages contacts;
   MeshMarker mesh;
@@ -89,11 +89,11 @@ class Messages {
 
 /// What is filled must be what a new one holds.
 void expectAsNew(Messages& messages) {
-  Messages fresh(messages.shape.simulator());
+  Messages fresh(messages.geometry.simulator());
   fresh.stamp = messages.stamp;
   EXPECT_TRUE(*messages.state.build(messages.stamp, {}) == *fresh.state.build(fresh.stamp, {}));
-  EXPECT_TRUE(*messages.contacts.build(messages.shape.simulator(), messages.stamp) ==
-              *fresh.contacts.build(messages.shape.simulator(), fresh.stamp));
+  EXPECT_TRUE(*messages.contacts.build(messages.geometry.simulator(), messages.stamp) ==
+              *fresh.contacts.build(messages.geometry.simulator(), fresh.stamp));
   EXPECT_TRUE(*messages.buildMesh() == *fresh.buildMesh());
   EXPECT_TRUE(*messages.buildDetails() == *fresh.buildDetails());
 }
@@ -193,7 +193,7 @@ TEST(MeshMarker, HasTheFineTrianglesUnlessLessIsAskedFor) {
   for (int frame = 0; frame < 30; ++frame) simulator.step();
   Messages messages(simulator);
   const auto full = messages.buildMesh();
-  const curtain::FineMesh& mesh = messages.shape.fineMesh();
+  const curtain::FineMesh& mesh = messages.geometry.fineMesh();
   const auto& triangles = simulator.fineMeshTopology().triangles;
   ASSERT_EQ(full->points.size(), 3 * triangles.size());
   for (std::size_t i = 0; i < full->points.size(); ++i) {
@@ -201,51 +201,45 @@ TEST(MeshMarker, HasTheFineTrianglesUnlessLessIsAskedFor) {
     EXPECT_EQ(curtain::Vec3(full->points[i].x, full->points[i].y, full->points[i].z), node);
   }
 
-  const std::uint64_t picture = messages.mesh.look(messages.detail);
+  const std::uint64_t picture = messages.mesh.update(messages.detail);
   messages.detail.viewer = curtain::Vec3(0.3, -16.0, 1.2);
   messages.detail.viewer_tolerance = 1e-3;
-  EXPECT_NE(messages.mesh.look(messages.detail), picture) << "another eye, another picture";
+  EXPECT_NE(messages.mesh.update(messages.detail), picture) << "another eye, another picture";
   const auto reduced = messages.buildMesh();
   EXPECT_LT(reduced->points.size(), full->points.size() / 3);
   EXPECT_EQ(reduced->colors.size(), reduced->points.size());
   messages.detail.viewer->y() = -20.0;
   EXPECT_LT(messages.buildMesh()->points.size(), reduced->points.size());
-  EXPECT_EQ(messages.mesh.look(messages.detail), messages.mesh.look(messages.detail));
+  EXPECT_EQ(messages.mesh.update(messages.detail), messages.mesh.update(messages.detail));
 }
 
 TEST(DetailMarkers, ANumberForEveryPicture) {
   curtain::Simulator simulator(smallScene());
   Messages messages(simulator);
-  const std::uint64_t first = messages.details.look();
-  EXPECT_EQ(messages.details.look(), first);
+  const std::uint64_t first = messages.details.update();
+  EXPECT_EQ(messages.details.update(), first);
   simulator.setWind(fan(1.0));
-  const std::uint64_t windy = messages.details.look();
+  const std::uint64_t windy = messages.details.update();
   EXPECT_NE(windy, first);
   simulator.setWind(fan(2.0));
-  EXPECT_EQ(messages.details.look(), windy) << "the cone is the same";
+  EXPECT_EQ(messages.details.update(), windy) << "the cone is the same";
   simulator.step();
-  EXPECT_NE(messages.details.look(), windy);
+  EXPECT_NE(messages.details.update(), windy);
 }
 
-TEST(MessagePool, GrowsWhileMessagesAreKeptButNotForEver) {
-  MessagePool<int, int> pool(7);
-  std::vector<boost::shared_ptr<int>> kept;
-  std::set<const int*> all;
-  for (int i = 0; i < 100; ++i) {
-    auto& entry = pool.take();
-    EXPECT_EQ(*entry.message, 7) << "a new one is a copy of the blank";
-    EXPECT_EQ(entry.content, 0);
-    kept.push_back(entry.message);
-    all.insert(entry.message.get());
-  }
-  EXPECT_EQ(all.size(), 100u);
-  long pooled = 0;
-  for (const auto& message : kept) pooled += message.use_count() - 1;
-  EXPECT_EQ(pooled, 8) << "the others are their keepers' alone";
-  kept.clear();
-  const int* const again = pool.take().message.get();
-  EXPECT_EQ(all.count(again), 1u);
-  EXPECT_EQ(pool.take().message.get(), again) << "nobody kept it";
+// One that is free again is filled again; while somebody holds it a copy takes its place.
+TEST(ReusedMessage, IsCopiedOnlyWhileItIsHeld) {
+  ReusedMessage<int> message(7);
+  const auto held = message.edit();
+  const auto copy = message.edit();
+  EXPECT_NE(copy, held);
+  EXPECT_EQ(*copy, 7);
+  *copy = 8;
+  EXPECT_EQ(*held, 7);
+  const int* const free = message.edit().get();
+  EXPECT_NE(free, copy.get());
+  EXPECT_EQ(message.edit().get(), free);
+  EXPECT_EQ(*message.edit(), 8);
 }
 
 TEST(RateDivider, ZeroIsEveryFrame) {

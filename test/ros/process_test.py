@@ -55,7 +55,7 @@ class ProcessTest(unittest.TestCase):
     def test_wrong_parameters_of_the_node(self):
         """Everything wrong is named at once: text for a number, a fraction for a count, a number for a switch."""
         self.refuses(parameters(obstacle_timeout="1e-6", max_catch_up=7.6, handles=1, mesh_rate=-1.0),
-                     "/stage/curtain/obstacle_timeout", '"1e-6" (text)', "/stage/curtain/max_catch_up", "7.6",
+                     "/stage/curtain/obstacle_timeout", 'the text "1e-6"', "/stage/curtain/max_catch_up", "7.6",
                      "/stage/curtain/handles", "/stage/curtain/mesh_rate")
 
     def test_no_scene(self):

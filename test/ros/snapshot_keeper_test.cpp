@@ -71,7 +71,7 @@ TEST_F(SnapshotKeeperTest, GoesOnFromTheLastOne) {
   SnapshotKeeper keeper(file_, 10.0);
   ASSERT_TRUE(keeper.restore(other));
   EXPECT_EQ(other.stateHash(), simulator.stateHash());
-  EXPECT_EQ(keeper.counts().restored_time, simulator.time());
+  EXPECT_EQ(keeper.health().restored_time, simulator.time());
 }
 
 // One each period of the clock; not at the start, and not when the clock jumps back, which begins another period.
@@ -82,8 +82,7 @@ TEST_F(SnapshotKeeperTest, TakesOneEachPeriod) {
     SnapshotKeeper keeper(file_, 10.0);
     for (const std::int64_t time : times) keeper.update(simulator, time * kSecond);
     while (true) {  // written or replaced: both were taken
-      const SnapshotCounts counts = keeper.counts();
-      if (keeper.idle()) return counts.written + counts.replaced;
+      if (keeper.idle()) return keeper.health().written + keeper.health().replaced;
       ::usleep(1000);
     }
   };
@@ -98,13 +97,13 @@ TEST_F(SnapshotKeeperTest, TakesOneEachPeriod) {
 // Taken faster than a disk writes: each is written, or replaced by a newer one, and the newest is there in the end.
 TEST_F(SnapshotKeeperTest, AllAreAccountedFor) {
   curtain::Simulator simulator = makeSimulator(100);
-  SnapshotCounts counts;
+  SnapshotHealth counts;
   {
     SnapshotKeeper keeper(file_, 10.0);
     for (int i = 0; i < 300; ++i) keeper.take(simulator);
     simulator.step();
     keeper.finish(simulator);
-    counts = keeper.counts();
+    counts = keeper.health();
   }
   EXPECT_EQ(counts.written + counts.replaced, 301U);
   EXPECT_GT(counts.replaced, 0U);
@@ -118,7 +117,7 @@ TEST_F(SnapshotKeeperTest, AFolderThatIsNotThereIsAFailure) {
   SnapshotKeeper keeper((folder_ / "nowhere" / "curtain.snapshot").string(), 10.0);
   keeper.take(simulator);
   while (!keeper.idle()) ::usleep(1000);
-  EXPECT_EQ(keeper.counts().failed, 1U);
+  EXPECT_EQ(keeper.health().failed, 1U);
   EXPECT_NE(keeper.health().last_failure.find("nowhere"), std::string::npos);
 }
 

@@ -51,13 +51,5 @@ TEST(StampKeeper, FollowsAClockThatIsSet) {
   EXPECT_EQ(keeper.setBack(), 1U);
 }
 
-// A clock that was set while the readings were bad is followed all the same, once it is further than they explain.
-TEST(StampKeeper, FollowsAClockThatIsSetWhileReadingsAreBad) {
-  StampKeeper keeper;
-  keeper.stamp(kFrame, {kOffset, 100});
-  EXPECT_EQ(keeper.stamp(2 * kFrame, {kOffset + 3600 * kSecond, 5 * kMillisecond}),
-            kOffset + 3600 * kSecond + 2 * kFrame);
-}
-
 }  // namespace
 }  // namespace curtain_ros

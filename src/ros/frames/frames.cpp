@@ -7,10 +7,10 @@ namespace curtain_ros {
 
 namespace {
 
-// Long enough for static and slow (10 Hz) frames to reach a new listener, short enough to call a wrong name wrong.
+// Static and slow (10 Hz) frames reach a new listener within this time; after it an unknown name is reported.
 const ros::WallDuration kYouth(1.0);
 
-// [m] A frame that is said to be further away is not taken: sums with its position would lose the cloth's digits.
+// [m] A frame further away is not taken: sums with its position would lose the cloth's digits.
 constexpr double kFarthest = 1e9;
 
 std::string withoutSlash(const std::string& frame) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Floor 5: where frames are in the world frame, by tf2. Nothing here ever waits. The listener starts when a frame
-// is first asked for: a curtain that needs no tf2 costs no tf2.
+// Poses of tf2 frames in the world frame. Nothing here waits. The listener starts when a frame is first asked for: a
+// curtain that needs no tf2 costs no tf2.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -16,10 +16,10 @@
 
 namespace curtain_ros {
 
-/// What a look at a frame gave.
+/// What a lookup gave.
 struct FrameLookup {
   bool known = false;
-  /// Not known, but the listener is so young that the frame may only not have arrived yet: ask again.
+  /// Not known, but the listener is so young that the frame may still arrive: ask again.
   bool may_come = false;
   curtain::Pose pose;  ///< of the frame in the world frame
   ros::Time stamp;     ///< of the transform; zero: static
@@ -38,15 +38,11 @@ class Frames {
 
   /// Starts listening, if it has not begun.
   void listen();
-  bool listening() const { return listener_ != nullptr; }
 
-  /// The frame as tf2 knows it last; the world frame is known without tf2.
-  FrameLookup lookup(const std::string& frame) { return lookup(frame, ros::Time(0)); }
+  /// The frame at a time, interpolated; 0: the latest transform. The world frame is known without tf2.
+  FrameLookup lookup(const std::string& frame, const ros::Time& time = ros::Time(0));
 
-  /// The frame as tf2 knows it for a time, interpolated; 0: last.
-  FrameLookup lookup(const std::string& frame, const ros::Time& time);
-
-  /// Forgets what moved: for a clock that jumped back. Static frames stay.
+  /// Drops all transforms but static ones: for a clock that jumped back.
   void clear();
 
  private:

@@ -4,35 +4,35 @@
 namespace curtain_ros {
 
 Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, double period,
-                         bool clock_simulated, HealthDesk& desk, const MasterWatch& master)
-    : desk_(desk), updater_(node, private_node, private_node.getNamespace()) {
+                         bool clock_simulated)
+    : updater_(node, private_node, private_node.getNamespace()) {
+  pulse_.clock_simulated = clock_simulated;
   updater_.setHardwareID("none");
-  updater_.add("simulation", [this, clock_simulated](Status& status) {
-    const Health none;
-    const ros::Time clock = ros::Time::now();
-    checkSimulation(health_ ? *health_ : none,
-                    {ros::SteadyTime::now(), desk_.lastFrame(), clock_simulated, clock == clock_at_last_look_}, rises_,
-                    status);
-    clock_at_last_look_ = clock;
-  });
-  addCheck("inputs", checkInputs);
-  addCheck("obstacles", checkObstacles);
-  addCheck("snapshots", checkSnapshots);
-  updater_.add("master", [this, &master](Status& status) {
-    checkMaster(master.answers(), master.lost(), ros::SteadyTime::now(), rises_, status);
-  });
+  add("simulation", checkSimulation);
+  add("inputs", checkInputs);
+  add("obstacles", checkObstacles);
+  add("snapshots", checkSnapshots);
+  add("master", checkMaster);
   thread_ = std::make_unique<Periodic>(period, [this] { publish(); });
 }
 
-void Diagnostics::addCheck(const std::string& name, Check check) {
-  updater_.add(name, [this, check](Status& status) {
-    const Health none;
-    check(health_ ? *health_ : none, ros::SteadyTime::now(), rises_, status);
+void Diagnostics::add(const std::string& name, Check* check) {
+  updater_.add(name, [this, check](diagnostic_updater::DiagnosticStatusWrapper& status) {
+    check(health_, pulse_, rises_, status);
   });
 }
 
 void Diagnostics::publish() {
-  health_ = desk_.ask();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    health_ = answer_;
+  }
+  wanted_.store(true, std::memory_order_relaxed);  // for the next time
+  const ros::Time clock = ros::Time::now();
+  pulse_.clock_stands = clock == last_clock_;
+  last_clock_ = clock;
+  pulse_.now = ros::SteadyTime::now();
+  pulse_.last_frame.fromNSec(static_cast<std::uint64_t>(last_frame_.load(std::memory_order_relaxed)));
   updater_.force_update();
 }
 

@@ -1,41 +1,59 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Floor 5: /diagnostics, once every ~diagnostic_period by the computer's clock, on a thread of its own; whoever listens
-// or not, as aggregators expect.
+// /diagnostics, once every ~diagnostic_period of the computer's clock, on a thread of its own; whether anybody listens
+// or not, as aggregators expect. The simulation thread reports only when asked: a frame costs the reading of a flag.
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
 
+#include <atomic>
+#include <cstdint>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <utility>
 
-#include "ros/health/health.h"
 #include "ros/health/health_checks.h"
 #include "ros/time/periodic.h"
-#include "ros/watch/master_watch.h"
 
 namespace curtain_ros {
 
+/// The public functions are for the simulation thread.
 class Diagnostics {
  public:
-  /// desk and master must outlive this.
   ///   period           [s], > 0
   ///   clock_simulated  frames follow /clock
-  Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, double period, bool clock_simulated,
-              HealthDesk& desk, const MasterWatch& master);
+  Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, double period, bool clock_simulated);
+
+  /// Whether answer() is waited for.
+  bool wanted() const { return wanted_.load(std::memory_order_relaxed); }
+
+  void answer(Health health) {
+    wanted_.store(false, std::memory_order_relaxed);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    answer_ = std::move(health);
+  }
+
+  /// Notes that a frame was made now.
+  void frameMade() {
+    last_frame_.store(static_cast<std::int64_t>(ros::SteadyTime::now().toNSec()), std::memory_order_relaxed);
+  }
 
  private:
-  using Status = diagnostic_updater::DiagnosticStatusWrapper;
-  using Check = void (*)(const Health&, const ros::SteadyTime&, Rises&, Status&);
-
+  void add(const std::string& name, Check* check);
   void publish();
-  void addCheck(const std::string& name, Check check);
 
-  HealthDesk& desk_;
-  std::shared_ptr<const Health> health_;  // none before the simulation thread has answered for the first time
+  std::atomic<bool> wanted_{true};
+  std::atomic<std::int64_t> last_frame_{0};  // [ns]
+  std::mutex mutex_;
+  Health answer_;
+
+  // Of the thread.
+  Health health_;
+  Pulse pulse_;
   Rises rises_;
-  ros::Time clock_at_last_look_;
+  ros::Time last_clock_;
   diagnostic_updater::Updater updater_;
   std::unique_ptr<Periodic> thread_;  // last: it uses the others
 };

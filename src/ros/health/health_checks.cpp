@@ -18,8 +18,8 @@ constexpr double kRounding = 1e-9;  // of a relative length that was settled to 
 // Adds a count to the values, and a warning when it has risen lately.
 class Counts {
  public:
-  Counts(DiagnosticStatusWrapper& status, Rises& rises, const ros::SteadyTime& now)
-      : status_(status), rises_(rises), now_(now) {}
+  Counts(DiagnosticStatusWrapper& status, Rises& rises, const Pulse& pulse)
+      : status_(status), rises_(rises), now_(pulse.now) {}
 
   template <typename Count>
   void add(const std::string& what, Count count, unsigned char level = DiagnosticStatus::WARN) {
@@ -61,7 +61,7 @@ bool Rises::lately(const std::string& name, double count, const ros::SteadyTime&
 void checkSimulation(const Health& health, const Pulse& pulse, Rises& rises, DiagnosticStatusWrapper& status) {
   const curtain_sim::Statistics& s = health.statistics;
   status.summary(DiagnosticStatus::OK, "");
-  Counts counts(status, rises, pulse.now);
+  Counts counts(status, rises, pulse);
   counts.add("state not finite", s.not_finite, DiagnosticStatus::ERROR);
   checkPulse(health, pulse, status);
   const double stretch = std::max(s.warp_stretch, s.weft_stretch);
@@ -91,10 +91,10 @@ void checkSimulation(const Health& health, const Pulse& pulse, Rises& rises, Dia
   if (status.message.empty()) status.message = "runs";
 }
 
-void checkInputs(const Health& health, const ros::SteadyTime& now, Rises& rises, DiagnosticStatusWrapper& status) {
+void checkInputs(const Health& health, const Pulse& pulse, Rises& rises, DiagnosticStatusWrapper& status) {
   const curtain_sim::Statistics& s = health.statistics;
   status.summary(DiagnosticStatus::OK, "");
-  Counts counts(status, rises, now);
+  Counts counts(status, rises, pulse);
   status.add("messages taken", s.messages_taken);
   counts.add("messages with bad values", s.dropped_invalid);
   counts.add("messages in unknown frames", s.dropped_untransformed);
@@ -104,7 +104,7 @@ void checkInputs(const Health& health, const ros::SteadyTime& now, Rises& rises,
   if (status.message.empty()) status.message = "no message dropped lately";
 }
 
-void checkObstacles(const Health& health, const ros::SteadyTime& now, Rises& rises, DiagnosticStatusWrapper& status) {
+void checkObstacles(const Health& health, const Pulse& pulse, Rises& rises, DiagnosticStatusWrapper& status) {
   const curtain_sim::Statistics& s = health.statistics;
   status.summary(DiagnosticStatus::OK, "");
   for (const ObstacleHealth& obstacle : health.obstacles) {
@@ -123,7 +123,7 @@ void checkObstacles(const Health& health, const ros::SteadyTime& now, Rises& ris
     status.mergeSummary(DiagnosticStatus::WARN, "the frame of mesh_viewer_frame is not known");
     status.add("mesh_viewer_frame", health.viewer_error);
   }
-  Counts counts(status, rises, now);
+  Counts counts(status, rises, pulse);
   counts.add("poses late", s.late_poses);
   counts.add("poses ahead of the clock", s.early_poses);
   counts.add("obstacles lost", s.obstacles_lost);
@@ -133,29 +133,28 @@ void checkObstacles(const Health& health, const ros::SteadyTime& now, Rises& ris
   }
 }
 
-void checkSnapshots(const Health& health, const ros::SteadyTime& now, Rises& rises, DiagnosticStatusWrapper& status) {
+void checkSnapshots(const Health& health, const Pulse& pulse, Rises& rises, DiagnosticStatusWrapper& status) {
   const SnapshotHealth& s = health.snapshots;
   status.summary(DiagnosticStatus::OK, "");
   if (s.foreign) status.mergeSummary(DiagnosticStatus::WARN, "none is written: there is another file");
   if (!s.last_failure.empty()) status.mergeSummary(DiagnosticStatus::WARN, "the last one was not written");
-  if (rises.lately("refused", s.refused.empty() ? 0.0 : 1.0, now)) {
+  if (rises.lately("refused", s.refused.empty() ? 0.0 : 1.0, pulse.now)) {
     status.mergeSummary(DiagnosticStatus::WARN, "not restored");
   }
-  Counts(status, rises, now).add("replaced before written", s.counts.replaced);
-  status.add("written", s.counts.written);
-  status.add("failed", s.counts.failed);
-  status.add("restored at", s.counts.restored_time);
+  Counts(status, rises, pulse).add("replaced before written", s.replaced);
+  status.add("written", s.written);
+  status.add("failed", s.failed);
+  status.add("restored at", s.restored_time);
   if (!s.last_failure.empty()) status.add("last failure", s.last_failure);
   if (!s.refused.empty()) status.add("refused", s.refused);
   if (status.message.empty()) status.message = s.wanted ? "as they should be" : "off";
 }
 
-void checkMaster(bool answers, std::uint32_t lost, const ros::SteadyTime& now, Rises& rises,
-                 DiagnosticStatusWrapper& status) {
+void checkMaster(const Health& health, const Pulse& pulse, Rises& rises, DiagnosticStatusWrapper& status) {
   status.summary(DiagnosticStatus::OK, "");
-  if (!answers) status.mergeSummary(DiagnosticStatus::WARN, "does not answer");
-  Counts(status, rises, now).add("had forgotten the node", lost);
-  if (status.message.empty()) status.message = "knows the node";
+  if (!health.master_answers) status.mergeSummary(DiagnosticStatus::WARN, "does not answer");
+  Counts(status, rises, pulse).add("had forgotten the node", health.statistics.masters_lost);
+  if (status.message.empty()) status.message = health.master_watched ? "knows the node" : "not watched";
 }
 
 }  // namespace curtain_ros

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Floor 5: when the node is well, and when it is not. One check for each status on /diagnostics:
+// When the node is well, and when it is not. One check for each status on /diagnostics:
 //
-//   simulation  ERROR  the state was not finite; frames stand still although the clock runs (5 s without one)
-//               WARN   no frame yet (a /clock that stands later is OK); links longer than the scene's tolerance;
-//                      lately: substeps unsettled, of the last resort or stopped, frames dropped, late or shortened,
-//                      /clock jumped back, the computer's clock set back; slower than 0.95 of the clock
-//   inputs      WARN   lately: messages refused, of unknown frames, too many for a frame, dropped in roscpp's queue
-//   obstacles   WARN   one left out, late (half of ~obstacle_timeout), or ahead of the clock; the viewer's frame not
-//   known snapshots   WARN   the last one was not written, or the file that is there is none; lately: one replaced
-//   unwritten, or the
-//                      file refused at the start
-//   master      WARN   it does not answer; lately: it had forgotten the node
+//   simulation  ERROR  the state was not finite; no frame for 5 s although the clock runs
+//               WARN   no frame yet (a /clock that stops later is OK); links longer than the scene's tolerance;
+//                      slower than 0.95 of the clock; lately: substeps unsettled, of the last resort or stopped,
+//                      frames dropped, late or shortened, /clock jumped back, the computer's clock set back
+//   inputs      WARN   lately: messages refused, in unknown frames, too many for a frame, dropped in roscpp's queue
+//   obstacles   WARN   one left out, late (half of ~obstacle_timeout), or ahead of the clock; no viewer's frame
+//   snapshots   WARN   the last one was not written, or the file is no snapshot; lately: one replaced before it was
+//                      written, or the file refused at the start
+//   master      WARN   it does not answer; lately: it had forgotten the node. Without ~watch_roscpp always OK
 //
-// "Lately" is five seconds: long enough for a person to see, short enough to be of now. Counts stand among the values.
+// "Lately" is five seconds: long enough for a person to see. Counts stand among the values.
 #pragma once
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
@@ -21,15 +20,32 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
-#include "ros/health/health.h"
+#include "curtain_sim/Statistics.h"
+#include "ros/obstacles/obstacle_tracker.h"
+#include "ros/snapshots/snapshot_keeper.h"
 
 namespace curtain_ros {
+
+/// How the node is, at one moment.
+struct Health {
+  curtain_sim::Statistics statistics;
+  double stretch_tolerance = 0.0;  ///< of the scene, relative
+  double frame_rate = 0.0;         ///< [1/s]
+  std::vector<ObstacleHealth> obstacles;
+  SnapshotHealth snapshots;
+  std::string last_drop;       ///< which message was dropped last, and why; empty: none
+  std::string viewer_error;    ///< why the frame of ~mesh's viewer is not known; empty: it is, or none is asked for
+  bool master_watched = true;  ///< ~watch_roscpp
+  bool master_answers = true;
+};
 
 /// Tells when a count has last risen. One thread at a time.
 class Rises {
  public:
-  /// Whether it is more than it was at the last call, or was so at one lately. Counts begin at 0, and again with less.
+  /// Whether the count rose since the last call, or at an earlier one lately. Counts begin at 0; one that falls begins
+  /// again.
   bool lately(const std::string& name, double count, const ros::SteadyTime& now);
 
  private:
@@ -40,23 +56,15 @@ class Rises {
   std::map<std::string, Seen> seen_;
 };
 
-/// What the simulation's check knows besides its health.
+/// The moment of a check.
 struct Pulse {
   ros::SteadyTime now;
   ros::SteadyTime last_frame;    ///< zero: none yet
   bool clock_simulated = false;  ///< /clock may stand as long as it likes
-  bool clock_stands = false;     ///< and has not moved since the last look
+  bool clock_stands = false;     ///< and has not moved since the last check
 };
 
-void checkSimulation(const Health& health, const Pulse& pulse, Rises& rises,
-                     diagnostic_updater::DiagnosticStatusWrapper& status);
-void checkInputs(const Health& health, const ros::SteadyTime& now, Rises& rises,
-                 diagnostic_updater::DiagnosticStatusWrapper& status);
-void checkObstacles(const Health& health, const ros::SteadyTime& now, Rises& rises,
-                    diagnostic_updater::DiagnosticStatusWrapper& status);
-void checkSnapshots(const Health& health, const ros::SteadyTime& now, Rises& rises,
-                    diagnostic_updater::DiagnosticStatusWrapper& status);
-void checkMaster(bool answers, std::uint32_t lost, const ros::SteadyTime& now, Rises& rises,
-                 diagnostic_updater::DiagnosticStatusWrapper& status);
+using Check = void(const Health&, const Pulse&, Rises&, diagnostic_updater::DiagnosticStatusWrapper&);
+Check checkSimulation, checkInputs, checkObstacles, checkSnapshots, checkMaster;
 
 }  // namespace curtain_ros

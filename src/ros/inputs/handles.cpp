@@ -21,8 +21,8 @@ namespace {
 constexpr int kHandleCount = 5;
 constexpr double kFollowRate = 10.0;  // [1/s] of simulated time
 constexpr double kHandleSize = 0.06;  // diameter [m]
-constexpr double kGraspRadius = 0.1;  // of cloth taken in the hand [m]
-// rviz repeats itself four times a second while a handle is held; one that falls silent has been closed, and lets go.
+constexpr double kGraspRadius = 0.1;  // of the cloth pulled [m]
+// Rviz repeats itself four times a second while a handle is dragged; silent for longer, it has been closed.
 constexpr double kHoldTime = 1.5;  // [s]
 
 InteractiveMarker makeHandle(const std::string& frame, const std::string& name, const curtain::Vec3& position) {
@@ -47,10 +47,8 @@ InteractiveMarker makeHandle(const std::string& frame, const std::string& name, 
   InteractiveMarker handle;
   handle.header.frame_id = frame;
   handle.name = name;
-  handle.description = "";
   handle.scale = static_cast<float>(2.0 * kHandleSize);
-  handle.pose.position = toPoint(position);
-  handle.pose.orientation.w = 1.0;
+  handle.pose = toPose({position, Eigen::Quaterniond::Identity()});
   handle.controls.push_back(control);
   return handle;
 }
@@ -92,14 +90,11 @@ void Handles::update(const curtain::Simulator& simulator) {
   for (const Handle& handle : handles_) {
     const auto& drags = simulator.drags();
     const auto is_it = [&](const curtain::DragParams& drag) { return drag.id == handle.name; };
-    if (std::any_of(drags.begin(), drags.end(), is_it)) {  // in somebody's hand
+    if (std::any_of(drags.begin(), drags.end(), is_it)) {  // dragged
       touched_ = true;
       continue;
     }
-    geometry_msgs::Pose pose;
-    pose.position = toPoint(simulator.position(handle.node));
-    pose.orientation.w = 1.0;
-    server_.setPose(handle.name, pose);
+    server_.setPose(handle.name, toPose({simulator.position(handle.node), Eigen::Quaterniond::Identity()}));
   }
   server_.applyChanges();
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Floor 5: handles on the hem that can be dragged in rviz. A handle in somebody's hand pulls its node on a spring,
-// through the same mailbox as drag_force; one that is let go follows its node.
+// Handles on the hem that can be dragged in rviz. A dragged handle pulls its node by a spring, through the mailbox of
+// drag_force; a released one follows its node.
 #pragma once
 
 #include <interactive_markers/interactive_marker_server.h>
@@ -32,8 +32,8 @@ class Handles {
   /// Serves ~handles. inputs must outlive this.
   Handles(ros::NodeHandle private_node, const NodeParams& params, const curtain::Simulator& simulator, Inputs& inputs);
 
-  /// To be called each frame: about ten times a second the handles go to their nodes, if somebody looks and either may
-  /// have moved.
+  /// To be called each frame: about ten times a second moves the handles to their nodes, if somebody subscribed and
+  /// either may have moved.
   void update(const curtain::Simulator& simulator);
 
  private:
@@ -48,10 +48,10 @@ class Handles {
   Inputs& inputs_;
   RateDivider rate_;
   std::vector<Handle> handles_;
-  std::optional<std::uint64_t> shown_;  // revision of the nodes that the handles were taken to
-  std::atomic<bool> touched_{false};    // somebody had a handle in the hand since: it need not be at its node
+  std::optional<std::uint64_t> shown_;  // revision of the nodes that the handles were moved to
+  std::atomic<bool> touched_{false};    // a handle was dragged since then
   interactive_markers::InteractiveMarkerServer server_;
-  ros::Publisher update_watch_;  // shares the server's topic: says whether somebody looks
+  ros::Publisher update_watch_;  // shares the server's topic, to count its subscribers
 };
 
 }  // namespace curtain_ros

@@ -54,11 +54,11 @@ void ObstacleTracker::update(curtain::Simulator& simulator, const ros::Time& now
     const ObstacleHealth& health = obstacle.health;
     left_out += (left_out.empty() ? "'" : "; '") + health.name + "': its frame '" + health.frame + "' " + why;
   }
-  // One message for all: a throttled one for each would tell of the first alone.
+  // One message for all: throttled ones for each would show only the first.
   if (!left_out.empty()) ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "obstacles left out: " << left_out);
 }
 
-FrameLookup ObstacleTracker::look(Tracked& obstacle, const ros::Time& now) {
+FrameLookup ObstacleTracker::lookUp(Tracked& obstacle, const ros::Time& now) {
   ObstacleHealth& health = obstacle.health;
   FrameLookup frame = frames_.lookup(health.frame);
   const double ahead = frame.known && !frame.stamp.isZero() ? (frame.stamp - now).toSec() : 0.0;
@@ -77,7 +77,7 @@ FrameLookup ObstacleTracker::look(Tracked& obstacle, const ros::Time& now) {
 }
 
 std::string ObstacleTracker::follow(Tracked& obstacle, curtain::Simulator& simulator, const ros::Time& now) {
-  const FrameLookup frame = look(obstacle, now);
+  const FrameLookup frame = lookUp(obstacle, now);
   ObstacleHealth& health = obstacle.health;
   const bool seen = frame.known || health.present;
   if (obstacle.resumed && obstacle.stamp.isZero() && !health.is_static) obstacle.stamp = now;
@@ -96,23 +96,24 @@ std::string ObstacleTracker::follow(Tracked& obstacle, curtain::Simulator& simul
   }
   if (fresh) return {};  // late: the last pose
 
-  if (health.present) leaveOut(obstacle, simulator);
-  if (frame.may_come) return {};  // the listener has just begun: too early to complain
+  if (health.present) {
+    simulator.setObstaclePresent(obstacle.index, false);
+    health.present = false;
+    obstacle.resumed = false;
+    ++lost_;
+  }
+  if (frame.may_come) return {};  // the listener is young: too early to warn
   if (!frame.known) return "is not known in '" + frames_.world() + "': " + health.error;
   return "is " + curtain::formatNumber(health.age) + " s old (~obstacle_timeout is " + curtain::formatNumber(timeout_) +
          " s)";
 }
 
-void ObstacleTracker::leaveOut(Tracked& obstacle, curtain::Simulator& simulator) {
-  simulator.setObstaclePresent(obstacle.index, false);
-  obstacle.health.present = false;
-  obstacle.resumed = false;
-  ++lost_;
-}
-
-std::uint32_t ObstacleTracker::absent() const {
-  return static_cast<std::uint32_t>(
+void ObstacleTracker::count(curtain_sim::Statistics& statistics) const {
+  statistics.absent_obstacles = static_cast<std::uint32_t>(
       std::count_if(tracked_.begin(), tracked_.end(), [](const Tracked& o) { return !o.health.present; }));
+  statistics.late_poses = late_poses_;
+  statistics.early_poses = early_poses_;
+  statistics.obstacles_lost = lost_;
 }
 
 std::vector<ObstacleHealth> ObstacleTracker::health() const {

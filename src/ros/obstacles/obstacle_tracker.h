@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Floor 5: obstacles follow their tf2 frames. Each frame of the simulation takes what tf2 knows last and never waits:
+// Obstacles follow their tf2 frames. Each frame of the simulation takes the latest transform and never waits:
 //
-//   frame known, fresh     the obstacle moves there during the step (that is its velocity)
-//   frame late             it stays at its last pose
-//   later than the timeout it is left out, with a warning, until the frame is back; then it is there at once
-//   ahead of the clock by  it is where tf2 knows the frame to be now, between an older transform and that one; where
-//   tf2
-//     more than the timeout  can't tell, the frame is late
-//   never seen             it is left out
-//   static frame           never late
+//   fresh                      the obstacle moves there during the step, which gives its velocity
+//   late                       it stays at its last pose
+//   older than the timeout     it is left out, with a warning, until the frame is back; then it jumps there
+//   ahead of the clock by more it takes the pose of now, interpolated between an older transform and that one; with
+//     than the timeout           no older one the frame is late
+//   never seen                 it is left out
+//   static frame               never late
 #pragma once
 
 #include <ros/time.h>
@@ -18,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "curtain_sim/Statistics.h"
 #include "curtain_sim/simulator.h"
 #include "ros/frames/frames.h"
 
@@ -42,25 +42,18 @@ class ObstacleTracker {
   ///   timeout  [s], > 0
   ObstacleTracker(const curtain::Scene& scene, double timeout, Frames& frames);
 
-  /// The obstacles as they are at the start of a run: those on tf2 frames absent until their frame is known.
+  /// A new run begins: obstacles on tf2 frames are absent until their frame is known.
   void restart(curtain::Simulator& simulator);
 
-  /// The obstacles as a snapshot left them: those that were there stay at their poses until their frame is known, as if
-  /// it were late since now, and then are there at once.
+  /// A run goes on from a snapshot: obstacles that were present stay at their poses until their frame is known, for the
+  /// timeout at most, and then jump there.
   void resume(const curtain::Simulator& simulator);
 
   /// To be called before each step. now  of the node's clock, which the transforms' stamps are compared with.
   void update(curtain::Simulator& simulator, const ros::Time& now);
 
-  /// Obstacles left out now.
-  std::uint32_t absent() const;
-
-  /// Since construction: poses taken, one an obstacle and frame, that were older than half of the timeout …
-  std::uint64_t latePoses() const { return late_poses_; }
-  /// … and ahead of the clock by more than it.
-  std::uint64_t earlyPoses() const { return early_poses_; }
-  /// Times that an obstacle was left out that had been there.
-  std::uint32_t lost() const { return lost_; }
+  /// Obstacles left out now; since construction poses taken late and ahead of the clock, and obstacles lost.
+  void count(curtain_sim::Statistics& statistics) const;
 
   /// Of the obstacles on tf2 frames, in the scene's order.
   std::vector<ObstacleHealth> health() const;
@@ -74,10 +67,9 @@ class ObstacleTracker {
     ObstacleHealth health;
   };
 
-  FrameLookup look(Tracked& obstacle, const ros::Time& now);
+  FrameLookup lookUp(Tracked& obstacle, const ros::Time& now);
   /// Returns why it is left out; empty: it is not, or it is too early to tell.
   std::string follow(Tracked& obstacle, curtain::Simulator& simulator, const ros::Time& now);
-  void leaveOut(Tracked& obstacle, curtain::Simulator& simulator);
 
   double timeout_;
   Frames& frames_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Floor 5: what several outputs need of a curtain's shape. Each part is made when the first of them asks for it, and
-// again only when the shape may have changed.
+// The curtain's nodes and fine mesh, which several outputs need. Each is copied when the first of them asks for it, and
+// again only when the cloth may have moved.
 #pragma once
 
 #include <cstdint>
@@ -13,35 +13,31 @@
 namespace curtain_ros {
 
 /// Simulation thread only.
-class Shape {
+class GeometryCache {
  public:
   /// simulator must outlive this.
-  explicit Shape(const curtain::Simulator& simulator) : simulator_(simulator) {}
+  explicit GeometryCache(const curtain::Simulator& simulator) : simulator_(simulator) {}
 
   const curtain::Simulator& simulator() const { return simulator_; }
 
-  /// The number of the shape that the others give.
+  /// The simulator's, which the others are of.
   std::uint64_t revision() const { return simulator_.revision(); }
 
   /// First-layer nodes [m], row-major; valid until the next call.
   const std::vector<curtain::Vec3>& nodes() {
-    if (isNew(nodes_revision_)) simulator_.copyPositions(nodes_);
+    if (nodes_revision_ != revision()) simulator_.copyPositions(nodes_);
+    nodes_revision_ = revision();
     return nodes_;
   }
 
   /// Both layers; valid until the next call.
   const curtain::FineMesh& fineMesh() {
-    if (isNew(mesh_revision_)) simulator_.copyFineMesh(mesh_);
+    if (mesh_revision_ != revision()) simulator_.copyFineMesh(mesh_);
+    mesh_revision_ = revision();
     return mesh_;
   }
 
  private:
-  bool isNew(std::optional<std::uint64_t>& known) const {
-    if (known == revision()) return false;
-    known = revision();
-    return true;
-  }
-
   const curtain::Simulator& simulator_;
   std::optional<std::uint64_t> nodes_revision_, mesh_revision_;
   std::vector<curtain::Vec3> nodes_;

@@ -50,13 +50,13 @@ const std_msgs::ColorRGBA kCloth = colour(0.85F, 0.20F, 0.24F);
 const Vec3 kLight = Vec3(0.45, -0.75, 0.5).normalized();
 constexpr float kAmbient = 0.25F;
 
-// brightness: cosine between light and normal, either side.
+// brightness: cosine between light and normal, of either side
 std_msgs::ColorRGBA shaded(const std_msgs::ColorRGBA& c, double brightness) {
   const float light = kAmbient + (1.0F - kAmbient) * static_cast<float>(brightness);
   return colour(light * c.r, light * c.g, light * c.b);
 }
 
-// rviz complains about markers without points: an empty one is taken away instead.
+// Rviz reports markers without points as errors: an empty one is deleted instead.
 void showUnlessEmpty(Marker& marker) { marker.action = marker.points.empty() ? Marker::DELETE : Marker::ADD; }
 
 using Points = std::vector<geometry_msgs::Point>;
@@ -124,86 +124,73 @@ visualization_msgs::MarkerArray blankDetails(const std::string& frame, const cur
 
 }  // namespace
 
-MeshMarker::MeshMarker(const std::string& world_frame, Shape& shape)
-    : shape_(shape),
-      reducer_(shape.simulator().fineMeshTopology()),
-      pool_(makeMarker(world_frame, "mesh", Marker::TRIANGLE_LIST, 1.0, kCloth)) {}
+MeshMarker::MeshMarker(const std::string& world_frame, GeometryCache& geometry)
+    : geometry_(geometry),
+      reducer_(geometry.simulator().fineMeshTopology()),
+      message_(makeMarker(world_frame, "mesh", Marker::TRIANGLE_LIST, 1.0, kCloth)) {}
 
-std::uint64_t MeshMarker::look(const curtain::MeshDetail& detail) {
-  if (revision_ != shape_.revision() || !(detail_ == detail)) ++picture_;
-  revision_ = shape_.revision();
+std::uint64_t MeshMarker::update(const curtain::MeshDetail& detail) {
+  if (revision_ != geometry_.revision() || !(detail_ == detail)) ++picture_;
+  revision_ = geometry_.revision();
   detail_ = detail;
   return picture_;
 }
 
 Marker::ConstPtr MeshMarker::build(const ros::Time& stamp) {
-  if (drawn_ != picture_) draw();
-  auto& [marker, picture] = pool_.take();
-  if (picture != drawn_) fill(*marker);
-  picture = drawn_;
+  const auto marker = message_.edit();
+  if (filled_ != picture_) fill(*marker);
+  filled_ = picture_;
   marker->header.stamp = stamp;
   return marker;
 }
 
-// rviz lights triangles from one side, flat, and would show the back of the cloth black; so the light is in the
+// Rviz lights triangles from one side, flat, and would show the back of the cloth black; so the light is in the
 // vertices' colours, smooth and the same on both sides.
-void MeshMarker::draw() {
-  drawn_ = picture_;
-  triangles_ = &reducer_.reduce(shape_.fineMesh(), detail_);
-  curtain::fineMeshNormals(*triangles_, shape_.fineMesh(), normals_);
-  colours_.resize(normals_.size());
-  for (std::size_t i = 0; i < normals_.size(); ++i) {
-    colours_[i] = shaded(kCloth, std::abs(normals_[i].dot(kLight)));
-  }
-}
-
-void MeshMarker::fill(Marker& marker) const {
-  const std::vector<Vec3>& positions = shape_.fineMesh().positions;
-  marker.points.resize(3 * triangles_->size());
+void MeshMarker::fill(Marker& marker) {
+  const curtain::FineMesh& mesh = geometry_.fineMesh();
+  const curtain::MeshReducer::Triangles& triangles = reducer_.reduce(mesh, detail_);
+  curtain::fineMeshNormals(triangles, mesh, normals_);
+  colours_.clear();
+  for (const Vec3& normal : normals_) colours_.push_back(shaded(kCloth, std::abs(normal.dot(kLight))));
+  marker.points.resize(3 * triangles.size());
   marker.colors.resize(marker.points.size());
   std::size_t to = 0;
-  for (const auto& triangle : *triangles_) {
+  for (const auto& triangle : triangles) {
     for (const std::uint32_t node : triangle) {
-      marker.points[to] = toPoint(positions[node]);
+      marker.points[to] = toPoint(mesh.positions[node]);
       marker.colors[to++] = colours_[node];
     }
   }
 }
 
-DetailMarkers::DetailMarkers(const std::string& world_frame, Shape& shape)
-    : shape_(shape), pool_(blankDetails(world_frame, shape.simulator())) {}
+DetailMarkers::DetailMarkers(const std::string& world_frame, GeometryCache& geometry)
+    : geometry_(geometry), message_(blankDetails(world_frame, geometry.simulator())) {}
 
-std::uint64_t DetailMarkers::look() {
-  const curtain::Simulator& simulator = shape_.simulator();
+std::uint64_t DetailMarkers::update() {
+  const curtain::Simulator& simulator = geometry_.simulator();
   cones_now_.clear();
   for (const curtain::WindParams& source : simulator.winds()) {
     if (source.start <= simulator.time() && simulator.time() < source.end) addCone(source, cones_now_);
   }
-  const bool winds_changed = cones_now_ != cones_;
-  if (winds_changed) {
-    std::swap(cones_, cones_now_);
-    ++winds_;
-  }
-  if (winds_changed || revision_ != shape_.revision()) ++picture_;
-  revision_ = shape_.revision();
+  if (cones_now_ != cones_ || revision_ != geometry_.revision()) ++picture_;
+  std::swap(cones_, cones_now_);
+  revision_ = geometry_.revision();
   return picture_;
 }
 
 visualization_msgs::MarkerArray::ConstPtr DetailMarkers::build(const ros::Time& stamp) {
-  auto& [array, content] = pool_.take();
-  if (content.shape != revision_) fill(*array);
-  content.shape = revision_;
-  Marker& wind = array->markers[kWind];
-  if (content.winds != winds_) wind.points = cones_;
-  content.winds = winds_;
-  showUnlessEmpty(wind);
+  const auto array = message_.edit();
+  if (filled_ != revision_) fill(*array);
+  filled_ = revision_;
+  array->markers[kWind].points = cones_;
+  showUnlessEmpty(array->markers[kWind]);
   for (Marker& marker : array->markers) marker.header.stamp = stamp;
   return array;
 }
 
 void DetailMarkers::fill(visualization_msgs::MarkerArray& array) {
-  const curtain::Simulator& simulator = shape_.simulator();
-  const std::vector<Vec3>& positions = shape_.nodes();
+  const curtain::Simulator& simulator = geometry_.simulator();
+  const std::vector<Vec3>& positions = geometry_.nodes();
   buildWires(positions, simulator.rows(), simulator.columns(), simulator.scene().cloth.closed,
              array.markers[kWires].points);
 
@@ -211,7 +198,7 @@ void DetailMarkers::fill(visualization_msgs::MarkerArray& array) {
   nodes.resize(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) nodes[i] = toPoint(positions[i]);
 
-  const curtain::FineMesh& mesh = shape_.fineMesh();
+  const curtain::FineMesh& mesh = geometry_.fineMesh();
   const curtain::FineMeshTopology& topology = simulator.fineMeshTopology();
   Marker& folds = array.markers[kFolds];
   folds.points.clear();
@@ -222,19 +209,10 @@ void DetailMarkers::fill(visualization_msgs::MarkerArray& array) {
   showUnlessEmpty(folds);
 
   for (int i = 0; i < simulator.obstacleCount(); ++i) {
-    place(array.markers[static_cast<std::size_t>(kFirstObstacle) + static_cast<std::size_t>(i)], i);
+    Marker& obstacle = array.markers[static_cast<std::size_t>(kFirstObstacle) + static_cast<std::size_t>(i)];
+    obstacle.action = simulator.obstaclePresent(i) ? Marker::ADD : Marker::DELETE;
+    obstacle.pose = toPose(simulator.obstaclePose(i));
   }
-}
-
-void DetailMarkers::place(Marker& marker, int obstacle) const {
-  const curtain::Simulator& simulator = shape_.simulator();
-  const curtain::Pose& pose = simulator.obstaclePose(obstacle);
-  marker.action = simulator.obstaclePresent(obstacle) ? Marker::ADD : Marker::DELETE;
-  marker.pose.position = toPoint(pose.position);
-  marker.pose.orientation.x = pose.orientation.x();
-  marker.pose.orientation.y = pose.orientation.y();
-  marker.pose.orientation.z = pose.orientation.z();
-  marker.pose.orientation.w = pose.orientation.w();
 }
 
 }  // namespace curtain_ros

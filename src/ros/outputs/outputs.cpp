@@ -6,63 +6,64 @@
 namespace curtain_ros {
 
 namespace {
-constexpr double kPicturesAtRest = 1.0;  // [1/s]
-constexpr double kWarnPeriod = 10.0;     // [s] between warnings
+constexpr double kMarkersAtRest = 1.0;  // [1/s]
+constexpr double kPlanRate = 1.0;       // [1/s]
+constexpr double kWarnPeriod = 10.0;    // [s] between warnings
 }  // namespace
 
-Outputs::Outputs(ros::NodeHandle private_node, const NodeParams& params, const curtain::Simulator& simulator,
-                 Frames& frames)
-    : shape_(simulator),
+// Short queues: late listeners want the newest frame, not the ones they missed.
+Outputs::Outputs(ros::NodeHandle node, const NodeParams& params, const curtain::Simulator& simulator, Frames& frames)
+    : geometry_(simulator),
       frames_(frames),
       viewer_frame_(params.mesh_viewer_frame),
-      state_pace_(params.state_rate, params.state_rest_rate, simulator.scene().solver.frame_rate),
-      contacts_pace_(state_pace_),
-      mesh_pace_(params.mesh_rate, kPicturesAtRest, simulator.scene().solver.frame_rate),
-      markers_pace_(params.markers_rate, kPicturesAtRest, simulator.scene().solver.frame_rate),
-      states_(params, shape_),
-      contacts_(params),
-      mesh_(params.world_frame, shape_),
-      details_(params.world_frame, shape_),
-      // Late listeners want the newest frame, not the ones they missed.
-      state_publisher_(private_node.advertise<curtain_sim::CurtainState>("state", 2)),
-      mesh_publisher_(private_node.advertise<visualization_msgs::Marker>("mesh", 1)),
-      markers_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", 1)),
-      contacts_publisher_(private_node.advertise<curtain_sim::Contacts>("contacts", 2)) {
+      state_{node.advertise<curtain_sim::CurtainState>("state", 2),
+             {params.state_rate, params.state_rest_rate, simulator.scene().solver.frame_rate}},
+      contacts_{node.advertise<curtain_sim::Contacts>("contacts", 2), state_.pace},
+      mesh_{node.advertise<visualization_msgs::Marker>("mesh", 1),
+            {params.mesh_rate, kMarkersAtRest, simulator.scene().solver.frame_rate}},
+      markers_{node.advertise<visualization_msgs::MarkerArray>("markers", 1),
+               {params.markers_rate, kMarkersAtRest, simulator.scene().solver.frame_rate}},
+      states_(params, geometry_),
+      contact_messages_(params),
+      mesh_marker_(params.world_frame, geometry_),
+      detail_markers_(params.world_frame, geometry_),
+      plan_rate_(kPlanRate, simulator.scene().solver.frame_rate) {
   detail_.tolerance = params.mesh_tolerance;
   detail_.viewer_tolerance = params.mesh_viewer_tolerance;
 }
 
 void Outputs::publish(const ros::Time& stamp, curtain_sim::Statistics statistics, bool latest) {
-  for (Pace* pace : {&state_pace_, &contacts_pace_, &mesh_pace_, &markers_pace_}) pace->tick();
-  if (state_pace_.due(state_publisher_.getNumSubscribers()) && state_pace_.send(shape_.revision())) {
-    ++states_sent_;
+  for (Stream* stream : {&state_, &contacts_, &mesh_, &markers_}) stream->pace.tick();
+  if (state_.due() && state_.pace.send(geometry_.revision())) {
+    ++state_.sent;
     count(statistics);
-    state_publisher_.publish(states_.build(stamp, statistics));
+    state_.publisher.publish(states_.build(stamp, statistics));
   }
-  if (contacts_pace_.due(contacts_publisher_.getNumSubscribers()) && contacts_pace_.send(shape_.revision())) {
-    contacts_publisher_.publish(contacts_.build(shape_.simulator(), stamp));
+  if (contacts_.due() && contacts_.pace.send(geometry_.revision())) {
+    contacts_.publisher.publish(contact_messages_.build(geometry_.simulator(), stamp));
   }
-  if (latest) publishPictures(stamp);
+  if (latest) publishMarkers(stamp);
+  logPlan();
 }
 
-void Outputs::publishPictures(const ros::Time& stamp) {
-  if (mesh_pace_.due(mesh_publisher_.getNumSubscribers()) && mesh_pace_.send(mesh_.look(meshDetail()))) {
-    mesh_publisher_.publish(mesh_.build(stamp));
-    ++meshes_sent_;
+void Outputs::publishMarkers(const ros::Time& stamp) {
+  if (mesh_.due() && mesh_.pace.send(mesh_marker_.update(meshDetail()))) {
+    mesh_.publisher.publish(mesh_marker_.build(stamp));
+    ++mesh_.sent;
   }
-  if (markers_pace_.due(markers_publisher_.getNumSubscribers()) && markers_pace_.send(details_.look())) {
-    markers_publisher_.publish(details_.build(stamp));
-    ++markers_sent_;
+  if (markers_.due() && markers_.pace.send(detail_markers_.update())) {
+    markers_.publisher.publish(detail_markers_.build(stamp));
+    ++markers_.sent;
   }
 }
 
 void Outputs::count(curtain_sim::Statistics& statistics) const {
-  statistics.states_sent = states_sent_;
-  statistics.meshes_sent = meshes_sent_;
-  statistics.markers_sent = markers_sent_;
+  statistics.states_sent = state_.sent;
+  statistics.meshes_sent = mesh_.sent;
+  statistics.markers_sent = markers_.sent;
 }
 
-// A viewer that tf2 does not know is one that sees everything: full detail. One that was known stays where it was.
+// A viewer that tf2 does not know yet gets full detail; one that was known stays where it was.
 curtain::MeshDetail Outputs::meshDetail() {
   if (viewer_frame_.empty()) return detail_;
   const FrameLookup viewer = frames_.lookup(viewer_frame_);
@@ -71,10 +72,23 @@ curtain::MeshDetail Outputs::meshDetail() {
   if (!viewer_error_.empty()) {
     ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "the frame '" << viewer_frame_ << "' of ~mesh_viewer_frame is not known in '"
                                                         << frames_.world() << "', ~mesh is made for "
-                                                        << (detail_.viewer ? "where it was last" : "any eye") << ": "
+                                                        << (detail_.viewer ? "where it was last" : "any viewer") << ": "
                                                         << viewer_error_);
   }
   return detail_;
+}
+
+void Outputs::logPlan() {
+  if (!plan_rate_.tick()) return;
+  ROSCONSOLE_DEFINE_LOCATION(true, ros::console::levels::Debug, ROSCONSOLE_DEFAULT_NAME ".plan");
+  if (!__rosconsole_define_location__enabled) {
+    plan_.clear();  // whoever turns it on sees it whole
+    return;
+  }
+  curtain::Plan plan = geometry_.simulator().plan();
+  if (plan == plan_) return;
+  ROS_DEBUG_STREAM_NAMED("plan", "plan at " << geometry_.simulator().time() << " s:\n" << curtain::describe(plan));
+  plan_ = std::move(plan);
 }
 
 }  // namespace curtain_ros

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Floor 5: ~state, ~contacts, ~mesh and ~markers. What nobody subscribes to is not built; what is built is shared with
-// subscribers in this process, not copied.
+// ~state, ~contacts, ~mesh and ~markers. What nobody subscribes to is not built; what is built is shared with
+// subscribers in this process, not copied. And the plan (what runs for the scene, what is skipped) in the log, at level
+// DEBUG.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -27,40 +28,41 @@ class Outputs {
   Outputs(ros::NodeHandle private_node, const NodeParams& params, const curtain::Simulator& simulator, Frames& frames);
 
   /// Publishes a frame.
-  ///   statistics  the node's own fields are filled in; the engine's and the counters of what was sent are added to
-  ///   them latest      false: another frame follows at once, so that pictures of this one are not worth building
+  ///   statistics  the node's own fields; the engine's and the counters of what was sent are added to them
+  ///   latest      false: another frame follows at once, so that markers of this one are not worth building
   void publish(const ros::Time& stamp, curtain_sim::Statistics statistics, bool latest);
 
-  /// Adds what was sent since construction.
+  /// Fills in what was sent since construction.
   void count(curtain_sim::Statistics& statistics) const;
 
   /// Why the viewer's frame is not known; empty: it is, or there is none, or nobody wants the mesh.
   const std::string& viewerError() const { return viewer_error_; }
 
  private:
-  void publishPictures(const ros::Time& stamp);
-  curtain::MeshDetail meshDetail();
+  struct Stream {
+    ros::Publisher publisher;
+    Pace pace;
+    std::uint64_t sent = 0;
 
-  Shape shape_;
+    bool due() { return pace.due(publisher.getNumSubscribers()); }
+  };
+
+  void publishMarkers(const ros::Time& stamp);
+  curtain::MeshDetail meshDetail();
+  void logPlan();
+
+  GeometryCache geometry_;
   Frames& frames_;
   std::string viewer_frame_;
   std::string viewer_error_;
   curtain::MeshDetail detail_;
-  Pace state_pace_;
-  Pace contacts_pace_;
-  Pace mesh_pace_;
-  Pace markers_pace_;
+  Stream state_, contacts_, mesh_, markers_;
   StateMessages states_;
-  ContactMessages contacts_;
-  MeshMarker mesh_;
-  DetailMarkers details_;
-  std::uint64_t states_sent_ = 0;
-  std::uint64_t meshes_sent_ = 0;
-  std::uint64_t markers_sent_ = 0;
-  ros::Publisher state_publisher_;
-  ros::Publisher mesh_publisher_;
-  ros::Publisher markers_publisher_;
-  ros::Publisher contacts_publisher_;
+  ContactMessages contact_messages_;
+  MeshMarker mesh_marker_;
+  DetailMarkers detail_markers_;
+  RateDivider plan_rate_;
+  curtain::Plan plan_;  // that was logged last
 };
 
 }  // namespace curtain_ros

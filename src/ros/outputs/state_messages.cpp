@@ -2,7 +2,6 @@
 #include "ros/outputs/state_messages.h"
 
 #include "ros/frames/geometry.h"
-#include "ros/outputs/to_messages.h"
 
 namespace curtain_ros {
 
@@ -26,38 +25,83 @@ curtain_sim::Contacts blankContacts(const NodeParams& params) {
 
 }  // namespace
 
-StateMessages::StateMessages(const NodeParams& params, Shape& shape)
-    : shape_(shape), folds_(params.state_folds), pool_(blankState(params, shape.simulator())) {}
+void flatten(const std::vector<curtain::Vec3>& points, std::vector<float>& out) {
+  out.resize(3 * points.size());
+  float* to = out.data();
+  for (const curtain::Vec3& point : points) {
+    for (const double x : point) *to++ = static_cast<float>(x);
+  }
+}
+
+void flattenFolds(const curtain::FineMeshTopology& topology, const curtain::FineMesh& mesh, std::vector<float>& out) {
+  out.clear();
+  const auto columns = static_cast<std::size_t>(topology.columns);
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    if (i % columns % static_cast<std::size_t>(topology.folds) == 0) continue;  // first layer
+    for (const double x : mesh.positions[i]) out.push_back(static_cast<float>(x));
+  }
+}
+
+void toMessage(const curtain::Statistics& statistics, curtain_sim::Statistics& message) {
+  message.frame = static_cast<std::uint64_t>(statistics.frames);
+  message.simulated_time = statistics.time;
+  message.substeps_total = static_cast<std::uint64_t>(statistics.substeps);
+  message.substeps = static_cast<std::uint32_t>(statistics.substeps_last);
+  message.sweeps = static_cast<std::uint32_t>(statistics.sweeps_last);
+  message.rejected = static_cast<std::uint64_t>(statistics.rejected);
+  message.unsettled = static_cast<std::uint64_t>(statistics.unsettled);
+  message.estimates_skipped = static_cast<std::uint64_t>(statistics.estimates_skipped);
+  message.longer_substeps = static_cast<std::uint64_t>(statistics.longer_substeps);
+  message.unfinished_substeps = static_cast<std::uint64_t>(statistics.unfinished_substeps);
+  message.shortened_frames = static_cast<std::uint64_t>(statistics.shortened_frames);
+  message.lost_time = statistics.lost_time;
+  message.late_frames = static_cast<std::uint64_t>(statistics.late_frames);
+  message.asleep = static_cast<std::uint32_t>(statistics.asleep);
+  message.wakes = static_cast<std::uint64_t>(statistics.wakes);
+  message.warp_stretch = statistics.warp_stretch;
+  message.weft_stretch = statistics.weft_stretch;
+  message.contacts = static_cast<std::uint32_t>(statistics.contacts);
+  message.position_error = statistics.position_error;
+  message.penetration_max = statistics.penetration_max;
+  message.step_ms = 1e3 * statistics.step_seconds;
+  message.step_ms_max = 1e3 * statistics.step_seconds_max;
+  message.finite = statistics.finite;
+  message.last_resort_substeps = static_cast<std::uint64_t>(statistics.last_resort_substeps);
+  message.momentum_cut = statistics.momentum_cut;
+  message.obstacles_waited = statistics.obstacles_waited;
+  message.stops = static_cast<std::uint64_t>(statistics.stops);
+}
+
+StateMessages::StateMessages(const NodeParams& params, GeometryCache& geometry)
+    : geometry_(geometry), folds_(params.state_folds), message_(blankState(params, geometry.simulator())) {}
 
 curtain_sim::CurtainState::ConstPtr StateMessages::build(const ros::Time& stamp,
                                                          const curtain_sim::Statistics& statistics) {
-  auto& [message, revision] = pool_.take();
-  if (revision != shape_.revision()) fill(*message);
-  revision = shape_.revision();
+  const auto message = message_.edit();
+  if (filled_ != geometry_.revision()) fill(*message);
+  filled_ = geometry_.revision();
   message->header.stamp = stamp;
   message->statistics = statistics;
-  toMessage(shape_.simulator().statistics(), message->statistics);
+  toMessage(geometry_.simulator().statistics(), message->statistics);
   return message;
 }
 
 void StateMessages::fill(curtain_sim::CurtainState& message) {
-  const curtain::Simulator& simulator = shape_.simulator();
-  flatten(shape_.nodes(), message.positions);
+  const curtain::Simulator& simulator = geometry_.simulator();
+  flatten(geometry_.nodes(), message.positions);
   simulator.copyVelocities(vectors_);
   flatten(vectors_, message.velocities);
   simulator.copyForces(vectors_);
   flatten(vectors_, message.forces);
-  if (folds_) flattenFolds(simulator.fineMeshTopology(), shape_.fineMesh(), message.fold_nodes);
+  if (folds_) flattenFolds(simulator.fineMeshTopology(), geometry_.fineMesh(), message.fold_nodes);
 }
 
-ContactMessages::ContactMessages(const NodeParams& params) : pool_(blankContacts(params)) {}
+ContactMessages::ContactMessages(const NodeParams& params) : message_(blankContacts(params)) {}
 
 curtain_sim::Contacts::ConstPtr ContactMessages::build(const curtain::Simulator& simulator, const ros::Time& stamp) {
-  const auto& message = pool_.take().message;
+  const auto message = message_.edit();
   message->header.stamp = stamp;
-  std::size_t present = 0;
-  for (int index = 0; index < simulator.obstacleCount(); ++index) present += simulator.obstaclePresent(index);
-  message->obstacles.resize(present);
+  message->obstacles.resize(static_cast<std::size_t>(simulator.obstacleCount()));
   auto to = message->obstacles.begin();
   for (int index = 0; index < simulator.obstacleCount(); ++index) {
     if (!simulator.obstaclePresent(index)) continue;
@@ -71,6 +115,7 @@ curtain_sim::Contacts::ConstPtr ContactMessages::build(const curtain::Simulator&
     to->contacts = static_cast<std::uint32_t>(wrench.contacts);
     ++to;
   }
+  message->obstacles.erase(to, message->obstacles.end());
   return message;
 }
 

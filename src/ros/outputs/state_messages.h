@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Floor 5: the messages of ~state and ~contacts.
+// The messages of ~state and ~contacts, and what they are made of. Needs no ROS master.
 #pragma once
 
 #include <ros/time.h>
@@ -12,16 +12,25 @@
 #include "curtain_sim/Contacts.h"
 #include "curtain_sim/CurtainState.h"
 #include "ros/outputs/geometry_cache.h"
-#include "ros/outputs/message_pool.h"
+#include "ros/outputs/reused_message.h"
 #include "ros/parameters/parameters.h"
 
 namespace curtain_ros {
 
+/// Flat xyz, as CurtainState holds its arrays; out is resized.
+void flatten(const std::vector<curtain::Vec3>& points, std::vector<float>& out);
+
+/// Flat xyz of the second-layer nodes of a fine mesh, in the order that CurtainState documents; out is resized.
+void flattenFolds(const curtain::FineMeshTopology& topology, const curtain::FineMesh& mesh, std::vector<float>& out);
+
+/// The engine's part of the statistics; the node's own fields are left as they are.
+void toMessage(const curtain::Statistics& statistics, curtain_sim::Statistics& message);
+
 /// Node states. One thread at a time.
 class StateMessages {
  public:
-  /// shape must outlive this.
-  StateMessages(const NodeParams& params, Shape& shape);
+  /// geometry must outlive this.
+  StateMessages(const NodeParams& params, GeometryCache& geometry);
 
   /// The message of a frame.
   ///   statistics  the node's own fields; the engine's are filled in
@@ -30,10 +39,11 @@ class StateMessages {
  private:
   void fill(curtain_sim::CurtainState& message);
 
-  Shape& shape_;
+  GeometryCache& geometry_;
   bool folds_;
   std::vector<curtain::Vec3> vectors_;
-  MessagePool<curtain_sim::CurtainState, std::optional<std::uint64_t>> pool_;  // content: revision of the arrays
+  std::optional<std::uint64_t> filled_;  // revision of the arrays in the message
+  ReusedMessage<curtain_sim::CurtainState> message_;
 };
 
 /// What the cloth does to the obstacles that are present. One thread at a time.
@@ -44,8 +54,7 @@ class ContactMessages {
   curtain_sim::Contacts::ConstPtr build(const curtain::Simulator& simulator, const ros::Time& stamp);
 
  private:
-  struct Nothing {};  // wrenches are few: filled in each time
-  MessagePool<curtain_sim::Contacts, Nothing> pool_;
+  ReusedMessage<curtain_sim::Contacts> message_;
 };
 
 }  // namespace curtain_ros

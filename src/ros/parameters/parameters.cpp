@@ -3,16 +3,11 @@
 
 #include <ros/console.h>
 #include <ros/param.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <map>
-#include <optional>
+#include <yaml-cpp/yaml.h>
 
 #include "curtain_sim/scene_yaml.h"
-#include "ros/parameters/xmlrpc_yaml.h"
-#include "scene/spelling.h"
+#include "scene/range_checker.h"
+#include "scene/strict_reader.h"
 
 namespace curtain_ros {
 
@@ -22,133 +17,80 @@ namespace {
 
 const char kScene[] = "scene";
 
-// A reader sets its field, or returns what is wrong.
-using Reader = std::function<std::string(const XmlRpcValue&, NodeParams&)>;
+// The scene's visitors, with the one kind of value that only nodes have: text that may be empty.
+struct Reader : curtain::StrictReader {
+  using StrictReader::StrictReader;
+  void textOrNone(curtain::Key key, std::string& value) { text(key, value); }
+};
+struct Checker : curtain::RangeChecker {
+  using RangeChecker::RangeChecker;
+  void textOrNone(curtain::Key, const std::string&) {}
+};
 
-// NaN: it is none.
-double numberOf(const XmlRpcValue& value) {
-  if (value.getType() == XmlRpcValue::TypeDouble) return static_cast<const double&>(value);
-  if (value.getType() == XmlRpcValue::TypeInt) return static_cast<const int&>(value);
-  return std::nan("");
+// A scalar as the scene's reader knows it from a file: "!" is text, whatever it looks like, "?" is a value.
+YAML::Node scalar(const std::string& text, const char* tag) {
+  YAML::Node node(text);
+  node.SetTag(tag);
+  return node;
 }
 
-Reader number(double NodeParams::*field, double largest, const std::string& unit) {
-  return [=](const XmlRpcValue& value, NodeParams& params) -> std::string {
-    const double number = numberOf(value);
-    if (!(number > 0.0 && number <= largest)) {
-      return "must be a number in (0, " + yamlText(largest) + "] " + unit + ", is " + describeValue(value);
-    }
-    params.*field = number;
-    return "";
-  };
+// The same tree, with its types: text is never a number, and a number with a fraction never an integer.
+YAML::Node toYaml(const XmlRpcValue& value) {
+  YAML::Node node;
+  switch (value.getType()) {
+    case XmlRpcValue::TypeBoolean:
+      return scalar(static_cast<const bool&>(value) ? "true" : "false", "?");
+    case XmlRpcValue::TypeInt:
+      return scalar(std::to_string(static_cast<const int&>(value)), "?");
+    case XmlRpcValue::TypeDouble:
+      return scalar(curtain::formatYamlNumber(static_cast<const double&>(value)), "?");
+    case XmlRpcValue::TypeString:
+      return scalar(static_cast<const std::string&>(value), "!");
+    case XmlRpcValue::TypeArray:
+      node = YAML::Node(YAML::NodeType::Sequence);
+      for (int i = 0; i < value.size(); ++i) node.push_back(toYaml(value[i]));
+      return node;
+    case XmlRpcValue::TypeStruct:
+      node = YAML::Node(YAML::NodeType::Map);
+      for (const auto& entry : value) node[entry.first] = toYaml(entry.second);
+      return node;
+    default:
+      return scalar("a date or binary data", "!");  // no key takes them
+  }
 }
 
-Reader numberBetween(double NodeParams::*field, double smallest, double largest, const std::string& unit) {
-  return [=](const XmlRpcValue& value, NodeParams& params) -> std::string {
-    const double number = numberOf(value);
-    if (!(number >= smallest && number <= largest)) {
-      return "must be a number in [" + yamlText(smallest) + ", " + yamlText(largest) + "] " + unit + ", is " +
-             describeValue(value);
-    }
-    params.*field = number;
-    return "";
-  };
-}
-
-Reader numberOrZero(double NodeParams::*field, double largest, const std::string& unit) {
-  return numberBetween(field, 0.0, largest, unit);
-}
-
-Reader integer(int NodeParams::*field, int smallest, int largest) {
-  return [=](const XmlRpcValue& value, NodeParams& params) -> std::string {
-    const bool right = value.getType() == XmlRpcValue::TypeInt;
-    if (!right || static_cast<const int&>(value) < smallest || static_cast<const int&>(value) > largest) {
-      return "must be an integer in [" + std::to_string(smallest) + ", " + std::to_string(largest) + "], is " +
-             describeValue(value);
-    }
-    params.*field = static_cast<const int&>(value);
-    return "";
-  };
-}
-
-Reader boolean(bool NodeParams::*field) {
-  return [=](const XmlRpcValue& value, NodeParams& params) -> std::string {
-    if (value.getType() != XmlRpcValue::TypeBoolean) return "must be true or false, is " + describeValue(value);
-    params.*field = static_cast<const bool&>(value);
-    return "";
-  };
-}
-
-Reader text(std::string NodeParams::*field) {
-  return [=](const XmlRpcValue& value, NodeParams& params) -> std::string {
-    if (value.getType() != XmlRpcValue::TypeString || static_cast<const std::string&>(value).empty()) {
-      return "must be a text that is not empty, is " + describeValue(value);
-    }
-    params.*field = static_cast<const std::string&>(value);
-    return "";
-  };
-}
-
-Reader textOrEmpty(std::string NodeParams::*field) {
-  return [=](const XmlRpcValue& value, NodeParams& params) -> std::string {
-    if (value.getType() != XmlRpcValue::TypeString) return "must be a text, is " + describeValue(value);
-    params.*field = static_cast<const std::string&>(value);
-    return "";
-  };
-}
-
-const std::map<std::string, Reader>& readers() {
-  static const std::map<std::string, Reader> table = {
-      {"world_frame", text(&NodeParams::world_frame)},
-      {"obstacle_timeout", number(&NodeParams::obstacle_timeout, 3600.0, "[s]")},
-      {"state_rate", numberOrZero(&NodeParams::state_rate, 10000.0, "[1/s]")},
-      {"state_rest_rate", numberOrZero(&NodeParams::state_rest_rate, 10000.0, "[1/s]")},
-      {"mesh_rate", number(&NodeParams::mesh_rate, 10000.0, "[1/s]")},
-      {"mesh_tolerance", numberOrZero(&NodeParams::mesh_tolerance, 1000.0, "[m]")},
-      {"mesh_viewer_frame", textOrEmpty(&NodeParams::mesh_viewer_frame)},
-      {"mesh_viewer_tolerance", numberOrZero(&NodeParams::mesh_viewer_tolerance, 1.0, "[rad]")},
-      {"markers_rate", number(&NodeParams::markers_rate, 10000.0, "[1/s]")},
-      {"max_catch_up", integer(&NodeParams::max_catch_up, 1, 1000)},
-      {"state_folds", boolean(&NodeParams::state_folds)},
-      {"handles", boolean(&NodeParams::handles)},
-      {"handle_stiffness", number(&NodeParams::handle_stiffness, 1e6, "[N/m]")},
-      {"snapshot_file", textOrEmpty(&NodeParams::snapshot_file)},
-      {"snapshot_period", numberBetween(&NodeParams::snapshot_period, 0.1, 86400.0, "[s]")},
-      {"diagnostic_period", numberBetween(&NodeParams::diagnostic_period, 0.1, 3600.0, "[s]")},
-  };
-  return table;
-}
-
-// What a mistyped parameter was meant to be, as far as one can tell.
-std::string meant(const std::string& name) {
-  std::vector<std::string> known = nodeParameterNames();
-  known.push_back(kScene);
-  const std::optional<std::string> word = curtain::nearestWord(name, known);
-  return word ? "; did you mean " + *word + "?" : "";
+// own: a map without the scene.
+void readOwn(const YAML::Node& own, const std::string& space, ParameterReading& reading) {
+  curtain::ProblemLog log;
+  Reader reader(own, "", log);
+  curtain::visitFields(reader, reading.node);
+  Checker checker("", log);
+  curtain::visitFields(checker, reading.node);
+  for (const curtain::Problem& problem : log.problems())
+    reading.problems.push_back(space + curtain::describe({problem}));
+  // Unknown ones do no harm: other nodes keep theirs there, too.
+  const std::size_t known = log.problems().size();
+  reader.reportUnknown();
+  for (std::size_t i = known; i < log.problems().size(); ++i) {
+    reading.warnings.push_back(space + curtain::describe({log.problems()[i]}));
+  }
 }
 
 // Obstacles that name no frame stand still in the world, whatever the world frame is called here.
-void fillObstacleFrames(YAML::Node& scene, const std::string& world_frame) {
-  if (!scene.IsMap()) return;
-  YAML::Node obstacles = static_cast<const YAML::Node&>(scene)["obstacles"];
+void fillObstacleFrames(const YAML::Node& scene, const std::string& world_frame) {
+  const YAML::Node obstacles = scene["obstacles"];
   if (!obstacles || !obstacles.IsSequence()) return;
   for (YAML::Node obstacle : obstacles) {
-    if (!obstacle.IsMap() || obstacle["frame"]) continue;
-    YAML::Node frame(world_frame);
-    frame.SetTag("!");
-    obstacle["frame"] = frame;
+    if (obstacle.IsMap() && !obstacle["frame"]) obstacle["frame"] = scalar(world_frame, "!");
   }
 }
 
-void readSceneTree(const XmlRpcValue& tree, const std::string& name, ParameterReading& reading) {
-  YAML::Node yaml = toYaml(tree);
-  fillObstacleFrames(yaml, reading.node.world_frame);
+void readSceneTree(const YAML::Node& yaml, const std::string& name, ParameterReading& reading) {
+  if (yaml.IsMap()) fillObstacleFrames(yaml, reading.node.world_frame);
   curtain::SceneReading scene = curtain::readScene(yaml);
-  for (const curtain::Problem& problem : scene.problems) {
-    reading.problems.push_back(curtain::describe({problem}, name));
-  }
-  // Motions are for offline runs. An obstacle on a frame of its own has tf2 instead; one in the world frame
-  // would silently stand still.
+  for (const curtain::Problem& problem : scene.problems) reading.problems.push_back(curtain::describe({problem}, name));
+  // Motions are for offline runs. An obstacle on a frame of its own has tf2 instead; one in the world frame would stand
+  // still without a word.
   for (curtain::ObstacleParams& obstacle : scene.scene.obstacles) {
     if (!obstacle.motion.empty() && obstacle.frame == reading.node.world_frame) {
       reading.warnings.push_back(
@@ -162,40 +104,18 @@ void readSceneTree(const XmlRpcValue& tree, const std::string& name, ParameterRe
 
 }  // namespace
 
-std::vector<std::string> nodeParameterNames() {
-  std::vector<std::string> names;
-  for (const auto& reader : readers()) names.push_back(reader.first);
-  return names;
-}
-
 ParameterReading readParameters(const XmlRpcValue& tree, const std::string& private_space) {
+  YAML::Node own = tree.valid() ? toYaml(tree) : YAML::Node(YAML::NodeType::Map);
+  const YAML::Node scene = static_cast<const YAML::Node&>(own)[kScene];
+  own.remove(kScene);
   ParameterReading reading;
-  const XmlRpcValue* scene = nullptr;
-  if (tree.getType() == XmlRpcValue::TypeStruct) {
-    for (const auto& entry : tree) {
-      const std::string name = private_space + "/" + entry.first;
-      if (entry.first == kScene) {
-        scene = &entry.second;
-        continue;
-      }
-      const auto reader = readers().find(entry.first);
-      if (reader == readers().end()) {
-        reading.warnings.push_back(name + ": unknown parameter, not used" + meant(entry.first));
-        continue;
-      }
-      const std::string problem = reader->second(entry.second, reading.node);
-      if (!problem.empty()) reading.problems.push_back(name + ": " + problem);
-    }
-  }
+  readOwn(own, private_space + "/", reading);
   const std::string scene_name = private_space + "/" + kScene;
-  if (scene == nullptr) {
-    reading.problems.push_back(scene_name +
-                               ": missing; load a scene file there: <rosparam command=\"load\" ns=\"scene\" "
-                               "file=\"...\"/>");
-  } else if (scene->getType() != XmlRpcValue::TypeStruct) {
-    reading.problems.push_back(scene_name + ": must be a dictionary, is " + describeValue(*scene));
+  if (scene) {
+    readSceneTree(scene, scene_name, reading);
   } else {
-    readSceneTree(*scene, scene_name, reading);
+    reading.problems.push_back(
+        scene_name + ": missing; load a scene file there: <rosparam command=\"load\" ns=\"scene\" file=\"...\"/>");
   }
   return reading;
 }
@@ -205,12 +125,10 @@ ParameterReading readParameters(const ros::NodeHandle& private_node) {
   ros::param::get(private_node.getNamespace(), tree);
   ParameterReading reading = readParameters(tree, private_node.getNamespace());
   for (const std::string& warning : reading.warnings) ROS_WARN_STREAM(warning);
-  if (!reading.problems.empty()) {
-    std::string list = "can't start, " + std::to_string(reading.problems.size()) + " problem(s) with the parameters:";
-    for (const std::string& problem : reading.problems) list += "\n  " + problem;
-    throw ParameterError(list);
-  }
-  return reading;
+  if (reading.problems.empty()) return reading;
+  std::string list = "can't start, " + std::to_string(reading.problems.size()) + " problem(s) with the parameters:";
+  for (const std::string& problem : reading.problems) list += "\n  " + problem;
+  throw ParameterError(list);
 }
 
 }  // namespace curtain_ros

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Floor 5: the node's private parameters, read strictly and judged as a whole before anything starts.
-// config/curtain.yaml is their manual. All are read once, at the start.
+// The node's private parameters: one table of names, defaults and ranges, read strictly and judged as a whole before
+// anything starts. config/curtain.yaml is their manual. All are read once, at the start.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -12,27 +12,29 @@
 #include <vector>
 
 #include "curtain_sim/scene.h"
+#include "scene/fields.h"
 
 namespace curtain_ros {
 
-/// The node's own parameters.
+/// The node's own parameters; their ranges are in the table below.
 struct NodeParams {
   std::string world_frame = "world";     ///< tf2 frame of the simulation, not empty
-  double obstacle_timeout = 0.5;         ///< [s] an obstacle whose frame is older is left out, > 0
-  double state_rate = 0.0;               ///< of ~state and ~contacts [1/s of simulated time], >= 0; 0 = every frame
-  double state_rest_rate = 0.0;          ///< of them while nothing moves, >= 0; 0 = the same
-  double mesh_rate = 20.0;               ///< of ~mesh, > 0; the frame rate is its cap
-  double mesh_tolerance = 0.0;           ///< [m] that ~mesh may be off the fine mesh, >= 0
-  std::string mesh_viewer_frame;         ///< tf2 frame of an eye that ~mesh is for; empty: none
-  double mesh_viewer_tolerance = 0.001;  ///< [rad] that it may be off as seen from there, >= 0
-  double markers_rate = 10.0;            ///< of ~markers, the same
-  int max_catch_up = 4;                  ///< frames a late node makes at once before it drops some [1..1000]
+  double obstacle_timeout = 0.5;         ///< [s] an obstacle whose frame is older is left out
+  double state_rate = 0.0;               ///< of ~state and ~contacts [1/s of simulated time]; 0 = every frame
+  double state_rest_rate = 0.0;          ///< of them while nothing moves; 0 = the same
+  double mesh_rate = 20.0;               ///< of ~mesh; the frame rate is its cap
+  double mesh_tolerance = 0.0;           ///< [m] that ~mesh may be off the fine mesh
+  std::string mesh_viewer_frame;         ///< tf2 frame of the camera that ~mesh is for; empty: none
+  double mesh_viewer_tolerance = 0.001;  ///< [rad] that it may be off as seen from there
+  double markers_rate = 10.0;            ///< of ~markers, as mesh_rate
+  int max_catch_up = 4;                  ///< frames that a late node makes at once before it drops some
   bool state_folds = false;              ///< ~state carries the second-layer nodes
   bool handles = true;                   ///< interactive markers on the hem
-  double handle_stiffness = 100.0;       ///< of their springs [N/m], > 0
-  std::string snapshot_file;             ///< where the curtain's state is kept for the next start; empty: nowhere
-  double snapshot_period = 10.0;         ///< [s] of the node's clock between two of them [0.1..86400]
-  double diagnostic_period = 1.0;  ///< [s] between two messages on /diagnostics, by the computer's clock [0.1..3600]
+  double handle_stiffness = 100.0;       ///< of their springs [N/m]
+  std::string snapshot_file;             ///< where the state is kept for the next start; empty: nowhere
+  double snapshot_period = 10.0;         ///< [s] of the node's clock between two snapshots
+  double diagnostic_period = 1.0;        ///< [s] of the computer's clock between two messages on /diagnostics
+  bool watch_roscpp = true;  ///< register with a restarted master, count messages dropped in roscpp's queues
 };
 
 /// What reading gave: usable only when problems is empty.
@@ -42,9 +44,6 @@ struct ParameterReading {
   std::vector<std::string> problems;  ///< "parameter: text", one each
   std::vector<std::string> warnings;
 };
-
-/// Names of the node's own parameters, without scene; sorted.
-std::vector<std::string> nodeParameterNames();
 
 /// Reads a tree of private parameters.
 ///   tree           struct, or invalid when there are none
@@ -57,7 +56,36 @@ class ParameterError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Reads the private parameters from the server, warns of unknown ones, throws ParameterError.
+/// Reads the private parameters from the server, logs the warnings, throws ParameterError.
 ParameterReading readParameters(const ros::NodeHandle& private_node);
 
 }  // namespace curtain_ros
+
+namespace curtain {
+
+/// The table, for the visitors that read and check scenes.
+template <>
+struct Fields<curtain_ros::NodeParams> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& params) {
+    v.text("world_frame", params.world_frame);
+    v.number("obstacle_timeout", params.obstacle_timeout, between(kSmallest, 3600.0));
+    v.number("state_rate", params.state_rate, between(0.0, 10000.0));
+    v.number("state_rest_rate", params.state_rest_rate, between(0.0, 10000.0));
+    v.number("mesh_rate", params.mesh_rate, between(kSmallest, 10000.0));
+    v.number("mesh_tolerance", params.mesh_tolerance, between(0.0, 1000.0));
+    v.textOrNone("mesh_viewer_frame", params.mesh_viewer_frame);
+    v.number("mesh_viewer_tolerance", params.mesh_viewer_tolerance, between(0.0, 1.0));
+    v.number("markers_rate", params.markers_rate, between(kSmallest, 10000.0));
+    v.integer("max_catch_up", params.max_catch_up, IntRange{1, 1000});
+    v.flag("state_folds", params.state_folds);
+    v.flag("handles", params.handles);
+    v.number("handle_stiffness", params.handle_stiffness, between(kSmallest, 1e6));
+    v.textOrNone("snapshot_file", params.snapshot_file);
+    v.number("snapshot_period", params.snapshot_period, between(0.1, 86400.0));
+    v.number("diagnostic_period", params.diagnostic_period, between(0.1, 3600.0));
+    v.flag("watch_roscpp", params.watch_roscpp);
+  }
+};
+
+}  // namespace curtain

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Floor 5: when an output is sent. Counts frames, so it is simulated time that is measured.
+// When an output is sent, counted in frames: rates are of simulated time.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace curtain_ros {
 
-/// Thins the frames out to a rate of their own.
+/// Picks frames at a lower rate.
 class RateDivider {
  public:
   /// rate [1/s]; 0, and anything above the frame rate: every frame.
@@ -28,13 +28,12 @@ class RateDivider {
   double phase_ = 1.0;  // the first frame is one
 };
 
-/// The pace of an output that holds until the next one comes: it is sent at its rate while what it shows changes; while
-/// that does not, at its rest rate, for those who record or watch over it, and to a new subscriber at once. To send a
-/// mesh of 20 000 triangles 20 times a second takes 6 % of a core, a state of 1760 nodes 60 times a second 1 %, most of
-/// it in roscpp and the kernel: too much for a curtain that hangs still.
+/// When an output is sent: at its rate while what it shows changes, at its rest rate while that does not, and to a new
+/// subscriber at once. A mesh of 20 000 triangles at 20 Hz takes 6 % of a core, a state of 1760 nodes at 60 Hz 1 %,
+/// most of it in roscpp and the kernel: too much for a curtain that hangs still.
 class Pace {
  public:
-  /// Rates [1/s]. 0: every frame; a rest rate of 0: no other at rest.
+  /// Rates [1/s]; 0: every frame. A rest rate of 0: the same as rate.
   Pace(double rate, double rest_rate, double frame_rate)
       : rate_(rate, frame_rate), rest_frames_(rest_rate > 0.0 ? std::lround(frame_rate / rest_rate) : 0) {}
 
@@ -44,7 +43,7 @@ class Pace {
     ++frames_since_sent_;
   }
 
-  /// Whether to look at what there is to show, for that many subscribers. Once looked at, it is the next one's turn.
+  /// Whether the output is due, for that many subscribers. True once: then the next frame at its rate is.
   bool due(std::uint32_t subscribers) {
     if (subscribers > subscribers_) sent_.reset();
     subscribers_ = subscribers;
@@ -53,7 +52,7 @@ class Pace {
     return due && subscribers > 0;
   }
 
-  /// What is due shows this; the same number, the same to see. True: to be sent.
+  /// Whether a due output is to be sent. picture: a number that changes whenever what it shows may have changed.
   bool send(std::uint64_t picture) {
     if (sent_ == picture && frames_since_sent_ < rest_frames_) return false;
     sent_ = picture;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Floor 5: which frames are due. Frames lie on a fixed grid of times, start + k / frame_rate; a late node makes
-// up for at most max_catch_up of them at once, the rest is dropped and counted. A clock that jumps back starts
-// a new grid. Knows no ROS: times come in as nanoseconds, of any clock.
+// Which frames are due. Frames lie on a fixed grid of times, start + k / frame_rate; a late node makes up for at most
+// max_catch_up of them at once, the rest is dropped and counted. A clock that jumps back starts a new grid. Knows no
+// ROS: times come in as nanoseconds, of any clock.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace curtain_ros {
@@ -14,7 +16,7 @@ class StepClock {
  public:
   /// frame_rate    [1/s], > 0
   /// max_catch_up  frames made at once at most, >= 1
-  StepClock(double frame_rate, int max_catch_up);
+  StepClock(double frame_rate, int max_catch_up) : period_(1e9 / frame_rate), max_catch_up_(max_catch_up) {}
 
   struct Due {
     int frames = 0;          ///< to be made now, each to be fetched with take()
@@ -22,19 +24,40 @@ class StepClock {
   };
 
   /// now  [ns]; the first call starts the grid, its first frame is due one period later.
-  Due update(std::int64_t now);
+  Due update(std::int64_t now) {
+    if (!started_ || now < last_) {
+      const Due due = {0, started_};
+      started_ = true;
+      start_ = last_ = now;
+      frame_ = 0;
+      return due;
+    }
+    last_ = now;
+    const auto latest = static_cast<std::int64_t>(std::floor(static_cast<double>(now + kRounding - start_) / period_));
+    const std::int64_t late = std::max<std::int64_t>(latest - frame_, 0);
+    const std::int64_t made = std::min<std::int64_t>(late, max_catch_up_);
+    dropped_ += static_cast<std::uint64_t>(late - made);
+    frame_ += late - made;
+    return {static_cast<int>(made), false};
+  }
 
-  /// Takes the next frame off the grid and returns its time [ns].
-  std::int64_t take();
+  /// Takes the next frame off the grid; its time [ns].
+  std::int64_t take() {
+    const std::int64_t time = next();
+    ++frame_;
+    return time;
+  }
 
   /// Time of the next frame [ns].
-  std::int64_t next() const { return timeOf(frame_ + 1); }
+  std::int64_t next() const { return start_ + std::llround(static_cast<double>(frame_ + 1) * period_); }
 
   /// Frames left out since construction.
   std::uint64_t dropped() const { return dropped_; }
 
  private:
-  std::int64_t timeOf(std::int64_t frame) const;
+  // Frames are due this much early [ns]: clocks that tick in frames, written as floating-point seconds, come a
+  // nanosecond short, and would otherwise be a whole tick late now and then.
+  static constexpr std::int64_t kRounding = 1000;
 
   double period_;  // [ns]
   int max_catch_up_;
