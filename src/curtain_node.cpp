@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Floor 6: the node program. It ends cleanly on SIGINT and on SIGTERM, which init systems, containers and batch schedulers
-// send; the curtain is stopped, and its snapshot written, before ROS is: roscpp takes its leave of the master, and would wait
-// for ever for one that hangs.
+// Floor 6: the node program. It ends cleanly on SIGINT and on SIGTERM, which init systems, containers and batch
+// schedulers send; the curtain is stopped, and its snapshot written, before ROS is: roscpp unregisters from the master,
+// and would wait for ever for one that hangs.
+#include "ros/curtain_node.h"
+
 #include <ros/callback_queue.h>
 #include <ros/console.h>
 #include <ros/init.h>
@@ -10,21 +12,19 @@
 
 #include <csignal>
 
-#include "ros/curtain_node.h"
-
 namespace {
 
 volatile std::sig_atomic_t runs = 0;
 volatile std::sig_atomic_t told_to_end = 0;
 
-constexpr unsigned kLeave = 3;  // [s] for taking leave of the master; a few milliseconds when it answers
+constexpr unsigned kUnregister = 3;  // [s] for unregistering from the master; a few milliseconds when it answers
 
 void handleSignals() {
   const auto end = [](int) {
     told_to_end = 1;
     if (runs != 0) return;
     ros::requestShutdown();  // it may be waiting for the master, to come up or to answer
-    alarm(kLeave);
+    alarm(kUnregister);
   };
   for (const int number : {SIGINT, SIGTERM}) std::signal(number, end);
   std::signal(SIGALRM, [](int) { _exit(0); });
@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
     alarm(0);  // told to end meanwhile: it does so in order
     while (ros::ok() && told_to_end == 0) ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.1));
     curtain.stop();
-    alarm(kLeave);
+    alarm(kUnregister);
   } catch (const curtain_ros::ParameterError& e) {
     ROS_FATAL_STREAM(e.what());
     return 1;

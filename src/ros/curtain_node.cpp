@@ -90,7 +90,7 @@ void CurtainNode::makeFrame(const ros::Time& stamp, bool latest) {
   obstacles_.update(simulator_, ros::Time::now());
   simulator_.step();
   if (!simulator_.statistics().finite) {
-    ROS_ERROR_THROTTLE(2.0, "the state is not finite any more: the curtain goes back to its start");
+    ROS_ERROR_THROTTLE(2.0, "the state is not finite any more: the curtain starts again from the scene");
     ++not_finite_;
     restart();
     return;

@@ -51,7 +51,7 @@ bool SnapshotKeeper::restore(curtain::Simulator& simulator) {
   if (!writes()) return false;
   std::error_code error;
   if (fs::status(file_, error).type() == fs::file_type::not_found) {
-    ROS_INFO_STREAM("no snapshot yet in " << file_ << ": the curtain begins at the scene's start");
+    ROS_INFO_STREAM("no snapshot yet in " << file_ << ": starting from the scene");
     return false;
   }
   std::string snapshot;
@@ -59,16 +59,16 @@ bool SnapshotKeeper::restore(curtain::Simulator& simulator) {
   if (problems.empty()) problems = simulator.restore(snapshot);
   if (problems.empty()) {
     health_.restored_time = simulator.time();
-    ROS_INFO_STREAM("goes on from the snapshot in " << file_ << " at " << simulator.time() << " s");
+    ROS_INFO_STREAM("restored the snapshot in " << file_ << ", taken at " << simulator.time() << " s");
     return true;
   }
   put_aside_ = beginsLike(file_, simulator.snapshot());
   health_.foreign = !put_aside_;
   health_.refused = curtain::describe(problems);
-  ROS_WARN_STREAM("can't go on from the snapshot in "
-                  << file_ << ", the curtain begins at the scene's start: " << health_.refused
-                  << (put_aside_ ? "; the first one written puts it aside as " + file_ + kAside
-                                 : "; it is left alone, and no snapshots are written"));
+  ROS_WARN_STREAM("can't restore the snapshot in "
+                  << file_ << ", starting from the scene: " << health_.refused
+                  << (put_aside_ ? "; it is kept as " + file_ + kAside + " when the first one is written"
+                                 : "; it is no snapshot: it is left as it is, and none is written"));
   return false;
 }
 

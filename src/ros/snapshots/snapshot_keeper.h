@@ -27,7 +27,7 @@ struct SnapshotHealth {
   std::uint32_t written = 0;
   std::uint32_t failed = 0;    ///< times that writing failed
   std::uint32_t replaced = 0;  ///< snapshots that a newer one replaced before they were written
-  double restored_time = 0.0;  ///< simulated time that the node went on from [s]; 0: it began at the scene's start
+  double restored_time = 0.0;  ///< simulated time that was restored [s]; 0: started from the scene
 };
 
 /// Simulation thread only.

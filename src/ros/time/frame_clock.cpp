@@ -17,7 +17,7 @@ StepClock::Due FrameClock::update(std::int64_t now) {
   const StepClock::Due due = steps_.update(now);
   if (due.restarted) {
     ++jumps_back_;
-    ROS_WARN("the clock jumped back: the curtain goes back to its start");
+    ROS_WARN("/clock jumped back: the curtain starts again from the scene");
   }
   return due;
 }
@@ -42,13 +42,13 @@ std::chrono::nanoseconds FrameClock::untilNext() const {
 void FrameClock::logLosses(double step_seconds) {
   const std::uint64_t dropped = steps_.dropped();
   if (dropped > logged_dropped_) {
-    ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "too late for " << dropped - logged_dropped_ << " frames: dropped ("
-                                                          << dropped << " so far); a frame takes " << 1e3 * step_seconds
-                                                          << " ms");
+    ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "dropped " << dropped - logged_dropped_ << " frames (" << dropped
+                                                     << " so far): the node is too slow, a frame takes "
+                                                     << 1e3 * step_seconds << " ms");
   }
   logged_dropped_ = dropped;
   if (stamps_.setBack() > logged_set_back_) {
-    ROS_WARN("the computer's clock was set back: stamps go back with it, the curtain goes on");
+    ROS_WARN("the computer's clock was set back: stamps follow it, the simulation continues");
   }
   logged_set_back_ = stamps_.setBack();
 }

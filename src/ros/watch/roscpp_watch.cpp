@@ -77,26 +77,16 @@ bool announcePublishers(const XmlRpcValue& topic, XmlRpcValue publishers) {
   return call(ownUri(), "publisherUpdate", {topic, publishers}).success;
 }
 
-// Each topic is a pair of name and type.
-bool registerPublishers() {
-  Answer publications = call(ownUri(), "getPublications");
-  if (!publications.success) return false;
-  XmlRpcValue& topics = publications.value;
-  for (int i = 0; i < sizeOf(topics); ++i) {
-    if (!askMaster("registerPublisher", {topics[i][0], topics[i][1], XmlRpcValue(ownUri())}).success) return false;
+// Registers what this process lists as its topics, pairs of name and type.
+bool registerTopics(const std::string& list, const std::string& method) {
+  Answer topics = call(ownUri(), list);
+  for (int i = 0; i < sizeOf(topics.value); ++i) {
+    XmlRpcValue& topic = topics.value[i];
+    const Answer others = askMaster(method, {topic[0], topic[1], XmlRpcValue(ownUri())});
+    if (!others.success) return false;
+    if (method == "registerSubscriber" && !announcePublishers(topic[0], others.value)) return false;
   }
-  return true;
-}
-
-bool registerSubscribers() {
-  Answer subscriptions = call(ownUri(), "getSubscriptions");
-  if (!subscriptions.success) return false;
-  XmlRpcValue& topics = subscriptions.value;
-  for (int i = 0; i < sizeOf(topics); ++i) {
-    const Answer publishers = askMaster("registerSubscriber", {topics[i][0], topics[i][1], XmlRpcValue(ownUri())});
-    if (!publishers.success || !announcePublishers(topics[i][0], publishers.value)) return false;
-  }
-  return true;
+  return topics.success;
 }
 
 bool registerServices() {
@@ -160,8 +150,8 @@ void RoscppWatch::logWhetherMasterAnswers(bool answers) {
 }
 
 bool RoscppWatch::registerAll() const {
-  return restoreParameters(private_space_, parameters_) && registerPublishers() && registerSubscribers() &&
-         registerServices();
+  return restoreParameters(private_space_, parameters_) && registerTopics("getPublications", "registerPublisher") &&
+         registerTopics("getSubscriptions", "registerSubscriber") && registerServices();
 }
 
 void RoscppWatch::checkQueues() {
@@ -180,8 +170,8 @@ void RoscppWatch::checkQueues() {
     }
   }
   if (dropped_ == before) return;
-  ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "messages come faster than this process takes them from roscpp: "
-                                            << dropped_ << " dropped in its queues so far");
+  ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "messages arrive faster than this process handles them: "
+                                            << dropped_ << " dropped in roscpp's queues so far");
 }
 
 }  // namespace curtain_ros
