@@ -54,6 +54,17 @@ if(TARGET test_properties)
 endif()
 curtain_add_tests(structure)
 
+# The book: its links and commands, what it leaves out, what its examples come to, and the reference of the public headers.
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+add_test(NAME docs_check COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/structure/docs_check.py)
+add_test(NAME worked_examples COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/structure/worked_examples.py
+  ${CMAKE_CURRENT_BINARY_DIR}/worked_examples -G ${CMAKE_GENERATOR} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER})
+find_program(DOXYGEN doxygen)
+if(DOXYGEN)
+  add_test(NAME doxygen COMMAND sh -c "(cat docs/Doxyfile; echo OUTPUT_DIRECTORY=${CMAKE_CURRENT_BINARY_DIR}/doxygen) | ${DOXYGEN} -"
+    WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+endif()
+
 # Instructions of optimised code, without a sanitizer's.
 if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   include(cmake/cost.cmake)

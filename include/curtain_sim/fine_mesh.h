@@ -19,7 +19,7 @@ struct FineMeshTopology {
   int rows = 0;     ///< of the grid
   int columns = 0;  ///< fine columns: links * folds + 1, closed cloth: links * folds
   int folds = 1;    ///< rods per weft link
-  bool closed = false;
+  bool closed = false;                                  ///< the rows are rings
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into FineMesh::positions, same winding all over
 };
 
@@ -31,6 +31,7 @@ struct FineMesh {
   int flattened_folds = 0;
 };
 
+/// Of a valid cloth.
 FineMeshTopology makeFineMeshTopology(const ClothParams& cloth);
 
 /// Unit normals of the fine mesh's nodes (area-weighted mean of the faces at the node); out is resized.

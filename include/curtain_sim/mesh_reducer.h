@@ -25,6 +25,7 @@ struct MeshDetail {
   std::optional<Vec3> viewer;     ///< an eye [m] …
   double viewer_tolerance = 0.0;  ///< … and the angle [rad], >= 0, that it may see the way under
 
+  /// Asks for the same triangles.
   bool operator==(const MeshDetail& other) const {
     return tolerance == other.tolerance && viewer == other.viewer && viewer_tolerance == other.viewer_tolerance;
   }
@@ -33,6 +34,7 @@ struct MeshDetail {
 /// Not thread-safe. Same mesh, same detail: same triangles. Allocates nothing once it is built.
 class MeshReducer {
  public:
+  /// Three indices into FineMesh::positions each.
   using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
   /// topology must outlive this.

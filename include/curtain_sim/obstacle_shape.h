@@ -22,8 +22,8 @@ struct SurfacePoint {
 
 /// Triangles of a shape for drawing: corners in the shape's frame [m], three indices a triangle.
 struct ShapeTriangles {
-  std::vector<Vec3> corners;
-  std::vector<Eigen::Vector3i> triangles;
+  std::vector<Vec3> corners;               ///< [m]
+  std::vector<Eigen::Vector3i> triangles;  ///< indices into corners
 };
 
 /// Geometry of an obstacle. Immutable after construction: any number of threads may query it.

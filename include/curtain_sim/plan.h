@@ -10,15 +10,17 @@ namespace curtain {
 
 /// A stage of a frame, or a part of one.
 struct PlanEntry {
-  std::string stage;
-  bool runs = false;
+  std::string stage;  ///< its name
+  bool runs = false;  ///< false: it is left out
   std::string why;  ///< what it does, or why it is left out
 
+  /// Says the same.
   bool operator==(const PlanEntry& other) const {
     return stage == other.stage && runs == other.runs && why == other.why;
   }
 };
 
+/// In the order of a frame.
 using Plan = std::vector<PlanEntry>;
 
 /// A line for each entry: "+ stage: why" for what runs, "- stage: why" for what is skipped.

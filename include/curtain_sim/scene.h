@@ -13,8 +13,10 @@
 #include <string>
 #include <vector>
 
+/// The engine. It knows no ROS.
 namespace curtain {
 
+/// A point or a vector.
 using Vec3 = Eigen::Vector3d;
 
 /// One thing wrong with an input: the dotted key it is about and what is wrong, with the allowed range.
@@ -34,15 +36,17 @@ struct Pose {
 
 /// A node of the grid: row 0 is the hung edge, columns run along it.
 struct NodeIndex {
-  int row = 0;
-  int column = 0;
+  int row = 0;     ///< along the warp
+  int column = 0;  ///< along the weft
 };
 
+/// How the cloth's mass is shared among the nodes.
 enum class Lumping {
   kArea,    ///< every node has the mass of its share of the cloth's area
   kUniform  ///< every node has total mass / node count
 };
 
+/// The cloth: its grid, its size and its mass.
 struct ClothParams {
   int rows = 0;     ///< nodes along the warp, hung edge first [2..4096]; no default
   int columns = 0;  ///< nodes along the weft [2..4096] (closed cloth: [3..4096]); no default
@@ -50,7 +54,7 @@ struct ClothParams {
   double width = 1.0;               ///< weft length of the top row [m], > 0
   std::optional<double> hem_width;  ///< weft length of the bottom row [m], > 0; default: width
   double surface_density = 0.2;     ///< [kg/m^2], > 0
-  Lumping lumping = Lumping::kArea;
+  Lumping lumping = Lumping::kArea;  ///< see there
   bool closed = false;    ///< the weft closes to a ring (skirt, canopy)
   int folds = 6;          ///< rods per weft link [1..64]; 1 = no second-layer nodes
   double porosity = 0.0;  ///< share of the air that passes through [0..1]
@@ -65,6 +69,7 @@ struct ClothParams {
   std::vector<double> column_mass;
 };
 
+/// Where the cloth starts.
 struct HangParams {
   Vec3 from = Vec3(0.0, 0.0, 2.2);  ///< [m]; closed cloth: the ring's centre
   Vec3 to = Vec3(1.0, 0.0, 2.2);    ///< [m], |to - from| <= width; not used by closed cloth
@@ -76,13 +81,22 @@ struct HangParams {
   double tilt = 0.0;
 };
 
-enum class PinKind { kTop, kLeft, kTopCorners, kNone, kList };
+/// Which nodes are pinned.
+enum class PinKind {
+  kTop,         ///< the whole row 0
+  kLeft,        ///< the whole column 0
+  kTopCorners,  ///< both ends of row 0
+  kNone,        ///< none
+  kList         ///< those that are listed
+};
 
+/// Nodes that are held.
 struct PinParams {
-  PinKind kind = PinKind::kTop;
+  PinKind kind = PinKind::kTop;  ///< which
   std::vector<NodeIndex> nodes;  ///< for kList
 };
 
+/// How air damping grows with speed.
 enum class DampingLaw {
   kContinuous,  ///< quadratic branch divided by the threshold, so that the law has no jump
   kPrinted      ///< Cheng 2000, Eq. (4) to the letter
@@ -92,7 +106,7 @@ enum class DampingLaw {
 /// c_r is one of inside / border / corner by the node's place, times (1 + fast_gain * |v|).
 struct AirParams {
   double density = 1.2;  ///< rho [kg/m^3], >= 0
-  DampingLaw law = DampingLaw::kContinuous;
+  DampingLaw law = DampingLaw::kContinuous;  ///< beyond the threshold
   double threshold = 1.0;  ///< speed at which the law turns from linear to quadratic [m/s], > 0
   double inside = 0.0;     ///< c_r of nodes with four neighbours [m/s], >= 0
   double border = 0.0;     ///< c_r of border nodes [m/s], >= 0
@@ -133,18 +147,27 @@ struct DragParams {
   double end = std::numeric_limits<double>::infinity();  ///< [s], > start
 };
 
-enum class ShapeKind { kSphere, kBox, kCylinder, kCapsule, kPlane, kMesh };
+/// Shapes of obstacles.
+enum class ShapeKind {
+  kSphere,    ///< around the origin
+  kBox,       ///< around the origin, edges along the axes
+  kCylinder,  ///< around the z axis
+  kCapsule,   ///< around the z axis
+  kPlane,     ///< z = 0; the +z side is free
+  kMesh       ///< triangles of a file
+};
 
 /// A pose at a time, of an obstacle's scripted motion.
 struct PoseKey {
   double time = 0.0;  ///< [s], strictly increasing along a motion
-  Pose pose;
+  Pose pose;          ///< as ObstacleParams::pose, offline
 };
 
+/// A rigid body that the cloth touches.
 struct ObstacleParams {
   std::string name;            ///< unique among the obstacles, not empty
   std::string frame = "world"; ///< tf2 frame it is fixed to; not used offline
-  ShapeKind shape = ShapeKind::kSphere;
+  ShapeKind shape = ShapeKind::kSphere;  ///< its members below are read
   double radius = 0.0;         ///< sphere, cylinder, capsule [m], > 0
   double length = 0.0;         ///< cylinder: whole, capsule: between the caps' centres, along z [m], > 0
   Vec3 size = Vec3::Zero();    ///< box: edges [m], each > 0
@@ -155,6 +178,7 @@ struct ObstacleParams {
   std::vector<PoseKey> motion;  ///< offline only: linear in position, slerp in orientation, held at both ends
 };
 
+/// Contact of the cloth with obstacles and with itself.
 struct ContactParams {
   double thickness = 0.004;  ///< kept between cloth and obstacle, and (up to a quarter of the shortest link) cloth and cloth [m], > 0
   double friction = 0.3;     ///< Coulomb coefficient of cloth on itself and on obstacles that name none [0..10]
@@ -164,6 +188,7 @@ struct ContactParams {
   int zone_iterations = 8;   ///< times a substep is solved again when something would go through [1..1000]
 };
 
+/// What makes a substep (docs/method.md).
 enum class Method {
   kAuto,       ///< leapfrog with substeps from the tensions and from how fast rods turn
   kLeapfrog,   ///< constraint forces along the links' directions at the start of the step; order 2, symplectic
@@ -173,8 +198,9 @@ enum class Method {
   kPaper       ///< Cheng 2000, Sect. 3: one explicit pass, rods rebuilt to their length; order 1, wefts give way
 };
 
+/// How motion is computed.
 struct SolverParams {
-  Method method = Method::kAuto;
+  Method method = Method::kAuto;    ///< see there
   double frame_rate = 60.0;         ///< published steps per second [1..10000]
   int substeps = 0;                 ///< per frame [1..10000]; 0 = auto
   double stretch_tolerance = 1e-3;  ///< relative overlength allowed to any link [1e-12..0.1]
@@ -188,33 +214,36 @@ struct SolverParams {
   std::uint64_t seed = 1;           ///< of every random number
 };
 
+/// Everything a simulator starts from.
 struct Scene {
-  ClothParams cloth;
-  HangParams hang;
-  PinParams pins;
+  ClothParams cloth;                     ///< its grid, size and mass
+  HangParams hang;                       ///< where it starts
+  PinParams pins;                        ///< where it is held
   Vec3 gravity = Vec3(0.0, 0.0, -9.81);  ///< [m/s^2]
-  AirParams air;
-  std::vector<WindParams> wind;
-  std::vector<DragParams> drag;
-  std::vector<ObstacleParams> obstacles;
-  ContactParams contact;
-  SolverParams solver;
+  AirParams air;                         ///< damping
+  std::vector<WindParams> wind;          ///< ids differ
+  std::vector<DragParams> drag;          ///< ids differ
+  std::vector<ObstacleParams> obstacles;  ///< names differ
+  ContactParams contact;                  ///< of cloth on obstacles and on itself
+  SolverParams solver;                    ///< how motion is computed
 };
 
 /// Everything wrong with the scene's values; empty when it can be simulated. Does not open mesh files.
 std::vector<Problem> validate(const Scene& scene);
 
-/// The same for one wind source, drag force or obstacle; key is the prefix of the problems' keys.
+/// The same for one wind source, drag force or obstacle, for the air and the solver; key is the prefix of the problems'
+/// keys.
 std::vector<Problem> validate(const WindParams& wind, const std::string& key);
-std::vector<Problem> validate(const DragParams& drag, const ClothParams& cloth, const std::string& key);
-std::vector<Problem> validate(const ObstacleParams& obstacle, const std::string& key);
-std::vector<Problem> validate(const AirParams& air, const std::string& key);
-std::vector<Problem> validate(const SolverParams& solver, const std::string& key);
+std::vector<Problem> validate(const DragParams& drag, const ClothParams& cloth,
+                              const std::string& key);                                  ///< on this cloth
+std::vector<Problem> validate(const ObstacleParams& obstacle, const std::string& key);  ///< as above
+std::vector<Problem> validate(const AirParams& air, const std::string& key);            ///< as above
+std::vector<Problem> validate(const SolverParams& solver, const std::string& key);      ///< as above
 
 /// Names of the methods as scene files and --method spell them, in the order of the enum.
 const std::vector<std::string>& methodNames();
-std::string toString(Method method);
-std::optional<Method> methodFromName(const std::string& name);
+std::string toString(Method method);                            ///< its name
+std::optional<Method> methodFromName(const std::string& name);  ///< none: there is no such method
 
 /// Weft links in a row: columns - 1, or columns for closed cloth.
 inline int weftLinkCount(const ClothParams& cloth) { return cloth.closed ? cloth.columns : cloth.columns - 1; }

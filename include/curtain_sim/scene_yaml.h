@@ -17,8 +17,8 @@ namespace curtain {
 
 /// What reading gave: the scene is usable only when problems is empty.
 struct SceneReading {
-  Scene scene;
-  std::vector<Problem> problems;
+  Scene scene;                    ///< with defaults where it was silent or wrong
+  std::vector<Problem> problems;  ///< empty: none
 };
 
 /// Reads a scene from a YAML tree and validates it. Never throws on bad content.
@@ -27,7 +27,7 @@ SceneReading readScene(const YAML::Node& root);
 /// Reads a scene from YAML text or from a file; a file that can't be opened or parsed is a problem with
 /// the key "" and a text naming line and column. Relative mesh paths are taken from the file's folder.
 SceneReading readSceneText(const std::string& text);
-SceneReading readSceneFile(const std::string& path);
+SceneReading readSceneFile(const std::string& path);  ///< as readSceneText()
 
 /// The scene as YAML text with every key spelled out; readSceneText gives the same scene back, bit by bit.
 std::string writeScene(const Scene& scene);

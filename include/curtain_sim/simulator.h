@@ -24,8 +24,9 @@ class Simulator {
   /// Builds the cloth at its start. Throws std::invalid_argument with every problem of the scene, or a mesh's.
   explicit Simulator(const Scene& scene, const MeshResolver& resolve = resolveMeshUrl);
   ~Simulator();
+  /// The simulator that is moved from can only be assigned to or destroyed.
   Simulator(Simulator&&) noexcept;
-  Simulator& operator=(Simulator&&) noexcept;
+  Simulator& operator=(Simulator&&) noexcept;  ///< as above
 
   const Scene& scene() const;  ///< as given, with the gravity, the air and the frame rate of now
 
@@ -37,8 +38,8 @@ class Simulator {
   void step();
 
   double time() const;  ///< simulated time [s]
-  int rows() const;
-  int columns() const;
+  int rows() const;     ///< nodes along the warp
+  int columns() const;  ///< nodes along the weft
 
   /// Everything that the motion goes on from, as bytes (docs/snapshots.md). Changes nothing: not what comes next either.
   std::string snapshot() const;
@@ -57,27 +58,27 @@ class Simulator {
 
   Vec3 position(NodeIndex node) const;  ///< [m]
   double mass(NodeIndex node) const;    ///< [kg]
-  bool pinned(NodeIndex node) const;
-  NodeIndex nearestNode(const Vec3& point) const;
+  bool pinned(NodeIndex node) const;    ///< its position is prescribed
+  NodeIndex nearestNode(const Vec3& point) const;  ///< to a point [m]; it looks at all of them
 
   /// Adds a wind source, or replaces the one of the same id, from now on; start and end are simulated times.
   /// Returns what is wrong with it; then nothing changed.
   std::vector<Problem> setWind(const WindParams& wind);
   bool removeWind(const std::string& id);  ///< false: no such id
-  void clearWinds();
-  const std::vector<WindParams>& winds() const;
+  void clearWinds();                       ///< the scene's, too
+  const std::vector<WindParams>& winds() const;  ///< those that are there now
 
   /// The same for user forces. A drag given by a point grasps the nearest node when it first acts, and one
   /// that replaces another of the same id and gives a point again keeps the node grasped.
   std::vector<Problem> setDrag(const DragParams& drag);
-  bool removeDrag(const std::string& id);
-  void clearDrags();
-  const std::vector<DragParams>& drags() const;
+  bool removeDrag(const std::string& id);        ///< false: no such id
+  void clearDrags();                             ///< the scene's, too
+  const std::vector<DragParams>& drags() const;  ///< those that are there now
 
   /// Another gravity [m/s^2], or other air, from the next step on, and after reset() too. Returns what is wrong with it; then
   /// nothing changed.
   std::vector<Problem> setGravity(const Vec3& gravity);
-  std::vector<Problem> setAir(const AirParams& air);
+  std::vector<Problem> setAir(const AirParams& air);  ///< as setGravity()
 
   /// Frames of another length from the next step on, and after reset() too: 1 / rate seconds each, rate in [1, 10000] a second. It
   /// may change before every frame; columns that sleep do so on, though where frames are longer than 1/20 s none falls asleep.
@@ -95,32 +96,33 @@ class Simulator {
   /// is not finite.
   bool movePin(NodeIndex node, const Vec3& target);
 
-  /// Obstacles, in the scene's order. A pose given here is where the obstacle will be at the end of the next
-  /// step, moving there evenly from where it was; it takes the place of the scene's motion. `jump`: it is
-  /// there at once, without a velocity (first pose, teleport). Where a frame ended early (solver.budget_ms) the rest of the way is
-  /// part of the next one.
+  /// Obstacles are numbered in the scene's order.
   int obstacleCount() const;
+  /// Where the obstacle will be at the end of the next step, moving there evenly from where it was; it takes the place
+  /// of the scene's motion. `jump`: it is there at once, without a velocity (first pose, teleport). Where a frame ended
+  /// early (solver.budget_ms) the rest of the way is part of the next one.
   void setObstaclePose(int index, const Pose& pose, bool jump = false);
   /// An absent obstacle touches nothing. One that comes back must be given its pose with jump.
   void setObstaclePresent(int index, bool present);
-  bool obstaclePresent(int index) const;
-  const Pose& obstaclePose(int index) const;
-  const ObstacleShape& obstacleShape(int index) const;
+  bool obstaclePresent(int index) const;                ///< as set, or found at the start
+  const Pose& obstaclePose(int index) const;            ///< as given last
+  const ObstacleShape& obstacleShape(int index) const;  ///< lives as long as the simulator
 
   /// The mesh that the eye sees: both layers of nodes, outside the obstacles. Positions [m] in out.positions
   /// (resized), per row all nodes of both layers; triangles are the same for ever (fineMeshTopology()).
   void copyFineMesh(FineMesh& out) const;
-  const FineMeshTopology& fineMeshTopology() const;
+  const FineMeshTopology& fineMeshTopology() const;  ///< of that mesh
 
+  /// What has been counted since the start or reset().
   const Statistics& statistics() const;
 
   /// What a step would do now, what it would leave out, and why. Not for every frame: it looks at all nodes and allocates.
   Plan plan() const;
-  Energy energy() const;
+  Energy energy() const;  ///< of the cloth now
 
   /// Whether the work of what acts on the cloth is counted from now on, from zero; it takes some 5 % of a step. work(): so far.
   void countWork(bool counted);
-  Work work() const;
+  Work work() const;  ///< so far
 
   /// Pairs of an edge and a triangle of the first layer's mesh that intersect, by brute force (slow).
   std::int64_t selfCrossings() const;

@@ -11,7 +11,9 @@ namespace curtain {
 
 /// The stages of a frame, in their order (as in the loop of Cheng 2000, Sect. 1.3).
 enum class Stage { kForces, kPredict, kWarp, kWeft, kContact, kFinish, kEstimate, kStageCount };
+/// How many there are.
 constexpr int kStageCount = static_cast<int>(Stage::kStageCount);
+/// As in the statistics of curtain_batch, e.g. "forces".
 const char* stageName(Stage stage);
 
 /// Counters since construction or reset(); values of the last frame where it says so.
@@ -42,14 +44,14 @@ struct Statistics {
   double weft_stretch = 0.0;          ///< the same of a weft link
   double warp_compression = 0.0;      ///< largest relative underlength of a warp rod, last frame's end
   double warp_stretch_max = 0.0;      ///< the largest of these at any frame's end
-  double weft_stretch_max = 0.0;
-  double warp_compression_max = 0.0;
+  double weft_stretch_max = 0.0;      ///< the same of weft links
+  double warp_compression_max = 0.0;  ///< the same of what rods are too short by
   int contacts = 0;                   ///< places that press on an obstacle or on the cloth itself at the last frame's end
-  int contacts_max = 0;
+  int contacts_max = 0;               ///< the most of them at any frame's end
   double penetration_max = 0.0;       ///< deepest any node was inside an obstacle at any frame's end [m]
   double step_seconds = 0.0;          ///< computing time of the last frame [s]
-  double step_seconds_max = 0.0;
-  double step_seconds_sum = 0.0;
+  double step_seconds_max = 0.0;      ///< of the longest frame [s]
+  double step_seconds_sum = 0.0;      ///< of all frames [s]
   std::array<double, kStageCount> stage_seconds{};  ///< computing time by stage, all frames [s]
   double position_error = 0.0;        ///< estimated, a second of motion adds [m], RMS; 0: solver.position_tolerance not asked for
   bool finite = true;                 ///< the state holds no NaN or infinity
@@ -57,7 +59,7 @@ struct Statistics {
 
 /// Parts of the cloth that are inside an obstacle or stuck through it.
 struct Piercings {
-  int nodes = 0;
+  int nodes = 0;  ///< deeper than the tolerance
   int edges = 0;  ///< warp, weft and the faces' diagonals
   int faces = 0;  ///< halves of faces, cut along their diagonals
 };

@@ -63,7 +63,7 @@ def main():
     line("computing time, s", lambda some: f"{total(some, 'seconds'):.0f}")
     failed = [f"{row['kind']} {row['seed']}" for row in rows if row["holds"] != "1"]
     if failed:
-        print("\nDid not hold when they were drawn, and were mended since or are told in README: " + ", ".join(failed) + ".")
+        print("\nDid not hold when they were drawn, and were mended since or are told in docs/accuracy.md: " + ", ".join(failed) + ".")
 
 
 main()

@@ -1,0 +1,306 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The pages tell of this checkout: links and anchors lead somewhere, commands and options exist, what the code offers is described.
+
+Run without arguments. Needs no ROS and no build.
+"""
+import glob
+import os
+import re
+import subprocess
+import sys
+import unittest
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+FOLDERS = "src|test|docs|config|include|scripts|launch|msg|cmake"
+FENCE = re.compile(r"^```(?P<kind>\w*)\n(?P<text>.*?)^```$", re.M | re.S)
+LINK = re.compile(r"\]\((?P<target>[^)\s]+)\)")
+PATH = re.compile(r"(?<![\w/.~-])(?:%s)/[\w./*-]*[\w*/]" % FOLDERS)
+# What a page may use that is not ours.
+FOREIGN = {"cd", "cp", "source", "echo", "cmake", "catkin_make", "doxygen", "rostopic", "rosrun", "roslaunch"}
+
+
+def read(path):
+    """A file of the checkout."""
+    with open(os.path.join(ROOT, path), encoding="utf-8") as file:
+        return file.read()
+
+
+def find(pattern):
+    """Files of the checkout, relative."""
+    return sorted(os.path.relpath(path, ROOT) for path in glob.glob(os.path.join(ROOT, pattern), recursive=True))
+
+
+def pages():
+    """README and the book."""
+    return ["README.md"] + find("docs/**/*.md")
+
+
+def new_files(page):
+    """Paths that a page tells to create, and their folders' names."""
+    return set(re.findall(r"New file `([^`]+)`", read(page)))
+
+
+def anchors(path):
+    """Of a page's headings, as they are made where pages are shown."""
+    found, counts = set(), {}
+    for title in re.findall(r"^#+ +(.*)$", FENCE.sub("", read(path)), re.M):
+        title = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", title)
+        slug = re.sub(r"[^\w\- ]", "", title.strip().lower()).replace(" ", "-")
+        count = counts.get(slug, 0)
+        counts[slug] = count + 1
+        found.add(slug if count == 0 else "%s-%d" % (slug, count))
+    return found
+
+
+def all_ros():
+    """The text of the ROS floor and the programs."""
+    return "\n".join(read(path) for path in find("src/ros/**/*.cpp") + find("src/ros/**/*.h") + find("src/curtain_node*.cpp"))
+
+
+def names_of_calls(text, functions):
+    """First arguments of calls, where these are literals or constants."""
+    names = set()
+    for call in re.finditer(r"\b(?:%s)(?:<[^()]*?>)?\(\s*(?P<first>\"[^\"]*\"|k\w+)" % functions, text):
+        first = call["first"]
+        if first.startswith("k"):
+            value = re.search(r"\b%s\b[^=;]*=\s*\"([^\"]*)\"" % first, text)
+            first = value[0][value[0].index('"'):] if value else '"%s, whose value can not be told"' % first
+        names.add(first.strip('"'))
+    return names
+
+
+def described(name, page):
+    """A page has the name as code, with or without a sign for the private namespace or fields behind it."""
+    return re.search(r"`~?/?%s(?:/…)?`" % re.escape(name), page) is not None
+
+
+class Links(unittest.TestCase):
+    """What pages point at."""
+
+    def test_links_and_anchors_lead_somewhere(self):
+        count = 0
+        for page in pages():
+            for link in LINK.finditer(FENCE.sub("", read(page))):
+                target = link["target"]
+                if re.match(r"\w+://", target):
+                    continue
+                count += 1
+                path, _, anchor = target.partition("#")
+                full = os.path.normpath(os.path.join(os.path.dirname(page), path)) if path else page
+                with self.subTest(page=page, link=target):
+                    self.assertTrue(os.path.exists(os.path.join(ROOT, full)), "there is no " + full)
+                    if anchor:
+                        self.assertIn(anchor, anchors(full))
+        self.assertGreater(count, 100)
+
+    def test_paths_in_the_text_exist(self):
+        count = 0
+        for page in pages():
+            created = new_files(page)
+            for path in PATH.findall(LINK.sub("", read(page))):
+                count += 1
+                with self.subTest(page=page, path=path):
+                    self.assertTrue(path in created or find(path), "there is no " + path)
+        self.assertGreater(count, 50)
+
+    def test_the_index_names_every_page(self):
+        index = read("docs/README.md")
+        for page in find("docs/**/*.md"):
+            name = os.path.relpath(page, "docs")
+            if name != "README.md":
+                self.assertIn("](%s)" % name, index)
+
+
+class Commands(unittest.TestCase):
+    """What pages tell to type."""
+
+    def commands(self, page):
+        """Words of every command in a page's blocks, and of those in its text that call something of ours."""
+        text = read(page)
+        for block in FENCE.finditer(text):
+            if block["kind"] not in ("", "sh", "bash"):
+                continue
+            lines = [re.sub(r"\s+#.*$", "", line) for line in block["text"].replace("\\\n", " ").splitlines()]
+            commands = [part.split() for line in lines for part in re.split(r"&&|;(?![^'{]*})", line) if part.strip()]
+            if any(self.is_command(words) for words in commands):
+                yield from commands
+        for code in re.findall(r"`([^`\n]+)`", FENCE.sub("", text)):
+            words = code.split()
+            ours = re.match(r"(scripts|test/\w+)/\w+$", words[0]) and len(words) > 1
+            if ours or words[0] in ("roslaunch", "rosrun", "doxygen") or (words[0] == "curtain_batch" and len(words) > 1):
+                yield words
+
+    @staticmethod
+    def is_command(words):
+        return words[0] in FOREIGN or re.match(r"(scripts|test|build-engine)/", words[0]) is not None
+
+    def test_commands_and_their_options_exist(self):
+        count = 0
+        for page in pages():
+            for words in self.commands(page):
+                while re.match(r"\w+=", words[0]):  # environment
+                    words = words[1:]
+                count += 1
+                with self.subTest(page=page, command=" ".join(words)):
+                    self.check(words, page)
+        self.assertGreater(count, 25)
+
+    def check(self, words, page):
+        program, arguments = words[0], words[1:]
+        if os.path.basename(program) == "curtain_batch":
+            self.check_batch(arguments, page)
+        elif "/" in program:
+            self.assertTrue(os.access(os.path.join(ROOT, program), os.X_OK), "can't be run")
+            for option in [word for word in arguments if word.startswith("-")]:
+                ctest = program == "scripts/test" and option in subprocess.check_output(["ctest", "--help"], text=True)
+                self.assertTrue(ctest or option in read(program), "no option " + option)
+            if program == "scripts/demo" and arguments and not arguments[0].startswith("-"):
+                self.check_scene(arguments[0], page)
+            if program == "test/sanitize/run":
+                self.assertTrue(os.path.exists(os.path.join(ROOT, "test/sanitize", arguments[0] + ".bash")))
+        elif program == "roslaunch":
+            self.check_launch(arguments, page)
+        elif program == "rosrun" and arguments[0] == "curtain_sim":
+            built = re.search(r"add_executable\(%s " % arguments[1], "\n".join(map(read, ["CMakeLists.txt"] + find("cmake/*.cmake"))))
+            self.assertTrue(built or os.path.exists(os.path.join(ROOT, "scripts", arguments[1])))
+        elif program == "rostopic":
+            self.check_topic(arguments)
+        elif program == "cmake":
+            options = "\n".join(map(read, ["CMakeLists.txt"] + find("cmake/*.cmake")))
+            for option in re.findall(r"-D(CURTAIN_\w+)", " ".join(arguments)):
+                self.assertRegex(options, r"(option|set)\(%s " % option)
+        elif program == "doxygen":
+            self.assertTrue(os.path.exists(os.path.join(ROOT, arguments[0])))
+        else:
+            self.assertIn(program, FOREIGN)
+
+    def check_scene(self, name, page):
+        path = "config/scenes/%s.yaml" % name
+        self.assertTrue(os.path.exists(os.path.join(ROOT, path)) or path in new_files(page), "there is no " + path)
+
+    def check_batch(self, arguments, page):
+        usage = read("src/curtain_batch.cpp")
+        for word in arguments:
+            if word.startswith("-"):
+                self.assertIn("  %s " % word, usage.replace('"', " ") + "  --help ")
+        if arguments and arguments[0].startswith("config/"):
+            self.assertTrue(os.path.exists(os.path.join(ROOT, arguments[0])) or arguments[0] in new_files(page))
+
+    def check_launch(self, arguments, page):
+        self.assertEqual(arguments[0], "curtain_sim")
+        launch = read("launch/" + arguments[1])
+        for word in arguments[2:]:
+            name, sign, value = word.partition(":=")
+            if not sign:
+                self.assertEqual(word, "--ros-args")
+                continue
+            self.assertIn('<arg name="%s"' % name, launch)
+            if name == "scene":
+                self.check_scene(value, page)
+
+    def check_topic(self, arguments):
+        words = [word for word in arguments[1:] if not re.match(r"-|\d+$", word)]
+        topic = words[0].split("/")[-1] if arguments[0] == "pub" else words[0].split("/curtain_node/")[1].split("/")[0]
+        self.assertIn(topic, Described.topics())
+        if arguments[0] != "pub":
+            return
+        message = read("msg/%s.msg" % words[1].split("/")[1])
+        depth, value = 0, " ".join(words[2:]).strip("'")
+        for token in re.findall(r"[{}]|\w+(?=:)", value):
+            depth += {"{": 1, "}": -1}.get(token, 0)
+            if depth == 1 and token not in "{}":
+                self.assertRegex(message, r"(?m)^\S+ %s\b" % token)
+
+    def test_options_in_the_text_exist(self):
+        programs = ["src/curtain_batch.cpp"] + find("scripts/*") + find("test/*/run") + find("test/**/main.cpp")
+        known = "\n".join(map(read, programs))
+        for page in pages():
+            for option in re.findall(r"`(--[a-z][a-z-]*)", FENCE.sub("", read(page))):
+                with self.subTest(page=page, option=option):
+                    self.assertIn(option, known)
+
+
+class Described(unittest.TestCase):
+    """What the code offers is on a page."""
+
+    @staticmethod
+    def topics():
+        text = all_ros()
+        found = names_of_calls(text, "advertise|subscribe|resolveName|advertiseService|InteractiveMarkerServer|SimpleActionServer")
+        return found | {"handles/" + name for name in ("update", "update_full", "feedback") if "handles" in found}
+
+    def all_described(self, names, page, least):
+        self.assertGreaterEqual(len(names), least, "looked in the wrong place")
+        text = read(page)
+        missing = sorted(name for name in names if not described(name, text))
+        self.assertEqual(missing, [], "not in %s" % page)
+
+    def test_made_pages_are_up_to_date(self):
+        result = subprocess.run([sys.executable, os.path.join(ROOT, "docs/make_pages.py"), "--check"], stderr=subprocess.PIPE, text=True)
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_scene_keys(self):
+        keys = set(re.findall(r"\bv\.\w+\((?:required\()?\"(\w+)\"", read("src/scene/fields.h")))
+        lists = set(re.findall(r"\bv\.list\(\"(\w+)\"", read("src/scene/fields.h")))
+        text = read("docs/keys.md")
+        self.assertGreater(len(keys), 60)
+        for key in keys:
+            self.assertRegex(text, r"(?m)^(\| `([\w\[\]]+\.)?%s` \||## `%s%s`$)" % (key, key, r"\[\]" if key in lists else ""))
+
+    def test_parameters(self):
+        text = all_ros()
+        names = set(re.findall(r"\{\"(\w+)\",\s*\w+\(&\w+::", text)) | names_of_calls(text, r"param|getParam|searchParam")
+        self.all_described(names, "docs/node.md", 15)
+        self.all_described(names, "docs/keys.md", 15)
+
+    def test_topics_services_and_actions(self):
+        self.all_described(self.topics() - {"handles"}, "docs/node.md", 8)
+
+    def test_diagnostics(self):
+        self.all_described(names_of_calls(all_ros(), r"updater_\.add|addCheck"), "docs/node.md", 5)
+
+    def test_messages_and_statistics(self):
+        for path in find("msg/*.msg"):
+            fields = re.findall(r"^[\w/\[\]]+ +(\w+)", read(path), re.M)
+            self.all_described(fields, "docs/messages.md", 1)
+        self.all_described(re.findall(r"^\w+ +(\w+)", read("msg/Statistics.msg"), re.M), "docs/messages.md", 30)
+
+    def test_statistics_of_curtain_batch(self):
+        text = read("src/simulator/export.cpp")
+        keys = set(re.findall(r"json\[\"(\w+)\"\]", text)) | set(re.findall(r"\{\"(\w+)\", ", text))
+        stages = set(re.findall(r"case Stage::\w+: return \"(\w+)\"", read("src/simulator/simulator.cpp")))
+        self.all_described(keys | stages, "docs/batch.md", 40)
+        table = read("docs/architecture.md")
+        for stage in stages:
+            self.assertRegex(table, r"(?m)^\| %s \|" % stage)
+
+    def test_options_of_curtain_batch(self):
+        options = set(re.findall(r"\"  (--[\w-]+)", read("src/curtain_batch.cpp")))
+        text = read("docs/batch.md")
+        self.assertGreater(len(options), 10)
+        for option in options:
+            self.assertRegex(text, r"`%s[ `]" % option)
+
+    def test_methods(self):
+        names = re.search(r"methodNames\(\) \{.*?\{(.*?)\}", read("src/scene/names.cpp"), re.S)[1]
+        text = read("docs/method.md")
+        for name in re.findall(r"\"(\w+)\"", names):
+            self.assertRegex(text, r"(\*\*|`|### )%s\b" % name)
+
+    def test_scenes_and_launch_arguments(self):
+        start = read("docs/start.md")
+        for path in find("config/scenes/*.yaml"):
+            self.assertIn("| `%s` |" % os.path.splitext(os.path.basename(path))[0], start)
+        for path in find("launch/*.launch"):
+            for argument in re.findall(r"^  <arg\b.*?/>", read(path), re.M | re.S):
+                self.assertRegex(argument, r'doc="[^"]{5,}"', path)
+
+    def test_public_headers(self):
+        text = read("docs/architecture.md")
+        for path in find("include/curtain_sim/*.h"):
+            self.assertIn("(../%s)" % path, text)
+
+
+if __name__ == "__main__":
+    unittest.main()

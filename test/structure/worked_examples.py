@@ -1,0 +1,144 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Does what the pages docs/add_a_*.md say, in a copy of the sources, compiles it and runs its tests and scenes.
+
+  worked_examples.py BUILD_FOLDER [CMAKE_ARGUMENT ...]
+
+Of a page count: diff blocks, applied in their order; and the block after a line "New file `PATH`:". What follows is built without
+optimisation. Copies are only written where they differ, so that a second run compiles nothing.
+"""
+import filecmp
+import glob
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+COPIED = ("CMakeLists.txt", "cmake", "config", "docs/make_pages.py", "docs/keys.md", "include", "msg", "src", "test/float_traps.h",
+          "test/scene", "package.xml")
+MOST_FILES_CHANGED = {"docs/add_a_force.md": 4}  # by a page, beside those that are new
+BLOCK = re.compile(r"(?:New file `(?P<path>[^`]+)`:\n\n)?^```(?P<kind>\w+)\n(?P<text>.*?)^```$", re.M | re.S)
+OUTER = """cmake_minimum_required(VERSION 3.16)
+project(worked_examples CXX)
+add_subdirectory(tree)
+find_package(GTest REQUIRED)
+file(GLOB tests CONFIGURE_DEPENDS {tests})
+add_executable(test_examples ${{tests}} tree/test/scene/template_test.cpp)
+set_target_properties(test_examples PROPERTIES CXX_STANDARD 17)
+target_include_directories(test_examples PRIVATE tree/src tree/test)
+target_compile_definitions(test_examples PRIVATE CURTAIN_SOURCE_DIR="${{CMAKE_CURRENT_SOURCE_DIR}}/tree")
+target_link_libraries(test_examples PRIVATE curtain_engine GTest::gtest_main)
+"""
+
+
+def run(*command, **options):
+    """A command that must succeed."""
+    result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True, **options)
+    if result.returncode != 0:
+        sys.exit("%s\n%s\nexit code %d" % (" ".join(command), result.stdout, result.returncode))
+    return result.stdout
+
+
+def write(path, text):
+    """Makes a file with its folder."""
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+def copy_sources(tree):
+    """What the engine is built of."""
+    for name in COPIED:
+        source, target = os.path.join(ROOT, name), os.path.join(tree, name)
+        if not os.path.exists(source):
+            continue
+        os.makedirs(os.path.dirname(target), exist_ok=True)
+        (shutil.copytree if os.path.isdir(source) else shutil.copy)(source, target)
+
+
+def follow(page, tree):
+    """Does what a page says. Returns the new files that it names."""
+    with open(os.path.join(ROOT, page), encoding="utf-8") as file:
+        text = file.read()
+    created, changed = [], set()
+    for block in BLOCK.finditer(text):
+        if block["kind"] == "diff":
+            changed.update(re.findall(r"^\+\+\+ b/(\S+)", block["text"], re.M))
+            run("patch", "-p1", "--forward", "--no-backup-if-mismatch", "-d", tree, input=block["text"])
+        elif block["path"]:
+            write(os.path.join(tree, block["path"]), block["text"])
+            created.append(block["path"])
+    if not created:
+        sys.exit("%s names no new file: nothing of it is tested" % page)
+    most = MOST_FILES_CHANGED.get(page, len(changed))
+    if len(changed) > most:
+        sys.exit("%s changes %d files, at most %d are wanted: %s" % (page, len(changed), most, sorted(changed)))
+    return created
+
+
+def sync(new, old):
+    """Makes the folder old what new is; files that are the same keep their times."""
+    names = set()
+    for folder, _, files in os.walk(new):
+        for name in files:
+            relative = os.path.relpath(os.path.join(folder, name), new)
+            names.add(relative)
+            source, target = os.path.join(new, relative), os.path.join(old, relative)
+            if not os.path.exists(target) or not filecmp.cmp(source, target, shallow=False):
+                os.makedirs(os.path.dirname(target), exist_ok=True)
+                shutil.copyfile(source, target)
+    for folder, _, files in os.walk(old):
+        for name in files:
+            if os.path.relpath(os.path.join(folder, name), old) not in names:
+                os.remove(os.path.join(folder, name))
+
+
+def check_scene(batch, scene):
+    """A scene runs, and nothing goes through anything."""
+    with tempfile.TemporaryDirectory() as folder:
+        stats = os.path.join(folder, "stats.json")
+        run(batch, scene, "--duration", "2", "--stats", stats)
+        with open(stats, encoding="utf-8") as file:
+            result = json.load(file)
+    wrong = [key for key in ("self_crossings",) if result[key] != 0]
+    wrong += ["piercings"] if any(result["piercings"].values()) else []
+    wrong += ["stretch_max"] if max(result["stretch_max"].values()) > 1e-3 * (1.0 + 1e-9) else []
+    wrong += ["contacts_max"] if result["contacts_max"] == 0 else []
+    if wrong or not result["finite"]:
+        sys.exit("%s: %s in %s" % (scene, wrong, json.dumps(result)))
+
+
+def main():
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    build, arguments = os.path.abspath(sys.argv[1]), sys.argv[2:]
+    pages = sorted(os.path.relpath(path, ROOT) for path in glob.glob(os.path.join(ROOT, "docs", "add_a_*.md")))
+    with tempfile.TemporaryDirectory() as folder:
+        fresh = os.path.join(folder, "tree")
+        copy_sources(fresh)
+        created = [path for page in pages for path in follow(page, fresh)]
+        run(sys.executable, os.path.join(fresh, "docs", "make_pages.py"))
+        sync(fresh, os.path.join(build, "tree"))
+    tests = [path for path in created if path.endswith("_test.cpp")]
+    outer = os.path.join(build, "CMakeLists.txt")
+    text = OUTER.format(tests=" ".join("tree/" + path for path in tests))
+    if not os.path.exists(outer) or open(outer, encoding="utf-8").read() != text:
+        write(outer, text)
+    objects = os.path.join(build, "objects")
+    run("cmake", "-S", build, "-B", objects, "-DCMAKE_BUILD_TYPE=None", "-DCMAKE_CXX_FLAGS=-O0", "-DBUILD_TESTING=OFF",
+        "-DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON", "-DCURTAIN_PRECOMPILED=all", *arguments)
+    run("cmake", "--build", objects, "-j2", "--target", "test_examples", "curtain_batch")
+    print(run(os.path.join(objects, "test_examples")))
+    batch = [path for path in glob.glob(os.path.join(objects, "**", "curtain_batch"), recursive=True) if os.path.isfile(path)]
+    scenes = [path for path in created if path.startswith("config/scenes/")]
+    for scene in scenes:
+        check_scene(batch[0], os.path.join(build, "tree", scene))
+    print("%d pages followed, %d tests' files and %d scenes run" % (len(pages), len(tests), len(scenes)))
+
+
+if __name__ == "__main__":
+    main()
