@@ -13,7 +13,7 @@ import unittest
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 FOLDERS = "src|test|docs|config|include|scripts|launch|msg|cmake"
-FENCE = re.compile(r"^```(?P<kind>\w*)\n(?P<text>.*?)^```$", re.M | re.S)
+FENCE = re.compile(r"^```(?P<kind>\w*)[^\n]*\n(?P<text>.*?)^```$", re.M | re.S)
 LINK = re.compile(r"\]\((?P<target>[^)\s]+)\)")
 PATH = re.compile(r"(?<![\w/.~-])(?:%s)/[\w./*-]*[\w*/]" % FOLDERS)
 # What a page may use that is not ours.
@@ -37,8 +37,9 @@ def pages():
 
 
 def new_files(page):
-    """Paths that a page tells to create, and their folders' names."""
-    return set(re.findall(r"New file `([^`]+)`", read(page)))
+    """Paths that a page tells to create: blocks that name a file after the language. From any folder above."""
+    paths = re.findall(r"^```\w+ (\S+)$", read(page), re.M)
+    return {path[start:] for path in paths for start in [0] + [m.end() for m in re.finditer("/", path)]}
 
 
 def anchors(path):
@@ -104,6 +105,17 @@ class Links(unittest.TestCase):
                     self.assertTrue(path in created or find(path), "there is no " + path)
         self.assertGreater(count, 50)
 
+    def test_functions_in_the_text_exist(self):
+        code = "\n".join(map(read, find("src/**/*.h") + find("src/**/*.cpp") + find("include/**/*.h")))
+        count = 0
+        for page in pages():
+            for owner, name in re.findall(r"`(?:(\w+)::)?(\w+)\(\)", FENCE.sub("", read(page))):
+                count += 1
+                with self.subTest(page=page, function=name):
+                    self.assertRegex(code, r"\b%s\(" % name)
+                    self.assertRegex(code, r"\b%s\b" % owner)
+        self.assertGreater(count, 30)
+
     def test_the_index_names_every_page(self):
         index = read("docs/README.md")
         for page in find("docs/**/*.md"):
@@ -150,6 +162,8 @@ class Commands(unittest.TestCase):
         program, arguments = words[0], words[1:]
         if os.path.basename(program) == "curtain_batch":
             self.check_batch(arguments, page)
+        elif program.startswith("build/"):
+            self.assertTrue(new_files(page), "nothing on this page makes it")
         elif "/" in program:
             self.assertTrue(os.access(os.path.join(ROOT, program), os.X_OK), "can't be run")
             for option in [word for word in arguments if word.startswith("-")]:

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Does what the pages docs/add_a_*.md say, in a copy of the sources, compiles it and runs its tests and scenes.
+"""Does what some pages of docs say, in a copy of the sources, compiles it and runs its tests and scenes.
 
   worked_examples.py BUILD_FOLDER [CMAKE_ARGUMENT ...]
 
-Of a page count: diff blocks, applied in their order; and the block after a line "New file `PATH`:". What follows is built without
-optimisation. Copies are only written where they differ, so that a second run compiles nothing.
+Of a page count: diff blocks, applied in their order; and blocks that name a file after the language, "```cpp PATH". What comes of
+it is built without optimisation. Copies are only written where they differ, so that a second run compiles nothing.
 """
 import filecmp
 import glob
@@ -20,8 +20,9 @@ import tempfile
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 COPIED = ("CMakeLists.txt", "cmake", "config", "docs/make_pages.py", "docs/keys.md", "include", "msg", "src", "test/float_traps.h",
           "test/scene", "package.xml")
-MOST_FILES_CHANGED = {"docs/add_a_force.md": 4}  # by a page, beside those that are new
-BLOCK = re.compile(r"(?:New file `(?P<path>[^`]+)`:\n\n)?^```(?P<kind>\w+)\n(?P<text>.*?)^```$", re.M | re.S)
+# In this order; and how many files a page may change, beside those that are new.
+PAGES = {"docs/add_a_force.md": 4, "docs/add_a_scheme.md": 6, "docs/add_a_scene.md": 0}
+BLOCK = re.compile(r"^```(?P<kind>\w+)(?: (?P<path>\S+))?\n(?P<text>.*?)^```$", re.M | re.S)
 OUTER = """cmake_minimum_required(VERSION 3.16)
 project(worked_examples CXX)
 add_subdirectory(tree)
@@ -74,9 +75,8 @@ def follow(page, tree):
             created.append(block["path"])
     if not created:
         sys.exit("%s names no new file: nothing of it is tested" % page)
-    most = MOST_FILES_CHANGED.get(page, len(changed))
-    if len(changed) > most:
-        sys.exit("%s changes %d files, at most %d are wanted: %s" % (page, len(changed), most, sorted(changed)))
+    if len(changed) > PAGES[page]:
+        sys.exit("%s changes %d files, at most %d are wanted: %s" % (page, len(changed), PAGES[page], sorted(changed)))
     return created
 
 
@@ -116,11 +116,10 @@ def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
     build, arguments = os.path.abspath(sys.argv[1]), sys.argv[2:]
-    pages = sorted(os.path.relpath(path, ROOT) for path in glob.glob(os.path.join(ROOT, "docs", "add_a_*.md")))
     with tempfile.TemporaryDirectory() as folder:
         fresh = os.path.join(folder, "tree")
         copy_sources(fresh)
-        created = [path for page in pages for path in follow(page, fresh)]
+        created = [path for page in PAGES for path in follow(page, fresh)]
         run(sys.executable, os.path.join(fresh, "docs", "make_pages.py"))
         sync(fresh, os.path.join(build, "tree"))
     tests = [path for path in created if path.endswith("_test.cpp")]
@@ -137,7 +136,7 @@ def main():
     scenes = [path for path in created if path.startswith("config/scenes/")]
     for scene in scenes:
         check_scene(batch[0], os.path.join(build, "tree", scene))
-    print("%d pages followed, %d tests' files and %d scenes run" % (len(pages), len(tests), len(scenes)))
+    print("%d pages followed, %d tests' files and %d scenes run" % (len(PAGES), len(tests), len(scenes)))
 
 
 if __name__ == "__main__":
