@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/shapes/contact_shape.h"
 #include "contact/oracle/piercings.h"
 #include "curtain_sim/simulator.h"
 #include "testing.h"
@@ -138,14 +139,14 @@ void look(const Simulator& simulator, Tally& tally) {
   const FineMeshTopology& topology = simulator.fineMeshTopology();
   const Scene& scene = simulator.scene();
   const Transform place(simulator.obstaclePose(0));
-  const ObstacleShape& shape = simulator.obstacleShape(0);
+  const auto shape = makeContactShape(scene.obstacles[0], resolveMeshUrl);
   std::vector<MeshTriangle> judged;
   const int links = weftLinkCount(scene.cloth);
   bool first_pierced = false;
   for (int i = 0; i + 1 < topology.rows; ++i) {
     for (int link = 0; link < links; ++link) {
       const auto quad = coarseQuad(topology, i, link);
-      if (countPiercings(shape, place, mesh.positions, {quad[0], quad[1]}, 0.0).faces > 0) {
+      if (countPiercings(*shape, place, mesh.positions, {quad[0], quad[1]}, 0.0).faces > 0) {
         ++tally.quads_left_out;
         first_pierced = true;
         continue;
@@ -156,8 +157,8 @@ void look(const Simulator& simulator, Tally& tally) {
     }
   }
   tally.pierced_first += first_pierced;
-  const Piercings count = countPiercings(shape, place, mesh.positions, judged, kTolerance);
-  tally.nodes += countPiercings(shape, place, mesh.positions, topology.triangles, kTolerance).nodes;
+  const Piercings count = countPiercings(*shape, place, mesh.positions, judged, kTolerance);
+  tally.nodes += countPiercings(*shape, place, mesh.positions, topology.triangles, kTolerance).nodes;
   tally.faces += count.faces;
   tally.folds += static_cast<long>(topology.rows) * links;
   tally.flattened += mesh.flattened_folds;
