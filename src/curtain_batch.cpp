@@ -33,7 +33,8 @@ const char* const kUsage =
     "  --mesh FILE        fine mesh at the end, .ply or .obj\n"
     "  --stats FILE.json  what it took and how well it went\n"
     "  --save FILE        snapshot at the end, for --restore\n"
-    "  --restore FILE     go on from a snapshot of the same scene; the duration comes on top, times of --sample go on, too\n"
+    "  --restore FILE     go on from a snapshot of the same scene; the duration comes on top, times of --sample go on, "
+    "too\n"
     "  --progress         a line a simulated second on stderr\n"
     "  --explain          what runs (+) for this scene and what is skipped (-), at the start and after the duration\n"
     "  --list-methods     names for --method, then exit\n"
@@ -131,24 +132,42 @@ Options readOptions(int argc, char** argv) {
       if (a + 1 >= argc) throw std::invalid_argument(option + ": needs a value");
       return argv[++a];
     };
-    if (option == "--duration") options.duration = readDuration(option, value());
-    else if (option == "--method") options.method = value();
-    else if (option == "--substeps") options.substeps = readCount(option, value());
-    else if (option == "--rows") options.rows = readCount(option, value());
-    else if (option == "--columns") options.columns = readCount(option, value());
-    else if (option == "--out") options.out = value();
-    else if (option == "--sample") options.samples = readSamples(option, value());
-    else if (option == "--mesh") options.mesh = value();
-    else if (option == "--stats") options.stats = value();
-    else if (option == "--save") options.save = value();
-    else if (option == "--restore") options.restore = value();
-    else if (option == "--progress") options.progress = true;
-    else if (option == "--explain") options.explain = true;
-    else if (option == "--list-methods") options.list_methods = true;
-    else if (option == "--help" || option == "-h") options.help = true;
-    else if (option.size() > 1 && option[0] == '-') throw std::invalid_argument(option + ": unknown option");
-    else if (options.scene.empty()) options.scene = option;
-    else throw std::invalid_argument(option + ": one scene at a time");
+    if (option == "--duration")
+      options.duration = readDuration(option, value());
+    else if (option == "--method")
+      options.method = value();
+    else if (option == "--substeps")
+      options.substeps = readCount(option, value());
+    else if (option == "--rows")
+      options.rows = readCount(option, value());
+    else if (option == "--columns")
+      options.columns = readCount(option, value());
+    else if (option == "--out")
+      options.out = value();
+    else if (option == "--sample")
+      options.samples = readSamples(option, value());
+    else if (option == "--mesh")
+      options.mesh = value();
+    else if (option == "--stats")
+      options.stats = value();
+    else if (option == "--save")
+      options.save = value();
+    else if (option == "--restore")
+      options.restore = value();
+    else if (option == "--progress")
+      options.progress = true;
+    else if (option == "--explain")
+      options.explain = true;
+    else if (option == "--list-methods")
+      options.list_methods = true;
+    else if (option == "--help" || option == "-h")
+      options.help = true;
+    else if (option.size() > 1 && option[0] == '-')
+      throw std::invalid_argument(option + ": unknown option");
+    else if (options.scene.empty())
+      options.scene = option;
+    else
+      throw std::invalid_argument(option + ": one scene at a time");
   }
   if (options.list_methods || options.help) return options;
   if (options.scene.empty()) throw std::invalid_argument("a scene file is needed");

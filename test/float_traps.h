@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Where a number stops being one: while a FloatTraps lives, an operation of this thread that makes NaN, divides by zero or
-// overflows ends the program (SIGFPE) at the place where it happens. For Debug builds: others let the compiler compute
-// what is thrown away (-fno-trapping-math).
+// Where a number stops being one: while a FloatTraps lives, an operation of this thread that makes NaN, divides by zero
+// or overflows ends the program (SIGFPE) at the place where it happens. For Debug builds: others let the compiler
+// compute what is thrown away (-fno-trapping-math).
 #pragma once
 
 #include <cfenv>

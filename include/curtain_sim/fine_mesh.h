@@ -16,18 +16,18 @@ namespace curtain {
 
 /// What does not change while a cloth lives.
 struct FineMeshTopology {
-  int rows = 0;     ///< of the grid
-  int columns = 0;  ///< fine columns: links * folds + 1, closed cloth: links * folds
-  int folds = 1;    ///< rods per weft link
-  bool closed = false;                                  ///< the rows are rings
+  int rows = 0;         ///< of the grid
+  int columns = 0;      ///< fine columns: links * folds + 1, closed cloth: links * folds
+  int folds = 1;        ///< rods per weft link
+  bool closed = false;  ///< the rows are rings
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into FineMesh::positions, same winding all over
 };
 
 /// What does: shape [rows * columns] row-major.
 struct FineMesh {
   std::vector<Vec3> positions;  ///< [m]
-  /// Folds that an obstacle left no room to lie in: their nodes were moved out of it, so their rods are longer or shorter
-  /// than rest / k. All others keep every rod's length (or, where the link is taut, lie evenly on it).
+  /// Folds that an obstacle left no room to lie in: their nodes were moved out of it, so their rods are longer or
+  /// shorter than rest / k. All others keep every rod's length (or, where the link is taut, lie evenly on it).
   int flattened_folds = 0;
 };
 

@@ -16,8 +16,8 @@ namespace curtain {
 
 /// The surface as seen from a point, in the shape's frame.
 struct SurfacePoint {
-  double distance = 0.0;         ///< [m], negative inside
-  Vec3 normal = Vec3::UnitZ();   ///< unit, the way out (gradient of the distance)
+  double distance = 0.0;        ///< [m], negative inside
+  Vec3 normal = Vec3::UnitZ();  ///< unit, the way out (gradient of the distance)
 };
 
 /// Triangles of a shape for drawing: corners in the shape's frame [m], three indices a triangle.

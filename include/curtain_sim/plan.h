@@ -12,7 +12,7 @@ namespace curtain {
 struct PlanEntry {
   std::string stage;  ///< its name
   bool runs = false;  ///< false: it is left out
-  std::string why;  ///< what it does, or why it is left out
+  std::string why;    ///< what it does, or why it is left out
 
   /// Says the same.
   bool operator==(const PlanEntry& other) const {

@@ -30,7 +30,7 @@ std::string describe(const std::vector<Problem>& problems, const std::string& so
 
 /// A rigid pose; orientation is a unit quaternion.
 struct Pose {
-  Vec3 position = Vec3::Zero();                                   ///< [m]
+  Vec3 position = Vec3::Zero();                                     ///< [m]
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< unit
 };
 
@@ -48,16 +48,16 @@ enum class Lumping {
 
 /// The cloth: its grid, its size and its mass.
 struct ClothParams {
-  int rows = 0;     ///< nodes along the warp, hung edge first [2..4096]; no default
-  int columns = 0;  ///< nodes along the weft [2..4096] (closed cloth: [3..4096]); no default
-  double height = 2.0;              ///< warp length [m], > 0
-  double width = 1.0;               ///< weft length of the top row [m], > 0
-  std::optional<double> hem_width;  ///< weft length of the bottom row [m], > 0; default: width
-  double surface_density = 0.2;     ///< [kg/m^2], > 0
+  int rows = 0;                      ///< nodes along the warp, hung edge first [2..4096]; no default
+  int columns = 0;                   ///< nodes along the weft [2..4096] (closed cloth: [3..4096]); no default
+  double height = 2.0;               ///< warp length [m], > 0
+  double width = 1.0;                ///< weft length of the top row [m], > 0
+  std::optional<double> hem_width;   ///< weft length of the bottom row [m], > 0; default: width
+  double surface_density = 0.2;      ///< [kg/m^2], > 0
   Lumping lumping = Lumping::kArea;  ///< see there
-  bool closed = false;    ///< the weft closes to a ring (skirt, canopy)
-  int folds = 6;          ///< rods per weft link [1..64]; 1 = no second-layer nodes
-  double porosity = 0.0;  ///< share of the air that passes through [0..1]
+  bool closed = false;               ///< the weft closes to a ring (skirt, canopy)
+  int folds = 6;                     ///< rods per weft link [1..64]; 1 = no second-layer nodes
+  double porosity = 0.0;             ///< share of the air that passes through [0..1]
   /// Relative lengths of the rows-1 warp rods, top first, each > 0; scaled to height. Empty: all equal.
   std::vector<double> row_spacing;
   /// Relative lengths of the weft links of a row (columns-1, closed: columns), each > 0; scaled to the
@@ -105,45 +105,45 @@ enum class DampingLaw {
 /// Air damping, Cheng 2000, Eq. (4): force against the velocity, per area of cloth.
 /// c_r is one of inside / border / corner by the node's place, times (1 + fast_gain * |v|).
 struct AirParams {
-  double density = 1.2;  ///< rho [kg/m^3], >= 0
+  double density = 1.2;                      ///< rho [kg/m^3], >= 0
   DampingLaw law = DampingLaw::kContinuous;  ///< beyond the threshold
-  double threshold = 1.0;  ///< speed at which the law turns from linear to quadratic [m/s], > 0
-  double inside = 0.0;     ///< c_r of nodes with four neighbours [m/s], >= 0
-  double border = 0.0;     ///< c_r of border nodes [m/s], >= 0
-  double corner = 0.0;     ///< c_r of corner nodes [m/s], >= 0
-  double fast_gain = 0.0;  ///< growth of c_r with speed [s/m], >= 0
+  double threshold = 1.0;                    ///< speed at which the law turns from linear to quadratic [m/s], > 0
+  double inside = 0.0;                       ///< c_r of nodes with four neighbours [m/s], >= 0
+  double border = 0.0;                       ///< c_r of border nodes [m/s], >= 0
+  double corner = 0.0;                       ///< c_r of corner nodes [m/s], >= 0
+  double fast_gain = 0.0;                    ///< growth of c_r with speed [s/m], >= 0
 };
 
 /// A cone wind source, Cheng 2000, Eq. (2)(3).
 struct WindParams {
-  std::string id;                      ///< unique among the winds, not empty
-  Vec3 position = Vec3::Zero();        ///< centre of the disc [m]
-  Vec3 direction = Vec3::UnitX();      ///< axis, any length > 0
-  double radius = 1.0;                 ///< of the disc [m], > 0
-  double half_angle = 0.0;             ///< of the cone [rad], [0, 1.5]; 0 = parallel wind
-  double pressure = 0.0;               ///< at the disc's centre [Pa], >= 0
-  double node_force = 0.0;             ///< the paper's own form: a force per node [N], >= 0, added to the pressure's
-  double porosity_weight = 1.0;        ///< c_mu of Eq. (3), [0..1]
-  double distance_weight = 1.0;        ///< c_d of Eq. (3), > 0
-  double reference_length = 1.0;       ///< what Eq. (3) measures |d| in [m], [1e-6..1e6]
-  double unsteadiness = 0.0;           ///< standard deviation of each component of the gusts [Pa], >= 0
-  double correlation_time = 0.2;       ///< of the gusts [s], [1e-6..1e6]
-  double correlation_length = 0.25;    ///< of the gusts along the cloth [m], > 0
-  double start = 0.0;                  ///< [s]
+  std::string id;                    ///< unique among the winds, not empty
+  Vec3 position = Vec3::Zero();      ///< centre of the disc [m]
+  Vec3 direction = Vec3::UnitX();    ///< axis, any length > 0
+  double radius = 1.0;               ///< of the disc [m], > 0
+  double half_angle = 0.0;           ///< of the cone [rad], [0, 1.5]; 0 = parallel wind
+  double pressure = 0.0;             ///< at the disc's centre [Pa], >= 0
+  double node_force = 0.0;           ///< the paper's own form: a force per node [N], >= 0, added to the pressure's
+  double porosity_weight = 1.0;      ///< c_mu of Eq. (3), [0..1]
+  double distance_weight = 1.0;      ///< c_d of Eq. (3), > 0
+  double reference_length = 1.0;     ///< what Eq. (3) measures |d| in [m], [1e-6..1e6]
+  double unsteadiness = 0.0;         ///< standard deviation of each component of the gusts [Pa], >= 0
+  double correlation_time = 0.2;     ///< of the gusts [s], [1e-6..1e6]
+  double correlation_length = 0.25;  ///< of the gusts along the cloth [m], > 0
+  double start = 0.0;                ///< [s]
   double end = std::numeric_limits<double>::infinity();  ///< [s], > start
 };
 
 /// A user force on a node and its neighbourhood.
 struct DragParams {
-  std::string id;                   ///< unique among the drags, not empty
-  std::optional<NodeIndex> node;    ///< the grasped node; exactly one of node and point is given
-  std::optional<Vec3> point;        ///< [m] grasp the node nearest to this point when the drag starts
-  Vec3 force = Vec3::Zero();        ///< [N], shared by the neighbourhood
-  std::optional<Vec3> target;       ///< [m] pull the node to this point with a critically damped spring
-  double stiffness = 20.0;          ///< of that spring [N/m], > 0
-  double max_force = 10.0;          ///< the spring never pulls harder [N], > 0
-  double radius = 0.0;              ///< of the neighbourhood along the cloth [m], >= 0; 0 = the node alone
-  double start = 0.0;               ///< [s]
+  std::string id;                 ///< unique among the drags, not empty
+  std::optional<NodeIndex> node;  ///< the grasped node; exactly one of node and point is given
+  std::optional<Vec3> point;      ///< [m] grasp the node nearest to this point when the drag starts
+  Vec3 force = Vec3::Zero();      ///< [N], shared by the neighbourhood
+  std::optional<Vec3> target;     ///< [m] pull the node to this point with a critically damped spring
+  double stiffness = 20.0;        ///< of that spring [N/m], > 0
+  double max_force = 10.0;        ///< the spring never pulls harder [N], > 0
+  double radius = 0.0;            ///< of the neighbourhood along the cloth [m], >= 0; 0 = the node alone
+  double start = 0.0;             ///< [s]
   double end = std::numeric_limits<double>::infinity();  ///< [s], > start
 };
 
@@ -165,34 +165,36 @@ struct PoseKey {
 
 /// A rigid body that the cloth touches.
 struct ObstacleParams {
-  std::string name;            ///< unique among the obstacles, not empty
-  std::string frame = "world"; ///< tf2 frame it is fixed to; not used offline
+  std::string name;                      ///< unique among the obstacles, not empty
+  std::string frame = "world";           ///< tf2 frame it is fixed to; not used offline
   ShapeKind shape = ShapeKind::kSphere;  ///< its members below are read
-  double radius = 0.0;         ///< sphere, cylinder, capsule [m], > 0
-  double length = 0.0;         ///< cylinder: whole, capsule: between the caps' centres, along z [m], > 0
-  Vec3 size = Vec3::Zero();    ///< box: edges [m], each > 0
-  std::string mesh;            ///< mesh: URL, package://, file:// or a plain path; STL, OBJ or DAE
-  Vec3 scale = Vec3::Ones();   ///< mesh: factor to metres, each != 0 (a single number in YAML: all three)
-  Pose pose;                   ///< offline: in the world; in the node: in its frame
+  double radius = 0.0;                   ///< sphere, cylinder, capsule [m], > 0
+  double length = 0.0;                   ///< cylinder: whole, capsule: between the caps' centres, along z [m], > 0
+  Vec3 size = Vec3::Zero();              ///< box: edges [m], each > 0
+  std::string mesh;                      ///< mesh: URL, package://, file:// or a plain path; STL, OBJ or DAE
+  Vec3 scale = Vec3::Ones();             ///< mesh: factor to metres, each != 0 (a single number in YAML: all three)
+  Pose pose;                             ///< offline: in the world; in the node: in its frame
   double friction = std::numeric_limits<double>::quiet_NaN();  ///< [0..10]; NaN: contact.friction
   std::vector<PoseKey> motion;  ///< offline only: linear in position, slerp in orientation, held at both ends
 };
 
 /// Contact of the cloth with obstacles and with itself.
 struct ContactParams {
-  double thickness = 0.004;  ///< kept between cloth and obstacle, and (up to a quarter of the shortest link) cloth and cloth [m], > 0
-  double friction = 0.3;     ///< Coulomb coefficient of cloth on itself and on obstacles that name none [0..10]
-  bool self = false;         ///< contact of the cloth with itself
-  double recovery_speed = 0.1;  ///< at which what is nearer than the thickness where a substep begins is let out [m/s], > 0; out of
-                                ///< an obstacle: 20 times as fast
-  int zone_iterations = 8;   ///< times a substep is solved again when something would go through [1..1000]
+  double thickness =
+      0.004;  ///< kept between cloth and obstacle, and (up to a quarter of the shortest link) cloth and cloth [m], > 0
+  double friction = 0.3;        ///< Coulomb coefficient of cloth on itself and on obstacles that name none [0..10]
+  bool self = false;            ///< contact of the cloth with itself
+  double recovery_speed = 0.1;  ///< at which what is nearer than the thickness where a substep begins is let out [m/s],
+                                ///< > 0; out of an obstacle: 20 times as fast
+  int zone_iterations = 8;      ///< times a substep is solved again when something would go through [1..1000]
 };
 
 /// What makes a substep (docs/method.md).
 enum class Method {
   kAuto,       ///< leapfrog with substeps from the tensions and from how fast rods turn
   kLeapfrog,   ///< constraint forces along the links' directions at the start of the step; order 2, symplectic
-  kLeapfrog4,  ///< five leapfrog steps to a substep, composed to order 4 (with damping: 2); as auto where a string is taut or contact is near
+  kLeapfrog4,  ///< five leapfrog steps to a substep, composed to order 4 (with damping: 2); as auto where a string is
+               ///< taut or contact is near
   kBdf2,       ///< along the directions at the end of the step, from two steps; order 2, stable at any step
   kImplicit,   ///< the same from one step; order 1, stable at any step, damps
   kPaper       ///< Cheng 2000, Sect. 3: one explicit pass, rods rebuilt to their length; order 1, wefts give way
@@ -204,25 +206,26 @@ struct SolverParams {
   double frame_rate = 60.0;         ///< published steps per second [1..10000]
   int substeps = 0;                 ///< per frame [1..10000]; 0 = auto
   double stretch_tolerance = 1e-3;  ///< relative overlength allowed to any link [1e-12..0.1]
-  double position_tolerance = 0.0;  ///< error of positions to aim at [m per simulated second, RMS over the nodes], [0..1];
-                                    ///< 0 = none asked for: substeps from stability alone
-  double rest_speed = 1e-4;         ///< columns that move less than this for a while fall asleep [m/s], [0..1]; 0 = none ever does
-  double budget_ms = 0.0;           ///< computing time that a frame may take [ms], [0..1e6]; 0 = as much as it needs
-  int threads = 0;                  ///< that step one cloth [1..256]; 0 = auto: one for every 4000 nodes, as far as there are cores
-  int max_substeps = 128;           ///< cap of auto per frame [1..10000]; where a solve fails there: the last resort
-  int max_sweeps = 60;              ///< cap of warp/weft/contact sweeps per substep [1..10000]
-  std::uint64_t seed = 1;           ///< of every random number
+  double position_tolerance = 0.0;  ///< error of positions to aim at [m per simulated second, RMS over the nodes],
+                                    ///< [0..1]; 0 = none asked for: substeps from stability alone
+  double rest_speed =
+      1e-4;  ///< columns that move less than this for a while fall asleep [m/s], [0..1]; 0 = none ever does
+  double budget_ms = 0.0;  ///< computing time that a frame may take [ms], [0..1e6]; 0 = as much as it needs
+  int threads = 0;  ///< that step one cloth [1..256]; 0 = auto: one for every 4000 nodes, as far as there are cores
+  int max_substeps = 128;  ///< cap of auto per frame [1..10000]; where a solve fails there: the last resort
+  int max_sweeps = 60;     ///< cap of warp/weft/contact sweeps per substep [1..10000]
+  std::uint64_t seed = 1;  ///< of every random number
 };
 
 /// Everything a simulator starts from.
 struct Scene {
-  ClothParams cloth;                     ///< its grid, size and mass
-  HangParams hang;                       ///< where it starts
-  PinParams pins;                        ///< where it is held
-  Vec3 gravity = Vec3(0.0, 0.0, -9.81);  ///< [m/s^2]
-  AirParams air;                         ///< damping
-  std::vector<WindParams> wind;          ///< ids differ
-  std::vector<DragParams> drag;          ///< ids differ
+  ClothParams cloth;                      ///< its grid, size and mass
+  HangParams hang;                        ///< where it starts
+  PinParams pins;                         ///< where it is held
+  Vec3 gravity = Vec3(0.0, 0.0, -9.81);   ///< [m/s^2]
+  AirParams air;                          ///< damping
+  std::vector<WindParams> wind;           ///< ids differ
+  std::vector<DragParams> drag;           ///< ids differ
   std::vector<ObstacleParams> obstacles;  ///< names differ
   ContactParams contact;                  ///< of cloth on obstacles and on itself
   SolverParams solver;                    ///< how motion is computed

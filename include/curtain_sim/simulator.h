@@ -41,12 +41,14 @@ class Simulator {
   int rows() const;     ///< nodes along the warp
   int columns() const;  ///< nodes along the weft
 
-  /// Everything that the motion goes on from, as bytes (docs/snapshots.md). Changes nothing: not what comes next either.
+  /// Everything that the motion goes on from, as bytes (docs/snapshots.md). Changes nothing: not what comes next
+  /// either.
   std::string snapshot() const;
-  /// Goes on from a snapshot of the same scene, by the bits: time, winds and drags, gravity and air, obstacles and pins on
-  /// their way, what sleeps, statistics. The scene may differ in gravity and air, which come with the snapshot, in
-  /// solver.threads, and in where a mesh lies. Returns what is wrong with it (damaged, cut short, of another scene or format);
-  /// then nothing changed. With solver.budget_ms computing time decides, and the bits to come may differ. Allocates.
+  /// Goes on from a snapshot of the same scene, by the bits: time, winds and drags, gravity and air, obstacles and pins
+  /// on their way, what sleeps, statistics. The scene may differ in gravity and air, which come with the snapshot, in
+  /// solver.threads, and in where a mesh lies. Returns what is wrong with it (damaged, cut short, of another scene or
+  /// format); then nothing changed. With solver.budget_ms computing time decides, and the bits to come may differ.
+  /// Allocates.
   std::vector<Problem> restore(const std::string& snapshot);
 
   /// Node state, row-major, shape [rows * columns]; out is resized.
@@ -56,16 +58,16 @@ class Simulator {
   /// the links' tensions. Zero before the first step.
   void copyForces(std::vector<Vec3>& out) const;
 
-  Vec3 position(NodeIndex node) const;  ///< [m]
-  double mass(NodeIndex node) const;    ///< [kg]
-  bool pinned(NodeIndex node) const;    ///< its position is prescribed
+  Vec3 position(NodeIndex node) const;             ///< [m]
+  double mass(NodeIndex node) const;               ///< [kg]
+  bool pinned(NodeIndex node) const;               ///< its position is prescribed
   NodeIndex nearestNode(const Vec3& point) const;  ///< to a point [m]; it looks at all of them
 
   /// Adds a wind source, or replaces the one of the same id, from now on; start and end are simulated times.
   /// Returns what is wrong with it; then nothing changed.
   std::vector<Problem> setWind(const WindParams& wind);
-  bool removeWind(const std::string& id);  ///< false: no such id
-  void clearWinds();                       ///< the scene's, too
+  bool removeWind(const std::string& id);        ///< false: no such id
+  void clearWinds();                             ///< the scene's, too
   const std::vector<WindParams>& winds() const;  ///< those that are there now
 
   /// The same for user forces. A drag given by a point grasps the nearest node when it first acts, and one
@@ -75,25 +77,25 @@ class Simulator {
   void clearDrags();                             ///< the scene's, too
   const std::vector<DragParams>& drags() const;  ///< those that are there now
 
-  /// Another gravity [m/s^2], or other air, from the next step on, and after reset() too. Returns what is wrong with it; then
-  /// nothing changed.
+  /// Another gravity [m/s^2], or other air, from the next step on, and after reset() too. Returns what is wrong with
+  /// it; then nothing changed.
   std::vector<Problem> setGravity(const Vec3& gravity);
   std::vector<Problem> setAir(const AirParams& air);  ///< as setGravity()
 
-  /// Frames of another length from the next step on, and after reset() too: 1 / rate seconds each, rate in [1, 10000] a second. It
-  /// may change before every frame; columns that sleep do so on, though where frames are longer than 1/20 s none falls asleep.
-  /// Returns what is wrong with it; then nothing changed.
+  /// Frames of another length from the next step on, and after reset() too: 1 / rate seconds each, rate in [1, 10000] a
+  /// second. It may change before every frame; columns that sleep do so on, though where frames are longer than 1/20 s
+  /// none falls asleep. Returns what is wrong with it; then nothing changed.
   std::vector<Problem> setFrameRate(double rate);
 
-  /// Puts the cloth elsewhere: positions [m] and velocities [m/s] of all nodes, row-major, shape [rows * columns]; the velocities
-  /// of pinned nodes are not read. All of it wakes, and what the solver knows of the last tensions is forgotten. Links may be
-  /// much too long or short, nodes in one place: they are brought to their lengths as fast as the solver can. Contact takes the
-  /// sides that parts are on now for theirs. Returns what is wrong (sizes, numbers not finite or beyond 1e9); then nothing
-  /// changed. Time goes on.
+  /// Puts the cloth elsewhere: positions [m] and velocities [m/s] of all nodes, row-major, shape [rows * columns]; the
+  /// velocities of pinned nodes are not read. All of it wakes, and what the solver knows of the last tensions is
+  /// forgotten. Links may be much too long or short, nodes in one place: they are brought to their lengths as fast as
+  /// the solver can. Contact takes the sides that parts are on now for theirs. Returns what is wrong (sizes, numbers
+  /// not finite or beyond 1e9); then nothing changed. Time goes on.
   std::vector<Problem> setState(const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities);
 
-  /// Takes a pinned node to this point [m], evenly within the next step; there it stays. False: it is not pinned, or the point
-  /// is not finite.
+  /// Takes a pinned node to this point [m], evenly within the next step; there it stays. False: it is not pinned, or
+  /// the point is not finite.
   bool movePin(NodeIndex node, const Vec3& target);
 
   /// Obstacles are numbered in the scene's order.
@@ -116,11 +118,13 @@ class Simulator {
   /// What has been counted since the start or reset().
   const Statistics& statistics() const;
 
-  /// What a step would do now, what it would leave out, and why. Not for every frame: it looks at all nodes and allocates.
+  /// What a step would do now, what it would leave out, and why. Not for every frame: it looks at all nodes and
+  /// allocates.
   Plan plan() const;
   Energy energy() const;  ///< of the cloth now
 
-  /// Whether the work of what acts on the cloth is counted from now on, from zero; it takes some 5 % of a step. work(): so far.
+  /// Whether the work of what acts on the cloth is counted from now on, from zero; it takes some 5 % of a step. work():
+  /// so far.
   void countWork(bool counted);
   Work work() const;  ///< so far
 
@@ -137,8 +141,8 @@ class Simulator {
   /// Force and torque that the cloth exerted on an obstacle, mean over the last frame; zero before the first one.
   ContactWrench contactWrench(int obstacle) const;
 
-  /// Another number whenever the cloth or an obstacle may have moved: what was made from the shape for the same number is
-  /// still right.
+  /// Another number whenever the cloth or an obstacle may have moved: what was made from the shape for the same number
+  /// is still right.
   std::uint64_t revision() const;
 
   /// Hash of the bits of positions and velocities (FNV-1a, 64 bits).

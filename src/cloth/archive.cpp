@@ -86,7 +86,8 @@ void Archive::many(const char* name, const char* type, Values& values, const Che
   const std::size_t count = countOf(values.size());
   if (way_ == Way::kSave) write(values.data(), bytes);
   if (way_ != Way::kLoad) return;
-  if (count != values.size()) fail("must be " + std::to_string(values.size()) + " numbers, is " + std::to_string(count));
+  if (count != values.size())
+    fail("must be " + std::to_string(values.size()) + " numbers, is " + std::to_string(count));
   Values taken(values.size());
   read(taken.data(), bytes);
   for (const Value value : taken) {
@@ -138,7 +139,8 @@ void Archive::within(const char* name, double& value, double low, double high) {
 void Archive::integerOf(const char* name, std::int64_t& value, std::int64_t low, std::int64_t high) {
   const auto inside = [=](std::int64_t taken) {
     if (taken >= low && taken <= high) return true;
-    fail("must be an integer in [" + std::to_string(low) + ", " + std::to_string(high) + "], is " + std::to_string(taken));
+    fail("must be an integer in [" + std::to_string(low) + ", " + std::to_string(high) + "], is " +
+         std::to_string(taken));
   };
   atOnce([&] { one(name, "an integer in a range", value, inside); });
 }

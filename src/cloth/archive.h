@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The way of an object's members into a snapshot and out of it again. Every class that has something to carry lists it once,
+// The way of an object's members into a snapshot and out of it again. Every class that has something to carry lists it
+// once,
 //
 //     void carry(Archive& archive);
 //
-// and the same list saves, loads and describes: what is saved is what is loaded. Loading trusts nothing that it reads: counts
-// are those of the object that is loaded into, or used up by what follows; indices, and what steers a loop, are in range. And
-// it changes nothing before commit(), which can't fail: who is given a bad snapshot still has all that was there before.
+// and the same list saves, loads and describes: what is saved is what is loaded. Loading trusts nothing that it reads:
+// counts are those of the object that is loaded into, or used up by what follows; indices, and what steers a loop, are
+// in range. And it changes nothing before commit(), which can't fail: who is given a bad snapshot still has all that
+// was there before.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -17,13 +17,13 @@ class Archive;
 /// What does not change while the cloth moves.
 struct ClothPattern {
   Grid grid;
-  Field warp_rest;     ///< rest length of the rod from node (i-1, j) to (i, j) [m]; row 0 and padding: 1
-  Field weft_rest;     ///< rest length of the link from node (i, j-1) to (i, j) [m]; closed: column 0 closes the ring
+  Field warp_rest;  ///< rest length of the rod from node (i-1, j) to (i, j) [m]; row 0 and padding: 1
+  Field weft_rest;  ///< rest length of the link from node (i, j-1) to (i, j) [m]; closed: column 0 closes the ring
   Field warp_per_square;  ///< 1 / warp_rest^2 [1/m^2]
   Field weft_per_square;  ///< 1 / weft_rest^2 [1/m^2]
-  Field area;          ///< the node's share of the cloth [m^2]
-  Field mass;          ///< [kg]; padding: 0
-  Field inverse_mass;  ///< [1/kg]; pinned and padding: 0
+  Field area;             ///< the node's share of the cloth [m^2]
+  Field mass;             ///< [kg]; padding: 0
+  Field inverse_mass;     ///< [1/kg]; pinned and padding: 0
   std::vector<std::uint8_t> pinned;
   Field warp_coordinate;  ///< of each row, length along the warp from the hung edge [m], shape [rows]
   Field weft_coordinate;  ///< of each column, length along the weft of the top row [m], shape [columns]

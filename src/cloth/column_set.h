@@ -15,7 +15,8 @@ struct ColumnSpan {
   std::size_t first = 0;
   std::size_t end = 0;
 
-  /// Weft links with an end in the span, of open cloth; of a ring, whose span is all of it, all but the one that closes it.
+  /// Weft links with an end in the span, of open cloth; of a ring, whose span is all of it, all but the one that closes
+  /// it.
   std::size_t firstLink() const noexcept { return first > 0 ? first : 1; }
   std::size_t endLink(std::size_t columns) const noexcept { return end < columns ? end + 1 : columns; }
 };

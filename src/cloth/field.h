@@ -13,8 +13,9 @@
 
 namespace curtain {
 
-/// Puts the first element at the start of a cache line (else every other wide load crosses into the next one), and not of
-/// the same line of a page for every large field: what lies side by side in a sweep would share one set of the cache.
+/// Puts the first element at the start of a cache line (else every other wide load crosses into the next one), and not
+/// of the same line of a page for every large field: what lies side by side in a sweep would share one set of the
+/// cache.
 template <typename T>
 struct CacheAligned {
   using value_type = T;

@@ -19,10 +19,10 @@ namespace curtain {
 
 /// Where one fold lies.
 struct FoldArc {
-  Vec3 first;          ///< first-layer node at the link's left end [m]
-  Vec3 second;         ///< and at its right end [m]
-  Vec3 bow;            ///< unit, perpendicular to the chord: the way the fold bows
-  double rest = 0.0;   ///< length of the link [m]
+  Vec3 first;         ///< first-layer node at the link's left end [m]
+  Vec3 second;        ///< and at its right end [m]
+  Vec3 bow;           ///< unit, perpendicular to the chord: the way the fold bows
+  double rest = 0.0;  ///< length of the link [m]
 };
 
 /// Places the k - 1 second-layer nodes of folds. Immutable: any number of threads may use it.

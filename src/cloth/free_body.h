@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Momentum and angular momentum of all nodes of a cloth, and the rigid motion that gives back what is missing of them. Forces
-// between parts of the cloth change neither; where a computed one acts a little off the line between its points (directions
-// that follow the solve, friction across a gap) the whole cloth is turned by what that amounts to.
+// Momentum and angular momentum of all nodes of a cloth, and the rigid motion that gives back what is missing of them.
+// Forces between parts of the cloth change neither; where a computed one acts a little off the line between its points
+// (directions that follow the solve, friction across a gap) the whole cloth is turned by what that amounts to.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -61,8 +61,10 @@ SampledBounds::SampledBounds(const ClothPattern& pattern) {
     for (int j = 0; j < grid.columns; ++j) {
       const std::size_t n = grid.index(i, j);
       all_.push_back(n);
-      if (std::isfinite(away[n])) margin_ = std::max(margin_, kOverlong * away[n]);
-      else samples_.push_back(n);  // surrounded by pins
+      if (std::isfinite(away[n]))
+        margin_ = std::max(margin_, kOverlong * away[n]);
+      else
+        samples_.push_back(n);  // surrounded by pins
     }
   }
 }

@@ -8,7 +8,8 @@
 //   the ruled surface between u and l                    |v'| / 4
 //   the drawn triangles                                  w |v'| / 4
 //
-// v = u - l; v' is its change from one p to the next, the twist of the strip; w is the base of the widest triangle, in rods.
+// v = u - l; v' is its change from one p to the next, the twist of the strip; w is the base of the widest triangle, in
+// rods.
 //
 // (A triangle with its base from p to p' on one fold and its corner at q on the other is off the ruled surface by
 // s (1 - s) |p' - q| |v'| at most.)

@@ -7,7 +7,8 @@ namespace {
 
 struct Rows {
   const double *x, *y, *z;
-  Rows(const Field3& field, std::size_t row) : x(field.x.data() + row), y(field.y.data() + row), z(field.z.data() + row) {}
+  Rows(const Field3& field, std::size_t row)
+      : x(field.x.data() + row), y(field.y.data() + row), z(field.z.data() + row) {}
 };
 
 }  // namespace

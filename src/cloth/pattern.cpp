@@ -58,8 +58,10 @@ double nodeArea(const ClothPattern& pattern, int i, int j) {
   if (i + 1 < grid.rows) along_warp += 0.5 * pattern.warp_rest[grid.index(i + 1, j)];
   double along_weft = 0.0;
   if (j > 0 || grid.closed) along_weft += 0.5 * pattern.weft_rest[grid.index(i, j)];
-  if (j + 1 < grid.columns) along_weft += 0.5 * pattern.weft_rest[grid.index(i, j + 1)];
-  else if (grid.closed) along_weft += 0.5 * pattern.weft_rest[grid.index(i, 0)];
+  if (j + 1 < grid.columns)
+    along_weft += 0.5 * pattern.weft_rest[grid.index(i, j + 1)];
+  else if (grid.closed)
+    along_weft += 0.5 * pattern.weft_rest[grid.index(i, 0)];
   return along_warp * along_weft;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a snapshot carries of contact: the multipliers of the last accepted substep, and where obstacles are. What is near is
-// found anew.
+// What a snapshot carries of contact: the multipliers of the last accepted substep, and where obstacles are. What is
+// near is found anew.
 #include <limits>
 
 #include "cloth/archive.h"
@@ -73,8 +73,8 @@ void ObstacleContacts::carry(Archive& archive) {
   archive.number("loaded_for", loaded_for_);
 }
 
-// Multipliers by key, and what they act along: with the last forces they take velocities to the time of the positions. All else of a
-// contact is of its own substep.
+// Multipliers by key, and what they act along: with the last forces they take velocities to the time of the positions.
+// All else of a contact is of its own substep.
 void ClothContact::carryPushing(Archive& archive, Contact& contact) const {
   for (std::uint32_t& node : contact.node) archive.node("node", node, pattern_.grid);
   for (double& weight : contact.weight) archive.number("weight", weight);

@@ -45,7 +45,9 @@ ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& par
 
 // The cloth with itself first, then obstacles by their names.
 bool ClothContact::before(const Contact& a, const Contact& b) const noexcept {
-  const auto rank = [this](const Contact& c) { return c.obstacle == Contact::kCloth ? -1 : obstacles_.rank(c.obstacle); };
+  const auto rank = [this](const Contact& c) {
+    return c.obstacle == Contact::kCloth ? -1 : obstacles_.rank(c.obstacle);
+  };
   return std::make_tuple(rank(a), a.nodes, a.node, a.source) < std::make_tuple(rank(b), b.nodes, b.node, b.source);
 }
 
@@ -70,8 +72,10 @@ Contacts& ClothContact::begin(const Field3& start, const Field3& predicted, doub
   looks_ = 0;
   if (self_wanted_) {
     flat_ = taut_ && net_.isFlat(start, kFlatReach * self_.gap());
-    if (flat_) candidates_.clear();
-    else find(start, predicted, self_.gap());
+    if (flat_)
+      candidates_.clear();
+    else
+      find(start, predicted, self_.gap());
     self_.collect(candidates_, last_, start, predicted, h, contacts_);
   }
   touch_.begin(start, predicted, h, slippery_ > 0, contacts_);
@@ -100,8 +104,10 @@ ContactFinder::Verdict ClothContact::verify(const Field3& start, const Field3& e
   int added = 0;
   bool full = false;
   if (self_wanted_ && !staysFlat(end, settled)) {
-    if (flat_) find(start, end, self_.gap());
-    else pairs_.collectElsewhere(start, end, kCrossingReach * self_.gap(), candidates_);
+    if (flat_)
+      find(start, end, self_.gap());
+    else
+      pairs_.collectElsewhere(start, end, kCrossingReach * self_.gap(), candidates_);
     flat_ = false;
     added = self_.verify(candidates_, start, end, h_, contacts_);
     full = self_.full();
@@ -119,8 +125,8 @@ void ClothContact::hold(const Field3& start, Field3& end) noexcept {
   if (obstacles_.anyPresent()) holdToObstacles(start, end);
 }
 
-// What would go through an obstacle goes along with it, and what that would go through or be left behind by, too. Where that does
-// not come to an end, the rest stays where it is.
+// What would go through an obstacle goes along with it, and what that would go through or be left behind by, too. Where
+// that does not come to an end, the rest stays where it is.
 void ClothContact::holdToObstacles(const Field3& start, Field3& end) noexcept {
   bool done = false;
   for (int round = 0; round < kCarryRounds && !done; ++round) {
@@ -169,10 +175,14 @@ int ClothContact::joinCrossings(const Field3& start, const Field3& end) noexcept
 
 void ClothContact::afterSubstep(bool settled, double h, double scale, const Field3& position) noexcept {
   taut_ = settled;
-  if (flat_) net_.goOn();
-  else net_.forget();
-  if (!settled) slippery_ = kSlipperySubsteps;
-  else if (slippery_ > 0) --slippery_;
+  if (flat_)
+    net_.goOn();
+  else
+    net_.forget();
+  if (!settled)
+    slippery_ = kSlipperySubsteps;
+  else if (slippery_ > 0)
+    --slippery_;
   last_.clear();
   for (const Contact& contact : contacts_) {
     if (contact.pushes()) last_.push_back(contact);

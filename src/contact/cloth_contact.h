@@ -6,8 +6,8 @@
 //   verify   what would go through something on the solved way becomes a contact too, and the solve goes on
 //   hold     what still would is moved as one body (zones.h)
 //
-// Contacts come from positions and those multipliers alone, in the order of the obstacles' names and of the nodes. What is kept
-// beside them saves time and changes no bit of a result.
+// Contacts come from positions and those multipliers alone, in the order of the obstacles' names and of the nodes. What
+// is kept beside them saves time and changes no bit of a result.
 #pragma once
 
 #include "contact/broad_phase/cloth_pairs.h"
@@ -23,13 +23,14 @@ namespace curtain {
 class ClothContact : public ContactFinder {
  public:
   /// stretch_tolerance: of links in a substep that settles, relative; pattern, obstacles and workers must outlive this.
-  ClothContact(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles, double stretch_tolerance,
-               const Workers& workers);
+  ClothContact(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles,
+               double stretch_tolerance, const Workers& workers);
 
   /// There is something to look for at all.
   bool wanted() const noexcept { return self_wanted_ || obstacles_.anyPresent(); }
 
-  /// What is nearer than it should be comes out by no more than this in the substeps to come [m]; infinite: at its own speed.
+  /// What is nearer than it should be comes out by no more than this in the substeps to come [m]; infinite: at its own
+  /// speed.
   void boundRecovery(double most) noexcept {
     touch_.boundRecovery(most);
     self_.boundRecovery(most);
@@ -53,7 +54,9 @@ class ClothContact : public ContactFinder {
 
   /// Contacts that find room without an allocation.
   std::size_t capacity() const noexcept { return contacts_.capacity(); }
-  ObstacleStanding standing(int obstacle, const Field3& position) const noexcept { return touch_.standing(obstacle, position); }
+  ObstacleStanding standing(int obstacle, const Field3& position) const noexcept {
+    return touch_.standing(obstacle, position);
+  }
   /// Something of the last substep may touch.
   bool any() const { return !contacts_.empty(); }
   const Contacts& contacts() const { return contacts_; }
@@ -94,15 +97,15 @@ class ClothContact : public ContactFinder {
   SelfContacts self_;
   ClothPairs pairs_;
   TautNet net_;
-  Candidates candidates_;     // of the way from the substep's start to where nodes were predicted, and to elsewhere
+  Candidates candidates_;  // of the way from the substep's start to where nodes were predicted, and to elsewhere
   Zones zones_;
-  Contacts contacts_, last_;  // of this substep; of the last accepted one, those that pushed, in their order
-  double h_ = 0.0;            // of this substep [s]
-  double last_scale_ = 0.0;   // of the last one's multipliers [s^2]
-  bool taut_ = false;         // links hold where the substep starts
-  bool flat_ = false;         // and the cloth is flat there
-  int looks_ = 0;             // times that the present substep was verified
-  int slippery_ = 0;          // substeps still to go without friction
+  Contacts contacts_, last_;    // of this substep; of the last accepted one, those that pushed, in their order
+  double h_ = 0.0;              // of this substep [s]
+  double last_scale_ = 0.0;     // of the last one's multipliers [s^2]
+  bool taut_ = false;           // links hold where the substep starts
+  bool flat_ = false;           // and the cloth is flat there
+  int looks_ = 0;               // times that the present substep was verified
+  int slippery_ = 0;            // substeps still to go without friction
   std::uint64_t clearing_ = 0;  // state of the random numbers, see clearCachesAtRandom()
 };
 

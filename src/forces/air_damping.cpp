@@ -15,7 +15,7 @@ AirDamping::AirDamping(const AirParams& air, const ClothPattern& pattern) : air_
     for (int j = 0; j < grid.columns; ++j) {
       const bool on_row_edge = i == 0 || i + 1 == grid.rows;
       const bool on_column_edge = !grid.closed && (j == 0 || j + 1 == grid.columns);
-      const double place = on_row_edge && on_column_edge ? air.corner
+      const double place = on_row_edge && on_column_edge   ? air.corner
                            : on_row_edge || on_column_edge ? air.border
                                                            : air.inside;
       const double coefficient = air.density * place * pattern.area[grid.index(i, j)];

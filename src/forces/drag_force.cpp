@@ -66,9 +66,9 @@ void DragForce::grasp(NodeIndex node, const ClothPattern& pattern) noexcept {
   }
 }
 
-// The pull of the spring as it is. Its damper, and the look ahead that makes it stable at any stiffness (implicit Euler:
-// k (target - x - dt v')), are coefficients against the nodes' velocities; the solver puts them into the nodes' inertia,
-// where the rest of the cloth is felt too. At its limit the spring is a softer one.
+// The pull of the spring as it is. Its damper, and the look ahead that makes it stable at any stiffness (implicit
+// Euler: k (target - x - dt v')), are coefficients against the nodes' velocities; the solver puts them into the nodes'
+// inertia, where the rest of the cloth is felt too. At its limit the spring is a softer one.
 void DragForce::addSpring(const Field3& position, double dt, Field3& force, Field& damping) const noexcept {
   Vec3 x = Vec3::Zero();
   for (const Share& share : shares_) x += share.weight * position.at(share.node);

@@ -45,8 +45,8 @@ class DragForce {
 
   DragParams drag_;
   std::optional<NodeIndex> node_;
-  std::vector<Share> shares_;        // weights add up to one; room for every node is kept from the start
-  double spring_damping_ = 0.0;      // [kg/s]
+  std::vector<Share> shares_;    // weights add up to one; room for every node is kept from the start
+  double spring_damping_ = 0.0;  // [kg/s]
 };
 
 /// The node nearest to a point.

@@ -57,8 +57,7 @@ GustNoise::GustNoise(std::uint64_t seed, double correlation_length, double corre
     : seed_(seed), correlation_time_(correlation_time) {
   const Grid& grid = pattern.grid;
   const double height = pattern.warp_coordinate.back();
-  const double width =
-      pattern.weft_coordinate.back() + (grid.closed ? pattern.weft_rest[grid.index(0, 0)] : 0.0);
+  const double width = pattern.weft_coordinate.back() + (grid.closed ? pattern.weft_rest[grid.index(0, 0)] : 0.0);
   const int row_cells = latticeCells(height, correlation_length, 1, grid.rows);
   // Around a ring a single cell would have one lattice point for both its ends.
   const int column_cells = latticeCells(width, correlation_length, grid.closed ? 2 : 1, grid.columns);

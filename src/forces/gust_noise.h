@@ -20,8 +20,8 @@ class GustNoise {
   /// correlation_time    [s], > 0
   GustNoise(std::uint64_t seed, double correlation_length, double correlation_time, const ClothPattern& pattern);
 
-  /// Sets the time of the field [s], before any look at it. Costs next to nothing: numbers are made for the rows that are
-  /// looked at. Allocates nothing.
+  /// Sets the time of the field [s], before any look at it. Costs next to nothing: numbers are made for the rows that
+  /// are looked at. Allocates nothing.
   void setTime(double time) noexcept;
 
   /// The field at a node at the time set.

@@ -31,9 +31,18 @@ WindSource::WindSource(const WindParams& wind, const ClothPattern& pattern, doub
       distance_factor_(pattern.grid.size(), 0.0),
       gust_row_(static_cast<std::size_t>(pattern.grid.columns), 0.0),
       rows_(static_cast<std::size_t>(pattern.grid.rows), 0) {
-  cone_ = {wind.position[0], wind.position[1], wind.position[2], axis_[0], axis_[1], axis_[2],
-           wind.radius,      0.0,              wind.distance_weight, 1.0 / wind.reference_length,
-           0.0,              1.0};
+  cone_ = {wind.position[0],
+           wind.position[1],
+           wind.position[2],
+           axis_[0],
+           axis_[1],
+           axis_[2],
+           wind.radius,
+           0.0,
+           wind.distance_weight,
+           1.0 / wind.reference_length,
+           0.0,
+           1.0};
   if (wind.half_angle > kParallel) {
     cone_.of_axis = cone_.apex_distance = wind.radius / std::tan(wind.half_angle);
     cone_.of_place = 1.0;

@@ -21,10 +21,10 @@ namespace curtain {
 
 /// What the air of one source does at one place.
 struct WindAtPoint {
-  bool reached = false;         ///< inside the cone and before the disc
+  bool reached = false;           ///< inside the cone and before the disc
   Vec3 direction = Vec3::Zero();  ///< unit d
-  double along_axis = 0.0;      ///< cosine between d and the axis (0 only where nothing is reached)
-  double distance_factor = 0.0;  ///< 1 / (c_d (1 + |d|^2)), |d| over the reference length
+  double along_axis = 0.0;        ///< cosine between d and the axis (0 only where nothing is reached)
+  double distance_factor = 0.0;   ///< 1 / (c_d (1 + |d|^2)), |d| over the reference length
 };
 
 class WindSource {
@@ -61,11 +61,11 @@ class WindSource {
   // Where the air goes. Loops over nodes take a copy, which no store to a node can change, and its functions have no
   // branch: they widen.
   struct Cone {
-    double ox, oy, oz;  // centre of the disc [m]
-    double ax, ay, az;  // axis
-    double radius, apex_distance;  // [m]; no apex: 0, parallel wind
+    double ox, oy, oz;                   // centre of the disc [m]
+    double ax, ay, az;                   // axis
+    double radius, apex_distance;        // [m]; no apex: 0, parallel wind
     double distance_weight, per_length;  // of the reference length [1/m]
-    double of_place, of_axis;  // what the line AC is made of: C from the centre, the axis
+    double of_place, of_axis;            // what the line AC is made of: C from the centre, the axis
     Direction directionAt(double x, double y, double z) const noexcept;
     double distanceFactorAt(double x, double y, double z) const noexcept;
   };
@@ -77,13 +77,13 @@ class WindSource {
   WindParams wind_;
   Vec3 axis_;
   Cone cone_;
-  double porosity_factor_;      // 1 - c_mu mu
-  double widening_ = 0.0;       // of the cone's radius along its axis; 0 = parallel wind
-  double strength_;             // of everything it does; 0 = the source is there but still
-  bool steady_;                 // it does more than gusts
+  double porosity_factor_;  // 1 - c_mu mu
+  double widening_ = 0.0;   // of the cone's radius along its axis; 0 = parallel wind
+  double strength_;         // of everything it does; 0 = the source is there but still
+  bool steady_;             // it does more than gusts
   GustNoise gusts_;
-  Field distance_factor_;  // of Eq. (3), of every node, from the last find(); 0 where nothing is reached
-  Field gust_row_;         // scratch: a component of the gusts along a row
+  Field distance_factor_;           // of Eq. (3), of every node, from the last find(); 0 where nothing is reached
+  Field gust_row_;                  // scratch: a component of the gusts along a row
   std::vector<std::uint8_t> rows_;  // with a node in reach, from the last find() that looked at them
   bool reaches_ = false;
 };

@@ -8,8 +8,8 @@
 
 namespace curtain {
 
-/// Sizes that a scene may speak of, in any unit: within them lengths, areas, masses and the squares of what comes of them are
-/// numbers, so that a scene that is valid can be computed. From a nanometre to a million kilometres.
+/// Sizes that a scene may speak of, in any unit: within them lengths, areas, masses and the squares of what comes of
+/// them are numbers, so that a scene that is valid can be computed. From a nanometre to a million kilometres.
 constexpr double kSmallest = 1e-9;
 constexpr double kLargest = 1e9;
 constexpr double kLatest = 1e12;  // of ends [s]

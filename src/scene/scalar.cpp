@@ -179,7 +179,8 @@ std::string describeValue(const YAML::Node& node) {
   if (node.IsMap()) return "a map";
   const ScalarValue value = scalarValue(node);
   if (value.kind != ScalarKind::kText) return shortened(node.Scalar());
-  return "the text " + quoted(node.Scalar()) + (value.hint.empty() ? "" : " (text in YAML: " + shortened(value.hint) + ")");
+  return "the text " + quoted(node.Scalar()) +
+         (value.hint.empty() ? "" : " (text in YAML: " + shortened(value.hint) + ")");
 }
 
 }  // namespace curtain

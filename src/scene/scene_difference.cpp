@@ -39,7 +39,8 @@ class Comparison {
     for (const auto& entry : theirs) {
       if (!entry.first.IsScalar()) return differ;
       const std::string& name = entry.first.Scalar();
-      if (!ours[name].IsDefined()) return Problem{key + dot + name, "is " + wordsFor(entry.second) + " there, not given here"};
+      if (!ours[name].IsDefined())
+        return Problem{key + dot + name, "is " + wordsFor(entry.second) + " there, not given here"};
     }
     return std::nullopt;
   }

@@ -11,7 +11,8 @@
 
 namespace curtain {
 
-/// The first key, in the order of `ours`, that `theirs` has another value for, and both values; none: they say the same.
+/// The first key, in the order of `ours`, that `theirs` has another value for, and both values; none: they say the
+/// same.
 /// ours    from writeScene()
 /// theirs  any text
 /// aside   keys that may differ, as knownSceneKeys() names them: "air", "obstacles[].mesh"

@@ -234,8 +234,10 @@ void StrictReader::text(Key key, std::string& value) {
   if (!found) return;
   const bool scalar = found->IsScalar();
   if (scalar && scalarValue(*found).kind == ScalarKind::kText) {
-    if (isWritable(found->Scalar())) value = found->Scalar();
-    else log_.add(keyOf(key), "must be text in UTF-8");
+    if (isWritable(found->Scalar()))
+      value = found->Scalar();
+    else
+      log_.add(keyOf(key), "must be text in UTF-8");
     return;
   }
   log_.add(keyOf(key), "must be text, is " + describeValue(*found) + (scalar ? " (write it in quotes)" : ""));

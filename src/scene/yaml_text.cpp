@@ -42,11 +42,13 @@ class Inspector final : public YAML::EventHandler {
     if (size == sizes_.end()) throw Refusal{placed(mark, "not YAML: an alias within what it stands for")};
     count(mark, size->second);
   }
-  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor, YAML::EmitterStyle::value) override {
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
     open(mark, anchor);
   }
   void OnSequenceEnd() override { close(); }
-  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor, YAML::EmitterStyle::value) override {
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
     open(mark, anchor);
   }
   void OnMapEnd() override { close(); }
@@ -55,7 +57,8 @@ class Inspector final : public YAML::EventHandler {
   void count(const YAML::Mark& mark, std::size_t more) {
     values_ += more;
     if (values_ <= kMostYamlValues) return;
-    throw Refusal{placed(mark, "comes to more than " + std::to_string(kMostYamlValues) + " values, which no scene needs")};
+    throw Refusal{
+        placed(mark, "comes to more than " + std::to_string(kMostYamlValues) + " values, which no scene needs")};
   }
   void countOne(const YAML::Mark& mark, YAML::anchor_t anchor) {
     count(mark, 1);

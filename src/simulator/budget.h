@@ -4,12 +4,13 @@
 //
 //   1 the error's estimate   the companion of position_tolerance stays at home for this frame
 //   2 short substeps         fewer and longer ones than the tensions ask for; nodes are heavier, so nothing blows up
-//   3 time                   the frame ends before a substep that there is no time for: the cloth moves slower than the clock;
-//                            obstacles and pins go on from where they had got to
-//   4 the last sweeps        a substep whose time is over is taken with links up to 8 times further off than their tolerance
+//   3 time                   the frame ends before a substep that there is no time for: the cloth moves slower than the
+//                            clock; obstacles and pins go on from where they had got to
+//   4 the last sweeps        a substep whose time is over is taken with links up to 8 times further off than their
+//                            tolerance
 //
-// Further off, or through something, nothing is taken: the cloth stands still for a frame and tries with a shorter substep; but
-// not for more than some frames in a row, then a substep may take what it needs.
+// Further off, or through something, nothing is taken: the cloth stands still for a frame and tries with a shorter
+// substep; but not for more than some frames in a row, then a substep may take what it needs.
 #pragma once
 
 #include <chrono>
@@ -25,7 +26,9 @@ class Budget {
   explicit Budget(double milliseconds) : seconds_(1e-3 * milliseconds) {}
 
   /// Of computing time [s].
-  static double secondsSince(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+  static double secondsSince(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+  }
 
   bool any() const noexcept { return seconds_ > 0.0; }
   void forget() noexcept;
@@ -62,8 +65,8 @@ class Budget {
 
   double seconds_;
   double substep_ = 0.0, companion_ = 0.0, tail_ = 0.0, frame_ = 0.0;  // what they take [s]
-  int stalled_ = 0;       // frames in a row without any motion
-  bool moved_ = false;    // a substep of this frame has been made
+  int stalled_ = 0;                                                    // frames in a row without any motion
+  bool moved_ = false;                                                 // a substep of this frame has been made
   Clock::time_point begin_, end_;
 };
 

@@ -61,8 +61,9 @@ void carryStatistics(Archive& archive, Statistics& s) {
 
 }  // namespace
 
-// Winds are functions of their parameters and the time, gusts too; drags of theirs and the node that they hold. Of both nothing
-// else goes on from frame to frame. The last forces do: what keeps velocities half a substep behind asks for them.
+// Winds are functions of their parameters and the time, gusts too; drags of theirs and the node that they hold. Of both
+// nothing else goes on from frame to frame. The last forces do: what keeps velocities half a substep behind asks for
+// them.
 void ForceField::carry(Archive& archive, AirParams& air) {
   std::vector<WindParams> winds = wind_params_;
   std::vector<Grasp> grasps;
@@ -72,7 +73,8 @@ void ForceField::carry(Archive& archive, AirParams& air) {
     archive.list("winds", winds, [&](WindParams& wind) { carryParams(archive, wind); });
     archive.list("drags", grasps, [&](Grasp& grasp) {
       carryParams(archive, grasp.drag, scene_.cloth);
-      archive.optional("holds", grasp.node, NodeIndex(), [&](NodeIndex& node) { archive.node("node", node, pattern_.grid); });
+      archive.optional("holds", grasp.node, NodeIndex(),
+                       [&](NodeIndex& node) { archive.node("node", node, pattern_.grid); });
     });
     archive.group("air", [&] { carryParams(archive, of_then); });
   });
@@ -200,8 +202,8 @@ void EnergyLedger::carry(Archive& archive) {
   archive.finite("kinetic", work_.kinetic);
 }
 
-// Not: what stages and pilot runs go back to, for they have; the mesh for the eye, which remembers nothing; the revision, which
-// counts for who has looked at this simulator.
+// Not: what stages and pilot runs go back to, for they have; the mesh for the eye, which remembers nothing; the
+// revision, which counts for who has looked at this simulator.
 void Simulator::Impl::carry(Archive& archive) {
   archive.finite("gravity", scene.gravity);
   archive.part("state", motion.state);

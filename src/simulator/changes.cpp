@@ -11,7 +11,8 @@ namespace {
 // Beyond this squares of distances lose what a link is long [m, m/s].
 constexpr double kFarthest = 1e9;
 
-void check(const std::vector<Vec3>& values, std::size_t count, const std::string& name, std::vector<Problem>& problems) {
+void check(const std::vector<Vec3>& values, std::size_t count, const std::string& name,
+           std::vector<Problem>& problems) {
   if (values.size() != count) {
     problems.push_back({name, "must have " + std::to_string(count) + " entries, has " + std::to_string(values.size())});
     return;

@@ -8,8 +8,9 @@
 namespace curtain {
 namespace {
 
-// What may be above before substeps are found too long, over what the cloth's weight does over its height: energies of single frames
-// waver by (h omega)^2 / 8 of what moves, 4e-3 at one substep (modes of 20 / s, 0.3 of it moves); whips collect 0.2.
+// What may be above before substeps are found too long, over what the cloth's weight does over its height: energies of
+// single frames waver by (h omega)^2 / 8 of what moves, 4e-3 at one substep (modes of 20 / s, 0.3 of it moves); whips
+// collect 0.2.
 constexpr double kTooMuch = 1e-2;
 constexpr int kEnoughSubsteps = 8;
 
@@ -33,12 +34,11 @@ EnergyGuard::EnergyGuard(Motion& motion, StepControls& controls, bool chooses)
 bool EnergyGuard::isClosed(bool pins_move) const noexcept {
   const NodeForces& last = motion_.forces.last();
   const bool chooses = motion_.scene.solver.substeps == 0 || motion_.statistics.rejected > 0;
-  return wanted_ && chooses && !pins_move && last.weight_only && !last.has_damping &&
-         motion_.pushing() == nullptr;
+  return wanted_ && chooses && !pins_move && last.weight_only && !last.has_damping && motion_.pushing() == nullptr;
 }
 
-// The energy before links take out of the velocities what is theirs (Motion::velocities() bounds it by this): it costs next to
-// nothing, where the velocities themselves cost as much as a substep.
+// The energy before links take out of the velocities what is theirs (Motion::velocities() bounds it by this): it costs
+// next to nothing, where the velocities themselves cost as much as a substep.
 double EnergyGuard::energyWithoutLinks() const noexcept {
   const ClothState& state = motion_.state;
   const Vec3 fall = state.velocity_age * motion_.scene.gravity;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Cloth that only its weight moves, and nothing damps, has no more energy than it had. Leapfrog keeps that as long as its substeps
-// are all alike; where their lengths follow the tensions, as automatic ones do, every change sets the energy a little off, and a
-// whip that makes it change at the same phases collects that: 0.2 m g H in 10 s of a sheet let go at 70 degrees. What is too much
-// is taken out of the velocities at the frame's end.
+// Cloth that only its weight moves, and nothing damps, has no more energy than it had. Leapfrog keeps that as long as
+// its substeps are all alike; where their lengths follow the tensions, as automatic ones do, every change sets the
+// energy a little off, and a whip that makes it change at the same phases collects that: 0.2 m g H in 10 s of a sheet
+// let go at 70 degrees. What is too much is taken out of the velocities at the frame's end.
 #pragma once
 
 #include <optional>

@@ -3,7 +3,9 @@
 
 namespace curtain {
 
-EnergyLedger::EnergyLedger(const ClothPattern& pattern) : pattern_(pattern) { before_.assign(pattern.grid.size(), 0.0); }
+EnergyLedger::EnergyLedger(const ClothPattern& pattern) : pattern_(pattern) {
+  before_.assign(pattern.grid.size(), 0.0);
+}
 
 // Weight, and all forces but damping: that takes energy out, which nobody has to account for.
 void EnergyLedger::addForces(const Field3& velocity, const NodeForces& forces, double kick) noexcept {
@@ -33,8 +35,8 @@ void EnergyLedger::addPins(const Field3& velocity, const ExactSolver& links, dou
   }
 }
 
-void EnergyLedger::end(const ClothState& state, const NodeForces& forces, const Contacts* contacts, const ExactSolver* links,
-                       double h, const SubstepOutcome& outcome) noexcept {
+void EnergyLedger::end(const ClothState& state, const NodeForces& forces, const Contacts* contacts,
+                       const ExactSolver* links, double h, const SubstepOutcome& outcome) noexcept {
   addForces(state.velocity, forces, outcome.kick);
   const double per_h = outcome.scale != 0.0 ? outcome.kick / outcome.scale : 1.0 / h;
   if (links != nullptr) addPins(state.velocity, *links, per_h);

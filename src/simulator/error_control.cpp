@@ -69,8 +69,8 @@ bool ErrorControl::makeFrames(int count, int substeps) {
   return made;
 }
 
-// Substeps a frame that leapfrog is stable in, up to those the motion may use: what needs more is not moved by leapfrog, and
-// stiff links under an absurd pull would ask for millions.
+// Substeps a frame that leapfrog is stable in, up to those the motion may use: what needs more is not moved by
+// leapfrog, and stiff links under an absurd pull would ask for millions.
 int ErrorControl::stableSubsteps() const noexcept {
   const double wanted = std::ceil(1.0 / (motion_.times.rate() * controls_.main.longestStableStep()));
   return static_cast<int>(std::clamp<double>(wanted, 1.0, estimate_.mostSubsteps()));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// solver.position_tolerance: chooses the substeps of a frame so that the motion's error keeps to it (ErrorEstimate). Pilot runs
-// before the motion guess how many it needs; a reference run beside it, in other substeps, tells its error.
+// solver.position_tolerance: chooses the substeps of a frame so that the motion's error keeps to it (ErrorEstimate).
+// Pilot runs before the motion guess how many it needs; a reference run beside it, in other substeps, tells its error.
 #pragma once
 
 #include "simulator/error_estimate.h"
@@ -36,8 +36,8 @@ class ErrorControl {
  private:
   struct Reference {
     Motion::Checkpoint at;
-    int substeps = 0;  // a frame
-    StepTally tally;   // of the last frame
+    int substeps = 0;   // a frame
+    StepTally tally;    // of the last frame
     bool lost = false;  // a substep failed
     bool in_finer_steps = false;
 

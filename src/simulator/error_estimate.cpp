@@ -13,9 +13,9 @@ constexpr double kFewer = 0.35;
 // Of the error that the difference must be: of steps nearly alike it tells nothing.
 constexpr double kLeastPart = 0.3;
 constexpr double kPilot = 0.5;  // [s]
-// Within a second errors grow at least with the square of time, since errors of velocities move the nodes; from the half
-// second of a pilot run on with the cube, as measured on chains released at 45 degrees (power 1.5 to 2.2) and 90 (2.8 to 3.2):
-// a first guess had better be too good.
+// Within a second errors grow at least with the square of time, since errors of velocities move the nodes; from the
+// half second of a pilot run on with the cube, as measured on chains released at 45 degrees (power 1.5 to 2.2) and 90
+// (2.8 to 3.2): a first guess had better be too good.
 constexpr double kGrowth = 2.0;
 constexpr double kGrowthOfGuess = 3.0;
 
@@ -43,7 +43,8 @@ void ErrorEstimate::reset() noexcept {
 
 // Substeps stay as long as they were, and the next comparison sets out at once.
 void ErrorEstimate::takeFrame(double length) noexcept {
-  substeps_ = static_cast<int>(std::clamp<double>(std::ceil(substeps_ * length / frame_length_ - 1e-9), fewest_, most_));
+  substeps_ =
+      static_cast<int>(std::clamp<double>(std::ceil(substeps_ * length / frame_length_ - 1e-9), fewest_, most_));
   frame_length_ = length;
   window_ = std::max(1, static_cast<int>(std::lround(1.0 / length)));
   frames_ = 0;
@@ -57,8 +58,7 @@ int ErrorEstimate::pilotFrames() const noexcept {
   return std::max(1, static_cast<int>(std::lround(kPilot / frame_length_)));
 }
 
-double ErrorEstimate::error(const Field3& a, double n, const Field3& b, double m,
-                            int order) const noexcept {
+double ErrorEstimate::error(const Field3& a, double n, const Field3& b, double m, int order) const noexcept {
   double sum = 0.0;
   std::size_t count = 0;
   for (std::size_t k = 0; k < pattern_.grid.size(); ++k) {
@@ -78,7 +78,7 @@ void ErrorEstimate::aimAt(double error_per_second, double substeps) noexcept {
 }
 
 void ErrorEstimate::pilotsMade(const Field3& position, int substeps, const Field3& finer_position,
-                              int finer_substeps) noexcept {
+                               int finer_substeps) noexcept {
   const double growth = std::pow(1.0 / (pilotFrames() * frame_length_), kGrowthOfGuess);
   substeps_ = std::clamp(substeps, fewest_, most_);
   aimAt(growth * error(position, substeps, finer_position, finer_substeps, order_), substeps);

@@ -2,10 +2,10 @@
 //
 // How far the computed motion is off the exact one, and how many substeps bring it to a tolerance.
 //
-// For one second out of four a reference run moves along, from the same start in half (or twice) as many substeps. By the
-// scheme's order p the error of the motion is what the two differ by over |1 - (n/m)^p|, n and m being their substeps
-// (Richardson 1911): no assumption on how errors grow enters. Before the motion begins two pilot runs of half a second make a
-// first guess, so that it starts with about the substeps it needs. RMS over the nodes that can move.
+// For one second out of four a reference run moves along, from the same start in half (or twice) as many substeps. By
+// the scheme's order p the error of the motion is what the two differ by over |1 - (n/m)^p|, n and m being their
+// substeps (Richardson 1911): no assumption on how errors grow enters. Before the motion begins two pilot runs of half
+// a second make a first guess, so that it starts with about the substeps it needs. RMS over the nodes that can move.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,9 @@ class ErrorEstimate {
   }
 
   /// Leapfrog steps that a substep is made of.
-  static int stepsPerSubstep(Method method) noexcept { return method == Method::kLeapfrog4 ? static_cast<int>(kStages.size()) : 1; }
+  static int stepsPerSubstep(Method method) noexcept {
+    return method == Method::kLeapfrog4 ? static_cast<int>(kStages.size()) : 1;
+  }
 
   void reset() noexcept;
   /// Frames are so long from now on [s]: the next comparison is a whole period away.
@@ -51,9 +53,10 @@ class ErrorEstimate {
   int pilotFrames() const noexcept;
   void pilotsMade(const Field3& position, int substeps, const Field3& finer_position, int finer_substeps) noexcept;
 
-  /// A frame has gone by in so many leapfrog steps. reference: null when it is not on its way or has failed. of_stages: all
-  /// steps were stages of whole substeps.
-  void frameMade(const Field3& position, int steps, const Field3* reference, int reference_steps, bool of_stages) noexcept;
+  /// A frame has gone by in so many leapfrog steps. reference: null when it is not on its way or has failed. of_stages:
+  /// all steps were stages of whole substeps.
+  void frameMade(const Field3& position, int steps, const Field3* reference, int reference_steps,
+                 bool of_stages) noexcept;
 
   /// Estimated error of the positions that a second of motion adds [m].
   double perSecond() const noexcept;
@@ -70,11 +73,11 @@ class ErrorEstimate {
   int order_;              // of the scheme; where its stages could not be made in the window, it is taken for 2
   int steps_per_substep_;  // leapfrog steps
   bool of_stages_ = true;  // in the present window
-  int window_;  // frames of a second
-  int fewest_, most_;  // substeps a frame that it may ask for; the same where they are fixed
+  int window_;             // frames of a second
+  int fewest_, most_;      // substeps a frame that it may ask for; the same where they are fixed
   int substeps_;
   long frames_ = 0;
-  int compared_ = 0;        // frames of the present window
+  int compared_ = 0;  // frames of the present window
   double steps_sum_ = 0.0, reference_sum_ = 0.0;
   double now_ = 0.0, last_second_ = 0.0;
 };

@@ -68,7 +68,8 @@ void writeMesh(const Simulator& simulator, const std::string& path) {
   if (!out) throw std::runtime_error(path + ": cannot be written");
 }
 
-std::string statisticsJson(const Simulator& simulator, const Energy& initial, const std::vector<double>& frame_seconds) {
+std::string statisticsJson(const Simulator& simulator, const Energy& initial,
+                           const std::vector<double>& frame_seconds) {
   const Statistics& s = simulator.statistics();
   const Energy energy = simulator.energy();
   nlohmann::ordered_json json;

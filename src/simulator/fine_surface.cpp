@@ -17,7 +17,10 @@ constexpr double kLeastShare = 0.01;
 }  // namespace
 
 FineSurface::FineSurface(const ClothParams& cloth, const ClothPattern& pattern)
-    : pattern_(pattern), shape_(cloth.folds), topology_(makeFineMeshTopology(cloth)), links_(pattern.grid.linkCount()),
+    : pattern_(pattern),
+      shape_(cloth.folds),
+      topology_(makeFineMeshTopology(cloth)),
+      links_(pattern.grid.linkCount()),
       quad_triangles_{{0, 2, 1}, {1, 2, 3}} {
   area_vectors_.assign(pattern.grid.size(), 0.0);
   const auto row_points = static_cast<std::uint32_t>(cloth.folds + 1);
@@ -108,9 +111,10 @@ void FineSurface::findStrips() {
       const Vec3 upper = 0.5 * (node(i, link, 0) + node(i, link, topology_.folds));
       const Vec3 lower = 0.5 * (node(i + 1, link, 0) + node(i + 1, link, topology_.folds));
       const Vec3 middle = 0.5 * (upper + lower);
-      const double rest = std::max({pattern_.weft_rest[grid.index(i, right)], pattern_.weft_rest[grid.index(i + 1, right)],
-                                    (node(i, link, 0) - node(i, link, topology_.folds)).norm(),
-                                    (node(i + 1, link, 0) - node(i + 1, link, topology_.folds)).norm()});
+      const double rest =
+          std::max({pattern_.weft_rest[grid.index(i, right)], pattern_.weft_rest[grid.index(i + 1, right)],
+                    (node(i, link, 0) - node(i, link, topology_.folds)).norm(),
+                    (node(i + 1, link, 0) - node(i + 1, link, topology_.folds)).norm()});
       const double reach = 0.5 * rest + (upper - middle).norm() + wanted_;
       SurfacePoint surface;
       const bool is_near = std::any_of(near_.begin(), near_.end(), [&](const MovingObstacle* obstacle) {
@@ -177,7 +181,8 @@ void FineSurface::settleFold(int row, int link) {
     for (const MovingObstacle* obstacle : near_) {
       SurfacePoint surface;
       const Vec3 local = obstacle->after.toLocal(moved);
-      if (!obstacle->shape->query(obstacle->after.toLocal(from), local, 0.0, surface) || surface.distance >= 0.0) continue;
+      if (!obstacle->shape->query(obstacle->after.toLocal(from), local, 0.0, surface) || surface.distance >= 0.0)
+        continue;
       moved += obstacle->after.rotation * (surface.normal * (wanted_ - surface.distance));
       fold(row, link).stage = Stage::kLifted;
     }

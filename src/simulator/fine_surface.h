@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The mesh that the eye sees, from the nodes and the obstacles. The first layer's triangles are outside the obstacles by
-// the contact solver; a strip of fine triangles, between the folds of two rows, need not be. What is done to a fold, from
-// the least to the most, until no strip comes nearer to an obstacle than a share of the thickness:
+// The mesh that the eye sees, from the nodes and the obstacles. The first layer's triangles are outside the obstacles
+// by the contact solver; a strip of fine triangles, between the folds of two rows, need not be. What is done to a fold,
+// from the least to the most, until no strip comes nearer to an obstacle than a share of the thickness:
 //
 //   turned     about its chord: every rod keeps its length
 //   lifted     its nodes are pushed out along the obstacle's normals: rods get longer or shorter
@@ -27,7 +27,8 @@
 
 namespace curtain {
 
-/// Not thread-safe. Same nodes and obstacles: same bits. Allocates nothing once it has seen the cloth near its obstacles.
+/// Not thread-safe. Same nodes and obstacles: same bits. Allocates nothing once it has seen the cloth near its
+/// obstacles.
 class FineSurface {
  public:
   FineSurface(const ClothParams& cloth, const ClothPattern& pattern);
@@ -87,8 +88,8 @@ class FineSurface {
   std::vector<MeshTriangle> quad_triangles_;   // points: the corners
   Field3 area_vectors_;
   std::vector<Fold> folds_;
-  std::vector<Strip> strips_;            // near obstacles, row by row
-  std::vector<std::int32_t> strip_at_;   // of a quad, in strips_; -1: no obstacle near
+  std::vector<Strip> strips_;                // near obstacles, row by row
+  std::vector<std::int32_t> strip_at_;       // of a quad, in strips_; -1: no obstacle near
   std::vector<const MovingObstacle*> near_;  // obstacles that the cloth's box touches
   std::vector<Vec3> points_, kept_;
   ElementClearance clearance_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The part of FineSurface that moves folds whose strips come too near to an obstacle although their rods do not: one strip
-// after the other, and no move may spoil the strips above and below.
+// The part of FineSurface that moves folds whose strips come too near to an obstacle although their rods do not: one
+// strip after the other, and no move may spoil the strips above and below.
 #include <algorithm>
 
 #include "simulator/fine_surface.h"
@@ -44,8 +44,8 @@ void FineSurface::settleStrips() {
   }
 }
 
-// The test of a move of the folds: whether, once move(way) was made, the strip is clear and the strips above and below that
-// were clear still are.
+// The test of a move of the folds: whether, once move(way) was made, the strip is clear and the strips above and below
+// that were clear still are.
 template <typename Move>
 auto FineSurface::test(const Strip& strip, Rows rows, Move move) {
   const auto mustStay = [&](int row) -> const Strip* {

@@ -3,8 +3,9 @@
 // The least turn of a fold about its chord that pleases. Angles are counted towards the next row of the cloth, "down".
 //
 //       bow of a fold that must not        Of two turns down is preferred until it is kPreference times as far as up.
-//       point into the obstacle            Cloth lies on an obstacle with its normal along the obstacle's, so a fold that
-//                                          bows into it mostly needs as far a turn either way: with the shorter one
+//       point into the obstacle            Cloth lies on an obstacle with its normal along the obstacle's, so a fold
+//                                          that bows into it mostly needs as far a turn either way: with the shorter
+//                                          one
 //      up <--- o ---> down                 it would flip at every tremble. So the flip is where cloth rarely is.
 //              | bow
 //      ========v========= obstacle
@@ -20,8 +21,8 @@ constexpr double kPreference = 3.0;
 
 namespace fold_turn {
 
-constexpr int kSteps = 12;       // of a half turn
-constexpr int kBisections = 8;   // of one step: the rest is a fifteenth of a degree
+constexpr int kSteps = 12;      // of a half turn
+constexpr int kBisections = 8;  // of one step: the rest is a fifteenth of a degree
 
 /// The least turn in [0, limit] [rad] one way (sign +1 or -1) that pleases.
 template <typename Pleases>

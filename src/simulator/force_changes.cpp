@@ -14,9 +14,10 @@ bool within(double time, double from, double to) { return time >= from - kSlack 
 }  // namespace
 
 bool sameWhileItBlows(const WindParams& a, const WindParams& b) {
-  return a.position == b.position && a.direction == b.direction && a.radius == b.radius && a.half_angle == b.half_angle &&
-         a.pressure == b.pressure && a.node_force == b.node_force && a.porosity_weight == b.porosity_weight &&
-         a.distance_weight == b.distance_weight && a.reference_length == b.reference_length && a.unsteadiness == b.unsteadiness &&
+  return a.position == b.position && a.direction == b.direction && a.radius == b.radius &&
+         a.half_angle == b.half_angle && a.pressure == b.pressure && a.node_force == b.node_force &&
+         a.porosity_weight == b.porosity_weight && a.distance_weight == b.distance_weight &&
+         a.reference_length == b.reference_length && a.unsteadiness == b.unsteadiness &&
          a.correlation_time == b.correlation_time && a.correlation_length == b.correlation_length;
 }
 
@@ -27,8 +28,9 @@ bool sameWhileItActs(const DragParams& a, const DragParams& b) {
   const auto samePoint = [](const std::optional<Vec3>& p, const std::optional<Vec3>& q) {
     return p.has_value() == q.has_value() && (!p || *p == *q);
   };
-  return sameNode(a.node, b.node) && samePoint(a.point, b.point) && a.force == b.force && samePoint(a.target, b.target) &&
-         a.stiffness == b.stiffness && a.max_force == b.max_force && a.radius == b.radius;
+  return sameNode(a.node, b.node) && samePoint(a.point, b.point) && a.force == b.force &&
+         samePoint(a.target, b.target) && a.stiffness == b.stiffness && a.max_force == b.max_force &&
+         a.radius == b.radius;
 }
 
 void ForceField::markReached(const WindSource& wind, const Field3& position, ColumnSet& out) const noexcept {
@@ -45,7 +47,8 @@ void ForceField::markChanges(double from, double to, const Field3& position, Col
     if (within(wind.params().start, from, to) || within(wind.params().end, from, to)) markReached(wind, position, out);
   }
   for (const DragForce& drag : drags_) {
-    if (within(drag.params().start, from, to) || within(drag.params().end, from, to)) drag.markColumns(pattern_.grid, out);
+    if (within(drag.params().start, from, to) || within(drag.params().end, from, to))
+      drag.markColumns(pattern_.grid, out);
   }
 }
 

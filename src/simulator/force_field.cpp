@@ -43,7 +43,8 @@ ForceField::ForceField(const Scene& scene, const ClothPattern& pattern)
 void ForceField::reset() {
   winds_.clear();
   drags_.clear();
-  for (const WindParams& wind : scene_.wind) winds_.emplace_back(wind, pattern_, scene_.cloth.porosity, scene_.solver.seed);
+  for (const WindParams& wind : scene_.wind)
+    winds_.emplace_back(wind, pattern_, scene_.cloth.porosity, scene_.solver.seed);
   for (const DragParams& drag : scene_.drag) drags_.emplace_back(drag, pattern_);
   listParams(winds_, wind_params_);
   listParams(drags_, drag_params_);

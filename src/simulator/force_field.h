@@ -53,8 +53,8 @@ class ForceField {
   /// The strongest air damping at rest of a node, over its mass [1/s].
   double dampingPerMass() const noexcept { return air_damping_.strongestPerMass(pattern_); }
 
-  /// Marks columns where they are now: that sources reach which begin or end within [from, to]; that gusts blow on; that the
-  /// wind or drag of this id reaches, whether it acts or not.
+  /// Marks columns where they are now: that sources reach which begin or end within [from, to]; that gusts blow on;
+  /// that the wind or drag of this id reaches, whether it acts or not.
   void markChanges(double from, double to, const Field3& position, ColumnSet& out) const noexcept;
   void markGusts(double time, const Field3& position, ColumnSet& out) const noexcept;
   void markWind(const std::string& id, const Field3& position, ColumnSet& out) const noexcept;
@@ -76,7 +76,7 @@ class ForceField {
   std::vector<DragForce> drags_;
   std::vector<DragParams> drag_params_;
   Field3 weight_;
-  Field3 sum_;  // with winds and drags, when any acts
+  Field3 sum_;           // with winds and drags, when any acts
   Field3 area_vectors_;  // of rows that a wind reaches
   NodeForces forces_;
 };

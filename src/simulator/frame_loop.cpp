@@ -53,8 +53,10 @@ double FrameLoop::makeSubstep(double done) {
     accept(*steps, planned, outcome);
     return planned.h;
   }
-  if (outcome.disturbed) sleep_.wakePulled();
-  else reject(*steps, planned, outcome.late);
+  if (outcome.disturbed)
+    sleep_.wakePulled();
+  else
+    reject(*steps, planned, outcome.late);
   return 0.0;
 }
 
@@ -98,8 +100,10 @@ SubstepOutcome FrameLoop::attemptInTime(const SubstepPlan& plan, double done) {
 // That there was no time left for it says nothing of its length, unless it had a whole frame's.
 void FrameLoop::reject(StepControl& steps, const SubstepPlan& plan, bool late) noexcept {
   ++motion_.statistics.rejected;
-  if (!late) steps.rejected(plan);
-  else if (budget_.fresh()) steps.tookTooLong(plan);
+  if (!late)
+    steps.rejected(plan);
+  else if (budget_.fresh())
+    steps.tookTooLong(plan);
 }
 
 void FrameLoop::accept(StepControl& steps, const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The substeps of a frame: the loop of Cheng 2000, Sect. 1.3. Each is planned, attempted, and taken or made again in smaller ones.
+// The substeps of a frame: the loop of Cheng 2000, Sect. 1.3. Each is planned, attempted, and taken or made again in
+// smaller ones.
 #pragma once
 
 #include "simulator/budget.h"
@@ -26,8 +27,8 @@ class FrameLoop {
   /// A pin stayed where it was in a substep of that frame.
   bool pinsWaited() const noexcept { return pins_waited_; }
 
-  /// A substep of five stages. False, and nothing changed: stages pause; or a string pulls or something touches, which forbids to
-  /// go back in time.
+  /// A substep of five stages. False, and nothing changed: stages pause; or a string pulls or something touches, which
+  /// forbids to go back in time.
   bool makeStages(const SubstepPlan& plan, double done);
 
  private:

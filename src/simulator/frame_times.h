@@ -40,7 +40,9 @@ class FrameTimes {
 
  private:
   // Whole frames from where they last changed their length, so that rounding does not add up.
-  double timeOf(std::int64_t frame) const noexcept { return since_.time + static_cast<double>(frame - since_.frame) * length(); }
+  double timeOf(std::int64_t frame) const noexcept {
+    return since_.time + static_cast<double>(frame - since_.frame) * length();
+  }
 
   double& rate_;
   std::int64_t frame_ = 0;
@@ -48,7 +50,7 @@ class FrameTimes {
   struct {
     std::int64_t frame = 0;
     double time = 0.0;  // [s]
-  } since_;  // frames have been as long as they are
+  } since_;             // frames have been as long as they are
 };
 
 }  // namespace curtain

@@ -40,8 +40,10 @@ SubstepOutcome Motion::attempt(const SubstepPlan& plan, double done) {
   const bool by_paper = scene.solver.method == Method::kPaper;
   ContactFinder* const finder = contact.wanted() ? &contact : nullptr;
   clock.start();
-  if (finder == nullptr) contact.nothingTouches();
-  else lag.setSubstep(plan, done, state.position);
+  if (finder == nullptr)
+    contact.nothingTouches();
+  else
+    lag.setSubstep(plan, done, state.position);
   const NodeForces& now = forces.evaluate(state, statistics.time + done, plan.h);
   clock.lap(Stage::kForces);
   if (counts_work) ledger.begin(state);
@@ -49,7 +51,8 @@ SubstepOutcome Motion::attempt(const SubstepPlan& plan, double done) {
       by_paper ? paper.substep(now, plan.h, finder, state, clock) : exact.substep(plan, now, finder, state, clock);
   statistics.sweeps += outcome.sweeps;
   statistics.sweeps_last += outcome.sweeps;
-  if (counts_work && outcome.accepted) ledger.end(state, now, &contact.contacts(), by_paper ? nullptr : &exact, plan.h, outcome);
+  if (counts_work && outcome.accepted)
+    ledger.end(state, now, &contact.contacts(), by_paper ? nullptr : &exact, plan.h, outcome);
   return outcome;
 }
 
@@ -71,8 +74,10 @@ void Motion::computeVelocities() noexcept { exact.currentVelocities(state, force
 
 const Field3& Motion::velocities() {
   if (velocities_fresh_) return velocities_;
-  if (times.frame() == 0 || state.velocity_age == 0.0) velocities_ = state.velocity;
-  else computeVelocities();
+  if (times.frame() == 0 || state.velocity_age == 0.0)
+    velocities_ = state.velocity;
+  else
+    computeVelocities();
   velocities_fresh_ = true;
   return velocities_;
 }

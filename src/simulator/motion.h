@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The cloth in motion: its state, what acts on it, the solvers that make a substep of it, and what is counted meanwhile.
+// The cloth in motion: its state, what acts on it, the solvers that make a substep of it, and what is counted
+// meanwhile.
 #pragma once
 
 #include "contact/cloth_contact.h"
@@ -36,8 +37,8 @@ struct Motion {
   /// At the time of the positions; kept until forgetVelocities().
   const Field3& velocities();
   void forgetVelocities() noexcept { velocities_fresh_ = false; }
-  /// Takes the velocities to the time of the positions. A step of another length than the last one's would else start from a
-  /// velocity half the difference off.
+  /// Takes the velocities to the time of the positions. A step of another length than the last one's would else start
+  /// from a velocity half the difference off.
   void synchronise();
   Energy energy();
 

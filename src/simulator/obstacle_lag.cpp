@@ -6,7 +6,8 @@
 
 namespace curtain {
 
-ObstacleLag::ObstacleLag(const ClothPattern& pattern, const FrameTimes& times, ObstacleSet& obstacles, ClothContact& contact)
+ObstacleLag::ObstacleLag(const ClothPattern& pattern, const FrameTimes& times, ObstacleSet& obstacles,
+                         ClothContact& contact)
     : times_(times), obstacles_(obstacles), contact_(contact), shortest_link_(shortestLink(pattern)) {}
 
 void ObstacleLag::setSubstep(const SubstepPlan& plan, double done, const Field3& position) noexcept {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Obstacles wait for cloth that cannot give way: further on they might go through it. In the last resort those near the cloth go no
-// further than a node may, and what is inside one comes out by no more, so that all that is asked of the solve vanishes with the
-// reach.
+// Obstacles wait for cloth that cannot give way: further on they might go through it. In the last resort those near the
+// cloth go no further than a node may, and what is inside one comes out by no more, so that all that is asked of the
+// solve vanishes with the reach.
 #pragma once
 
 #include "contact/cloth_contact.h"
@@ -28,8 +28,8 @@ class ObstacleLag {
   ObstacleSet& obstacles_;
   ClothContact& contact_;
   const double shortest_link_;  // [m]
-  double share_ = 1.0;  // of the substep's motion that obstacles make
-  double lag_ = 0.0;    // in this frame [s]
+  double share_ = 1.0;          // of the substep's motion that obstacles make
+  double lag_ = 0.0;            // in this frame [s]
 };
 
 }  // namespace curtain

@@ -7,8 +7,10 @@ namespace curtain {
 
 void PinMoves::move(std::size_t node, const Vec3& target) {
   const auto found = std::find_if(moves_.begin(), moves_.end(), [node](const Move& move) { return move.node == node; });
-  if (found != moves_.end()) found->target = target;
-  else moves_.push_back({node, target, false});
+  if (found != moves_.end())
+    found->target = target;
+  else
+    moves_.push_back({node, target, false});
 }
 
 // Pinned nodes answer no force; their velocity moves them.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Pinned nodes on their way to where they are told to be. They go evenly over a frame. One that has not got there follows in the
-// next frames, no faster than followingSpeed() of the obstacles (contact/shapes/obstacle_set.h).
+// Pinned nodes on their way to where they are told to be. They go evenly over a frame. One that has not got there
+// follows in the next frames, no faster than followingSpeed() of the obstacles (contact/shapes/obstacle_set.h).
 #pragma once
 
 #include <vector>
@@ -18,7 +18,8 @@ class PinMoves {
   bool any() const noexcept { return !moves_.empty(); }
   void clear() noexcept { moves_.clear(); }
 
-  /// Before a frame: gives the nodes their velocities. frame_rate [1/s]; following_speed: of those that are behind, at most [m/s].
+  /// Before a frame: gives the nodes their velocities. frame_rate [1/s]; following_speed: of those that are behind, at
+  /// most [m/s].
   void start(double frame_rate, double following_speed, ClothState& state) noexcept;
   /// After it. whole: all of the frame was made, and no pin had to wait.
   void stop(bool whole, ClothState& state) noexcept;

@@ -31,8 +31,11 @@ PlanEntry planOf(const WindParams& wind, double time, bool reaches) {
     return entry;
   }
   entry.runs = reaches;
-  if (!reaches) entry.why = "reaches nothing of the cloth";
-  else entry.why = wind.unsteadiness > 0.0 ? "reaches the cloth, with gusts" : "reaches the cloth; no gusts, so no random numbers";
+  if (!reaches)
+    entry.why = "reaches nothing of the cloth";
+  else
+    entry.why =
+        wind.unsteadiness > 0.0 ? "reaches the cloth, with gusts" : "reaches the cloth; no gusts, so no random numbers";
   return entry;
 }
 
@@ -45,9 +48,12 @@ PlanEntry planOf(const DragParams& drag, double time) {
 
 const char* wordsFor(ObstacleStanding standing) {
   switch (standing) {
-    case ObstacleStanding::kAbsent: return "absent";
-    case ObstacleStanding::kFar: return "away from the cloth: boxes are compared, nothing more";
-    case ObstacleStanding::kNear: return "near: what of the cloth may touch it is searched";
+    case ObstacleStanding::kAbsent:
+      return "absent";
+    case ObstacleStanding::kFar:
+      return "away from the cloth: boxes are compared, nothing more";
+    case ObstacleStanding::kNear:
+      return "near: what of the cloth may touch it is searched";
   }
   return "";
 }
@@ -93,12 +99,14 @@ void planSolver(const Motion& motion, const Budget& budget, Plan& plan) {
       solver.substeps > 0 ? std::to_string(solver.substeps) + " substeps a frame" : "substeps from the tensions";
   plan.push_back({"warp", true, toString(solver.method) + ", " + substeps});
   const bool pulls = motion.exact.weftPulls();
-  plan.push_back({"weft", true, pulls ? "strings pull: all taut ones are solved for at once"
-                                      : "no string pulls: looked at, and nothing more unless one gets taut"});
+  plan.push_back({"weft", true,
+                  pulls ? "strings pull: all taut ones are solved for at once"
+                        : "no string pulls: looked at, and nothing more unless one gets taut"});
   const bool estimates = ErrorControl::wanted(solver);
-  plan.push_back({"estimate", estimates,
-                  estimates ? "position_tolerance is asked for: a companion moves one second in four, as far as the budget lets it"
-                            : "no position_tolerance is asked for"});
+  plan.push_back(
+      {"estimate", estimates,
+       estimates ? "position_tolerance is asked for: a companion moves one second in four, as far as the budget lets it"
+                 : "no position_tolerance is asked for"});
   plan.push_back({"budget", budget.any(),
                   budget.any() ? number(1e3 * budget.seconds()) + " ms a frame" +
                                      (motion.statistics.shortened_frames > 0 ? "; frames have ended early" : "")
@@ -123,8 +131,9 @@ Plan Simulator::plan() const {
   } else if (!im.sleep.rest().can()) {
     plan.push_back({"rest", false, "fewer than 20 frames a second: nothing falls asleep"});
   } else {
-    plan.push_back({"rest", true, std::to_string(asleep) + " of " + std::to_string(columns()) + " columns sleep" +
-                                      (sleeps ? ": nothing below runs until something wakes them" : "")});
+    plan.push_back({"rest", true,
+                    std::to_string(asleep) + " of " + std::to_string(columns()) + " columns sleep" +
+                        (sleeps ? ": nothing below runs until something wakes them" : "")});
   }
   planForces(im.motion, plan);
   planSolver(im.motion, im.budget, plan);

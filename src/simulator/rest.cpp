@@ -11,27 +11,29 @@
 namespace curtain {
 namespace {
 
-// A column that keeps to its place for so long rests [s]. A pendulum of 2 m turns for as long within 0.13 of its amplitude.
+// A column that keeps to its place for so long rests [s]. A pendulum of 2 m turns for as long within 0.13 of its
+// amplitude.
 constexpr double kWindow = 0.5;
-// Looks at the cloth are apart by so many sixtieths of a second: not evenly, or a motion in step with them would look still.
+// Looks at the cloth are apart by so many sixtieths of a second: not evenly, or a motion in step with them would look
+// still.
 constexpr std::array<int, 4> kPauses = {7, 9, 5, 11};
 constexpr double kPauseUnit = 1.0 / 60.0;
 constexpr double kLongestFrame = 1.0 / 20.0;
-// Some nodes of a column that are faster than so many times the resting speed, and it is not looked at closer. Contact jitters
-// without going anywhere, so this is far from 1.
+// Some nodes of a column that are faster than so many times the resting speed, and it is not looked at closer. Contact
+// jitters without going anywhere, so this is far from 1.
 constexpr double kHurry = 50.0;
-// Cloth that lies on something is never quite still: within the tolerance of its links the solve may leave it anywhere. Over half a
-// second nodes were seen to move by 5 times the tolerance of a link (a sheet on a ball).
+// Cloth that lies on something is never quite still: within the tolerance of its links the solve may leave it anywhere.
+// Over half a second nodes were seen to move by 5 times the tolerance of a link (a sheet on a ball).
 constexpr double kJitter = 8.0;
-// After its neighbours have woken a column, for so long it does not sleep while they move [s], and twice as long each time: they
-// might all the time.
+// After its neighbours have woken a column, for so long it does not sleep while they move [s], and twice as long each
+// time: they might all the time.
 constexpr double kAloneAgain = 2.0, kLongestPause = 64.0;
 // Lowest frequency of a chain of length L: 1.2024 sqrt(g / L) (zero of the Bessel function J0, over two).
 constexpr double kLowestFrequency = 1.2024;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-// Box around an obstacle over its substep. Turning, it bulges beyond the boxes at both ends, by less than the sagitta of the
-// arc of its farthest point.
+// Box around an obstacle over its substep. Turning, it bulges beyond the boxes at both ends, by less than the sagitta
+// of the arc of its farthest point.
 Eigen::AlignedBox3d sweptBox(const MovingObstacle& obstacle) noexcept {
   Eigen::AlignedBox3d box = obstacle.sweptBounds();
   if (!std::isfinite(box.min().sum() + box.max().sum())) return box;
@@ -120,7 +122,8 @@ CURTAIN_WIDE void Rest::measure(const Field3& position) noexcept {
   std::fill(farthest_.begin(), farthest_.end(), 0.0);
   for (int i = 0; i < grid.rows; ++i) {
     const std::size_t row = grid.row(i);
-    const double *const x = position.x.data() + row, *const y = position.y.data() + row, *const z = position.z.data() + row;
+    const double *const x = position.x.data() + row, *const y = position.y.data() + row,
+                        *const z = position.z.data() + row;
     const double *const a = place_.x.data() + row, *const b = place_.y.data() + row, *const c = place_.z.data() + row;
 #pragma omp simd
     for (int j = 0; j < grid.columns; ++j) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Which columns of the cloth sleep. A column falls asleep when it has stayed in one place for a while; it wakes, and with it
-// all that sleep side by side with it, before whatever could move it acts:
+// Which columns of the cloth sleep. A column falls asleep when it has stayed in one place for a while; it wakes, and
+// with it all that sleep side by side with it, before whatever could move it acts:
 //
 //   a wind that reaches it, or a drag, begins, ends, changes      ForceField marks it (disturbed())
 //   an obstacle moves, comes or goes near it                      approachedBy()
@@ -9,8 +9,8 @@
 //   its neighbours pull at it, or touch it                        the solver finds that (HeldColumns), and makes the
 //                                                                 substep again with it awake
 //
-// Gusts that reach a column keep it awake; without gravity nothing brings cloth to rest, so nothing sleeps. Time is that of the
-// motion, which may be slower than the clock (solver.budget_ms).
+// Gusts that reach a column keep it awake; without gravity nothing brings cloth to rest, so nothing sleeps. Time is
+// that of the motion, which may be slower than the clock (solver.budget_ms).
 #pragma once
 
 #include <Eigen/Geometry>
@@ -45,22 +45,23 @@ class Rest {
   ColumnSet& disturbed() noexcept { return disturbed_; }
   void disturbAll() noexcept { disturbed_.addAll(); }
 
-  /// Marks the columns near obstacles that have moved since the last frame, or will in this one. Sets the obstacles' substep to
-  /// the whole frame.
+  /// Marks the columns near obstacles that have moved since the last frame, or will in this one. Sets the obstacles'
+  /// substep to the whole frame.
   void approachedBy(ObstacleSet& obstacles) noexcept;
 
-  /// Wakes what is marked, and what sleeps side by side with it; what is marked and awake must keep to a place anew. True:
-  /// somebody woke.
+  /// Wakes what is marked, and what sleeps side by side with it; what is marked and awake must keep to a place anew.
+  /// True: somebody woke.
   bool wake() noexcept;
-  /// The same of columns that their neighbours pull at, at this time [s]: they keep to their places still, but for a while they
-  /// sleep only with all the cloth.
+  /// The same of columns that their neighbours pull at, at this time [s]: they keep to their places still, but for a
+  /// while they sleep only with all the cloth.
   bool wakeFor(const ColumnSet& pulled, double time) noexcept;
 
   /// To be called after each frame in which something moved; true: it is time to look().
   bool due() noexcept;
-  /// Looks for columns that rest. kept_awake: those that gusts reach; contacts: of the last substep, or null; by_column:
-  /// columns may sleep while others move. True: some fell asleep.
-  bool look(const ClothState& state, double time, const ColumnSet& kept_awake, const Contacts* contacts, bool by_column) noexcept;
+  /// Looks for columns that rest. kept_awake: those that gusts reach; contacts: of the last substep, or null;
+  /// by_column: columns may sleep while others move. True: some fell asleep.
+  bool look(const ClothState& state, double time, const ColumnSet& kept_awake, const Contacts* contacts,
+            bool by_column) noexcept;
 
   void forget() noexcept;
 
@@ -81,14 +82,14 @@ class Rest {
 
   const ClothPattern& pattern_;
   double frame_length_;
-  double margin_;            // round the cloth, for obstacles [m]
-  double radius_ = 0.0;      // that nodes of a resting column stay within [m]; 0: nothing ever rests
-  double jitter_;            // what nodes of cloth that touches something go to and fro by, for all that it rests [m]
-  double allowed_ = 0.0;     // the radius of this look [m]
-  int due_in_ = 1;           // frames
+  double margin_;         // round the cloth, for obstacles [m]
+  double radius_ = 0.0;   // that nodes of a resting column stay within [m]; 0: nothing ever rests
+  double jitter_;         // what nodes of cloth that touches something go to and fro by, for all that it rests [m]
+  double allowed_ = 0.0;  // the radius of this look [m]
+  int due_in_ = 1;        // frames
   std::size_t turn_ = 0;
   ColumnSet asleep_, disturbed_, quiet_, touching_;
-  bool pressed_ = false;     // the cloth sleeps all of it, and touches something: it wakes all of it
+  bool pressed_ = false;             // the cloth sleeps all of it, and touches something: it wakes all of it
   std::vector<std::uint8_t> still_;  // by column: slow enough to look closer
   std::vector<double> since_;        // by column: since when it has been at its place [s]; NaN: it has none
   std::vector<double> alone_from_;   // by column: when it may sleep while others move [s]

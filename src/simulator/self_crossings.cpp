@@ -11,8 +11,9 @@
 namespace curtain {
 namespace {
 
-// Heights over a triangle's plane below this share of the coordinates are rounding, gathered over many substeps: parts of cloth that moves
-// as a plane are off it by 1e-12 of its size, and are not crossed. What is kept apart is so by 1e-5 of it at least.
+// Heights over a triangle's plane below this share of the coordinates are rounding, gathered over many substeps: parts
+// of cloth that moves as a plane are off it by 1e-12 of its size, and are not crossed. What is kept apart is so by 1e-5
+// of it at least.
 constexpr double kRounding = 1e-10;
 
 double volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) { return (b - a).cross(c - a).dot(d - a); }
@@ -45,7 +46,8 @@ std::int64_t countSelfCrossings(const Grid& grid, const Field3& position) {
     longest = std::max(longest, box.sizes().x());
     edges.push_back({box, edge});
   }
-  std::sort(edges.begin(), edges.end(), [](const BoxedEdge& a, const BoxedEdge& b) { return a.box.min().x() < b.box.min().x(); });
+  std::sort(edges.begin(), edges.end(),
+            [](const BoxedEdge& a, const BoxedEdge& b) { return a.box.min().x() < b.box.min().x(); });
   const auto beginsBefore = [](const BoxedEdge& edge, double x) { return edge.box.min().x() < x; };
   std::int64_t crossings = 0;
   for (const MeshTriangle& triangle : mesh.triangles) {

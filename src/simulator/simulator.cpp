@@ -14,14 +14,22 @@ namespace curtain {
 
 const char* stageName(Stage stage) {
   switch (stage) {
-    case Stage::kForces: return "forces";
-    case Stage::kPredict: return "predict";
-    case Stage::kWarp: return "warp";
-    case Stage::kWeft: return "weft";
-    case Stage::kContact: return "contact";
-    case Stage::kFinish: return "finish";
-    case Stage::kEstimate: return "estimate";
-    case Stage::kStageCount: break;
+    case Stage::kForces:
+      return "forces";
+    case Stage::kPredict:
+      return "predict";
+    case Stage::kWarp:
+      return "warp";
+    case Stage::kWeft:
+      return "weft";
+    case Stage::kContact:
+      return "contact";
+    case Stage::kFinish:
+      return "finish";
+    case Stage::kEstimate:
+      return "estimate";
+    case Stage::kStageCount:
+      break;
   }
   return "";
 }
@@ -34,7 +42,9 @@ const Scene& judged(const Scene& scene) {
   return scene;
 }
 
-bool leapfrogs(const SolverParams& params) { return params.method == Method::kAuto || params.method == Method::kLeapfrog; }
+bool leapfrogs(const SolverParams& params) {
+  return params.method == Method::kAuto || params.method == Method::kLeapfrog;
+}
 
 }  // namespace
 
@@ -120,7 +130,9 @@ void Simulator::copyForces(std::vector<Vec3>& out) const {
   copyField(grid, total, out);
 }
 
-Vec3 Simulator::position(NodeIndex node) const { return impl_->motion.state.position.at(impl_->pattern.grid.index(node)); }
+Vec3 Simulator::position(NodeIndex node) const {
+  return impl_->motion.state.position.at(impl_->pattern.grid.index(node));
+}
 double Simulator::mass(NodeIndex node) const { return impl_->pattern.mass[impl_->pattern.grid.index(node)]; }
 bool Simulator::pinned(NodeIndex node) const { return impl_->pattern.isPinned(node); }
 NodeIndex Simulator::nearestNode(const Vec3& point) const {
@@ -159,9 +171,11 @@ std::vector<Problem> Simulator::setWind(const WindParams& wind) {
     im.motion.forces.setWind(asItGoesOn(wind, *old));
     return problems;
   }
-  if (im.sleep.rest().watches()) im.motion.forces.markWind(wind.id, im.motion.state.position, im.sleep.rest().disturbed());
+  if (im.sleep.rest().watches())
+    im.motion.forces.markWind(wind.id, im.motion.state.position, im.sleep.rest().disturbed());
   im.motion.forces.setWind(wind);
-  if (im.sleep.rest().watches()) im.motion.forces.markWind(wind.id, im.motion.state.position, im.sleep.rest().disturbed());
+  if (im.sleep.rest().watches())
+    im.motion.forces.markWind(wind.id, im.motion.state.position, im.sleep.rest().disturbed());
   return problems;
 }
 
@@ -236,7 +250,8 @@ const std::vector<DragParams>& Simulator::drags() const { return impl_->motion.f
 bool Simulator::movePin(NodeIndex node, const Vec3& target) {
   const Grid& grid = impl_->pattern.grid;
   const bool inside = node.row >= 0 && node.row < grid.rows && node.column >= 0 && node.column < grid.columns;
-  if (!inside || !impl_->pattern.isPinned(node) || !(target.cwiseAbs().maxCoeff() <= kLargest) || !target.allFinite()) return false;
+  if (!inside || !impl_->pattern.isPinned(node) || !(target.cwiseAbs().maxCoeff() <= kLargest) || !target.allFinite())
+    return false;
   impl_->pins.move(grid.index(node), target);
   return true;
 }
@@ -262,9 +277,7 @@ const FineMeshTopology& Simulator::fineMeshTopology() const { return impl_->surf
 
 const Statistics& Simulator::statistics() const { return impl_->motion.statistics; }
 
-Energy Simulator::energy() const {
-  return impl_->motion.energy();
-}
+Energy Simulator::energy() const { return impl_->motion.energy(); }
 
 void Simulator::countWork(bool counted) {
   impl_->motion.counts_work = counted;

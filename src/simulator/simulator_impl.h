@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a simulator is made of, each part with one duty, and how they are wired. simulator.cpp: what users call; frame.cpp: the
-// order in which the parts act in a frame; snapshot.cpp: what is kept of them and comes back.
+// What a simulator is made of, each part with one duty, and how they are wired. simulator.cpp: what users call;
+// frame.cpp: the order in which the parts act in a frame; snapshot.cpp: what is kept of them and comes back.
 #pragma once
 
 #include <cstdint>

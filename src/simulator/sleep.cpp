@@ -9,7 +9,8 @@ Sleep::Sleep(Motion& motion, StepControls& controls, bool by_column)
     : motion_(motion),
       controls_(controls),
       by_column_(by_column),
-      rest_(motion.pattern, motion.times.length(), motion.scene.contact.thickness, motion.scene.solver.stretch_tolerance),
+      rest_(motion.pattern, motion.times.length(), motion.scene.contact.thickness,
+            motion.scene.solver.stretch_tolerance),
       kept_awake_(motion.pattern.grid.columns) {
   takeLimits();
   motion_.exact.hold(rest_.asleep(), motion_.state);

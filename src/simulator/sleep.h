@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Wakes and puts to sleep: tells Rest what happens to the cloth, and the solver and the step control which columns move.
+// Wakes and puts to sleep: tells Rest what happens to the cloth, and the solver and the step control which columns
+// move.
 #pragma once
 
 #include "simulator/motion.h"

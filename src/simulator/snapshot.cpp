@@ -10,8 +10,8 @@
 namespace curtain {
 namespace {
 
-// Keys of the scene that a snapshot may differ in: gravity, air and the frame rate come with it, any number of threads gives the same bits,
-// and of a mesh the triangles are compared, not where they lie.
+// Keys of the scene that a snapshot may differ in: gravity, air and the frame rate come with it, any number of threads
+// gives the same bits, and of a mesh the triangles are compared, not where they lie.
 const std::vector<std::string> kAside = {"gravity", "air", "solver.frame_rate", "solver.threads", "obstacles[].mesh"};
 
 }  // namespace

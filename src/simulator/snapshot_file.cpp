@@ -69,8 +69,8 @@ ssize_t readUpTo(int descriptor, char* to, std::size_t most) {
   return static_cast<ssize_t>(done);
 }
 
-// Of names beside the file, the first that no other thread or process uses: `take` makes it, or fails with errno. False: it failed
-// of something else.
+// Of names beside the file, the first that no other thread or process uses: `take` makes it, or fails with errno.
+// False: it failed of something else.
 template <typename Take>
 bool takeNameBeside(const std::string& path, std::string& name, const Take& take) {
   static std::atomic<unsigned> next{0};
@@ -86,8 +86,8 @@ std::string folderOf(const std::string& path) {
   return folder.empty() ? "." : folder;
 }
 
-// A file that has its name when it is whole, so that nothing is left of it when the process is killed meanwhile. Some file systems
-// have no way to.
+// A file that has its name when it is whole, so that nothing is left of it when the process is killed meanwhile. Some
+// file systems have no way to.
 bool writeNamedAtLast(const std::string& path, const std::string& bytes, std::string& name) {
   File file(::open(folderOf(path).c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666));
   if (!file.isOpen() || !writeAll(file.descriptor(), bytes) || ::fsync(file.descriptor()) != 0) return false;
@@ -160,7 +160,8 @@ std::vector<Problem> readSnapshotFile(const std::string& path, std::string& out)
     bytes.resize(size);
     const ssize_t rest = readUpTo(file.descriptor(), bytes.data() + kSnapshotHeader, size - kSnapshotHeader);
     if (rest < 0) return failed(path, "cannot be read");
-    if (static_cast<std::uint64_t>(rest) != size - kSnapshotHeader) return {{path, "cannot be read: it changes meanwhile"}};
+    if (static_cast<std::uint64_t>(rest) != size - kSnapshotHeader)
+      return {{path, "cannot be read: it changes meanwhile"}};
     out = std::move(bytes);
   } catch (const std::bad_alloc&) {
     return {{path, "cannot be read: there is not enough memory"}};

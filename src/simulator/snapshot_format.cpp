@@ -40,7 +40,8 @@ std::uint32_t checksum(std::string_view bytes) {
 }
 
 std::string packSnapshot(const SnapshotParts& parts) {
-  Header header{{}, kByteOrder, kSnapshotVersion, kNumber, 0, parts.layout, static_cast<std::uint32_t>(parts.scene.size())};
+  Header header{
+      {}, kByteOrder, kSnapshotVersion, kNumber, 0, parts.layout, static_cast<std::uint32_t>(parts.scene.size())};
   std::memcpy(header.magic, kMagic.data(), kMagic.size());
   header.length = sizeof header + parts.scene.size() + parts.carried.size() + kChecksum;
   std::string bytes;
@@ -69,8 +70,8 @@ std::optional<Problem> judgeHeader(std::string_view begin, std::uint64_t size) {
   }
   const bool shorter = size < header.length;
   if (size != header.length) {
-    return problem(std::string(shorter ? "is cut short: " : "is too long: ") + std::to_string(size) + " bytes instead of " +
-                   std::to_string(header.length));
+    return problem(std::string(shorter ? "is cut short: " : "is too long: ") + std::to_string(size) +
+                   " bytes instead of " + std::to_string(header.length));
   }
   return std::nullopt;
 }

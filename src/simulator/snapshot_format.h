@@ -25,7 +25,8 @@
 
 namespace curtain {
 
-/// To be raised with every change of what is carried, or of what it means. test/simulator/snapshot_test.cpp keeps watch.
+/// To be raised with every change of what is carried, or of what it means. test/simulator/snapshot_test.cpp keeps
+/// watch.
 constexpr std::uint32_t kSnapshotVersion = 5;
 
 /// Bytes that all snapshots begin with, up to the scene.
@@ -39,8 +40,8 @@ struct SnapshotParts {
 
 std::string packSnapshot(const SnapshotParts& parts);
 
-/// What is wrong with what begins like this (kSnapshotHeader bytes, fewer where there are no more) and has so many bytes;
-/// none: it may be a snapshot.
+/// What is wrong with what begins like this (kSnapshotHeader bytes, fewer where there are no more) and has so many
+/// bytes; none: it may be a snapshot.
 std::optional<Problem> judgeHeader(std::string_view begin, std::uint64_t size);
 
 /// Takes a snapshot apart, which must outlive the parts; or says what is wrong with it.

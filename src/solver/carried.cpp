@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a snapshot carries of the solver, and how the rest follows. Everything else of it is written before it is read in every
-// substep: the prediction, directions, multipliers in the making, all of NetSolver; or follows from the scene and from what
-// sleeps.
+// What a snapshot carries of the solver, and how the rest follows. Everything else of it is written before it is read
+// in every substep: the prediction, directions, multipliers in the making, all of NetSolver; or follows from the scene
+// and from what sleeps.
 #include <limits>
 
 #include "cloth/archive.h"

@@ -14,8 +14,8 @@ double middleRestOf(const ClothPattern& pattern) {
 
 }  // namespace
 
-Constraints::Constraints(const ClothPattern& pattern, double tolerance, const NodeInertia& inertia, const HeldColumns& held,
-                         const Workers& workers)
+Constraints::Constraints(const ClothPattern& pattern, double tolerance, const NodeInertia& inertia,
+                         const HeldColumns& held, const Workers& workers)
     : pattern_(pattern),
       inertia_(inertia),
       held_(held),
@@ -72,7 +72,8 @@ void Constraints::begin(const SubstepStart& start, double ratio) noexcept {
 double Constraints::commit(const Field3& from, double step, bool bends, ClothState& state, Field& load) noexcept {
   const LineSolve warp = rods();
   forEachBlock([&](int block) {
-    block_motion_[static_cast<std::size_t>(block)] = warpFinish(warp, from, 1.0 / step, bends, state.velocity, load, block);
+    block_motion_[static_cast<std::size_t>(block)] =
+        warpFinish(warp, from, 1.0 / step, bends, state.velocity, load, block);
   });
   double heaviest = 0.0;
   for (const WarpMotion& block : block_motion_) heaviest = std::max(heaviest, block.heaviest);

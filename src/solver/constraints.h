@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What holds the cloth together in a substep: two-sided warp rods and one-sided weft links, with the positions in the making, the
-// links' directions and multipliers, and the solves that bring both together. Rods: Newton, one tridiagonal system a column. Strings
-// and contacts that push: all at once, with the rods' answer taken into account (NetSolver). What is solved when is for Sweeps.
+// What holds the cloth together in a substep: two-sided warp rods and one-sided weft links, with the positions in the
+// making, the links' directions and multipliers, and the solves that bring both together. Rods: Newton, one tridiagonal
+// system a column. Strings and contacts that push: all at once, with the rods' answer taken into account (NetSolver).
+// What is solved when is for Sweeps.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +22,8 @@ namespace curtain {
 class Constraints {
  public:
   /// tolerance  relative, of the links: what their compliance may give. All of them must outlive this.
-  Constraints(const ClothPattern& pattern, double tolerance, const NodeInertia& inertia, const HeldColumns& held, const Workers& workers);
+  Constraints(const ClothPattern& pattern, double tolerance, const NodeInertia& inertia, const HeldColumns& held,
+              const Workers& workers);
   void expectContacts(std::size_t count);
   /// Forgets the tensions of the last substep.
   void reset() noexcept;
@@ -33,7 +35,8 @@ class Constraints {
 
   /// Predicts, and starts with the last substep's multipliers times ratio.
   void begin(const SubstepStart& start, double ratio) noexcept;
-  /// The substep is taken: velocities, loads (returns the largest of them over its mass), memory. bends: WarpMotion::bent is wanted.
+  /// The substep is taken: velocities, loads (returns the largest of them over its mass), memory. bends:
+  /// WarpMotion::bent is wanted.
   double commit(const Field3& from, double step, bool bends, ClothState& state, Field& load) noexcept;
   /// It is over, taken or not.
   void end(bool taken) noexcept;
@@ -86,8 +89,9 @@ class Constraints {
   /// One step of all taut strings and contacts. The nodes move by their part of it; the rods' own solve comes next.
   void solveNet(const NetAim& aim, Contacts* contacts) noexcept;
 
-  /// The sum of the squares of what links and contacts lack, over a link; rods_lack: of every rod, where their own solve has not
-  /// converged. A damped step makes it smaller if it is short enough, where the largest may stand on a plateau.
+  /// The sum of the squares of what links and contacts lack, over a link; rods_lack: of every rod, where their own
+  /// solve has not converged. A damped step makes it smaller if it is short enough, where the largest may stand on a
+  /// plateau.
   double merit(const Contacts* contacts, double rods_lack) noexcept;
   /// What a sweep that went wrong goes back to.
   void keepIterate(const Contacts* contacts);
@@ -98,9 +102,9 @@ class Constraints {
 
   // ---- velocities (constraints_velocity.cpp)
 
-  /// Takes out of the velocities what would change the lengths of rods and of links that pull, and what contacts forbid, from
-  /// where a share of the last substep's forces between nodes leads: friction goes on as it was, and at rest nothing is left to
-  /// do.
+  /// Takes out of the velocities what would change the lengths of rods and of links that pull, and what contacts
+  /// forbid, from where a share of the last substep's forces between nodes leads: friction goes on as it was, and at
+  /// rest nothing is left to do.
   void project(const Field3& position, const Contacts* contacts, double share, Field3& velocity) noexcept;
 
   // ---- columns that fall asleep and wake (constraints_hold.cpp)
@@ -108,7 +112,8 @@ class Constraints {
   /// Before held changes: multipliers of the last substep, and 1 / scale of them [1/s^2].
   const Field& lastStrings() const noexcept { return last_weft_; }
   /// After it: these blocks were left out before. tensions: of the last substep.
-  void hold(const std::vector<std::uint8_t>& skipped_before, const ClothState& state, NodeInertia::Tensions& tensions) noexcept;
+  void hold(const std::vector<std::uint8_t>& skipped_before, const ClothState& state,
+            NodeInertia::Tensions& tensions) noexcept;
 
   // ---- what a substep leaves to the next
 
@@ -159,7 +164,7 @@ class Constraints {
   bool directions_set_ = false;  // of the weft, in this substep
   bool measured_ = false;        // violation_ and active_ are of the positions as they are
   double middle_rest_;
-  bool net_ready_ = false;       // of directions at the start of the substep
+  bool net_ready_ = false;  // of directions at the start of the substep
   Field violation_, active_, change_;
   Field free_per_square_;  // of weft links with an end that can move: 1 / rest length^2 [1/m^2]; others: 0
   std::vector<WarpMotion> block_motion_;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Columns that fall asleep and wake while others move. A block of columns that is left out must have its positions and
-// multipliers in both of the buffers that substeps swap; what the multipliers are worth depends on the substep's length.
+// multipliers in both of the buffers that substeps swap; what the multipliers are worth depends on the substep's
+// length.
 #include <cmath>
 
 #include "cloth/archive.h"
@@ -9,7 +10,8 @@
 
 namespace curtain {
 
-void Constraints::hold(const std::vector<std::uint8_t>& skipped_before, const ClothState& state, NodeInertia::Tensions& tensions) noexcept {
+void Constraints::hold(const std::vector<std::uint8_t>& skipped_before, const ClothState& state,
+                       NodeInertia::Tensions& tensions) noexcept {
   const Grid& grid = pattern_.grid;
   freeWeft(pattern_, inertia_.masses(), free_per_square_);
   // Outside the span of what moves nothing is measured any more.
@@ -52,7 +54,8 @@ void Constraints::takeUp(int block, NodeInertia::Tensions& tensions) noexcept {
   const double before = laid_down_[static_cast<std::size_t>(block)];
   const double ratio = before != 0.0 ? tensions.scale / before : 0.0;
   for (int i = 0; i < grid.rows; ++i) {
-    for (std::size_t n = grid.row(i) + static_cast<std::size_t>(block) * kLane, k = 0; k < kLane; ++k, ++n) last_warp_[n] *= ratio;
+    for (std::size_t n = grid.row(i) + static_cast<std::size_t>(block) * kLane, k = 0; k < kLane; ++k, ++n)
+      last_warp_[n] *= ratio;
   }
   for (int i = 0; i < grid.rows; ++i) {
     const int end = std::min((block + 1) * kLane, grid.columns);
@@ -77,13 +80,14 @@ double Constraints::heaviestOf(int block, const Field& load) const noexcept {
   return worst;
 }
 
-// As hold() and reset() leave it: blocks that are left out have their positions and multipliers in both buffers, strings no
-// multipliers but those of the last substep, and nothing is measured where nothing moves.
+// As hold() and reset() leave it: blocks that are left out have their positions and multipliers in both buffers,
+// strings no multipliers but those of the last substep, and nothing is measured where nothing moves.
 void Constraints::resume(const ClothState& state) noexcept {
   freeWeft(pattern_, inertia_.masses(), free_per_square_);
   next = state.position;
   warp_.multiplier = last_warp_;
-  for (Field* field : {&weft_.multiplier, &violation_, &active_, &change_}) std::fill(field->begin(), field->end(), 0.0);
+  for (Field* field : {&weft_.multiplier, &violation_, &active_, &change_})
+    std::fill(field->begin(), field->end(), 0.0);
   std::fill(block_progress_.begin(), block_progress_.end(), RodsProgress());
   std::fill(block_motion_.begin(), block_motion_.end(), WarpMotion());
   scratch_.assign(pattern_.grid);

@@ -8,8 +8,8 @@
 
 namespace curtain {
 
-// Newton on one block of columns until an iteration starts with a residual of at most stop. A block whose rods are within
-// leave_alone already is not touched.
+// Newton on one block of columns until an iteration starts with a residual of at most stop. A block whose rods are
+// within leave_alone already is not touched.
 Constraints::RodsProgress Constraints::solveBlock(const LineSolve& warp, const RodsAim& aim, int block) noexcept {
   RodsProgress progress;
   if (aim.leave_alone > 0.0) {
@@ -30,9 +30,7 @@ Constraints::RodsProgress Constraints::solveBlock(const LineSolve& warp, const R
 
 Constraints::RodsProgress Constraints::solveRods(const RodsAim& aim) noexcept {
   const LineSolve warp = rods();
-  forEachBlock([&](int block) {
-    block_progress_[static_cast<std::size_t>(block)] = solveBlock(warp, aim, block);
-  });
+  forEachBlock([&](int block) { block_progress_[static_cast<std::size_t>(block)] = solveBlock(warp, aim, block); });
   RodsProgress all;
   for (const RodsProgress& block : block_progress_) {
     all.converged = all.converged && block.converged;
@@ -98,7 +96,9 @@ void Constraints::solveNet(const NetAim& aim, Contacts* contacts) noexcept {
   const Field* const multiplier = aim.newton ? &weft_.multiplier : nullptr;
   net_.solve(violation_, active_, {contacts, &next, false},
              {aim.residual * middle_rest_, aim.damping, aim.enough, kGradientIterations, multiplier}, change_);
-  const double move = aim.residual > kWatchMoves ? std::sqrt(worstOfRows([&](int i) { return weftMoveSquared(weft, i, change_); })) : 0.0;
+  const double move = aim.residual > kWatchMoves
+                          ? std::sqrt(worstOfRows([&](int i) { return weftMoveSquared(weft, i, change_); }))
+                          : 0.0;
   const double share = move > kLargestMove ? kLargestMove / move : 1.0;
   if (share != 1.0) {
     for (double& change : change_) change *= share;

@@ -6,8 +6,10 @@
 
 namespace curtain {
 
-// From where a share of the last substep's forces between nodes leads: moves the velocities by it, and leaves it in the multipliers.
-void Constraints::spreadForces(const LineSolve& warp, const LineSolve& weft, const Contacts* contacts, double share) noexcept {
+// From where a share of the last substep's forces between nodes leads: moves the velocities by it, and leaves it in the
+// multipliers.
+void Constraints::spreadForces(const LineSolve& warp, const LineSolve& weft, const Contacts* contacts,
+                               double share) noexcept {
   // Blocks that are left out keep theirs: they are to be the same in both buffers (constraints_hold.cpp).
   forEachBlock([&](int block) {
     for (int i = 0; i < pattern_.grid.rows; ++i) {
@@ -22,7 +24,8 @@ void Constraints::spreadForces(const LineSolve& warp, const LineSolve& weft, con
   }
   for (std::size_t n = 0; contacts != nullptr && n < contacts->size(); ++n) {
     const Contact& contact = (*contacts)[n];
-    if (contact.pushes()) contact.move(inertia_.masses(), share * (contact.push * contact.normal + contact.slide), warp.value);
+    if (contact.pushes())
+      contact.move(inertia_.masses(), share * (contact.push * contact.normal + contact.slide), warp.value);
   }
 }
 
@@ -32,9 +35,7 @@ void Constraints::project(const Field3& position, const Contacts* contacts, doub
   const LineSolve weft{pattern_, inertia_.masses(), weft_, velocity, held_.movingSpan()};
   const bool presses = contacts != nullptr && anyPushes(*contacts);
   const bool alone = !weft_pulls_ && !presses;
-  const auto solveRods = [&] {
-    forEachBlock([&](int block) { warpProjectVelocity(warp, scratch_, block); });
-  };
+  const auto solveRods = [&] { forEachBlock([&](int block) { warpProjectVelocity(warp, scratch_, block); }); };
   if (weft_pulls_) std::copy(last_weft_.begin(), last_weft_.end(), weft_.multiplier.begin());  // which links pull
   if (!alone) setWeftDirectionsAt(position);
   if (share > 0.0) spreadForces(warp, weft, contacts, share);

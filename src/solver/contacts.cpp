@@ -20,7 +20,8 @@ Vec3 bounded(const Vec3& slide, double most) {
 
 }  // namespace
 
-void beginContacts(const Field& inverse_inertia, double ratio, std::size_t first, Contacts& contacts, Field3& position) noexcept {
+void beginContacts(const Field& inverse_inertia, double ratio, std::size_t first, Contacts& contacts,
+                   Field3& position) noexcept {
   for (std::size_t n = first; n < contacts.size(); ++n) {
     Contact& contact = contacts[n];
     contact.mobility = 0.0;
@@ -71,7 +72,8 @@ double fastestSurface(const Contacts& contacts) noexcept {
 double fastestDrive(const Contacts& contacts, const Field3& start, double h) noexcept {
   double fastest = fastestSurface(contacts);
   for (const Contact& contact : contacts) {
-    if (contact.pushes()) fastest = std::max(fastest, (contact.offset - contact.normal.dot(contact.point(start))) / std::abs(h));
+    if (contact.pushes())
+      fastest = std::max(fastest, (contact.offset - contact.normal.dot(contact.point(start))) / std::abs(h));
   }
   return fastest;
 }
@@ -98,7 +100,8 @@ void rubContacts(const Field& inverse_inertia, Contacts& contacts, Field3& posit
   }
 }
 
-void takeUpContact(const Field& inverse_inertia, double push, const Vec3& slide, Contact& contact, Field3& position) noexcept {
+void takeUpContact(const Field& inverse_inertia, double push, const Vec3& slide, Contact& contact,
+                   Field3& position) noexcept {
   const double push_change = std::max(push, -contact.push);
   contact.push += push_change;
   Vec3 slide_change = slide;

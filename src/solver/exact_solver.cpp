@@ -44,10 +44,14 @@ void ExactSolver::reset() noexcept {
 
 Scheme& ExactSolver::schemeOf(SchemeKind kind) noexcept {
   switch (kind) {
-    case SchemeKind::kLeapfrog: break;
-    case SchemeKind::kBdf2: return bdf2_;
-    case SchemeKind::kImplicit: return implicit_;
-    case SchemeKind::kLastResort: return last_resort_;
+    case SchemeKind::kLeapfrog:
+      break;
+    case SchemeKind::kBdf2:
+      return bdf2_;
+    case SchemeKind::kImplicit:
+      return implicit_;
+    case SchemeKind::kLastResort:
+      return last_resort_;
   }
   return leapfrog_;
 }
@@ -72,20 +76,21 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   return outcome;
 }
 
-// Velocities at the end of the step are predicted with forces that act until then, those half a step behind for half a step less.
-ExactSolver::Making ExactSolver::predict(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder, ClothState& state,
-                                         StageClock& clock, SubstepOutcome& outcome) noexcept {
+// Velocities at the end of the step are predicted with forces that act until then, those half a step behind for half a
+// step less.
+ExactSolver::Making ExactSolver::predict(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder,
+                                         ClothState& state, StageClock& clock, SubstepOutcome& outcome) noexcept {
   Scheme& scheme = schemeOf(plan.scheme);
   const Scheme::Rules& rules = scheme.rules();
   const double step = scheme.stepFor(plan.h);
   const double kick = state.velocity_age + (1.0 - rules.age) * step;
   const double scale = step * kick;
   inertia_.set(forces, kick, scale, plan.most_phase, rules.backward);
-  // The last substep's multipliers are a start where forces act along the directions that they were found with; a solve that follows
-  // the directions blows up when old tensions act along rods that have turned much since.
+  // The last substep's multipliers are a start where forces act along the directions that they were found with; a solve
+  // that follows the directions blows up when old tensions act along rods that have turned much since.
   const double before = inertia_.tensions().scale;
   const double ratio = !rules.follows && before != 0.0 ? scale / before : 0.0;
-  const Making making{plan,  forces, finder, state, clock,
+  const Making making{plan,   forces, finder, state, clock,
                       scheme, step,   kick,   ratio, scheme.start(plan, step, kick, forces, inertia_, state, outcome)};
   constraints_.begin(making.start, ratio);
   clock.lap(Stage::kPredict);
@@ -109,7 +114,12 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const Making& making) noexcept
   const SubstepPlan& plan = making.plan;
   const bool last_resort = plan.isLastResort();
   const Field3 &from = making.state.position, &next = constraints_.next;
-  SweepTask task{making.start.state.position, making.scheme.rules().follows, last_resort, plan.precise, making.forces.gravity.norm() * plan.h * plan.h, 0.0};
+  SweepTask task{making.start.state.position,
+                 making.scheme.rules().follows,
+                 last_resort,
+                 plan.precise,
+                 making.forces.gravity.norm() * plan.h * plan.h,
+                 0.0};
   ContactFinder* const finder = making.finder;
   Contacts* const contacts = finder != nullptr ? &finder->begin(from, next, plan.h) : nullptr;
   if (finder != nullptr) making.clock.lap(Stage::kContact);
@@ -129,7 +139,8 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const Making& making) noexcept
     all.settled = solved.within;
     all.late = all.late || (solved.end == SweepEnd::kOutOfTime && !solved.within);
     if (contacts == nullptr) return all;
-    if (free_ && !last_resort && !held_.any() && making.start.keep == nullptr && !pressesOnObstacle(*contacts)) keepMomentum(making.start);
+    if (free_ && !last_resort && !held_.any() && making.start.keep == nullptr && !pressesOnObstacle(*contacts))
+      keepMomentum(making.start);
     if (!solved.within && (!last_resort || all.late || solved.end == SweepEnd::kDiverged)) return all;
     const ContactFinder::Verdict verdict = finder->verify(from, next, solved.within);
     making.clock.lap(Stage::kContact);
@@ -147,12 +158,13 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const Making& making) noexcept
 // A string has snapped taut in this substep, or something has met something.
 bool ExactSolver::struck(const Progress& progress) const noexcept {
   if (constraints_.snapsTaut()) return true;
-  return progress.contacts != nullptr && std::any_of(progress.contacts->begin(), progress.contacts->end(), [](const Contact& contact) {
-           return contact.pushes() && !contact.pressed;
-         });
+  return progress.contacts != nullptr &&
+         std::any_of(progress.contacts->begin(), progress.contacts->end(),
+                     [](const Contact& contact) { return contact.pushes() && !contact.pressed; });
 }
 
-// Rods alone find no energy in steady motion where they pull along the directions that they have half way between the velocities.
+// Rods alone find no energy in steady motion where they pull along the directions that they have half way between the
+// velocities.
 bool ExactSolver::isForeseen(const Making& making, const Progress& progress) const noexcept {
   const bool rods_alone = progress.alone() && !constraints_.stringsAct();
   return rods_alone && !making.scheme.rules().follows && KineticGuard::foreseen(progress.surprise);
@@ -161,13 +173,15 @@ bool ExactSolver::isForeseen(const Making& making, const Progress& progress) con
 // Whether it may be taken: it has found no energy, and nothing that sleeps would have moved.
 void ExactSolver::judge(const Making& making, Progress& progress, SubstepOutcome& outcome) noexcept {
   const bool last_resort = making.plan.isLastResort();
-  const double surface = progress.contacts != nullptr ? fastestDrive(*progress.contacts, making.state.position, making.plan.h) : 0.0;
+  const double surface =
+      progress.contacts != nullptr ? fastestDrive(*progress.contacts, making.state.position, making.plan.h) : 0.0;
   if (progress.late || (last_resort && progress.alone())) {
     progress.most_kinetic = guard_.most(making.scheme.rules(), making.start, constraints_.next, surface);
   } else if (!last_resort && progress.settled && !isForeseen(making, progress)) {
     const KineticGuard::Finding finding = guard_.look(making.scheme.rules(), making.start, constraints_.next, surface);
     progress.most_kinetic = finding.most;
-    // Half the step leaves no less where it is an error of the places before that comes out: then it is taken out of the velocities.
+    // Half the step leaves no less where it is an error of the places before that comes out: then it is taken out of
+    // the velocities.
     const bool again = std::abs(making.plan.h) < std::abs(gained_.h);
     if (finding.jumps && !(again && finding.gain >= gained_.gain)) progress.settled = false;
     gained_ = {making.plan.h, finding.gain};
@@ -175,7 +189,8 @@ void ExactSolver::judge(const Making& making, Progress& progress, SubstepOutcome
   if (held_.any()) {
     const bool stuck = progress.crossed || (last_resort && !progress.settled);
     const LinkSet* const strings = constraints_.stringsAct() ? &constraints_.strings() : nullptr;
-    outcome.disturbed = held_.disturbedBy(strings, progress.contacts, 1.0 / making.scale(), making.forces.gravity.norm(), stuck);
+    outcome.disturbed =
+        held_.disturbedBy(strings, progress.contacts, 1.0 / making.scale(), making.forces.gravity.norm(), stuck);
   }
   outcome.sweeps = progress.sweeps;
   outcome.touches = !progress.alone();
@@ -195,8 +210,8 @@ void ExactSolver::boundPath(const Making& making, const Progress& progress, Subs
     outcome.share = bound.share;
     outcome.momentum_cut += bound.moment / making.plan.h;
   }
-  // Held back, or bounded on moving pins, cloth goes another path than was verified. Where that leads through something it stays where
-  // it is, and even the pins wait.
+  // Held back, or bounded on moving pins, cloth goes another path than was verified. Where that leads through something
+  // it stays where it is, and even the pins wait.
   if ((progress.crossed || (outcome.share < 1.0 && last_resort_.pinsMove())) && making.finder != nullptr &&
       making.finder->verify(making.state.position, next, true) != ContactFinder::Verdict::kClear) {
     next = making.state.position;
@@ -211,11 +226,15 @@ void ExactSolver::take(const Making& making, const Progress& progress, SubstepOu
   NodeInertia::Tensions& tensions = inertia_.tensions();
   outcome.scale = tensions.scale = making.scale();
   outcome.kick = making.kick + (plan.h - making.step);  // bdf2's base holds the rest of what forces do
-  for (Scheme* scheme : {static_cast<Scheme*>(&leapfrog_), static_cast<Scheme*>(&bdf2_), static_cast<Scheme*>(&implicit_), static_cast<Scheme*>(&last_resort_)}) {
-    if (scheme == &making.scheme) scheme->taken(state, plan.h);
-    else scheme->passedOver();
+  for (Scheme* scheme : {static_cast<Scheme*>(&leapfrog_), static_cast<Scheme*>(&bdf2_),
+                         static_cast<Scheme*>(&implicit_), static_cast<Scheme*>(&last_resort_)}) {
+    if (scheme == &making.scheme)
+      scheme->taken(state, plan.h);
+    else
+      scheme->passedOver();
   }
-  tensions.heaviest = constraints_.commit(making.start.state.position, making.step, plan.tells_turning, state, tensions.load);
+  tensions.heaviest =
+      constraints_.commit(making.start.state.position, making.step, plan.tells_turning, state, tensions.load);
   state.velocity_age = making.scheme.rules().age * making.step;
   if (std::isfinite(progress.most_kinetic)) guard_.bound(progress.most_kinetic, state.velocity);
   gained_ = {};
@@ -229,13 +248,16 @@ void ExactSolver::take(const Making& making, const Progress& progress, SubstepOu
   }
 }
 
-// How fast the rods change their motion, as the rate of a turn that would (RMS over all rods) [1/s]: sqrt(|a_b - a_a| / l),
-// which is the rate of turn itself where that is steady. The forces acted for a time `kick` [s] in the last substep.
+// How fast the rods change their motion, as the rate of a turn that would (RMS over all rods) [1/s]: sqrt(|a_b - a_a| /
+// l), which is the rate of turn itself where that is steady. The forces acted for a time `kick` [s] in the last
+// substep.
 double ExactSolver::turning(double kick) const noexcept {
-  return std::sqrt(std::sqrt(constraints_.bent() / ((pattern_.grid.rows - 1) * pattern_.grid.columns)) / std::abs(kick));
+  return std::sqrt(std::sqrt(constraints_.bent() / ((pattern_.grid.rows - 1) * pattern_.grid.columns)) /
+                   std::abs(kick));
 }
 
-// Of a cloth that nothing holds: what the solve has added to its momentum is taken out of the whole, by a motion that keeps all lengths.
+// Of a cloth that nothing holds: what the solve has added to its momentum is taken out of the whole, by a motion that
+// keeps all lengths.
 void ExactSolver::keepMomentum(const SubstepStart& start) noexcept {
   const Field3& from = start.state.position;
   Field3& next = constraints_.next;
@@ -260,8 +282,8 @@ void ExactSolver::keepMomentum(const SubstepStart& start) noexcept {
   }
 }
 
-void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& forces,
-                                    const Contacts* contacts, Field3& out) noexcept {
+void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& forces, const Contacts* contacts,
+                                    Field3& out) noexcept {
   const double age = state.velocity_age;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     const double w = inertia_.masses()[n];
@@ -275,7 +297,8 @@ void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& f
 }
 
 // A free cloth keeps its momentum.
-void ExactSolver::projectVelocity(const Field3& position, const Contacts* contacts, double share, Field3& out) noexcept {
+void ExactSolver::projectVelocity(const Field3& position, const Contacts* contacts, double share,
+                                  Field3& out) noexcept {
   const bool keeps = free_ && !held_.any() && (contacts == nullptr || !pressesOnObstacle(*contacts));
   const Momentum before = keeps ? momentumOf(pattern_, position, out) : Momentum();
   constraints_.project(position, contacts, share, out);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The exact schemes: one substep of point masses, two-sided warp rods and one-sided weft links, whose constraint
-// forces are solved for (not approached by relaxation). What the schemes share is here: a substep is predicted, solved and verified,
-// judged, and taken.
+// forces are solved for (not approached by relaxation). What the schemes share is here: a substep is predicted, solved
+// and verified, judged, and taken.
 #pragma once
 
 #include <limits>
@@ -29,18 +29,18 @@ class ExactSolver {
   /// Forgets the tensions of the last substep.
   void reset() noexcept;
 
-  /// From now on these columns stay where they are, at rest, and the others move. Those that wake start with the tensions they
-  /// fell asleep with. For leapfrog and its fall-back.
+  /// From now on these columns stay where they are, at rest, and the others move. Those that wake start with the
+  /// tensions they fell asleep with. For leapfrog and its fall-back.
   void hold(const ColumnSet& columns, ClothState& state) noexcept;
   /// What is held now; and what of it the last substep would have moved (SubstepOutcome::disturbed).
   const HeldColumns& held() const noexcept { return held_; }
 
   /// One substep. finder may be null: nothing to touch. Allocates nothing.
-  SubstepOutcome substep(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder,
-                         ClothState& state, StageClock& clock) noexcept;
+  SubstepOutcome substep(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder, ClothState& state,
+                         StageClock& clock) noexcept;
 
-  /// What the links at a node pulled it by in the last substep: the sum of multiplier times direction [kg m], over the substep's
-  /// scale a force.
+  /// What the links at a node pulled it by in the last substep: the sum of multiplier times direction [kg m], over the
+  /// substep's scale a force.
   Vec3 pullAt(int row, int column) const noexcept { return constraints_.pullAt(row, column); }
 
   /// How nodes answered impulses in the last substep [1/kg].
@@ -49,7 +49,8 @@ class ExactSolver {
   /// Velocities at the time of the positions (leapfrog keeps them half a substep behind): advanced by the forces and
   /// made to agree with the links that pull.
   /// contacts: of the last substep, or null.
-  void currentVelocities(const ClothState& state, const NodeForces& forces, const Contacts* contacts, Field3& out) noexcept;
+  void currentVelocities(const ClothState& state, const NodeForces& forces, const Contacts* contacts,
+                         Field3& out) noexcept;
 
   /// The last substep's tensions, and how nodes answered in it.
   const NodeInertia& inertia() const noexcept { return inertia_; }
@@ -90,10 +91,10 @@ class ExactSolver {
   // What the solves of a substep have come to.
   struct Progress {
     SweepEnd end = SweepEnd::kStalled;
-    bool settled = false;    // every link is within the user's tolerance
-    bool crossed = false;    // something would go through something
-    bool late = false;       // its time was over before it had settled
-    double surprise = 0.0;   // SweepOutcome::surprise
+    bool settled = false;                                           // every link is within the user's tolerance
+    bool crossed = false;                                           // something would go through something
+    bool late = false;                                              // its time was over before it had settled
+    double surprise = 0.0;                                          // SweepOutcome::surprise
     double most_kinetic = std::numeric_limits<double>::infinity();  // twice what it may have [J]
     int sweeps = 0;
     const Contacts* contacts = nullptr;  // null: nothing can touch
@@ -101,8 +102,8 @@ class ExactSolver {
     bool alone() const noexcept { return contacts == nullptr || !anyPushes(*contacts); }
   };
   Scheme& schemeOf(SchemeKind kind) noexcept;
-  Making predict(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder, ClothState& state, StageClock& clock,
-                 SubstepOutcome& outcome) noexcept;
+  Making predict(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder, ClothState& state,
+                 StageClock& clock, SubstepOutcome& outcome) noexcept;
   Progress solveAndVerify(const Making& making) noexcept;
   void judge(const Making& making, Progress& progress, SubstepOutcome& outcome) noexcept;
   void boundPath(const Making& making, const Progress& progress, SubstepOutcome& outcome) noexcept;

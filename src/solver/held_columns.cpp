@@ -9,7 +9,8 @@
 namespace curtain {
 namespace {
 
-// Change of what pulls on a column, over its weight, that it sleeps on with: so much out of the vertical, it would hang.
+// Change of what pulls on a column, over its weight, that it sleeps on with: so much out of the vertical, it would
+// hang.
 constexpr double kTrifle = 1e-4;
 
 }  // namespace

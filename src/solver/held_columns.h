@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Columns that sleep while others move. They are held like pinned nodes, and the blocks of columns that hold nothing else are
-// left out of the solve. What the strings at their borders pull is compared with what they pulled when the columns fell
-// asleep: more than a trifle, and the substep is to be made again with them awake.
+// Columns that sleep while others move. They are held like pinned nodes, and the blocks of columns that hold nothing
+// else are left out of the solve. What the strings at their borders pull is compared with what they pulled when the
+// columns fell asleep: more than a trifle, and the substep is to be made again with them awake.
 #pragma once
 
 #include "cloth/cloth.h"
@@ -32,9 +32,11 @@ class HeldColumns {
   /// These are held, and were when the borders' pulls were loaded.
   void resume(const ColumnSet& held) noexcept;
 
-  /// Finds the held columns that strings, or contacts that push, would move. weft: null when no string pulls; contacts: or null.
-  /// gravity: its size [m/s^2]; stuck: what moves does not get on, which may be for those that don't: all of them.
-  bool disturbedBy(const LinkSet* weft, const Contacts* contacts, double per_scale, double gravity, bool stuck) noexcept;
+  /// Finds the held columns that strings, or contacts that push, would move. weft: null when no string pulls; contacts:
+  /// or null. gravity: its size [m/s^2]; stuck: what moves does not get on, which may be for those that don't: all of
+  /// them.
+  bool disturbedBy(const LinkSet* weft, const Contacts* contacts, double per_scale, double gravity,
+                   bool stuck) noexcept;
   const ColumnSet& disturbed() const noexcept { return disturbed_; }
 
  private:
@@ -45,10 +47,10 @@ class HeldColumns {
   const ClothPattern& pattern_;
   std::vector<double> mass_;  // of each column [kg]
   ColumnSet held_, disturbed_;
-  ColumnSet borders_;         // columns whose strings to the left join a held column and one that moves
+  ColumnSet borders_;  // columns whose strings to the left join a held column and one that moves
   std::vector<std::uint8_t> skips_;
   ColumnSpan span_;
-  Field3 pull_;               // of the strings at borders, when they became borders [N]
+  Field3 pull_;  // of the strings at borders, when they became borders [N]
 };
 
 }  // namespace curtain

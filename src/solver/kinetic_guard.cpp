@@ -11,8 +11,8 @@
 namespace curtain {
 namespace {
 
-// put_in: without links; driven: of all the mass at the speed of the fastest pin; both twice an energy [J]. The root is of a ratio:
-// in other units it has the same bits.
+// put_in: without links; driven: of all the mass at the speed of the fastest pin; both twice an energy [J]. The root is
+// of a ratio: in other units it has the same bits.
 double mostOf(double put_in, double driven) noexcept {
   if (!(put_in > 0.0)) return 4.0 * driven;
   const double factor = 1.0 + 2.0 * std::sqrt(driven / put_in);
@@ -29,13 +29,19 @@ std::vector<std::size_t> pinsOf(const ClothPattern& pattern) {
 
 }  // namespace
 
-KineticGuard::KineticGuard(const ClothPattern& pattern, const NodeInertia& inertia, double stretch_tolerance, double links)
-    : pattern_(pattern), inertia_(inertia), stretch_tolerance_(stretch_tolerance), links_(links), pins_(pinsOf(pattern)) {}
+KineticGuard::KineticGuard(const ClothPattern& pattern, const NodeInertia& inertia, double stretch_tolerance,
+                           double links)
+    : pattern_(pattern),
+      inertia_(inertia),
+      stretch_tolerance_(stretch_tolerance),
+      links_(links),
+      pins_(pinsOf(pattern)) {}
 
 // From rest, a rod that is predicted longer by a share e has turned by sqrt(2 e), and is given e / 2 of its energy.
 bool KineticGuard::foreseen(double surprise) noexcept { return surprise <= 2.0 * (kMostAdded - 1.0); }
 
-KineticGuard::Finding KineticGuard::look(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end, double surface) const noexcept {
+KineticGuard::Finding KineticGuard::look(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end,
+                                         double surface) const noexcept {
   const Vec3 frame = frameOf(start.state.velocity);
   const Sums sums = sumsOf(start, end, frame, rules.follows);
   if (!(sums.stepped > kMostAdded * sums.put_in)) return {};
@@ -50,7 +56,8 @@ KineticGuard::Finding KineticGuard::look(const Scheme::Rules& rules, const Subst
   return finding;
 }
 
-double KineticGuard::most(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end, double surface) const noexcept {
+double KineticGuard::most(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end,
+                          double surface) const noexcept {
   const Vec3 frame = frameOf(start.state.velocity);
   return mostOf(sumsOf(start, end, frame, rules.follows).put_in, drivenBy(start.state.velocity, frame, surface));
 }
@@ -75,7 +82,8 @@ void KineticGuard::bound(double most, Field3& velocity) const noexcept {
 }
 
 // By lanes, so that the sums have one order, whatever the processor's width.
-CURTAIN_WIDE KineticGuard::Sums KineticGuard::sumsOf(const SubstepStart& start, const Field3& end, const Vec3& frame, bool backward) const noexcept {
+CURTAIN_WIDE KineticGuard::Sums KineticGuard::sumsOf(const SubstepStart& start, const Field3& end, const Vec3& frame,
+                                                     bool backward) const noexcept {
   const std::size_t size = pattern_.grid.size();
   const Field3 &from = start.state.position, &velocity = start.state.velocity;
   const double* const mass = pattern_.mass.data();
@@ -86,7 +94,8 @@ CURTAIN_WIDE KineticGuard::Sums KineticGuard::sumsOf(const SubstepStart& start, 
   const double per_step = 1.0 / start.h, kick = start.kick;
   std::array<double, kLane> stepped{}, put_in{};
   const auto add = [&](const Field& x_next, const Field& x_from, const Field& v_field, const Field& f_field, double u) {
-    const double *const x = x_next.data(), *const a = x_from.data(), *const v = v_field.data(), *const f = f_field.data();
+    const double *const x = x_next.data(), *const a = x_from.data(), *const v = v_field.data(),
+                        *const f = f_field.data();
     for (std::size_t n = 0; n < size; n += kLane) {
 #pragma omp simd
       for (std::size_t l = 0; l < kLane; ++l) {
@@ -140,7 +149,8 @@ double KineticGuard::drivenBy(const Field3& velocity, const Vec3& frame, double 
   return mass * fastest;
 }
 
-// What links may lack of their lengths where a substep begins, and have too much where it ends, comes out of it as speed.
+// What links may lack of their lengths where a substep begins, and have too much where it ends, comes out of it as
+// speed.
 double KineticGuard::fromTolerance(double h) const noexcept {
   const double speed = 2.0 * stretch_tolerance_ * links_ / h;
   double mass = 0.0;

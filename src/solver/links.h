@@ -20,7 +20,8 @@ namespace curtain {
 struct LinkSet {
   Field3 direction;  ///< [m], shape [(rows + 1) * stride]
   Field multiplier;  ///< [kg], shape [(rows + 1) * stride]
-  double most_give = std::numeric_limits<double>::infinity();  ///< largest relative overlength that compliance may allow
+  double most_give =
+      std::numeric_limits<double>::infinity();  ///< largest relative overlength that compliance may allow
 
   void assign(const Grid& grid) {
     const std::size_t size = grid.size() + static_cast<std::size_t>(grid.stride);
@@ -34,7 +35,7 @@ struct LineSolve {
   const ClothPattern& pattern;
   const Field& inverse_inertia;  ///< how a node answers an impulse in this substep [1/kg]
   LinkSet& links;
-  Field3& value;  ///< positions [m], or velocities [m/s]
+  Field3& value;    ///< positions [m], or velocities [m/s]
   ColumnSpan span;  ///< outside it nothing moves
 };
 

@@ -19,8 +19,8 @@ void tangents(const Vec3& normal, Vec3& first, Vec3& second) {
 
 }  // namespace
 
-void NetContacts::addRow(const Frame& frame, std::uint32_t index, const Contact& contact, const Vec3& direction, double wanted,
-                         bool normal) {
+void NetContacts::addRow(const Frame& frame, std::uint32_t index, const Contact& contact, const Vec3& direction,
+                         double wanted, bool normal) {
   Row row{};
   row.contact = index;
   row.nodes = contact.nodes;
@@ -31,7 +31,8 @@ void NetContacts::addRow(const Frame& frame, std::uint32_t index, const Contact&
   const auto grid_stride = static_cast<std::uint32_t>(frame.grid.stride);
   for (int k = 0; k < contact.nodes; ++k) {
     const auto at = static_cast<std::size_t>(k);
-    row.node[at] = contact.node[at] / grid_stride * static_cast<std::uint32_t>(frame.stride) + contact.node[at] % grid_stride;
+    row.node[at] =
+        contact.node[at] / grid_stride * static_cast<std::uint32_t>(frame.stride) + contact.node[at] % grid_stride;
     row.weight[at] = static_cast<float>(contact.weight[at]);
     row.diagonal += row.weight[at] * row.weight[at] * frame.weight[row.node[at]];
   }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The contacts' share of NetSolver's conjugate gradients: a row along the normal of every contact that pushes or is entered,
-// and two across it where the point sticks. Preconditioned each by itself. Single precision, like all of NetSolver.
+// The contacts' share of NetSolver's conjugate gradients: a row along the normal of every contact that pushes or is
+// entered, and two across it where the point sticks. Preconditioned each by itself. Single precision, like all of
+// NetSolver.
 #pragma once
 
 #include <vector>
@@ -68,9 +69,9 @@ class NetContacts {
     int nodes;
     std::array<std::uint32_t, 4> node;  // in NetSolver's layout
     std::array<float, 4> weight;
-    float dx, dy, dz;                   // direction of the multiplier
+    float dx, dy, dz;  // direction of the multiplier
     bool normal;
-    float diagonal, per_diagonal;       // the second with the damping
+    float diagonal, per_diagonal;  // the second with the damping
     float residual, pull, product, solution;
   };
 
@@ -90,8 +91,10 @@ void NetContacts::forEachChange(double scale, const Take& take) const {
     Vec3 slide = Vec3::Zero();
     for (; r < rows_.size() && rows_[r].contact == contact; ++r) {
       const double change = scale * static_cast<double>(rows_[r].solution);
-      if (rows_[r].normal) push += change;
-      else slide += change * Vec3(rows_[r].dx, rows_[r].dy, rows_[r].dz);
+      if (rows_[r].normal)
+        push += change;
+      else
+        slide += change * Vec3(rows_[r].dx, rows_[r].dy, rows_[r].dz);
     }
     take(contact, push, slide);
   }

@@ -28,10 +28,12 @@ NetSolver::NetSolver(const ClothPattern& pattern, const Workers& workers)
       row_blocks_((pattern.grid.rows + kRows - 1) / kRows) {
   // Whole row blocks, and a row of zeros below the last one.
   const std::size_t size = (static_cast<std::size_t>(row_blocks_) * kRows + 1) * stride_;
-  for (Values* values : {&weight_, &warp_.x, &warp_.y, &warp_.z, &weft_.x, &weft_.y, &weft_.z, &warp_inverse_, &warp_lower_,
-                         &weft_diagonal_, &weft_off_, &weft_inverse_, &weft_lower_, &above_left_, &above_right_, &below_left_,
-                         &below_right_, &rods_, &move_.x, &move_.y, &move_.z, &mask_, &residual_, &preconditioned_, &pull_, &product_,
-                         &solution_, &least_, &interleaved_, &push_.x, &push_.y, &push_.z}) {
+  for (Values* values :
+       {&weight_,       &warp_.x,     &warp_.y,         &warp_.z,   &weft_.x,       &weft_.y,     &weft_.z,
+        &warp_inverse_, &warp_lower_, &weft_diagonal_,  &weft_off_, &weft_inverse_, &weft_lower_, &above_left_,
+        &above_right_,  &below_left_, &below_right_,    &rods_,     &move_.x,       &move_.y,     &move_.z,
+        &mask_,         &residual_,   &preconditioned_, &pull_,     &product_,      &solution_,   &least_,
+        &interleaved_,  &push_.x,     &push_.y,         &push_.z}) {
     values->assign(size, 0.0F);
   }
   const auto reciprocal = [](const Field& rest) {
@@ -48,22 +50,26 @@ NetSolver::NetSolver(const ClothPattern& pattern, const Workers& workers)
 }
 
 void NetSolver::reset() noexcept {
-  for (Values* values : {&weight_, &weft_.x, &weft_.y, &weft_.z, &above_left_, &above_right_, &below_left_, &below_right_, &rods_,
-                         &move_.x, &move_.y, &move_.z, &residual_, &preconditioned_, &pull_, &product_, &solution_, &least_,
-                         &interleaved_, &push_.x, &push_.y, &push_.z}) {
+  for (Values* values :
+       {&weight_,   &weft_.x, &weft_.y,      &weft_.z, &above_left_, &above_right_,    &below_left_, &below_right_,
+        &rods_,     &move_.x, &move_.y,      &move_.z, &residual_,   &preconditioned_, &pull_,       &product_,
+        &solution_, &least_,  &interleaved_, &push_.x, &push_.y,     &push_.z}) {
     std::fill(values->begin(), values->end(), 0.0F);
   }
 }
 
 template <typename Block>
 double NetSolver::sumOverRowBlocks(const Block& block) noexcept {
-  workers_.run(row_blocks_, [&](int b) { partial_[static_cast<std::size_t>(b)] = taut_[static_cast<std::size_t>(b)] ? block(b) : 0.0; });
+  workers_.run(row_blocks_, [&](int b) {
+    partial_[static_cast<std::size_t>(b)] = taut_[static_cast<std::size_t>(b)] ? block(b) : 0.0;
+  });
   double sum = 0.0;
   for (const double part : partial_) sum += part;
   return sum;
 }
 
-CURTAIN_WIDE void NetSolver::takeRow(const Field3& position, const Field& inverse_inertia, const ColumnSpan& span, int i) noexcept {
+CURTAIN_WIDE void NetSolver::takeRow(const Field3& position, const Field& inverse_inertia, const ColumnSpan& span,
+                                     int i) noexcept {
   const Grid& grid = pattern_.grid;
   const auto columns = static_cast<std::size_t>(grid.columns);
   const std::size_t from = grid.row(i), to = row(i);
@@ -81,7 +87,8 @@ CURTAIN_WIDE void NetSolver::takeRow(const Field3& position, const Field& invers
       float* const warp_out = warp.data() + to;
       for (std::size_t j = first; j < end; ++j) warp_out[j] = static_cast<float>((p[j] - above[j]) * per_warp[j]);
     }
-    for (std::size_t j = first_link; j < end_link; ++j) weft_out[j] = static_cast<float>((p[j] - p[j - 1]) * per_weft[j]);
+    for (std::size_t j = first_link; j < end_link; ++j)
+      weft_out[j] = static_cast<float>((p[j] - p[j - 1]) * per_weft[j]);
     if (grid.closed) weft_out[columns] = weft_out[0] = static_cast<float>((p[0] - p[columns - 1]) * per_weft[0]);
   };
   difference(position.x, warp_.x, weft_.x);
@@ -96,7 +103,8 @@ CURTAIN_WIDE void NetSolver::takeRow(const Field3& position, const Field& invers
     diagonal[j] = (w[j] + w[j - 1]) * (x[j] * x[j] + y[j] * y[j] + z[j] * z[j]);
     off[j] = -w[j] * (x[j] * x[j + 1] + y[j] * y[j + 1] + z[j] * z[j + 1]);
   }
-  off[columns - 1] = grid.closed ? -w[columns - 1] * (x[columns - 1] * x[0] + y[columns - 1] * y[0] + z[columns - 1] * z[0]) : 0.0F;
+  off[columns - 1] =
+      grid.closed ? -w[columns - 1] * (x[columns - 1] * x[0] + y[columns - 1] * y[0] + z[columns - 1] * z[0]) : 0.0F;
   diagonal[0] = grid.closed ? (w[0] + w[columns - 1]) * square(0) : 0.0F;
   off[0] = grid.closed ? -w[0] * (x[0] * x[1] + y[0] * y[1] + z[0] * z[1]) : 0.0F;
 }
@@ -116,7 +124,8 @@ void NetSolver::begin(const Field3& position, const Field& inverse_inertia, cons
   });
 }
 
-// A_wf of a block of columns. Rod i ends below at its node, link j ends there on the right: these pull it along, the others push.
+// A_wf of a block of columns. Rod i ends below at its node, link j ends there on the right: these pull it along, the
+// others push.
 CURTAIN_WIDE void NetSolver::couple(int block) noexcept {
   const std::size_t first = static_cast<std::size_t>(block) * kColumns;
   for (int i = 0; i < pattern_.grid.rows; ++i) {
@@ -169,7 +178,8 @@ CURTAIN_WIDE void NetSolver::factorWarp(int block) noexcept {
 }
 
 // The right-hand side over its scale, and the vectors of the conjugate gradients at their start.
-CURTAIN_WIDE void NetSolver::load(const Field& violation, const Field& active, const Field* multiplier, int b) noexcept {
+CURTAIN_WIDE void NetSolver::load(const Field& violation, const Field& active, const Field* multiplier,
+                                  int b) noexcept {
   const Grid& grid = pattern_.grid;
   const auto columns = static_cast<std::size_t>(grid.columns);
   const int end = std::min((b + 1) * kRows, grid.rows);
@@ -179,7 +189,8 @@ CURTAIN_WIDE void NetSolver::load(const Field& violation, const Field& active, c
     const double* const c = violation.data() + grid.row(i);
     const double* const a = active.data() + grid.row(i);
     const double* const per_rest = per_weft_rest_.data() + grid.row(i);
-    float *const on = &mask_[row(i)], *const r = &residual_[row(i)], *const x = &solution_[row(i)], *const p = &pull_[row(i)];
+    float *const on = &mask_[row(i)], *const r = &residual_[row(i)], *const x = &solution_[row(i)],
+                 *const p = &pull_[row(i)];
 #pragma omp simd reduction(+ : any)
     for (std::size_t j = 0; j < columns; ++j) {
       on[j] = static_cast<float>(a[j]);
@@ -230,7 +241,8 @@ double NetSolver::applySchur() noexcept {
   const double sum = sumOverRowBlocks([&](int b) { return schurProduct(b); });
   if (!contacts_.any()) return sum;
   workers_.run(moving_blocks_, [&](int b) { moveNodes(first_block_ + b); });
-  return sum + contacts_.product({move_.x.data(), move_.y.data(), move_.z.data()}, {push_.x.data(), push_.y.data(), push_.z.data()});
+  return sum + contacts_.product({move_.x.data(), move_.y.data(), move_.z.data()},
+                                 {push_.x.data(), push_.y.data(), push_.z.data()});
 }
 
 double NetSolver::step(Real alpha) noexcept {
@@ -259,10 +271,10 @@ void NetSolver::findPushed() noexcept {
   contacts_.forEachNode([this](std::uint32_t node) { pushed_[node / kColumns] = 1; });
 }
 
-// Numbers that are not finite end the iteration before they reach the vectors. Among contacts strings stay what they were: rows that
-// are damped so much find no set.
-NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active, const ContactValues& contacts, const Aim& aim,
-                                    Field& change) noexcept {
+// Numbers that are not finite end the iteration before they reach the vectors. Among contacts strings stay what they
+// were: rows that are damped so much find no set.
+NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active, const ContactValues& contacts,
+                                    const Aim& aim, Field& change) noexcept {
   Outcome outcome;
   damping_ = static_cast<float>(aim.damping);
   violation_scale_ = aim.largest;

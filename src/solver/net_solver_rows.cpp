@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What an iteration of the net's conjugate gradients is made of: the product with the Schur complement, the rows' preconditioner, and
-// which strings take part.
+// What an iteration of the net's conjugate gradients is made of: the product with the Schur complement, the rows'
+// preconditioner, and which strings take part.
 #include <algorithm>
 #include <cmath>
 
@@ -12,10 +12,12 @@ namespace curtain {
 namespace {
 
 constexpr std::size_t kInterleave = 8;  // rows that are solved side by side
-constexpr std::size_t kSquare = kInterleave * kInterleave;  // of so many columns of theirs; what is beyond the last column is 0
+constexpr std::size_t kSquare =
+    kInterleave * kInterleave;  // of so many columns of theirs; what is beyond the last column is 0
 
 // Eight rows of eight numbers, from side by side to one after the other and back.
-CURTAIN_INTO_WIDE void transpose(const float* from, std::size_t from_stride, float* to, std::size_t to_stride) noexcept {
+CURTAIN_INTO_WIDE void transpose(const float* from, std::size_t from_stride, float* to,
+                                 std::size_t to_stride) noexcept {
 #if defined(__GNUC__) && !defined(__clang__)
   typedef float Lanes __attribute__((vector_size(32), aligned(4)));
   typedef int Order __attribute__((vector_size(32)));
@@ -33,7 +35,8 @@ CURTAIN_INTO_WIDE void transpose(const float* from, std::size_t from_stride, flo
   }
   for (std::size_t l = 0; l < kInterleave / 2; ++l) {
     *reinterpret_cast<Lanes*>(to + l * to_stride) = __builtin_shuffle(a[l], a[l + 4], Order{0, 1, 2, 3, 8, 9, 10, 11});
-    *reinterpret_cast<Lanes*>(to + (l + 4) * to_stride) = __builtin_shuffle(a[l], a[l + 4], Order{4, 5, 6, 7, 12, 13, 14, 15});
+    *reinterpret_cast<Lanes*>(to + (l + 4) * to_stride) =
+        __builtin_shuffle(a[l], a[l + 4], Order{4, 5, 6, 7, 12, 13, 14, 15});
   }
 #else
   for (std::size_t l = 0; l < kInterleave; ++l) {
@@ -71,7 +74,8 @@ CURTAIN_WIDE void NetSolver::factorWeft(int b) noexcept {
     transpose(&mask_[first + block], stride_, ons, kInterleave);
     transpose(&mask_[first + block + 1], stride_, ons_after, kInterleave);
     for (std::size_t j = 0; j < kSquare; j += kInterleave) {
-      const float *const diagonal = diagonals + j, *const off = offs + j, *const on = ons + j, *const on_after = ons_after + j;
+      const float *const diagonal = diagonals + j, *const off = offs + j, *const on = ons + j,
+                         *const on_after = ons_after + j;
       float* const inverse = &weft_inverse_[first + block * kInterleave + j];
       float* const lower = &weft_lower_[first + block * kInterleave + j];
 #pragma omp simd
@@ -104,8 +108,8 @@ CURTAIN_WIDE void NetSolver::answerOfRods(int block) noexcept {
     const float* const s_above = &rods_[above];
 #pragma omp simd
     for (std::size_t j = 0; j < kColumns; ++j) {
-      s[j] = above_left[j] * p[j] + above_right[j] * p[j + 1] + below_left[j] * p_above[j] + below_right[j] * p_above[j + 1] -
-             lower_above[j] * s_above[j];
+      s[j] = above_left[j] * p[j] + above_right[j] * p[j + 1] + below_left[j] * p_above[j] +
+             below_right[j] * p_above[j + 1] - lower_above[j] * s_above[j];
     }
     if (!contacts_.any() || !(isPushed(i, block) || isPushed(i - 1, block))) continue;
     const float *const w = &weight_[k], *const w_above = &weight_[above];
@@ -163,7 +167,8 @@ CURTAIN_WIDE double NetSolver::schurProduct(int b) noexcept {
   // Link k ends at node k, and begins where the link before it ends.
   const auto product = [=](std::size_t before, std::size_t k) {
     return damped * diagonal[k] * p[k] + off[k] * p[k + 1] + off[before] * p[before] -
-           (above_left[k] * s[k] + below_left[k] * s_below[k] + above_right[before] * s[before] + below_right[before] * s_below[before]);
+           (above_left[k] * s[k] + below_left[k] * s_below[k] + above_right[before] * s[before] +
+            below_right[before] * s_below[before]);
   };
   // All rows in one: where there is no link there are zeros.
 #pragma omp simd

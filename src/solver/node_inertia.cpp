@@ -59,7 +59,8 @@ void NodeInertia::set(const NodeForces& forces, double kick, double scale, doubl
     inverse_ = &changed_;
     for (std::size_t n = 0; n < size; ++n) {
       const double w = (*masses_)[n];
-      const DampedStep step = implicit ? implicitlyDampedStep(forces.damping[n], w, kick) : dampedStep(forces.damping[n], w, kick);
+      const DampedStep step =
+          implicit ? implicitlyDampedStep(forces.damping[n], w, kick) : dampedStep(forces.damping[n], w, kick);
       changed_[n] = step.gain * w;
       keep_[n] = step.keep;
     }

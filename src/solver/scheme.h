@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What tells one exact scheme from another: where a substep starts, how long forces act in it, along which directions its links pull,
-// how much energy it may find, and what it leaves to the next one. The solve is the same for all. One file a scheme in schemes/.
+// What tells one exact scheme from another: where a substep starts, how long forces act in it, along which directions
+// its links pull, how much energy it may find, and what it leaves to the next one. The solve is the same for all. One
+// file a scheme in schemes/.
 #pragma once
 
 #include "solver/node_inertia.h"
@@ -13,10 +14,10 @@ namespace curtain {
 class Scheme {
  public:
   struct Rules {
-    bool follows;          ///< links pull along their directions at the end of the step, not at its start
-    bool backward;         ///< damping acts on the velocities at the end
-    double age;            ///< velocities belong to positions so much of a step before, as a share of it
-    bool remembers;        ///< steps before the last one: it must know of blows
+    bool follows;    ///< links pull along their directions at the end of the step, not at its start
+    bool backward;   ///< damping acts on the velocities at the end
+    double age;      ///< velocities belong to positions so much of a step before, as a share of it
+    bool remembers;  ///< steps before the last one: it must know of blows
   };
 
   explicit Scheme(const Rules& rules) noexcept : rules_(rules) {}
@@ -28,8 +29,8 @@ class Scheme {
   virtual double stepFor(double h) const noexcept { return h; }
 
   /// Where it starts. inertia: set for this substep. What of the momentum is not taken along is told in the outcome.
-  virtual SubstepStart start(const SubstepPlan& plan, double step, double kick, const NodeForces& forces, const NodeInertia& inertia,
-                             const ClothState& state, SubstepOutcome& outcome) noexcept {
+  virtual SubstepStart start(const SubstepPlan& plan, double step, double kick, const NodeForces& forces,
+                             const NodeInertia& inertia, const ClothState& state, SubstepOutcome& outcome) noexcept {
     (void)plan, (void)outcome;
     return startFrom(state, step, kick, forces, inertia);
   }

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/schemes/composition.h"
 #include "solver/constants.h"
+#include "solver/schemes/composition.h"
 
 namespace curtain {
 namespace {
@@ -25,7 +25,8 @@ double hangingOmega(const ClothPattern& pattern, const Vec3& gravity) {
     double mass_below = 0.0;
     for (int i = grid.rows - 1; i > 0; --i) {
       mass_below += pattern.mass[grid.index(i, j)];
-      worst = std::max(worst, 4.0 * mass_below / (pattern.mass[grid.index(i, j)] * pattern.warp_rest[grid.index(i, j)]));
+      worst =
+          std::max(worst, 4.0 * mass_below / (pattern.mass[grid.index(i, j)] * pattern.warp_rest[grid.index(i, j)]));
     }
   }
   return std::sqrt(worst * gravity.norm());
@@ -72,13 +73,15 @@ double StepControl::stepFromTensions(bool frame_begins, const ExactSolver& solve
   const double longest_stage = composed_ ? kLongestStage : 1.0;
   const double for_phase = omega_ > 0.0 ? kPhasePerStep / (longest_stage * omega_) : frame_;
   if (method_ != Method::kAuto || for_phase > kWorthLooking * frame_) return for_phase;
-  // Not anew within a frame, where a blow is no reason for longer steps; but when it began nothing may have been known of tensions.
-  if (frame_begins || std::isinf(heavier_step_)) heavier_step_ = solver.inertia().stepForPhase(kPhasePerStep, kHeavierShare);
+  // Not anew within a frame, where a blow is no reason for longer steps; but when it began nothing may have been known
+  // of tensions.
+  if (frame_begins || std::isinf(heavier_step_))
+    heavier_step_ = solver.inertia().stepForPhase(kPhasePerStep, kHeavierShare);
   return std::isfinite(heavier_step_) ? std::max(for_phase, heavier_step_) : for_phase;
 }
 
-// Longer than wanted where there is no time for so many; leapfrog by itself would blow up. What has been rejected or is pushed
-// far stays out of the question.
+// Longer than wanted where there is no time for so many; leapfrog by itself would blow up. What has been rejected or is
+// pushed far stays out of the question.
 double StepControl::stretch(double wanted, double remaining) noexcept {
   stretched_ = false;
   if (method_ != Method::kAuto && method_ != Method::kBdf2 && method_ != Method::kImplicit) return wanted;
@@ -140,9 +143,12 @@ void StepControl::watch(const SubstepOutcome& outcome) noexcept {
 void StepControl::accepted(const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept {
   watch(outcome);
   surface_step_ = outcome.longest_step;
-  if (!plan.isLastResort()) trust_.reset();
-  else if (outcome.settled) trust_.succeeded();
-  else trust_.failed(outcome.touches);
+  if (!plan.isLastResort())
+    trust_.reset();
+  else if (outcome.settled)
+    trust_.succeeded();
+  else
+    trust_.failed(outcome.touches);
   if (limit_ < frame_ && ++good_ >= kGoodToGrow) {
     limit_ = std::min(frame_, limit_ * kLimitGrowth);
     good_ = 0;

@@ -21,8 +21,8 @@ class StepControl {
   /// Frames are so long from now on [s]. To be called between two frames.
   void takeFrame(double length) noexcept;
 
-  /// The next substep; remaining: what is left of the frame [s], > 0; its whole length when a frame begins. h is a whole
-  /// share of it.
+  /// The next substep; remaining: what is left of the frame [s], > 0; its whole length when a frame begins. h is a
+  /// whole share of it.
   SubstepPlan next(double remaining, const ExactSolver& solver) noexcept;
   /// Substeps that the rest of the frame may be made in, >= 1: beyond that they are longer than the tensions ask for.
   void allow(int substeps) noexcept { allowed_ = substeps; }
@@ -40,7 +40,8 @@ class StepControl {
   void wake(const ExactSolver& solver) noexcept;
   void accepted(const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept;
   void rejected(const SubstepPlan& plan) noexcept;
-  /// It was not done within a frame's computing time. Shorter ones are, but not the fall-back, which has no shorter ones.
+  /// It was not done within a frame's computing time. Shorter ones are, but not the fall-back, which has no shorter
+  /// ones.
   void tookTooLong(const SubstepPlan& plan) noexcept;
 
   void carry(Archive& archive);
@@ -56,15 +57,16 @@ class StepControl {
   double initial_omega_;  // of the cloth hanging by its own weight [1/s]
   double omega_;          // from the last tensions [1/s]
   double turning_;        // of the last substep [1/s]
-  double heavier_step_;   // what the phase allows where few nodes may be heavier, found when the frame began [s]; 0: not asked
-  double surface_step_;   // in which what pushes goes a share of a link [s]
-  double limit_;          // largest step that the rejections leave [s]
+  double heavier_step_;  // what the phase allows where few nodes may be heavier, found when the frame began [s]; 0: not
+                         // asked
+  double surface_step_;  // in which what pushes goes a share of a link [s]
+  double limit_;         // largest step that the rejections leave [s]
   int allowed_ = std::numeric_limits<int>::max();  // for the rest of the frame
   bool stretched_ = false;
-  int asked_ = 1;         // substeps a frame
-  TrustRegion trust_;     // of the last resort
-  bool composed_;         // substeps are made of stages (composition.h)
-  int good_ = 0;          // accepted substeps since the limit last changed
+  int asked_ = 1;      // substeps a frame
+  TrustRegion trust_;  // of the last resort
+  bool composed_;      // substeps are made of stages (composition.h)
+  int good_ = 0;       // accepted substeps since the limit last changed
 };
 
 }  // namespace curtain

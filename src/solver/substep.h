@@ -21,12 +21,13 @@ enum class SchemeKind {
 /// A substep to be made.
 struct SubstepPlan {
   SchemeKind scheme = SchemeKind::kLeapfrog;
-  double h = 0.0;            ///< [s], != 0; negative only for leapfrog
-  double reach = std::numeric_limits<double>::infinity();  ///< last resort: most that a node may be predicted to move, in links
-  bool tells_turning = true; ///< SubstepOutcome::turning is read
-  bool precise = false;      ///< rods are solved to rounding
-  double most_phase = 0.0;   ///< nodes whose tensions ask for a larger h * omega answer forces as if they were heavier,
-                             ///< so that theirs is this; 0: none does. Vanishes with the step.
+  double h = 0.0;  ///< [s], != 0; negative only for leapfrog
+  double reach =
+      std::numeric_limits<double>::infinity();  ///< last resort: most that a node may be predicted to move, in links
+  bool tells_turning = true;                    ///< SubstepOutcome::turning is read
+  bool precise = false;                         ///< rods are solved to rounding
+  double most_phase = 0.0;  ///< nodes whose tensions ask for a larger h * omega answer forces as if they were heavier,
+                            ///< so that theirs is this; 0: none does. Vanishes with the step.
 
   bool isLastResort() const noexcept { return scheme == SchemeKind::kLastResort; }
 };
@@ -45,8 +46,8 @@ class ContactFinder {
  public:
   virtual ~ContactFinder() = default;
 
-  /// What may touch on the way from start to predicted, over a substep of length h [s], with the multipliers of the last
-  /// substep. None: a hint, no more; what the cloth does is for verify(). Allocates nothing.
+  /// What may touch on the way from start to predicted, over a substep of length h [s], with the multipliers of the
+  /// last substep. None: a hint, no more; what the cloth does is for verify(). Allocates nothing.
   virtual Contacts& begin(const Field3& start, const Field3& predicted, double h) noexcept = 0;
 
   enum class Verdict {
@@ -63,19 +64,20 @@ class ContactFinder {
 
 /// How a substep went.
 struct SubstepOutcome {
-  bool accepted = false;       ///< false: nothing was changed, try again with a smaller step
-  bool settled = false;        ///< every link is within the tolerance
-  bool disturbed = false;      ///< columns that are held would move: wake them and make the substep again
-  bool late = false;           ///< its time was over before it had settled
-  bool touches = false;        ///< something presses
+  bool accepted = false;   ///< false: nothing was changed, try again with a smaller step
+  bool settled = false;    ///< every link is within the tolerance
+  bool disturbed = false;  ///< columns that are held would move: wake them and make the substep again
+  bool late = false;       ///< its time was over before it had settled
+  bool touches = false;    ///< something presses
   int sweeps = 0;
-  double scale = 0.0;          ///< h times the time the forces acted for [s^2]
-  double kick = 0.0;           ///< the time the forces acted for [s]
-  double share = 1.0;          ///< of the path that the last resort leaves, [0..1]
-  double momentum_cut = 0.0;   ///< by the last resort [N s]
-  bool pins_wait = false;      ///< moved pins stayed where they were, too
+  double scale = 0.0;                                             ///< h times the time the forces acted for [s^2]
+  double kick = 0.0;                                              ///< the time the forces acted for [s]
+  double share = 1.0;                                             ///< of the path that the last resort leaves, [0..1]
+  double momentum_cut = 0.0;                                      ///< by the last resort [N s]
+  bool pins_wait = false;                                         ///< moved pins stayed where they were, too
   double longest_step = std::numeric_limits<double>::infinity();  ///< in which what pushes goes a share of a link [s]
-  double turning = 0.0;        ///< ExactSolver::turning() [1/s]; 0 where a string pulls or a contact pushes: jumps are no turns
+  double turning =
+      0.0;  ///< ExactSolver::turning() [1/s]; 0 where a string pulls or a contact pushes: jumps are no turns
   double omega_squared = 0.0;  ///< bound of the square of the highest frequency, from the links' tensions [1/s^2]
 };
 

@@ -20,7 +20,8 @@ bool StallWatch::stalls(int sweeps, double residual) noexcept {
   return !improves;
 }
 
-Sweeps::Sweeps(Constraints& constraints, const NodeInertia& inertia, double tolerance, double contact_tolerance, int most_sweeps)
+Sweeps::Sweeps(Constraints& constraints, const NodeInertia& inertia, double tolerance, double contact_tolerance,
+               int most_sweeps)
     : constraints_(constraints),
       inertia_(inertia),
       tolerance_(kInnerTolerance * tolerance),
@@ -36,16 +37,19 @@ Sweeps::Aim Sweeps::aimOf(const SweepTask& task, bool first, bool touches, int s
   }
   if (sweeps < kStrictSweeps && !touches && (constraints_.weftPulls() || constraints_.stringsAct())) {
     // What the last resort leaves the far shorter steps after it would have to mend at once: by a blow.
-    strict = task.last_resort         ? kLastResortShare
-             : task.weight_path > 0.0 ? std::clamp(kShareOfWeight * task.weight_path / (constraints_.middleRest() * tolerance_), kLeastShare, 1.0)
-                                      : 1.0;
+    strict =
+        task.last_resort ? kLastResortShare
+        : task.weight_path > 0.0
+            ? std::clamp(kShareOfWeight * task.weight_path / (constraints_.middleRest() * tolerance_), kLeastShare, 1.0)
+            : 1.0;
   }
   const bool cautious = first && !task.last_resort;
   return {strict * tolerance_, contact, cautious ? kFirstSweepShare : 1.0, cautious ? kFirstSweepShare : kLeaveAlone};
 }
 
 // Friction takes its turn before contacts are looked at.
-Sweeps::Residual Sweeps::look(Contacts* contacts, const Constraints::RodsProgress& rods, bool first, int sweeps, StageClock& clock) noexcept {
+Sweeps::Residual Sweeps::look(Contacts* contacts, const Constraints::RodsProgress& rods, bool first, int sweeps,
+                              StageClock& clock) noexcept {
   Residual residual;
   residual.rods = rods;
   const bool touches = contacts != nullptr && !contacts->empty();
@@ -57,7 +61,8 @@ Sweeps::Residual Sweeps::look(Contacts* contacts, const Constraints::RodsProgres
 }
 
 bool Sweeps::reached(const Aim& aim, const Residual& r) noexcept {
-  return r.rods.converged && r.strings <= aim.share * aim.links && r.touch <= aim.share * aim.contact && constraints_.rodsResidual() <= aim.links;
+  return r.rods.converged && r.strings <= aim.share * aim.links && r.touch <= aim.share * aim.contact &&
+         constraints_.rodsResidual() <= aim.links;
 }
 
 // Monotone: what is no better is undone, and the next step damped more. True: it was undone.
@@ -94,8 +99,12 @@ SweepOutcome Sweeps::run(const SweepTask& task, Contacts* contacts, StageClock& 
   while (outcome.sweeps < most_sweeps_) {
     const bool first = outcome.sweeps == 0;
     const Aim aim = aimOf(task, first, touches, outcome.sweeps);
-    const Constraints::RodsProgress rods = constraints_.solveRods(
-        {follow, task.precise ? kPreciseStop : first && !constraints_.weftPulls() ? kNewtonStop : kNewtonStopLater, first ? 0.0 : kLeaveAlone * aim.links, task.last_resort ? kInfinity : kMostViolation});
+    const Constraints::RodsProgress rods =
+        constraints_.solveRods({follow,
+                                task.precise                         ? kPreciseStop
+                                : first && !constraints_.weftPulls() ? kNewtonStop
+                                                                     : kNewtonStopLater,
+                                first ? 0.0 : kLeaveAlone * aim.links, task.last_resort ? kInfinity : kMostViolation});
     clock.lap(Stage::kWarp);
     if (first) outcome.surprise = rods.first_residual;
     if (!rods.converged && !task.last_resort) return {SweepEnd::kDiverged, false, outcome.sweeps};
@@ -124,8 +133,10 @@ SweepOutcome Sweeps::run(const SweepTask& task, Contacts* contacts, StageClock& 
     if (undone || now.strings > aim.alone * aim.links || touch > aim.alone * aim.contact) {
       // Contact settles better along given directions.
       follow = follow || !touches;
-      if (follow) constraints_.followDirections();
-      else constraints_.takeDirections(task.start);
+      if (follow)
+        constraints_.followDirections();
+      else
+        constraints_.takeDirections(task.start);
       const bool newton = !touches && !task.last_resort;
       const double worth = newton ? residual : follow ? kReduction : kContactReduction;
       const double enough = std::min(kReduction, std::max(kReduction * aim.links / residual, worth));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The sweeps of a solve: rods, then all taut strings and contacts at once, until links and contacts are within what is aimed at.
-// Cloth without a taut string that touches nothing never leaves the first half of the first sweep.
+// The sweeps of a solve: rods, then all taut strings and contacts at once, until links and contacts are within what is
+// aimed at. Cloth without a taut string that touches nothing never leaves the first half of the first sweep.
 //
-// Directions of the substep's start do for a leapfrog step as long as they have a solution. What its first sweep leaves is corrected
-// along the present directions, all of it: forces along the directions at the start may have no solution at all where a flat net
-// shears, and a correction along one set of directions taken back along another is a force that does work. In contact they are kept:
-// what is dropped on a box gains energy else (test/stress).
+// Directions of the substep's start do for a leapfrog step as long as they have a solution. What its first sweep leaves
+// is corrected along the present directions, all of it: forces along the directions at the start may have no solution
+// at all where a flat net shears, and a correction along one set of directions taken back along another is a force that
+// does work. In contact they are kept: what is dropped on a box gains energy else (test/stress).
 #pragma once
 
 #include <limits>
@@ -34,12 +34,12 @@ struct SweepOutcome {
 
 /// What is to be solved.
 struct SweepTask {
-  const Field3& start;     ///< where directions at the substep's start are taken [m]
-  bool follows;            ///< links pull along their directions at its end
-  bool last_resort;        ///< monotone: a sweep that makes the sum of squares no smaller is undone
-  bool precise;            ///< rods are solved to rounding
-  double weight_path;      ///< that weight moves a node by in the substep [m]
-  double path;             ///< that nodes go in it at the speed they have, RMS past their mean [m]; read where something touches
+  const Field3& start;  ///< where directions at the substep's start are taken [m]
+  bool follows;         ///< links pull along their directions at its end
+  bool last_resort;     ///< monotone: a sweep that makes the sum of squares no smaller is undone
+  bool precise;         ///< rods are solved to rounding
+  double weight_path;   ///< that weight moves a node by in the substep [m]
+  double path;  ///< that nodes go in it at the speed they have, RMS past their mean [m]; read where something touches
 };
 
 /// How much a sweep's solve of strings and contacts is damped: the more the more sweeps went wrong.
@@ -73,8 +73,10 @@ class StallWatch {
 /// Not thread-safe. Allocates nothing.
 class Sweeps {
  public:
-  /// tolerance  relative, of links; contact_tolerance  [m]; both as the user has them. constraints and inertia must outlive this.
-  Sweeps(Constraints& constraints, const NodeInertia& inertia, double tolerance, double contact_tolerance, int most_sweeps);
+  /// tolerance  relative, of links; contact_tolerance  [m]; both as the user has them. constraints and inertia must
+  /// outlive this.
+  Sweeps(Constraints& constraints, const NodeInertia& inertia, double tolerance, double contact_tolerance,
+         int most_sweeps);
 
   /// Moves constraints.next to where links and contacts are satisfied; contacts: null where nothing can touch.
   SweepOutcome run(const SweepTask& task, Contacts* contacts, StageClock& clock) noexcept;
@@ -91,7 +93,8 @@ class Sweeps {
     double strings = 0.0, touch = 0.0;  // relative, [m]
   };
   Aim aimOf(const SweepTask& task, bool first, bool touches, int sweeps) const noexcept;
-  Residual look(Contacts* contacts, const Constraints::RodsProgress& rods, bool first, int sweeps, StageClock& clock) noexcept;
+  Residual look(Contacts* contacts, const Constraints::RodsProgress& rods, bool first, int sweeps,
+                StageClock& clock) noexcept;
   bool reached(const Aim& aim, const Residual& residual) noexcept;
   struct Best {
     double merit = std::numeric_limits<double>::infinity(), residual = 0.0;
@@ -105,7 +108,7 @@ class Sweeps {
   const double tolerance_;          // inside the solver
   const double contact_tolerance_;  // [m]
   const int most_sweeps_;
-  Best best_;  // of a monotone solve
+  Best best_;                // of a monotone solve
   double most_touch_ = 0.0;  // that contacts may lack in the end [m]
 };
 

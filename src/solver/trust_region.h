@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// How far nodes may go in a substep of the last resort, in lengths of their shortest link: without bound until a solve at the smallest
-// step fails, then less with every failure, and more again with every success. Where the last resort does not settle in contact, the
-// scheme itself is tried again at the next frame: what rests on something needs no bound, and its solve settles where a monotone one
-// stalls.
+// How far nodes may go in a substep of the last resort, in lengths of their shortest link: without bound until a solve
+// at the smallest step fails, then less with every failure, and more again with every success. Where the last resort
+// does not settle in contact, the scheme itself is tried again at the next frame: what rests on something needs no
+// bound, and its solve settles where a monotone one stalls.
 #pragma once
 
 #include <algorithm>

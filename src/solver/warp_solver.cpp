@@ -118,8 +118,8 @@ CURTAIN_INTO_WIDE void forgetTop(const LineSolve& line, LineScratch& scratch, st
   for (std::size_t j = offset; j < offset + kLane; ++j) scratch.solution[j] = line.links.multiplier[j] = 0.0;
 }
 
-// One Newton iteration on a block of columns. Row 0 of the scratch and the row after the last one are zero: no rod above,
-// none below.
+// One Newton iteration on a block of columns. Row 0 of the scratch and the row after the last one are zero: no rod
+// above, none below.
 template <typename Level>
 CURTAIN_INTO_WIDE LineOutcome newton(const LineSolve& line, LineScratch& scratch, int block) {
   const Grid& grid = line.pattern.grid;
@@ -238,12 +238,12 @@ CURTAIN_WIDE void warpBegin(const SubstepStart& start, const LineSolve& line, co
 }
 
 template <bool kBends>
-CURTAIN_INTO_WIDE WarpMotion finishBlock(const LineSolve& line, const Field3& from, double per_step, Field3& velocity, Field& load,
-                                         int block) {
+CURTAIN_INTO_WIDE WarpMotion finishBlock(const LineSolve& line, const Field3& from, double per_step, Field3& velocity,
+                                         Field& load, int block) {
   const Grid& grid = line.pattern.grid;
   const auto stride = static_cast<std::size_t>(grid.stride);
   Worst worst;
-  double bent[kLane] = {};                                        // by column
+  double bent[kLane] = {};                                               // by column
   double above_x[kLane] = {}, above_y[kLane] = {}, above_z[kLane] = {};  // change of velocity in the row above
   for (int i = 0; i < grid.rows; ++i) {
     const std::size_t first = grid.row(i) + static_cast<std::size_t>(block) * kLane;
@@ -257,7 +257,8 @@ CURTAIN_INTO_WIDE WarpMotion finishBlock(const LineSolve& line, const Field3& fr
     const double rods = i > 0 ? 1.0 : 0.0;  // the top row has none above
 #pragma omp simd
     for (int j = 0; j < kLane; ++j) {
-      const double vx = (to.x[j] - at.x[j]) * per_step, vy = (to.y[j] - at.y[j]) * per_step, vz = (to.z[j] - at.z[j]) * per_step;
+      const double vx = (to.x[j] - at.x[j]) * per_step, vy = (to.y[j] - at.y[j]) * per_step,
+                   vz = (to.z[j] - at.z[j]) * per_step;
       if (kBends) {
         const double ax = vx - v.x[j], ay = vy - v.y[j], az = vz - v.z[j];
         const double rx = ax - above_x[j], ry = ay - above_y[j], rz = az - above_z[j];
@@ -279,8 +280,8 @@ CURTAIN_INTO_WIDE WarpMotion finishBlock(const LineSolve& line, const Field3& fr
   return motion;
 }
 
-CURTAIN_WIDE WarpMotion warpFinish(const LineSolve& line, const Field3& from, double per_step, bool bends, Field3& velocity,
-                                   Field& load, int block) noexcept {
+CURTAIN_WIDE WarpMotion warpFinish(const LineSolve& line, const Field3& from, double per_step, bool bends,
+                                   Field3& velocity, Field& load, int block) noexcept {
   return bends ? finishBlock<true>(line, from, per_step, velocity, load, block)
                : finishBlock<false>(line, from, per_step, velocity, load, block);
 }

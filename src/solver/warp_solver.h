@@ -39,8 +39,8 @@ struct WarpMotion {
 
 /// Velocities of a block's nodes, from where they were to line.value, and their loads: the sum of |multiplier| of their
 /// rods [kg]. bends: how much the rods' motion has changed is wanted, too.
-WarpMotion warpFinish(const LineSolve& line, const Field3& from, double per_step, bool bends, Field3& velocity, Field& load,
-                      int block) noexcept;
+WarpMotion warpFinish(const LineSolve& line, const Field3& from, double per_step, bool bends, Field3& velocity,
+                      Field& load, int block) noexcept;
 
 /// Moves a block's nodes by the multipliers there are.
 void applyWarpMultipliers(const LineSolve& line, int block) noexcept;

@@ -42,8 +42,8 @@ CURTAIN_INTO_WIDE Link look(const Row& row, std::size_t left, std::size_t right)
   return {both > 0.0 ? c : 0.0, active, 0.0 * c};  // 0 * x is NaN for NaN and infinity alike
 }
 
-// Calls loop(first, end) for what of [0, columns) is in the span. That nothing sleeps is the rule, and a loop whose start is known
-// when it is compiled is an eighth shorter.
+// Calls loop(first, end) for what of [0, columns) is in the span. That nothing sleeps is the rule, and a loop whose
+// start is known when it is compiled is an eighth shorter.
 template <typename Loop>
 CURTAIN_INTO_WIDE void overColumns(const ColumnSpan& span, std::size_t columns, const Loop& loop) {
   if (span.first == 0 && span.end >= columns) {
@@ -246,7 +246,9 @@ CURTAIN_WIDE double weftMoveSquared(const LineSolve& line, int i, const Field& m
     }
     worst = largest;
   });
-  const auto wrapped = [&](const double* d) { return w[last] * ((grid.closed ? s[0] * d[0] : 0.0) - s[last] * d[last]); };
+  const auto wrapped = [&](const double* d) {
+    return w[last] * ((grid.closed ? s[0] * d[0] : 0.0) - s[last] * d[last]);
+  };
   const double x = wrapped(dx), y = wrapped(dy), z = wrapped(dz);
   return std::max(worst, (x * x + y * y + z * z) * per_square[last]);
 }

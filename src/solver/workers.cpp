@@ -18,8 +18,8 @@
 namespace curtain {
 namespace {
 
-// From twice this on two threads are used: 10 080 nodes gathered and blown, without contact, take 10.9 ms a frame on one core and 7.3
-// on two. Not varied.
+// From twice this on two threads are used: 10 080 nodes gathered and blown, without contact, take 10.9 ms a frame on
+// one core and 7.3 on two. Not varied.
 constexpr std::size_t kNodesPerThread = 4000;
 
 // The caller's core is not among those that others may use.

@@ -41,8 +41,8 @@ class BatchTest : public testing::Test {
  protected:
   void SetUp() override {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() /
-              ("curtain_batch_" + std::to_string(getpid()) + "_" + info->name());
+    folder_ =
+        std::filesystem::temp_directory_path() / ("curtain_batch_" + std::to_string(getpid()) + "_" + info->name());
     std::filesystem::create_directories(folder_);
     said_ = folder_.string() + ".said";
   }

@@ -14,8 +14,8 @@ namespace {
 
 using curtain_test::BatchTest;
 using curtain_test::lines;
-using curtain_test::readFile;
 using curtain_test::Outcome;
+using curtain_test::readFile;
 
 class Options : public BatchTest {
  protected:
@@ -57,8 +57,8 @@ TEST_F(Options, HelpNamesEveryOption) {
   for (const char* option : {"--help", "-h"}) {
     const Outcome run = batch({option});
     EXPECT_EQ(run.exit_code, 0);
-    for (const char* name : {"--duration", "--method", "--substeps", "--rows", "--columns", "--out", "--sample", "--mesh",
-                             "--stats", "--save", "--restore", "--progress", "--explain", "--list-methods"}) {
+    for (const char* name : {"--duration", "--method", "--substeps", "--rows", "--columns", "--out", "--sample",
+                             "--mesh", "--stats", "--save", "--restore", "--progress", "--explain", "--list-methods"}) {
       EXPECT_NE(run.out.find(name), std::string::npos) << name;
     }
   }
@@ -83,14 +83,16 @@ TEST_F(Options, StatisticsOfRestAndBudget) {
   const auto asleep = stats({smallScene("air: {inside: 1, border: 1, corner: 1}\n"), "--duration", "5"});
   EXPECT_GT(asleep.at("rest").at("columns_asleep").get<int>(), 0);
   EXPECT_GT(asleep.at("rest").at("frames_asleep").get<int>(), 100);
-  for (const char* key : {"estimates_skipped", "longer_substeps", "unfinished_substeps", "shortened_frames", "lost_s", "late_frames"}) {
+  for (const char* key :
+       {"estimates_skipped", "longer_substeps", "unfinished_substeps", "shortened_frames", "lost_s", "late_frames"}) {
     EXPECT_EQ(asleep.at("budget").at(key).get<double>(), 0.0) << key;
   }
 }
 
 TEST_F(Options, StatisticsHaveTheKeysThatToolsRead) {
-  const auto json = stats({smallScene("wind: [{id: fan, position: [0.5, -1.0, 1.0], direction: [0, 1, 0], pressure: 3.0}]\n"),
-                           "--duration", "0.1"});
+  const auto json =
+      stats({smallScene("wind: [{id: fan, position: [0.5, -1.0, 1.0], direction: [0, 1, 0], pressure: 3.0}]\n"),
+             "--duration", "0.1"});
   for (const char* key : {"wall_s", "substeps_mean", "penetration_max"}) EXPECT_TRUE(json.at(key).is_number()) << key;
   for (const char* key : {"median", "p99", "max"}) EXPECT_GT(json.at("ms_per_frame").at(key).get<double>(), 0.0) << key;
   EXPECT_LE(json.at("ms_per_frame").at("median"), json.at("ms_per_frame").at("p99"));

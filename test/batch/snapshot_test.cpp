@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// --save and --restore: a run in two parts is the run in one, to the bit; and what can't be restored or saved ends with exit
-// code 2.
+// --save and --restore: a run in two parts is the run in one, to the bit; and what can't be restored or saved ends with
+// exit code 2.
 #include <nlohmann/json.hpp>
 
 #include "batch/batch_testing.h"

@@ -20,7 +20,8 @@ std::string writeBall(const std::string& name, bool bumpy) {
   const double pi = std::acos(-1.0);
   std::ofstream file(path);
   const auto corner = [&](double latitude, double longitude) {
-    const double bump = bumpy ? 0.03 * std::sin(24.0 * longitude) * std::sin(24.0 * latitude) * std::cos(latitude) : 0.0;
+    const double bump =
+        bumpy ? 0.03 * std::sin(24.0 * longitude) * std::sin(24.0 * latitude) * std::cos(latitude) : 0.0;
     const double radius = 0.4 * (1.0 + bump);
     file << "v " << radius * std::cos(latitude) * std::cos(longitude) << ' '
          << radius * std::cos(latitude) * std::sin(longitude) << ' ' << radius * std::sin(latitude) << '\n';

@@ -7,7 +7,8 @@
 
 namespace curtain_bench {
 
-/// 2 m x 1 m, hung by its top edge between hooks `gathered` [m] apart, turned out of the vertical by `tilt` [rad]; one core.
+/// 2 m x 1 m, hung by its top edge between hooks `gathered` [m] apart, turned out of the vertical by `tilt` [rad]; one
+/// core.
 curtain::Scene curtainOf(int rows, int columns, double gathered, double tilt);
 curtain::Scene with(curtain::Scene scene, const curtain::ObstacleParams& obstacle);
 curtain::Scene touchingItself(curtain::Scene scene);

@@ -35,7 +35,8 @@ namespace {
 
 int usage() {
   std::fprintf(stderr,
-               "usage: curtain_bench [--out FOLDER] [--quick] [--repeats N] [--scene PART] [--bullet] [--methods] [STUDY…]\nstudies:");
+               "usage: curtain_bench [--out FOLDER] [--quick] [--repeats N] [--scene PART] [--bullet] [--methods] "
+               "[STUDY…]\nstudies:");
   for (const Study& study : studies()) std::fprintf(stderr, " %s", study.name.c_str());
   std::fprintf(stderr, "\n");
   return 2;

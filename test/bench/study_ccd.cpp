@@ -35,12 +35,14 @@ double nanoseconds(const std::vector<CcdQuery>& queries, double min_distance, in
 void studyCcd(const Options& options) {
   // A round takes two milliseconds, so many of them cost nothing.
   const int repeats = (options.quick ? 2 : 20) * options.repeats;
-  Table table(options.folder, "ccd.csv", {"set", "pair", "queries", "hits", "missed", "false_alarms", "ns_min", "ns_min_1mm"});
+  Table table(options.folder, "ccd.csv",
+              {"set", "pair", "queries", "hits", "missed", "false_alarms", "ns_min", "ns_min_1mm"});
   for (const std::string set : {"queries", "queries_cloth"}) {
     const std::vector<CcdQuery> all = curtain_test::readCcdQueries(set + ".bin");
     for (const bool edges : {false, true}) {
       std::vector<CcdQuery> queries;
-      std::copy_if(all.begin(), all.end(), std::back_inserter(queries), [edges](const CcdQuery& q) { return q.edges == edges; });
+      std::copy_if(all.begin(), all.end(), std::back_inserter(queries),
+                   [edges](const CcdQuery& q) { return q.edges == edges; });
       int hits = 0;
       int missed = 0;
       for (const CcdQuery& query : queries) {

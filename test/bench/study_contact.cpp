@@ -54,8 +54,8 @@ void studyContact(const Options& options) {
   compare("flat (itself)", swing, touchingItself(swing), 0, frames, repeats, table);
   const Scene gathered = blown(curtainOf(44, 40, 0.6, 0.0));
   compare("gathered to 60 % (itself)", gathered, touchingItself(gathered), 0, frames, repeats, table);
-  compare("heap on the floor (itself)", falling(44, 40), touchingItself(falling(44, 40)), 120, options.quick ? 140 : 240, options.quick ? 1 : 2,
-          table);
+  compare("heap on the floor (itself)", falling(44, 40), touchingItself(falling(44, 40)), 120,
+          options.quick ? 140 : 240, options.quick ? 1 : 2, table);
 }
 
 }  // namespace curtain_bench

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What frames take of scenes in which cloth touches itself and others: the median, the slowest of a hundred, the slowest.
+// What frames take of scenes in which cloth touches itself and others: the median, the slowest of a hundred, the
+// slowest.
 #include <algorithm>
 #include <cstdio>
 #include <stdexcept>
@@ -98,14 +99,15 @@ void measure(const Case& one, int repeats, Table& table) {
   table.row({one.name, number(least(medians)), number(median(medians)), number(least(late)), number(least(longest)),
              number(substeps / frames), number(sweeps / frames), number(contacts)});
   std::fprintf(stderr, "%-60s %8.3f ms, 99 %% %8.3f, longest %8.2f, %5.2f substeps, %6.2f sweeps, %d contacts\n",
-               one.name.c_str(), least(medians), least(late), least(longest), substeps / frames, sweeps / frames, contacts);
+               one.name.c_str(), least(medians), least(late), least(longest), substeps / frames, sweeps / frames,
+               contacts);
 }
 
 }  // namespace
 
 void studyContactFrames(const Options& options) {
-  std::vector<std::string> columns{"scene",    "ms_median_min", "ms_median_median", "ms_99_min", "ms_longest_min",
-                                   "substeps", "sweeps",        "contacts"};
+  std::vector<std::string> columns{"scene",          "ms_median_min", "ms_median_median", "ms_99_min",
+                                   "ms_longest_min", "substeps",      "sweeps",           "contacts"};
   // Names hold commas: the table's cells may not.
   Table table(options.folder, "contact_frames.csv", columns);
   for (Case& one : cases()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The same curtain and the same ball, ours and Bullet's: time against what links lack and how many nodes are in the ball.
+// The same curtain and the same ball, ours and Bullet's: time against what links lack and how many nodes are in the
+// ball.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -86,14 +87,16 @@ void studyContactPeers(const Options& options) {
   bare.obstacles.clear();
   ClothStart start = clothStart(bare, 0.5);
   start.ball = ball;
-  compare("auto", "default", start, [&] { return makeOurs(scene); }, repeats, table);
+  compare(
+      "auto", "default", start, [&] { return makeOurs(scene); }, repeats, table);
   if (!bulletInstalled()) return;
   for (const int substeps : {1, 4, 16, 64}) {
     for (const int iterations : {4, 16, 64}) {
       if (substeps * iterations > 1024) continue;
       const BulletSettings settings{substeps, iterations, 0};
-      compare("btSoftBody", "substeps " + std::to_string(substeps) + "; piterations " + std::to_string(iterations), start,
-              [&] { return makeBullet(start, settings); }, repeats, table);
+      compare(
+          "btSoftBody", "substeps " + std::to_string(substeps) + "; piterations " + std::to_string(iterations), start,
+          [&] { return makeBullet(start, settings); }, repeats, table);
     }
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What each feature costs: without it, with it in vain, at work. Instructions once, for they repeat; times in turns, the
-// least of the repeats.
+// What each feature costs: without it, with it in vain, at work. Instructions once, for they repeat; times in turns,
+// the least of the repeats.
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -18,9 +18,9 @@ constexpr std::array<FeatureState, 3> kStates = {FeatureState::kOff, FeatureStat
 }  // namespace
 
 void studyFeatures(const Options& options) {
-  Table table(options.folder, "features.csv",
-              {"feature", "state", "what", "instructions", "instructions_per_substep", "substeps", "ns_min",
-               "same_motion"});
+  Table table(
+      options.folder, "features.csv",
+      {"feature", "state", "what", "instructions", "instructions_per_substep", "substeps", "ns_min", "same_motion"});
   for (const Feature& feature : features()) {
     std::array<double, 3> ns;
     ns.fill(std::numeric_limits<double>::infinity());
@@ -36,7 +36,8 @@ void studyFeatures(const Options& options) {
       if (kStates[s] == FeatureState::kOff) off_hash = weight.state_hash;
       const std::string& what = kStates[s] == FeatureState::kIdle ? feature.idle_is : feature.active_is;
       table.row({feature.name, stateName(kStates[s]), kStates[s] == FeatureState::kOff ? "without" : what,
-                 number(weight.instructions, 6), weight.substeps > 0.0 ? number(weight.instructions / weight.substeps, 6) : "", number(weight.substeps),
+                 number(weight.instructions, 6),
+                 weight.substeps > 0.0 ? number(weight.instructions / weight.substeps, 6) : "", number(weight.substeps),
                  number(ns[s]), weight.state_hash == off_hash ? "yes" : "no"});
     }
   }

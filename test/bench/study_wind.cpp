@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // A chain in a uniform wind rests on a straight line (wind_chain.csv, law A: Cheng 2000, Eq. (3), whose force is along
-// the wind and goes with cos psi). The disc is so far away that 1 + (|d| / reference_length)^2 varies by 2e-5 over the cloth. Ours only: the
-// rivals have no wind.
+// the wind and goes with cos psi). The disc is so far away that 1 + (|d| / reference_length)^2 varies by 2e-5 over the
+// cloth. Ours only: the rivals have no wind.
 #include <cmath>
 
 #include "bench/line_up.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The fine mesh is one sheet (a disc, or an annulus where the cloth is closed) of both layers of nodes, wound as the node
-// normals point.
+// The fine mesh is one sheet (a disc, or an annulus where the cloth is closed) of both layers of nodes, wound as the
+// node normals point.
 #include "curtain_sim/fine_mesh.h"
 
 #include <gtest/gtest.h>
@@ -66,7 +66,8 @@ TEST(FineMesh, IsADiscOrAnAnnulusWoundOneWay) {
       if (!both) ++border;
       if (!both || edge.first < edge.second) ++edges;
     }
-    const auto euler = static_cast<long>(node_count) - static_cast<long>(edges) + static_cast<long>(mesh.triangles.size());
+    const auto euler =
+        static_cast<long>(node_count) - static_cast<long>(edges) + static_cast<long>(mesh.triangles.size());
     EXPECT_EQ(euler, shape.closed ? 0 : 1);
     const int around = shape.closed ? 2 * mesh.columns : 2 * (mesh.columns - 1) + 2 * (mesh.rows - 1);
     EXPECT_EQ(border, static_cast<std::size_t>(around)) << "border edges";

@@ -164,7 +164,8 @@ TEST(Folds, ChangeContinuouslyFromClosedToTaut) {
 // ---- folds of a cloth ------------------------------------------------------------------------------------------
 
 struct Cloth {
-  explicit Cloth(const Scene& scene) : pattern(makePattern(scene)), position(makeInitialState(scene, pattern).position) {
+  explicit Cloth(const Scene& scene)
+      : pattern(makePattern(scene)), position(makeInitialState(scene, pattern).position) {
     vectors.assign(pattern.grid.size(), 0.0);
     renew();
   }

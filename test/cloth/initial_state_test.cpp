@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Where a cloth starts: at rest, its rods exactly as long as they are, on the line or ring that scene.hang gives, turned
-// out of the vertical by its tilt.
+// Where a cloth starts: at rest, its rods exactly as long as they are, on the line or ring that scene.hang gives,
+// turned out of the vertical by its tilt.
 #include <gtest/gtest.h>
 
 #include "testing.h"

@@ -117,8 +117,12 @@ TEST(Pattern, SpacingsAreProportions) {
   const double shares[] = {0.1, 0.3, 0.6};
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j) {
-      if (i > 0) { EXPECT_NEAR(pattern.warp_rest[grid.index(i, j)], rods[i - 1], 8 * kEps); }
-      if (j > 0) { EXPECT_NEAR(pattern.weft_rest[grid.index(i, j)], shares[j - 1] * widths[i], 16 * kEps); }
+      if (i > 0) {
+        EXPECT_NEAR(pattern.warp_rest[grid.index(i, j)], rods[i - 1], 8 * kEps);
+      }
+      if (j > 0) {
+        EXPECT_NEAR(pattern.weft_rest[grid.index(i, j)], shares[j - 1] * widths[i], 16 * kEps);
+      }
     }
   }
   EXPECT_NEAR(pattern.warp_coordinate[2], 0.6, 8 * kEps);
@@ -138,8 +142,8 @@ TEST(Pattern, RowAndColumnMassesAreFactorsOnTopOfTheLumping) {
       for (int j = 0; j < 4; ++j) {
         const std::size_t n = plain.grid.index(i, j);
         // Powers of two: exact.
-        const double factor = scene.cloth.row_mass[static_cast<std::size_t>(i)] *
-                              scene.cloth.column_mass[static_cast<std::size_t>(j)];
+        const double factor =
+            scene.cloth.row_mass[static_cast<std::size_t>(i)] * scene.cloth.column_mass[static_cast<std::size_t>(j)];
         EXPECT_EQ(heavy.mass[n], factor * plain.mass[n]);
         EXPECT_EQ(heavy.inverse_mass[n], plain.inverse_mass[n] / factor);
       }

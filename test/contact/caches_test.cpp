@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What contact keeps from substep to substep saves time and nothing else: without it the same contacts come, to the bit.
+// What contact keeps from substep to substep saves time and nothing else: without it the same contacts come, to the
+// bit.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -30,7 +31,8 @@ Scene sceneOf(const Case& of, std::uint64_t seed) {
   scene.contact.self = of.self;
   scene.contact.thickness = 0.008;
   if (!of.obstacles) return scene;
-  const ShapeKind shapes[] = {ShapeKind::kSphere, ShapeKind::kBox, ShapeKind::kCylinder, ShapeKind::kCapsule, ShapeKind::kPlane};
+  const ShapeKind shapes[] = {ShapeKind::kSphere, ShapeKind::kBox, ShapeKind::kCylinder, ShapeKind::kCapsule,
+                              ShapeKind::kPlane};
   const auto add = [&](ShapeKind shape) -> ObstacleParams& {
     ObstacleParams obstacle;
     obstacle.name = "obstacle" + std::to_string(scene.obstacles.size());
@@ -42,8 +44,10 @@ Scene sceneOf(const Case& of, std::uint64_t seed) {
   };
   for (const ShapeKind shape : shapes) {
     ObstacleParams& obstacle = add(shape);
-    if (shape == ShapeKind::kBox) obstacle.size = Vec3(0.3, 0.01, 0.3);
-    else if (shape != ShapeKind::kPlane) obstacle.radius = 0.08;
+    if (shape == ShapeKind::kBox)
+      obstacle.size = Vec3(0.3, 0.01, 0.3);
+    else if (shape != ShapeKind::kPlane)
+      obstacle.radius = 0.08;
     if (shape == ShapeKind::kCylinder || shape == ShapeKind::kCapsule) obstacle.length = 0.3;
   }
   for (const char* const mesh : {"icosphere.stl", "l_prism.obj", "square_open.obj"}) {
@@ -104,7 +108,8 @@ TEST_P(ContactCaches, ChangeNoBit) {
       const Field3 predicted = moved(pattern, start, drift, size, random);
       Field3 end = moved(pattern, predicted, Vec3::Zero(), 0.3 * size, random);
       for (int jerked = k % 5 == 0 ? 3 : 0; jerked > 0; --jerked) {
-        const std::size_t n = pattern.grid.index((k + 3 * jerked) % pattern.grid.rows, (2 * k + jerked) % pattern.grid.columns);
+        const std::size_t n =
+            pattern.grid.index((k + 3 * jerked) % pattern.grid.rows, (2 * k + jerked) % pattern.grid.columns);
         if (pattern.inverse_mass[n] > 0.0) end.add(n, random.inBox(0.02));
       }
       const double turn = 0.002 * (k % 40 < 20 ? 1.0 : 0.0);

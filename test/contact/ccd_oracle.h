@@ -45,25 +45,26 @@ inline Real distanceToTriangle(const Vec3l& p, const Vec3l& a, const Vec3l& b, c
   const Vec3l n = (b - a).cross(c - a);
   if (!(n.norm() > kThin * std::max((b - a).squaredNorm(), (c - a).squaredNorm()))) {
     // Segments across the triangle, side by side.
-    return std::min(least, leastOfConvex([&](Real s) -> Real {
-      return distanceToSegment(p, a + s * (c - a), b + s * (c - b));
-    }));
+    return std::min(
+        least, leastOfConvex([&](Real s) -> Real { return distanceToSegment(p, a + s * (c - a), b + s * (c - b)); }));
   }
-  const bool inside = n.dot((b - a).cross(p - a)) >= 0.0L && n.dot((c - b).cross(p - b)) >= 0.0L &&
-                      n.dot((a - c).cross(p - c)) >= 0.0L;
+  const bool inside =
+      n.dot((b - a).cross(p - a)) >= 0.0L && n.dot((c - b).cross(p - b)) >= 0.0L && n.dot((a - c).cross(p - c)) >= 0.0L;
   if (inside) least = std::min(least, std::abs(n.dot(p - a)) / n.norm());
   return least;
 }
 
 inline Real distanceOfSegments(const Vec3l& a, const Vec3l& b, const Vec3l& c, const Vec3l& d) {
-  Real least = std::min({distanceToSegment(a, c, d), distanceToSegment(b, c, d), distanceToSegment(c, a, b),
-                         distanceToSegment(d, a, b)});
+  Real least = std::min(
+      {distanceToSegment(a, c, d), distanceToSegment(b, c, d), distanceToSegment(c, a, b), distanceToSegment(d, a, b)});
   const Vec3l n = (b - a).cross(d - c);
   if (!(n.norm() > kThin * (b - a).norm() * (d - c).norm())) {
     return std::min(least, leastOfConvex([&](Real s) { return distanceToSegment(a + s * (b - a), c, d); }));
   }
   // Seen along n the segments cross where each has its ends on both sides of the other.
-  const auto side = [&n](const Vec3l& from, const Vec3l& to, const Vec3l& p) { return n.dot((to - from).cross(p - from)); };
+  const auto side = [&n](const Vec3l& from, const Vec3l& to, const Vec3l& p) {
+    return n.dot((to - from).cross(p - from));
+  };
   const bool cross = side(a, b, c) * side(a, b, d) <= 0.0L && side(c, d, a) * side(c, d, b) <= 0.0L;
   if (cross) least = std::min(least, std::abs(n.dot(c - a)) / n.norm());
   return least;

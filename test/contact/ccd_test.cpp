@@ -107,7 +107,8 @@ CcdPoints randomQuery(Random& random, bool edges, double turning) {
   return x;
 }
 
-/// What must hold for any query: before the told time they are further apart, at it no more than by roundings of metres.
+/// What must hold for any query: before the told time they are further apart, at it no more than by roundings of
+/// metres.
 void expectTrue(bool edges, const CcdPoints& x, double min_distance, int& told_hits) {
   constexpr Real kClose = 1e-13L;
   const auto told = timeOfImpact(edges, x, min_distance);
@@ -149,8 +150,8 @@ TEST(CcdOracle, ConstructedImpactsAreNeitherMissedNorLate) {
     const auto at = [&](std::size_t i) -> Vec3 { return (1.0 - t) * x[i] + t * x[i + 4]; };
     const double u = random.between(0.05, 0.45);
     const double v = random.between(0.05, 0.45);
-    const Vec3 meet = edges ? Vec3(u * at(1) - at(2) + v * (at(2) - at(3)))
-                            : Vec3(-(1.0 - u - v) * at(1) - u * at(2) - v * at(3));
+    const Vec3 meet =
+        edges ? Vec3(u * at(1) - at(2) + v * (at(2) - at(3))) : Vec3(-(1.0 - u - v) * at(1) - u * at(2) - v * at(3));
     // The first point's end, so that its weighted sum with the others is zero at t.
     const double weight = edges ? 1.0 - u : 1.0;
     x[4] = (-meet / weight - (1.0 - t) * x[0]) / t;
@@ -196,9 +197,11 @@ TEST(CcdSymmetry, OrderPlaceAndScaleDoNotMatter) {
       ASSERT_NEAR(told.value_or(2.0), again.value_or(2.0), 1e-6) << what << " " << k;
     };
     same(edges ? CcdPoints{x[2], x[3], x[0], x[1], x[6], x[7], x[4], x[5]}
-               : CcdPoints{x[0], x[2], x[3], x[1], x[4], x[6], x[7], x[5]}, thick, "order");
+               : CcdPoints{x[0], x[2], x[3], x[1], x[4], x[6], x[7], x[5]},
+         thick, "order");
     same(edges ? CcdPoints{x[1], x[0], x[2], x[3], x[5], x[4], x[6], x[7]}
-               : CcdPoints{x[0], x[2], x[1], x[3], x[4], x[6], x[5], x[7]}, thick, "orientation");
+               : CcdPoints{x[0], x[2], x[1], x[3], x[4], x[6], x[5], x[7]},
+         thick, "orientation");
     CcdPoints moved = x;
     for (Vec3& point : moved) point += Vec3(1e3, -1e3, 1e3);
     same(moved, thick, "place");
@@ -240,7 +243,8 @@ TEST(CcdDegenerate, TouchingAtTheStartIsZero) {
     EXPECT_EQ(timeOfImpact(false, {p, p, p, p, p + up, p, p, p}), 0.0);
   }
   EXPECT_EQ(timeOfImpact(true, {a, b, Vec3(0.5, -1, 0), c, a + up, b + up, Vec3(0.5, -1, 0), c}), 0.0);
-  EXPECT_EQ(timeOfImpact(true, {a, b, Vec3(0.5, 0, 0), Vec3(2, 0, 0), a + up, b + up, Vec3(0.5, 0, 0), Vec3(2, 0, 0)}), 0.0);
+  EXPECT_EQ(timeOfImpact(true, {a, b, Vec3(0.5, 0, 0), Vec3(2, 0, 0), a + up, b + up, Vec3(0.5, 0, 0), Vec3(2, 0, 0)}),
+            0.0);
   EXPECT_EQ(timeOfImpact(true, {a, b, a + 0.1 * up, b + 0.1 * up, a, b, a + up, b + up}, 0.11), 0.0);
 }
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Cloth that passes through a box comes out across itself, however near its other sides are; cloth that ends in it by the shortest way.
+// Cloth that passes through a box comes out across itself, however near its other sides are; cloth that ends in it by
+// the shortest way.
 #include "contact/response/common_exit.h"
 
 #include <gtest/gtest.h>
 
-#include "curtain_sim/simulator.h"
 #include "contact/shapes/obstacle_set.h"
+#include "curtain_sim/simulator.h"
 #include "testing.h"
 
 namespace curtain {

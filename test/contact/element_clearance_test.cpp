@@ -58,8 +58,8 @@ TEST(ElementClearance, AgreesWithSamples) {
       for (int p = 0; p < 4; ++p) points.push_back(place.toWorld(centre + random.inBox(0.3)));
       const std::vector<MeshTriangle> patch = {{0, 1, 2}, {1, 3, 3}};  // a triangle and a rod
       const double wanted = random.between(0.0, 0.3);
-      double sampled = std::min(sampledDistance(*shape, place, points, patch[0]),
-                                sampledDistance(*shape, place, points, patch[1]));
+      double sampled =
+          std::min(sampledDistance(*shape, place, points, patch[0]), sampledDistance(*shape, place, points, patch[1]));
       // Of a mesh only the surface counts: patches that reach inside without crossing it are the caller's to know.
       const bool keeps = clearance.keeps(*shape, place, points, patch, wanted);
       if (shape == &mesh && keeps && sampled < -0.05) continue;

@@ -45,8 +45,9 @@ class HostileMesh : public testing::Test {
   fs::path folder_;
 };
 
-const char* const kNode = "<node id=\"n0\"><matrix>1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1</matrix>"
-                          "<instance_geometry url=\"#cube\"/></node>";
+const char* const kNode =
+    "<node id=\"n0\"><matrix>1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1</matrix>"
+    "<instance_geometry url=\"#cube\"/></node>";
 
 // The cube with other nodes in its scene, and a library of nodes.
 std::string cubeWith(const std::string& nodes, const std::string& library = "") {
@@ -63,7 +64,8 @@ std::string cubeWith(const std::string& nodes, const std::string& library = "") 
 std::string instance(const std::string& id) { return "<instance_node url=\"#" + id + "\"/>"; }
 
 TEST_F(HostileMesh, ANodeThatStandsForItself) {
-  const std::string circle = "<node id=\"a\"><instance_geometry url=\"#cube\"/><node id=\"b\">" + instance("a") + "</node></node>";
+  const std::string circle =
+      "<node id=\"a\"><instance_geometry url=\"#cube\"/><node id=\"b\">" + instance("a") + "</node></node>";
   expectRefused(file("circle.dae", cubeWith(circle)), "or for themselves");
   const std::string by_name = "<node name=\"a\"><node>" + instance("a") + "</node></node>";
   expectRefused(file("name.dae", cubeWith(by_name)), "or for themselves");
@@ -83,8 +85,11 @@ TEST_F(HostileMesh, EachNodeTwiceTheOneBefore) {
 TEST_F(HostileMesh, NodesThatStandForOthersAreRead) {
   const std::string library = "<node id=\"a\" name=\"b\"><instance_geometry url=\"#cube\"/></node>";
   // A node that has the name of what it stands for is no circle: the library comes first.
-  const std::string nodes = "<node name=\"a\">" + instance("a") + "</node><node><translate>3 0 0</translate>" + instance("a") + "</node>";
-  EXPECT_EQ(curtain::loadMesh(file("two.dae", cubeWith(nodes, library)), curtain::Vec3::Ones(), "chair").triangles.size(), 24u);
+  const std::string nodes =
+      "<node name=\"a\">" + instance("a") + "</node><node><translate>3 0 0</translate>" + instance("a") + "</node>";
+  EXPECT_EQ(
+      curtain::loadMesh(file("two.dae", cubeWith(nodes, library)), curtain::Vec3::Ones(), "chair").triangles.size(),
+      24u);
 }
 
 TEST_F(HostileMesh, ElementsWithinElements) {
@@ -97,7 +102,8 @@ TEST_F(HostileMesh, ElementsWithinElements) {
 TEST_F(HostileMesh, IndicesThatAreNone) {
   for (const char* bad : {"0 2 x", "0 2 1e5", "0 2 \xFF\xFF", "0 2 <![CDATA[,]]>"}) {
     std::string text = cubeWith(kNode);
-    expectRefused(file("indices.dae", text.replace(text.find("<p>0 2"), 6, std::string("<p>") + bad)), "list of indices");
+    expectRefused(file("indices.dae", text.replace(text.find("<p>0 2"), 6, std::string("<p>") + bad)),
+                  "list of indices");
   }
 }
 

@@ -3,6 +3,8 @@
 // Mesh files become shapes in metres, whatever their format, unit and winding; a file that cannot is refused with one
 // sentence naming obstacle, file and reason. The files in test/meshes are cubes of edge 1 around the origin unless
 // their name says otherwise.
+#include "contact/shapes/mesh_loader.h"
+
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -13,7 +15,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "contact/shapes/mesh_loader.h"
 #include "contact/shapes/shapes.h"
 #include "contact/shapes/triangle_mesh.h"
 
@@ -223,8 +224,11 @@ class PackageTree : public testing::Test {
     addPackage("one/.hidden", "hidden");
     addPackage("two", "gamma");
     addPackage("three/alpha", "alpha");
-    setenv("ROS_PACKAGE_PATH", ((root_ / "none").string() + "::" + (root_ / "one").string() + ":" +
-                                (root_ / "two").string() + ":" + (root_ / "three").string()).c_str(), 1);
+    setenv("ROS_PACKAGE_PATH",
+           ((root_ / "none").string() + "::" + (root_ / "one").string() + ":" + (root_ / "two").string() + ":" +
+            (root_ / "three").string())
+               .c_str(),
+           1);
   }
   void TearDown() override {
     if (before_.empty()) {

@@ -105,7 +105,7 @@ TEST(Mesh, distanceAndSignAgreeWithAllTriangles) {
     ASSERT_TRUE(shape.query(point, point, 10.0, surface)) << point.transpose();
     // Both formulas round in coordinates below 4 m.
     EXPECT_NEAR(std::abs(surface.distance), bruteDistance(mesh, point), 1e-12) << point.transpose();
-    EXPECT_EQ(surface.distance < 0.0, windingNumber(mesh, point) > 0.5) << point.transpose();
+    EXPECT_EQ(surface.distance<0.0, windingNumber(mesh, point)> 0.5) << point.transpose();
     EXPECT_NEAR(surface.normal.norm(), 1.0, kRounding);
     inside += surface.distance < 0.0;
   }
@@ -177,9 +177,12 @@ TEST(Mesh, trianglesNearAnswerAsTheTree) {
     Vec3 point = Vec3::Zero();
     TrianglesNear near;
     for (int k = 0; k < 4000; ++k) {
-      if (k % 50 == 0) point = halves(2.0);
-      else if (k % 2 == 0) point += random.inBox(0.1);
-      else point = (8.0 * point).array().round() / 8.0;
+      if (k % 50 == 0)
+        point = halves(2.0);
+      else if (k % 2 == 0)
+        point += random.inBox(0.1);
+      else
+        point = (8.0 * point).array().round() / 8.0;
       const double limit = std::pow(random.uniform(0.0, 1.0), 2);
       const double room = 0.1 * (k % 7);
       const Vec3 centre = near.centre;
@@ -193,7 +196,8 @@ TEST(Mesh, trianglesNearAnswerAsTheTree) {
       EXPECT_EQ(found.point, sought.point);
       int as_near = 0;
       for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
-        const NearestTriangle one = nearestOnTriangle(point, cornerOf(soup, t, 0), cornerOf(soup, t, 1), cornerOf(soup, t, 2));
+        const NearestTriangle one =
+            nearestOnTriangle(point, cornerOf(soup, t, 0), cornerOf(soup, t, 1), cornerOf(soup, t, 2));
         as_near += one.distance_squared == sought.distance_squared;
         EXPECT_FALSE(one.distance_squared == sought.distance_squared && t < sought.triangle);
       }
@@ -495,7 +499,7 @@ void expectSoundAround(const ShapeTriangles& mesh, const Vec3& place, double hal
     const Vec3 point = place + random.inBox(half);
     SurfacePoint surface;
     ASSERT_TRUE(shape.query(point, point, 10.0, surface));
-    EXPECT_EQ(surface.distance < 0.0, windingNumber(mesh, point) > 0.5) << point.transpose();
+    EXPECT_EQ(surface.distance<0.0, windingNumber(mesh, point)> 0.5) << point.transpose();
     EXPECT_NEAR(std::abs(surface.distance), bruteDistance(shape.triangles(), point), 1e-12) << point.transpose();
   }
 }
@@ -521,10 +525,10 @@ TEST(Mesh, spikeWithOneFinelySplitSideHasTheRightSignAtItsTip) {
 TEST(Mesh, sliverInASharpEdgeKeepsTheSignThere) {
   // A wedge whose edge along y has a triangle of no area in it: (0, 1, 6) with 6 amid 0 and 1.
   ShapeTriangles mesh;
-  mesh.corners = {{0.0, -0.5, 0.0}, {0.0, 0.5, 0.0},   {1.0, -0.5, 0.1}, {1.0, 0.5, 0.1},
+  mesh.corners = {{0.0, -0.5, 0.0},  {0.0, 0.5, 0.0},  {1.0, -0.5, 0.1}, {1.0, 0.5, 0.1},
                   {1.0, -0.5, -0.1}, {1.0, 0.5, -0.1}, {0.0, 0.0, 0.0}};
-  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {0, 5, 4}, {0, 6, 5}, {6, 1, 5}, {2, 4, 5},
-                    {2, 5, 3}, {0, 4, 2}, {1, 3, 5}, {0, 1, 6}};
+  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {0, 5, 4}, {0, 6, 5}, {6, 1, 5},
+                    {2, 4, 5}, {2, 5, 3}, {0, 4, 2}, {1, 3, 5}, {0, 1, 6}};
   expectSoundAround(mesh, Vec3::Zero(), 0.4);
   // By symmetry every pseudonormal on the edge is -x, also where the sliver stands between the two faces.
   const MeshTopology topology = analyseMesh(mesh);

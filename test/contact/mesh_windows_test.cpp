@@ -186,8 +186,7 @@ TEST(MeshWindows, CallNothingClearThatIsNotANumberOrFarAway) {
     const QuadView* const views = windows.ask(0, start, end, 0.01);
     for (int j = 0; j < grid.linkCount(); ++j) {
       const bool has_it = j == 3 || j == 4;
-      EXPECT_EQ(views[j], has_it ? QuadView::kUnknown : QuadView::kClear)
-          << bad << " quad " << j;
+      EXPECT_EQ(views[j], has_it ? QuadView::kUnknown : QuadView::kClear) << bad << " quad " << j;
     }
   }
 }

@@ -10,8 +10,8 @@
 #include <map>
 #include <string>
 
-#include "contact/shapes/shapes.h"
 #include "../../docs/examples/rounded_box.h"
+#include "contact/shapes/shapes.h"
 #include "testing.h"
 
 namespace curtain {

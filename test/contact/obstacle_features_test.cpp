@@ -22,8 +22,8 @@
 namespace curtain {
 namespace {
 
-using curtain_test::kPi;
 using curtain_test::bumpySphere;
+using curtain_test::kPi;
 using curtain_test::Random;
 
 int countOf(const ObstacleFeatures& features, EdgeBend bend) {
@@ -49,7 +49,9 @@ void checkConsistent(const ObstacleFeatures& features) {
     EXPECT_NEAR(edge.outward.norm(), 1.0, 1e-12);
     for (std::size_t k = 0; k < 2; ++k) {
       EXPECT_EQ(features.vertices().at(edge.vertices[k]).position, edge.ends[k]);
-      if (edge.touchable) { EXPECT_TRUE(features.vertices()[edge.vertices[k]].touchable); }
+      if (edge.touchable) {
+        EXPECT_TRUE(features.vertices()[edge.vertices[k]].touchable);
+      }
       if (edge.faces[k] == kNoFace) continue;
       const ObstacleTriangle& face = features.triangles().at(edge.faces[k]);
       for (const std::uint32_t vertex : edge.vertices) {
@@ -89,7 +91,8 @@ const ObstacleEdge* edgeThrough(const ObstacleFeatures& features, const Vec3& mi
 
 /// An L of three unit cubes turned about z: one groove of length 1 at (0, 0, z).
 ShapeTriangles angleBar() {
-  const Eigen::Vector2d outline[] = {{0, 0}, {0, 1}, {-1, 1}, {-1, -1}, {1, -1}, {1, 0}};  // counter-clockwise from above
+  const Eigen::Vector2d outline[] = {{0, 0},   {0, 1},  {-1, 1},
+                                     {-1, -1}, {1, -1}, {1, 0}};  // counter-clockwise from above
   ShapeTriangles mesh;
   for (const double z : {0.0, 1.0}) {
     for (const Eigen::Vector2d& p : outline) mesh.corners.emplace_back(p.x(), p.y(), z);
@@ -128,7 +131,8 @@ TEST(ObstacleFeatures, OfABox) {
       EXPECT_LT((vertex.outward - vertex.position.cwiseSign().normalized()).norm(), 1e-15);
     }
     for (const ObstacleTriangle& triangle : features.triangles()) {
-      EXPECT_EQ(triangle.normal.dot(triangle.corners[0]), triangle.normal.cwiseAbs().dot(0.5 * Vec3(1.0, 1.6, thickness)));
+      EXPECT_EQ(triangle.normal.dot(triangle.corners[0]),
+                triangle.normal.cwiseAbs().dot(0.5 * Vec3(1.0, 1.6, thickness)));
       const Vec3 winding = (triangle.corners[1] - triangle.corners[0]).cross(triangle.corners[2] - triangle.corners[0]);
       EXPECT_GT(winding.dot(triangle.normal), 0.0);
     }
@@ -337,13 +341,14 @@ TEST(ObstacleFeatures, NoneInEmptyAndNanBoxesAllInInfiniteOnes) {
   EXPECT_EQ(found, 12);
 }
 
-// Looking into a box of a few edges' size takes as much in a mesh of 200000 triangles as in one of 2000: places of the tree that
-// are looked at, which every edge would be without it.
+// Looking into a box of a few edges' size takes as much in a mesh of 200000 triangles as in one of 2000: places of the
+// tree that are looked at, which every edge would be without it.
 TEST(ObstacleFeatures, OfALargeMeshAreFoundByLookingAtFew) {
   const auto placesPerBox = [](int around, int up) {
     const ObstacleFeatures features(analyseMesh(bumpySphere(around, up, 0.3)), FlatEdges::kKeep);
     std::vector<Eigen::AlignedBox3d> boxes;
-    for (const ObstacleEdge& edge : features.edges()) boxes.push_back(Eigen::AlignedBox3d(edge.ends[0]).extend(edge.ends[1]));
+    for (const ObstacleEdge& edge : features.edges())
+      boxes.push_back(Eigen::AlignedBox3d(edge.ends[0]).extend(edge.ends[1]));
     const BoxTree tree(boxes);
     Random random(2);
     std::size_t places = 0;

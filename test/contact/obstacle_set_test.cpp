@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The box around all obstacles holds every one that is present in the substep, whatever became of them before: obstacles at rest
-// are not looked at anew, and one that is touched from outside must be.
+// The box around all obstacles holds every one that is present in the substep, whatever became of them before:
+// obstacles at rest are not looked at anew, and one that is touched from outside must be.
+#include "contact/shapes/obstacle_set.h"
+
 #include <gtest/gtest.h>
 
 #include <string>
 
 #include "cloth/archive.h"
-#include "contact/shapes/obstacle_set.h"
 #include "testing.h"
 
 namespace curtain {

@@ -197,7 +197,8 @@ TEST(Piercings, AgreeWithSamplesOfTheCloth) {
       }
       const Piercings count = countPiercings(*shape, Transform(pose), grid, moved, kTolerance);
       std::vector<Vec3> points;
-      for (std::size_t node_of_grid = 0; node_of_grid < grid.size(); ++node_of_grid) points.push_back(moved.at(node_of_grid));
+      for (std::size_t node_of_grid = 0; node_of_grid < grid.size(); ++node_of_grid)
+        points.push_back(moved.at(node_of_grid));
       const Piercings by_points =
           countPiercings(*shape, Transform(pose), points, makeCoarseMesh(grid).triangles, kTolerance);
       expectCount(by_points, count.nodes, count.edges, count.faces, name + ", given as a mesh");
@@ -209,10 +210,14 @@ TEST(Piercings, AgreeWithSamplesOfTheCloth) {
         for (const auto& row : node) {
           for (const Vec3& p : row) sampled.nodes += deep(p, p, p, limit);
         }
-        const std::pair<Vec3, Vec3> edges[] = {{node[0][0], node[0][1]}, {node[0][0], node[1][0]}, {node[0][1], node[1][0]},
-                                               {node[0][1], node[1][1]}, {node[1][0], node[1][1]}};
+        const std::pair<Vec3, Vec3> edges[] = {{node[0][0], node[0][1]},
+                                               {node[0][0], node[1][0]},
+                                               {node[0][1], node[1][0]},
+                                               {node[0][1], node[1][1]},
+                                               {node[1][0], node[1][1]}};
         for (const auto& [a, b] : edges) sampled.edges += deep(a, b, a, limit);
-        sampled.faces = deep(node[0][0], node[1][0], node[0][1], limit) + deep(node[1][1], node[1][0], node[0][1], limit);
+        sampled.faces =
+            deep(node[0][0], node[1][0], node[0][1], limit) + deep(node[1][1], node[1][0], node[0][1], limit);
         return sampled;
       };
       const Piercings sampled = all(kTolerance);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What the net says stays flat does: no two elements that share no node come within the reach, at any time on the way. And
-// it says so of cloth that hangs, turns and bends.
+// What the net says stays flat does: no two elements that share no node come within the reach, at any time on the way.
+// And it says so of cloth that hangs, turns and bends.
 #include "contact/broad_phase/taut_net.h"
 
 #include <gtest/gtest.h>

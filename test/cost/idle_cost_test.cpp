@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What a scene has but does nothing in it costs next to nothing: instructions of the cheapest motion there is, with the
-// feature in vain over those without it, the motion being the same to the bit. Counted by callgrind, so that neither the
-// machine's load nor its clock matters.
+// feature in vain over those without it, the motion being the same to the bit. Counted by callgrind, so that neither
+// the machine's load nor its clock matters.
 #include <gtest/gtest.h>
 
 #include <map>

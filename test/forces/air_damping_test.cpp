@@ -262,8 +262,10 @@ TEST(DampedMotion, TendsToTheExactOneOnEachBranch) {
         const double dt = stepFor(c, c.t[sample], z);
         const Motion motion = integrate(c, c.t[sample], dt);
         const Motion error = bound(c, c.t[sample], c.v[sample], dt);
-        EXPECT_NEAR(motion.v, c.v[sample], error.v) << "k " << c.k << " m " << c.m << " v0 " << c.v0 << " t " << c.t[sample];
-        EXPECT_NEAR(motion.x, c.x[sample], error.x) << "k " << c.k << " m " << c.m << " v0 " << c.v0 << " t " << c.t[sample];
+        EXPECT_NEAR(motion.v, c.v[sample], error.v)
+            << "k " << c.k << " m " << c.m << " v0 " << c.v0 << " t " << c.t[sample];
+        EXPECT_NEAR(motion.x, c.x[sample], error.x)
+            << "k " << c.k << " m " << c.m << " v0 " << c.v0 << " t " << c.t[sample];
       }
     }
   }
@@ -294,10 +296,10 @@ TEST(DampedMotion, ConvergesWithOrder2OnTheLinearAnd1OnTheQuadraticBranch) {
   EXPECT_GT(quadratic, 20);
 }
 
-// Across a threshold other than 1 m/s the printed law jumps. A step that crosses carries the wrong branch for at most dt:
-// an error of dt |a1 - a2|, a1 before, a2 after; and errors of the crossing's time turn errors e before it into e a2/a1.
-// Where the two branches push against each other (vt > 1, one slows what the other speeds up) the motion stays on the
-// threshold and the steps dither about it by at most one step's change, dt (|a1| + |a2|).
+// Across a threshold other than 1 m/s the printed law jumps. A step that crosses carries the wrong branch for at most
+// dt: an error of dt |a1 - a2|, a1 before, a2 after; and errors of the crossing's time turn errors e before it into e
+// a2/a1. Where the two branches push against each other (vt > 1, one slows what the other speeds up) the motion stays
+// on the threshold and the steps dither about it by at most one step's change, dt (|a1| + |a2|).
 TEST(DampedMotion, TendsToTheExactOneAcrossTheThreshold) {
   int smooth = 0, jumping = 0, sliding = 0;
   for (const Case& c : truth()) {

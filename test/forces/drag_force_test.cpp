@@ -86,14 +86,18 @@ TEST(DragForce, SharedByTheNeighbourhoodAddsUpToTheForce) {
             double du = std::abs(j - node.column) / (closed ? 14.0 : 13.0);
             if (closed) du = std::min(du, 1.0 - du);
             const double away = std::hypot(dv, du);
-            if (std::abs(away - radius) > 1e-9) { EXPECT_EQ(share.norm() > 0.0, away < radius) << i << ", " << j; }
+            if (std::abs(away - radius) > 1e-9) {
+              EXPECT_EQ(share.norm() > 0.0, away < radius) << i << ", " << j;
+            }
             EXPECT_LE(share.norm(), force.at(grid.index(node)).norm()) << "the grasped node gets the most";
           }
         }
         // 168 shares, each rounded twice, in a sum of at most the force.
         EXPECT_LE((sum - Vec3(1.0, -2.0, 3.0)).norm(), 2.0 * 168 * kEps * 4.0);
         for (std::size_t n = 0; n < grid.size(); ++n) {
-          if (cloth.pattern.mass[n] == 0.0) { EXPECT_EQ(force.at(n), Vec3(0.0, 0.0, 0.0)) << "padding"; }
+          if (cloth.pattern.mass[n] == 0.0) {
+            EXPECT_EQ(force.at(n), Vec3(0.0, 0.0, 0.0)) << "padding";
+          }
         }
       }
     }
@@ -194,7 +198,8 @@ TEST(DragSpring, PullsAFreeNodeToItsTargetWithoutOvershoot) {
     for (const double dt : {1e-4, 1.0 / 480.0, 1.0 / 60.0, 0.1}) {
       FreeNode node(springOf(stiffness, 1e30));
       const double omega = std::sqrt(stiffness * node.inverse_mass);
-      // Critically damped: (1 + omega t) e^(-omega t) < 1e-6 at omega t = 20. The implicit step only slows this down, to
+      // Critically damped: (1 + omega t) e^(-omega t) < 1e-6 at omega t = 20. The implicit step only slows this down,
+      // to
       // 1/(1 + omega dt) a step where omega dt is large.
       const auto steps = static_cast<int>(std::ceil(20.0 / std::min(omega * dt, 1.0))) * 2;
       double last = 0.5;
@@ -206,7 +211,9 @@ TEST(DragSpring, PullsAFreeNodeToItsTargetWithoutOvershoot) {
         ASSERT_LE(left, last + 16.0 * kEps) << "turned back";
         last = left;
       }
-      if (steps <= 200000) { EXPECT_LE(node.offset().norm(), 0.5e-4) << "stiffness " << stiffness << " dt " << dt; }
+      if (steps <= 200000) {
+        EXPECT_LE(node.offset().norm(), 0.5e-4) << "stiffness " << stiffness << " dt " << dt;
+      }
     }
   }
 }

@@ -63,7 +63,7 @@ TEST(HashedNormal, NeighboursAreUncorrelated) {
   EXPECT_NEAR(product([](int n) { return hashedNormal(8, n % 100, n / 100 % 3, n / 300); }), 0.0, bound);
 }
 
-constexpr double kTime = 0.2;    // [s] correlation time
+constexpr double kTime = 0.2;     // [s] correlation time
 constexpr double kLength = 0.25;  // [m] correlation length
 constexpr int kSamples = 20000;
 
@@ -124,13 +124,15 @@ TEST(GustNoise, HasVariance1AllAroundARing) {
 
 // Mean over many places in time of the product of the gusts a lag apart.
 double timeCorrelation(Sheet& sheet, double lag) {
-  return moments(kSamples, [&](int n) {
-           const double t = sampleTime(n) * 3.0;  // the pairs too must be independent: longest lag 3 tau
-           sheet.gusts.setTime(t);
-           const Vec3 now = sheet.gusts.at(3, 3);
-           sheet.gusts.setTime(t + lag);
-           return now.dot(sheet.gusts.at(3, 3)) / 3.0;
-         }).mean;
+  return moments(kSamples,
+                 [&](int n) {
+                   const double t = sampleTime(n) * 3.0;  // the pairs too must be independent: longest lag 3 tau
+                   sheet.gusts.setTime(t);
+                   const Vec3 now = sheet.gusts.at(3, 3);
+                   sheet.gusts.setTime(t + lag);
+                   return now.dot(sheet.gusts.at(3, 3)) / 3.0;
+                 })
+      .mean;
 }
 
 TEST(GustNoise, ForgetsAfterItsCorrelationTime) {
@@ -156,11 +158,13 @@ TEST(GustNoise, ForgetsBeyondItsCorrelationLength) {
   Sheet sheet(flatScene(81, 81, 2.0, 2.0));
   const double slack = 5.0 / std::sqrt(static_cast<double>(kSamples));
   const auto correlation = [&](int rows, int columns) {
-    return moments(kSamples, [&](int n) {
-             sheet.gusts.setTime(sampleTime(n));
-             const int i = n * 7 % 45, j = n * 11 % 45;
-             return sheet.gusts.at(i, j).dot(sheet.gusts.at(i + rows, j + columns)) / 3.0;
-           }).mean;
+    return moments(kSamples,
+                   [&](int n) {
+                     sheet.gusts.setTime(sampleTime(n));
+                     const int i = n * 7 % 45, j = n * 11 % 45;
+                     return sheet.gusts.at(i, j).dot(sheet.gusts.at(i + rows, j + columns)) / 3.0;
+                   })
+        .mean;
   };
   EXPECT_NEAR(correlation(0, 0), 1.0, 5.0 * std::sqrt(2.0 / kSamples));
   for (const auto& [down, along] : {std::pair{1, 0}, std::pair{0, 1}}) {
@@ -229,7 +233,8 @@ TEST(GustNoise, IsTheSameOnEveryGridThatResolvesIt) {
   expectSameOnBothGrids(0.7);
 }
 
-// The cloth's 1 m are the sum of its rods, rounded: whether that is a hair over four lengths must not make a fifth cell.
+// The cloth's 1 m are the sum of its rods, rounded: whether that is a hair over four lengths must not make a fifth
+// cell.
 TEST(GustNoise, IsTheSameOnEveryGridWhereTheLengthDividesTheCloth) {
   expectSameOnBothGrids(0.25);
   expectSameOnBothGrids(0.5);
@@ -240,8 +245,9 @@ TEST(GustNoise, IsContinuousAroundARing) {
   for (int n = 0; n < 50; ++n) {
     sheet.gusts.setTime(sampleTime(n));
     for (int j = 0; j < 400; ++j) {
-      // Columns are 1/100 of a cell apart; weights change by at most 3 a cell, numbers are below 2 sqrt(3), a vector has
-      // three of them, and two lattice points weigh in along each of the two ways (at most sqrt(2) times the number).
+      // Columns are 1/100 of a cell apart; weights change by at most 3 a cell, numbers are below 2 sqrt(3), a vector
+      // has three of them, and two lattice points weigh in along each of the two ways (at most sqrt(2) times the
+      // number).
       const double step = (sheet.gusts.at(1, j) - sheet.gusts.at(1, (j + 1) % 400)).norm();
       ASSERT_LE(step, 0.01 * 3.0 * 3.5 * std::sqrt(3.0) * 2.0 * std::sqrt(2.0)) << "column " << j;
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A wind source does what Cheng 2000, Eqs. (2)(3) say, nothing outside its cone, the same to both sides of the cloth, and,
-// given as a pressure, the same to a cloth whatever its grid.
+// A wind source does what Cheng 2000, Eqs. (2)(3) say, nothing outside its cone, the same to both sides of the cloth,
+// and, given as a pressure, the same to a cloth whatever its grid.
 #include "forces/wind_source.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,8 @@ using curtain_test::Random;
 using curtain_test::randomPositions;
 
 struct Cloth {
-  explicit Cloth(const Scene& scene) : pattern(makePattern(scene)), position(makeInitialState(scene, pattern).position) {
+  explicit Cloth(const Scene& scene)
+      : pattern(makePattern(scene)), position(makeInitialState(scene, pattern).position) {
     renew();
   }
   void renew() {
@@ -81,7 +82,8 @@ Printed printedWind(const WindParams& wind, const Vec3& c, const Vec3& normal, d
   const Vec3 f_temp = f_w.dot(d) * d / d.squaredNorm();
   const double cos_psi = std::abs(a.dot(normal)) / (a.norm() * normal.norm());
   const double in_lengths = d.squaredNorm() / (wind.reference_length * wind.reference_length);
-  result.force = (1.0 - wind.porosity_weight * porosity) * cos_psi / (wind.distance_weight * (1.0 + in_lengths)) * f_temp;
+  result.force =
+      (1.0 - wind.porosity_weight * porosity) * cos_psi / (wind.distance_weight * (1.0 + in_lengths)) * f_temp;
   return result;
 }
 
@@ -212,15 +214,15 @@ TEST(WindSource, NarrowConesTendToParallelWind) {
         // |d|^2 by tan^2 psi: relatively psi + 2 psi^2 at most, rounding aside (apex up to 2e6 m away at 1.1e-6).
         const double size = parallel.at(n).norm();
         const double rounding = 2.0 / half_angle * 16.0 * kEps;
-        ASSERT_LE((cone.at(n) - parallel.at(n)).norm(),
-                  size * (half_angle + 2.0 * half_angle * half_angle + rounding)) << half_angle;
+        ASSERT_LE((cone.at(n) - parallel.at(n)).norm(), size * (half_angle + 2.0 * half_angle * half_angle + rounding))
+            << half_angle;
       }
     }
   }
 }
 
-// The sum over nodes of area x f is the trapezoid rule over the cloth: with spacing h on a sheet of area S its error is at
-// most S h^2/12 (max |f_xx| + max |f_zz|).
+// The sum over nodes of area x f is the trapezoid rule over the cloth: with spacing h on a sheet of area S its error is
+// at most S h^2/12 (max |f_xx| + max |f_zz|).
 TEST(WindSource, TotalForceDoesNotDependOnTheGrid) {
   WindParams wind;
   wind.id = "fan";

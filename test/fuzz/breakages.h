@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// All the ways in which one value of a scene's text can be wrong: a visitor of fields.h, so that a new key takes part by itself.
+// All the ways in which one value of a scene's text can be wrong: a visitor of fields.h, so that a new key takes part
+// by itself.
 #pragma once
 
 #include <string>
@@ -12,7 +13,7 @@ namespace curtain_test {
 
 /// A key and a value that it must not have, as YAML; "" takes the key away.
 struct Breakage {
-  std::string key;    ///< dotted, e.g. "obstacles[0].motion[1].time"
+  std::string key;  ///< dotted, e.g. "obstacles[0].motion[1].time"
   std::string value;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The fuzzers' checks over what they started from and what they once found, without libFuzzer: every input that ever broke
-// something stays in test/fuzz/corpus and is a test of every build.
+// The fuzzers' checks over what they started from and what they once found, without libFuzzer: every input that ever
+// broke something stays in test/fuzz/corpus and is a test of every build.
 #include <gtest/gtest.h>
 
 #include <algorithm>

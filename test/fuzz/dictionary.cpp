@@ -83,9 +83,11 @@ int main() {
   WordCollector collector;
   const curtain::Scene scene;
   curtain::visitFields(collector, scene);
-  for (const char* sign : {"true", ".inf", "-.inf", ".nan", "1.0e-300", "1.0e+308", "4294967296", "0x1F", "010", "&a ", "*a",
-                           "<<: ", "!!float ", "!!int ", "!!str ", "! ", "---\n", "...\n", "- ", "[", "]", "{", "}", ", ", "? ",
-                           "|\n ", ">-\n ", "# ", "\"\\x", "\"\\U0001F", "%YAML 1.2\n", "~", "\n  "}) {
+  for (const char* sign :
+       {"true", ".inf",  "-.inf",      ".nan",        "1.0e-300", "1.0e+308", "4294967296", "0x1F",  "010",
+        "&a ",  "*a",    "<<: ",       "!!float ",    "!!int ",   "!!str ",   "! ",         "---\n", "...\n",
+        "- ",   "[",     "]",          "{",           "}",        ", ",       "? ",         "|\n ",  ">-\n ",
+        "# ",   "\"\\x", "\"\\U0001F", "%YAML 1.2\n", "~",        "\n  "}) {
     collector.words.insert(sign);
   }
   for (const std::string& word : collector.words) write(word);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Made-up scenes through the parser and through curtain_batch: those that are valid run and stay finite; one wrong value anywhere
-// is refused, by a message that names its key, and nothing is written. How many, and from which seed:
+// Made-up scenes through the parser and through curtain_batch: those that are valid run and stay finite; one wrong
+// value anywhere is refused, by a message that names its key, and nothing is written. How many, and from which seed:
 //   CURTAIN_RANDOM_SCENES=5000 CURTAIN_RANDOM_SEED=77 test_fuzz --gtest_filter=RandomScenes.*
 #include <yaml-cpp/yaml.h>
 
@@ -35,7 +35,8 @@ Scene validScene(std::uint64_t n) {
     std::optional<Scene> scene = curtain_test::makeScene(choices);
     if (!scene) continue;
     for (curtain::ObstacleParams& obstacle : scene->obstacles) {
-      if (obstacle.shape == curtain::ShapeKind::kMesh) obstacle.mesh = CURTAIN_SOURCE_DIR "/test/meshes/cube_binary.stl";
+      if (obstacle.shape == curtain::ShapeKind::kMesh)
+        obstacle.mesh = CURTAIN_SOURCE_DIR "/test/meshes/cube_binary.stl";
     }
     return *scene;
   }
@@ -81,7 +82,8 @@ TEST(RandomSceneMaker, WhatIsWrittenReadsBack) {
     const Scene scene = validScene(n);
     const curtain::SceneReading back = curtain::readSceneText(curtain::writeScene(scene));
     ASSERT_TRUE(back.problems.empty()) << curtain::describe(back.problems) << "\n" << curtain::writeScene(scene);
-    EXPECT_EQ(curtain_test::SceneBits::of(scene), curtain_test::SceneBits::of(back.scene)) << curtain::writeScene(scene);
+    EXPECT_EQ(curtain_test::SceneBits::of(scene), curtain_test::SceneBits::of(back.scene))
+        << curtain::writeScene(scene);
   }
 }
 
@@ -94,7 +96,9 @@ TEST(RandomSceneParser, NamesTheKeyOfWhatIsWrong) {
       const std::vector<Problem> problems = curtain::readSceneText(broken).problems;
       const bool named = std::any_of(problems.begin(), problems.end(),
                                      [&](const Problem& problem) { return isUnder(problem.key, breakage.key); });
-      EXPECT_TRUE(named) << breakage.key << ": " << breakage.value << "\n" << curtain::describe(problems) << "\nin\n" << broken;
+      EXPECT_TRUE(named) << breakage.key << ": " << breakage.value << "\n"
+                         << curtain::describe(problems) << "\nin\n"
+                         << broken;
     }
   }
 }
@@ -106,7 +110,8 @@ TEST_F(RandomScenes, ValidOnesRun) {
     SCOPED_TRACE(text);
     const std::string frames = std::to_string(3.0 / scene.solver.frame_rate);
     const Outcome run = batch({this->scene(text), "--duration", frames, "--stats", "stats.json"});
-    const bool mesh_refused = run.exit_code == 2 && run.err.find("mesh '") != std::string::npos;  // scaled beyond all use
+    const bool mesh_refused =
+        run.exit_code == 2 && run.err.find("mesh '") != std::string::npos;  // scaled beyond all use
     if (mesh_refused) continue;
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_TRUE(nlohmann::json::parse(curtain_test::readFile(path("stats.json")))["finite"].get<bool>());

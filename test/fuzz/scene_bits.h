@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// All that a scene says as one string of bytes, to compare two of them: a visitor of fields.h, so that no key is left out.
+// All that a scene says as one string of bytes, to compare two of them: a visitor of fields.h, so that no key is left
+// out.
 #pragma once
 
 #include <cstdint>

@@ -41,7 +41,8 @@ void fitTogether(Scene& scene, Choices& choices) {
   cloth.rows = std::min(cloth.rows, kMostRows);
   cloth.columns = std::min(cloth.columns, kMostColumns);
   // Together they say how much a frame may take: their product, times the nodes.
-  for (int* count : {&scene.solver.substeps, &scene.solver.max_substeps, &scene.solver.max_sweeps, &scene.contact.zone_iterations}) {
+  for (int* count :
+       {&scene.solver.substeps, &scene.solver.max_substeps, &scene.solver.max_sweeps, &scene.contact.zone_iterations}) {
     *count = std::min(*count, kMostRounds);
   }
   scene.solver.threads = std::min(scene.solver.threads, kMostThreads);
@@ -63,15 +64,18 @@ void fitTogether(Scene& scene, Choices& choices) {
     if (!(wind.end > wind.start)) wind.end = std::numeric_limits<double>::infinity();
   }
   for (DragParams& drag : scene.drag) {
-    if (drag.node) drag.point.reset();
-    else if (!drag.point) drag.node = NodeIndex{};
+    if (drag.node)
+      drag.point.reset();
+    else if (!drag.point)
+      drag.node = NodeIndex{};
     if (drag.node) putOnGrid(*drag.node, cloth);
     if (!(drag.end > drag.start)) drag.end = std::numeric_limits<double>::infinity();
   }
   for (ObstacleParams& obstacle : scene.obstacles) {
     for (std::size_t i = 1; i < obstacle.motion.size(); ++i) {
       const double before = obstacle.motion[i - 1].time;
-      if (!(obstacle.motion[i].time > before)) obstacle.motion[i].time = before + std::max(0.01, 0.01 * std::abs(before));
+      if (!(obstacle.motion[i].time > before))
+        obstacle.motion[i].time = before + std::max(0.01, 0.01 * std::abs(before));
     }
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Made-up scenes: a visitor of fields.h that gives every key a value of its range, so that a new key takes part by itself.
+// Made-up scenes: a visitor of fields.h that gives every key a value of its range, so that a new key takes part by
+// itself.
 #pragma once
 
 #include <cstdint>

@@ -14,7 +14,8 @@ namespace {
 
 using curtain::Simulator;
 
-// Between them: contacts with an obstacle and with itself, gusts, a drag, an estimate of the error, an obstacle on its way.
+// Between them: contacts with an obstacle and with itself, gusts, a drag, an estimate of the error, an obstacle on its
+// way.
 const char* const kScenes[] = {
     "cloth: {rows: 7, columns: 6, height: 0.6, width: 0.5}\n"
     "hang: {from: [0, 0, 1], to: [0.3, 0, 1], tilt: 0.3}\n"
@@ -60,13 +61,17 @@ void overwrite(std::string& bytes, std::size_t at, Number number) {
 
 double hostileNumber(Choices& choices) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const double numbers[] = {kInfinity, -kInfinity, std::numeric_limits<double>::quiet_NaN(), 1e300, -1e300, 1e-300, 5e-324,
-                            0.0,       -0.0,       -1.0, 1.0, 1e9, -1e9, 1e-9};
+  const double numbers[] = {kInfinity, -kInfinity, std::numeric_limits<double>::quiet_NaN(),
+                            1e300,     -1e300,     1e-300,
+                            5e-324,    0.0,        -0.0,
+                            -1.0,      1.0,        1e9,
+                            -1e9,      1e-9};
   return numbers[choices.below(std::size(numbers))];
 }
 
 std::uint64_t hostileCount(Choices& choices) {
-  const std::uint64_t counts[] = {0, 1, 2, ~std::uint64_t{0}, std::uint64_t{1} << 63U, 1000, 1U << 31U, 0xFFFFFFFFU, 0x100000001U};
+  const std::uint64_t counts[] = {0,    1,         2,           ~std::uint64_t{0}, std::uint64_t{1} << 63U,
+                                  1000, 1U << 31U, 0xFFFFFFFFU, 0x100000001U};
   return counts[choices.below(std::size(counts))];
 }
 
@@ -75,11 +80,18 @@ void change(Choices& choices, std::string& carried) {
   if (carried.empty()) return;
   const std::size_t at = choices.below(carried.size());
   switch (choices.below(5)) {
-    case 0: return overwrite(carried, at, hostileNumber(choices));
-    case 1: return overwrite(carried, at, hostileCount(choices));
-    case 2: return overwrite(carried, at, static_cast<char>(choices.below(256)));
-    case 3: carried.erase(at, 1 + choices.below(64)); return;
-    default: carried.insert(at, carried.substr(at, 1 + choices.below(64))); return;
+    case 0:
+      return overwrite(carried, at, hostileNumber(choices));
+    case 1:
+      return overwrite(carried, at, hostileCount(choices));
+    case 2:
+      return overwrite(carried, at, static_cast<char>(choices.below(256)));
+    case 3:
+      carried.erase(at, 1 + choices.below(64));
+      return;
+    default:
+      carried.insert(at, carried.substr(at, 1 + choices.below(64)));
+      return;
   }
 }
 

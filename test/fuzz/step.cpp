@@ -42,25 +42,29 @@ void requireFinite(Simulator& simulator) {
   require(simulator.statistics().finite, "the statistics say so");
 }
 
-// Where a frame's substeps all settled, its links are as long as they are, within the tolerance that was asked for. What the
-// solver measures is half the relative excess of the squared length, which is a stretch to first order: a length below the tolerance
-// in it is one in the stretch too, and a shorter one is beyond it by a tolerance of the tolerance, which is at most a tenth.
-// Lengths are differences of coordinates: each end is off by half a unit of rounding, and so is every sum on the way to it.
+// Where a frame's substeps all settled, its links are as long as they are, within the tolerance that was asked for.
+// What the solver measures is half the relative excess of the squared length, which is a stretch to first order: a
+// length below the tolerance in it is one in the stretch too, and a shorter one is beyond it by a tolerance of the
+// tolerance, which is at most a tenth. Lengths are differences of coordinates: each end is off by half a unit of
+// rounding, and so is every sum on the way to it.
 void requireLength(const Scene& scene, const Statistics& before, const Simulator& simulator) {
   const Statistics& now = simulator.statistics();
   const bool settled = now.unsettled == before.unsettled && now.stops == before.stops && now.frames > 0 &&
                        now.unfinished_substeps == before.unfinished_substeps &&
                        now.shortened_frames == before.shortened_frames && now.substeps_last > 0;
-  if (scene.solver.method == Method::kPaper || !settled) return;  // the paper's scheme never asks whether it has settled
+  if (scene.solver.method == Method::kPaper || !settled)
+    return;  // the paper's scheme never asks whether it has settled
   std::vector<Vec3> positions;
   simulator.copyPositions(positions);
   double farthest = 0.0;
   for (const Vec3& position : positions) farthest = std::max(farthest, position.cwiseAbs().maxCoeff());
   const double shortest = curtain::shortestLink(curtain::makePattern(scene));
   const double bound = 1.1 * scene.solver.stretch_tolerance + 16.0 * 2.3e-16 * farthest / shortest;
-  const std::string numbers = curtain::formatNumber(now.warp_stretch) + " " + curtain::formatNumber(now.warp_compression) + " " +
+  const std::string numbers = curtain::formatNumber(now.warp_stretch) + " " +
+                              curtain::formatNumber(now.warp_compression) + " " +
                               curtain::formatNumber(now.weft_stretch) + " > " + curtain::formatNumber(bound);
-  require(std::max({now.warp_stretch, now.warp_compression, now.weft_stretch}) <= bound, "settled, and links too long: " + numbers);
+  require(std::max({now.warp_stretch, now.warp_compression, now.weft_stretch}) <= bound,
+          "settled, and links too long: " + numbers);
 }
 
 void stepWith(const Scene& scene) {

@@ -35,8 +35,8 @@ constexpr Ranges kEverydayRanges = {{0.05, 1.0}, {0.1, 30.0}, {1.0, 100.0}, 20.0
 constexpr Ranges kWildRanges = {{1e-3, 10.0}, {1.0, 1e6}, {1.0, 1e5}, 1e3, {0.2, 50.0}, {5.0, 1000.0}, {2, 100}};
 constexpr Ranges kSuddenRanges = {{0.05, 0.5}, {1.0, 1e3}, {50.0, 1e4}, 0.0, {0.2, 5.0}, {10.0, 240.0}, {2, 40}};
 
-/// Adds an obstacle that goes through the cloth's middle, from outside all that it can reach at the start: one of test/meshes, or any
-/// simple shape (wild), or mostly a ball.
+/// Adds an obstacle that goes through the cloth's middle, from outside all that it can reach at the start: one of
+/// test/meshes, or any simple shape (wild), or mostly a ball.
 enum class Shapes { kMeshes, kAny, kMostlyBalls };
 void addObstacle(Dice& dice, const Ranges& ranges, Shapes shapes, const std::string& name, Drawn& drawn);
 /// Hangs the cloth before a plate that is as large as what can get there, and lets something set in.

@@ -55,10 +55,18 @@ void hang(Dice& dice, Scene& scene) {
   scene.hang.to = scene.hang.from + fullness * scene.cloth.width * along.normalized();
   scene.hang.tilt = dice.chance(0.4) ? 0.0 : dice.between(-kPi, kPi);
   switch (dice.integer(0, 5)) {
-    case 0: scene.pins.kind = PinKind::kTop; break;
-    case 1: scene.pins.kind = PinKind::kLeft; break;
-    case 2: scene.pins.kind = PinKind::kTopCorners; break;
-    case 3: scene.pins.kind = PinKind::kNone; break;
+    case 0:
+      scene.pins.kind = PinKind::kTop;
+      break;
+    case 1:
+      scene.pins.kind = PinKind::kLeft;
+      break;
+    case 2:
+      scene.pins.kind = PinKind::kTopCorners;
+      break;
+    case 3:
+      scene.pins.kind = PinKind::kNone;
+      break;
     default:
       scene.pins.kind = PinKind::kList;
       for (int count = dice.integer(1, 2); count > 0; --count) scene.pins.nodes.push_back(anyNode(dice, scene.cloth));
@@ -68,7 +76,8 @@ void hang(Dice& dice, Scene& scene) {
 void drawForces(Dice& dice, const Ranges& ranges, Drawn& drawn) {
   Scene& scene = drawn.scene;
   const auto force = [&] {
-    return dice.chance(0.5) ? dice.between(ranges.force[0], ranges.force[1]) : dice.magnitude(ranges.force[0], ranges.force[1]);
+    return dice.chance(0.5) ? dice.between(ranges.force[0], ranges.force[1])
+                            : dice.magnitude(ranges.force[0], ranges.force[1]);
   };
   const auto begin = [&] { return dice.chance(0.5) ? 0.0 : dice.between(0.0, 0.5 * drawn.seconds); };
   for (int count = dice.integer(0, 2); count > 0; --count) {
@@ -132,16 +141,16 @@ void close(Dice& dice, Scene& scene) {
   if (!validate(scene).empty()) scene.cloth.hem_width.reset();
 }
 
-// A trapezium whose rods all have one length is not flat. It begins flat all the same, with wefts that the first substeps take up; not
-// where that is more than a tenth of a link.
+// A trapezium whose rods all have one length is not flat. It begins flat all the same, with wefts that the first
+// substeps take up; not where that is more than a tenth of a link.
 bool beginsTorn(const Scene& scene) {
   if (!scene.cloth.hem_width) return false;
   const ClothPattern pattern = makePattern(scene);
   return weftStretch(pattern, makeInitialState(scene, pattern).position) > 0.1;
 }
 
-// What came to be drawn later, by dice of its own: the scenes of seeds keep all the rest. The paper's method keeps its rods where
-// nothing touches.
+// What came to be drawn later, by dice of its own: the scenes of seeds keep all the rest. The paper's method keeps its
+// rods where nothing touches.
 void drawMore(Drawn& drawn) {
   Dice dice(3 * drawn.seed + static_cast<std::uint64_t>(drawn.kind) + (1ULL << 60));
   Scene& scene = drawn.scene;
@@ -190,8 +199,10 @@ Drawn draw(Kind kind, std::uint64_t seed) {
   if (wild && dice.chance(0.1)) scene.solver.substeps = dice.integer(1, 8);
   scene.solver.threads = 1;
   scene.solver.seed = seed;
-  if (kind == Kind::kSudden) drawPlate(dice, drawn);
-  else drawMore(drawn);
+  if (kind == Kind::kSudden)
+    drawPlate(dice, drawn);
+  else
+    drawMore(drawn);
   if (!validate(scene).empty()) scene.cloth.hem_width.reset();  // tapered more than its rods can slant
   if (beginsTorn(scene)) scene.cloth.hem_width.reset();
   return drawn;

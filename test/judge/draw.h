@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Random scenes for the judge: what a curtain may meet, drawn from a seed over all keys and sizes. The same seed gives the same
-// trial everywhere. A trial is a scene and what a user does to it meanwhile, and is kept as a YAML file.
+// Random scenes for the judge: what a curtain may meet, drawn from a seed over all keys and sizes. The same seed gives
+// the same trial everywhere. A trial is a scene and what a user does to it meanwhile, and is kept as a YAML file.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,8 @@ enum class Kind {
 };
 const char* kindName(Kind kind);
 
-/// What happens beside the scene's own winds, drags and motions. All pins move as one body, so that links never lack a choice.
+/// What happens beside the scene's own winds, drags and motions. All pins move as one body, so that links never lack a
+/// choice.
 struct Happenings {
   curtain::Vec3 pin_swing = curtain::Vec3::Zero();  ///< amplitude of the pins' swing [m]
   double pin_frequency = 0.0;                       ///< of it [1/s]

@@ -11,7 +11,8 @@ using namespace curtain;
 
 namespace {
 
-constexpr const char* kMeshes[] = {"icosphere.stl", "l_prism.obj", "cube_quads.obj", "square_open.obj", "two_cubes_cm_z_up.dae"};
+constexpr const char* kMeshes[] = {"icosphere.stl", "l_prism.obj", "cube_quads.obj", "square_open.obj",
+                                   "two_cubes_cm_z_up.dae"};
 
 // As large as the other shapes. Returns how far it reaches from its origin [m].
 double takeMesh(Dice& dice, ObstacleParams& obstacle) {
@@ -48,7 +49,8 @@ void addObstacle(Dice& dice, const Ranges& ranges, Shapes shapes, const std::str
   }
   if (meshes) reach = takeMesh(dice, obstacle);
   obstacle.friction = dice.between(0.0, 0.8);
-  const Vec3 middle = 0.5 * (scene.hang.from + scene.hang.to) - Vec3(0.0, 0.0, dice.between(0.0, 0.8) * scene.cloth.height);
+  const Vec3 middle =
+      0.5 * (scene.hang.from + scene.hang.to) - Vec3(0.0, 0.0, dice.between(0.0, 0.8) * scene.cloth.height);
   const double size = std::hypot(scene.cloth.height, std::max(scene.cloth.width, scene.cloth.hem_width.value_or(0.0)));
   if (obstacle.shape == ShapeKind::kPlane) {  // the floor, a way below
     obstacle.pose.position = scene.hang.from - Vec3(0.0, 0.0, 2.0 * size + 0.1);
@@ -62,7 +64,9 @@ void addObstacle(Dice& dice, const Ranges& ranges, Shapes shapes, const std::str
   // It starts so early that it is there in the middle of the trial.
   Pose there = obstacle.pose;
   there.position = middle + away * direction;
-  if (dice.chance(0.5)) there.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(dice.between(0.0, 3.0), dice.direction())) * there.orientation;
+  if (dice.chance(0.5))
+    there.orientation =
+        Eigen::Quaterniond(Eigen::AngleAxisd(dice.between(0.0, 3.0), dice.direction())) * there.orientation;
   const double half = away / speed, middle_time = dice.between(0.2, 0.7) * drawn.seconds;
   obstacle.motion = {{middle_time - half, obstacle.pose}, {middle_time + half, there}};
   if (middle_time < half) {  // it would start in the cloth's reach
@@ -116,8 +120,11 @@ void drawPlate(Dice& dice, Drawn& drawn) {
       scene.drag.push_back(drag);
       break;
     }
-    case 2: drawn.happenings.gravity = dice.magnitude(20.0, 1000.0) * (push + 0.2 * dice.inBox(1.0)); break;
-    default: {  // to the plate but not into it: pins may do what they like, a pinned node in the plate is no fault of the cloth
+    case 2:
+      drawn.happenings.gravity = dice.magnitude(20.0, 1000.0) * (push + 0.2 * dice.inBox(1.0));
+      break;
+    default: {  // to the plate but not into it: pins may do what they like, a pinned node in the plate is no fault of
+                // the cloth
       const double room = away - 0.01;
       drawn.happenings.pin_jerk = std::min(std::max(0.0, room), 50.0 / scene.solver.frame_rate) * push;
     }

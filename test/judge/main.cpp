@@ -39,19 +39,32 @@ Options parse(int argc, char** argv) {
       if (++i == argc) throw std::invalid_argument(name + " needs a value");
       return argv[i];
     };
-    if (name == "--everyday") options.count[0] = std::stol(value());
-    else if (name == "--wild") options.count[1] = std::stol(value());
-    else if (name == "--sudden") options.count[2] = std::stol(value());
-    else if (name == "--first") options.first = std::stoull(value());
-    else if (name == "--case") options.cases.push_back(value());
-    else if (name == "--shrink") options.shrink_to = value();
-    else if (name == "--write") options.write_to = value();
-    else if (name == "--csv") options.csv = value();
-    else if (name == "--repeat-every") options.repeat_every = std::stol(value());
-    else if (name == "--most-seconds") options.most_seconds = std::stod(value());
-    else if (name == "--most-nodes") options.most_nodes = std::stoi(value());
-    else if (name == "--verbose") options.verbose = true;
-    else throw std::invalid_argument("unknown option " + name);
+    if (name == "--everyday")
+      options.count[0] = std::stol(value());
+    else if (name == "--wild")
+      options.count[1] = std::stol(value());
+    else if (name == "--sudden")
+      options.count[2] = std::stol(value());
+    else if (name == "--first")
+      options.first = std::stoull(value());
+    else if (name == "--case")
+      options.cases.push_back(value());
+    else if (name == "--shrink")
+      options.shrink_to = value();
+    else if (name == "--write")
+      options.write_to = value();
+    else if (name == "--csv")
+      options.csv = value();
+    else if (name == "--repeat-every")
+      options.repeat_every = std::stol(value());
+    else if (name == "--most-seconds")
+      options.most_seconds = std::stod(value());
+    else if (name == "--most-nodes")
+      options.most_nodes = std::stoi(value());
+    else if (name == "--verbose")
+      options.verbose = true;
+    else
+      throw std::invalid_argument("unknown option " + name);
   }
   return options;
 }
@@ -61,7 +74,8 @@ class Session {
   explicit Session(const Options& options) : options_(options) {
     if (options.csv.empty()) return;
     csv_.open(options.csv);
-    csv_ << "kind,seed,method,rows,columns,frames,substeps,rejected,sweeps,last_resort,stops,momentum_cut,most_solves,stretch,energy_gain,energy_finer,seconds,slowest_frame_s,holds\n";
+    csv_ << "kind,seed,method,rows,columns,frames,substeps,rejected,sweeps,last_resort,stops,momentum_cut,most_solves,"
+            "stretch,energy_gain,energy_finer,seconds,slowest_frame_s,holds\n";
   }
 
   void hear(const Drawn& drawn, const std::string& name) {
@@ -73,11 +87,14 @@ class Session {
     if (!options_.write_to.empty()) std::ofstream(pathIn(options_.write_to, drawn)) << write(drawn);
     record(drawn, verdict);
     if (options_.verbose || !verdict.holds()) {
-      std::printf("%s %d x %d, %.3g Hz: %s; stretch %.2e, %lld substeps in %lld frames, %lld rejected, most solves %lld, %lld stops, %.2f s\n", name.c_str(),
-                  drawn.scene.cloth.rows, drawn.scene.cloth.columns, drawn.scene.solver.frame_rate,
-                  verdict.holds() ? "holds" : verdict.faults.front().c_str(), verdict.stretch, static_cast<long long>(verdict.substeps),
-                  static_cast<long long>(verdict.frames), static_cast<long long>(verdict.rejected),
-                  static_cast<long long>(verdict.most_solves), static_cast<long long>(verdict.stops), verdict.seconds);
+      std::printf(
+          "%s %d x %d, %.3g Hz: %s; stretch %.2e, %lld substeps in %lld frames, %lld rejected, most solves %lld, %lld "
+          "stops, %.2f s\n",
+          name.c_str(), drawn.scene.cloth.rows, drawn.scene.cloth.columns, drawn.scene.solver.frame_rate,
+          verdict.holds() ? "holds" : verdict.faults.front().c_str(), verdict.stretch,
+          static_cast<long long>(verdict.substeps), static_cast<long long>(verdict.frames),
+          static_cast<long long>(verdict.rejected), static_cast<long long>(verdict.most_solves),
+          static_cast<long long>(verdict.stops), verdict.seconds);
       std::fflush(stdout);
     }
     if (verdict.holds()) return;
@@ -98,9 +115,11 @@ class Session {
   }
   void record(const Drawn& drawn, const Verdict& v) {
     if (!csv_.is_open()) return;
-    csv_ << kindName(drawn.kind) << ',' << drawn.seed << ',' << toString(drawn.scene.solver.method) << ',' << drawn.scene.cloth.rows << ',' << drawn.scene.cloth.columns << ','
-         << v.frames << ',' << v.substeps << ',' << v.rejected << ',' << v.sweeps << ',' << v.last_resort << ',' << v.stops << ','
-         << v.momentum_cut << ',' << v.most_solves << ',' << v.stretch << ',' << v.energy_gain << ',' << v.energy_finer << ',' << v.seconds << ',' << v.slowest << ',' << v.holds() << '\n';
+    csv_ << kindName(drawn.kind) << ',' << drawn.seed << ',' << toString(drawn.scene.solver.method) << ','
+         << drawn.scene.cloth.rows << ',' << drawn.scene.cloth.columns << ',' << v.frames << ',' << v.substeps << ','
+         << v.rejected << ',' << v.sweeps << ',' << v.last_resort << ',' << v.stops << ',' << v.momentum_cut << ','
+         << v.most_solves << ',' << v.stretch << ',' << v.energy_gain << ',' << v.energy_finer << ',' << v.seconds
+         << ',' << v.slowest << ',' << v.holds() << '\n';
     csv_.flush();
   }
 

@@ -23,10 +23,10 @@ constexpr double kToleranceShare = 2.0;
 constexpr std::int64_t kMostSolves = 2000;
 // Brute force looks at every frame, but of long trials of large cloth: at so many nodes in a trial, some 2 us each.
 constexpr double kNodesLookedAt = 3e5;
-// Leapfrog knows the energy of what turns or swings at omega to a share of (h omega)^2 / 4: the work of a rod whose force acts along
-// its direction before. With h omega <= 1.7 that is 0.72 at most. Where more sets in than a step foresees, nothing less is promised, and
-// of wild scenes nothing at all: it is in the table. Else what comes of it is of the first order at least: with steps of a sixteenth
-// no more is left than what links may hide.
+// Leapfrog knows the energy of what turns or swings at omega to a share of (h omega)^2 / 4: the work of a rod whose
+// force acts along its direction before. With h omega <= 1.7 that is 0.72 at most. Where more sets in than a step
+// foresees, nothing less is promised, and of wild scenes nothing at all: it is in the table. Else what comes of it is
+// of the first order at least: with steps of a sixteenth no more is left than what links may hide.
 constexpr double kStepKnows = 0.72;
 constexpr int kFiner = 16;
 constexpr double kMostFrames = 1e4;  // a second, that a scene may have
@@ -44,19 +44,25 @@ class Court {
  public:
   /// finer: frames as many times as short.
   Court(const Drawn& drawn, const Rigour& rigour, int finer = 1)
-      : drawn_(drawn), rigour_(rigour), finer_(finer), simulator_(withFrames(drawn.scene, finer), resolveTrialMesh),
+      : drawn_(drawn),
+        rigour_(rigour),
+        finer_(finer),
+        simulator_(withFrames(drawn.scene, finer), resolveTrialMesh),
         paper_(drawn.scene.solver.method == Method::kPaper),
         books_(weightScale(simulator_), 60 * static_cast<std::size_t>(finer)) {
     const ClothParams& cloth = drawn.scene.cloth;
     for (int i = 0; i < cloth.rows; ++i) {
       for (int j = 0; j < cloth.columns; ++j) {
         if (simulator_.pinned({i, j})) pins_.push_back({{i, j}, simulator_.position({i, j})});
-        if (i > 0) shortest_rod_ = std::min(shortest_rod_, (simulator_.position({i, j}) - simulator_.position({i - 1, j})).norm());
+        if (i > 0)
+          shortest_rod_ =
+              std::min(shortest_rod_, (simulator_.position({i, j}) - simulator_.position({i - 1, j})).norm());
       }
     }
     const Happenings& happenings = drawn.happenings;
     pulls_known_ = (happenings.pin_swing.isZero() && happenings.pin_jerk.isZero()) || !linksStraightBetweenPins();
-    every_ = std::max(1, static_cast<int>(cloth.rows * cloth.columns * drawn.seconds * drawn.scene.solver.frame_rate / kNodesLookedAt));
+    every_ = std::max(1, static_cast<int>(cloth.rows * cloth.columns * drawn.seconds * drawn.scene.solver.frame_rate /
+                                          kNodesLookedAt));
     simulator_.countWork(rigour.energy && !paper_);
     books_.open(simulator_);
     for (int o = 0; o < simulator_.obstacleCount(); ++o) {
@@ -108,17 +114,21 @@ class Court {
     if (happenings.pin_swing.isZero() && happenings.pin_jerk.isZero()) return;
     const double frame = 1.0 / simulator_.scene().solver.frame_rate;
     Vec3 move = std::sin(2.0 * kPi * happenings.pin_frequency * (time + frame)) * happenings.pin_swing;
-    if (after) move += (finer_ == 1 ? 1.0 : std::min(1.0, (time + frame - happenings.at) / (finer_ * frame))) * happenings.pin_jerk;
+    if (after)
+      move +=
+          (finer_ == 1 ? 1.0 : std::min(1.0, (time + frame - happenings.at) / (finer_ * frame))) * happenings.pin_jerk;
     for (const Pin& pin : pins_) simulator_.movePin(pin.node, pin.place + move);
   }
 
-  // Links drawn straight between two pins of a column or row: what they pull has no one answer, so the work of pins that move has none.
+  // Links drawn straight between two pins of a column or row: what they pull has no one answer, so the work of pins
+  // that move has none.
   bool linksStraightBetweenPins() const {
     const double tolerance = kToleranceShare * drawn_.scene.solver.stretch_tolerance;
     const auto straight = [&](const Pin& from, int down, int right) {
       double links = 0.0;
       NodeIndex last = from.node;
-      for (NodeIndex node{last.row - down, last.column - right}; node.row >= 0 && node.column >= 0; node.row -= down, node.column -= right) {
+      for (NodeIndex node{last.row - down, last.column - right}; node.row >= 0 && node.column >= 0;
+           node.row -= down, node.column -= right) {
         links += (simulator_.position(node) - simulator_.position(last)).norm();
         last = node;
         if (!simulator_.pinned(node)) continue;
@@ -127,7 +137,8 @@ class Court {
       }
       return false;
     };
-    return std::any_of(pins_.begin(), pins_.end(), [&](const Pin& pin) { return straight(pin, 1, 0) || straight(pin, 0, 1); });
+    return std::any_of(pins_.begin(), pins_.end(),
+                       [&](const Pin& pin) { return straight(pin, 1, 0) || straight(pin, 0, 1); });
   }
 
   bool clear(int obstacle) const {
@@ -139,12 +150,17 @@ class Court {
   bool reachesPins(int obstacle) const {
     const Pose &from = places_[static_cast<std::size_t>(obstacle)], &to = simulator_.obstaclePose(obstacle);
     const ClothParams& cloth = drawn_.scene.cloth;
-    const double link = 2.0 * (cloth.height / (cloth.rows - 1) + cloth.width / (cloth.columns - 1)) + 2.0 * drawn_.scene.contact.thickness;
+    const double link = 2.0 * (cloth.height / (cloth.rows - 1) + cloth.width / (cloth.columns - 1)) +
+                        2.0 * drawn_.scene.contact.thickness;
     const double way = (to.position - from.position).norm();
     const int looks = static_cast<int>(std::clamp(way / link, 1.0, 1000.0));
     for (int look = 1; look <= looks; ++look) {
       const double share = static_cast<double>(look) / looks;
-      if (isNearPins(obstacle, {from.position + share * (to.position - from.position), from.orientation.slerp(share, to.orientation)}, link)) return true;
+      if (isNearPins(
+              obstacle,
+              {from.position + share * (to.position - from.position), from.orientation.slerp(share, to.orientation)},
+              link))
+        return true;
     }
     return false;
   }
@@ -183,7 +199,8 @@ class Court {
     return false;
   }
 
-  // Between two pins of a column one pass can't keep every rod, nor where something touches; and where it stopped pins have gone on.
+  // Between two pins of a column one pass can't keep every rod, nor where something touches; and where it stopped pins
+  // have gone on.
   void lookAtPaper(const Statistics& s) {
     const Scene& scene = drawn_.scene;
     if (scene.contact.self || !scene.obstacles.empty() || scene.pins.kind == PinKind::kList || s.stops > 0) return;
@@ -210,8 +227,10 @@ class Court {
     if (!s.finite) fault("not finite");
     const double stretch = std::max({s.warp_stretch, s.warp_compression, s.weft_stretch});
     verdict_.stretch = std::max(verdict_.stretch, stretch);
-    if (paper_) lookAtPaper(s);
-    else if (!(stretch <= kToleranceShare * drawn_.scene.solver.stretch_tolerance)) fault("stretch", stretch);
+    if (paper_)
+      lookAtPaper(s);
+    else if (!(stretch <= kToleranceShare * drawn_.scene.solver.stretch_tolerance))
+      fault("stretch", stretch);
     if (verdict_.most_solves > kMostSolves) fault("solves in a frame", static_cast<double>(verdict_.most_solves));
     if (rigour_.energy || rigour_.brute_force) lookAtObstacles();
     // Cloth that is jammed is pushed at by no known force.
@@ -223,7 +242,8 @@ class Court {
     if (!rigour_.brute_force || s.frames % every_ != 0) return;
     if (drawn_.scene.contact.self && !crossed_at_start_ && simulator_.selfCrossings() > 0) fault("crosses itself");
     for (int o = 0; o < simulator_.obstacleCount(); ++o) {
-      if (judged_[static_cast<std::size_t>(o)] && !clear(o)) fault("pierced by " + drawn_.scene.obstacles[static_cast<std::size_t>(o)].name);
+      if (judged_[static_cast<std::size_t>(o)] && !clear(o))
+        fault("pierced by " + drawn_.scene.obstacles[static_cast<std::size_t>(o)].name);
     }
   }
 
@@ -243,7 +263,8 @@ class Court {
   const int finer_;
   Simulator simulator_;
   std::vector<Pin> pins_;
-  std::vector<bool> judged_;  // by obstacle: the cloth started clear of it, and it has met no pin, which can't give way, and no other
+  std::vector<bool>
+      judged_;  // by obstacle: the cloth started clear of it, and it has met no pin, which can't give way, and no other
   std::vector<Pose> places_;  // by obstacle, a frame ago
   const bool paper_;
   double shortest_rod_ = std::numeric_limits<double>::infinity();  // [m]
@@ -289,11 +310,15 @@ Verdict judge(const Drawn& drawn, const Rigour& rigour) {
 }
 
 Drawn shrink(Drawn drawn, const Rigour& rigour) {
-  const auto fails = [&](const Drawn& candidate) { return validate(candidate.scene).empty() && !judge(candidate, rigour).holds(); };
+  const auto fails = [&](const Drawn& candidate) {
+    return validate(candidate.scene).empty() && !judge(candidate, rigour).holds();
+  };
   std::vector<std::function<bool(Drawn&)>> cuts;
   const auto cut = [&cuts](std::function<bool(Drawn&)> one) { cuts.push_back(std::move(one)); };
   cut([](Drawn& d) { return d.scene.obstacles.empty() ? false : (d.scene.obstacles.pop_back(), true); });
-  cut([](Drawn& d) { return d.scene.obstacles.empty() ? false : (d.scene.obstacles.erase(d.scene.obstacles.begin()), true); });
+  cut([](Drawn& d) {
+    return d.scene.obstacles.empty() ? false : (d.scene.obstacles.erase(d.scene.obstacles.begin()), true);
+  });
   cut([](Drawn& d) { return d.scene.drag.empty() ? false : (d.scene.drag.pop_back(), true); });
   cut([](Drawn& d) { return d.scene.drag.empty() ? false : (d.scene.drag.erase(d.scene.drag.begin()), true); });
   cut([](Drawn& d) { return d.scene.wind.empty() ? false : (d.scene.wind.pop_back(), true); });
@@ -302,7 +327,9 @@ Drawn shrink(Drawn drawn, const Rigour& rigour) {
   cut([](Drawn& d) { return d.happenings.pin_swing.isZero() ? false : (d.happenings.pin_swing.setZero(), true); });
   cut([](Drawn& d) { return d.happenings.pin_jerk.isZero() ? false : (d.happenings.pin_jerk.setZero(), true); });
   cut([](Drawn& d) { return d.happenings.gravity.isZero() ? false : (d.happenings.gravity.setZero(), true); });
-  cut([](Drawn& d) { return d.scene.air.inside + d.scene.air.border > 0.0 ? (d.scene.air = AirParams(), true) : false; });
+  cut([](Drawn& d) {
+    return d.scene.air.inside + d.scene.air.border > 0.0 ? (d.scene.air = AirParams(), true) : false;
+  });
   const auto plain = [](std::vector<double>& values) { return values.empty() ? false : (values.clear(), true); };
   cut([plain](Drawn& d) { return plain(d.scene.cloth.row_spacing); });
   cut([plain](Drawn& d) { return plain(d.scene.cloth.column_spacing); });
@@ -312,7 +339,8 @@ Drawn shrink(Drawn drawn, const Rigour& rigour) {
     ClothParams& cloth = d.scene.cloth;
     rows = std::max(2, rows);
     columns = std::max(2, columns);
-    const bool plain_grid = cloth.row_spacing.empty() && cloth.column_spacing.empty() && cloth.row_mass.empty() && cloth.column_mass.empty();
+    const bool plain_grid = cloth.row_spacing.empty() && cloth.column_spacing.empty() && cloth.row_mass.empty() &&
+                            cloth.column_mass.empty();
     if (!plain_grid || (rows == cloth.rows && columns == cloth.columns)) return false;
     const auto move = [&](NodeIndex& node) {
       node.row = node.row * (rows - 1) / (cloth.rows - 1);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The look for pairs against brute force on ways that cloth really goes: every pair of elements that comes within the gap at one of
-// eight times of a way is named. CURTAIN_PROPERTY_SEEDS: so many hundreds of pairs in each scene.
+// The look for pairs against brute force on ways that cloth really goes: every pair of elements that comes within the
+// gap at one of eight times of a way is named. CURTAIN_PROPERTY_SEEDS: so many hundreds of pairs in each scene.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,7 +52,8 @@ std::vector<Element> elementsOf(const std::vector<Element>& kinds, const Field3&
       element.box.extend(start.at(n)).extend(end.at(n));
     }
   }
-  std::sort(elements.begin(), elements.end(), [](const Element& a, const Element& b) { return a.box.min().x() < b.box.min().x(); });
+  std::sort(elements.begin(), elements.end(),
+            [](const Element& a, const Element& b) { return a.box.min().x() < b.box.min().x(); });
   return elements;
 }
 
@@ -67,7 +68,8 @@ class WatchedRun {
   explicit WatchedRun(const Scene& scene)
       : pattern_(makePattern(scene)),
         simulator_(scene),
-        gap_(std::min(scene.contact.thickness, 0.25 * std::min(shortest(pattern_.warp_rest), shortest(pattern_.weft_rest)))),
+        gap_(std::min(scene.contact.thickness,
+                      0.25 * std::min(shortest(pattern_.warp_rest), shortest(pattern_.weft_rest)))),
         pairs_(pattern_) {
     const Grid& grid = pattern_.grid;
     for (int i = 0; i < grid.rows; ++i) {
@@ -140,8 +142,10 @@ class WatchedRun {
 
   bool comesWithin(const Element& one, const Element& other, const Field3& end) const {
     bool moves = false;
-    for (int k = 0; k < one.nodes; ++k) moves = moves || pattern_.inverse_mass[one.node[static_cast<std::size_t>(k)]] > 0.0;
-    for (int k = 0; k < other.nodes; ++k) moves = moves || pattern_.inverse_mass[other.node[static_cast<std::size_t>(k)]] > 0.0;
+    for (int k = 0; k < one.nodes; ++k)
+      moves = moves || pattern_.inverse_mass[one.node[static_cast<std::size_t>(k)]] > 0.0;
+    for (int k = 0; k < other.nodes; ++k)
+      moves = moves || pattern_.inverse_mass[other.node[static_cast<std::size_t>(k)]] > 0.0;
     for (int k = 0; moves && k < kInstants; ++k) {
       const double t = static_cast<double>(k) / (kInstants - 1);
       const auto at = [&](std::uint32_t n) -> Vec3 { return now_.at(n) + t * (end.at(n) - now_.at(n)); };
@@ -179,7 +183,8 @@ class PairsOfRuns : public testing::TestWithParam<std::string> {};
 TEST_P(PairsOfRuns, AreAllNamed) {
   Scene scene = heap();
   if (GetParam() != "heap") {
-    const SceneReading reading = readSceneFile(std::string(CURTAIN_SOURCE_DIR "/config/scenes/") + GetParam() + ".yaml");
+    const SceneReading reading =
+        readSceneFile(std::string(CURTAIN_SOURCE_DIR "/config/scenes/") + GetParam() + ".yaml");
     ASSERT_TRUE(reading.problems.empty());
     scene = reading.scene;
   }

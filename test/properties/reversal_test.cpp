@@ -14,8 +14,8 @@
 
 #include "properties/random_scenes.h"
 #include "properties/seeds.h"
-#include "solver/schemes/composition.h"
 #include "solver/exact_solver.h"
+#include "solver/schemes/composition.h"
 #include "solver/workers.h"
 
 namespace curtain {

@@ -11,11 +11,12 @@
 // what it finds, so that much is added. Scenes that amplify a share of 1e-7 to a millimetre are chaotic and left out.
 //
 // Where strings pull or something touches, a substep is solved until links and contacts are within the scene's
-// stretch_tolerance, and there are decisions on the way to that: whether a row is solved for, a block is looked at again,
-// an iteration goes on. One that is as near as rounding falls the other way (seed 12, on the last of 30 frames), and the two
-// motions are two solutions of the same substep. Their links differ by the tolerance, as if the scene's lengths were off by
-// that share, so they may be apart by its growth. Few are: of what is off by 1e-6 of the tolerance, by its growth, one in
-// thousands of decisions, a scene makes hundreds. More than every fourth pair of motions would be something else.
+// stretch_tolerance, and there are decisions on the way to that: whether a row is solved for, a block is looked at
+// again, an iteration goes on. One that is as near as rounding falls the other way (seed 12, on the last of 30 frames),
+// and the two motions are two solutions of the same substep. Their links differ by the tolerance, as if the scene's
+// lengths were off by that share, so they may be apart by its growth. Few are: of what is off by 1e-6 of the tolerance,
+// by its growth, one in thousands of decisions, a scene makes hundreds. More than every fourth pair of motions would be
+// something else.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -76,9 +77,7 @@ class RigidMotion : public ::testing::TestWithParam<std::tuple<Kind, Method>> {
       std::printf("%s: apart %.1e, tolerance %.1e\n", what.c_str(), apart, tolerance(trial, size));
     }
   }
-  void expectFewSolvedOtherwise() const {
-    EXPECT_LE(otherwise_, std::max(1, compared_ / 4)) << "of " << compared_;
-  }
+  void expectFewSolvedOtherwise() const { EXPECT_LE(otherwise_, std::max(1, compared_ / 4)) << "of " << compared_; }
 
  private:
   int compared_ = 0, otherwise_ = 0;

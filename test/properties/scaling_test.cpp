@@ -42,8 +42,8 @@ TEST_P(Scaling, ChangesNoBit) {
     const Motion motion = record(scene, kFrames);
     contacts += motion.statistics.contacts_max;
     // A thousandth and a thousand times, with gravity as it is and as it comes.
-    for (const Similarity& s : {units(0x1p-10, 0x1p-5, 0x1p-20), units(0x1p10, 0x1p5, 0x1p20), units(0x1p-10, 1.0, 0x1p-4),
-                                units(0x1p10, 1.0, 0.5), units(1.0, 0x1p-4, 1.0)}) {
+    for (const Similarity& s : {units(0x1p-10, 0x1p-5, 0x1p-20), units(0x1p10, 0x1p5, 0x1p20),
+                                units(0x1p-10, 1.0, 0x1p-4), units(0x1p10, 1.0, 0.5), units(1.0, 0x1p-4, 1.0)}) {
       if (method == Method::kLeapfrog4 && s.time != 1.0) continue;  // takes a second off where a string pulls
       const Motion other = seenBack(s, record(seen(s, scene), kFrames));
       EXPECT_EQ(firstDifference(motion, other), -1)

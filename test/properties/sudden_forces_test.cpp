@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A curtain before a thin plate, and a wind, a gravity, a pull or a jerk at its pins that sets in between two substeps: nothing
-// that was known of the motion before tells where the cloth goes. It must not pass through the plate.
+// A curtain before a thin plate, and a wind, a gravity, a pull or a jerk at its pins that sets in between two substeps:
+// nothing that was known of the motion before tells where the cloth goes. It must not pass through the plate.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,13 +24,13 @@ constexpr double kHuge = 200.0;  // edge of a plate that no cloth gets around [m
 struct Blow {
   Scene scene;
   Cause cause = Cause::kWind;
-  int quiet = 0;                 // frames before
-  Vec3 gravity = Vec3::Zero();   // from then on [m/s^2]
-  Vec3 jerk = Vec3::Zero();      // velocity of the pins, for some frames [m/s]
+  int quiet = 0;                // frames before
+  Vec3 gravity = Vec3::Zero();  // from then on [m/s^2]
+  Vec3 jerk = Vec3::Zero();     // velocity of the pins, for some frames [m/s]
   int jerk_frames = 0;
   int frames = 0;
-  double face = 0.0;             // near face of the plate: y [m]
-  bool around = false;           // the cloth may get around the plate's edges
+  double face = 0.0;    // near face of the plate: y [m]
+  bool around = false;  // the cloth may get around the plate's edges
 };
 
 // The cloth hangs in the plane y = 0, the plate stands before it, in +y.
@@ -39,11 +39,15 @@ Blow randomBlow(std::uint64_t seed) {
   Blow blow;
   const int most = random.chance(0.1) ? 40 : 16;
   Scene& scene = blow.scene;
-  scene = flatScene(random.integer(2, most), random.integer(2, most), random.between(0.5, 2.0), random.between(0.5, 2.0));
+  scene =
+      flatScene(random.integer(2, most), random.integer(2, most), random.between(0.5, 2.0), random.between(0.5, 2.0));
   scene.hang.to = scene.hang.from + Vec3(random.between(0.6, 1.0) * scene.cloth.width, 0.0, 0.0);
   scene.cloth.surface_density = random.chance(0.5) ? 0.05 : random.between(0.05, 0.5);
   const double pins = random.between(0.0, 1.0);
-  scene.pins.kind = pins < 0.6 ? PinKind::kTop : pins < 0.8 ? PinKind::kTopCorners : pins < 0.9 ? PinKind::kLeft : PinKind::kNone;
+  scene.pins.kind = pins < 0.6   ? PinKind::kTop
+                    : pins < 0.8 ? PinKind::kTopCorners
+                    : pins < 0.9 ? PinKind::kLeft
+                                 : PinKind::kNone;
   scene.contact.self = random.chance(0.15);
   scene.contact.friction = random.between(0.0, 0.6);
   scene.solver.frame_rate = std::exp(random.between(std::log(10.0), std::log(240.0)));
@@ -81,11 +85,14 @@ Blow randomBlow(std::uint64_t seed) {
       scene.wind.push_back(wind);
       break;
     }
-    case Cause::kGravity: blow.gravity = std::exp(random.between(std::log(10.0), std::log(1e3))) * ahead; break;
+    case Cause::kGravity:
+      blow.gravity = std::exp(random.between(std::log(10.0), std::log(1e3))) * ahead;
+      break;
     case Cause::kPull: {
       DragParams pull;
       pull.id = "pull";
-      pull.node = NodeIndex{scene.cloth.rows - 1, random.integer(scene.pins.kind == PinKind::kLeft ? 1 : 0, scene.cloth.columns - 1)};
+      pull.node = NodeIndex{scene.cloth.rows - 1,
+                            random.integer(scene.pins.kind == PinKind::kLeft ? 1 : 0, scene.cloth.columns - 1)};
       pull.force = std::exp(random.between(std::log(1.0), std::log(1e3))) * ahead;
       pull.start = start;
       pull.end = start + random.between(0.01, 0.3);
@@ -122,7 +129,8 @@ std::string passes(const Blow& blow) {
   for (int frame = 0; frame < blow.frames; ++frame) {
     if (frame == blow.quiet) simulator.setGravity(blow.gravity);
     if (frame >= blow.quiet && frame < blow.quiet + blow.jerk_frames) {
-      for (const NodeIndex pin : pins) simulator.movePin(pin, simulator.position(pin) + blow.jerk / blow.scene.solver.frame_rate);
+      for (const NodeIndex pin : pins)
+        simulator.movePin(pin, simulator.position(pin) + blow.jerk / blow.scene.solver.frame_rate);
     }
     simulator.step();
     const Statistics& statistics = simulator.statistics();

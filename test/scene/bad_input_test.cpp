@@ -79,7 +79,8 @@ TEST(BadInput, NumbersGivenAsText) {
   expectProblem(tolerance("!!str 1.0e-6"), key, {"is the text", "write 1.0e-6"});
   expectProblem(tolerance("small"), key, {"a number in [1e-12, 0.1], is the text \"small\""});
   expectProblem(tolerance("yes"), key, {"a number in [1e-12, 0.1], is yes"});
-  expectProblem(wind("end: inf"), "wind[0].end", {"a number in [-1000000000, 1000000000000] or .inf", "is the text \"inf\"", "write .inf"});
+  expectProblem(wind("end: inf"), "wind[0].end",
+                {"a number in [-1000000000, 1000000000000] or .inf", "is the text \"inf\"", "write .inf"});
   expectProblem(wind("end: '.inf'"), "wind[0].end", {"write .inf without quotes"});
 }
 
@@ -97,7 +98,8 @@ TEST(BadInput, NumbersOutOfRange) {
   expectProblem(with("air: {fast_gain: .inf}"), "air.fast_gain", {"a number in [0, 1000000000], is .inf"});
   expectProblem(with("contact: {thickness: 0}"), "contact.thickness", {"a number in [1e-09, 1000000000], is 0"});
   expectProblem(with("contact: {friction: 10.5}"), "contact.friction", {"a number in [0, 10], is 10.5"});
-  expectProblem(with("contact: {recovery_speed: 0}"), "contact.recovery_speed", {"a number in [1e-09, 1000000000], is 0"});
+  expectProblem(with("contact: {recovery_speed: 0}"), "contact.recovery_speed",
+                {"a number in [1e-09, 1000000000], is 0"});
   expectProblem(with("contact: {zone_iterations: 0}"), "contact.zone_iterations", {"an integer in [1, 1000], is 0"});
   expectProblem(with("solver: {frame_rate: 0.5}"), "solver.frame_rate", {"a number in [1, 10000], is 0.5"});
   expectProblem(with("solver: {stretch_tolerance: 0.2}"), "solver.stretch_tolerance", {"is 0.2"});
@@ -130,7 +132,8 @@ TEST(BadInput, WordsAndFlags) {
   expectProblem(cloth("closed: 1"), "cloth.closed", {"true or false, is 1"});
   expectProblem(cloth("closed: maybe"), "cloth.closed", {"true or false, is the text \"maybe\""});
   expectProblem(with("air: {law: 3}"), "air.law", {"continuous or printed, is 3"});
-  expectProblem(with("solver: {method: magic}"), "solver.method", {"auto, leapfrog, leapfrog4, bdf2, implicit or paper", "\"magic\""});
+  expectProblem(with("solver: {method: magic}"), "solver.method",
+                {"auto, leapfrog, leapfrog4, bdf2, implicit or paper", "\"magic\""});
   expectProblem(with("contact: {self: 0}"), "contact.self", {"true or false, is 0"});
   expectProblem(with("wind: [{id: 5}]"), "wind[0].id", {"must be text, is 5", "quotes"});
   expectProblem(with("wind: [{id: on}]"), "wind[0].id", {"must be text, is on", "quotes"});
@@ -170,9 +173,11 @@ TEST(BadInput, MapsAndLists) {
 TEST(BadInput, Vectors) {
   expectProblem(with("gravity: -9.81"), "gravity", {"a list of 3 numbers, is -9.81"});
   expectProblem(with("gravity: [0, -9.81]"), "gravity", {"a list of 3 numbers, is a list of 2"});
-  expectProblem(with("gravity: [0, 0, down]"), "gravity[2]", {"a number in [-1000000000, 1000000000], is the text \"down\""});
+  expectProblem(with("gravity: [0, 0, down]"), "gravity[2]",
+                {"a number in [-1000000000, 1000000000], is the text \"down\""});
   expectProblem(with("gravity: [0, .inf, 0]"), "gravity[1]", {"a number in [-1000000000, 1000000000], is .inf"});
-  expectProblem(wind("position: [0, 0, .nan]"), "wind[0].position[2]", {"a number in [-1000000000, 1000000000], is .nan"});
+  expectProblem(wind("position: [0, 0, .nan]"), "wind[0].position[2]",
+                {"a number in [-1000000000, 1000000000], is .nan"});
   expectProblem(wind("direction: [0, 0.0, 0]"), "wind[0].direction", {"a length > 0", "is [0, 0, 0]"});
   expectProblem(wind("direction: [0, 0.0, 1.0e-200]"), "wind[0].direction", {"a length > 0"});
 }
@@ -185,7 +190,8 @@ TEST(BadInput, PerNodeLists) {
   expectProblem(cloth("row_mass: [1, 2, 3]"), "cloth.row_mass", {"4 entries (rows)", "has 3"});
   expectProblem(cloth("column_mass: [1]"), "cloth.column_mass", {"3 entries (columns)", "has 1"});
   expectProblem(cloth("row_mass: [1, 2, 0, 1]"), "cloth.row_mass[2]", {"a number in [1e-09, 1000000000], is 0"});
-  expectProblem(cloth("row_mass: [1, x, 1, 1]"), "cloth.row_mass[1]", {"a number in [1e-09, 1000000000], is the text \"x\""});
+  expectProblem(cloth("row_mass: [1, x, 1, 1]"), "cloth.row_mass[1]",
+                {"a number in [1e-09, 1000000000], is the text \"x\""});
 }
 
 TEST(BadInput, Pins) {
@@ -303,12 +309,15 @@ TEST(BadInput, ObstacleSizes) {
   expectProblem(obstacle("shape: mesh"), "obstacles[0].mesh", {"is missing"});
   expectProblem(obstacle("shape: mesh, mesh: ''"), "obstacles[0].mesh", {"not empty"});
   expectProblem(obstacle("shape: sphere, radius: -1"), "obstacles[0].radius", {"[1e-09, 1000000000], is -1"});
-  expectProblem(obstacle("shape: capsule, radius: 1.0, length: 0"), "obstacles[0].length", {"[1e-09, 1000000000], is 0"});
+  expectProblem(obstacle("shape: capsule, radius: 1.0, length: 0"), "obstacles[0].length",
+                {"[1e-09, 1000000000], is 0"});
   expectProblem(obstacle("shape: box, size: [1, 0, 1]"), "obstacles[0].size[1]", {"[1e-09, 1000000000], is 0"});
-  expectProblem(obstacle("shape: mesh, mesh: a.stl, scale: 0.0"), "obstacles[0].scale", {"at least 1e-09 in size, is 0"});
+  expectProblem(obstacle("shape: mesh, mesh: a.stl, scale: 0.0"), "obstacles[0].scale",
+                {"at least 1e-09 in size, is 0"});
   expectProblem(obstacle("shape: mesh, mesh: a.stl, scale: [1, 1, 0]"), "obstacles[0].scale[2]",
                 {"at least 1e-09 in size, is 0"});
-  expectProblem(obstacle("shape: mesh, mesh: a.stl, scale: .inf"), "obstacles[0].scale", {"at least 1e-09 in size, is .inf"});
+  expectProblem(obstacle("shape: mesh, mesh: a.stl, scale: .inf"), "obstacles[0].scale",
+                {"at least 1e-09 in size, is .inf"});
 }
 
 TEST(BadInput, ObstacleRest) {

@@ -119,7 +119,8 @@ TEST(GoodInput, NumbersAsYaml11SpellsThem) {
   EXPECT_EQ(height(".5"), 0.5);
   EXPECT_EQ(height("1.0e-3"), 0.001);
   EXPECT_EQ(height("1.5E+2"), 150.0);
-  EXPECT_EQ(expectScene("cloth: {rows: 2, columns: 2, porosity: 4.9406564584124654e-324}").cloth.porosity, 4.9406564584124654e-324);
+  EXPECT_EQ(expectScene("cloth: {rows: 2, columns: 2, porosity: 4.9406564584124654e-324}").cloth.porosity,
+            4.9406564584124654e-324);
   EXPECT_EQ(height("!!float 1e-3"), 0.001);  // the tag makes it a number in YAML 1.1 too
 }
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Texts that are made to hang the reader or to fill the memory are refused at once, with one message that is no longer than a
-// message should be.
+// Texts that are made to hang the reader or to fill the memory are refused at once, with one message that is no longer
+// than a message should be.
 #include "count_allocations.h"
 #include "scene/scene_testing.h"
 
 namespace curtain {
 namespace {
 
-// What the reader does is counted in allocations: a known key of ten characters takes about 50 of them, in yaml-cpp and in the
-// log of problems. Without the limit that these texts are for it would be millions a character, or no end.
+// What the reader does is counted in allocations: a known key of ten characters takes about 50 of them, in yaml-cpp and
+// in the log of problems. Without the limit that these texts are for it would be millions a character, or no end.
 constexpr long kMostAllocations = 20;     // a character …
 constexpr long kFewAllocations = 1000;    // … and at least
 constexpr std::size_t kMessage = 100000;  // [characters]: 200 problems of 500
@@ -54,7 +54,8 @@ TEST(HostileText, AliasesOfAliases) {
 // A list of aliases of a list of aliases of a map: each would be copied into the scene.
 TEST(HostileText, ListsOfTheSameLists) {
   const std::string motion = "{name: ball, radius: 1, motion: [&m {time: 0.0}" + repeated(", *m", 3000) + "]}";
-  expectRefused(std::string(smallScene()) + "obstacles: [&o " + motion + repeated(", *o", 3000) + "]\n", "more than 1000000 values");
+  expectRefused(std::string(smallScene()) + "obstacles: [&o " + motion + repeated(", *o", 3000) + "]\n",
+                "more than 1000000 values");
 }
 
 TEST(HostileText, AnAliasWithinWhatItNames) {

@@ -280,7 +280,17 @@ Scene oddScene() {
     scene.obstacles.push_back(oddObstacle(numbers, static_cast<ShapeKind>(shape), "thing " + std::to_string(shape)));
   }
   scene.contact = {numbers.between(1e-3, 1e-2), numbers.between(0.0, 1.0), false, 77};
-  scene.solver = {Method::kImplicit, 1000.0 / 7.0, 3, 1e-11 / 3.0, 1e-4 / 3.0, 1e-2 / 3.0, 10.0 / 3.0, 5, 99, 1234, std::uint64_t{0xFFFFFFFFFFFFFFFF}};
+  scene.solver = {Method::kImplicit,
+                  1000.0 / 7.0,
+                  3,
+                  1e-11 / 3.0,
+                  1e-4 / 3.0,
+                  1e-2 / 3.0,
+                  10.0 / 3.0,
+                  5,
+                  99,
+                  1234,
+                  std::uint64_t{0xFFFFFFFFFFFFFFFF}};
   return scene;
 }
 
@@ -334,7 +344,8 @@ TEST(RoundTrip, EveryKeyIsSpelledOut) {
   has(root["obstacles"][0], {"name", "frame", "shape", "radius", "position", "orientation", "motion"});
   EXPECT_FALSE(root["obstacles"][0]["friction"].IsDefined());
   EXPECT_FALSE(root["obstacles"][0]["size"].IsDefined());
-  has(root["solver"], {"method", "frame_rate", "substeps", "stretch_tolerance", "position_tolerance", "rest_speed", "budget_ms", "threads", "max_substeps", "max_sweeps", "seed"});
+  has(root["solver"], {"method", "frame_rate", "substeps", "stretch_tolerance", "position_tolerance", "rest_speed",
+                       "budget_ms", "threads", "max_substeps", "max_sweeps", "seed"});
 }
 
 }  // namespace

@@ -8,7 +8,8 @@
 namespace curtain {
 namespace {
 
-void expectDifference(const std::string& ours, const std::string& theirs, const std::string& key, const std::string& text) {
+void expectDifference(const std::string& ours, const std::string& theirs, const std::string& key,
+                      const std::string& text) {
   const std::optional<Problem> found = firstDifference(ours, theirs, {"aside", "list[].aside"});
   ASSERT_TRUE(found.has_value()) << ours << theirs;
   EXPECT_EQ(found->key, key);
@@ -42,8 +43,8 @@ TEST(SceneDifference, IsNoneWhereItMayDiffer) {
 // Who writes it may write anything.
 TEST(SceneDifference, IsToldOfAnyText) {
   for (const std::string& theirs :
-       {std::string(), std::string(100000, '['), std::string("a: ["), std::string("a: &a [*a]"), std::string("\0\1\2", 3),
-        std::string("? [1]\n: 2\n"), std::string("a: ") + std::string(1000000, 'x')}) {
+       {std::string(), std::string(100000, '['), std::string("a: ["), std::string("a: &a [*a]"),
+        std::string("\0\1\2", 3), std::string("? [1]\n: 2\n"), std::string("a: ") + std::string(1000000, 'x')}) {
     const std::optional<Problem> found = firstDifference("a: 1\nb: 2\n", theirs, {});
     ASSERT_TRUE(found.has_value());
     EXPECT_LT(found->text.size(), 300U);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Frames of limited computing time: nothing changes while there is enough; what is given up is counted, and what must not be is
-// not. How long a frame really takes is the machine's business too, so the bookkeeping is tested with a clock of its own.
+// Frames of limited computing time: nothing changes while there is enough; what is given up is counted, and what must
+// not be is not. How long a frame really takes is the machine's business too, so the bookkeeping is tested with a clock
+// of its own.
 #include "simulator/budget.h"
 
 #include <gtest/gtest.h>
@@ -164,10 +165,12 @@ TEST(BudgetedSimulator, GivesUpTimeAndNotTheCloth) {
   }
   std::sort(seconds.begin(), seconds.end());
   const Statistics& s = simulator.statistics();
-  std::printf("budget %.3f ms: median %.3f ms, 90 %% %.3f; longer %d, unfinished %d, shortened %d frames, lost %.2f s, late %d\n",
-              scene.solver.budget_ms, 1e3 * seconds[150], 1e3 * seconds[270], static_cast<int>(s.longer_substeps),
-              static_cast<int>(s.unfinished_substeps), static_cast<int>(s.shortened_frames), s.lost_time,
-              static_cast<int>(s.late_frames));
+  std::printf(
+      "budget %.3f ms: median %.3f ms, 90 %% %.3f; longer %d, unfinished %d, shortened %d frames, lost %.2f s, late "
+      "%d\n",
+      scene.solver.budget_ms, 1e3 * seconds[150], 1e3 * seconds[270], static_cast<int>(s.longer_substeps),
+      static_cast<int>(s.unfinished_substeps), static_cast<int>(s.shortened_frames), s.lost_time,
+      static_cast<int>(s.late_frames));
   EXPECT_TRUE(s.finite);
   EXPECT_GT(s.shortened_frames, 0);
   EXPECT_GT(s.lost_time, 0.1);
@@ -205,8 +208,7 @@ TEST(BudgetedSimulator, WhatFallsBehindIsNoBlow) {
 
 // The implicit scheme takes whatever it has come to, but not because its time is over.
 TEST(BudgetedSimulator, NoMethodTakesWhatItHasNotSolved) {
-  for (const Method method :
-       {Method::kAuto, Method::kLeapfrog, Method::kLeapfrog4, Method::kBdf2, Method::kImplicit}) {
+  for (const Method method : {Method::kAuto, Method::kLeapfrog, Method::kLeapfrog4, Method::kBdf2, Method::kImplicit}) {
     Scene scene = blownCurtain();
     scene.solver.method = method;
     scene.solver.max_substeps = 64;

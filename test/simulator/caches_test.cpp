@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a simulator keeps to save time changes no bit of what comes: whole runs are made twice, once with the caches of contact cleared at
-// random within substeps, and, at some frames, with all else that no snapshot carries gone.
+// What a simulator keeps to save time changes no bit of what comes: whole runs are made twice, once with the caches of
+// contact cleared at random within substeps, and, at some frames, with all else that no snapshot carries gone.
 #include <gtest/gtest.h>
 
 #include <optional>

@@ -69,7 +69,8 @@ TEST(FrameRate, DoesNotChangeTheMotion) {
   const std::vector<Vec3> a = positionsOf(even), b = positionsOf(other);
   double apart = 0.0;
   for (std::size_t n = 0; n < a.size(); ++n) apart = std::max(apart, (a[n] - b[n]).norm());
-  // Order 2: the swing's 8 substeps are 4e-5 m off after a second (docs/bench), of 2 m; here it is 1 m, of which a part is this.
+  // Order 2: the swing's 8 substeps are 4e-5 m off after a second (docs/bench), of 2 m; here it is 1 m, of which a part
+  // is this.
   EXPECT_LE(apart, 4e-5);
   EXPECT_GT(apart, 0.0);
 }
@@ -117,8 +118,8 @@ TEST(State, IsTakenAsGiven) {
     simulator.step();
     other.step();
   }
-  // Not the same bits: leapfrog's velocities were half a step old, and the tensions are found anew. But the same motion, to what a
-  // step of it is off.
+  // Not the same bits: leapfrog's velocities were half a step old, and the tensions are found anew. But the same
+  // motion, to what a step of it is off.
   double apart = 0.0;
   const std::vector<Vec3> a = positionsOf(simulator), b = positionsOf(other);
   for (std::size_t n = 0; n < a.size(); ++n) apart = std::max(apart, (a[n] - b[n]).norm());
@@ -211,7 +212,8 @@ TEST(Work, OfPinsIsWhatTheyCarry) {
   }
   const Work work = simulator.work();
   EXPECT_GT(work.pins, 0.0);
-  // What is left over: the rail's speed jumps with every frame, by 0.2/60 m/s, and its blows are inelastic: m v dv / 2 each.
+  // What is left over: the rail's speed jumps with every frame, by 0.2/60 m/s, and its blows are inelastic: m v dv / 2
+  // each.
   const double blows = 0.5 * 0.2 * 0.4 * 0.4;
   EXPECT_LE(balance(work), 0.02 * work.pins);
   EXPECT_GE(balance(work), -blows - 0.02 * work.pins);

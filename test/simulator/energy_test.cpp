@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The total energy of undamped cloth: of a swing over a minute it has no trend, and whips whose tension makes substeps change do
-// not collect any. And it is the same whoever asks for it, whenever.
+// The total energy of undamped cloth: of a swing over a minute it has no trend, and whips whose tension makes substeps
+// change do not collect any. And it is the same whoever asks for it, whenever.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -71,8 +71,9 @@ TEST(SwingEnergy, OfLeapfrog4HasNoTrend) {
 // Let go at 70 degrees it whips, with as many substeps as its tensions ask for: two to ten a frame.
 class WhipEnergy : public ::testing::TestWithParam<std::tuple<Method, int>> {};
 
-// Never above the start by more than what is let be (kTooMuch in keep_energy.cpp), at the end of a frame; and not at the
-// cost of the motion: bdf2, which damps, loses a quarter of m g H in half of this time, this may be a fifth of that.
+// Never above the start by more than what is let be (kTooMuch in keep_energy.cpp), at the end of a frame; and not at
+// the cost of the motion: bdf2, which damps, loses a quarter of m g H in half of this time, this may be a fifth of
+// that.
 TEST_P(WhipEnergy, IsNotCollected) {
   const auto& [method, substeps] = GetParam();
   Scene scene = curtain_test::flatScene(12, 10);
@@ -105,7 +106,8 @@ INSTANTIATE_TEST_SUITE_P(Methods, WhipEnergy,
                            return toString(std::get<0>(named.param)) + (std::get<1>(named.param) > 0 ? "Fixed" : "");
                          });
 
-// Gravity that changes between two frames: velocities are still those that the old one made, whether they were asked for or not.
+// Gravity that changes between two frames: velocities are still those that the old one made, whether they were asked
+// for or not.
 TEST(Energy, IsOfTheForcesThatWere) {
   const Scene scene = curtain_test::chainScene(20);
   Simulator asked(scene), unasked(scene);

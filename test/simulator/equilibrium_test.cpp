@@ -13,14 +13,15 @@ namespace {
 
 class WindEquilibrium : public ::testing::TestWithParam<double> {};
 
-// A chain in a uniform wind under Eq. (3), whose force is along the wind and goes with cos psi, rests on a straight line
-// (law A of the table). The disc is 1e5 m away, so that 1 + |d|^2 varies by 2 L / d = 4e-5 over the cloth; bound: that,
-// and what motion the damping leaves after 20 s.
+// A chain in a uniform wind under Eq. (3), whose force is along the wind and goes with cos psi, rests on a straight
+// line (law A of the table). The disc is 1e5 m away, so that 1 + |d|^2 varies by 2 L / d = 4e-5 over the cloth; bound:
+// that, and what motion the damping leaves after 20 s.
 TEST_P(WindEquilibrium, IsTheStraightLine) {
   const double r = GetParam();
   double theta = -1.0;
   for (const auto& row : curtain_test::readTruth("wind_chain.csv")) {
-    if (row.at("law") == "A" && std::abs(std::stod(row.at("r=f0/mg")) - r) < 1e-9) theta = std::stod(row.at("theta_rad"));
+    if (row.at("law") == "A" && std::abs(std::stod(row.at("r=f0/mg")) - r) < 1e-9)
+      theta = std::stod(row.at("theta_rad"));
   }
   ASSERT_GE(theta, 0.0);
   constexpr double kFar = 1e5;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A chain that hangs by both ends, one of which is let go (test/truth/falling_N43.csv), or lies folded in half at its pin
-// (falling_N43_fold.csv): the tip falls faster than freely, and cracks like a whip.
+// A chain that hangs by both ends, one of which is let go (test/truth/falling_N43.csv), or lies folded in half at its
+// pin (falling_N43_fold.csv): the tip falls faster than freely, and cracks like a whip.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,8 @@ using namespace curtain;
 constexpr int kRods = 43;
 constexpr double kLength = 2.0, kApart = 1.0;  // of the chain, and of its ends [m]
 
-// Places of the nodes of a discrete catenary of equal rods and masses: the tangents of the rods' angles are evenly spaced.
+// Places of the nodes of a discrete catenary of equal rods and masses: the tangents of the rods' angles are evenly
+// spaced.
 std::vector<std::array<double, 2>> catenary() {
   const double rod = kLength / kRods;
   const auto width = [&](double step) {
@@ -100,8 +101,8 @@ TEST(FallingChain, IsFollowedByDefault) {
   const double early = tipError(catenaryFall(), Method::kAuto, 0, 0.3, lead);
   const double late = tipError(catenaryFall(), Method::kAuto, 0, 0.5, lead);
   std::printf("tip off by %.2e m at 0.3 s, %.2e at 0.5 s\n", early, late);
-  // Two or three substeps a frame instead of 16: (16 / 2)^2 times as far off at first. What is off then turns a tip that is 3 times as
-  // fast and much more bent by the end.
+  // Two or three substeps a frame instead of 16: (16 / 2)^2 times as far off at first. What is off then turns a tip
+  // that is 3 times as fast and much more bent by the end.
   EXPECT_LE(early, 64.0 * 1e-6);
   EXPECT_LE(late, 2e-3);
 }
@@ -113,8 +114,10 @@ TEST(FoldedChain, TipFallsFasterThanFreely) {
   const double fine = tipError(foldedFall(), Method::kLeapfrog, 64, 0.3, lead);
   const double composed = tipError(foldedFall(), Method::kLeapfrog4, 8, 0.3, lead);
   const double later = tipError(foldedFall(), Method::kLeapfrog, 64, 0.5, lead);
-  std::printf("tip off by %.2e m in 32 substeps, %.2e in 64, %.2e in 8 of leapfrog4; at 0.5 s %.2e, ahead of free fall by %.6f m\n",
-              coarse, fine, composed, later, lead);
+  std::printf(
+      "tip off by %.2e m in 32 substeps, %.2e in 64, %.2e in 8 of leapfrog4; at 0.5 s %.2e, ahead of free fall by %.6f "
+      "m\n",
+      coarse, fine, composed, later, lead);
   EXPECT_NEAR(coarse / fine, 4.0, 0.4);  // order 2
   EXPECT_LE(composed, fine);             // order 4: 8 substeps are worth more than 64 of order 2
   // 0.158 m ahead at 0.5 s: what is off by then is at most 1e-3 of that.

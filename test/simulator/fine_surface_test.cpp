@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "contact/shapes/contact_shape.h"
 #include "contact/oracle/piercings.h"
+#include "contact/shapes/contact_shape.h"
 #include "curtain_sim/simulator.h"
 #include "testing.h"
 
@@ -26,14 +26,14 @@ constexpr double kTolerance = 1e-6;
 /// What was seen of a scene.
 struct Tally {
   long frames = 0;
-  long pierced_first = 0;    ///< frames in which the first layer is pierced
-  long quads = 0;            ///< of the first layer, free of the obstacle
-  long quads_left_out = 0;   ///< of the first layer, pierced
-  long nodes = 0;            ///< of the fine mesh, inside
-  long faces = 0;            ///< of the fine mesh, pierced, in quads that are free
-  long folds = 0;            ///< of all frames
+  long pierced_first = 0;   ///< frames in which the first layer is pierced
+  long quads = 0;           ///< of the first layer, free of the obstacle
+  long quads_left_out = 0;  ///< of the first layer, pierced
+  long nodes = 0;           ///< of the fine mesh, inside
+  long faces = 0;           ///< of the fine mesh, pierced, in quads that are free
+  long folds = 0;           ///< of all frames
   long flattened = 0;
-  long uneven = 0;           ///< whose rods are not all rest / k long
+  long uneven = 0;  ///< whose rods are not all rest / k long
 };
 
 /// A sheet of 1 m, its links 8 % longer than its nodes are apart, that falls on what lies below its middle.
@@ -123,10 +123,13 @@ long unevenFolds(const Scene& scene, const FineMeshTopology& topology, const Fin
   long uneven = 0;
   for (int i = 0; i < topology.rows; ++i) {
     for (int first = 0; first + topology.folds < topology.columns; first += topology.folds) {
-      const auto node = [&](int p) { return mesh.positions[static_cast<std::size_t>(i * topology.columns + first + p)]; };
+      const auto node = [&](int p) {
+        return mesh.positions[static_cast<std::size_t>(i * topology.columns + first + p)];
+      };
       const double rod = std::max(rest, (node(topology.folds) - node(0)).norm()) / topology.folds;
       bool even = true;
-      for (int p = 0; p < topology.folds; ++p) even = even && std::abs((node(p + 1) - node(p)).norm() - rod) < 1e-6 * rod;
+      for (int p = 0; p < topology.folds; ++p)
+        even = even && std::abs((node(p + 1) - node(p)).norm() - rod) < 1e-6 * rod;
       uneven += !even;
     }
   }
@@ -174,11 +177,12 @@ TEST(FineSurface, PiercesNothing) {
       simulator.step();
       if (frame % 4 == 3) look(simulator, tally);
     }
-    std::printf("%-18s contacts %3d, frames %ld (first layer pierced in %ld, %ld of %ld quads), fine nodes in %ld, faces "
-                "pierced %ld, folds flattened %.2f %% (uneven %ld of %ld)\n", each.name.c_str(),
-                simulator.statistics().contacts_max, tally.frames, tally.pierced_first, tally.quads_left_out,
-                tally.quads + tally.quads_left_out, tally.nodes, tally.faces,
-                100.0 * static_cast<double>(tally.flattened) / static_cast<double>(tally.folds), tally.uneven, tally.flattened);
+    std::printf(
+        "%-18s contacts %3d, frames %ld (first layer pierced in %ld, %ld of %ld quads), fine nodes in %ld, faces "
+        "pierced %ld, folds flattened %.2f %% (uneven %ld of %ld)\n",
+        each.name.c_str(), simulator.statistics().contacts_max, tally.frames, tally.pierced_first, tally.quads_left_out,
+        tally.quads + tally.quads_left_out, tally.nodes, tally.faces,
+        100.0 * static_cast<double>(tally.flattened) / static_cast<double>(tally.folds), tally.uneven, tally.flattened);
     EXPECT_GT(simulator.statistics().contacts_max, 3) << each.name;
     EXPECT_EQ(tally.nodes, 0) << each.name;
     EXPECT_EQ(tally.faces, 0) << each.name;
@@ -191,8 +195,11 @@ TEST(FineSurface, PiercesNothing) {
 /// Flat cloth 6 mm over a plane, with more weft than way, and what the eye sees of it.
 class OverAPlane {
  public:
-  OverAPlane() : scene_(planeScene()), pattern_(makePattern(scene_)), surface_(scene_.cloth, pattern_),
-                 obstacles_(scene_, resolveMeshUrl) {
+  OverAPlane()
+      : scene_(planeScene()),
+        pattern_(makePattern(scene_)),
+        surface_(scene_.cloth, pattern_),
+        obstacles_(scene_, resolveMeshUrl) {
     position_.assign(pattern_.grid.size(), 0.0);
   }
   /// tilt [rad]: of the cloth about its weft, over the plane z = 0.
@@ -251,8 +258,8 @@ TEST(FineSurface, FoldsThatTrembleDoNotFlip) {
   EXPECT_LT(largest, 1e-4);
 }
 
-// The folds that bow away from the obstacle stay as they are, the others turn by what they must: their nodes come to rest
-// at the clearance, on the side of the next row.
+// The folds that bow away from the obstacle stay as they are, the others turn by what they must: their nodes come to
+// rest at the clearance, on the side of the next row.
 TEST(FineSurface, TurnsNoFurtherThanItMust) {
   OverAPlane cloth;
   FineMesh mesh;
@@ -277,8 +284,8 @@ TEST(FineSurface, TurnsNoFurtherThanItMust) {
   EXPECT_EQ(turned, 24);
 }
 
-// The mesh is a function of the nodes and obstacles: asked twice, after other frames, or of another simulator, it has the
-// same bits.
+// The mesh is a function of the nodes and obstacles: asked twice, after other frames, or of another simulator, it has
+// the same bits.
 TEST(FineSurface, IsTheSameForTheSameState) {
   for (const Case& each : cases()) {
     Simulator one(each.scene), other(each.scene);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Obstacles and cloth never go through each other: fast ones, thin ones, ones smaller than a face, ones that appear inside it.
-// The judge is the brute-force count of piercings; wrenches are judged by weights.
+// Obstacles and cloth never go through each other: fast ones, thin ones, ones smaller than a face, ones that appear
+// inside it. The judge is the brute-force count of piercings; wrenches are judged by weights.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -85,8 +85,9 @@ TEST_P(Impact, GoesThroughNothingAndKeepsTheLinks) {
     slowest = std::max(slowest, simulator.statistics().step_seconds);
   }
   const Statistics& s = simulator.statistics();
-  std::printf("%s at %g m/s: stretch %.1e during, %.1e after, slowest frame %.0f ms, %d stops, obstacle waited %.2g s\n",
-              name.c_str(), speed, during, after, 1e3 * slowest, static_cast<int>(s.stops), s.obstacles_waited);
+  std::printf(
+      "%s at %g m/s: stretch %.1e during, %.1e after, slowest frame %.0f ms, %d stops, obstacle waited %.2g s\n",
+      name.c_str(), speed, during, after, 1e3 * slowest, static_cast<int>(s.stops), s.obstacles_waited);
   EXPECT_TRUE(simulator.statistics().finite);
   EXPECT_EQ(pierced, 0);
   EXPECT_LE(during, tolerance);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Cloth and obstacles: both layers of nodes stay outside, whatever the shape and however it moves; friction is Coulomb's.
+// Cloth and obstacles: both layers of nodes stay outside, whatever the shape and however it moves; friction is
+// Coulomb's.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -68,7 +69,8 @@ TEST_P(Pushing, KeepsBothLayersOutside) {
     // A wall that hangs behind the rail, its free side towards +y, and swings its lower part into the curtain.
     const Eigen::Quaterniond plumb(Eigen::AngleAxisd(-1.5707963, Vec3::UnitX()));
     const Eigen::Quaterniond leaning(Eigen::AngleAxisd(-1.2, Vec3::UnitX()));
-    obstacle.motion = {{0.0, {Vec3(0.0, -0.05, 2.3), plumb}}, {1.5, {Vec3(0.0, -0.05, 2.3), leaning}},
+    obstacle.motion = {{0.0, {Vec3(0.0, -0.05, 2.3), plumb}},
+                       {1.5, {Vec3(0.0, -0.05, 2.3), leaning}},
                        {3.0, {Vec3(0.0, -0.05, 2.3), plumb}}};
   } else {
     const Eigen::Quaterniond turned(Eigen::AngleAxisd(1.2, Vec3(1.0, 1.0, 0.3).normalized()));
@@ -208,8 +210,8 @@ TEST(Obstacles, GivenPosesMoveTheObstacle) {
     b.step();
   }
   EXPECT_GT(a.position({20, 12}).y(), 0.2);
-  // Same motion up to the rounding of the poses, 1e-16, grown by what contact does with it in a second: which parts count as
-  // near, and whether a substep is made again, are decisions that rounding can turn.
+  // Same motion up to the rounding of the poses, 1e-16, grown by what contact does with it in a second: which parts
+  // count as near, and whether a substep is made again, are decisions that rounding can turn.
   EXPECT_LT((a.position({20, 12}) - b.position({20, 12})).norm(), 1e-3);
 }
 
@@ -231,8 +233,8 @@ TEST(Obstacles, AreMetFarFromWhereTheClothBegan) {
   EXPECT_GT(touched, 50);
 }
 
-// Not even the last of them leaves anything behind when it goes. Velocities are held against the way of the frame: half a frame
-// apart, they differ by what a node gains meanwhile, and that is less than twice the free fall's.
+// Not even the last of them leaves anything behind when it goes. Velocities are held against the way of the frame: half
+// a frame apart, they differ by what a node gains meanwhile, and that is less than twice the free fall's.
 TEST(Obstacles, ThatHaveGoneTouchNothing) {
   ObstacleParams ball = obstacleOf(ShapeKind::kSphere);
   ball.pose.position = Vec3(0.5, -0.1, 1.5);
@@ -256,14 +258,15 @@ TEST(Obstacles, ThatHaveGoneTouchNothing) {
     EXPECT_EQ(simulator.contactWrench(0).contacts, 0);
     if (frame < 4) continue;  // until what the ball held is on its way
     for (std::size_t n = 0; n < after.size(); ++n) {
-      EXPECT_LT((velocity[n] - rate * (after[n] - before[n])).norm(), 9.81 / rate) << "frame " << frame << ", node " << n;
+      EXPECT_LT((velocity[n] - rate * (after[n] - before[n])).norm(), 9.81 / rate)
+          << "frame " << frame << ", node " << n;
     }
   }
 }
 
-// leapfrog4 undoes the stages of a substep in which it meets something, and then does what auto does: from its first frame on
-// it must report the same force. A free sheet falls flat on a floor 10 mm below at 1 m/s: it is 7 mm lower after the first stage
-// (0.41 frames of 1/60 s), 14 mm after the second one.
+// leapfrog4 undoes the stages of a substep in which it meets something, and then does what auto does: from its first
+// frame on it must report the same force. A free sheet falls flat on a floor 10 mm below at 1 m/s: it is 7 mm lower
+// after the first stage (0.41 frames of 1/60 s), 14 mm after the second one.
 TEST(Obstacles, AreNotPressedByStagesThatWereUndone) {
   Scene scene = curtain_test::flatScene(12, 12);
   scene.hang.tilt = 0.5 * curtain_test::kPi;

@@ -55,8 +55,8 @@ TEST_P(PaperScenes, WithoutContactRodsKeepTheirLength) {
               simulator.statistics().weft_stretch);
 }
 
-// With contact a node that is held back leaves its rod off its length, until it is let go. Asked for is what a viewer would see:
-// no rod doubles (measured: 0.5 in the parachute's vent, 0.1 elsewhere).
+// With contact a node that is held back leaves its rod off its length, until it is let go. Asked for is what a viewer
+// would see: no rod doubles (measured: 0.5 in the parachute's vent, 0.1 elsewhere).
 TEST_P(PaperScenes, AsItIsStaysFiniteAndWhole) {
   Simulator simulator(sceneOf(GetParam()));
   curtain_test::makeFrames(simulator, 300);
@@ -67,8 +67,8 @@ TEST_P(PaperScenes, AsItIsStaysFiniteAndWhole) {
               simulator.statistics().weft_stretch_max, simulator.statistics().penetration_max);
 }
 
-// Weight alone, no air: over 20 s no more energy than at the start, where the cloth begins at rest, or than its potential energy
-// where the cloth was highest. Rounding: of energies of a fall through 2 km.
+// Weight alone, no air: over 20 s no more energy than at the start, where the cloth begins at rest, or than its
+// potential energy where the cloth was highest. Rounding: of energies of a fall through 2 km.
 TEST_P(PaperScenes, WeightAloneNeverRaisesTheEnergy) {
   Scene scene = sceneOf(GetParam());
   scene.contact.self = false;
@@ -100,22 +100,22 @@ INSTANTIATE_TEST_SUITE_P(Repository, PaperScenes, ::testing::ValuesIn(sceneFiles
 
 class PaperChain : public ::testing::TestWithParam<int> {};
 
-// First order: half the step, half the error, less what the second order is of it. Swings of 10 rods released level are kept to
-// one second's truth as well.
+// First order: half the step, half the error, less what the second order is of it. Swings of 10 rods released level are
+// kept to one second's truth as well.
 TEST_P(PaperChain, ConvergesToTheExactMotion) {
   const int rods = GetParam();
   const Scene scene = curtain_test::chainScene(rods, 45.0, 2);
   const double coarse = curtain_test::chainErrorAfterASecond(scene, Method::kPaper, 64).position;
   const double fine = curtain_test::chainErrorAfterASecond(scene, Method::kPaper, 128).position;
   EXPECT_NEAR(coarse / fine, 2.0, 0.1);
-  std::printf("%d rods: %.2f mm at 64 substeps, %.2f mm at 128, %.2f mm at the default\n", rods, 1e3 * coarse, 1e3 * fine,
-              1e3 * curtain_test::chainErrorAfterASecond(scene, Method::kPaper, 0).position);
+  std::printf("%d rods: %.2f mm at 64 substeps, %.2f mm at 128, %.2f mm at the default\n", rods, 1e3 * coarse,
+              1e3 * fine, 1e3 * curtain_test::chainErrorAfterASecond(scene, Method::kPaper, 0).position);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rods, PaperChain, ::testing::Values(1, 2, 5, 10, 20, 43));
 
-// Hanging cloth whose pins are lifted evenly goes with them: every frame ends with the pins where they were sent, all rods at their
-// length and straight below.
+// Hanging cloth whose pins are lifted evenly goes with them: every frame ends with the pins where they were sent, all
+// rods at their length and straight below.
 TEST(Paper, MovedPinsPullTheClothAlong) {
   Scene scene = curtain_test::chainScene(20, 0.0, 2);
   scene.solver.method = Method::kPaper;
@@ -124,7 +124,8 @@ TEST(Paper, MovedPinsPullTheClothAlong) {
   simulator.copyPositions(start);
   const Vec3 way(0.0, 0.0, 1.0 / 60.0);  // of a frame [m]
   for (int frame = 1; frame <= 120; ++frame) {
-    for (int j = 0; j < 2; ++j) ASSERT_TRUE(simulator.movePin({0, j}, start[static_cast<std::size_t>(j)] + frame * way));
+    for (int j = 0; j < 2; ++j)
+      ASSERT_TRUE(simulator.movePin({0, j}, start[static_cast<std::size_t>(j)] + frame * way));
     simulator.step();
     simulator.copyPositions(now);
     for (std::size_t n = 0; n < now.size(); ++n) ASSERT_LE((now[n] - start[n] - frame * way).norm(), 1e-12) << frame;

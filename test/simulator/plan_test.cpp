@@ -43,7 +43,8 @@ TEST(Plan, GravityAloneLeavesEverythingElseOut) {
   const Simulator simulator(flatScene(8, 6));
   const Plan plan = simulator.plan();
   EXPECT_TRUE(entryOf(plan, "warp").runs);
-  for (const char* const stage : {"normals", "air damping", "force field", "estimate", "budget", "obstacles", "self-contact"}) {
+  for (const char* const stage :
+       {"normals", "air damping", "force field", "estimate", "budget", "obstacles", "self-contact"}) {
     EXPECT_FALSE(entryOf(plan, stage).runs) << stage;
   }
 }
@@ -66,8 +67,8 @@ TEST(Plan, NamesWhatActsAndWhyTheOthersDoNot) {
   Simulator simulator(scene);
   simulator.setObstaclePresent(2, false);
   const Plan at_start = simulator.plan();
-  for (const char* const stage : {"wind 'near'", "normals", "air damping", "force field", "drag 'hand'", "obstacle 'near'",
-                                  "self-contact", "estimate", "budget"}) {
+  for (const char* const stage : {"wind 'near'", "normals", "air damping", "force field", "drag 'hand'",
+                                  "obstacle 'near'", "self-contact", "estimate", "budget"}) {
     EXPECT_TRUE(entryOf(at_start, stage).runs) << stage;
   }
   EXPECT_EQ(entryOf(at_start, "wind 'past'").why, "reaches nothing of the cloth");

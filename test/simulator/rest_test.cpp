@@ -53,8 +53,8 @@ void expectRest(const char* name, const Scene& scene, double allowed) {
     last = std::min(last, energy.kinetic + energy.potential);
     if (frame > 180) speed = std::max(speed, rmsSpeed(simulator));
   }
-  std::printf("%s: at most %.2f mm/s after 3 s, energy rises by at most %.1e J (of %.1e), %.2f ms a frame\n", name, 1e3 * speed,
-              rise, size, 1e3 * simulator.statistics().step_seconds_sum / 300.0);
+  std::printf("%s: at most %.2f mm/s after 3 s, energy rises by at most %.1e J (of %.1e), %.2f ms a frame\n", name,
+              1e3 * speed, rise, size, 1e3 * simulator.statistics().step_seconds_sum / 300.0);
   EXPECT_LT(speed, allowed);
   EXPECT_LE(rise, size);
   EXPECT_GT(simulator.statistics().contacts, 100);
@@ -114,8 +114,10 @@ Slope onASlope(double friction, double angle) {
   Simulator simulator(scene);
   const auto mean = [&](bool velocities) {
     std::vector<Vec3> values;
-    if (velocities) simulator.copyVelocities(values);
-    else simulator.copyPositions(values);
+    if (velocities)
+      simulator.copyVelocities(values);
+    else
+      simulator.copyPositions(values);
     double sum = 0.0;
     for (const Vec3& value : values) sum += value.x();
     return sum / static_cast<double>(values.size());
@@ -134,7 +136,8 @@ TEST(Rest, ASheetSlipsFromTheFrictionAngleOn) {
     for (const double share : {1.02, 1.3}) {
       const Slope above = onASlope(friction, share * angle);
       const double expected = 9.81 * (std::sin(share * angle) - friction * std::cos(share * angle));
-      EXPECT_NEAR(above.acceleration, expected, 0.02 * expected) << "friction " << friction << ", " << share << " of the angle";
+      EXPECT_NEAR(above.acceleration, expected, 0.02 * expected)
+          << "friction " << friction << ", " << share << " of the angle";
     }
   }
 }

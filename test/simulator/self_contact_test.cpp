@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Cloth never goes through itself: crumpled, gathered and blown, twisted; judged by brute force at every frame. And what
-// its contacts leave alone: momentum, and which way is left.
+// Cloth never goes through itself: crumpled, gathered and blown, twisted; judged by brute force at every frame. And
+// what its contacts leave alone: momentum, and which way is left.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The simulator as a whole: it conserves what it must, repeats itself to the bit, allocates nothing in a step, and holds
-// its links however the cloth is pinned.
+// The simulator as a whole: it conserves what it must, repeats itself to the bit, allocates nothing in a step, and
+// holds its links however the cloth is pinned.
 #include "curtain_sim/simulator.h"
 
 #include <gtest/gtest.h>
@@ -61,8 +61,8 @@ TEST(Simulator, AFreeSheetFallsFreely) {
   }
 }
 
-// A free cloth in still air keeps its momentum: forces between nodes come in pairs. The wind's push is taken back out by
-// comparing with the sum of the forces it reports; rounding only.
+// A free cloth in still air keeps its momentum: forces between nodes come in pairs. The wind's push is taken back out
+// by comparing with the sum of the forces it reports; rounding only.
 TEST(Simulator, AFreeClothKeepsItsMomentum) {
   Scene scene = sceneOf(12, 9);
   scene.pins.kind = PinKind::kNone;
@@ -224,9 +224,10 @@ TEST(Simulator, AFineMeshAllocatesNothing) {
   }
 }
 
-// A scene that is its own mirror image moves like it. The rows' solves run from left to right, so only rounding differs. The
-// strings' corrections are made in single precision: 6e-8 of moves of at most a hundredth of a link (4e-11 m), in some 100
-// substeps, growing by e a tenth of a second at most (the fastest free motion) over the half second looked at: 6e-8 m.
+// A scene that is its own mirror image moves like it. The rows' solves run from left to right, so only rounding
+// differs. The strings' corrections are made in single precision: 6e-8 of moves of at most a hundredth of a link (4e-11
+// m), in some 100 substeps, growing by e a tenth of a second at most (the fastest free motion) over the half second
+// looked at: 6e-8 m.
 TEST(Simulator, KeepsMirrorSymmetry) {
   Scene scene = sceneOf(20, 15);
   scene.hang.from = Vec3(-0.4, 0.0, 2.2);
@@ -253,7 +254,8 @@ TEST(Simulator, KeepsMirrorSymmetry) {
 }
 
 // What the tolerance leaves over must not become motion: a sheet dropped from its corners never has more energy than at
-// first (gravity is counted in it; what its snaps take out hides small rises from frame to frame). Bound: what a stretch of 1e-3 in the whole cloth is worth, m g L / 1000.
+// first (gravity is counted in it; what its snaps take out hides small rises from frame to frame). Bound: what a
+// stretch of 1e-3 in the whole cloth is worth, m g L / 1000.
 TEST(Simulator, ADroppedSheetNeverHasMoreEnergyThanAtFirst) {
   for (const int n : {5, 8, 12, 20, 30}) {
     for (const double turn : {0.0, -0.01, 0.01}) {  // one motion may be good by luck
@@ -301,7 +303,8 @@ TEST(Simulator, ASpringHoldsWithItsStiffness) {
       // The node's own weight is in the force too.
       pull += (force[11 * 12 + 6] + Vec3(0.0, 0.0, 9.81 * simulator.mass({11, 6}))) / 120.0;
     }
-    std::printf("substeps %d: %.4f N, stiffness times way %.4f N\n", substeps, pull.norm(), hand.stiffness * way.norm());
+    std::printf("substeps %d: %.4f N, stiffness times way %.4f N\n", substeps, pull.norm(),
+                hand.stiffness * way.norm());
     EXPECT_NEAR(pull.norm(), hand.stiffness * way.norm(), 0.05 * hand.stiffness * way.norm()) << substeps;
     EXPECT_GT(hand.stiffness * way.norm(), 0.1);
     // And the place does not depend on the substeps, but for the links' tolerance of 1 mm in the metre.
@@ -388,18 +391,20 @@ TEST_P(Pinning, HoldsItsLinksInWind) {
   EXPECT_EQ(pinned == 0, pins.kind == PinKind::kNone);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Everyway, Pinning,
-    ::testing::Values(PinCase{"Top", PinKind::kTop, false, {}}, PinCase{"Left", PinKind::kLeft, false, {}},
-                      PinCase{"TwoCorners", PinKind::kTopCorners, false, {}}, PinCase{"None", PinKind::kNone, false, {}},
-                      PinCase{"Listed", PinKind::kList, false, {{0, 0}, {0, 7}, {8, 15}}},
-                      PinCase{"OneNode", PinKind::kList, false, {{5, 5}}},
-                      PinCase{"ClosedTop", PinKind::kTop, true, {}}, PinCase{"ClosedNone", PinKind::kNone, true, {}},
-                      PinCase{"ClosedListed", PinKind::kList, true, {{0, 0}, {0, 8}}}),
-    [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(Everyway, Pinning,
+                         ::testing::Values(PinCase{"Top", PinKind::kTop, false, {}},
+                                           PinCase{"Left", PinKind::kLeft, false, {}},
+                                           PinCase{"TwoCorners", PinKind::kTopCorners, false, {}},
+                                           PinCase{"None", PinKind::kNone, false, {}},
+                                           PinCase{"Listed", PinKind::kList, false, {{0, 0}, {0, 7}, {8, 15}}},
+                                           PinCase{"OneNode", PinKind::kList, false, {{5, 5}}},
+                                           PinCase{"ClosedTop", PinKind::kTop, true, {}},
+                                           PinCase{"ClosedNone", PinKind::kNone, true, {}},
+                                           PinCase{"ClosedListed", PinKind::kList, true, {{0, 0}, {0, 8}}}),
+                         [](const auto& test) { return test.param.name; });
 
-// The least-step safety net: at one substep a frame the leapfrog solve of a tall cloth fails, is done again with smaller
-// steps, and is counted.
+// The least-step safety net: at one substep a frame the leapfrog solve of a tall cloth fails, is done again with
+// smaller steps, and is counted.
 TEST(Simulator, ASubstepThatFailsIsDoneAgainSmaller) {
   Scene scene = readSceneFile(std::string(CURTAIN_SOURCE_DIR) + "/test/scenes/swing.yaml").scene;
   scene.cloth.rows = 100;
@@ -431,7 +436,8 @@ TEST(Simulator, ImplicitIsStableFarBeyondTheLeapfrogLimit) {
   }
 }
 
-// At the cap of substeps auto has heavier nodes rather than a step too large for them: links hold, and it needs no last resort.
+// At the cap of substeps auto has heavier nodes rather than a step too large for them: links hold, and it needs no last
+// resort.
 TEST(Simulator, AtTheCapAutoHoldsWithHeavierNodes) {
   Scene scene = readSceneFile(std::string(CURTAIN_SOURCE_DIR) + "/test/scenes/swing.yaml").scene;
   scene.cloth.rows = 200;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Cloth that falls asleep and wakes: when nothing moves it, not a frame too late, and without anybody noticing. What it does
-// after waking is compared with the same cloth that never sleeps: a frame too late would put it off by a frame's way; the places
-// it slept in are off by the radius it may stay within, 5e-5 m, and what grows of that.
+// Cloth that falls asleep and wakes: when nothing moves it, not a frame too late, and without anybody noticing. What it
+// does after waking is compared with the same cloth that never sleeps: a frame too late would put it off by a frame's
+// way; the places it slept in are off by the radius it may stay within, 5e-5 m, and what grows of that.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,8 +21,8 @@ using curtain_test::flatScene;
 
 constexpr double kNotLate = 1e-3;  // [m]
 
-// A curtain of 1 m x 1 m, gathered a little, in air that damps what swings within a second. Short substeps: a force given from
-// outside acts from half a substep before on what moves (docs/method.md), not on what sleeps.
+// A curtain of 1 m x 1 m, gathered a little, in air that damps what swings within a second. Short substeps: a force
+// given from outside acts from half a substep before on what moves (docs/method.md), not on what sleeps.
 Scene hanging() {
   Scene scene = flatScene(16, 20);
   scene.hang.from = {0.0, 0.0, 1.2};
@@ -156,9 +156,9 @@ TEST(Sleep, CreepingClothIsLeftToArrive) {
 
 struct Cause {
   std::string name;
-  std::function<void(Scene&)> prepare;                 // the scene
-  std::function<void(Simulator&, int)> act;            // called before each frame after it slept; frames since then
-  double moves;                                        // at least so far within a second [m], or the cause is none
+  std::function<void(Scene&)> prepare;       // the scene
+  std::function<void(Simulator&, int)> act;  // called before each frame after it slept; frames since then
+  double moves;                              // at least so far within a second [m], or the cause is none
 };
 
 std::vector<Cause> causes() {
@@ -174,97 +174,160 @@ std::vector<Cause> causes() {
          WindParams wind = fan(0.0);
          wind.unsteadiness = 3.0;
          s.setWind(wind);
-       }), 0.005},
-      {"wind that ends", [](Scene& scene) { scene.wind.push_back(fan(3.0)); }, once([](Simulator& s) { s.removeWind("fan"); }), 0.02},
-      {"all winds gone", [](Scene& scene) { scene.wind.push_back(fan(3.0)); }, once([](Simulator& s) { s.clearWinds(); }), 0.02},
+       }),
+       0.005},
+      {"wind that ends", [](Scene& scene) { scene.wind.push_back(fan(3.0)); },
+       once([](Simulator& s) { s.removeWind("fan"); }), 0.02},
+      {"all winds gone", [](Scene& scene) { scene.wind.push_back(fan(3.0)); },
+       once([](Simulator& s) { s.clearWinds(); }), 0.02},
       {"wind that turns", [](Scene& scene) { scene.wind.push_back(fan(3.0)); }, once([](Simulator& s) {
          WindParams wind = fan(3.0);
          wind.direction = {0.0, 1.0, 0.5};
          s.setWind(wind);
-       }), 0.003},
-      {"scripted wind", [](Scene& scene) {
+       }),
+       0.003},
+      {"scripted wind",
+       [](Scene& scene) {
          scene.wind.push_back(fan(3.0));
          scene.wind[0].start = 6.005;
-       }, [](Simulator&, int) {}, 0.02},
-      {"scripted wind's end", [](Scene& scene) {
+       },
+       [](Simulator&, int) {}, 0.02},
+      {"scripted wind's end",
+       [](Scene& scene) {
          scene.wind.push_back(fan(3.0));
          scene.wind[0].end = 6.005;
-       }, [](Simulator&, int) {}, 0.02},
-      {"drag", nothing, once([](Simulator& s) { s.setDrag(pull({0.0, 0.05, 0.0})); }), 0.01},
+       },
+       [](Simulator&, int) {}, 0.02},
+      {"drag", nothing, once([](Simulator& s) {
+         s.setDrag(pull({0.0, 0.05, 0.0}));
+       }),
+       0.01},
       {"drag by a point", nothing, once([](Simulator& s) {
          DragParams drag = pull({0.0, 0.05, 0.0});
          drag.node.reset();
          drag.point = Vec3(0.5, 0.0, 0.2);
          s.setDrag(drag);
-       }), 0.01},
-      {"drag let go", [](Scene& scene) { scene.drag.push_back(pull({0.0, 0.05, 0.0})); }, once([](Simulator& s) { s.removeDrag("hand"); }), 0.01},
-      {"all drags gone", [](Scene& scene) { scene.drag.push_back(pull({0.0, 0.05, 0.0})); }, once([](Simulator& s) { s.clearDrags(); }), 0.01},
-      {"scripted drag", [](Scene& scene) {
+       }),
+       0.01},
+      {"drag let go",
+       [](Scene& scene) {
+         scene.drag.push_back(pull({0.0, 0.05, 0.0}));
+       },
+       once([](Simulator& s) { s.removeDrag("hand"); }), 0.01},
+      {"all drags gone",
+       [](Scene& scene) {
+         scene.drag.push_back(pull({0.0, 0.05, 0.0}));
+       },
+       once([](Simulator& s) { s.clearDrags(); }), 0.01},
+      {"scripted drag",
+       [](Scene& scene) {
          scene.drag.push_back(pull({0.0, 0.05, 0.0}));
          scene.drag[0].start = 6.01;
-       }, [](Simulator&, int) {}, 0.01},
-      {"pin", nothing, [](Simulator& s, int frame) {
+       },
+       [](Simulator&, int) {}, 0.01},
+      {"pin", nothing,
+       [](Simulator& s, int frame) {
          if (frame >= 0) s.movePin({0, 19}, Vec3(0.9 - 0.01 * std::min(frame + 1, 10), 0.0, 1.2));
-       }, 0.05},
-      {"obstacle", [](Scene& scene) { scene.obstacles.push_back(ballAt({0.5, -1.0, 0.6})); }, [](Simulator& s, int frame) {
+       },
+       0.05},
+      {"obstacle",
+       [](Scene& scene) {
+         scene.obstacles.push_back(ballAt({0.5, -1.0, 0.6}));
+       },
+       [](Simulator& s, int frame) {
          Pose pose;
          pose.position = {0.5, -1.0 + 0.02 * std::min(frame + 1, 50), 0.6};
          s.setObstaclePose(0, pose);
-       }, 0.1},
-      {"obstacle at 30 m/s", [](Scene& scene) { scene.obstacles.push_back(ballAt({0.5, -2.0, 0.6})); }, [](Simulator& s, int frame) {
+       },
+       0.1},
+      {"obstacle at 30 m/s",
+       [](Scene& scene) {
+         scene.obstacles.push_back(ballAt({0.5, -2.0, 0.6}));
+       },
+       [](Simulator& s, int frame) {
          Pose pose;
          pose.position = {0.5, -2.0 + 0.5 * std::min(frame + 1, 4), 0.6};
          s.setObstaclePose(0, pose);
-       }, 0.1},
-      {"bar that turns", [](Scene& scene) {
+       },
+       0.1},
+      {"bar that turns",
+       [](Scene& scene) {
          ObstacleParams bar;
          bar.name = "bar";
          bar.shape = ShapeKind::kBox;
          bar.size = {1.2, 0.05, 0.05};
          bar.pose.position = {0.5, -0.4, 0.6};
          scene.obstacles.push_back(bar);
-       }, [](Simulator& s, int frame) {
+       },
+       [](Simulator& s, int frame) {
          Pose pose;
          pose.position = {0.5, -0.4, 0.6};
          pose.orientation = Eigen::AngleAxisd(0.1 * std::min(frame + 1, 30), Vec3::UnitZ());
          s.setObstaclePose(0, pose);
-       }, 0.05},
-      {"obstacle that appears", [](Scene& scene) { scene.obstacles.push_back(ballAt({0.5, -0.13, 0.6})); }, [](Simulator& s, int frame) {
+       },
+       0.05},
+      {"obstacle that appears",
+       [](Scene& scene) {
+         scene.obstacles.push_back(ballAt({0.5, -0.13, 0.6}));
+       },
+       [](Simulator& s, int frame) {
          if (frame < 0) s.setObstaclePresent(0, false);
          if (frame == 0) s.setObstaclePresent(0, true);
-       }, 0.01},
-      {"obstacle that goes", [](Scene& scene) { scene.obstacles.push_back(ballAt({0.5, -0.1, 0.6})); }, once([](Simulator& s) {
-         s.setObstaclePresent(0, false);
-       }), 0.03},
-      {"obstacle that leaves", [](Scene& scene) { scene.obstacles.push_back(ballAt({0.5, -0.1, 0.6})); }, [](Simulator& s, int frame) {
+       },
+       0.01},
+      {"obstacle that goes",
+       [](Scene& scene) {
+         scene.obstacles.push_back(ballAt({0.5, -0.1, 0.6}));
+       },
+       once([](Simulator& s) { s.setObstaclePresent(0, false); }), 0.03},
+      {"obstacle that leaves",
+       [](Scene& scene) {
+         scene.obstacles.push_back(ballAt({0.5, -0.1, 0.6}));
+       },
+       [](Simulator& s, int frame) {
          Pose pose;
          pose.position = {0.5, -0.1 - 0.05 * std::min(std::max(frame + 1, 0), 20), 0.6};
          s.setObstaclePose(0, pose);
-       }, 0.03},
-      {"obstacle that is elsewhere at once", [](Scene& scene) { scene.obstacles.push_back(ballAt({0.5, -0.1, 0.6})); },
+       },
+       0.03},
+      {"obstacle that is elsewhere at once",
+       [](Scene& scene) {
+         scene.obstacles.push_back(ballAt({0.5, -0.1, 0.6}));
+       },
        once([](Simulator& s) {
          Pose pose;
          pose.position = {30.0, 0.0, 0.6};
          s.setObstaclePose(0, pose, true);
-       }), 0.03},
-      {"obstacle that jumps and goes", [](Scene& scene) { scene.obstacles.push_back(ballAt({0.5, -0.1, 0.6})); },
+       }),
+       0.03},
+      {"obstacle that jumps and goes",
+       [](Scene& scene) {
+         scene.obstacles.push_back(ballAt({0.5, -0.1, 0.6}));
+       },
        once([](Simulator& s) {
          Pose pose;
          pose.position = {30.0, 0.0, 0.6};
          s.setObstaclePose(0, pose, true);
          s.setObstaclePresent(0, false);
-       }), 0.03},
-      {"scripted obstacle", [](Scene& scene) {
+       }),
+       0.03},
+      {"scripted obstacle",
+       [](Scene& scene) {
          scene.obstacles.push_back(ballAt({0.5, -1.0, 0.6}));
          scene.obstacles[0].motion = {{6.0, scene.obstacles[0].pose}, {6.5, scene.obstacles[0].pose}};
          scene.obstacles[0].motion[1].pose.position.y() = 0.0;
-       }, [](Simulator&, int) {}, 0.05},
-      {"gravity", nothing, once([](Simulator& s) { s.setGravity({0.0, 1.0, -9.81}); }), 0.05},
+       },
+       [](Simulator&, int) {}, 0.05},
+      {"gravity", nothing, once([](Simulator& s) {
+         s.setGravity({0.0, 1.0, -9.81});
+       }),
+       0.05},
   };
 }
 
 struct Comparison {
-  double apart = 0.0;  // of the two within the first 12 frames; later on small differences have grown, whatever they came from [m]
+  double apart =
+      0.0;  // of the two within the first 12 frames; later on small differences have grown, whatever they came from [m]
   double late = 0.0;   // the same, over the way that the other goes in a frame
   double moved = 0.0;  // within a second [m]
 };
@@ -380,9 +443,9 @@ TEST(Sleep, RestsOnABallAndPressesOn) {
   EXPECT_EQ(simulator.statistics().contacts, contacts);
 }
 
-// Sleeping and waking take energy or leave it: never does any come from nowhere. No force but gravity acts, so between frames
-// the total may not rise by more than without sleeping (leapfrog's own wavering, and what links are let out by: a share of the
-// tolerance).
+// Sleeping and waking take energy or leave it: never does any come from nowhere. No force but gravity acts, so between
+// frames the total may not rise by more than without sleeping (leapfrog's own wavering, and what links are let out by:
+// a share of the tolerance).
 TEST(Sleep, GivesNoEnergyAndNoJump) {
   Scene scene = hanging();
   scene.drag.push_back(pull({0.0, 0.1, 0.0}));
@@ -481,11 +544,12 @@ TEST(Sleep, ColumnsOfARingSleepWhileOthersMove) {
 }
 
 TEST(Sleep, EveryMethodSleepsAndWakes) {
-  const Cause pulled{"pull", [](Scene&) {}, [](Simulator& s, int frame) {
+  const Cause pulled{"pull", [](Scene&) {},
+                     [](Simulator& s, int frame) {
                        if (frame == 0) s.setDrag(pull({0.0, 0.05, 0.0}));
-                     }, 0.01};
-  for (const Method method :
-       {Method::kAuto, Method::kLeapfrog, Method::kLeapfrog4, Method::kBdf2, Method::kImplicit}) {
+                     },
+                     0.01};
+  for (const Method method : {Method::kAuto, Method::kLeapfrog, Method::kLeapfrog4, Method::kBdf2, Method::kImplicit}) {
     for (const double tolerance : {0.0, 1e-3}) {
       Scene scene = hanging();
       scene.solver.method = method;

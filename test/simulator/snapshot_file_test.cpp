@@ -116,7 +116,8 @@ TEST_F(SnapshotFile, StaysAsItWasWhenThereIsNoRoom) {
   EXPECT_EQ(files(), 1U) << "the temporary file is gone";
 }
 
-// Killed in the middle of it: the system does that to who writes beyond the same limit and has not asked for an error instead.
+// Killed in the middle of it: the system does that to who writes beyond the same limit and has not asked for an error
+// instead.
 TEST_F(SnapshotFile, LeavesNothingWhenItsWriterIsKilled) {
   ASSERT_TRUE(writeSnapshotFile(path("a.snap"), "older").empty());
   // Where the file system has no files without names what was begun is left, under a name of its own.

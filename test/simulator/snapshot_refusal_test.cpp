@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What is no sound snapshot of this scene is refused, says why, and changes nothing, not one bit. What has been changed on
-// purpose, with its checksum put right, may be taken for a snapshot, but does no harm.
+// What is no sound snapshot of this scene is refused, says why, and changes nothing, not one bit. What has been changed
+// on purpose, with its checksum put right, may be taken for a snapshot, but does no harm.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -117,7 +117,8 @@ TEST_F(Refusal, IsNotForWhatIsSound) {
 TEST_F(Refusal, OfEveryBeginning) {
   for (std::size_t length = 0; length < snapshot_.size(); ++length) {
     SCOPED_TRACE(length);
-    ASSERT_NO_FATAL_FAILURE(expectRefused(snapshot_.substr(0, length), length == 0 ? "is no snapshot" : "is cut short"));
+    ASSERT_NO_FATAL_FAILURE(
+        expectRefused(snapshot_.substr(0, length), length == 0 ? "is no snapshot" : "is cut short"));
   }
   expectRefused(snapshot_ + '\0', "is too long");
 }
@@ -225,7 +226,8 @@ TEST_F(Refusal, OrNoHarmWhenTheChecksumIsRight) {
   const std::size_t end = first + parts.carried.size();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const double numbers[] = {kInfinity, -kInfinity, std::nan(""), 1e300, -1e300, 1e-300, 5e-324, 0.0, -0.0, -1.0, 1e9};
-  const std::uint64_t counts[] = {0, 1, ~std::uint64_t{0}, std::uint64_t{1} << 63, 1000, 1U << 31, 0xFFFFFFFFU, 0x100000001U};
+  const std::uint64_t counts[] = {0,    1,        ~std::uint64_t{0}, std::uint64_t{1} << 63,
+                                  1000, 1U << 31, 0xFFFFFFFFU,       0x100000001U};
   const int tries = std::getenv("CURTAIN_HOSTILE") != nullptr ? std::atoi(std::getenv("CURTAIN_HOSTILE")) : 600;
   Random random(2);
   int taken = 0, refused = 0;
@@ -233,7 +235,8 @@ TEST_F(Refusal, OrNoHarmWhenTheChecksumIsRight) {
     SCOPED_TRACE(k);
     std::string bytes = snapshot_;
     for (int changes = pick(random, 1, 3); changes > 0; --changes) {
-      const std::size_t at = first + static_cast<std::size_t>(random.between(0.0, static_cast<double>(end - first - 8)));
+      const std::size_t at =
+          first + static_cast<std::size_t>(random.between(0.0, static_cast<double>(end - first - 8)));
       const int kind = pick(random, 0, 3);
       if (kind == 0) std::memcpy(&bytes[at], &numbers[pick(random, 0, 10)], 8);
       if (kind == 1) std::memcpy(&bytes[at], &counts[pick(random, 0, 7)], 8);

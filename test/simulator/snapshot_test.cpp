@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Snapshots: what is restored goes on as what was saved, to the bit, whatever it is in the middle of.
-#include "simulator/snapshot_testing.h"
-
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
 #include "simulator/snapshot_format.h"
+#include "simulator/snapshot_testing.h"
 
 namespace curtain {
 namespace {
@@ -77,7 +76,9 @@ TEST(Snapshot, GoesOnWhilePartSleeps) {
     drag.id = "hand";
     drag.node = NodeIndex{15, 38};
     drag.force = {0.0, 0.02 + 1e-3 * frame, 0.0};
-    if (frame % 6 == 0) { EXPECT_TRUE(simulator.setDrag(drag).empty()); }
+    if (frame % 6 == 0) {
+      EXPECT_TRUE(simulator.setDrag(drag).empty());
+    }
   };
   Simulator scout(scene);
   int tried = 0;
@@ -102,9 +103,13 @@ TEST(Snapshot, GoesOnWhileAllSleeps) {
   life.saved_at = 100;
   life.end = 200;
   life.deeds = [](Simulator& simulator, int frame) {
-    if (frame == 150) { EXPECT_TRUE(simulator.setGravity({0.3, 0.0, -9.81}).empty()); }
+    if (frame == 150) {
+      EXPECT_TRUE(simulator.setGravity({0.3, 0.0, -9.81}).empty());
+    }
   };
-  life.other = [](Simulator& simulator, int frame) { EXPECT_TRUE(simulator.setGravity({0.1 * frame, 0.0, -9.81}).empty()); };
+  life.other = [](Simulator& simulator, int frame) {
+    EXPECT_TRUE(simulator.setGravity({0.1 * frame, 0.0, -9.81}).empty());
+  };
   Simulator scout(scene);
   run(scout, life.deeds, 0, life.saved_at);
   ASSERT_EQ(scout.statistics().asleep, scout.columns());
@@ -195,8 +200,8 @@ TEST(Snapshot, KeepsWhatHasBeenLookedAt) {
   EXPECT_EQ(before, after);
 }
 
-// What a snapshot carries, by name, type and count. When this fails, what is carried has changed: raise kSnapshotVersion
-// (src/simulator/snapshot_format.h) and write the new numbers here.
+// What a snapshot carries, by name, type and count. When this fails, what is carried has changed: raise
+// kSnapshotVersion (src/simulator/snapshot_format.h) and write the new numbers here.
 TEST(Snapshot, HasAVersionForEveryLayout) {
   Scene all = flatScene(4, 5);
   all.solver.position_tolerance = 1e-3;

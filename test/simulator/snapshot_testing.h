@@ -81,8 +81,9 @@ struct Reading {
 
   explicit Reading(const curtain::Simulator& of) {
     curtain::Plan entries = of.plan();
-    entries.erase(std::remove_if(entries.begin(), entries.end(), [](const auto& entry) { return entry.stage == "threads"; }),
-                  entries.end());
+    entries.erase(
+        std::remove_if(entries.begin(), entries.end(), [](const auto& entry) { return entry.stage == "threads"; }),
+        entries.end());
     plan = describe(entries);
     of.copyPositions(positions);
     of.copyVelocities(velocities);
@@ -126,8 +127,9 @@ inline void restoreOrFail(curtain::Simulator& simulator, const std::string& snap
   ASSERT_TRUE(problems.empty()) << describe(problems);
 }
 
-/// A simulator that is saved after so many frames, and what is to be done in the next one is known, goes on as one that never
-/// was; and so do one restored afresh and one that had another life before. The one that was saved is looked at all the time.
+/// A simulator that is saved after so many frames, and what is to be done in the next one is known, goes on as one that
+/// never was; and so do one restored afresh and one that had another life before. The one that was saved is looked at
+/// all the time.
 struct Life {
   Deeds deeds = doNothing;
   Deeds other = doNothing;  ///< of the life before
@@ -202,13 +204,18 @@ inline curtain::WindParams randomWind(Random& random, const std::string& id, dou
   return wind;
 }
 
-inline curtain::DragParams randomDrag(Random& random, const std::string& id, double start, const curtain::ClothParams& cloth) {
+inline curtain::DragParams randomDrag(Random& random, const std::string& id, double start,
+                                      const curtain::ClothParams& cloth) {
   curtain::DragParams drag;
   drag.id = id;
-  if (chance(random, 0.5)) drag.node = curtain::NodeIndex{pick(random, 0, cloth.rows - 1), pick(random, 0, cloth.columns - 1)};
-  else drag.point = curtain::Vec3(0.5, 0.0, 1.5) + random.inBox(0.5);
-  if (chance(random, 0.5)) drag.force = random.inBox(1.0);
-  else drag.target = curtain::Vec3(0.5, 0.0, 1.5) + random.inBox(0.7);
+  if (chance(random, 0.5))
+    drag.node = curtain::NodeIndex{pick(random, 0, cloth.rows - 1), pick(random, 0, cloth.columns - 1)};
+  else
+    drag.point = curtain::Vec3(0.5, 0.0, 1.5) + random.inBox(0.5);
+  if (chance(random, 0.5))
+    drag.force = random.inBox(1.0);
+  else
+    drag.target = curtain::Vec3(0.5, 0.0, 1.5) + random.inBox(0.7);
   drag.radius = chance(random, 0.5) ? 0.0 : random.between(0.0, 0.4);
   drag.start = start + (chance(random, 0.5) ? 0.0 : random.between(0.0, 0.3));
   if (chance(random, 0.4)) drag.end = drag.start + random.between(0.05, 0.5);
@@ -254,13 +261,16 @@ inline curtain::Scene randomScene(Random& random) {
   scene.hang.from = {0.0, 0.0, 2.0};
   scene.hang.to = {scene.cloth.closed || chance(random, 0.3) ? 1.0 : random.between(0.5, 0.98), 0.0, 2.0};
   scene.hang.tilt = scene.cloth.closed ? 0.0 : chance(random, 0.3) ? 0.0 : random.between(0.0, 1.5);
-  scene.pins.kind = chance(random, 0.7) ? PinKind::kTop : static_cast<PinKind>(pick(random, 0, scene.cloth.closed ? 0 : 3));
+  scene.pins.kind =
+      chance(random, 0.7) ? PinKind::kTop : static_cast<PinKind>(pick(random, 0, scene.cloth.closed ? 0 : 3));
   if (chance(random, 0.6)) scene.air.inside = scene.air.border = scene.air.corner = random.between(0.0, 3.0);
-  for (int n = pick(random, -1, 2); n > 0; --n) scene.wind.push_back(randomWind(random, "wind" + std::to_string(n), 0.0));
+  for (int n = pick(random, -1, 2); n > 0; --n)
+    scene.wind.push_back(randomWind(random, "wind" + std::to_string(n), 0.0));
   for (int n = pick(random, -1, 2); n > 0; --n) {
     scene.drag.push_back(randomDrag(random, "drag" + std::to_string(n), 0.0, scene.cloth));
   }
-  for (int n = pick(random, -1, 2); n > 0; --n) scene.obstacles.push_back(randomObstacle(random, "thing" + std::to_string(n)));
+  for (int n = pick(random, -1, 2); n > 0; --n)
+    scene.obstacles.push_back(randomObstacle(random, "thing" + std::to_string(n)));
   scene.contact.self = chance(random, 0.5);
   scene.contact.thickness = random.between(0.002, 0.02);
   scene.contact.friction = chance(random, 0.7) ? random.between(0.0, 1.0) : 0.0;
@@ -284,12 +294,21 @@ inline Deeds randomDeeds(std::uint64_t seed, double often) {
       const std::string id = std::to_string(pick(random, 1, 2));
       const int obstacle = simulator.obstacleCount() > 0 ? pick(random, 0, simulator.obstacleCount() - 1) : -1;
       switch (pick(random, 0, 10)) {
-        case 0: EXPECT_TRUE(simulator.setWind(randomWind(random, "wind" + id, now)).empty()); break;
-        case 1: simulator.removeWind("wind" + id); break;
-        case 2: EXPECT_TRUE(simulator.setDrag(randomDrag(random, "drag" + id, now, simulator.scene().cloth)).empty()); break;
-        case 3: simulator.removeDrag("drag" + id); break;
+        case 0:
+          EXPECT_TRUE(simulator.setWind(randomWind(random, "wind" + id, now)).empty());
+          break;
+        case 1:
+          simulator.removeWind("wind" + id);
+          break;
+        case 2:
+          EXPECT_TRUE(simulator.setDrag(randomDrag(random, "drag" + id, now, simulator.scene().cloth)).empty());
+          break;
+        case 3:
+          simulator.removeDrag("drag" + id);
+          break;
         case 4:
-          simulator.setGravity(chance(random, 0.2) ? Vec3(Vec3::Zero()) : Vec3(Vec3(0.0, 0.0, -9.0) + random.inBox(2.0)));
+          simulator.setGravity(chance(random, 0.2) ? Vec3(Vec3::Zero())
+                                                   : Vec3(Vec3(0.0, 0.0, -9.0) + random.inBox(2.0)));
           break;
         case 5: {
           curtain::AirParams air = simulator.scene().air;
@@ -297,7 +316,8 @@ inline Deeds randomDeeds(std::uint64_t seed, double often) {
           EXPECT_TRUE(simulator.setAir(air).empty());
           break;
         }
-        case 6: case 7:
+        case 6:
+        case 7:
           if (obstacle < 0) break;
           simulator.setObstaclePose(obstacle, randomPose(random), chance(random, 0.3));
           break;

@@ -54,8 +54,9 @@ TEST(Swing, EightSubstepsAreWithinATenthOfAMillimetre) {
   EXPECT_LT(r.warp_error_max, 1e-3);
 }
 
-// The same of chains that whip. From 150 degrees on they make 10 to 70 times as much of any disturbance as from 120, and from 170
-// long ones a million times: those are left out. Against 64 substeps of leapfrog4, which is exact to 1e-7 m there (Leapfrog4, order_test.cpp).
+// The same of chains that whip. From 150 degrees on they make 10 to 70 times as much of any disturbance as from 120,
+// and from 170 long ones a million times: those are left out. Against 64 substeps of leapfrog4, which is exact to 1e-7
+// m there (Leapfrog4, order_test.cpp).
 TEST(Swing, DefaultIsWithinAMillimetreFromEveryAngle) {
   for (const int rods : {2, 3, 5, 10, 20, 30, 43}) {
     for (const double degrees : {30.0, 60.0, 90.0, 120.0}) {

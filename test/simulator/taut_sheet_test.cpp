@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Sheets drawn nearly straight between two corners. Their strings pull many times the weight, in short substeps, and hang so
-// flat that what a link lacks comes out ten times as large across them.
+// Sheets drawn nearly straight between two corners. Their strings pull many times the weight, in short substeps, and
+// hang so flat that what a link lacks comes out ten times as large across them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,8 +14,8 @@ namespace {
 
 class TautSheet : public ::testing::TestWithParam<double> {};
 
-// Air takes speed at 1.2 / s: of the fall, some 3 m/s, 15 s leave 5e-8 m/s. What is left over in a substep is more, a share
-// of 0.3 (kShareOfWeight) of what weight does in it, if it did not sleep.
+// Air takes speed at 1.2 / s: of the fall, some 3 m/s, 15 s leave 5e-8 m/s. What is left over in a substep is more, a
+// share of 0.3 (kShareOfWeight) of what weight does in it, if it did not sleep.
 TEST_P(TautSheet, ComesToRest) {
   Scene scene;
   scene.cloth.rows = scene.cloth.columns = 24;

@@ -13,7 +13,12 @@ namespace {
 using namespace curtain_test;
 
 struct Scheme2 {
-  Scheme2() : scene(flatScene(3, 4)), pattern(makePattern(scene)), state(makeInitialState(scene, pattern)), inertia(pattern), scheme(pattern) {
+  Scheme2()
+      : scene(flatScene(3, 4)),
+        pattern(makePattern(scene)),
+        state(makeInitialState(scene, pattern)),
+        inertia(pattern),
+        scheme(pattern) {
     force.assign(pattern.grid.size(), 0.0);
     forces.force = &force;
   }

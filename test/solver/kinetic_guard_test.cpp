@@ -21,7 +21,11 @@ constexpr Scheme::Rules kRules = {false, false, 0.5, false};  // leapfrog's
 // Cloth that moves at 1 m/s along x, with no forces.
 struct Moving {
   explicit Moving(PinKind pins = PinKind::kNone)
-      : scene(sceneOf(pins)), pattern(makePattern(scene)), state(makeInitialState(scene, pattern)), inertia(pattern), guard(pattern, inertia, 1e-6, 0.1) {
+      : scene(sceneOf(pins)),
+        pattern(makePattern(scene)),
+        state(makeInitialState(scene, pattern)),
+        inertia(pattern),
+        guard(pattern, inertia, 1e-6, 0.1) {
     force.assign(pattern.grid.size(), 0.0);
     for (std::size_t n = 0; n < pattern.grid.size(); ++n) {
       if (pattern.inverse_mass[n] > 0.0) state.velocity.set(n, Vec3::UnitX());
@@ -56,7 +60,9 @@ struct Moving {
 
 TEST(KineticGuard, FindsWhatASubstepHasGained) {
   const Moving cloth;
-  const auto look = [&](double energy) { return cloth.guard.look(kRules, cloth.start(), cloth.end(std::sqrt(energy)), 0.0); };
+  const auto look = [&](double energy) {
+    return cloth.guard.look(kRules, cloth.start(), cloth.end(std::sqrt(energy)), 0.0);
+  };
   EXPECT_FALSE(std::isfinite(look(0.5).most));
   EXPECT_FALSE(std::isfinite(look(1.0).most));
   EXPECT_NEAR(look(1.2).most, cloth.guard.most(cloth.state.velocity, 0.0), 64.0 * kEps);
@@ -77,25 +83,28 @@ TEST(KineticGuard, PinsThatMoveApartMayPutEnergyIn) {
 // Pins that all move alike are the frame that energy is seen from: cloth that goes with them has none.
 TEST(KineticGuard, PinsThatMoveAlikePutNoneIn) {
   Moving cloth(PinKind::kTop);
-  for (int j = 0; j < cloth.pattern.grid.columns; ++j) cloth.state.velocity.set(cloth.pattern.grid.index(0, j), Vec3::UnitX());
+  for (int j = 0; j < cloth.pattern.grid.columns; ++j)
+    cloth.state.velocity.set(cloth.pattern.grid.index(0, j), Vec3::UnitX());
   const double free = cloth.freeMass();
   EXPECT_NEAR(cloth.guard.most(kRules, cloth.start(), cloth.end(1.0), 0.0), 0.0, 16.0 * kEps * free);
   EXPECT_TRUE(cloth.guard.look(kRules, cloth.start(), cloth.end(1.5), 0.0).jumps);
   EXPECT_TRUE(cloth.guard.look(kRules, cloth.start(), cloth.end(0.5), 0.0).jumps);
 }
 
-// A force that holds the cloth up: cloth at rest that goes against it, or with it further than it drives, has got that from nowhere.
+// A force that holds the cloth up: cloth at rest that goes against it, or with it further than it drives, has got that
+// from nowhere.
 TEST(KineticGuard, ForcesPutInTheirWork) {
   Moving cloth;
   const Field3 moving = cloth.state.velocity;
   cloth.state.velocity.assign(cloth.pattern.grid.size(), 0.0);
-  for (std::size_t n = 0; n < cloth.pattern.grid.size(); ++n) cloth.force.set(n, cloth.pattern.mass[n] / kStep * moving.at(n));
+  for (std::size_t n = 0; n < cloth.pattern.grid.size(); ++n)
+    cloth.force.set(n, cloth.pattern.mass[n] / kStep * moving.at(n));
   const auto look = [&](double speed) {
     Field3 end = cloth.state.position;
     for (std::size_t n = 0; n < cloth.pattern.grid.size(); ++n) end.add(n, speed * kStep * moving.at(n));
     return cloth.guard.look(kRules, cloth.start(), end, 0.0);
   };
-  EXPECT_FALSE(look(1.0).jumps);   // m v^2 / 2 = F v / 2 over the step
+  EXPECT_FALSE(look(1.0).jumps);  // m v^2 / 2 = F v / 2 over the step
   EXPECT_FALSE(look(0.5).jumps);
   EXPECT_TRUE(look(1.1).jumps);
   EXPECT_TRUE(look(-0.5).jumps);
@@ -112,7 +121,8 @@ TEST(KineticGuard, SlowsFreeNodesDownAndNotPins) {
   EXPECT_EQ(velocity.at(pin), Vec3(Vec3::Zero()));
 }
 
-// What links that can't hold pull is beyond all measure; and cloth at rest beside pins that move is slowed down by nothing.
+// What links that can't hold pull is beyond all measure; and cloth at rest beside pins that move is slowed down by
+// nothing.
 TEST(KineticGuard, BoundsWhatIsBeyondMeasure) {
   Moving cloth;
   const double most = 0.25 * cloth.freeMass();

@@ -27,7 +27,10 @@ Scene sceneOf(int rows, int columns, PinKind pins, bool closed) {
 
 struct Net {
   explicit Net(const Scene& scene, int threads = 1)
-      : pattern(makePattern(scene)), state(makeInitialState(scene, pattern)), workers(threads), solver(pattern, workers) {
+      : pattern(makePattern(scene)),
+        state(makeInitialState(scene, pattern)),
+        workers(threads),
+        solver(pattern, workers) {
     warp.assign(pattern.grid);
     weft.assign(pattern.grid);
     violation.assign(pattern.grid.size(), 0.0);
@@ -36,7 +39,8 @@ struct Net {
   }
   void setDirections() {
     setWarpDirections(pattern.grid, state.position, warp.direction);
-    for (int i = 0; i < pattern.grid.rows; ++i) setWeftDirections(pattern.grid, i, span(), state.position, weft.direction);
+    for (int i = 0; i < pattern.grid.rows; ++i)
+      setWeftDirections(pattern.grid, i, span(), state.position, weft.direction);
     solver.begin(state.position, pattern.inverse_mass, span());
   }
   void shake(double size, unsigned seed) { curtain_test::shake(pattern, size, seed, state.position); }
@@ -125,7 +129,8 @@ TEST_P(NetSolverOf, GivesWhatADenseSolveGives) {
   ASSERT_GT(strings.size(), 10U);
   ASSERT_LT(strings.size(), net.pattern.grid.nodeCount() - 7);
   const double rest = net.pattern.weft_rest[1];
-  const NetSolver::Outcome outcome = net.solver.solve(net.violation, net.active, {}, {worst * rest, 0.0, 1e-7, 200}, net.change);
+  const NetSolver::Outcome outcome =
+      net.solver.solve(net.violation, net.active, {}, {worst * rest, 0.0, 1e-7, 200}, net.change);
   EXPECT_LT(outcome.reduction, 1e-5);
   const double size = expected.head(static_cast<Eigen::Index>(strings.size())).cwiseAbs().maxCoeff();
   for (std::size_t p = 0; p < strings.size(); ++p) {
@@ -133,8 +138,8 @@ TEST_P(NetSolverOf, GivesWhatADenseSolveGives) {
   }
 }
 
-// The linear complementarity problem that one-sided strings pose: none ends pushing, none too long, and those that are left short pull
-// no more. To what was asked of the residual: 1e-4 of the longest.
+// The linear complementarity problem that one-sided strings pose: none ends pushing, none too long, and those that are
+// left short pull no more. To what was asked of the residual: 1e-4 of the longest.
 TEST_P(NetSolverOf, FindsWhichStringsPull) {
   Net net(sceneOf(7, 9, PinKind::kTop, GetParam()));
   net.shake(0.02, 8);
@@ -142,8 +147,8 @@ TEST_P(NetSolverOf, FindsWhichStringsPull) {
   const double worst = net.measure();
   const double reduction = 1e-4;
   const double rest = net.pattern.weft_rest[1];
-  const NetSolver::Outcome outcome =
-      net.solver.solve(net.violation, net.active, {}, {worst * rest, 0.0, reduction, 400, &net.weft.multiplier}, net.change);
+  const NetSolver::Outcome outcome = net.solver.solve(
+      net.violation, net.active, {}, {worst * rest, 0.0, reduction, 400, &net.weft.multiplier}, net.change);
   ASSERT_LE(outcome.reduction, reduction);
   // What is left of all violations when the rods answer, by the dense matrix.
   std::fill(net.active.begin(), net.active.end(), 1.0);
@@ -200,7 +205,8 @@ TEST_P(NetSolverOf, ShortensLongLinksAndOnlyPulls) {
     for (int block = 0; block < warpBlockCount(net.pattern.grid); ++block) warpNewton(rods, scratch, block);
     const double worst = net.measure();
     if (worst < 1e-9) break;
-    net.solver.solve(net.violation, net.active, {}, {worst * net.pattern.weft_rest[1], 0.05 * worst, 0.1, 20}, net.change);
+    net.solver.solve(net.violation, net.active, {}, {worst * net.pattern.weft_rest[1], 0.05 * worst, 0.1, 20},
+                     net.change);
     net.take();
   }
   EXPECT_LT(weftStretch(net.pattern, net.state.position), kWeftCompliance * 0.2 * 24);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What the paper's scheme promises, whatever it is given: rods that keep their length, momentum, energy that is bounded at any
-// step, and pins that move evenly. Whole scenes: test/simulator/paper_test.cpp.
+// What the paper's scheme promises, whatever it is given: rods that keep their length, momentum, energy that is bounded
+// at any step, and pins that move evenly. Whole scenes: test/simulator/paper_test.cpp.
+#include "solver/schemes/paper_solver.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +13,6 @@
 #include <string>
 #include <vector>
 
-#include "solver/schemes/paper_solver.h"
 #include "testing.h"
 
 namespace curtain {
@@ -29,7 +30,8 @@ struct Pinning {
   std::vector<NodeIndex> nodes;
 };
 
-// The last ones: free above and below, two and more pins in a column with one rod, some and an odd number between them, whole columns.
+// The last ones: free above and below, two and more pins in a column with one rod, some and an odd number between them,
+// whole columns.
 const std::vector<Pinning>& pinnings() {
   static const std::vector<Pinning> all = {
       {"top", PinKind::kTop, {}},
@@ -63,7 +65,9 @@ struct Bench {
     }
   }
   void stir(Random& random, double speed) {
-    forEachNode([&](std::size_t n) { if (pattern.inverse_mass[n] > 0.0) state.velocity.set(n, random.inBox(speed)); });
+    forEachNode([&](std::size_t n) {
+      if (pattern.inverse_mass[n] > 0.0) state.velocity.set(n, random.inBox(speed));
+    });
   }
   // What is not accepted is not made: the cloth stops, as in a frame (simulator/frame_loop.cpp).
   bool substep(double h) {
@@ -116,7 +120,8 @@ struct Bench {
   StageClock clock;
 };
 
-// Random forces up to 1000 times the weight, at steps from fine to far too coarse. Rods are rounded as coordinates of 1 m are.
+// Random forces up to 1000 times the weight, at steps from fine to far too coarse. Rods are rounded as coordinates of 1
+// m are.
 TEST(PaperSolver, RodsKeepTheirLengthWhateverPulls) {
   for (const Pinning& pins : pinnings()) {
     for (const double h : {1e-3, 1.0 / 60.0, 0.2}) {
@@ -125,7 +130,8 @@ TEST(PaperSolver, RodsKeepTheirLengthWhateverPulls) {
       bench.stir(random, 3.0);
       for (int step = 0; step < 200; ++step) {
         const double pull = std::pow(10.0, random.between(-1.0, 3.0));
-        bench.forEachNode([&](std::size_t n) { bench.force.set(n, 9.81 * pull * bench.pattern.mass[n] * random.inBox(1.0)); });
+        bench.forEachNode(
+            [&](std::size_t n) { bench.force.set(n, 9.81 * pull * bench.pattern.mass[n] * random.inBox(1.0)); });
         bench.substep(h);
         double size = 1.0;  // [m]; loose columns may be far away
         bench.forEachNode([&](std::size_t n) { size = std::max(size, bench.state.position.at(n).norm()); });
@@ -135,8 +141,8 @@ TEST(PaperSolver, RodsKeepTheirLengthWhateverPulls) {
   }
 }
 
-// The one rod between two pins that one pass can't keep: both its ends hang from a pin by rods that are kept, so it is no longer
-// than the pins are apart and those rods together.
+// The one rod between two pins that one pass can't keep: both its ends hang from a pin by rods that are kept, so it is
+// no longer than the pins are apart and those rods together.
 TEST(PaperSolver, TheRodBetweenTwoPinsIsBounded) {
   const Pinning pins{"two", PinKind::kList, {{2, 3}, {9, 3}}};
   Bench bench(pins);
@@ -150,8 +156,8 @@ TEST(PaperSolver, TheRodBetweenTwoPinsIsBounded) {
   }
 }
 
-// Weight alone, pins at rest: the energy stays below what it was and the potential energy, the worst of which is the cloth on its
-// head: rods and wefts do no work. Rounding: of sums of n terms of size m g x 1 m.
+// Weight alone, pins at rest: the energy stays below what it was and the potential energy, the worst of which is the
+// cloth on its head: rods and wefts do no work. Rounding: of sums of n terms of size m g x 1 m.
 TEST(PaperSolver, WeightAloneNeverRaisesTheEnergy) {
   const Vec3 gravity(0.0, 0.0, -9.81);
   for (const Pinning& pins : pinnings()) {
@@ -232,7 +238,8 @@ TEST(PaperSolver, MovedPinsGoEvenly) {
     for (int step = 1; step <= 16; ++step) {
       ASSERT_TRUE(bench.substep(h));
       forEachPin([&](std::size_t n) {
-        EXPECT_LE((bench.state.position.at(n) - start.at(n) - step * h * velocity).norm(), 16 * kEps * 2.0) << pins.name;
+        EXPECT_LE((bench.state.position.at(n) - start.at(n) - step * h * velocity).norm(), 16 * kEps * 2.0)
+            << pins.name;
         EXPECT_EQ(bench.state.velocity.at(n), velocity);
       });
       EXPECT_LE(bench.rodError(), 1e-12) << pins.name;

@@ -122,7 +122,8 @@ TEST(Sweeps, RodsThatTurnedOverDivergeButNotInTheLastResort) {
 TEST(Sweeps, NumbersThatAreNotFiniteDiverge) {
   for (const bool last_resort : {false, true}) {
     Solve solve(cloth(PinKind::kTop));
-    solve.constraints.next.set(solve.pattern.grid.index(3, 3), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+    solve.constraints.next.set(solve.pattern.grid.index(3, 3),
+                               Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
     const SweepOutcome outcome = solve.run(last_resort);
     EXPECT_EQ(outcome.end, SweepEnd::kDiverged);
     EXPECT_FALSE(outcome.within);

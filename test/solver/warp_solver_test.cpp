@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The rods alone come to their lengths, along the directions given.
+#include "solver/warp_solver.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "solver/warp_solver.h"
 #include "testing.h"
 
 namespace curtain {
@@ -21,8 +22,7 @@ Scene sceneOf(int rows, int columns, PinKind pins) {
 }
 
 struct Bench {
-  explicit Bench(const Scene& scene)
-      : pattern(makePattern(scene)), state(makeInitialState(scene, pattern)) {
+  explicit Bench(const Scene& scene) : pattern(makePattern(scene)), state(makeInitialState(scene, pattern)) {
     warp.assign(pattern.grid);
     scratch.assign(pattern.grid);
     setWarpDirections(pattern.grid, state.position, warp.direction);
@@ -84,7 +84,8 @@ TEST(WarpSolver, MovesAlongTheGivenDirections) {
   for (int iteration = 0; iteration < 3; ++iteration) bench.newton();
   const Field3 solved = bench.state.position;
   bench.state.position = before;
-  for (int block = 0; block < warpBlockCount(bench.pattern.grid); ++block) applyWarpMultipliers(bench.warpLine(), block);
+  for (int block = 0; block < warpBlockCount(bench.pattern.grid); ++block)
+    applyWarpMultipliers(bench.warpLine(), block);
   for (std::size_t n = 0; n < bench.pattern.grid.size(); ++n) {
     EXPECT_LT((bench.state.position.at(n) - solved.at(n)).norm(), 1e-14);
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The demo for hours, as fast as it goes: the curtain, the ball that swings through it, the fan that sweeps over it
-// (scripts/demo_motion), and at the end of every interval half a minute of quiet. A line of CSV an interval: what grows, slows
-// down or drifts shows in its column. Exit code 1: something did.
+// (scripts/demo_motion), and at the end of every interval half a minute of quiet. A line of CSV an interval: what
+// grows, slows down or drifts shows in its column. Exit code 1: something did.
 //
 //   soak SCENE.yaml [--hours H] [--interval SECONDS] [--out FILE.csv]
 #include <malloc.h>
@@ -26,8 +26,8 @@ namespace {
 using namespace curtain;
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kQuiet = 30.0;      // at the end of an interval [s]
-constexpr int kFramesPerFan = 6;     // the fan is told ten times a second
+constexpr double kQuiet = 30.0;   // at the end of an interval [s]
+constexpr int kFramesPerFan = 6;  // the fan is told ten times a second
 
 struct Options {
   std::string scene, out;
@@ -44,15 +44,21 @@ Options readOptions(int argc, char** argv) {
       std::cerr << "soak: " << word << " needs a value\n";
       std::exit(2);
     };
-    if (word == "--hours") options.hours = std::strtod(value().c_str(), nullptr);
-    else if (word == "--interval") options.interval = std::strtod(value().c_str(), nullptr);
-    else if (word == "--out") options.out = value();
-    else if (word.rfind("--", 0) != 0 && options.scene.empty()) options.scene = word;
-    else std::cerr << "soak: unknown option " << word << "\n", std::exit(2);
+    if (word == "--hours")
+      options.hours = std::strtod(value().c_str(), nullptr);
+    else if (word == "--interval")
+      options.interval = std::strtod(value().c_str(), nullptr);
+    else if (word == "--out")
+      options.out = value();
+    else if (word.rfind("--", 0) != 0 && options.scene.empty())
+      options.scene = word;
+    else
+      std::cerr << "soak: unknown option " << word << "\n", std::exit(2);
   }
   if (options.scene.empty()) std::cerr << "soak: a scene is needed\n", std::exit(2);
   if (!(options.hours > 0.0 && options.hours < 1e6)) std::cerr << "soak: --hours must be in (0, 1e6)\n", std::exit(2);
-  if (!(options.interval >= 2.0 * kQuiet)) std::cerr << "soak: --interval must be " << 2.0 * kQuiet << " s at least\n", std::exit(2);
+  if (!(options.interval >= 2.0 * kQuiet))
+    std::cerr << "soak: --interval must be " << 2.0 * kQuiet << " s at least\n", std::exit(2);
   return options;
 }
 
@@ -139,7 +145,8 @@ Row soakInterval(double seconds, const std::vector<Vec3>& start, Simulator& simu
   simulator.copyPositions(values);
   for (int j = 0; j < simulator.columns(); ++j) {
     if (simulator.pinned({0, j})) {
-      row.pin_drift = std::max(row.pin_drift, (values[static_cast<std::size_t>(j)] - start[static_cast<std::size_t>(j)]).norm());
+      row.pin_drift =
+          std::max(row.pin_drift, (values[static_cast<std::size_t>(j)] - start[static_cast<std::size_t>(j)]).norm());
     }
   }
   row.resident_kb = residentMemory();
@@ -158,8 +165,8 @@ const char* const kHeader =
 std::string line(const Row& row) {
   char text[512];
   std::snprintf(text, sizeof text, "%.4f,%.4f,%.3f,%.3f,%.3g,%.6f,%.3g,%.3g,%.3g,%ld,%zu,%lld,%lld,%lld,%d", row.hours,
-                row.median_ms, row.longest_ms, row.sweeps, row.stretch, row.rest_height, row.rest_speed, row.rest_stretch,
-                row.pin_drift, row.resident_kb, row.heap_kb, static_cast<long long>(row.unsettled),
+                row.median_ms, row.longest_ms, row.sweeps, row.stretch, row.rest_height, row.rest_speed,
+                row.rest_stretch, row.pin_drift, row.resident_kb, row.heap_kb, static_cast<long long>(row.unsettled),
                 static_cast<long long>(row.last_resort), static_cast<long long>(row.stops), row.finite ? 1 : 0);
   return text;
 }
@@ -182,9 +189,13 @@ int judge(const std::vector<Row>& rows) {
     return least;
   };
   must(fastestOf(rows.size() / 2, rows.size()) <= 1.5 * fastestOf(0, rows.size() / 2), "frames take longer");
-  const auto bad = [](const Row& row) { return row.stretch > 1e-2 || row.rest_speed > 1e-3 || row.stops > 0 || !row.finite; };
-  must(std::none_of(rows.begin(), rows.end(), bad), "an interval has long links, no rest at its end, a stop or numbers that are none");
-  // Rows of the table and the folds' scratch are all that may come: a leak of a byte a frame would be 35 kB in an interval.
+  const auto bad = [](const Row& row) {
+    return row.stretch > 1e-2 || row.rest_speed > 1e-3 || row.stops > 0 || !row.finite;
+  };
+  must(std::none_of(rows.begin(), rows.end(), bad),
+       "an interval has long links, no rest at its end, a stop or numbers that are none");
+  // Rows of the table and the folds' scratch are all that may come: a leak of a byte a frame would be 35 kB in an
+  // interval.
   must(late.heap_kb <= early.heap_kb + 64 * rows.size() / 10 + 64, "the heap has grown");
   must(late.resident_kb <= early.resident_kb + 2048, "resident memory has grown by more than 2 MB");
   must(std::abs(late.sweeps / early.sweeps - 1.0) <= 0.1, "a frame takes another number of sweeps");

@@ -14,18 +14,21 @@
 
 namespace curtain_test {
 
-/// One torture. Whatever it does is a function of the frame and of its random numbers, so it can be repeated to the bit.
+/// One torture. Whatever it does is a function of the frame and of its random numbers, so it can be repeated to the
+/// bit.
 struct Torture {
   curtain::Scene scene;
   double seconds = 3.0;  ///< of torture; it ends at the first frame's end that is there
-  /// Before the first frame, before each of the torture's frames, and when it is over: takes away what it has put there.
+  /// Before the first frame, before each of the torture's frames, and when it is over: takes away what it has put
+  /// there.
   std::function<void(curtain::Simulator&)> begin;
   std::function<void(curtain::Simulator&, int frame, Random&)> torment;
   std::function<void(curtain::Simulator&)> end;
-  /// Largest relative overlength of a link, and shortness of a rod, at any of the torture's frames' ends. Default: within the tolerance (substeps that do
-  /// not settle may leave more, and are counted).
+  /// Largest relative overlength of a link, and shortness of a rod, at any of the torture's frames' ends. Default:
+  /// within the tolerance (substeps that do not settle may leave more, and are counted).
   double stretch_during = 2e-3;
-  /// Rise of the energy that nobody has put in, over m g H, the kinetic energy meanwhile and the works of the last 60 frames.
+  /// Rise of the energy that nobody has put in, over m g H, the kinetic energy meanwhile and the works of the last 60
+  /// frames.
   double energy_gain = kSchemeGain;
   /// Kinetic energy over m g H, where links pull by no known force and the works of pins tell nothing.
   double kinetic = std::numeric_limits<double>::infinity();
@@ -41,13 +44,14 @@ struct Torture {
 /// A torture by its name.
 struct TortureCase {
   std::string name;
-  std::string what;                 ///< for the table, one line
+  std::string what;  ///< for the table, one line
   std::function<Torture()> make;
-  bool quick = true;                ///< part of the short form
-  bool all_methods = true;          ///< sensible for all
+  bool quick = true;        ///< part of the short form
+  bool all_methods = true;  ///< sensible for all
 };
 
-/// Cloth of 1 m x 1 m and 0.2 kg/m^2 that hangs by its top row, in air that brings it to rest: all tortures start from it.
+/// Cloth of 1 m x 1 m and 0.2 kg/m^2 that hangs by its top row, in air that brings it to rest: all tortures start from
+/// it.
 curtain::Scene tortureScene(int rows = 12, int columns = 10);
 
 // By what is tortured, one file each.

@@ -39,8 +39,9 @@ Torture withObstacle(ShapeKind shape, bool self) {
 Torture ballThrough(double speed, bool self) {
   Torture torture = withObstacle(ShapeKind::kSphere, self);
   torture.torment = [=](Simulator& simulator, int frame, Random&) {
-    simulator.setObstaclePose(0, poseOf(Vec3(0.5, std::remainder(-1.0 + speed * (frame + 1) / 60.0, 2.0), 1.4)),
-                              std::remainder(-1.0 + speed * (frame + 1) / 60.0, 2.0) < std::remainder(-1.0 + speed * frame / 60.0, 2.0));
+    simulator.setObstaclePose(
+        0, poseOf(Vec3(0.5, std::remainder(-1.0 + speed * (frame + 1) / 60.0, 2.0), 1.4)),
+        std::remainder(-1.0 + speed * (frame + 1) / 60.0, 2.0) < std::remainder(-1.0 + speed * frame / 60.0, 2.0));
   };
   return torture;
 }
@@ -73,7 +74,8 @@ Torture teleports(ShapeKind shape, bool self) {
   Torture torture = withObstacle(shape, self);
   torture.torment = [](Simulator& simulator, int frame, Random& random) {
     if (frame % 5 != 0) return;
-    simulator.setObstaclePose(0, poseOf(Vec3(0.5, 0.0, 1.5) + random.inBox(0.5), random.between(0.0, 6.0), random.direction()), true);
+    simulator.setObstaclePose(
+        0, poseOf(Vec3(0.5, 0.0, 1.5) + random.inBox(0.5), random.between(0.0, 6.0), random.direction()), true);
   };
   torture.stretch_during = std::numeric_limits<double>::infinity();  // it appears in the cloth
   torture.energy_gain = std::numeric_limits<double>::infinity();
@@ -123,8 +125,10 @@ void addContactTortures(std::vector<TortureCase>& cases) {
   cases.push_back({"bar at 1 rev/s", "beside the cloth, into it", [] { return spinningBar(1.0); }});
   cases.push_back({"bar at 50 rev/s", "", [] { return spinningBar(50.0); }});
   cases.push_back({"straight row by a ball", "1 cm off its plane", straightRowBeside});
-  cases.push_back({"ball that appears", "anywhere, every fifth frame", [] { return teleports(ShapeKind::kSphere, false); }});
-  cases.push_back({"box that appears", "anywhere, every fifth frame, self-contact", [] { return teleports(ShapeKind::kBox, true); }});
+  cases.push_back(
+      {"ball that appears", "anywhere, every fifth frame", [] { return teleports(ShapeKind::kSphere, false); }});
+  cases.push_back({"box that appears", "anywhere, every fifth frame, self-contact",
+                   [] { return teleports(ShapeKind::kBox, true); }});
   cases.push_back({"crumpled", "rail gathered and spread, winds from everywhere, self-contact", crumple});
   cases.push_back({"dropped on a box", "self-contact", [] { return freeFallOnto(ShapeKind::kBox); }});
   cases.push_back({"dropped on a plane", "self-contact", [] { return freeFallOnto(ShapeKind::kPlane); }});

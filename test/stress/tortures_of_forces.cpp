@@ -51,8 +51,10 @@ Torture jerk(double newton, bool once) {
     drag.id = "hand";
     drag.node = NodeIndex{11, 4};
     drag.force = newton * (once ? Vec3(0.0, 1.0, 0.0) : random.direction());
-    if (frame % 60 == 10 || (!once && frame % 7 == 0)) simulator.setDrag(drag);
-    else simulator.clearDrags();
+    if (frame % 60 == 10 || (!once && frame % 7 == 0))
+      simulator.setDrag(drag);
+    else
+      simulator.clearDrags();
   };
   torture.end = [](Simulator& simulator) { simulator.clearDrags(); };
   return torture;
@@ -76,7 +78,8 @@ Torture springFromAfar() {
 
 Torture inAir(double coefficient) {
   Torture torture;
-  // What the engine lets be (kTooMuch in keep_energy.cpp), and as much below the start again, where leapfrog's energy wavers to.
+  // What the engine lets be (kTooMuch in keep_energy.cpp), and as much below the start again, where leapfrog's energy
+  // wavers to.
   torture.energy_gain = 5e-2;
   torture.seconds = coefficient > 0.0 ? 3.0 : 60.0;
   torture.scene = tortureScene();
@@ -114,7 +117,10 @@ Torture gravityFlips(double strength, int frames) {
   torture.gravity_changes = true;
   torture.scene = tortureScene();
   torture.torment = [=](Simulator& simulator, int frame, Random& random) {
-    if (frame % frames == 0) simulator.setGravity(strength * (random.between(0.0, 1.0) < 0.5 ? random.direction() : Vec3(0.0, 0.0, (frame / frames) % 2 == 0 ? 1.0 : -1.0)));
+    if (frame % frames == 0)
+      simulator.setGravity(strength * (random.between(0.0, 1.0) < 0.5
+                                           ? random.direction()
+                                           : Vec3(0.0, 0.0, (frame / frames) % 2 == 0 ? 1.0 : -1.0)));
   };
   torture.end = [](Simulator& simulator) { simulator.setGravity(Vec3(0.0, 0.0, -9.81)); };
   return torture;

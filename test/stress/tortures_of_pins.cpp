@@ -61,7 +61,8 @@ Torture vibrate(double way) {
   Torture torture;
   torture.scene = tortureScene();
   torture.torment = [=](Simulator& simulator, int frame, Random&) {
-    movePins(simulator, [&](int, const Vec3& home) { return Vec3(home + Vec3(0.0, way, way) * (frame % 2 == 0 ? 1.0 : -1.0)); });
+    movePins(simulator,
+             [&](int, const Vec3& home) { return Vec3(home + Vec3(0.0, way, way) * (frame % 2 == 0 ? 1.0 : -1.0)); });
   };
   torture.end = bringHome;
   return torture;
@@ -120,7 +121,8 @@ Torture straightRowThatTouchesItself() {
 Torture straightRowOfTremblingPins(double way) {
   Torture torture = straightRow(12, 10, 1.0);
   torture.torment = [=](Simulator& simulator, int frame, Random&) {
-    movePins(simulator, [&](int, const Vec3& home) { return Vec3(home + Vec3(0.0, frame % 2 == 0 ? way : -way, 0.0)); });
+    movePins(simulator,
+             [&](int, const Vec3& home) { return Vec3(home + Vec3(0.0, frame % 2 == 0 ? way : -way, 0.0)); });
   };
   return torture;
 }
@@ -159,15 +161,18 @@ Torture notPinned() {
 }  // namespace
 
 void addPinTortures(std::vector<TortureCase>& cases) {
-  cases.push_back({"pins jump by 1 m", "all together, three times a second, each within a frame", [] { return jump(1.0); }});
+  cases.push_back(
+      {"pins jump by 1 m", "all together, three times a second, each within a frame", [] { return jump(1.0); }});
   cases.push_back({"pins jump by 100 m", "", [] { return jump(100.0); }});
   cases.push_back({"rail at 1 rev/s", "about its middle", [] { return spin(1.0); }});
   cases.push_back({"rail at 50 rev/s", "ends at 157 m/s", [] { return spin(50.0); }});
   cases.push_back({"pins vibrate", "by 5 cm, to and fro every frame", [] { return vibrate(0.05); }});
   cases.push_back({"every pin for itself", "by up to 5 cm from its place, every frame", everyPinForItself});
-  cases.push_back({"pulled apart by 1 %", "corners further apart than the cloth is wide", [] { return pulledApart(1.01); }});
+  cases.push_back(
+      {"pulled apart by 1 %", "corners further apart than the cloth is wide", [] { return pulledApart(1.01); }});
   cases.push_back({"pulled apart by half", "", [] { return pulledApart(1.5); }});
-  cases.push_back({"straight row", "corners exactly as far apart as the cloth is wide, 12 x 10", [] { return straightRow(12, 10, 1.0); }});
+  cases.push_back({"straight row", "corners exactly as far apart as the cloth is wide, 12 x 10",
+                   [] { return straightRow(12, 10, 1.0); }});
   cases.push_back({"straight row of 5 x 5", "", [] { return straightRow(5, 5, 1.0); }});
   cases.push_back({"nearly straight row", "0.9999 of the width", [] { return straightRow(12, 10, 0.9999); }});
   cases.push_back({"straight row and self-contact", "nothing touches", straightRowThatTouchesItself});

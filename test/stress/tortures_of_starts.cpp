@@ -62,12 +62,15 @@ constexpr double kAside = 1e-3;  // [m]
 
 // Rods down and up again by turns: all reversed, nodes of every second row in one place.
 Torture folded() {
-  return startWith([](int i, int j, Random&, Vec3& position, Vec3&) { position = Vec3(j / 9.0, kAside * (i % 3), 2.0 - (i % 2) / 11.0); });
+  return startWith([](int i, int j, Random&, Vec3& position, Vec3&) {
+    position = Vec3(j / 9.0, kAside * (i % 3), 2.0 - (i % 2) / 11.0);
+  });
 }
 
 // Upwards from the pins, upside down: as unstable as can be.
 Torture onItsHead() {
-  return startWith([](int i, int j, Random&, Vec3& position, Vec3&) { position = Vec3(j / 9.0, kAside * i, 2.0 + i / 11.0); });
+  return startWith(
+      [](int i, int j, Random&, Vec3& position, Vec3&) { position = Vec3(j / 9.0, kAside * i, 2.0 + i / 11.0); });
 }
 
 Torture inOneHalf() {
@@ -104,11 +107,13 @@ Torture seed(std::uint64_t number) {
   if (torture.scene.cloth.closed) {
     torture.scene.hang.from = Vec3(0.0, 0.0, 2.0);
   } else {
-    torture.scene.hang.to = torture.scene.hang.from + torture.scene.cloth.width * random.between(0.3, 0.98) * Vec3::UnitX();
+    torture.scene.hang.to =
+        torture.scene.hang.from + torture.scene.cloth.width * random.between(0.3, 0.98) * Vec3::UnitX();
   }
   torture.scene.hang.tilt = torture.scene.cloth.closed ? 0.0 : random.between(-2.0, 2.0);
   const PinKind kinds[] = {PinKind::kTop, PinKind::kTopCorners, PinKind::kLeft};
-  torture.scene.pins.kind = torture.scene.cloth.closed ? PinKind::kTop : kinds[static_cast<int>(random.between(0.0, 3.0))];
+  torture.scene.pins.kind =
+      torture.scene.cloth.closed ? PinKind::kTop : kinds[static_cast<int>(random.between(0.0, 3.0))];
   torture.torment = [](Simulator& simulator, int frame, Random& any) {
     if (frame % 30 != 0) return;
     WindParams wind;

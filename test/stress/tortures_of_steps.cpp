@@ -53,7 +53,9 @@ Torture atAnyRate() {
 
 Torture atTwoRates() {
   Torture torture = atAnyRate();
-  torture.torment = [](Simulator& simulator, int frame, Random&) { simulator.setFrameRate(frame % 2 == 0 ? 5.0 : 1000.0); };
+  torture.torment = [](Simulator& simulator, int frame, Random&) {
+    simulator.setFrameRate(frame % 2 == 0 ? 5.0 : 1000.0);
+  };
   return torture;
 }
 
@@ -75,13 +77,14 @@ Torture gatheredAtAnyRate() {
     pose.position = Vec3(0.3, 0.6 * std::cos(4.0 * time), 1.4);
     simulator.setObstaclePose(0, pose, frame == 0);
     const double width = 0.6 + 0.1 * std::sin(3.0 * time);
-    for (int j = 0; j < simulator.columns(); ++j) simulator.movePin({0, j}, Vec3(width * j / (simulator.columns() - 1), 0.0, 2.0));
+    for (int j = 0; j < simulator.columns(); ++j)
+      simulator.movePin({0, j}, Vec3(width * j / (simulator.columns() - 1), 0.0, 2.0));
   };
   torture.end = [end = torture.end](Simulator& simulator) {
     end(simulator);
     simulator.setObstaclePresent(0, false);
   };
-  torture.recovers = false;  // gathered cloth lies in folds of any kind
+  torture.recovers = false;       // gathered cloth lies in folds of any kind
   torture.stretch_during = 1e-2;  // as in tortures_of_contact.cpp
   return torture;
 }
@@ -95,12 +98,14 @@ Torture forAMillionFrames() {
 }  // namespace
 
 void addStepTortures(std::vector<TortureCase>& cases) {
-  cases.push_back({"frames of 1/1000 s", "swinging in a gusty wind, 1000 frames a second", [] { return atRate(1000.0); }});
+  cases.push_back(
+      {"frames of 1/1000 s", "swinging in a gusty wind, 1000 frames a second", [] { return atRate(1000.0); }});
   cases.push_back({"frames of 1/5 s", "the same, 5 frames a second", [] { return atRate(5.0); }});
   cases.push_back({"frames of 1 s", "the same, a frame a second", [] { return atRate(1.0); }});
   cases.push_back({"frames of any length", "1/1000 to 1/5 s, another one every frame", atAnyRate});
   cases.push_back({"frames of two lengths", "1/5 and 1/1000 s by turns", atTwoRates});
-  cases.push_back({"frames of any length and contact", "gathered, its rail moves, a ball swings through it", gatheredAtAnyRate});
+  cases.push_back(
+      {"frames of any length and contact", "gathered, its rail moves, a ball swings through it", gatheredAtAnyRate});
   cases.push_back({"a million frames", "4.6 simulated hours of gusts", forAMillionFrames, false, false});
 }
 

@@ -15,13 +15,14 @@ using namespace curtain;
 
 // The cloth is at rest again when what it has above the energy of its rest is this share of m g H.
 constexpr double kAtRest = 1e-3;
-// Or it has come to rest elsewhere: slack cloth lies in many ways. In half a second a swing of that energy turns to potential and back.
+// Or it has come to rest elsewhere: slack cloth lies in many ways. In half a second a swing of that energy turns to
+// potential and back.
 constexpr double kStill = 1e-2 * kAtRest;
 // Time to fall back into place before damping counts, and the factor on what it asks for: a swing's energy goes by
 // exp(-c / m t) on average over a period, the last swings take a whole one.
 // And a swing more, for it may be seen at rest while it turns.
 constexpr double kFall = 2.0, kPatience = 2.0;
-constexpr double kStays = 0.5;  // [s] at rest, or it has only gone by
+constexpr double kStays = 0.5;             // [s] at rest, or it has only gone by
 constexpr double kLongestRecovery = 40.0;  // [s]; what asks for more is not waited for
 constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
 
@@ -51,7 +52,8 @@ struct Run {
   std::uint64_t hash = 0;
 };
 
-void lookAtFrame(const Simulator& simulator, bool gravity_changes, std::vector<Vec3>& scratch, EnergyBooks& books, Trial& trial) {
+void lookAtFrame(const Simulator& simulator, bool gravity_changes, std::vector<Vec3>& scratch, EnergyBooks& books,
+                 Trial& trial) {
   const Statistics& s = simulator.statistics();
   trial.milliseconds = std::max(trial.milliseconds, 1e3 * s.step_seconds);
   trial.seconds += s.step_seconds;
@@ -99,7 +101,8 @@ void recover(const Torture& torture, double scale, EnergyBooks& books, Simulator
     return energy.kinetic + energy.potential - rest;
   };
   const AirParams& air = torture.scene.air;
-  const double per_mass = air.density * air.inside * torture.scene.cloth.height * torture.scene.cloth.width / freeMass(simulator);
+  const double per_mass =
+      air.density * air.inside * torture.scene.cloth.height * torture.scene.cloth.width / freeMass(simulator);
   const double start = simulator.time();
   const double swing = 2.0 * 3.14159 * std::sqrt(2.0 / 3.0 * torture.scene.cloth.height / torture.scene.gravity.norm());
   const double allowed = kFall + swing + kPatience * std::max(0.0, std::log(above() / (kAtRest * scale))) / per_mass;
@@ -109,8 +112,10 @@ void recover(const Torture& torture, double scale, EnergyBooks& books, Simulator
   do {
     oneFrame();
     const double time = simulator.time() - start;
-    if (std::abs(above()) > kAtRest * scale && simulator.energy().kinetic > kStill * scale) since = kNever;
-    else if (std::isnan(since)) since = time;
+    if (std::abs(above()) > kAtRest * scale && simulator.energy().kinetic > kStill * scale)
+      since = kNever;
+    else if (std::isnan(since))
+      since = time;
     if (time - since >= kStays) break;
   } while (simulator.time() < end + kStays && trial.finite);
   trial.recovery = since;
@@ -124,7 +129,8 @@ void judge(const Torture& torture, bool one_pass, Trial& trial) {
   };
   if (!trial.finite) trial.failures.push_back("not finite");
   if (!trial.same_bits) trial.failures.push_back("other bits when repeated");
-  // The paper's scheme keeps rods, but leaves wefts too long, and knows no work of pins: nothing more is asked of it than numbers.
+  // The paper's scheme keeps rods, but leaves wefts too long, and knows no work of pins: nothing more is asked of it
+  // than numbers.
   if (one_pass) return;
   trial.stretch_allowed = torture.stretch_during;
   trial.energy_allowed = torture.energy_gain;
@@ -132,8 +138,10 @@ void judge(const Torture& torture, bool one_pass, Trial& trial) {
   if (!(trial.energy_gain <= torture.energy_gain)) fails("energy", trial.energy_gain, torture.energy_gain);
   if (!(trial.kinetic <= torture.kinetic)) fails("kinetic energy", trial.kinetic, torture.kinetic);
   if (std::isnan(trial.recovery_allowed)) return;
-  if (!(trial.stretch_after <= torture.stretch_after)) fails("stretch after it", trial.stretch_after, torture.stretch_after);
-  if (!(trial.recovery <= trial.recovery_allowed)) fails("not at rest after", trial.recovery_allowed, trial.recovery_allowed);
+  if (!(trial.stretch_after <= torture.stretch_after))
+    fails("stretch after it", trial.stretch_after, torture.stretch_after);
+  if (!(trial.recovery <= trial.recovery_allowed))
+    fails("not at rest after", trial.recovery_allowed, trial.recovery_allowed);
 }
 
 }  // namespace

@@ -72,11 +72,12 @@ TEST(Text, HasNoNotesOfWorkLeftOver) {
 
 TEST(Text, HasNoRegistryAddresses) {
   // Hosts of package registries and mirrors, and the options that point a client at one.
-  const char* const addresses[] = {"pypi.org", "pythonhosted.org", "registry.npmjs", "registry.yarnpkg", "crates.io",
-                                   "proxy.golang.org", "sum.golang.org", "rubygems.org", "anaconda.org", "repo.maven",
-                                   "deb.debian.org", "archive.ubuntu.com", "ports.ubuntu.com", "security.ubuntu.com",
-                                   "packages.ros.org", "docker.io/", "ghcr.io/", "quay.io/", "artifactory", "/simple/",
-                                   "--index-url", "extra-index-url"};
+  const char* const addresses[] = {
+      "pypi.org",         "pythonhosted.org",   "registry.npmjs",   "registry.yarnpkg",    "crates.io",
+      "proxy.golang.org", "sum.golang.org",     "rubygems.org",     "anaconda.org",        "repo.maven",
+      "deb.debian.org",   "archive.ubuntu.com", "ports.ubuntu.com", "security.ubuntu.com", "packages.ros.org",
+      "docker.io/",       "ghcr.io/",           "quay.io/",         "artifactory",         "/simple/",
+      "--index-url",      "extra-index-url"};
   for (const SourceFile& file : textFiles()) {
     int number = 0;
     for (const std::string& line : lines(file.text)) {

@@ -89,8 +89,10 @@ TautNet::TautNet(const ClothPattern& pattern, double overlong)
       // Pins side by side in the top row alone are checked; elsewhere they are left to who looks at all nodes.
       if (i > 0 && pattern.inverse_mass[grid.index(i - 1, j)] == 0.0) usable_ = false;
       if (j == 0 || pattern.inverse_mass[n - 1] > 0.0) continue;
-      if (i == 0) checks_top_ = true;
-      else usable_ = false;
+      if (i == 0)
+        checks_top_ = true;
+      else
+        usable_ = false;
     }
   }
 }
@@ -152,7 +154,8 @@ Vec3 TautNet::middleOfWarp(const Field3& position) const noexcept {
   return one + furthest_from(one);
 }
 
-// Chooses the directions: those of the cloth as a whole, made orthonormal as in contact/narrow_phase/flatness.h. False: it has none.
+// Chooses the directions: those of the cloth as a whole, made orthonormal as in contact/narrow_phase/flatness.h. False:
+// it has none.
 bool TautNet::aim(const Field3& position, View& view) const noexcept {
   const Grid& grid = pattern_.grid;
   const int last = grid.columns - 1, hem = grid.rows - 1;
@@ -225,8 +228,8 @@ bool TautNet::isFlat(const Field3& position, double reach) noexcept {
   return start_.aimed && areFlat(start_.slopes, reach);
 }
 
-// No slope is longer than a link may be and what is between: seen along other directions it differs by so much times the
-// directions' difference.
+// No slope is longer than a link may be and what is between: seen along other directions it differs by so much times
+// the directions' difference.
 bool TautNet::staysFlat(const Field3& end, double reach) noexcept {
   see(end, end_);
   if (!end_.aimed) return false;

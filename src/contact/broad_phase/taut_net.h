@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Is the cloth so flat that no two parts of it can come close? Told from few of its nodes: links do not get longer, so a
-// line of links whose ends are as far apart as it is long is straight, and nothing between them needs to be looked at.
+// Is the cloth so flat that no two parts of it can come close? Told from few of its nodes: links do not get longer, so
+// a line of links whose ends are as far apart as it is long is straight, and nothing between them needs to be looked
+// at.
 //
-// Let m links of lengths l reach over c m l, 0 < c <= 1, along the unit vector n, none being longer than (1 + e) l. Their
-// vectors r add up to c m l n, so each goes on along n by what the others can't make up for:
+// Let m links of lengths l reach over c m l, 0 < c <= 1, along the unit vector n, none being longer than (1 + e) l.
+// Their vectors r add up to c m l n, so each goes on along n by what the others can't make up for:
 //
 //     r . n >= c m l - (m - 1) (1 + e) l = (1 - s) l,   s = m (1 - c) + (m - 1) e,
 //     |r / l - c n|^2 <= (1 + e)^2 - 2 c (1 - s) + c^2.
 //
 // Rods are looked at in strips of a few rows, in every column; weft links in a few spans of columns, in every row. With
-// all slopes known to lie in balls around those of the lines, the bound of contact/narrow_phase/flatness.h says what is flat: along
-// two fixed orthonormal directions a (weft) and b (warp) the symmetric part of the slopes has no eigenvalue below
-// reach / (least altitude of a triangle). It is concave, so what holds where a straight way starts and ends holds
+// all slopes known to lie in balls around those of the lines, the bound of contact/narrow_phase/flatness.h says what is
+// flat: along two fixed orthonormal directions a (weft) and b (warp) the symmetric part of the slopes has no eigenvalue
+// below reach / (least altitude of a triangle). It is concave, so what holds where a straight way starts and ends holds
 // between.
 #pragma once
 
@@ -28,14 +29,15 @@ class TautNet {
   /// overlong: what links may be longer, over their length.
   TautNet(const ClothPattern& pattern, double overlong);
 
-  /// True: any two elements of the cloth that share no node are further apart than `reach` [m]; false: who knows. All links but
-  /// those between pins must be no more overlong than said. Allocates nothing.
+  /// True: any two elements of the cloth that share no node are further apart than `reach` [m]; false: who knows. All
+  /// links but those between pins must be no more overlong than said. Allocates nothing.
   bool isFlat(const Field3& position, double reach) noexcept;
 
   /// After isFlat() has said so of the start: the same while all nodes move straight from there to `end`.
   bool staysFlat(const Field3& end, double reach) noexcept;
 
-  /// isFlat() will be asked next of the end that staysFlat() was asked of last, and needs not look at it again; else forget().
+  /// isFlat() will be asked next of the end that staysFlat() was asked of last, and needs not look at it again; else
+  /// forget().
   void goOn() noexcept {
     start_ = end_;
     end_.known = false;

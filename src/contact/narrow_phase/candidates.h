@@ -32,15 +32,19 @@ struct Candidates {
   std::vector<VertexTriangle> vertex_triangles;
   std::vector<EdgeEdge> edge_edges;
   std::size_t room = std::numeric_limits<std::size_t>::max();  ///< of either kind
-  bool full = false;  ///< there are more, for which there was no room
+  bool full = false;                                           ///< there are more, for which there was no room
 
   void add(const VertexTriangle& pair) {
-    if (vertex_triangles.size() < room) vertex_triangles.push_back(pair);
-    else full = true;
+    if (vertex_triangles.size() < room)
+      vertex_triangles.push_back(pair);
+    else
+      full = true;
   }
   void add(const EdgeEdge& pair) {
-    if (edge_edges.size() < room) edge_edges.push_back(pair);
-    else full = true;
+    if (edge_edges.size() < room)
+      edge_edges.push_back(pair);
+    else
+      full = true;
   }
 
   /// No more than so many from now on, without an allocation.

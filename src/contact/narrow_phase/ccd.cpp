@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Both queries are one: the Minkowski difference of the two elements, the convex hull of the corners' differences w_i
-// (three of a vertex and a triangle, four of two edges), against the origin. Each w_i moves straight, so along any fixed
-// direction n its projection is linear in time, and n keeps the elements apart over exactly the times at which all
-// n.w_i > min_distance |n|. This is conservative advancement (Mirtich 1996) with that bound in place of one on speeds:
+// (three of a vertex and a triangle, four of two edges), against the origin. Each w_i moves straight, so along any
+// fixed direction n its projection is linear in time, and n keeps the elements apart over exactly the times at which
+// all n.w_i > min_distance |n|. This is conservative advancement (Mirtich 1996) with that bound in place of one on
+// speeds:
 //
 //    n_0 = direction of the closest points at t = 0, apart until t_1
 //    n_1 = direction of the closest points at t_1,   apart until t_2 > t_1 …
 //
-// ends where a direction lasts beyond 1 (none) or none is certain any more (impact). Where the elements turn, a direction that
-// turns with them, from one of the closest points to the next, lasts longer: near an impact that makes it Newton's method.
-// Only the times a direction lasts need to be certain; how the direction was found does not matter.
+// ends where a direction lasts beyond 1 (none) or none is certain any more (impact). Where the elements turn, a
+// direction that turns with them, from one of the closest points to the next, lasts longer: near an impact that makes
+// it Newton's method. Only the times a direction lasts need to be certain; how the direction was found does not matter.
 #include "curtain_sim/ccd.h"
 
 #include <Eigen/Geometry>
@@ -105,7 +106,8 @@ class MovingHull {
   double apartUntilTurning(const Vec3& n, double t, const Vec3& m, double last) const;
 
   struct Forecast {
-    double impact;  ///< time at which the closest points would come as near as min_distance if nothing turned, at most 1
+    double
+        impact;  ///< time at which the closest points would come as near as min_distance if nothing turned, at most 1
     bool touching;  ///< they are that near but for rounding
   };
   Forecast forecast(const Vec3& n, double t, const Directions& directions) const;
@@ -122,11 +124,12 @@ class MovingHull {
   Vec3 largest_end_;
 };
 
-// Roundings. n is taken as it is. Computed w are (1 + u) times exact ones, and each product and the two sums of n.w add a u
-// at most: |computed n.w - exact| <= 4u/(1 - 4u) S with S = sum_k |n_k| max_i |w_ik|, itself computed with 3u/(1 - 3u) at
-// most. So 6u S covers it. |n| is off by 3u, its product by one more: 8u covers those. Products that underflow add less
-// than the smallest normal number. The differences q from the bound then have the right sign, and are off by 2u of
-// themselves; the time at which (1 - t) q0 + t q1 is zero is q0 / (q0 - q1), a quotient of sums of numbers of one sign, off by
+// Roundings. n is taken as it is. Computed w are (1 + u) times exact ones, and each product and the two sums of n.w add
+// a u at most: |computed n.w - exact| <= 4u/(1 - 4u) S with S = sum_k |n_k| max_i |w_ik|, itself computed with 3u/(1 -
+// 3u) at most. So 6u S covers it. |n| is off by 3u, its product by one more: 8u covers those. Products that underflow
+// add less than the smallest normal number. The differences q from the bound then have the right sign, and are off by
+// 2u of themselves; the time at which (1 - t) q0 + t q1 is zero is q0 / (q0 - q1), a quotient of sums of numbers of one
+// sign, off by
 // 8u of itself at most.
 double MovingHull::apartUntil(const Vec3& n, double t) const {
   constexpr double kSmall = std::numeric_limits<double>::min();
@@ -152,10 +155,10 @@ double MovingHull::apartUntil(const Vec3& n, double t) const {
   return std::max(until, t);
 }
 
-// The projections along the turning direction are polynomials of degree two in time, and the length of that direction is
-// no more than the mean of the two, so the polynomials' Bernstein coefficients c0, c1, c2 less min_distance bound the gap from
-// below; the convex hull of the three bounds it again (Sederberg and Nishita 1990, Bezier clipping). Roundings:
-// as above, and 5u S for an interpolation in time, u S for the mean: 16u S covers them.
+// The projections along the turning direction are polynomials of degree two in time, and the length of that direction
+// is no more than the mean of the two, so the polynomials' Bernstein coefficients c0, c1, c2 less min_distance bound
+// the gap from below; the convex hull of the three bounds it again (Sederberg and Nishita 1990, Bezier clipping).
+// Roundings: as above, and 5u S for an interpolation in time, u S for the mean: 16u S covers them.
 double MovingHull::apartUntilTurning(const Vec3& n, double t, const Vec3& m, double last) const {
   const Vec3 largest = largest_start_.cwiseMax(largest_end_);
   const double bound = min_distance_ * (1.0 + 16.0 * kUnit) + std::numeric_limits<double>::min() +

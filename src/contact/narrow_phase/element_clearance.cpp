@@ -93,16 +93,17 @@ bool ElementClearance::keepsToMesh(const ObstacleFeatures& features, const std::
   for (const Vec3& point : local_) box.extend(point);
   const Vec3 margin = Vec3::Constant(clearance);
   near_.clear();
-  features.forEachTriangleIn({box.min() - margin, box.max() + margin}, [&](std::uint32_t n, const ObstacleTriangle& face) {
-    double low = std::numeric_limits<double>::infinity();
-    double high = -low;
-    for (const Vec3& point : local_) {
-      const double height = face.normal.dot(point - face.corners[0]);
-      low = std::min(low, height);
-      high = std::max(high, height);
-    }
-    if (low <= clearance && high >= -clearance) near_.push_back(n);
-  });
+  features.forEachTriangleIn({box.min() - margin, box.max() + margin},
+                             [&](std::uint32_t n, const ObstacleTriangle& face) {
+                               double low = std::numeric_limits<double>::infinity();
+                               double high = -low;
+                               for (const Vec3& point : local_) {
+                                 const double height = face.normal.dot(point - face.corners[0]);
+                                 low = std::min(low, height);
+                                 high = std::max(high, height);
+                               }
+                               if (low <= clearance && high >= -clearance) near_.push_back(n);
+                             });
   if (near_.empty()) return true;
   for (const auto& [a, b, c] : triangles) {
     const Corners corners{local_[a], local_[b], local_[c]};

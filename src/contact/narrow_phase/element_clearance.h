@@ -16,8 +16,8 @@ namespace curtain {
 class ElementClearance {
  public:
   /// Whether no point of the triangles is nearer to the obstacle's surface than `clearance` [m, >= 0], or, of a convex
-  /// solid, inside it. Of a mesh only the surface counts: a patch that hangs together and has one corner outside is then
-  /// wholly outside.
+  /// solid, inside it. Of a mesh only the surface counts: a patch that hangs together and has one corner outside is
+  /// then wholly outside.
   ///   points     [m], world frame, finite
   ///   triangles  indices into points; two equal corners make an edge of it
   bool keeps(const ContactShape& shape, const Transform& place, const std::vector<Vec3>& points,

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cloth/coarse_mesh.h"
-#include "contact/shapes/obstacle_features.h"
 #include "contact/shapes/convex_shape.h"
+#include "contact/shapes/obstacle_features.h"
 
 namespace curtain {
 namespace {
@@ -83,7 +83,8 @@ std::optional<double> crossing(const Edge& segment, const Triangle& triangle, do
   if (!(area > 0.0)) return std::nullopt;
   const double height_p = normal.dot(p - triangle[0]) / area;
   const double height_q = normal.dot(q - triangle[0]) / area;
-  const bool through = (height_p > tolerance && height_q < -tolerance) || (height_p < -tolerance && height_q > tolerance);
+  const bool through =
+      (height_p > tolerance && height_q < -tolerance) || (height_p < -tolerance && height_q > tolerance);
   if (!through) return std::nullopt;
   bool none_left = true;
   bool none_right = true;
@@ -154,8 +155,8 @@ Piercings countInMesh(const ContactShape& shape, const ObstacleFeatures& feature
   for (const Vec3& node : mesh.nodes) count.nodes += closed && isDeep(shape, node, tolerance);
   std::vector<bool> counts;
   for (const Edge& edge : mesh.edges) {
-    counts.push_back(bounds.intersects(boxOf(edge)) && (closed ? dipsInto(shape, features, edge, tolerance)
-                                                               : crossesShell(features, edge, tolerance)));
+    counts.push_back(bounds.intersects(boxOf(edge)) &&
+                     (closed ? dipsInto(shape, features, edge, tolerance) : crossesShell(features, edge, tolerance)));
     count.edges += counts.back();
   }
   for (const Face& face : mesh.faces) {

@@ -18,8 +18,8 @@ namespace curtain {
 /// A part of the cloth counts when its deepest point lies deeper than the tolerance in a convex solid. Of a watertight
 /// mesh, edges count that are so deep anywhere (sampled between the crossings of its surface); of a shell, which has no
 /// inside, edges that go through one of its triangles and end further than the tolerance from that triangle's plane on
-/// both sides. Faces count when one of their edges does, or an edge of the mesh goes through them in the same way. Cloth
-/// that is wholly on the wrong side of a shell can't be told from cloth on the right one.
+/// both sides. Faces count when one of their edges does, or an edge of the mesh goes through them in the same way.
+/// Cloth that is wholly on the wrong side of a shell can't be told from cloth on the right one.
 /// Every element against every triangle whose box touches its own; allocates. Padding nodes are not looked at.
 Piercings countPiercings(const ContactShape& shape, const Transform& place, const Grid& grid, const Field3& position,
                          double depth_tolerance);

@@ -13,7 +13,8 @@ namespace {
 
 // Faces and edges are let come nearer than nodes, to this share of the thickness: few of them need a contact then.
 constexpr double kCore = 0.3;
-// The order in which the contacts of an obstacle are kept; of two of the same parts, the one that asks for less comes first.
+// The order in which the contacts of an obstacle are kept; of two of the same parts, the one that asks for less comes
+// first.
 auto orderOf(const Contact& c) { return std::tie(c.nodes, c.node, c.source); }
 bool firstOfOne(const Contact& a, const Contact& b) {
   if (orderOf(a) != orderOf(b)) return orderOf(a) < orderOf(b);
@@ -23,8 +24,8 @@ bool alike(const Contact& a, const Contact& b) { return orderOf(a) == orderOf(b)
 
 }  // namespace
 
-ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles,
-                                   const Workers& workers)
+ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, const ContactParams& params,
+                                   const ObstacleSet& obstacles, const Workers& workers)
     : pattern_(pattern),
       thickness_(params.thickness),
       recovery_speed_(params.recovery_speed),
@@ -33,7 +34,8 @@ ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, const ContactPar
   const auto count = static_cast<std::size_t>(obstacles.count());
   if (count == 0) return;
   near_.reserve(count);
-  for (const MovingObstacle& moving : obstacles.moving()) near_.emplace_back(pattern, *moving.shape, thickness_, kCore * thickness_, workers);
+  for (const MovingObstacle& moving : obstacles.moving())
+    near_.emplace_back(pattern, *moving.shape, thickness_, kCore * thickness_, workers);
   active_.assign(count, 0);
   loads_.assign(count, Load());
   crossings_.reserve(pattern.grid.nodeCount());
@@ -64,7 +66,8 @@ bool ObstacleContacts::anyWithin(const Eigen::AlignedBox3d& box) const noexcept 
   return std::any_of(obstacles_.moving().begin(), obstacles_.moving().end(), is_within);
 }
 
-void ObstacleContacts::begin(const Field3& start, const Field3& predicted, double h, bool slippery, Contacts& contacts) noexcept {
+void ObstacleContacts::begin(const Field3& start, const Field3& predicted, double h, bool slippery,
+                             Contacts& contacts) noexcept {
   h_ = h;
   slippery_ = slippery;
   std::fill(active_.begin(), active_.end(), std::uint8_t{0});
@@ -87,8 +90,8 @@ void ObstacleContacts::begin(const Field3& start, const Field3& predicted, doubl
   }
 }
 
-// Lists what is near for the way from start to end, of the obstacles that the cloth may come near on it; false: of none.
-// Those that are not active yet become so. Some 30 nodes will do for what is not close, where links hold.
+// Lists what is near for the way from start to end, of the obstacles that the cloth may come near on it; false: of
+// none. Those that are not active yet become so. Some 30 nodes will do for what is not close, where links hold.
 bool ObstacleContacts::activate(const Field3& start, const Field3& end, bool links_hold) noexcept {
   if (obstacles_.sweptBounds().isEmpty()) return false;
   if (links_hold) {
@@ -101,8 +104,10 @@ bool ObstacleContacts::activate(const Field3& start, const Field3& end, bool lin
   for (std::size_t n = 0; n < near_.size(); ++n) {
     const MovingObstacle& moving = obstacles_.moving()[n];
     if (!moving.present || !(active_[n] != 0 || box.intersects(moving.sweptBounds()))) continue;
-    if (active_[n] != 0) near_[n].follow(moving, end);
-    else near_[n].prepare(moving, start, end);
+    if (active_[n] != 0)
+      near_[n].follow(moving, end);
+    else
+      near_[n].prepare(moving, start, end);
     active_[n] = 1;
     any = true;
   }
@@ -121,8 +126,9 @@ void ObstacleContacts::findCrossings(const Field3& start, const Field3& end, boo
     const auto elements = static_cast<std::ptrdiff_t>(crossings_.size());
     if (!near_[n].faces().empty()) crossingFaces(substep, pattern_, near_[n], crossings_);
     if (!near_[n].pairs().empty()) crossingPairs(substep, pattern_, near_[n], crossings_);
-    std::sort(crossings_.begin() + elements, crossings_.end(),
-              [](const Crossing& a, const Crossing& b) { return std::tie(a.node, a.contact.source) < std::tie(b.node, b.contact.source); });
+    std::sort(crossings_.begin() + elements, crossings_.end(), [](const Crossing& a, const Crossing& b) {
+      return std::tie(a.node, a.contact.source) < std::tie(b.node, b.contact.source);
+    });
     full_ = full_ || near_[n].full();
   }
 }
@@ -158,7 +164,8 @@ bool ObstacleContacts::carryNode(std::uint32_t node, int obstacle, const Field3&
 
 bool ObstacleContacts::carryAlong(std::size_t a, std::size_t b, const Field3& start, Field3& end) noexcept {
   if (carried_by_.empty() || (carried_by_[a] < 0) == (carried_by_[b] < 0)) return false;
-  return carryNode(static_cast<std::uint32_t>(carried_by_[a] < 0 ? a : b), std::max(carried_by_[a], carried_by_[b]), start, end);
+  return carryNode(static_cast<std::uint32_t>(carried_by_[a] < 0 ? a : b), std::max(carried_by_[a], carried_by_[b]),
+                   start, end);
 }
 
 void ObstacleContacts::stopRest(const Field3& start, Field3& end) const noexcept {

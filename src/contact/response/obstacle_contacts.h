@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Contact of the cloth with obstacles: parts that may touch within the substep are held to planes, tangent to the obstacle and a
-// thickness away, with Coulomb friction against the moving surface. Inelastic. What would go through all the same gets
-// planes where it goes in, and as a last resort goes with the obstacle.
+// Contact of the cloth with obstacles: parts that may touch within the substep are held to planes, tangent to the
+// obstacle and a thickness away, with Coulomb friction against the moving surface. Inelastic. What would go through all
+// the same gets planes where it goes in, and as a last resort goes with the obstacle.
 //
 //   box around a few nodes  an obstacle outside it costs next to nothing
 //   box around all          nor much one outside that
 //   vicinity (vicinity.h)   candidates
 //   touch (obstacle_touch.h)  of those, what touches in the substep
 //
-// All of it follows from where the nodes start and end: what is kept from substep to substep (planes of a convex shape's
-// surface, candidates near a mesh) serves as long as motion that is measured allows, and no result depends on that.
+// All of it follows from where the nodes start and end: what is kept from substep to substep (planes of a convex
+// shape's surface, candidates near a mesh) serves as long as motion that is measured allows, and no result depends on
+// that.
 #pragma once
 
 #include <limits>
@@ -31,21 +32,22 @@ enum class ObstacleStanding { kAbsent, kFar, kNear };
 class ObstacleContacts {
  public:
   /// Of params thickness and recovery_speed; pattern and obstacles must outlive this.
-  ObstacleContacts(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles, const Workers& workers);
+  ObstacleContacts(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles,
+                   const Workers& workers);
 
-  /// Begins a substep of h [s]: adds what may touch on the way from start to predicted, in the order of the obstacles' names, of
-  /// the contacts' nodes and features. slippery: without friction.
+  /// Begins a substep of h [s]: adds what may touch on the way from start to predicted, in the order of the obstacles'
+  /// names, of the contacts' nodes and features. slippery: without friction.
   void begin(const Field3& start, const Field3& predicted, double h, bool slippery, Contacts& contacts) noexcept;
   void boundRecovery(double most) noexcept { most_recovery_ = most; }
 
-  /// Adds contacts for parts of the cloth that would go through an obstacle on the way from start to end, expected or not;
-  /// returns how many. links_hold: no link is longer than kOverlong at the end.
+  /// Adds contacts for parts of the cloth that would go through an obstacle on the way from start to end, expected or
+  /// not; returns how many. links_hold: no link is longer than kOverlong at the end.
   int verify(const Field3& start, const Field3& end, bool links_hold, Contacts& contacts) noexcept;
   /// The last one had no room for all that is near: what it says is not certain.
   bool full() const noexcept { return full_; }
 
-  /// Lets the parts that would go through an obstacle on the way from start to end go along with it; returns how many there were
-  /// with a node that did not yet.
+  /// Lets the parts that would go through an obstacle on the way from start to end go along with it; returns how many
+  /// there were with a node that did not yet.
   int carry(const Field3& start, Field3& end) noexcept;
   /// One of two nodes that go along with an obstacle takes the other one with it; false: neither or both do.
   bool carryAlong(std::size_t a, std::size_t b, const Field3& start, Field3& end) noexcept;
@@ -53,8 +55,8 @@ class ObstacleContacts {
   void stopRest(const Field3& start, Field3& end) const noexcept;
   void endCarrying() noexcept;
 
-  /// After an accepted substep of h [s] that ended at position: contacts that push, whose multipliers are scale [s^2] times
-  /// the forces.
+  /// After an accepted substep of h [s] that ended at position: contacts that push, whose multipliers are scale [s^2]
+  /// times the forces.
   void remember(const Contacts& pushing, const Field3& position, double h, double scale) noexcept;
   /// Of these substeps such that nothing touched in are undone, so much time altogether [s].
   void takeBack(double time) noexcept { loaded_for_ -= time; }
@@ -65,7 +67,8 @@ class ObstacleContacts {
   /// For a cloth that is here now. Not made for every substep.
   ObstacleStanding standing(int obstacle, const Field3& position) const noexcept;
 
-  /// A frame begins: wrenches are those of its substeps from now on. links_hold: none is much too long, no pin is moved.
+  /// A frame begins: wrenches are those of its substeps from now on. links_hold: none is much too long, no pin is
+  /// moved.
   void beginFrame(bool links_hold) noexcept;
   /// What the cloth exerts on an obstacle, mean over the frame's substeps.
   ContactWrench wrench(int obstacle) const noexcept;
@@ -104,8 +107,8 @@ class ObstacleContacts {
   std::vector<PiercedFace> pierced_;
   std::vector<std::int32_t> carried_by_;  // by node: obstacle, or -1
   std::vector<std::uint32_t> carried_;
-  std::vector<Load> loads_;           // by obstacle
-  double loaded_for_ = 0.0;           // [s]
+  std::vector<Load> loads_;  // by obstacle
+  double loaded_for_ = 0.0;  // [s]
 };
 
 }  // namespace curtain

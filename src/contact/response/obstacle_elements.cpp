@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Faces and edges of the cloth against one obstacle: of a convex shape, faces by their nearest point; of a mesh, edges against
-// its edges and faces against its corners. The normal is the way between them where the substep starts, or where they meet
-// when they come from afar.
+// Faces and edges of the cloth against one obstacle: of a convex shape, faces by their nearest point; of a mesh, edges
+// against its edges and faces against its corners. The normal is the way between them where the substep starts, or
+// where they meet when they come from afar.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -62,7 +62,7 @@ struct PairPoint {
   std::array<double, 3> weight{};
   Vec3 apart = Vec3::Zero();  // from the feature to the cloth [m]
   double distance = 0.0;
-  bool inside = true;         // not at an end of an edge: the other kinds of pairs see to those
+  bool inside = true;  // not at an end of an edge: the other kinds of pairs see to those
 };
 
 PairPoint closest(const FeaturePair& pair, const ObstacleFeatures& features, const Corners& at) {
@@ -84,8 +84,8 @@ PairPoint closest(const FeaturePair& pair, const ObstacleFeatures& features, con
   return point;
 }
 
-std::optional<double> impact(const FeaturePair& pair, const ObstacleFeatures& features, const Corners& a, const Corners& b,
-                             double distance) {
+std::optional<double> impact(const FeaturePair& pair, const ObstacleFeatures& features, const Corners& a,
+                             const Corners& b, double distance) {
   if (pair.edges) {
     const auto& [c, d] = features.edges()[pair.feature].ends;
     return edgeEdgeTimeOfImpact(a[0], a[1], c, d, b[0], b[1], c, d, distance);
@@ -94,8 +94,8 @@ std::optional<double> impact(const FeaturePair& pair, const ObstacleFeatures& fe
   return vertexTriangleTimeOfImpact(corner, a[0], a[1], a[2], corner, b[0], b[1], b[2], distance);
 }
 
-// All of the way is further over the feature's plane: most pairs in the lists are, and this is faster to tell than where they
-// are closest.
+// All of the way is further over the feature's plane: most pairs in the lists are, and this is faster to tell than
+// where they are closest.
 bool staysOver(const FeaturePair& pair, const ObstacleFeatures& features, const Corners& start, const Corners& end,
                double distance) {
   const Vec3& outward = pair.edges ? features.edges()[pair.feature].outward : features.vertices()[pair.feature].outward;
@@ -108,7 +108,8 @@ bool staysOver(const FeaturePair& pair, const ObstacleFeatures& features, const 
 }
 
 // The part of the cloth is inside the solid there.
-bool isInside(const FeaturePair& pair, const Vicinity& near, const PairPoint& point, const Corners& at, SurfacePoint& surface) {
+bool isInside(const FeaturePair& pair, const Vicinity& near, const PairPoint& point, const Corners& at,
+              SurfacePoint& surface) {
   const ObstacleFeatures& features = *near.shape().features();
   if (!features.closed()) return false;
   const Vec3& outward = pair.edges ? features.edges()[pair.feature].outward : features.vertices()[pair.feature].outward;
@@ -168,8 +169,8 @@ void collectFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, V
   }
 }
 
-void letOutFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, const Vicinity& near, const CommonExit& exit,
-                 const std::vector<PiercedFace>& pierced, Contacts& contacts) noexcept {
+void letOutFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, const Vicinity& near,
+                 const CommonExit& exit, const std::vector<PiercedFace>& pierced, Contacts& contacts) noexcept {
   const double listed = near.elementReach();
   for (const PiercedFace& face : pierced) {
     const Corners start = startOf(near, face.node), end = endOf(near, face.node);
@@ -205,7 +206,8 @@ void crossingFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, 
   }
 }
 
-void collectPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, const Vicinity& near, Contacts& contacts) noexcept {
+void collectPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, const Vicinity& near,
+                  Contacts& contacts) noexcept {
   const ObstacleFeatures& features = *near.shape().features();
   const double listed = near.elementReach();
   for (const FeaturePair& pair : near.pairs()) {

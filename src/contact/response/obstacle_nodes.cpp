@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Nodes against one obstacle. A query of a mesh costs about a microsecond: it is left out where the plane that was last found
-// shows that the node is far enough.
+// Nodes against one obstacle. A query of a mesh costs about a microsecond: it is left out where the plane that was last
+// found shows that the node is far enough.
 #include <algorithm>
 
 #include "contact/narrow_phase/candidates.h"
@@ -11,8 +11,8 @@
 namespace curtain {
 namespace {
 
-// What is too close when a substep starts (an obstacle appeared there or jumped) is brought out slowly, not at once: the way
-// out must not become a blow. Inside the obstacle so many times as fast as inside the gap around it.
+// What is too close when a substep starts (an obstacle appeared there or jumped) is brought out slowly, not at once:
+// the way out must not become a blow. Inside the obstacle so many times as fast as inside the gap around it.
 constexpr double kFasterInside = 20.0;
 // Share of what is to be kept that may lack.
 constexpr double kSlack = 0.1;
@@ -27,7 +27,8 @@ double letOut(double distance, double kept, const ObstacleSubstep& substep) noex
   return std::min(least, distance + std::min(speed * substep.h, substep.most_recovery));
 }
 
-bool makeContact(const ObstacleSubstep& substep, const ClothPattern& pattern, const TouchPoint& point, Contact& contact) noexcept {
+bool makeContact(const ObstacleSubstep& substep, const ClothPattern& pattern, const TouchPoint& point,
+                 Contact& contact) noexcept {
   const MovingObstacle& moving = substep.moving;
   contact.nodes = 0;
   bool moves = false;
@@ -51,8 +52,8 @@ bool makeContact(const ObstacleSubstep& substep, const ClothPattern& pattern, co
 
 namespace {
 
-Contact nodeContact(const ObstacleSubstep& substep, const ClothPattern& pattern, std::uint32_t node, const Vicinity& near,
-                    const SurfacePoint& surface, double distance) {
+Contact nodeContact(const ObstacleSubstep& substep, const ClothPattern& pattern, std::uint32_t node,
+                    const Vicinity& near, const SurfacePoint& surface, double distance) {
   TouchPoint point;
   point.node[0] = node;
   point.weight[0] = 1.0;

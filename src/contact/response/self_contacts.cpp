@@ -12,8 +12,8 @@ namespace {
 
 // Pairs that touch or cross in a substep that there is room for, per node.
 constexpr std::size_t kRoomPerNode = 8;
-// What is nearer than the gap at the start of a substep is let out slowly, and not at all within this share of the gap: a
-// contact at rest must not be shaken by what the solve left over.
+// What is nearer than the gap at the start of a substep is let out slowly, and not at all within this share of the gap:
+// a contact at rest must not be shaken by what the solve left over.
 constexpr double kSlack = 0.1;
 
 Vec3 mix(const std::array<double, 4>& weight, const std::array<Vec3, 4>& at) {
@@ -29,8 +29,10 @@ bool boxesApart(bool edges, const std::array<Vec3, 4>& from, const std::array<Ve
     high = high.cwiseMax(from[k]).cwiseMax(to[k]);
   };
   extend(2, low_b, high_b);
-  if (edges) extend(1, low_a, high_a);
-  else extend(1, low_b, high_b);
+  if (edges)
+    extend(1, low_a, high_a);
+  else
+    extend(1, low_b, high_b);
   return (low_a - high_b).cwiseMax(low_b - high_a).maxCoeff() > reach;
 }
 
@@ -108,8 +110,8 @@ void SelfContacts::sortPairs() noexcept {
   pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
 }
 
-// Both where they are closest at the start, and wherever else at the end, so that no candidate that is not within the gap has
-// a contact: which of those are named is not certain.
+// Both where they are closest at the start, and wherever else at the end, so that no candidate that is not within the
+// gap has a contact: which of those are named is not certain.
 bool SelfContacts::touches(const PairKey& key, const Field3& start, const Field3& predicted) const noexcept {
   const std::array<Vec3, 4> from = corners(key, start), to = corners(key, predicted);
   if (boxesApart(key.edges, from, to, gap_)) return false;
@@ -120,8 +122,8 @@ bool SelfContacts::touches(const PairKey& key, const Field3& start, const Field3
   return closest.distance <= gap_ || closestPoints(key.edges, to).distance <= gap_;
 }
 
-// Where a vertex is closest to the border of a triangle, another triangle there that is nearer says the same or more: contacts are
-// where the distance to the surface is least. Of equal distances the first one stays.
+// Where a vertex is closest to the border of a triangle, another triangle there that is nearer says the same or more:
+// contacts are where the distance to the surface is least. Of equal distances the first one stays.
 bool SelfContacts::isToldByAnother(std::size_t k) const noexcept {
   const PairKey& key = pairs_[k];
   const ClosestPoints& closest = closest_[k];
@@ -147,8 +149,8 @@ bool SelfContacts::isToldByAnother(std::size_t k) const noexcept {
   return false;
 }
 
-void SelfContacts::collect(const Candidates& candidates, const Contacts& last, const Field3& start, const Field3& predicted,
-                           double h, Contacts& contacts) noexcept {
+void SelfContacts::collect(const Candidates& candidates, const Contacts& last, const Field3& start,
+                           const Field3& predicted, double h, Contacts& contacts) noexcept {
   full_ = false;
   select(candidates, [&](const PairKey& key) { return touches(key, start, predicted); });
   for (const Contact& contact : last) {
@@ -176,9 +178,8 @@ double SelfContacts::crossesAt(const PairKey& key, const std::array<Vec3, 4>& fr
   const double least = std::min(kLeastShare * gap_, 0.5 * distance);
   if (distance - largestApproach(key.edges, from, to) > least) return kNever;
   const std::optional<double> time =
-      key.edges
-          ? edgeEdgeTimeOfImpact(from[0], from[1], from[2], from[3], to[0], to[1], to[2], to[3], least)
-          : vertexTriangleTimeOfImpact(from[0], from[1], from[2], from[3], to[0], to[1], to[2], to[3], least);
+      key.edges ? edgeEdgeTimeOfImpact(from[0], from[1], from[2], from[3], to[0], to[1], to[2], to[3], least)
+                : vertexTriangleTimeOfImpact(from[0], from[1], from[2], from[3], to[0], to[1], to[2], to[3], least);
   return time.value_or(kNever);
 }
 
@@ -191,7 +192,8 @@ void SelfContacts::findCrossings(const Candidates& candidates, const Field3& sta
   sortPairs();
 }
 
-int SelfContacts::verify(const Candidates& candidates, const Field3& start, const Field3& end, double h, Contacts& contacts) noexcept {
+int SelfContacts::verify(const Candidates& candidates, const Field3& start, const Field3& end, double h,
+                         Contacts& contacts) noexcept {
   findCrossings(candidates, start, end);
   for (const PairKey& key : pairs_) {
     const std::array<Vec3, 4> from = corners(key, start), to = corners(key, end);

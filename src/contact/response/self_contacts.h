@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Contact of the cloth with itself: pairs of a vertex and a triangle, or of two edges, of the first layer's mesh that may
-// come near, and which of them touch in a substep. The normal of a contact is the direction between the
+// Contact of the cloth with itself: pairs of a vertex and a triangle, or of two edges, of the first layer's mesh that
+// may come near, and which of them touch in a substep. The normal of a contact is the direction between the
 // closest points where the substep starts, so its force turns nothing: momentum and angular momentum are those before.
 #pragma once
 
@@ -50,14 +50,16 @@ class SelfContacts {
   double gap() const noexcept { return gap_; }
   void boundRecovery(double most) noexcept { most_recovery_ = most; }
 
-  /// Adds what may touch on the way from start to predicted, in a substep of h [s], and what pushed in the last one (`last`),
-  /// in the order of their nodes. candidates: all pairs that come within the gap on that way, and any others, in any order.
-  void collect(const Candidates& candidates, const Contacts& last, const Field3& start, const Field3& predicted, double h,
-               Contacts& contacts) noexcept;
+  /// Adds what may touch on the way from start to predicted, in a substep of h [s], and what pushed in the last one
+  /// (`last`), in the order of their nodes. candidates: all pairs that come within the gap on that way, and any others,
+  /// in any order.
+  void collect(const Candidates& candidates, const Contacts& last, const Field3& start, const Field3& predicted,
+               double h, Contacts& contacts) noexcept;
 
-  /// Adds contacts for pairs that would go through each other on the way from start to end; returns how many. candidates: all
-  /// pairs that come within the least share of the gap on that way, and any others, in any order.
-  int verify(const Candidates& candidates, const Field3& start, const Field3& end, double h, Contacts& contacts) noexcept;
+  /// Adds contacts for pairs that would go through each other on the way from start to end; returns how many.
+  /// candidates: all pairs that come within the least share of the gap on that way, and any others, in any order.
+  int verify(const Candidates& candidates, const Field3& start, const Field3& end, double h,
+             Contacts& contacts) noexcept;
 
   /// The pairs that would; f(pair).
   template <typename F>
@@ -85,8 +87,8 @@ class SelfContacts {
 
   double gap_, friction_, recovery_speed_;
   double most_recovery_ = std::numeric_limits<double>::infinity();  // in a substep [m]
-  std::vector<PairKey> pairs_;  // that touch or cross
-  std::vector<ClosestPoints> closest_;  // of those that touch, where the substep starts
+  std::vector<PairKey> pairs_;                                      // that touch or cross
+  std::vector<ClosestPoints> closest_;                              // of those that touch, where the substep starts
   bool full_ = false;
 };
 

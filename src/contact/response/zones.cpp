@@ -4,7 +4,8 @@
 #include "cloth/free_body.h"
 
 namespace curtain {
-Zones::Zones(const ClothPattern& pattern) : pattern_(pattern), parent_(pattern.grid.size(), kAlone), body_(pattern.grid.size(), 0) {
+Zones::Zones(const ClothPattern& pattern)
+    : pattern_(pattern), parent_(pattern.grid.size(), kAlone), body_(pattern.grid.size(), 0) {
   members_.reserve(pattern.grid.nodeCount());
   bodies_.reserve(pattern.grid.nodeCount() / 2 + 1);
 }

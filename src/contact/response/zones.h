@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Collision zones: groups of nodes that would go through each other and are moved as one body instead (Provot 1997,
-// Collision and self-collision handling in cloth model dedicated to design garments; Harmon et al. 2008). A zone keeps its
-// nodes' momentum and angular momentum, and an even affine motion brings no two parts of it together.
+// Collision and self-collision handling in cloth model dedicated to design garments; Harmon et al. 2008). A zone keeps
+// its nodes' momentum and angular momentum, and an even affine motion brings no two parts of it together.
 #pragma once
 
 #include <cstdint>

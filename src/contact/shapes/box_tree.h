@@ -33,7 +33,8 @@ class BoxTree {
     stack[size++] = 0;
     while (size > 0) {
       const Node& node = nodes_[stack[--size]];
-      const bool touches = (node.low.array() <= box.max().array()).all() && (node.high.array() >= box.min().array()).all();
+      const bool touches =
+          (node.low.array() <= box.max().array()).all() && (node.high.array() >= box.min().array()).all();
       if (!touches) continue;
       if (node.count > 0) {
         visit(node.first, node.first + node.count);

@@ -35,8 +35,8 @@ bool hasBadIndices(const XMLElement* element) {
   return false;
 }
 
-// Counts nodes the way assimp makes them. The depth of the recursion is that of the elements, which tinyxml2 limits to 100, times
-// the nodes that stand for another one within each other, which are on the way until they are counted.
+// Counts nodes the way assimp makes them. The depth of the recursion is that of the elements, which tinyxml2 limits to
+// 100, times the nodes that stand for another one within each other, which are on the way until they are counted.
 class NodeCounter {
  public:
   explicit NodeCounter(const XMLElement* root) { note(root); }
@@ -53,7 +53,8 @@ class NodeCounter {
   static constexpr double kEndless = 10.0 * kMostColladaNodes;
 
   void note(const XMLElement* element) {
-    for (const XMLElement* child = element->FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+    for (const XMLElement* child = element->FirstChildElement(); child != nullptr;
+         child = child->NextSiblingElement()) {
       if (isNamed(child, "visual_scene")) scenes_.push_back(child);
       if (isNamed(child, "node")) {
         // Library nodes are found by their id; else the first node with that id or name is taken.

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "contact/shapes/mesh_loader.h"
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
-#include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
 #include <cctype>
 #include <cmath>
@@ -48,7 +48,8 @@ void requireReadable(const std::string& path, const std::string& obstacle) {
     fail(obstacle, path, "is larger than 256 MiB");
   }
   std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   const std::string problem = ending == ".dae" ? colladaProblem(path) : "";
   if (!problem.empty()) {
     fail(obstacle, path, "cannot be read: " + problem);
@@ -106,8 +107,8 @@ void appendPart(const aiMesh& part, const Eigen::Matrix4d& pose, const Vec3& sca
   const bool mirrored = linear.determinant() < 0.0;
   for (unsigned int f = 0; f < part.mNumFaces; ++f) {
     const aiFace& face = part.mFaces[f];
-    if (face.mNumIndices != 3 || std::any_of(face.mIndices, face.mIndices + 3,
-                                             [&part](unsigned int i) { return i >= part.mNumVertices; })) {
+    if (face.mNumIndices != 3 ||
+        std::any_of(face.mIndices, face.mIndices + 3, [&part](unsigned int i) { return i >= part.mNumVertices; })) {
       continue;
     }
     Eigen::Vector3i triangle(first + static_cast<int>(face.mIndices[0]), first + static_cast<int>(face.mIndices[1]),
@@ -120,7 +121,8 @@ void appendPart(const aiMesh& part, const Eigen::Matrix4d& pose, const Vec3& sca
 }
 
 /// Refuses what is far too much: parts may be used again and again.
-ShapeTriangles collectParts(const aiScene& scene, const Vec3& scale, const std::string& path, const std::string& obstacle) {
+ShapeTriangles collectParts(const aiScene& scene, const Vec3& scale, const std::string& path,
+                            const std::string& obstacle) {
   ShapeTriangles mesh;
   std::vector<PlacedNode> pending = {{scene.mRootNode, toEigen(scene.mRootNode->mTransformation)}};
   while (!pending.empty()) {
@@ -128,7 +130,8 @@ ShapeTriangles collectParts(const aiScene& scene, const Vec3& scale, const std::
     pending.pop_back();
     for (unsigned int i = 0; i < placed.node->mNumMeshes; ++i) {
       const aiMesh& part = *scene.mMeshes[placed.node->mMeshes[i]];
-      if (mesh.triangles.size() + part.mNumFaces > kMostTriangles || mesh.corners.size() + part.mNumVertices > 3 * kMostTriangles) {
+      if (mesh.triangles.size() + part.mNumFaces > kMostTriangles ||
+          mesh.corners.size() + part.mNumVertices > 3 * kMostTriangles) {
         fail(obstacle, path, "has more than 4 million triangles");
       }
       appendPart(part, placed.pose, scale, mesh);

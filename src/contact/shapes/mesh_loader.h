@@ -14,8 +14,8 @@ namespace curtain {
 ///   path      of the file system
 ///   scale     factor to metres per axis, each != 0; a mirrored mesh keeps its outside
 ///   obstacle  name for the messages
-/// No other file is opened, whatever this one names (materials). Limits: 256 MiB, 4 million triangles, polygons of 1000 corners;
-/// DAE: elements 100 deep in each other, 100000 nodes.
+/// No other file is opened, whatever this one names (materials). Limits: 256 MiB, 4 million triangles, polygons of 1000
+/// corners; DAE: elements 100 deep in each other, 100000 nodes.
 /// The unit of a DAE file is applied, its up axis is not (as rviz does). Throws std::invalid_argument
 /// "obstacle 'NAME': mesh 'PATH' REASON": missing, unreadable, without triangles, without area, not finite.
 ShapeTriangles loadMesh(const std::string& path, const Vec3& scale, const std::string& obstacle);

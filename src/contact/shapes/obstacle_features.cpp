@@ -149,7 +149,8 @@ void ObstacleFeatures::addEdges(const MeshTopology& topology, FlatEdges flat_edg
       edge.faces[1] = face_of_triangle_[sides[first + 1].triangle];
       // Faces of a shell may be wound against each other: then the second is looked at from its back.
       const bool agree = sides[first + 1].forward != side.forward;
-      across = agree ? topology.face_normals[sides[first + 1].triangle] : -topology.face_normals[sides[first + 1].triangle];
+      across =
+          agree ? topology.face_normals[sides[first + 1].triangle] : -topology.face_normals[sides[first + 1].triangle];
       flat_angle += normalError(triangles_[edge.faces[1]]);
     } else if (closed_) {
       // The neighbour was a sliver and is gone; the pseudonormal, half way to what lies behind it, still knows.

@@ -32,18 +32,18 @@ enum class EdgeBend : std::uint8_t {
 constexpr std::uint32_t kNoFace = std::numeric_limits<std::uint32_t>::max();
 
 struct ObstacleVertex {
-  Vec3 position = Vec3::Zero();   ///< [m]
-  Vec3 outward = Vec3::UnitZ();   ///< unit pseudonormal, weighted by the faces' angles
+  Vec3 position = Vec3::Zero();  ///< [m]
+  Vec3 outward = Vec3::UnitZ();  ///< unit pseudonormal, weighted by the faces' angles
   /// A face of the cloth may rest on it. Necessary, not sufficient: some edge here is touchable. Where all edges
   /// are flat or concave, the faces around are met before the corner.
   bool touchable = false;
 };
 
 struct ObstacleEdge {
-  std::array<Vec3, 2> ends;                               ///< [m]
-  std::array<std::uint32_t, 2> vertices{};                ///< of `ends`
-  std::array<std::uint32_t, 2> faces{kNoFace, kNoFace};   ///< its faces, two at most (of a branch: two of them)
-  Vec3 outward = Vec3::UnitZ();                           ///< unit mean of the faces' normals; rim: the face's normal
+  std::array<Vec3, 2> ends;                              ///< [m]
+  std::array<std::uint32_t, 2> vertices{};               ///< of `ends`
+  std::array<std::uint32_t, 2> faces{kNoFace, kNoFace};  ///< its faces, two at most (of a branch: two of them)
+  Vec3 outward = Vec3::UnitZ();                          ///< unit mean of the faces' normals; rim: the face's normal
   EdgeBend bend = EdgeBend::kFlat;
   /// An edge of the cloth may touch it. Solid: convex edges. Shell: all but flat ones. A flat edge is never what a
   /// motion touches first: the cloth meets the plane of its faces by a node, or at an edge that is not flat.
@@ -51,9 +51,9 @@ struct ObstacleEdge {
 };
 
 struct ObstacleTriangle {
-  std::array<Vec3, 3> corners;               ///< [m], counter-clockwise from outside
-  std::array<std::uint32_t, 3> vertices{};   ///< of `corners`
-  Vec3 normal = Vec3::UnitZ();               ///< unit
+  std::array<Vec3, 3> corners;              ///< [m], counter-clockwise from outside
+  std::array<std::uint32_t, 3> vertices{};  ///< of `corners`
+  Vec3 normal = Vec3::UnitZ();              ///< unit
 };
 
 /// Whether edges between coplanar faces are kept: they mean nothing to contact, but a mesh's wireframe has them.

@@ -13,9 +13,9 @@ namespace curtain {
 
 class Archive;
 
-/// What has fallen behind, because frames ended early or the cloth could not give way, follows at this speed at most, or at its own if
-/// that is higher [m/s]: that of a fall through the cloth's height, which moves cloth about as fast as it moves by itself. Without
-/// gravity nothing bounds it.
+/// What has fallen behind, because frames ended early or the cloth could not give way, follows at this speed at most,
+/// or at its own if that is higher [m/s]: that of a fall through the cloth's height, which moves cloth about as fast as
+/// it moves by itself. Without gravity nothing bounds it.
 double followingSpeed(const Scene& scene) noexcept;
 
 /// A rigid transform ready for use on many points.
@@ -24,8 +24,7 @@ struct Transform {
   Vec3 translation = Vec3::Zero();
 
   Transform() = default;
-  explicit Transform(const Pose& pose)
-      : rotation(pose.orientation.toRotationMatrix()), translation(pose.position) {}
+  explicit Transform(const Pose& pose) : rotation(pose.orientation.toRotationMatrix()), translation(pose.position) {}
   Vec3 toWorld(const Vec3& local) const { return rotation * local + translation; }
   Vec3 toLocal(const Vec3& world) const { return rotation.transpose() * (world - translation); }
 };
@@ -68,13 +67,13 @@ class ObstacleSet {
   /// Where the obstacle will be at the end of the coming frame, or (jump) is from now on.
   void setPose(int index, const Pose& pose, bool jump) noexcept;
 
-  /// Starts a frame that ends at this time [s]: scripted obstacles take their pose from their motion. What has fallen behind
-  /// follows, but not at any speed: for a cloth whose time runs slower it would be a blow.
+  /// Starts a frame that ends at this time [s]: scripted obstacles take their pose from their motion. What has fallen
+  /// behind follows, but not at any speed: for a cloth whose time runs slower it would be a blow.
   void beginFrame(double end_time) noexcept;
   /// Sets the substep, as shares of the frame in [0, 1].
   void setSubstep(double from, double to) noexcept;
-  /// Ends the frame: obstacles rest where they are until they are told otherwise. share: of the frame that was made, [0, 1]; the
-  /// rest of their way is part of the next one.
+  /// Ends the frame: obstacles rest where they are until they are told otherwise. share: of the frame that was made,
+  /// [0, 1]; the rest of their way is part of the next one.
   void endFrame(double share = 1.0) noexcept;
 
   /// It moves in this frame, or has been put elsewhere, come or gone since the last one.
@@ -100,15 +99,15 @@ class ObstacleSet {
     std::unique_ptr<const ContactShape> shape;
     std::vector<PoseKey> motion;
     Pose initial;
-    Pose left;   // where the last frame left it
+    Pose left;  // where the last frame left it
     Pose begin;
     Pose end;
     bool scripted = false;  // still follows its motion
     bool moved = false;
-    double own_way = 0.0;    // that its pose has moved on by since the last frame [m]
-    double share = 1.0;      // of the way to its pose that it goes in this frame
-    bool behind = false;     // the last frame ended before it had got there
-    bool placed = false;    // rests, and its substep is that already
+    double own_way = 0.0;  // that its pose has moved on by since the last frame [m]
+    double share = 1.0;    // of the way to its pose that it goes in this frame
+    bool behind = false;   // the last frame ended before it had got there
+    bool placed = false;   // rests, and its substep is that already
 
     void carry(Archive& archive);
   };
@@ -116,7 +115,7 @@ class ObstacleSet {
   double wayBetween(const Pose& a, const Pose& b, std::size_t index) const noexcept;
   void moveOn(std::size_t index, const Pose& pose) noexcept;
 
-  double frame_length_;  // [s]
+  double frame_length_;     // [s]
   double following_speed_;  // [m/s]
 
   std::vector<Item> items_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The smallest value of a convex distance on an edge or a triangle by tangents (Kelley 1960, "The cutting-plane method
-// for solving convex programs", in one dimension, twice nested). Each tangent lies below the distance, and two that lean
-// towards each other bound its minimum between them from below:
+// for solving convex programs", in one dimension, twice nested). Each tangent lies below the distance, and two that
+// lean towards each other bound its minimum between them from below:
 //
 //      \       /          of a row of the triangle (s fixed, t free) the two tangent planes mix to one that is level
 //       \__ __/  distance along t: a tangent of the row's minimum as a function of s, which is convex again. So the
@@ -42,7 +42,8 @@ Vec3 middleOf(const std::array<Vec3, N>& corners) {
 template <std::size_t N>
 double longestEdge(const std::array<Vec3, N>& corners) {
   double longest = 0.0;
-  for (std::size_t k = 0; k < N; ++k) longest = std::max(longest, (corners[(k + 1) % N] - corners[k]).template lpNorm<1>());
+  for (std::size_t k = 0; k < N; ++k)
+    longest = std::max(longest, (corners[(k + 1) % N] - corners[k]).template lpNorm<1>());
   return longest;
 }
 
@@ -83,7 +84,8 @@ Valley searchValley(double end, TangentAt&& tangentAt, Enough&& enough) {
   for (int n = 0;; ++n) {
     const double gap = right.at - left.at;
     // In the bracket, not from the origin: that would cancel.
-    const double meet = std::clamp((right.value - left.value - right.slope * gap) / (left.slope - right.slope), 0.0, gap);
+    const double meet =
+        std::clamp((right.value - left.value - right.slope * gap) / (left.slope - right.slope), 0.0, gap);
     const double lower = left.value + left.slope * meet;
     if (n == kMostTangents || enough(lower) || !(gap > kEps * end)) return {left, right, lower};
     double next = std::clamp(meet, 0.05 * gap, 0.95 * gap);
@@ -135,8 +137,8 @@ class Search {
   bool found_ = false;
 };
 
-/// Minimum on an edge; shape.nearest(point, beside) gives the distance and its (sub)gradient: where an element lies on both
-/// sides of a middle, out is where most of it is. `size`: of the shape, for rounding.
+/// Minimum on an edge; shape.nearest(point, beside) gives the distance and its (sub)gradient: where an element lies on
+/// both sides of a middle, out is where most of it is. `size`: of the shape, for rounding.
 template <typename Shape>
 void searchEdge(const Shape& shape, double size, const std::array<Vec3, 2>& ends, double reach, ElementMinimum& out) {
   const Vec3 along = ends[1] - ends[0], middle = middleOf(ends);

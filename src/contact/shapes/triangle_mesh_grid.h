@@ -46,7 +46,8 @@ class DistanceGrid {
  private:
   std::size_t index(const std::array<int, 3>& cell) const noexcept {
     return (static_cast<std::size_t>(cell[2]) * static_cast<std::size_t>(counts_[1]) +
-            static_cast<std::size_t>(cell[1])) * static_cast<std::size_t>(counts_[0]) +
+            static_cast<std::size_t>(cell[1])) *
+               static_cast<std::size_t>(counts_[0]) +
            static_cast<std::size_t>(cell[0]);
   }
   Vec3 centre(const std::array<int, 3>& cell) const noexcept {

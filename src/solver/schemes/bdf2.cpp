@@ -8,7 +8,8 @@
 namespace curtain {
 
 Bdf2::Bdf2(const ClothPattern& pattern) : Scheme({true, true, 0.0, true}), pattern_(pattern) {
-  for (Field3* field : {&memory_.position, &memory_.velocity, &base_.position, &base_.velocity}) field->assign(pattern.grid.size(), 0.0);
+  for (Field3* field : {&memory_.position, &memory_.velocity, &base_.position, &base_.velocity})
+    field->assign(pattern.grid.size(), 0.0);
 }
 
 bool Bdf2::usesTwo(double h) const noexcept { return memory_.h != 0.0 && h <= kMostGrowth * memory_.h; }
@@ -21,8 +22,8 @@ double Bdf2::stepFor(double h) const noexcept {
   return (1.0 + r) / (1.0 + 2.0 * r) * h;
 }
 
-SubstepStart Bdf2::start(const SubstepPlan& plan, double step, double kick, const NodeForces& forces, const NodeInertia& inertia,
-                         const ClothState& state, SubstepOutcome&) noexcept {
+SubstepStart Bdf2::start(const SubstepPlan& plan, double step, double kick, const NodeForces& forces,
+                         const NodeInertia& inertia, const ClothState& state, SubstepOutcome&) noexcept {
   if (!usesTwo(plan.h)) return startFrom(state, step, kick, forces, inertia);
   const double r = plan.h / memory_.h;
   const double change = r * r / (1.0 + 2.0 * r);  // (1+r)^2/(1+2r) is 1 more: what is at rest stays there to the bit

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The backward differentiation formula of two steps (Gear 1971): forces act along the links' directions at the end of the step. Order 2,
-// damps what it can't follow, stable at any step. After a blow it knows nothing of the steps before, and is backward Euler.
+// The backward differentiation formula of two steps (Gear 1971): forces act along the links' directions at the end of
+// the step. Order 2, damps what it can't follow, stable at any step. After a blow it knows nothing of the steps before,
+// and is backward Euler.
 #pragma once
 
 #include "solver/scheme.h"
@@ -25,8 +26,8 @@ class Bdf2 final : public Scheme {
   const Memory& memory() const noexcept { return memory_; }
 
   double stepFor(double h) const noexcept override;
-  SubstepStart start(const SubstepPlan& plan, double step, double kick, const NodeForces& forces, const NodeInertia& inertia,
-                     const ClothState& state, SubstepOutcome& outcome) noexcept override;
+  SubstepStart start(const SubstepPlan& plan, double step, double kick, const NodeForces& forces,
+                     const NodeInertia& inertia, const ClothState& state, SubstepOutcome& outcome) noexcept override;
   bool struck() noexcept override;
   void taken(const ClothState& before, double h) noexcept override;
   void passedOver() noexcept override;

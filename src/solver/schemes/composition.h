@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Order 4 from a symmetric scheme of order 2: five of its steps, gamma_k h long, gamma = (a, a, 1 - 4a, a, a) with
-// a = 1 / (4 - 4^(1/3)) (Suzuki 1990). The third runs backwards in time. Its error constant is about a fiftieth of that of the
-// composition of three (Yoshida 1990).
+// a = 1 / (4 - 4^(1/3)) (Suzuki 1990). The third runs backwards in time. Its error constant is about a fiftieth of that
+// of the composition of three (Yoshida 1990).
 #pragma once
 
 #include <array>

@@ -26,21 +26,23 @@ LastResort::LastResort(const ClothPattern& pattern) : Scheme({true, false, 0.5, 
   }
 }
 
-SubstepStart LastResort::start(const SubstepPlan& plan, double step, double kick, const NodeForces& forces, const NodeInertia& inertia,
-                               const ClothState& state, SubstepOutcome& outcome) noexcept {
+SubstepStart LastResort::start(const SubstepPlan& plan, double step, double kick, const NodeForces& forces,
+                               const NodeInertia& inertia, const ClothState& state, SubstepOutcome& outcome) noexcept {
   const Field* const keep = inertia.keep();
   const Field& w = inertia.inverse();
   base_.position = state.position;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     const Vec3 v = state.velocity.at(n);
-    base_.velocity.set(n, w[n] > 0.0 ? Vec3((keep != nullptr ? (*keep)[n] : 1.0) * v + kick * w[n] * forces.force->at(n)) : v);
+    base_.velocity.set(
+        n, w[n] > 0.0 ? Vec3((keep != nullptr ? (*keep)[n] : 1.0) * v + kick * w[n] * forces.force->at(n)) : v);
   }
   outcome.momentum_cut += cut(base_.position, w, plan.h, plan.reach, base_.velocity);
   return {base_, no_force_, nullptr, nullptr, kick, step};
 }
 
 // Of the nodes that nothing moves but their own velocity; false: there are none.
-bool LastResort::rigidMotionOfPins(const Field3& position, const Field& inverse, const Field3& velocity, RigidMotion& motion) const noexcept {
+bool LastResort::rigidMotionOfPins(const Field3& position, const Field& inverse, const Field3& velocity,
+                                   RigidMotion& motion) const noexcept {
   double pins = 0.0;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     if (!(pattern_.mass[n] > 0.0) || inverse[n] > 0.0) continue;
@@ -63,7 +65,8 @@ bool LastResort::rigidMotionOfPins(const Field3& position, const Field& inverse,
   return true;
 }
 
-double LastResort::cut(const Field3& position, const Field& inverse, double h, double reach, Field3& velocity) noexcept {
+double LastResort::cut(const Field3& position, const Field& inverse, double h, double reach,
+                       Field3& velocity) noexcept {
   const auto isFinite = [](const Vec3& v) { return v.allFinite() && std::isfinite(v.squaredNorm()); };
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     if (!isFinite(velocity.at(n))) velocity.set(n, Vec3::Zero());
@@ -91,7 +94,8 @@ double LastResort::cut(const Field3& position, const Field& inverse, double h, d
   return taken;
 }
 
-// Relative overlengths of links (and underlengths of rods) with an end that can move: the largest, and the sum of their squares.
+// Relative overlengths of links (and underlengths of rods) with an end that can move: the largest, and the sum of their
+// squares.
 LastResort::Misfit LastResort::misfitOf(const Field3& position, const Field& inverse) const noexcept {
   const Grid& grid = pattern_.grid;
   Misfit misfit;
@@ -113,7 +117,8 @@ LastResort::Misfit LastResort::misfitOf(const Field3& position, const Field& inv
 }
 
 // The largest share <= most of a link's path within its bounds.
-double LastResort::shareOf(std::size_t a, std::size_t b, double rest, bool rod, double allowed, double most, const Field3& end) const noexcept {
+double LastResort::shareOf(std::size_t a, std::size_t b, double rest, bool rod, double allowed, double most,
+                           const Field3& end) const noexcept {
   const Vec3 r = follows_.at(b) - follows_.at(a), d = end.at(b) - end.at(a) - r;
   const double longest = rest * (1.0 + allowed);
   const double square = (r + most * d).squaredNorm(), turn = r.dot(d), path = d.squaredNorm();
@@ -138,8 +143,8 @@ LastResort::Bound LastResort::bound(const Field& inverse, double allowed, Field3
   }
   const double most = std::max(allowed, begins.worst);
   double share = 1.0;
-  // A shorter path may find a rod shorter than its end did: again, until nothing changes. Every round takes the share to another of
-  // finitely many roots, downwards.
+  // A shorter path may find a rod shorter than its end did: again, until nothing changes. Every round takes the share
+  // to another of finitely many roots, downwards.
   for (double before = 2.0; share < before;) {
     before = share;
     for (int i = 0; i < grid.rows; ++i) {

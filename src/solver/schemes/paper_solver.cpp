@@ -9,8 +9,8 @@
 namespace curtain {
 namespace {
 
-// The fastest node may go so many times the cloth's size in a substep; beyond that its path can't be searched for contact. Only
-// forces beyond all measure reach it, on cloth that nothing holds.
+// The fastest node may go so many times the cloth's size in a substep; beyond that its path can't be searched for
+// contact. Only forces beyond all measure reach it, on cloth that nothing holds.
 constexpr double kMostSizes = 4.0;
 
 // Unit vector along v. Two nodes in one place have none: any will do, and the same each time.
@@ -53,7 +53,8 @@ void PaperSolver::addColumn(int column) {
   add(std::max(last, 0), down, grid.rows - 1 - std::max(last, 0), last < 0);
 }
 
-// Of the frame that the tensions are taken in: the anchor of Sect. 3.1 is fixed, a loose chain goes with its own centre of mass.
+// Of the frame that the tensions are taken in: the anchor of Sect. 3.1 is fixed, a loose chain goes with its own centre
+// of mass.
 Vec3 PaperSolver::accelerationOf(const Chain& chain, const NodeForces& forces) const noexcept {
   if (!chain.loose) return Vec3::Zero();
   Vec3 force = Vec3::Zero();
@@ -65,7 +66,8 @@ Vec3 PaperSolver::accelerationOf(const Chain& chain, const NodeForces& forces) c
   return force / mass;
 }
 
-// Cheng 2000, Sect. 3.1, steps (1)-(4) and (6) for one column: where the forces and the tensions of Eq. (5) take its nodes.
+// Cheng 2000, Sect. 3.1, steps (1)-(4) and (6) for one column: where the forces and the tensions of Eq. (5) take its
+// nodes.
 void PaperSolver::predict(const Chain& chain, const NodeForces& forces, double h, ClothState& state) const noexcept {
   const Vec3 frame = accelerationOf(chain, forces);
   Vec3 pull_from_below = Vec3::Zero();  // tension of the rod below on the node at hand [N]
@@ -80,8 +82,8 @@ void PaperSolver::predict(const Chain& chain, const NodeForces& forces, double h
       const Vec3 n = directionOf(start_.at(node) - start_.at(above));
       const Vec3 relative_velocity = state.velocity.at(node) - state.velocity.at(above);
       const Vec3 tangential = relative_velocity - relative_velocity.dot(n) * n;
-      // (4) Eq. (6), omega l = dx^t/dt, and Eq. (5), f^n = m omega^2 l, towards the origin: the rod's tension is what of the
-      // sum along n is left over. Along t and z the sum acts by itself, Eqs. (7) and (8).
+      // (4) Eq. (6), omega l = dx^t/dt, and Eq. (5), f^n = m omega^2 l, towards the origin: the rod's tension is what
+      // of the sum along n is left over. Along t and z the sum acts by itself, Eqs. (7) and (8).
       const double tension = (sum - m * frame).dot(n) + m * tangential.squaredNorm() / rodLength(chain, k);
       pull_from_below = tension * n;
       sum -= pull_from_below;
@@ -136,8 +138,8 @@ void PaperSolver::rebuild(const Chain& chain, double h, ClothState& state) const
     const Vec3 impulse = pattern_.mass[node] * (place - predicted);  // of the rod, times h
     position.set(node, place);
     state.velocity.set(node, (place - start_.at(node)) / h);
-    // Mueller 2012, Eq. (9), s = 1 and for nodes of different mass. With s = 0.95 the swing's error no longer goes down with the
-    // step, below 0.8 its energy grows.
+    // Mueller 2012, Eq. (9), s = 1 and for nodes of different mass. With s = 0.95 the swing's error no longer goes down
+    // with the step, below 0.8 its energy grows.
     if (k > 1 || chain.loose) state.velocity.add(above, -pattern_.inverse_mass[above] / h * impulse);
     moved += impulse;
     mass += pattern_.mass[node];
@@ -192,10 +194,10 @@ void PaperSolver::keepEnergies(const Field3& velocity) noexcept {
   for (Chain& chain : chains_) chain.most_energy = kineticEnergy(chain, velocity, carrierOf(chain, velocity, common));
 }
 
-// Rods and wefts do no work: relative to what carries it a column has no more kinetic energy than before and what the forces did
-// on the way; columns that wefts pull on give each other energy and have no more altogether. What is above that is taken out of
-// their velocities alike. So weight alone never raises the energy of cloth on pins at rest above both what it was and its
-// potential energy, whatever the step.
+// Rods and wefts do no work: relative to what carries it a column has no more kinetic energy than before and what the
+// forces did on the way; columns that wefts pull on give each other energy and have no more altogether. What is above
+// that is taken out of their velocities alike. So weight alone never raises the energy of cloth on pins at rest above
+// both what it was and its potential energy, whatever the step.
 void PaperSolver::boundEnergy(const NodeForces& forces, ClothState& state) noexcept {
   const Vec3 common = commonMean(state.velocity);
   const Vec3 common_move = commonMean(state.position) - commonMean(start_);
@@ -220,7 +222,8 @@ void PaperSolver::boundEnergy(const NodeForces& forces, ClothState& state) noexc
   }
 }
 
-void PaperSolver::slowDown(const Chain& chain, double most, double energy, const Vec3& carrier, Field3& velocity) const noexcept {
+void PaperSolver::slowDown(const Chain& chain, double most, double energy, const Vec3& carrier,
+                           Field3& velocity) const noexcept {
   if (energy <= std::max(0.0, most)) return;
   const double share = std::sqrt(std::max(0.0, most) / energy);
   for (int k = chain.first(); k <= chain.rods; ++k) {
@@ -229,8 +232,8 @@ void PaperSolver::slowDown(const Chain& chain, double most, double energy, const
   }
 }
 
-// Where the rebuilt cloth would go through something, contact moves its nodes once more, and holds what still would; rods give way there.
-// False: something goes through all the same, or there is no room for what might.
+// Where the rebuilt cloth would go through something, contact moves its nodes once more, and holds what still would;
+// rods give way there. False: something goes through all the same, or there is no room for what might.
 bool PaperSolver::holdBack(ContactFinder& finder, Contacts& contacts, double h, ClothState& state) noexcept {
   const auto clear = [&] { return finder.verify(start_, state.position, false) == ContactFinder::Verdict::kClear; };
   if (clear()) return true;
@@ -277,8 +280,8 @@ void PaperSolver::stop(ClothState& state) const noexcept {
   }
 }
 
-SubstepOutcome PaperSolver::substep(const NodeForces& forces, double h, ContactFinder* finder,
-                                    ClothState& state, StageClock& clock) noexcept {
+SubstepOutcome PaperSolver::substep(const NodeForces& forces, double h, ContactFinder* finder, ClothState& state,
+                                    StageClock& clock) noexcept {
   start_ = state.position;
   std::fill(taut_.begin(), taut_.end(), 0);
   for (const std::size_t pin : pins_) state.position.add(pin, h * state.velocity.at(pin));

@@ -14,8 +14,8 @@ using curtain::Vec3;
 
 constexpr double kNever = 1e6;  // [s]
 
-// The cheapest motion there is, against which an idle feature weighs most: gravity alone, 44 x 40 nodes, one thread; and
-// nothing of it falls asleep.
+// The cheapest motion there is, against which an idle feature weighs most: gravity alone, 44 x 40 nodes, one thread;
+// and nothing of it falls asleep.
 Play swing() {
   const auto reading = curtain::readSceneFile(std::string(CURTAIN_SOURCE_DIR) + "/test/scenes/swing.yaml");
   if (!reading.problems.empty()) throw std::runtime_error(curtain::describe(reading.problems));
@@ -147,50 +147,64 @@ std::vector<Feature> makeFeatures() {
     all.push_back(feature);
     return all.back();
   };
-  add("wind steady", swing(), "blows past", [](Play& p) { p.scene.wind.push_back(fanAt(kPast, 0.0)); }, "blows at it",
+  add(
+      "wind steady", swing(), "blows past", [](Play& p) { p.scene.wind.push_back(fanAt(kPast, 0.0)); }, "blows at it",
       [](Play& p) { p.scene.wind.push_back(fanAt(kBefore, 0.0)); });
-  add("wind gusts", swing(), "starts later",
+  add(
+      "wind gusts", swing(), "starts later",
       [](Play& p) {
         p.scene.wind.push_back(fanAt(kBefore, 4.0));
         p.scene.wind.back().start = kNever;
       },
       "blows at it", [](Play& p) { p.scene.wind.push_back(fanAt(kBefore, 4.0)); });
-  add("winds: ten", swing(), "blow past",
+  add(
+      "winds: ten", swing(), "blow past",
       [](Play& p) {
         for (int n = 0; n < 10; ++n) p.scene.wind.push_back(fanAt(kPast + n * Vec3::UnitX(), 4.0, std::to_string(n)));
       },
       "", nullptr);
-  add("air damping linear", swing(), "coefficients 0", [](Play& p) { p.scene.air.threshold = 1e3; }, "0.2",
+  add(
+      "air damping linear", swing(), "coefficients 0", [](Play& p) { p.scene.air.threshold = 1e3; }, "0.2",
       [](Play& p) {
         damp(p, 0.2, 0.0);
         p.scene.air.threshold = 1e3;
       });
-  add("air damping quadratic", swing(), "coefficients 0", [](Play& p) { damp(p, 0.0, 1.0); }, "0.2",
+  add(
+      "air damping quadratic", swing(), "coefficients 0", [](Play& p) { damp(p, 0.0, 1.0); }, "0.2",
       [](Play& p) { damp(p, 0.2, 1.0); });
-  add("drag force", swing(), "starts later", [](Play& p) { addDrag(p, false, kNever); }, "pulls",
+  add(
+      "drag force", swing(), "starts later", [](Play& p) { addDrag(p, false, kNever); }, "pulls",
       [](Play& p) { addDrag(p, false, 0.0); });
-  add("drag spring", swing(), "starts later", [](Play& p) { addDrag(p, true, kNever); }, "pulls",
+  add(
+      "drag spring", swing(), "starts later", [](Play& p) { addDrag(p, true, kNever); }, "pulls",
       [](Play& p) { addDrag(p, true, 0.0); });
   add("pins moved", swing(), "", nullptr, "at 0.3 m/s", movePins);
-  add("obstacle sphere", swing(), "beside it", [](Play& p) { addBall(p, kBeside); }, "in its way",
+  add(
+      "obstacle sphere", swing(), "beside it", [](Play& p) { addBall(p, kBeside); }, "in its way",
       [](Play& p) { addBall(p, kInTheWay); });
-  add("obstacle mesh", swing(), "beside it", [](Play& p) { addBall(p, kBeside, true); }, "in its way",
+  add(
+      "obstacle mesh", swing(), "beside it", [](Play& p) { addBall(p, kBeside, true); }, "in its way",
       [](Play& p) { addBall(p, kInTheWay, true); });
-  add("obstacles: ten", swing(), "far away",
+  add(
+      "obstacles: ten", swing(), "far away",
       [](Play& p) {
         for (int n = 0; n < 10; ++n) addBall(p, kFar + n * Vec3::UnitX(), false, std::to_string(n));
       },
-      "nine far away; one in its way", [](Play& p) {
+      "nine far away; one in its way",
+      [](Play& p) {
         for (int n = 0; n < 9; ++n) addBall(p, kFar + n * Vec3::UnitX(), false, std::to_string(n));
         addBall(p, kInTheWay);
       });
   // That nothing touches must be proved anew of every substep, from nodes in every fourth row and every row's ends and
   // middle (taut_net.h, 5 % of the swing); where the swing bends too much for that proof, in every seventh substep, all
   // nodes are looked at (10 %). Measured 1.151.
-  add("self-contact", swing(), "the cloth is flat", [](Play& p) { p.scene.contact.self = true; }, "", nullptr).most_idle =
-      1.16;
+  add(
+      "self-contact", swing(), "the cloth is flat", [](Play& p) { p.scene.contact.self = true; }, "", nullptr)
+      .most_idle = 1.16;
   add("self-contact: gathered to 60 %", gathered(), "", nullptr, "on", [](Play& p) { p.scene.contact.self = true; });
-  add("folds: second layer", swing(), "not looked at", [](Play& p) { p.scene.cloth.folds = 6; }, "fine mesh every frame",
+  add(
+      "folds: second layer", swing(), "not looked at", [](Play& p) { p.scene.cloth.folds = 6; },
+      "fine mesh every frame",
       [](Play& p) {
         p.scene.cloth.folds = 6;
         makeMesh(p);
@@ -201,8 +215,10 @@ std::vector<Feature> makeFeatures() {
   add("rest", swing(), "nothing rests", rests, "", nullptr);
   add("rest: all sleeps", hanging(), "", nullptr, "asleep", rests).warm_up = 90;
   add("rest: a corner moves", ledByACorner(), "", nullptr, "the rest sleeps", rests).warm_up = 90;
-  add("budget", swing(), "never reached", [](Play& p) { p.scene.solver.budget_ms = 1e5; }, "", nullptr);
-  add("porosity", swing(), "without wind", [](Play& p) { p.scene.cloth.porosity = 0.5; }, "", nullptr);
+  add(
+      "budget", swing(), "never reached", [](Play& p) { p.scene.solver.budget_ms = 1e5; }, "", nullptr);
+  add(
+      "porosity", swing(), "without wind", [](Play& p) { p.scene.cloth.porosity = 0.5; }, "", nullptr);
   add("state copied", swing(), "", nullptr, "positions; velocities; forces", copyState);
   return all;
 }
@@ -211,9 +227,12 @@ std::vector<Feature> makeFeatures() {
 
 const char* stateName(FeatureState state) {
   switch (state) {
-    case FeatureState::kOff: return "off";
-    case FeatureState::kIdle: return "idle";
-    case FeatureState::kActive: return "active";
+    case FeatureState::kOff:
+      return "off";
+    case FeatureState::kIdle:
+      return "idle";
+    case FeatureState::kActive:
+      return "active";
   }
   return "";
 }

@@ -26,13 +26,13 @@ struct Play {
 struct Feature {
   std::string name;
   Play off;
-  std::string idle_is;          ///< in words; empty: it can't be idle
-  std::function<void(Play& play)> make_idle;    ///< from off, which moves to the same bits
+  std::string idle_is;                        ///< in words; empty: it can't be idle
+  std::function<void(Play& play)> make_idle;  ///< from off, which moves to the same bits
   std::string active_is;
   std::function<void(Play& play)> make_active;  ///< from off
-  double most_idle = 1.02;      ///< instructions of idle over those of off that the test lets pass
-  int frames = 240;             ///< to be weighed
-  int warm_up = 0;              ///< frames before these
+  double most_idle = 1.02;                      ///< instructions of idle over those of off that the test lets pass
+  int frames = 240;                             ///< to be weighed
+  int warm_up = 0;                              ///< frames before these
 
   bool has(FeatureState state) const;
   Play play(FeatureState state) const;

@@ -52,7 +52,8 @@ Weight weigh(const Feature& feature, FeatureState state) {
   if (std::system("valgrind --version >/dev/null 2>&1") != 0) {
     throw std::runtime_error("valgrind is missing, instructions can't be counted (Debian: apt-get install valgrind)");
   }
-  const std::string callgrind = "valgrind --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect=weighedFrame ";
+  const std::string callgrind =
+      "valgrind --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect=weighedFrame ";
   const std::string text = outputOf(callgrind + programFor(feature, state));
   Weight weight = read(text);
   weight.ns = 0.0;

@@ -8,8 +8,8 @@
 #include "BulletSoftBody/btSoftBody.h"
 #include "BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h"
 #include "BulletSoftBody/btSoftRigidDynamicsWorld.h"
-#include "btBulletDynamicsCommon.h"
 #include "bench/rivals/rivals.h"
+#include "btBulletDynamicsCommon.h"
 
 namespace curtain_bench {
 namespace {
