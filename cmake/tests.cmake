@@ -65,6 +65,13 @@ if(DOXYGEN)
     WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
 endif()
 
+# By the formatter's major version that Debian 12 has: others break other lines.
+find_program(CLANG_FORMAT NAMES clang-format-14)
+if(CLANG_FORMAT)
+  add_test(NAME format COMMAND sh -c "git ls-files '*.cpp' '*.h' | xargs ${CLANG_FORMAT} --dry-run -Werror"
+    WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+endif()
+
 # Instructions of optimised code, without a sanitizer's.
 if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   include(cmake/cost.cmake)

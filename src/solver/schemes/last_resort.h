@@ -7,7 +7,8 @@
 //          left to solve.
 //   share  after it: the cloth goes along the straight path from where it follows its pins to what was solved only as
 //          far as every link is within its bound. A length along a straight path is a convex function of the share, so
-//          a link within its bound at the start leaves it once at most. The path's prefix is free of contact if the path is.
+//          a link within its bound at the start leaves it once at most. The path's prefix is free of contact if the
+//          path is.
 //
 // What the bounds take is momentum; it is counted.
 #pragma once
