@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "cloth/cloth.h"
 #include "scene/pi.h"
@@ -27,36 +28,92 @@ HangFrame hangFrame(const HangParams& hang) {
   return frame;
 }
 
-// A row starts as wide as the hung edge is, or as its own weft if that is shorter; the rods keep their lengths.
-void placeFlat(const Scene& scene, const ClothPattern& pattern, Field3& position) {
-  const Grid& grid = pattern.grid;
-  const HangFrame frame = hangFrame(scene.hang);
-  const double span = (scene.hang.to - scene.hang.from).norm();
-  const Vec3 middle = 0.5 * (scene.hang.from + scene.hang.to);
-  const double top_width = pattern.weft_coordinate.back();
-  const double hem_width = scene.cloth.hem_width.value_or(scene.cloth.width);
-  for (int j = 0; j < grid.columns; ++j) {
-    const double share = pattern.weft_coordinate[static_cast<std::size_t>(j)] / top_width - 0.5;
-    double down = 0.0;
-    double last_across = 0.0;
-    for (int i = 0; i < grid.rows; ++i) {
-      const double depth = pattern.warp_coordinate[static_cast<std::size_t>(i)] / scene.cloth.height;
-      const double row_width = scene.cloth.width + (hem_width - scene.cloth.width) * depth;
-      const double across = share * std::min(span, row_width);
-      if (i > 0) {
-        const double rest = pattern.warp_rest[grid.index(i, j)];
-        const double slant = across - last_across;
-        if (std::abs(slant) > 0.9 * rest) {
-          throw std::invalid_argument("cloth.hem_width: the cloth tapers faster than its warp rods are long (row " +
-                                      std::to_string(i) + ")");
-        }
-        down += std::sqrt(rest * rest - slant * slant);
+// Relative; weft links that are longer by less were placed at their length and rounded.
+constexpr double kRounded = 1e-9;
+
+// The flat cloth's own plane: across the hung edge from its middle, and down [m].
+using Flat = Eigen::Vector2d;
+
+// The lower of the points that are at `rod` from `above` and at `weft` from `beside`; where both are too short for
+// that, the nearest to `beside` that the rod allows.
+Flat atBothLengths(const Flat& above, double rod, const Flat& beside, double weft) {
+  const Flat way = beside - above;
+  const double distance = way.norm();
+  const double along = std::min(rod, (rod * rod - weft * weft + distance * distance) / (2.0 * distance));
+  const Flat unit = way / distance;
+  const Flat normal = std::sqrt(rod * rod - along * along) * Flat(-unit.y(), unit.x());
+  const Flat foot = above + along * unit;
+  return normal.y() > 0.0 ? Flat(foot + normal) : Flat(foot - normal);
+}
+
+// Places the nodes of the flat cloth row by row. A row starts as wide as the hung edge is, or as its own weft if that
+// is shorter; the rods keep their lengths. Slanting rods lift the outer columns of a row that tapers: where its weft
+// links are too short for that, the columns lie closer.
+class FlatCloth {
+ public:
+  FlatCloth(const Scene& scene, const ClothPattern& pattern) : scene_(scene), pattern_(pattern) {
+    const double top_width = pattern.weft_coordinate.back();
+    for (const double at : pattern.weft_coordinate) shares_.push_back(at / top_width - 0.5);
+    const auto nearer = [](double a, double b) { return std::abs(a) < std::abs(b); };
+    const double least = std::abs(*std::min_element(shares_.begin(), shares_.end(), nearer)) + kRounded;
+    const auto isMiddle = [&](double share) { return std::abs(share) <= least; };
+    first_ = std::find_if(shares_.begin(), shares_.end(), isMiddle) - shares_.begin();
+    last_ = shares_.rend() - std::find_if(shares_.rbegin(), shares_.rend(), isMiddle) - 1;
+  }
+
+  void place(Field3& position) {
+    const HangFrame frame = hangFrame(scene_.hang);
+    const Vec3 middle = 0.5 * (scene_.hang.from + scene_.hang.to);
+    for (int i = 0; i < pattern_.grid.rows; ++i) {
+      placeRow(i);
+      for (int j = 0; j < pattern_.grid.columns; ++j) {
+        const Flat& at = row_[static_cast<std::size_t>(j)];
+        position.set(pattern_.grid.index(i, j), middle + at.x() * frame.along + at.y() * frame.down);
       }
-      last_across = across;
-      position.set(grid.index(i, j), middle + across * frame.along + down * frame.down);
     }
   }
-}
+
+ private:
+  void placeRow(int i) {
+    const double span = (scene_.hang.to - scene_.hang.from).norm();
+    const double hem_width = scene_.cloth.hem_width.value_or(scene_.cloth.width);
+    const double depth = pattern_.warp_coordinate[static_cast<std::size_t>(i)] / scene_.cloth.height;
+    width_ = std::min(span, scene_.cloth.width + (hem_width - scene_.cloth.width) * depth);
+    above_ = row_;
+    row_.resize(shares_.size());
+    const auto count = static_cast<std::ptrdiff_t>(shares_.size());
+    for (std::ptrdiff_t j = first_; j <= last_; ++j) placeNode(i, j, j);
+    for (std::ptrdiff_t j = last_ + 1; j < count; ++j) placeNode(i, j, j - 1);
+    for (std::ptrdiff_t j = first_ - 1; j >= 0; --j) placeNode(i, j, j + 1);
+  }
+
+  // Beside a node of its row that is placed; itself: none.
+  void placeNode(int i, std::ptrdiff_t j, std::ptrdiff_t beside) {
+    Flat& at = row_[static_cast<std::size_t>(j)];
+    at = Flat(shares_[static_cast<std::size_t>(j)] * width_, 0.0);
+    if (i == 0) return;
+    const Grid& grid = pattern_.grid;
+    const Flat& above = above_[static_cast<std::size_t>(j)];
+    const double rod = pattern_.warp_rest[grid.index(i, static_cast<int>(j))];
+    const double slant = at.x() - above.x();
+    if (std::abs(slant) > 0.9 * rod) {
+      throw std::invalid_argument("cloth.hem_width: the cloth tapers faster than its warp rods are long (row " +
+                                  std::to_string(i) + ")");
+    }
+    at.y() = above.y() + std::sqrt(rod * rod - slant * slant);
+    if (beside == j) return;
+    const Flat& neighbour = row_[static_cast<std::size_t>(beside)];
+    const double weft = pattern_.weft_rest[grid.index(i, static_cast<int>(std::max(j, beside)))];
+    if ((at - neighbour).norm() > weft * (1.0 + kRounded)) at = atBothLengths(above, rod, neighbour, weft);
+  }
+
+  const Scene& scene_;
+  const ClothPattern& pattern_;
+  std::vector<double> shares_;           // of the top row's width, from the middle, by column
+  std::ptrdiff_t first_ = 0, last_ = 0;  // columns in the middle: one, or two as far from it
+  double width_ = 0.0;                   // of the row [m]
+  std::vector<Flat> row_, above_;        // [m]
+};
 
 // Closed cloth starts as a cone around the vertical through hang.from; outside = the side of positive normals.
 void placeRing(const Scene& scene, const ClothPattern& pattern, Field3& position) {
@@ -83,7 +140,7 @@ ClothState makeInitialState(const Scene& scene, const ClothPattern& pattern) {
   if (scene.cloth.closed) {
     placeRing(scene, pattern, state.position);
   } else {
-    placeFlat(scene, pattern, state.position);
+    FlatCloth(scene, pattern).place(state.position);
   }
   // Padding hangs plumb with rods of length 1 (its rest length), so that no kernel meets a zero there.
   for (int i = 0; i < grid.rows; ++i) {

@@ -133,15 +133,11 @@ TEST(Template, NodeParameters) {
   const YAML::Node root = YAML::Load(templateText());
   std::set<std::string> keys;
   for (const auto& entry : root) keys.insert(entry.first.Scalar());
-  const std::set<std::string> expected = {"world_frame",       "obstacle_timeout",
-                                          "state_rate",        "state_rest_rate",
-                                          "mesh_rate",         "mesh_tolerance",
-                                          "mesh_viewer_frame", "mesh_viewer_tolerance",
-                                          "markers_rate",      "max_catch_up",
-                                          "state_folds",       "handles",
-                                          "handle_stiffness",  "scene",
-                                          "snapshot_file",     "snapshot_period",
-                                          "diagnostic_period"};
+  const std::set<std::string> expected = {
+      "world_frame",   "obstacle_timeout", "state_rate",        "state_rest_rate",       "watch_roscpp",
+      "mesh_rate",     "mesh_tolerance",   "mesh_viewer_frame", "mesh_viewer_tolerance", "markers_rate",
+      "max_catch_up",  "state_folds",      "handles",           "handle_stiffness",      "scene",
+      "snapshot_file", "snapshot_period",  "diagnostic_period"};
   EXPECT_EQ(keys, expected);
 }
 
