@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/constants.h"
+
 namespace curtain {
 
 ErrorControl::ErrorControl(Motion& motion, StepControls& controls, FrameLoop& loop, Budget& budget)
@@ -16,7 +18,7 @@ ErrorControl::ErrorControl(Motion& motion, StepControls& controls, FrameLoop& lo
   reference_.at = start_;
 }
 
-// What fails is divided, up to `divisions` times.
+// Makes a substep; a failed one is divided, up to `divisions` times.
 bool ErrorControl::makeSubstep(const SubstepPlan& plan, double done, int divisions) {
   if (motion_.attempt(plan, done).accepted) {
     ++tally_.steps;
@@ -35,7 +37,7 @@ bool ErrorControl::makeFrame(int substeps) {
   const bool composed = params.method == Method::kLeapfrog4;
   SubstepPlan plan;
   plan.h = motion_.times.length() / substeps;
-  if (params.method == Method::kAuto) plan.most_phase = StepControl::stablePhase();
+  if (params.method == Method::kAuto) plan.most_phase = kStablePhase;
   plan.precise = composed;
   const int parts = ErrorEstimate::stepsPerSubstep(params.method);
   SubstepPlan part = plan;
@@ -54,7 +56,7 @@ bool ErrorControl::makeFrame(int substeps) {
   return true;
 }
 
-// So many frames of a run that counts nowhere. False: a substep failed.
+// Frames of a trial run, which statistics do not count. False: a substep failed.
 bool ErrorControl::makeFrames(int count, int substeps) {
   const Statistics published = motion_.statistics;
   const StageClock stages = motion_.clock;
@@ -69,8 +71,8 @@ bool ErrorControl::makeFrames(int count, int substeps) {
   return made;
 }
 
-// Substeps a frame that leapfrog is stable in, up to those the motion may use: what needs more is not moved by
-// leapfrog, and stiff links under an absurd pull would ask for millions.
+// Substeps a frame that leapfrog is stable in, at most those that the motion may use: stiff links under an extreme pull
+// would ask for millions.
 int ErrorControl::stableSubsteps() const noexcept {
   const double wanted = std::ceil(1.0 / (motion_.times.rate() * controls_.main.longestStableStep()));
   return static_cast<int>(std::clamp<double>(wanted, 1.0, estimate_.mostSubsteps()));
@@ -91,7 +93,7 @@ void ErrorControl::makePilotRuns() {
   motion_.clock.lap(Stage::kEstimate);
 }
 
-// By the coming frame. It goes first, so that forces and contacts stay those of the motion.
+// Advances the reference run by the coming frame, before the motion, so that forces and contacts end as the motion's.
 void ErrorControl::moveReference() {
   if (estimate_.referenceStarts()) {
     const int least = stableSubsteps();

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a snapshot carries of the solver, and how the rest follows. Everything else of it is written before it is read
-// in every substep: the prediction, directions, multipliers in the making, all of NetSolver; or follows from the scene
-// and from what sleeps.
+// Serialization of the solver for snapshots. Left out is what every substep writes before it reads it (prediction,
+// directions, multipliers being solved for, all of NetSolver) and what follows from the scene and the sleeping columns.
 #include <limits>
 
 #include "cloth/archive.h"
@@ -13,7 +12,7 @@
 namespace curtain {
 namespace {
 
-constexpr int kCount = 1 << 30;  // far from where an int ends
+constexpr int kCount = 1 << 30;  // bound of counters that are read back: adding to them can't overflow an int
 
 }  // namespace
 
@@ -42,14 +41,14 @@ void ExactSolver::Memory::carry(Archive& archive) {
   archive.part("tensions", tensions);
 }
 
-// Which columns are held is for those to say who let them sleep: resume().
+// Which columns are held comes from Rest: see resume().
 void HeldColumns::carry(Archive& archive) { archive.numbers("pull", pull_); }
 
 void Constraints::carry(Archive& archive) {
   archive.numbers("last_warp", last_warp_);
   archive.numbers("last_weft", last_weft_);
   archive.flag("weft_pulls", weft_pulls_);
-  archive.numbers("laid_down", laid_down_);
+  archive.numbers("laid_down", frozen_scale_);
 }
 
 void ExactSolver::carry(Archive& archive) {
@@ -66,7 +65,7 @@ void ExactSolver::resume(const ColumnSet& held, const ClothState& state) noexcep
   gained_ = {};
 }
 
-// Ranges keep the number of a frame's substeps bounded; next() itself sees to the other numbers.
+// The ranges bound the number of substeps in a frame; next() clamps the other numbers itself.
 void StepControl::carry(Archive& archive) {
   double frame = frame_;
   archive.atOnce([&] { archive.within("frame", frame, 1e-6, 1e3); });

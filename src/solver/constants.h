@@ -1,188 +1,179 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The constants of the exact schemes, in one table: what each is for, where it comes from and what changes with it.
-// Shares and factors have no unit. Those of a line solver's arithmetic (smallest pivots, widths of blocks) stand where
-// they are used.
+// The constants of the exact schemes: purpose, origin and effect of each. Shares and factors have no unit. Constants of
+// the line solvers' arithmetic (smallest pivots, block widths) are where they are used.
 #pragma once
 
 namespace curtain {
 
-// ---- Sweeps: when a solve has done enough, and how far a step of it may go
-// -------------------------------------------
+// ---- Sweeps: convergence and step length
 
-// The tolerance inside: what the last half-sweep stirs up again must still fit below the user's.
+// Tolerance used inside the solver, as a share of the user's: what the last half-sweep disturbs must still fit.
 constexpr double kInnerTolerance = 0.5;
-// Share of the tolerance below which the weft is not touched in a substep's first sweep. Far smaller than 1: a link
-// left to drift through the tolerance and then pulled back at once would be kicked.
+// Share of the tolerance below which strings and contacts are not corrected in the first sweep. Far below 1: a link
+// that drifts through the whole tolerance and is then corrected at once gets a velocity jump.
 constexpr double kFirstSweepShare = 1e-4;
-// Newton converges quadratically: an iteration that starts this close ends near the square of it, times a factor that
-// grows with the column's height.
+// Newton stops at an iteration that starts with this relative residual: convergence is quadratic, so it ends near the
+// square of it (times a factor that grows with the column's height).
 constexpr double kNewtonStop = 1e-3;
-// Where strings pull and in later sweeps the next one looks again, so a start this close is left at that. Closer, rods
-// that strings shake gain energy: pins that vibrate, a hem 1e6 times as heavy (test/stress).
+// The same where strings pull and in later sweeps, where the next sweep checks again. Smaller values make rods that
+// strings shake gain energy: vibrating pins, a hem 1e6 times as heavy (test/stress).
 constexpr double kNewtonStopLater = 1e-2;
-// For what is left to be rounding.
+// The same for SubstepPlan::precise: only rounding is left.
 constexpr double kPreciseStop = 1e-7;
 constexpr int kNewtonIterations = 12;
-// Share of the tolerance below which a block of columns is not solved again in a later sweep.
+// Share of the tolerance within which a block of columns is not solved again in a later sweep.
 constexpr double kLeaveAlone = 0.1;
-// A relative violation beyond this is a step that failed, not one that converges slowly: what it converges to lies
-// elsewhere.
+// A relative violation beyond this is a failed step: slow convergence starts nearer.
 constexpr double kMostViolation = 4.0;
-// Conjugate gradients go on until the residual is this share of what it was, or of the tolerance. Without contact,
-// whose rows are damped, they go on to what their first-order picture is worth, the square of the relative residual,
-// and strings leave and join meanwhile: a sweep is a step of Newton's. (In the last resort a row between trembling pins
-// gains energy by that.)
+// Conjugate gradients stop at this share of the initial residual, or of the tolerance. Without contact they go on to
+// the square of the relative residual, which is the accuracy of the linearisation, and the active set changes
+// meanwhile: a sweep is then a Newton step. (Not in the last resort, where a row between vibrating pins gains energy by
+// it.)
 constexpr double kReduction = 0.3;
-// In contact along given directions, which are not linearised anew: to this share. At 0.3 what lies on a ball trembles
-// by 1 mm/s.
+// The same with contact along fixed directions, which are not linearised again. At 0.3 cloth resting on a ball trembles
+// at 1 mm/s.
 constexpr double kContactReduction = 0.05;
 constexpr int kGradientIterations = 12;
-// A sweep that moves a node by more than this share of a link at once is cut back to it [1].
+// A sweep that would move a node by more than this share of a link is scaled down to it: larger moves leave the range
+// of the linearisation [1].
 constexpr double kLargestMove = 0.1;
-constexpr double kWatchMoves = 1e-3;  // relative violation below which no solve moves a node too far
-// Friction takes turns with the solve, for so many sweeps: what sticks under load converges over the substeps, its
-// multipliers carry over.
-constexpr int kRubSweeps = 3;
-// What is left over becomes motion, so contact is aimed at in proportion to the motion: to this share of the way that
-// nodes go in the substep (RMS, past their mean), but no further than so many tolerances, beyond which there are no
-// fewer sweeps. Never in the last resort: what is thrown at cloth at 50 m/s pierced it.
+constexpr double kWatchMoves = 1e-3;  // relative violation below which no solve can exceed kLargestMove
+// Sweeps of a substep that project friction. Sticking under load converges over the substeps, since multipliers carry
+// over.
+constexpr int kFrictionSweeps = 3;
+// The residual turns into motion, so the tolerance of contacts follows the motion: this share of the displacement of
+// nodes in the substep (RMS, relative to their mean), at most kMostTouch contact tolerances; more would save no sweeps.
+// Not in the last resort: objects thrown at cloth at 50 m/s pierced it.
 constexpr double kShareOfPath = 0.01;
 constexpr double kMostTouch = 4.0;
-// Cloth that lies on something has little motion, so there a share of the tolerance is aimed at for the first sweeps:
-// it moves by
-// 0.3 mm/s instead of 0.8 (RMS), for a fifth more sweeps.
+// Cloth at rest on something moves little: the first sweeps aim at this share of the tolerance. It then moves at 0.3
+// mm/s instead of 0.8 (RMS), for a fifth more sweeps.
 constexpr double kStrictShare = 0.2;
 constexpr int kStrictSweeps = 6;
-// Where strings pull, in short substeps, what a link may lack is more than its weight moves it by, and a flat net makes
-// ten times that of it across the strings: it would never come to rest. So this share of the way of its weight is aimed
-// at, but not less than that share of the tolerance.
+// Where strings pull and substeps are short, the tolerance of a link exceeds the displacement by weight, and a flat net
+// amplifies it tenfold across the strings: it would never come to rest. So the aim is this share of the displacement by
+// weight, but at least kLeastShare of the tolerance.
 constexpr double kShareOfWeight = 0.3;
 constexpr double kLeastShare = 0.01;
-// The same in the last resort, whose long substeps would leave more. 1: taut sheets never come to rest; 0.01: rows
-// drawn straight are lifted by what they may sag, at no expense.
+// The same for the last resort, whose substeps are long. 1: taut sheets never come to rest. 0.01: rows drawn straight
+// rise by as much as they may sag, without energy to pay for it.
 constexpr double kLastResortShare = 0.1;
-// Sweeps that must bring at least this improvement, or the iteration has stalled.
+// The solve has stalled when a window of sweeps improves the residual by less than this factor.
 constexpr int kStallWindow = 16;
 constexpr double kStallFactor = 0.8;
-// Levenberg-Marquardt term of the weft's solve, over the diagonal: in proportion to the residual, so that it vanishes
-// as the solve ends. Constant, it leaves combinations that hardly move anything to creep by a few percent a sweep.
+// Levenberg-Marquardt term of the strings' solve, relative to the diagonal: proportional to the residual, so that it
+// vanishes at convergence. A constant term makes near-singular combinations converge by only a few percent a sweep.
 constexpr double kDampingPerResidual = 0.05;
-// Its largest where sweeps are not undone: damped by 1e3 they creep to within the tolerance somewhere else, and a sheet
+// Its bound where sweeps are not undone. With 1e3 sweeps creep to another configuration within the tolerance: a sheet
 // held by one pin gained 0.36 m g H (test/judge/cases/everyday_700040.yaml).
 constexpr double kLargestDamping = 0.1;
-// In the last resort sweeps must make the sum of squares smaller: a step a thousand times shorter than Jacobi's that
-// does not has nothing left to gain.
+// Its bound in the last resort, whose sweeps must reduce the sum of squares: if a step a thousand times shorter than
+// Jacobi's does not, the solve has stalled.
 constexpr double kMostDamping = 1e3;
-constexpr double kMoreCaution = 8.0;
-constexpr double kLessCaution = 2.0;
-// bdf2 is stable while steps grow by less than 1 + sqrt(2) at once (Grigorieff 1983); after a longer one it begins
-// anew.
+// Change of the damping after a sweep that made things worse, and after one that improved them.
+constexpr double kDampingGrowth = 8.0;
+constexpr double kDampingShrink = 2.0;
+// Variable-step bdf2 is stable while steps grow by less than 1 + sqrt(2) at once (Grigorieff 1983); after a larger
+// growth it restarts from one step.
 constexpr double kMostGrowth = 2.0;
 
 // ---- Substeps: verification and energy
-// -------------------------------------------------------------------------------
 
-// Way of an obstacle's surface in a substep that links could not be brought to their lengths in, over the shortest
-// link.
+// After a substep whose links did not converge, the next one is limited so that an obstacle's surface moves by this
+// share of the shortest link.
 constexpr double kMostWayOfSurface = 0.2;
-// Kinetic energy of a step over that without the work of links, from which it has found another way for the links to
-// lie: where it follows the motion links take energy out. Links turn in a step, and leapfrog's energy wavers, or bdf2's
-// base lies off them, by the square of that angle: 0.03 where they turn by 0.17 rad. What no shorter step would lack
-// less is taken out of the velocities instead.
+// Ratio of kinetic energies, with and without the work of links, above which the links are assumed to have jumped to
+// another configuration. Otherwise links only take energy out; leapfrog's energy wavers, and bdf2's base is off the
+// links, by the square of the angle that links turn by: 0.03 at 0.17 rad. An excess that a shorter step would not
+// reduce is taken out of the velocities instead.
 constexpr double kMostAdded = 1.03;
-// bdf2 would go on with what a blow has stopped, as a rebound (by a third of it a step; two thirds came back from a
-// string that snapped taut). So the step of the blow, the next one, in which the rest of the speed goes, and the one
-// after are made from one step: then the last two know nothing of it.
+// Substeps that bdf2 makes from one previous step after an impact. Its history would return part of the stopped
+// velocity as a rebound (two thirds for a string that snapped taut). Three: the substep of the impact, the next, in
+// which the rest of the velocity is stopped, and one more, so that the last two steps know nothing of it.
 constexpr int kStepsAfterBlow = 3;
-// Share of the tolerance that bounded links reach: the rest is for the rounding of their lengths.
+// Share of the tolerance that LastResort::bound() fills: the rest is for rounding of lengths.
 constexpr double kBoundShare = 1.0 - 1e-6;
-// What is this far away [m] was thrown there by a force beyond all measure: damping takes the cube of its speed,
-// energies the square of it times a mass, and the next substep would go further.
+// Positions beyond this [m] count as diverged: damping takes the cube of a speed and energy the square times a mass,
+// and the next substep would go further.
 constexpr double kBeyond = 1e60;
 
 // ---- Last resort
-// -----------------------------------------------------------------------------------------------------
 
-// Reach after the first failure, in links: a link may turn by about half a radian. Not varied.
+// Trust radius after the first failure, in links: a link may turn by about half a radian. Other values were not tried.
 constexpr double kFirstReach = 0.5;
-// Reach over that of a substep that failed, or of one that settled: down in few substeps, for stops cost motion; up in
-// more, for a failure costs three quarters. Not varied.
+// Factors of the trust radius after a failed substep and after a converged one. It shrinks fast, since stopped substeps
+// lose momentum, and grows slowly, since a failure costs three quarters of it. Other values were not tried.
 constexpr double kReachShrink = 0.25;
 constexpr double kReachGrowth = 1.2;
-// Reach, in links, from which a scheme's own substeps are tried again.
+// Trust radius, in links, from which the scheme's own substeps are tried again.
 constexpr double kUnbounded = 2.0;
-// Least reach: nodes go a hundredth of the links' tolerance, which asks for no solve.
+// Least trust radius: nodes move by a hundredth of the links' tolerance, so there is nothing left to solve.
 constexpr double kLeastReach = 1e-5;
-// Links so many times beyond their bound where a path begins were brought there by pins that were pulled apart, or put
-// there. They come back, or share what pins ask of them, by whatever the solve finds that is not worse than so many
-// times what was.
+// Links that exceed their bound by this factor at the start of a path were pulled there by pins that moved apart, or
+// put there by setState(). Then any result counts that is not worse than kForcedGrowth times the start.
 constexpr double kForced = 10.0;
 constexpr double kForcedGrowth = 2.0;
 
 // ---- Velocities at the time of the positions
-// -------------------------------------------------------------------------
 
-// Rounds of the linear velocity projection at most, until the rate of what it takes out is this share of what it was.
-// More than two without contact: rows between trembling pins gain energy.
+// Most rounds of the linear velocity projection; it ends earlier when the constraint rates are down to
+// kVelocityReduction. More than two without contact make rows between vibrating pins gain energy.
 constexpr int kVelocityRounds = 2;
-constexpr int kContactRounds = 8;  // whose rows are damped
+constexpr int kContactRounds = 8;  // with contact, whose rows are damped
 constexpr double kVelocityReduction = 1e-3;
 constexpr double kVelocityDamping = 1e-4;
 constexpr int kVelocityIterations = 24;
 
 // ---- Step control
-// ----------------------------------------------------------------------------------------------------
 
-// h * omega_max that substeps are chosen for. Leapfrog is stable below 2; from 1.7 tensions may grow by
-// 1.4 within a substep, and what outgrows even that is caught by heavier nodes.
+// h * omega_max that substeps are chosen for. Leapfrog is stable below 2; 1.7 leaves room for tensions to grow by a
+// factor of 1.4 within a substep. Faster growth is caught by mass scaling.
 constexpr double kPhasePerStep = 1.7;
-// Where a few nodes alone ask for short substeps (the corners a sheet hangs by), they are made heavier instead: by so
-// much altogether, as a share of the cloth's mass. A sheet of 44 x 40 hung by two corners takes 12 substeps a frame
-// with it and
-// 22 without.
+// Mass scaling: where a few nodes alone ask for short substeps (the corners a sheet hangs by), their inertia is
+// increased, by at most this share of the cloth's mass in total. A sheet of 44 x 40 hung by two corners takes 12
+// substeps a frame with it and 22 without.
 constexpr double kHeavierShare = 0.02;
-// From here on nodes are heavier: leapfrog would soon blow up. At 1.7 a swing in two fixed substeps gains 2.5e-2 of its
-// energy in 20 s.
+// h * omega at which mass scaling sets in, below leapfrog's limit of 2. At 1.7 a swing in two fixed substeps
+// gains 2.5e-2 of its energy in 20 s.
 constexpr double kStablePhase = 1.9;
-// h * turning that substeps are chosen for where rods alone act, and the motion is smooth. Leapfrog is off by about
-// (h * turning)^2 / 24 of the way that it goes: with 0.07, a millimetre in 5 m. Chains of 2 m then end a second's fall
-// with
-// 0.2 to 0.9 mm (RMS) whatever their number of rods; the cost of smooth motion is inversely proportional to it.
+// h * turning rate that substeps are chosen for where only rods act and the motion is smooth. Leapfrog's error is about
+// (h * turning)^2 / 24 of the displacement: 1 mm in 5 m at 0.07. Chains of 2 m then end a second's fall with 0.2 to 0.9
+// mm (RMS) for any number of rods. The cost of smooth motion is inversely proportional to it.
 constexpr double kTurnPerStep = 0.07;
-// What a motion that is only compared with may use.
+// h * omega for the reference run of the error estimate.
 constexpr double kLongestPhase = 1.8;
-// Looking for such a step costs as much as a sweep; substeps longer than this share of a frame are left alone.
+// Finding the step for mass scaling costs as much as a sweep, so substeps longer than this share of a frame are kept.
 constexpr double kWorthLooking = 0.25;
+// After kGoodToGrow accepted substeps the limit from rejections grows by this factor.
 constexpr double kLimitGrowth = 1.4;
 constexpr int kGoodToGrow = 8;
-// Substeps of the schemes whose step nothing but accuracy limits, when the scene leaves the choice.
+// Substeps of bdf2 and implicit with `substeps: auto`: only accuracy limits their step.
 constexpr int kImplicitSubsteps = 8;
-// The paper's: of first order, 27 mm after a second of a swing of 43 rods (measured), and its wefts come as near as its
-// passes are many: of a flag in the wind 0.5 too long at most, at 4 substeps 1.8. Its energy is bounded at any.
+// The same of the paper's scheme. First order: 27 mm after a second of a swing of 43 rods. Its weft overlength falls
+// with the number of passes: 0.5 at most for a flag in the wind, 1.8 at 4 substeps. Its energy is bounded at any
+// number.
 constexpr int kPaperSubsteps = 16;
-// Where there is no time for more substeps they are up to so many times longer: beyond that their solve takes all that
-// is saved.
+// With a computing budget substeps may be longer by this factor; beyond it their solve costs all that is saved.
 constexpr double kMostStretch = 2.0;
-// A fixed step that fails may be divided so far before the last resort takes over.
+// A fixed substep that fails is divided by at most this before the last resort takes over.
 constexpr int kRoomBelowFixed = 16;
-// Substeps a frame of the last resort. What they are cut to settles at any step; of 8 to 128 measured on 40 wild scenes
-// 8 take the least time and stop the cloth least often. Fewer would slow it: it goes two links a substep at most.
+// Substeps a frame of the last resort; the bound motion converges at any step. Of 8 to 128, on 40 wild scenes, 8 take
+// the least time and stop the cloth least often. Fewer would slow it down: it moves two links a substep at most.
 constexpr int kLastResortSubsteps = 8;
 
 // ---- Friction
-// --------------------------------------------------------------------------------------------------------
 
-// Share of friction's bound below which a point that stuck in the last substep is solved for as held. Points near the
-// bound would change between sticking and slipping from sweep to sweep; they take turns.
+// A contact that stuck in the last substep with less than this share of the friction bound is solved for as sticking.
+// Contacts nearer to the bound would switch from sweep to sweep; they are projected instead.
 constexpr double kSticksBelow = 0.5;
-// What such a point may slip in a substep, as a share of what it may enter: the next substep takes it up.
+// Slip of a sticking contact in a substep, as a share of its penetration tolerance; the next substep corrects it.
 constexpr double kStickShare = 0.25;
 
 // ---- Contact rows
-// ----------------------------------------------------------------------------------------------------
 
-// Many contacts say nearly the same; solved to the last, some would pull so that others can push. Over the diagonal.
+// Least damping of contact rows, relative to the diagonal. Many contacts are nearly redundant; solved exactly, some
+// would pull so that others can push.
 constexpr float kLeastDamping = 0.2F;
 
 }  // namespace curtain

@@ -36,7 +36,7 @@ Constraints::Constraints(const ClothPattern& pattern, double tolerance, const No
   best_.position.assign(size, 0.0);
   block_motion_.resize(blocks);
   block_progress_.resize(blocks);
-  laid_down_.assign(blocks, 0.0);
+  frozen_scale_.assign(blocks, 0.0);
   row_worst_.resize(static_cast<std::size_t>((pattern.grid.rows + kRowsAtOnce - 1) / kRowsAtOnce));
 }
 
@@ -52,7 +52,7 @@ void Constraints::reset() noexcept {
   scratch_.assign(pattern_.grid);
 }
 
-// ---- the beginning and the end of a substep
+// ---- Begin and end of a substep
 
 void Constraints::begin(const SubstepStart& start, double ratio) noexcept {
   const LineSolve warp = rods(), weft = wefts();
@@ -83,7 +83,7 @@ double Constraints::commit(const Field3& from, double step, bool bends, ClothSta
     heaviest = loadStrings(load);
     last_weft_ = weft_.multiplier;
   }
-  std::swap(state.position, next);  // where columns are held the two are equal
+  std::swap(state.position, next);  // equal in held columns
   std::swap(last_warp_, warp_.multiplier);
   return heaviest;
 }
@@ -92,7 +92,7 @@ void Constraints::end(bool taken) noexcept {
   if (directions_set_ && (!taken || !weft_pulls_)) std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0);
 }
 
-// Adds what the strings pull to the nodes' loads; returns the largest load over its mass.
+// Adds the strings' multipliers to the nodes' loads; returns the largest load over its mass.
 CURTAIN_WIDE double Constraints::loadStrings(Field& loads) noexcept {
   const Grid& grid = pattern_.grid;
   const auto last = static_cast<std::size_t>(grid.columns) - 1;

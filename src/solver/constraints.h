@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What holds the cloth together in a substep: two-sided warp rods and one-sided weft links, with the positions in the
-// making, the links' directions and multipliers, and the solves that bring both together. Rods: Newton, one tridiagonal
-// system a column. Strings and contacts that push: all at once, with the rods' answer taken into account (NetSolver).
-// What is solved when is for Sweeps.
+// The constraints of a substep: two-sided warp rods, one-sided weft strings and contacts, with the positions being
+// solved for and the links' directions and multipliers. Rods: Newton, one tridiagonal system a column. Taut strings and
+// pushing contacts: all at once, with the rods eliminated (NetSolver). Sweeps decides what is solved when.
 #pragma once
 
 #include <algorithm>
@@ -18,51 +17,51 @@
 
 namespace curtain {
 
-/// Not thread-safe. Allocates nothing after construction, but for more contacts than expected.
+/// Not thread-safe. Allocates only in the constructor, and for more contacts than expected.
 class Constraints {
  public:
-  /// tolerance  relative, of the links: what their compliance may give. All of them must outlive this.
+  /// tolerance  relative overlength that the links' compliance may reach. All arguments must outlive this.
   Constraints(const ClothPattern& pattern, double tolerance, const NodeInertia& inertia, const HeldColumns& held,
               const Workers& workers);
   void expectContacts(std::size_t count);
   /// Forgets the tensions of the last substep.
   void reset() noexcept;
 
-  /// Positions in the making [m].
+  /// Positions being solved for [m].
   Field3 next;
 
-  // ---- the beginning and the end of a substep
+  // ---- Begin and end of a substep
 
-  /// Predicts, and starts with the last substep's multipliers times ratio.
+  /// Predicts, and warm-starts with the last substep's multipliers times ratio.
   void begin(const SubstepStart& start, double ratio) noexcept;
-  /// The substep is taken: velocities, loads (returns the largest of them over its mass), memory. bends:
-  /// WarpMotion::bent is wanted.
+  /// Accepts the substep: sets velocities and loads (returns the largest load over its mass) and keeps the multipliers.
+  /// bends: compute WarpMotion::bent.
   double commit(const Field3& from, double step, bool bends, ClothState& state, Field& load) noexcept;
-  /// It is over, taken or not.
+  /// Ends the substep, accepted or not.
   void end(bool taken) noexcept;
 
-  /// A string pulled in the last substep that was taken.
+  /// A string pulled in the last accepted substep.
   bool weftPulls() const noexcept { return weft_pulls_; }
-  /// A string pulls now, or one was looked at closely.
+  /// A string pulls now, or directions were set because one was too long.
   bool stringsAct() const noexcept { return directions_set_; }
   const LinkSet& strings() const noexcept { return weft_; }
   /// A string pulls that did not in the last substep.
   bool snapsTaut() const noexcept;
-  /// Sum over the rods of how their motion has changed in the last substep [1/s^2] (WarpMotion::bent).
+  /// Sum over the rods of their relative change of velocity in the last substep [1/s^2] (WarpMotion::bent).
   double bent() const noexcept;
   /// Sum of multiplier times direction over a node's links, of the last substep [kg m].
   Vec3 pullAt(int row, int column) const noexcept;
 
-  // ---- what a solve is made of
+  // ---- Parts of a solve
 
-  /// The same substep may be solved more than once, each time with more contacts.
+  /// A substep is solved again when contacts are added.
   void beginSolve() noexcept { net_ready_ = false; }
 
   struct RodsAim {
     bool follow;           ///< along the directions of the present positions
-    double stop;           ///< relative violation that an iteration may end from
-    double leave_alone;    ///< blocks of columns within it are not touched
-    double most_residual;  ///< beyond it a solve has failed
+    double stop;           ///< relative residual at the start of the last Newton iteration
+    double leave_alone;    ///< blocks of columns within this residual are skipped
+    double most_residual;  ///< beyond it the solve has failed
   };
   struct RodsProgress {
     bool converged = true;
@@ -71,51 +70,52 @@ class Constraints {
   RodsProgress solveRods(const RodsAim& aim) noexcept;
   double rodsResidual() noexcept;
 
-  /// Largest relative violation of a string. closely: each one's is kept, for the solve; else none may pull.
+  /// Largest relative violation of a string. closely: keep the violation of each for solveNet(); otherwise none may
+  /// pull.
   double lookAtStrings(bool closely) noexcept;
   double stringsResidual() noexcept;
 
-  /// Directions of all links are those of the positions as they are now.
+  /// Sets the directions of all links from the present positions.
   void followDirections() noexcept;
-  /// Strings pull along their directions at the start of the substep, rods as they do.
+  /// Sets the strings' directions from the start of the substep; the rods have theirs.
   void takeDirections(const Field3& start) noexcept;
 
   struct NetAim {
-    double residual;  ///< the largest relative violation
+    double residual;  ///< largest relative violation
     double enough;    ///< reduction of it to stop at
-    double damping;   ///< Levenberg-Marquardt term, over the diagonal
-    bool newton;      ///< strings leave and join within the solve
+    double damping;   ///< Levenberg-Marquardt term, relative to the diagonal
+    bool newton;      ///< the active set of strings changes within the solve
   };
-  /// One step of all taut strings and contacts. The nodes move by their part of it; the rods' own solve comes next.
+  /// One step of all taut strings and contacts. Moves the nodes; the rods are solved for next.
   void solveNet(const NetAim& aim, Contacts* contacts) noexcept;
 
-  /// The sum of the squares of what links and contacts lack, over a link; rods_lack: of every rod, where their own
-  /// solve has not converged. A damped step makes it smaller if it is short enough, where the largest may stand on a
-  /// plateau.
+  /// Sum of the squared violations of links and contacts, in lengths of a link; rods_lack: violation assumed of every
+  /// rod, where their solve has not converged. A damped step reduces it if it is short enough, while the largest
+  /// violation may stay the same.
   double merit(const Contacts* contacts, double rods_lack) noexcept;
-  /// What a sweep that went wrong goes back to.
-  void keepIterate(const Contacts* contacts);
-  void goBack(Contacts* contacts) noexcept;
+  /// The iterate to return to when a sweep made things worse.
+  void saveIterate(const Contacts* contacts);
+  void restoreIterate(Contacts* contacts) noexcept;
 
-  /// Between the shortest and the longest weft link of the top row, for scale [m].
+  /// Mean of the shortest and the longest weft link of the top row, the length scale [m].
   double middleRest() const noexcept { return middle_rest_; }
 
-  // ---- velocities (constraints_velocity.cpp)
+  // ---- Velocities (constraints_velocity.cpp)
 
-  /// Takes out of the velocities what would change the lengths of rods and of links that pull, and what contacts
-  /// forbid, from where a share of the last substep's forces between nodes leads: friction goes on as it was, and at
-  /// rest nothing is left to do.
+  /// Projects the velocities on the constraints: no rod or pulling string changes its length, no pushing contact
+  /// penetrates. Starts from `share` of the last substep's forces between nodes, so friction goes on and cloth at rest
+  /// is a fixed point.
   void project(const Field3& position, const Contacts* contacts, double share, Field3& velocity) noexcept;
 
-  // ---- columns that fall asleep and wake (constraints_hold.cpp)
+  // ---- Columns that fall asleep and wake (constraints_hold.cpp)
 
-  /// Before held changes: multipliers of the last substep, and 1 / scale of them [1/s^2].
+  /// To be read before `held` changes: the strings' multipliers of the last substep.
   const Field& lastStrings() const noexcept { return last_weft_; }
-  /// After it: these blocks were left out before. tensions: of the last substep.
+  /// After `held` has changed. skipped_before: blocks that were left out until now; tensions: of the last substep.
   void hold(const std::vector<std::uint8_t>& skipped_before, const ClothState& state,
             NodeInertia::Tensions& tensions) noexcept;
 
-  // ---- what a substep leaves to the next
+  // ---- What a substep leaves to the next
 
   struct Memory {
     Field warp, weft;
@@ -126,7 +126,7 @@ class Constraints {
   void save(Memory& memory) const;
   void restore(const Memory& memory);
   void carry(Archive& archive);
-  /// After carry() has loaded, and held and inertia are as they were.
+  /// After carry() has loaded, with held and inertia as they were saved.
   void resume(const ClothState& state) noexcept;
 
  private:
@@ -140,8 +140,8 @@ class Constraints {
   double measureStrings() noexcept;
   double loadStrings(Field& load) noexcept;
   void spreadForces(const LineSolve& warp, const LineSolve& weft, const Contacts* contacts, double share) noexcept;
-  void layDown(int block, const ClothState& state, NodeInertia::Tensions& tensions) noexcept;
-  void takeUp(int block, NodeInertia::Tensions& tensions) noexcept;
+  void freeze(int block, const ClothState& state, NodeInertia::Tensions& tensions) noexcept;
+  void thaw(int block, NodeInertia::Tensions& tensions) noexcept;
   double heaviestOf(int block, const Field& load) const noexcept;
   LineSolve rods() noexcept { return {pattern_, inertia_.inverse(), warp_, next, held_.movingSpan()}; }
   LineSolve wefts() noexcept { return {pattern_, inertia_.inverse(), weft_, next, held_.movingSpan()}; }
@@ -150,7 +150,7 @@ class Constraints {
   template <typename Block>
   void forEachBlock(const Block& block) const;
 
-  static constexpr int kRowsAtOnce = 8;
+  static constexpr int kRowsAtOnce = 8;  // of a task for the workers
 
   const ClothPattern& pattern_;
   const NodeInertia& inertia_;
@@ -162,19 +162,19 @@ class Constraints {
   Field last_warp_, last_weft_;  // multipliers of the last accepted substep
   bool weft_pulls_ = false;      // a multiplier of last_weft_ is not zero
   bool directions_set_ = false;  // of the weft, in this substep
-  bool measured_ = false;        // violation_ and active_ are of the positions as they are
+  bool measured_ = false;        // violation_ and active_ belong to the present positions
   double middle_rest_;
-  bool net_ready_ = false;  // of directions at the start of the substep
+  bool net_ready_ = false;  // net_ has directions of this substep
   Field violation_, active_, change_;
-  Field free_per_square_;  // of weft links with an end that can move: 1 / rest length^2 [1/m^2]; others: 0
+  Field free_per_square_;  // 1 / rest length^2 of weft links with a movable end [1/m^2]; others: 0
   std::vector<WarpMotion> block_motion_;
   std::vector<RodsProgress> block_progress_;
   std::vector<double> row_worst_;
-  std::vector<double> laid_down_;  // by block: scale of the multipliers that it was left out with [s^2]
+  std::vector<double> frozen_scale_;  // by block: scale of the multipliers when it was left out [s^2]
   Iterate best_;
 };
 
-// Calls run(block) for the blocks of columns in which something moves.
+// Calls run(block) for the blocks of columns with a moving node.
 template <typename Block>
 void Constraints::forEachBlock(const Block& run) const {
   workers_.run(warpBlockCount(pattern_.grid), [&](int block) {
@@ -182,7 +182,7 @@ void Constraints::forEachBlock(const Block& run) const {
   });
 }
 
-// Calls look(row) for all rows; the largest of what it returns.
+// Calls look(row) for all rows; returns the largest result.
 template <typename Look>
 double Constraints::worstOfRows(const Look& look) noexcept {
   const int rows = pattern_.grid.rows;

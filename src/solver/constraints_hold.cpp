@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Columns that fall asleep and wake while others move. A block of columns that is left out must have its positions and
-// multipliers in both of the buffers that substeps swap; what the multipliers are worth depends on the substep's
-// length.
+// Columns that fall asleep and wake while others move. Substeps swap buffers, so a block of columns that is left out
+// needs its positions and multipliers in both. Multipliers scale with the substep (h * kick): they are rescaled when
+// the block wakes.
 #include <cmath>
 
 #include "cloth/archive.h"
@@ -14,7 +14,7 @@ void Constraints::hold(const std::vector<std::uint8_t>& skipped_before, const Cl
                        NodeInertia::Tensions& tensions) noexcept {
   const Grid& grid = pattern_.grid;
   freeWeft(pattern_, inertia_.masses(), free_per_square_);
-  // Outside the span of what moves nothing is measured any more.
+  // Nothing is measured outside the span of what moves.
   std::fill(violation_.begin(), violation_.end(), 0.0);
   std::fill(active_.begin(), active_.end(), 0.0);
   net_.reset();
@@ -22,13 +22,13 @@ void Constraints::hold(const std::vector<std::uint8_t>& skipped_before, const Cl
   for (int block = 0; block < warpBlockCount(grid); ++block) {
     const bool was_skipped = skipped_before[static_cast<std::size_t>(block)] != 0;
     const bool padding = block * kLane >= grid.columns;
-    if (held_.skips(block) && (padding || !was_skipped)) layDown(block, state, tensions);
-    if (!held_.skips(block) && was_skipped) takeUp(block, tensions);
+    if (held_.skips(block) && (padding || !was_skipped)) freeze(block, state, tensions);
+    if (!held_.skips(block) && was_skipped) thaw(block, tensions);
     if (!held_.skips(block)) tensions.heaviest = std::max(tensions.heaviest, heaviestOf(block, tensions.load));
   }
 }
 
-void Constraints::layDown(int block, const ClothState& state, NodeInertia::Tensions& tensions) noexcept {
+void Constraints::freeze(int block, const ClothState& state, NodeInertia::Tensions& tensions) noexcept {
   const Grid& grid = pattern_.grid;
   const std::size_t first = static_cast<std::size_t>(block) * kLane;
   const auto copy = [first](const Field& from, Field& to, std::size_t row) {
@@ -43,15 +43,15 @@ void Constraints::layDown(int block, const ClothState& state, NodeInertia::Tensi
     std::fill_n(tensions.load.data() + row + first, kLane, 0.0);
   }
   const auto at = static_cast<std::size_t>(block);
-  laid_down_[at] = tensions.scale;
+  frozen_scale_[at] = tensions.scale;
   block_progress_[at] = RodsProgress();
   block_motion_[at] = WarpMotion();
 }
 
-void Constraints::takeUp(int block, NodeInertia::Tensions& tensions) noexcept {
+void Constraints::thaw(int block, NodeInertia::Tensions& tensions) noexcept {
   const Grid& grid = pattern_.grid;
   const auto stride = static_cast<std::size_t>(grid.stride);
-  const double before = laid_down_[static_cast<std::size_t>(block)];
+  const double before = frozen_scale_[static_cast<std::size_t>(block)];
   const double ratio = before != 0.0 ? tensions.scale / before : 0.0;
   for (int i = 0; i < grid.rows; ++i) {
     for (std::size_t n = grid.row(i) + static_cast<std::size_t>(block) * kLane, k = 0; k < kLane; ++k, ++n)
@@ -68,7 +68,7 @@ void Constraints::takeUp(int block, NodeInertia::Tensions& tensions) noexcept {
   }
 }
 
-// Largest load of a block's nodes over their mass.
+// Largest load over mass of a block's nodes.
 double Constraints::heaviestOf(int block, const Field& load) const noexcept {
   const Grid& grid = pattern_.grid;
   double worst = 0.0;
@@ -80,8 +80,8 @@ double Constraints::heaviestOf(int block, const Field& load) const noexcept {
   return worst;
 }
 
-// As hold() and reset() leave it: blocks that are left out have their positions and multipliers in both buffers,
-// strings no multipliers but those of the last substep, and nothing is measured where nothing moves.
+// Restores what hold() and reset() guarantee: both buffers of skipped blocks agree, strings have no multipliers but
+// those of the last substep, nothing is measured where nothing moves.
 void Constraints::resume(const ClothState& state) noexcept {
   freeWeft(pattern_, inertia_.masses(), free_per_square_);
   next = state.position;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The parts of a solve: rods, strings and contacts.
+// The parts of a solve: rods, strings, contacts.
 #include <cmath>
 
 #include "solver/constants.h"
@@ -8,8 +8,7 @@
 
 namespace curtain {
 
-// Newton on one block of columns until an iteration starts with a residual of at most stop. A block whose rods are
-// within leave_alone already is not touched.
+// Newton on one block of columns; skipped when its rods are within leave_alone.
 Constraints::RodsProgress Constraints::solveBlock(const LineSolve& warp, const RodsAim& aim, int block) noexcept {
   RodsProgress progress;
   if (aim.leave_alone > 0.0) {
@@ -128,14 +127,14 @@ double Constraints::merit(const Contacts* contacts, double rods_lack) noexcept {
   return sum;
 }
 
-void Constraints::keepIterate(const Contacts* contacts) {
+void Constraints::saveIterate(const Contacts* contacts) {
   best_.position = next;
   best_.warp = warp_.multiplier;
   best_.weft = weft_.multiplier;
   if (contacts != nullptr) best_.contacts = *contacts;
 }
 
-void Constraints::goBack(Contacts* contacts) noexcept {
+void Constraints::restoreIterate(Contacts* contacts) noexcept {
   next = best_.position;
   warp_.multiplier = best_.warp;
   weft_.multiplier = best_.weft;

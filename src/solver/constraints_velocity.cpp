@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Velocities free of what would change the links' lengths or enter what is touched.
+// Velocity projection: links keep their lengths, contacts do not penetrate.
 #include "solver/constants.h"
 #include "solver/constraints.h"
 
 namespace curtain {
 
-// From where a share of the last substep's forces between nodes leads: moves the velocities by it, and leaves it in the
-// multipliers.
+// Applies a share of the last substep's forces between nodes to the velocities, and leaves it in the multipliers.
 void Constraints::spreadForces(const LineSolve& warp, const LineSolve& weft, const Contacts* contacts,
                                double share) noexcept {
-  // Blocks that are left out keep theirs: they are to be the same in both buffers (constraints_hold.cpp).
+  // Skipped blocks keep their multipliers: both buffers must agree (constraints_hold.cpp).
   forEachBlock([&](int block) {
     for (int i = 0; i < pattern_.grid.rows; ++i) {
       const std::size_t first = pattern_.grid.row(i) + static_cast<std::size_t>(block) * kLane;

@@ -12,7 +12,7 @@ namespace {
 
 Vec3 across(const Vec3& normal, const Vec3& v) { return v - normal.dot(v) * normal; }
 
-// Coulomb's disc.
+// Projection on Coulomb's disc.
 Vec3 bounded(const Vec3& slide, double most) {
   const double size = slide.norm();
   return size > most ? Vec3(slide * (most / size)) : slide;
@@ -87,7 +87,7 @@ bool pressesOnObstacle(const Contacts& contacts) noexcept {
                      [](const Contact& contact) { return contact.obstacle != Contact::kCloth && contact.pushes(); });
 }
 
-void rubContacts(const Field& inverse_inertia, Contacts& contacts, Field3& position) noexcept {
+void projectFriction(const Field& inverse_inertia, Contacts& contacts, Field3& position) noexcept {
   for (Contact& contact : contacts) {
     if (contact.sticks || contact.friction == 0.0 || contact.mobility <= 0.0) continue;
     if (!contact.pushes() && contact.slide.squaredNorm() == 0.0) continue;
@@ -124,7 +124,7 @@ void projectContacts(const Field& inverse_inertia, Contacts& contacts, Field3& p
     contact.sticks = false;
     contact.move(inverse_inertia, change * contact.normal, position);
   }
-  rubContacts(inverse_inertia, contacts, position);
+  projectFriction(inverse_inertia, contacts, position);
 }
 
 }  // namespace curtain

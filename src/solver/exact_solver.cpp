@@ -13,7 +13,7 @@ namespace {
 
 bool isWithinNumbers(const Field3& position) noexcept {
   const auto within = [](const Field& values) {
-    // The other way round NaN would pass.
+    // Written so that NaN fails.
     return std::all_of(values.begin(), values.end(), [](double value) { return std::abs(value) <= kBeyond; });
   };
   return within(position.x) && within(position.y) && within(position.z);
@@ -59,45 +59,44 @@ Scheme& ExactSolver::schemeOf(SchemeKind kind) noexcept {
 SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder,
                                     ClothState& state, StageClock& clock) noexcept {
   SubstepOutcome outcome;
-  const Making making = predict(plan, forces, finder, state, clock, outcome);
-  Progress progress = solveAndVerify(making);
-  if (making.scheme.rules().remembers && struck(progress) && making.scheme.struck()) {
+  const Attempt attempt = predict(plan, forces, finder, state, clock, outcome);
+  Progress progress = solveAndVerify(attempt);
+  if (attempt.scheme.rules().remembers && struck(progress) && attempt.scheme.struck()) {
     constraints_.end(false);
     outcome = substep(plan, forces, finder, state, clock);
     outcome.sweeps += progress.sweeps;
     return outcome;
   }
-  judge(making, progress, outcome);
-  if (plan.isLastResort() && !progress.settled) boundPath(making, progress, outcome);
+  judge(attempt, progress, outcome);
+  if (plan.isLastResort() && !progress.settled) boundPath(attempt, progress, outcome);
   outcome.accepted = !outcome.disturbed && (progress.settled || plan.isLastResort());
-  if (outcome.accepted) take(making, progress, outcome);
+  if (outcome.accepted) take(attempt, progress, outcome);
   constraints_.end(outcome.accepted);
   clock.lap(Stage::kFinish);
   return outcome;
 }
 
-// Velocities at the end of the step are predicted with forces that act until then, those half a step behind for half a
-// step less.
-ExactSolver::Making ExactSolver::predict(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder,
-                                         ClothState& state, StageClock& clock, SubstepOutcome& outcome) noexcept {
+// Schemes with velocities at the end of the step use forces that act until then; leapfrog's act for half a step less.
+ExactSolver::Attempt ExactSolver::predict(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder,
+                                          ClothState& state, StageClock& clock, SubstepOutcome& outcome) noexcept {
   Scheme& scheme = schemeOf(plan.scheme);
   const Scheme::Rules& rules = scheme.rules();
   const double step = scheme.stepFor(plan.h);
   const double kick = state.velocity_age + (1.0 - rules.age) * step;
   const double scale = step * kick;
   inertia_.set(forces, kick, scale, plan.most_phase, rules.backward);
-  // The last substep's multipliers are a start where forces act along the directions that they were found with; a solve
-  // that follows the directions blows up when old tensions act along rods that have turned much since.
+  // Warm start only along fixed directions: with present directions old tensions diverge where rods have turned much.
   const double before = inertia_.tensions().scale;
   const double ratio = !rules.follows && before != 0.0 ? scale / before : 0.0;
-  const Making making{plan,   forces, finder, state, clock,
-                      scheme, step,   kick,   ratio, scheme.start(plan, step, kick, forces, inertia_, state, outcome)};
-  constraints_.begin(making.start, ratio);
+  const Attempt attempt{
+      plan,   forces, finder, state, clock,
+      scheme, step,   kick,   ratio, scheme.start(plan, step, kick, forces, inertia_, state, outcome)};
+  constraints_.begin(attempt.start, ratio);
   clock.lap(Stage::kPredict);
-  return making;
+  return attempt;
 }
 
-// Of the nodes' velocities, as seen from their mean [m^2/s^2].
+// Mean square of the nodes' velocities relative to their mean [m^2/s^2].
 double ExactSolver::meanSquare(const Field3& velocity) const noexcept {
   const auto nodes = static_cast<double>(pattern_.grid.nodeCount());
   Vec3 sum = Vec3::Zero();
@@ -109,53 +108,53 @@ double ExactSolver::meanSquare(const Field3& velocity) const noexcept {
   return std::max(0.0, squares / nodes - (sum / nodes).squaredNorm());
 }
 
-// Solves, and solves again with what the finder has to add, until nothing goes through anything or that does not help.
-ExactSolver::Progress ExactSolver::solveAndVerify(const Making& making) noexcept {
-  const SubstepPlan& plan = making.plan;
+// Solves, and solves again with the contacts that verification adds, until nothing is crossed or that does not help.
+ExactSolver::Progress ExactSolver::solveAndVerify(const Attempt& attempt) noexcept {
+  const SubstepPlan& plan = attempt.plan;
   const bool last_resort = plan.isLastResort();
-  const Field3 &from = making.state.position, &next = constraints_.next;
-  SweepTask task{making.start.state.position,
-                 making.scheme.rules().follows,
+  const Field3 &from = attempt.state.position, &next = constraints_.next;
+  SweepTask task{attempt.start.state.position,
+                 attempt.scheme.rules().follows,
                  last_resort,
                  plan.precise,
-                 making.forces.gravity.norm() * plan.h * plan.h,
+                 attempt.forces.gravity.norm() * plan.h * plan.h,
                  0.0};
-  ContactFinder* const finder = making.finder;
+  ContactFinder* const finder = attempt.finder;
   Contacts* const contacts = finder != nullptr ? &finder->begin(from, next, plan.h) : nullptr;
-  if (finder != nullptr) making.clock.lap(Stage::kContact);
+  if (finder != nullptr) attempt.clock.lap(Stage::kContact);
   std::size_t known = 0;
   Progress all;
   all.contacts = contacts;
   while (true) {
     if (contacts != nullptr) {
-      beginContacts(inertia_.inverse(), making.ratio, known, *contacts, constraints_.next);
+      beginContacts(inertia_.inverse(), attempt.ratio, known, *contacts, constraints_.next);
       known = contacts->size();
-      if (known > 0 && task.path == 0.0) task.path = plan.h * std::sqrt(meanSquare(making.state.velocity));
+      if (known > 0 && task.path == 0.0) task.path = plan.h * std::sqrt(meanSquare(attempt.state.velocity));
     }
-    const SweepOutcome solved = sweeps_.run(task, contacts, making.clock);
+    const SweepOutcome solved = sweeps_.run(task, contacts, attempt.clock);
     all.sweeps += solved.sweeps;
     all.end = solved.end;
-    all.surprise = std::max(all.surprise, solved.surprise);
+    all.predicted_violation = std::max(all.predicted_violation, solved.predicted_violation);
     all.settled = solved.within;
     all.late = all.late || (solved.end == SweepEnd::kOutOfTime && !solved.within);
     if (contacts == nullptr) return all;
-    if (free_ && !last_resort && !held_.any() && making.start.keep == nullptr && !pressesOnObstacle(*contacts))
-      keepMomentum(making.start);
+    if (free_ && !last_resort && !held_.any() && attempt.start.keep == nullptr && !pressesOnObstacle(*contacts))
+      keepMomentum(attempt.start);
     if (!solved.within && (!last_resort || all.late || solved.end == SweepEnd::kDiverged)) return all;
     const ContactFinder::Verdict verdict = finder->verify(from, next, solved.within);
-    making.clock.lap(Stage::kContact);
+    attempt.clock.lap(Stage::kContact);
     if (verdict == ContactFinder::Verdict::kClear) return all;
-    all.late = all.late || making.clock.late();
+    all.late = all.late || attempt.clock.late();
     if (!all.late && verdict == ContactFinder::Verdict::kMore && solved.within) continue;
     all.crossed = true;
     all.settled = false;
     if (last_resort && !all.late && !held_.any()) finder->hold(from, constraints_.next);
-    making.clock.lap(Stage::kContact);
+    attempt.clock.lap(Stage::kContact);
     return all;
   }
 }
 
-// A string has snapped taut in this substep, or something has met something.
+// A string has snapped taut in this substep, or a new contact pushes.
 bool ExactSolver::struck(const Progress& progress) const noexcept {
   if (constraints_.snapsTaut()) return true;
   return progress.contacts != nullptr &&
@@ -163,34 +162,33 @@ bool ExactSolver::struck(const Progress& progress) const noexcept {
                      [](const Contact& contact) { return contact.pushes() && !contact.pressed; });
 }
 
-// Rods alone find no energy in steady motion where they pull along the directions that they have half way between the
-// velocities.
-bool ExactSolver::isForeseen(const Making& making, const Progress& progress) const noexcept {
+// Rods alone do no work in steady motion if they pull along their directions half way between the velocities.
+bool ExactSolver::needsEnergyCheck(const Attempt& attempt, const Progress& progress) const noexcept {
   const bool rods_alone = progress.alone() && !constraints_.stringsAct();
-  return rods_alone && !making.scheme.rules().follows && KineticGuard::foreseen(progress.surprise);
+  return !rods_alone || attempt.scheme.rules().follows || !KineticGuard::isSmall(progress.predicted_violation);
 }
 
-// Whether it may be taken: it has found no energy, and nothing that sleeps would have moved.
-void ExactSolver::judge(const Making& making, Progress& progress, SubstepOutcome& outcome) noexcept {
-  const bool last_resort = making.plan.isLastResort();
+// Decides whether the substep may be accepted: it gains no energy and disturbs no sleeping column.
+void ExactSolver::judge(const Attempt& attempt, Progress& progress, SubstepOutcome& outcome) noexcept {
+  const bool last_resort = attempt.plan.isLastResort();
   const double surface =
-      progress.contacts != nullptr ? fastestDrive(*progress.contacts, making.state.position, making.plan.h) : 0.0;
+      progress.contacts != nullptr ? fastestDrive(*progress.contacts, attempt.state.position, attempt.plan.h) : 0.0;
   if (progress.late || (last_resort && progress.alone())) {
-    progress.most_kinetic = guard_.most(making.scheme.rules(), making.start, constraints_.next, surface);
-  } else if (!last_resort && progress.settled && !isForeseen(making, progress)) {
-    const KineticGuard::Finding finding = guard_.look(making.scheme.rules(), making.start, constraints_.next, surface);
+    progress.most_kinetic = guard_.most(attempt.scheme.rules(), attempt.start, constraints_.next, surface);
+  } else if (!last_resort && progress.settled && needsEnergyCheck(attempt, progress)) {
+    const KineticGuard::Finding finding =
+        guard_.look(attempt.scheme.rules(), attempt.start, constraints_.next, surface);
     progress.most_kinetic = finding.most;
-    // Half the step leaves no less where it is an error of the places before that comes out: then it is taken out of
-    // the velocities.
-    const bool again = std::abs(making.plan.h) < std::abs(gained_.h);
+    // If half the step gains no less, the excess stems from the positions before: it is taken out of the velocities.
+    const bool again = std::abs(attempt.plan.h) < std::abs(gained_.h);
     if (finding.jumps && !(again && finding.gain >= gained_.gain)) progress.settled = false;
-    gained_ = {making.plan.h, finding.gain};
+    gained_ = {attempt.plan.h, finding.gain};
   }
   if (held_.any()) {
     const bool stuck = progress.crossed || (last_resort && !progress.settled);
     const LinkSet* const strings = constraints_.stringsAct() ? &constraints_.strings() : nullptr;
     outcome.disturbed =
-        held_.disturbedBy(strings, progress.contacts, 1.0 / making.scale(), making.forces.gravity.norm(), stuck);
+        held_.disturbedBy(strings, progress.contacts, 1.0 / attempt.scale(), attempt.forces.gravity.norm(), stuck);
   }
   outcome.sweeps = progress.sweeps;
   outcome.touches = !progress.alone();
@@ -198,8 +196,8 @@ void ExactSolver::judge(const Making& making, Progress& progress, SubstepOutcome
   outcome.late = progress.late;
 }
 
-// The last resort's end: as far along the path as links hold.
-void ExactSolver::boundPath(const Making& making, const Progress& progress, SubstepOutcome& outcome) noexcept {
+// End of the last resort: moves along the path as far as the links allow.
+void ExactSolver::boundPath(const Attempt& attempt, const Progress& progress, SubstepOutcome& outcome) noexcept {
   Field3& next = constraints_.next;
   const bool verified = progress.contacts == nullptr || !progress.late;
   if (progress.end == SweepEnd::kDiverged || !verified || !isWithinNumbers(next)) {
@@ -208,56 +206,54 @@ void ExactSolver::boundPath(const Making& making, const Progress& progress, Subs
   } else {
     const LastResort::Bound bound = last_resort_.bound(inertia_.inverse(), kBoundShare * stretch_tolerance_, next);
     outcome.share = bound.share;
-    outcome.momentum_cut += bound.moment / making.plan.h;
+    outcome.momentum_cut += bound.moment / attempt.plan.h;
   }
-  // Held back, or bounded on moving pins, cloth goes another path than was verified. Where that leads through something
-  // it stays where it is, and even the pins wait.
-  if ((progress.crossed || (outcome.share < 1.0 && last_resort_.pinsMove())) && making.finder != nullptr &&
-      making.finder->verify(making.state.position, next, true) != ContactFinder::Verdict::kClear) {
-    next = making.state.position;
+  // A shortened path, or one bounded on moving pins, is not the one that was verified. If it crosses something, the
+  // cloth stays where it is, with its pins.
+  if ((progress.crossed || (outcome.share < 1.0 && last_resort_.pinsMove())) && attempt.finder != nullptr &&
+      attempt.finder->verify(attempt.state.position, next, true) != ContactFinder::Verdict::kClear) {
+    next = attempt.state.position;
     outcome.share = 0.0;
     outcome.pins_wait = true;
   }
 }
 
-void ExactSolver::take(const Making& making, const Progress& progress, SubstepOutcome& outcome) noexcept {
-  const SubstepPlan& plan = making.plan;
-  ClothState& state = making.state;
+void ExactSolver::take(const Attempt& attempt, const Progress& progress, SubstepOutcome& outcome) noexcept {
+  const SubstepPlan& plan = attempt.plan;
+  ClothState& state = attempt.state;
   NodeInertia::Tensions& tensions = inertia_.tensions();
-  outcome.scale = tensions.scale = making.scale();
-  outcome.kick = making.kick + (plan.h - making.step);  // bdf2's base holds the rest of what forces do
+  outcome.scale = tensions.scale = attempt.scale();
+  outcome.kick = attempt.kick + (plan.h - attempt.step);  // the rest of the forces' impulse is in bdf2's base
   for (Scheme* scheme : {static_cast<Scheme*>(&leapfrog_), static_cast<Scheme*>(&bdf2_),
                          static_cast<Scheme*>(&implicit_), static_cast<Scheme*>(&last_resort_)}) {
-    if (scheme == &making.scheme)
+    if (scheme == &attempt.scheme)
       scheme->taken(state, plan.h);
     else
       scheme->passedOver();
   }
   tensions.heaviest =
-      constraints_.commit(making.start.state.position, making.step, plan.tells_turning, state, tensions.load);
-  state.velocity_age = making.scheme.rules().age * making.step;
+      constraints_.commit(attempt.start.state.position, attempt.step, plan.tells_turning, state, tensions.load);
+  state.velocity_age = attempt.scheme.rules().age * attempt.step;
   if (std::isfinite(progress.most_kinetic)) guard_.bound(progress.most_kinetic, state.velocity);
   gained_ = {};
   outcome.omega_squared = inertia_.omegaSquared();
   if (progress.alone() && !constraints_.weftPulls()) outcome.turning = turning(outcome.kick);
   const double fastest = progress.contacts != nullptr ? fastestSurface(*progress.contacts) : 0.0;
   if (fastest > 0.0) outcome.longest_step = kMostWayOfSurface * smallest_rest_ / fastest;
-  // The way that such a substep has gone is not all motion: what pulls its links further is taken out.
+  // Such a substep also moved links to their lengths, which is no motion: project the velocities.
   if ((progress.end != SweepEnd::kConverged || plan.isLastResort()) && !progress.late) {
     projectVelocity(state.position, progress.contacts, 0.0, state.velocity);
   }
 }
 
-// How fast the rods change their motion, as the rate of a turn that would (RMS over all rods) [1/s]: sqrt(|a_b - a_a| /
-// l), which is the rate of turn itself where that is steady. The forces acted for a time `kick` [s] in the last
-// substep.
+// How fast the rods change their motion [1/s]: sqrt(|a_b - a_a| / l), RMS over all rods, which is the rate of turn
+// where that is steady. The forces acted for `kick` [s] in the last substep.
 double ExactSolver::turning(double kick) const noexcept {
   return std::sqrt(std::sqrt(constraints_.bent() / ((pattern_.grid.rows - 1) * pattern_.grid.columns)) /
                    std::abs(kick));
 }
 
-// Of a cloth that nothing holds: what the solve has added to its momentum is taken out of the whole, by a motion that
-// keeps all lengths.
+// For cloth without pins: takes what the solve has added to the momentum out again, by a rigid motion.
 void ExactSolver::keepMomentum(const SubstepStart& start) noexcept {
   const Field3& from = start.state.position;
   Field3& next = constraints_.next;
@@ -275,7 +271,7 @@ void ExactSolver::keepMomentum(const SubstepStart& start) noexcept {
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     if (pattern_.mass[n] > 0.0) next.set(n, carry(next.at(n)));
   }
-  // What a turn by a small angle leaves is of its square; lengths change by the square of that.
+  // A rotation by a small angle leaves an error of second order; this correction changes lengths by fourth order.
   const RigidMotion rest = rigidMotion(pattern_, from, missing());
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     if (pattern_.mass[n] > 0.0) next.add(n, start.h * rest.at(from.at(n)));
@@ -293,10 +289,10 @@ void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& f
   if (age == 0.0) return;
   const double most = guard_.most(out, contacts != nullptr ? fastestSurface(*contacts) : 0.0);
   projectVelocity(state.position, contacts, age / inertia_.tensions().scale, out);
-  guard_.bound(most, out);  // what links that can't hold pull is beyond all measure
+  guard_.bound(most, out);  // unsolvable links (pins pulled apart) give unbounded velocities
 }
 
-// A free cloth keeps its momentum.
+// Keeps the momentum of cloth without pins.
 void ExactSolver::projectVelocity(const Field3& position, const Contacts* contacts, double share,
                                   Field3& out) noexcept {
   const bool keeps = free_ && !held_.any() && (contacts == nullptr || !pressesOnObstacle(*contacts));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The exact schemes: one substep of point masses, two-sided warp rods and one-sided weft links, whose constraint
-// forces are solved for (not approached by relaxation). What the schemes share is here: a substep is predicted, solved
-// and verified, judged, and taken.
+// The exact schemes: one substep of point masses, two-sided warp rods and one-sided weft strings, whose constraint
+// forces are solved for. What the schemes share is here: a substep is predicted, solved and verified, judged, and
+// taken.
 #pragma once
 
 #include <limits>
@@ -23,42 +23,41 @@ class ExactSolver {
   /// max_sweeps         bound of the sweeps in a substep
   ExactSolver(const ClothPattern& pattern, double stretch_tolerance, int max_sweeps, const Workers& workers);
 
-  /// Room for so many contacts; more would make a substep allocate.
+  /// Reserves room for so many contacts; more make a substep allocate.
   void expectContacts(std::size_t count) { constraints_.expectContacts(count); }
 
   /// Forgets the tensions of the last substep.
   void reset() noexcept;
 
-  /// From now on these columns stay where they are, at rest, and the others move. Those that wake start with the
-  /// tensions they fell asleep with. For leapfrog and its fall-back.
+  /// Freezes these columns at rest, wakes all others. Waking columns start with the tensions they fell asleep with. For
+  /// leapfrog and the last resort.
   void hold(const ColumnSet& columns, ClothState& state) noexcept;
-  /// What is held now; and what of it the last substep would have moved (SubstepOutcome::disturbed).
+  /// What is held, and which of it the last substep would have moved (SubstepOutcome::disturbed).
   const HeldColumns& held() const noexcept { return held_; }
 
   /// One substep. finder may be null: nothing to touch. Allocates nothing.
   SubstepOutcome substep(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder, ClothState& state,
                          StageClock& clock) noexcept;
 
-  /// What the links at a node pulled it by in the last substep: the sum of multiplier times direction [kg m], over the
-  /// substep's scale a force.
+  /// Pull of the links at a node in the last substep: sum of multiplier times direction [kg m]; divided by the
+  /// substep's scale it is a force.
   Vec3 pullAt(int row, int column) const noexcept { return constraints_.pullAt(row, column); }
 
-  /// How nodes answered impulses in the last substep [1/kg].
+  /// Inverse inertia of the nodes in the last substep [1/kg].
   const Field& inverseInertia() const noexcept { return inertia_.inverse(); }
 
   /// Velocities at the time of the positions (leapfrog keeps them half a substep behind): advanced by the forces and
-  /// made to agree with the links that pull.
-  /// contacts: of the last substep, or null.
+  /// projected on the constraints. contacts: of the last substep, or null.
   void currentVelocities(const ClothState& state, const NodeForces& forces, const Contacts* contacts,
                          Field3& out) noexcept;
 
-  /// The last substep's tensions, and how nodes answered in it.
+  /// The last substep's tensions and inertia.
   const NodeInertia& inertia() const noexcept { return inertia_; }
 
   /// A string pulled in the last substep.
   bool weftPulls() const noexcept { return constraints_.weftPulls(); }
 
-  /// What a substep leaves to the next, to be put back when substeps are made again.
+  /// What a substep leaves to the next; restored when substeps are repeated.
   struct Memory {
     Constraints::Memory constraints;
     Bdf2::Memory bdf2;
@@ -70,12 +69,12 @@ class ExactSolver {
   void restore(const Memory& memory);
 
   void carry(Archive& archive);
-  /// After carry() has loaded: these columns are held, and what is not carried follows from what is.
+  /// After carry() has loaded: these columns are held; restores what is not serialized.
   void resume(const ColumnSet& held, const ClothState& state) noexcept;
 
  private:
-  // A substep in the making.
-  struct Making {
+  // A substep being made.
+  struct Attempt {
     const SubstepPlan& plan;
     const NodeForces& forces;
     ContactFinder* finder;
@@ -88,29 +87,29 @@ class ExactSolver {
 
     double scale() const noexcept { return step * kick; }
   };
-  // What the solves of a substep have come to.
+  // Result of the solves of a substep.
   struct Progress {
     SweepEnd end = SweepEnd::kStalled;
     bool settled = false;                                           // every link is within the user's tolerance
-    bool crossed = false;                                           // something would go through something
-    bool late = false;                                              // its time was over before it had settled
-    double surprise = 0.0;                                          // SweepOutcome::surprise
-    double most_kinetic = std::numeric_limits<double>::infinity();  // twice what it may have [J]
+    bool crossed = false;                                           // verification found a crossing
+    bool late = false;                                              // out of computing time before convergence
+    double predicted_violation = 0.0;                               // of SweepOutcome
+    double most_kinetic = std::numeric_limits<double>::infinity();  // twice the allowed kinetic energy [J]
     int sweeps = 0;
     const Contacts* contacts = nullptr;  // null: nothing can touch
 
     bool alone() const noexcept { return contacts == nullptr || !anyPushes(*contacts); }
   };
   Scheme& schemeOf(SchemeKind kind) noexcept;
-  Making predict(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder, ClothState& state,
-                 StageClock& clock, SubstepOutcome& outcome) noexcept;
-  Progress solveAndVerify(const Making& making) noexcept;
-  void judge(const Making& making, Progress& progress, SubstepOutcome& outcome) noexcept;
-  void boundPath(const Making& making, const Progress& progress, SubstepOutcome& outcome) noexcept;
-  void take(const Making& making, const Progress& progress, SubstepOutcome& outcome) noexcept;
+  Attempt predict(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder, ClothState& state,
+                  StageClock& clock, SubstepOutcome& outcome) noexcept;
+  Progress solveAndVerify(const Attempt& attempt) noexcept;
+  void judge(const Attempt& attempt, Progress& progress, SubstepOutcome& outcome) noexcept;
+  void boundPath(const Attempt& attempt, const Progress& progress, SubstepOutcome& outcome) noexcept;
+  void take(const Attempt& attempt, const Progress& progress, SubstepOutcome& outcome) noexcept;
   double meanSquare(const Field3& velocity) const noexcept;
   bool struck(const Progress& progress) const noexcept;
-  bool isForeseen(const Making& making, const Progress& progress) const noexcept;
+  bool needsEnergyCheck(const Attempt& attempt, const Progress& progress) const noexcept;
   void keepMomentum(const SubstepStart& start) noexcept;
   void projectVelocity(const Field3& position, const Contacts* contacts, double share, Field3& out) noexcept;
   double turning(double kick) const noexcept;
@@ -128,7 +127,7 @@ class ExactSolver {
   struct Gained {
     double h = 0.0, gain = 0.0;  // [s], twice the energy [J]
   };
-  Gained gained_;  // by the last attempt of the substep that is being made
+  Gained gained_;  // by the last attempt at the present substep
   Leapfrog leapfrog_;
   Bdf2 bdf2_;
   Implicit implicit_;

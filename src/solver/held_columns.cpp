@@ -9,9 +9,9 @@
 namespace curtain {
 namespace {
 
-// Change of what pulls on a column, over its weight, that it sleeps on with: so much out of the vertical, it would
-// hang.
-constexpr double kTrifle = 1e-4;
+// Change of the pull on a column, over its weight, that does not wake it: the angle from the vertical at which the
+// column would hang [rad].
+constexpr double kWakeShare = 1e-4;
 
 }  // namespace
 
@@ -72,7 +72,7 @@ void HeldColumns::set(const ColumnSet& held, const Field3& position, const Field
   }
 }
 
-// Sum of the changes of a border's forces [N].
+// Sum over the rows of the change of force at a border [N].
 double HeldColumns::changeAtBorder(int column, const LinkSet* weft, double per_scale) const noexcept {
   const Grid& grid = pattern_.grid;
   double sum = 0.0;
@@ -93,7 +93,7 @@ bool HeldColumns::disturbedBy(const LinkSet* weft, const Contacts* contacts, dou
   for (int j = 0; j < pattern_.grid.columns; ++j) {
     if (!borders_.has(j)) continue;
     const int held = held_.has(j) ? j : leftOf(j);
-    const double allowed = kTrifle * mass_[static_cast<std::size_t>(held)] * gravity;
+    const double allowed = kWakeShare * mass_[static_cast<std::size_t>(held)] * gravity;
     if (!(changeAtBorder(j, weft, per_scale) <= allowed)) disturbed_.add(held);
   }
   if (contacts == nullptr) return !disturbed_.empty();

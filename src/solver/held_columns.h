@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Columns that sleep while others move. They are held like pinned nodes, and the blocks of columns that hold nothing
-// else are left out of the solve. What the strings at their borders pull is compared with what they pulled when the
-// columns fell asleep: more than a trifle, and the substep is to be made again with them awake.
+// Columns that sleep while others move. They are fixed like pinned nodes, and blocks of only such columns are left out
+// of the solve. The strings' pull at their borders is compared with that when they fell asleep: if it has changed by
+// more than kWakeShare of the weight, the substep is repeated with them awake.
 #pragma once
 
 #include "cloth/cloth.h"
@@ -19,22 +19,22 @@ class HeldColumns {
   bool any() const noexcept { return !held_.empty(); }
   const ColumnSet& columns() const noexcept { return held_; }
   bool has(int column) const noexcept { return held_.has(column); }
-  /// Nothing in this block of columns moves: all are held, or padding.
+  /// Nothing in this block of columns moves: all columns are held or padding.
   bool skips(int block) const noexcept { return skips_[static_cast<std::size_t>(block)] != 0; }
 
-  /// All that moves is within.
+  /// Contains all that moves.
   const ColumnSpan& movingSpan() const noexcept { return span_; }
 
-  /// Takes over which columns are held. weft: the strings' multipliers, per_scale: 1 / (h kick) of them [1/s^2].
+  /// Takes over which columns are held. weft: the strings' multipliers; per_scale: 1 / (h kick) of them [1/s^2].
   void set(const ColumnSet& held, const Field3& position, const Field& weft, double per_scale) noexcept;
 
   void carry(Archive& archive);
-  /// These are held, and were when the borders' pulls were loaded.
+  /// After carry() has loaded the borders' pulls: these columns are held.
   void resume(const ColumnSet& held) noexcept;
 
-  /// Finds the held columns that strings, or contacts that push, would move. weft: null when no string pulls; contacts:
-  /// or null. gravity: its size [m/s^2]; stuck: what moves does not get on, which may be for those that don't: all of
-  /// them.
+  /// Finds the held columns that strings or pushing contacts would move. weft: null when no string pulls; contacts: or
+  /// null; gravity: its magnitude [m/s^2]; stuck: what moves has stopped, perhaps because of the held ones: all of them
+  /// are disturbed.
   bool disturbedBy(const LinkSet* weft, const Contacts* contacts, double per_scale, double gravity,
                    bool stuck) noexcept;
   const ColumnSet& disturbed() const noexcept { return disturbed_; }
@@ -47,10 +47,10 @@ class HeldColumns {
   const ClothPattern& pattern_;
   std::vector<double> mass_;  // of each column [kg]
   ColumnSet held_, disturbed_;
-  ColumnSet borders_;  // columns whose strings to the left join a held column and one that moves
+  ColumnSet borders_;  // columns whose left strings join a held and a moving column
   std::vector<std::uint8_t> skips_;
   ColumnSpan span_;
-  Field3 pull_;  // of the strings at borders, when they became borders [N]
+  Field3 pull_;  // of the strings at borders when they became borders [N]
 };
 
 }  // namespace curtain

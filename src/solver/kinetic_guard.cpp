@@ -11,8 +11,8 @@
 namespace curtain {
 namespace {
 
-// put_in: without links; driven: of all the mass at the speed of the fastest pin; both twice an energy [J]. The root is
-// of a ratio: in other units it has the same bits.
+// Largest energy, from put_in (without links) and driven (all mass at the speed of the fastest pin), both twice an
+// energy [J]. The root is of a ratio, so that other units give the same bits.
 double mostOf(double put_in, double driven) noexcept {
   if (!(put_in > 0.0)) return 4.0 * driven;
   const double factor = 1.0 + 2.0 * std::sqrt(driven / put_in);
@@ -37,8 +37,10 @@ KineticGuard::KineticGuard(const ClothPattern& pattern, const NodeInertia& inert
       links_(links),
       pins_(pinsOf(pattern)) {}
 
-// From rest, a rod that is predicted longer by a share e has turned by sqrt(2 e), and is given e / 2 of its energy.
-bool KineticGuard::foreseen(double surprise) noexcept { return surprise <= 2.0 * (kMostAdded - 1.0); }
+// A rod that is predicted longer by a share e, from rest, has turned by sqrt(2 e) and gains e / 2 of its energy.
+bool KineticGuard::isSmall(double predicted_violation) noexcept {
+  return predicted_violation <= 2.0 * (kMostAdded - 1.0);
+}
 
 KineticGuard::Finding KineticGuard::look(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end,
                                          double surface) const noexcept {
@@ -51,7 +53,7 @@ KineticGuard::Finding KineticGuard::look(const Scheme::Rules& rules, const Subst
   if (!(sums.stepped > mostOf(kMostAdded * sums.put_in, driven))) return finding;
   finding.most = most;
   finding.gain = sums.stepped - most;
-  // What its links may lack of their lengths would be more still in a shorter one.
+  // What links lack of their lengths would turn into more speed in a shorter step: not a reason to halve it.
   finding.jumps = sums.stepped > most + fromTolerance(start.h);
   return finding;
 }
@@ -73,22 +75,22 @@ void KineticGuard::bound(double most, Field3& velocity) const noexcept {
   if (!(seen > most)) return;
   const double all = frame.isZero(0.0) ? seen : kineticOf(velocity, Vec3::Zero());
   if (!(all > 0.0)) return;
-  // Where they are the same: what links that can't hold pull is beyond all measure, and a difference would be nothing.
+  // Equal frames are a case of their own: with unsolvable links the energies overflow and their difference is lost.
   const double left = frame.isZero(0.0) ? most : all - (seen - most);
   const double share = std::sqrt(std::max(0.0, left) / all);
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    if (inertia_.masses()[n] > 0.0) velocity.set(n, share * velocity.at(n));  // pins go where they are told to
+    if (inertia_.masses()[n] > 0.0) velocity.set(n, share * velocity.at(n));  // pins keep their prescribed velocity
   }
 }
 
-// By lanes, so that the sums have one order, whatever the processor's width.
+// Summed by lanes: the order does not depend on the register width.
 CURTAIN_WIDE KineticGuard::Sums KineticGuard::sumsOf(const SubstepStart& start, const Field3& end, const Vec3& frame,
                                                      bool backward) const noexcept {
   const std::size_t size = pattern_.grid.size();
   const Field3 &from = start.state.position, &velocity = start.state.velocity;
   const double* const mass = pattern_.mass.data();
   const double* const free = inertia_.masses().data();
-  // Read in any case, from where there is something: masked loads from nowhere cost a hundred times as much.
+  // keep is read unconditionally: masked loads from a null pointer are a hundred times slower.
   const bool damped = start.keep != nullptr;
   const double* const keep = damped ? start.keep->data() : mass;
   const double per_step = 1.0 / start.h, kick = start.kick;
@@ -135,7 +137,7 @@ Vec3 KineticGuard::frameOf(const Field3& velocity) const noexcept {
   return pins_.empty() ? sum : sum / static_cast<double>(pins_.size());
 }
 
-// All of the cloth at the speed of its fastest pin, or of what it touches.
+// Twice the energy of all the cloth at the speed of its fastest pin, or of what it touches.
 double KineticGuard::drivenBy(const Field3& velocity, const Vec3& frame, double surface) const noexcept {
   const double passes = surface > 0.0 ? surface + frame.norm() : 0.0;
   double mass = 0.0, fastest = passes * passes;
@@ -149,8 +151,7 @@ double KineticGuard::drivenBy(const Field3& velocity, const Vec3& frame, double 
   return mass * fastest;
 }
 
-// What links may lack of their lengths where a substep begins, and have too much where it ends, comes out of it as
-// speed.
+// Twice the energy from links that are off by the tolerance at both ends of the substep.
 double KineticGuard::fromTolerance(double h) const noexcept {
   const double speed = 2.0 * stretch_tolerance_ * links_ / h;
   double mass = 0.0;

@@ -6,8 +6,8 @@
 // some instant) and multiplier s moves its nodes by
 //     x_a += w_a s d,   x_b -= w_b s d,
 // so s > 0 is tension. Over a substep of length h whose forces act for a time `kick`, the tension is
-// s |d| / (h kick) [N]. Every link is stored at its node b; the row of zeros after the last one lets the sweeps along
-// the warp run without asking where the column ends.
+// s |d| / (h kick) [N]. Every link is stored at its node b. A row of zeros after the last one spares the sweeps along
+// the warp a test for the end of the column.
 #pragma once
 
 #include <limits>
@@ -18,10 +18,9 @@
 namespace curtain {
 
 struct LinkSet {
-  Field3 direction;  ///< [m], shape [(rows + 1) * stride]
-  Field multiplier;  ///< [kg], shape [(rows + 1) * stride]
-  double most_give =
-      std::numeric_limits<double>::infinity();  ///< largest relative overlength that compliance may allow
+  Field3 direction;                                            ///< [m], shape [(rows + 1) * stride]
+  Field multiplier;                                            ///< [kg], shape [(rows + 1) * stride]
+  double most_give = std::numeric_limits<double>::infinity();  ///< bound of the relative overlength by compliance
 
   void assign(const Grid& grid) {
     const std::size_t size = grid.size() + static_cast<std::size_t>(grid.stride);
@@ -33,7 +32,7 @@ struct LinkSet {
 /// What a line solver works on: nodal values (positions or velocities) moved along the links' directions.
 struct LineSolve {
   const ClothPattern& pattern;
-  const Field& inverse_inertia;  ///< how a node answers an impulse in this substep [1/kg]
+  const Field& inverse_inertia;  ///< of the nodes in this substep [1/kg]
   LinkSet& links;
   Field3& value;    ///< positions [m], or velocities [m/s]
   ColumnSpan span;  ///< outside it nothing moves
@@ -53,7 +52,7 @@ struct LineScratch {
 /// Outcome of one Newton iteration over lines.
 struct LineOutcome {
   double residual = 0.0;  ///< largest relative violation before the iteration; velocities: [1/s]
-  bool sound = true;      ///< false: a pivot vanished; some link turned too far from its direction
+  bool sound = true;      ///< false: a pivot vanished, since some link turned too far from its direction
 };
 
 }  // namespace curtain

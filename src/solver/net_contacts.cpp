@@ -9,7 +9,7 @@
 namespace curtain {
 namespace {
 
-// Two directions across a normal, the same for the same normal.
+// Any orthonormal pair across the normal will do, but always the same for the same normal.
 void tangents(const Vec3& normal, Vec3& first, Vec3& second) {
   int smallest = 0;
   normal.cwiseAbs().minCoeff(&smallest);
@@ -36,7 +36,7 @@ void NetContacts::addRow(const Frame& frame, std::uint32_t index, const Contact&
     row.weight[at] = static_cast<float>(contact.weight[at]);
     row.diagonal += row.weight[at] * row.weight[at] * frame.weight[row.node[at]];
   }
-  if (!(row.diagonal > 0.0F)) return;  // nothing of it can move
+  if (!(row.diagonal > 0.0F)) return;  // no node of it can move
   row.per_diagonal = 1.0F / (row.diagonal * (1.0F + damping_));
   row.residual = static_cast<float>(wanted / frame.violation_scale);
   aligned_ += static_cast<double>(row.residual * row.residual * row.per_diagonal);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The contacts' share of NetSolver's conjugate gradients: a row along the normal of every contact that pushes or is
-// entered, and two across it where the point sticks. Preconditioned each by itself. Single precision, like all of
-// NetSolver.
+// The contacts' rows of NetSolver's conjugate gradients: one along the normal of every contact that pushes or
+// penetrates, and two tangential ones where it sticks. Jacobi-preconditioned. Single precision, like all of NetSolver.
 #pragma once
 
 #include <vector>
@@ -11,14 +10,14 @@
 
 namespace curtain {
 
-/// Nodal vectors as NetSolver lays them out.
+/// Nodal vectors in NetSolver's layout.
 struct NetNodes {
   float* x;
   float* y;
   float* z;
 };
 
-/// Contacts and what their violations are measured on; contacts may be null: none.
+/// Contacts, and the values that their violations are measured on; contacts may be null.
 struct ContactValues {
   const Contacts* contacts = nullptr;
   const Field3* value = nullptr;  ///< positions, or (rates) velocities
@@ -27,7 +26,7 @@ struct ContactValues {
 
 class NetContacts {
  public:
-  /// How numbers are scaled in NetSolver, and where nodes lie.
+  /// Scaling and layout of NetSolver.
   struct Frame {
     const Grid& grid;
     std::size_t stride;      ///< of NetSolver's rows
@@ -37,12 +36,12 @@ class NetContacts {
     float damping;           ///< Levenberg-Marquardt, over the diagonal
   };
 
-  /// Rows of the contacts that take part.
+  /// Builds the rows of the contacts that take part.
   void load(const Frame& frame, const ContactValues& values);
-  /// Room for the rows of so many contacts.
+  /// Reserves room for the rows of so many contacts.
   void reserve(std::size_t contacts) { rows_.reserve(3 * contacts); }
   bool any() const noexcept { return !rows_.empty(); }
-  /// Calls take(node), as numbered in NetSolver, for the nodes of all rows, some of them more than once.
+  /// Calls take(node), in NetSolver's numbering, for the nodes of all rows; a node may come more than once.
   template <typename Take>
   void forEachNode(const Take& take) const {
     for (const Row& row : rows_) {
@@ -50,16 +49,16 @@ class NetContacts {
     }
   }
 
-  /// Residual . residual over the diagonal.
+  /// Residual . residual over the diagonal (the preconditioned residual norm).
   double aligned() const noexcept { return aligned_; }
-  /// The next search direction, and the nodes' shares of it added to push.
+  /// Sets the next search direction, and adds its nodal impulses to push.
   void turn(float beta, NetNodes push) noexcept;
-  /// Search direction . its product, from the moves of the nodes; push is zero again.
+  /// Search direction . (matrix times search direction), from the nodes' moves; zeroes push again.
   double product(NetNodes move, NetNodes push) noexcept;
-  /// A step along the search direction; returns the largest residual left.
+  /// Makes a step along the search direction; returns the largest residual left.
   double advance(float alpha) noexcept;
 
-  /// What came out, contact by contact: f(index, change of push [kg m], change of slide [kg m]).
+  /// The solution, contact by contact: take(index, change of push [kg m], change of slide [kg m]).
   template <typename Take>
   void forEachChange(double scale, const Take& take) const;
 
@@ -71,7 +70,7 @@ class NetContacts {
     std::array<float, 4> weight;
     float dx, dy, dz;  // direction of the multiplier
     bool normal;
-    float diagonal, per_diagonal;  // the second with the damping
+    float diagonal, per_diagonal;  // the second: inverse, with damping
     float residual, pull, product, solution;
   };
 

@@ -9,7 +9,7 @@
 namespace curtain {
 namespace {
 
-// Of all values, none of which is negative.
+// The values are not negative.
 CURTAIN_WIDE double largestOf(const Field& values) noexcept {
   const double* const value = values.data();
   const std::size_t count = values.size();
@@ -28,14 +28,7 @@ NetSolver::NetSolver(const ClothPattern& pattern, const Workers& workers)
       row_blocks_((pattern.grid.rows + kRows - 1) / kRows) {
   // Whole row blocks, and a row of zeros below the last one.
   const std::size_t size = (static_cast<std::size_t>(row_blocks_) * kRows + 1) * stride_;
-  for (Values* values :
-       {&weight_,       &warp_.x,     &warp_.y,         &warp_.z,   &weft_.x,       &weft_.y,     &weft_.z,
-        &warp_inverse_, &warp_lower_, &weft_diagonal_,  &weft_off_, &weft_inverse_, &weft_lower_, &above_left_,
-        &above_right_,  &below_left_, &below_right_,    &rods_,     &move_.x,       &move_.y,     &move_.z,
-        &mask_,         &residual_,   &preconditioned_, &pull_,     &product_,      &solution_,   &least_,
-        &interleaved_,  &push_.x,     &push_.y,         &push_.z}) {
-    values->assign(size, 0.0F);
-  }
+  for (Values* values : allVectors()) values->assign(size, 0.0F);
   const auto reciprocal = [](const Field& rest) {
     Field out(rest.size());
     for (std::size_t n = 0; n < rest.size(); ++n) out[n] = 1.0 / rest[n];
@@ -49,13 +42,16 @@ NetSolver::NetSolver(const ClothPattern& pattern, const Workers& workers)
   changed_ = partial_;
 }
 
+std::array<NetSolver::Values*, 32> NetSolver::allVectors() noexcept {
+  return {&weight_,       &warp_.x,     &warp_.y,         &warp_.z,   &weft_.x,       &weft_.y,     &weft_.z,
+          &warp_inverse_, &warp_lower_, &weft_diagonal_,  &weft_off_, &weft_inverse_, &weft_lower_, &above_left_,
+          &above_right_,  &below_left_, &below_right_,    &rods_,     &move_.x,       &move_.y,     &move_.z,
+          &mask_,         &residual_,   &preconditioned_, &pull_,     &product_,      &solution_,   &least_,
+          &interleaved_,  &push_.x,     &push_.y,         &push_.z};
+}
+
 void NetSolver::reset() noexcept {
-  for (Values* values :
-       {&weight_,   &weft_.x, &weft_.y,      &weft_.z, &above_left_, &above_right_,    &below_left_, &below_right_,
-        &rods_,     &move_.x, &move_.y,      &move_.z, &residual_,   &preconditioned_, &pull_,       &product_,
-        &solution_, &least_,  &interleaved_, &push_.x, &push_.y,     &push_.z}) {
-    std::fill(values->begin(), values->end(), 0.0F);
-  }
+  for (Values* values : allVectors()) std::fill(values->begin(), values->end(), 0.0F);
 }
 
 template <typename Block>
@@ -94,7 +90,7 @@ CURTAIN_WIDE void NetSolver::takeRow(const Field3& position, const Field& invers
   difference(position.x, warp_.x, weft_.x);
   difference(position.y, warp_.y, weft_.y);
   difference(position.z, warp_.z, weft_.z);
-  // A_ff without regard to which links take part: the diagonal, and the entry towards the next link.
+  // A_ff as if all links took part: the diagonal, and the entry towards the next link.
   const float* const w = &weight_[to];
   const float *const x = &weft_.x[to], *const y = &weft_.y[to], *const z = &weft_.z[to];
   float *const diagonal = &weft_diagonal_[to], *const off = &weft_off_[to];
@@ -124,8 +120,8 @@ void NetSolver::begin(const Field3& position, const Field& inverse_inertia, cons
   });
 }
 
-// A_wf of a block of columns. Rod i ends below at its node, link j ends there on the right: these pull it along, the
-// others push.
+// A_wf of a block of columns. A node is the lower end of its rod and the right end of its link: those two pull it back,
+// the rod below and the link on the right pull it on.
 CURTAIN_WIDE void NetSolver::couple(int block) noexcept {
   const std::size_t first = static_cast<std::size_t>(block) * kColumns;
   for (int i = 0; i < pattern_.grid.rows; ++i) {
@@ -148,7 +144,7 @@ CURTAIN_WIDE void NetSolver::couple(int block) noexcept {
   }
 }
 
-// A rod whose ends are both held has no inertia to answer with: its inverse is 0 and it carries nothing.
+// A rod between two fixed nodes has no inertia: its inverse is 0 and it takes no part.
 CURTAIN_WIDE void NetSolver::factorWarp(int block) noexcept {
   const std::size_t first = static_cast<std::size_t>(block) * kColumns;
   float off_above[kColumns] = {};
@@ -177,7 +173,7 @@ CURTAIN_WIDE void NetSolver::factorWarp(int block) noexcept {
   }
 }
 
-// The right-hand side over its scale, and the vectors of the conjugate gradients at their start.
+// Scales the right-hand side and initialises the conjugate gradients.
 CURTAIN_WIDE void NetSolver::load(const Field& violation, const Field& active, const Field* multiplier,
                                   int b) noexcept {
   const Grid& grid = pattern_.grid;
@@ -209,7 +205,7 @@ CURTAIN_WIDE void NetSolver::load(const Field& violation, const Field& active, c
   taut_[static_cast<std::size_t>(b)] = any > 0.0F ? 1 : 0;
 }
 
-// What has left pulls no more, to the bit.
+// Converts the solution into changes of multipliers. Strings that have left the active set end at exactly zero.
 CURTAIN_WIDE void NetSolver::unload(int b, const Field* multiplier, Field& change) noexcept {
   const Grid& grid = pattern_.grid;
   const auto columns = static_cast<std::size_t>(grid.columns);
@@ -227,7 +223,7 @@ CURTAIN_WIDE void NetSolver::unload(int b, const Field* multiplier, Field& chang
   }
 }
 
-// The ring's link stands on both ends of its row.
+// The link that closes a ring is stored at both ends of its row.
 void NetSolver::closeRows(Values& links) noexcept {
   if (!pattern_.grid.closed) return;
   const auto columns = static_cast<std::size_t>(pattern_.grid.columns);
@@ -250,12 +246,12 @@ double NetSolver::step(Real alpha) noexcept {
   return std::max(*std::max_element(partial_.begin(), partial_.end()), contacts_.advance(alpha));
 }
 
-// Lets strings leave and join; false: none does.
+// Updates the active set of strings; false: no change.
 bool NetSolver::changeStrings(Real goal) noexcept {
   if (sumOverRowBlocks([&](int b) { return countChanges(b, goal); }) == 0.0) return false;
   changed_ = partial_;
   const double leave = sumOverRowBlocks([&](int b) { return changeSet(b, goal); });
-  // Not in the same loop: whole vectors are read, with the first link of the block below.
+  // In a second loop: factorWeft() reads whole vectors, with the first link of the block below.
   sumOverRowBlocks([&](int b) {
     if (changed_[static_cast<std::size_t>(b)] > 0.0) factorWeft(b);
     return 0.0;
@@ -271,8 +267,8 @@ void NetSolver::findPushed() noexcept {
   contacts_.forEachNode([this](std::uint32_t node) { pushed_[node / kColumns] = 1; });
 }
 
-// Numbers that are not finite end the iteration before they reach the vectors. Among contacts strings stay what they
-// were: rows that are damped so much find no set.
+// The loop ends before non-finite numbers reach the vectors. With contacts the active set stays fixed: their rows are
+// damped too much to find it.
 NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active, const ContactValues& contacts,
                                     const Aim& aim, Field& change) noexcept {
   Outcome outcome;

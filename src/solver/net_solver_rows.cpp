@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What an iteration of the net's conjugate gradients is made of: the product with the Schur complement, the rows'
-// preconditioner, and which strings take part.
+// An iteration of NetSolver's conjugate gradients: product with the Schur complement, preconditioner of the rows, and
+// active set.
 #include <algorithm>
 #include <cmath>
 
@@ -11,11 +11,10 @@
 namespace curtain {
 namespace {
 
-constexpr std::size_t kInterleave = 8;  // rows that are solved side by side
-constexpr std::size_t kSquare =
-    kInterleave * kInterleave;  // of so many columns of theirs; what is beyond the last column is 0
+constexpr std::size_t kInterleave = 8;                      // rows that are solved side by side
+constexpr std::size_t kSquare = kInterleave * kInterleave;  // of as many of their columns; zeros beyond the last one
 
-// Eight rows of eight numbers, from side by side to one after the other and back.
+// Transposes an 8 x 8 block.
 CURTAIN_INTO_WIDE void transpose(const float* from, std::size_t from_stride, float* to,
                                  std::size_t to_stride) noexcept {
 #if defined(__GNUC__) && !defined(__clang__)
@@ -45,7 +44,7 @@ CURTAIN_INTO_WIDE void transpose(const float* from, std::size_t from_stride, flo
 #endif
 }
 
-// Partial sums of its own making: the same whatever width the registers have. count is a multiple of theirs.
+// Fixed number of partial sums, so the bits do not depend on the register width. count is a multiple of it.
 CURTAIN_INTO_WIDE double dot(const float* a, const float* b, std::size_t count) noexcept {
   constexpr std::size_t kPartials = 16;
   float partials[kPartials] = {};
@@ -60,8 +59,7 @@ CURTAIN_INTO_WIDE double dot(const float* a, const float* b, std::size_t count) 
 
 }  // namespace
 
-// Links are taken in the columns' order; that the last one of a ring shares a node with the first is left to the
-// conjugate gradients.
+// LDL^T in the columns' order. That a ring's last link shares a node with the first is left to the conjugate gradients.
 CURTAIN_WIDE void NetSolver::factorWeft(int b) noexcept {
   float off_before[kRows] = {};
   float lower_before[kRows] = {};
@@ -94,7 +92,7 @@ CURTAIN_WIDE void NetSolver::factorWeft(int b) noexcept {
   }
 }
 
-// rods_ = what the rods of a block of columns answer to pull_ (and to the contacts' push_).
+// rods_ = the rods' response to pull_ (and to the contacts' push_), for a block of columns.
 CURTAIN_WIDE void NetSolver::answerOfRods(int block) noexcept {
   const std::size_t first = static_cast<std::size_t>(block) * kColumns;
   const int rows = pattern_.grid.rows;
@@ -122,7 +120,7 @@ CURTAIN_WIDE void NetSolver::answerOfRods(int block) noexcept {
               nz[j] * (w[j] * pz[j] - w_above[j] * az[j]);
     }
   }
-  // No rod ends at the top row: rods_ is 0 there, and stays so.
+  // No rod ends at the top row: rods_ stays 0 there.
   for (int i = rows - 1; i > 0; --i) {
     const std::size_t k = row(i) + first;
     const float *const inverse = &warp_inverse_[k], *const lower = &warp_lower_[k];
@@ -133,7 +131,7 @@ CURTAIN_WIDE void NetSolver::answerOfRods(int block) noexcept {
   }
 }
 
-// move_ = what the nodes of a block of columns do, where contacts are.
+// move_ = displacement of a block's nodes, where contacts are.
 CURTAIN_WIDE void NetSolver::moveNodes(int block) noexcept {
   const std::size_t first = static_cast<std::size_t>(block) * kColumns;
   const auto move = [&](std::size_t k, const Values& warp, const Values& weft, const Values& push, Values& out) {
@@ -154,7 +152,7 @@ CURTAIN_WIDE void NetSolver::moveNodes(int block) noexcept {
   }
 }
 
-// product_ = S pull_ of a block of rows, of links that take part and of those that may; returns pull_ . product_.
+// product_ = S pull_ for a block of rows, of all links; returns pull_ . product_.
 CURTAIN_WIDE double NetSolver::schurProduct(int b) noexcept {
   const auto last = static_cast<std::size_t>(pattern_.grid.columns) - 1;
   const std::size_t first = row(b * kRows), count = kRows * stride_;
@@ -164,18 +162,18 @@ CURTAIN_WIDE double NetSolver::schurProduct(int b) noexcept {
   const float *const below_left = below_left_.data(), *const below_right = below_right_.data();
   const float damped = 1.0F + damping_;
   float* const q = product_.data();
-  // Link k ends at node k, and begins where the link before it ends.
+  // Link k ends at node k and begins where link k - 1 ends.
   const auto product = [=](std::size_t before, std::size_t k) {
     return damped * diagonal[k] * p[k] + off[k] * p[k + 1] + off[before] * p[before] -
            (above_left[k] * s[k] + below_left[k] * s_below[k] + above_right[before] * s[before] +
             below_right[before] * s_below[before]);
   };
-  // All rows in one: where there is no link there are zeros.
+  // One loop over all rows: where there is no link all factors are zero.
 #pragma omp simd
   for (std::size_t k = std::max<std::size_t>(first, 1); k < first + count; ++k) q[k] = product(k - 1, k);
   const int end = std::min((b + 1) * kRows, pattern_.grid.rows);
   for (int i = b * kRows; i < end; ++i) {
-    if (pattern_.grid.closed) {  // the ring's link, which p holds twice
+    if (pattern_.grid.closed) {  // the ring's link, which pull_ holds twice
       q[row(i)] = product(row(i) + last, row(i));
       q[row(i) + last + 1] = 0.0F;
     }
@@ -184,7 +182,7 @@ CURTAIN_WIDE double NetSolver::schurProduct(int b) noexcept {
   return dot(q + first, p + first, count);
 }
 
-// The contacts' part of a row of product_.
+// Adds the contacts' part of a row of product_.
 CURTAIN_INTO_WIDE void NetSolver::addPushes(int i) noexcept {
   const auto columns = static_cast<std::size_t>(pattern_.grid.columns);
   const std::size_t k = row(i);
@@ -209,7 +207,7 @@ CURTAIN_INTO_WIDE void NetSolver::addPushes(int i) noexcept {
   }
 }
 
-// Links of a block of rows that would push, or have become too long.
+// Number of links in a block of rows that would push, or have become too long.
 CURTAIN_WIDE double NetSolver::countChanges(int b, Real goal) const noexcept {
   const std::size_t first = row(b * kRows), count = kRows * stride_;
   const float *const x = &solution_[first], *const r = &residual_[first];
@@ -224,7 +222,7 @@ CURTAIN_WIDE double NetSolver::countChanges(int b, Real goal) const noexcept {
   return static_cast<double>(changes);
 }
 
-// They leave, or join; pull_ = what takes those that leave back to where they do nothing. Returns how many leave.
+// Applies these changes; pull_ = what brings leaving links to multiplier zero. Returns how many leave.
 CURTAIN_WIDE double NetSolver::changeSet(int b, Real goal) noexcept {
   const std::size_t first = row(b * kRows), count = kRows * stride_;
   const float *const x = &solution_[first], *const r = &residual_[first], *const least = &least_[first];
@@ -242,7 +240,7 @@ CURTAIN_WIDE double NetSolver::changeSet(int b, Real goal) noexcept {
   return static_cast<double>(leave);
 }
 
-// A step along pull_; returns the largest residual that is left of the links that take part.
+// Makes a step along pull_; returns the largest residual left of the active links.
 CURTAIN_WIDE double NetSolver::advance(int b, Real alpha) noexcept {
   const std::size_t first = row(b * kRows), count = kRows * stride_;
   float *const x = &solution_[first], *const r = &residual_[first];
@@ -258,7 +256,7 @@ CURTAIN_WIDE double NetSolver::advance(int b, Real alpha) noexcept {
   return static_cast<double>(largest);
 }
 
-// preconditioned_ = A_ff^-1 residual_ of a block of rows, side by side; returns their product.
+// preconditioned_ = A_ff^-1 residual_ for a block of rows; returns their product.
 CURTAIN_WIDE double NetSolver::precondition(int b) noexcept {
   const std::size_t first = row(b * kRows);
   const auto blocks = (static_cast<std::size_t>(pattern_.grid.columns) + kRows - 1) / kRows;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// How nodes answer an impulse in a substep: damping takes a share, and nodes that their links' tensions would make
-// swing too fast for the step are heavier. And what of the tensions tells how fast they swing: by Gershgorin's bound on
+// Inverse inertia of the nodes in a substep: damping takes a share of it, and mass scaling increases the inertia of
+// nodes that their links' tensions would make oscillate too fast for the step. The frequency is Gershgorin's bound on
 // the transverse oscillations of the taut net, omega^2 <= max 2 w sum |s| / (h kick).
 #pragma once
 
@@ -14,25 +14,24 @@ class NodeInertia {
  public:
   explicit NodeInertia(const ClothPattern& pattern);
 
-  /// For a substep whose forces act for `kick` [s], scale = h * kick [s^2]. most_phase: bound of h * omega from which
-  /// nodes are heavier; 0: none is. implicit: damping as the backward formulas have it.
+  /// Prepares a substep whose forces act for `kick` [s], scale = h * kick [s^2]. most_phase: h * omega from which nodes
+  /// are mass-scaled; 0: never. implicit: damping acts on the velocities at the end.
   void set(const NodeForces& forces, double kick, double scale, double most_phase, bool implicit) noexcept;
 
-  /// From now on these columns answer nothing, as if pinned.
+  /// From now on these columns have no inverse inertia, as if pinned.
   void hold(const ColumnSet& columns) noexcept;
 
   const Field& inverse() const noexcept { return *inverse_; }  ///< [1/kg]
-  const Field& masses() const noexcept { return *masses_; }    ///< the same of the masses alone [1/kg]
-  const Field* keep() const noexcept {
-    return damped_ ? &keep_ : nullptr;
-  }  ///< share of its velocity a node keeps; null: all
+  const Field& masses() const noexcept { return *masses_; }    ///< without damping and mass scaling [1/kg]
+  /// Share of its velocity that damping leaves a node; null: all.
+  const Field* keep() const noexcept { return damped_ ? &keep_ : nullptr; }
   bool massesAlone() const noexcept { return inverse_ == masses_; }
 
-  /// What the last substep's tensions say, to be put back when substeps are made again.
+  /// The last substep's tensions; restored when substeps are repeated.
   struct Tensions {
     Field load;             ///< sum of |multiplier| of each node's links [kg]
-    double heaviest = 0.0;  ///< the largest of it over the node's mass
-    double scale = 0.0;     ///< the substep's h * kick [s^2]; 0 = there was none
+    double heaviest = 0.0;  ///< largest load over mass
+    double scale = 0.0;     ///< h * kick of the substep [s^2]; 0: there was none
 
     void carry(Archive& archive);
   };
@@ -41,8 +40,8 @@ class NodeInertia {
   void forget() noexcept;
   double omegaSquared() const noexcept;  ///< [1/s^2]
 
-  /// Largest step whose phase h * omega stays within most_phase when nodes may be heavier by so much altogether, as a
-  /// share of the cloth's mass [s]; infinite when there are no tensions.
+  /// Largest step with h * omega <= most_phase when mass scaling may add this share of the cloth's mass [s]; infinite
+  /// without tensions.
   double stepForPhase(double most_phase, double heavier_share) const noexcept;
 
  private:

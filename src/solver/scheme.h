@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What tells one exact scheme from another: where a substep starts, how long forces act in it, along which directions
-// its links pull, how much energy it may find, and what it leaves to the next one. The solve is the same for all. One
-// file a scheme in schemes/.
+// What distinguishes the exact schemes: where a substep starts, how long forces act in it, along which directions links
+// pull, and what it leaves to the next one. The solve is the same for all. One file a scheme in schemes/.
 #pragma once
 
 #include "solver/node_inertia.h"
@@ -16,8 +15,8 @@ class Scheme {
   struct Rules {
     bool follows;    ///< links pull along their directions at the end of the step, not at its start
     bool backward;   ///< damping acts on the velocities at the end
-    double age;      ///< velocities belong to positions so much of a step before, as a share of it
-    bool remembers;  ///< steps before the last one: it must know of blows
+    double age;      ///< velocities lag behind the positions by this share of a step
+    bool remembers;  ///< uses steps before the last one, so it must be told of impacts
   };
 
   explicit Scheme(const Rules& rules) noexcept : rules_(rules) {}
@@ -25,21 +24,21 @@ class Scheme {
 
   const Rules& rules() const noexcept { return rules_; }
 
-  /// Length of the step from where a substep of h [s] starts.
+  /// Length of the step from start() when the substep is h long [s].
   virtual double stepFor(double h) const noexcept { return h; }
 
-  /// Where it starts. inertia: set for this substep. What of the momentum is not taken along is told in the outcome.
+  /// Start of the substep. inertia: set for it. Momentum that is not taken along is added to the outcome.
   virtual SubstepStart start(const SubstepPlan& plan, double step, double kick, const NodeForces& forces,
                              const NodeInertia& inertia, const ClothState& state, SubstepOutcome& outcome) noexcept {
     (void)plan, (void)outcome;
     return startFrom(state, step, kick, forces, inertia);
   }
 
-  /// A string has snapped taut in the substep, or something has met something. True: it is to be made again.
+  /// A string has snapped taut in the substep, or a new contact pushes. True: make the substep again.
   virtual bool struck() noexcept { return false; }
-  /// The substep is taken, from here.
+  /// The substep was accepted; before: the state at its start.
   virtual void taken(const ClothState& before, double h) noexcept { (void)before, (void)h; }
-  /// One of another scheme is.
+  /// A substep of another scheme was accepted.
   virtual void passedOver() noexcept {}
 
  protected:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Times the stages of a frame.
+// Measures the computing time of the stages of a frame.
 #pragma once
 
 #include <array>
@@ -16,16 +16,16 @@ class StageClock {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Time since the last call (or start()) belongs to this stage.
+  /// Adds the time since the last call (or start()) to this stage.
   void lap(Stage stage) noexcept {
     const auto now = Clock::now();
     seconds_[static_cast<std::size_t>(stage)] += std::chrono::duration<double>(now - last_).count();
     last_ = now;
   }
   void start() noexcept { last_ = Clock::now(); }
-  /// When what is timed must be over; the far future: whenever it is.
+  /// Sets when the measured work must be over; max: no limit.
   void setDeadline(Clock::time_point deadline) noexcept { deadline_ = deadline; }
-  /// It was over when the last lap ended.
+  /// The deadline had passed at the last lap().
   bool late() const noexcept { return last_ >= deadline_; }
   void reset() noexcept { seconds_.fill(0.0); }
   const std::array<double, kStageCount>& seconds() const noexcept { return seconds_; }

@@ -17,7 +17,7 @@ int fixedSubsteps(const SolverParams& params) {
   return params.method == Method::kImplicit || params.method == Method::kBdf2 ? kImplicitSubsteps : 0;
 }
 
-// Hanging free, the uppermost rod carries the column: T / (m l) of the longest column of equal nodes.
+// Hanging free, the uppermost rod carries the column: tension T gives omega^2 = 4 T / (m l), largest of all columns.
 double hangingOmega(const ClothPattern& pattern, const Vec3& gravity) {
   const Grid& grid = pattern.grid;
   double worst = 0.0;
@@ -58,7 +58,7 @@ void StepControl::takeGravity(const ClothPattern& pattern, const Vec3& gravity) 
   initial_omega_ = hangingOmega(pattern, gravity);
 }
 
-// What had to be divided stays divided; frames that get longer find out how far their steps may.
+// A limit from rejections stays. Without one, longer frames start unlimited.
 void StepControl::takeFrame(double length) noexcept {
   const bool was_limited = limit_ < frame_;
   limit_ = was_limited ? std::min(limit_, length) : length;
@@ -73,15 +73,14 @@ double StepControl::stepFromTensions(bool frame_begins, const ExactSolver& solve
   const double longest_stage = composed_ ? kLongestStage : 1.0;
   const double for_phase = omega_ > 0.0 ? kPhasePerStep / (longest_stage * omega_) : frame_;
   if (method_ != Method::kAuto || for_phase > kWorthLooking * frame_) return for_phase;
-  // Not anew within a frame, where a blow is no reason for longer steps; but when it began nothing may have been known
-  // of tensions.
+  // Once a frame: an impact within it is no reason for longer steps. But at its beginning no tensions may be known.
   if (frame_begins || std::isinf(heavier_step_))
     heavier_step_ = solver.inertia().stepForPhase(kPhasePerStep, kHeavierShare);
   return std::isfinite(heavier_step_) ? std::max(for_phase, heavier_step_) : for_phase;
 }
 
-// Longer than wanted where there is no time for so many; leapfrog by itself would blow up. What has been rejected or is
-// pushed far stays out of the question.
+// Lengthens the step when computing time is short: only for methods that stay stable, and not beyond what was rejected
+// or what moving contacts allow.
 double StepControl::stretch(double wanted, double remaining) noexcept {
   stretched_ = false;
   if (method_ != Method::kAuto && method_ != Method::kBdf2 && method_ != Method::kImplicit) return wanted;
@@ -118,7 +117,7 @@ SubstepPlan StepControl::next(double remaining, const ExactSolver& solver) noexc
     step = std::max(smallest, frame_ / kLastResortSubsteps);
   }
   if (!plan.isLastResort()) step = stretch(step, remaining);
-  // Equal shares of what is left; the small slack keeps rounding from adding a substep.
+  // Equal shares of the rest of the frame; the slack keeps rounding from adding a substep.
   plan.h = remaining / std::max(1.0, std::ceil(remaining / step - 1e-6));
   return plan;
 }
@@ -126,8 +125,6 @@ SubstepPlan StepControl::next(double remaining, const ExactSolver& solver) noexc
 double StepControl::longestStableStep() const noexcept {
   return omega_ > 0.0 ? kLongestPhase / ((composed_ ? kLongestStage : 1.0) * omega_) : frame_;
 }
-
-double StepControl::stablePhase() noexcept { return kStablePhase; }
 
 bool StepControl::askFor(int substeps) noexcept {
   const int before = asked_;

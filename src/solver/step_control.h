@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Chooses the substeps of a frame: from the last tensions first (h * omega_max), and as the safety net by halving a
-// substep whose solve failed and growing again after good ones.
+// Chooses the substeps of a frame from the last tensions (h * omega_max). Rejected substeps are halved; the limit grows
+// again after accepted ones.
 #pragma once
 
 #include <limits>
@@ -18,30 +18,27 @@ class StepControl {
 
   void reset() noexcept;
   void takeGravity(const ClothPattern& pattern, const Vec3& gravity) noexcept;
-  /// Frames are so long from now on [s]. To be called between two frames.
+  /// Sets the length of the next frames [s]. To be called between two frames.
   void takeFrame(double length) noexcept;
 
-  /// The next substep; remaining: what is left of the frame [s], > 0; its whole length when a frame begins. h is a
-  /// whole share of it.
+  /// The next substep; remaining: rest of the frame [s], > 0. h divides it into equal parts.
   SubstepPlan next(double remaining, const ExactSolver& solver) noexcept;
-  /// Substeps that the rest of the frame may be made in, >= 1: beyond that they are longer than the tensions ask for.
+  /// Limits the substeps for the rest of the frame, >= 1; they may then be longer than the tensions ask for.
   void allow(int substeps) noexcept { allowed_ = substeps; }
-  /// The last plan was longer for that.
+  /// The last plan was longer because of allow().
   bool stretched() const noexcept { return stretched_; }
-  /// From the last tensions (before the first: of the cloth hanging by its own weight) [s].
+  /// Longest stable step by the last tensions (before the first: of the cloth hanging by its weight) [s].
   double longestStableStep() const noexcept;
-  /// h * omega from which nodes are heavier rather than the step unstable.
-  static double stablePhase() noexcept;
-  /// At least so many substeps a frame. True when that is not what was asked for before.
+  /// Asks for at least so many substeps a frame. True: the number has changed.
   bool askFor(int substeps) noexcept;
-  /// Takes note of the tensions of a substep that was not its own.
+  /// Takes note of the tensions of a substep that another control planned.
   void watch(const SubstepOutcome& outcome) noexcept;
-  /// Other columns move now, with the tensions that the solver has for them.
+  /// Takes the tensions of the columns that move now.
   void wake(const ExactSolver& solver) noexcept;
   void accepted(const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept;
   void rejected(const SubstepPlan& plan) noexcept;
-  /// It was not done within a frame's computing time. Shorter ones are, but not the fall-back, which has no shorter
-  /// ones.
+  /// The substep did not finish within a frame's computing time. Makes shorter ones, but not so short that the last
+  /// resort takes over.
   void tookTooLong(const SubstepPlan& plan) noexcept;
 
   void carry(Archive& archive);
@@ -54,16 +51,15 @@ class StepControl {
   int fixed_substeps_;
   int max_substeps_;
   Method method_;
-  double initial_omega_;  // of the cloth hanging by its own weight [1/s]
+  double initial_omega_;  // of the cloth hanging by its weight [1/s]
   double omega_;          // from the last tensions [1/s]
   double turning_;        // of the last substep [1/s]
-  double heavier_step_;  // what the phase allows where few nodes may be heavier, found when the frame began [s]; 0: not
-                         // asked
-  double surface_step_;  // in which what pushes goes a share of a link [s]
-  double limit_;         // largest step that the rejections leave [s]
+  double heavier_step_;   // allowed by mass scaling, found when the frame began [s]; 0: not looked for
+  double surface_step_;   // SubstepOutcome::longest_step [s]
+  double limit_;          // longest step after rejections [s]
   int allowed_ = std::numeric_limits<int>::max();  // for the rest of the frame
   bool stretched_ = false;
-  int asked_ = 1;      // substeps a frame
+  int asked_ = 1;      // substeps a frame, at least
   TrustRegion trust_;  // of the last resort
   bool composed_;      // substeps are made of stages (composition.h)
   int good_ = 0;       // accepted substeps since the limit last changed

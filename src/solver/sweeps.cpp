@@ -36,7 +36,7 @@ Sweeps::Aim Sweeps::aimOf(const SweepTask& task, bool first, bool touches, int s
     if (sweeps < kStrictSweeps) strict = std::clamp(share, kStrictShare, 1.0);
   }
   if (sweeps < kStrictSweeps && !touches && (constraints_.weftPulls() || constraints_.stringsAct())) {
-    // What the last resort leaves the far shorter steps after it would have to mend at once: by a blow.
+    // The last resort leaves no more than its far shorter successors can correct without a jump.
     strict =
         task.last_resort ? kLastResortShare
         : task.weight_path > 0.0
@@ -47,13 +47,13 @@ Sweeps::Aim Sweeps::aimOf(const SweepTask& task, bool first, bool touches, int s
   return {strict * tolerance_, contact, cautious ? kFirstSweepShare : 1.0, cautious ? kFirstSweepShare : kLeaveAlone};
 }
 
-// Friction takes its turn before contacts are looked at.
+// Friction is projected before contacts are measured.
 Sweeps::Residual Sweeps::look(Contacts* contacts, const Constraints::RodsProgress& rods, bool first, int sweeps,
                               StageClock& clock) noexcept {
   Residual residual;
   residual.rods = rods;
   const bool touches = contacts != nullptr && !contacts->empty();
-  if (touches && sweeps <= kRubSweeps) rubContacts(inertia_.inverse(), *contacts, constraints_.next);
+  if (touches && sweeps <= kFrictionSweeps) projectFriction(inertia_.inverse(), *contacts, constraints_.next);
   if (touches) residual.touch = contactResidual(*contacts, constraints_.next);
   clock.lap(Stage::kContact);
   residual.strings = constraints_.lookAtStrings(constraints_.weftPulls() || !first);
@@ -65,17 +65,17 @@ bool Sweeps::reached(const Aim& aim, const Residual& r) noexcept {
          constraints_.rodsResidual() <= aim.links;
 }
 
-// Monotone: what is no better is undone, and the next step damped more. True: it was undone.
+// Accepts the sweep if it reduces the merit; else undoes it and increases the damping. True: it was undone.
 bool Sweeps::keepOrUndo(double& residual, const Residual& now, Contacts* contacts, SweepDamping& damping) noexcept {
   const double merit = constraints_.merit(contacts, now.rods.converged ? 0.0 : constraints_.rodsResidual());
   if (merit < best_.merit) {
     best_ = {merit, residual};
-    constraints_.keepIterate(contacts);
+    constraints_.saveIterate(contacts);
     damping.better();
     return false;
   }
   if (!std::isfinite(best_.merit)) return false;
-  constraints_.goBack(contacts);
+  constraints_.restoreIterate(contacts);
   residual = best_.residual;
   damping.worse();
   return true;
@@ -106,14 +106,14 @@ SweepOutcome Sweeps::run(const SweepTask& task, Contacts* contacts, StageClock& 
                                                                      : kNewtonStopLater,
                                 first ? 0.0 : kLeaveAlone * aim.links, task.last_resort ? kInfinity : kMostViolation});
     clock.lap(Stage::kWarp);
-    if (first) outcome.surprise = rods.first_residual;
+    if (first) outcome.predicted_violation = rods.first_residual;
     if (!rods.converged && !task.last_resort) return {SweepEnd::kDiverged, false, outcome.sweeps};
     ++outcome.sweeps;
     const Residual now = look(contacts, rods, first, outcome.sweeps, clock);
     touch = now.touch;
     if (reached(aim, now)) {
       clock.lap(Stage::kWeft);
-      return {SweepEnd::kConverged, true, outcome.sweeps, outcome.surprise};
+      return {SweepEnd::kConverged, true, outcome.sweeps, outcome.predicted_violation};
     }
     double residual = std::max(now.strings, touch / constraints_.middleRest());
     if (!std::isfinite(residual)) {
@@ -125,13 +125,13 @@ SweepOutcome Sweeps::run(const SweepTask& task, Contacts* contacts, StageClock& 
       undone = keepOrUndo(residual, now, contacts, damping);
       if (undone && damping.exhausted(residual)) break;
     } else if (residual > before) {
-      damping.worse();  // too far where hardly anything holds
+      damping.worse();  // too far along directions that hardly anything constrains
     } else {
       damping.better();
     }
     before = residual;
     if (undone || now.strings > aim.alone * aim.links || touch > aim.alone * aim.contact) {
-      // Contact settles better along given directions.
+      // Contact converges better along fixed directions.
       follow = follow || !touches;
       if (follow)
         constraints_.followDirections();
@@ -152,11 +152,11 @@ SweepOutcome Sweeps::run(const SweepTask& task, Contacts* contacts, StageClock& 
   return conclude(outcome, touch, contacts);
 }
 
-// Slower than it should, but what was asked for may be reached all the same.
+// The solve did not converge; it may still be within the user's tolerance.
 SweepOutcome Sweeps::conclude(SweepOutcome outcome, double touch, Contacts* contacts) noexcept {
   if (std::isfinite(best_.merit)) {
     if (outcome.end == SweepEnd::kDiverged) outcome.end = SweepEnd::kStalled;
-    constraints_.goBack(contacts);
+    constraints_.restoreIterate(contacts);
     if (contacts != nullptr && !contacts->empty()) touch = contactResidual(*contacts, constraints_.next, false);
   }
   outcome.within = outcome.end != SweepEnd::kDiverged && isWithin(touch);

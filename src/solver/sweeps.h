@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The sweeps of a solve: rods, then all taut strings and contacts at once, until links and contacts are within what is
-// aimed at. Cloth without a taut string that touches nothing never leaves the first half of the first sweep.
+// The sweeps of a solve: rods, then all taut strings and contacts at once, until links and contacts are within the aim.
+// Cloth without a taut string and without contact ends after the rods of the first sweep.
 //
-// Directions of the substep's start do for a leapfrog step as long as they have a solution. What its first sweep leaves
-// is corrected along the present directions, all of it: forces along the directions at the start may have no solution
-// at all where a flat net shears, and a correction along one set of directions taken back along another is a force that
-// does work. In contact they are kept: what is dropped on a box gains energy else (test/stress).
+// Leapfrog's first sweep pulls along the directions at the start of the step. If it does not converge, the whole
+// correction follows the present directions: along the old ones a sheared flat net may have no solution, and a
+// correction along one set of directions that is undone along another does work. In contact directions are kept, since
+// otherwise what is dropped on a box gains energy (test/stress).
 #pragma once
 
 #include <limits>
@@ -19,9 +19,9 @@ namespace curtain {
 
 /// How a solve has ended.
 enum class SweepEnd {
-  kConverged,  ///< links and contacts are as near as was aimed at
-  kStalled,    ///< more sweeps bring them no nearer, or there were as many as there may be
-  kOutOfTime,  ///< its time is over
+  kConverged,  ///< links and contacts are within the aim
+  kStalled,    ///< more sweeps do not help, or there were max_sweeps
+  kOutOfTime,  ///< the deadline has passed
   kDiverged    ///< rods turned over, or a number is not finite
 };
 
@@ -29,29 +29,29 @@ struct SweepOutcome {
   SweepEnd end = SweepEnd::kStalled;
   bool within = false;  ///< links and contacts are within the user's tolerance
   int sweeps = 0;
-  double surprise = 0.0;  ///< most that a rod lacked where it began, relative
+  double predicted_violation = 0.0;  ///< largest relative violation of a rod at the start
 };
 
-/// What is to be solved.
+/// A problem for the sweeps.
 struct SweepTask {
-  const Field3& start;  ///< where directions at the substep's start are taken [m]
+  const Field3& start;  ///< positions at the start of the substep [m]
   bool follows;         ///< links pull along their directions at its end
-  bool last_resort;     ///< monotone: a sweep that makes the sum of squares no smaller is undone
-  bool precise;         ///< rods are solved to rounding
-  double weight_path;   ///< that weight moves a node by in the substep [m]
-  double path;  ///< that nodes go in it at the speed they have, RMS past their mean [m]; read where something touches
+  bool last_resort;     ///< monotone: a sweep that does not reduce the sum of squares is undone
+  bool precise;         ///< solve rods to rounding
+  double weight_path;   ///< displacement by weight in the substep [m]
+  double path;          ///< displacement at the present velocities, RMS relative to the mean [m]; read with contacts
 };
 
-/// How much a sweep's solve of strings and contacts is damped: the more the more sweeps went wrong.
+/// Damping of the solve of strings and contacts: grows while sweeps make things worse.
 class SweepDamping {
  public:
   /// largest: Levenberg-Marquardt term over the diagonal.
   explicit SweepDamping(double largest) noexcept : largest_(largest) {}
-  void better() noexcept { factor_ = std::max(1.0, factor_ / kLessCaution); }
-  void worse() noexcept { factor_ *= kMoreCaution; }
+  void better() noexcept { factor_ = std::max(1.0, factor_ / kDampingShrink); }
+  void worse() noexcept { factor_ *= kDampingGrowth; }
   /// The term at this residual.
   double at(double residual) const noexcept { return std::min(largest_, wanted(residual)); }
-  /// Nothing is left to gain by more of it.
+  /// The damping is at its largest.
   bool exhausted(double residual) const noexcept { return wanted(residual) > largest_; }
 
  private:
@@ -61,7 +61,7 @@ class SweepDamping {
   double factor_ = 1.0;
 };
 
-/// Sweeps must bring some improvement over a window of them, or the solve has stalled.
+/// Detects that a window of sweeps has brought too little improvement.
 class StallWatch {
  public:
   bool stalls(int sweeps, double residual) noexcept;
@@ -73,20 +73,19 @@ class StallWatch {
 /// Not thread-safe. Allocates nothing.
 class Sweeps {
  public:
-  /// tolerance  relative, of links; contact_tolerance  [m]; both as the user has them. constraints and inertia must
-  /// outlive this.
+  /// tolerance: relative, of links; contact_tolerance: [m]; both the user's. constraints and inertia must outlive this.
   Sweeps(Constraints& constraints, const NodeInertia& inertia, double tolerance, double contact_tolerance,
          int most_sweeps);
 
-  /// Moves constraints.next to where links and contacts are satisfied; contacts: null where nothing can touch.
+  /// Moves constraints.next to satisfy links and contacts; contacts: null where nothing can touch.
   SweepOutcome run(const SweepTask& task, Contacts* contacts, StageClock& clock) noexcept;
 
  private:
-  // What one sweep is to reach, and what it leaves alone.
+  // What one sweep aims at, and what it does not correct.
   struct Aim {
     double links, contact;  // relative, [m]
-    double share;           // of it within which a solve ends
-    double alone;           // of it within which strings and contacts are not touched
+    double share;           // of the aim at which the solve ends
+    double alone;           // of the aim below which strings and contacts are not corrected
   };
   struct Residual {
     Constraints::RodsProgress rods;
@@ -105,11 +104,11 @@ class Sweeps {
 
   Constraints& constraints_;
   const NodeInertia& inertia_;
-  const double tolerance_;          // inside the solver
+  const double tolerance_;          // inside the solver, relative
   const double contact_tolerance_;  // [m]
   const int most_sweeps_;
-  Best best_;                // of a monotone solve
-  double most_touch_ = 0.0;  // that contacts may lack in the end [m]
+  Best best_;                // iterate of a monotone solve
+  double most_touch_ = 0.0;  // final tolerance of contacts [m]
 };
 
 }  // namespace curtain

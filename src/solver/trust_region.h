@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// How far nodes may go in a substep of the last resort, in lengths of their shortest link: without bound until a solve
-// at the smallest step fails, then less with every failure, and more again with every success. Where the last resort
-// does not settle in contact, the scheme itself is tried again at the next frame: what rests on something needs no
-// bound, and its solve settles where a monotone one stalls.
+// Trust radius of the last resort, in lengths of a node's shortest link: unbounded until a solve at the smallest step
+// fails, smaller after every failure, larger after every success. Where the last resort fails in contact, the scheme
+// itself is tried again in the next frame: cloth at rest on something needs no bound, and the scheme's solve converges
+// where a monotone one stalls.
 #pragma once
 
 #include <algorithm>
@@ -18,14 +18,14 @@ class TrustRegion {
  public:
   double reach() const noexcept { return reach_; }  ///< infinite: no bound
   bool bounded() const noexcept { return reach_ < std::numeric_limits<double>::infinity(); }
-  /// The next substep is the last resort's.
+  /// The next substep is a last resort.
   bool rules(bool frame_begins) const noexcept { return bounded() && !(frame_begins && retry_); }
-  /// The scheme itself has failed, for the first time or again.
+  /// The scheme itself has failed.
   void schemeFailed() noexcept {
     reach_ = std::min(reach_, kFirstReach);
     retry_ = false;
   }
-  /// The last resort has; touches: in contact.
+  /// The last resort has failed; touches: in contact.
   void failed(bool touches) noexcept {
     reach_ = std::max(kLeastReach, kReachShrink * reach_);
     retry_ = touches;

@@ -10,9 +10,9 @@
 namespace curtain {
 namespace {
 
-// A pivot below this share of (w_a + w_b) l^2 means the rod has turned by nearly 90 degrees from its direction.
+// A pivot below this share of (w_a + w_b) l^2 means that the rod has turned by nearly 90 degrees from its direction.
 constexpr double kSmallestPivot = 1e-9;
-// Stands for the violation of such a rod.
+// The residual reported for such a rod.
 constexpr double kUnsound = std::numeric_limits<double>::infinity();
 
 struct View {
@@ -26,7 +26,7 @@ struct ConstView {
       : x(field.x.data() + offset), y(field.y.data() + offset), z(field.z.data() + offset) {}
 };
 
-// How a rod's violation and gradient come from the nodal values.
+// Violation and gradient of a rod from the nodal values.
 struct PositionLevel {
   // C = (|r|^2 - l^2) / 2, its gradient r.
   static double violation(double rx, double ry, double rz, double, double, double, double rest_squared) {
@@ -42,7 +42,7 @@ struct VelocityLevel {
   static double gradient(double, double d) { return d; }
 };
 
-// Of a block's columns, side by side: brought together once a block, not once a row.
+// Largest residual by column of a block, reduced once a block.
 struct Worst {
   double of[kLane] = {};
   LineOutcome outcome() const {
@@ -92,7 +92,7 @@ CURTAIN_INTO_WIDE void eliminateRow(const LineSolve& line, LineScratch& scratch,
   }
 }
 
-// Back substitution of the same row, and the move of its nodes.
+// Back substitution of the same row; moves its nodes.
 CURTAIN_INTO_WIDE void substituteRow(const LineSolve& line, LineScratch& scratch, std::size_t first) {
   const auto stride = static_cast<std::size_t>(line.pattern.grid.stride);
   const View v(line.value, first);
@@ -113,7 +113,7 @@ CURTAIN_INTO_WIDE void substituteRow(const LineSolve& line, LineScratch& scratch
   }
 }
 
-// The top row has no rod above it. A solve that failed leaves 0 * NaN there: it must not reach the next one.
+// The top row has no rod above it. A failed solve leaves 0 * NaN there, which must not reach the next one.
 CURTAIN_INTO_WIDE void forgetTop(const LineSolve& line, LineScratch& scratch, std::size_t offset) {
   for (std::size_t j = offset; j < offset + kLane; ++j) scratch.solution[j] = line.links.multiplier[j] = 0.0;
 }
@@ -152,7 +152,7 @@ CURTAIN_WIDE void setWarpDirections(const Grid& grid, int block, const Field3& p
   }
 }
 
-// Prediction of a row's nodes.
+// Predicts a row's nodes.
 CURTAIN_INTO_WIDE void predictRow(const SubstepStart& start, const LineSolve& line, std::size_t first) {
   const ConstView x(start.state.position, first), v(start.state.velocity, first), f(start.force, first);
   const View next(line.value, first);
@@ -184,7 +184,7 @@ CURTAIN_INTO_WIDE void predictRow(const SubstepStart& start, const LineSolve& li
   }
 }
 
-// Direction and first multiplier of a row's rods, and what these two rods, its own and this one, do to the row above.
+// Sets direction and first multiplier of a row's rods, and moves the row above by these rods and its own.
 CURTAIN_INTO_WIDE void hangRow(const SubstepStart& start, const LineSolve& line, const Field& last, double ratio,
                                std::size_t first, std::size_t stride) {
   const ConstView x(start.state.position, first), above(start.state.position, first - stride);
@@ -208,7 +208,7 @@ CURTAIN_INTO_WIDE void hangRow(const SubstepStart& start, const LineSolve& line,
   }
 }
 
-// The lowest row has no rod below.
+// The lowest row has no rod below it.
 CURTAIN_INTO_WIDE void hangHem(const LineSolve& line, std::size_t first) {
   const View next(line.value, first);
   const ConstView d(line.links.direction, first);
@@ -222,7 +222,7 @@ CURTAIN_INTO_WIDE void hangHem(const LineSolve& line, std::size_t first) {
   }
 }
 
-// Down a block of columns once: what a row needs of its neighbours is still at hand.
+// One pass down a block of columns, while a row's neighbours are still in the cache.
 CURTAIN_WIDE void warpBegin(const SubstepStart& start, const LineSolve& line, const Field& last, double ratio,
                             int block) noexcept {
   const Grid& grid = line.pattern.grid;

@@ -42,8 +42,8 @@ CURTAIN_INTO_WIDE Link look(const Row& row, std::size_t left, std::size_t right)
   return {both > 0.0 ? c : 0.0, active, 0.0 * c};  // 0 * x is NaN for NaN and infinity alike
 }
 
-// Calls loop(first, end) for what of [0, columns) is in the span. That nothing sleeps is the rule, and a loop whose
-// start is known when it is compiled is an eighth shorter.
+// Calls loop(first, end) for the part of [0, columns) in the span. Usually nothing sleeps, and a loop with a
+// compile-time start is an eighth shorter.
 template <typename Loop>
 CURTAIN_INTO_WIDE void overColumns(const ColumnSpan& span, std::size_t columns, const Loop& loop) {
   if (span.first == 0 && span.end >= columns) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A loop is shared by taking blocks from its two ends: the caller takes the first that is left, all others the last. So
-// each thread meets the same blocks in every loop, and finds their numbers in its own cache. Nobody waits for a thread
-// that has not come: blocks that nobody else takes are the caller's.
+// Blocks of a loop are taken from both ends: the caller takes the first one left, the helpers the last. So each thread
+// gets much the same blocks in every loop and finds them in its cache. Nobody waits for a thread that has not come: the
+// caller takes what is left.
 #include "solver/workers.h"
 
 #include <tbb/task_arena.h>
@@ -18,16 +18,16 @@
 namespace curtain {
 namespace {
 
-// From twice this on two threads are used: 10 080 nodes gathered and blown, without contact, take 10.9 ms a frame on
-// one core and 7.3 on two. Not varied.
+// From twice this on two threads are used: 10 080 nodes with gathers and wind, without contact, take 10.9 ms a frame on
+// one core and 7.3 on two. Other values were not tried.
 constexpr std::size_t kNodesPerThread = 4000;
 
-// The caller's core is not among those that others may use.
+// Helpers, one less than the cores: the caller has its own.
 int helpersFor(int threads) noexcept {
   return std::min(threads, std::max(1, static_cast<int>(std::thread::hardware_concurrency()))) - 1;
 }
 
-// Looks at what is to be done before a thread that has nothing to do lets others use its core.
+// Polls of an idle thread before it yields its core.
 constexpr int kLooksBeforeYield = 4000;
 
 void pause() noexcept {
@@ -36,7 +36,7 @@ void pause() noexcept {
 #endif
 }
 
-// The blocks of a loop that are left: a number of the loop, the first block and the one past the last.
+// The blocks left of a loop: number of the loop, first block, one past the last.
 struct Left {
   std::uint32_t loop;
   std::uint16_t first, end;
@@ -68,7 +68,7 @@ struct Workers::Crew {
     }
   }
 
-  // Until the shift ends.
+  // Runs until the shift ends.
   void help() noexcept {
     int looks = 0;
     while (open.load(std::memory_order_acquire)) {
@@ -91,8 +91,8 @@ struct Workers::Crew {
   alignas(64) std::atomic<std::uint64_t> left{0};
   alignas(64) std::atomic<int> undone{0};
   alignas(64) std::atomic<bool> open{false};
-  std::atomic<int> inside{0};  // threads that help, or will
-  // Of the loop that is shared; unchanged until all of its blocks are done.
+  std::atomic<int> inside{0};  // threads that help, or are on their way
+  // The loop being shared; unchanged until all of its blocks are done.
   void (*call)(const void*, int) = nullptr;
   const void* body = nullptr;
   std::uint32_t loops = 0;
@@ -112,7 +112,7 @@ Workers::Shift::Shift(const Workers& workers) : workers_(workers) {
   Crew* const crew = workers.crew_.get();
   if (crew == nullptr) return;
   crew->open.store(true, std::memory_order_release);
-  // Some of the last shift may still be there, or still be on their way.
+  // Helpers of the last shift may still be inside, or on their way.
   while (crew->inside.load(std::memory_order_acquire) < crew->helpers) {
     crew->inside.fetch_add(1, std::memory_order_acq_rel);
     crew->arena.enqueue([crew] { crew->help(); });

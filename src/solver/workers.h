@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The threads a simulator may use: loops over blocks that know nothing of each other. What a block computes does not
-// depend on who computes it, and reductions are made over the blocks in their order: the bits are the same for every
-// number of threads.
+// The threads of a simulator: parallel loops over independent blocks. A block's result does not depend on who computes
+// it, and reductions run over the blocks in order, so any number of threads gives the same bits.
 #pragma once
 
 #include <memory>
@@ -18,10 +17,10 @@ class Workers {
   Workers& operator=(const Workers&) = delete;
 
   int threads() const { return threads_; }
-  /// To cut work into whose parts take differently long.
+  /// Number of parts to divide work of uneven cost into.
   int shares() const { return threads_ == 1 ? 1 : kSharesPerThread * threads_; }
 
-  /// While it lives other threads stand by, so that a loop of a few microseconds is worth sharing. One at a time.
+  /// While it lives helper threads poll for work, so that a loop of a few microseconds is worth sharing. One at a time.
   class Shift {
    public:
     explicit Shift(const Workers& workers);
@@ -33,8 +32,8 @@ class Workers {
     const Workers& workers_;
   };
 
-  /// Calls block(0) … block(count - 1), each once; returns when all are done. Outside of a shift the caller does them
-  /// alone. block must not throw, nor run another loop.
+  /// Calls block(0) … block(count - 1), each once; returns when all are done. Outside of a shift the caller does all.
+  /// block must not throw, nor run another loop.
   template <typename Block>
   void run(int count, const Block& block) const {
     if (!onShift() || count < 2 || count > kMostBlocks) {
@@ -57,8 +56,7 @@ class Workers {
   std::unique_ptr<Crew> crew_;
 };
 
-/// Threads for a cloth of so many nodes when `asked` is 0 (auto): one below the size from which more pay, and no more
-/// than the machine has.
+/// Threads for a cloth of so many nodes when `asked` is 0 (auto), at most the machine's cores.
 int threadsFor(int asked, std::size_t node_count);
 
 }  // namespace curtain

@@ -15,7 +15,7 @@ Bdf2::Bdf2(const ClothPattern& pattern) : Scheme({true, true, 0.0, true}), patte
 bool Bdf2::usesTwo(double h) const noexcept { return memory_.h != 0.0 && h <= kMostGrowth * memory_.h; }
 
 // Variable steps (Hairer, Norsett, Wanner 1993, Sect. III.5), ratio r = h / h_before:
-// y' = (1+r)^2/(1+2r) y - r^2/(1+2r) y_before + (1+r)/(1+2r) h f.
+//   y' = (1+r)^2/(1+2r) y - r^2/(1+2r) y_before + (1+r)/(1+2r) h f.
 double Bdf2::stepFor(double h) const noexcept {
   if (!usesTwo(h)) return h;
   const double r = h / memory_.h;
@@ -26,7 +26,7 @@ SubstepStart Bdf2::start(const SubstepPlan& plan, double step, double kick, cons
                          const NodeInertia& inertia, const ClothState& state, SubstepOutcome&) noexcept {
   if (!usesTwo(plan.h)) return startFrom(state, step, kick, forces, inertia);
   const double r = plan.h / memory_.h;
-  const double change = r * r / (1.0 + 2.0 * r);  // (1+r)^2/(1+2r) is 1 more: what is at rest stays there to the bit
+  const double change = r * r / (1.0 + 2.0 * r);  // (1+r)^2/(1+2r) = 1 + change: cloth at rest stays to the bit
   const auto combine = [change](const Field& y, const Field& older, Field& out) {
     for (std::size_t n = 0; n < y.size(); ++n) out[n] = y[n] + change * (y[n] - older[n]);
   };
@@ -37,7 +37,7 @@ SubstepStart Bdf2::start(const SubstepPlan& plan, double step, double kick, cons
   combine(state.velocity.y, memory_.velocity.y, base_.velocity.y);
   combine(state.velocity.z, memory_.velocity.z, base_.velocity.z);
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    if (inertia.masses()[n] > 0.0) continue;  // pins go where they are told to, whatever they did before
+    if (inertia.masses()[n] > 0.0) continue;  // pins have no history: their motion is prescribed
     base_.position.set(n, state.position.at(n) + (plan.h - step) * state.velocity.at(n));
     base_.velocity.set(n, state.velocity.at(n));
   }

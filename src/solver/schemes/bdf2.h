@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The backward differentiation formula of two steps (Gear 1971): forces act along the links' directions at the end of
-// the step. Order 2, damps what it can't follow, stable at any step. After a blow it knows nothing of the steps before,
-// and is backward Euler.
+// Two-step backward differentiation formula (Gear 1971): links pull along their directions at the end of the step.
+// Order 2, stable at any step, damps what it can't resolve. After an impact it forgets its history and is backward
+// Euler for kStepsAfterBlow steps.
 #pragma once
 
 #include "solver/scheme.h"
@@ -13,11 +13,11 @@ class Bdf2 final : public Scheme {
  public:
   explicit Bdf2(const ClothPattern& pattern);
 
-  /// The step before the present one, and what keeps it from being used.
+  /// The step before the last one.
   struct Memory {
     Field3 position, velocity;
-    double h = 0.0;        ///< its length; 0: there is none [s]
-    int single_steps = 0;  ///< to be made from one step before two are used again
+    double h = 0.0;        ///< length of the last step [s]; 0: no history
+    int single_steps = 0;  ///< steps still to be made without history
 
     void forget() noexcept { h = 0.0, single_steps = 0; }
     void carry(Archive& archive);
@@ -37,7 +37,7 @@ class Bdf2 final : public Scheme {
 
   const ClothPattern& pattern_;
   Memory memory_;
-  ClothState base_;  // what the formula makes of the last two steps
+  ClothState base_;  // the formula's combination of the last two steps
 };
 
 }  // namespace curtain

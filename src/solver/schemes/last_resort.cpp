@@ -40,7 +40,7 @@ SubstepStart LastResort::start(const SubstepPlan& plan, double step, double kick
   return {base_, no_force_, nullptr, nullptr, kick, step};
 }
 
-// Of the nodes that nothing moves but their own velocity; false: there are none.
+// Least-squares rigid motion of the nodes with prescribed velocity; false: there are none.
 bool LastResort::rigidMotionOfPins(const Field3& position, const Field& inverse, const Field3& velocity,
                                    RigidMotion& motion) const noexcept {
   double pins = 0.0;
@@ -94,8 +94,7 @@ double LastResort::cut(const Field3& position, const Field& inverse, double h, d
   return taken;
 }
 
-// Relative overlengths of links (and underlengths of rods) with an end that can move: the largest, and the sum of their
-// squares.
+// Relative overlengths of links (and underlengths of rods) with a movable end: largest and sum of squares.
 LastResort::Misfit LastResort::misfitOf(const Field3& position, const Field& inverse) const noexcept {
   const Grid& grid = pattern_.grid;
   Misfit misfit;
@@ -143,8 +142,8 @@ LastResort::Bound LastResort::bound(const Field& inverse, double allowed, Field3
   }
   const double most = std::max(allowed, begins.worst);
   double share = 1.0;
-  // A shorter path may find a rod shorter than its end did: again, until nothing changes. Every round takes the share
-  // to another of finitely many roots, downwards.
+  // A shorter path may find a rod shorter than its end did, so repeat until nothing changes. It ends: each round moves
+  // the share down to another of finitely many roots.
   for (double before = 2.0; share < before;) {
     before = share;
     for (int i = 0; i < grid.rows; ++i) {

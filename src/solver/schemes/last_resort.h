@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The last resort: a substep that ends well whatever acts. Two bounds make it so.
+// The last resort: a substep that ends within bounds whatever acts.
 //
-//   cut    before the solve: no node is predicted to move further than `reach` of its shortest link, relative to the
-//          rigid motion of the pins (of the cloth itself where nothing is pinned). In the limit of reach 0 nothing is
-//          left to solve.
-//   share  after it: the cloth goes along the straight path from where it follows its pins to what was solved only as
-//          far as every link is within its bound. A length along a straight path is a convex function of the share, so
-//          a link within its bound at the start leaves it once at most. The path's prefix is free of contact if the
-//          path is.
+//   cut    before the solve: no node is predicted to move further than `reach` times its shortest link, relative to the
+//          rigid motion of the pins (without pins: of the cloth). In the limit of reach 0 there is nothing to solve.
+//   bound  after it: the cloth moves along the straight path to the solution only as far as every link is within its
+//          bound. A length is a convex function along the path, so a link within its bound at the start leaves it at
+//          most once. If the path is free of contact, so is its beginning.
 //
-// What the bounds take is momentum; it is counted.
+// The momentum that is lost is counted.
 #pragma once
 
 #include "cloth/free_body.h"
@@ -18,7 +16,7 @@
 
 namespace curtain {
 
-/// Not thread-safe. Allocates nothing after construction.
+/// Not thread-safe. Allocates only in the constructor.
 class LastResort final : public Scheme {
  public:
   /// pattern must outlive this.
@@ -27,23 +25,23 @@ class LastResort final : public Scheme {
   SubstepStart start(const SubstepPlan& plan, double step, double kick, const NodeForces& forces,
                      const NodeInertia& inertia, const ClothState& state, SubstepOutcome& outcome) noexcept override;
 
-  /// Cuts the velocities [m/s] of a substep of h [s] that starts at `position` [m]; those of nodes with inverse 0 stay.
-  /// Returns the momentum taken [N s].
+  /// Cuts the velocities [m/s] of a substep of h [s] from `position` [m]; nodes with inverse inertia 0 keep theirs.
+  /// Returns the momentum taken out [N s].
   double cut(const Field3& position, const Field& inverse, double h, double reach, Field3& velocity) noexcept;
 
-  /// After cut(): moves `end` back along the path from where it follows its pins, to where every link with an end that
-  /// can move is no longer (a rod no shorter) than by `allowed`, relative, or than the worst of them where the path
-  /// begins; where that is far beyond it, any end will do that is not much worse. Returns the share of
-  /// the path that is left, and mass times path of what is not, sum over nodes [kg m].
+  /// After cut(): moves `end` back along the path until every link with a movable end is within `allowed` (relative
+  /// overlength; rods also underlength), or within the largest violation at the start of the path. Where that is far
+  /// larger, any end is accepted that is not much worse. Returns the share of the path that is left, and mass times
+  /// path of the rest, summed over the nodes [kg m].
   struct Bound {
     double share = 1.0;
     double moment = 0.0;
   };
   Bound bound(const Field& inverse, double allowed, Field3& end) noexcept;
 
-  /// After cut(): some pin moves, and the path begins where nodes follow it.
+  /// After cut(): a pin moves.
   bool pinsMove() const noexcept { return pins_move_; }
-  /// Where the path begins, after cut(): nodes follow their pins [m].
+  /// After cut(): start of the path, where nodes follow the pins' rigid motion [m].
   const Field3& follows() const noexcept { return follows_; }
 
  private:
@@ -58,10 +56,10 @@ class LastResort final : public Scheme {
 
   const ClothPattern& pattern_;
   bool pins_move_ = false;
-  ClothState base_;  // where nodes are, and their cut velocities with all that forces do
+  ClothState base_;  // positions, and velocities after the forces and the cut
   Field3 no_force_;
   Field shortest_;  // link at each node [m]
-  Field3 follows_;  // where the pins' rigid motion leads; where nodes are if there are none [m]
+  Field3 follows_;  // where the pins' rigid motion leads; without pins: the nodes' positions [m]
 };
 
 }  // namespace curtain

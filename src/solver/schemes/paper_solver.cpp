@@ -9,11 +9,11 @@
 namespace curtain {
 namespace {
 
-// The fastest node may go so many times the cloth's size in a substep; beyond that its path can't be searched for
-// contact. Only forces beyond all measure reach it, on cloth that nothing holds.
+// Largest displacement of a node in a substep, over the cloth's size: contact can't search longer paths. Only extreme
+// forces on cloth without pins reach it.
 constexpr double kMostSizes = 4.0;
 
-// Unit vector along v. Two nodes in one place have none: any will do, and the same each time.
+// Unit vector along v. For coincident nodes any will do, but always the same.
 Vec3 directionOf(const Vec3& v) noexcept {
   const double length = v.norm();
   return length > 0.0 ? Vec3(v / length) : Vec3(-Vec3::UnitZ());
@@ -29,7 +29,7 @@ PaperSolver::PaperSolver(const ClothPattern& pattern)
   taut_.assign(static_cast<std::size_t>(pattern.grid.columns), 0);
 }
 
-// Chains of a column: up from its topmost pin, down from its lowest, half way from each of two pins in a row.
+// Chains of a column: up from its topmost pin, down from its lowest, half way between two pins.
 void PaperSolver::addColumn(int column) {
   const Grid& grid = pattern_.grid;
   const std::ptrdiff_t down = grid.stride;
@@ -53,8 +53,8 @@ void PaperSolver::addColumn(int column) {
   add(std::max(last, 0), down, grid.rows - 1 - std::max(last, 0), last < 0);
 }
 
-// Of the frame that the tensions are taken in: the anchor of Sect. 3.1 is fixed, a loose chain goes with its own centre
-// of mass.
+// Acceleration of the frame that tensions are computed in. The anchor of Sect. 3.1 is fixed; a loose chain moves with
+// its centre of mass.
 Vec3 PaperSolver::accelerationOf(const Chain& chain, const NodeForces& forces) const noexcept {
   if (!chain.loose) return Vec3::Zero();
   Vec3 force = Vec3::Zero();
@@ -66,24 +66,23 @@ Vec3 PaperSolver::accelerationOf(const Chain& chain, const NodeForces& forces) c
   return force / mass;
 }
 
-// Cheng 2000, Sect. 3.1, steps (1)-(4) and (6) for one column: where the forces and the tensions of Eq. (5) take its
-// nodes.
+// Cheng 2000, Sect. 3.1, steps (1)-(4) and (6) for one column: motion by the forces and the tensions of Eq. (5).
 void PaperSolver::predict(const Chain& chain, const NodeForces& forces, double h, ClothState& state) const noexcept {
   const Vec3 frame = accelerationOf(chain, forces);
-  Vec3 pull_from_below = Vec3::Zero();  // tension of the rod below on the node at hand [N]
+  Vec3 pull_from_below = Vec3::Zero();  // tension of the rod below on this node [N]
   for (int k = chain.rods; k >= chain.first(); --k) {
     const std::size_t node = chain.node(k);
     const double m = pattern_.mass[node];
     const double w = pattern_.inverse_mass[node];
     Vec3 sum = forces.force->at(node) + pull_from_below;
     if (k > 0) {
-      // (2) The node above is the origin; n is the rod's direction, t the one it turns in.
+      // (2) The node above is the origin; n is the rod's direction, t the direction it turns in.
       const std::size_t above = chain.node(k - 1);
       const Vec3 n = directionOf(start_.at(node) - start_.at(above));
       const Vec3 relative_velocity = state.velocity.at(node) - state.velocity.at(above);
       const Vec3 tangential = relative_velocity - relative_velocity.dot(n) * n;
-      // (4) Eq. (6), omega l = dx^t/dt, and Eq. (5), f^n = m omega^2 l, towards the origin: the rod's tension is what
-      // of the sum along n is left over. Along t and z the sum acts by itself, Eqs. (7) and (8).
+      // (4) Eq. (6), omega l = dx^t/dt, and Eq. (5), f^n = m omega^2 l towards the origin: the rod's tension balances
+      // the rest of the sum along n. Along t and z the sum acts by itself, Eqs. (7) and (8).
       const double tension = (sum - m * frame).dot(n) + m * tangential.squaredNorm() / rodLength(chain, k);
       pull_from_below = tension * n;
       sum -= pull_from_below;
@@ -94,7 +93,7 @@ void PaperSolver::predict(const Chain& chain, const NodeForces& forces, double h
   }
 }
 
-// Moves two nodes together along the line between them, by `excess` in all [m]; apart where it is negative.
+// Moves two nodes together by `excess` in all [m] along the line between them; apart where it is negative.
 void PaperSolver::adjust(std::size_t a, std::size_t b, double excess, Field3& position) noexcept {
   const double w_a = pattern_.inverse_mass[a];
   const double w_b = pattern_.inverse_mass[b];
@@ -105,7 +104,7 @@ void PaperSolver::adjust(std::size_t a, std::size_t b, double excess, Field3& po
   taut_[columnOf(a)] = taut_[columnOf(b)] = 1;
 }
 
-// Cheng 2000, Sect. 3.2, Fig. 8: neighbours further apart than l are moved until they are l apart.
+// Cheng 2000, Sect. 3.2, Fig. 8: neighbours further apart than l are moved to distance l.
 void PaperSolver::adjustRow(int row, Field3& position) noexcept {
   const Grid& grid = pattern_.grid;
   for (int j = grid.closed ? 0 : 1; j < grid.columns; ++j) {
@@ -138,18 +137,18 @@ void PaperSolver::rebuild(const Chain& chain, double h, ClothState& state) const
     const Vec3 impulse = pattern_.mass[node] * (place - predicted);  // of the rod, times h
     position.set(node, place);
     state.velocity.set(node, (place - start_.at(node)) / h);
-    // Mueller 2012, Eq. (9), s = 1 and for nodes of different mass. With s = 0.95 the swing's error no longer goes down
-    // with the step, below 0.8 its energy grows.
+    // Mueller 2012, Eq. (9), with s = 1 and nodes of different mass. With s = 0.95 the swing's error stops falling with
+    // the step; below 0.8 its energy grows.
     if (k > 1 || chain.loose) state.velocity.add(above, -pattern_.inverse_mass[above] / h * impulse);
     moved += impulse;
     mass += pattern_.mass[node];
   }
   if (!chain.loose) return;
-  // Rods move no centre of mass.
+  // Rods do not move the centre of mass.
   for (int k = 0; k <= chain.rods; ++k) position.add(chain.node(k), -moved / mass);
 }
 
-// Mass-weighted mean over a chain, times its mass; adds up.
+// Adds the mass-weighted sum over a chain, and its mass.
 void PaperSolver::addMean(const Chain& chain, const Field3& value, Vec3& sum, double& mass) const noexcept {
   for (int k = chain.first(); k <= chain.rods; ++k) {
     sum += pattern_.mass[chain.node(k)] * value.at(chain.node(k));
@@ -157,7 +156,7 @@ void PaperSolver::addMean(const Chain& chain, const Field3& value, Vec3& sum, do
   }
 }
 
-// What carries the loose columns that wefts pull on: the pins, or, of cloth without any, their own centre of mass.
+// Common motion of the loose columns that wefts pull on: that of the pins, or without pins of their centre of mass.
 Vec3 PaperSolver::commonMean(const Field3& value) const noexcept {
   Vec3 sum = Vec3::Zero();
   double mass = 0.0;
@@ -169,7 +168,7 @@ Vec3 PaperSolver::commonMean(const Field3& value) const noexcept {
   return mass > 0.0 ? Vec3(sum / mass) : sum;
 }
 
-// What carries a chain: its pin, or, where no weft pulls, its own centre of mass.
+// Motion that a chain's energy is measured against: its pin's, or, where no weft pulls, its own centre of mass.
 Vec3 PaperSolver::carrierOf(const Chain& chain, const Field3& value, const Vec3& common) const noexcept {
   if (!chain.loose) return value.at(chain.anchor);
   if (isTaut(chain)) return common;
@@ -179,7 +178,7 @@ Vec3 PaperSolver::carrierOf(const Chain& chain, const Field3& value, const Vec3&
   return sum / mass;
 }
 
-// [J]
+// Relative to the carrier [J].
 double PaperSolver::kineticEnergy(const Chain& chain, const Field3& velocity, const Vec3& carrier) const noexcept {
   double twice = 0.0;
   for (int k = chain.first(); k <= chain.rods; ++k) {
@@ -188,16 +187,15 @@ double PaperSolver::kineticEnergy(const Chain& chain, const Field3& velocity, co
   return 0.5 * twice;
 }
 
-// Before velocities change, when it is known which columns wefts pull on.
+// To be called before velocities change, when it is known which columns wefts pull on.
 void PaperSolver::keepEnergies(const Field3& velocity) noexcept {
   const Vec3 common = commonMean(velocity);
   for (Chain& chain : chains_) chain.most_energy = kineticEnergy(chain, velocity, carrierOf(chain, velocity, common));
 }
 
-// Rods and wefts do no work: relative to what carries it a column has no more kinetic energy than before and what the
-// forces did on the way; columns that wefts pull on give each other energy and have no more altogether. What is above
-// that is taken out of their velocities alike. So weight alone never raises the energy of cloth on pins at rest above
-// both what it was and its potential energy, whatever the step.
+// Rods and wefts do no work: relative to its carrier a column has at most its old kinetic energy plus the work of the
+// forces; columns coupled by wefts exchange energy and share one bound. Excess is taken out of their velocities in
+// proportion. So weight alone never raises the energy of cloth on fixed pins, whatever the step.
 void PaperSolver::boundEnergy(const NodeForces& forces, ClothState& state) noexcept {
   const Vec3 common = commonMean(state.velocity);
   const Vec3 common_move = commonMean(state.position) - commonMean(start_);
@@ -232,8 +230,8 @@ void PaperSolver::slowDown(const Chain& chain, double most, double energy, const
   }
 }
 
-// Where the rebuilt cloth would go through something, contact moves its nodes once more, and holds what still would;
-// rods give way there. False: something goes through all the same, or there is no room for what might.
+// Where the rebuilt cloth would cross something, contact moves its nodes once more and holds those that still cross;
+// rods change their length there. False: something crosses all the same, or there is no room for more contacts.
 bool PaperSolver::holdBack(ContactFinder& finder, Contacts& contacts, double h, ClothState& state) noexcept {
   const auto clear = [&] { return finder.verify(start_, state.position, false) == ContactFinder::Verdict::kClear; };
   if (clear()) return true;
@@ -254,7 +252,7 @@ void PaperSolver::project(Contacts& contacts, Field3& position) const noexcept {
   projectContacts(pattern_.inverse_mass, contacts, position);
 }
 
-// Nothing that is pushed on comes nearer.
+// Removes approaching normal velocities of pushing contacts.
 void PaperSolver::stopApproach(const Contacts& contacts, Field3& velocity) const noexcept {
   for (const Contact& contact : contacts) {
     if (!contact.pushes()) continue;
@@ -272,7 +270,7 @@ bool PaperSolver::sound(const ClothState& state, double h) const noexcept {
   return true;
 }
 
-// The cloth stays where it was, at rest; pins go on with the next substep.
+// The cloth stays where it was, at rest; pins go on in the next substep.
 void PaperSolver::stop(ClothState& state) const noexcept {
   state.position = start_;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {

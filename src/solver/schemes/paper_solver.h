@@ -1,31 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The scheme of Cheng 2000, Sect. 3: explicit, one pass, no equation solved, nothing iterated. What the paper leaves
-// open is read so that it keeps what it promises, rods that neither stretch nor compress (Sects. 1.2, 2.1, 3.2):
+// The scheme of Cheng 2000, Sect. 3: explicit, one pass, nothing solved or iterated. Where the paper is ambiguous we
+// read it so that rods neither stretch nor compress, as it promises (Sects. 1.2, 2.1, 3.2):
 //
-//   warp, Sect. 3.1   From the lowest node up: Eqs. (5) and (6) give the rod's tension, with the node above for a fixed
-//                     point; Eqs. (7) and (8) then say where every node would go (the prediction).
-//   weft, Sect. 3.2   Fig. 8 on the prediction, row by row, once: neighbours that are too far apart are moved together.
+//   warp, Sect. 3.1   From the lowest node up: Eqs. (5) and (6) give the rod's tension with the node above fixed;
+//                     Eqs. (7) and (8) then predict the node.
+//   weft, Sect. 3.2   Fig. 8 on the prediction, row by row, once: neighbours too far apart are moved together.
 //   contact, Sect. 4  On the prediction, once.
-//   step (5)          "Back to world coordinates": the node above is the local origin, so its new place is where the
-//                     rod begins. From the top down x_i = x_(i-1) + l R(omega dt) n, with R(omega dt) n the direction
-//                     in which the prediction lies from there: every rod turns and keeps its length, to rounding.
+//   step (5)          "Back to world coordinates": from the top down x_i = x_(i-1) + l R(omega dt) n, where
+//                     R(omega dt) n is the direction to the prediction: every rod turns and keeps its length.
 //   velocities        Those of the new positions. What step (5) moves a node by is an impulse of its rod, which acts on
-//                     the node above as well, the other way (Mueller et al. 2012, "Fast Simulation of Inextensible Hair
-//                     and Fur", Sect. 3.3, with its factor s = 1): momentum is kept.
+//                     the node above with opposite sign (Mueller et al. 2012, "Fast Simulation of Inextensible Hair and
+//                     Fur", Sect. 3.3, with its factor s = 1): momentum is kept.
 //
-// First order in the step. The weft comes before the rods: what is left of it after one pass stays, and shows in
-// Statistics::weft_stretch. Rods do no work: the new velocities have no more kinetic energy than the old ones and what
-// the forces did on the way, so the energy is bounded at any step.
+// First order. The weft comes before the rods, so what one pass leaves of its overlength stays and shows in
+// Statistics::weft_stretch. The kinetic energy is bounded by the old one plus the work of the forces, at any step.
 //
 // The paper's columns hang from their top node. A column with pins elsewhere is rebuilt from them, up and down. Between
-// two pins one pass can't keep every rod: half of them are rebuilt from each pin, and the rod in between is moved
-// together or apart once, as in Fig. 8, but it is not kept. A column without a pin is rebuilt from its topmost node and
-// then moved as a whole to where its centre of mass was predicted; its tensions are those in its own, accelerated
-// frame.
+// two pins half of the rods are rebuilt from each; the rod in between is adjusted once, as in Fig. 8, and may change
+// its length. A column without a pin is rebuilt from its topmost node and moved as a whole to where its centre of mass
+// was predicted; its tensions are computed in its own accelerated frame.
 //
-// Contact moves or holds a node back that step (5) takes through something: rods at that node are off their length
-// until it is let go.
+// Contact moves nodes back that step (5) takes through something; rods at such a node change their length meanwhile.
 #pragma once
 
 #include <cstdint>
@@ -39,18 +35,17 @@ class PaperSolver {
  public:
   explicit PaperSolver(const ClothPattern& pattern);
 
-  /// One substep of length h > 0 [s]; finder may be null. Not accepted where a force is beyond numbers: positions are
-  /// as they were then.
+  /// One substep of length h > 0 [s]; finder may be null. Where a force is beyond numbers the cloth stops where it is.
   SubstepOutcome substep(const NodeForces& forces, double h, ContactFinder* finder, ClothState& state,
                          StageClock& clock) noexcept;
 
  private:
-  /// Nodes anchor + k step, k = 1 ... rods, each rebuilt from the one before it.
+  /// Nodes anchor + k step, k = 1 ... rods, each rebuilt from the one before.
   struct Chain {
     std::size_t anchor;
     std::ptrdiff_t step;
     int rods;
-    bool loose;          ///< the anchor is not pinned: it moves, too
+    bool loose;          ///< the anchor is not pinned and moves too
     double most_energy;  ///< [J]; scratch
 
     int first() const { return loose ? 0 : 1; }
@@ -88,7 +83,7 @@ class PaperSolver {
   double most_way_;  // of a node in a substep [m]
   std::vector<Chain> chains_;
   std::vector<std::size_t> pins_;
-  std::vector<std::size_t> between_;  // lower node of the rod halfway between two pins of a column
+  std::vector<std::size_t> between_;  // lower node of the rod half way between two pins of a column
   std::vector<std::uint8_t> taut_;    // by column: a weft has pulled on it in this substep
   Field3 start_;
   Field3 rebuilt_;
