@@ -6,12 +6,12 @@
 namespace curtain {
 namespace {
 
-// Kept free, as a share of the budget: the time is looked at between sweeps only.
+// Share of the budget kept free: the deadline is checked between sweeps only.
 constexpr double kSpare = 0.1;
-// Frames in a row without any motion; then a substep may take what it needs.
-constexpr int kPatience = 4;
-// A substep is only started when there is so many times what they take on average.
-constexpr double kDoubt = 1.4;
+// Stalled frames in a row after which a substep may take what it needs.
+constexpr int kMostStalledFrames = 4;
+// A substep is started only if this many times their mean computing time is left.
+constexpr double kTimeMargin = 1.4;
 constexpr int kMany = 1 << 20;
 
 double secondsBetween(Budget::Clock::time_point a, Budget::Clock::time_point b) {
@@ -25,7 +25,7 @@ Budget::Clock::time_point later(Budget::Clock::time_point from, double seconds) 
 }  // namespace
 
 void Budget::forget() noexcept {
-  substep_ = companion_ = tail_ = frame_ = 0.0;
+  substep_ = reference_ = tail_ = frame_ = 0.0;
   stalled_ = 0;
 }
 
@@ -35,9 +35,9 @@ void Budget::beginFrame(Clock::time_point begin) noexcept {
   end_ = later(begin, std::max(0.0, (1.0 - kSpare) * seconds_ - tail_));
 }
 
-bool Budget::affordsCompanion() const noexcept { return !any() || frame_ + companion_ < (1.0 - kSpare) * seconds_; }
+bool Budget::affordsCompanion() const noexcept { return !any() || frame_ + reference_ < (1.0 - kSpare) * seconds_; }
 
-bool Budget::patient() const noexcept { return stalled_ >= kPatience && !moved_; }
+bool Budget::mustMove() const noexcept { return stalled_ >= kMostStalledFrames && !moved_; }
 
 int Budget::affordable(Clock::time_point now) const noexcept {
   if (!any() || substep_ <= 0.0) return kMany;
@@ -46,12 +46,12 @@ int Budget::affordable(Clock::time_point now) const noexcept {
 }
 
 Budget::Clock::time_point Budget::substepEnds() const noexcept {
-  return !any() || patient() ? Clock::time_point::max() : end_;
+  return !any() || mustMove() ? Clock::time_point::max() : end_;
 }
 
 bool Budget::over(Clock::time_point now) const noexcept {
-  if (!any() || patient()) return false;
-  return moved_ ? secondsBetween(now, end_) < kDoubt * substep_ : now >= end_;
+  if (!any() || mustMove()) return false;
+  return moved_ ? secondsBetween(now, end_) < kTimeMargin * substep_ : now >= end_;
 }
 
 void Budget::endFrame(double share, Clock::time_point tail_begin, Clock::time_point end) noexcept {

@@ -2,15 +2,14 @@
 //
 // The computing time of a frame, where it is limited (solver.budget_ms). What is given up, in this order:
 //
-//   1 the error's estimate   the companion of position_tolerance stays at home for this frame
-//   2 short substeps         fewer and longer ones than the tensions ask for; nodes are heavier, so nothing blows up
-//   3 time                   the frame ends before a substep that there is no time for: the cloth moves slower than the
-//                            clock; obstacles and pins go on from where they had got to
-//   4 the last sweeps        a substep whose time is over is taken with links up to 8 times further off than their
-//                            tolerance
+//   1 error estimate    the reference run of position_tolerance skips this frame
+//   2 short substeps    substeps longer than the tensions ask for; mass scaling keeps them stable
+//   3 time              the frame ends before a substep that there is no time for, so the cloth moves slower than the
+//                       clock; obstacles and pins continue from where they are
+//   4 last sweeps       a substep whose time is over is accepted when its links are within the tolerance
 //
-// Further off, or through something, nothing is taken: the cloth stands still for a frame and tries with a shorter
-// substep; but not for more than some frames in a row, then a substep may take what it needs.
+// A substep that is further off, or crosses something, is never accepted: the cloth stops for the frame and tries a
+// shorter one. After kMostStalledFrames such frames in a row a substep may take what it needs.
 #pragma once
 
 #include <chrono>
@@ -25,7 +24,7 @@ class Budget {
 
   explicit Budget(double milliseconds) : seconds_(1e-3 * milliseconds) {}
 
-  /// Of computing time [s].
+  /// Computing time since then [s].
   static double secondsSince(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
   }
@@ -34,39 +33,39 @@ class Budget {
   void forget() noexcept;
 
   void beginFrame(Clock::time_point begin) noexcept;
-  /// There is time for the companion as well as for the frame, as far as the last ones tell.
+  /// The last frames suggest that there is time for the reference run, too.
   bool affordsCompanion() const noexcept;
-  void companionTook(double seconds) noexcept { companion_ = follow(companion_, seconds); }
+  void companionTook(double seconds) noexcept { reference_ = follow(reference_, seconds); }
 
-  /// Substeps that there is time for now, >= 1.
+  /// Substeps that there is time for, >= 1.
   int affordable(Clock::time_point now) const noexcept;
-  /// When a substep must be over. The far future: this one may take what it needs.
+  /// Deadline of a substep; max: it may take what it needs.
   Clock::time_point substepEnds() const noexcept;
-  /// made: it was taken. One that was not, begun late in the frame, tells nothing of what they take.
+  /// made: it was accepted. A rejected one after others of the frame may have been cut short: it is not counted.
   void substepTook(double seconds, bool made) noexcept {
     if (made || !moved_) substep_ = follow(substep_, seconds);
     moved_ = moved_ || made;
   }
 
-  /// There is no time for one more.
+  /// There is no time for another substep.
   bool over(Clock::time_point now) const noexcept;
-  /// share: of the frame that was made; tail_begin: when what comes after its substeps began.
+  /// share: of the frame that was made; tail_begin: end of its substeps.
   void endFrame(double share, Clock::time_point tail_begin, Clock::time_point end) noexcept;
-  /// Nothing of this frame has been made yet.
+  /// No substep of this frame has been accepted yet.
   bool fresh() const noexcept { return !moved_; }
   double seconds() const noexcept { return seconds_; }
 
   void carry(Archive& archive);
 
  private:
-  // Follows what things take; the first one says it all.
+  // Running mean, which starts at the first value.
   static double follow(double mean, double value) noexcept { return mean > 0.0 ? 0.8 * mean + 0.2 * value : value; }
-  bool patient() const noexcept;
+  bool mustMove() const noexcept;
 
   double seconds_;
-  double substep_ = 0.0, companion_ = 0.0, tail_ = 0.0, frame_ = 0.0;  // what they take [s]
-  int stalled_ = 0;                                                    // frames in a row without any motion
-  bool moved_ = false;                                                 // a substep of this frame has been made
+  double substep_ = 0.0, reference_ = 0.0, tail_ = 0.0, frame_ = 0.0;  // mean computing times [s]
+  int stalled_ = 0;                                                    // frames in a row without motion
+  bool moved_ = false;                                                 // a substep of this frame was accepted
   Clock::time_point begin_, end_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a snapshot carries of the simulator's own parts; those below it have theirs in src/*/carried.cpp.
+// Serialization of the simulator's own parts; those of lower floors are in src/*/carried.cpp.
 #include <limits>
 
 #include "cloth/archive_params.h"
@@ -11,10 +11,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLargest = std::numeric_limits<double>::max();
-constexpr std::int64_t kCount = 1 << 30;  // far from where an int ends
+constexpr std::int64_t kCount = 1 << 30;  // bound of counters: adding to them can't overflow an int
 constexpr std::int64_t kMany = std::int64_t{1} << 53;
 
-// A drag, and the node it has hold of.
+// A drag with its grasped node.
 struct Grasp {
   DragParams drag;
   std::optional<NodeIndex> node;
@@ -61,9 +61,8 @@ void carryStatistics(Archive& archive, Statistics& s) {
 
 }  // namespace
 
-// Winds are functions of their parameters and the time, gusts too; drags of theirs and the node that they hold. Of both
-// nothing else goes on from frame to frame. The last forces do: what keeps velocities half a substep behind asks for
-// them.
+// Winds follow from their parameters and the time, drags from theirs and the grasped node. The last forces are needed
+// for velocities that lag behind the positions.
 void ForceField::carry(Archive& archive, AirParams& air) {
   std::vector<WindParams> winds = wind_params_;
   std::vector<Grasp> grasps;
@@ -104,7 +103,7 @@ void ForceField::carry(Archive& archive, AirParams& air) {
   archive.put(forces_.force, static_cast<const Field3*>(more_than_weight ? &sum_ : &weight_));
 }
 
-// Its limits follow from the scene and from gravity and air; the rest of a look is of that look.
+// Limits follow from scene, gravity and air; other members are scratch of a look.
 void Rest::carry(Archive& archive) {
   archive.within("frame_length", frame_length_, 1e-6, 1e3);
   archive.integer("due_in", due_in_, 1, kCount);
@@ -124,10 +123,10 @@ void Rest::carry(Archive& archive) {
   archive.integer("wakes", wakes_, 0, kMany);
 }
 
-// What is of the present frame begins anew with the next one.
+// Members of the present frame are set by the next one.
 void Budget::carry(Archive& archive) {
   archive.within("substep", substep_, 0.0, kLargest);
-  archive.within("companion", companion_, 0.0, kLargest);
+  archive.within("companion", reference_, 0.0, kLargest);
   archive.within("tail", tail_, 0.0, kLargest);
   archive.within("frame", frame_, 0.0, kLargest);
   archive.integer("stalled", stalled_, 0, kCount);
@@ -146,7 +145,7 @@ void ErrorEstimate::carry(Archive& archive) {
   archive.within("last_second", last_second_, 0.0, kInfinity);
 }
 
-// Names of members are part of the layout: they stay, whatever the members are called now.
+// Names are part of the layout: they stay when members are renamed.
 void ErrorControl::Reference::carry(Archive& archive) {
   archive.part("state", at.state);
   archive.part("memory", at.memory);
@@ -202,8 +201,8 @@ void EnergyLedger::carry(Archive& archive) {
   archive.finite("kinetic", work_.kinetic);
 }
 
-// Not: what stages and pilot runs go back to, for they have; the mesh for the eye, which remembers nothing; the
-// revision, which counts for who has looked at this simulator.
+// Not serialized: checkpoints, which are written before they are read; the fine mesh, which has no memory; the
+// revision, which belongs to this simulator's users.
 void Simulator::Impl::carry(Archive& archive) {
   archive.finite("gravity", scene.gravity);
   archive.part("state", motion.state);
@@ -225,7 +224,7 @@ void Simulator::Impl::carry(Archive& archive) {
   motion.carryVelocities(archive);
 }
 
-// After carry() has loaded: what follows from it.
+// After carry() has loaded: restores what follows from it.
 void Simulator::Impl::resume() noexcept {
   takeGravity();
   takeFrame();

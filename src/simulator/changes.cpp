@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What users change between two frames beside forces, pins and obstacles: the frames' length, and where the cloth is.
+// Changes by the user between frames: frame rate and state of the cloth.
 #include <string>
 
 #include "simulator/simulator_impl.h"
@@ -8,7 +8,7 @@
 namespace curtain {
 namespace {
 
-// Beyond this squares of distances lose what a link is long [m, m/s].
+// Larger values [m, m/s] would lose the length of a link in squares of distances.
 constexpr double kFarthest = 1e9;
 
 void check(const std::vector<Vec3>& values, std::size_t count, const std::string& name,

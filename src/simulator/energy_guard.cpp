@@ -8,13 +8,12 @@
 namespace curtain {
 namespace {
 
-// What may be above before substeps are found too long, over what the cloth's weight does over its height: energies of
-// single frames waver by (h omega)^2 / 8 of what moves, 4e-3 at one substep (modes of 20 / s, 0.3 of it moves); whips
-// collect 0.2.
+// Excess over the start, in weight times height, from which substeps are found too long. Energies of single frames
+// waver by (h omega)^2 / 8 of what moves, 4e-3 at one substep (modes of 20 / s, 0.3 of it moves); whips collect 0.2.
 constexpr double kTooMuch = 1e-2;
 constexpr int kEnoughSubsteps = 8;
 
-// A cloth that nothing holds would lose of its momentum.
+// Not for cloth without pins: scaling velocities would change its momentum.
 bool canGuard(const Motion& motion) {
   const Method method = motion.scene.solver.method;
   const auto& pinned = motion.pattern.pinned;
@@ -30,15 +29,15 @@ EnergyGuard::EnergyGuard(Motion& motion, StepControls& controls, bool chooses)
       wanted_(chooses && canGuard(motion)),
       total_mass_(std::accumulate(motion.pattern.mass.begin(), motion.pattern.mass.end(), 0.0)) {}
 
-// Nothing puts energy in or takes it out but the scheme, which is free to choose its steps.
+// Nothing adds or removes energy but the scheme, and the engine chooses the steps.
 bool EnergyGuard::isClosed(bool pins_move) const noexcept {
   const NodeForces& last = motion_.forces.last();
   const bool chooses = motion_.scene.solver.substeps == 0 || motion_.statistics.rejected > 0;
   return wanted_ && chooses && !pins_move && last.weight_only && !last.has_damping && motion_.pushing() == nullptr;
 }
 
-// The energy before links take out of the velocities what is theirs (Motion::velocities() bounds it by this): it costs
-// next to nothing, where the velocities themselves cost as much as a substep.
+// Energy before the velocity projection, which bounds it from above (Motion::velocities()): nearly free, while the
+// projection costs as much as a substep.
 double EnergyGuard::energyWithoutLinks() const noexcept {
   const ClothState& state = motion_.state;
   const Vec3 fall = state.velocity_age * motion_.scene.gravity;

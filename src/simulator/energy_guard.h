@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Cloth that only its weight moves, and nothing damps, has no more energy than it had. Leapfrog keeps that as long as
-// its substeps are all alike; where their lengths follow the tensions, as automatic ones do, every change sets the
-// energy a little off, and a whip that makes it change at the same phases collects that: 0.2 m g H in 10 s of a sheet
-// let go at 70 degrees. What is too much is taken out of the velocities at the frame's end.
+// Keeps the energy of undamped cloth that only gravity moves at or below its start. Leapfrog conserves it while all
+// substeps are alike; with automatic substeps every change of length shifts it a little, and a whip whose phases repeat
+// collects the shifts: 0.2 m g H in 10 s of a sheet let go at 70 degrees. Excess is taken out of the velocities at the
+// frame's end.
 #pragma once
 
 #include <optional>
@@ -15,15 +15,15 @@ namespace curtain {
 
 class EnergyGuard {
  public:
-  /// chooses: nothing else asks for substeps. motion and controls must outlive this.
+  /// chooses: nothing else asks for substeps (position_tolerance does). motion and controls must outlive this.
   EnergyGuard(Motion& motion, StepControls& controls, bool chooses);
 
-  /// Before the first frame of a motion that nothing puts energy into.
+  /// Before a frame: takes the energy at the start.
   void beginFrame(bool pins_move) {
     if (!most_) endFrame(pins_move);
   }
   void endFrame(bool pins_move);
-  /// Something has put energy in.
+  /// Something has changed the energy.
   void forget() noexcept { most_.reset(); }
   void carry(Archive& archive);
 
@@ -35,7 +35,7 @@ class EnergyGuard {
   StepControls& controls_;
   const bool wanted_;
   const double total_mass_;     // [kg]
-  std::optional<double> most_;  // while nothing puts any in [J]
+  std::optional<double> most_;  // bound of the energy [J]; none: not closed
 };
 
 }  // namespace curtain

@@ -7,7 +7,7 @@ EnergyLedger::EnergyLedger(const ClothPattern& pattern) : pattern_(pattern) {
   before_.assign(pattern.grid.size(), 0.0);
 }
 
-// Weight, and all forces but damping: that takes energy out, which nobody has to account for.
+// Weight, and all forces but damping, which only takes energy out.
 void EnergyLedger::addForces(const Field3& velocity, const NodeForces& forces, double kick) noexcept {
   double kinetic = 0.0, weight = 0.0, others = 0.0;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {

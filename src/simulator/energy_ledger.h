@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Where the cloth's energy comes from and goes to, substep by substep.
+// Work of each force on the cloth, substep by substep.
 //
 // A substep takes the velocities from v to v' by impulses; an impulse p at a node adds p . (v + v') / 2 to its kinetic
-// energy, exactly. So each force's work is its impulse times the mean of both velocities, and what is left over is the
-// work of the links and of what cloth rubs on: where they are as they should be that is never more than nothing.
-// Leapfrog's velocities lie half a substep apart from its positions; weight acts at the positions, so its work is what
-// the potential changes by half way between them. Links and contacts give their impulses to what they are fixed to: a
-// pin or obstacle that moves puts in theirs times its own velocity.
+// energy, exactly. So a force's work is its impulse times the mean velocity. The rest is the work of links and
+// friction, which is never positive if they are right. Leapfrog's velocities are half a substep apart from its
+// positions: weight acts at the positions, so its work is the change of potential half way between them. A moving pin
+// or obstacle puts in its reaction impulse times its own velocity.
 #pragma once
 
 #include "cloth/archive.h"
@@ -19,22 +18,22 @@
 
 namespace curtain {
 
-/// Not thread-safe. Allocates nothing after construction.
+/// Not thread-safe. Allocates only in the constructor.
 class EnergyLedger {
  public:
   explicit EnergyLedger(const ClothPattern& pattern);
 
-  /// A substep is about to be made from this state.
+  /// Before a substep from this state.
   void begin(const ClothState& state) noexcept { before_ = state.velocity; }
-  /// It was: h [s] long, under these forces, to this state. contacts: or null; links: or null where the solver keeps
-  /// none.
+  /// After it: h [s] long, under these forces, to this state. contacts: or null; links: null for schemes without
+  /// ExactSolver.
   void end(const ClothState& state, const NodeForces& forces, const Contacts* contacts, const ExactSolver* links,
            double h, const SubstepOutcome& outcome) noexcept;
 
   void carry(Archive& archive);
 
   const Work& work() const noexcept { return work_; }
-  /// To be put back when substeps are made again.
+  /// For substeps that are repeated.
   void restore(const Work& work) noexcept { work_ = work; }
 
  private:

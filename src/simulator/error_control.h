@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// solver.position_tolerance: chooses the substeps of a frame so that the motion's error keeps to it (ErrorEstimate).
-// Pilot runs before the motion guess how many it needs; a reference run beside it, in other substeps, tells its error.
+// solver.position_tolerance: chooses the substeps of a frame so that the error of the motion stays below it
+// (ErrorEstimate). Pilot runs before the motion give a first guess; a reference run beside it, with other substeps,
+// measures the error.
 #pragma once
 
 #include "simulator/error_estimate.h"
@@ -11,21 +12,21 @@ namespace curtain {
 
 class ErrorControl {
  public:
-  /// A tolerance is asked for, of a method whose error can be told.
+  /// A tolerance is asked for, and the method's error can be estimated.
   static bool wanted(const SolverParams& params) {
     return params.position_tolerance > 0.0 && ErrorEstimate::knows(params.method);
   }
 
-  /// All of them must outlive this.
+  /// All arguments must outlive this.
   ErrorControl(Motion& motion, StepControls& controls, FrameLoop& loop, Budget& budget);
 
-  /// Before the motion begins: some frames of it, twice, to find the substeps that it needs.
+  /// Before the motion: some frames of it, twice, to find the substeps that it needs.
   void makePilotRuns();
-  /// Before a frame: moves the reference run ahead where one is due, and asks for substeps.
+  /// Before a frame: advances the reference run where one is due, and asks for substeps.
   void beginFrame();
-  /// After it, before the next one begins. share: of the frame that was made.
+  /// After a frame. share: of it that was made.
   void endFrame(double share);
-  /// The reference run starts anew, from the motion.
+  /// Restarts the reference run from the motion.
   void lose() noexcept { reference_.lost = true; }
 
   void reset() noexcept { estimate_.reset(); }
@@ -55,8 +56,8 @@ class ErrorControl {
   Budget& budget_;
   ErrorEstimate estimate_;
   Reference reference_;
-  Motion::Checkpoint start_;  // of the motion, meanwhile
-  StepTally tally_;           // of the run that is made
+  Motion::Checkpoint start_;  // the motion, during a trial run
+  StepTally tally_;           // of the present trial run
 };
 
 }  // namespace curtain

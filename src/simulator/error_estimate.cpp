@@ -7,15 +7,15 @@
 namespace curtain {
 namespace {
 
-// Substeps are chosen for this share of the tolerance; fewer only when half the tolerance would do.
+// Substeps are chosen for kAim of the tolerance; fewer only if the error is below kFewer of it.
 constexpr double kAim = 0.7;
 constexpr double kFewer = 0.35;
-// Of the error that the difference must be: of steps nearly alike it tells nothing.
+// Least |1 - (n/m)^p|: runs with nearly equal steps say nothing of the error.
 constexpr double kLeastPart = 0.3;
-constexpr double kPilot = 0.5;  // [s]
-// Within a second errors grow at least with the square of time, since errors of velocities move the nodes; from the
-// half second of a pilot run on with the cube, as measured on chains released at 45 degrees (power 1.5 to 2.2) and 90
-// (2.8 to 3.2): a first guess had better be too good.
+constexpr double kPilot = 0.5;  // length of a pilot run [s]
+// Errors grow at least with the square of time, since errors of velocities move the nodes. From a pilot run's half
+// second on we assume the cube: measured powers are 1.5 to 2.2 for chains released at 45 degrees and 2.8 to 3.2 at 90,
+// and the first guess should rather be too good.
 constexpr double kGrowth = 2.0;
 constexpr double kGrowthOfGuess = 3.0;
 
@@ -41,7 +41,7 @@ void ErrorEstimate::reset() noexcept {
   now_ = last_second_ = 0.0;
 }
 
-// Substeps stay as long as they were, and the next comparison sets out at once.
+// Substeps keep their length, and a comparison starts at once.
 void ErrorEstimate::takeFrame(double length) noexcept {
   substeps_ =
       static_cast<int>(std::clamp<double>(std::ceil(substeps_ * length / frame_length_ - 1e-9), fewest_, most_));
@@ -89,7 +89,7 @@ void ErrorEstimate::frameMade(const Field3& position, int steps, const Field3* r
   const bool in_window = referenceMoves();
   ++frames_;
   if (!in_window) return;
-  if (reference == nullptr) {  // it starts anew with the next frame
+  if (reference == nullptr) {  // it restarts with the next frame
     compared_ = 0;
     steps_sum_ = reference_sum_ = 0.0;
   } else {
@@ -101,7 +101,7 @@ void ErrorEstimate::frameMade(const Field3& position, int steps, const Field3* r
   }
   const bool over = !referenceMoves();
   if (over && compared_ > 0 && now_ > 0.0) {
-    // A reference run that was lost on the way tells of the time it was there.
+    // A reference run that was lost within the second is extrapolated.
     last_second_ = now_ * std::pow(static_cast<double>(window_) / compared_, kGrowth);
     aimAt(last_second_, steps_sum_ / (compared_ * steps_per_substep_));
   }

@@ -9,9 +9,10 @@
 namespace curtain {
 namespace {
 
-// Of the thickness, kept by fine triangles: less than the first layer's own faces keep, else folds would have no room.
+// Clearance that fine triangles should keep, as a share of the thickness: less than the first layer's, to leave room
+// for folds.
 constexpr double kShare = 0.1;
-// And what will do where that can't be had without changing the rods' lengths.
+// Clearance that will do where the other would change the rods' lengths.
 constexpr double kLeastShare = 0.01;
 
 }  // namespace
@@ -71,12 +72,12 @@ Vec3& FineSurface::node(int row, int link, int p) {
   return mesh_->positions[static_cast<std::size_t>(row * topology_.columns + column)];
 }
 
-// Puts the fold where it lies turned by the angle.
+// Places the fold, turned by the angle about its chord.
 void FineSurface::place(int row, int link, double angle) {
   const int column = (link + 1) % pattern_.grid.columns;
   FoldArc arc = foldArc(pattern_, *position_, area_vectors_, row, column);
   if (angle != 0.0) {
-    // Along x bow points down for a bow along the cloth's normal, up for the others.
+    // With x along the chord: the bow points down in folds that bow along the cloth's normal, up in the others.
     const Vec3 across = (arc.second - arc.first).cross(arc.bow).normalized() * (column % 2 == 0 ? 1.0 : -1.0);
     arc.bow = std::cos(angle) * arc.bow + std::sin(angle) * across;
   }
@@ -98,8 +99,8 @@ void FineSurface::findNear(const Field3& position, const ObstacleSet& obstacles)
   }
 }
 
-// The strips that an obstacle could touch wherever their folds are turned: a fold lies in the ball of half its length
-// around its chord's middle.
+// Finds the strips that an obstacle could touch at any turn of their folds: a fold lies in the ball of half its length
+// around the middle of its chord.
 void FineSurface::findStrips() {
   const Grid& grid = pattern_.grid;
   strips_.clear();
@@ -129,7 +130,7 @@ void FineSurface::findStrips() {
   }
 }
 
-// What the strip can keep as its quad does: what is wanted, the least, just not to be inside, or (negative) nothing.
+// The largest clearance that the strip's quad keeps: wanted, least, 0, or -1 for none.
 double FineSurface::clearanceOf(int row, int link) {
   points_.clear();
   for (int i = row; i <= row + 1; ++i) {
@@ -142,7 +143,7 @@ double FineSurface::clearanceOf(int row, int link) {
   return -1.0;
 }
 
-// Every point of points_ and of the triangles over them.
+// Whether points_, and the triangles over them, keep the clearance.
 bool FineSurface::keeps(const std::vector<MeshTriangle>& triangles, double clearance) {
   return std::all_of(near_.begin(), near_.end(), [&](const MovingObstacle* obstacle) {
     return clearance_.keeps(*obstacle->shape, obstacle->after, points_, triangles, clearance);
@@ -163,7 +164,7 @@ bool FineSurface::isRodClear(int row, int link, double clearance) {
   return keeps(rods_, clearance);
 }
 
-// Turns the fold until its rods are clear; where its chord is in an obstacle itself, moves its nodes out.
+// Turns the fold until its rods are clear; if its chord is inside an obstacle, moves its nodes out.
 void FineSurface::settleFold(int row, int link) {
   for (const double clearance : {wanted_, least_}) {
     if (isRodClear(row, link, clearance)) return;

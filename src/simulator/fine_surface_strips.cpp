@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The part of FineSurface that moves folds whose strips come too near to an obstacle although their rods do not: one
-// strip after the other, and no move may spoil the strips above and below.
+// The part of FineSurface that moves the folds of strips that are too near to an obstacle although their rods are not:
+// strip by strip, without spoiling the strips above and below.
 #include <algorithm>
 
 #include "simulator/fine_surface.h"
@@ -10,10 +10,10 @@
 namespace curtain {
 namespace {
 
-// Sweeps over the strips that turn folds, and that lift them. After those come the ones that gather nodes.
+// Sweeps that turn folds, then sweeps that lift them; later ones gather nodes.
 constexpr int kTurnSweeps = 2;
 constexpr int kLiftSweeps = 3;
-// The least way that nodes are lifted, as a share of the clearance, and how often it is doubled.
+// Smallest lift as a share of the clearance, and how often it is doubled.
 constexpr double kFirstLift = 0.5;
 constexpr int kDoublings = 9;
 constexpr int kLiftBisections = 6;
@@ -38,14 +38,14 @@ void FineSurface::settleStrips() {
       } else if (sweep < kTurnSweeps + kLiftSweeps) {
         lift(strip);
       } else if (!gather(strip)) {
-        strip.clearance = -1.0;  // it is its quad, which was clear: only rounding can tell them apart
+        strip.clearance = -1.0;  // already the quad, which is clear but for rounding
       }
     }
   }
 }
 
-// The test of a move of the folds: whether, once move(way) was made, the strip is clear and the strips above and below
-// that were clear still are.
+// Returns a predicate: whether, after move(amount), the strip is clear and the strips above and below still are if they
+// were.
 template <typename Move>
 auto FineSurface::test(const Strip& strip, Rows rows, Move move) {
   const auto mustStay = [&](int row) -> const Strip* {
@@ -55,8 +55,8 @@ auto FineSurface::test(const Strip& strip, Rows rows, Move move) {
   };
   const Strip* const above = mustStay(rows.first - 1);
   const Strip* const below = mustStay(rows.last);
-  return [this, &strip, above, below, move](double way) {
-    move(way);
+  return [this, &strip, above, below, move](double amount) {
+    move(amount);
     for (const Strip* each : {&strip, above, below}) {
       if (each != nullptr && !isClear(each->row, each->link, each->clearance)) return false;
     }
@@ -78,7 +78,7 @@ bool FineSurface::turn(Strip& strip) {
       if (tryTurn(strip, rows)) return true;
     }
     if (strip.clearance <= least_) return false;
-    strip.clearance = least_;  // rather near than with rods of other lengths
+    strip.clearance = least_;  // better too near than with rods of wrong length
     if (isClear(strip.row, strip.link, least_)) return true;
   }
 }
@@ -102,14 +102,14 @@ bool FineSurface::lift(const Strip& strip) {
   return false;
 }
 
-// The least way is looked for between two that differ by a factor of two.
+// Bisects between two lifts that differ by a factor of two.
 std::optional<double> FineSurface::tryLift(const Strip& strip, Rows rows) {
   if (!allFree(rows, strip.link, Stage::kLifted)) return std::nullopt;
   kept_.clear();
   for (int row = rows.first; row <= rows.last; ++row) {
     for (int p = 1; p < topology_.folds; ++p) kept_.push_back(node(row, strip.link, p));
   }
-  const auto clears = test(strip, rows, [this, &strip, rows](double way) { liftFolds(strip, rows, way); });
+  const auto clears = test(strip, rows, [this, &strip, rows](double lift) { liftFolds(strip, rows, lift); });
   double good = kFirstLift * wanted_;
   int doublings = 0;
   while (doublings < kDoublings && !clears(good)) {
@@ -130,15 +130,15 @@ std::optional<double> FineSurface::tryLift(const Strip& strip, Rows rows) {
   return good;
 }
 
-// Sets the nodes the way [m] from where they were kept, each along the normal of the obstacle nearest to it there.
-void FineSurface::liftFolds(const Strip& strip, Rows rows, double way) {
-  // On the quad itself, so on the cloth's side of a shell.
+// Puts the nodes `lift` [m] from their kept places, each along the normal of the nearest obstacle there.
+void FineSurface::liftFolds(const Strip& strip, Rows rows, double lift) {
+  // A point of the quad, so on the cloth's side of an open mesh.
   const Vec3 from = 0.5 * (node(strip.row, strip.link, topology_.folds) + node(strip.row + 1, strip.link, 0));
   std::size_t at = 0;
   for (int row = rows.first; row <= rows.last; ++row) {
     for (int p = 1; p < topology_.folds; ++p, ++at) {
       const Vec3& base = kept_[at];
-      double nearest = (base - from).norm() + wanted_;  // the quad is no nearer than that to what moved the strip here
+      double nearest = (base - from).norm() + wanted_;  // the strip's obstacle is within this of the quad
       Vec3 normal = Vec3::Zero();
       for (const MovingObstacle* obstacle : near_) {
         SurfacePoint surface;
@@ -148,7 +148,7 @@ void FineSurface::liftFolds(const Strip& strip, Rows rows, double way) {
         nearest = surface.distance;
         normal = obstacle->after.rotation * surface.normal;
       }
-      node(row, strip.link, p) = base + way * normal;
+      node(row, strip.link, p) = base + lift * normal;
     }
   }
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The least turn of a fold about its chord that pleases. Angles are counted towards the next row of the cloth, "down".
+// The least turn of a fold about its chord that is accepted. Angles count towards the next row of the cloth, "down".
 //
-//       bow of a fold that must not        Of two turns down is preferred until it is kPreference times as far as up.
-//       point into the obstacle            Cloth lies on an obstacle with its normal along the obstacle's, so a fold
-//                                          that bows into it mostly needs as far a turn either way: with the shorter
-//                                          one
-//      up <--- o ---> down                 it would flip at every tremble. So the flip is where cloth rarely is.
+//       bow of a fold that must not        Down is preferred until it is kPreference times as far as up. Cloth lies on
+//       an point into the obstacle            obstacle with its normal along the obstacle's, so a fold that bows into
+//       it
+//                                          mostly needs the same turn either way, and the shorter one would change with
+//      up <--- o ---> down                 every tremble. With the preference the change is where cloth rarely is.
 //              | bow
 //      ========v========= obstacle
 #pragma once
@@ -22,19 +22,19 @@ constexpr double kPreference = 3.0;
 namespace fold_turn {
 
 constexpr int kSteps = 12;      // of a half turn
-constexpr int kBisections = 8;  // of one step: the rest is a fifteenth of a degree
+constexpr int kBisections = 8;  // of one step: to within a fifteenth of a degree
 
-/// The least turn in [0, limit] [rad] one way (sign +1 or -1) that pleases.
-template <typename Pleases>
-std::optional<double> oneWay(double sign, double limit, const Pleases& pleases) {
+/// The least turn in [0, limit] [rad] one way (sign +1 or -1) that is accepted.
+template <typename Accepts>
+std::optional<double> oneWay(double sign, double limit, const Accepts& accepts) {
   constexpr double kStep = kPi / kSteps;
   for (int step = 1; step <= kSteps && (step - 1) * kStep < limit; ++step) {
-    if (!pleases(sign * step * kStep)) continue;
+    if (!accepts(sign * step * kStep)) continue;
     double bad = (step - 1) * kStep;
     double good = step * kStep;
     for (int n = 0; n < kBisections; ++n) {
       const double middle = 0.5 * (bad + good);
-      (pleases(sign * middle) ? good : bad) = middle;
+      (accepts(sign * middle) ? good : bad) = middle;
     }
     return good;
   }
@@ -43,13 +43,13 @@ std::optional<double> oneWay(double sign, double limit, const Pleases& pleases) 
 
 }  // namespace fold_turn
 
-/// The turn [rad] to make; none: there is no such turn. pleases(turn) is not asked for 0 and may have side effects; the
-/// last turn it was asked for need not be the one returned.
-template <typename Pleases>
-std::optional<double> leastTurn(const Pleases& pleases) {
-  const std::optional<double> down = fold_turn::oneWay(1.0, kPi, pleases);
+/// The turn to make [rad]; none: there is no such turn. accepts(turn) is not called for 0 and may have side effects;
+/// its last argument need not be the turn returned.
+template <typename Accepts>
+std::optional<double> leastTurn(const Accepts& accepts) {
+  const std::optional<double> down = fold_turn::oneWay(1.0, kPi, accepts);
   const double limit = down ? *down / kPreference : kPi;
-  const std::optional<double> up = fold_turn::oneWay(-1.0, limit, pleases);
+  const std::optional<double> up = fold_turn::oneWay(-1.0, limit, accepts);
   if (up && *up < limit) return -*up;
   return down ? down : (up ? std::optional<double>(-*up) : std::nullopt);
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Which columns of the cloth feel that a source has begun, ended or changed.
+// Which columns are reached by a source that begins, ends or changes.
 #include "simulator/force_field.h"
 
 namespace curtain {
 namespace {
 
-// What happens on the border of a frame belongs to both, whatever rounding says [s].
+// An event on the border of two frames belongs to both, whatever the rounding [s].
 constexpr double kSlack = 1e-9;
 
 bool within(double time, double from, double to) { return time >= from - kSlack && time <= to + kSlack; }

@@ -84,7 +84,7 @@ void ForceField::setDrag(const DragParams& drag) {
   if (found == drags_.end()) {
     drags_.push_back(std::move(force));
   } else {
-    // A hand that already holds a node keeps it, wherever the node has gone since.
+    // A drag that is replaced keeps its node, wherever the node has moved since.
     if (!force.node() && found->node()) force.grasp(*found->node(), pattern_);
     *found = std::move(force);
   }
@@ -102,7 +102,7 @@ void ForceField::clearDrags() {
   drag_params_.clear();
 }
 
-// Which nodes the winds that blow reach; false: none does any.
+// Finds the nodes that the active winds reach; false: none.
 bool ForceField::findWinds(const Field3& position, double time) noexcept {
   std::optional<Eigen::AlignedBox3d> cloth;
   bool any = false;
@@ -127,8 +127,7 @@ void ForceField::addWinds(const Field3& position, double time) noexcept {
   }
 }
 
-// A source that reaches nothing is as good as none: not even the sum differs from the weight, in which the solver has a
-// shorter way.
+// A source that reaches nothing is left out: with weight alone the solver takes a shorter path.
 const NodeForces& ForceField::evaluate(const ClothState& state, double time, double dt) noexcept {
   const auto acts = [time](const DragForce& drag) { return drag.actsAt(time); };
   const bool windy = findWinds(state.position, time);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The winds and drags that act on a cloth, by id, and the forces of everything at one instant.
+// The winds and drags that act on a cloth, by id, and the sum of all forces at one time.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@
 
 namespace curtain {
 
-/// They differ at most in when they begin and end.
+/// They differ at most in start and end.
 bool sameWhileItBlows(const WindParams& a, const WindParams& b);
 bool sameWhileItActs(const DragParams& a, const DragParams& b);
 
@@ -26,7 +26,7 @@ class ForceField {
   /// Back to the scene's winds and drags.
   void reset();
 
-  /// Valid ones: the simulator has judged them.
+  /// Valid ones.
   void setWind(const WindParams& wind);
   bool removeWind(const std::string& id);
   void clearWinds();
@@ -37,24 +37,24 @@ class ForceField {
   void clearDrags();
   const std::vector<DragParams>& drags() const { return drag_params_; }
 
-  /// Forces at a time [s] on the cloth as it is; dt: how long they will act [s]. Allocates nothing.
+  /// Forces at a time [s] on the cloth's present state; dt: how long they will act [s]. Allocates nothing.
   const NodeForces& evaluate(const ClothState& state, double time, double dt) noexcept;
   const NodeForces& last() const { return forces_; }
 
-  /// Links are about as long as they should be: winds may be culled by where a few nodes are.
+  /// Links are near their lengths: winds may be culled by a few sampled nodes.
   void setLinksHold(bool hold) noexcept { bounds_.setLinksHold(hold); }
 
-  /// air: the scene's, which the damping is made from. After it has loaded: takeGravity().
+  /// air: the scene's, which the damping follows. After loading call takeGravity().
   void carry(Archive& archive, AirParams& air);
 
-  /// The scene's gravity, or its air, has changed.
+  /// The scene's gravity, or air, has changed.
   void takeGravity() noexcept;
   void takeAir() { air_damping_ = AirDamping(scene_.air, pattern_); }
-  /// The strongest air damping at rest of a node, over its mass [1/s].
+  /// Largest air damping of a node at rest, over its mass [1/s].
   double dampingPerMass() const noexcept { return air_damping_.strongestPerMass(pattern_); }
 
-  /// Marks columns where they are now: that sources reach which begin or end within [from, to]; that gusts blow on;
-  /// that the wind or drag of this id reaches, whether it acts or not.
+  /// Marks the columns that are reached now: by sources that begin or end within [from, to]; by gusts; by the wind or
+  /// drag of this id, active or not.
   void markChanges(double from, double to, const Field3& position, ColumnSet& out) const noexcept;
   void markGusts(double time, const Field3& position, ColumnSet& out) const noexcept;
   void markWind(const std::string& id, const Field3& position, ColumnSet& out) const noexcept;
@@ -76,8 +76,8 @@ class ForceField {
   std::vector<DragForce> drags_;
   std::vector<DragParams> drag_params_;
   Field3 weight_;
-  Field3 sum_;           // with winds and drags, when any acts
-  Field3 area_vectors_;  // of rows that a wind reaches
+  Field3 sum_;           // with winds and drags, when one acts
+  Field3 area_vectors_;  // in rows that a wind reaches
   NodeForces forces_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A frame: the order in which the simulator's parts act.
+// A frame: the order in which the simulator's parts run.
 #include <algorithm>
 
 #include "simulator/simulator_impl.h"
@@ -8,7 +8,7 @@
 namespace curtain {
 namespace {
 
-// Overlength at a frame's end with which links count as holding in the next one.
+// Largest overlength at a frame's end with which links count as holding in the next one.
 constexpr double kHold = 0.05;
 
 }  // namespace
@@ -32,7 +32,7 @@ void Simulator::Impl::step() {
   if (motion.statistics.step_seconds > budget.seconds()) ++motion.statistics.late_frames;
 }
 
-// A frame in which nothing moves. Obstacles do, far away.
+// A frame in which the cloth sleeps. Obstacles away from it may move.
 void Simulator::Impl::sleepThrough() {
   Statistics& s = motion.statistics;
   if (motion.obstacles.anyMoved()) {
@@ -46,7 +46,7 @@ void Simulator::Impl::sleepThrough() {
   ++s.asleep_frames;
 }
 
-// Returns how much of the frame was made, as a share of it.
+// Returns the share of the frame that was made.
 double Simulator::Impl::moveThrough(Budget::Clock::time_point begin) {
   const Statistics& s = motion.statistics;
   guard.beginFrame(pins.any());
@@ -54,7 +54,7 @@ double Simulator::Impl::moveThrough(Budget::Clock::time_point begin) {
   motion.contact.beginFrame(links_hold);
   motion.forces.setLinksHold(links_hold);
   const bool first = times.frame() == 0;
-  if (errors && first) errors->makePilotRuns();  // before the budget counts: the first frame takes what it takes
+  if (errors && first) errors->makePilotRuns();  // not limited by the budget
   budget.beginFrame(first ? Budget::Clock::now() : begin);
   if (errors) errors->beginFrame();
   pins.start(times.rate(), followingSpeed(scene), motion.state);

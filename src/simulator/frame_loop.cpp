@@ -33,7 +33,7 @@ double FrameLoop::make() {
   return 1.0;
 }
 
-// One substep from `done` seconds into the frame. Returns how far it came: 0 when it was rejected.
+// One substep from `done` seconds into the frame. Returns its length; 0: it was rejected.
 double FrameLoop::makeSubstep(double done) {
   StepControl* steps = &controls_.main;
   SubstepPlan planned = plan(*steps, done);
@@ -86,7 +86,7 @@ bool FrameLoop::makeStages(const SubstepPlan& plan, double done) {
   return true;
 }
 
-// The computing time of a frame may be limited.
+// Sets the deadline and measures the time where a budget is given.
 SubstepOutcome FrameLoop::attemptInTime(const SubstepPlan& plan, double done) {
   if (!budget_.any()) return motion_.attempt(plan, done);
   const Budget::Clock::time_point begin = Budget::Clock::now();
@@ -97,7 +97,7 @@ SubstepOutcome FrameLoop::attemptInTime(const SubstepPlan& plan, double done) {
   return outcome;
 }
 
-// That there was no time left for it says nothing of its length, unless it had a whole frame's.
+// Running out of time says nothing of the step's length, unless it had a whole frame's time.
 void FrameLoop::reject(StepControl& steps, const SubstepPlan& plan, bool late) noexcept {
   ++motion_.statistics.rejected;
   if (!late)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The substeps of a frame: the loop of Cheng 2000, Sect. 1.3. Each is planned, attempted, and taken or made again in
-// smaller ones.
+// The substeps of a frame, the loop of Cheng 2000, Sect. 1.3: each is planned, attempted, and accepted or repeated with
+// a smaller step.
 #pragma once
 
 #include "simulator/budget.h"
@@ -9,7 +9,7 @@
 
 namespace curtain {
 
-/// What a frame was made of.
+/// Steps that a frame was made of.
 struct StepTally {
   int steps = 0;          ///< leapfrog steps
   bool of_stages = true;  ///< all of them were stages of whole substeps
@@ -17,18 +17,18 @@ struct StepTally {
 
 class FrameLoop {
  public:
-  /// All of them must outlive this.
+  /// All arguments must outlive this.
   FrameLoop(Motion& motion, StepControls& controls, Sleep& sleep, Budget& budget);
 
-  /// Makes a frame. Returns how much of it was made, as a share: less than 1 when there was no time for more.
+  /// Makes a frame. Returns the share of it that was made: less than 1 when the computing time was over.
   double make();
   /// Of that frame.
   const StepTally& tally() const noexcept { return tally_; }
   /// A pin stayed where it was in a substep of that frame.
   bool pinsWaited() const noexcept { return pins_waited_; }
 
-  /// A substep of five stages. False, and nothing changed: stages pause; or a string pulls or something touches, which
-  /// forbids to go back in time.
+  /// Makes a substep of five stages. False, and nothing changed: stages are paused, or a string pulls or something
+  /// touches, which can't be reversed in time.
   bool makeStages(const SubstepPlan& plan, double done);
 
  private:
@@ -43,7 +43,7 @@ class FrameLoop {
   StepControls& controls_;
   Sleep& sleep_;
   Budget& budget_;
-  Motion::Checkpoint before_;  // a substep of stages
+  Motion::Checkpoint before_;  // start of a substep of stages
   StepTally tally_;
   bool pins_waited_ = false;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Which frame it is, when it begins and how long it is.
+// Number, begin and length of the present frame.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ class FrameTimes {
   std::int64_t frame() const noexcept { return frame_; }
   double begin() const noexcept { return timeOf(frame_); }    ///< of the present frame [s]
   double end() const noexcept { return timeOf(frame_ + 1); }  ///< of the present frame [s]
-  /// Time of the motion [s]; less than begin() where frames ended early.
+  /// Time of the motion [s]; less than begin() when frames ended early.
   double madeTime() const noexcept { return made_time_; }
 
   /// share: of the present frame that was made, [0, 1].
@@ -39,7 +39,7 @@ class FrameTimes {
   void carry(Archive& archive);
 
  private:
-  // Whole frames from where they last changed their length, so that rounding does not add up.
+  // Counts from the last change of length, so that rounding does not add up.
   double timeOf(std::int64_t frame) const noexcept {
     return since_.time + static_cast<double>(frame - since_.frame) * length();
   }
@@ -50,7 +50,7 @@ class FrameTimes {
   struct {
     std::int64_t frame = 0;
     double time = 0.0;  // [s]
-  } since_;             // frames have been as long as they are
+  } since_;             // the last change of length
 };
 
 }  // namespace curtain

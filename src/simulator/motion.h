@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The cloth in motion: its state, what acts on it, the solvers that make a substep of it, and what is counted
-// meanwhile.
+// The cloth in motion: state, forces, obstacles, the solvers that make a substep, and statistics.
 #pragma once
 
 #include "contact/cloth_contact.h"
@@ -14,9 +13,9 @@
 
 namespace curtain {
 
-/// Not thread-safe. Allocates nothing after construction.
+/// Not thread-safe. Allocates only in the constructor.
 struct Motion {
-  /// What a motion made in trial goes back to; what has been counted is not in it but for the work.
+  /// Start of a trial run or of a substep of stages. Of the statistics only the work is restored.
   struct Checkpoint {
     ClothState state;
     ExactSolver::Memory memory;
@@ -32,17 +31,17 @@ struct Motion {
   void save(Checkpoint& checkpoint) const;
   void restore(const Checkpoint& checkpoint);
 
-  /// That pushed in the last accepted substep; null: none did.
+  /// Contacts that pushed in the last accepted substep; null: none.
   const Contacts* pushing() const noexcept { return contact.pushing().empty() ? nullptr : &contact.pushing(); }
-  /// At the time of the positions; kept until forgetVelocities().
+  /// Velocities at the time of the positions; cached until forgetVelocities().
   const Field3& velocities();
   void forgetVelocities() noexcept { velocities_fresh_ = false; }
-  /// Takes the velocities to the time of the positions. A step of another length than the last one's would else start
-  /// from a velocity half the difference off.
+  /// Brings the velocities to the time of the positions, before the length of the steps changes: they lag by half a
+  /// step of the old length.
   void synchronise();
   Energy energy();
 
-  /// Takes the links' stretches of now into the statistics, and after a frame the rest of what is measured then.
+  /// Writes the links' present stretch to the statistics; measure(): and the rest, after a frame.
   void measureStretch() noexcept;
   void measure() noexcept;
 

@@ -36,7 +36,7 @@ double ObstacleLag::substepMade(double share, double h) noexcept {
 void ObstacleLag::endFrame(double share) noexcept {
   obstacles_.endFrame(share - lag_ / times_.length());
   lag_ = 0.0;
-  share_ = 1.0;  // of substeps without obstacles, too
+  share_ = 1.0;  // substeps without obstacles do not set it
 }
 
 }  // namespace curtain

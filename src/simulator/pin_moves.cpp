@@ -13,7 +13,7 @@ void PinMoves::move(std::size_t node, const Vec3& target) {
     moves_.push_back({node, target, false});
 }
 
-// Pinned nodes answer no force; their velocity moves them.
+// Pinned nodes move by their velocity alone.
 void PinMoves::start(double frame_rate, double following_speed, ClothState& state) noexcept {
   for (Move& move : moves_) {
     const Vec3 velocity = (move.target - state.position.at(move.node)) * frame_rate;

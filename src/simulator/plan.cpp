@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The plan is not made beforehand and then followed: it asks those who decide in each frame what they would decide now.
+// Not a plan that is followed: it asks the parts that decide in each frame what they would decide now.
 #include "curtain_sim/plan.h"
 
 #include <sstream>

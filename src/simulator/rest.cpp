@@ -11,29 +11,27 @@
 namespace curtain {
 namespace {
 
-// A column that keeps to its place for so long rests [s]. A pendulum of 2 m turns for as long within 0.13 of its
-// amplitude.
+// A column that stays in place this long rests [s]. A pendulum of 2 m stays as slow at its turning point within 0.13 of
+// its amplitude.
 constexpr double kWindow = 0.5;
-// Looks at the cloth are apart by so many sixtieths of a second: not evenly, or a motion in step with them would look
-// still.
+// Pauses between looks at the cloth [kPauseUnit]: unequal, since a motion in step with them would seem to rest.
 constexpr std::array<int, 4> kPauses = {7, 9, 5, 11};
 constexpr double kPauseUnit = 1.0 / 60.0;
 constexpr double kLongestFrame = 1.0 / 20.0;
-// Some nodes of a column that are faster than so many times the resting speed, and it is not looked at closer. Contact
-// jitters without going anywhere, so this is far from 1.
+// A column is measured only if its sampled nodes are slower than this many times rest_speed: far from 1, since contact
+// jitters without moving the cloth.
 constexpr double kHurry = 50.0;
-// Cloth that lies on something is never quite still: within the tolerance of its links the solve may leave it anywhere.
-// Over half a second nodes were seen to move by 5 times the tolerance of a link (a sheet on a ball).
+// Jitter of cloth in contact, in link tolerances: the solve may leave nodes anywhere within them. Up to 5 were seen in
+// half a second (a sheet on a ball).
 constexpr double kJitter = 8.0;
-// After its neighbours have woken a column, for so long it does not sleep while they move [s], and twice as long each
-// time: they might all the time.
+// After its neighbours have woken it, a column does not sleep alone for this long [s], and twice as long each time.
 constexpr double kAloneAgain = 2.0, kLongestPause = 64.0;
-// Lowest frequency of a chain of length L: 1.2024 sqrt(g / L) (zero of the Bessel function J0, over two).
+// Lowest frequency of a hanging chain of length L: 1.2024 sqrt(g / L) (half the first zero of the Bessel function J0).
 constexpr double kLowestFrequency = 1.2024;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-// Box around an obstacle over its substep. Turning, it bulges beyond the boxes at both ends, by less than the sagitta
-// of the arc of its farthest point.
+// Box around an obstacle over its substep. Rotation moves points beyond the boxes at both ends by less than the sagitta
+// of the arc of the farthest point.
 Eigen::AlignedBox3d sweptBox(const MovingObstacle& obstacle) noexcept {
   Eigen::AlignedBox3d box = obstacle.sweptBounds();
   if (!std::isfinite(box.min().sum() + box.max().sum())) return box;
@@ -66,12 +64,11 @@ Rest::Rest(const ClothPattern& pattern, double frame_length, double thickness, d
   place_.assign(pattern.grid.size(), 0.0);
 }
 
-// At this speed a swing has an amplitude of speed / omega. Overdamped cloth is that far from rest at a lower speed, by
-// omega m / c.
+// A swing of this speed has an amplitude of speed / omega. Overdamped cloth as far from rest is slower, by omega m / c.
 void Rest::setLimits(double speed, double gravity, double damping_per_mass, double height) noexcept {
   const double omega = kLowestFrequency * std::sqrt(gravity / height);
   const double slower = damping_per_mass > omega ? omega / damping_per_mass : 1.0;
-  // Frames too far apart say too little of what is between.
+  // Longer frames say too little of the motion between them.
   const bool can_rest = gravity > 0.0 && frame_length_ <= kLongestFrame;
   radius_ = can_rest ? speed * slower * kWindow : 0.0;
 }
@@ -90,7 +87,7 @@ void Rest::forget() noexcept {
   swept_.setEmpty();
 }
 
-// A look is due every now and then.
+// Whether a look is due.
 bool Rest::due() noexcept {
   if (radius_ <= 0.0 || --due_in_ > 0) return false;
   due_in_ = std::max(1, static_cast<int>(std::lround(kPauses[turn_] * kPauseUnit / frame_length_)));
@@ -98,7 +95,7 @@ bool Rest::due() noexcept {
   return true;
 }
 
-// A look at three nodes a column: most of the time it is all there is to do.
+// Samples three nodes a column; mostly that is all there is to do.
 bool Rest::anyStill(const Field3& velocity) noexcept {
   const Grid& grid = pattern_.grid;
   const double limit = kHurry * radius_ / kWindow;
@@ -115,7 +112,7 @@ bool Rest::anyStill(const Field3& velocity) noexcept {
   return any;
 }
 
-// How far every column's nodes are from their place.
+// Measures how far the nodes of every column are from their place.
 CURTAIN_WIDE void Rest::measure(const Field3& position) noexcept {
   const Grid& grid = pattern_.grid;
   double* const farthest = farthest_.data();
@@ -185,7 +182,7 @@ bool Rest::look(const ClothState& state, double time, const ColumnSet& kept_awak
   const bool all = quiet_.count() + asleep_.count() == columns;
   const int before = asleep_.count();
   for (int j = 0; j < columns && (all || by_column); ++j) {
-    // What presses on something sleeps only with the whole cloth: its push must not go missing while others move.
+    // A column that presses on something sleeps only with the whole cloth: others still need its push.
     const bool alone = !touching_.has(j) && time >= alone_from_[static_cast<std::size_t>(j)];
     if (quiet_.has(j) && (all || alone)) asleep_.add(j);
   }
@@ -223,7 +220,7 @@ void Rest::approachedBy(ObstacleSet& obstacles) noexcept {
   for (int index = 0; index < obstacles.count(); ++index) {
     if (!obstacles.moved(index)) continue;
     Eigen::AlignedBox3d box = sweptBox(obstacles.moving()[static_cast<std::size_t>(index)]);
-    box.extend(obstacles.leftBox(index));  // which it may have carried something in
+    box.extend(obstacles.leftBox(index));  // where it jumped away from
     swept_.extend(box);
     if (asleep_.empty() || !box.intersects(all_)) continue;
     for (int j = 0; j < pattern_.grid.columns; ++j) {
@@ -232,7 +229,7 @@ void Rest::approachedBy(ObstacleSet& obstacles) noexcept {
   }
 }
 
-// Wakes the marked columns and all that sleep side by side with them; calls woken(column) for each.
+// Wakes the marked columns and the sleeping runs that they belong to; calls woken(column) for each.
 template <typename Woken>
 bool Rest::wakeRuns(const ColumnSet& marked, const Woken& woken) noexcept {
   const int columns = pattern_.grid.columns;

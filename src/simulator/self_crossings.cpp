@@ -11,9 +11,8 @@
 namespace curtain {
 namespace {
 
-// Heights over a triangle's plane below this share of the coordinates are rounding, gathered over many substeps: parts
-// of cloth that moves as a plane are off it by 1e-12 of its size, and are not crossed. What is kept apart is so by 1e-5
-// of it at least.
+// Heights over a triangle's plane below this share of the coordinates are rounding, accumulated over many substeps:
+// coplanar cloth is off its plane by 1e-12 of its size and does not cross. Contact keeps at least 1e-5 of it.
 constexpr double kRounding = 1e-10;
 
 double volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) { return (b - a).cross(c - a).dot(d - a); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Brute-force oracle: does the cloth pierce itself?
+// Brute-force oracle for intersections of the cloth with itself.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace curtain {
 
-/// Pairs of an edge and a triangle of the first layer's mesh (every face cut along one diagonal) that intersect and
-/// share no node. Every pair with overlapping boxes is tested.
+/// Pairs of an edge and a triangle of the first layer's mesh (quads cut along one diagonal) that intersect and share no
+/// node.
 std::int64_t countSelfCrossings(const Grid& grid, const Field3& position);
 
 }  // namespace curtain

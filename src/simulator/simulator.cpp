@@ -152,7 +152,7 @@ bool actsAt(const Params& source, double time) {
   return source.start <= time && time < source.end;
 }
 
-// A source that is given again as it is goes on: since when, nothing feels.
+// An unchanged source that is given again continues: it keeps its start, so that nothing wakes.
 template <typename Params>
 Params asItGoesOn(Params source, const Params& old) {
   source.start = old.start;
@@ -226,7 +226,7 @@ std::vector<Problem> Simulator::setGravity(const Vec3& gravity) {
   if (!good) return {{"gravity", "must be 3 times " + range.text()}};
   Impl& im = *impl_;
   if (gravity == im.scene.gravity) return {};
-  im.motion.velocities();  // at the time of the positions, by the forces that made them
+  im.motion.velocities();  // caches them while the forces that made them are known
   im.scene.gravity = gravity;
   im.takeGravity();
   im.guard.forget();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a simulator is made of, each part with one duty, and how they are wired. simulator.cpp: what users call;
-// frame.cpp: the order in which the parts act in a frame; snapshot.cpp: what is kept of them and comes back.
+// The parts of a simulator. simulator.cpp: the public interface; frame.cpp: the order of the parts in a frame;
+// snapshot.cpp: saving and restoring them.
 #pragma once
 
 #include <cstdint>
@@ -42,8 +42,8 @@ struct Simulator::Impl {
   EnergyGuard guard;
   PinMoves pins;
   FineSurface surface;
-  std::uint64_t revision = 0;  // of the cloth's and the obstacles' places
-  Field3 total_force;          // room for what copyForces() adds up
+  std::uint64_t revision = 0;  // of the positions of cloth and obstacles
+  Field3 total_force;          // scratch of copyForces()
 
  private:
   void sleepThrough();

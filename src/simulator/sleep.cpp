@@ -39,7 +39,7 @@ void Sleep::wakeAll() {
   if (rest_.wake()) takeOver();
 }
 
-// Before it watches, nothing is about to fall asleep that gusts could keep awake.
+// Gusts matter only to columns that may fall asleep soon, so not before rest_ watches.
 void Sleep::fallAsleep() {
   if (!rest_.due()) return;
   kept_awake_.clear();
@@ -53,7 +53,7 @@ void Sleep::takeOver() {
   motion_.statistics.asleep = rest_.asleep().count();
   motion_.statistics.wakes = rest_.wakes();
   controls_.wake(motion_.exact);
-  // Velocities half a substep old are old no more: all are zero.
+  // All velocities are zero, so they lag behind nothing.
   if (all()) motion_.state.velocity_age = 0.0;
 }
 

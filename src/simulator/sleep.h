@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Wakes and puts to sleep: tells Rest what happens to the cloth, and the solver and the step control which columns
+// Puts columns to sleep and wakes them: tells Rest of all disturbances, and the solver and step control which columns
 // move.
 #pragma once
 
@@ -22,10 +22,10 @@ class Sleep {
 
   /// Before a frame: wakes the columns that something in it may move.
   void wakeForFrame(bool pins_move);
-  /// Wakes those that the last attempt at a substep would have moved.
+  /// Wakes the columns that the last attempt at a substep would have moved.
   void wakePulled();
   void wakeAll();
-  /// After a frame in which something moved.
+  /// After a frame with motion.
   void fallAsleep();
 
   void reset();

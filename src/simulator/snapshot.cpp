@@ -10,13 +10,13 @@
 namespace curtain {
 namespace {
 
-// Keys of the scene that a snapshot may differ in: gravity, air and the frame rate come with it, any number of threads
-// gives the same bits, and of a mesh the triangles are compared, not where they lie.
+// Scene keys that may differ: gravity, air and the frame rate come with the snapshot, the bits do not depend on the
+// number of threads, and of a mesh the triangles are compared, not the path.
 const std::vector<std::string> kAside = {"gravity", "air", "solver.frame_rate", "solver.threads", "obstacles[].mesh"};
 
 }  // namespace
 
-// Of names, types and counts, not of values.
+// Checksum of names, types and counts.
 std::uint32_t Simulator::Impl::layout() {
   Archive archive = Archive::describing();
   carry(archive);

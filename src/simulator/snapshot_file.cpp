@@ -19,10 +19,10 @@
 namespace curtain {
 namespace {
 
-// Of the largest cloth a snapshot is smaller; what is larger is none, whatever its header says.
+// Larger files are not read, whatever their header says: a snapshot of the largest cloth is smaller.
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 34;
 
-// Closes it.
+// Closes its descriptor.
 class File {
  public:
   explicit File(int descriptor) : descriptor_(descriptor) {}
@@ -32,7 +32,7 @@ class File {
 
   bool isOpen() const { return descriptor_ >= 0; }
   int descriptor() const { return descriptor_; }
-  // False: what was written may not be there.
+  // False: what was written may be lost.
   bool close() {
     const int descriptor = std::exchange(descriptor_, -1);
     return descriptor < 0 || ::close(descriptor) == 0;
@@ -56,7 +56,7 @@ bool writeAll(int descriptor, const std::string& bytes) {
   return true;
 }
 
-// Reads up to so many bytes; fewer: the file ends. -1: errno says why.
+// Reads up to so many bytes; fewer: end of file. -1: see errno.
 ssize_t readUpTo(int descriptor, char* to, std::size_t most) {
   std::size_t done = 0;
   while (done < most) {
@@ -69,8 +69,8 @@ ssize_t readUpTo(int descriptor, char* to, std::size_t most) {
   return static_cast<ssize_t>(done);
 }
 
-// Of names beside the file, the first that no other thread or process uses: `take` makes it, or fails with errno.
-// False: it failed of something else.
+// Tries names beside the file until take(name) succeeds: it makes the file, or fails with EEXIST if another thread or
+// process uses the name. False: it failed with another errno.
 template <typename Take>
 bool takeNameBeside(const std::string& path, std::string& name, const Take& take) {
   static std::atomic<unsigned> next{0};
@@ -86,8 +86,8 @@ std::string folderOf(const std::string& path) {
   return folder.empty() ? "." : folder;
 }
 
-// A file that has its name when it is whole, so that nothing is left of it when the process is killed meanwhile. Some
-// file systems have no way to.
+// Names the file only when it is complete, so that nothing is left when the process is killed. Not all file systems can
+// do that.
 bool writeNamedAtLast(const std::string& path, const std::string& bytes, std::string& name) {
   File file(::open(folderOf(path).c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666));
   if (!file.isOpen() || !writeAll(file.descriptor(), bytes) || ::fsync(file.descriptor()) != 0) return false;
@@ -97,11 +97,11 @@ bool writeNamedAtLast(const std::string& path, const std::string& bytes, std::st
   });
 }
 
-// What has its name from the start. Where it fails nothing is left of it, and errno says why.
+// Fallback: a file with a name from the start. On failure it is removed, and errno says why.
 bool writeNamed(const std::string& path, const std::string& bytes, std::string& name) {
   int descriptor = -1;
   const auto create = [&](const char* as) {
-    descriptor = ::open(as, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);  // the rights that new files get
+    descriptor = ::open(as, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);  // reduced by the umask
     return descriptor >= 0;
   };
   if (!takeNameBeside(path, name, create)) return false;
@@ -113,10 +113,10 @@ bool writeNamed(const std::string& path, const std::string& bytes, std::string& 
   return false;
 }
 
-// So that the new name outlasts a power failure. Some file systems have no way to.
+// Makes the new name survive a power failure; some file systems can't.
 bool syncFolderOf(const std::string& path) {
   const File file(::open(folderOf(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!file.isOpen()) return errno == EACCES;  // may be written, not read
+  if (!file.isOpen()) return errno == EACCES;  // writable but not readable
   return ::fsync(file.descriptor()) == 0 || errno == EINVAL || errno == ENOTSUP;
 }
 
@@ -143,7 +143,7 @@ std::vector<Problem> writeSnapshotFile(const std::string& path, const std::strin
 }
 
 std::vector<Problem> readSnapshotFile(const std::string& path, std::string& out) {
-  // Not blocking: a pipe that nobody writes to would be waited for.
+  // O_NONBLOCK: opening a pipe without a writer would block.
   const File file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
   if (!file.isOpen()) return failed(path, "cannot be read");
   struct stat status {};

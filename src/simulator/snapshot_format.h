@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a snapshot looks like from outside (docs/snapshots.md):
+// Binary layout of a snapshot (docs/snapshots.md):
 //
 //   magic                16 letters
 //   byte order           32-bit 0x01020304
@@ -13,7 +13,7 @@
 //   what is carried
 //   checksum             32-bit CRC of all before it
 //
-// Numbers as the machine has them.
+// Numbers in the machine's own format.
 #pragma once
 
 #include <cstdint>
@@ -25,11 +25,11 @@
 
 namespace curtain {
 
-/// To be raised with every change of what is carried, or of what it means. test/simulator/snapshot_test.cpp keeps
-/// watch.
+/// To be raised with every change of what is serialized, or of its meaning (checked by
+/// test/simulator/snapshot_test.cpp).
 constexpr std::uint32_t kSnapshotVersion = 5;
 
-/// Bytes that all snapshots begin with, up to the scene.
+/// Bytes before the scene.
 constexpr std::size_t kSnapshotHeader = 48;
 
 struct SnapshotParts {
@@ -40,11 +40,11 @@ struct SnapshotParts {
 
 std::string packSnapshot(const SnapshotParts& parts);
 
-/// What is wrong with what begins like this (kSnapshotHeader bytes, fewer where there are no more) and has so many
-/// bytes; none: it may be a snapshot.
+/// What is wrong with a snapshot of `size` bytes that begins with these (kSnapshotHeader bytes, or all); none: it may
+/// be valid.
 std::optional<Problem> judgeHeader(std::string_view begin, std::uint64_t size);
 
-/// Takes a snapshot apart, which must outlive the parts; or says what is wrong with it.
+/// Splits a snapshot, which must outlive the parts; or says what is wrong with it.
 std::optional<Problem> unpackSnapshot(std::string_view snapshot, SnapshotParts& parts);
 
 std::uint32_t checksum(std::string_view bytes);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Who chooses the substeps of a scene's method. leapfrog4 has two: its own, for substeps of five stages
-// (composition.h), and that of auto, for where stages cannot be made.
+// The step controls of a scene's method. leapfrog4 has two: its own, for substeps of five stages (composition.h), and
+// that of auto, for where stages cannot be made.
 #pragma once
 
 #include <cmath>
@@ -28,7 +28,7 @@ struct StepControls {
   void wake(const ExactSolver& solver) noexcept {
     for (StepControl* control : {&main, &plain}) control->wake(solver);
   }
-  /// A second without stages: strings that pull now and then would else change the scheme all the time, and every
+  /// Makes no stages for a second: strings that pull now and then would change the scheme all the time, and every
   /// change shakes them.
   void pauseStages(double frame_rate) noexcept {
     if (plain_frames == 0) plain_frames = static_cast<int>(std::ceil(frame_rate));
@@ -39,7 +39,7 @@ struct StepControls {
   void carry(Archive& archive);
 
   StepControl main, plain;
-  int plain_frames = 0;  // to go before leapfrog4 makes stages again
+  int plain_frames = 0;  // left before leapfrog4 makes stages again
 
  private:
   static SolverParams asAuto(SolverParams params) {
