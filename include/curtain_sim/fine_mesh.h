@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Floor 1: the triangulated mesh of both layers of nodes, for display, export and (later) contact.
+// Floor 1: the triangulated mesh of both layers of nodes, for display and export.
 //
 //   fine column   0   1   2 … k-1   k   k+1 …          first-layer nodes at multiples of k,
 //   row i         o---.---.-- … .---o---.-- …           second-layer nodes between them
@@ -14,30 +14,30 @@
 
 namespace curtain {
 
-/// What does not change while a cloth lives.
+/// The constant part of a fine mesh.
 struct FineMeshTopology {
   int rows = 0;         ///< of the grid
   int columns = 0;      ///< fine columns: links * folds + 1, closed cloth: links * folds
   int folds = 1;        ///< rods per weft link
   bool closed = false;  ///< the rows are rings
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into FineMesh::positions, same winding all over
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into FineMesh::positions, of equal winding
 };
 
-/// What does: shape [rows * columns] row-major.
+/// The moving part of a fine mesh; shape [rows * columns], row-major.
 struct FineMesh {
   std::vector<Vec3> positions;  ///< [m]
-  /// Folds that an obstacle left no room to lie in: their nodes were moved out of it, so their rods are longer or
-  /// shorter than rest / k. All others keep every rod's length (or, where the link is taut, lie evenly on it).
+  /// Folds without room beside an obstacle: their nodes were moved out of it, so their rods are longer or shorter than
+  /// rest / k. All other rods keep their length (or, where the link is taut, lie evenly on it).
   int flattened_folds = 0;
 };
 
-/// Of a valid cloth.
+/// cloth must be valid.
 FineMeshTopology makeFineMeshTopology(const ClothParams& cloth);
 
 /// Unit normals of the fine mesh's nodes (area-weighted mean of the faces at the node); out is resized.
 void fineMeshNormals(const FineMeshTopology& topology, const FineMesh& mesh, std::vector<Vec3>& out);
 
-/// The same for other triangles over the same nodes, such as MeshReducer's. At a node of none of them: +z.
+/// The same for other triangles over the same nodes, such as MeshReducer's. Nodes without a triangle get +z.
 void fineMeshNormals(const std::vector<std::array<std::uint32_t, 3>>& triangles, const FineMesh& mesh,
                      std::vector<Vec3>& out);
 

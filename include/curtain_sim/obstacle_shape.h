@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Floor 3: the shapes an obstacle can have, each in its own frame. A shape answers one question: which point
-// of the surface is nearest to a node that just moved, how far, and which way is out.
+// Floor 3: the shapes an obstacle can have, each in its own frame. A shape answers one query: the nearest point of its
+// surface to a node that has moved, with signed distance and outward normal.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,10 +14,10 @@
 
 namespace curtain {
 
-/// The surface as seen from a point, in the shape's frame.
+/// The nearest point of the surface, in the shape's frame.
 struct SurfacePoint {
   double distance = 0.0;        ///< [m], negative inside
-  Vec3 normal = Vec3::UnitZ();  ///< unit, the way out (gradient of the distance)
+  Vec3 normal = Vec3::UnitZ();  ///< unit, outward (gradient of the distance)
 };
 
 /// Triangles of a shape for drawing: corners in the shape's frame [m], three indices a triangle.
@@ -31,12 +31,12 @@ class ObstacleShape {
  public:
   virtual ~ObstacleShape() = default;
 
-  /// Nearest surface point to `current`, if it is nearer than `reach`, or `current` is inside, or the way
-  /// from `previous` to `current` crosses the surface.
-  ///   previous, current  where the point was and is [m], shape's frame, finite; they may be equal
+  /// Nearest surface point to `current`, if it is nearer than `reach`, or `current` is inside, or the path from
+  /// `previous` to `current` crosses the surface.
+  ///   previous, current  positions of the point [m], shape's frame, finite; they may be equal
   ///   reach              [m], >= 0
-  /// False: nothing within reach. Solid shapes and watertight meshes give the signed distance at `current`;
-  /// open meshes are thin shells whose inside is the side away from `previous`. Allocates nothing, throws nothing.
+  /// False: nothing within reach. Solid shapes and watertight meshes give the signed distance at `current`; open meshes
+  /// are thin shells whose inside is the side away from `previous`. Allocates nothing, throws nothing.
   virtual bool query(const Vec3& previous, const Vec3& current, double reach, SurfacePoint& out) const noexcept = 0;
 
   /// Box around the surface [m], shape's frame; infinite for a plane.
@@ -46,7 +46,7 @@ class ObstacleShape {
   virtual ShapeTriangles triangles() const = 0;
 };
 
-/// Turns a mesh URL into a path of the file system; returns "" when it can't.
+/// Turns a mesh URL into a file path; returns "" when it can't.
 using MeshResolver = std::function<std::string(const std::string& url)>;
 
 /// package://NAME/… by ROS_PACKAGE_PATH (the folder NAME or the one whose package.xml has that name),

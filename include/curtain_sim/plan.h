@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a simulator does for a scene and what it leaves out, in words.
+// What a simulator does for a scene and what it skips, in words.
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@ namespace curtain {
 /// A stage of a frame, or a part of one.
 struct PlanEntry {
   std::string stage;  ///< its name
-  bool runs = false;  ///< false: it is left out
-  std::string why;    ///< what it does, or why it is left out
+  bool runs = false;  ///< false: it is skipped
+  std::string why;    ///< what it does, or why it is skipped
 
-  /// Says the same.
+  /// Has the same content.
   bool operator==(const PlanEntry& other) const {
     return stage == other.stage && runs == other.runs && why == other.why;
   }

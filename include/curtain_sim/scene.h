@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Floor 0: everything a scene can say, as plain values with defaults and units (SI throughout).
-// A Scene is judged by validate() and read from or written to YAML by scene_yaml.h; the same keys
-// are a file for curtain_batch and the node's ~scene parameter tree.
+// Floor 0: the scene as plain values with defaults and units (SI throughout). validate() checks a Scene, scene_yaml.h
+// reads and writes it as YAML. The same keys are curtain_batch's file and the node's ~scene parameter tree.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,13 +12,13 @@
 #include <string>
 #include <vector>
 
-/// The engine. It knows no ROS.
+/// The engine, without ROS.
 namespace curtain {
 
 /// A point or a vector.
 using Vec3 = Eigen::Vector3d;
 
-/// One thing wrong with an input: the dotted key it is about and what is wrong, with the allowed range.
+/// A problem with an input: its dotted key, and what is wrong, with the allowed range.
 struct Problem {
   std::string key;   ///< e.g. "cloth.rows" or "wind[0].radius"
   std::string text;  ///< e.g. "must be an integer in [2, 4096], is 1"
@@ -54,7 +53,7 @@ struct ClothParams {
   double width = 1.0;                ///< weft length of the top row [m], > 0
   std::optional<double> hem_width;   ///< weft length of the bottom row [m], > 0; default: width
   double surface_density = 0.2;      ///< [kg/m^2], > 0
-  Lumping lumping = Lumping::kArea;  ///< see there
+  Lumping lumping = Lumping::kArea;  ///< how mass is shared among the nodes
   bool closed = false;               ///< the weft closes to a ring (skirt, canopy)
   int folds = 6;                     ///< rods per weft link [1..64]; 1 = no second-layer nodes
   double porosity = 0.0;             ///< share of the air that passes through [0..1]
@@ -76,8 +75,8 @@ struct HangParams {
   /// Radius of the hung ring [m], closed cloth only; default: width / (2 pi). The chord between
   /// neighbours must not be longer than their weft link.
   std::optional<double> radius;
-  /// [rad] The flat cloth turned about its hung edge out of the vertical; pi/2 = horizontal, towards the
-  /// normal (to - from) x up. Closed cloth: the half-angle of the cone that the cloth starts as.
+  /// [rad] Rotation of the flat cloth about its hung edge out of the vertical; pi/2 = horizontal, towards the normal
+  /// (to - from) x up. Closed cloth: half-angle of the cone that the cloth starts as.
   double tilt = 0.0;
 };
 
@@ -87,12 +86,12 @@ enum class PinKind {
   kLeft,        ///< the whole column 0
   kTopCorners,  ///< both ends of row 0
   kNone,        ///< none
-  kList         ///< those that are listed
+  kList         ///< the listed nodes
 };
 
-/// Nodes that are held.
+/// Nodes with a prescribed position.
 struct PinParams {
-  PinKind kind = PinKind::kTop;  ///< which
+  PinKind kind = PinKind::kTop;  ///< which nodes
   std::vector<NodeIndex> nodes;  ///< for kList
 };
 
@@ -154,20 +153,20 @@ enum class ShapeKind {
   kCylinder,  ///< around the z axis
   kCapsule,   ///< around the z axis
   kPlane,     ///< z = 0; the +z side is free
-  kMesh       ///< triangles of a file
+  kMesh       ///< triangles of a mesh file
 };
 
 /// A pose at a time, of an obstacle's scripted motion.
 struct PoseKey {
   double time = 0.0;  ///< [s], strictly increasing along a motion
-  Pose pose;          ///< as ObstacleParams::pose, offline
+  Pose pose;          ///< in the world
 };
 
 /// A rigid body that the cloth touches.
 struct ObstacleParams {
   std::string name;                      ///< unique among the obstacles, not empty
   std::string frame = "world";           ///< tf2 frame it is fixed to; not used offline
-  ShapeKind shape = ShapeKind::kSphere;  ///< its members below are read
+  ShapeKind shape = ShapeKind::kSphere;  ///< decides which of the members below are read
   double radius = 0.0;                   ///< sphere, cylinder, capsule [m], > 0
   double length = 0.0;                   ///< cylinder: whole, capsule: between the caps' centres, along z [m], > 0
   Vec3 size = Vec3::Zero();              ///< box: edges [m], each > 0
@@ -180,16 +179,16 @@ struct ObstacleParams {
 
 /// Contact of the cloth with obstacles and with itself.
 struct ContactParams {
-  double thickness =
-      0.004;  ///< kept between cloth and obstacle, and (up to a quarter of the shortest link) cloth and cloth [m], > 0
-  double friction = 0.3;        ///< Coulomb coefficient of cloth on itself and on obstacles that name none [0..10]
+  double thickness = 0.004;     ///< gap kept between cloth and obstacles, and (up to a quarter of the shortest link)
+                                ///< cloth and cloth [m], > 0
+  double friction = 0.3;        ///< Coulomb coefficient of cloth on itself and on obstacles without their own [0..10]
   bool self = false;            ///< contact of the cloth with itself
-  double recovery_speed = 0.1;  ///< at which what is nearer than the thickness where a substep begins is let out [m/s],
-                                ///< > 0; out of an obstacle: 20 times as fast
+  double recovery_speed = 0.1;  ///< depenetration speed of what is nearer than the thickness when a substep begins
+                                ///< [m/s], > 0; out of an obstacle: 20 times as fast
   int zone_iterations = 8;      ///< times a substep is solved again when something would go through [1..1000]
 };
 
-/// What makes a substep (docs/method.md).
+/// Time integration schemes (docs/method.md).
 enum class Method {
   kAuto,       ///< leapfrog with substeps from the tensions and from how fast rods turn
   kLeapfrog,   ///< constraint forces along the links' directions at the start of the step; order 2, symplectic
@@ -202,40 +201,38 @@ enum class Method {
 
 /// How motion is computed.
 struct SolverParams {
-  Method method = Method::kAuto;    ///< see there
+  Method method = Method::kAuto;    ///< time integration scheme
   double frame_rate = 60.0;         ///< published steps per second [1..10000]
   int substeps = 0;                 ///< per frame [1..10000]; 0 = auto
   double stretch_tolerance = 1e-3;  ///< relative overlength allowed to any link [1e-12..0.1]
   double position_tolerance = 0.0;  ///< error of positions to aim at [m per simulated second, RMS over the nodes],
-                                    ///< [0..1]; 0 = none asked for: substeps from stability alone
-  double rest_speed =
-      1e-4;  ///< columns that move less than this for a while fall asleep [m/s], [0..1]; 0 = none ever does
-  double budget_ms = 0.0;  ///< computing time that a frame may take [ms], [0..1e6]; 0 = as much as it needs
-  int threads = 0;  ///< that step one cloth [1..256]; 0 = auto: one for every 4000 nodes, as far as there are cores
-  int max_substeps = 128;  ///< cap of auto per frame [1..10000]; where a solve fails there: the last resort
+                                    ///< [0..1]; 0: substeps from stability alone
+  double rest_speed = 1e-4;         ///< columns that stay slower for half a second sleep [m/s], [0..1]; 0: none does
+  double budget_ms = 0.0;           ///< computing time that a frame may take [ms], [0..1e6]; 0: no limit
+  int threads = 0;                  ///< for one cloth [1..256]; 0 = auto: one for every 4000 nodes, at most the cores
+  int max_substeps = 128;  ///< of auto per frame [1..10000]; a solve that fails there is left to the last resort
   int max_sweeps = 60;     ///< cap of warp/weft/contact sweeps per substep [1..10000]
   std::uint64_t seed = 1;  ///< of every random number
 };
 
 /// Everything a simulator starts from.
 struct Scene {
-  ClothParams cloth;                      ///< its grid, size and mass
-  HangParams hang;                        ///< where it starts
-  PinParams pins;                         ///< where it is held
+  ClothParams cloth;                      ///< grid, size and mass
+  HangParams hang;                        ///< start position
+  PinParams pins;                         ///< pinned nodes
   Vec3 gravity = Vec3(0.0, 0.0, -9.81);   ///< [m/s^2]
   AirParams air;                          ///< damping
-  std::vector<WindParams> wind;           ///< ids differ
-  std::vector<DragParams> drag;           ///< ids differ
-  std::vector<ObstacleParams> obstacles;  ///< names differ
-  ContactParams contact;                  ///< of cloth on obstacles and on itself
+  std::vector<WindParams> wind;           ///< unique ids
+  std::vector<DragParams> drag;           ///< unique ids
+  std::vector<ObstacleParams> obstacles;  ///< unique names
+  ContactParams contact;                  ///< of cloth with obstacles and itself
   SolverParams solver;                    ///< how motion is computed
 };
 
 /// Everything wrong with the scene's values; empty when it can be simulated. Does not open mesh files.
 std::vector<Problem> validate(const Scene& scene);
 
-/// The same for one wind source, drag force or obstacle, for the air and the solver; key is the prefix of the problems'
-/// keys.
+/// The same for one wind, drag or obstacle, for the air and the solver; key is the prefix of the problems' keys.
 std::vector<Problem> validate(const WindParams& wind, const std::string& key);
 std::vector<Problem> validate(const DragParams& drag, const ClothParams& cloth,
                               const std::string& key);                                  ///< on this cloth

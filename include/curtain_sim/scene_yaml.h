@@ -15,9 +15,9 @@ class Node;
 
 namespace curtain {
 
-/// What reading gave: the scene is usable only when problems is empty.
+/// Result of reading: the scene is usable only when problems is empty.
 struct SceneReading {
-  Scene scene;                    ///< with defaults where it was silent or wrong
+  Scene scene;                    ///< with defaults where a key is missing or wrong
   std::vector<Problem> problems;  ///< empty: none
 };
 

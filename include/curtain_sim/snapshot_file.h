@@ -10,15 +10,14 @@
 
 namespace curtain {
 
-/// Writes a snapshot to a file, all of it or nothing: into a temporary file beside it, which takes its name when it is
-/// on the disk. Where that fails (no such folder, no permission, disk full) the problem says what and why, a file that
-/// was there is as it was, and no temporary one is left; nor when the process is killed (where the file system knows
-/// O_TMPFILE: ext4, xfs, btrfs, tmpfs …). A link is followed. Thread-safe; two at once to one path: one of them wins.
+/// Writes a snapshot to a file, completely or not at all: into a temporary file beside it, which is renamed when it is
+/// on the disk. On failure (no such folder, no permission, disk full) the problem says what and why, and an existing
+/// file is unchanged. No temporary file is left, nor after a kill where the file system has O_TMPFILE (ext4, xfs,
+/// btrfs, tmpfs …). Follows symbolic links. Thread-safe; of two writers to one path one wins.
 std::vector<Problem> writeSnapshotFile(const std::string& path, const std::string& snapshot);
 
-/// Reads a snapshot from a file. Only what begins like a snapshot and is as long as it says is read; whether it is a
-/// sound one, and of which scene, Simulator::restore() tells. Otherwise the problem says what is wrong, and out is as
-/// it was.
+/// Reads a snapshot from a file that begins like one and has the length it names; Simulator::restore() checks its
+/// content and scene. Otherwise returns what is wrong, and out is unchanged.
 std::vector<Problem> readSnapshotFile(const std::string& path, std::string& out);
 
 }  // namespace curtain
