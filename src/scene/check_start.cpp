@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Whether the cloth can start where hang puts it. Flat cloth hangs from a straight line, each row as wide as that line
-// or as its own weft if that is shorter; closed cloth starts as a cone around the vertical:
+// Checks that the links can have their lengths where `hang` puts the cloth. Flat cloth hangs from a straight line, each
+// row as wide as that line or its own weft, whichever is shorter; closed cloth starts as a cone around the vertical:
 //
 //        r_0 ______                  row i, at s_i along the warp, is a ring of radius r_0 + s_i sin(tilt);
 //           /      |                 the chord between neighbours must not be longer than their weft link.
@@ -17,9 +17,9 @@
 namespace curtain {
 namespace {
 
-constexpr double kSlack = 1e-9;  // relative; lengths are typed with rounding, and the solver takes up as much at once
+constexpr double kSlack = 1e-9;  // relative: for rounding of typed lengths, which the solver corrects at once
 
-// Shares of the whole, from relative lengths; empty: all equal.
+// Shares of the whole in proportion to weights; empty: all equal.
 std::vector<double> shares(const std::vector<double>& weights, int count) {
   const auto size = static_cast<std::size_t>(count);
   if (weights.empty()) return std::vector<double>(size, 1.0 / count);
@@ -34,7 +34,7 @@ bool clothIsGood(const ClothParams& cloth, const ProblemLog& log) {
                           "cloth.hem_width", "cloth.row_spacing", "cloth.column_spacing"}) {
     if (!log.good(key)) return false;
   }
-  // The log may be about something else; what follows divides by these.
+  // The log may hold a problem of a map above these keys, and what follows divides by them.
   return cloth.rows >= 2 && cloth.columns >= 2;
 }
 
@@ -54,7 +54,7 @@ void checkFlat(const Scene& scene, ProblemLog& log) {
                            formatNumber(span) + " m away (" + line + ")");
     return;
   }
-  // Rows narrower than the line make the warp rods slant; the outermost column slants most.
+  // Rows narrower than the line make the warp rods slant, most in the outermost columns.
   constexpr double kSteepest = 0.9;
   const std::vector<double> rods = shares(cloth.row_spacing, cloth.rows - 1);
   const auto rowSpan = [&](double depth) {

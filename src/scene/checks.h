@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// validate() in pieces, for callers that have problems already: a log filled by the reader keeps what only follows
-// from an unreadable value from being reported.
+// The parts of validate(), for callers whose log already has problems: consequences of an unreadable value are not
+// reported.
 #pragma once
 
 #include "scene/problem_log.h"
 
 namespace curtain {
 
-/// Everything wrong with the scene's values, added to the log.
+/// Adds all problems of the scene's values to the log.
 void checkScene(const Scene& scene, ProblemLog& log);
 
-/// Where the cloth starts: whether its links can be as long as they are (hang, hem_width).
+/// Checks that the links can have their lengths at the start (hang, hem_width).
 void checkStart(const Scene& scene, ProblemLog& log);
 
-/// Whether row and column are on the grid; nothing while the grid's own size is wrong.
+/// Checks that row and column are on the grid, unless the grid's size is wrong.
 void checkNodeOnGrid(const NodeIndex& node, const ClothParams& cloth, const std::string& key, ProblemLog& log);
 
 }  // namespace curtain

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The table of a scene's keys: every key once, with its member and its range. The reader, the range checker, the
-// writer and the list of known keys are visitors that walk this one table, so they cannot disagree about a key.
+// The table of a scene's keys: every key once, with its member and range. The reader, the range checker, the writer and
+// the list of known keys are visitors of this table, so they cannot disagree.
 //
-// A visitor has these members; key is relative to the map that is visited:
+// A visitor has these members; keys are relative to the visited map:
 //   integer, integerOr (a word stands for one value), seed, number, optionalNumber, numberOrUnset (NaN: not given),
 //   flag, text, choice, vector, optionalVector, scale (one number or three), rotation, node, numbers, pins,
 //   map (a struct below), list (a list of structs), belongs (false: the key is not for this value).
@@ -29,7 +29,7 @@ inline Key required(const char* name) { return {name, true}; }
 template <typename T>
 struct Fields;
 
-/// Shows every key of a struct to the visitor.
+/// Visits every key of a struct.
 template <typename Visitor, typename T>
 void visitFields(Visitor& visitor, T& value) {
   Fields<std::remove_const_t<T>>::visit(visitor, value);
@@ -39,7 +39,7 @@ template <>
 struct Fields<ClothParams> {
   template <typename Visitor, typename T>
   static void visit(Visitor& v, T& cloth) {
-    v.flag("closed", cloth.closed);  // first: the least number of columns depends on it
+    v.flag("closed", cloth.closed);  // first: the range of columns depends on it
     v.integer(required("rows"), cloth.rows, IntRange{2, 4096});
     v.integer(required("columns"), cloth.columns, IntRange{cloth.closed ? 3 : 2, 4096});
     v.number("height", cloth.height, positive());

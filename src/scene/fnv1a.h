@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The hash of Fowler, Noll and Vo, FNV-1a, 64 bits: basis and prime are theirs.
+// FNV-1a hash (Fowler, Noll, Vo), 64 bits, with their basis and prime.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace curtain {
 struct Fnv1a {
   std::uint64_t hash = 14695981039346656037ULL;
 
-  /// A byte, as they have it, or a whole word: not the same hash, but one that is good enough for a table and faster.
+  /// Adds a byte, as in FNV-1a, or a whole word: another hash, faster and good enough for a table.
   void add(std::uint64_t unit) noexcept { hash = (hash ^ unit) * 1099511628211ULL; }
   void addBytes(const void* data, std::size_t count) noexcept {
     const auto* const bytes = static_cast<const unsigned char*>(data);

@@ -8,7 +8,7 @@
 namespace curtain {
 namespace {
 
-// The visitor of fields.h that notes down the names: it walks the same table as the reader.
+// Collects the names of all keys.
 class KeyCollector {
  public:
   KeyCollector(std::string prefix, std::vector<std::string>& keys) : prefix_(std::move(prefix)), keys_(keys) {}

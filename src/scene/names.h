@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// How the enums are spelled in scene files, each list in the order of its enum.
+// Spelling of the enums in scene files, in the order of each enum.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace curtain {
 
 const std::vector<std::string>& lumpingNames();
-const std::vector<std::string>& pinNames();  ///< without kList, which is spelled as a list of nodes
+const std::vector<std::string>& pinNames();  ///< without kList, which is a list of nodes
 const std::vector<std::string>& dampingLawNames();
 const std::vector<std::string>& shapeNames();
 

@@ -8,14 +8,14 @@
 
 namespace curtain {
 
-/// Quaternions typed with three digits are meant as rotations; those further off are a mistake.
+/// Allows for quaternions typed with three digits; larger deviations are mistakes.
 constexpr double kUnitTolerance = 1e-3;
 
 /// False for NaN.
 inline bool isNearlyUnit(const Eigen::Quaterniond& q) { return std::abs(q.norm() - 1.0) <= kUnitTolerance; }
 
-/// The unit quaternion near q; q itself when it is none, or when it is unit to rounding: dividing again would change
-/// its last bits, and scenes must read back as they were written.
+/// Normalises q if it is nearly unit; one that is unit to rounding stays as it is, so that scenes read back with the
+/// same bits.
 inline Eigen::Quaterniond nearlyUnit(const Eigen::Quaterniond& q) {
   constexpr double kRounding = 1e-14;
   return isNearlyUnit(q) && std::abs(q.norm() - 1.0) > kRounding ? q.normalized() : q;

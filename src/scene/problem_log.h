@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Collects problems, one a key: the first is reported, and what only follows from it is not. Checks of several
-// values together ask good() first, so that a typing error in one does not bring up complaints about the others.
+// Collects problems, at most one a key, without their consequences: checks of several values together ask good() first,
+// so that a typing error in one brings no complaints about the others.
 #pragma once
 
 #include <set>
@@ -14,13 +14,13 @@ namespace curtain {
 
 class ProblemLog {
  public:
-  /// So many are listed; who has more to mend than that has another file before him than a scene.
+  /// Limit for the list; with more problems the file is hardly a scene.
   static constexpr std::size_t kMostProblems = 200;
 
-  /// Adds the problem unless the key, or a key it lies under, has one already.
+  /// Adds the problem unless the key, or a key above it, has one already.
   void add(const std::string& key, const std::string& text);
 
-  /// No problem with the key, with what lies under it or with what it lies under.
+  /// No problem with the key, nor with keys below or above it.
   bool good(const std::string& key) const;
 
   const std::vector<Problem>& problems() const { return problems_; }

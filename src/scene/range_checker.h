@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The visitor of fields.h that judges every value by itself. What values mean together is validate.cpp's.
+// The visitor of fields.h that checks each value by itself; validate.cpp checks them together.
 #pragma once
 
 #include <cstdint>
@@ -33,16 +33,16 @@ class RangeChecker {
   void optionalVector(Key key, const std::optional<Vec3>& value, Range range);
   void scale(Key key, const Vec3& value, Range range) { vector(key, value, range); }
   void rotation(Key key, const Eigen::Quaterniond& value);
-  void node(Key, const std::optional<NodeIndex>&) {}  // its range is the cloth's size
+  void node(Key, const std::optional<NodeIndex>&) {}  // its range depends on the cloth: checkNodeOnGrid()
   void numbers(Key key, const std::vector<double>& values, Range range);
   void pins(Key, const PinParams&) {}  // the same
   bool belongs(Key, bool yes, ShapeKind) {
-    return yes && log_.good(joinKey(prefix_, "shape"));  // while the shape is not known, neither is what it needs
+    return yes && log_.good(joinKey(prefix_, "shape"));  // with an unknown shape nothing is known of its keys
   }
 
   template <typename Enum>
   void choice(Key key, const Enum& value, const std::vector<std::string>& names) {
-    // Only a value that a program made up can be outside.
+    // Only a program can make a value outside of the enum.
     if (static_cast<std::size_t>(value) >= names.size()) log_.add(keyOf(key), "must be " + alternatives(names));
   }
 

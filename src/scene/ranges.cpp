@@ -9,7 +9,7 @@
 namespace curtain {
 namespace {
 
-// Streams with the classic locale: printf and strtod would use a decimal comma under some users' locales.
+// The classic locale: other locales may have a decimal comma, in printf and strtod too.
 std::string print(double value, int digits) {
   std::ostringstream out;
   out.imbue(std::locale::classic());
@@ -23,7 +23,7 @@ double readBack(const std::string& text) {
   in.imbue(std::locale::classic());
   double value = 0.0;
   in >> value;
-  // Rounded up beyond the largest double: the stream clamps to it, others read infinity.
+  // Beyond the largest double the stream clamps; readers would see infinity.
   return in.fail() ? std::numeric_limits<double>::infinity() : value;
 }
 
@@ -51,7 +51,7 @@ std::string formatNumber(double value) {
   constexpr int kMostDigits = std::numeric_limits<double>::max_digits10;
   int digits = 1;
   while (digits < kMostDigits && readBack(print(value, digits)) != value) ++digits;
-  // Streams turn to exponents where there are more places before the dot than digits: 1e+02. Not for people.
+  // With more places before the dot than digits, streams print 1e+02, which people don't want to read.
   int places = 1;
   for (double rest = std::abs(value); rest >= 10.0 && places < kMostDigits; rest /= 10.0) ++places;
   return print(value, places < kMostDigits ? std::max(digits, places) : digits);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Ranges that a scene's numbers must lie in, and how they and the numbers are spelled in problems and in YAML.
+// Ranges of a scene's numbers, and the spelling of both in problems and in YAML.
 #pragma once
 
 #include <limits>
@@ -8,12 +8,12 @@
 
 namespace curtain {
 
-/// Sizes that a scene may speak of, in any unit: within them lengths, areas, masses and the squares of what comes of
-/// them are numbers, so that a scene that is valid can be computed. From a nanometre to a million kilometres.
+/// Magnitudes in a scene, in any SI unit, from a nanometre to a million kilometres. Within them areas, masses and
+/// squares of derived values stay finite, so that every valid scene can be computed.
 constexpr double kSmallest = 1e-9;
 constexpr double kLargest = 1e9;
 constexpr double kLatest = 1e12;  // of ends [s]
-/// Forces may be absurd, the cloth stops for as long as they act; but the squares of what they do are numbers.
+/// Forces may be extreme (the cloth stops while they act), but the squares of their effects must be finite.
 constexpr double kStrongest = 1e100;
 
 /// A range of finite numbers; the ends belong to it.
@@ -42,7 +42,7 @@ inline Range notZero() {
   range.not_zero = true;
   return range;
 }
-/// An end, which may be a long life later than a late start.
+/// An end time.
 inline Range orInfinite() {
   Range range = between(-kLargest, kLatest);
   range.or_infinite = true;

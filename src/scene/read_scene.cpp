@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Scenes from a YAML tree, text or file: types first (StrictReader), then values (checkScene), all problems at once.
+// Reads scenes from a YAML tree, text or file: types first (StrictReader), then values (checkScene), all problems at
+// once.
 #include <yaml-cpp/yaml.h>
 
 #include <filesystem>
@@ -20,13 +21,13 @@ SceneReading failed(const std::string& text) {
   return reading;
 }
 
-// Paths as a user types them are meant from the file they stand in; URLs and absolute paths are left alone.
+// Relative paths are relative to the scene file; URLs and absolute paths stay.
 std::string resolvePath(const std::string& mesh, const std::filesystem::path& folder) {
   if (mesh.empty() || mesh.find("://") != std::string::npos || std::filesystem::path(mesh).is_absolute()) return mesh;
   return (folder / mesh).lexically_normal().string();
 }
 
-// The text of a file, or so much of one without an end that it is seen to be too long.
+// Reads a file, at most so far that it is known to be too long (it may be endless).
 std::string readText(std::istream& file) {
   std::string text;
   std::vector<char> block(std::size_t{1} << 16U);
@@ -61,7 +62,7 @@ SceneReading readSceneText(const std::string& text) {
 }
 
 SceneReading readSceneFile(const std::string& path) {
-  std::error_code ignored;  // what can't be looked at can't be opened either, and that is reported
+  std::error_code ignored;  // opening the file fails too then, and that is reported
   const bool is_folder = std::filesystem::is_directory(path, ignored);
   std::ifstream file(path, std::ios::binary);
   if (is_folder || !file) return failed("can't open " + path + (is_folder ? ": is a folder" : ""));

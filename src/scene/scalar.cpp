@@ -11,7 +11,7 @@
 namespace curtain {
 namespace {
 
-// [sign] whole [. fraction] [e [sign] exponent], split up.
+// A number, split: [sign] whole [. fraction] [e [sign] exponent].
 struct NumberParts {
   std::string sign;
   std::string whole;
@@ -52,7 +52,7 @@ bool splitNumber(const std::string& text, NumberParts& parts) {
 
 bool isInteger(const NumberParts& parts) { return !parts.dot && parts.exponent.empty(); }
 
-// The part of these numbers that YAML 1.1 takes as numbers. A leading zero would make an integer octal.
+// Whether YAML 1.1 takes it for a number. A leading zero would make an integer octal.
 bool isYaml11Number(const NumberParts& parts) {
   if (isInteger(parts)) return parts.whole == "0" || parts.whole[0] != '0';
   const bool mantissa = parts.dot && (!parts.whole.empty() || parts.sign.empty());
@@ -76,7 +76,7 @@ std::string lowerCase(std::string text) {
   return text;
 }
 
-// YAML 1.1 knows its words in lower case, Title case and UPPER CASE.
+// YAML 1.1 has its words in lower case, Title case and UPPER CASE.
 bool isYamlCase(const std::string& text) {
   const std::string lower = lowerCase(text);
   if (text == lower || text.empty()) return true;
@@ -105,7 +105,7 @@ double parseReal(const NumberParts& parts) {
   double value = 0.0;
   in >> value;
   if (!in.fail()) return value;
-  // Streams clamp what is beyond a double's range; say infinite, which every range check sees.
+  // Streams clamp beyond a double's range; infinity fails every range check.
   return std::numeric_limits<double>::infinity() * (parts.sign == "-" ? -1.0 : 1.0);
 }
 
@@ -143,7 +143,7 @@ ScalarValue scalarValue(const YAML::Node& node) {
   ScalarValue value;
   const std::string& text = node.Scalar();
   const std::string& tag = node.Tag();
-  const bool is_value = tag.empty() || isNumberTag(tag);  // built in code or tagged: no doubt that it is one
+  const bool is_value = tag.empty() || isNumberTag(tag);  // built in code, or tagged as a number
   if (!is_value && tag != "?" && tag != "tag:yaml.org,2002:bool") {
     value.hint = hintFor(text, tag == "!");
     return value;
@@ -167,7 +167,7 @@ std::string shortened(const std::string& text) {
   constexpr std::size_t kLongest = 60;
   if (text.size() <= kLongest) return text;
   std::size_t end = kLongest;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // not within a character of UTF-8
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // whole UTF-8 characters only
   return text.substr(0, end) + "...";
 }
 

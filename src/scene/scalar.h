@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a YAML scalar is, judged as YAML 1.1 (PyYAML, rosparam) judges it, so that a file means the same to
-// curtain_batch and to roslaunch: "1e-6", "1.0e6" and "-.5" are text there although yaml-cpp would take them as
-// numbers. Quoted scalars are always text. Scalars built in code (YAML::Node(1e-6), no tag) were values already and
-// are read for what they are; text built in code must carry the tag "!".
+// Type of a YAML scalar by YAML 1.1 (PyYAML, rosparam), so that a file means the same to curtain_batch and to
+// roslaunch: "1e-6", "1.0e6" and "-.5" are text there, although yaml-cpp takes them for numbers. Quoted scalars are
+// always text. Scalars built in code without a tag (YAML::Node(1e-6)) are values; text built in code must have the tag
+// "!".
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace curtain {
 
 enum class ScalarKind { kBool, kInteger, kReal, kText };
 
-/// A scalar with its value; which members count depends on kind.
+/// A scalar with its value; `kind` tells which members are set.
 struct ScalarValue {
   ScalarKind kind = ScalarKind::kText;
   bool flag = false;            ///< kBool
@@ -31,11 +31,11 @@ struct ScalarValue {
 /// node must be a scalar.
 ScalarValue scalarValue(const YAML::Node& node);
 
-/// What a problem says the value is: `1`, `the text "auto"`, `a list of 2`, `a map`, `empty`; with the hint of a number
+/// Describes a value for a problem: `1`, `the text "auto"`, `a list of 2`, `a map`, `empty`; with a hint for a number
 /// given as text.
 std::string describeValue(const YAML::Node& node);
 
-/// The text, cut short with ... when it is long.
+/// The text, shortened with ... when it is long.
 std::string shortened(const std::string& text);
 
 /// The same in double quotes.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Theirs is only ever looked up along ours, so what it says beyond that (however deep, however often by an alias) costs
-// nothing.
+// Looks up `theirs` only along `ours`, so depth or aliases beyond that cost nothing.
 #include "scene/scene_difference.h"
 
 #include <yaml-cpp/yaml.h>
@@ -23,7 +22,7 @@ class Comparison {
  public:
   explicit Comparison(const std::vector<std::string>& aside) : aside_(aside) {}
 
-  // key: of this node; general: the same with "[]" for an item's number.
+  // key: of this node; general: the same with "[]" for indices.
   std::optional<Problem> compare(const std::string& key, const std::string& general, const YAML::Node& ours,
                                  const YAML::Node& theirs) const {
     if (std::find(aside_.begin(), aside_.end(), general) != aside_.end()) return std::nullopt;

@@ -11,8 +11,7 @@
 
 namespace curtain {
 
-/// The first key, in the order of `ours`, that `theirs` has another value for, and both values; none: they say the
-/// same.
+/// The first key, in the order of `ours`, that differs in `theirs`, with both values; none: they are equal.
 /// ours    from writeScene()
 /// theirs  any text
 /// aside   keys that may differ, as knownSceneKeys() names them: "air", "obstacles[].mesh"

@@ -6,7 +6,7 @@
 namespace curtain {
 
 std::size_t editDistance(const std::string& a, const std::string& b) {
-  // Three rows of the table of distances between the words' beginnings: before last, last, this.
+  // Three rows of the table of distances between prefixes: before last, last, this.
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {
@@ -23,7 +23,7 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 }
 
 std::optional<std::string> nearestWord(const std::string& word, const std::vector<std::string>& known) {
-  constexpr std::size_t kLongest = 64;  // beyond it nothing known is near, and the table would be large
+  constexpr std::size_t kLongest = 64;  // longer than any known word, and bounds the table
   if (word.size() > kLongest) return std::nullopt;
   std::optional<std::string> nearest;
   std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;

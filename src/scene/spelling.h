@@ -9,10 +9,10 @@
 
 namespace curtain {
 
-/// Least number of letters to insert, delete, replace or swap with their neighbour to get from one to the other.
+/// Least number of letters to insert, delete, replace or swap with a neighbour (Damerau-Levenshtein distance).
 std::size_t editDistance(const std::string& a, const std::string& b);
 
-/// The known word nearest to the given one, when it is near enough to be meant (a third of the letters at most).
+/// The known word nearest to this one, if at most a third of the letters differ.
 std::optional<std::string> nearestWord(const std::string& word, const std::vector<std::string>& known);
 
 /// "a, b, c"

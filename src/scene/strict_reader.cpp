@@ -12,10 +12,10 @@
 namespace curtain {
 namespace {
 
-// Characters of a key; none that is known comes near it.
+// Longest name of a key that is read; known ones are shorter.
 constexpr std::size_t kLongestName = 100;
 
-// Written as YAML it stays what it is: yaml-cpp takes any bytes, but puts U+FFFD where they are no characters.
+// Whether YAML preserves the text: yaml-cpp reads any bytes, but writes U+FFFD for invalid characters.
 bool isWritable(const std::string& text) {
   YAML::Emitter out;
   out << YAML::DoubleQuoted << text;
@@ -42,7 +42,7 @@ StrictReader::StrictReader(const YAML::Node& map, std::string key, ProblemLog& l
       log_.add(joinKey(prefix_, shortened(name)), "is not a known key");
       continue;
     }
-    // yaml-cpp keeps both; which one counts would be luck.
+    // yaml-cpp keeps duplicates; which one it finds is undefined.
     const auto [first, is_new] = places.emplace(name, entries_.size());
     if (!is_new) {
       log_.add(joinKey(prefix_, name), "is given more than once" + lines(entries_[first->second].second, entry.second));
@@ -52,7 +52,7 @@ StrictReader::StrictReader(const YAML::Node& map, std::string key, ProblemLog& l
   }
 }
 
-// The value of the key, or null when it is not given or empty; wanted says what it must be.
+// The value of the key, or null when it is missing or empty; wanted: what it must be, for the problem.
 const YAML::Node* StrictReader::find(Key key, const std::string& wanted) {
   asked_.emplace_back(key.name);
   const auto same = [&key](const auto& entry) { return entry.first == key.name; };
@@ -81,7 +81,7 @@ YAML::Node StrictReader::mapUnder(Key key) {
   const YAML::Node* found = find(key, "a map");
   if (found && found->IsMap()) return *found;
   if (found) log_.add(keyOf(key), "must be a map, is " + describeValue(*found));
-  return YAML::Node(YAML::NodeType::Map);  // not given: all defaults, and what is required is reported
+  return YAML::Node(YAML::NodeType::Map);  // missing: all defaults; required keys are reported
 }
 
 bool StrictReader::checkSequence(const YAML::Node& node, const std::string& key, const std::string& wanted) {
@@ -170,7 +170,7 @@ void StrictReader::integerOr(Key key, int& value, IntRange range, const char* wo
   }
   int read = 0;
   if (!readInteger(*found, keyOf(key), wanted, read)) return;
-  // Checked here: the number that stands for the word in the struct is not for files.
+  // Checked here: the number that encodes the word in the struct is not allowed in files.
   if (range.contains(read)) {
     value = read;
   } else {
@@ -207,7 +207,7 @@ void StrictReader::numberOrUnset(Key key, double& value, Range range) {
   const YAML::Node* found = find(key, range.text());
   double read = 0.0;
   if (!found || !readNumber(*found, keyOf(key), range, read)) return;
-  // NaN means "not given" in the struct; a file that says it has a mistake.
+  // NaN encodes "not given" in the struct; in a file it is a mistake.
   if (std::isnan(read)) {
     log_.add(keyOf(key), "must be " + range.text() + ", is " + describeValue(*found));
   } else {
@@ -262,7 +262,7 @@ void StrictReader::scale(Key key, Vec3& value, Range range) {
   }
   double read = 1.0;
   if (!readNumber(*found, keyOf(key), range, read)) return;
-  // Checked here, so that one number brings one problem and not three.
+  // Checked here, so that one number gives one problem and not three.
   if (range.contains(read)) {
     value = Vec3::Constant(read);
   } else {
@@ -319,7 +319,7 @@ void StrictReader::pins(Key key, PinParams& value) {
 }
 
 bool StrictReader::belongs(Key key, bool yes, ShapeKind shape) {
-  // While the shape is not known, nothing is known about what belongs to it: the key counts as asked for.
+  // With an unknown shape nothing is known of its keys: this one counts as known.
   const bool given =
       std::any_of(entries_.begin(), entries_.end(), [&key](const auto& entry) { return entry.first == key.name; });
   asked_.emplace_back(key.name);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Reads one YAML map strictly: a visitor of fields.h that takes values of the right type, reports all others, and at
-// the end the keys that nobody asked for. Ranges are the range checker's; here they only serve the messages. A value
-// that could not be read keeps its default.
+// Reads a YAML map strictly: a visitor of fields.h that takes values of the right type, reports all others and finally
+// the unknown keys. Ranges are checked by RangeChecker; here they only appear in messages. A value that can't be read
+// keeps its default.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -21,7 +21,7 @@ namespace curtain {
 
 class StrictReader {
  public:
-  /// map must be a map; key is where it stands, "" for the root.
+  /// map must be a map; key is its key, "" for the root.
   StrictReader(const YAML::Node& map, std::string key, ProblemLog& log);
 
   void integer(Key key, int& value, IntRange range);
@@ -56,7 +56,7 @@ class StrictReader {
     const YAML::Node* found = find(key, "a list");
     if (!found || !checkSequence(*found, keyOf(key), "a list")) return;
     for (std::size_t i = 0; i < found->size(); ++i) {
-      // Items that can't be read still take a place: the later ones keep their index.
+      // Unreadable items keep their place, so that later ones keep their index.
       values.emplace_back();
       const std::string item_key = itemKey(keyOf(key), i);
       const YAML::Node item = (*found)[i];
@@ -68,7 +68,7 @@ class StrictReader {
     }
   }
 
-  /// Reports the keys of the map that were never asked for.
+  /// Reports the keys of the map that no visit asked for.
   void reportUnknown() const;
 
   template <typename T>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What is wrong with a scene's values: each by itself (RangeChecker) and together (here and check_start.cpp).
+// Checks a scene's values: each by itself (RangeChecker), and together (here and in check_start.cpp).
 #include <cmath>
 #include <map>
 
@@ -48,7 +48,7 @@ void checkTimes(double start, double end, const std::string& key, ProblemLog& lo
 
 void checkWind(const WindParams& wind, const std::string& key, ProblemLog& log) {
   const std::string direction_key = joinKey(key, "direction");
-  // Outside of this the squared length is no normal number, and normalising gives nonsense.
+  // Outside of this range the squared length underflows or overflows.
   const double length = wind.direction.norm();
   if (log.good(direction_key) && !(length >= 1e-150 && length <= 1e150)) {
     log.add(direction_key, "must have a length > 0 (1e-150 to 1e+150), is " + formatVector(wind.direction));
@@ -60,7 +60,7 @@ void checkDrag(const DragParams& drag, const ClothParams& cloth, const std::stri
   const std::string node_key = joinKey(key, "node");
   checkTimes(drag.start, drag.end, key, log);
   if (drag.node) checkNodeOnGrid(*drag.node, cloth, node_key, log);
-  // Last: a problem of the whole entry hides what else is wrong under it.
+  // Last: a problem of the whole entry suppresses others below its key.
   const bool readable = log.good(node_key) && log.good(joinKey(key, "point"));
   if (drag.node.has_value() == drag.point.has_value() && (drag.node.has_value() || readable)) {
     log.add(key, std::string("must give exactly one of node and point, gives ") + (drag.node ? "both" : "neither"));
@@ -78,7 +78,7 @@ void checkObstacle(const ObstacleParams& obstacle, const std::string& key, Probl
   }
 }
 
-// name gives an entry's id; two of the same would be one to setWind() and the topics.
+// name: the entry's id, which setWind() and the topics address it by.
 template <typename T>
 void checkUnique(const std::vector<T>& entries, const std::string& list, const std::string& key, std::string T::*name,
                  ProblemLog& log) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Scenes to YAML text, by a visitor of fields.h. Numbers have as many digits as it takes to read the same bits back,
-// and text is always quoted, so that YAML 1.1 reads neither as something else. Not written: values that are not given
-// (empty optionals, NaN friction) and those that do not belong to the obstacle's shape.
+// The visitor of fields.h that writes YAML. Numbers have enough digits to read back the same bits, and text is always
+// quoted, so that YAML 1.1 changes neither. Values that are not given (empty optionals, NaN friction) or do not belong
+// to the obstacle's shape are left out.
 #include <yaml-cpp/yaml.h>
 
 #include <cmath>

@@ -19,13 +19,13 @@ struct Refusal {
   std::string text;
 };
 
-// Walks through the text without building anything: counts documents, and values as the tree would have them.
+// Counts documents and values without building a tree.
 class Inspector final : public YAML::EventHandler {
  public:
   std::size_t documents() const { return documents_; }
 
   void OnDocumentStart(const YAML::Mark& mark) override {
-    // A sign that begins no value is never taken off the text: it would be another empty document for ever.
+    // Parsing has not advanced: without this check it would find empty documents for ever.
     if (documents_ > 0 && mark.pos <= last_start_) throw Refusal{placed(mark, "not YAML: nothing can begin here")};
     last_start_ = mark.pos;
     ++documents_;
@@ -77,8 +77,8 @@ class Inspector final : public YAML::EventHandler {
   std::size_t documents_ = 0;
   int last_start_ = 0;
   std::size_t values_ = 0;
-  std::vector<std::pair<YAML::anchor_t, std::size_t>> open_;  // with the values there were before
-  std::map<YAML::anchor_t, std::size_t> sizes_;               // of what anchors name
+  std::vector<std::pair<YAML::anchor_t, std::size_t>> open_;  // with the number of values before
+  std::map<YAML::anchor_t, std::size_t> sizes_;               // values that an anchor stands for
 };
 
 }  // namespace

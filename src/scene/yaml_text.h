@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// YAML text to a tree, within limits. yaml-cpp builds whatever it is told to: aliases of aliases make a tree of a
-// billion values from a few lines, and there are texts of which its LoadAll makes documents without end (0.7).
+// Parses YAML text within limits. yaml-cpp builds whatever it is given: nested aliases make a tree of a billion values
+// from a few lines, and of some texts LoadAll makes documents without end (0.7).
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -10,13 +10,12 @@
 
 namespace curtain {
 
-/// Longest text that is read, 16 MiB, and most values that it may come to, each alias counting as all that it stands
-/// for.
+/// Longest text that is read, and most values; an alias counts as all values that it stands for.
 constexpr std::size_t kLongestYaml = std::size_t{16} << 20U;
 constexpr std::size_t kMostYamlValues = 1000000;
 
-/// The text's only document, null when there is none. False: what is wrong is in `problem`, with line and column where
-/// it has a place.
+/// Reads the text's only document, null when there is none. False: `problem` says what is wrong, with line and column
+/// if known.
 bool loadYaml(const std::string& text, YAML::Node& root, std::string& problem);
 
 }  // namespace curtain
