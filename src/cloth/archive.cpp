@@ -40,7 +40,7 @@ void Archive::write(const void* from, std::size_t bytes) {
 
 void Archive::read(void* to, std::size_t bytes) {
   if (bytes > in_.size() - at_) fail("ends too soon");
-  if (bytes == 0) return;  // an empty list has no place
+  if (bytes == 0) return;  // an empty list may have a null pointer
   std::memcpy(to, in_.data() + at_, bytes);
   at_ += bytes;
 }
@@ -63,7 +63,7 @@ void Archive::commit() noexcept {
   pending_.clear();
 }
 
-// What is one run of bytes.
+// A value of fixed size.
 template <typename T, typename Check>
 void Archive::one(const char* name, const char* type, T& value, const Check& check) {
   const Naming naming(*this, name);
@@ -76,7 +76,7 @@ void Archive::one(const char* name, const char* type, T& value, const Check& che
   put(value, taken);
 }
 
-// As many as there are.
+// A list whose size is fixed by the object.
 template <typename Values, typename Check>
 void Archive::many(const char* name, const char* type, Values& values, const Check& check) {
   const Naming naming(*this, name);

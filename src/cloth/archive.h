@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The way of an object's members into a snapshot and out of it again. Every class that has something to carry lists it
-// once,
+// Serialization of members for snapshots. A class lists its members once,
 //
 //     void carry(Archive& archive);
 //
-// and the same list saves, loads and describes: what is saved is what is loaded. Loading trusts nothing that it reads:
-// counts are those of the object that is loaded into, or used up by what follows; indices, and what steers a loop, are
-// in range. And it changes nothing before commit(), which can't fail: who is given a bad snapshot still has all that
-// was there before.
+// and the same list saves, loads and describes them, so loading matches saving. Loading trusts no input: counts must
+// match the object, or bytes for each item must follow; indices and loop bounds are range-checked. It changes nothing
+// before commit(), which can't fail, so a bad snapshot leaves the object as it was.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -27,30 +25,30 @@
 
 namespace curtain {
 
-/// What is read can't be what was written; says where and what.
+/// The data cannot have been saved by this object; says where and why.
 class ArchiveError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Not thread-safe. Numbers are written as this machine has them.
+/// Not thread-safe. Numbers are in the machine's own format.
 class Archive {
  public:
   static Archive saving() { return Archive(Way::kSave, {}); }
   /// bytes must outlive it.
   static Archive loading(std::string_view bytes) { return Archive(Way::kLoad, bytes); }
-  /// Neither: lists names, types and fixed counts.
+  /// Neither saves nor loads: lists names, types and fixed counts.
   static Archive describing() { return Archive(Way::kDescribe, {}); }
 
   bool loads() const noexcept { return way_ == Way::kLoad; }
-  /// What was saved; or the description, a line a member.
+  /// The saved bytes, or the description, one line a member.
   std::string takeWritten() noexcept { return std::move(out_); }
-  /// Ends the loading: throws ArchiveError when not all was read.
+  /// Throws ArchiveError when not all bytes were read.
   void finishLoading() const;
-  /// What was loaded takes its place.
+  /// Assigns the loaded values to the members.
   void commit() noexcept;
 
-  /// Any numbers, not finite ones too.
+  /// Any numbers, including NaN and infinity.
   void number(const char* name, double& value);
   void numbers(const char* name, Vec3& value);
   void numbers(const char* name, Eigen::AlignedBox3d& box);
@@ -58,7 +56,7 @@ class Archive {
   void numbers(const char* name, Field3& values);
   void numbers(const char* name, std::vector<double>& values);
 
-  /// The same of finite ones.
+  /// Finite numbers.
   void finite(const char* name, double& value);
   void finite(const char* name, Vec3& value);
   void finite(const char* name, Eigen::Matrix3d& value);
@@ -75,22 +73,22 @@ class Archive {
   void columns(const char* name, ColumnSet& columns);
   void text(const char* name, std::string& value);
 
-  /// Of a node of the grid; of padding throws.
+  /// Index of a node of the grid, not of padding.
   template <typename Integer>
   void node(const char* name, Integer& index, const Grid& grid);
   void node(const char* name, NodeIndex& index, const Grid& grid);
 
-  /// What follows from the object that is loaded into; where it differs from the snapshot's the error says why.
+  /// A value that the object fixes: it is saved, and loading another one fails with `why`.
   void same(const char* name, std::uint64_t value, const std::string& why);
 
-  /// carry(item) for every item of a list of any length, which keeps its room. Returns their number.
+  /// carry(item) for every item of a list of any length; its capacity stays. Returns the number of items.
   template <typename Item, typename Carry>
   std::size_t list(const char* name, std::vector<Item>& items, const Carry& carry);
-  /// blank: an item for carry(item) to fill.
+  /// blank: what carry(item) loads into.
   template <typename Item, typename Carry>
   void optional(const char* name, std::optional<Item>& item, const Item& blank, const Carry& carry);
 
-  /// What carry() carries belongs together, under one name.
+  /// Groups what carry() lists under a name.
   template <typename Carry>
   void group(const char* name, const Carry& carry);
   /// object.carry(archive) under a name.
@@ -99,14 +97,14 @@ class Archive {
     group(name, [&] { object.carry(*this); });
   }
 
-  /// What carry() loads is there at once, not only with commit(): for locals.
+  /// Values that carry() loads are assigned at once, not by commit(): for local variables.
   template <typename Carry>
   void atOnce(const Carry& carry);
-  /// On the way in: with commit() this member becomes that.
+  /// When loading: assigns the value to the member, with commit().
   template <typename T>
   void put(T& member, T value);
 
-  /// On the way in: throws ArchiveError unless it holds.
+  /// When loading: throws ArchiveError if it does not hold.
   void require(bool holds, const char* text) const {
     if (loads() && !holds) fail(text);
   }
@@ -116,10 +114,10 @@ class Archive {
   enum class Way { kSave, kLoad, kDescribe };
   struct Step {
     const char* name;
-    std::size_t index;  // of an item of a list
+    std::size_t index;  // of a list's item
   };
   static constexpr std::size_t kNoIndex = ~std::size_t{0};
-  // The name of what is carried, while it is.
+  // Appends a name to the path while it exists.
   class Naming {
    public:
     Naming(Archive& archive, const char* name) : path_(archive.path_) { path_.push_back({name, kNoIndex}); }
@@ -205,7 +203,7 @@ std::size_t Archive::list(const char* name, std::vector<Item>& items, const Carr
     for (Item& item : items) carry(item);
     return count;
   }
-  // As many as there are bytes for: the count itself is not believed.
+  // Not resized to count, which can't be trusted: it grows while there are bytes.
   std::vector<Item> taken;
   taken.reserve(items.capacity());
   atOnce([&] {

@@ -26,7 +26,7 @@ class ParamCarrier {
 
  private:
   Archive& archive_;
-  Grid grid_;  // of nodes that are named
+  Grid grid_;  // of node indices
 };
 
 void judge(const Archive& archive, const std::vector<Problem>& problems) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Winds, drags and air in an archive: every key of the scene's own table, valid ones only.
+// Winds, drags and air in an archive: every key of the scene's table; loading rejects invalid values.
 #pragma once
 
 #include "cloth/archive.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The cloth of Cheng 2000, Sect. 1.1: a grid of nodes with rest lengths, areas and masses (ClothPattern, fixed after
-// construction) and what moves (ClothState).
+// The cloth of Cheng 2000, Sect. 1.1: a grid of nodes with rest lengths, areas and masses (ClothPattern, constant) and
+// its motion (ClothState).
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace curtain {
 
 class Archive;
 
-/// What does not change while the cloth moves.
+/// The constant part of a cloth.
 struct ClothPattern {
   Grid grid;
   Field warp_rest;  ///< rest length of the rod from node (i-1, j) to (i, j) [m]; row 0 and padding: 1
@@ -31,7 +31,7 @@ struct ClothPattern {
   bool isPinned(NodeIndex node) const { return pinned[grid.index(node)] != 0; }
 };
 
-/// What moves. Velocities may be older than positions: leapfrog keeps them half a substep behind.
+/// The moving part of a cloth. Velocities may lag behind: leapfrog keeps them half a substep older than positions.
 struct ClothState {
   Field3 position;            ///< [m]
   Field3 velocity;            ///< [m/s], at the time of the positions minus velocity_age
@@ -43,8 +43,7 @@ struct ClothState {
 /// Rest lengths, masses and pins of a validated scene.
 ClothPattern makePattern(const Scene& scene);
 
-/// The cloth at rest where scene.hang says. Throws std::invalid_argument when the hem tapers faster than the
-/// rods are long.
+/// The cloth at rest at scene.hang. Throws std::invalid_argument when the hem tapers faster than the rods are long.
 ClothState makeInitialState(const Scene& scene, const ClothPattern& pattern);
 
 /// Rest length of the shortest rod or weft link [m].

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Triangles and edges of the first layer: every quad of the grid is cut along the same diagonal, and every vertex, edge
-// and triangle belongs to exactly one quad, so that quad by quad all of them come once.
+// Triangles and edges of the first layer. All quads of the grid are cut along the same diagonal; every vertex, edge and
+// triangle is owned by exactly one quad, so that a loop over quads visits each once.
 //
 //      (i,j) ----- (i,j+1)        quad (i,j) owns its upper left vertex, its upper and left edge, the diagonal
 //        |       /    |           and both triangles; a quad of the last row owns its lower edge and lower left
@@ -29,7 +29,7 @@ struct CoarseMesh {
 /// Both triangles of every quad and every edge, row by row.
 CoarseMesh makeCoarseMesh(const Grid& grid);
 
-/// What belongs to one quad; indices are those of the nodes in a Field.
+/// Elements of one quad; indices are those of the nodes in a Field.
 struct QuadElements {
   std::array<std::uint32_t, 4> corners;  ///< upper left, upper right, lower left, lower right
   std::array<MeshTriangle, 2> triangles;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Some of a cloth's columns.
+// A subset of a cloth's columns.
 #pragma once
 
 #include <algorithm>
@@ -10,13 +10,13 @@
 
 namespace curtain {
 
-/// Columns side by side, [first, end).
+/// Adjacent columns, [first, end).
 struct ColumnSpan {
   std::size_t first = 0;
   std::size_t end = 0;
 
-  /// Weft links with an end in the span, of open cloth; of a ring, whose span is all of it, all but the one that closes
-  /// it.
+  /// Weft links with an end in the span, in open cloth; in a ring, where the span is all columns, all but the closing
+  /// link.
   std::size_t firstLink() const noexcept { return first > 0 ? first : 1; }
   std::size_t endLink(std::size_t columns) const noexcept { return end < columns ? end + 1 : columns; }
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Structure of arrays for the grid's nodes: the columns of a row lie side by side, so that every sweep along the
-// warp runs over whole rows at unit stride. Rows are padded to a multiple of kLane; padding has inverse mass 0.
+// Structure of arrays for the grid's nodes. A row's columns are adjacent, so sweeps along the warp run over whole rows
+// at unit stride. Rows are padded to a multiple of kLane; padding has inverse mass 0.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,8 @@
 
 namespace curtain {
 
-/// Puts the first element at the start of a cache line (else every other wide load crosses into the next one), and not
-/// of the same line of a page for every large field: what lies side by side in a sweep would share one set of the
-/// cache.
+/// Aligns the first element to a cache line (else every other wide load crosses a line), and spreads large fields over
+/// the lines of a page: fields used together would otherwise share one set of the cache.
 template <typename T>
 struct CacheAligned {
   using value_type = T;
@@ -26,7 +25,7 @@ struct CacheAligned {
     char* const block = static_cast<char*>(::operator new(count * sizeof(T) + (kLines + 2) * kLine));
     const auto address = reinterpret_cast<std::uintptr_t>(block);
     const std::size_t to_line = kLine - address % kLine;
-    const std::size_t spread = (address / 4096U * 13U) % kLines;  // pages differ, and so do the lines
+    const std::size_t spread = (address / 4096U * 13U) % kLines;  // varies from page to page
     char* const first = block + to_line + spread * kLine;
     reinterpret_cast<char**>(first)[-1] = block;
     return reinterpret_cast<T*>(first);
@@ -42,10 +41,10 @@ struct CacheAligned {
 
 using Field = std::vector<double, CacheAligned<double>>;
 
-/// Doubles a row is padded to: one cache line.
+/// Doubles in a cache line; rows are padded to a multiple of it.
 constexpr int kLane = 8;
 
-/// Shape of the grid and where node (row, column) lies in a Field.
+/// Shape of the grid, and index of node (row, column) in a Field.
 struct Grid {
   int rows = 0;
   int columns = 0;
@@ -56,7 +55,7 @@ struct Grid {
   Grid(int row_count, int column_count, bool is_closed)
       : rows(row_count), columns(column_count), stride(strideFor(column_count)), closed(is_closed) {}
 
-  /// An odd number of cache lines: the same column of successive rows falls into different sets of the cache.
+  /// An odd number of cache lines, so that a column's successive rows fall into different sets of the cache.
   static int strideFor(int column_count) { return ((column_count + kLane - 1) / kLane | 1) * kLane; }
 
   std::size_t size() const { return static_cast<std::size_t>(rows) * static_cast<std::size_t>(stride); }
@@ -64,7 +63,7 @@ struct Grid {
   std::size_t index(int i, int j) const { return row(i) + static_cast<std::size_t>(j); }
   std::size_t index(NodeIndex node) const { return index(node.row, node.column); }
   std::size_t nodeCount() const { return static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns); }
-  /// Weft links of a row; link j joins the columns weftFirst(j) and j.
+  /// Weft links of a row.
   int linkCount() const { return closed ? columns : columns - 1; }
 };
 

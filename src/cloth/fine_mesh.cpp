@@ -14,7 +14,7 @@ FineMeshTopology makeFineMeshTopology(const ClothParams& cloth) {
   topology.triangles.reserve(static_cast<std::size_t>(cloth.rows - 1) * static_cast<std::size_t>(quad_columns) * 2);
   for (int i = 0; i + 1 < cloth.rows; ++i) {
     for (int f = 0; f < quad_columns; ++f) {
-      // (below - here) x (right - here) points as the node normals do.
+      // Winding: (below - here) x (right - here) has the direction of the node normals.
       topology.triangles.push_back({at(i, f), at(i + 1, f), at(i, f + 1)});
       topology.triangles.push_back({at(i, f + 1), at(i + 1, f), at(i + 1, f + 1)});
     }

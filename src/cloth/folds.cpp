@@ -10,9 +10,9 @@ namespace curtain {
 namespace {
 
 constexpr int kTableSize = 256;
-constexpr double kTautRatio = 1.0 - 1e-12;  // above it the bow is thinner than rounding
+constexpr double kTautRatio = 1.0 - 1e-12;  // chord over length above which the bow is below rounding
 
-// Chord of a regular arc of k rods that turn by angle at every joint, over their total length:
+// Chord of a regular arc of k rods with turning angle a at every joint, over their total length:
 //   sin(k a / 2) / (k sin(a / 2)), from 1 (a = 0) to 0 (a = 2 pi / k, the closed polygon).
 double chordRatio(int k, double angle) {
   if (angle < 1e-9) return 1.0;
@@ -47,7 +47,7 @@ FoldShape::FoldShape(int rod_count) : rod_count_(rod_count) {
 }
 
 double FoldShape::turning(double chord_ratio) const noexcept {
-  // The angle grows like sqrt(1 - ratio), so that table is nearly straight; two Newton steps make it exact.
+  // The angle grows like sqrt(1 - ratio), so over s the table is nearly linear; two Newton steps make it exact.
   const double s = std::sqrt(1.0 - chord_ratio) * kTableSize;
   const int entry = std::min(static_cast<int>(s), kTableSize - 1);
   const double fraction = s - entry;
@@ -96,7 +96,7 @@ FoldArc foldArc(const ClothPattern& pattern, const Field3& position, const Field
   arc.rest = pattern.weft_rest[right];
   const Vec3 chord = arc.second - arc.first;
   const double length_squared = chord.squaredNorm();
-  // Normals of both ends together: more faces than the paper's two at the link, so steadier against one crushed face.
+  // Normals of both ends: more faces than the paper's two at the link, so less sensitive to one crushed face.
   Vec3 bow = area_vectors.at(left) + area_vectors.at(right);
   if (length_squared > 0.0) bow -= chord * (bow.dot(chord) / length_squared);
   const double size = bow.norm();

@@ -6,7 +6,7 @@
 namespace curtain {
 namespace {
 
-// Principal moments below this share of the largest are those of nodes on a line: nothing turns about it.
+// Principal moments below this share of the largest count as 0 (nodes on a line): no rotation about that axis.
 constexpr double kLeastMoment = 1e-9;
 
 }  // namespace

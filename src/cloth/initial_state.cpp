@@ -11,7 +11,7 @@
 namespace curtain {
 namespace {
 
-// Axes of the flat cloth: along the hung edge, down the warp (turned by tilt).
+// Axes of the flat cloth: along the hung edge, and down the warp (rotated by tilt).
 struct HangFrame {
   Vec3 along;
   Vec3 down;
@@ -21,34 +21,34 @@ HangFrame hangFrame(const HangParams& hang) {
   HangFrame frame;
   frame.along = (hang.to - hang.from).normalized();
   Vec3 normal = frame.along.cross(Vec3::UnitZ());
-  // A hung edge that runs up or down leaves the normal open: any horizontal one will do.
+  // A vertical hung edge leaves the normal open: any horizontal one will do.
   normal = normal.norm() > 1e-9 ? Vec3(normal.normalized()) : Vec3::UnitX();
   const Vec3 plumb = frame.along.cross(normal);
   frame.down = std::cos(hang.tilt) * plumb + std::sin(hang.tilt) * normal;
   return frame;
 }
 
-// Relative; weft links that are longer by less were placed at their length and rounded.
+// Relative overlength of weft links that counts as rounding.
 constexpr double kRounded = 1e-9;
 
-// The flat cloth's own plane: across the hung edge from its middle, and down [m].
+// A point in the plane of the flat cloth: across from the middle of the hung edge, and down [m].
 using Flat = Eigen::Vector2d;
 
-// The lower of the points that are at `rod` from `above` and at `weft` from `beside`; where both are too short for
-// that, the nearest to `beside` that the rod allows.
+// The lower of the two points at distance `rod` from `above` and `weft` from `beside`; if both are too short for that,
+// the point on the rod's circle nearest to `beside`.
 Flat atBothLengths(const Flat& above, double rod, const Flat& beside, double weft) {
-  const Flat way = beside - above;
-  const double distance = way.norm();
+  const Flat to_beside = beside - above;
+  const double distance = to_beside.norm();
   const double along = std::min(rod, (rod * rod - weft * weft + distance * distance) / (2.0 * distance));
-  const Flat unit = way / distance;
+  const Flat unit = to_beside / distance;
   const Flat normal = std::sqrt(rod * rod - along * along) * Flat(-unit.y(), unit.x());
   const Flat foot = above + along * unit;
   return normal.y() > 0.0 ? Flat(foot + normal) : Flat(foot - normal);
 }
 
-// Places the nodes of the flat cloth row by row. A row starts as wide as the hung edge is, or as its own weft if that
-// is shorter; the rods keep their lengths. Slanting rods lift the outer columns of a row that tapers: where its weft
-// links are too short for that, the columns lie closer.
+// Places the nodes of the flat cloth row by row. A row is as wide as the hung edge or as its own weft, whichever is
+// shorter; rods have their lengths. Slanting rods lift the outer columns of a tapered row: where its weft links are too
+// short for that, columns are closer together.
 class FlatCloth {
  public:
   FlatCloth(const Scene& scene, const ClothPattern& pattern) : scene_(scene), pattern_(pattern) {
@@ -87,7 +87,7 @@ class FlatCloth {
     for (std::ptrdiff_t j = first_ - 1; j >= 0; --j) placeNode(i, j, j + 1);
   }
 
-  // Beside a node of its row that is placed; itself: none.
+  // beside: neighbour in the row that is already placed; j itself: none.
   void placeNode(int i, std::ptrdiff_t j, std::ptrdiff_t beside) {
     Flat& at = row_[static_cast<std::size_t>(j)];
     at = Flat(shares_[static_cast<std::size_t>(j)] * width_, 0.0);
@@ -109,13 +109,13 @@ class FlatCloth {
 
   const Scene& scene_;
   const ClothPattern& pattern_;
-  std::vector<double> shares_;           // of the top row's width, from the middle, by column
-  std::ptrdiff_t first_ = 0, last_ = 0;  // columns in the middle: one, or two as far from it
-  double width_ = 0.0;                   // of the row [m]
-  std::vector<Flat> row_, above_;        // [m]
+  std::vector<double> shares_;           // position in the top row by column, from its middle, over its width
+  std::ptrdiff_t first_ = 0, last_ = 0;  // the one or two columns nearest to the middle
+  double width_ = 0.0;                   // of the present row [m]
+  std::vector<Flat> row_, above_;        // the present row and the one above [m]
 };
 
-// Closed cloth starts as a cone around the vertical through hang.from; outside = the side of positive normals.
+// Closed cloth starts as a cone around the vertical through hang.from, with normals outward.
 void placeRing(const Scene& scene, const ClothPattern& pattern, Field3& position) {
   const Grid& grid = pattern.grid;
   const double radius = scene.hang.radius.value_or(scene.cloth.width / (2.0 * kPi));
@@ -142,7 +142,7 @@ ClothState makeInitialState(const Scene& scene, const ClothPattern& pattern) {
   } else {
     FlatCloth(scene, pattern).place(state.position);
   }
-  // Padding hangs plumb with rods of length 1 (its rest length), so that no kernel meets a zero there.
+  // Padding hangs straight down with rods of length 1 (its rest length), so that no kernel divides by zero there.
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = grid.columns; j < grid.stride; ++j) state.position.set(grid.index(i, j), Vec3(0.0, 0.0, -i));
   }

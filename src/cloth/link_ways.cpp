@@ -8,15 +8,15 @@
 namespace curtain {
 namespace {
 
-// Samples along warp and weft: what their box costs is lost beside a pass over 1000 nodes.
+// Samples along warp and weft: few enough to cost little beside a pass over 1000 nodes.
 constexpr int kSampleRows = 8, kSampleColumns = 4;
 
 Eigen::AlignedBox3d grown(const Vec3& low, const Vec3& high, double margin) noexcept {
   return {Vec3(low.array() - margin), Vec3(high.array() + margin)};
 }
 
-// How far every node is from the nearest of some along the links [m]; infinite: it can't be reached. Links between two
-// pins do not count: users move pins as they like. Bellman and Ford, in both orders of the nodes: a few passes.
+// Distance of every node along the links from the nearest of `nodes` [m]; infinite: not connected. Links between two
+// pins do not count, since pins can be moved apart. Bellman-Ford in both orders of the nodes, which takes few passes.
 std::vector<double> awayAlongLinks(const ClothPattern& pattern, const std::vector<std::size_t>& nodes) {
   const Grid& grid = pattern.grid;
   std::vector<double> away(grid.size(), std::numeric_limits<double>::infinity());
@@ -52,7 +52,7 @@ SampledBounds::SampledBounds(const ClothPattern& pattern) {
   const Grid& grid = pattern.grid;
   const int rows = std::min(grid.rows, kSampleRows), columns = std::min(grid.columns, kSampleColumns);
   for (int i = 0; i < rows; ++i) {
-    // In the middle of even shares of the grid.
+    // In the middle of equal shares of the grid.
     const int row = (2 * i + 1) * grid.rows / (2 * rows);
     for (int j = 0; j < columns; ++j) samples_.push_back(grid.index(row, (2 * j + 1) * grid.columns / (2 * columns)));
   }
@@ -64,7 +64,7 @@ SampledBounds::SampledBounds(const ClothPattern& pattern) {
       if (std::isfinite(away[n]))
         margin_ = std::max(margin_, kOverlong * away[n]);
       else
-        samples_.push_back(n);  // surrounded by pins
+        samples_.push_back(n);  // connected only through pins
     }
   }
 }

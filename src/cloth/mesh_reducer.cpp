@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// How far a strip is from the fine one. p = 0 … k counts the nodes of its folds, U and L are the fine folds, u and l
-// the drawn ones, straight between their joints; the surfaces are compared where they have the same p and the same
-// share of the way down. Three steps from the fine strip to the drawn one, each with its largest way:
+// Error bound of a drawn strip. p = 0 … k counts the nodes of its folds, U and L are the fine folds, u and l the drawn
+// ones, straight between their joints; surfaces are compared at equal p and equal share of the distance down. Three
+// steps from the fine strip to the drawn one, each with its largest deviation:
 //
 //   the fine triangles, their corners moved to u and l   max |U - u|, |L - l|
 //   the ruled surface between u and l                    |v'| / 4
 //   the drawn triangles                                  w |v'| / 4
 //
 // v = u - l; v' is its change from one p to the next, the twist of the strip; w is the base of the widest triangle, in
-// rods.
-//
-// (A triangle with its base from p to p' on one fold and its corner at q on the other is off the ruled surface by
-// s (1 - s) |p' - q| |v'| at most.)
+// rods. (A triangle with its base from p to p' on one fold and its corner at q on the other deviates from the ruled
+// surface by at most s (1 - s) |p' - q| |v'|.)
 #include "curtain_sim/mesh_reducer.h"
 
 #include <Eigen/Geometry>
@@ -23,8 +21,8 @@
 namespace curtain {
 namespace {
 
-// Of a strip's tolerance, for each of its folds. The rest is for the twist, which is of the same size where folds of
-// different detail meet: with more, detail near by would spread along the folds to where it isn't needed.
+// Share of a strip's tolerance for each of its folds. The rest is for the twist, which is as large where folds of
+// different detail meet; with more, detail would spread along the folds to where it is not needed.
 constexpr double kFoldShare = 0.45;
 
 }  // namespace
@@ -103,8 +101,8 @@ void MeshReducer::chooseLevels() {
   }
 }
 
-// Strips that are too far off get the detail of their finer fold, or more. In the end all are right: one between two
-// full folds is the fine one.
+// Strips that deviate too much get the detail of their finer fold, or more. It ends: a strip between two full folds is
+// the fine one.
 void MeshReducer::refineStrips() {
   std::fill(doubtful_.begin(), doubtful_.end(), char{1});
   for (bool changed = true; changed;) {
@@ -131,7 +129,7 @@ void MeshReducer::refineStrips() {
   }
 }
 
-// Largest way of a node from where the drawn fold has its p; once it is more than enough, not exactly.
+// Largest deviation of a node from the drawn fold; may stop early once it exceeds `enough`.
 double MeshReducer::foldError(int row, int link, std::size_t level, double enough) const {
   const Joints& joints = levels_[level];
   double largest = 0.0;
@@ -152,7 +150,7 @@ double MeshReducer::stripError(int row, int link) const {
   int widest = 1;
   double twist = 0.0;  // squared
   std::size_t u = 0, l = 0;
-  while (u + 1 < upper.size()) {  // over the stretches without a joint inside
+  while (u + 1 < upper.size()) {  // over the intervals without a joint inside
     const int upper_width = upper[u + 1] - upper[u];
     const int lower_width = lower[l + 1] - lower[l];
     const Vec3 change = (node(row, link, upper[u + 1]) - node(row, link, upper[u])) / upper_width -

@@ -15,7 +15,7 @@ struct Rows {
 
 // The corner triangles of the (up to four) faces at a node add up to one cross product of differences:
 //   sum over quadrants of (warp edge) x (weft edge) = (x_below - x_above) x (x_right - x_left),
-// with the node itself in place of a neighbour that is missing.
+// with the node itself in place of a missing neighbour.
 CURTAIN_WIDE void nodeAreaVectors(const Grid& grid, int i, const Field3& position, Field3& out) noexcept {
   const auto last = static_cast<std::size_t>(grid.columns) - 1;
   const Rows above(position, grid.row(i > 0 ? i - 1 : i));

@@ -8,7 +8,7 @@
 namespace curtain {
 namespace {
 
-// Lengths that add up to total, proportional to weights (empty: all equal).
+// Lengths in proportion to weights that add up to total; no weights: all equal.
 std::vector<double> shareLength(const std::vector<double>& weights, int count, double total) {
   const auto size = static_cast<std::size_t>(count);
   if (weights.empty()) return std::vector<double>(size, total / count);
@@ -50,7 +50,7 @@ void fillRestLengths(const ClothParams& cloth, ClothPattern& pattern) {
   }
 }
 
-// Half of every rest length at the node, along the warp times along the weft.
+// Half the rest lengths at the node along the warp, times those along the weft.
 double nodeArea(const ClothPattern& pattern, int i, int j) {
   const Grid& grid = pattern.grid;
   double along_warp = 0.0;

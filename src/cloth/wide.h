@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Marks a function whose loops over nodes are worth wider registers: compiled once more for AVX2, chosen when the
-// program starts. No contraction to fused multiply-add anywhere, so both give the same bits.
+// Marks a function with loops over nodes to be compiled for AVX2, too, chosen at program start. Without contraction to
+// fused multiply-add both versions give the same bits.
 #pragma once
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
