@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Air damping, Cheng 2000, Eq. (4), per area of cloth, and the velocity update that carries it: stable and never
-// past zero for any coefficient.
+// Air damping, Cheng 2000, Eq. (4), per area of cloth, and its velocity update, which is stable for any coefficient and
+// never reverses a velocity.
 #pragma once
 
 #include "cloth/cloth.h"
@@ -29,9 +29,9 @@ class AirDamping {
   bool active_ = false;
 };
 
-/// How a node with damping coefficient c and inverse mass w moves over a time dt: v' = keep * v + gain * w * impulse.
+/// Velocity update v' = keep * v + gain * w * impulse of a node with damping coefficient c and inverse mass w over dt.
 /// The exact factors are e^-z and (1 - e^-z) / z with z = c w dt; these rational ones agree to second order, are
-/// positive for every z, and leave the exact terminal velocity F / c a fixed point:
+/// positive for every z and keep the exact terminal velocity F / c:
 ///   keep = 1 / (1 + z + z^2/2),  gain = (1 + z/2) / (1 + z + z^2/2).
 struct DampedStep {
   double keep;
@@ -44,15 +44,15 @@ inline DampedStep dampedStep(double coefficient, double inverse_mass, double dt)
   return {1.0 / denominator, (1.0 + 0.5 * z) / denominator};
 }
 
-/// The same for velocities at the end of the step, v' = v + dt w (F - c v'): as positive, the same terminal velocity;
-/// what backward Euler and bdf2 need for their order.
+/// The same with damping at the end of the step, v' = v + dt w (F - c v'), as backward Euler and bdf2 need for their
+/// order; also positive and with the exact terminal velocity.
 inline DampedStep implicitlyDampedStep(double coefficient, double inverse_mass, double dt) {
   const double share = 1.0 / (1.0 + coefficient * inverse_mass * dt);
   return {share, share};
 }
 
-/// Coefficient of Eq. (4) at a speed over its value for small speeds. Printed, its second branch (beyond the threshold)
-/// jumps there; divided by the threshold it does not.
+/// Coefficient of Eq. (4) at a speed, over its value at small speeds. As printed, it jumps at the threshold; divided by
+/// the threshold it does not.
 inline double dampingGrowth(const AirParams& air, double speed) {
   const double beyond = air.law == DampingLaw::kPrinted ? speed : speed / air.threshold;
   return (1.0 + air.fast_gain * speed) * (speed > air.threshold ? beyond : 1.0);

@@ -8,7 +8,7 @@
 namespace curtain {
 namespace {
 
-// A pulled node takes about a quarter of the cloth along; the spring is critically damped for that mass.
+// Share of the cloth's mass that a dragged node moves with it; the spring is critically damped for that mass.
 constexpr double kDraggedShare = 0.25;
 
 }  // namespace
@@ -44,7 +44,7 @@ void DragForce::grasp(NodeIndex node, const ClothPattern& pattern) noexcept {
   node_ = node;
   shares_.clear();
   const Grid& grid = pattern.grid;
-  if (!(drag_.radius * drag_.radius > 0.0)) {  // 0, or so small that its square is
+  if (!(drag_.radius * drag_.radius > 0.0)) {  // also where the square underflows
     shares_.push_back({grid.index(node), 1.0});
   } else {
     const double v = pattern.warp_coordinate[static_cast<std::size_t>(node.row)];
@@ -66,9 +66,9 @@ void DragForce::grasp(NodeIndex node, const ClothPattern& pattern) noexcept {
   }
 }
 
-// The pull of the spring as it is. Its damper, and the look ahead that makes it stable at any stiffness (implicit
-// Euler: k (target - x - dt v')), are coefficients against the nodes' velocities; the solver puts them into the nodes'
-// inertia, where the rest of the cloth is felt too. At its limit the spring is a softer one.
+// The spring's present pull. Its damper, and the implicit term that makes it stable at any stiffness (backward Euler: k
+// (target - x - dt v')), are damping coefficients: the solver puts them into the nodes' inertia, so the links feel them
+// too. At its force limit the spring is a softer one.
 void DragForce::addSpring(const Field3& position, double dt, Field3& force, Field& damping) const noexcept {
   Vec3 x = Vec3::Zero();
   for (const Share& share : shares_) x += share.weight * position.at(share.node);

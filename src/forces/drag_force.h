@@ -19,20 +19,20 @@ class DragForce {
   const DragParams& params() const { return drag_; }
   bool actsAt(double time) const { return time >= drag_.start && time < drag_.end; }
 
-  /// The node grasped; none before a drag by point first acted.
+  /// The grasped node; none before a drag by point first acts.
   const std::optional<NodeIndex>& node() const { return node_; }
 
-  /// Takes hold of a node (used by a drag by point, and by one that takes over from another of its id).
+  /// Grasps a node: for a drag by point, or one that replaces another with its id.
   void grasp(NodeIndex node, const ClothPattern& pattern) noexcept;
 
-  /// Marks the columns it has hold of; before it knows which: all.
+  /// Marks the columns with a grasped node; all before the node is known.
   void markColumns(const Grid& grid, ColumnSet& out) const noexcept;
 
-  /// True for a spring, which also damps.
+  /// True for a spring, which has a damper.
   bool damps() const { return drag_.target.has_value(); }
 
-  /// Adds its force on the nodes [N], and for a spring its damping coefficients [kg/s]. dt: how long the force will act
-  /// [s]. Allocates nothing.
+  /// Adds its forces [N], and for a spring its damping coefficients [kg/s]. dt: how long the forces act [s]. Allocates
+  /// nothing.
   void addForces(const ClothPattern& pattern, const Field3& position, double dt, Field3& force,
                  Field& damping) noexcept;
 
@@ -45,7 +45,7 @@ class DragForce {
 
   DragParams drag_;
   std::optional<NodeIndex> node_;
-  std::vector<Share> shares_;    // weights add up to one; room for every node is kept from the start
+  std::vector<Share> shares_;    // weights add up to one; has capacity for every node
   double spring_damping_ = 0.0;  // [kg/s]
 };
 

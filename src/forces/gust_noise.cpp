@@ -19,8 +19,7 @@ std::uint64_t mix(std::uint64_t value) {
 
 double smoothStep(double t) { return t * t * (3.0 - 2.0 * t); }
 
-// Cells no longer than the correlation length. The slack keeps the rounding of a length, itself a sum of rods, from
-// making one more; fewer than `least` make no lattice.
+// Number of cells no longer than the correlation length. The slack is for rounding of the length, a sum of rods.
 int latticeCells(double length, double correlation_length, int least, int most) {
   const double cells = std::ceil(length / correlation_length - 1e-9);
   return static_cast<int>(std::clamp(cells, static_cast<double>(least), static_cast<double>(most)));
@@ -38,7 +37,7 @@ double hashedNormal(std::uint64_t seed, std::int64_t a, std::int64_t b, std::int
     sum += (static_cast<double>(bits & 0xffffU) + 0.5) / 65536.0;
     bits >>= 16U;
   }
-  return (sum - 2.0) * std::sqrt(3.0);  // four uniform numbers: mean 2, variance 4/12
+  return (sum - 2.0) * std::sqrt(3.0);  // four uniform numbers have mean 2 and variance 4/12
 }
 
 GustNoise::Place GustNoise::place(double coordinate) {
@@ -59,7 +58,7 @@ GustNoise::GustNoise(std::uint64_t seed, double correlation_length, double corre
   const double height = pattern.warp_coordinate.back();
   const double width = pattern.weft_coordinate.back() + (grid.closed ? pattern.weft_rest[grid.index(0, 0)] : 0.0);
   const int row_cells = latticeCells(height, correlation_length, 1, grid.rows);
-  // Around a ring a single cell would have one lattice point for both its ends.
+  // A single cell around a ring would have one lattice point for both its ends.
   const int column_cells = latticeCells(width, correlation_length, grid.closed ? 2 : 1, grid.columns);
   for (const double v : pattern.warp_coordinate) row_place_.push_back(place(v / height * row_cells));
   for (const double u : pattern.weft_coordinate) column_place_.push_back(place(u / width * column_cells));
@@ -83,7 +82,7 @@ void GustNoise::setTime(double time) noexcept {
   for (LatticeRow& row : lattice_rows_) row.mixed = false;
 }
 
-// The numbers of a row last for a correlation time; only their mixture changes within.
+// A row's random numbers last for a correlation time; only their interpolation changes meanwhile.
 void GustNoise::prepareRow(int row) noexcept {
   LatticeRow& known = lattice_rows_[static_cast<std::size_t>(row)];
   if (known.mixed) return;

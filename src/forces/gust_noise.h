@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Unsteadiness of the air (Cheng 2000, end of Sect. 2.2.2): a random vector field over the cloth and time, of unit
-// variance in each component, with a correlation length and time of its own. It is a function of seed, place and
-// time alone: neither the step nor the grid changes its statistics, and a seed repeats a run to the bit.
+// Gusts, the unsteadiness of Cheng 2000, end of Sect. 2.2.2: a random vector field over the cloth and time, of unit
+// variance in each component, with given correlation length and time. It depends on seed, place and time only: step and
+// grid do not change its statistics, and a seed repeats a run to the bit.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ class GustNoise {
   /// correlation_time    [s], > 0
   GustNoise(std::uint64_t seed, double correlation_length, double correlation_time, const ClothPattern& pattern);
 
-  /// Sets the time of the field [s], before any look at it. Costs next to nothing: numbers are made for the rows that
-  /// are looked at. Allocates nothing.
+  /// Sets the time of the field [s], before it is read. Random numbers are made only for rows that are read. Allocates
+  /// nothing.
   void setTime(double time) noexcept;
 
   /// The field at a node at the time set.
@@ -31,7 +31,7 @@ class GustNoise {
   void rowOf(int row, int component, double* out) noexcept;
 
  private:
-  // A place between two lattice points; weights of unit sum of squares keep the variance at one everywhere.
+  // Interpolation between two lattice points; weights with unit sum of squares keep the variance at one everywhere.
   struct Place {
     int low = 0;
     int high = 0;
@@ -41,7 +41,7 @@ class GustNoise {
   static Place place(double coordinate);
 
   struct LatticeRow {
-    std::int64_t slab = std::numeric_limits<std::int64_t>::min();  // that before_ and after_ are of
+    std::int64_t slab = std::numeric_limits<std::int64_t>::min();  // of before_ and after_
     bool mixed = false;                                            // lattice_ is of the time set
   };
   void prepareRow(int row) noexcept;
@@ -51,7 +51,7 @@ class GustNoise {
   int lattice_columns_ = 0;
   std::vector<Place> row_place_;
   std::vector<Place> column_place_;
-  std::int64_t slab_ = 0;  // the time set lies between it and the next one, both a correlation time apart
+  std::int64_t slab_ = 0;  // number of correlation times before the time set
   double before_weight_ = 1.0, after_weight_ = 0.0;
   std::vector<LatticeRow> lattice_rows_;
   std::vector<Vec3> before_, after_;  // at the lattice points, at both slabs

@@ -9,11 +9,11 @@
 namespace curtain {
 namespace {
 
-constexpr double kTinySquared = 1e-300;  // keeps a division by a length from being one by zero; changes no other value
-constexpr double kParallel = 1e-6;  // [rad] half-angles below it are parallel wind: the apex would be 1e6 radii away
+constexpr double kTinySquared = 1e-300;  // avoids a division by zero length; changes no other value
+constexpr double kParallel = 1e-6;  // [rad] smaller half-angles are parallel wind: the apex would be 1e6 radii away
 
 std::uint64_t seedOf(std::uint64_t seed, const std::string& id) {
-  Fnv1a mixed;  // so that every source has gusts of its own
+  Fnv1a mixed;  // gives every source its own gusts
   mixed.hash ^= seed;
   mixed.addBytes(id.data(), id.size());
   return mixed.hash;
@@ -53,7 +53,7 @@ WindSource::WindSource(const WindParams& wind, const ClothPattern& pattern, doub
 CURTAIN_INTO_WIDE double WindSource::Cone::distanceFactorAt(double x, double y, double z) const noexcept {
   const double px = x - ox, py = y - oy, pz = z - oz;
   const double depth = px * ax + py * ay + pz * az;
-  // B lies where the line AC meets the disc's plane: the part of C across the axis, shrunk towards the apex.
+  // B, where the line AC meets the disc's plane: the part of C across the axis, scaled towards the apex.
   const double before = depth >= 0.0 ? depth : 0.0;
   const double shrink = apex_distance > 0.0 ? apex_distance / (apex_distance + before) : 1.0;
   const double bx = (px - depth * ax) * shrink, by = (py - depth * ay) * shrink, bz = (pz - depth * az) * shrink;
@@ -64,7 +64,7 @@ CURTAIN_INTO_WIDE double WindSource::Cone::distanceFactorAt(double x, double y, 
   return reached ? factor : 0.0;
 }
 
-// That of the line AC, for d itself is zero on the disc; parallel wind has the axis for a line.
+// Direction of the line AC, since d itself is zero on the disc; that of the axis for parallel wind.
 CURTAIN_INTO_WIDE WindSource::Direction WindSource::Cone::directionAt(double x, double y, double z) const noexcept {
   const double px = x - ox, py = y - oy, pz = z - oz;
   const double lx = of_place * px + of_axis * ax, ly = of_place * py + of_axis * ay, lz = of_place * pz + of_axis * az;
@@ -89,8 +89,8 @@ WindAtPoint WindSource::at(const Vec3& point) const noexcept {
   return air;
 }
 
-// A node is reached when it is not behind the disc and no further from the axis than the cone's radius there, r + k
-// depth. Distance from the axis less k depth is convex: nowhere in the box is it below its tangent plane at the middle.
+// A node is reached if it is not behind the disc and no further from the axis than r + k depth. The distance from the
+// axis minus k depth is convex, so over the box it is above its tangent plane at the centre.
 bool WindSource::mayReach(const Eigen::AlignedBox3d& box) const noexcept {
   constexpr double kRounding = 1e-9;
   const Vec3 half = 0.5 * box.sizes(), from = box.center() - wind_.position;
@@ -164,7 +164,7 @@ CURTAIN_WIDE void WindSource::addSteady(const ClothPattern& pattern, int i, cons
   for (int j = 0; j < grid.columns; ++j) {
     const Direction d = cone.directionAt(x[j], y[j], z[j]);
     const double normal_size = std::sqrt(nx[j] * nx[j] + ny[j] * ny[j] + nz[j] * nz[j] + kTinySquared);
-    // The cloth has two sides, so |cos psi|; a node crushed to no area catches no wind.
+    // |cos psi|, since the cloth has two sides; a node without area catches no wind.
     const double cos_psi = std::abs(nx[j] * cone.ax + ny[j] * cone.ay + nz[j] * cone.az) / normal_size;
     const double centre_force = pressure * area[j] + node_force;
     // Cheng 2000, Eq. (2): (f_w . d) d / |d|^2, with f_w along the axis; then Eq. (3).

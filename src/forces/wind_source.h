@@ -19,9 +19,9 @@
 
 namespace curtain {
 
-/// What the air of one source does at one place.
+/// The air of one source at one point.
 struct WindAtPoint {
-  bool reached = false;           ///< inside the cone and before the disc
+  bool reached = false;           ///< inside the cone and in front of the disc
   Vec3 direction = Vec3::Zero();  ///< unit d
   double along_axis = 0.0;        ///< cosine between d and the axis (0 only where nothing is reached)
   double distance_factor = 0.0;   ///< 1 / (c_d (1 + |d|^2)), |d| over the reference length
@@ -37,19 +37,19 @@ class WindSource {
 
   WindAtPoint at(const Vec3& point) const noexcept;
 
-  /// False: it reaches no point of the box. In constant time.
+  /// False: it reaches no point of the box. Takes constant time.
   bool mayReach(const Eigen::AlignedBox3d& box) const noexcept;
 
-  /// Finds the nodes in its reach, all of which `bounds` holds.
+  /// Finds the nodes in its reach; `bounds` contains all nodes.
   void find(const Grid& grid, const Field3& position, const Eigen::AlignedBox3d& bounds) noexcept;
-  /// The last find() found any; any in this row.
+  /// Whether the last find() found any, and any in this row.
   bool reaches() const noexcept { return reaches_; }
   bool reachesRow(int row) const noexcept { return reaches_ && rows_[static_cast<std::size_t>(row)] != 0; }
-  /// The force depends on which way the cloth faces.
+  /// The force depends on the direction of the normals.
   bool readsNormals() const noexcept { return steady_; }
 
-  /// Adds the source's force on the nodes found [N]. area_vectors as nodeAreaVectors gives them; read in rows that are
-  /// reached, when normals are at all.
+  /// Adds the force on the found nodes [N]. area_vectors: from nodeAreaVectors(), read in reached rows if
+  /// readsNormals().
   void addForces(const ClothPattern& pattern, const Field3& position, const Field3& area_vectors, double time,
                  Field3& force) noexcept;
 
@@ -58,14 +58,14 @@ class WindSource {
     double x, y, z;  // unit d
     double along;    // cosine between d and the axis
   };
-  // Where the air goes. Loops over nodes take a copy, which no store to a node can change, and its functions have no
-  // branch: they widen.
+  // Geometry of the air flow. Loops over nodes use a copy, which stores to nodes cannot alias; without branches its
+  // functions vectorise.
   struct Cone {
     double ox, oy, oz;                   // centre of the disc [m]
     double ax, ay, az;                   // axis
     double radius, apex_distance;        // [m]; no apex: 0, parallel wind
     double distance_weight, per_length;  // of the reference length [1/m]
-    double of_place, of_axis;            // what the line AC is made of: C from the centre, the axis
+    double of_place, of_axis;            // the line AC = of_place * (C from the centre) + of_axis * axis
     Direction directionAt(double x, double y, double z) const noexcept;
     double distanceFactorAt(double x, double y, double z) const noexcept;
   };
@@ -79,12 +79,12 @@ class WindSource {
   Cone cone_;
   double porosity_factor_;  // 1 - c_mu mu
   double widening_ = 0.0;   // of the cone's radius along its axis; 0 = parallel wind
-  double strength_;         // of everything it does; 0 = the source is there but still
-  bool steady_;             // it does more than gusts
+  double strength_;         // sum of pressure, node force and gusts; 0: the source is still
+  bool steady_;             // it has more than gusts
   GustNoise gusts_;
   Field distance_factor_;           // of Eq. (3), of every node, from the last find(); 0 where nothing is reached
   Field gust_row_;                  // scratch: a component of the gusts along a row
-  std::vector<std::uint8_t> rows_;  // with a node in reach, from the last find() that looked at them
+  std::vector<std::uint8_t> rows_;  // rows with a node in reach, from the last find() whose box was reached
   bool reaches_ = false;
 };
 
