@@ -89,4 +89,16 @@ struct Field3 {
   }
 };
 
+/// The components of a field from an offset on, e.g. of a row, for loops over nodes.
+struct FieldView {
+  double *x, *y, *z;
+  FieldView(Field3& field, std::size_t offset)
+      : x(field.x.data() + offset), y(field.y.data() + offset), z(field.z.data() + offset) {}
+};
+struct ConstFieldView {
+  const double *x, *y, *z;
+  ConstFieldView(const Field3& field, std::size_t offset)
+      : x(field.x.data() + offset), y(field.y.data() + offset), z(field.z.data() + offset) {}
+};
+
 }  // namespace curtain

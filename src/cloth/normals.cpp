@@ -3,34 +3,23 @@
 #include "cloth/wide.h"
 
 namespace curtain {
-namespace {
-
-struct Rows {
-  const double *x, *y, *z;
-  Rows(const Field3& field, std::size_t row)
-      : x(field.x.data() + row), y(field.y.data() + row), z(field.z.data() + row) {}
-};
-
-}  // namespace
 
 // The corner triangles of the (up to four) faces at a node add up to one cross product of differences:
 //   sum over quadrants of (warp edge) x (weft edge) = (x_below - x_above) x (x_right - x_left),
 // with the node itself in place of a missing neighbour.
 CURTAIN_WIDE void nodeAreaVectors(const Grid& grid, int i, const Field3& position, Field3& out) noexcept {
   const auto last = static_cast<std::size_t>(grid.columns) - 1;
-  const Rows above(position, grid.row(i > 0 ? i - 1 : i));
-  const Rows below(position, grid.row(i + 1 < grid.rows ? i + 1 : i));
-  const Rows here(position, grid.row(i));
-  double* const ox = out.x.data() + grid.row(i);
-  double* const oy = out.y.data() + grid.row(i);
-  double* const oz = out.z.data() + grid.row(i);
+  const ConstFieldView above(position, grid.row(i > 0 ? i - 1 : i));
+  const ConstFieldView below(position, grid.row(i + 1 < grid.rows ? i + 1 : i));
+  const ConstFieldView here(position, grid.row(i));
+  const FieldView o(out, grid.row(i));
   const auto node = [=](std::size_t j, std::size_t left, std::size_t right) {
     const double px = below.x[j] - above.x[j], qx = here.x[right] - here.x[left];
     const double py = below.y[j] - above.y[j], qy = here.y[right] - here.y[left];
     const double pz = below.z[j] - above.z[j], qz = here.z[right] - here.z[left];
-    ox[j] = 0.5 * (py * qz - pz * qy);
-    oy[j] = 0.5 * (pz * qx - px * qz);
-    oz[j] = 0.5 * (px * qy - py * qx);
+    o.x[j] = 0.5 * (py * qz - pz * qy);
+    o.y[j] = 0.5 * (pz * qx - px * qz);
+    o.z[j] = 0.5 * (px * qy - py * qx);
   };
   node(0, grid.closed ? last : 0, 1);
 #pragma omp simd

@@ -33,15 +33,13 @@ double AirDamping::strongestPerMass(const ClothPattern& pattern) const noexcept 
 
 CURTAIN_WIDE void AirDamping::addCoefficients(const Grid& grid, const Field3& velocity, Field& out) const noexcept {
   const std::size_t size = grid.size();
-  const double* const x = velocity.x.data();
-  const double* const y = velocity.y.data();
-  const double* const z = velocity.z.data();
+  const ConstFieldView v(velocity, 0);
   const double* const linear = linear_.data();
   double* const sum = out.data();
   const AirParams air = air_;
 #pragma omp simd
   for (std::size_t n = 0; n < size; ++n) {
-    const double speed = std::sqrt(x[n] * x[n] + y[n] * y[n] + z[n] * z[n]);
+    const double speed = std::sqrt(v.x[n] * v.x[n] + v.y[n] * v.y[n] + v.z[n] * v.z[n]);
     sum[n] += linear[n] * dampingGrowth(air, speed);
   }
 }

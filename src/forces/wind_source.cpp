@@ -117,15 +117,13 @@ void WindSource::find(const Grid& grid, const Field3& position, const Eigen::Ali
 
 CURTAIN_WIDE bool WindSource::findInRow(const Grid& grid, int i, const Field3& position) noexcept {
   const std::size_t row = grid.row(i);
-  const double* const x = position.x.data() + row;
-  const double* const y = position.y.data() + row;
-  const double* const z = position.z.data() + row;
+  const ConstFieldView p(position, row);
   double* const factor = distance_factor_.data() + row;
   const Cone cone = cone_;
   double largest = 0.0;
 #pragma omp simd reduction(max : largest)
   for (int j = 0; j < grid.columns; ++j) {
-    const double here = cone.distanceFactorAt(x[j], y[j], z[j]);
+    const double here = cone.distanceFactorAt(p.x[j], p.y[j], p.z[j]);
     factor[j] = here;
     largest = largest > here ? largest : here;
   }
@@ -149,29 +147,23 @@ CURTAIN_WIDE void WindSource::addSteady(const ClothPattern& pattern, int i, cons
   const Cone cone = cone_;
   const double pressure = wind_.pressure, node_force = wind_.node_force, factor_of_pores = porosity_factor_;
   const std::size_t row = grid.row(i);
-  const double* const x = position.x.data() + row;
-  const double* const y = position.y.data() + row;
-  const double* const z = position.z.data() + row;
-  const double* const nx = area_vectors.x.data() + row;
-  const double* const ny = area_vectors.y.data() + row;
-  const double* const nz = area_vectors.z.data() + row;
+  const ConstFieldView p(position, row), normal(area_vectors, row);
   const double* const area = pattern.area.data() + row;
   const double* const factor = distance_factor_.data() + row;
-  double* const fx = force.x.data() + row;
-  double* const fy = force.y.data() + row;
-  double* const fz = force.z.data() + row;
+  const FieldView f(force, row);
 #pragma omp simd
   for (int j = 0; j < grid.columns; ++j) {
-    const Direction d = cone.directionAt(x[j], y[j], z[j]);
-    const double normal_size = std::sqrt(nx[j] * nx[j] + ny[j] * ny[j] + nz[j] * nz[j] + kTinySquared);
+    const Direction d = cone.directionAt(p.x[j], p.y[j], p.z[j]);
+    const double nx = normal.x[j], ny = normal.y[j], nz = normal.z[j];
+    const double normal_size = std::sqrt(nx * nx + ny * ny + nz * nz + kTinySquared);
     // |cos psi|, since the cloth has two sides; a node without area catches no wind.
-    const double cos_psi = std::abs(nx[j] * cone.ax + ny[j] * cone.ay + nz[j] * cone.az) / normal_size;
+    const double cos_psi = std::abs(nx * cone.ax + ny * cone.ay + nz * cone.az) / normal_size;
     const double centre_force = pressure * area[j] + node_force;
     // Cheng 2000, Eq. (2): (f_w . d) d / |d|^2, with f_w along the axis; then Eq. (3).
     const double push = factor_of_pores * centre_force * d.along * cos_psi * factor[j];
-    fx[j] += push * d.x;
-    fy[j] += push * d.y;
-    fz[j] += push * d.z;
+    f.x[j] += push * d.x;
+    f.y[j] += push * d.y;
+    f.z[j] += push * d.z;
   }
 }
 

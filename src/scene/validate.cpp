@@ -94,6 +94,16 @@ void checkUnique(const std::vector<T>& entries, const std::string& list, const s
   }
 }
 
+// Checks every value by itself, then some together.
+template <typename Params, typename Check>
+std::vector<Problem> problemsOf(const Params& params, const std::string& key, const Check& check) {
+  ProblemLog log;
+  RangeChecker checker(key, log);
+  visitFields(checker, params);
+  check(log);
+  return log.problems();
+}
+
 }  // namespace
 
 void checkNodeOnGrid(const NodeIndex& node, const ClothParams& cloth, const std::string& key, ProblemLog& log) {
@@ -126,41 +136,23 @@ std::vector<Problem> validate(const Scene& scene) {
 }
 
 std::vector<Problem> validate(const WindParams& wind, const std::string& key) {
-  ProblemLog log;
-  RangeChecker checker(key, log);
-  visitFields(checker, wind);
-  checkWind(wind, key, log);
-  return log.problems();
+  return problemsOf(wind, key, [&](ProblemLog& log) { checkWind(wind, key, log); });
 }
 
 std::vector<Problem> validate(const DragParams& drag, const ClothParams& cloth, const std::string& key) {
-  ProblemLog log;
-  RangeChecker checker(key, log);
-  visitFields(checker, drag);
-  checkDrag(drag, cloth, key, log);
-  return log.problems();
+  return problemsOf(drag, key, [&](ProblemLog& log) { checkDrag(drag, cloth, key, log); });
 }
 
 std::vector<Problem> validate(const AirParams& air, const std::string& key) {
-  ProblemLog log;
-  RangeChecker checker(key, log);
-  visitFields(checker, air);
-  return log.problems();
+  return problemsOf(air, key, [](ProblemLog&) {});
 }
 
 std::vector<Problem> validate(const SolverParams& solver, const std::string& key) {
-  ProblemLog log;
-  RangeChecker checker(key, log);
-  visitFields(checker, solver);
-  return log.problems();
+  return problemsOf(solver, key, [](ProblemLog&) {});
 }
 
 std::vector<Problem> validate(const ObstacleParams& obstacle, const std::string& key) {
-  ProblemLog log;
-  RangeChecker checker(key, log);
-  visitFields(checker, obstacle);
-  checkObstacle(obstacle, key, log);
-  return log.problems();
+  return problemsOf(obstacle, key, [&](ProblemLog& log) { checkObstacle(obstacle, key, log); });
 }
 
 }  // namespace curtain

@@ -119,12 +119,10 @@ CURTAIN_WIDE void Rest::measure(const Field3& position) noexcept {
   std::fill(farthest_.begin(), farthest_.end(), 0.0);
   for (int i = 0; i < grid.rows; ++i) {
     const std::size_t row = grid.row(i);
-    const double *const x = position.x.data() + row, *const y = position.y.data() + row,
-                        *const z = position.z.data() + row;
-    const double *const a = place_.x.data() + row, *const b = place_.y.data() + row, *const c = place_.z.data() + row;
+    const ConstFieldView p(position, row), place(place_, row);
 #pragma omp simd
     for (int j = 0; j < grid.columns; ++j) {
-      const double dx = x[j] - a[j], dy = y[j] - b[j], dz = z[j] - c[j];
+      const double dx = p.x[j] - place.x[j], dy = p.y[j] - place.y[j], dz = p.z[j] - place.z[j];
       const double square = dx * dx + dy * dy + dz * dz;
       farthest[j] = farthest[j] > square ? farthest[j] : square;
     }

@@ -43,9 +43,6 @@ class ExactSolver {
   /// substep's scale it is a force.
   Vec3 pullAt(int row, int column) const noexcept { return constraints_.pullAt(row, column); }
 
-  /// Inverse inertia of the nodes in the last substep [1/kg].
-  const Field& inverseInertia() const noexcept { return inertia_.inverse(); }
-
   /// Velocities at the time of the positions (leapfrog keeps them half a substep behind): advanced by the forces and
   /// projected on the constraints. contacts: of the last substep, or null.
   void currentVelocities(const ClothState& state, const NodeForces& forces, const Contacts* contacts,

@@ -15,17 +15,6 @@ constexpr double kSmallestPivot = 1e-9;
 // The residual reported for such a rod.
 constexpr double kUnsound = std::numeric_limits<double>::infinity();
 
-struct View {
-  double *x, *y, *z;
-  View(Field3& field, std::size_t offset)
-      : x(field.x.data() + offset), y(field.y.data() + offset), z(field.z.data() + offset) {}
-};
-struct ConstView {
-  const double *x, *y, *z;
-  ConstView(const Field3& field, std::size_t offset)
-      : x(field.x.data() + offset), y(field.y.data() + offset), z(field.z.data() + offset) {}
-};
-
 // Violation and gradient of a rod from the nodal values.
 struct PositionLevel {
   // C = (|r|^2 - l^2) / 2, its gradient r.
@@ -60,9 +49,9 @@ CURTAIN_INTO_WIDE void eliminateRow(const LineSolve& line, LineScratch& scratch,
   const ClothPattern& pattern = line.pattern;
   const auto stride = static_cast<std::size_t>(pattern.grid.stride);
   const std::size_t above = first - stride;
-  const ConstView va(line.value, above), vb(line.value, first);
-  const ConstView d_above(line.links.direction, above), d(line.links.direction, first);
-  const ConstView d_below(line.links.direction, first + stride);
+  const ConstFieldView va(line.value, above), vb(line.value, first);
+  const ConstFieldView d_above(line.links.direction, above), d(line.links.direction, first);
+  const ConstFieldView d_below(line.links.direction, first + stride);
   const double* const wa = line.inverse_inertia.data() + above;
   const double* const wb = line.inverse_inertia.data() + first;
   const double* const rest = pattern.warp_rest.data() + first;
@@ -95,8 +84,8 @@ CURTAIN_INTO_WIDE void eliminateRow(const LineSolve& line, LineScratch& scratch,
 // Back substitution of the same row; moves its nodes.
 CURTAIN_INTO_WIDE void substituteRow(const LineSolve& line, LineScratch& scratch, std::size_t first) {
   const auto stride = static_cast<std::size_t>(line.pattern.grid.stride);
-  const View v(line.value, first);
-  const ConstView d(line.links.direction, first), d_below(line.links.direction, first + stride);
+  const FieldView v(line.value, first);
+  const ConstFieldView d(line.links.direction, first), d_below(line.links.direction, first + stride);
   const double* const w = line.inverse_inertia.data() + first;
   const double* const e = scratch.elimination.data() + first;
   double* const s = scratch.solution.data() + first;
@@ -141,8 +130,8 @@ CURTAIN_WIDE void setWarpDirections(const Grid& grid, int block, const Field3& p
   const auto stride = static_cast<std::size_t>(grid.stride);
   for (int i = 1; i < grid.rows; ++i) {
     const std::size_t first = grid.row(i) + static_cast<std::size_t>(block) * kLane;
-    const View d(direction, first);
-    const ConstView below(position, first), above(position, first - stride);
+    const FieldView d(direction, first);
+    const ConstFieldView below(position, first), above(position, first - stride);
 #pragma omp simd
     for (int j = 0; j < kLane; ++j) {
       d.x[j] = below.x[j] - above.x[j];
@@ -154,8 +143,8 @@ CURTAIN_WIDE void setWarpDirections(const Grid& grid, int block, const Field3& p
 
 // Predicts a row's nodes.
 CURTAIN_INTO_WIDE void predictRow(const SubstepStart& start, const LineSolve& line, std::size_t first) {
-  const ConstView x(start.state.position, first), v(start.state.velocity, first), f(start.force, first);
-  const View next(line.value, first);
+  const ConstFieldView x(start.state.position, first), v(start.state.velocity, first), f(start.force, first);
+  const FieldView next(line.value, first);
   const double* const w = line.inverse_inertia.data() + first;
   const double h = start.h, kick = start.kick;
   if (start.uniform != nullptr) {
@@ -187,9 +176,9 @@ CURTAIN_INTO_WIDE void predictRow(const SubstepStart& start, const LineSolve& li
 // Sets direction and first multiplier of a row's rods, and moves the row above by these rods and its own.
 CURTAIN_INTO_WIDE void hangRow(const SubstepStart& start, const LineSolve& line, const Field& last, double ratio,
                                std::size_t first, std::size_t stride) {
-  const ConstView x(start.state.position, first), above(start.state.position, first - stride);
-  const ConstView d_above(line.links.direction, first - stride);
-  const View d(line.links.direction, first), next_above(line.value, first - stride);
+  const ConstFieldView x(start.state.position, first), above(start.state.position, first - stride);
+  const ConstFieldView d_above(line.links.direction, first - stride);
+  const FieldView d(line.links.direction, first), next_above(line.value, first - stride);
   double* const s = line.links.multiplier.data() + first;
   const double* const s_above = s - stride;
   const double* const s_last = last.data() + first;
@@ -210,8 +199,8 @@ CURTAIN_INTO_WIDE void hangRow(const SubstepStart& start, const LineSolve& line,
 
 // The lowest row has no rod below it.
 CURTAIN_INTO_WIDE void hangHem(const LineSolve& line, std::size_t first) {
-  const View next(line.value, first);
-  const ConstView d(line.links.direction, first);
+  const FieldView next(line.value, first);
+  const ConstFieldView d(line.links.direction, first);
   const double* const w = line.inverse_inertia.data() + first;
   const double* const s = line.links.multiplier.data() + first;
 #pragma omp simd
@@ -247,8 +236,8 @@ CURTAIN_INTO_WIDE WarpMotion finishBlock(const LineSolve& line, const Field3& fr
   double above_x[kLane] = {}, above_y[kLane] = {}, above_z[kLane] = {};  // change of velocity in the row above
   for (int i = 0; i < grid.rows; ++i) {
     const std::size_t first = grid.row(i) + static_cast<std::size_t>(block) * kLane;
-    const ConstView to(line.value, first), at(from, first);
-    const View v(velocity, first);
+    const ConstFieldView to(line.value, first), at(from, first);
+    const FieldView v(velocity, first);
     const double* const s = line.links.multiplier.data() + first;
     const double* const s_below = s + stride;
     const double* const w = line.pattern.inverse_mass.data() + first;
@@ -291,8 +280,8 @@ CURTAIN_WIDE void applyWarpMultipliers(const LineSolve& line, int block) noexcep
   const auto stride = static_cast<std::size_t>(grid.stride);
   for (int i = 0; i < grid.rows; ++i) {
     const std::size_t first = grid.row(i) + static_cast<std::size_t>(block) * kLane;
-    const View v(line.value, first);
-    const ConstView d(line.links.direction, first), d_below(line.links.direction, first + stride);
+    const FieldView v(line.value, first);
+    const ConstFieldView d(line.links.direction, first), d_below(line.links.direction, first + stride);
     const double* const w = line.inverse_inertia.data() + first;
     const double* const s = line.links.multiplier.data() + first;
     const double* const s_below = s + stride;
@@ -319,7 +308,7 @@ CURTAIN_WIDE double warpResidual(const LineSolve& line, int block) noexcept {
   Worst worst;
   for (int i = 1; i < grid.rows; ++i) {
     const std::size_t first = grid.row(i) + static_cast<std::size_t>(block) * kLane;
-    const ConstView above(line.value, first - stride), below(line.value, first);
+    const ConstFieldView above(line.value, first - stride), below(line.value, first);
     const double* const wa = line.inverse_inertia.data() + first - stride;
     const double* const wb = line.inverse_inertia.data() + first;
     const double* const per_square = line.pattern.warp_per_square.data() + first;
@@ -339,7 +328,7 @@ CURTAIN_WIDE Stretch warpStretch(const ClothPattern& pattern, const Field3& posi
   const auto stride = static_cast<std::size_t>(grid.stride);
   double longest = 1.0, shortest = 1.0;  // squared, over the rest length's square
   for (std::size_t row = stride; row < grid.size(); row += stride) {
-    const ConstView above(position, row - stride), below(position, row);
+    const ConstFieldView above(position, row - stride), below(position, row);
     const double* const w = pattern.inverse_mass.data() + row;
     const double* const w_above = w - stride;
     const double* const per_square = pattern.warp_per_square.data() + row;

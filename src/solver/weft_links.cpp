@@ -119,15 +119,13 @@ void freeWeft(const ClothPattern& pattern, const Field& inverse_mass, Field& out
 
 CURTAIN_WIDE double weftSquare(const Grid& grid, int i, const ColumnSpan& span, const Field3& position,
                                const Field& free_per_square) noexcept {
-  const double* const x = position.x.data() + grid.row(i);
-  const double* const y = position.y.data() + grid.row(i);
-  const double* const z = position.z.data() + grid.row(i);
+  const ConstFieldView p(position, grid.row(i));
   const double* const per_square = free_per_square.data() + grid.row(i);
   const auto columns = static_cast<std::size_t>(grid.columns);
   double worst = 0.0;
   double finite = 0.0;
   const auto square = [=](std::size_t left, std::size_t right) {
-    const double rx = x[right] - x[left], ry = y[right] - y[left], rz = z[right] - z[left];
+    const double rx = p.x[right] - p.x[left], ry = p.y[right] - p.y[left], rz = p.z[right] - p.z[left];
     return (rx * rx + ry * ry + rz * rz) * per_square[right];
   };
   overLinks(span, columns, [&](std::size_t first, std::size_t end) {
@@ -229,27 +227,25 @@ CURTAIN_WIDE double weftMoveSquared(const LineSolve& line, int i, const Field& m
   const auto last = static_cast<std::size_t>(grid.columns) - 1;
   const double* const w = line.inverse_inertia.data() + row;
   const double* const s = multiplier.data() + row;
-  const double* const dx = line.links.direction.x.data() + row;
-  const double* const dy = line.links.direction.y.data() + row;
-  const double* const dz = line.links.direction.z.data() + row;
+  const ConstFieldView d(line.links.direction, row);
   const double* const per_square = line.pattern.weft_per_square.data() + row;
   double worst = 0.0;
   overColumns(line.span, last, [&](std::size_t first, std::size_t end) {
     double largest = 0.0;
 #pragma omp simd reduction(max : largest)
     for (std::size_t j = first; j < end; ++j) {
-      const double x = w[j] * (s[j + 1] * dx[j + 1] - s[j] * dx[j]);
-      const double y = w[j] * (s[j + 1] * dy[j + 1] - s[j] * dy[j]);
-      const double z = w[j] * (s[j + 1] * dz[j + 1] - s[j] * dz[j]);
+      const double x = w[j] * (s[j + 1] * d.x[j + 1] - s[j] * d.x[j]);
+      const double y = w[j] * (s[j + 1] * d.y[j + 1] - s[j] * d.y[j]);
+      const double z = w[j] * (s[j + 1] * d.z[j + 1] - s[j] * d.z[j]);
       const double size = (x * x + y * y + z * z) * per_square[j + 1];
       largest = largest > size ? largest : size;
     }
     worst = largest;
   });
-  const auto wrapped = [&](const double* d) {
-    return w[last] * ((grid.closed ? s[0] * d[0] : 0.0) - s[last] * d[last]);
+  const auto wrapped = [&](const double* along) {
+    return w[last] * ((grid.closed ? s[0] * along[0] : 0.0) - s[last] * along[last]);
   };
-  const double x = wrapped(dx), y = wrapped(dy), z = wrapped(dz);
+  const double x = wrapped(d.x), y = wrapped(d.y), z = wrapped(d.z);
   return std::max(worst, (x * x + y * y + z * z) * per_square[last]);
 }
 
@@ -258,13 +254,11 @@ CURTAIN_WIDE double weftStretch(const ClothPattern& pattern, const Field3& posit
   const auto columns = static_cast<std::size_t>(grid.columns);
   double longest = 1.0;  // squared, over the rest length's square
   for (int i = 0; i < grid.rows; ++i) {
-    const double* const x = position.x.data() + grid.row(i);
-    const double* const y = position.y.data() + grid.row(i);
-    const double* const z = position.z.data() + grid.row(i);
+    const ConstFieldView p(position, grid.row(i));
     const double* const w = pattern.inverse_mass.data() + grid.row(i);
     const double* const per_square = pattern.weft_per_square.data() + grid.row(i);
     const auto square = [=](std::size_t left, std::size_t right) {
-      const double rx = x[right] - x[left], ry = y[right] - y[left], rz = z[right] - z[left];
+      const double rx = p.x[right] - p.x[left], ry = p.y[right] - p.y[left], rz = p.z[right] - p.z[left];
       return w[left] + w[right] > 0.0 ? (rx * rx + ry * ry + rz * rz) * per_square[right] : 1.0;
     };
 #pragma omp simd reduction(max : longest)
