@@ -2,6 +2,7 @@
 #include "simulator/export.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iomanip>
@@ -32,8 +33,7 @@ void writeObj(const FineMesh& mesh, const FineMeshTopology& topology, std::ostre
 double quantile(std::vector<double> samples, double share) {
   if (samples.empty()) return 0.0;
   std::sort(samples.begin(), samples.end());
-  const auto index = static_cast<std::size_t>(share * static_cast<double>(samples.size() - 1) + 0.5);
-  return samples[index];
+  return samples[static_cast<std::size_t>(std::lround(share * static_cast<double>(samples.size() - 1)))];
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ constexpr double kPauseUnit = 1.0 / 60.0;
 constexpr double kLongestFrame = 1.0 / 20.0;
 // A column is measured only if its sampled nodes are slower than this many times rest_speed: far from 1, since contact
 // jitters without moving the cloth.
-constexpr double kHurry = 50.0;
+constexpr double kMeasureSpeed = 50.0;
 // Jitter of cloth in contact, in link tolerances: the solve may leave nodes anywhere within them. Up to 5 were seen in
 // half a second (a sheet on a ball).
 constexpr double kJitter = 8.0;
@@ -98,7 +98,7 @@ bool Rest::due() noexcept {
 // Samples three nodes a column; mostly that is all there is to do.
 bool Rest::anyStill(const Field3& velocity) noexcept {
   const Grid& grid = pattern_.grid;
-  const double limit = kHurry * radius_ / kWindow;
+  const double limit = kMeasureSpeed * radius_ / kWindow;
   bool any = false;
   for (int j = 0; j < grid.columns; ++j) {
     bool still = !asleep_.has(j);

@@ -7,10 +7,10 @@
 //   format version       32-bit
 //   number format        64-bit double 0.1
 //   length               64-bit, of all of it [bytes]
-//   layout               32-bit CRC of the list of what is carried
+//   layout               32-bit CRC of names, types and fixed counts of the members
 //   length of the scene  32-bit [bytes]
 //   scene                YAML text
-//   what is carried
+//   members              as Archive writes them
 //   checksum             32-bit CRC of all before it
 //
 // Numbers in the machine's own format.

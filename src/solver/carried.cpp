@@ -72,7 +72,7 @@ void StepControl::carry(Archive& archive) {
   archive.put(frame_, frame);
   archive.number("omega", omega_);
   archive.number("turning", turning_);
-  archive.number("heavier_step", heavier_step_);
+  archive.number("heavier_step", scaled_step_);
   archive.number("surface_step", surface_step_);
   archive.number("limit", limit_);
   archive.integer("allowed", allowed_, 1, std::numeric_limits<int>::max());

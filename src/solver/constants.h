@@ -82,7 +82,7 @@ constexpr double kMostGrowth = 2.0;
 
 // After a substep whose links did not converge, the next one is limited so that an obstacle's surface moves by this
 // share of the shortest link.
-constexpr double kMostWayOfSurface = 0.2;
+constexpr double kMostSurfaceMotion = 0.2;
 // Ratio of kinetic energies, with and without the work of links, above which the links are assumed to have jumped to
 // another configuration. Otherwise links only take energy out; leapfrog's energy wavers, and bdf2's base is off the
 // links, by the square of the angle that links turn by: 0.03 at 0.17 rad. An excess that a shorter step would not
@@ -91,7 +91,7 @@ constexpr double kMostAdded = 1.03;
 // Substeps that bdf2 makes from one previous step after an impact. Its history would return part of the stopped
 // velocity as a rebound (two thirds for a string that snapped taut). Three: the substep of the impact, the next, in
 // which the rest of the velocity is stopped, and one more, so that the last two steps know nothing of it.
-constexpr int kStepsAfterBlow = 3;
+constexpr int kStepsAfterImpact = 3;
 // Share of the tolerance that LastResort::bound() fills: the rest is for rounding of lengths.
 constexpr double kBoundShare = 1.0 - 1e-6;
 // Positions beyond this [m] count as diverged: damping takes the cube of a speed and energy the square times a mass,
@@ -133,7 +133,7 @@ constexpr double kPhasePerStep = 1.7;
 // Mass scaling: where a few nodes alone ask for short substeps (the corners a sheet hangs by), their inertia is
 // increased, by at most this share of the cloth's mass in total. A sheet of 44 x 40 hung by two corners takes 12
 // substeps a frame with it and 22 without.
-constexpr double kHeavierShare = 0.02;
+constexpr double kMassScalingShare = 0.02;
 // h * omega at which mass scaling sets in, below leapfrog's limit of 2. At 1.7 a swing in two fixed substeps
 // gains 2.5e-2 of its energy in 20 s.
 constexpr double kStablePhase = 1.9;

@@ -239,7 +239,7 @@ void ExactSolver::take(const Attempt& attempt, const Progress& progress, Substep
   outcome.omega_squared = inertia_.omegaSquared();
   if (progress.alone() && !constraints_.weftPulls()) outcome.turning = turning(outcome.kick);
   const double fastest = progress.contacts != nullptr ? fastestSurface(*progress.contacts) : 0.0;
-  if (fastest > 0.0) outcome.longest_step = kMostWayOfSurface * smallest_rest_ / fastest;
+  if (fastest > 0.0) outcome.longest_step = kMostSurfaceMotion * smallest_rest_ / fastest;
   // Such a substep also moved links to their lengths, which is no motion: project the velocities.
   if ((progress.end != SweepEnd::kConverged || plan.isLastResort()) && !progress.late) {
     projectVelocity(state.position, progress.contacts, 0.0, state.velocity);

@@ -77,7 +77,7 @@ void NodeInertia::set(const NodeForces& forces, double kick, double scale, doubl
 }
 
 // Mass that scaling adds when each node must weigh so much per load [kg].
-double NodeInertia::heavierBy(double per_load) const noexcept {
+double NodeInertia::addedMass(double per_load) const noexcept {
   double sum = 0.0;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     const double extra = per_load * tensions_.load[n] - pattern_.mass[n];
@@ -86,14 +86,14 @@ double NodeInertia::heavierBy(double per_load) const noexcept {
   return sum;
 }
 
-double NodeInertia::stepForPhase(double most_phase, double heavier_share) const noexcept {
+double NodeInertia::stepForPhase(double most_phase, double scaling_share) const noexcept {
   constexpr double kLargest = 1e4;  // bound of the search, over the step without mass scaling
   if (tensions_.scale == 0.0 || !(tensions_.heaviest > 0.0)) return std::numeric_limits<double>::infinity();
   double per_load = 1.0 / tensions_.heaviest;  // no node is scaled; proportional to h^2
-  const double allowed = heavier_share * free_mass_;
+  const double allowed = scaling_share * free_mass_;
   double factor = 2.0;
-  for (int root = 0; root < 6 && heavier_share > 0.0; ++root) {  // to within 2^(1/32)
-    while (per_load * tensions_.heaviest < kLargest && heavierBy(per_load * factor) <= allowed) {
+  for (int root = 0; root < 6 && scaling_share > 0.0; ++root) {  // to within 2^(1/32)
+    while (per_load * tensions_.heaviest < kLargest && addedMass(per_load * factor) <= allowed) {
       per_load *= factor;
       if (root > 0) break;
     }

@@ -42,10 +42,10 @@ class NodeInertia {
 
   /// Largest step with h * omega <= most_phase when mass scaling may add this share of the cloth's mass [s]; infinite
   /// without tensions.
-  double stepForPhase(double most_phase, double heavier_share) const noexcept;
+  double stepForPhase(double most_phase, double scaling_share) const noexcept;
 
  private:
-  double heavierBy(double per_load) const noexcept;
+  double addedMass(double per_load) const noexcept;
 
   const ClothPattern& pattern_;
   double free_mass_;  // [kg]

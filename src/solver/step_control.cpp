@@ -47,7 +47,7 @@ StepControl::StepControl(const SolverParams& params, const ClothPattern& pattern
 void StepControl::reset() noexcept {
   omega_ = initial_omega_;
   turning_ = 0.0;
-  heavier_step_ = 0.0;
+  scaled_step_ = 0.0;
   limit_ = frame_;
   good_ = 0;
   trust_.reset();
@@ -74,9 +74,9 @@ double StepControl::stepFromTensions(bool frame_begins, const ExactSolver& solve
   const double for_phase = omega_ > 0.0 ? kPhasePerStep / (longest_stage * omega_) : frame_;
   if (method_ != Method::kAuto || for_phase > kWorthLooking * frame_) return for_phase;
   // Once a frame: an impact within it is no reason for longer steps. But at its beginning no tensions may be known.
-  if (frame_begins || std::isinf(heavier_step_))
-    heavier_step_ = solver.inertia().stepForPhase(kPhasePerStep, kHeavierShare);
-  return std::isfinite(heavier_step_) ? std::max(for_phase, heavier_step_) : for_phase;
+  if (frame_begins || std::isinf(scaled_step_))
+    scaled_step_ = solver.inertia().stepForPhase(kPhasePerStep, kMassScalingShare);
+  return std::isfinite(scaled_step_) ? std::max(for_phase, scaled_step_) : for_phase;
 }
 
 // Lengthens the step when computing time is short: only for methods that stay stable, and not beyond what was rejected
@@ -92,7 +92,7 @@ double StepControl::stretch(double wanted, double remaining) noexcept {
 
 SubstepPlan StepControl::next(double remaining, const ExactSolver& solver) noexcept {
   const bool frame_begins = remaining > (1.0 - 1e-6) * frame_;
-  if (frame_begins) heavier_step_ = 0.0;
+  if (frame_begins) scaled_step_ = 0.0;
   SubstepPlan plan;
   plan.precise = composed_;
   plan.tells_turning = fixed_substeps_ == 0;

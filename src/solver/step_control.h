@@ -54,7 +54,7 @@ class StepControl {
   double initial_omega_;  // of the cloth hanging by its weight [1/s]
   double omega_;          // from the last tensions [1/s]
   double turning_;        // of the last substep [1/s]
-  double heavier_step_;   // allowed by mass scaling, found when the frame began [s]; 0: not looked for
+  double scaled_step_;    // allowed by mass scaling, found when the frame began [s]; 0: not looked for
   double surface_step_;   // SubstepOutcome::longest_step [s]
   double limit_;          // longest step after rejections [s]
   int allowed_ = std::numeric_limits<int>::max();  // for the rest of the frame

@@ -45,7 +45,7 @@ SubstepStart Bdf2::start(const SubstepPlan& plan, double step, double kick, cons
 }
 
 bool Bdf2::struck() noexcept {
-  memory_.single_steps = kStepsAfterBlow;
+  memory_.single_steps = kStepsAfterImpact;
   const bool used_two = memory_.h != 0.0;
   memory_.h = 0.0;
   return used_two;

@@ -2,7 +2,7 @@
 //
 // Two-step backward differentiation formula (Gear 1971): links pull along their directions at the end of the step.
 // Order 2, stable at any step, damps what it can't resolve. After an impact it forgets its history and is backward
-// Euler for kStepsAfterBlow steps.
+// Euler for kStepsAfterImpact steps.
 #pragma once
 
 #include "solver/scheme.h"
