@@ -35,10 +35,14 @@ ErrorEstimate::ErrorEstimate(const SolverParams& params, const ClothPattern& pat
 void ErrorEstimate::reset() noexcept {
   substeps_ = fewest_;
   frames_ = 0;
+  last_second_ = 0.0;
+  beginWindow();
+}
+
+void ErrorEstimate::beginWindow() noexcept {
   compared_ = 0;
-  steps_sum_ = reference_sum_ = 0.0;
+  steps_sum_ = reference_sum_ = now_ = 0.0;
   of_stages_ = true;
-  now_ = last_second_ = 0.0;
 }
 
 // Substeps keep their length, and a comparison starts at once.
@@ -48,10 +52,7 @@ void ErrorEstimate::takeFrame(double length) noexcept {
   frame_length_ = length;
   window_ = std::max(1, static_cast<int>(std::lround(1.0 / length)));
   frames_ = 0;
-  compared_ = 0;
-  steps_sum_ = reference_sum_ = 0.0;
-  of_stages_ = true;
-  now_ = 0.0;
+  beginWindow();
 }
 
 int ErrorEstimate::pilotFrames() const noexcept {
@@ -105,11 +106,7 @@ void ErrorEstimate::frameMade(const Field3& position, int steps, const Field3* r
     last_second_ = now_ * std::pow(static_cast<double>(window_) / compared_, kGrowth);
     aimAt(last_second_, steps_sum_ / (compared_ * steps_per_substep_));
   }
-  if (!over) return;
-  now_ = 0.0;
-  compared_ = 0;
-  of_stages_ = true;
-  steps_sum_ = reference_sum_ = 0.0;
+  if (over) beginWindow();
 }
 
 double ErrorEstimate::perSecond() const noexcept { return std::max(now_, last_second_); }

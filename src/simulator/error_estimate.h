@@ -66,6 +66,7 @@ class ErrorEstimate {
  private:
   static constexpr int kEverySeconds = 4;
   double error(const Field3& a, double n, const Field3& b, double m, int order) const noexcept;
+  void beginWindow() noexcept;
   void aimAt(double error_per_second, double substeps) noexcept;
 
   const ClothPattern& pattern_;

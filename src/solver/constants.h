@@ -36,7 +36,7 @@ constexpr double kReduction = 0.3;
 constexpr double kContactReduction = 0.05;
 constexpr int kGradientIterations = 12;
 // A sweep that would move a node by more than this share of a link is scaled down to it: larger moves leave the range
-// of the linearisation [1].
+// of the linearisation.
 constexpr double kLargestMove = 0.1;
 constexpr double kWatchMoves = 1e-3;  // relative violation below which no solve can exceed kLargestMove
 // Sweeps of a substep that project friction. Sticking under load converges over the substeps, since multipliers carry
@@ -59,7 +59,7 @@ constexpr double kLeastShare = 0.01;
 // The same for the last resort, whose substeps are long. 1: taut sheets never come to rest. 0.01: rows drawn straight
 // rise by as much as they may sag, without energy to pay for it.
 constexpr double kLastResortShare = 0.1;
-// The solve has stalled when a window of sweeps improves the residual by less than this factor.
+// The solve has stalled when the residual after a window of sweeps is more than this factor of that before.
 constexpr int kStallWindow = 16;
 constexpr double kStallFactor = 0.8;
 // Levenberg-Marquardt term of the strings' solve, relative to the diagonal: proportional to the residual, so that it
@@ -80,8 +80,8 @@ constexpr double kMostGrowth = 2.0;
 
 // ---- Substeps: verification and energy
 
-// After a substep whose links did not converge, the next one is limited so that an obstacle's surface moves by this
-// share of the shortest link.
+// Largest motion of a touched obstacle's surface in a substep, over the shortest link: with more, the solve could not
+// bring links to their lengths.
 constexpr double kMostSurfaceMotion = 0.2;
 // Ratio of kinetic energies, with and without the work of links, above which the links are assumed to have jumped to
 // another configuration. Otherwise links only take energy out; leapfrog's energy wavers, and bdf2's base is off the

@@ -7,23 +7,32 @@
 #include "solver/constants.h"
 
 namespace curtain {
+namespace {
+
+// Calls look(node, other, rest length, is a rod) for every link, which ends at `node`.
+template <typename Look>
+void forEachLink(const ClothPattern& pattern, const Look& look) {
+  const Grid& grid = pattern.grid;
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) {
+      const std::size_t n = grid.index(i, j);
+      if (i > 0) look(n, grid.index(i - 1, j), pattern.warp_rest[n], true);
+      if (j > 0 || grid.closed) look(n, grid.index(i, j > 0 ? j - 1 : grid.columns - 1), pattern.weft_rest[n], false);
+    }
+  }
+}
+
+}  // namespace
 
 LastResort::LastResort(const ClothPattern& pattern) : Scheme({true, false, 0.5, false}), pattern_(pattern) {
   const Grid& grid = pattern.grid;
   for (Field3* field : {&base_.position, &base_.velocity, &no_force_}) field->assign(grid.size(), 0.0);
   shortest_.assign(grid.size(), std::numeric_limits<double>::infinity());
   follows_.assign(grid.size(), 0.0);
-  for (int i = 0; i < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j) {
-      const std::size_t n = grid.index(i, j);
-      const auto join = [&](std::size_t other, double rest) {
-        shortest_[n] = std::min(shortest_[n], rest);
-        shortest_[other] = std::min(shortest_[other], rest);
-      };
-      if (i > 0) join(grid.index(i - 1, j), pattern.warp_rest[n]);
-      if (j > 0 || grid.closed) join(grid.index(i, j > 0 ? j - 1 : grid.columns - 1), pattern.weft_rest[n]);
-    }
-  }
+  forEachLink(pattern, [&](std::size_t n, std::size_t other, double rest, bool) {
+    shortest_[n] = std::min(shortest_[n], rest);
+    shortest_[other] = std::min(shortest_[other], rest);
+  });
 }
 
 SubstepStart LastResort::start(const SubstepPlan& plan, double step, double kick, const NodeForces& forces,
@@ -96,22 +105,14 @@ double LastResort::cut(const Field3& position, const Field& inverse, double h, d
 
 // Relative overlengths of links (and underlengths of rods) with a movable end: largest and sum of squares.
 LastResort::Misfit LastResort::misfitOf(const Field3& position, const Field& inverse) const noexcept {
-  const Grid& grid = pattern_.grid;
   Misfit misfit;
-  for (int i = 0; i < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j) {
-      const std::size_t n = grid.index(i, j);
-      const auto look = [&](std::size_t other, double rest, bool rod) {
-        if (!(inverse[n] + inverse[other] > 0.0)) return;
-        const double over = (position.at(n) - position.at(other)).norm() / rest - 1.0;
-        const double lacks = rod ? std::abs(over) : std::max(0.0, over);
-        misfit.worst = std::max(misfit.worst, lacks);
-        misfit.squares += lacks * lacks;
-      };
-      if (i > 0) look(grid.index(i - 1, j), pattern_.warp_rest[n], true);
-      if (j > 0 || grid.closed) look(grid.index(i, j > 0 ? j - 1 : grid.columns - 1), pattern_.weft_rest[n], false);
-    }
-  }
+  forEachLink(pattern_, [&](std::size_t n, std::size_t other, double rest, bool rod) {
+    if (!(inverse[n] + inverse[other] > 0.0)) return;
+    const double over = (position.at(n) - position.at(other)).norm() / rest - 1.0;
+    const double lacks = rod ? std::abs(over) : std::max(0.0, over);
+    misfit.worst = std::max(misfit.worst, lacks);
+    misfit.squares += lacks * lacks;
+  });
   return misfit;
 }
 
@@ -146,16 +147,9 @@ LastResort::Bound LastResort::bound(const Field& inverse, double allowed, Field3
   // the share down to another of finitely many roots.
   for (double before = 2.0; share < before;) {
     before = share;
-    for (int i = 0; i < grid.rows; ++i) {
-      for (int j = 0; j < grid.columns; ++j) {
-        const std::size_t n = grid.index(i, j);
-        const auto look = [&](std::size_t other, double rest, bool rod) {
-          if (inverse[n] + inverse[other] > 0.0) share = shareOf(other, n, rest, rod, most, share, end);
-        };
-        if (i > 0) look(grid.index(i - 1, j), pattern_.warp_rest[n], true);
-        if (j > 0 || grid.closed) look(grid.index(i, j > 0 ? j - 1 : grid.columns - 1), pattern_.weft_rest[n], false);
-      }
-    }
+    forEachLink(pattern_, [&](std::size_t n, std::size_t other, double rest, bool rod) {
+      if (inverse[n] + inverse[other] > 0.0) share = shareOf(other, n, rest, rod, most, share, end);
+    });
   }
   if (share == 1.0) return {};
   Bound taken{share, 0.0};
