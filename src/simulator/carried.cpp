@@ -86,6 +86,7 @@ void ForceField::carry(Archive& archive, AirParams& air) {
   archive.flag("has_damping", forces_.has_damping);
   if (!archive.loads()) return;
   std::vector<WindSource> sources;
+  sources.reserve(winds.size());
   for (const WindParams& wind : winds) sources.emplace_back(wind, pattern_, scene_.cloth.porosity, scene_.solver.seed);
   std::vector<DragForce> drags;
   std::vector<DragParams> drag_params;
