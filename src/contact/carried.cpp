@@ -89,11 +89,11 @@ void ClothContact::carryPushing(Archive& archive, Contact& contact) const {
 }
 
 void ClothContact::carry(Archive& archive) {
-  archive.part("touch", touch_);
+  archive.part("touch", obstacle_contacts_);
   archive.flag("taut", taut_);
   archive.list("pushing", last_, [&](Contact& contact) { carryPushing(archive, contact); });
   archive.number("last_scale", last_scale_);
-  archive.integer("slippery", slippery_, 0, kCount);
+  archive.integer("slippery", frictionless_substeps_, 0, kCount);
 }
 
 }  // namespace curtain

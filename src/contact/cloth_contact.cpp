@@ -8,7 +8,7 @@ namespace curtain {
 namespace {
 
 // Substeps without friction after one whose links could not be brought to their lengths.
-constexpr int kSlipperySubsteps = 64;
+constexpr int kFrictionlessSubsteps = 64;
 // Two parts of the cloth are not kept further apart than this share of its shortest link: thicker cloth would touch its
 // own next row.
 constexpr double kGapPerLink = 0.25;
@@ -16,7 +16,7 @@ constexpr double kGapPerLink = 0.25;
 // touch.
 constexpr double kFlatReach = 1.25;
 // Parts that go along with an obstacle may take more with them: so many times at most.
-constexpr int kCarryRounds = 64;
+constexpr int kAdvectionRounds = 64;
 
 // What goes through comes this near, over the gap, with room for what measuring it leaves uncertain.
 constexpr double kCrossingReach = 2.0 * SelfContacts::kLeastShare;
@@ -31,16 +31,16 @@ ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& par
       obstacles_(obstacles),
       self_wanted_(params.self),
       zone_iterations_(params.zone_iterations),
-      touch_(pattern, params, obstacles, workers),
-      self_(pattern, std::min(params.thickness, kGapPerLink * shortestLink(pattern)), params),
-      pairs_(pattern, &workers),
-      net_(pattern, stretch_tolerance),
+      obstacle_contacts_(pattern, params, obstacles, workers),
+      self_contacts_(pattern, std::min(params.thickness, kGapPerLink * shortestLink(pattern)), params),
+      self_candidates_(pattern, &workers),
+      flatness_(pattern, stretch_tolerance),
       zones_(pattern) {
   if (obstacles.count() == 0 && !params.self) return;
   contacts_.reserve(kRoomPerNode * pattern.grid.nodeCount());
   last_.reserve(kRoomPerNode * pattern.grid.nodeCount());
   if (!params.self) return;
-  pairs_.reserve(candidates_);
+  self_candidates_.reserve(candidates_);
 }
 
 // The cloth with itself first, then obstacles by their names.
@@ -53,7 +53,7 @@ bool ClothContact::before(const Contact& a, const Contact& b) const noexcept {
 
 void ClothContact::find(const Field3& start, const Field3& end, double reach) noexcept {
   candidates_.clear();
-  pairs_.collect(start, end, reach, candidates_);
+  self_candidates_.collect(start, end, reach, candidates_);
 }
 
 // Xorshift (Marsaglia 2003): never 0 again once it is not.
@@ -69,16 +69,16 @@ Contacts& ClothContact::begin(const Field3& start, const Field3& predicted, doub
   if (clearing_ != 0) clearAtRandom();
   contacts_.clear();
   h_ = h;
-  looks_ = 0;
+  verify_count_ = 0;
   if (self_wanted_) {
-    flat_ = taut_ && net_.isFlat(start, kFlatReach * self_.gap());
+    flat_ = taut_ && flatness_.isFlat(start, kFlatReach * self_contacts_.gap());
     if (flat_)
       candidates_.clear();
     else
-      find(start, predicted, self_.gap());
-    self_.collect(candidates_, last_, start, predicted, h, contacts_);
+      find(start, predicted, self_contacts_.gap());
+    self_contacts_.collect(candidates_, last_, start, predicted, h, contacts_);
   }
-  touch_.begin(start, predicted, h, slippery_ > 0, contacts_);
+  obstacle_contacts_.begin(start, predicted, h, frictionless_substeps_ > 0, contacts_);
   warmStart();
   return contacts_;
 }
@@ -96,7 +96,7 @@ void ClothContact::warmStart() noexcept {
 }
 
 bool ClothContact::staysFlat(const Field3& end, bool settled) noexcept {
-  return flat_ && settled && net_.staysFlat(end, kFlatReach * self_.gap());
+  return flat_ && settled && flatness_.staysFlat(end, kFlatReach * self_contacts_.gap());
 }
 
 ContactFinder::Verdict ClothContact::verify(const Field3& start, const Field3& end, bool settled) noexcept {
@@ -105,47 +105,48 @@ ContactFinder::Verdict ClothContact::verify(const Field3& start, const Field3& e
   bool full = false;
   if (self_wanted_ && !staysFlat(end, settled)) {
     if (flat_)
-      find(start, end, self_.gap());
+      find(start, end, self_contacts_.gap());
     else
-      pairs_.collectElsewhere(start, end, kCrossingReach * self_.gap(), candidates_);
+      self_candidates_.collectDeviating(start, end, kCrossingReach * self_contacts_.gap(), candidates_);
     flat_ = false;
-    added = self_.verify(candidates_, start, end, h_, contacts_);
-    full = self_.full();
+    added = self_contacts_.verify(candidates_, start, end, h_, contacts_);
+    full = self_contacts_.full();
   }
-  added += touch_.verify(start, end, settled, contacts_);
-  if (full || touch_.full()) return Verdict::kCrossed;
+  added += obstacle_contacts_.verify(start, end, settled, contacts_);
+  if (full || obstacle_contacts_.full()) return Verdict::kCrossed;
   if (added == 0) return Verdict::kClear;
-  return ++looks_ <= zone_iterations_ ? Verdict::kMore : Verdict::kCrossed;
+  return ++verify_count_ <= zone_iterations_ ? Verdict::kMore : Verdict::kCrossed;
 }
 
 void ClothContact::hold(const Field3& start, Field3& end) noexcept {
   if (clearing_ != 0) clearAtRandom();
   flat_ = false;
-  if (self_wanted_) holdSelf(start, end);
-  if (obstacles_.anyPresent()) holdToObstacles(start, end);
+  if (self_wanted_) freezeZones(start, end);
+  if (obstacles_.anyPresent()) advectWithObstacles(start, end);
 }
 
 // What would go through an obstacle goes along with it, and what that would go through or be left behind by, too. Where
 // that does not come to an end, the rest stays where it is.
-void ClothContact::holdToObstacles(const Field3& start, Field3& end) noexcept {
+void ClothContact::advectWithObstacles(const Field3& start, Field3& end) noexcept {
   bool done = false;
-  for (int round = 0; round < kCarryRounds && !done; ++round) {
-    int count = touch_.carry(start, end);
+  for (int round = 0; round < kAdvectionRounds && !done; ++round) {
+    int count = obstacle_contacts_.advect(start, end);
     if (self_wanted_ && count > 0) {
-      find(start, end, kCrossingReach * self_.gap());
-      self_.forEachCrossing(candidates_, start, end, [&](const PairKey& pair) {
-        for (const std::uint32_t node : pair.node) count += touch_.carryAlong(pair.node[0], node, start, end) ? 1 : 0;
+      find(start, end, kCrossingReach * self_contacts_.gap());
+      self_contacts_.forEachCrossing(candidates_, start, end, [&](const PairKey& pair) {
+        for (const std::uint32_t node : pair.node)
+          count += obstacle_contacts_.advectAlong(pair.node[0], node, start, end) ? 1 : 0;
       });
     }
-    done = count == 0 && !touch_.full() && !self_.full();
+    done = count == 0 && !obstacle_contacts_.full() && !self_contacts_.full();
   }
-  if (!done) touch_.stopRest(start, end);
-  touch_.endCarrying();
+  if (!done) obstacle_contacts_.freezeRest(start, end);
+  obstacle_contacts_.endAdvection();
 }
 
-void ClothContact::holdSelf(const Field3& start, Field3& end) noexcept {
+void ClothContact::freezeZones(const Field3& start, Field3& end) noexcept {
   zones_.clear();
-  const auto is_done = [&] { return joinCrossings(start, end) == 0 && !self_.full(); };
+  const auto is_done = [&] { return joinCrossings(start, end) == 0 && !self_contacts_.full(); };
   for (int round = 0; round < zone_iterations_; ++round) {
     if (is_done()) return;
     zones_.makeRigid(start, end);
@@ -165,8 +166,8 @@ void ClothContact::holdSelf(const Field3& start, Field3& end) noexcept {
 int ClothContact::joinCrossings(const Field3& start, const Field3& end) noexcept {
   int count = 0;
   if (!self_wanted_) return count;
-  find(start, end, kCrossingReach * self_.gap());
-  self_.forEachCrossing(candidates_, start, end, [&](const PairKey& pair) {
+  find(start, end, kCrossingReach * self_contacts_.gap());
+  self_contacts_.forEachCrossing(candidates_, start, end, [&](const PairKey& pair) {
     for (std::size_t k = 1; k < 4; ++k) zones_.join(pair.node[0], pair.node[k]);
     ++count;
   });
@@ -176,13 +177,13 @@ int ClothContact::joinCrossings(const Field3& start, const Field3& end) noexcept
 void ClothContact::afterSubstep(bool settled, double h, double scale, const Field3& position) noexcept {
   taut_ = settled;
   if (flat_)
-    net_.goOn();
+    flatness_.advance();
   else
-    net_.forget();
+    flatness_.invalidate();
   if (!settled)
-    slippery_ = kSlipperySubsteps;
-  else if (slippery_ > 0)
-    --slippery_;
+    frictionless_substeps_ = kFrictionlessSubsteps;
+  else if (frictionless_substeps_ > 0)
+    --frictionless_substeps_;
   last_.clear();
   for (const Contact& contact : contacts_) {
     if (contact.pushes()) last_.push_back(contact);
@@ -191,7 +192,7 @@ void ClothContact::afterSubstep(bool settled, double h, double scale, const Fiel
   const auto in_order = [this](const Contact& a, const Contact& b) { return before(a, b); };
   if (!std::is_sorted(last_.begin(), last_.end(), in_order)) std::sort(last_.begin(), last_.end(), in_order);
   last_scale_ = scale;
-  touch_.remember(last_, position, h, scale);
+  obstacle_contacts_.remember(last_, position, h, scale);
 }
 
 void ClothContact::addForces(Field3& force) const noexcept {
@@ -209,15 +210,15 @@ void ClothContact::forget() noexcept {
   contacts_.clear();
   last_.clear();
   last_scale_ = 0.0;
-  slippery_ = 0;
+  frictionless_substeps_ = 0;
   taut_ = false;
   clearCaches();
-  touch_.beginFrame(true);
+  obstacle_contacts_.beginFrame(true);
 }
 
 void ClothContact::clearCaches() noexcept {
-  net_.forget();
-  touch_.clearCaches();
+  flatness_.invalidate();
+  obstacle_contacts_.clearCaches();
 }
 
 }  // namespace curtain

@@ -10,11 +10,11 @@
 // is kept beside them saves time and changes no bit of a result.
 #pragma once
 
-#include "contact/broad_phase/cloth_pairs.h"
-#include "contact/broad_phase/taut_net.h"
+#include "contact/broad_phase/cloth_flatness.h"
+#include "contact/broad_phase/self_candidates.h"
+#include "contact/response/impact_zones.h"
 #include "contact/response/obstacle_contacts.h"
 #include "contact/response/self_contacts.h"
-#include "contact/response/zones.h"
 #include "contact/shapes/obstacle_set.h"
 #include "solver/substep.h"
 
@@ -31,9 +31,9 @@ class ClothContact : public ContactFinder {
 
   /// What is nearer than it should be comes out by no more than this in the substeps to come [m]; infinite: at its own
   /// speed.
-  void boundRecovery(double most) noexcept {
-    touch_.boundRecovery(most);
-    self_.boundRecovery(most);
+  void limitRecovery(double most) noexcept {
+    obstacle_contacts_.limitRecovery(most);
+    self_contacts_.limitRecovery(most);
   }
 
   Contacts& begin(const Field3& start, const Field3& predicted, double h) noexcept override;
@@ -41,7 +41,7 @@ class ClothContact : public ContactFinder {
   void hold(const Field3& start, Field3& end) noexcept override;
 
   /// In a substep that it is not asked to begin, for there is nothing to look for.
-  void nothingTouches() noexcept { contacts_.clear(); }
+  void skipSubstep() noexcept { contacts_.clear(); }
   /// Where the cloth is put elsewhere; nothing that comes differs by it, but computing time.
   void clearCaches() noexcept;
   /// For tests: from now on that is done at every other look or so, drawn from seed; 0: no more.
@@ -50,12 +50,12 @@ class ClothContact : public ContactFinder {
   /// scale: its h * kick [s^2].
   void afterSubstep(bool settled, double h, double scale, const Field3& position) noexcept;
   /// Before the first substep of every frame.
-  void beginFrame(bool links_hold) noexcept { touch_.beginFrame(links_hold); }
+  void beginFrame(bool links_hold) noexcept { obstacle_contacts_.beginFrame(links_hold); }
 
   /// Contacts that find room without an allocation.
   std::size_t capacity() const noexcept { return contacts_.capacity(); }
   ObstacleStanding standing(int obstacle, const Field3& position) const noexcept {
-    return touch_.standing(obstacle, position);
+    return obstacle_contacts_.standing(obstacle, position);
   }
   /// Something of the last substep may touch.
   bool any() const { return !contacts_.empty(); }
@@ -63,19 +63,21 @@ class ClothContact : public ContactFinder {
   /// Those of the last accepted substep that push, in order.
   const Contacts& pushing() const noexcept { return last_; }
   /// How deep the deepest node is inside an obstacle [m]; 0: none is.
-  double deepestPenetration(const Field3& position) const noexcept { return touch_.deepest(contacts_, position); }
+  double deepestPenetration(const Field3& position) const noexcept {
+    return obstacle_contacts_.deepest(contacts_, position);
+  }
   /// Of the cloth on an obstacle, in the last frame.
-  ContactWrench wrench(int obstacle) const noexcept { return touch_.wrench(obstacle); }
+  ContactWrench wrench(int obstacle) const noexcept { return obstacle_contacts_.wrench(obstacle); }
   /// Adds the contact forces of the last substep [N].
   void addForces(Field3& force) const noexcept;
   void forget() noexcept;
   /// The next substep does not start where the last accepted one ended.
-  void lookAfresh() noexcept {
+  void invalidateStart() noexcept {
     taut_ = false;
-    net_.forget();
+    flatness_.invalidate();
   }
   /// Accepted substeps of so much time altogether [s], in which nothing touched, are undone.
-  void takeBack(double time) noexcept { touch_.takeBack(time); }
+  void takeBack(double time) noexcept { obstacle_contacts_.takeBack(time); }
   void carry(Archive& archive);
 
  private:
@@ -86,27 +88,27 @@ class ClothContact : public ContactFinder {
   void warmStart() noexcept;
   bool before(const Contact& a, const Contact& b) const noexcept;
   int joinCrossings(const Field3& start, const Field3& end) noexcept;
-  void holdSelf(const Field3& start, Field3& end) noexcept;
-  void holdToObstacles(const Field3& start, Field3& end) noexcept;
+  void freezeZones(const Field3& start, Field3& end) noexcept;
+  void advectWithObstacles(const Field3& start, Field3& end) noexcept;
 
   const ClothPattern& pattern_;
   const ObstacleSet& obstacles_;
   bool self_wanted_;
   int zone_iterations_;
-  ObstacleContacts touch_;
-  SelfContacts self_;
-  ClothPairs pairs_;
-  TautNet net_;
+  ObstacleContacts obstacle_contacts_;
+  SelfContacts self_contacts_;
+  SelfCandidates self_candidates_;
+  ClothFlatness flatness_;
   Candidates candidates_;  // of the way from the substep's start to where nodes were predicted, and to elsewhere
-  Zones zones_;
-  Contacts contacts_, last_;    // of this substep; of the last accepted one, those that pushed, in their order
-  double h_ = 0.0;              // of this substep [s]
-  double last_scale_ = 0.0;     // of the last one's multipliers [s^2]
-  bool taut_ = false;           // links hold where the substep starts
-  bool flat_ = false;           // and the cloth is flat there
-  int looks_ = 0;               // times that the present substep was verified
-  int slippery_ = 0;            // substeps still to go without friction
-  std::uint64_t clearing_ = 0;  // state of the random numbers, see clearCachesAtRandom()
+  ImpactZones zones_;
+  Contacts contacts_, last_;       // of this substep; of the last accepted one, those that pushed, in their order
+  double h_ = 0.0;                 // of this substep [s]
+  double last_scale_ = 0.0;        // of the last one's multipliers [s^2]
+  bool taut_ = false;              // links hold where the substep starts
+  bool flat_ = false;              // and the cloth is flat there
+  int verify_count_ = 0;           // times that the present substep was verified
+  int frictionless_substeps_ = 0;  // substeps still to go without friction
+  std::uint64_t clearing_ = 0;     // state of the random numbers, see clearCachesAtRandom()
 };
 
 }  // namespace curtain

@@ -230,7 +230,7 @@ void Simulator::Impl::resume() noexcept {
   takeGravity();
   takeFrame();
   motion.exact.resume(sleep.rest().asleep(), motion.state);
-  motion.contact.nothingTouches();
+  motion.contact.skipSubstep();
   motion.contact.clearCaches();
   ++revision;
 }

@@ -41,7 +41,7 @@ SubstepOutcome Motion::attempt(const SubstepPlan& plan, double done) {
   ContactFinder* const finder = contact.wanted() ? &contact : nullptr;
   clock.start();
   if (finder == nullptr)
-    contact.nothingTouches();
+    contact.skipSubstep();
   else
     lag.setSubstep(plan, done, state.position);
   const NodeForces& now = forces.evaluate(state, statistics.time + done, plan.h);
@@ -66,7 +66,7 @@ void Motion::restore(const Checkpoint& checkpoint) {
   state = checkpoint.state;
   exact.restore(checkpoint.memory);
   ledger.restore(checkpoint.work);
-  contact.lookAfresh();
+  contact.invalidateStart();
   velocities_fresh_ = false;
 }
 

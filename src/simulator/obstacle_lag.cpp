@@ -15,7 +15,7 @@ void ObstacleLag::setSubstep(const SubstepPlan& plan, double done, const Field3&
   share_ = 1.0;
   obstacles_.setSubstep(from, from + plan.h / frame_length);
   const double most = plan.isLastResort() ? plan.reach * shortest_link_ : std::numeric_limits<double>::infinity();
-  contact_.boundRecovery(most);
+  contact_.limitRecovery(most);
   if (!plan.isLastResort()) return;
   double path = 0.0;
   for (int o = 0; o < obstacles_.count(); ++o) {

@@ -175,7 +175,7 @@ TEST(Mesh, trianglesNearAnswerAsTheTree) {
     }
     const TriangleMeshTree tree(soup);
     Vec3 point = Vec3::Zero();
-    TrianglesNear near;
+    NearTriangles near;
     for (int k = 0; k < 4000; ++k) {
       if (k % 50 == 0)
         point = halves(2.0);

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "cloth/coarse_mesh.h"
-#include "contact/broad_phase/cloth_pairs.h"
+#include "contact/broad_phase/self_candidates.h"
 #include "contact/narrow_phase/closest_points.h"
 #include "curtain_sim/scene_yaml.h"
 #include "curtain_sim/simulator.h"
@@ -160,7 +160,7 @@ class WatchedRun {
   ClothPattern pattern_;
   Simulator simulator_;
   double gap_;
-  ClothPairs pairs_;
+  SelfCandidates pairs_;
   std::vector<Element> vertices_, edges_, triangles_;
   Field3 now_;
   std::set<Key> named_;

@@ -19,7 +19,7 @@ Eigen::AlignedBox3d boxOf(const Corners& corners) {
 }
 
 /// Whether the segment p-q meets the triangle elsewhere than in its plane (there their edges meet).
-bool goesThrough(const Vec3& p, const Vec3& q, const Corners& triangle) {
+bool crosses(const Vec3& p, const Vec3& q, const Corners& triangle) {
   const Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
   if (normal.dot(p - triangle[0]) * normal.dot(q - triangle[0]) >= 0.0) return false;
   bool none_left = true;
@@ -47,7 +47,7 @@ bool areNear(const Corners& a, const Corners& b, double clearance) {
   const double limit = clearance * clearance;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t next = (k + 1) % 3;
-    if (goesThrough(a[k], a[next], b) || goesThrough(b[k], b[next], a)) return true;
+    if (crosses(a[k], a[next], b) || crosses(b[k], b[next], a)) return true;
     if (closestOnTriangle(a[k], b[0], b[1], b[2]).distance_squared < limit) return true;
     if (closestOnTriangle(b[k], a[0], a[1], a[2]).distance_squared < limit) return true;
     for (std::size_t m = 0; m < 3; ++m) {

@@ -37,7 +37,7 @@ struct Spacings {
 };
 
 /// Windows of one or two quads each way, eight side by side: first nodes next to each other in memory.
-struct EvenWindows {
+struct FlatWindows {
   static constexpr std::size_t kCount = 8;
 
   int high, wide;             ///< quads of one

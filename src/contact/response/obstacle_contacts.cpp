@@ -5,7 +5,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "contact/broad_phase/cloth_reach.h"
+#include "contact/broad_phase/swept_bounds.h"
 #include "contact/narrow_phase/candidates.h"
 
 namespace curtain {
@@ -33,15 +33,15 @@ ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, const ContactPar
       bounds_(pattern) {
   const auto count = static_cast<std::size_t>(obstacles.count());
   if (count == 0) return;
-  near_.reserve(count);
+  candidates_.reserve(count);
   for (const MovingObstacle& moving : obstacles.moving())
-    near_.emplace_back(pattern, *moving.shape, thickness_, kCore * thickness_, workers);
+    candidates_.emplace_back(pattern, *moving.shape, thickness_, kCore * thickness_, workers);
   active_.assign(count, 0);
   loads_.assign(count, Load());
   crossings_.reserve(pattern.grid.nodeCount());
-  pierced_.reserve(2 * pattern.grid.nodeCount());
-  carried_by_.assign(pattern.grid.size(), -1);
-  carried_.reserve(pattern.grid.nodeCount());
+  penetrating_.reserve(2 * pattern.grid.nodeCount());
+  advected_by_.assign(pattern.grid.size(), -1);
+  advected_.reserve(pattern.grid.nodeCount());
 }
 
 // Box around the cloth on its way, and what may touch beyond it.
@@ -66,10 +66,10 @@ bool ObstacleContacts::anyWithin(const Eigen::AlignedBox3d& box) const noexcept 
   return std::any_of(obstacles_.moving().begin(), obstacles_.moving().end(), is_within);
 }
 
-void ObstacleContacts::begin(const Field3& start, const Field3& predicted, double h, bool slippery,
+void ObstacleContacts::begin(const Field3& start, const Field3& predicted, double h, bool frictionless,
                              Contacts& contacts) noexcept {
   h_ = h;
-  slippery_ = slippery;
+  frictionless_ = frictionless;
   std::fill(active_.begin(), active_.end(), std::uint8_t{0});
   if (obstacles_.sweptBounds().isEmpty()) return;
   start_box_ = bounds_.around(start);
@@ -79,19 +79,20 @@ void ObstacleContacts::begin(const Field3& start, const Field3& predicted, doubl
     if (active_[n] == 0) continue;
     const ObstacleSubstep substep = substepOf(n);
     const auto first = static_cast<std::ptrdiff_t>(contacts.size());
-    pierced_.clear();
-    if (!near_[n].faces().empty()) collectFaces(substep, pattern_, near_[n], pierced_, contacts);
-    if (!near_[n].pairs().empty()) collectPairs(substep, pattern_, near_[n], contacts);
-    const CommonExit exit(pattern_.grid, near_[n], pierced_);
-    letOutFaces(substep, pattern_, near_[n], exit, pierced_, contacts);
-    collectNodes(substep, pattern_, near_[n], exit, contacts);
+    penetrating_.clear();
+    if (!candidates_[n].faces().empty()) collectFaces(substep, pattern_, candidates_[n], penetrating_, contacts);
+    if (!candidates_[n].pairs().empty()) collectPairs(substep, pattern_, candidates_[n], contacts);
+    const ExitDirection exit(pattern_.grid, candidates_[n], penetrating_);
+    collectPenetratingFaces(substep, pattern_, candidates_[n], exit, penetrating_, contacts);
+    collectNodes(substep, pattern_, candidates_[n], exit, contacts);
     std::sort(contacts.begin() + first, contacts.end(), firstOfOne);
     contacts.erase(std::unique(contacts.begin() + first, contacts.end(), alike), contacts.end());
   }
 }
 
-// Lists what is near for the way from start to end, of the obstacles that the cloth may come near on it; false: of
-// none. Those that are not active yet become so. Some 30 nodes will do for what is not close, where links hold.
+// Lists what is candidates for the way from start to end, of the obstacles that the cloth may come candidates on it;
+// false: of none. Those that are not active yet become so. Some 30 nodes will do for what is not close, where links
+// hold.
 bool ObstacleContacts::activate(const Field3& start, const Field3& end, bool links_hold) noexcept {
   if (obstacles_.sweptBounds().isEmpty()) return false;
   if (links_hold) {
@@ -101,13 +102,13 @@ bool ObstacleContacts::activate(const Field3& start, const Field3& end, bool lin
   }
   const Eigen::AlignedBox3d box = reached(boxAround(pattern_.grid, start, end));
   bool any = false;
-  for (std::size_t n = 0; n < near_.size(); ++n) {
+  for (std::size_t n = 0; n < candidates_.size(); ++n) {
     const MovingObstacle& moving = obstacles_.moving()[n];
     if (!moving.present || !(active_[n] != 0 || box.intersects(moving.sweptBounds()))) continue;
     if (active_[n] != 0)
-      near_[n].follow(moving, end);
+      candidates_[n].follow(moving, end);
     else
-      near_[n].prepare(moving, start, end);
+      candidates_[n].prepare(moving, start, end);
     active_[n] = 1;
     any = true;
   }
@@ -122,14 +123,14 @@ void ObstacleContacts::findCrossings(const Field3& start, const Field3& end, boo
     const auto n = static_cast<std::size_t>(index);
     if (active_[n] == 0) continue;
     const ObstacleSubstep substep = substepOf(n);
-    crossingNodes(substep, pattern_, near_[n], crossings_);
+    crossingNodes(substep, pattern_, candidates_[n], crossings_);
     const auto elements = static_cast<std::ptrdiff_t>(crossings_.size());
-    if (!near_[n].faces().empty()) crossingFaces(substep, pattern_, near_[n], crossings_);
-    if (!near_[n].pairs().empty()) crossingPairs(substep, pattern_, near_[n], crossings_);
+    if (!candidates_[n].faces().empty()) crossingFaces(substep, pattern_, candidates_[n], crossings_);
+    if (!candidates_[n].pairs().empty()) crossingPairs(substep, pattern_, candidates_[n], crossings_);
     std::sort(crossings_.begin() + elements, crossings_.end(), [](const Crossing& a, const Crossing& b) {
       return std::tie(a.node, a.contact.source) < std::tie(b.node, b.contact.source);
     });
-    full_ = full_ || near_[n].full();
+    full_ = full_ || candidates_[n].full();
   }
 }
 
@@ -139,13 +140,13 @@ int ObstacleContacts::verify(const Field3& start, const Field3& end, bool links_
   return static_cast<int>(crossings_.size());
 }
 
-int ObstacleContacts::carry(const Field3& start, Field3& end) noexcept {
+int ObstacleContacts::advect(const Field3& start, Field3& end) noexcept {
   findCrossings(start, end, false);
   int count = 0;
   for (const Crossing& crossing : crossings_) {
     bool news = false;
     for (std::size_t k = 0; k < static_cast<std::size_t>(crossing.nodes); ++k) {
-      news = carryNode(crossing.node[k], crossing.contact.obstacle, start, end) || news;
+      news = advectNode(crossing.node[k], crossing.contact.obstacle, start, end) || news;
     }
     count += news ? 1 : 0;
   }
@@ -153,30 +154,30 @@ int ObstacleContacts::carry(const Field3& start, Field3& end) noexcept {
 }
 
 // False: it already goes along with one, or can't.
-bool ObstacleContacts::carryNode(std::uint32_t node, int obstacle, const Field3& start, Field3& end) noexcept {
-  if (carried_by_[node] >= 0 || pattern_.inverse_mass[node] <= 0.0) return false;
+bool ObstacleContacts::advectNode(std::uint32_t node, int obstacle, const Field3& start, Field3& end) noexcept {
+  if (advected_by_[node] >= 0 || pattern_.inverse_mass[node] <= 0.0) return false;
   const MovingObstacle& moving = obstacles_.moving()[static_cast<std::size_t>(obstacle)];
-  carried_by_[node] = obstacle;
-  carried_.push_back(node);
+  advected_by_[node] = obstacle;
+  advected_.push_back(node);
   end.set(node, moving.after.toWorld(moving.before.toLocal(start.at(node))));
   return true;
 }
 
-bool ObstacleContacts::carryAlong(std::size_t a, std::size_t b, const Field3& start, Field3& end) noexcept {
-  if (carried_by_.empty() || (carried_by_[a] < 0) == (carried_by_[b] < 0)) return false;
-  return carryNode(static_cast<std::uint32_t>(carried_by_[a] < 0 ? a : b), std::max(carried_by_[a], carried_by_[b]),
-                   start, end);
+bool ObstacleContacts::advectAlong(std::size_t a, std::size_t b, const Field3& start, Field3& end) noexcept {
+  if (advected_by_.empty() || (advected_by_[a] < 0) == (advected_by_[b] < 0)) return false;
+  return advectNode(static_cast<std::uint32_t>(advected_by_[a] < 0 ? a : b), std::max(advected_by_[a], advected_by_[b]),
+                    start, end);
 }
 
-void ObstacleContacts::stopRest(const Field3& start, Field3& end) const noexcept {
+void ObstacleContacts::freezeRest(const Field3& start, Field3& end) const noexcept {
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    if (carried_by_[n] < 0 && pattern_.inverse_mass[n] > 0.0) end.set(n, start.at(n));
+    if (advected_by_[n] < 0 && pattern_.inverse_mass[n] > 0.0) end.set(n, start.at(n));
   }
 }
 
-void ObstacleContacts::endCarrying() noexcept {
-  for (const std::uint32_t node : carried_) carried_by_[node] = -1;
-  carried_.clear();
+void ObstacleContacts::endAdvection() noexcept {
+  for (const std::uint32_t node : advected_) advected_by_[node] = -1;
+  advected_.clear();
 }
 
 void ObstacleContacts::remember(const Contacts& pushing, const Field3& position, double h, double scale) noexcept {
@@ -194,7 +195,7 @@ void ObstacleContacts::remember(const Contacts& pushing, const Field3& position,
 }
 
 void ObstacleContacts::clearCaches() noexcept {
-  for (Vicinity& vicinity : near_) vicinity.forget();
+  for (ObstacleCandidates& candidates : candidates_) candidates.invalidate();
 }
 
 void ObstacleContacts::beginFrame(bool links_hold) noexcept {
@@ -215,10 +216,10 @@ double ObstacleContacts::deepest(const Contacts& contacts, const Field3& positio
     if (contact.obstacle == Contact::kCloth || contact.nodes > 1) continue;
     const auto obstacle = static_cast<std::size_t>(contact.obstacle);
     const Vec3 local = obstacles_.moving()[obstacle].after.toLocal(position.at(contact.node[0]));
-    const NodePlane& plane = near_[obstacle].plane(contact.node[0]);
-    if (plane.kind != NodePlane::Kind::kUnknown && plane.lowerBound(local) > 0.0) continue;
+    const CachedPlane& plane = candidates_[obstacle].plane(contact.node[0]);
+    if (plane.kind != CachedPlane::Kind::kUnknown && plane.lowerBound(local) > 0.0) continue;
     SurfacePoint surface;
-    if (near_[obstacle].shape().query(local, local, 0.0, surface)) deepest = std::max(deepest, -surface.distance);
+    if (candidates_[obstacle].shape().query(local, local, 0.0, surface)) deepest = std::max(deepest, -surface.distance);
   }
   return deepest;
 }

@@ -10,16 +10,16 @@
 //   touch (obstacle_touch.h)  of those, what touches in the substep
 //
 // All of it follows from where the nodes start and end: what is kept from substep to substep (planes of a convex
-// shape's surface, candidates near a mesh) serves as long as motion that is measured allows, and no result depends on
-// that.
+// shape's surface, candidates candidates a mesh) serves as long as motion that is measured allows, and no result
+// depends on that.
 #pragma once
 
 #include <limits>
 #include <vector>
 
 #include "cloth/link_ways.h"
-#include "contact/broad_phase/vicinity.h"
-#include "contact/response/obstacle_touch.h"
+#include "contact/broad_phase/obstacle_candidates.h"
+#include "contact/response/element_contacts.h"
 #include "contact/shapes/obstacle_set.h"
 #include "curtain_sim/statistics.h"
 #include "solver/contacts.h"
@@ -36,9 +36,9 @@ class ObstacleContacts {
                    const Workers& workers);
 
   /// Begins a substep of h [s]: adds what may touch on the way from start to predicted, in the order of the obstacles'
-  /// names, of the contacts' nodes and features. slippery: without friction.
-  void begin(const Field3& start, const Field3& predicted, double h, bool slippery, Contacts& contacts) noexcept;
-  void boundRecovery(double most) noexcept { most_recovery_ = most; }
+  /// names, of the contacts' nodes and features. frictionless: without friction.
+  void begin(const Field3& start, const Field3& predicted, double h, bool frictionless, Contacts& contacts) noexcept;
+  void limitRecovery(double most) noexcept { most_recovery_ = most; }
 
   /// Adds contacts for parts of the cloth that would go through an obstacle on the way from start to end, expected or
   /// not; returns how many. links_hold: no link is longer than kOverlong at the end.
@@ -48,12 +48,12 @@ class ObstacleContacts {
 
   /// Lets the parts that would go through an obstacle on the way from start to end go along with it; returns how many
   /// there were with a node that did not yet.
-  int carry(const Field3& start, Field3& end) noexcept;
+  int advect(const Field3& start, Field3& end) noexcept;
   /// One of two nodes that go along with an obstacle takes the other one with it; false: neither or both do.
-  bool carryAlong(std::size_t a, std::size_t b, const Field3& start, Field3& end) noexcept;
+  bool advectAlong(std::size_t a, std::size_t b, const Field3& start, Field3& end) noexcept;
   /// Nodes that go along with none stay where they are.
-  void stopRest(const Field3& start, Field3& end) const noexcept;
-  void endCarrying() noexcept;
+  void freezeRest(const Field3& start, Field3& end) const noexcept;
+  void endAdvection() noexcept;
 
   /// After an accepted substep of h [s] that ended at position: contacts that push, whose multipliers are scale [s^2]
   /// times the forces.
@@ -84,29 +84,30 @@ class ObstacleContacts {
     void carry(Archive& archive);
   };
   ObstacleSubstep substepOf(std::size_t obstacle) const noexcept {
-    return {obstacles_.moving()[obstacle], static_cast<int>(obstacle), h_, slippery_, recovery_speed_, most_recovery_};
+    return {
+        obstacles_.moving()[obstacle], static_cast<int>(obstacle), h_, frictionless_, recovery_speed_, most_recovery_};
   }
   bool anyWithin(const Eigen::AlignedBox3d& box) const noexcept;
   Eigen::AlignedBox3d reached(Eigen::AlignedBox3d box) const noexcept;
   bool activate(const Field3& start, const Field3& end, bool links_hold) noexcept;
   void findCrossings(const Field3& start, const Field3& end, bool links_hold) noexcept;
-  bool carryNode(std::uint32_t node, int obstacle, const Field3& start, Field3& end) noexcept;
+  bool advectNode(std::uint32_t node, int obstacle, const Field3& start, Field3& end) noexcept;
 
   const ClothPattern& pattern_;
   double thickness_, recovery_speed_;
   double most_recovery_ = std::numeric_limits<double>::infinity();  // in a substep [m]
   const ObstacleSet& obstacles_;
   SampledBounds bounds_;
-  Eigen::AlignedBox3d start_box_;     // around the cloth where it starts
-  std::vector<Vicinity> near_;        // by obstacle
-  std::vector<std::uint8_t> active_;  // by obstacle: may be touched in this substep
-  bool slippery_ = false;             // this substep
-  double h_ = 0.0;                    // [s]
+  Eigen::AlignedBox3d start_box_;               // around the cloth where it starts
+  std::vector<ObstacleCandidates> candidates_;  // by obstacle
+  std::vector<std::uint8_t> active_;            // by obstacle: may be touched in this substep
+  bool frictionless_ = false;                   // this substep
+  double h_ = 0.0;                              // [s]
   bool full_ = false;
   std::vector<Crossing> crossings_;
-  std::vector<PiercedFace> pierced_;
-  std::vector<std::int32_t> carried_by_;  // by node: obstacle, or -1
-  std::vector<std::uint32_t> carried_;
+  std::vector<PenetratingFace> penetrating_;
+  std::vector<std::int32_t> advected_by_;  // by node: obstacle, or -1
+  std::vector<std::uint32_t> advected_;
   std::vector<Load> loads_;  // by obstacle
   double loaded_for_ = 0.0;  // [s]
 };

@@ -124,7 +124,7 @@ bool SelfContacts::touches(const PairKey& key, const Field3& start, const Field3
 
 // Where a vertex is closest to the border of a triangle, another triangle there that is nearer says the same or more:
 // contacts are where the distance to the surface is least. Of equal distances the first one stays.
-bool SelfContacts::isToldByAnother(std::size_t k) const noexcept {
+bool SelfContacts::isRedundant(std::size_t k) const noexcept {
   const PairKey& key = pairs_[k];
   const ClosestPoints& closest = closest_[k];
   const auto isOnBorder = [&](std::size_t n) { return closest.weight[n] != 0.0; };
@@ -162,7 +162,7 @@ void SelfContacts::collect(const Candidates& candidates, const Contacts& last, c
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     const PairKey& key = pairs_[k];
     const ClosestPoints& closest = closest_[k];
-    if (!closest.inside || closest.distance <= 0.0 || isToldByAnother(k)) continue;
+    if (!closest.inside || closest.distance <= 0.0 || isRedundant(k)) continue;
     Contact contact = makeContact(key, closest);
     contact.offset = offsetAt(closest.distance, h);
     addWithinRoom(contact, contacts);

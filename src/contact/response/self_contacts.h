@@ -48,7 +48,7 @@ class SelfContacts {
   SelfContacts(const ClothPattern& pattern, double gap, const ContactParams& params);
 
   double gap() const noexcept { return gap_; }
-  void boundRecovery(double most) noexcept { most_recovery_ = most; }
+  void limitRecovery(double most) noexcept { most_recovery_ = most; }
 
   /// Adds what may touch on the way from start to predicted, in a substep of h [s], and what pushed in the last one
   /// (`last`), in the order of their nodes. candidates: all pairs that come within the gap on that way, and any others,
@@ -78,7 +78,7 @@ class SelfContacts {
   template <typename Wanted>
   void select(const Candidates& candidates, const Wanted& wanted) noexcept;
   void sortPairs() noexcept;
-  bool isToldByAnother(std::size_t pair) const noexcept;
+  bool isRedundant(std::size_t pair) const noexcept;
   static std::array<Vec3, 4> corners(const PairKey& key, const Field3& position) noexcept {
     return {position.at(key.node[0]), position.at(key.node[1]), position.at(key.node[2]), position.at(key.node[3])};
   }

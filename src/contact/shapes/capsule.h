@@ -7,7 +7,7 @@
 #include "contact/shapes/convex_shape.h"
 #include "contact/shapes/directions.h"
 #include "contact/shapes/segment_distance.h"
-#include "contact/shapes/turned_profile.h"
+#include "contact/shapes/surface_of_revolution.h"
 #include "scene/pi.h"
 
 namespace curtain {

@@ -10,16 +10,16 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/shapes/cutting_planes.h"
 #include "contact/shapes/directions.h"
-#include "contact/shapes/tangent_search.h"
 
 namespace curtain {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-using tangents::kEps;
-using tangents::largestCoordinate;
-using tangents::middleOf;
+using cutting_planes::kEps;
+using cutting_planes::largestCoordinate;
+using cutting_planes::middleOf;
 
 /// Beyond this way [m] in one step there is no crossing to speak of, and its square would overflow.
 constexpr double kLongestWay = 1e150;
@@ -108,11 +108,11 @@ Eigen::AlignedBox3d ConvexShape::bounds() const {
 }
 
 void ConvexShape::minimise(const std::array<Vec3, 3>& corners, double reach, ElementMinimum& out) const noexcept {
-  tangents::searchTriangle(*this, size_, corners, reach, out);
+  cutting_planes::searchTriangle(*this, size_, corners, reach, out);
 }
 
 void ConvexShape::minimise(const std::array<Vec3, 2>& ends, double reach, ElementMinimum& out) const noexcept {
-  tangents::searchEdge(*this, size_, ends, reach, out);
+  cutting_planes::searchEdge(*this, size_, ends, reach, out);
 }
 
 template <std::size_t N>

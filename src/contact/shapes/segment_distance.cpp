@@ -5,16 +5,16 @@
 #include <cmath>
 #include <limits>
 
-#include "contact/shapes/tangent_search.h"
+#include "contact/shapes/cutting_planes.h"
 
 namespace curtain {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-using tangents::kEps;
-using tangents::largestCoordinate;
-using tangents::longestEdge;
-using tangents::middleOf;
+using cutting_planes::kEps;
+using cutting_planes::largestCoordinate;
+using cutting_planes::longestEdge;
+using cutting_planes::middleOf;
 
 /// Triangles lower than this share of their longest edge have their nearest point on an edge, to that share.
 constexpr double kFlatTriangle = 1e-8;

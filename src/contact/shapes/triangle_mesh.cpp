@@ -158,7 +158,7 @@ bool TriangleMeshShape::query(const Vec3& previous, const Vec3& current, double 
       [&](double limit, NearestTriangle& nearest) { return tree_.nearest(current, limit, nearest); }, out);
 }
 
-bool TriangleMeshShape::query(const Vec3& previous, const Vec3& current, double reach, double room, TrianglesNear& near,
+bool TriangleMeshShape::query(const Vec3& previous, const Vec3& current, double reach, double room, NearTriangles& near,
                               SurfacePoint& out) const noexcept {
   return queryBy(
       previous, current, reach,

@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "contact/shapes/contact_shape.h"
+#include "contact/shapes/distance_grid.h"
 #include "contact/shapes/obstacle_features.h"
-#include "contact/shapes/triangle_mesh_grid.h"
 #include "contact/shapes/triangle_mesh_topology.h"
 #include "contact/shapes/triangle_mesh_tree.h"
 
@@ -22,7 +22,7 @@ class TriangleMeshShape final : public ContactShape {
   bool query(const Vec3& previous, const Vec3& current, double reach, SurfacePoint& out) const noexcept override;
   /// The same answer, sooner where `near` was found for a point nearby. Finds it anew where it does not do, with so
   /// much room for the point to move [m].
-  bool query(const Vec3& previous, const Vec3& current, double reach, double room, TrianglesNear& near,
+  bool query(const Vec3& previous, const Vec3& current, double reach, double room, NearTriangles& near,
              SurfacePoint& out) const noexcept;
   Eigen::AlignedBox3d bounds() const override { return tree_.bounds(); }
   ShapeTriangles triangles() const override { return topology_.mesh; }

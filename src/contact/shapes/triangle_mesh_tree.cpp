@@ -91,9 +91,9 @@ class Segment {
 };
 
 // Puts a triangle into its place; without room the furthest one is left out, and bounds all that are.
-void insert(std::uint32_t place, double distance, TrianglesNear& near) {
+void insert(std::uint32_t place, double distance, NearTriangles& near) {
   std::size_t k = near.count;
-  if (k == TrianglesNear::kMost)
+  if (k == NearTriangles::kMost)
     near.radius = near.distances[--k];
   else
     ++near.count;
@@ -253,7 +253,7 @@ bool TriangleMeshTree::nearest(const Vec3& point, double limit_squared, NearestT
   return found;
 }
 
-bool TriangleMeshTree::nearest(const Vec3& point, double limit_squared, double room, TrianglesNear& near,
+bool TriangleMeshTree::nearest(const Vec3& point, double limit_squared, double room, NearTriangles& near,
                                NearestTriangle& out) const noexcept {
   const double moved = (point - near.centre).norm();
   const double seen = near.radius - moved;
@@ -280,7 +280,7 @@ bool TriangleMeshTree::nearest(const Vec3& point, double limit_squared, double r
 }
 
 // The triangles nearest to a point, of those that come within a radius.
-void TriangleMeshTree::collect(const Vec3& point, double radius, TrianglesNear& near) const noexcept {
+void TriangleMeshTree::collect(const Vec3& point, double radius, NearTriangles& near) const noexcept {
   near.centre = point;
   near.radius = radius;
   near.count = 0;

@@ -31,7 +31,7 @@ struct TriangleHit {
 
 /// The triangles nearest to a point, the nearest first: while it does not go far, its nearest one is among the first of
 /// them.
-struct TrianglesNear {
+struct NearTriangles {
   static constexpr std::size_t kMost = 16;
   Vec3 centre = Vec3::Zero();  ///< the point [m]
   double radius = -1.0;        ///< all others are at least that far from it; negative: nothing is known [m]
@@ -53,7 +53,7 @@ class TriangleMeshTree {
   bool nearest(const Vec3& point, double limit_squared, NearestTriangle& out) const noexcept;
   /// The same answer, sooner where `near` was found for a point nearby; finds it anew where it does not do, with so
   /// much room for the point to move [m].
-  bool nearest(const Vec3& point, double limit_squared, double room, TrianglesNear& near,
+  bool nearest(const Vec3& point, double limit_squared, double room, NearTriangles& near,
                NearestTriangle& out) const noexcept;
 
   /// First triangle on the way from -> to, both sides count; false: none. Does not slip through between
@@ -78,7 +78,7 @@ class TriangleMeshTree {
              std::vector<std::uint32_t>& order, const ShapeTriangles& mesh);
 
   bool take(const Vec3& point, std::uint32_t place, NearestTriangle& best) const noexcept;
-  void collect(const Vec3& point, double radius, TrianglesNear& near) const noexcept;
+  void collect(const Vec3& point, double radius, NearTriangles& near) const noexcept;
 
   std::vector<Node> nodes_;
   std::vector<Triangle> triangles_;

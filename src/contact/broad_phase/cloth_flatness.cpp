@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "contact/broad_phase/cloth_flatness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cloth/wide.h"
+
+namespace curtain {
+namespace {
+
+// Longest strips and spans [links]. Longer ones are fewer to check but bound the slopes between less.
+constexpr int kMostRods = 4, kMostWefts = 20;
+// Largest relative difference of rest lengths: the bound assumes a regular reference mesh.
+constexpr double kBent = 1e-6;
+// Covers rounding of slopes and kUneven.
+constexpr double kSlack = 1e-5;
+
+struct Place {
+  const double *x, *y, *z;
+  Place(const Field3& field, std::size_t n) : x(&field.x[n]), y(&field.y[n]), z(&field.z[n]) {}
+};
+
+struct Extremes {
+  double least_square, least, most_across;
+};
+
+// Over vectors from nodes to nodes, `stride` apart: squared length, component along one direction, and across it.
+CURTAIN_INTO_WIDE Extremes extremes(const Place& from, const Place& to, std::size_t count, std::size_t stride,
+                                    const Vec3& along, const Vec3& across) noexcept {
+  const double *const ax = from.x, *const ay = from.y, *const az = from.z;
+  const double *const bx = to.x, *const by = to.y, *const bz = to.z;
+  const double px = along.x(), py = along.y(), pz = along.z(), qx = across.x(), qy = across.y(), qz = across.z();
+  double least_square = 1e300, least = 1e300, most_across = 0.0;
+#pragma omp simd reduction(min : least_square, least) reduction(max : most_across)
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::size_t k = n * stride;
+    const double x = bx[k] - ax[k], y = by[k] - ay[k], z = bz[k] - az[k];
+    const double square = x * x + y * y + z * z, p = x * px + y * py + z * pz, q = std::abs(x * qx + y * qy + z * qz);
+    least_square = least_square < square ? least_square : square;
+    least = least < p ? least : p;
+    most_across = most_across > q ? most_across : q;
+  }
+  return {least_square, least, most_across};
+}
+
+CURTAIN_WIDE Extremes extremesOfRow(const Place& from, const Place& to, std::size_t count, const Vec3& along,
+                                    const Vec3& across) noexcept {
+  return extremes(from, to, count, 1, along, across);
+}
+
+CURTAIN_WIDE Extremes extremesOfColumn(const Place& from, const Place& to, std::size_t count, std::size_t stride,
+                                       const Vec3& along, const Vec3& across) noexcept {
+  return extremes(from, to, count, stride, along, across);
+}
+
+// Whether no link of the top row exceeds this squared ratio to its rest length.
+CURTAIN_WIDE bool holdsRow(const ClothPattern& pattern, const Field3& position, double most_square) noexcept {
+  const double *const x = position.x.data(), *const y = position.y.data(), *const z = position.z.data();
+  const double* const per_square = pattern.weft_per_square.data();
+  const auto columns = static_cast<std::size_t>(pattern.grid.columns);
+  double most = 0.0;
+#pragma omp simd reduction(max : most)
+  for (std::size_t j = 1; j < columns; ++j) {
+    const double dx = x[j] - x[j - 1], dy = y[j] - y[j - 1], dz = z[j] - z[j - 1];
+    const double square = (dx * dx + dy * dy + dz * dz) * per_square[j];
+    most = most > square ? most : square;
+  }
+  return most <= most_square;
+}
+
+}  // namespace
+
+ClothFlatness::ClothFlatness(const ClothPattern& pattern, double overlong)
+    : pattern_(pattern),
+      overlong_(overlong),
+      usable_(isEven(pattern)),
+      checks_top_(false),
+      strips_(spansOf(pattern.warp_coordinate, kMostRods)),
+      spans_(spansOf(pattern.weft_coordinate, kMostWefts)) {
+  const Grid& grid = pattern.grid;
+  const double per_u = 1.0 / pattern.weft_rest[1], per_v = 1.0 / pattern.warp_rest[grid.index(1, 0)];
+  per_altitude_ = std::sqrt(per_u * per_u + per_v * per_v);
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) {
+      const std::size_t n = grid.index(i, j);
+      if (pattern.inverse_mass[n] > 0.0) continue;
+      // Links between pins are not bounded by the solve. Those of the top row are checked; for others the proof is not
+      // used.
+      if (i > 0 && pattern.inverse_mass[grid.index(i - 1, j)] == 0.0) usable_ = false;
+      if (j == 0 || pattern.inverse_mass[n - 1] > 0.0) continue;
+      if (i == 0)
+        checks_top_ = true;
+      else
+        usable_ = false;
+    }
+  }
+}
+
+bool ClothFlatness::isEven(const ClothPattern& pattern) const {
+  const Grid& grid = pattern.grid;
+  if (grid.closed) return false;
+  const double u = pattern.weft_rest[1], v = pattern.warp_rest[grid.index(1, 0)];
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) {
+      const std::size_t n = grid.index(i, j);
+      if (i > 0 && std::abs(pattern.warp_rest[n] / v - 1.0) > kBent) return false;
+      if (j > 0 && std::abs(pattern.weft_rest[n] / u - 1.0) > kBent) return false;
+    }
+  }
+  return true;
+}
+
+std::vector<ClothFlatness::Span> ClothFlatness::spansOf(const Field& coordinate, int most_links) {
+  const int links = static_cast<int>(coordinate.size()) - 1, count = (links + most_links - 1) / most_links;
+  std::vector<Span> spans;
+  for (int k = 0; k < count; ++k) {
+    const auto first = static_cast<std::size_t>(k * links / count);
+    const auto last = static_cast<std::size_t>((k + 1) * links / count);
+    spans.push_back({first, last, 1.0 / (coordinate[last] - coordinate[first]), static_cast<double>(last - first)});
+  }
+  return spans;
+}
+
+void ClothFlatness::Slopes::merge(const Slopes& other) noexcept {
+  least_u = std::min(least_u, other.least_u);
+  least_v = std::min(least_v, other.least_v);
+  most_u_across = std::max(most_u_across, other.most_u_across);
+  most_v_across = std::max(most_v_across, other.most_v_across);
+}
+
+// Mean of the two warp directions in the middle column that differ most.
+Vec3 ClothFlatness::warpDirection(const Field3& position) const noexcept {
+  const Grid& grid = pattern_.grid;
+  const int column = grid.columns / 2;
+  const auto line = [&](const Span& strip) {
+    const Vec3 way = position.at(grid.index(static_cast<int>(strip.last), column)) -
+                     position.at(grid.index(static_cast<int>(strip.first), column));
+    return Vec3(way * strip.per_length);
+  };
+  const auto furthest_from = [&](const Vec3& direction) {
+    Vec3 furthest = direction;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Span& strip : strips_) {
+      const Vec3 way = line(strip);
+      if (way.dot(direction) < least) {
+        least = way.dot(direction);
+        furthest = way;
+      }
+    }
+    return furthest;
+  };
+  const Vec3 one = furthest_from(line(strips_.front()));
+  return one + furthest_from(one);
+}
+
+// Chooses a and b from the mean weft and warp direction, made orthonormal as in contact/narrow_phase/flatness.h.
+// False: the cloth has none.
+bool ClothFlatness::chooseDirections(const Field3& position, Projection& projection) const noexcept {
+  const Grid& grid = pattern_.grid;
+  const int last = grid.columns - 1, hem = grid.rows - 1;
+  const Vec3 u = position.at(grid.index(0, last)) - position.at(grid.index(0, 0)) + position.at(grid.index(hem, last)) -
+                 position.at(grid.index(hem, 0));
+  const Vec3 v = warpDirection(position);
+  const double size_u = u.norm(), size_v = v.norm();
+  if (!(std::min(size_u, size_v) > 1e-6)) return false;
+  const Vec3 unit_u = u / size_u, unit_v = v / size_v;
+  const double cosine = unit_u.dot(unit_v);
+  if (!(std::abs(cosine) < 0.9)) return false;
+  const Vec3 mean = (unit_u + unit_v) / (2.0 * std::sqrt(1.0 + cosine));
+  const Vec3 skew = (unit_u - unit_v) / (2.0 * std::sqrt(1.0 - cosine));
+  projection.a = mean + skew;
+  projection.b = mean - skew;
+  return true;
+}
+
+// Largest deviation of a link's slope from that of its line, over all lines of a span.
+double ClothFlatness::slopeDeviation(double least_square, const Span& span) const noexcept {
+  const double longest = 1.0 + overlong_;
+  const double c = std::min(std::sqrt(least_square) * span.per_length, longest);
+  const double s = span.links * (1.0 - c) + (span.links - 1.0) * overlong_;
+  return std::sqrt(std::max(0.0, longest * longest - 2.0 * c * (1.0 - s) + c * c)) + kSlack;
+}
+
+ClothFlatness::Slopes ClothFlatness::slopesOf(const Field3& position, const Projection& projection) const noexcept {
+  const Grid& grid = pattern_.grid;
+  Slopes all{1e300, 0.0, 1e300, 0.0};
+  for (const Span& strip : strips_) {
+    const auto first = static_cast<int>(strip.first), last = static_cast<int>(strip.last);
+    const Extremes of = extremesOfRow({position, grid.row(first)}, {position, grid.row(last)},
+                                      static_cast<std::size_t>(grid.columns), projection.b, projection.a);
+    const double deviation = slopeDeviation(of.least_square, strip);
+    all.least_v = std::min(all.least_v, of.least * strip.per_length - deviation);
+    all.most_v_across = std::max(all.most_v_across, of.most_across * strip.per_length + deviation);
+  }
+  for (const Span& span : spans_) {
+    const Extremes of =
+        extremesOfColumn({position, span.first}, {position, span.last}, static_cast<std::size_t>(grid.rows),
+                         static_cast<std::size_t>(grid.stride), projection.a, projection.b);
+    const double deviation = slopeDeviation(of.least_square, span);
+    all.least_u = std::min(all.least_u, of.least * span.per_length - deviation);
+    all.most_u_across = std::max(all.most_u_across, of.most_across * span.per_length + deviation);
+  }
+  return all;
+}
+
+bool ClothFlatness::areFlat(const Slopes& slopes, double reach) const noexcept {
+  const double limit = reach * per_altitude_ * (1.0 + kSlack) + kSlack;
+  const double u = slopes.least_u - limit, v = slopes.least_v - limit;
+  const double across = 0.5 * (slopes.most_u_across + slopes.most_v_across);
+  return u > 0.0 && v > 0.0 && u * v > across * across;
+}
+
+bool ClothFlatness::topRowHolds(const Field3& position) const noexcept {
+  return !checks_top_ || holdsRow(pattern_, position, (1.0 + overlong_) * (1.0 + overlong_));
+}
+
+void ClothFlatness::measure(const Field3& position, Projection& projection) const noexcept {
+  projection.known = true;
+  projection.has_directions = topRowHolds(position) && chooseDirections(position, projection);
+  if (projection.has_directions) projection.slopes = slopesOf(position, projection);
+}
+
+bool ClothFlatness::isFlat(const Field3& position, double reach) noexcept {
+  end_.known = false;
+  if (!usable_) return false;
+  if (!start_.known) measure(position, start_);
+  return start_.has_directions && areFlat(start_.slopes, reach);
+}
+
+// The slopes at the start were measured along start_.a and start_.b. Along the directions of the end each differs by
+// at most its length times the change of the direction.
+bool ClothFlatness::staysFlat(const Field3& end, double reach) noexcept {
+  measure(end, end_);
+  if (!end_.has_directions) return false;
+  const double longest = (1.0 + overlong_) * (1.0 + kSlack);
+  const double off_a = longest * (end_.a - start_.a).norm(), off_b = longest * (end_.b - start_.b).norm();
+  Slopes slopes = start_.slopes;
+  slopes.least_u -= off_a;
+  slopes.most_v_across += off_a;
+  slopes.least_v -= off_b;
+  slopes.most_u_across += off_b;
+  slopes.merge(end_.slopes);
+  return areFlat(slopes, reach);
+}
+
+}  // namespace curtain

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Candidates for contact with one obstacle in one substep: all in the obstacle's frame, where it rests.
+//
+//                            nodes    those that may come within nodeReach()
+//   start ------------> end  faces    triangles that may come within a reach (convex shapes)
+//      ( obstacle )          pairs    cloth edge x obstacle edge, cloth triangle x obstacle corner that may (meshes)
+//
+// They are found anew for every way; what is kept from one to the next is true of the obstacle wherever the cloth is:
+// its surface as nodes last saw it, planes that all of it is behind.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "cloth/cloth.h"
+#include "cloth/coarse_mesh.h"
+#include "contact/broad_phase/mesh_clearance.h"
+#include "contact/narrow_phase/candidates.h"
+#include "contact/shapes/obstacle_set.h"
+#include "contact/shapes/triangle_mesh.h"
+#include "solver/workers.h"
+
+namespace curtain {
+
+/// A cloth edge (2 nodes) and an obstacle edge, or a cloth triangle (3 nodes) and an obstacle corner.
+struct FeaturePair {
+  std::array<std::uint32_t, 3> node{};
+  std::uint32_t feature = 0;  ///< index of the edge or the corner in the obstacle's features
+  bool edges = false;
+};
+
+/// The surface as it was found from a point.
+struct CachedPlane {
+  Vec3 at = Vec3::Zero();  ///< that point [m]
+  SurfacePoint surface;    ///< distance: at least that when not found
+  enum class Kind : std::uint8_t { kUnknown, kFar, kFound } kind = Kind::kUnknown;
+
+  /// No point of the surface is nearer to p than this, for certain [m]; of use outside.
+  double lowerBound(const Vec3& p) const noexcept { return surface.distance - (p - at).norm(); }
+  /// Neither end of a way is within reach, and nothing is between, for certain.
+  bool isClearOf(const Vec3& from, const Vec3& to, double reach) const noexcept {
+    if (kind == Kind::kUnknown) return false;
+    const double first = lowerBound(from), last = lowerBound(to);
+    return first > 0.0 && last > reach && first + last > (to - from).norm();
+  }
+  /// Height over the tangent plane [m]; of a convex shape a lower bound of the distance.
+  double height(const Vec3& p) const noexcept { return surface.distance + surface.normal.dot(p - at); }
+};
+
+class ObstacleCandidates {
+ public:
+  /// A face of the cloth, and its own number.
+  struct Face {
+    MeshTriangle node;
+    std::uint32_t index;
+  };
+
+  /// thickness: kept between nodes and obstacle [m]; core: between faces and obstacle; pattern, shape and workers must
+  /// outlive this. Allocates all there is to.
+  ObstacleCandidates(const ClothPattern& pattern, const ContactShape& shape, double thickness, double core,
+                     const Workers& workers);
+
+  /// Lists what may touch in a substep from start to predicted, and takes these positions over.
+  void prepare(const MovingObstacle& moving, const Field3& start, const Field3& predicted) noexcept;
+  /// What may go through on another way from that start: where nodes really go.
+  void follow(const MovingObstacle& moving, const Field3& end) noexcept;
+  void invalidate() noexcept;
+
+  const std::vector<std::uint32_t>& nodes() const noexcept { return nodes_; }
+  const std::vector<Face>& faces() const noexcept { return faces_; }
+  const std::vector<FeaturePair>& pairs() const noexcept { return pairs_; }
+
+  /// Of a listed node (or one of a listed element), in the obstacle's frame [m].
+  Vec3 startOf(std::size_t node) const noexcept { return start_.at(node); }
+  Vec3 endOf(std::size_t node) const noexcept { return end_.at(node); }
+  /// The surface as a node finds it where it ends, or where it went through it on the way.
+  struct NodeEnd {
+    std::uint32_t node;
+    SurfacePoint surface;
+  };
+  /// Of the listed nodes that can move those that end within reach or have gone through [m]. Good until it is asked
+  /// again.
+  std::vector<NodeEnd>& queryEnds(double reach) noexcept;
+  CachedPlane& plane(std::size_t node) noexcept { return planes_[node]; }
+  const CachedPlane& plane(std::size_t node) const noexcept { return planes_[node]; }
+
+  /// The plane at a face's nearest point, once that is known.
+  CachedPlane& facePlane(const Face& face) noexcept { return face_planes_[face.index]; }
+  const CachedPlane& facePlane(const Face& face) const noexcept { return face_planes_[face.index]; }
+
+  /// Signed distance at the start of the substep, or the thickness when it is more [m].
+  double distanceOf(std::size_t node) const noexcept {
+    return queried_at_[node] == substep_ ? std::min(distance_[node], thickness_) : thickness_;
+  }
+  /// The node starts the substep inside the obstacle; what has such a node is on its way out, and nothing may stop it.
+  bool isInside(std::size_t node) const noexcept { return distanceOf(node) < 0.0 && !isPinned(node); }
+  bool isPinned(std::size_t node) const noexcept { return pattern_.inverse_mass[node] <= 0.0; }
+
+  const ContactShape& shape() const noexcept { return shape_; }
+  double thickness() const noexcept { return thickness_; }
+  double core() const noexcept { return core_; }
+  /// What comes nearer in a substep is listed, for certain [m].
+  double nodeReach() const noexcept { return 1.5 * thickness_; }
+  double elementReach() const noexcept { return 0.4 * thickness_; }
+  /// What comes nearer would go through, with room for what times of impact are early by [m].
+  double crossingReach() const noexcept { return 2.0 * kLeastShare * thickness_; }
+  /// Over the thickness: nearer than this is through.
+  static constexpr double kLeastShare = 0.02;
+  /// A list had no room for all there was: what is near is not known.
+  bool full() const noexcept { return full_; }
+
+ private:
+  static void toLocal(const Transform& place, const Field3& position, Field3& out) noexcept;
+  void list(const MovingObstacle& moving, const Field3& end, double reach) noexcept;
+  bool query(std::size_t node, const Vec3& previous, const Vec3& current, double reach, SurfacePoint& out) noexcept {
+    if (mesh_ == nullptr) return shape_.query(previous, current, reach, out);
+    return mesh_->query(previous, current, reach, thickness_, triangles_[node], out);
+  }
+  void listNodes() noexcept;
+  bool isNear(std::size_t node, const Eigen::AlignedBox3d& box) noexcept;
+  void queryStart(std::size_t node) noexcept;
+  Eigen::AlignedBox3d boundsWithin(double around) const noexcept;
+  Eigen::AlignedBox3d boxOf(const std::array<std::uint32_t, 4>& corners) const noexcept;
+  Eigen::AlignedBox3d boxOfRows(int i) const noexcept {
+    return row_boxes_[static_cast<std::size_t>(i)].merged(row_boxes_[static_cast<std::size_t>(i) + 1]);
+  }
+  void listFaces(double reach) noexcept;
+  bool staysAbove(const Face& face, double reach) noexcept;
+  /// Of one share of the rows.
+  struct Pairs {
+    std::vector<FeaturePair> list;
+    bool full = false;
+    void add(const FeaturePair& pair) noexcept { full = !addWithinRoom(pair, list) || full; }
+  };
+  void listPairs(double reach) noexcept;
+  void listPairsOfRow(int row, const Eigen::AlignedBox3d& box, double reach, Pairs& out) noexcept;
+  void listPairsOf(const QuadElements& quad, const SweptQuad& way, double reach, Pairs& out) const noexcept;
+  void addEdgePair(const MeshEdge& edge, std::uint32_t index, const ObstacleEdge& other, double reach,
+                   Pairs& out) const noexcept;
+  void addCornerPair(const MeshTriangle& triangle, std::uint32_t index, const ObstacleVertex& corner, double reach,
+                     Pairs& out) const noexcept;
+
+  const ClothPattern& pattern_;
+  const ContactShape& shape_;
+  const Workers& workers_;
+  const TriangleMeshShape* mesh_;
+  double thickness_, core_;
+  bool elements_wanted_;
+  Field3 start_, end_;               // of this substep [m]
+  std::vector<CachedPlane> planes_;  // by node
+  std::vector<double> distance_;     // by node: where it was last looked at, at least that when the surface was far [m]
+  std::uint32_t substep_ = 0;
+  std::vector<std::uint32_t> queried_at_;       // by node: the substep at whose start it was
+  std::vector<Eigen::AlignedBox3d> row_boxes_;  // around the nodes' ways [m]
+  bool full_ = false;
+  std::vector<std::uint32_t> nodes_;  // pinned ones too
+  std::vector<std::uint8_t> near_;    // by node: it is one of them
+  std::vector<NodeEnd> ends_;
+  std::vector<std::uint8_t> found_;  // by place in nodes_: its end is in ends_
+  std::vector<Face> faces_;
+  std::vector<CachedPlane> face_planes_;  // by the faces' numbers, of a convex shape
+  std::vector<NearTriangles> triangles_;  // by node, of a mesh
+  MeshClearance mesh_clearance_;          // of a mesh
+  std::vector<FeaturePair> pairs_;
+  std::vector<Pairs> shares_;  // of pairs_
+};
+
+}  // namespace curtain

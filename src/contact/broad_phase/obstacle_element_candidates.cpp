@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Faces and edges of the cloth that are near an obstacle on their way. Near a convex shape a plane that touches it
+// shows how far a face is from it at least: that of the face's own nearest point, or of its nodes'. Near a mesh windows
+// tell which quads are clear (mesh_windows.h).
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "contact/broad_phase/obstacle_candidates.h"
+#include "contact/narrow_phase/closest_points.h"
+#include "contact/shapes/convex_shape.h"
+
+namespace curtain {
+
+Eigen::AlignedBox3d ObstacleCandidates::boxOf(const std::array<std::uint32_t, 4>& corners) const noexcept {
+  Eigen::AlignedBox3d around;
+  for (const std::uint32_t n : corners) around.extend(start_.at(n)).extend(end_.at(n));
+  return around;
+}
+
+// A plane has both ends of the face's way on its far side. What was found earlier is asked first.
+bool ObstacleCandidates::staysAbove(const Face& face, double reach) noexcept {
+  const auto isOver = [&](const CachedPlane& plane) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t k : face.node)
+      lowest = std::min({lowest, plane.height(start_.at(k)), plane.height(end_.at(k))});
+    return lowest > reach;
+  };
+  const CachedPlane& own = face_planes_[face.index];
+  if (own.kind == CachedPlane::Kind::kFound && isOver(own)) return true;
+  for (const std::uint32_t node : face.node) {
+    queryStart(node);
+    if (isOver(planes_[node])) return true;
+  }
+  return false;
+}
+
+void ObstacleCandidates::listFaces(double reach) noexcept {
+  const Grid& grid = pattern_.grid;
+  const Eigen::AlignedBox3d box = boundsWithin(reach);
+  faces_.clear();
+  for (int i = 0; i + 1 < grid.rows; ++i) {
+    if (!boxOfRows(i).intersects(box)) continue;
+    for (int j = 0; j < grid.linkCount(); ++j) {
+      const QuadElements quad = quadElements(grid, i, j);
+      if (!boxOf(quad.corners).intersects(box)) continue;
+      auto index = static_cast<std::uint32_t>(2 * grid.index(i, j));
+      for (const MeshTriangle& triangle : quad.triangles) {
+        const Face face{triangle, index++};
+        if (!staysAbove(face, reach)) faces_.push_back(face);
+      }
+    }
+  }
+}
+
+void ObstacleCandidates::listPairs(double reach) noexcept {
+  const Eigen::AlignedBox3d box = boundsWithin(reach);
+  const int rows = pattern_.grid.rows - 1, count = static_cast<int>(shares_.size());
+  workers_.run(count, [&](int s) {
+    Pairs& share = shares_[static_cast<std::size_t>(s)];
+    share.list.clear();
+    share.full = false;
+    for (int i = rows * s / count; i < rows * (s + 1) / count; ++i) {
+      if (boxOfRows(i).intersects(box)) listPairsOfRow(i, box, reach, share);
+    }
+  });
+  pairs_.clear();
+  full_ = false;
+  for (const Pairs& share : shares_) {
+    full_ = full_ || share.full || pairs_.size() + share.list.size() > pairs_.capacity();
+    if (!full_) pairs_.insert(pairs_.end(), share.list.begin(), share.list.end());
+  }
+}
+
+void ObstacleCandidates::listPairsOfRow(int row, const Eigen::AlignedBox3d& box, double reach, Pairs& out) noexcept {
+  const Grid& grid = pattern_.grid;
+  const QuadClearance* const clearances = mesh_clearance_.classify(row, start_, end_, reach);
+  for (int j = 0; j < grid.linkCount(); ++j) {
+    QuadClearance clearance = clearances[j];
+    if (clearance == QuadClearance::kClear) continue;
+    const QuadElements quad = quadElements(grid, row, j);
+    if (!boxOf(quad.corners).intersects(box)) continue;
+    const SweptQuad way(quad, start_, end_);
+    if (clearance == QuadClearance::kUnknown) clearance = mesh_clearance_.rebuild(quad, way, reach);
+    if (clearance == QuadClearance::kNear) listPairsOf(quad, way, reach, out);
+  }
+}
+
+void ObstacleCandidates::listPairsOf(const QuadElements& quad, const SweptQuad& way, double reach,
+                                     Pairs& out) const noexcept {
+  Eigen::AlignedBox3d box = boxOf(quad.corners);
+  box.min().array() -= reach;
+  box.max().array() += reach;
+  // Over the plane through a feature, which is faster to tell than the distance.
+  mesh_clearance_.forEachNear(
+      quad, way, reach, box,
+      [&](std::uint32_t index, const ObstacleEdge& edge) {
+        if (way.lowest(edge.outward, edge.ends[0]) > reach) return;
+        for (int k = 0; k < quad.edge_count; ++k)
+          addEdgePair(quad.edges[static_cast<std::size_t>(k)], index, edge, reach, out);
+      },
+      [&](std::uint32_t index, const ObstacleVertex& corner) {
+        if (way.lowest(corner.outward, corner.position) > reach) return;
+        for (const MeshTriangle& triangle : quad.triangles) addCornerPair(triangle, index, corner, reach, out);
+      });
+}
+
+// Nodes are never further than half their way from its middle.
+void ObstacleCandidates::addEdgePair(const MeshEdge& edge, std::uint32_t index, const ObstacleEdge& other, double reach,
+                                     Pairs& out) const noexcept {
+  const Vec3 a = start_.at(edge[0]), b = start_.at(edge[1]);
+  const Vec3 c = end_.at(edge[0]), d = end_.at(edge[1]);
+  const double limit = reach + 0.5 * std::sqrt(std::max((c - a).squaredNorm(), (d - b).squaredNorm()));
+  const Vec3 p = 0.5 * (a + c), q = 0.5 * (b + d);
+  if (std::min(other.outward.dot(p - other.ends[0]), other.outward.dot(q - other.ends[0])) > limit) return;
+  if (closestOnSegments(p, q, other.ends[0], other.ends[1]).distance_squared > limit * limit) return;
+  out.add({{edge[0], edge[1], 0}, index, true});
+}
+
+void ObstacleCandidates::addCornerPair(const MeshTriangle& triangle, std::uint32_t index, const ObstacleVertex& corner,
+                                       double reach, Pairs& out) const noexcept {
+  std::array<Vec3, 3> at;
+  double way = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 now = start_.at(triangle[k]), then = end_.at(triangle[k]);
+    at[k] = 0.5 * (now + then);
+    way = std::max(way, (then - now).squaredNorm());
+  }
+  const double limit = reach + 0.5 * std::sqrt(way);
+  if (closestOnTriangle(corner.position, at[0], at[1], at[2]).distance_squared > limit * limit) return;
+  out.add({triangle, index, false});
+}
+
+}  // namespace curtain

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Vectors of eight things side by side, in single precision, for functions that are compiled for wider registers too
+// (cloth/wide.h). References and no results: vectors wider than the machine's have no settled way of being returned.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+#include "cloth/wide.h"
+
+namespace curtain {
+
+struct Simd8 {
+  static constexpr std::size_t kCount = 8;
+  using Lanes = float __attribute__((vector_size(kCount * sizeof(float))));
+
+  struct Vectors {
+    Lanes x, y, z;
+    CURTAIN_INTO_WIDE void add(const Vectors& other) {
+      x += other.x;
+      y += other.y;
+      z += other.z;
+    }
+    CURTAIN_INTO_WIDE void subtract(const Vectors& other) {
+      x -= other.x;
+      y -= other.y;
+      z -= other.z;
+    }
+    CURTAIN_INTO_WIDE void scale(const Lanes& by) {
+      x *= by;
+      y *= by;
+      z *= by;
+    }
+    CURTAIN_INTO_WIDE void subtract(const Lanes& by, const Vectors& other) {
+      x -= by * other.x;
+      y -= by * other.y;
+      z -= by * other.z;
+    }
+  };
+
+  static CURTAIN_INTO_WIDE void load(const float* from, Lanes& to) { std::memcpy(&to, from, sizeof to); }
+  static CURTAIN_INTO_WIDE void dot(const Vectors& a, const Vectors& b, Lanes& to) {
+    to = a.x * b.x + a.y * b.y + a.z * b.z;
+  }
+  static CURTAIN_INTO_WIDE void cross(const Vectors& a, const Vectors& b, Vectors& to) {
+    to.x = a.y * b.z - a.z * b.y;
+    to.y = a.z * b.x - a.x * b.z;
+    to.z = a.x * b.y - a.y * b.x;
+  }
+  static CURTAIN_INTO_WIDE void difference(const Vectors& a, const Vectors& b, Vectors& to) {
+    to.x = a.x - b.x;
+    to.y = a.y - b.y;
+    to.z = a.z - b.z;
+  }
+  static CURTAIN_INTO_WIDE void lower(Lanes& least, const Lanes& value) { least = value < least ? value : least; }
+  static CURTAIN_INTO_WIDE void cut(Lanes& value) {
+    value = value > 0.0f ? value : Lanes{};
+    value = value < 1.0f ? value : Lanes{} + 1.0f;
+  }
+  static CURTAIN_INTO_WIDE void inverseRoot(const Lanes& of, Lanes& to) {
+    float values[kCount];
+    std::memcpy(values, &of, sizeof of);
+#pragma omp simd
+    for (std::size_t k = 0; k < kCount; ++k) values[k] = 1.0f / std::sqrt(values[k]);
+    std::memcpy(&to, values, sizeof to);
+  }
+  /// Places of eight nodes, by their indices; component by component.
+  template <typename NodeOf>
+  static CURTAIN_INTO_WIDE void gather(const Eigen::Array4f* places, const NodeOf& node_of, Vectors& to) {
+    using Quarter = float __attribute__((vector_size(16)));
+    Quarter q[kCount];
+    for (std::size_t k = 0; k < kCount; ++k) std::memcpy(&q[k], places[node_of(k)].data(), sizeof q[k]);
+    // Nodes k and k + 4 side by side, and then components across.
+    const Lanes a = __builtin_shufflevector(q[0], q[4], 0, 1, 2, 3, 4, 5, 6, 7),
+                b = __builtin_shufflevector(q[1], q[5], 0, 1, 2, 3, 4, 5, 6, 7);
+    const Lanes c = __builtin_shufflevector(q[2], q[6], 0, 1, 2, 3, 4, 5, 6, 7),
+                d = __builtin_shufflevector(q[3], q[7], 0, 1, 2, 3, 4, 5, 6, 7);
+    const Lanes ab = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13),
+                cd = __builtin_shufflevector(c, d, 0, 8, 1, 9, 4, 12, 5, 13);
+    const Lanes ab_z = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15),
+                cd_z = __builtin_shufflevector(c, d, 2, 10, 3, 11, 6, 14, 7, 15);
+    to.x = __builtin_shufflevector(ab, cd, 0, 1, 8, 9, 4, 5, 12, 13);
+    to.y = __builtin_shufflevector(ab, cd, 2, 3, 10, 11, 6, 7, 14, 15);
+    to.z = __builtin_shufflevector(ab_z, cd_z, 0, 1, 8, 9, 4, 5, 12, 13);
+  }
+  /// Bit k: lane k is true (its sign bit is set).
+  template <typename Truth>
+  static CURTAIN_INTO_WIDE std::uint32_t bitsOf(const Truth& truth) {
+#ifdef __SSE2__
+    __m128 halves[2];
+    static_assert(sizeof truth == sizeof halves);
+    std::memcpy(halves, &truth, sizeof truth);
+    return static_cast<std::uint32_t>(_mm_movemask_ps(halves[0]) | _mm_movemask_ps(halves[1]) << 4);
+#else
+    std::uint32_t bits = 0;
+    for (std::size_t k = 0; k < kCount; ++k) bits |= (truth[k] != 0 ? 1U : 0U) << k;
+    return bits;
+#endif
+  }
+};
+
+}  // namespace curtain

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Faces and edges of the cloth against one obstacle: of a convex shape, faces by their nearest point; of a mesh, edges
+// against its edges and faces against its corners. The normal is the way between them where the substep starts, or
+// where they meet when they come from afar.
+#include "contact/response/element_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "contact/narrow_phase/candidates.h"
+#include "contact/narrow_phase/closest_points.h"
+#include "contact/shapes/convex_shape.h"
+#include "curtain_sim/ccd.h"
+
+namespace curtain {
+namespace {
+
+using Corners = std::array<Vec3, 3>;
+
+Corners startOf(const ObstacleCandidates& candidates, const std::array<std::uint32_t, 3>& node) {
+  return {candidates.startOf(node[0]), candidates.startOf(node[1]), candidates.startOf(node[2])};
+}
+Corners endOf(const ObstacleCandidates& candidates, const std::array<std::uint32_t, 3>& node) {
+  return {candidates.endOf(node[0]), candidates.endOf(node[1]), candidates.endOf(node[2])};
+}
+Corners between(const Corners& a, const Corners& b, double share) {
+  return {Vec3(a[0] + share * (b[0] - a[0])), Vec3(a[1] + share * (b[1] - a[1])), Vec3(a[2] + share * (b[2] - a[2]))};
+}
+Vec3 mix(const std::array<double, 3>& weight, const Corners& at) {
+  return weight[0] * at[0] + weight[1] * at[1] + weight[2] * at[2];
+}
+double longestDisplacement(const Corners& a, const Corners& b) {
+  return std::sqrt(std::max({(b[0] - a[0]).squaredNorm(), (b[1] - a[1]).squaredNorm(), (b[2] - a[2]).squaredNorm()}));
+}
+
+// A node of it starts inside: on its way out it may cross whatever it meets, and the node's own contact lets it out.
+bool startsInside(const std::array<std::uint32_t, 3>& node, std::size_t nodes, const ObstacleCandidates& candidates) {
+  for (std::size_t k = 0; k < nodes; ++k) {
+    if (candidates.isInside(node[k])) return true;
+  }
+  return false;
+}
+
+// Tells features apart in the order of contacts.
+std::uint32_t sourceOf(const FeaturePair& pair) { return 2 * pair.feature + (pair.edges ? 1 : 0); }
+
+ContactPoint contactPoint(const MeshTriangle& face, const ElementPoint& nearest, const Corners& at,
+                          const Corners& start) {
+  ContactPoint point;
+  point.node = face;
+  point.weight = nearest.weights;
+  point.nodes = 3;
+  point.start = mix(nearest.weights, start);
+  point.normal = nearest.surface.normal;
+  point.height = point.normal.dot(mix(nearest.weights, at)) - nearest.surface.distance;
+  return point;
+}
+
+// Where an edge or a face of the cloth and a feature are closest.
+struct PairPoint {
+  std::array<double, 3> weight{};
+  Vec3 apart = Vec3::Zero();  // from the feature to the cloth [m]
+  double distance = 0.0;
+  bool inside = true;  // not at an end of an edge: the other kinds of pairs see to those
+};
+
+PairPoint closest(const FeaturePair& pair, const ObstacleFeatures& features, const Corners& at) {
+  PairPoint point;
+  if (pair.edges) {
+    const ObstacleEdge& edge = features.edges()[pair.feature];
+    const SegmentsClosest found = closestOnSegments(at[0], at[1], edge.ends[0], edge.ends[1]);
+    point.weight = {1.0 - found.s, found.s, 0.0};
+    point.inside = found.s > 0.0 && found.s < 1.0 && found.t > 0.0 && found.t < 1.0;
+    point.apart = mix(point.weight, at) - edge.ends[0] - found.t * (edge.ends[1] - edge.ends[0]);
+  } else {
+    const Vec3& corner = features.vertices()[pair.feature].position;
+    const TriangleClosest found = closestOnTriangle(corner, at[0], at[1], at[2]);
+    point.weight = {found.weights[0], found.weights[1], found.weights[2]};
+    point.apart = mix(point.weight, at) - corner;
+    point.inside = found.weights.maxCoeff() < 1.0;
+  }
+  point.distance = point.apart.norm();
+  return point;
+}
+
+std::optional<double> impact(const FeaturePair& pair, const ObstacleFeatures& features, const Corners& a,
+                             const Corners& b, double distance) {
+  if (pair.edges) {
+    const auto& [c, d] = features.edges()[pair.feature].ends;
+    return edgeEdgeTimeOfImpact(a[0], a[1], c, d, b[0], b[1], c, d, distance);
+  }
+  const Vec3& corner = features.vertices()[pair.feature].position;
+  return vertexTriangleTimeOfImpact(corner, a[0], a[1], a[2], corner, b[0], b[1], b[2], distance);
+}
+
+// All of the way is further over the feature's plane: most pairs in the lists are, and this is faster to tell than
+// where they are closest.
+bool staysAbove(const FeaturePair& pair, const ObstacleFeatures& features, const Corners& start, const Corners& end,
+                double distance) {
+  const Vec3& outward = pair.edges ? features.edges()[pair.feature].outward : features.vertices()[pair.feature].outward;
+  const Vec3& at = pair.edges ? features.edges()[pair.feature].ends[0] : features.vertices()[pair.feature].position;
+  const double bound = outward.dot(at) + distance;
+  for (std::size_t k = 0; k < (pair.edges ? 2U : 3U); ++k) {
+    if (!(outward.dot(start[k]) > bound && outward.dot(end[k]) > bound)) return false;
+  }
+  return true;
+}
+
+// The part of the cloth is inside the solid there.
+bool isInside(const FeaturePair& pair, const ObstacleCandidates& candidates, const PairPoint& point, const Corners& at,
+              SurfacePoint& surface) {
+  const ObstacleFeatures& features = *candidates.shape().features();
+  if (!features.closed()) return false;
+  const Vec3& outward = pair.edges ? features.edges()[pair.feature].outward : features.vertices()[pair.feature].outward;
+  if (point.apart.dot(outward) > 0.0) return false;
+  const Vec3 p = mix(point.weight, at);
+  return candidates.shape().query(p, p, 0.0, surface) && surface.distance < 0.0;
+}
+
+ContactPoint contactPoint(const FeaturePair& pair, const PairPoint& closest, const Corners& at, const Corners& start) {
+  ContactPoint point;
+  point.node = pair.node;
+  point.weight = closest.weight;
+  point.nodes = pair.edges ? 2 : 3;
+  point.start = mix(closest.weight, start);
+  point.normal = closest.apart / closest.distance;
+  point.height = point.normal.dot(mix(closest.weight, at)) - closest.distance;
+  return point;
+}
+
+void add(const ObstacleSubstep& substep, const ClothPattern& pattern, ContactPoint& point, double distance, double kept,
+         std::uint32_t source, Contacts& contacts) {
+  point.keep(distance, kept, substep);
+  Contact contact;
+  contact.source = source;
+  // A node by itself keeps the thickness.
+  if (makeContact(substep, pattern, point, contact) && contact.nodes > 1) addWithinRoom(contact, contacts);
+}
+
+}  // namespace
+
+void collectFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, ObstacleCandidates& candidates,
+                  std::vector<PenetratingFace>& penetrating, Contacts& contacts) noexcept {
+  const ConvexShape& shape = *candidates.shape().convex();
+  const double listed = candidates.elementReach();
+  for (const ObstacleCandidates::Face& face : candidates.faces()) {
+    if (startsInside(face.node, 3, candidates)) continue;
+    const Corners start = startOf(candidates, face.node), end = endOf(candidates, face.node);
+    ElementPoint nearest, then;
+    const bool close = shape.nearestOnTriangle(start, candidates.thickness(), nearest);
+    if (close) candidates.facePlane(face) = {mix(nearest.weights, start), nearest.surface, CachedPlane::Kind::kFound};
+    if (close && nearest.surface.distance < 0.0) {
+      addWithinRoom(PenetratingFace{face.node, nearest}, penetrating);
+      continue;
+    }
+    if (close && (nearest.surface.distance <= listed || shape.nearestOnTriangle(end, listed, then))) {
+      ContactPoint point = contactPoint(face.node, nearest, start, start);
+      if (point.normal.dot(mix(point.weight, end)) - point.height > listed) continue;
+      add(substep, pattern, point, nearest.surface.distance, candidates.core(), 0, contacts);
+      continue;
+    }
+    const std::optional<double> time = shape.timeOfImpact(start, end, candidates.core());
+    if (!time) continue;
+    const Corners at = between(start, end, *time);
+    if (!shape.nearestOnTriangle(at, listed, nearest)) continue;
+    ContactPoint point = contactPoint(face.node, nearest, at, start);
+    add(substep, pattern, point, candidates.thickness(), candidates.core(), 0, contacts);
+  }
+}
+
+void collectPenetratingFaces(const ObstacleSubstep& substep, const ClothPattern& pattern,
+                             const ObstacleCandidates& candidates, const ExitDirection& exit,
+                             const std::vector<PenetratingFace>& penetrating, Contacts& contacts) noexcept {
+  const double listed = candidates.elementReach();
+  for (const PenetratingFace& face : penetrating) {
+    const Corners start = startOf(candidates, face.node), end = endOf(candidates, face.node);
+    ElementPoint point_inside = face.deepest;
+    point_inside.surface = exit.exitSurface(mix(face.deepest.weights, start), face.deepest.surface);
+    ContactPoint point = contactPoint(face.node, point_inside, start, start);
+    if (point.normal.dot(mix(point.weight, end)) - point.height > listed) continue;
+    add(substep, pattern, point, point_inside.surface.distance, candidates.core(), 0, contacts);
+  }
+}
+
+void crossingFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, const ObstacleCandidates& candidates,
+                   std::vector<Crossing>& crossings) noexcept {
+  const ConvexShape& shape = *candidates.shape().convex();
+  const double most = ObstacleCandidates::kLeastShare * candidates.thickness();
+  for (const ObstacleCandidates::Face& face : candidates.faces()) {
+    if (startsInside(face.node, 3, candidates)) continue;
+    const Corners start = startOf(candidates, face.node), end = endOf(candidates, face.node);
+    ElementPoint nearest;
+    const bool close = shape.nearestOnTriangle(start, candidates.thickness(), nearest);
+    const double distance = close ? nearest.surface.distance : candidates.thickness();
+    if (distance <= 0.0) continue;
+    const std::optional<double> time = shape.timeOfImpact(start, end, std::min(most, 0.5 * distance));
+    if (!time) continue;
+    const Corners at = between(start, end, *time);
+    if (!shape.nearestOnTriangle(at, std::numeric_limits<double>::infinity(), nearest)) continue;
+    ContactPoint point = contactPoint(face.node, nearest, at, start);
+    point.keep(distance, candidates.core(), substep);
+    Crossing crossing;
+    crossing.node = face.node;
+    crossing.nodes = 3;
+    if (makeContact(substep, pattern, point, crossing.contact)) addWithinRoom(crossing, crossings);
+  }
+}
+
+void collectPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, const ObstacleCandidates& candidates,
+                  Contacts& contacts) noexcept {
+  const ObstacleFeatures& features = *candidates.shape().features();
+  const double listed = candidates.elementReach();
+  for (const FeaturePair& pair : candidates.pairs()) {
+    if (startsInside(pair.node, pair.edges ? 2 : 3, candidates)) continue;
+    const Corners start = startOf(candidates, pair.node), end = endOf(candidates, pair.node);
+    if (staysAbove(pair, features, start, end, listed)) continue;
+    const PairPoint first = closest(pair, features, start);
+    if (first.distance - longestDisplacement(start, end) > listed) continue;
+    const bool close = first.distance <= listed ||
+                       (first.distance <= candidates.thickness() && closest(pair, features, end).distance <= listed);
+    if (!close) {
+      const std::optional<double> time = impact(pair, features, start, end, candidates.core());
+      if (!time) continue;
+      const Corners at = between(start, end, *time);
+      const PairPoint there = closest(pair, features, at);
+      if (!there.inside || !(there.distance > 0.0) || there.distance > listed) continue;
+      ContactPoint point = contactPoint(pair, there, at, start);
+      add(substep, pattern, point, candidates.thickness(), candidates.core(), sourceOf(pair), contacts);
+      continue;
+    }
+    if (!first.inside || !(first.distance > 0.0)) continue;
+    ContactPoint point = contactPoint(pair, first, start, start);
+    SurfacePoint surface;
+    double distance = first.distance;
+    if (isInside(pair, candidates, first, start, surface)) {
+      distance = surface.distance;
+      point.normal = surface.normal;
+      point.height = surface.normal.dot(point.start) - distance;
+    } else if (point.normal.dot(mix(point.weight, end)) - point.height > listed) {
+      continue;
+    }
+    add(substep, pattern, point, distance, candidates.core(), sourceOf(pair), contacts);
+  }
+}
+
+void crossingPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, const ObstacleCandidates& candidates,
+                   std::vector<Crossing>& crossings) noexcept {
+  const ObstacleFeatures& features = *candidates.shape().features();
+  const double most = ObstacleCandidates::kLeastShare * candidates.thickness();
+  for (const FeaturePair& pair : candidates.pairs()) {
+    if (startsInside(pair.node, pair.edges ? 2 : 3, candidates)) continue;
+    const Corners start = startOf(candidates, pair.node), end = endOf(candidates, pair.node);
+    if (staysAbove(pair, features, start, end, most)) continue;
+    const PairPoint first = closest(pair, features, start);
+    const double least = std::min(most, 0.5 * first.distance);
+    if (first.distance - longestDisplacement(start, end) > least || !(first.distance > 0.0)) continue;
+    const std::optional<double> time = impact(pair, features, start, end, least);
+    SurfacePoint surface;
+    if (!time || isInside(pair, candidates, first, start, surface)) continue;
+    Corners at = between(start, end, *time);
+    PairPoint there = closest(pair, features, at);
+    if (!(there.distance > 0.0)) {
+      at = start;
+      there = first;
+    }
+    ContactPoint point = contactPoint(pair, there, at, start);
+    point.keep(first.distance, candidates.core(), substep);
+    Crossing crossing;
+    crossing.node = pair.node;
+    crossing.nodes = point.nodes;
+    crossing.contact.source = sourceOf(pair);
+    if (makeContact(substep, pattern, point, crossing.contact)) addWithinRoom(crossing, crossings);
+  }
+}
+
+}  // namespace curtain

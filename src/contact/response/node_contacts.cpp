@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Nodes against one obstacle. A query of a mesh costs about a microsecond: it is left out where the plane that was last
+// found shows that the node is far enough.
+#include <algorithm>
+
+#include "contact/narrow_phase/candidates.h"
+#include "contact/response/element_contacts.h"
+#include "contact/response/exit_direction.h"
+
+namespace curtain {
+namespace {
+
+// What is too close when a substep starts (an obstacle appeared there or jumped) is brought out slowly, not at once:
+// the way out must not become a blow. Inside the obstacle so many times as fast as inside the gap around it.
+constexpr double kFasterInside = 20.0;
+// Share of what is to be kept that may lack.
+constexpr double kSlack = 0.1;
+
+}  // namespace
+
+double recoveredDistance(double distance, double kept, const ObstacleSubstep& substep) noexcept {
+  if (distance >= kept) return kept;
+  const double least = (1.0 - kSlack) * kept;
+  if (distance >= least) return distance;
+  const double speed = distance < 0.0 ? kFasterInside * substep.recovery_speed : substep.recovery_speed;
+  return std::min(least, distance + std::min(speed * substep.h, substep.most_recovery));
+}
+
+bool makeContact(const ObstacleSubstep& substep, const ClothPattern& pattern, const ContactPoint& point,
+                 Contact& contact) noexcept {
+  const MovingObstacle& moving = substep.moving;
+  contact.nodes = 0;
+  bool moves = false;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(point.nodes); ++k) {
+    if (point.weight[k] == 0.0) continue;
+    const auto at = static_cast<std::size_t>(contact.nodes++);
+    contact.node[at] = point.node[k];
+    contact.weight[at] = point.weight[k];
+    moves = moves || pattern.inverse_mass[point.node[k]] > 0.0;
+  }
+  contact.obstacle = substep.obstacle;
+  contact.normal = moving.after.rotation * point.normal;
+  contact.offset = point.height + contact.normal.dot(moving.after.translation);
+  // Nothing holds a node back on its way out: friction there could lock cloth around an edge for good.
+  contact.friction = substep.frictionless || point.distance < 0.0 ? 0.0 : moving.friction;
+  contact.recovery = point.recovery;
+  contact.carried = moving.after.toWorld(point.start);
+  contact.surface_velocity = (contact.carried - moving.before.toWorld(point.start)) / substep.h;
+  return moves;
+}
+
+namespace {
+
+Contact nodeContact(const ObstacleSubstep& substep, const ClothPattern& pattern, std::uint32_t node,
+                    const ObstacleCandidates& candidates, const SurfacePoint& surface, double distance) {
+  ContactPoint point;
+  point.node[0] = node;
+  point.weight[0] = 1.0;
+  point.start = candidates.startOf(node);
+  point.normal = surface.normal;
+  point.height = surface.normal.dot(candidates.endOf(node)) - surface.distance;
+  point.keep(distance, candidates.thickness(), substep);
+  Contact contact;
+  makeContact(substep, pattern, point, contact);
+  return contact;
+}
+
+}  // namespace
+
+void collectNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, ObstacleCandidates& candidates,
+                  const ExitDirection& exit, Contacts& contacts) noexcept {
+  const double reach = candidates.nodeReach();
+  for (ObstacleCandidates::NodeEnd& end : candidates.queryEnds(reach)) {
+    const std::uint32_t node = end.node;
+    const Vec3 from = candidates.startOf(node), to = candidates.endOf(node);
+    SurfacePoint& surface = end.surface;
+    if (surface.distance >= 0.0) candidates.plane(node) = {to, surface, CachedPlane::Kind::kFound};
+    double distance = candidates.distanceOf(node);
+    if (distance < 0.0) {
+      const SurfacePoint led = exit.exitSurface(from, surface);
+      if (led.normal != surface.normal) {
+        distance = led.distance;
+        surface = {led.distance + led.normal.dot(to - from), led.normal};
+      }
+    }
+    addWithinRoom(nodeContact(substep, pattern, node, candidates, surface, distance), contacts);
+  }
+}
+
+void crossingNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, ObstacleCandidates& candidates,
+                   std::vector<Crossing>& crossings) noexcept {
+  const double most = ObstacleCandidates::kLeastShare * candidates.thickness();
+  for (const ObstacleCandidates::NodeEnd& end : candidates.queryEnds(most)) {
+    const double distance = candidates.distanceOf(end.node);
+    if (distance <= 0.0 || end.surface.distance >= std::min(most, 0.5 * distance)) continue;
+    Crossing crossing;
+    crossing.node[0] = end.node;
+    crossing.contact = nodeContact(substep, pattern, end.node, candidates, end.surface, distance);
+    addWithinRoom(crossing, crossings);
+  }
+}
+
+}  // namespace curtain
