@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "cloth/wide.h"
-#include "contact/broad_phase/swept_bounds.h"
 #include "contact/shapes/convex_shape.h"
 
 namespace curtain {
@@ -33,7 +32,24 @@ double longestEdge(const ClothPattern& pattern) {
   return warp + weft;  // nothing holds the faces' diagonals but their sides
 }
 
-// The box around the ways of a row of nodes.
+struct Range {
+  double low, high;
+};
+
+// Range of two arrays.
+CURTAIN_WIDE Range rangeOf(const double* a, const double* b, std::size_t count) {
+  double low = a[0], high = a[0];
+#pragma omp simd reduction(min : low) reduction(max : high)
+  for (std::size_t n = 0; n < count; ++n) {
+    const double least = a[n] < b[n] ? a[n] : b[n];
+    const double most = a[n] < b[n] ? b[n] : a[n];
+    low = low < least ? low : least;
+    high = high > most ? high : most;
+  }
+  return {low, high};
+}
+
+// Box around the motion of a row of nodes.
 Eigen::AlignedBox3d boxOfRow(const Field3& start, const Field3& end, std::size_t first, std::size_t count) {
   const Range x = rangeOf(&start.x[first], &end.x[first], count);
   const Range y = rangeOf(&start.y[first], &end.y[first], count);
@@ -42,6 +58,13 @@ Eigen::AlignedBox3d boxOfRow(const Field3& start, const Field3& end, std::size_t
 }
 
 }  // namespace
+
+Eigen::AlignedBox3d boxAround(const Grid& grid, const Field3& start, const Field3& end) noexcept {
+  Eigen::AlignedBox3d box;
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  for (int i = 0; i < grid.rows; ++i) box.extend(boxOfRow(start, end, grid.row(i), columns));
+  return box;
+}
 
 ObstacleCandidates::ObstacleCandidates(const ClothPattern& pattern, const ContactShape& shape, double thickness,
                                        double core, const Workers& workers)

@@ -18,12 +18,15 @@
 #include "cloth/cloth.h"
 #include "cloth/coarse_mesh.h"
 #include "contact/broad_phase/mesh_clearance.h"
-#include "contact/narrow_phase/candidates.h"
+#include "contact/narrow_phase/element_pairs.h"
 #include "contact/shapes/obstacle_set.h"
 #include "contact/shapes/triangle_mesh.h"
 #include "solver/workers.h"
 
 namespace curtain {
+
+/// Box around the cloth, at both instants [m].
+Eigen::AlignedBox3d boxAround(const Grid& grid, const Field3& start, const Field3& end) noexcept;
 
 /// A cloth edge (2 nodes) and an obstacle edge, or a cloth triangle (3 nodes) and an obstacle corner.
 struct FeaturePair {

@@ -13,7 +13,7 @@
 #include "contact/broad_phase/flat_blocks.h"
 #include "contact/broad_phase/hierarchy_pairs.h"
 #include "contact/broad_phase/neighbour_windows.h"
-#include "contact/narrow_phase/candidates.h"
+#include "contact/narrow_phase/element_pairs.h"
 #include "solver/workers.h"
 
 namespace curtain {

@@ -10,8 +10,8 @@
 #include <limits>
 #include <optional>
 
-#include "contact/narrow_phase/candidates.h"
 #include "contact/narrow_phase/closest_points.h"
+#include "contact/narrow_phase/element_pairs.h"
 #include "contact/shapes/convex_shape.h"
 #include "curtain_sim/ccd.h"
 

@@ -4,7 +4,7 @@
 // found shows that the node is far enough.
 #include <algorithm>
 
-#include "contact/narrow_phase/candidates.h"
+#include "contact/narrow_phase/element_pairs.h"
 #include "contact/response/element_contacts.h"
 #include "contact/response/exit_direction.h"
 

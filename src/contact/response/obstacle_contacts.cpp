@@ -5,8 +5,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "contact/broad_phase/swept_bounds.h"
-#include "contact/narrow_phase/candidates.h"
+#include "contact/narrow_phase/element_pairs.h"
 
 namespace curtain {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "cloth/cloth.h"
-#include "contact/narrow_phase/candidates.h"
+#include "contact/narrow_phase/element_pairs.h"
 #include "solver/contacts.h"
 
 namespace curtain {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Static tree of axis-aligned boxes over the boxes of any items: which of them may touch a given box. Built once by
-// halving along the longest side, so its depth is log2(item count) and a fixed stack is enough; nodes lie in one
-// array, siblings side by side. Whoever keeps the items in the order of the leaves reads them in runs.
+// Bounding volume hierarchy over the boxes of any items, built once. Halving along the longest side bounds the depth by
+// log2(item count), so a fixed stack is enough. Nodes lie in one array, siblings side by side; an owner that keeps its
+// items in the order of the leaves reads them in runs.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -17,25 +17,27 @@ namespace curtain {
 class BoxTree {
  public:
   BoxTree() = default;
-  /// Finite boxes, fewer than 2^32; none is allowed. O(n log n). The same boxes give the same tree everywhere.
+  /// Finite boxes, fewer than 2^32; none is allowed. Split by the boxes' centres, or by centres given for the items.
+  /// O(n log n). The same input gives the same tree on every machine.
   explicit BoxTree(const std::vector<Eigen::AlignedBox3d>& boxes);
+  BoxTree(const std::vector<Eigen::AlignedBox3d>& boxes, const std::vector<Vec3>& centres);
 
   /// Item (index into the boxes given) in each place of the leaves.
   const std::vector<std::uint32_t>& order() const { return order_; }
+  /// Around all items; there must be one.
+  Eigen::AlignedBox3d bounds() const { return {nodes_[0].low, nodes_[0].high}; }
 
-  /// Calls visit(first, last) for runs [first, last) of places that hold every item whose box touches `box` (and a few
-  /// whose box does not); each place comes at most once. A box that is empty or NaN gets none. Allocates nothing.
-  template <typename Visit>
-  void forEachRunIn(const Eigen::AlignedBox3d& box, Visit&& visit) const {
+  /// Calls visit(first, last) for the places [first, last) of leaves whose boxes, and those above them, satisfy
+  /// enters(low, high). Each place comes at most once. Allocates nothing.
+  template <typename Enters, typename Visit>
+  void forEachLeaf(const Enters& enters, const Visit& visit) const {
     if (nodes_.empty()) return;
     std::array<std::uint32_t, kStackSize> stack;
     std::size_t size = 0;
     stack[size++] = 0;
     while (size > 0) {
       const Node& node = nodes_[stack[--size]];
-      const bool touches =
-          (node.low.array() <= box.max().array()).all() && (node.high.array() >= box.min().array()).all();
-      if (!touches) continue;
+      if (!enters(node.low, node.high)) continue;
       if (node.count > 0) {
         visit(node.first, node.first + node.count);
         continue;
@@ -44,9 +46,48 @@ class BoxTree {
       stack[size++] = node.first;
     }
   }
+  /// For all items whose box touches `box` (and a few others). A box that is empty or NaN gets none.
+  template <typename Visit>
+  void forEachRunIn(const Eigen::AlignedBox3d& box, const Visit& visit) const {
+    const auto touches = [&box](const Vec3& low, const Vec3& high) {
+      return (low.array() <= box.max().array()).all() && (high.array() >= box.min().array()).all();
+    };
+    forEachLeaf(touches, visit);
+  }
+  /// Nearest boxes first, those whose squared distance to a point is at most limit(), which may shrink meanwhile.
+  template <typename Limit, typename Visit>
+  void forEachLeafNear(const Vec3& point, const Limit& limit, const Visit& visit) const {
+    struct Entry {
+      std::uint32_t node;
+      double distance_squared;
+    };
+    const auto entryOf = [&](std::uint32_t node) {
+      return Entry{node, distanceSquared(point, nodes_[node].low, nodes_[node].high)};
+    };
+    std::array<Entry, kStackSize> stack;
+    std::size_t size = 0;
+    stack[size++] = entryOf(0);
+    while (size > 0) {
+      const Entry entry = stack[--size];
+      if (!(entry.distance_squared <= limit())) continue;
+      const Node& node = nodes_[entry.node];
+      if (node.count > 0) {
+        visit(node.first, node.first + node.count);
+        continue;
+      }
+      const Entry one = entryOf(node.first), other = entryOf(node.first + 1);
+      const bool one_first = one.distance_squared <= other.distance_squared;
+      stack[size++] = one_first ? other : one;
+      stack[size++] = one_first ? one : other;
+    }
+  }
+
+  static double distanceSquared(const Vec3& point, const Vec3& low, const Vec3& high) {
+    return (low - point).cwiseMax(point - high).cwiseMax(0.0).squaredNorm();
+  }
 
  private:
-  /// Depth is at most 32 (halving of a 32-bit count) and each level leaves one sibling behind.
+  /// Depth is at most 32 (a 32-bit count is halved), and each level leaves one sibling on the stack.
   static constexpr std::size_t kStackSize = 64;
 
   struct Node {

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "contact/shapes/collada_limits.h"
-
+//
+// Checks of a DAE file before assimp (5.2) reads it. Nodes may instance other nodes, and assimp expands them without a
+// limit: a cycle overflows the stack, and nodes that each instance the one before twice fill the memory. It also
+// recurses into nested elements without a limit, and loops for ever where an index list holds something else.
 #include <tinyxml2.h>
 
 #include <cstring>
 #include <map>
 #include <vector>
+
+#include "contact/shapes/mesh_loader.h"
 
 namespace curtain {
 namespace {

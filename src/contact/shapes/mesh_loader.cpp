@@ -17,7 +17,6 @@
 #include <system_error>
 #include <utility>
 
-#include "contact/shapes/collada_limits.h"
 #include "contact/shapes/triangle_mesh_topology.h"
 
 namespace curtain {

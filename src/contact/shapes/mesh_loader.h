@@ -20,4 +20,10 @@ namespace curtain {
 /// "obstacle 'NAME': mesh 'PATH' REASON": missing, unreadable, without triangles, without area, not finite.
 ShapeTriangles loadMesh(const std::string& path, const Vec3& scale, const std::string& obstacle);
 
+/// Nodes that a DAE file may expand to, each instance counted with all that it stands for.
+constexpr double kMostColladaNodes = 100000.0;
+
+/// What is wrong with the XML of a DAE file, or beyond the limits; "": nothing. For messages: "cannot be read: ...".
+std::string colladaProblem(const std::string& path);
+
 }  // namespace curtain

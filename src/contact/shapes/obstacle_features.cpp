@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 namespace curtain {
@@ -13,34 +12,6 @@ namespace {
 constexpr double kFlatAngle = 1e-6;
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
-
-/// A triangle's side, from the lower to the higher corner.
-struct Side {
-  int low;
-  int high;
-  std::uint32_t triangle;
-  std::uint32_t slot;  ///< 0 ab, 1 bc, 2 ca
-  bool forward;        ///< the triangle runs along it from low to high
-};
-
-std::vector<Side> sortedSides(const ShapeTriangles& mesh) {
-  std::vector<Side> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (int e = 0; e < 3; ++e) {
-      const int from = mesh.triangles[t][e];
-      const int to = mesh.triangles[t][(e + 1) % 3];
-      if (from == to) continue;
-      sides.push_back({std::min(from, to), std::max(from, to), static_cast<std::uint32_t>(t),
-                       static_cast<std::uint32_t>(e), from < to});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& one, const Side& other) {
-    return std::tie(one.low, one.high, one.triangle, one.slot) <
-           std::tie(other.low, other.high, other.triangle, other.slot);
-  });
-  return sides;
-}
 
 /// Angle [rad] that rounding of the corners may turn the triangle's normal by.
 double normalError(const ObstacleTriangle& triangle) {
@@ -130,11 +101,11 @@ void ObstacleFeatures::addTriangles(const MeshTopology& topology) {
 }
 
 void ObstacleFeatures::addEdges(const MeshTopology& topology, FlatEdges flat_edges) {
-  const std::vector<Side> sides = sortedSides(topology.mesh);
+  const std::vector<MeshSide> sides = sortedSides(topology.mesh);
   for (std::size_t first = 0; first < sides.size();) {
     std::size_t next = first + 1;
-    while (next < sides.size() && sides[next].low == sides[first].low && sides[next].high == sides[first].high) ++next;
-    const Side& side = sides[first];
+    while (next < sides.size() && sides[next].sameEdge(sides[first])) ++next;
+    const MeshSide& side = sides[first];
     const std::size_t count = next - first;
     ObstacleEdge edge;
     const auto from = static_cast<std::size_t>(side.forward ? side.low : side.high);

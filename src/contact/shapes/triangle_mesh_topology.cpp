@@ -18,14 +18,6 @@ constexpr double kSheetThickness = 1e-9;
 
 constexpr std::int64_t kNoPartner = -1;
 
-/// A directed edge of a triangle: slot = 3 * triangle + edge.
-struct Edge {
-  int low;
-  int high;
-  bool forward;
-  std::int64_t slot;
-};
-
 const Vec3& cornerOf(const ShapeTriangles& mesh, std::size_t triangle, std::size_t corner) {
   return mesh.corners[static_cast<std::size_t>(mesh.triangles[triangle][static_cast<int>(corner % 3)])];
 }
@@ -35,31 +27,19 @@ Vec3 unitOrZero(const Vec3& v) {
   return norm > 0.0 ? Vec3(v / norm) : Vec3(Vec3::Zero());
 }
 
-/// For every slot the slot on the other side of the edge. Returns whether the mesh is closed: every edge has
-/// exactly two triangles, which run along it in opposite directions.
+/// For every slot (3 * triangle + edge) the slot on the other side of the edge. Returns whether the mesh is closed:
+/// every edge has exactly two triangles, which run along it in opposite directions.
 bool findPartners(const ShapeTriangles& mesh, std::vector<std::int64_t>& partners) {
-  std::vector<Edge> edges;
-  edges.reserve(3 * mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (int e = 0; e < 3; ++e) {
-      const int from = mesh.triangles[t][e];
-      const int to = mesh.triangles[t][(e + 1) % 3];
-      edges.push_back({std::min(from, to), std::max(from, to), from < to, static_cast<std::int64_t>(3 * t) + e});
-    }
-  }
-  std::sort(edges.begin(), edges.end(), [](const Edge& one, const Edge& other) {
-    return std::tie(one.low, one.high, one.slot) < std::tie(other.low, other.high, other.slot);
-  });
-  partners.assign(edges.size(), kNoPartner);
+  const std::vector<MeshSide> sides = sortedSides(mesh);
+  const auto slotOf = [&sides](std::size_t n) { return 3 * std::size_t{sides[n].triangle} + sides[n].slot; };
+  partners.assign(sides.size(), kNoPartner);
   bool closed = true;
-  for (std::size_t first = 0; first < edges.size();) {
+  for (std::size_t first = 0; first < sides.size();) {
     std::size_t next = first + 1;
-    while (next < edges.size() && edges[next].low == edges[first].low && edges[next].high == edges[first].high) {
-      ++next;
-    }
-    if (next - first == 2 && edges[first].forward != edges[first + 1].forward) {
-      partners[static_cast<std::size_t>(edges[first].slot)] = edges[first + 1].slot;
-      partners[static_cast<std::size_t>(edges[first + 1].slot)] = edges[first].slot;
+    while (next < sides.size() && sides[next].sameEdge(sides[first])) ++next;
+    if (next - first == 2 && sides[first].forward != sides[first + 1].forward) {
+      partners[slotOf(first)] = static_cast<std::int64_t>(slotOf(first + 1));
+      partners[slotOf(first + 1)] = static_cast<std::int64_t>(slotOf(first));
     } else {
       closed = false;
     }
@@ -163,6 +143,24 @@ std::vector<Vec3> cornerNormals(const ShapeTriangles& mesh, const std::vector<Ve
 }
 
 }  // namespace
+
+std::vector<MeshSide> sortedSides(const ShapeTriangles& mesh) {
+  std::vector<MeshSide> sides;
+  sides.reserve(3 * mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (int e = 0; e < 3; ++e) {
+      const int from = mesh.triangles[t][e];
+      const int to = mesh.triangles[t][(e + 1) % 3];
+      sides.push_back({std::min(from, to), std::max(from, to), static_cast<std::uint32_t>(t),
+                       static_cast<std::uint32_t>(e), from < to});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const MeshSide& one, const MeshSide& other) {
+    return std::tie(one.low, one.high, one.triangle, one.slot) <
+           std::tie(other.low, other.high, other.triangle, other.slot);
+  });
+  return sides;
+}
 
 bool isDegenerate(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
   const double longest_squared = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "curtain_sim/obstacle_shape.h"
@@ -17,6 +18,17 @@ namespace curtain {
 constexpr double kDegenerateHeight = 1e-12;
 
 bool isDegenerate(const Vec3& a, const Vec3& b, const Vec3& c) noexcept;
+
+/// A triangle's side, as it lies on an edge of the mesh.
+struct MeshSide {
+  int low, high;  ///< the edge's corners
+  std::uint32_t triangle;
+  std::uint32_t slot;  ///< 0 ab, 1 bc, 2 ca
+  bool forward;        ///< the triangle runs along it from low to high
+  bool sameEdge(const MeshSide& other) const { return low == other.low && high == other.high; }
+};
+/// All sides, those of one edge next to each other and in the order of the triangles.
+std::vector<MeshSide> sortedSides(const ShapeTriangles& mesh);
 
 /// Triangles of nonzero area with their normals. For the three edges ab, bc, ca of each triangle and for each corner
 /// a unit pseudonormal.

@@ -4,23 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace curtain {
 namespace {
 
-/// Triangles in a leaf: fewer make a taller tree, more test triangles in vain; 4 is fastest by a little.
-constexpr std::uint32_t kLeafSize = 4;
-
-/// Depth is at most 32 (halving of a 32-bit count) and each level leaves one sibling behind.
-constexpr int kStackSize = 64;
-
 /// Squares of distances round by less, relative: of triangles that are equally far none is passed over.
 constexpr double kRounding = 1e-12;
-
-double distanceSquared(const Vec3& point, const Vec3& low, const Vec3& high) {
-  return (low - point).cwiseMax(point - high).cwiseMax(0.0).squaredNorm();
-}
 
 /// Segment against triangle after Woop, Benthin, Wald 2013 (Watertight Ray/Triangle Intersection): the segment
 /// is sheared onto an axis, and the edge functions of two triangles that share an edge are exact negatives of each
@@ -57,9 +46,9 @@ class Segment {
     return fraction >= 0.0 && fraction <= 1.0;
   }
 
-  /// Whether the segment up to `last` (a fraction) touches the box widened by margin; `first`: where.
-  bool touches(const Vec3& low, const Vec3& high, double margin, double last, double& first) const {
-    first = 0.0;
+  /// Whether the segment up to `last` (a fraction) touches the box widened by margin [m].
+  bool touches(const Vec3& low, const Vec3& high, double margin, double last) const {
+    double first = 0.0;
     for (int i = 0; i < 3; ++i) {
       const double below = low[i] - margin - from_[i];
       const double above = high[i] + margin - from_[i];
@@ -156,58 +145,21 @@ NearestTriangle nearestOnTriangle(const Vec3& point, const Vec3& a, const Vec3& 
 TriangleMeshTree::TriangleMeshTree(const ShapeTriangles& mesh) {
   const std::size_t count = mesh.triangles.size();
   std::vector<Vec3> centres(count);
-  const auto corner = [&mesh](std::size_t triangle, int i) -> const Vec3& {
-    return mesh.corners[static_cast<std::size_t>(mesh.triangles[triangle][i])];
+  std::vector<Eigen::AlignedBox3d> boxes(count);
+  triangles_.resize(count);
+  const auto cornersOf = [&mesh](std::size_t triangle) -> std::array<Vec3, 3> {
+    const auto corner = [&](int i) { return mesh.corners[static_cast<std::size_t>(mesh.triangles[triangle][i])]; };
+    return {corner(0), corner(1), corner(2)};
   };
   for (std::size_t t = 0; t < count; ++t) {
-    centres[t] = (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3.0;
+    const std::array<Vec3, 3> corners = cornersOf(t);
+    centres[t] = (corners[0] + corners[1] + corners[2]) / 3.0;
+    for (const Vec3& corner : corners) boxes[t].extend(corner);
   }
-  std::vector<std::uint32_t> order(count);
-  std::iota(order.begin(), order.end(), 0u);
-  nodes_.reserve(count + 1);
-  nodes_.emplace_back();
-  split(0, 0, static_cast<std::uint32_t>(count), centres, order, mesh);
-  triangles_.resize(count);
-  for (std::size_t t = 0; t < count; ++t) {
-    triangles_[t].index = order[t];
-    triangles_[t].corners = {corner(order[t], 0), corner(order[t], 1), corner(order[t], 2)};
-  }
+  tree_ = BoxTree(boxes, centres);
+  for (std::size_t t = 0; t < count; ++t) triangles_[t] = {cornersOf(tree_.order()[t]), tree_.order()[t]};
   const Eigen::AlignedBox3d box = bounds();
   margin_ = 1e-12 * (box.diagonal().norm() + box.min().cwiseAbs().maxCoeff());
-}
-
-void TriangleMeshTree::split(std::uint32_t node, std::uint32_t first, std::uint32_t count,
-                             const std::vector<Vec3>& centres, std::vector<std::uint32_t>& order,
-                             const ShapeTriangles& mesh) {
-  const auto begin = order.begin() + first;
-  const auto end = begin + count;
-  if (count <= kLeafSize) {
-    std::sort(begin, end);  // the order within a leaf does not depend on the standard library
-    Eigen::AlignedBox3d box;
-    for (auto t = begin; t != end; ++t) {
-      for (const int corner : mesh.triangles[*t]) {
-        box.extend(mesh.corners[static_cast<std::size_t>(corner)]);
-      }
-    }
-    nodes_[node] = {box.min(), box.max(), first, count};
-    return;
-  }
-  Eigen::AlignedBox3d spread;
-  std::for_each(begin, end, [&](std::uint32_t t) { spread.extend(centres[t]); });
-  int axis = 0;
-  spread.sizes().maxCoeff(&axis);
-  const std::uint32_t half = count / 2;
-  std::nth_element(begin, begin + half, end, [&centres, axis](std::uint32_t one, std::uint32_t other) {
-    const double x = centres[one][axis];
-    const double y = centres[other][axis];
-    return x < y || (x == y && one < other);
-  });
-  const auto child = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.resize(nodes_.size() + 2);
-  split(child, first, half, centres, order, mesh);
-  split(child + 1, first + half, count - half, centres, order, mesh);
-  nodes_[node] = {nodes_[child].low.cwiseMin(nodes_[child + 1].low),
-                  nodes_[child].high.cwiseMax(nodes_[child + 1].high), child, 0};
 }
 
 // Takes the triangle if it is nearer than the best, or as near and comes first in the input.
@@ -222,33 +174,15 @@ bool TriangleMeshTree::take(const Vec3& point, std::uint32_t place, NearestTrian
 }
 
 bool TriangleMeshTree::nearest(const Vec3& point, double limit_squared, NearestTriangle& out) const noexcept {
-  struct Entry {
-    std::uint32_t node;
-    double distance_squared;
-  };
-  std::array<Entry, kStackSize> stack;
-  std::size_t size = 0;
   bool found = false;
   NearestTriangle best;
   best.distance_squared = limit_squared;
   best.triangle = std::numeric_limits<std::uint32_t>::max();
-  stack[size++] = {0, distanceSquared(point, nodes_[0].low, nodes_[0].high)};
-  while (size > 0) {
-    const Entry entry = stack[--size];
-    if (!(entry.distance_squared <= best.distance_squared * (1.0 + kRounding))) continue;
-    const Node& node = nodes_[entry.node];
-    if (node.count == 0) {
-      const Node& left = nodes_[node.first];
-      const Node& right = nodes_[node.first + 1];
-      const Entry one{node.first, distanceSquared(point, left.low, left.high)};
-      const Entry other{node.first + 1, distanceSquared(point, right.low, right.high)};
-      const bool one_first = one.distance_squared <= other.distance_squared;
-      stack[size++] = one_first ? other : one;
-      stack[size++] = one_first ? one : other;
-      continue;
-    }
-    for (std::uint32_t t = node.first; t < node.first + node.count; ++t) found = take(point, t, best) || found;
-  }
+  tree_.forEachLeafNear(
+      point, [&] { return best.distance_squared * (1.0 + kRounding); },
+      [&](std::uint32_t first, std::uint32_t last) {
+        for (std::uint32_t t = first; t < last; ++t) found = take(point, t, best) || found;
+      });
   if (found) out = best;
   return found;
 }
@@ -279,53 +213,32 @@ bool TriangleMeshTree::nearest(const Vec3& point, double limit_squared, double r
   return true;
 }
 
-// The triangles nearest to a point, of those that come within a radius.
+// The triangles nearest to a point, of those within a radius.
 void TriangleMeshTree::collect(const Vec3& point, double radius, NearTriangles& near) const noexcept {
   near.centre = point;
   near.radius = radius;
   near.count = 0;
-  std::array<std::uint32_t, kStackSize> stack;
-  std::size_t size = 0;
-  stack[size++] = 0;
-  while (size > 0) {
-    const Node& node = nodes_[stack[--size]];
-    if (distanceSquared(point, node.low, node.high) > near.radius * near.radius) continue;
-    if (node.count == 0) {
-      stack[size++] = node.first + 1;
-      stack[size++] = node.first;
-      continue;
-    }
-    for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
+  const auto within = [&](const Vec3& low, const Vec3& high) {
+    return !(BoxTree::distanceSquared(point, low, high) > near.radius * near.radius);
+  };
+  tree_.forEachLeaf(within, [&](std::uint32_t first, std::uint32_t last) {
+    for (std::uint32_t t = first; t < last; ++t) {
       const std::array<Vec3, 3>& at = triangles_[t].corners;
       const double distance = std::sqrt(nearestOnTriangle(point, at[0], at[1], at[2]).distance_squared);
       if (distance < near.radius) insert(t, distance, near);
     }
-  }
+  });
 }
 
 bool TriangleMeshTree::firstHit(const Vec3& from, const Vec3& to, double least_fraction,
                                 TriangleHit& out) const noexcept {
-  if (from == to) {
-    return false;
-  }
+  if (from == to) return false;
   const Segment segment(from, to);
-  std::array<std::uint32_t, kStackSize> stack;
-  int size = 0;
   bool found = false;
   double last = 1.0;
-  stack[static_cast<std::size_t>(size++)] = 0;
-  while (size > 0) {
-    const Node& node = nodes_[stack[static_cast<std::size_t>(--size)]];
-    double reached = 0.0;
-    if (!segment.touches(node.low, node.high, margin_, last, reached)) {
-      continue;
-    }
-    if (node.count == 0) {
-      stack[static_cast<std::size_t>(size++)] = node.first + 1;
-      stack[static_cast<std::size_t>(size++)] = node.first;
-      continue;
-    }
-    for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
+  const auto touches = [&](const Vec3& low, const Vec3& high) { return segment.touches(low, high, margin_, last); };
+  tree_.forEachLeaf(touches, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t t = begin; t < end; ++t) {
       double fraction = 0.0;
       if (segment.hits(triangles_[t].corners, fraction) && fraction >= least_fraction && (!found || fraction < last)) {
         found = true;
@@ -333,7 +246,7 @@ bool TriangleMeshTree::firstHit(const Vec3& from, const Vec3& to, double least_f
         out = {fraction, triangles_[t].index};
       }
     }
-  }
+  });
   return found;
 }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Static tree of axis-aligned boxes over triangles: nearest triangle to a point, first triangle hit by a segment.
-// Built once by halving along the longest side, so its depth is log2(triangle count) and a fixed stack is enough;
-// nodes lie in one array, siblings side by side, corners in the order of the leaves.
+// Queries of a triangle mesh by a bounding volume hierarchy: nearest triangle to a point, first triangle hit by a
+// segment.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -10,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "contact/shapes/box_tree.h"
 #include "curtain_sim/obstacle_shape.h"
 
 namespace curtain {
@@ -60,29 +60,20 @@ class TriangleMeshTree {
   /// triangles that share an edge. Triangles the segment touches at less than `least_fraction` do not count.
   bool firstHit(const Vec3& from, const Vec3& to, double least_fraction, TriangleHit& out) const noexcept;
 
-  Eigen::AlignedBox3d bounds() const { return Eigen::AlignedBox3d(nodes_[0].low, nodes_[0].high); }
+  Eigen::AlignedBox3d bounds() const { return tree_.bounds(); }
 
  private:
-  struct Node {
-    Vec3 low;
-    Vec3 high;
-    std::uint32_t first;  // leaf: first triangle; else: first of two children
-    std::uint32_t count;  // triangles of a leaf, 0: not a leaf
-  };
   struct Triangle {
     std::array<Vec3, 3> corners;
     std::uint32_t index;
   };
 
-  void split(std::uint32_t node, std::uint32_t first, std::uint32_t count, const std::vector<Vec3>& centres,
-             std::vector<std::uint32_t>& order, const ShapeTriangles& mesh);
-
   bool take(const Vec3& point, std::uint32_t place, NearestTriangle& best) const noexcept;
   void collect(const Vec3& point, double radius, NearTriangles& near) const noexcept;
 
-  std::vector<Node> nodes_;
-  std::vector<Triangle> triangles_;
-  double margin_ = 0.0;  // widens boxes for segments, so that rounding never prunes a hit [m]
+  BoxTree tree_;
+  std::vector<Triangle> triangles_;  // in the order of its leaves
+  double margin_ = 0.0;              // widens boxes for segments, so that rounding never prunes a hit [m]
 };
 
 }  // namespace curtain
