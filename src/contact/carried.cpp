@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a snapshot carries of contact: the multipliers of the last accepted substep, and where obstacles are. What is
-// near is found anew.
+// What a snapshot holds of contact: the multipliers of the last accepted substep, and the obstacles' poses. Candidates
+// and caches are rebuilt.
 #include <limits>
 
 #include "cloth/archive.h"
@@ -11,9 +11,9 @@
 namespace curtain {
 namespace {
 
-constexpr std::int64_t kCount = 1 << 30;  // far from where an int ends
+constexpr std::int64_t kCount = 1 << 30;  // well below the largest int
 
-// Of a mesh's corners and triangles: its file may have changed since.
+// Of a mesh's geometry: its file may have changed since the snapshot.
 std::uint64_t fingerprint(const ShapeTriangles& mesh) {
   Fnv1a bits;
   for (const Vec3& corner : mesh.corners) bits.addBytes(corner.data(), sizeof(double) * 3);
@@ -49,7 +49,7 @@ void ObstacleSet::Item::carry(Archive& archive) {
   archive.require(!follows || !motion.empty(), "there is no motion to follow");
   archive.put(scripted, follows);
   archive.flag("moved", moved);
-  archive.within("own_way", own_way, 0.0, std::numeric_limits<double>::infinity());
+  archive.within("own_way", own_path, 0.0, std::numeric_limits<double>::infinity());
   archive.within("share", share, 0.0, 1.0);
   archive.flag("behind", behind);
   archive.flag("placed", placed);
@@ -73,8 +73,8 @@ void ObstacleContacts::carry(Archive& archive) {
   archive.number("loaded_for", loaded_for_);
 }
 
-// Multipliers by key, and what they act along: with the last forces they take velocities to the time of the positions.
-// All else of a contact is of its own substep.
+// The multipliers and directions of a contact: they warm-start the next substep, and with the last forces advance
+// velocities to the time of the positions. The rest is recomputed in every substep.
 void ClothContact::carryPushing(Archive& archive, Contact& contact) const {
   for (std::uint32_t& node : contact.node) archive.node("node", node, pattern_.grid);
   for (double& weight : contact.weight) archive.number("weight", weight);

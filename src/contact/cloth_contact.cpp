@@ -7,20 +7,19 @@
 namespace curtain {
 namespace {
 
-// Substeps without friction after one whose links could not be brought to their lengths.
+// Substeps without friction after one that did not settle: friction could lock overlong links in place.
 constexpr int kFrictionlessSubsteps = 64;
-// Two parts of the cloth are not kept further apart than this share of its shortest link: thicker cloth would touch its
-// own next row.
+// Gap of self-contact, at most this share of the shortest link: with more, a row would touch its neighbours.
 constexpr double kGapPerLink = 0.25;
-// How far parts of flat cloth are to be kept apart by proof, over the gap: they are looked at by themselves before they
-// touch.
+// The flatness proof is for this multiple of the gap, so that it fails before parts touch.
 constexpr double kFlatReach = 1.25;
-// Parts that go along with an obstacle may take more with them: so many times at most.
+// Rounds of advection with an obstacle: parts that move with it may push others. Then the rest stops.
 constexpr int kAdvectionRounds = 64;
 
-// What goes through comes this near, over the gap, with room for what measuring it leaves uncertain.
+// Candidates for crossings, over the gap: twice the share that counts as crossing, for uncertainty of the time of
+// impact.
 constexpr double kCrossingReach = 2.0 * SelfContacts::kLeastShare;
-// Contacts that there is room for, per node.
+// Capacity for contacts, per node.
 constexpr std::size_t kRoomPerNode = 8;
 
 }  // namespace
@@ -43,7 +42,7 @@ ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& par
   self_candidates_.reserve(candidates_);
 }
 
-// The cloth with itself first, then obstacles by their names.
+// Order of contacts: self-contact first, then obstacles by name.
 bool ClothContact::before(const Contact& a, const Contact& b) const noexcept {
   const auto rank = [this](const Contact& c) {
     return c.obstacle == Contact::kCloth ? -1 : obstacles_.rank(c.obstacle);
@@ -56,7 +55,7 @@ void ClothContact::find(const Field3& start, const Field3& end, double reach) no
   self_candidates_.collect(start, end, reach, candidates_);
 }
 
-// Xorshift (Marsaglia 2003): never 0 again once it is not.
+// Xorshift (Marsaglia 2003): never reaches 0.
 void ClothContact::clearAtRandom() noexcept {
   clearing_ ^= clearing_ << 13;
   clearing_ ^= clearing_ >> 7;
@@ -64,7 +63,7 @@ void ClothContact::clearAtRandom() noexcept {
   if ((clearing_ & 1U) != 0) clearCaches();
 }
 
-// Cloth that is flat by far where the substep starts has no pairs that are near.
+// Cloth that is proven flat at the start has no candidates.
 Contacts& ClothContact::begin(const Field3& start, const Field3& predicted, double h) noexcept {
   if (clearing_ != 0) clearAtRandom();
   contacts_.clear();
@@ -83,7 +82,7 @@ Contacts& ClothContact::begin(const Field3& start, const Field3& predicted, doub
   return contacts_;
 }
 
-// Both are in order.
+// Both lists are sorted.
 void ClothContact::warmStart() noexcept {
   auto old = last_.begin();
   for (Contact& contact : contacts_) {
@@ -125,8 +124,8 @@ void ClothContact::hold(const Field3& start, Field3& end) noexcept {
   if (obstacles_.anyPresent()) advectWithObstacles(start, end);
 }
 
-// What would go through an obstacle goes along with it, and what that would go through or be left behind by, too. Where
-// that does not come to an end, the rest stays where it is.
+// Parts that would cross an obstacle move with it, and parts that those would cross move along. If that does not end,
+// the rest of the cloth stays where it is.
 void ClothContact::advectWithObstacles(const Field3& start, Field3& end) noexcept {
   bool done = false;
   for (int round = 0; round < kAdvectionRounds && !done; ++round) {
@@ -162,7 +161,7 @@ void ClothContact::freezeZones(const Field3& start, Field3& end) noexcept {
   zones_.stop(start, end);
 }
 
-// Nodes that would go through each other belong to one zone; returns how many pairs there were.
+// Merges the nodes of every crossing pair into one zone; returns the number of such pairs.
 int ClothContact::joinCrossings(const Field3& start, const Field3& end) noexcept {
   int count = 0;
   if (!self_wanted_) return count;
@@ -188,7 +187,7 @@ void ClothContact::afterSubstep(bool settled, double h, double scale, const Fiel
   for (const Contact& contact : contacts_) {
     if (contact.pushes()) last_.push_back(contact);
   }
-  // Those that verify() added come last.
+  // verify() appends out of order.
   const auto in_order = [this](const Contact& a, const Contact& b) { return before(a, b); };
   if (!std::is_sorted(last_.begin(), last_.end(), in_order)) std::sort(last_.begin(), last_.end(), in_order);
   last_scale_ = scale;

@@ -13,8 +13,8 @@ namespace {
 // Longest strips and spans [links]. Longer ones are fewer to check but bound the slopes between less.
 constexpr int kMostRods = 4, kMostWefts = 20;
 // Largest relative difference of rest lengths: the bound assumes a regular reference mesh.
-constexpr double kBent = 1e-6;
-// Covers rounding of slopes and kUneven.
+constexpr double kIrregular = 1e-6;
+// Covers rounding of slopes and kIrregular.
 constexpr double kSlack = 1e-5;
 
 struct Place {
@@ -75,7 +75,7 @@ CURTAIN_WIDE bool holdsRow(const ClothPattern& pattern, const Field3& position, 
 ClothFlatness::ClothFlatness(const ClothPattern& pattern, double overlong)
     : pattern_(pattern),
       overlong_(overlong),
-      usable_(isEven(pattern)),
+      usable_(isRegular(pattern)),
       checks_top_(false),
       strips_(spansOf(pattern.warp_coordinate, kMostRods)),
       spans_(spansOf(pattern.weft_coordinate, kMostWefts)) {
@@ -98,15 +98,15 @@ ClothFlatness::ClothFlatness(const ClothPattern& pattern, double overlong)
   }
 }
 
-bool ClothFlatness::isEven(const ClothPattern& pattern) const {
+bool ClothFlatness::isRegular(const ClothPattern& pattern) const {
   const Grid& grid = pattern.grid;
   if (grid.closed) return false;
   const double u = pattern.weft_rest[1], v = pattern.warp_rest[grid.index(1, 0)];
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = 0; j < grid.columns; ++j) {
       const std::size_t n = grid.index(i, j);
-      if (i > 0 && std::abs(pattern.warp_rest[n] / v - 1.0) > kBent) return false;
-      if (j > 0 && std::abs(pattern.weft_rest[n] / u - 1.0) > kBent) return false;
+      if (i > 0 && std::abs(pattern.warp_rest[n] / v - 1.0) > kIrregular) return false;
+      if (j > 0 && std::abs(pattern.weft_rest[n] / u - 1.0) > kIrregular) return false;
     }
   }
   return true;
@@ -135,18 +135,18 @@ Vec3 ClothFlatness::warpDirection(const Field3& position) const noexcept {
   const Grid& grid = pattern_.grid;
   const int column = grid.columns / 2;
   const auto line = [&](const Span& strip) {
-    const Vec3 way = position.at(grid.index(static_cast<int>(strip.last), column)) -
-                     position.at(grid.index(static_cast<int>(strip.first), column));
-    return Vec3(way * strip.per_length);
+    const Vec3 slope = position.at(grid.index(static_cast<int>(strip.last), column)) -
+                       position.at(grid.index(static_cast<int>(strip.first), column));
+    return Vec3(slope * strip.per_length);
   };
   const auto furthest_from = [&](const Vec3& direction) {
     Vec3 furthest = direction;
     double least = std::numeric_limits<double>::infinity();
     for (const Span& strip : strips_) {
-      const Vec3 way = line(strip);
-      if (way.dot(direction) < least) {
-        least = way.dot(direction);
-        furthest = way;
+      const Vec3 slope = line(strip);
+      if (slope.dot(direction) < least) {
+        least = slope.dot(direction);
+        furthest = slope;
       }
     }
     return furthest;

@@ -55,7 +55,7 @@ class ClothFlatness {
     double links;             // number of links
   };
   static std::vector<Span> spansOf(const Field& coordinate, int most_links);
-  bool isEven(const ClothPattern& pattern) const;
+  bool isRegular(const ClothPattern& pattern) const;
   Vec3 warpDirection(const Field3& position) const noexcept;
   // Slopes of the cloth along directions that suit it.
   struct Projection {

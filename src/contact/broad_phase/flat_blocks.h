@@ -22,7 +22,7 @@ namespace curtain {
 /// Not thread-safe.
 class FlatBlocks {
  public:
-  /// level: of the hierarchy's blocks; quads_along: of one either way. per_spacing must outlive this.
+  /// level: of the hierarchy's blocks; quads_along: quads along such a block; per_spacing must outlive this.
   FlatBlocks(const Grid& grid, const Spacings& per_spacing, const BoxHierarchy::Level& level, int quads_along);
 
   /// Computes slopes and boxes of all blocks. Allocates nothing.

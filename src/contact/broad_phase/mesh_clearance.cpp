@@ -12,7 +12,7 @@
 namespace curtain {
 namespace {
 
-// A window is so many times as large as what it must hold, to serve for a while.
+// Radius of a new window over the least that would do: larger ones last longer and hold more features.
 constexpr double kMargin = 1.5;
 
 struct Places {
@@ -25,7 +25,7 @@ struct Windows {
   const double *radius, *top;
 };
 
-// What corners of one quad have extent of it so far.
+// Extent of one quad's corners relative to its window, so far.
 struct Extent {
   double away = 0.0, low = std::numeric_limits<double>::infinity(), sum = 0.0;
 };
@@ -39,7 +39,7 @@ CURTAIN_INTO_WIDE void extend(const Windows& w, const Places& p, std::size_t q, 
   extent.sum += square;
 }
 
-// Of quads side by side, their four corners at the start and at the end.
+// Classifies quads side by side, given their four corners at the start and at the end.
 CURTAIN_WIDE void classifyAll(const Windows& w, const std::array<Places, 8>& corners, double reach, std::size_t count,
                               QuadClearance* views) noexcept {
 #pragma omp simd
@@ -47,23 +47,23 @@ CURTAIN_WIDE void classifyAll(const Windows& w, const std::array<Places, 8>& cor
     Extent extent;
     for (std::size_t k = 0; k < 8; ++k) extend(w, corners[k], q, extent);
     const double room = w.radius[q] - reach;
-    // The sum is finite only where every corner is.
+    // The sum is finite only if every corner is.
     const bool stays = room > 0.0 && extent.away < room * room && extent.sum - extent.sum == 0.0;
     const bool is_over = extent.low > w.top[q] + reach;
     views[q] = static_cast<QuadClearance>(stays ? (is_over ? 1 : 2) : 0);
   }
 }
 
-// The largest normal . (x - centre) of the edge's part in the ball; -infinity: it has none there.
+// Largest normal . (x - centre) of the part of the edge in the ball; -infinity: the edge does not reach it.
 double highestInBall(const ObstacleEdge& edge, const Vec3& centre, double radius, const Vec3& normal) {
-  const Vec3 from = edge.ends[0] - centre, way = edge.ends[1] - edge.ends[0];
-  // Where |from + t way| = radius.
-  const double a = way.squaredNorm(), b = from.dot(way), c = from.squaredNorm() - radius * radius;
+  const Vec3 from = edge.ends[0] - centre, along = edge.ends[1] - edge.ends[0];
+  // Where the line is at the radius: |from + t along| = radius.
+  const double a = along.squaredNorm(), b = from.dot(along), c = from.squaredNorm() - radius * radius;
   const double root = b * b - a * c;
   if (!(root >= 0.0)) return -std::numeric_limits<double>::infinity();
   const double first = std::max(0.0, (-b - std::sqrt(root)) / a), last = std::min(1.0, (-b + std::sqrt(root)) / a);
   if (first > last) return -std::numeric_limits<double>::infinity();
-  const double low = normal.dot(from), slope = normal.dot(way);
+  const double low = normal.dot(from), slope = normal.dot(along);
   return low + std::max(first * slope, last * slope);
 }
 
@@ -99,7 +99,7 @@ double SweptQuad::lowest(const Vec3& normal, const Vec3& from) const noexcept {
   return lowest;
 }
 
-// Without room the lowest feature is left out.
+// When the list is full the lowest feature is dropped, and `rest` bounds it.
 void MeshClearance::HighestFeatures::insert(double height, std::uint32_t feature) noexcept {
   std::size_t k = count;
   if (count < kMost) {
@@ -144,11 +144,11 @@ const QuadClearance* MeshClearance::classify(int row, const Field3& start, const
   return &clearances_[above];
 }
 
-QuadClearance MeshClearance::rebuild(const QuadElements& quad, const SweptQuad& way, double reach) noexcept {
+QuadClearance MeshClearance::rebuild(const QuadElements& quad, const SweptQuad& swept, double reach) noexcept {
   constexpr double kNone = -std::numeric_limits<double>::infinity();
   const std::size_t window = quad.corners[0];
-  const Vec3 centre = way.middle();
-  const double radius = kMargin * (way.furthest(centre) + reach);
+  const Vec3 centre = swept.middle();
+  const double radius = kMargin * (swept.furthest(centre) + reach);
   const Eigen::AlignedBox3d box(centre.array() - radius, centre.array() + radius);
   SurfacePoint surface;
   const Vec3 normal = mesh_->query(centre, centre, radius, surface) ? surface.normal : Vec3::Zero();
@@ -168,7 +168,7 @@ QuadClearance MeshClearance::rebuild(const QuadElements& quad, const SweptQuad& 
   normal_.set(window, normal);
   radius_[window] = radius;
   top_[window] = highest.count > 0 ? highest.heights[0] : kNone;
-  return way.lowest(normal, centre) > top_[window] + reach ? QuadClearance::kClear : QuadClearance::kNear;
+  return swept.lowest(normal, centre) > top_[window] + reach ? QuadClearance::kClear : QuadClearance::kNear;
 }
 
 }  // namespace curtain

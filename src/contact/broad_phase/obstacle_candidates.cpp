@@ -11,13 +11,13 @@
 namespace curtain {
 namespace {
 
-// Room for pairs with a mesh, per node of the cloth and per edge or corner of the mesh: either may be the finer one.
-// Without room the cloth is held where it is, and a mesh that goes on goes through it.
+// Capacity for pairs with a mesh, per node of the cloth and per edge or corner of the mesh (either may be the finer
+// one). When it runs out the cloth stops, and a mesh that moves on goes through it.
 constexpr std::size_t kPairsPerNode = 8;
 constexpr std::size_t kPairsPerFeature = 4;
-// Room of a share of them over its part.
+// Capacity of a worker's share, over its fair part.
 constexpr std::size_t kRoomOverPart = 2;
-// Nodes that one thread looks at at once.
+// Nodes that one worker takes at a time.
 constexpr std::size_t kNodesAtOnce = 64;
 
 double longestEdge(const ClothPattern& pattern) {
@@ -29,7 +29,7 @@ double longestEdge(const ClothPattern& pattern) {
       if (j > 0 || grid.closed) weft = std::max(weft, pattern.weft_rest[grid.index(i, j)]);
     }
   }
-  return warp + weft;  // nothing holds the faces' diagonals but their sides
+  return warp + weft;  // upper bound of a diagonal: no link holds it
 }
 
 struct Range {
@@ -74,7 +74,8 @@ ObstacleCandidates::ObstacleCandidates(const ClothPattern& pattern, const Contac
       mesh_(dynamic_cast<const TriangleMeshShape*>(&shape)),
       thickness_(thickness),
       core_(core) {
-  // Sagitta of the longest edge between two nodes that keep the thickness, less the tenth of it that they may lack.
+  // Elements need tests of their own if the longest edge between two nodes at the thickness (less the tenth they may
+  // lack) can come nearer than the core: by the sagitta of a circle of the surface's smallest radius.
   const double longest = longestEdge(pattern);
   const double radius = (shape.convex() != nullptr ? shape.convex()->smoothRadius() : 0.0) + 0.9 * thickness;
   const double half = 0.5 * longest;
@@ -104,7 +105,7 @@ ObstacleCandidates::ObstacleCandidates(const ClothPattern& pattern, const Contac
   }
 }
 
-// Nodes as seen from the obstacle.
+// World to obstacle's frame.
 CURTAIN_WIDE void ObstacleCandidates::toLocal(const Transform& place, const Field3& position, Field3& out) noexcept {
   const Eigen::Matrix3d& r = place.rotation;
   const double xx = r(0, 0), xy = r(1, 0), xz = r(2, 0), yx = r(0, 1), yy = r(1, 1), yz = r(2, 1);
@@ -162,7 +163,7 @@ void ObstacleCandidates::list(const MovingObstacle& moving, const Field3& end, d
     listPairs(reach);
 }
 
-// Finds a node's distance and plane where it starts, unless that is known.
+// Computes a node's distance and tangent plane at the start, unless they are known.
 void ObstacleCandidates::queryStart(std::size_t node) noexcept {
   if (queried_at_[node] == substep_) return;
   queried_at_[node] = substep_;
@@ -185,12 +186,12 @@ void ObstacleCandidates::queryStart(std::size_t node) noexcept {
 bool ObstacleCandidates::isNear(std::size_t node, const Eigen::AlignedBox3d& box) noexcept {
   const double reach = nodeReach();
   const Vec3 at = start_.at(node);
-  const double way = (end_.at(node) - at).norm();
+  const double displacement = (end_.at(node) - at).norm();
   const CachedPlane& plane = planes_[node];
-  if (plane.kind != CachedPlane::Kind::kUnknown && plane.lowerBound(at) - way > reach) return false;
+  if (plane.kind != CachedPlane::Kind::kUnknown && plane.lowerBound(at) - displacement > reach) return false;
   if (!Eigen::AlignedBox3d(at).extend(end_.at(node)).intersects(box)) return false;
   queryStart(node);
-  return !(distance_[node] - way > reach);
+  return !(distance_[node] - displacement > reach);
 }
 
 void ObstacleCandidates::listNodes() noexcept {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Candidates for contact with one obstacle in one substep: all in the obstacle's frame, where it rests.
+// Broad phase against one obstacle: what may touch it in one substep, in the obstacle's frame, where it is at rest.
 //
-//                            nodes    those that may come within nodeReach()
-//   start ------------> end  faces    triangles that may come within a reach (convex shapes)
-//      ( obstacle )          pairs    cloth edge x obstacle edge, cloth triangle x obstacle corner that may (meshes)
+//                           nodes    those that may come within nodeReach()
+//  start ------------> end  faces    triangles that may come within a reach (convex shapes)
+//     ( obstacle )          pairs    cloth edge x obstacle edge, cloth triangle x obstacle corner (meshes)
 //
-// They are found anew for every way; what is kept from one to the next is true of the obstacle wherever the cloth is:
-// its surface as nodes last saw it, planes that all of it is behind.
+// Candidates are computed for every motion. Only facts about the obstacle are cached, which hold wherever the cloth is:
+// distances and tangent planes found from nodes, planes with the whole obstacle behind them.
 #pragma once
 
 #include <algorithm>
@@ -35,40 +35,40 @@ struct FeaturePair {
   bool edges = false;
 };
 
-/// The surface as it was found from a point.
+/// Cached surface point of the obstacle, found from a position of the cloth.
 struct CachedPlane {
-  Vec3 at = Vec3::Zero();  ///< that point [m]
-  SurfacePoint surface;    ///< distance: at least that when not found
+  Vec3 at = Vec3::Zero();  ///< position it was found from [m]
+  SurfacePoint surface;    ///< if kFar, `distance` is a lower bound and the normal is unset
   enum class Kind : std::uint8_t { kUnknown, kFar, kFound } kind = Kind::kUnknown;
 
-  /// No point of the surface is nearer to p than this, for certain [m]; of use outside.
+  /// Lower bound of the distance from p to the surface, by the triangle inequality [m]; p outside.
   double lowerBound(const Vec3& p) const noexcept { return surface.distance - (p - at).norm(); }
-  /// Neither end of a way is within reach, and nothing is between, for certain.
+  /// Proof that neither end of the motion is within reach, and that it meets nothing in between.
   bool isClearOf(const Vec3& from, const Vec3& to, double reach) const noexcept {
     if (kind == Kind::kUnknown) return false;
     const double first = lowerBound(from), last = lowerBound(to);
     return first > 0.0 && last > reach && first + last > (to - from).norm();
   }
-  /// Height over the tangent plane [m]; of a convex shape a lower bound of the distance.
+  /// Height above the tangent plane [m]; for a convex shape a lower bound of the distance.
   double height(const Vec3& p) const noexcept { return surface.distance + surface.normal.dot(p - at); }
 };
 
 class ObstacleCandidates {
  public:
-  /// A face of the cloth, and its own number.
+  /// A triangle of the cloth and its index.
   struct Face {
     MeshTriangle node;
     std::uint32_t index;
   };
 
-  /// thickness: kept between nodes and obstacle [m]; core: between faces and obstacle; pattern, shape and workers must
-  /// outlive this. Allocates all there is to.
+  /// thickness: gap between nodes and obstacle [m]; core: gap between faces and obstacle [m]; pattern, shape and
+  /// workers must outlive this. Allocates everything here.
   ObstacleCandidates(const ClothPattern& pattern, const ContactShape& shape, double thickness, double core,
                      const Workers& workers);
 
-  /// Lists what may touch in a substep from start to predicted, and takes these positions over.
+  /// Starts a substep: finds candidates of the motion from start to predicted.
   void prepare(const MovingObstacle& moving, const Field3& start, const Field3& predicted) noexcept;
-  /// What may go through on another way from that start: where nodes really go.
+  /// Finds candidates of another motion from the same start, for continuous detection.
   void follow(const MovingObstacle& moving, const Field3& end) noexcept;
   void invalidate() noexcept;
 
@@ -76,43 +76,43 @@ class ObstacleCandidates {
   const std::vector<Face>& faces() const noexcept { return faces_; }
   const std::vector<FeaturePair>& pairs() const noexcept { return pairs_; }
 
-  /// Of a listed node (or one of a listed element), in the obstacle's frame [m].
+  /// Of a candidate's node, in the obstacle's frame [m].
   Vec3 startOf(std::size_t node) const noexcept { return start_.at(node); }
   Vec3 endOf(std::size_t node) const noexcept { return end_.at(node); }
-  /// The surface as a node finds it where it ends, or where it went through it on the way.
+  /// Surface at the end of a node's motion, or where the node went through it.
   struct NodeEnd {
     std::uint32_t node;
     SurfacePoint surface;
   };
-  /// Of the listed nodes that can move those that end within reach or have gone through [m]. Good until it is asked
-  /// again.
+  /// Movable candidate nodes that end within reach [m] or went through the surface. Valid until the next call.
   std::vector<NodeEnd>& queryEnds(double reach) noexcept;
   CachedPlane& plane(std::size_t node) noexcept { return planes_[node]; }
   const CachedPlane& plane(std::size_t node) const noexcept { return planes_[node]; }
 
-  /// The plane at a face's nearest point, once that is known.
+  /// Tangent plane at a face's nearest point, kUnknown before it was computed.
   CachedPlane& facePlane(const Face& face) noexcept { return face_planes_[face.index]; }
   const CachedPlane& facePlane(const Face& face) const noexcept { return face_planes_[face.index]; }
 
-  /// Signed distance at the start of the substep, or the thickness when it is more [m].
+  /// Signed distance at the start of the substep, cut at the thickness [m].
   double distanceOf(std::size_t node) const noexcept {
     return queried_at_[node] == substep_ ? std::min(distance_[node], thickness_) : thickness_;
   }
-  /// The node starts the substep inside the obstacle; what has such a node is on its way out, and nothing may stop it.
+  /// The node starts inside the obstacle. What has such a node is coming out and must not be stopped.
   bool isInside(std::size_t node) const noexcept { return distanceOf(node) < 0.0 && !isPinned(node); }
   bool isPinned(std::size_t node) const noexcept { return pattern_.inverse_mass[node] <= 0.0; }
 
   const ContactShape& shape() const noexcept { return shape_; }
   double thickness() const noexcept { return thickness_; }
   double core() const noexcept { return core_; }
-  /// What comes nearer in a substep is listed, for certain [m].
+  /// Distances within which nodes, elements and crossings are found for certain [m].
   double nodeReach() const noexcept { return 1.5 * thickness_; }
   double elementReach() const noexcept { return 0.4 * thickness_; }
-  /// What comes nearer would go through, with room for what times of impact are early by [m].
+  /// Crossings are found within this distance: twice what counts as crossing, because times of impact may be early
+  /// [m].
   double crossingReach() const noexcept { return 2.0 * kLeastShare * thickness_; }
-  /// Over the thickness: nearer than this is through.
+  /// Share of the thickness below which a part counts as crossing.
   static constexpr double kLeastShare = 0.02;
-  /// A list had no room for all there was: what is near is not known.
+  /// A list ran full: candidates are missing.
   bool full() const noexcept { return full_; }
 
  private:
@@ -132,7 +132,7 @@ class ObstacleCandidates {
   }
   void listFaces(double reach) noexcept;
   bool staysAbove(const Face& face, double reach) noexcept;
-  /// Of one share of the rows.
+  /// Pairs found by one worker.
   struct Pairs {
     std::vector<FeaturePair> list;
     bool full = false;
@@ -140,7 +140,7 @@ class ObstacleCandidates {
   };
   void listPairs(double reach) noexcept;
   void listPairsOfRow(int row, const Eigen::AlignedBox3d& box, double reach, Pairs& out) noexcept;
-  void listPairsOf(const QuadElements& quad, const SweptQuad& way, double reach, Pairs& out) const noexcept;
+  void listPairsOf(const QuadElements& quad, const SweptQuad& swept, double reach, Pairs& out) const noexcept;
   void addEdgePair(const MeshEdge& edge, std::uint32_t index, const ObstacleEdge& other, double reach,
                    Pairs& out) const noexcept;
   void addCornerPair(const MeshTriangle& triangle, std::uint32_t index, const ObstacleVertex& corner, double reach,
@@ -154,17 +154,18 @@ class ObstacleCandidates {
   bool elements_wanted_;
   Field3 start_, end_;               // of this substep [m]
   std::vector<CachedPlane> planes_;  // by node
-  std::vector<double> distance_;     // by node: where it was last looked at, at least that when the surface was far [m]
+  std::vector<double>
+      distance_;  // by node: at the start of the substep in queried_at_; a lower bound when the surface was far [m]
   std::uint32_t substep_ = 0;
-  std::vector<std::uint32_t> queried_at_;       // by node: the substep at whose start it was
-  std::vector<Eigen::AlignedBox3d> row_boxes_;  // around the nodes' ways [m]
+  std::vector<std::uint32_t> queried_at_;       // by node: substep at whose start distance_ was computed
+  std::vector<Eigen::AlignedBox3d> row_boxes_;  // around the motion of a row [m]
   bool full_ = false;
-  std::vector<std::uint32_t> nodes_;  // pinned ones too
-  std::vector<std::uint8_t> near_;    // by node: it is one of them
+  std::vector<std::uint32_t> nodes_;  // candidates, pinned ones included
+  std::vector<std::uint8_t> near_;    // by node: it is in nodes_
   std::vector<NodeEnd> ends_;
-  std::vector<std::uint8_t> found_;  // by place in nodes_: its end is in ends_
+  std::vector<std::uint8_t> found_;  // by index in nodes_: its end is in ends_
   std::vector<Face> faces_;
-  std::vector<CachedPlane> face_planes_;  // by the faces' numbers, of a convex shape
+  std::vector<CachedPlane> face_planes_;  // by face index, of a convex shape
   std::vector<NearTriangles> triangles_;  // by node, of a mesh
   MeshClearance mesh_clearance_;          // of a mesh
   std::vector<FeaturePair> pairs_;

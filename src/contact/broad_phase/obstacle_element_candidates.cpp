@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Faces and edges of the cloth that are near an obstacle on their way. Near a convex shape a plane that touches it
-// shows how far a face is from it at least: that of the face's own nearest point, or of its nodes'. Near a mesh windows
-// tell which quads are clear (mesh_windows.h).
+// Faces and edges of the cloth that may touch an obstacle. A tangent plane of a convex shape bounds the distance of a
+// face from below: that of the face's own nearest point is tried first, then those of its nodes. For meshes see
+// mesh_clearance.h.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,7 +19,7 @@ Eigen::AlignedBox3d ObstacleCandidates::boxOf(const std::array<std::uint32_t, 4>
   return around;
 }
 
-// A plane has both ends of the face's way on its far side. What was found earlier is asked first.
+// Whether one of the cached planes has the whole motion of the face above it.
 bool ObstacleCandidates::staysAbove(const Face& face, double reach) noexcept {
   const auto isOver = [&](const CachedPlane& plane) {
     double lowest = std::numeric_limits<double>::infinity();
@@ -81,32 +81,32 @@ void ObstacleCandidates::listPairsOfRow(int row, const Eigen::AlignedBox3d& box,
     if (clearance == QuadClearance::kClear) continue;
     const QuadElements quad = quadElements(grid, row, j);
     if (!boxOf(quad.corners).intersects(box)) continue;
-    const SweptQuad way(quad, start_, end_);
-    if (clearance == QuadClearance::kUnknown) clearance = mesh_clearance_.rebuild(quad, way, reach);
-    if (clearance == QuadClearance::kNear) listPairsOf(quad, way, reach, out);
+    const SweptQuad swept(quad, start_, end_);
+    if (clearance == QuadClearance::kUnknown) clearance = mesh_clearance_.rebuild(quad, swept, reach);
+    if (clearance == QuadClearance::kNear) listPairsOf(quad, swept, reach, out);
   }
 }
 
-void ObstacleCandidates::listPairsOf(const QuadElements& quad, const SweptQuad& way, double reach,
+void ObstacleCandidates::listPairsOf(const QuadElements& quad, const SweptQuad& swept, double reach,
                                      Pairs& out) const noexcept {
   Eigen::AlignedBox3d box = boxOf(quad.corners);
   box.min().array() -= reach;
   box.max().array() += reach;
-  // Over the plane through a feature, which is faster to tell than the distance.
+  // The plane through the feature is a cheaper test than the distance.
   mesh_clearance_.forEachNear(
-      quad, way, reach, box,
+      quad, swept, reach, box,
       [&](std::uint32_t index, const ObstacleEdge& edge) {
-        if (way.lowest(edge.outward, edge.ends[0]) > reach) return;
+        if (swept.lowest(edge.outward, edge.ends[0]) > reach) return;
         for (int k = 0; k < quad.edge_count; ++k)
           addEdgePair(quad.edges[static_cast<std::size_t>(k)], index, edge, reach, out);
       },
       [&](std::uint32_t index, const ObstacleVertex& corner) {
-        if (way.lowest(corner.outward, corner.position) > reach) return;
+        if (swept.lowest(corner.outward, corner.position) > reach) return;
         for (const MeshTriangle& triangle : quad.triangles) addCornerPair(triangle, index, corner, reach, out);
       });
 }
 
-// Nodes are never further than half their way from its middle.
+// A node is never further than half its displacement from its position half way.
 void ObstacleCandidates::addEdgePair(const MeshEdge& edge, std::uint32_t index, const ObstacleEdge& other, double reach,
                                      Pairs& out) const noexcept {
   const Vec3 a = start_.at(edge[0]), b = start_.at(edge[1]);
@@ -121,13 +121,13 @@ void ObstacleCandidates::addEdgePair(const MeshEdge& edge, std::uint32_t index, 
 void ObstacleCandidates::addCornerPair(const MeshTriangle& triangle, std::uint32_t index, const ObstacleVertex& corner,
                                        double reach, Pairs& out) const noexcept {
   std::array<Vec3, 3> at;
-  double way = 0.0;
+  double longest = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 now = start_.at(triangle[k]), then = end_.at(triangle[k]);
     at[k] = 0.5 * (now + then);
-    way = std::max(way, (then - now).squaredNorm());
+    longest = std::max(longest, (then - now).squaredNorm());
   }
-  const double limit = reach + 0.5 * std::sqrt(way);
+  const double limit = reach + 0.5 * std::sqrt(longest);
   if (closestOnTriangle(corner.position, at[0], at[1], at[2]).distance_squared > limit * limit) return;
   out.add({triangle, index, false});
 }

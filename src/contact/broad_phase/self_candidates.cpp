@@ -9,17 +9,17 @@
 namespace curtain {
 namespace {
 
-// Blocks that are asked whether they are even: of 8 x 8 quads.
+// Level of the blocks that are proven flat: 8 x 8 quads. Smaller ones cost more, larger ones are flat less often.
 constexpr std::size_t kFlatLevel = 3;
-// The mean motion is that of one of so many rows.
+// The mean motion is taken over every n-th row.
 constexpr int kSampledRows = 4;
-// Pairs of quads that wait to be looked at together.
+// Pairs of quads that are tested together.
 constexpr std::size_t kQuadsAtOnce = 1024;
-// Room of a share of a look over its part of all there is room for.
+// Capacity of a worker's share, over its fair part.
 constexpr std::size_t kRoomOverPart = 2;
-// Floats beyond the end of an array that whole vectors may read.
+// Padding [floats] behind the arrays, so that vector loads stay inside.
 constexpr std::size_t kBeyond = 16;
-// Largest error of a number rounded to single precision, relative to it.
+// Unit roundoff of single precision.
 constexpr float kUnit = 0.5f * std::numeric_limits<float>::epsilon();
 
 CURTAIN_WIDE void subtract(const double* __restrict from, double origin, std::size_t count, float* __restrict to) {
@@ -42,7 +42,8 @@ struct Floats3 {
   const float *x, *y, *z;
 };
 
-// Counted in floats, all lanes being of one width.
+// Marks the nodes of a row that are further than the bound from where they were expected, and counts them (in floats,
+// so that all lanes have one width).
 CURTAIN_WIDE std::size_t markRow(const Doubles3& at, const Floats3& expected, const Vec3& origin, float most_squared,
                                  std::size_t count, std::uint8_t* __restrict marks) {
   const Doubles3 p = at;
@@ -60,7 +61,7 @@ CURTAIN_WIDE std::size_t markRow(const Doubles3& at, const Floats3& expected, co
   return static_cast<std::size_t>(marked);
 }
 
-// Leaves those of the pairs from `near` on that do not stay apart.
+// Tests the pairs from `near` on and keeps those that are not separated.
 template <typename Separated>
 void keepUnseparated(const Separated& separated, std::vector<FourNodes>& pairs, std::size_t& near) noexcept {
   for (std::size_t first = near; first < pairs.size(); first += kPairsAtOnce) {
@@ -136,7 +137,7 @@ void SelfCandidates::setMotion(const Field3& start, const Field3& end, Motion& m
   const auto low = [this](int i, int j, int axis) { return flat_blocks_.low(i, j, axis); };
   const auto high = [this](int i, int j, int axis) { return flat_blocks_.high(i, j, axis); };
   hierarchy_.refitFrom(flat_level_, low, high);
-  // Each of two coordinates is rounded once, and so is their difference, which is at most twice as large; the step to
+  // Two coordinates are rounded once each, and so is their difference, which is at most twice as large; the shift to
   // the origin rounds in double precision.
   motion.rounding = 4.0f * kUnit * flat_blocks_.largest() +
                     1e-15f * static_cast<float>(motion.start.cwiseAbs().cwiseMax(motion.end.cwiseAbs()).maxCoeff());
@@ -158,14 +159,14 @@ void SelfCandidates::collect(const Field3& start, const Field3& end, double reac
   collectOf(nullptr, expected_, reach, out);
 }
 
-// Where neither of two elements ends further than this from where it was expected to, they were candidates.
+// If no node of a pair deviates by more than half the difference of the reaches, the pair was a candidate already.
 void SelfCandidates::collectDeviating(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept {
   if (markDeviating(end, 0.5 * (reach_ - reach)) == 0) return;
   setMotion(start, end, deviating_);
   collectOf(&marked_, deviating_, reach, out);
 }
 
-// Marks the nodes that end further than that from where they were expected to; returns their number.
+// Marks the nodes that end further than `most` [m] from where collect() expected them; returns their number.
 std::size_t SelfCandidates::markDeviating(const Field3& end, double most) noexcept {
   const float certain = static_cast<float>(most) - 2.0f * expected_.rounding;
   const float most_squared = certain > 0.0f ? certain * certain * (1.0f - 1e-5f) : -1.0f;
@@ -221,7 +222,7 @@ void SelfCandidates::collectShare(const Query& query, int index, Share& share) c
   discardSeparatedEdges(query, share);
 }
 
-// Leaves the pairs of quads that are not told to stay apart.
+// Keeps the pairs of quads that the test does not separate.
 void SelfCandidates::keepUnseparatedQuads(QuadTest separated, const Query& query,
                                           std::vector<QuadPair>& quads) const noexcept {
   const BoxHierarchy::Level& level = hierarchy_.levels().front();
@@ -246,7 +247,7 @@ void SelfCandidates::keepUnseparatedQuads(QuadTest separated, const Query& query
   quads.resize(kept);
 }
 
-// Of the quads that wait.
+// Tests the collected quads and adds the element pairs of those that remain.
 void SelfCandidates::addElements(const Query& query, Share& share) const noexcept {
   keepUnseparatedQuads(quadsSeparated, query, share.quads);
   keepUnseparatedQuads(quadsSeparatedByGilbert, query, share.quads);
@@ -260,7 +261,7 @@ void SelfCandidates::addElements(const Query& query, Share& share) const noexcep
   share.quads.clear();
 }
 
-// Where there is no room for more, those that wait are looked at, and what is near goes to where it all goes.
+// A full share tests what it has; if that makes no room, it is flushed to the output.
 void SelfCandidates::addVertex(const Query& query, const FourNodes& nodes, Share& share) const noexcept {
   if (share.vertices.isFull()) discardSeparatedVertices(query, share);
   if (share.vertices.isFull()) makeRoom(query, share);
@@ -273,7 +274,7 @@ void SelfCandidates::addEdge(const Query& query, const FourNodes& nodes, Share& 
   share.edges.nodes.push_back(nodes);
 }
 
-// While others may do the same.
+// Other workers may flush at the same time.
 void SelfCandidates::makeRoom(const Query& query, Share& share) const noexcept {
   discardSeparatedVertices(query, share);
   discardSeparatedEdges(query, share);
@@ -281,7 +282,7 @@ void SelfCandidates::makeRoom(const Query& query, Share& share) const noexcept {
   flush(query, share);
 }
 
-// What is near of a share.
+// Moves the tested pairs to the output.
 void SelfCandidates::flush(const Query& query, Share& share) noexcept {
   for (const FourNodes& n : share.vertices.nodes) query.out->add(VertexTriangle{n[0], {n[1], n[2], n[3]}});
   for (const FourNodes& n : share.edges.nodes) query.out->add(EdgeEdge{{n[0], n[1]}, {n[2], n[3]}});

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Which elements of the moving cloth may come near each other: neighbours by windows (windows.h), all others by blocks
-// (narrow_phase/separating_axis.h). What the whole cloth does together is left out first. Nothing is kept from look to
+// Broad phase of self-contact: pairs of elements that may come near each other while the nodes move straight. Quads
+// with a common node go through neighbour_windows.h; all others through the box hierarchy (hierarchy_pairs.h), then
+// quads and then elements through separating axis tests (narrow_phase/separating_axis.h). Regions that are proven flat
+// are skipped (flat_blocks.h). Positions are taken relative to the mean motion of the cloth. Nothing is cached between
+// calls.
 #pragma once
 
 #include <array>
@@ -21,34 +24,36 @@ namespace curtain {
 /// Not thread-safe.
 class SelfCandidates {
  public:
-  /// Candidates that room is made for, per node of the cloth.
+  /// Capacity for candidates of either kind, per node of the cloth.
   static constexpr std::size_t kRoomPerNode = 64;
 
-  /// Takes the grid, the rest lengths and which nodes are immovable (inverse_mass 0). At least 2 x 2 nodes. workers
-  /// share the looks, and must outlive this; null: the caller is alone.
+  /// Uses of the pattern the grid, the rest lengths and which nodes are immovable (inverse_mass 0); at least 2 x 2
+  /// nodes. workers share the search and must outlive this; null: single-threaded.
   explicit SelfCandidates(const ClothPattern& pattern, const Workers* workers = nullptr);
 
-  /// Appends every pair (vertex, triangle) and (edge, edge) that shares no node, has a node that can move, and comes
+  /// Appends every pair (vertex, triangle) and (edge, edge) that has no common node, has a movable node, and comes
   /// within `reach` [m, >= 0] at some time while nodes move straight from start to end (finite, of the grid's size);
-  /// and some that do not, but are too near to tell. Each comes once, but for closed cloth of three or four columns.
-  /// Allocates nothing: what `out` has no room for is left out, and it says so; see reserve(). Rounding
-  /// only ever adds pairs.
+  /// also some that only nearly do, so rounding never loses a pair. Each pair comes once, except for closed cloth of
+  /// three or four columns. Allocates nothing: without room in `out` pairs are dropped and out.full is set; see
+  /// reserve().
   void collect(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept;
 
-  /// After collect() with the same start and a larger reach: appends to its candidates what they lack of those that
-  /// come within `reach` [m] while nodes move from there to end.
+  /// After collect() with the same start and a larger reach: completes its candidates to all pairs that come within
+  /// `reach` [m] while nodes move from start to this end. Searches only around nodes that end elsewhere than collect()
+  /// expected.
   void collectDeviating(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept;
 
-  /// Makes room for kRoomPerNode candidates of either kind per node.
+  /// Gives `out` room for kRoomPerNode candidates of either kind per node.
   void reserve(Candidates& out) const { out.reserve(kRoomPerNode * grid_.nodeCount()); }
 
  private:
-  /// Where nodes are, and what that is relative to.
+  /// A motion of the nodes, and the origins it is relative to.
   struct Motion {
     MovingNodes nodes;
     Vec3 start = Vec3::Zero(),
-         end = Vec3::Zero();  // the origins at both instants: the first node's start, the end with the mean motion [m]
-    float rounding = 0.0f;    // most by which a difference of two coordinates is rounded [m]
+         end =
+             Vec3::Zero();  // origin at either instant: the first node's start, and that plus the mean displacement [m]
+    float rounding = 0.0f;  // largest rounding error of a difference of two coordinates [m]
   };
 
   void setMotion(const Field3& start, const Field3& end, Motion& motion) noexcept;
@@ -57,17 +62,17 @@ class SelfCandidates {
   void interleaveNodes(const MovingNodes& nodes) noexcept;
 
   struct QuadPair {
-    std::uint32_t a, b;  // places in the hierarchy
+    std::uint32_t a, b;  // indices in the hierarchy
   };
-  /// Pairs of elements: the first `near` of them are near, the others have not been looked at yet.
+  /// Pairs of elements: the first `near` passed the separating axis test, the others are still to be tested.
   struct Pairs {
     std::vector<FourNodes> nodes;
     std::size_t near = 0;
     bool isFull() const noexcept { return nodes.size() == nodes.capacity(); }
   };
-  /// What one of equal shares of the blocks and windows has led to.
+  /// Result of one worker's share of blocks and windows.
   struct Share {
-    std::vector<QuadPair> quads;  // that may be near, and wait to be looked at together
+    std::vector<QuadPair> quads;  // to be tested, many at once
     Pairs vertices, edges;
     void clear() noexcept {
       for (Pairs* const pairs : {&vertices, &edges}) {
@@ -76,10 +81,10 @@ class SelfCandidates {
       }
     }
   };
-  /// What is looked for.
+  /// Parameters of one search.
   struct Query {
     float reach, rounding;
-    bool bent;  // so are some blocks
+    bool bent;  // some blocks are not proven flat
     Candidates* out;
   };
   using QuadTest = std::uint32_t (*)(const std::array<TwoQuads, kPairsAtOnce>&, const SweptNodes&, float,
@@ -100,16 +105,16 @@ class SelfCandidates {
   Spacings per_spacing_;
   BoxHierarchy hierarchy_;
   std::size_t flat_level_;
-  FlatBlocks flat_blocks_;  // of that level
+  FlatBlocks flat_blocks_;  // of flat_level_
   HierarchyPairs pairs_;
   Windows windows_;
-  Motion expected_, deviating_;                // of the last collect(), of collectDeviating()
+  Motion expected_, deviating_;                // of the last collect(); of the last collectDeviating()
   double reach_ = 0.0;                         // of the last collect() [m]
-  std::vector<std::uint8_t> marked_;           // by node: it ends deviating
-  std::vector<Eigen::Array4f> starts_, ends_;  // of the motion that is looked at, one by one, by the nodes' indices
+  std::vector<std::uint8_t> marked_;           // by node: it ends elsewhere than collect() expected
+  std::vector<Eigen::Array4f> starts_, ends_;  // of the current motion, interleaved (x, y, z, 0), by node
   const Workers* workers_;
-  std::vector<Share> shares_;       // empty between looks
-  mutable std::mutex making_room_;  // where a share has none; there is plenty
+  std::vector<Share> shares_;       // empty between searches
+  mutable std::mutex making_room_;  // for shares that run full; rare
 };
 
 }  // namespace curtain

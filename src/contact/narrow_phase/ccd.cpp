@@ -2,16 +2,16 @@
 //
 // Both queries are one: the Minkowski difference of the two elements, the convex hull of the corners' differences w_i
 // (three of a vertex and a triangle, four of two edges), against the origin. Each w_i moves straight, so along any
-// fixed direction n its projection is linear in time, and n keeps the elements apart over exactly the times at which
-// all n.w_i > min_distance |n|. This is conservative advancement (Mirtich 1996) with that bound in place of one on
-// speeds:
+// fixed direction n its projection is linear in time, and n separates the elements exactly while all n.w_i >
+// min_distance |n|. This is conservative advancement (Mirtich 1996) with that bound in place of one on speeds:
 //
-//    n_0 = direction of the closest points at t = 0, apart until t_1
-//    n_1 = direction of the closest points at t_1,   apart until t_2 > t_1 …
+//    n_0 = direction of the closest points at t = 0, separates until t_1
+//    n_1 = direction of the closest points at t_1,   separates until t_2 > t_1 …
 //
-// ends where a direction lasts beyond 1 (none) or none is certain any more (impact). Where the elements turn, a
-// direction that turns with them, from one of the closest points to the next, lasts longer: near an impact that makes
-// it Newton's method. Only the times a direction lasts need to be certain; how the direction was found does not matter.
+// It ends when a direction separates beyond 1 (no impact) or none certainly separates any longer (impact). For elements
+// that turn, a direction that turns with them, from the closest points now to those at the predicted impact, lasts
+// longer: near an impact that makes it Newton's method. Only the times need to be certain, not the choice of
+// directions.
 #include "curtain_sim/ccd.h"
 
 #include <Eigen/Geometry>
@@ -24,22 +24,22 @@
 namespace curtain {
 namespace {
 
-/// Unit of rounding u: one operation is off by no more than u times its result.
+/// Unit roundoff u: an operation is off by at most u times its result.
 constexpr double kUnit = 0.5 * std::numeric_limits<double>::epsilon();
 
-/// Steps before it is called an impact; what does not slide along at a few roundings takes a dozen at most.
+/// Steps before an impact is reported. A dozen suffice unless the elements slide along at a distance of rounding.
 constexpr int kMostSteps = 100;
 
 /// Squared lengths below this may have lost digits to underflow.
 constexpr double kLeastSquare = 1e-280;
 
-/// A fixed direction that lasts for this share of the way to the predicted impact will do.
+/// A fixed direction that separates for this share of the time to the predicted impact is good enough.
 constexpr double kGood = 0.95;
 
-/// A gap of this many times what it may be off by is no gap: the last steps would gain no more than that.
+/// A gap below this multiple of its rounding error counts as touching: further steps would gain no more than that.
 constexpr double kTouching = 4.0;
 
-/// A step shorter than this is one of those [of the motion's time].
+/// Shortest useful step once touching [share of the motion].
 constexpr double kShortStep = 1e-9;
 
 /// Sum of all coordinates beyond which products of four might overflow [m].
@@ -61,15 +61,15 @@ struct Points {
   double sum() const { return (x.abs() + y.abs() + z.abs()).sum(); }
 };
 
-/// Directions that may keep a hull apart from the origin, the best first.
+/// Directions that may separate a hull from the origin, the best first.
 struct Directions {
-  Vec3 refined;  ///< of the closest points, exactly across what they lie on: good down to distances of rounding
-  Vec3 closest;  ///< of the closest points as computed
-  Vec3 normal;   ///< of the plane, towards the hull
-  Four weights;  ///< of the hull's points in the closest one
+  Vec3 refined;  ///< of the closest points, orthogonalised against their edges: accurate down to distances of rounding
+  Vec3 closest;  ///< of the closest points, as computed
+  Vec3 normal;   ///< normal of the elements, towards the hull
+  Four weights;  ///< barycentric, of the closest point
 };
 
-/// The hull of the corners' differences at both ends of the step.
+/// Hull of the corners' differences at the start and the end.
 class MovingHull {
  public:
   MovingHull(const Points& start, const Points& end, double min_distance)
@@ -77,8 +77,8 @@ class MovingHull {
 
   bool finite() const { return start_.sum() + end_.sum() + min_distance_ < kLargest; }
 
-  /// Whether a coordinate axis keeps them apart all the time. A difference of two numbers has the sign of the exact one
-  /// and is off by u of itself.
+  /// Whether a coordinate axis separates them throughout. A difference of two numbers has the exact sign and is off by
+  /// u of itself.
   bool apartAlongAxes() const {
     const double bound = min_distance_ * (1.0 + 4.0 * kUnit);
     return apart(start_.x, end_.x, bound) || apart(start_.y, end_.y, bound) || apart(start_.z, end_.z, bound);
@@ -93,22 +93,22 @@ class MovingHull {
     return {start_.x + t * (end_.x - start_.x), start_.y + t * (end_.y - start_.y), start_.z + t * (end_.z - start_.z)};
   }
 
-  /// Time until which n certainly keeps them apart from t on: more than 1, if it does to the end; t, if it does not.
+  /// Time until which n certainly separates them, starting at t: more than 1 if to the end; t if not at all.
   double apartUntil(const Vec3& n, double t) const;
 
-  /// The longest that the other directions keep them apart.
+  /// The same for the better of the other directions.
   double apartUntilOthers(const Directions& directions, double t) const {
     return std::max(apartUntil(directions.closest, t), apartUntil(directions.normal, t));
   }
 
-  /// The same for a direction that turns from n at t to m at `last`, as n + (m - n) (time - t) / (last - t); neither
-  /// longer than 1 + 4u. More than 1 if it keeps them apart up to `last` = 1; no later than `last` else.
+  /// The same for a direction that turns from n at t to m at `last`, n + (m - n) (time - t) / (last - t); neither
+  /// longer than 1 + 4u. More than 1 if it separates them to `last` = 1; otherwise at most `last`.
   double apartUntilTurning(const Vec3& n, double t, const Vec3& m, double last) const;
 
   struct Forecast {
     double
         impact;  ///< time at which the closest points would come as near as min_distance if nothing turned, at most 1
-    bool touching;  ///< they are that near but for rounding
+    bool touching;  ///< that near already, within rounding
   };
   Forecast forecast(const Vec3& n, double t, const Directions& directions) const;
 
@@ -124,13 +124,12 @@ class MovingHull {
   Vec3 largest_end_;
 };
 
-// Roundings. n is taken as it is. Computed w are (1 + u) times exact ones, and each product and the two sums of n.w add
-// a u at most: |computed n.w - exact| <= 4u/(1 - 4u) S with S = sum_k |n_k| max_i |w_ik|, itself computed with 3u/(1 -
-// 3u) at most. So 6u S covers it. |n| is off by 3u, its product by one more: 8u covers those. Products that underflow
-// add less than the smallest normal number. The differences q from the bound then have the right sign, and are off by
-// 2u of themselves; the time at which (1 - t) q0 + t q1 is zero is q0 / (q0 - q1), a quotient of sums of numbers of one
-// sign, off by
-// 8u of itself at most.
+// Rounding. n counts as exact. Computed w are (1 + u) times the exact ones, and each product and the two sums of n.w
+// add u at most: |computed n.w - exact| <= 4u/(1 - 4u) S with S = sum_k |n_k| max_i |w_ik|, itself computed with
+// relative error 3u/(1 - 3u). So 6u S covers it. |n| is off by 3u, its product by one more: 8u covers those. Products
+// that underflow add less than the smallest normal number. The differences q from the bound then have the right sign
+// and a relative error of 2u. The time at which (1 - t) q0 + t q1 vanishes is q0 / (q0 - q1), a quotient of sums of
+// numbers of one sign, with a relative error of at most 8u.
 double MovingHull::apartUntil(const Vec3& n, double t) const {
   constexpr double kSmall = std::numeric_limits<double>::min();
   const Vec3 size = n.cwiseAbs();
@@ -155,21 +154,21 @@ double MovingHull::apartUntil(const Vec3& n, double t) const {
   return std::max(until, t);
 }
 
-// The projections along the turning direction are polynomials of degree two in time, and the length of that direction
-// is no more than the mean of the two, so the polynomials' Bernstein coefficients c0, c1, c2 less min_distance bound
-// the gap from below; the convex hull of the three bounds it again (Sederberg and Nishita 1990, Bezier clipping).
-// Roundings: as above, and 5u S for an interpolation in time, u S for the mean: 16u S covers them.
+// Projections along the turning direction are quadratic in time, and its length is at most the mean of the two
+// lengths. So the Bernstein coefficients c0, c1, c2 of these polynomials less min_distance bound the gap from below,
+// and so does their convex hull (Sederberg and Nishita 1990, Bezier clipping). Rounding as above, plus 5u S for an
+// interpolation in time and u S for the mean: 16u S covers all.
 double MovingHull::apartUntilTurning(const Vec3& n, double t, const Vec3& m, double last) const {
   const Vec3 largest = largest_start_.cwiseMax(largest_end_);
   const double bound = min_distance_ * (1.0 + 16.0 * kUnit) + std::numeric_limits<double>::min() +
                        16.0 * kUnit * n.cwiseAbs().cwiseMax(m.cwiseAbs()).dot(largest);
   const Four n_start = start_.along(n);
-  const Four n_way = end_.along(n) - n_start;
+  const Four n_motion = end_.along(n) - n_start;
   const Four m_start = start_.along(m);
-  const Four m_way = end_.along(m) - m_start;
-  const Four c0 = n_start + t * n_way - bound;
-  const Four c1 = 0.5 * (n_start + last * n_way + (m_start + t * m_way)) - bound;
-  const Four c2 = m_start + last * m_way - bound;
+  const Four m_motion = end_.along(m) - m_start;
+  const Four c0 = n_start + t * n_motion - bound;
+  const Four c1 = 0.5 * (n_start + last * n_motion + (m_start + t * m_motion)) - bound;
+  const Four c2 = m_start + last * m_motion - bound;
   if (!(c0.minCoeff() > 0.0)) return t;
   if (c1.min(c2).minCoeff() > 0.0) return last < 1.0 ? last : 2.0;
   double share = 1.0;
@@ -185,14 +184,14 @@ double MovingHull::apartUntilTurning(const Vec3& n, double t, const Vec3& m, dou
 }
 
 MovingHull::Forecast MovingHull::forecast(const Vec3& n, double t, const Directions& directions) const {
-  const Four way = end_.along(n) - start_.along(n);
-  const double speed = -(directions.weights * way).sum();
+  const Four motion = end_.along(n) - start_.along(n);
+  const double speed = -(directions.weights * motion).sum();
   const double gap = n.dot(directions.closest) - min_distance_;
   const double rounding = 6.0 * kUnit * n.cwiseAbs().dot(largest_start_.cwiseMax(largest_end_));
   return {gap < speed * (1.0 - t) ? std::max(t, t + gap / speed) : 1.0, gap <= kTouching * rounding};
 }
 
-/// n without its part along the edge; twice, so that what is left of it is rounding of the result and not of n.
+/// n made orthogonal to the edge; twice, so that what remains of the parallel part is rounding of the result.
 Vec3 across(const Vec3& edge, Vec3 n) {
   const double squared = edge.squaredNorm();
   if (!(squared > 0.0)) return n;
@@ -247,7 +246,7 @@ struct EdgeEdge {
   }
 };
 
-/// A direction of unit length within 4u, or zero where its length can't be told.
+/// Unit length within 4u; zero where the length underflows.
 Vec3 unit(const Vec3& direction) {
   const double squared = direction.squaredNorm();
   return squared > kLeastSquare ? Vec3(direction / std::sqrt(squared)) : Vec3(Vec3::Zero());
@@ -276,7 +275,7 @@ std::optional<double> timeOfImpact(const Points& start, const Points& end, doubl
     if (until - t < kGood * (impact - t)) {
       const Directions there = Pair::directions(hull.at(impact));
       Vec3 m = unit(there.refined);
-      if (m.dot(n) < 0.0) m = -m;  // of a plane that has gone by
+      if (m.dot(n) < 0.0) m = -m;  // the plane has passed the origin
       const double turning = hull.apartUntilTurning(n, t, m, impact);
       if (turning > 1.0) return std::nullopt;
       if (turning >= impact) {

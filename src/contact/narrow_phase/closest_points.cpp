@@ -7,10 +7,10 @@
 namespace curtain {
 namespace {
 
-/// (height / longest edge)^2 under which a triangle counts as its edges: 1e-10 of the longest edge is no height.
+/// (height / longest edge)^2 below which a triangle is treated as its edges: 1e-10 of the longest edge.
 constexpr double kNoHeight = 1e-20;
 
-/// (height / longest edge)^2 under which the weights of a point in a triangle's plane need a second round.
+/// (height / longest edge)^2 below which the barycentric weights are refined once.
 constexpr double kSliver = 1e-8;
 
 double clampedRatio(double part, double whole) { return whole > 0.0 ? std::clamp(part / whole, 0.0, 1.0) : 0.0; }
@@ -36,13 +36,13 @@ TriangleClosest closestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b, c
   const Vec3 normal = ab.cross(ac);
   const double area = normal.squaredNorm();
   const double longest = std::max(ab.squaredNorm(), ac.squaredNorm());
-  // Weights of p's foot on the plane, times `area`, from cross products: they lose no digits to squares that cancel.
+  // Barycentric weights of p's projection, times `area`, by cross products, which avoid cancellation of squares.
   const Vec3 turned = normal.cross(pa);
   double of_b = -turned.dot(ac);
   double of_c = turned.dot(ab);
   const bool no_height = !(area > kNoHeight * longest * longest);
   if (!no_height && area < kSliver * longest * longest) {
-    // Along a sliver the foot is off by eps / height; the same formula for what is left of the way to it mends that.
+    // For a sliver the projection is off by eps / height; one step of iterative refinement corrects that.
     const Vec3 left = normal.cross(pa + of_b / area * ab + of_c / area * ac);
     of_b -= left.dot(ac);
     of_c += left.dot(ab);
@@ -54,7 +54,7 @@ TriangleClosest closestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b, c
     face.distance_squared = (pa + face.weights[1] * ab + face.weights[2] * ac).squaredNorm();
     return face;
   }
-  // The closest point lies on an edge that has the foot on its outer side.
+  // The closest point lies on an edge that separates the projection from the triangle.
   TriangleClosest best{{1.0, 0.0, 0.0}, pa.squaredNorm()};
   if (no_height || of_c < 0.0) closestOnEdge(pa, ab, 0, 1, best);
   if (no_height || of_b < 0.0) closestOnEdge(pa, ac, 0, 2, best);
@@ -71,11 +71,11 @@ SegmentsClosest closestOnSegments(const Vec3& a, const Vec3& b, const Vec3& c, c
   const double ab_cd = ab.dot(cd);
   const double ac_ab = ac.dot(ab);
   const double ac_cd = ac.dot(cd);
-  // Closest point of the lines, cut to the first segment, from cross products: near-parallel segments at an angle of
-  // theta then have s wrong by eps / theta, which moves the distance by eps alone. Parallel: any s will do.
+  // Closest point of the lines, clamped to the first segment, by cross products: for near-parallel segments at an
+  // angle theta s is off by eps / theta, which moves the distance by eps only. Parallel: any s will do.
   const Vec3 normal = ab.cross(cd);
   double s = clampedRatio(ac.cross(cd).dot(normal), normal.squaredNorm());
-  // From there, cut to the second, back to the first: Ericson, Real-Time Collision Detection, 5.1.9.
+  // Clamped to the second, and back to the first: Ericson, Real-Time Collision Detection, 5.1.9.
   double t = clampedRatio(ab_cd * s - ac_cd, cd_cd);
   if (t == 0.0 || t == 1.0) s = clampedRatio(ab_cd * t + ac_ab, ab_ab);
   return {s, t, (s * ab - t * cd - ac).squaredNorm()};

@@ -18,7 +18,7 @@ Eigen::AlignedBox3d boxOf(const Corners& corners) {
   return box.extend(corners[1]).extend(corners[2]);
 }
 
-/// Whether the segment p-q meets the triangle elsewhere than in its plane (there their edges meet).
+/// Whether the segment p-q crosses the triangle. Not in its plane: there their edges meet.
 bool crosses(const Vec3& p, const Vec3& q, const Corners& triangle) {
   const Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
   if (normal.dot(p - triangle[0]) * normal.dot(q - triangle[0]) >= 0.0) return false;
@@ -32,7 +32,7 @@ bool crosses(const Vec3& p, const Vec3& q, const Corners& triangle) {
   return none_left || none_right;
 }
 
-/// Whether the plane of `triangle` has all of `other` further than `clearance` on one side.
+/// Whether `other` is further than `clearance` on one side of the plane of `triangle`.
 bool parts(const Corners& triangle, const Corners& other, double clearance) {
   const Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
   const double limit = clearance * normal.norm();
@@ -69,8 +69,8 @@ bool ElementClearance::keeps(const ContactShape& shape, const Transform& place, 
 
 bool ElementClearance::keepsToConvex(const ConvexShape& shape, const std::vector<MeshTriangle>& triangles,
                                      double clearance) {
-  // All of a convex solid lies below the tangent plane at the point nearest to the patch's middle: most patches lie
-  // above it.
+  // Early out: a convex solid lies below its tangent plane at the point nearest to the patch's centre, and most
+  // patches lie above.
   Vec3 middle = Vec3::Zero();
   for (const Vec3& point : local_) middle += point;
   middle /= static_cast<double>(local_.size());

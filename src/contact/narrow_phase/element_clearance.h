@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Does a small patch of triangles keep its distance to an obstacle? Yes or no, as early as possible: for the fine mesh,
-// which asks it of many places a fold could take.
+// Clearance of a small patch of triangles from an obstacle, yes or no with early outs. The fine mesh asks it for many
+// candidate positions of a fold.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,13 @@
 
 namespace curtain {
 
-/// Holds buffers only. Not thread-safe; allocates nothing once it has seen the largest patch and obstacle.
+/// Holds scratch buffers only. Not thread-safe; allocates nothing once it has seen the largest patch and obstacle.
 class ElementClearance {
  public:
-  /// Whether no point of the triangles is nearer to the obstacle's surface than `clearance` [m, >= 0], or, of a convex
-  /// solid, inside it. Of a mesh only the surface counts: a patch that hangs together and has one corner outside is
-  /// then wholly outside.
+  /// Whether no point of the triangles is nearer to the surface than `clearance` [m, >= 0] or inside a convex solid. Of
+  /// a mesh only the surface counts: a connected patch with one corner outside is then wholly outside.
   ///   points     [m], world frame, finite
-  ///   triangles  indices into points; two equal corners make an edge of it
+  ///   triangles  indices into points; two equal corners make it an edge
   bool keeps(const ContactShape& shape, const Transform& place, const std::vector<Vec3>& points,
              const std::vector<MeshTriangle>& triangles, double clearance);
 
@@ -29,7 +28,7 @@ class ElementClearance {
 
   std::vector<Vec3> local_;
   std::vector<double> heights_;
-  std::vector<std::uint32_t> near_;  // triangles of the mesh whose plane does not part it from the patch
+  std::vector<std::uint32_t> near_;  // mesh triangles whose plane does not separate them from the patch
 };
 
 }  // namespace curtain

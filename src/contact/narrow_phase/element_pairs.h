@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The pairs of elements that two quads own (cloth/coarse_mesh.h): of all pairs of quads, every pair of elements comes
-// once.
+// Pairs of elements of the first layer's mesh, by the indices of their nodes in a Field. Every element belongs to one
+// quad (cloth/coarse_mesh.h), so the pairs of quads give each pair of elements once.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct EdgeEdge {
   MeshEdge second;
 };
 
-/// Adds to a list that never grows; false: there is no room.
+/// Appends without reallocation; false: the list is full.
 template <typename Item>
 bool addWithinRoom(const Item& item, std::vector<Item>& list) noexcept {
   if (list.size() == list.capacity()) return false;
@@ -36,8 +36,8 @@ bool addWithinRoom(const Item& item, std::vector<Item>& list) noexcept {
 struct Candidates {
   std::vector<VertexTriangle> vertex_triangles;
   std::vector<EdgeEdge> edge_edges;
-  std::size_t room = std::numeric_limits<std::size_t>::max();  ///< of either kind
-  bool full = false;                                           ///< there are more, for which there was no room
+  std::size_t room = std::numeric_limits<std::size_t>::max();  ///< largest number of either kind
+  bool full = false;                                           ///< some were dropped for lack of room
 
   void add(const VertexTriangle& pair) {
     if (vertex_triangles.size() < room)
@@ -52,7 +52,7 @@ struct Candidates {
       full = true;
   }
 
-  /// No more than so many from now on, without an allocation.
+  /// Limits and reserves the number of pairs of either kind.
   void reserve(std::size_t count) {
     room = count;
     vertex_triangles.reserve(count);
@@ -66,10 +66,10 @@ struct Candidates {
   }
 };
 
-/// Pairs of elements that share no node and have one that can move.
+/// Enumerates pairs of elements that have no common node and one that can move.
 class ElementPairs {
  public:
-  /// All nodes can move.
+  /// For cloth without pins.
   explicit ElementPairs(const Grid& grid) : grid_(grid), immovable_(grid.size(), 0) {}
   explicit ElementPairs(const ClothPattern& pattern) : grid_(pattern.grid), immovable_(pattern.grid.size()) {
     for (std::size_t n = 0; n < immovable_.size(); ++n) immovable_[n] = pattern.inverse_mass[n] == 0.0 ? 1 : 0;
@@ -79,8 +79,8 @@ class ElementPairs {
     return (immovable_[nodes[0]] & immovable_[nodes[1]] & immovable_[nodes[2]] & immovable_[nodes[3]]) == 0;
   }
 
-  /// Calls vertex(nodes) and edge(nodes) for those of the quads at (row_p, column_p) and (row_q, column_q), which may
-  /// be one.
+  /// Calls vertex(nodes) and edge(nodes) for the pairs of the quads at (row_p, column_p) and (row_q, column_q), which
+  /// may be the same.
   template <typename Vertex, typename Edge>
   void forEach(int row_p, int column_p, int row_q, int column_q, const Vertex& vertex, const Edge& edge) const {
     const QuadElements p = quadElements(grid_, row_p, column_p), q = quadElements(grid_, row_q, column_q);
@@ -111,7 +111,7 @@ class ElementPairs {
   }
 
   Grid grid_;
-  std::vector<std::uint8_t> immovable_;  // of nodes
+  std::vector<std::uint8_t> immovable_;  // by node
 };
 
 }  // namespace curtain

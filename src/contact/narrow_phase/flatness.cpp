@@ -13,9 +13,9 @@ static_assert(FlatWindows::kCount == Simd8::kCount);
 
 template <int high, int wide>
 CURTAIN_INTO_WIDE std::uint32_t findFlat(const FlatWindows& windows) {
-  constexpr float kLeastSine = 0.01f;      // squared
-  constexpr float kLeastSlope = 1e-4f;     // of the sum, squared
-  constexpr float kRoundedSlopes = 2e-5f;  // of lambda: U, V, a, b are rounded
+  constexpr float kLeastSine = 0.01f;      // of the angle between the mean slopes, squared
+  constexpr float kLeastSlope = 1e-4f;     // of the mean slopes, squared
+  constexpr float kRoundedSlopes = 2e-5f;  // rounding of U, V, a, b, on lambda
   constexpr float kTiny = 1e-20f;
   Vectors u[2][3][2], v[2][2][3];
   Vectors mean_u{}, mean_v{};
@@ -72,7 +72,7 @@ CURTAIN_INTO_WIDE std::uint32_t findFlat(const FlatWindows& windows) {
                      (mean_u.z - mean_v.z) * per_minus};
   const Vectors b{a.x - skew.x, a.y - skew.y, a.z - skew.z};
   a.add(skew);
-  // What lambda must exceed: reach over the least altitude of a triangle. Slopes are rounded by a few units of the
+  // Bound for lambda: reach over the least altitude of a triangle, plus rounding of the slopes by a few ulps of the
   // largest coordinate over the spacing.
   Lanes limit;
   const Lanes squares = most_u * most_u + most_v * most_v;
@@ -82,7 +82,7 @@ CURTAIN_INTO_WIDE std::uint32_t findFlat(const FlatWindows& windows) {
           kRoundedSlopes;
   auto flat =
       ((plus < minus ? plus : minus) > kLeastSine) & ((square_u < square_v ? square_u : square_v) > kLeastSlope);
-  // Both eigenvalues of the symmetric part exceed the limit.
+  // Both eigenvalues of the symmetric part of J exceed the limit.
   const auto narrow = [&](const Vectors& du, const Vectors& dv) {
     Lanes along_u, along_v, across_u, across_v;
     Simd8::dot(du, a, along_u);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Vectors of eight things side by side, in single precision, for functions that are compiled for wider registers too
-// (cloth/wide.h). References and no results: vectors wider than the machine's have no settled way of being returned.
+// Eight single-precision lanes, for functions that are also compiled for wider registers (cloth/wide.h). Results are
+// written to references: the ABI for returning vectors wider than the baseline's registers is unsettled.
 #pragma once
 
 #include <Eigen/Core>
@@ -90,7 +90,7 @@ struct Simd8 {
     to.y = __builtin_shufflevector(ab, cd, 2, 3, 10, 11, 6, 7, 14, 15);
     to.z = __builtin_shufflevector(ab_z, cd_z, 0, 1, 8, 9, 4, 5, 12, 13);
   }
-  /// Bit k: lane k is true (its sign bit is set).
+  /// Bit k: lane k is true (its sign bit).
   template <typename Truth>
   static CURTAIN_INTO_WIDE std::uint32_t bitsOf(const Truth& truth) {
 #ifdef __SSE2__

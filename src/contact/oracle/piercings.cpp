@@ -16,10 +16,10 @@ namespace {
 using Triangle = std::array<Vec3, 3>;
 using Edge = std::array<Vec3, 2>;
 
-/// Places looked at between two crossings of a surface, where an edge may be inside a solid.
+/// Points sampled between two crossings of a surface, where an edge may be inside a solid.
 constexpr int kProbes = 16;
 
-/// A face, and the mesh's edges around it.
+/// A face and the indices of its edges.
 struct Face {
   Triangle corners;
   std::array<std::size_t, 3> edges;
@@ -73,9 +73,9 @@ Eigen::AlignedBox3d boxOf(const std::array<Vec3, N>& corners) {
   return box;
 }
 
-/// Fraction of the segment p-q at which it goes through the triangle, both ends further than `tolerance` [m] from its
-/// plane, on different sides. Segments through an edge that two triangles share go through at least one of them: the
-/// sides' volumes are exact negatives of each other.
+/// Fraction at which the segment p-q crosses the triangle with both ends further than `tolerance` [m] from its plane,
+/// on different sides. A segment through an edge shared by two triangles crosses at least one of them: their volumes
+/// are exact negatives of each other.
 std::optional<double> crossing(const Edge& segment, const Triangle& triangle, double tolerance) {
   const auto& [p, q] = segment;
   const Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
@@ -102,7 +102,7 @@ bool isDeep(const ContactShape& shape, const Vec3& point, double tolerance) {
   return shape.query(point, point, 0.0, surface) && surface.distance < -tolerance;
 }
 
-/// An edge of the cloth in a solid mesh: only between crossings can it be inside.
+/// Whether an edge gets deep into a solid mesh: it can be inside between crossings only.
 bool dipsInto(const ContactShape& solid, const ObstacleFeatures& features, const Edge& edge, double tolerance) {
   std::vector<double> fractions{0.0, 1.0};
   const Eigen::AlignedBox3d box = boxOf(edge);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Faces and edges of the cloth against one obstacle: of a convex shape, faces by their nearest point; of a mesh, edges
-// against its edges and faces against its corners. The normal is the way between them where the substep starts, or
-// where they meet when they come from afar.
+// Faces and edges of the cloth against one obstacle: convex shapes by the nearest point of a face; meshes by edges
+// against edges and faces against corners. The normal is the direction between the closest points at the start, or at
+// the time of impact for those that come from afar.
 #include "contact/response/element_contacts.h"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ double longestDisplacement(const Corners& a, const Corners& b) {
   return std::sqrt(std::max({(b[0] - a[0]).squaredNorm(), (b[1] - a[1]).squaredNorm(), (b[2] - a[2]).squaredNorm()}));
 }
 
-// A node of it starts inside: on its way out it may cross whatever it meets, and the node's own contact lets it out.
+// A node of it starts inside: it may cross anything on the way out, and the node's own contact takes it out.
 bool startsInside(const std::array<std::uint32_t, 3>& node, std::size_t nodes, const ObstacleCandidates& candidates) {
   for (std::size_t k = 0; k < nodes; ++k) {
     if (candidates.isInside(node[k])) return true;
@@ -44,7 +44,7 @@ bool startsInside(const std::array<std::uint32_t, 3>& node, std::size_t nodes, c
   return false;
 }
 
-// Tells features apart in the order of contacts.
+// Key of the feature, for the order of contacts.
 std::uint32_t sourceOf(const FeaturePair& pair) { return 2 * pair.feature + (pair.edges ? 1 : 0); }
 
 ContactPoint contactPoint(const MeshTriangle& face, const ElementPoint& nearest, const Corners& at,
@@ -59,12 +59,12 @@ ContactPoint contactPoint(const MeshTriangle& face, const ElementPoint& nearest,
   return point;
 }
 
-// Where an edge or a face of the cloth and a feature are closest.
+// Closest points of an edge or a face of the cloth and a feature of the mesh.
 struct PairPoint {
   std::array<double, 3> weight{};
   Vec3 apart = Vec3::Zero();  // from the feature to the cloth [m]
   double distance = 0.0;
-  bool inside = true;  // not at an end of an edge: the other kinds of pairs see to those
+  bool inside = true;  // not at an end of an edge, which other pairs cover
 };
 
 PairPoint closest(const FeaturePair& pair, const ObstacleFeatures& features, const Corners& at) {
@@ -96,8 +96,8 @@ std::optional<double> impact(const FeaturePair& pair, const ObstacleFeatures& fe
   return vertexTriangleTimeOfImpact(corner, a[0], a[1], a[2], corner, b[0], b[1], b[2], distance);
 }
 
-// All of the way is further over the feature's plane: most pairs in the lists are, and this is faster to tell than
-// where they are closest.
+// Whether the whole motion is further than `distance` above the feature's plane: cheaper than closest points, and true
+// of most pairs.
 bool staysAbove(const FeaturePair& pair, const ObstacleFeatures& features, const Corners& start, const Corners& end,
                 double distance) {
   const Vec3& outward = pair.edges ? features.edges()[pair.feature].outward : features.vertices()[pair.feature].outward;
@@ -109,7 +109,7 @@ bool staysAbove(const FeaturePair& pair, const ObstacleFeatures& features, const
   return true;
 }
 
-// The part of the cloth is inside the solid there.
+// The closest point of the cloth is inside the solid.
 bool isInside(const FeaturePair& pair, const ObstacleCandidates& candidates, const PairPoint& point, const Corners& at,
               SurfacePoint& surface) {
   const ObstacleFeatures& features = *candidates.shape().features();
@@ -136,7 +136,7 @@ void add(const ObstacleSubstep& substep, const ClothPattern& pattern, ContactPoi
   point.keep(distance, kept, substep);
   Contact contact;
   contact.source = source;
-  // A node by itself keeps the thickness.
+  // A contact of a single node is left to the node.
   if (makeContact(substep, pattern, point, contact) && contact.nodes > 1) addWithinRoom(contact, contacts);
 }
 

@@ -9,8 +9,8 @@
 namespace curtain {
 namespace {
 
-constexpr double kAlike = 0.9;  // cosine from which two sides are one
-constexpr int kHalvings = 10;   // of a way out: a thousandth of it is nothing, for the next substep looks again
+constexpr double kAlike = 0.9;  // cosine above which two directions count as one
+constexpr int kHalvings = 10;   // bisection steps: to a thousandth of the path, and the next substep repeats it
 
 }  // namespace
 
@@ -32,7 +32,7 @@ ExitDirection::Part ExitDirection::partOf(const PenetratingFace& face) const noe
   const Vec3 a = candidates_.startOf(face.node[0]), b = candidates_.startOf(face.node[1]),
              c = candidates_.startOf(face.node[2]);
   const auto& weight = face.deepest.weights;
-  // A quad's triangles are upper left, lower left, upper right, and upper right, lower left, lower right.
+  // A quad's triangles are (upper left, lower left, upper right) and (upper right, lower left, lower right).
   return {weight[0] * a + weight[1] * b + weight[2] * c,
           (c - a).cross(b - a),
           {face.node[0], face.node[1], face.node[2], 0},
@@ -47,7 +47,8 @@ void ExitDirection::forEachPart(const F& f) const noexcept {
   for (const PenetratingFace& face : faces_) f(partOf(face));
 }
 
-// Of those that draw nothing through the one by which the deepest part has the shortest path.
+// Directions that pull no cloth through the obstacle come first; among them the one with the shortest path for the
+// deepest part.
 ExitDirection::ExitDirection(const Grid& grid, const ObstacleCandidates& candidates,
                              const std::vector<PenetratingFace>& faces) noexcept
     : grid_(grid), candidates_(candidates), faces_(faces), shape_(candidates.shape().convex()) {
@@ -84,7 +85,7 @@ void ExitDirection::addDirection(const Vec3& normal) noexcept {
   if (count_ < kMost) directions_[count_++] = normal;
 }
 
-// The mean normal of what is inside; zero: it has none.
+// Mean normal of the cloth inside; zero: it cancels.
 Vec3 ExitDirection::clothNormal() const noexcept {
   Vec3 sum = Vec3::Zero();
   forEachPart([&](const Part& part) { sum += part.across.normalized(); });
@@ -92,7 +93,7 @@ Vec3 ExitDirection::clothNormal() const noexcept {
   return size > 0.0 ? Vec3(sum / size) : Vec3::Zero();
 }
 
-// Of what is joined to it something is beyond the far side.
+// A neighbour of a part inside is beyond the far side.
 bool ExitDirection::pullsClothThrough(const Vec3& normal) const noexcept {
   const double far_side = shape_->support(-normal);
   bool draws = false;
@@ -111,8 +112,8 @@ double ExitDirection::depthAlong(const Vec3& normal) const noexcept {
   return deepest;
 }
 
-// How far a point that is inside has to go along a direction to be out; infinite: it never is. Beyond its plane there
-// is none of a convex shape, and once it is out it stays out.
+// Distance to the exit along a direction; infinite: none. Bisection between the point and the supporting plane: a
+// convex shape is left once.
 double ExitDirection::exitDistance(const Vec3& from, const Vec3& direction) const noexcept {
   double out = shape_->support(direction) - direction.dot(from), in = 0.0;
   for (int halving = 0; halving < kHalvings && std::isfinite(out); ++halving) {

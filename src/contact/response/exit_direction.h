@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The side on which what is inside a convex obstacle (which has appeared there, or jumped) comes out together. Each
-// node's own nearest exit may draw the cloth apart: of a box in its middle some leave upwards and some sideways, and
-// links that hold keep them all inside.
+// Common depenetration direction of everything inside a convex obstacle that appeared in the cloth or jumped. With each
+// node's own nearest exit parts may leave on different sides (in the middle of a box, some upwards and some sideways),
+// and links would then hold the cloth inside.
 //
-//            ___________          Cloth that passes through a box has two ways out, across itself. Along
-//           |           |         itself there is none, however candidates that side is: the cloth beyond the far
-//      o----|--o--o--o--|----o    side would be drawn through. It is one only where the cloth ends inside.
-//           |___________|
+//             ___________          Cloth that passes through a box has two exits, both across itself. Sideways there is
+//            |           |         none, however near that side is: the cloth beyond the far side would be pulled
+//            through.
+//       o----|--o--o--o--|----o    Sideways is an exit only where the cloth ends inside.
+//            |___________|
 #pragma once
 
 #include <array>
@@ -18,7 +19,7 @@
 
 namespace curtain {
 
-/// A face that starts inside an obstacle with none of its nodes, and its deepest point.
+/// A face that starts inside an obstacle while none of its nodes does, and its deepest point.
 struct PenetratingFace {
   MeshTriangle node;
   ElementPoint deepest;
@@ -26,22 +27,22 @@ struct PenetratingFace {
 
 class ExitDirection {
  public:
-  /// Of the nodes and faces that start inside. grid, near and faces must outlive this.
+  /// From the nodes and faces that start inside. grid, candidates and faces must outlive this.
   ExitDirection(const Grid& grid, const ObstacleCandidates& candidates,
                 const std::vector<PenetratingFace>& faces) noexcept;
 
-  /// The surface that a point leaves by which starts inside: its own, or the common one where it would leave on another
+  /// Surface through which a point that starts inside leaves: its nearest one, or the common one if that is another
   /// side.
   SurfacePoint exitSurface(const Vec3& from, const SurfacePoint& own) const noexcept;
 
  private:
-  static constexpr std::size_t kMost = 16;  // sides to choose among; round shapes have as many as there are nodes
+  static constexpr std::size_t kMost = 16;  // directions compared; round shapes have as many as nodes inside
 
-  /// Something that starts inside.
+  /// A node or a face that starts inside.
   struct Part {
     Vec3 at;                              // [m]
-    Vec3 across;                          // normal of the cloth there, of any length
-    std::array<std::uint32_t, 4> joined;  // nodes that links join to it
+    Vec3 across;                          // normal of the cloth there, not unit
+    std::array<std::uint32_t, 4> joined;  // neighbour nodes
     std::size_t joined_count;
   };
 

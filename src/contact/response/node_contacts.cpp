@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Nodes against one obstacle. A query of a mesh costs about a microsecond: it is left out where the plane that was last
-// found shows that the node is far enough.
+// Nodes against one obstacle. A query of a mesh takes about a microsecond: it is skipped where the cached plane shows
+// that the node is far enough.
 #include <algorithm>
 
 #include "contact/narrow_phase/element_pairs.h"
@@ -11,10 +11,10 @@
 namespace curtain {
 namespace {
 
-// What is too close when a substep starts (an obstacle appeared there or jumped) is brought out slowly, not at once:
-// the way out must not become a blow. Inside the obstacle so many times as fast as inside the gap around it.
+// Speed of depenetration inside the obstacle, over that inside the gap around it. Parts that start too close (the
+// obstacle appeared or jumped) must come out slowly, not as a blow.
 constexpr double kFasterInside = 20.0;
-// Share of what is to be kept that may lack.
+// Share of the kept distance that may be missing without recovery.
 constexpr double kSlack = 0.1;
 
 }  // namespace
@@ -42,7 +42,7 @@ bool makeContact(const ObstacleSubstep& substep, const ClothPattern& pattern, co
   contact.obstacle = substep.obstacle;
   contact.normal = moving.after.rotation * point.normal;
   contact.offset = point.height + contact.normal.dot(moving.after.translation);
-  // Nothing holds a node back on its way out: friction there could lock cloth around an edge for good.
+  // No friction on the way out: it could lock cloth around an edge for good.
   contact.friction = substep.frictionless || point.distance < 0.0 ? 0.0 : moving.friction;
   contact.recovery = point.recovery;
   contact.carried = moving.after.toWorld(point.start);

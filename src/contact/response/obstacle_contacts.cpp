@@ -10,10 +10,9 @@
 namespace curtain {
 namespace {
 
-// Faces and edges are let come nearer than nodes, to this share of the thickness: few of them need a contact then.
+// Gap of faces and edges, over the thickness: smaller than that of nodes, so that few of them need contacts.
 constexpr double kCore = 0.3;
-// The order in which the contacts of an obstacle are kept; of two of the same parts, the one that asks for less comes
-// first.
+// Contacts of one obstacle are sorted by parts; of duplicates the one with the smallest offset is kept.
 auto orderOf(const Contact& c) { return std::tie(c.nodes, c.node, c.source); }
 bool firstOfOne(const Contact& a, const Contact& b) {
   if (orderOf(a) != orderOf(b)) return orderOf(a) < orderOf(b);
@@ -43,7 +42,7 @@ ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, const ContactPar
   advected_.reserve(pattern.grid.nodeCount());
 }
 
-// Box around the cloth on its way, and what may touch beyond it.
+// The box grown by what may touch beyond it.
 Eigen::AlignedBox3d ObstacleContacts::reached(Eigen::AlignedBox3d box) const noexcept {
   const double margin = 2.0 * thickness_;
   box.min().array() -= margin;
@@ -89,14 +88,13 @@ void ObstacleContacts::begin(const Field3& start, const Field3& predicted, doubl
   }
 }
 
-// Lists what is candidates for the way from start to end, of the obstacles that the cloth may come candidates on it;
-// false: of none. Those that are not active yet become so. Some 30 nodes will do for what is not close, where links
-// hold.
+// Finds candidates for the motion from start to end of every obstacle near it, which become active; false: none is
+// near. As long as links hold, a box around some 30 nodes rejects far obstacles.
 bool ObstacleContacts::activate(const Field3& start, const Field3& end, bool links_hold) noexcept {
   if (obstacles_.sweptBounds().isEmpty()) return false;
   if (links_hold) {
-    const Vec3 way = Vec3::Constant(bounds_.farthest(start, end));
-    const Eigen::AlignedBox3d box = reached({start_box_.min() - way, start_box_.max() + way});
+    const Vec3 displacement = Vec3::Constant(bounds_.farthest(start, end));
+    const Eigen::AlignedBox3d box = reached({start_box_.min() - displacement, start_box_.max() + displacement});
     if (!box.intersects(obstacles_.sweptBounds()) || !anyWithin(box)) return false;
   }
   const Eigen::AlignedBox3d box = reached(boxAround(pattern_.grid, start, end));
@@ -152,7 +150,7 @@ int ObstacleContacts::advect(const Field3& start, Field3& end) noexcept {
   return count;
 }
 
-// False: it already goes along with one, or can't.
+// False: it moves with an obstacle already, or is pinned.
 bool ObstacleContacts::advectNode(std::uint32_t node, int obstacle, const Field3& start, Field3& end) noexcept {
   if (advected_by_[node] >= 0 || pattern_.inverse_mass[node] <= 0.0) return false;
   const MovingObstacle& moving = obstacles_.moving()[static_cast<std::size_t>(obstacle)];

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Contact of the cloth with obstacles: parts that may touch within the substep are held to planes, tangent to the
-// obstacle and a thickness away, with Coulomb friction against the moving surface. Inelastic. What would go through all
-// the same gets planes where it goes in, and as a last resort goes with the obstacle.
+// Contact of the cloth with obstacles: parts that may touch within the substep are held above planes, tangent to the
+// obstacle and a thickness away, with Coulomb friction against the moving surface; inelastic. Parts that would cross on
+// the solved motion get planes where they enter; as a last resort they move with the obstacle.
 //
-//   box around a few nodes  an obstacle outside it costs next to nothing
-//   box around all          nor much one outside that
-//   vicinity (vicinity.h)   candidates
-//   touch (obstacle_touch.h)  of those, what touches in the substep
-//
-// All of it follows from where the nodes start and end: what is kept from substep to substep (planes of a convex
-// shape's surface, candidates candidates a mesh) serves as long as motion that is measured allows, and no result
-// depends on that.
+//   box around a few nodes         rejects far obstacles at next to no cost
+//   box around all nodes           rejects most others
+//   broad_phase/obstacle_candidates.h
+//   element_contacts.h             narrow phase and response for the candidates
 #pragma once
 
 #include <limits>
@@ -26,54 +22,52 @@
 
 namespace curtain {
 
-/// Where an obstacle is, for contact.
+/// Whether an obstacle can touch the cloth.
 enum class ObstacleStanding { kAbsent, kFar, kNear };
 
 class ObstacleContacts {
  public:
-  /// Of params thickness and recovery_speed; pattern and obstacles must outlive this.
+  /// Uses thickness and recovery_speed of params; pattern, obstacles and workers must outlive this.
   ObstacleContacts(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles,
                    const Workers& workers);
 
-  /// Begins a substep of h [s]: adds what may touch on the way from start to predicted, in the order of the obstacles'
-  /// names, of the contacts' nodes and features. frictionless: without friction.
+  /// Begins a substep of h [s]: adds what may touch along the motion from start to predicted, sorted by the obstacles'
+  /// names, the contacts' nodes and features. frictionless: all contacts without friction.
   void begin(const Field3& start, const Field3& predicted, double h, bool frictionless, Contacts& contacts) noexcept;
   void limitRecovery(double most) noexcept { most_recovery_ = most; }
 
-  /// Adds contacts for parts of the cloth that would go through an obstacle on the way from start to end, expected or
-  /// not; returns how many. links_hold: no link is longer than kOverlong at the end.
+  /// Adds contacts for parts that would cross an obstacle along the motion from start to end; returns how many.
+  /// links_hold: no link is longer than kOverlong at the end.
   int verify(const Field3& start, const Field3& end, bool links_hold, Contacts& contacts) noexcept;
-  /// The last one had no room for all that is near: what it says is not certain.
+  /// The last verify() ran out of room: crossings may be missing.
   bool full() const noexcept { return full_; }
 
-  /// Lets the parts that would go through an obstacle on the way from start to end go along with it; returns how many
-  /// there were with a node that did not yet.
+  /// Makes parts that would cross an obstacle from start to end move with it; returns how many were added.
   int advect(const Field3& start, Field3& end) noexcept;
-  /// One of two nodes that go along with an obstacle takes the other one with it; false: neither or both do.
+  /// If exactly one of two nodes moves with an obstacle, the other joins it. False: neither or both do.
   bool advectAlong(std::size_t a, std::size_t b, const Field3& start, Field3& end) noexcept;
-  /// Nodes that go along with none stay where they are.
+  /// Nodes that move with no obstacle stay where they started.
   void freezeRest(const Field3& start, Field3& end) const noexcept;
   void endAdvection() noexcept;
 
-  /// After an accepted substep of h [s] that ended at position: contacts that push, whose multipliers are scale [s^2]
-  /// times the forces.
+  /// After an accepted substep of h [s]: takes the contacts that push, whose multipliers are scale [s^2] times forces,
+  /// into the wrenches.
   void remember(const Contacts& pushing, const Field3& position, double h, double scale) noexcept;
-  /// Of these substeps such that nothing touched in are undone, so much time altogether [s].
+  /// Accepted substeps without contact are undone, `time` [s] in all.
   void takeBack(double time) noexcept { loaded_for_ -= time; }
-  /// Nothing that comes differs by it, but computing time.
+  /// Results do not depend on it.
   void clearCaches() noexcept;
   void carry(Archive& archive);
 
-  /// For a cloth that is here now. Not made for every substep.
+  /// For the cloth at `position`. Too slow for every substep.
   ObstacleStanding standing(int obstacle, const Field3& position) const noexcept;
 
-  /// A frame begins: wrenches are those of its substeps from now on. links_hold: none is much too long, no pin is
-  /// moved.
+  /// Begins a frame, over which wrenches are averaged. links_hold: no link is overlong, no pin moves.
   void beginFrame(bool links_hold) noexcept;
-  /// What the cloth exerts on an obstacle, mean over the frame's substeps.
+  /// Wrench of the cloth on an obstacle, mean over the frame.
   ContactWrench wrench(int obstacle) const noexcept;
 
-  /// How deep the deepest node is inside an obstacle [m]; 0: none is.
+  /// Largest penetration of a node [m]; 0: none.
   double deepest(const Contacts& contacts, const Field3& position) const noexcept;
 
  private:
@@ -98,15 +92,15 @@ class ObstacleContacts {
   double most_recovery_ = std::numeric_limits<double>::infinity();  // in a substep [m]
   const ObstacleSet& obstacles_;
   SampledBounds bounds_;
-  Eigen::AlignedBox3d start_box_;               // around the cloth where it starts
+  Eigen::AlignedBox3d start_box_;               // around the cloth at the start of the substep
   std::vector<ObstacleCandidates> candidates_;  // by obstacle
-  std::vector<std::uint8_t> active_;            // by obstacle: may be touched in this substep
+  std::vector<std::uint8_t> active_;            // by obstacle: near in this substep
   bool frictionless_ = false;                   // this substep
   double h_ = 0.0;                              // [s]
   bool full_ = false;
   std::vector<Crossing> crossings_;
   std::vector<PenetratingFace> penetrating_;
-  std::vector<std::int32_t> advected_by_;  // by node: obstacle, or -1
+  std::vector<std::int32_t> advected_by_;  // by node: obstacle it moves with, or -1
   std::vector<std::uint32_t> advected_;
   std::vector<Load> loads_;  // by obstacle
   double loaded_for_ = 0.0;  // [s]

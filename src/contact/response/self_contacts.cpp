@@ -10,17 +10,17 @@
 namespace curtain {
 namespace {
 
-// Pairs that touch or cross in a substep that there is room for, per node.
+// Capacity for touching or crossing pairs, per node.
 constexpr std::size_t kRoomPerNode = 8;
-// What is nearer than the gap at the start of a substep is let out slowly, and not at all within this share of the gap:
-// a contact at rest must not be shaken by what the solve left over.
+// Share of the gap that may be missing without recovery: a resting contact must not be shaken by the residual of the
+// solve.
 constexpr double kSlack = 0.1;
 
 Vec3 mix(const std::array<double, 4>& weight, const std::array<Vec3, 4>& at) {
   return weight[0] * at[0] + weight[1] * at[1] + weight[2] * at[2] + weight[3] * at[3];
 }
 
-// Whether the boxes around the ways of two elements are further apart than reach.
+// Whether the swept boxes of two elements are further apart than reach.
 bool boxesApart(bool edges, const std::array<Vec3, 4>& from, const std::array<Vec3, 4>& to, double reach) {
   Vec3 low_a = from[0].cwiseMin(to[0]), high_a = from[0].cwiseMax(to[0]);
   Vec3 low_b = from[3].cwiseMin(to[3]), high_b = from[3].cwiseMax(to[3]);
@@ -36,7 +36,7 @@ bool boxesApart(bool edges, const std::array<Vec3, 4>& from, const std::array<Ve
   return (low_a - high_b).cwiseMax(low_b - high_a).maxCoeff() > reach;
 }
 
-// By how much two elements may come nearer on the way: no more than the two nodes that approach most.
+// Bound of how much two elements approach: as much as the two nodes that approach most.
 double largestApproach(bool edges, const std::array<Vec3, 4>& from, const std::array<Vec3, 4>& to) {
   std::array<Vec3, 4> move;
   for (std::size_t k = 0; k < 4; ++k) move[k] = to[k] - from[k];
@@ -61,7 +61,7 @@ ClosestPoints closestPoints(bool edges, const std::array<Vec3, 4>& at) noexcept 
     out.weight = {1.0, -found.weights[0], -found.weights[1], -found.weights[2]};
     out.inside = true;
   }
-  // From differences, whose rounding is that of near things: the weights add up to 0.
+  // From differences, to avoid cancellation: the weights add up to 0.
   out.apart = out.weight[1] * (at[1] - at[0]) + out.weight[2] * (at[2] - at[0]) + out.weight[3] * (at[3] - at[0]);
   out.distance = out.apart.norm();
   return out;
@@ -91,7 +91,7 @@ Contact SelfContacts::makeContact(const PairKey& key, const ClosestPoints& close
   return contact;
 }
 
-// The order of candidates tells of earlier looks; that of keys does not.
+// Collects the wanted pairs. sortPairs() follows: the order of candidates depends on the number of threads.
 template <typename Wanted>
 void SelfContacts::select(const Candidates& candidates, const Wanted& wanted) noexcept {
   pairs_.clear();
@@ -110,20 +110,20 @@ void SelfContacts::sortPairs() noexcept {
   pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
 }
 
-// Both where they are closest at the start, and wherever else at the end, so that no candidate that is not within the
-// gap has a contact: which of those are named is not certain.
+// Tested at the start and at the end with exact distances, so that the contacts do not depend on which pairs beyond
+// the gap the broad phase happens to name.
 bool SelfContacts::touches(const PairKey& key, const Field3& start, const Field3& predicted) const noexcept {
   const std::array<Vec3, 4> from = corners(key, start), to = corners(key, predicted);
   if (boxesApart(key.edges, from, to, gap_)) return false;
   const ClosestPoints closest = closestPoints(key.edges, from);
-  // Where two edges are closest at an end of one, the vertex there and the faces at the other one are a pair as well.
+  // If two edges are closest at an end, a vertex-face pair covers it.
   if (!closest.inside || closest.distance <= 0.0) return false;
   if (closest.apart.dot(mix(closest.weight, to)) >= gap_ * closest.distance) return false;
   return closest.distance <= gap_ || closestPoints(key.edges, to).distance <= gap_;
 }
 
-// Where a vertex is closest to the border of a triangle, another triangle there that is nearer says the same or more:
-// contacts are where the distance to the surface is least. Of equal distances the first one stays.
+// If a vertex is closest to the border of a triangle and the neighbour triangle there is as near, that one's contact
+// suffices: contacts belong to minima of the distance to the surface. Of equal distances the first one stays.
 bool SelfContacts::isRedundant(std::size_t k) const noexcept {
   const PairKey& key = pairs_[k];
   const ClosestPoints& closest = closest_[k];
@@ -139,7 +139,7 @@ bool SelfContacts::isRedundant(std::size_t k) const noexcept {
     }
     return true;
   };
-  // Those of a vertex are side by side.
+  // Pairs of one vertex are adjacent.
   for (std::size_t other = k; other-- > 0 && pairs_[other].node[0] == key.node[0];) {
     if (tells(other)) return true;
   }
@@ -169,7 +169,7 @@ void SelfContacts::collect(const Candidates& candidates, const Contacts& last, c
   }
 }
 
-// The time of impact, beyond 1 when there is none; distance: at the start.
+// Time of impact, beyond 1 if there is none; distance: at the start [m].
 double SelfContacts::crossesAt(const PairKey& key, const std::array<Vec3, 4>& from, const std::array<Vec3, 4>& to,
                                double& distance) const noexcept {
   constexpr double kNever = 2.0;
@@ -199,7 +199,7 @@ int SelfContacts::verify(const Candidates& candidates, const Field3& start, cons
     const std::array<Vec3, 4> from = corners(key, start), to = corners(key, end);
     double distance = 0.0;
     const double time = crossesAt(key, from, to, distance);
-    // Held along the way between them where they meet.
+    // The normal is the direction between them at the time of impact.
     std::array<Vec3, 4> there = from;
     for (std::size_t k = 0; k < 4; ++k) there[k] += time * (to[k] - from[k]);
     ClosestPoints closest = closestPoints(key.edges, there);

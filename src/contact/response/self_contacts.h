@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Contact of the cloth with itself: pairs of a vertex and a triangle, or of two edges, of the first layer's mesh that
-// may come near, and which of them touch in a substep. The normal of a contact is the direction between the
-// closest points where the substep starts, so its force turns nothing: momentum and angular momentum are those before.
+// Narrow phase and response of self-contact: pairs of a vertex and a triangle, or of two edges, of the first layer's
+// mesh. The normal is the direction between the closest points at the start of the substep, so the force preserves
+// momentum and angular momentum.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace curtain {
 
-/// Two elements that share no node: vertex node[0] and triangle node[1..3], or edges node[0..1] and node[2..3].
+/// Two elements without a common node: vertex node[0] and triangle node[1..3], or edges node[0..1] and node[2..3].
 struct PairKey {
   std::array<std::uint32_t, 4> node;
   bool edges;
@@ -29,45 +29,45 @@ struct PairKey {
   }
 };
 
-/// Where two elements are closest: sum weight_k x_k is the way from the second to the first there.
+/// Closest points of two elements: sum weight_k x_k is the vector from the second to the first.
 struct ClosestPoints {
   std::array<double, 4> weight;
-  Vec3 apart;       ///< that way [m]
+  Vec3 apart;       ///< that vector [m]
   double distance;  ///< its length [m]
-  bool inside;      ///< not at the end of an edge (of two edges)
+  bool inside;      ///< of two edges: not at an end
 };
 /// edges: of 0-1 and 2-3; else of 0 and 1-2-3.
 ClosestPoints closestPoints(bool edges, const std::array<Vec3, 4>& at) noexcept;
 
 class SelfContacts {
  public:
-  /// Never nearer than this share of the gap, on the whole way.
+  /// Share of the gap below which a pair counts as crossing.
   static constexpr double kLeastShare = 0.02;
 
-  /// gap: kept between two parts of the cloth [m]. Of params friction and recovery_speed.
+  /// gap: between two parts of the cloth [m]. Uses friction and recovery_speed of params.
   SelfContacts(const ClothPattern& pattern, double gap, const ContactParams& params);
 
   double gap() const noexcept { return gap_; }
   void limitRecovery(double most) noexcept { most_recovery_ = most; }
 
-  /// Adds what may touch on the way from start to predicted, in a substep of h [s], and what pushed in the last one
-  /// (`last`), in the order of their nodes. candidates: all pairs that come within the gap on that way, and any others,
-  /// in any order.
+  /// Adds contacts that may touch along the motion from start to predicted, in a substep of h [s], and those that
+  /// pushed in the last one (`last`), sorted by node. candidates: at least all pairs that come within the gap, in any
+  /// order.
   void collect(const Candidates& candidates, const Contacts& last, const Field3& start, const Field3& predicted,
                double h, Contacts& contacts) noexcept;
 
-  /// Adds contacts for pairs that would go through each other on the way from start to end; returns how many.
-  /// candidates: all pairs that come within the least share of the gap on that way, and any others, in any order.
+  /// Adds contacts for pairs that would cross along the motion from start to end; returns how many. candidates: at
+  /// least all pairs that come within kLeastShare of the gap, in any order.
   int verify(const Candidates& candidates, const Field3& start, const Field3& end, double h,
              Contacts& contacts) noexcept;
 
-  /// The pairs that would; f(pair).
+  /// Calls f(pair) for every crossing pair.
   template <typename F>
   void forEachCrossing(const Candidates& candidates, const Field3& start, const Field3& end, const F& f) noexcept {
     findCrossings(candidates, start, end);
     for (const PairKey& pair : pairs_) f(pair);
   }
-  /// There was no room for all that cross.
+  /// Crossing pairs were dropped for lack of room.
   bool full() const noexcept { return full_; }
 
  private:
@@ -87,8 +87,8 @@ class SelfContacts {
 
   double gap_, friction_, recovery_speed_;
   double most_recovery_ = std::numeric_limits<double>::infinity();  // in a substep [m]
-  std::vector<PairKey> pairs_;                                      // that touch or cross
-  std::vector<ClosestPoints> closest_;                              // of those that touch, where the substep starts
+  std::vector<PairKey> pairs_;                                      // touching or crossing
+  std::vector<ClosestPoints> closest_;                              // of touching pairs, at the start
   bool full_ = false;
 };
 

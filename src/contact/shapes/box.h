@@ -44,7 +44,7 @@ class BoxShape final : public ConvexShape {
   const ObstacleFeatures* features() const noexcept override { return &features_; }
 
  private:
-  /// By construction, not by analysis: a box thinner than rounding has six faces, too.
+  /// Built directly: analysis of the mesh would find fewer faces of a box thinner than rounding.
   MeshTopology topology() const {
     MeshTopology topology;
     topology.mesh = triangles();

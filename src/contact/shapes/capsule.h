@@ -12,7 +12,7 @@
 
 namespace curtain {
 
-/// Along z, centred, round ends; radius and length between the caps' centres [m], > 0.
+/// Along z, centred; radius and distance of the caps' centres [m], > 0.
 class CapsuleShape final : public ConvexShape {
  public:
   CapsuleShape(double radius, double length)

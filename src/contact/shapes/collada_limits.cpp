@@ -16,7 +16,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// Prefixes of namespaces are left out, as assimp does not know them either.
+// Namespace prefixes are not handled, and assimp does not handle them either.
 bool isNamed(const XMLElement* element, const char* name) { return std::strcmp(element->Name(), name) == 0; }
 
 std::string attribute(const XMLElement* element, const char* name) {
@@ -24,7 +24,7 @@ std::string attribute(const XMLElement* element, const char* name) {
   return value == nullptr ? "" : value;
 }
 
-// assimp reads indices one after the other and stays for ever before what is none, with another index each time.
+// assimp loops for ever at anything else than an index.
 bool hasBadIndices(const XMLElement* element) {
   for (const char* list : {"p", "h", "v", "vcount"}) {
     if (!isNamed(element, list)) continue;
@@ -39,13 +39,12 @@ bool hasBadIndices(const XMLElement* element) {
   return false;
 }
 
-// Counts nodes the way assimp makes them. The depth of the recursion is that of the elements, which tinyxml2 limits to
-// 100, times the nodes that stand for another one within each other, which are on the way until they are counted.
+// Counts nodes as assimp creates them. Recursion is bounded: 100 nested elements (by tinyxml2) times kDeepest.
 class NodeCounter {
  public:
   explicit NodeCounter(const XMLElement* root) { note(root); }
 
-  /// How many the scenes come to; more than kMostColladaNodes: too many, or without an end.
+  /// Nodes of all scenes; more than kMostColladaNodes: too many, or a cycle.
   double count() {
     double sum = 0.0;
     for (const XMLElement* scene : scenes_) sum += countUnder(scene);
@@ -53,7 +52,7 @@ class NodeCounter {
   }
 
  private:
-  static constexpr int kDeepest = 200;  // nodes that stand for nodes that stand for nodes
+  static constexpr int kDeepest = 200;  // nested instances
   static constexpr double kEndless = 10.0 * kMostColladaNodes;
 
   void note(const XMLElement* element) {
@@ -61,7 +60,7 @@ class NodeCounter {
          child = child->NextSiblingElement()) {
       if (isNamed(child, "visual_scene")) scenes_.push_back(child);
       if (isNamed(child, "node")) {
-        // Library nodes are found by their id; else the first node with that id or name is taken.
+        // As assimp looks up instances: library nodes by id, else the first node with that id or name.
         if (isNamed(element, "library_nodes")) library_[attribute(child, "id")] = child;
         others_.emplace(attribute(child, "id"), child);
         others_.emplace(attribute(child, "name"), child);
@@ -84,7 +83,7 @@ class NodeCounter {
       if (isNamed(child, "node")) sum += countNode(child);
       if (!isNamed(child, "instance_node")) continue;
       const std::string url = attribute(child, "url");
-      const XMLElement* const meant = url.empty() ? nullptr : find(url.substr(1));  // behind the #
+      const XMLElement* const meant = url.empty() ? nullptr : find(url.substr(1));  // after the #
       if (meant != nullptr) sum += depth_ < kDeepest ? countNode(meant) : kEndless;
     }
     return sum;
@@ -93,7 +92,7 @@ class NodeCounter {
   double countNode(const XMLElement* node) {
     const auto known = counts_.find(node);
     if (known != counts_.end()) return known->second;
-    counts_[node] = kEndless;  // whoever comes by again before it is counted goes in a circle
+    counts_[node] = kEndless;  // reached again before it is counted: a cycle
     ++depth_;
     const double count = 1.0 + countUnder(node);
     --depth_;

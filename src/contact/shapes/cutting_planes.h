@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The smallest value of a convex distance on an edge or a triangle by tangents (Kelley 1960, "The cutting-plane method
-// for solving convex programs", in one dimension, twice nested). Each tangent lies below the distance, and two that
-// lean towards each other bound its minimum between them from below:
+// Minimum of a convex distance over an edge or a triangle by cutting planes (Kelley 1960, "The cutting-plane method for
+// solving convex programs", in one dimension, nested for triangles). Each tangent is below the distance, and two with
+// slopes of opposite signs bound the minimum between them:
 //
-//      \       /          of a row of the triangle (s fixed, t free) the two tangent planes mix to one that is level
+//      \       /          On a row of the triangle (s fixed, t free) the two tangent planes combine to one that is
+//      level
 //       \__ __/  distance along t: a tangent of the row's minimum as a function of s, which is convex again. So the
-//       \  v  /  tangents outer search works on tangents, too, and ends with a bound that holds for the whole triangle.
+//       outer \  v  /  tangents search uses cutting planes, too, and its bound holds for the whole triangle.
 //          ^ lower bound
 #pragma once
 
@@ -21,7 +22,7 @@ namespace cutting_planes {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 
-/// Evaluations of one row, or rows of a triangle, at most. Brackets halve at least every second time: 2^-30.
+/// Most evaluations of a row, and rows of a triangle. Brackets halve at least every second time: 2^-30.
 constexpr int kMostTangents = 60;
 
 template <std::size_t N>
@@ -38,7 +39,7 @@ Vec3 middleOf(const std::array<Vec3, N>& corners) {
   return middle;
 }
 
-/// Not smaller than the longest edge, not larger than 1.8 times it.
+/// Between 1 and 1.8 times the longest edge.
 template <std::size_t N>
 double longestEdge(const std::array<Vec3, N>& corners) {
   double longest = 0.0;
@@ -47,8 +48,8 @@ double longestEdge(const std::array<Vec3, N>& corners) {
   return longest;
 }
 
-/// A line below a convex function of one variable, and the plane below the distance that it is cut from: distance(x) >=
-/// base + gradient . (x - first corner) everywhere.
+/// A tangent of a function of one variable, and the plane below the distance that it comes from: distance(x) >= base +
+/// gradient . (x - first corner) everywhere.
 struct Tangent {
   double at;
   double value;
@@ -57,8 +58,8 @@ struct Tangent {
   double base;
 };
 
-/// The plane between two tangents that lean towards each other which is level along their variable, the only tangent of
-/// a search that ended at an end of its range.
+/// Combination of two tangents of opposite slopes that is level along their variable; the one tangent of a search that
+/// ended at an end of its range.
 inline Tangent mixed(const Tangent& left, const Tangent& right) {
   if (!(left.slope < 0.0 && right.slope > 0.0)) return left;
   const double share = right.slope / (right.slope - left.slope);
@@ -66,24 +67,24 @@ inline Tangent mixed(const Tangent& left, const Tangent& right) {
           share * left.base + (1.0 - share) * right.base};
 }
 
-/// Where the search ended: two tangents whose lower envelope bounds the minimum (twice the same at an end).
+/// Result of a search: two tangents whose upper envelope bounds the minimum (twice the same at an end).
 struct Valley {
   Tangent left;
   Tangent right;
   double lower;
 };
 
-/// Searches the minimum on [0, end]. tangentAt(x) -> Tangent; enough(lower) says when a bound of the minimum will do.
+/// Searches the minimum on [0, end]. tangentAt(x) -> Tangent; enough(lower): whether a lower bound is good enough.
 template <typename TangentAt, typename Enough>
 Valley searchValley(double end, TangentAt&& tangentAt, Enough&& enough) {
   Tangent left = tangentAt(0.0);
   if (left.slope >= 0.0) return {left, left, left.value};
   Tangent right = tangentAt(end);
   if (right.slope <= 0.0) return {right, right, right.value};
-  double width = end;  // of the bracket two tangents ago
+  double width = end;  // of the bracket two steps ago
   for (int n = 0;; ++n) {
     const double gap = right.at - left.at;
-    // In the bracket, not from the origin: that would cancel.
+    // Relative to the bracket, against cancellation.
     const double meet =
         std::clamp((right.value - left.value - right.slope * gap) / (left.slope - right.slope), 0.0, gap);
     const double lower = left.value + left.slope * meet;
@@ -99,7 +100,7 @@ Valley searchValley(double end, TangentAt&& tangentAt, Enough&& enough) {
   }
 }
 
-/// Best point so far, and the rules when to stop.
+/// Best point so far, and the stopping criterion.
 class Search {
  public:
   Search(double tolerance, double reach) : tolerance_(tolerance), reach_(reach) {}
@@ -111,11 +112,11 @@ class Search {
       found_ = true;
     }
   }
-  /// A bound this high can't hide a better point, or any within reach.
+  /// Whether a lower bound excludes a better point, or any within reach.
   bool enough(double lower, double share) const {
     return lower >= best_.surface.distance - share * tolerance_ || lower > reach_;
   }
-  /// The best point, with the plane that shows that it is.
+  /// The best point, with the plane that bounds the minimum.
   template <std::size_t N>
   ElementMinimum best(const std::array<Vec3, N>& corners, const Tangent& plane, double rounding) const {
     ElementMinimum minimum;
@@ -137,8 +138,8 @@ class Search {
   bool found_ = false;
 };
 
-/// Minimum on an edge; shape.nearest(point, beside) gives the distance and its (sub)gradient: where an element lies on
-/// both sides of a middle, out is where most of it is. `size`: of the shape, for rounding.
+/// Minimum on an edge. shape.nearest(point, beside) gives the distance and a subgradient; `beside` is the centre of
+/// the element, so that its exit is on the side of most of it. size: of the shape [m], for rounding.
 template <typename Shape>
 void searchEdge(const Shape& shape, double size, const std::array<Vec3, 2>& ends, double reach, ElementMinimum& out) {
   const Vec3 along = ends[1] - ends[0], middle = middleOf(ends);
@@ -173,13 +174,13 @@ void searchTriangle(const Shape& shape, double size, const std::array<Vec3, 3>& 
       const double base = surface.distance - t * slope - s * surface.normal.dot(along_s);
       return {t, surface.distance, slope, surface.normal, base};
     };
-    // A row that can't be better needs no exact minimum, only a tangent.
+    // A row that cannot be better needs no exact minimum, only a tangent.
     const Valley row = searchValley(end, tangentAt, [&](double lower) { return search.enough(lower, 0.25); });
     const Tangent level = mixed(row.left, row.right);
-    // The row's minimum lies where the plane is level, or at its start, which all rows have at t = 0, or at its end,
-    // which moves by -1 with s.
-    const Vec3 way = level.slope < 0.0 ? Vec3(along_s - along_t) : along_s;
-    return {s, row.lower, level.gradient.dot(way), level.gradient, level.base};
+    // The row's minimum is where the plane is level, or at its start (t = 0 in all rows), or at its end, which moves
+    // by -1 with s.
+    const Vec3 along_start = level.slope < 0.0 ? Vec3(along_s - along_t) : along_s;
+    return {s, row.lower, level.gradient.dot(along_start), level.gradient, level.base};
   };
   const Valley valley = searchValley(1.0, rowTangent, [&](double lower) { return search.enough(lower, 1.0); });
   out = search.best(corners, mixed(valley.left, valley.right), rounding);

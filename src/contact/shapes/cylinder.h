@@ -9,7 +9,7 @@
 
 namespace curtain {
 
-/// Along z, centred, flat ends; radius and whole length [m], > 0.
+/// Along z, centred; radius and length [m], > 0.
 class CylinderShape final : public ConvexShape {
  public:
   CylinderShape(double radius, double length)
@@ -20,7 +20,7 @@ class CylinderShape final : public ConvexShape {
     double radial = 0.0;
     const Eigen::Vector2d outward =
         unitBeside<Eigen::Vector2d>(point.head<2>(), beside.head<2>(), Eigen::Vector2d::UnitX(), radial);
-    const Eigen::Vector2d beyond(radial - radius_, std::abs(point.z()) - half_);  // of the side, of the end
+    const Eigen::Vector2d beyond(radial - radius_, std::abs(point.z()) - half_);  // beyond the side, beyond the end
     SurfacePoint surface;
     Eigen::Vector2d profile = beyond[0] >= beyond[1] ? Eigen::Vector2d::UnitX() : Eigen::Vector2d::UnitY();
     surface.distance = beyond.maxCoeff();

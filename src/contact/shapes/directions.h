@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Directions of vectors that may be zero. Vectors are scaled before they are squared, so that no finite input over- or
+// Directions of vectors that may be zero. Vectors are scaled before they are squared, so no finite input over- or
 // underflows to NaN.
 #pragma once
 
@@ -31,7 +31,7 @@ Vector unitBeside(const Vector& v, const Vector& beside, const Vector& fallback,
 
 inline double signOf(double x) { return x < 0.0 ? -1.0 : 1.0; }
 
-/// The side x is on; when it is on neither, the one that `beside` is on.
+/// Sign of x; for 0 that of `beside`.
 inline double sideOf(double x, double beside) { return signOf(x != 0.0 ? x : beside); }
 
 }  // namespace curtain

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Coarse grid of distances over the bounds of a mesh. A distance changes by no more than one walks, so the value
-// at the centre c of a cell brackets it at any p:  d(c) - |p - c| <= d(p) <= d(c) + |p - c|.
-// Most nodes that are far away, or deep inside, are told by this one look-up, and all others get a bound
-// for the search in the tree.
+// Coarse grid of distances over the bounds of a mesh. A distance is 1-Lipschitz, so the value at the centre c of a cell
+// bounds it at any p:  d(c) - |p - c| <= d(p) <= d(c) + |p - c|.
+// One look-up settles most nodes far away or deep inside, and bounds the search in the tree for all others.
 #pragma once
 
 #include <algorithm>
@@ -40,7 +39,7 @@ class DistanceGrid {
     }
     const double distance = static_cast<double>(distances_[index(cell)]);
     const double away = (point - centre(cell)).norm() + margin_;
-    const double beyond = (low_ - point).cwiseMax(point - high_).cwiseMax(0.0).norm();  // out of the bounds
+    const double beyond = (low_ - point).cwiseMax(point - high_).cwiseMax(0.0).norm();  // distance to the bounds
     return {beyond > 0.0 ? std::max(distance - away, beyond) : distance - away, distance + away};
   }
 
@@ -58,7 +57,7 @@ class DistanceGrid {
   Vec3 low_;
   Vec3 high_;
   double cell_size_ = 1.0;  // [m]
-  double margin_ = 0.0;     // of the distances kept in single precision [m]
+  double margin_ = 0.0;     // rounding of the stored distances [m]
   std::array<int, 3> counts_ = {1, 1, 1};
   std::vector<float> distances_;
 };
@@ -66,7 +65,7 @@ class DistanceGrid {
 inline DistanceGrid::DistanceGrid(const Eigen::AlignedBox3d& bounds, double cell_count, const Distance& distance)
     : low_(bounds.min()), high_(bounds.max()) {
   const Vec3 sizes = bounds.sizes();
-  // A flat mesh has no volume to divide: its short sides count as a hundredth of the longest.
+  // A flat mesh has no volume: its short sides count as a hundredth of the longest.
   const Vec3 thick = sizes.cwiseMax(0.01 * sizes.maxCoeff());
   cell_size_ = std::cbrt(thick.prod() / cell_count);
   for (int i = 0; i < 3; ++i) {
@@ -83,11 +82,11 @@ inline DistanceGrid::DistanceGrid(const Eigen::AlignedBox3d& bounds, double cell
         const double value = distance(centre(cell), bound);
         distances_[index(cell)] = static_cast<float>(value);
         largest = std::max(largest, std::abs(value));
-        bound = (std::abs(value) + cell_size_) * (1.0 + 1e-9);  // the next cell is one cell further
+        bound = (std::abs(value) + cell_size_) * (1.0 + 1e-9);  // Lipschitz bound for the next cell
       }
     }
   }
-  // Half a unit in the last place of a float is 6e-8 of its value; coordinates far from zero round in double.
+  // Half an ulp of a float is 6e-8 of its value; coordinates far from zero round in double precision.
   margin_ = 1e-7 * (largest + cell_size_) + 1e-14 * low_.cwiseAbs().maxCoeff();
 }
 

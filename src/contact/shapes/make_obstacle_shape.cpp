@@ -10,7 +10,7 @@
 namespace curtain {
 namespace {
 
-/// validate() says the same of whole scenes; a shape built without it must not compute with nonsense either.
+/// validate() checks whole scenes; this guards shapes built without it.
 double positive(const ObstacleParams& obstacle, const std::string& key, double value) {
   if (!(value > 0.0 && std::isfinite(value))) {
     std::ostringstream text;

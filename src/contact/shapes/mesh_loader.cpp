@@ -22,9 +22,9 @@
 namespace curtain {
 namespace {
 
-/// Coordinates beyond this [m] are taken for corrupt: their products would overflow.
+/// Coordinates beyond this [m] count as corrupt: their products would overflow.
 constexpr double kFarthest = 1e30;
-/// Reading takes some ten times as much memory; a mesh as large as this is none to collide with in real time.
+/// Reading takes about ten times as much memory, and such a mesh is too large for contact in real time.
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20U;
 constexpr std::size_t kMostTriangles = 4000000;
 
@@ -55,7 +55,7 @@ void requireReadable(const std::string& path, const std::string& obstacle) {
   }
 }
 
-/// Opens the mesh's file and no other: materials are not used, and what an OBJ or DAE names may be a device or a pipe.
+/// Opens the mesh's file only: materials are not used, and what an OBJ or DAE refers to may be a device or a pipe.
 class OneFile final : public Assimp::DefaultIOSystem {
  public:
   explicit OneFile(std::string path) : path_(std::move(path)) {}
@@ -69,7 +69,7 @@ class OneFile final : public Assimp::DefaultIOSystem {
   std::string path_;
 };
 
-/// A polygon is cut into triangles in a time that grows with the square of its corners.
+/// Triangulation takes a time quadratic in the corners of a polygon.
 void requireModestPolygons(const aiScene& scene, const std::string& path, const std::string& obstacle) {
   constexpr unsigned int kMostCorners = 1000;
   for (unsigned int m = 0; m < scene.mNumMeshes; ++m) {
@@ -119,7 +119,7 @@ void appendPart(const aiMesh& part, const Eigen::Matrix4d& pose, const Vec3& sca
   }
 }
 
-/// Refuses what is far too much: parts may be used again and again.
+/// Parts may be instanced many times: the total is limited.
 ShapeTriangles collectParts(const aiScene& scene, const Vec3& scale, const std::string& path,
                             const std::string& obstacle) {
   ShapeTriangles mesh;
@@ -143,7 +143,7 @@ ShapeTriangles collectParts(const aiScene& scene, const Vec3& scale, const std::
   return mesh;
 }
 
-/// Shares exactly equal corners, and drops triangles that have one corner twice; corners of no triangle go.
+/// Merges exactly equal corners; drops triangles with one corner twice, and corners without a triangle.
 ShapeTriangles weld(const ShapeTriangles& mesh) {
   std::vector<int> order;
   order.reserve(3 * mesh.triangles.size());
@@ -189,7 +189,7 @@ void requireSound(const ShapeTriangles& mesh, const std::string& path, const std
 ShapeTriangles loadMesh(const std::string& path, const Vec3& scale, const std::string& obstacle) {
   requireReadable(path, obstacle);
   Assimp::Importer importer;
-  importer.SetIOHandler(new OneFile(path));  // which it then owns
+  importer.SetIOHandler(new OneFile(path));  // owned by the importer
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = nullptr;
   std::string reason;
@@ -200,9 +200,9 @@ ShapeTriangles loadMesh(const std::string& path, const Vec3& scale, const std::s
       scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
     }
     reason = importer.GetErrorString();
-  } catch (const std::invalid_argument&) {  // ours
+  } catch (const std::invalid_argument&) {  // from requireModestPolygons()
     throw;
-  } catch (const std::exception& error) {  // from a format's reader, or out of memory
+  } catch (const std::exception& error) {  // of a reader, or out of memory
     reason = error.what();
   }
   if (scene == nullptr || scene->mRootNode == nullptr) {

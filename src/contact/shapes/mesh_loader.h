@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Mesh files into triangles. STL, OBJ and DAE by assimp; what it hands out is checked here, because it passes on
-// NaN, triangles without area and files without triangles.
+// Reads mesh files (STL, OBJ, DAE) by assimp. Its output is checked here: it passes on NaN, triangles without area and
+// files without triangles.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace curtain {
 
-/// Reads a mesh file: all its parts in their places, polygons cut into triangles, equal corners shared.
-///   path      of the file system
+/// Reads a mesh file: all parts in their poses, polygons triangulated, equal corners shared.
+///   path      in the file system
 ///   scale     factor to metres per axis, each != 0; a mirrored mesh keeps its outside
-///   obstacle  name for the messages
-/// No other file is opened, whatever this one names (materials). Limits: 256 MiB, 4 million triangles, polygons of 1000
-/// corners; DAE: elements 100 deep in each other, 100000 nodes.
-/// The unit of a DAE file is applied, its up axis is not (as rviz does). Throws std::invalid_argument
-/// "obstacle 'NAME': mesh 'PATH' REASON": missing, unreadable, without triangles, without area, not finite.
+///   obstacle  name for messages
+/// Opens no other file, whatever this one refers to (materials). Limits: 256 MiB, 4 million triangles, polygons of 1000
+/// corners; DAE: elements nested 100 deep, 100000 nodes. The unit of a DAE file is applied, its up axis is not (as in
+/// rviz). Throws std::invalid_argument "obstacle 'NAME': mesh 'PATH' REASON": missing, unreadable, without triangles,
+/// without area, not finite.
 ShapeTriangles loadMesh(const std::string& path, const Vec3& scale, const std::string& obstacle);
 
 /// Nodes that a DAE file may expand to, each instance counted with all that it stands for.

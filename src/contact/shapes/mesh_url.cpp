@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// package:// and file:// without ROS, so that curtain_batch reads the scenes of the node.
+// package:// and file:// URLs without ROS, so that curtain_batch reads the node's scenes.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Folders below an entry of ROS_PACKAGE_PATH that are searched for packages.
+/// Depth of the search below an entry of ROS_PACKAGE_PATH.
 constexpr int kSearchDepth = 4;
 
 bool startsWith(const std::string& text, const std::string& start) { return text.compare(0, start.size(), start) == 0; }
@@ -44,8 +44,8 @@ std::string packageName(const fs::path& manifest) {
              : trim(xml.substr(begin + 6, end - begin - 6));
 }
 
-/// Folder of the package at or below `folder`; "" when there is none. As rospack does, it does not look into
-/// packages, hidden folders and those marked CATKIN_IGNORE.
+/// Folder of the package at or below `folder`; "" if there is none. Like rospack it skips packages' insides, hidden
+/// folders and those with a CATKIN_IGNORE.
 fs::path findPackage(const fs::path& folder, const std::string& name, int depth) {
   std::error_code error;
   if (fs::exists(folder / "package.xml", error)) {
@@ -80,7 +80,7 @@ fs::path packageFolder(const std::string& name) {
     if (entry.empty()) {
       continue;
     }
-    // The folder of that name first: most packages are found without a search.
+    // Fast path: most packages are in the folder of their name.
     const fs::path direct = fs::path(entry) / name;
     std::error_code error;
     if (fs::exists(direct / "package.xml", error) && packageName(direct / "package.xml") == name) {
@@ -94,7 +94,7 @@ fs::path packageFolder(const std::string& name) {
   return {};
 }
 
-/// %20 and the like of a file:// URL.
+/// Decodes percent escapes of a file:// URL.
 std::string decodePercent(const std::string& text) {
   const auto digit = [](char c) {
     const std::size_t value = std::string("0123456789abcdefABCDEF").find(c);

@@ -8,12 +8,12 @@
 namespace curtain {
 namespace {
 
-/// Angle between faces [rad] up to which they are one plane: over an edge of 1 m that is 1 um.
+/// Angle between faces that count as coplanar [rad]: 1 um over an edge of 1 m.
 constexpr double kFlatAngle = 1e-6;
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 
-/// Angle [rad] that rounding of the corners may turn the triangle's normal by.
+/// Rotation of the triangle's normal by rounding of the corners [rad].
 double normalError(const ObstacleTriangle& triangle) {
   const auto& [a, b, c] = triangle.corners;
   const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
@@ -22,16 +22,16 @@ double normalError(const ObstacleTriangle& triangle) {
   return 8.0 * kEps * largest / height;
 }
 
-/// Bend between two faces whose normals point to the same side; `along`: unit, as the first face runs.
+/// Bend between two faces with normals on the same side; `along`: unit, in the direction of the first face's edge.
 EdgeBend bendOf(const Vec3& normal, const Vec3& across, const Vec3& along, double flat_angle) {
   const double sine = normal.cross(across).dot(along);
   const double cosine = normal.dot(across);
   if (cosine > 0.0 && std::abs(sine) <= flat_angle) return EdgeBend::kFlat;
-  // A knife edge is folded by half a turn: rounding must not make it a groove.
+  // A knife edge bends by half a turn: rounding must not make it concave.
   return sine >= -flat_angle ? EdgeBend::kConvex : EdgeBend::kConcave;
 }
 
-/// Unit mean of two unit normals, the first where they cancel.
+/// Unit mean of two unit normals; the first if they cancel.
 Vec3 meanNormal(const Vec3& one, const Vec3& other) {
   const Vec3 sum = one + other;
   const double norm = sum.norm();
@@ -74,7 +74,7 @@ void ObstacleFeatures::addVertices(const MeshTopology& topology) {
       const auto corner = static_cast<std::size_t>(mesh.triangles[t][i]);
       if (vertex_of_corner_[corner] != kUnused) continue;
       vertex_of_corner_[corner] = static_cast<std::uint32_t>(vertices_.size());
-      const Vec3& normal = topology.corner_normals[corner];  // zero: the faces around cancel
+      const Vec3& normal = topology.corner_normals[corner];  // zero: the normals around cancel
       vertices_.push_back({mesh.corners[corner], normal == Vec3::Zero() ? topology.face_normals[t] : normal, false});
     }
   }
@@ -118,13 +118,13 @@ void ObstacleFeatures::addEdges(const MeshTopology& topology, FlatEdges flat_edg
     double flat_angle = kFlatAngle + normalError(triangles_[edge.faces[0]]);
     if (count >= 2) {
       edge.faces[1] = face_of_triangle_[sides[first + 1].triangle];
-      // Faces of a shell may be wound against each other: then the second is looked at from its back.
+      // Faces of a shell may be wound oppositely: then the second normal is flipped.
       const bool agree = sides[first + 1].forward != side.forward;
       across =
           agree ? topology.face_normals[sides[first + 1].triangle] : -topology.face_normals[sides[first + 1].triangle];
       flat_angle += normalError(triangles_[edge.faces[1]]);
     } else if (closed_) {
-      // The neighbour was a sliver and is gone; the pseudonormal, half way to what lies behind it, still knows.
+      // The neighbour was degenerate and is dropped. The pseudonormal is half way to the normal of the face behind it.
       const Vec3& half_way = topology.edge_normals[side.triangle][side.slot];
       across = 2.0 * half_way.dot(normal) * half_way - normal;
     }

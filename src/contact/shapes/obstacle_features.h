@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Corners, edges and faces of an obstacle with flat faces, for contact with the cloth's edges and faces: a cloth face
-// can rest on a corner and a cloth edge across an edge while no node is anywhere near.
+// Corners, edges and faces of an obstacle with flat faces. A cloth face can rest on a corner, and a cloth edge across
+// an edge, with no node anywhere near.
 //
-//        ___ cloth edge ___            Which of them can the cloth touch first? Of a solid only what bulges:
-//             /\                       in a groove (concave edge) the walls on both sides are met before it.
-//            /  \  convex      \  /    Of an open shell both sides are free, so every bend can be touched.
+//        ___ cloth edge ___            Touchable features are those that cloth can meet first. Of a solid: convex ones;
+//        in
+//             /\                       a groove (concave edge) the walls on both sides are met before it. Of an open
+//            /  \  convex      \  /    shell: every bend, because both sides are free.
 //           /    \      concave \/
 #pragma once
 
@@ -19,13 +20,13 @@
 
 namespace curtain {
 
-/// How the surface bends at an edge, seen from the side its normals point to.
+/// How the surface bends at an edge, seen from the side of its normals.
 enum class EdgeBend : std::uint8_t {
   kConvex,
   kConcave,
-  kFlat,      ///< the faces lie in one plane as far as rounding can tell
-  kBoundary,  ///< of one face alone: the rim of a shell
-  kBranch     ///< of three faces or more: only in shells
+  kFlat,      ///< coplanar within rounding
+  kBoundary,  ///< one face: the rim of a shell
+  kBranch     ///< three faces or more: only in shells
 };
 
 /// "No face."
@@ -34,19 +35,19 @@ constexpr std::uint32_t kNoFace = std::numeric_limits<std::uint32_t>::max();
 struct ObstacleVertex {
   Vec3 position = Vec3::Zero();  ///< [m]
   Vec3 outward = Vec3::UnitZ();  ///< unit pseudonormal, weighted by the faces' angles
-  /// A face of the cloth may rest on it. Necessary, not sufficient: some edge here is touchable. Where all edges
-  /// are flat or concave, the faces around are met before the corner.
+  /// A face of the cloth may rest on it: necessary, not sufficient. Some edge here is touchable; where all are flat or
+  /// concave the faces around are met first.
   bool touchable = false;
 };
 
 struct ObstacleEdge {
   std::array<Vec3, 2> ends;                              ///< [m]
   std::array<std::uint32_t, 2> vertices{};               ///< of `ends`
-  std::array<std::uint32_t, 2> faces{kNoFace, kNoFace};  ///< its faces, two at most (of a branch: two of them)
+  std::array<std::uint32_t, 2> faces{kNoFace, kNoFace};  ///< adjacent faces (of a branch: two of them)
   Vec3 outward = Vec3::UnitZ();                          ///< unit mean of the faces' normals; rim: the face's normal
   EdgeBend bend = EdgeBend::kFlat;
-  /// An edge of the cloth may touch it. Solid: convex edges. Shell: all but flat ones. A flat edge is never what a
-  /// motion touches first: the cloth meets the plane of its faces by a node, or at an edge that is not flat.
+  /// An edge of the cloth may touch it. Solid: convex edges. Shell: all but flat ones. A flat edge is never touched
+  /// first: the cloth meets the plane of its faces with a node, or at an edge that is not flat.
   bool touchable = false;
 };
 
@@ -56,13 +57,13 @@ struct ObstacleTriangle {
   Vec3 normal = Vec3::UnitZ();              ///< unit
 };
 
-/// Whether edges between coplanar faces are kept: they mean nothing to contact, but a mesh's wireframe has them.
+/// Whether edges between coplanar faces are kept: contact ignores them, the wireframe of a mesh shows them.
 enum class FlatEdges { kKeep, kDrop };
 
-/// Immutable after construction: any number of threads may ask it. All in the obstacle's frame.
+/// Immutable, so thread-safe. All in the obstacle's frame.
 class ObstacleFeatures {
  public:
-  /// O(n log n) in the triangles. Corners that no triangle has are left out.
+  /// O(n log n) in the triangles. Corners without a triangle are left out.
   ObstacleFeatures(const MeshTopology& topology, FlatEdges flat_edges);
 
   /// A solid with an inside (watertight), or a shell with two free sides.
@@ -71,9 +72,8 @@ class ObstacleFeatures {
   const std::vector<ObstacleEdge>& edges() const { return edges_; }
   const std::vector<ObstacleTriangle>& triangles() const { return triangles_; }
 
-  /// Call f(index, feature) once for every feature whose own box touches `box` (limits included), touchable or not, in
-  /// an order that depends on the obstacle alone. `box` in the obstacle's frame [m]; an empty or NaN box has none.
-  /// Allocate nothing and throw only what f throws.
+  /// Call f(index, feature) once for every feature whose box overlaps `box` (limits included), touchable or not, in an
+  /// order that depends on the obstacle only. `box` in the obstacle's frame [m]; empty or NaN: none. Allocate nothing.
   template <typename F>
   void forEachVertexIn(const Eigen::AlignedBox3d& box, F&& f) const {
     visit(vertex_tree_, vertices_, box, f);
@@ -86,7 +86,7 @@ class ObstacleFeatures {
   void forEachTriangleIn(const Eigen::AlignedBox3d& box, F&& f) const {
     visit(triangle_tree_, triangles_, box, f);
   }
-  /// The same of one feature.
+  /// The same for one feature.
   template <typename F>
   void ifVertexIn(const Eigen::AlignedBox3d& box, std::uint32_t n, F&& f) const {
     if (touches(vertices_[n], box)) f(n, vertices_[n]);
@@ -117,7 +117,7 @@ class ObstacleFeatures {
     });
   }
 
-  /// Builds the tree over the features and puts them in its order; returns the new place of each.
+  /// Builds the tree over the features and sorts them by its leaves; returns the new index of each.
   template <typename Feature>
   static std::vector<std::uint32_t> plant(std::vector<Feature>& features, BoxTree& tree);
   void addVertices(const MeshTopology& topology);
@@ -128,8 +128,8 @@ class ObstacleFeatures {
   std::vector<ObstacleVertex> vertices_;
   std::vector<ObstacleEdge> edges_;
   std::vector<ObstacleTriangle> triangles_;
-  std::vector<std::uint32_t> vertex_of_corner_;  // while building: corner of the mesh -> vertex
-  std::vector<std::uint32_t> face_of_triangle_;  // while building: triangle of the mesh -> ours
+  std::vector<std::uint32_t> vertex_of_corner_;  // while building: corner of the mesh -> index in vertices_
+  std::vector<std::uint32_t> face_of_triangle_;  // while building: triangle of the mesh -> index in triangles_
   BoxTree vertex_tree_;
   BoxTree edge_tree_;
   BoxTree triangle_tree_;

@@ -9,7 +9,8 @@
 namespace curtain {
 namespace {
 
-// Between two poses of one frame: the angle is small, so the normalised chord does for the arc (error angle^3 / 100).
+// Interpolates between two poses of a frame. For small angles normalised linear interpolation suffices (error angle^3
+// / 100).
 Pose between(const Pose& a, const Pose& b, double share) {
   Pose pose;
   pose.position = a.position + share * (b.position - a.position);
@@ -24,7 +25,7 @@ bool samePlace(const Pose& a, const Pose& b) {
 }
 
 Eigen::AlignedBox3d boxAround(const Eigen::AlignedBox3d& box, const Transform& transform) {
-  if (!std::isfinite(box.min().sum()) || !std::isfinite(box.max().sum())) {  // a plane is everywhere
+  if (!std::isfinite(box.min().sum()) || !std::isfinite(box.max().sum())) {  // a plane is unbounded
     return {Vec3::Constant(-std::numeric_limits<double>::infinity()),
             Vec3::Constant(std::numeric_limits<double>::infinity())};
   }
@@ -91,7 +92,7 @@ void ObstacleSet::reset() noexcept {
     items_[n].left = items_[n].begin = items_[n].end = items_[n].initial;
     items_[n].scripted = !items_[n].motion.empty();
     items_[n].moved = items_[n].placed = items_[n].behind = false;
-    items_[n].own_way = 0.0;
+    items_[n].own_path = 0.0;
     items_[n].share = 1.0;
     moving_[n].present = true;
   }
@@ -102,7 +103,7 @@ void ObstacleSet::reset() noexcept {
 void ObstacleSet::setPresent(int index, bool present) noexcept {
   Item& item = items_[at(index)];
   item.moved = item.moved || present != moving_[at(index)].present;
-  item.placed = at_rest_ = false;  // its motion went on without it
+  item.placed = at_rest_ = false;  // its motion continued without it
   moving_[at(index)].present = present;
 }
 
@@ -135,14 +136,14 @@ void ObstacleSet::beginFrame(double end_time) noexcept {
     }
     item.share = 1.0;
     if (!item.behind) continue;
-    const double way = wayBetween(item.begin, item.end, n);
-    const double allowed = std::max(item.own_way, following_speed_ * frame_length_);
-    if (way > allowed) item.share = allowed / way;
+    const double rest = pathBetween(item.begin, item.end, n);
+    const double allowed = std::max(item.own_path, following_speed_ * frame_length_);
+    if (rest > allowed) item.share = allowed / rest;
   }
 }
 
-// Of the point that goes farthest, at most [m].
-double ObstacleSet::wayBetween(const Pose& a, const Pose& b, std::size_t index) const noexcept {
+// Bound of the largest displacement of its points [m].
+double ObstacleSet::pathBetween(const Pose& a, const Pose& b, std::size_t index) const noexcept {
   const Eigen::AlignedBox3d& box = moving_[index].bounds;
   const double radius = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).norm();
   const double turned = a.orientation.angularDistance(b.orientation);
@@ -151,13 +152,13 @@ double ObstacleSet::wayBetween(const Pose& a, const Pose& b, std::size_t index) 
 
 void ObstacleSet::moveOn(std::size_t index, const Pose& pose) noexcept {
   Item& item = items_[index];
-  if (item.behind) item.own_way = wayBetween(item.end, pose, index);
+  if (item.behind) item.own_path = pathBetween(item.end, pose, index);
   item.end = pose;
 }
 
 double ObstacleSet::path(int index) const noexcept {
   const Item& item = items_[at(index)];
-  return item.share * wayBetween(item.begin, item.end, at(index));
+  return item.share * pathBetween(item.begin, item.end, at(index));
 }
 
 void ObstacleSet::setSubstep(double from, double to) noexcept {
@@ -184,7 +185,7 @@ void ObstacleSet::endFrame(double share) noexcept {
     const double made = share * item.share;
     item.begin = made >= 1.0 ? item.end : between(item.begin, item.end, made);
     item.moved = item.behind = !samePlace(item.begin, item.end);
-    item.own_way = 0.0;
+    item.own_path = 0.0;
     item.left = item.begin;
   }
 }

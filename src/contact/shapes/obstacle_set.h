@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The obstacles of a scene and where they are: a pose at the start and at the end of the frame, and in between.
+// The obstacles of a scene and their poses: at the start and the end of the frame, interpolated in between.
 #pragma once
 
 #include <memory>
@@ -13,12 +13,12 @@ namespace curtain {
 
 class Archive;
 
-/// What has fallen behind, because frames ended early or the cloth could not give way, follows at this speed at most,
-/// or at its own if that is higher [m/s]: that of a fall through the cloth's height, which moves cloth about as fast as
-/// it moves by itself. Without gravity nothing bounds it.
+/// Speed limit of an obstacle that fell behind its pose, because a frame ended early or the cloth could not give way
+/// [m/s]; its own speed if that is higher. It is that of a free fall through the cloth's height, at which cloth
+/// commonly moves by itself. Infinite without gravity.
 double followingSpeed(const Scene& scene) noexcept;
 
-/// A rigid transform ready for use on many points.
+/// A rigid transform as a matrix, for many points.
 struct Transform {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Vec3 translation = Vec3::Zero();
@@ -34,11 +34,11 @@ struct MovingObstacle {
   const ContactShape* shape = nullptr;
   double friction = 0.0;
   bool present = true;
-  Eigen::AlignedBox3d bounds;  ///< of the shape, its own frame
+  Eigen::AlignedBox3d bounds;  ///< of the shape, in its frame
   Transform before;            ///< at the substep's start
   Transform after;             ///< at its end
 
-  /// Box around the obstacle over the substep, world frame.
+  /// Box around the obstacle during the substep, world frame.
   const Eigen::AlignedBox3d& sweptBounds() const noexcept { return swept_; }
   void move(const Transform& from, const Transform& to) noexcept;
   void carry(Archive& archive);
@@ -49,47 +49,47 @@ struct MovingObstacle {
 
 class ObstacleSet {
  public:
-  /// Throws std::invalid_argument for a mesh that can't be used.
+  /// Throws std::invalid_argument for a mesh that cannot be used.
   ObstacleSet(const Scene& scene, const MeshResolver& resolve);
 
   int count() const { return static_cast<int>(items_.size()); }
   bool anyPresent() const noexcept;
   const Pose& pose(int index) const { return items_[at(index)].end; }
-  /// Where it has got to; behind the pose when the last frame ended early.
+  /// Pose reached so far; differs from pose() when the last frame ended early.
   const Pose& reached(int index) const { return items_[at(index)].begin; }
   const ContactShape& shape(int index) const { return *items_[at(index)].shape; }
   bool present(int index) const { return moving_[at(index)].present; }
   void setPresent(int index, bool present) noexcept;
 
   void reset() noexcept;
-  /// Frames are so long from now on [s].
+  /// Sets the length of a frame [s].
   void takeFrame(double length) noexcept { frame_length_ = length; }
-  /// Where the obstacle will be at the end of the coming frame, or (jump) is from now on.
+  /// Sets the pose at the end of the coming frame, or (jump) from now on.
   void setPose(int index, const Pose& pose, bool jump) noexcept;
 
-  /// Starts a frame that ends at this time [s]: scripted obstacles take their pose from their motion. What has fallen
-  /// behind follows, but not at any speed: for a cloth whose time runs slower it would be a blow.
+  /// Starts a frame that ends at this time [s]: scripted obstacles take their pose from their motion. One that fell
+  /// behind catches up at a limited speed: anything faster would be a blow to the cloth.
   void beginFrame(double end_time) noexcept;
   /// Sets the substep, as shares of the frame in [0, 1].
   void setSubstep(double from, double to) noexcept;
-  /// Ends the frame: obstacles rest where they are until they are told otherwise. share: of the frame that was made,
-  /// [0, 1]; the rest of their way is part of the next one.
+  /// Ends the frame; obstacles rest until moved again. share [0..1]: part of the frame that was simulated; the rest
+  /// of the motion moves to the next frame.
   void endFrame(double share = 1.0) noexcept;
 
-  /// It moves in this frame, or has been put elsewhere, come or gone since the last one.
+  /// It moves in this frame, or was placed, added or removed since the last one.
   bool moved(int index) const noexcept { return items_[at(index)].moved; }
   bool anyMoved() const noexcept;
-  /// Box around it where it was when the last frame ended, world frame.
+  /// Box around its pose at the end of the last frame, world frame.
   Eigen::AlignedBox3d leftBox(int index) const noexcept;
 
   const std::vector<MovingObstacle>& moving() const { return moving_; }
-  /// Box around all that are present over the substep, world frame; empty: none is.
+  /// Box around all present obstacles during the substep, world frame; empty: none.
   const Eigen::AlignedBox3d& sweptBounds() const noexcept { return swept_; }
-  /// How far an obstacle's surface goes in the whole frame, at most [m]; of a plane: its origin.
+  /// Bound of how far a point of its surface moves in the frame [m]; plane: its origin.
   double path(int index) const noexcept;
-  /// Indices in the order of the names: what depends on an order takes this one, not that of the scene's list.
+  /// Indices sorted by name: results depend on names, not on the order in the scene.
   const std::vector<int>& byName() const noexcept { return by_name_; }
-  /// Where an obstacle stands in it.
+  /// Position of an obstacle in byName().
   int rank(int index) const { return rank_[at(index)]; }
 
   void carry(Archive& archive);
@@ -99,20 +99,20 @@ class ObstacleSet {
     std::unique_ptr<const ContactShape> shape;
     std::vector<PoseKey> motion;
     Pose initial;
-    Pose left;  // where the last frame left it
+    Pose left;  // at the end of the last frame
     Pose begin;
     Pose end;
-    bool scripted = false;  // still follows its motion
+    bool scripted = false;  // follows its motion
     bool moved = false;
-    double own_way = 0.0;  // that its pose has moved on by since the last frame [m]
-    double share = 1.0;    // of the way to its pose that it goes in this frame
-    bool behind = false;   // the last frame ended before it had got there
-    bool placed = false;   // rests, and its substep is that already
+    double own_path = 0.0;  // displacement of its target since the last frame [m]
+    double share = 1.0;     // part of the remaining path covered in this frame
+    bool behind = false;    // the last frame ended short of the target
+    bool placed = false;    // at rest, with its substep set
 
     void carry(Archive& archive);
   };
   static std::size_t at(int index) { return static_cast<std::size_t>(index); }
-  double wayBetween(const Pose& a, const Pose& b, std::size_t index) const noexcept;
+  double pathBetween(const Pose& a, const Pose& b, std::size_t index) const noexcept;
   void moveOn(std::size_t index, const Pose& pose) noexcept;
 
   double frame_length_;     // [s]
@@ -121,11 +121,11 @@ class ObstacleSet {
   std::vector<Item> items_;
   std::vector<MovingObstacle> moving_;
   Eigen::AlignedBox3d swept_;
-  bool at_rest_ = false;  // the last substep moved none: unless one is moved the next one finds them as they are
+  bool at_rest_ = false;  // no obstacle moved in the last substep: the next one need not be set
   std::vector<int> by_name_, rank_;
 };
 
-/// A motion's pose at a time: linear in position, slerp in orientation, held at both ends.
+/// Pose of a motion at a time: linear in position, slerp in orientation, clamped at both ends.
 Pose poseAt(const std::vector<PoseKey>& motion, double time) noexcept;
 
 }  // namespace curtain

@@ -19,7 +19,7 @@ class PlaneShape final : public ConvexShape {
     return up ? 0.0 : std::numeric_limits<double>::infinity();
   }
   double smoothRadius() const noexcept override { return std::numeric_limits<double>::infinity(); }
-  /// A square that stands for it.
+  /// For drawing: a finite square.
   ShapeTriangles triangles() const override {
     constexpr double kHalf = 5.0;  // [m]
     return {{{-kHalf, -kHalf, 0.0}, {kHalf, -kHalf, 0.0}, {kHalf, kHalf, 0.0}, {-kHalf, kHalf, 0.0}},

@@ -16,7 +16,7 @@ using cutting_planes::largestCoordinate;
 using cutting_planes::longestEdge;
 using cutting_planes::middleOf;
 
-/// Triangles lower than this share of their longest edge have their nearest point on an edge, to that share.
+/// Triangles lower than this share of their longest edge count as their edges, with a relative error as large.
 constexpr double kFlatTriangle = 1e-8;
 
 template <std::size_t N>
@@ -26,7 +26,7 @@ Vec3 pointAt(const std::array<Vec3, N>& corners, const std::array<double, 3>& we
   return point;
 }
 
-/// A candidate for the nearest point; keeps the best.
+/// Best candidate for the nearest point.
 struct Candidate {
   std::array<double, 3> weights{1.0, 0.0, 0.0};
   double distance_squared = kInfinity;
@@ -51,7 +51,7 @@ double footOn(const Vec3& start, const Vec3& along, const Vec3& point) {
   return square > 0.0 ? std::clamp(along.dot(point - start) / square, 0.0, 1.0) : 0.0;
 }
 
-/// Barycentric coordinates of the foot of the perpendicular from a point, if it lies in the triangle.
+/// Barycentric coordinates of a point's projection, if it is in the triangle.
 bool footIn(const std::array<Vec3, 3>& corners, const Vec3& point, std::array<double, 3>& weights) {
   const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
   const double square = normal.squaredNorm();
@@ -81,8 +81,8 @@ void nearestToPoint(const std::array<Vec3, 3>& corners, const Vec3& point, Candi
   }
 }
 
-/// Edge (from, to) of an element against the segment from `start` along `axis`: every pair of an end and a segment, and
-/// the common perpendicular if both its feet lie within.
+/// Edge (from, to) of an element against the segment from `start` along `axis`: each end against the other segment,
+/// and the common perpendicular if both its feet are inside.
 void nearestToSegment(const Vec3& a, const Vec3& b, std::size_t from, std::size_t to, const Vec3& start,
                       const Vec3& axis, Candidate& best) {
   const Vec3 along = b - a;
@@ -98,7 +98,7 @@ void nearestToSegment(const Vec3& a, const Vec3& b, std::size_t from, std::size_
   const double bb = axis.squaredNorm();
   const double ab = along.dot(axis);
   const double determinant = aa * bb - ab * ab;
-  if (!(determinant > kEps * aa * bb)) return;  // parallel: an end does as well
+  if (!(determinant > kEps * aa * bb)) return;  // parallel: an end is as near
   const Vec3 between = start - a;
   const double t = (along.dot(between) * bb - axis.dot(between) * ab) / determinant;
   const double s = (along.dot(between) * ab - axis.dot(between) * aa) / determinant;
@@ -106,7 +106,7 @@ void nearestToSegment(const Vec3& a, const Vec3& b, std::size_t from, std::size_
   best.offer(onEdge(from, to, t), (a + t * along - start - s * axis).squaredNorm());
 }
 
-/// Where the segment from `start` along `axis` goes through the triangle, if it does.
+/// Where the segment from `start` along `axis` crosses the triangle, if it does.
 void pierce(const std::array<Vec3, 3>& corners, const Vec3& start, const Vec3& axis, Candidate& best) {
   const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
   const double slope = normal.dot(axis);
@@ -118,7 +118,7 @@ void pierce(const std::array<Vec3, 3>& corners, const Vec3& start, const Vec3& a
   best.offer(weights, (pointAt(corners, weights) - start - s * axis).squaredNorm());
 }
 
-/// Corners by a power of two, so that no square over- or underflows and no digit is lost.
+/// Scales by a power of two, which is exact, so that squares neither over- nor underflow.
 template <std::size_t N>
 double normalise(std::array<Vec3, N>& corners, double size) {
   const double factor = std::ldexp(1.0, -std::ilogb(std::max({largestCoordinate(corners), size, 1e-290})));
@@ -126,8 +126,7 @@ double normalise(std::array<Vec3, N>& corners, double size) {
   return factor;
 }
 
-/// The minimum from the weights of the nearest point; `least`: no distance to the shape is smaller (nor differentiable
-/// where it is that small).
+/// Minimum from the weights of the nearest point; least: smallest value of the distance [m], where it has no gradient.
 template <std::size_t N>
 void finish(const ConvexShape& shape, const std::array<Vec3, N>& corners, double least, double size,
             const std::array<double, 3>& weights, ElementMinimum& out) {

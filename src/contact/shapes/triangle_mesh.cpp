@@ -11,12 +11,11 @@
 namespace curtain {
 namespace {
 
-/// Cells of the distance grid: 8 a triangle for small meshes; beyond 8192 it takes longer to fill than the tree to
-/// build.
+/// Cells of the distance grid: 8 per triangle; more than 8192 take longer to fill than the tree to build.
 constexpr double kCellsPerTriangle = 8.0;
 constexpr double kMostCells = 8192.0;
 
-/// Directions from the surface nearer than this share of the coordinates are rounding: 1e-16 / 1e-10 = 1e-6 rad.
+/// Share of the coordinates below which the direction from the surface is rounding: 1e-16 / 1e-10 = 1e-6 rad.
 constexpr double kTinyDistance = 1e-10;
 
 }  // namespace
@@ -33,7 +32,7 @@ TriangleMeshShape::TriangleMeshShape(ShapeTriangles mesh)
 double TriangleMeshShape::gridDistance(const Vec3& point, double bound) const {
   NearestTriangle nearest;
   if (!tree_.nearest(point, bound * bound, nearest)) {
-    tree_.nearest(point, std::numeric_limits<double>::infinity(), nearest);  // the bound was short by rounding
+    tree_.nearest(point, std::numeric_limits<double>::infinity(), nearest);  // the bound was too small by rounding
   }
   return surfacePoint(point, nearest).distance;
 }
@@ -70,8 +69,7 @@ SurfacePoint TriangleMeshShape::surfacePoint(const Vec3& point, const NearestTri
     surface.distance = distance;
     surface.normal = side * outward;
   }
-  // At a face the gradient is its normal. At edges and corners it points away from them, as long as that is more
-  // than rounding.
+  // At a face the gradient is its normal; at edges and corners the direction away from them, unless that is rounding.
   if (nearest.feature != TriangleFeature::kFace && distance > tiny_) {
     surface.normal = away / (topology_.watertight ? surface.distance : distance);
   }
@@ -79,19 +77,19 @@ SurfacePoint TriangleMeshShape::surfacePoint(const Vec3& point, const NearestTri
 }
 
 bool TriangleMeshShape::entry(const Vec3& previous, const Vec3& current, SurfacePoint& out) const noexcept {
-  const Vec3 way = current - previous;
-  // A node that starts on a shell is on neither side of it, and leaves it freely. A solid knows its inside.
-  const double least_fraction = topology_.watertight ? 0.0 : tiny_ / way.norm();
+  const Vec3 displacement = current - previous;
+  // A node that starts on a shell is on neither side and leaves freely. A solid knows its inside.
+  const double least_fraction = topology_.watertight ? 0.0 : tiny_ / displacement.norm();
   TriangleHit hit;
   if (!tree_.firstHit(previous, current, least_fraction, hit)) {
     return false;
   }
   const Vec3& face = topology_.face_normals[hit.triangle];
-  const bool from_behind = !topology_.watertight && face.dot(way) > 0.0;
+  const bool from_behind = !topology_.watertight && face.dot(displacement) > 0.0;
   out.normal = from_behind ? Vec3(-face) : face;
   const auto corner = static_cast<std::size_t>(topology_.mesh.triangles[hit.triangle][0]);
   out.distance = out.normal.dot(current - topology_.mesh.corners[corner]);
-  return out.distance < 0.0;  // not so: the way leads out of the solid
+  return out.distance < 0.0;  // otherwise the path leaves the solid
 }
 
 template <typename Search>
@@ -101,9 +99,9 @@ bool TriangleMeshShape::querySolid(const Vec3& previous, const Vec3& current, do
   const DistanceGrid::Bracket bracket = grid_->bracket(current);
   const double wanted = std::max(reach, motion);
   if (!(bracket.low <= wanted)) {
-    return false;  // outside, and neither within reach nor come through
+    return false;  // outside, not within reach, and too far to have crossed
   }
-  // Where `current` may be inside, the surface must be found however far it is.
+  // If `current` may be inside, the surface must be found at any distance.
   const double bound = std::max(std::abs(bracket.low), std::abs(bracket.high));
   const double limit = bracket.low < 0.0 ? bound : std::min(wanted, bound);
   NearestTriangle nearest;
@@ -111,10 +109,10 @@ bool TriangleMeshShape::querySolid(const Vec3& previous, const Vec3& current, do
     return false;
   }
   const SurfacePoint surface = surfacePoint(current, nearest);
-  SurfacePoint way_in;
-  if (std::abs(surface.distance) <= motion && entry(previous, current, way_in) &&
-      (surface.distance >= 0.0 || surface.normal.dot(way_in.normal) < kSameSide)) {
-    out = way_in;
+  SurfacePoint entry_plane;
+  if (std::abs(surface.distance) <= motion && entry(previous, current, entry_plane) &&
+      (surface.distance >= 0.0 || surface.normal.dot(entry_plane.normal) < kSameSide)) {
+    out = entry_plane;
     return true;
   }
   if (surface.distance > reach) {
@@ -135,16 +133,16 @@ bool TriangleMeshShape::queryShell(const Vec3& previous, const Vec3& current, do
     return false;
   }
   const SurfacePoint surface = surfacePoint(current, nearest);
-  SurfacePoint way_in;
-  if (surface.distance <= motion && entry(previous, current, way_in)) {
-    out = way_in;
+  SurfacePoint entry_plane;
+  if (surface.distance <= motion && entry(previous, current, entry_plane)) {
+    out = entry_plane;
     return true;
   }
   if (surface.distance > reach) {
     return false;
   }
   out = surface;
-  // On the shell itself only `previous` tells the sides apart.
+  // On the shell only `previous` determines the side.
   if (surface.distance <= tiny_ && surface.normal.dot(previous - nearest.point) < 0.0) {
     out.normal = -out.normal;
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// An obstacle made of triangles. A watertight mesh is a solid with an exact signed distance; any other mesh is
-// a thin shell with the free side where the node came from.
+// An obstacle made of triangles: a watertight mesh is a solid with exact signed distance, any other a thin shell whose
+// free side is where the node came from.
 #pragma once
 
 #include <memory>
@@ -20,8 +20,8 @@ class TriangleMeshShape final : public ContactShape {
   explicit TriangleMeshShape(ShapeTriangles mesh);
 
   bool query(const Vec3& previous, const Vec3& current, double reach, SurfacePoint& out) const noexcept override;
-  /// The same answer, sooner where `near` was found for a point nearby. Finds it anew where it does not do, with so
-  /// much room for the point to move [m].
+  /// The same answer, faster if `near` was found for a nearby point; refreshes it otherwise, with a margin for motion
+  /// of `room` [m].
   bool query(const Vec3& previous, const Vec3& current, double reach, double room, NearTriangles& near,
              SurfacePoint& out) const noexcept;
   Eigen::AlignedBox3d bounds() const override { return tree_.bounds(); }
@@ -29,7 +29,7 @@ class TriangleMeshShape final : public ContactShape {
 
   const ObstacleFeatures* features() const noexcept override { return &features_; }
 
-  /// Every edge has two triangles that agree on the outside, and there is an inside.
+  /// Every edge has two triangles of the same orientation, and there is an inside.
   bool watertight() const { return topology_.watertight; }
 
  private:
@@ -46,17 +46,17 @@ class TriangleMeshShape final : public ContactShape {
                                 : queryShell(previous, current, reach, search, out);
   }
 
-  /// Tangent plane of the triangle that the way previous -> current goes in by; false: it goes in nowhere.
+  /// Plane of the triangle through which the path previous -> current enters; false: it enters nowhere.
   bool entry(const Vec3& previous, const Vec3& current, SurfacePoint& out) const noexcept;
   const Vec3& pseudonormal(const NearestTriangle& nearest) const noexcept;
-  /// Signed distance and gradient at `point`, given its nearest triangle; an open mesh counts as outside.
+  /// Signed distance and gradient at `point`, given its nearest triangle; outside of an open mesh on both sides.
   SurfacePoint surfacePoint(const Vec3& point, const NearestTriangle& nearest) const noexcept;
   double gridDistance(const Vec3& point, double bound) const;
 
   MeshTopology topology_;
   ObstacleFeatures features_;
   TriangleMeshTree tree_;
-  double tiny_ = 0.0;  // distance below which a direction to the surface is rounding [m]
+  double tiny_ = 0.0;  // distance below which directions to the surface are rounding [m]
   std::unique_ptr<const DistanceGrid> grid_;
 };
 

@@ -10,10 +10,10 @@
 namespace curtain {
 namespace {
 
-/// Chains of degenerate triangles are followed this far to find a normal; fans of slivers in CAD files are short.
+/// Passes along chains of degenerate triangles to find a normal; fans of slivers in CAD files are short.
 constexpr int kBorrowPasses = 8;
 
-/// Volume by area, as a share of the mesh's diagonal, below which a closed mesh is a doubled sheet without inside.
+/// Volume / area, as a share of the diagonal, below which a closed mesh is a doubled sheet without inside.
 constexpr double kSheetThickness = 1e-9;
 
 constexpr std::int64_t kNoPartner = -1;
@@ -54,7 +54,7 @@ int orientation(const ShapeTriangles& mesh) {
   for (const Vec3& corner : mesh.corners) {
     box.extend(corner);
   }
-  const Vec3 centre = box.center();  // far from the origin the volume would drown in rounding
+  const Vec3 centre = box.center();  // relative to the centre, against cancellation
   double volume = 0.0;
   double area = 0.0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -83,8 +83,8 @@ std::size_t longestEdge(const ShapeTriangles& mesh, std::size_t triangle) {
   return longest;
 }
 
-/// A degenerate triangle lies on its longest edge: it gets the normal of the neighbour there, as if that neighbour
-/// reached across it.
+/// A degenerate triangle lies on its longest edge and takes the normal of the neighbour there, as if that reached
+/// across.
 void borrowNormals(const ShapeTriangles& mesh, const std::vector<std::int64_t>& partners,
                    const std::vector<std::size_t>& degenerate, std::vector<Vec3>& normals) {
   for (int pass = 0; pass < kBorrowPasses; ++pass) {
@@ -97,7 +97,7 @@ void borrowNormals(const ShapeTriangles& mesh, const std::vector<std::int64_t>& 
   }
 }
 
-/// Normal of the surface on the other side of an edge; zero: nothing there.
+/// Normal of the surface across an edge; zero: nothing there.
 Vec3 normalAcross(const ShapeTriangles& mesh, const std::vector<std::int64_t>& partners,
                   const std::vector<bool>& is_degenerate, const std::vector<Vec3>& normals, std::size_t slot) {
   if (partners[slot] == kNoPartner) {
@@ -108,7 +108,7 @@ Vec3 normalAcross(const ShapeTriangles& mesh, const std::vector<std::int64_t>& p
   if (!is_degenerate[other] || other_slot % 3 != longestEdge(mesh, other)) {
     return normals[other];
   }
-  // Seen from its longest edge, a degenerate triangle is as good as the neighbours at its short edges.
+  // Across its longest edge a degenerate triangle stands for the neighbours at its short edges.
   Vec3 sum = Vec3::Zero();
   for (std::size_t e = 1; e < 3; ++e) {
     const std::int64_t beyond = partners[3 * other + (other_slot + e) % 3];
@@ -119,13 +119,13 @@ Vec3 normalAcross(const ShapeTriangles& mesh, const std::vector<std::int64_t>& p
   return unitOrZero(sum);
 }
 
-/// Normal, or the fallback where a knife edge leaves none.
+/// Unit vector, or the fallback where a knife edge cancels it.
 Vec3 unitOrFallback(const Vec3& v, const Vec3& fallback) {
   const double norm = v.norm();
   return norm > 1e-9 ? Vec3(v / norm) : fallback;
 }
 
-/// Sums of the face normals around each corner, weighted by the faces' angles there.
+/// Sums of the face normals around each corner, weighted by angle.
 std::vector<Vec3> cornerNormals(const ShapeTriangles& mesh, const std::vector<Vec3>& normals) {
   std::vector<Vec3> sums(mesh.corners.size(), Vec3::Zero());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

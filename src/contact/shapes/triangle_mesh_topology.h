@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a triangle mesh is apart from its distances: closed or open, and the normals that tell inside from outside.
-// Angle-weighted pseudonormals (Baerentzen, Aanaes 2005, "Signed distance computation using the angle weighted
-// pseudonormal") give the right sign at faces, edges and corners of any closed mesh.
+// Topology of a triangle mesh: closed or open, and the normals that tell inside from outside. Angle-weighted
+// pseudonormals (Baerentzen, Aanaes 2005, "Signed distance computation using the angle weighted pseudonormal") give
+// the right sign at faces, edges and corners of any closed mesh.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@
 
 namespace curtain {
 
-/// Triangles lower than this share of their longest edge have no normal worth the name: below it, rounding turns
-/// the normal by more than 1e-4 rad. They count as degenerate.
+/// Triangles lower than this share of their longest edge count as degenerate: rounding turns their normals by more
+/// than 1e-4 rad.
 constexpr double kDegenerateHeight = 1e-12;
 
 bool isDegenerate(const Vec3& a, const Vec3& b, const Vec3& c) noexcept;
@@ -30,8 +30,7 @@ struct MeshSide {
 /// All sides, those of one edge next to each other and in the order of the triangles.
 std::vector<MeshSide> sortedSides(const ShapeTriangles& mesh);
 
-/// Triangles of nonzero area with their normals. For the three edges ab, bc, ca of each triangle and for each corner
-/// a unit pseudonormal.
+/// Triangles of nonzero area with their normals, and a unit pseudonormal for each edge ab, bc, ca and each corner.
 struct MeshTopology {
   ShapeTriangles mesh;  ///< degenerate triangles dropped; outward if watertight
   bool watertight = false;
@@ -40,8 +39,8 @@ struct MeshTopology {
   std::vector<Vec3> corner_normals;
 };
 
-/// mesh: corners finite, equal corners shared, at least one triangle that is not degenerate. Degenerate ones
-/// still join their neighbours: a mesh closed with them stays closed without.
+/// mesh: corners finite, equal corners shared, at least one non-degenerate triangle. Degenerate ones still connect
+/// their neighbours: a mesh closed with them stays closed without.
 MeshTopology analyseMesh(ShapeTriangles mesh);
 
 }  // namespace curtain

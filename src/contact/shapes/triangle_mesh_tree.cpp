@@ -8,24 +8,24 @@
 namespace curtain {
 namespace {
 
-/// Squares of distances round by less, relative: of triangles that are equally far none is passed over.
+/// Bound of the relative rounding of squared distances, so that none of several equally near triangles is missed.
 constexpr double kRounding = 1e-12;
 
-/// Segment against triangle after Woop, Benthin, Wald 2013 (Watertight Ray/Triangle Intersection): the segment
-/// is sheared onto an axis, and the edge functions of two triangles that share an edge are exact negatives of each
-/// other, so no segment slips between them. Needs contraction to be off.
+/// Segment against triangle (Woop, Benthin, Wald 2013, Watertight Ray/Triangle Intersection): the segment is sheared
+/// onto an axis, and the edge functions of two triangles that share an edge are exact negatives of each other, so no
+/// segment slips between. Needs FP contraction to be off.
 class Segment {
  public:
-  Segment(const Vec3& from, const Vec3& to) : from_(from), way_(to - from) {
-    way_.cwiseAbs().maxCoeff(&z_);
+  Segment(const Vec3& from, const Vec3& to) : from_(from), displacement_(to - from) {
+    displacement_.cwiseAbs().maxCoeff(&z_);
     x_ = (z_ + 1) % 3;
     y_ = (z_ + 2) % 3;
-    shear_x_ = way_[x_] / way_[z_];
-    shear_y_ = way_[y_] / way_[z_];
-    shear_z_ = 1.0 / way_[z_];
+    shear_x_ = displacement_[x_] / displacement_[z_];
+    shear_y_ = displacement_[y_] / displacement_[z_];
+    shear_z_ = 1.0 / displacement_[z_];
   }
 
-  /// Fraction of the segment where it meets the triangle's plane inside the triangle; false: it does not.
+  /// Fraction of the segment at which it meets the triangle; false: it does not.
   bool hits(const std::array<Vec3, 3>& corners, double& fraction) const {
     std::array<Vec3, 3> local;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -40,7 +40,7 @@ class Segment {
     }
     const double sum = u + v + w;
     if (sum == 0.0) {
-      return false;  // the segment lies in the triangle's plane; its neighbours see the crossing
+      return false;  // coplanar: the neighbours see the crossing
     }
     fraction = (u * local[0].z() + v * local[1].z() + w * local[2].z()) / sum;
     return fraction >= 0.0 && fraction <= 1.0;
@@ -52,14 +52,14 @@ class Segment {
     for (int i = 0; i < 3; ++i) {
       const double below = low[i] - margin - from_[i];
       const double above = high[i] + margin - from_[i];
-      if (way_[i] == 0.0) {
+      if (displacement_[i] == 0.0) {
         if (below > 0.0 || above < 0.0) {
           return false;
         }
         continue;
       }
-      const double one = below / way_[i];
-      const double other = above / way_[i];
+      const double one = below / displacement_[i];
+      const double other = above / displacement_[i];
       first = std::max(first, std::min(one, other));
       last = std::min(last, std::max(one, other));
     }
@@ -70,7 +70,7 @@ class Segment {
   static double edge(const Vec3& p, const Vec3& q) { return p.x() * q.y() - p.y() * q.x(); }
 
   Vec3 from_;
-  Vec3 way_;
+  Vec3 displacement_;
   int x_ = 0;
   int y_ = 1;
   int z_ = 2;
@@ -79,7 +79,7 @@ class Segment {
   double shear_z_ = 0.0;
 };
 
-// Puts a triangle into its place; without room the furthest one is left out, and bounds all that are.
+// Inserts a triangle in order; when full the furthest is dropped and bounds all the dropped ones.
 void insert(std::uint32_t place, double distance, NearTriangles& near) {
   std::size_t k = near.count;
   if (k == NearTriangles::kMost)
@@ -162,7 +162,7 @@ TriangleMeshTree::TriangleMeshTree(const ShapeTriangles& mesh) {
   margin_ = 1e-12 * (box.diagonal().norm() + box.min().cwiseAbs().maxCoeff());
 }
 
-// Takes the triangle if it is nearer than the best, or as near and comes first in the input.
+// Takes the triangle if it is nearer than the best, or equally near and earlier in the input.
 bool TriangleMeshTree::take(const Vec3& point, std::uint32_t place, NearestTriangle& best) const noexcept {
   const Triangle& triangle = triangles_[place];
   NearestTriangle candidate = nearestOnTriangle(point, triangle.corners[0], triangle.corners[1], triangle.corners[2]);
@@ -193,7 +193,7 @@ bool TriangleMeshTree::nearest(const Vec3& point, double limit_squared, double r
   const double seen = near.radius - moved;
   if (seen > 0.0) {
     NearestTriangle best;
-    best.distance_squared = seen * seen * (1.0 - kRounding);  // none of the others is as near
+    best.distance_squared = seen * seen * (1.0 - kRounding);  // no triangle outside the cache is as near
     best.triangle = 0;
     double distance = seen;
     bool found = false;

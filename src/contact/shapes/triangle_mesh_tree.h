@@ -14,7 +14,7 @@
 
 namespace curtain {
 
-/// The part of a triangle (a, b, c) that a nearest point lies on.
+/// Feature of a triangle (a, b, c) that holds a nearest point.
 enum class TriangleFeature : std::uint8_t { kFace, kEdgeAb, kEdgeBc, kEdgeCa, kCornerA, kCornerB, kCornerC };
 
 struct NearestTriangle {
@@ -29,15 +29,15 @@ struct TriangleHit {
   std::uint32_t triangle = 0;  ///< index in the tree's input
 };
 
-/// The triangles nearest to a point, the nearest first: while it does not go far, its nearest one is among the first of
-/// them.
+/// Cache: the triangles nearest to a point, sorted by distance. While the point moves little, its nearest one is among
+/// the first.
 struct NearTriangles {
   static constexpr std::size_t kMost = 16;
-  Vec3 centre = Vec3::Zero();  ///< the point [m]
-  double radius = -1.0;        ///< all others are at least that far from it; negative: nothing is known [m]
+  Vec3 centre = Vec3::Zero();  ///< where it was found [m]
+  double radius = -1.0;        ///< all others are at least this far away; negative: empty [m]
   std::size_t count = 0;
   std::array<double, kMost> distances{};      ///< [m]
-  std::array<std::uint32_t, kMost> places{};  ///< in the tree
+  std::array<std::uint32_t, kMost> places{};  ///< indices in the tree
 };
 
 /// Nearest point of the triangle (a, b, c), which may not have zero area; fills all but `triangle`.
@@ -48,16 +48,16 @@ class TriangleMeshTree {
   /// Finite triangles of nonzero area, at least one. O(n log n).
   explicit TriangleMeshTree(const ShapeTriangles& mesh);
 
-  /// Nearest triangle not further than sqrt(limit_squared), of several the first in the input; false: none. Allocates
+  /// Nearest triangle within sqrt(limit_squared), of equal ones the first in the input; false: none. Allocates
   /// nothing.
   bool nearest(const Vec3& point, double limit_squared, NearestTriangle& out) const noexcept;
-  /// The same answer, sooner where `near` was found for a point nearby; finds it anew where it does not do, with so
-  /// much room for the point to move [m].
+  /// The same answer, faster if `near` was found for a nearby point; refreshes it otherwise, with a margin for motion
+  /// of `room` [m].
   bool nearest(const Vec3& point, double limit_squared, double room, NearTriangles& near,
                NearestTriangle& out) const noexcept;
 
-  /// First triangle on the way from -> to, both sides count; false: none. Does not slip through between
-  /// triangles that share an edge. Triangles the segment touches at less than `least_fraction` do not count.
+  /// First triangle on the path from -> to, from either side; false: none. No path slips between triangles that share
+  /// an edge. Hits before `least_fraction` do not count.
   bool firstHit(const Vec3& from, const Vec3& to, double least_fraction, TriangleHit& out) const noexcept;
 
   Eigen::AlignedBox3d bounds() const { return tree_.bounds(); }
@@ -73,7 +73,7 @@ class TriangleMeshTree {
 
   BoxTree tree_;
   std::vector<Triangle> triangles_;  // in the order of its leaves
-  double margin_ = 0.0;              // widens boxes for segments, so that rounding never prunes a hit [m]
+  double margin_ = 0.0;              // grows boxes, so that rounding never prunes a hit [m]
 };
 
 }  // namespace curtain
