@@ -3,8 +3,8 @@
 // All contact of one cloth, with obstacles and with itself, as the solver's ContactFinder.
 //
 //   begin    contacts along the predicted motion, warm-started with the multipliers of the last accepted substep
-//   verify   continuous detection along the solved motion: pairs that would cross become contacts, and the solve goes
-//   on hold     last resort: what still would cross moves as one body (impact_zones.h) or with the obstacle
+//   verify   continuous detection along the solved motion: pairs that would cross become contacts; solve again
+//   hold     last resort: what still would cross moves as one body (impact_zones.h) or with the obstacle
 //
 // Contacts depend on positions and those multipliers only, and are sorted by the obstacles' names and by node. Caches
 // change no bit of a result.
@@ -42,7 +42,7 @@ class ClothContact : public ContactFinder {
 
   /// For a substep without begin(), because contact is impossible.
   void skipSubstep() noexcept { contacts_.clear(); }
-  /// When the cloth is moved by force. Saves nothing but computing time: results do not depend on it.
+  /// When the cloth was placed elsewhere. Only computing time depends on it, no result.
   void clearCaches() noexcept;
   /// For tests: clears the caches in about every other call from now on, drawn from seed; 0: stop.
   void clearCachesAtRandom(std::uint64_t seed) noexcept { clearing_ = seed; }

@@ -3,12 +3,11 @@
 // Which features of an obstacle mesh a quad of the cloth may come near in a substep, cached so that the mesh is rarely
 // asked:
 //
-//            o---o  swept quad         A window is a ball around a quad, and a plane above all touchable edges and
-//        .---|---|---.                 corners of the mesh in the ball. It depends on the mesh only, so it stays valid
-//       /    o---o    \                wherever the cloth goes. A quad whose corners stay within the ball and above the
-//      |===============|  plane        plane, each by more than the reach, is clear: it lies in the hull of its
-//      corners,
-//       \  /\_  _/\_  /                and everything outside the ball is further away than the ball's border.
+//            o---o  swept quad    A window is a ball around a quad, and a plane above all touchable edges and corners
+//        .---|---|---.            of the mesh in the ball. It depends on the mesh only, so it stays valid wherever the
+//       /    o---o    \           cloth goes. A quad whose corners stay within the ball and above the plane, each by
+//      |===============|  plane   more than the reach, is clear: it lies in the hull of its corners, and everything
+//       \  /\_  _/\_  /           outside the ball is further away than the ball's border.
 //        '-/---\----'   mesh
 #pragma once
 

@@ -91,7 +91,6 @@ class ObstacleCandidates {
 
   /// Tangent plane at a face's nearest point, kUnknown before it was computed.
   CachedPlane& facePlane(const Face& face) noexcept { return face_planes_[face.index]; }
-  const CachedPlane& facePlane(const Face& face) const noexcept { return face_planes_[face.index]; }
 
   /// Signed distance at the start of the substep, cut at the thickness [m].
   double distanceOf(std::size_t node) const noexcept {
@@ -104,11 +103,10 @@ class ObstacleCandidates {
   const ContactShape& shape() const noexcept { return shape_; }
   double thickness() const noexcept { return thickness_; }
   double core() const noexcept { return core_; }
-  /// Distances within which nodes, elements and crossings are found for certain [m].
+  /// Nodes and elements that come nearer than this are candidates, for certain [m].
   double nodeReach() const noexcept { return 1.5 * thickness_; }
   double elementReach() const noexcept { return 0.4 * thickness_; }
-  /// Crossings are found within this distance: twice what counts as crossing, because times of impact may be early
-  /// [m].
+  /// The same for crossings: twice what counts as crossing, because times of impact may be early [m].
   double crossingReach() const noexcept { return 2.0 * kLeastShare * thickness_; }
   /// Share of the thickness below which a part counts as crossing.
   static constexpr double kLeastShare = 0.02;

@@ -4,10 +4,9 @@
 // node's own nearest exit parts may leave on different sides (in the middle of a box, some upwards and some sideways),
 // and links would then hold the cloth inside.
 //
-//             ___________          Cloth that passes through a box has two exits, both across itself. Sideways there is
-//            |           |         none, however near that side is: the cloth beyond the far side would be pulled
-//            through.
-//       o----|--o--o--o--|----o    Sideways is an exit only where the cloth ends inside.
+//             ___________          Cloth that passes through a box has two exits, both across itself. Sideways there
+//            |           |         is none, however near that side is: the cloth beyond the far side would be pulled
+//       o----|--o--o--o--|----o    through. Sideways is an exit only where the cloth ends inside.
 //            |___________|
 #pragma once
 

@@ -6,7 +6,7 @@
 //
 //   box around a few nodes         rejects far obstacles at next to no cost
 //   box around all nodes           rejects most others
-//   broad_phase/obstacle_candidates.h
+//   obstacle_candidates.h          broad phase
 //   element_contacts.h             narrow phase and response for the candidates
 #pragma once
 

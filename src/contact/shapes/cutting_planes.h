@@ -4,10 +4,9 @@
 // solving convex programs", in one dimension, nested for triangles). Each tangent is below the distance, and two with
 // slopes of opposite signs bound the minimum between them:
 //
-//      \       /          On a row of the triangle (s fixed, t free) the two tangent planes combine to one that is
-//      level
-//       \__ __/  distance along t: a tangent of the row's minimum as a function of s, which is convex again. So the
-//       outer \  v  /  tangents search uses cutting planes, too, and its bound holds for the whole triangle.
+//      \       /            On a row of the triangle (s fixed, t free) the two tangent planes combine to one that is
+//       \__ __/  distance   level along t: a tangent of the row's minimum as a function of s, which is convex again.
+//       \  v  /  tangents   So the outer search uses cutting planes, too, and its bound holds for the whole triangle.
 //          ^ lower bound
 #pragma once
 

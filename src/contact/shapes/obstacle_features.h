@@ -3,10 +3,9 @@
 // Corners, edges and faces of an obstacle with flat faces. A cloth face can rest on a corner, and a cloth edge across
 // an edge, with no node anywhere near.
 //
-//        ___ cloth edge ___            Touchable features are those that cloth can meet first. Of a solid: convex ones;
-//        in
-//             /\                       a groove (concave edge) the walls on both sides are met before it. Of an open
-//            /  \  convex      \  /    shell: every bend, because both sides are free.
+//        ___ cloth edge ___            Touchable features are those that cloth can meet first. Of a solid: convex
+//             /\                       ones; in a groove (concave edge) the walls on both sides are met before it. Of
+//            /  \  convex      \  /    an open shell: every bend, because both sides are free.
 //           /    \      concave \/
 #pragma once
 
