@@ -68,9 +68,9 @@ class BoxHierarchy {
   /// Drops pairs within neighbouring blocks of a level unless both blocks are isBent(row, column).
   template <typename IsBent>
   void excludeFlat(std::size_t level, const IsBent& bent) noexcept {
-    const Level& even = levels_[level];
-    for (int i = 0; i < even.rows; ++i) {
-      for (int j = 0; j < even.columns; ++j) {
+    const Level& blocks = levels_[level];
+    for (int i = 0; i < blocks.rows; ++i) {
+      for (int j = 0; j < blocks.columns; ++j) {
         if (!bent(i, j)) excludeWithin(level, i, j);
       }
     }
