@@ -23,7 +23,7 @@ endfunction()
 
 add_compile_definitions($<$<CONFIG:Debug>:CURTAIN_FLOAT_TRAPS>)  # test/float_traps.h
 
-foreach(floor scene cloth forces solver contact simulator properties batch fuzz)
+foreach(floor scene cloth forces solver contact simulator budget properties batch fuzz)
   curtain_add_tests(${floor})
 endforeach()
 

@@ -39,8 +39,7 @@ class Watch {
   int mostContacts() const { return most_contacts_; }
   static void report(const char* name, const Simulator& simulator) {
     const Statistics& s = simulator.statistics();
-    std::printf("%s: %.2f ms a frame, %.2f substeps, %lld rejected, %lld unsettled\n", name,
-                1e3 * s.step_seconds_sum / static_cast<double>(s.frames),
+    std::printf("%s: %.2f substeps a frame, %lld rejected, %lld unsettled\n", name,
                 static_cast<double>(s.substeps) / static_cast<double>(s.frames), static_cast<long long>(s.rejected),
                 static_cast<long long>(s.unsettled));
   }
