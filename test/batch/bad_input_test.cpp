@@ -47,7 +47,7 @@ class BadInput : public BatchTest {
 
 const char* const kCloth = "cloth: {rows: 5, columns: 4}\n";
 
-TEST_F(BadInput, Options) {
+TEST_F(BadInput, UnknownAndIncompleteOptionsAreRefused) {
   const std::string good = smallScene();
   expectRefused({}, {"scene"});
   expectRefused({good, "--frobnicate"}, {"--frobnicate", "unknown option"});
@@ -86,7 +86,7 @@ TEST_F(BadInput, ADurationThatNoMemoryHoldsIsNamed) {
   for (const char* value : {"1e12", "1e300"}) expectRefused({smallScene(), "--duration", value}, {"--duration", value});
 }
 
-TEST_F(BadInput, OutputsInFoldersThatAreNotThere) {
+TEST_F(BadInput, OutputsInMissingFoldersAreRefused) {
   const std::string good = smallScene();
   expectRefused({good, "--out", "nowhere/out.csv"}, {"--out", "nowhere"});
   expectRefused({good, "--mesh", "nowhere/mesh.ply"}, {"--mesh", "nowhere"});
@@ -94,7 +94,7 @@ TEST_F(BadInput, OutputsInFoldersThatAreNotThere) {
 }
 
 // What is written last is noticed too: a short file may wait in a buffer until it is closed.
-TEST_F(BadInput, OutputsOnAFullDisk) {
+TEST_F(BadInput, OutputsOnAFullDiskAreAFailure) {
   const std::pair<const char*, const char*> outputs[] = {
       {"--out", "full.csv"}, {"--mesh", "full.ply"}, {"--mesh", "full.obj"}, {"--stats", "full.json"}};
   for (const auto& [option, name] : outputs) {
@@ -105,7 +105,7 @@ TEST_F(BadInput, OutputsOnAFullDisk) {
   }
 }
 
-TEST_F(BadInput, OutputsThatAreFolders) {
+TEST_F(BadInput, OutputsThatAreFoldersAreRefused) {
   const std::string good = smallScene();
   std::filesystem::create_directories(folder_ / "folder.ply");
   expectRefused({good, "--out", "folder.ply"}, {"folder.ply"});
@@ -113,20 +113,20 @@ TEST_F(BadInput, OutputsThatAreFolders) {
   expectRefused({good, "--mesh", "folder.ply"}, {"folder.ply"});
 }
 
-TEST_F(BadInput, MeshNamesWithoutAnEnding) {
+TEST_F(BadInput, MeshNamesWithoutAnEndingAreRefused) {
   for (const char* name : {"m", "abc", "mesh", "ply", ".stl", "mesh.ply.txt"}) {
     expectRefused({smallScene(), "--mesh", name}, {"--mesh", name});
   }
 }
 
-TEST_F(BadInput, SceneFiles) {
+TEST_F(BadInput, SceneFilesThatCanNotBeReadAreRefused) {
   expectRefused({"missing.yaml"}, {"missing.yaml"});
   expectRefused({folder_.string()}, {folder_.string()});
   expectSceneRefused("", {"empty"});
   expectSceneRefused("cloth: {rows: 5, columns: 4\n", {"line"});
 }
 
-TEST_F(BadInput, SceneValues) {
+TEST_F(BadInput, SceneValuesOutOfRangeAreRefused) {
   expectSceneRefused(std::string(kCloth) + "colour: red\n", {"colour"});
   expectSceneRefused("cloth: {rows: 5, columns: 4, rovs: 6}\n", {"cloth.rovs"});
   expectSceneRefused("cloth: {columns: 4}\n", {"cloth.rows", "missing"});
@@ -149,7 +149,7 @@ TEST_F(BadInput, AllProblemsAreListedAtOnce) {
                      {"cloth.rows", "cloth.width", "colour"});
 }
 
-TEST_F(BadInput, Meshes) {
+TEST_F(BadInput, MeshesThatCanNotBeReadAreRefused) {
   const auto withMesh = [&](const std::string& file) {
     return scene(std::string(kCloth) + "obstacles: [{name: bust, shape: mesh, mesh: \"" + file + "\"}]\n");
   };

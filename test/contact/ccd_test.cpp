@@ -122,7 +122,7 @@ void expectTrue(bool edges, const CcdPoints& x, double min_distance, int& told_h
   ASSERT_GT(leastDistance(edges, x, told ? static_cast<Real>(*told) : 1.0L, 60), static_cast<Real>(min_distance));
 }
 
-TEST(CcdOracle, RandomQueries) {
+TEST(CcdOracle, AgreesOnRandomQueries) {
   Random random(5);
   int hits = 0;
   constexpr int kQueries = 3000;
@@ -215,7 +215,7 @@ TEST(CcdSymmetry, OrderPlaceAndScaleDoNotMatter) {
 }
 
 // Corners on a coarse grid of whole numbers: many fall together, in one line or in one plane, and many touch exactly.
-TEST(CcdDegenerate, GridsOfWholeNumbers) {
+TEST(CcdDegenerate, HoldsOnGridsOfWholeNumbers) {
   Random random(8);
   int hits = 0;
   for (int k = 0; k < 1200; ++k) {
@@ -248,7 +248,7 @@ TEST(CcdDegenerate, TouchingAtTheStartIsZero) {
   EXPECT_EQ(timeOfImpact(true, {a, b, a + 0.1 * up, b + 0.1 * up, a, b, a + up, b + up}, 0.11), 0.0);
 }
 
-TEST(CcdDegenerate, NoMotion) {
+TEST(CcdDegenerate, WithoutMotionOnlyATouchIsAnImpact) {
   const Vec3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0), p(0.2, 0.2, 1e-9);
   EXPECT_FALSE(timeOfImpact(false, {p, a, b, c, p, a, b, c}).has_value());
   EXPECT_FALSE(timeOfImpact(true, {a, b, c + p, p, a, b, c + p, p}).has_value());
@@ -264,7 +264,7 @@ TEST(CcdDegenerate, LessThanZeroIsZero) {
 }
 
 // A millimetre's triangle passed at 50 m a step: the time must be that of the plane.
-TEST(CcdDegenerate, FastMotion) {
+TEST(CcdDegenerate, FastMotionIsSeen) {
   Random random(9);
   for (int k = 0; k < 500; ++k) {
     const Vec3 normal = random.direction();

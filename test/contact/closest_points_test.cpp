@@ -42,7 +42,7 @@ void expectSegments(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, 
   ASSERT_NEAR(std::sqrt(closest.distance_squared), least, rounding);
 }
 
-TEST(ClosestOnTriangle, Random) {
+TEST(ClosestOnTriangle, HoldsForRandomOnes) {
   Random random(1);
   for (int k = 0; k < 50000; ++k) {
     const Vec3 a = random.inBox(1.0), b = random.inBox(1.0), c = random.inBox(1.0);
@@ -54,7 +54,7 @@ TEST(ClosestOnTriangle, Random) {
 }
 
 // Heights from a tenth of the base down to nothing.
-TEST(ClosestOnTriangle, Slivers) {
+TEST(ClosestOnTriangle, HoldsForSlivers) {
   Random random(2);
   for (int k = 0; k < 10000; ++k) {
     const Vec3 a = random.inBox(1.0), b = random.inBox(1.0);
@@ -66,7 +66,7 @@ TEST(ClosestOnTriangle, Slivers) {
   }
 }
 
-TEST(ClosestOnTriangle, PointsAndLines) {
+TEST(ClosestOnTriangle, HoldsForPointsAndLines) {
   const Vec3 o(0, 0, 0), x(1, 0, 0), p(0.25, 3, 4);
   expectTriangle(p, o, o, o, 1e-15);
   expectTriangle(p, o, x, o, 1e-15);
@@ -77,7 +77,7 @@ TEST(ClosestOnTriangle, PointsAndLines) {
   expectTriangle(x, o, x, x, 1e-15);
 }
 
-TEST(ClosestOnSegments, Random) {
+TEST(ClosestOnSegments, HoldsForRandomOnes) {
   Random random(3);
   for (int k = 0; k < 50000; ++k) {
     expectSegments(random.inBox(1.0), random.inBox(1.0), random.inBox(1.0), random.inBox(1.0), 1e-14);
@@ -86,7 +86,7 @@ TEST(ClosestOnSegments, Random) {
 }
 
 // Angles from a tenth down to nothing.
-TEST(ClosestOnSegments, NearlyParallel) {
+TEST(ClosestOnSegments, HoldsForNearlyParallelOnes) {
   Random random(4);
   for (int k = 0; k < 10000; ++k) {
     const double angle = std::pow(10.0, -1 - k % 20);
@@ -99,7 +99,7 @@ TEST(ClosestOnSegments, NearlyParallel) {
   }
 }
 
-TEST(ClosestOnSegments, PointsAndLines) {
+TEST(ClosestOnSegments, HoldsForPointsAndLines) {
   const Vec3 o(0, 0, 0), x(1, 0, 0), y(0, 1, 0);
   expectSegments(o, o, x, x, 1e-15);
   expectSegments(o, o, x, x + y, 1e-15);

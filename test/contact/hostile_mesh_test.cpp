@@ -63,7 +63,7 @@ std::string cubeWith(const std::string& nodes, const std::string& library = "") 
 
 std::string instance(const std::string& id) { return "<instance_node url=\"#" + id + "\"/>"; }
 
-TEST_F(HostileMesh, ANodeThatStandsForItself) {
+TEST_F(HostileMesh, ANodeThatStandsForItselfIsRefused) {
   const std::string circle =
       "<node id=\"a\"><instance_geometry url=\"#cube\"/><node id=\"b\">" + instance("a") + "</node></node>";
   expectRefused(file("circle.dae", cubeWith(circle)), "or for themselves");
@@ -73,7 +73,7 @@ TEST_F(HostileMesh, ANodeThatStandsForItself) {
   expectRefused(file("library.dae", cubeWith("<node>" + instance("a") + "</node>", library)), "or for themselves");
 }
 
-TEST_F(HostileMesh, EachNodeTwiceTheOneBefore) {
+TEST_F(HostileMesh, EachNodeTwiceTheOneBeforeIsRefused) {
   std::string library = "<node id=\"a0\"><instance_geometry url=\"#cube\"/></node>";
   for (int i = 1; i < 40; ++i) {
     const std::string before = instance("a" + std::to_string(i - 1));
@@ -92,14 +92,14 @@ TEST_F(HostileMesh, NodesThatStandForOthersAreRead) {
       24u);
 }
 
-TEST_F(HostileMesh, ElementsWithinElements) {
+TEST_F(HostileMesh, ElementsWithinElementsAreRefused) {
   std::string nodes;
   for (int i = 0; i < 200000; ++i) nodes += "<node>";
   for (int i = 0; i < 200000; ++i) nodes += "</node>";
   expectRefused(file("deep.dae", cubeWith(nodes)), "100 deep");
 }
 
-TEST_F(HostileMesh, IndicesThatAreNone) {
+TEST_F(HostileMesh, IndicesThatAreNoneAreRefused) {
   for (const char* bad : {"0 2 x", "0 2 1e5", "0 2 \xFF\xFF", "0 2 <![CDATA[,]]>"}) {
     std::string text = cubeWith(kNode);
     expectRefused(file("indices.dae", text.replace(text.find("<p>0 2"), 6, std::string("<p>") + bad)),
@@ -107,7 +107,7 @@ TEST_F(HostileMesh, IndicesThatAreNone) {
   }
 }
 
-TEST_F(HostileMesh, OneCornerAfterTheOther) {
+TEST_F(HostileMesh, OneCornerAfterTheOtherIsRefused) {
   std::ostringstream text;
   constexpr int kCorners = 100000;  // minutes to cut into triangles
   for (int i = 0; i < kCorners; ++i) {
@@ -120,7 +120,7 @@ TEST_F(HostileMesh, OneCornerAfterTheOther) {
 }
 
 // Whoever opens a pipe waits until somebody writes to it.
-TEST_F(HostileMesh, AMaterialThatIsAPipe) {
+TEST_F(HostileMesh, AMaterialThatIsAPipeIsNotOpened) {
   const std::string pipe = (folder_ / "pipe").string();
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   for (const std::string& name : {pipe, std::string("pipe")}) {
@@ -129,14 +129,14 @@ TEST_F(HostileMesh, AMaterialThatIsAPipe) {
   }
 }
 
-TEST_F(HostileMesh, AFileThatIsFarTooLarge) {
+TEST_F(HostileMesh, AFileThatIsFarTooLargeIsRefused) {
   const std::string path = file("large.stl", "solid large\n");
   fs::resize_file(path, std::uintmax_t{257} << 20U);  // of holes: takes no room
   expectRefused(path, "larger than 256 MiB");
 }
 
 // 50000 times the same part of 100 triangles.
-TEST_F(HostileMesh, PartsUsedAgainAndAgain) {
+TEST_F(HostileMesh, PartsUsedAgainAndAgainAreRefused) {
   std::string nodes;
   for (int i = 0; i < 50000; ++i) nodes += "<node><instance_geometry url=\"#cube\"/></node>";
   std::string text = cubeWith(nodes);

@@ -68,7 +68,7 @@ void expectBounds(const ObstacleShape& shape, const Vec3& low, const Vec3& high)
 
 class EveryCube : public testing::TestWithParam<const char*> {};
 
-TEST_P(EveryCube, isTheUnitCube) {
+TEST_P(EveryCube, IsTheUnitCube) {
   const auto shape = makeFile(GetParam());
   const BoxShape cube(Vec3(1.0, 1.0, 1.0));
   EXPECT_TRUE(isWatertight(*shape));
@@ -87,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(MeshLoader, EveryCube,
                          testing::Values("cube_ascii.stl", "cube_binary.stl", "cube_quads.obj", "cube_inward.obj",
                                          "cube.dae", "cube_sliver.stl", "good_and_degenerate.stl"));
 
-TEST(MeshLoader, icosphereIsClosedAndRound) {
+TEST(MeshLoader, IcosphereIsClosedAndRound) {
   const auto shape = makeFile("icosphere.stl");
   EXPECT_TRUE(isWatertight(*shape));
   EXPECT_EQ(shape->triangles().triangles.size(), 320u);
@@ -100,7 +100,7 @@ TEST(MeshLoader, icosphereIsClosedAndRound) {
   }
 }
 
-TEST(MeshLoader, openFilesAreShells) {
+TEST(MeshLoader, OpenFilesAreShells) {
   for (const char* const file : {"square_open.obj", "cube_open.obj"}) {
     const auto shape = makeFile(file);
     EXPECT_FALSE(isWatertight(*shape)) << file;
@@ -109,7 +109,7 @@ TEST(MeshLoader, openFilesAreShells) {
   }
 }
 
-TEST(MeshLoader, daeUnitAndNodePosesAreAppliedAndItsUpAxisIsNot) {
+TEST(MeshLoader, DaeUnitAndNodePosesAreAppliedAndItsUpAxisIsNot) {
   // In cm: a cube of 20 x 20 x 40 at x = 100, a mirrored one of 20 x 20 x 20 at z = 300.
   for (const char* const file : {"two_cubes_cm_z_up.dae", "two_cubes_cm_y_up.dae"}) {
     const auto shape = makeFile(file);
@@ -121,7 +121,7 @@ TEST(MeshLoader, daeUnitAndNodePosesAreAppliedAndItsUpAxisIsNot) {
   }
 }
 
-TEST(MeshLoader, scaleIsPerAxisAndMayMirror) {
+TEST(MeshLoader, ScaleIsPerAxisAndMayMirror) {
   const auto shape = makeFile("two_cubes_cm_z_up.dae", Vec3(-1.0, 2.0, 0.5));
   EXPECT_TRUE(isWatertight(*shape));
   expectBounds(*shape, Vec3(-1.1, -0.2, -0.1), Vec3(0.1, 0.2, 1.55));
@@ -142,7 +142,7 @@ struct BadFile {
 
 class EveryBadFile : public testing::TestWithParam<BadFile> {};
 
-TEST_P(EveryBadFile, isRefusedWithObstacleFileAndReason) {
+TEST_P(EveryBadFile, IsRefusedWithObstacleFileAndReason) {
   const std::string path = (kMeshes / GetParam().file).string();
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
@@ -168,7 +168,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadFile{"bad_nan_ascii.stl", "has a corner that is not finite"},
                     BadFile{"bad_infinite.stl", "has a corner that is not finite"}));
 
-TEST(MeshLoader, fileCutAnywhereIsAMeshOrARefusal) {
+TEST(MeshLoader, FileCutAnywhereIsAMeshOrARefusal) {
   // Whatever is left of a file, the answer is a shape or the documented exception, never anything else.
   const fs::path folder = fs::path(testing::TempDir()) / "curtain_mesh_cut";
   fs::create_directories(folder);
@@ -189,7 +189,7 @@ TEST(MeshLoader, fileCutAnywhereIsAMeshOrARefusal) {
   fs::remove_all(folder);
 }
 
-TEST(MeshLoader, scaleThatLeavesNothingIsRefused) {
+TEST(MeshLoader, ScaleThatLeavesNothingIsRefused) {
   ObstacleParams obstacle = meshObstacle((kMeshes / "cube_binary.stl").string());
   obstacle.scale = Vec3(1.0, 0.0, 1.0);
   EXPECT_EQ(refusal(obstacle), "obstacle 'chair': scale must be finite and not 0");
@@ -199,7 +199,7 @@ TEST(MeshLoader, scaleThatLeavesNothingIsRefused) {
   EXPECT_NE(refusal(obstacle).find("has no triangle of nonzero area"), std::string::npos);
 }
 
-TEST(MeshUrl, filesAndPlainPaths) {
+TEST(MeshUrl, FilesAndPlainPathsAreTakenAsTheyAre) {
   EXPECT_EQ(resolveMeshUrl("/a/b.stl"), "/a/b.stl");
   EXPECT_EQ(resolveMeshUrl("b.stl"), "b.stl");
   EXPECT_EQ(resolveMeshUrl("file:///a/b%20c.stl"), "/a/b c.stl");
@@ -249,7 +249,7 @@ class PackageTree : public testing::Test {
   std::string before_;
 };
 
-TEST_F(PackageTree, packagesAreFoundByTheNameInTheirManifest) {
+TEST_F(PackageTree, PackagesAreFoundByTheNameInTheirManifest) {
   EXPECT_EQ(resolveMeshUrl("package://alpha/m/x.stl"), (root_ / "one/alpha/m/x.stl").string());  // first entry wins
   EXPECT_EQ(resolveMeshUrl("package://beta/x.stl"), (root_ / "one/stack/folder/deep/x.stl").string());
   EXPECT_EQ(resolveMeshUrl("package://gamma/x.stl"), (root_ / "two/x.stl").string());
@@ -260,7 +260,7 @@ TEST_F(PackageTree, packagesAreFoundByTheNameInTheirManifest) {
   EXPECT_EQ(resolveMeshUrl("package://alpha/m/x.stl"), "");
 }
 
-TEST_F(PackageTree, meshesLoadByPackageUrlAndUnknownPackagesAreRefused) {
+TEST_F(PackageTree, MeshesLoadByPackageUrlAndUnknownPackagesAreRefused) {
   fs::copy_file(kMeshes / "cube_binary.stl", root_ / "two/cube.stl");
   EXPECT_EQ(makeObstacleShape(meshObstacle("package://gamma/cube.stl"))->triangles().triangles.size(), 12u);
   EXPECT_EQ(refusal(meshObstacle("package://delta/cube.stl"))
@@ -268,7 +268,7 @@ TEST_F(PackageTree, meshesLoadByPackageUrlAndUnknownPackagesAreRefused) {
             0u);
 }
 
-TEST(MeshUrl, aResolverOfOnesOwnIsAsked) {
+TEST(MeshUrl, AResolverOfOnesOwnIsAsked) {
   std::string asked;
   const auto shape = makeObstacleShape(meshObstacle("model:cube"), [&asked](const std::string& url) {
     asked = url;

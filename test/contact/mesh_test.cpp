@@ -93,7 +93,7 @@ double windingNumber(const ShapeTriangles& mesh, const Vec3& p) {
   return angle / (4.0 * kPi);
 }
 
-TEST(Mesh, distanceAndSignAgreeWithAllTriangles) {
+TEST(Mesh, DistanceAndSignAgreeWithAllTriangles) {
   const ShapeTriangles mesh = bumpySphere(14, 20, 0.3);
   const TriangleMeshShape shape(mesh);
   ASSERT_TRUE(shape.watertight());
@@ -113,7 +113,7 @@ TEST(Mesh, distanceAndSignAgreeWithAllTriangles) {
   EXPECT_LT(inside, 3800);
 }
 
-TEST(Mesh, reachFindsExactlyWhatLiesWithinIt) {
+TEST(Mesh, ReachFindsExactlyWhatLiesWithinIt) {
   const ShapeTriangles mesh = bumpySphere(14, 20, 0.3);
   const TriangleMeshShape shape(mesh);
   Random random;
@@ -134,7 +134,7 @@ TEST(Mesh, reachFindsExactlyWhatLiesWithinIt) {
   EXPECT_GT(found, 300);
 }
 
-TEST(Mesh, treeAnswersAsAllTrianglesForRandomSoups) {
+TEST(Mesh, TreeAnswersAsAllTrianglesForRandomSoups) {
   Random random;
   for (const int count : {1, 2, 5, 17, 400}) {
     ShapeTriangles soup;
@@ -160,7 +160,7 @@ TEST(Mesh, treeAnswersAsAllTrianglesForRandomSoups) {
 }
 
 /// Corners lie on a lattice and points on its halves: many triangles are equally far.
-TEST(Mesh, trianglesNearAnswerAsTheTree) {
+TEST(Mesh, TrianglesNearAnswerAsTheTree) {
   Random random;
   const auto halves = [&](double half) { return Vec3((4.0 * random.inBox(half)).array().round() / 4.0); };
   int ties = 0, held = 0;
@@ -231,7 +231,7 @@ double bruteHit(const ShapeTriangles& mesh, const Vec3& from, const Vec3& to, do
   return first;
 }
 
-TEST(Mesh, firstHitAgreesWithAllTriangles) {
+TEST(Mesh, FirstHitAgreesWithAllTriangles) {
   const ShapeTriangles mesh = bumpySphere(14, 20, 0.3);
   const TriangleMeshTree tree(mesh);
   Random random;
@@ -255,7 +255,7 @@ TEST(Mesh, firstHitAgreesWithAllTriangles) {
   EXPECT_GT(hits, 500);
 }
 
-TEST(Mesh, noSegmentSlipsBetweenTriangles) {
+TEST(Mesh, NoSegmentSlipsBetweenTriangles) {
   // Aimed exactly at edges and corners, from outside to the centre.
   const ShapeTriangles mesh = bumpySphere(14, 20, 0.3);
   const TriangleMeshTree tree(mesh);
@@ -272,7 +272,7 @@ TEST(Mesh, noSegmentSlipsBetweenTriangles) {
   }
 }
 
-TEST(Mesh, boxOfTrianglesEqualsTheAnalyticBox) {
+TEST(Mesh, BoxOfTrianglesEqualsTheAnalyticBox) {
   const BoxShape box(Vec3(1.0, 1.6, 0.6));
   const TriangleMeshShape mesh(box.triangles());
   ASSERT_TRUE(mesh.watertight());
@@ -293,7 +293,7 @@ TEST(Mesh, boxOfTrianglesEqualsTheAnalyticBox) {
   }
 }
 
-TEST(Mesh, fineSphereOfTrianglesApproachesTheAnalyticSphere) {
+TEST(Mesh, FineSphereOfTrianglesApproachesTheAnalyticSphere) {
   const TriangleMeshShape mesh(bumpySphere(96, 192, 0.0));
   const SphereShape sphere(1.0);
   Random random;
@@ -309,7 +309,7 @@ TEST(Mesh, fineSphereOfTrianglesApproachesTheAnalyticSphere) {
   }
 }
 
-TEST(Mesh, normalIsTheGradientOfTheDistance) {
+TEST(Mesh, NormalIsTheGradientOfTheDistance) {
   const TriangleMeshShape shape(bumpySphere(14, 20, 0.3));
   const auto at = [&shape](const Vec3& p) {
     SurfacePoint surface;
@@ -340,7 +340,7 @@ TEST(Mesh, normalIsTheGradientOfTheDistance) {
   EXPECT_GT(compared, 2800);
 }
 
-TEST(Mesh, onTheSurfaceTheNormalIsTheFacesOwn) {
+TEST(Mesh, OnTheSurfaceTheNormalIsTheFacesOwn) {
   const ShapeTriangles mesh = bumpySphere(14, 20, 0.3);
   const TriangleMeshShape shape(mesh);
   Random random;
@@ -368,7 +368,7 @@ TEST(Mesh, onTheSurfaceTheNormalIsTheFacesOwn) {
   }
 }
 
-TEST(Mesh, windingDoesNotMatterToAClosedMesh) {
+TEST(Mesh, WindingDoesNotMatterToAClosedMesh) {
   ShapeTriangles inward = BoxShape(Vec3(1.0, 1.0, 1.0)).triangles();
   for (Eigen::Vector3i& triangle : inward.triangles) {
     std::swap(triangle[0], triangle[1]);
@@ -380,7 +380,7 @@ TEST(Mesh, windingDoesNotMatterToAClosedMesh) {
   EXPECT_EQ(surface.normal, Vec3(Vec3::UnitZ()));
 }
 
-TEST(Mesh, cavityIsOutside) {
+TEST(Mesh, CavityIsOutside) {
   // A box within a box, its faces turned inward: the room inside is free.
   ShapeTriangles mesh = BoxShape(Vec3(2.0, 2.0, 2.0)).triangles();
   const ShapeTriangles room = BoxShape(Vec3(1.0, 1.0, 1.0)).triangles();
@@ -397,7 +397,7 @@ TEST(Mesh, cavityIsOutside) {
   EXPECT_EQ(surface.normal, Vec3(-Vec3::UnitX()));
 }
 
-TEST(Mesh, thinPlateGivesANodeBackToTheSideItCameFrom) {
+TEST(Mesh, ThinPlateGivesANodeBackToTheSideItCameFrom) {
   const TriangleMeshShape plate(BoxShape(Vec3(1.0, 1.0, 0.01)).triangles());
   SurfacePoint surface;
   ASSERT_TRUE(plate.query(Vec3(0.1, 0.2, 0.02), Vec3(0.1, 0.2, -0.004), 0.001, surface));
@@ -411,7 +411,7 @@ TEST(Mesh, thinPlateGivesANodeBackToTheSideItCameFrom) {
   EXPECT_FALSE(plate.query(Vec3(0.51, 0.0, 0.02), Vec3(0.51, 0.0, -0.5), 0.001, surface));
 }
 
-TEST(Mesh, openSheetRemembersTheSide) {
+TEST(Mesh, OpenSheetRemembersTheSide) {
   const TriangleMeshShape shape(sheet(4, 0.25));
   ASSERT_FALSE(shape.watertight());
   SurfacePoint surface;
@@ -447,7 +447,7 @@ TEST(Mesh, openSheetRemembersTheSide) {
   }
 }
 
-TEST(Mesh, doubledSheetIsAShell) {
+TEST(Mesh, DoubledSheetIsAShell) {
   // Front and back of a square without thickness, cut along different diagonals: every edge has its two triangles,
   // but there is no inside.
   ShapeTriangles mesh;
@@ -465,7 +465,7 @@ TEST(Mesh, doubledSheetIsAShell) {
   }
 }
 
-TEST(Mesh, sliversAndDegeneratesKeepAClosedMeshClosed) {
+TEST(Mesh, SliversAndDegeneratesKeepAClosedMeshClosed) {
   // The box with a triangle of no area in one of its edges, as CAD programs write them.
   const BoxShape box(Vec3(1.0, 1.0, 1.0));
   ShapeTriangles mesh = box.triangles();
@@ -504,7 +504,7 @@ void expectSoundAround(const ShapeTriangles& mesh, const Vec3& place, double hal
   }
 }
 
-TEST(Mesh, spikeWithOneFinelySplitSideHasTheRightSignAtItsTip) {
+TEST(Mesh, SpikeWithOneFinelySplitSideHasTheRightSignAtItsTip) {
   // Unweighted, the ten normals of the split side would outvote the others, and the far side of the tip would count
   // as inside.
   ShapeTriangles mesh;
@@ -522,7 +522,7 @@ TEST(Mesh, spikeWithOneFinelySplitSideHasTheRightSignAtItsTip) {
   expectSoundAround(mesh, Vec3(0.0, 0.0, 2.0), 0.5);
 }
 
-TEST(Mesh, sliverInASharpEdgeKeepsTheSignThere) {
+TEST(Mesh, SliverInASharpEdgeKeepsTheSignThere) {
   // A wedge whose edge along y has a triangle of no area in it: (0, 1, 6) with 6 amid 0 and 1.
   ShapeTriangles mesh;
   mesh.corners = {{0.0, -0.5, 0.0},  {0.0, 0.5, 0.0},  {1.0, -0.5, 0.1}, {1.0, 0.5, 0.1},
@@ -549,7 +549,7 @@ TEST(Mesh, sliverInASharpEdgeKeepsTheSignThere) {
   expectSoundAround(mesh, Vec3::Zero(), 0.4);
 }
 
-TEST(Mesh, hugeAndTinyInputsStayFinite) {
+TEST(Mesh, HugeAndTinyInputsStayFinite) {
   const TriangleMeshShape solid(BoxShape(Vec3(1.0, 1.0, 1.0)).triangles());
   const TriangleMeshShape shell(sheet(3, 0.0));
   for (const TriangleMeshShape* shape : {&solid, &shell}) {
@@ -569,7 +569,7 @@ TEST(Mesh, hugeAndTinyInputsStayFinite) {
   }
 }
 
-TEST(Mesh, twoHundredThousandTriangles) {
+TEST(Mesh, AnswersForTwoHundredThousandTriangles) {
   const ShapeTriangles mesh = bumpySphere(318, 316, 0.2);
   ASSERT_GT(mesh.triangles.size(), 200000u);
   const TriangleMeshShape shape(mesh);

@@ -110,7 +110,7 @@ ShapeTriangles angleBar() {
   return mesh;
 }
 
-TEST(ObstacleFeatures, OfABox) {
+TEST(ObstacleFeatures, OfABoxAreItsEdgesAndCorners) {
   for (const double thickness : {0.6, 1e-14}) {
     const BoxShape box(Vec3(1.0, 1.6, thickness));
     const ObstacleFeatures& features = *box.features();
@@ -195,7 +195,7 @@ TEST(ObstacleFeatures, EveryBendOfAShellIsTouched) {
   EXPECT_EQ(touchableEdges(*flat.features()), 6);
 }
 
-TEST(ObstacleFeatures, OfAShellWithABranchAndFacesWoundAgainstEachOther) {
+TEST(ObstacleFeatures, OfAShellDoNotDependOnHowFacesAreWound) {
   ShapeTriangles mesh;
   mesh.corners = {{0, 0, 0}, {0, 1, 0}, {1, 0.5, 0}, {-1, 0.5, 0}, {0, 0.5, 1}};
   mesh.triangles = {{0, 1, 2}, {0, 1, 3}};  // coplanar, wound against each other

@@ -47,7 +47,7 @@ void expectCount(const Piercings& count, int nodes, int edges, int faces, const 
   EXPECT_EQ(count.faces, faces) << what;
 }
 
-TEST(Piercings, OfAPeaByWhereItSits) {
+TEST(Piercings, OfAPeaAreCountedByWhereItSits) {
   const SphereShape pea(0.05);
   const TriangleMeshShape mesh(pea.triangles());
   ASSERT_TRUE(mesh.watertight());
@@ -70,7 +70,7 @@ TEST(Piercings, OfAPeaByWhereItSits) {
   expectCount(count_mesh(Vec3(1.2, 1.2, 0.06)), 0, 0, 0, "mesh above");
 }
 
-TEST(Piercings, CloseTheRing) {
+TEST(Piercings, AreSeenWhereTheRingCloses) {
   const SphereShape pea(0.05);
   for (const bool closed : {false, true}) {
     const Grid grid(2, 3, closed);
@@ -85,7 +85,7 @@ TEST(Piercings, CloseTheRing) {
   }
 }
 
-TEST(Piercings, OfACornerThatEdgesCut) {
+TEST(Piercings, OfACornerThatEdgesCutAreSeen) {
   // A box whose corner reaches between the nodes: cloth laid over its ridge, nodes outside.
   const BoxShape box(Vec3(10.0, 10.0, 1.0));
   const TriangleMeshShape mesh(box.triangles());
@@ -102,7 +102,7 @@ TEST(Piercings, OfACornerThatEdgesCut) {
   }
 }
 
-TEST(Piercings, OfAShellOnlyWhatGoesThrough) {
+TEST(Piercings, OfAShellAreOnlyWhatGoesThrough) {
   ShapeTriangles square;
   square.corners = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
   square.triangles = {{0, 1, 2}, {0, 2, 3}};
@@ -126,7 +126,7 @@ TEST(Piercings, OfAShellOnlyWhatGoesThrough) {
   expectCount(rim, 0, 1, 1, "half through the rim");
 }
 
-TEST(Piercings, OfAShellsRimThroughAFace) {
+TEST(Piercings, OfAShellsRimThroughAFaceAreSeen) {
   ShapeTriangles blade;  // a triangle whose tip stabs the cloth from below between its nodes
   blade.corners = {{0.2, 0.2, 0.1}, {0.15, 0.2, -1.0}, {0.25, 0.2, -1.0}};
   blade.triangles = {{0, 1, 2}};
@@ -137,7 +137,7 @@ TEST(Piercings, OfAShellsRimThroughAFace) {
   expectCount(countPiercings(shell, Transform(), grid, flatCloth(grid, 0.1 - 1e-7), kTolerance), 0, 0, 0, "pricked");
 }
 
-TEST(Piercings, OfThePlane) {
+TEST(Piercings, OfThePlaneAreWhatLiesBelow) {
   const PlaneShape plane;
   const Grid grid(3, 3, false);
   Field3 cloth = flatCloth(grid, 0.0);
@@ -236,7 +236,7 @@ TEST(Piercings, AgreeWithSamplesOfTheCloth) {
   }
 }
 
-TEST(Piercings, OfASimulation) {
+TEST(Piercings, OfASimulationAreOfWhereItsClothIs) {
   Scene scene = curtain_test::flatScene(11, 11);
   ObstacleParams obstacle;
   obstacle.name = "pea";

@@ -125,7 +125,7 @@ bool isInside(const std::string& name, const Vec3& p) {
   return radial_squared + beyond * beyond < 0.16;
 }
 
-TEST(Shapes, distanceAgreesWithDenseSamplingOfTheSurface) {
+TEST(Shapes, DistanceAgreesWithDenseSamplingOfTheSurface) {
   Random random;
   const int n = 150;
   // The nearest sample is at most half a cell's diagonal from the nearest point: edges 2*0.8/150 (box, tube) and
@@ -149,7 +149,7 @@ TEST(Shapes, distanceAgreesWithDenseSamplingOfTheSurface) {
   }
 }
 
-TEST(Shapes, footOfTheNormalLiesOnTheSurface) {
+TEST(Shapes, FootOfTheNormalLiesOnTheSurface) {
   // Together with the sampling this makes the distance exact: no shorter way exists, and this one arrives.
   Random random;
   for (const auto& [name, shape] : kSolids) {
@@ -163,7 +163,7 @@ TEST(Shapes, footOfTheNormalLiesOnTheSurface) {
   }
 }
 
-TEST(Shapes, normalIsTheGradientOfTheDistance) {
+TEST(Shapes, NormalIsTheGradientOfTheDistance) {
   Random random;
   const double h = 1e-5;
   for (const auto& [name, shape] : kSolids) {
@@ -194,7 +194,7 @@ TEST(Shapes, normalIsTheGradientOfTheDistance) {
   }
 }
 
-TEST(Shapes, knownValues) {
+TEST(Shapes, HaveTheKnownValues) {
   SurfacePoint surface = kSphere.nearest(Vec3(0.0, 2.7, 0.0));
   EXPECT_NEAR(surface.distance, 2.0, kRounding);
   EXPECT_EQ(surface.normal, Vec3(Vec3::UnitY()));
@@ -215,7 +215,7 @@ TEST(Shapes, knownValues) {
   EXPECT_EQ(surface.normal, Vec3(Vec3::UnitZ()));
 }
 
-TEST(Shapes, centresAxesEdgesAndCornersHaveAUnitNormalAndTheRightDistance) {
+TEST(Shapes, CentresAxesEdgesAndCornersHaveAUnitNormalAndTheRightDistance) {
   const std::vector<std::pair<const ConvexShape*, std::pair<Vec3, double>>> cases = {
       {&kSphere, {Vec3::Zero(), -0.7}},
       {&kBox, {Vec3::Zero(), -0.3}},
@@ -237,7 +237,7 @@ TEST(Shapes, centresAxesEdgesAndCornersHaveAUnitNormalAndTheRightDistance) {
   }
 }
 
-TEST(Shapes, tinyAndHugeInputsStayFinite) {
+TEST(Shapes, TinyAndHugeInputsStayFinite) {
   for (const auto& [name, shape] : kSolids) {
     for (const double size : {0.0, 1e-320, 1e-160, 1e-12, 1.0, 1e12, 1e160, 1e307}) {
       for (const Vec3& direction : {Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(0, 0, 1), Vec3(0.6, 0.64, -0.48)}) {
@@ -265,7 +265,7 @@ TEST(Shapes, tinyAndHugeInputsStayFinite) {
   EXPECT_NEAR(surface.distance, -1e-12, 2e-16);
 }
 
-TEST(Shapes, reachDecidesOutsideAndNeverInside) {
+TEST(Shapes, ReachDecidesOutsideAndNeverInside) {
   SurfacePoint surface;
   EXPECT_TRUE(queryAtRest(kSphere, Vec3(0.75, 0.0, 0.0), 0.06, surface));
   EXPECT_FALSE(queryAtRest(kSphere, Vec3(0.75, 0.0, 0.0), 0.04, surface));
@@ -273,7 +273,7 @@ TEST(Shapes, reachDecidesOutsideAndNeverInside) {
   EXPECT_NEAR(surface.distance, -0.6, kRounding);
 }
 
-TEST(Shapes, nodePressedIntoAThinPlateGoesBackTheWayItCame) {
+TEST(Shapes, NodePressedIntoAThinPlateGoesBackTheWayItCame) {
   const BoxShape plate(Vec3(1.0, 1.0, 0.01));
   SurfacePoint surface;
   // In the lower half: the nearest exit would be below.
@@ -295,7 +295,7 @@ TEST(Shapes, nodePressedIntoAThinPlateGoesBackTheWayItCame) {
   EXPECT_FALSE(plate.query(Vec3(0.51, 0.0, 0.02), Vec3(0.51, 0.0, -0.5), 0.001, surface));
 }
 
-TEST(Shapes, nodeThatPassedARoundSolidIsHeldByTheTangentPlaneOfTheEntry) {
+TEST(Shapes, NodeThatPassedARoundSolidIsHeldByTheTangentPlaneOfTheEntry) {
   SurfacePoint surface;
   // Sphere: in at (-0.7, 0, 0), out beyond.
   ASSERT_TRUE(kSphere.query(Vec3(-1.0, 0.0, 0.0), Vec3(1.0, 0.1 / 3.0, 0.0), 0.001, surface));
@@ -344,7 +344,7 @@ bool marchedEntry(const std::string& name, const Vec3& from, const Vec3& to, Vec
   return false;
 }
 
-TEST(Shapes, entryAgreesWithMarchingAlongTheWay) {
+TEST(Shapes, EntryAgreesWithMarchingAlongTheWay) {
   Random random;
   for (const char* const name : {"sphere", "box", "cylinder", "capsule", "rounded box"}) {
     const ConvexShape& shape = *kSolids.at(name);
@@ -380,7 +380,7 @@ TEST(Shapes, entryAgreesWithMarchingAlongTheWay) {
   }
 }
 
-TEST(Shapes, nodeOnTheSurfaceLeavesFreely) {
+TEST(Shapes, NodeOnTheSurfaceLeavesFreely) {
   // A start exactly on the surface, outward or along a tangent, is no entry, however it rounds.
   Random random;
   for (const auto& [name, shape] : kSolids) {
@@ -420,7 +420,7 @@ double sixVolumes(const ShapeTriangles& shape, bool& closed) {
   return volume;
 }
 
-TEST(Shapes, trianglesAreClosedOutwardAndOnTheSurface) {
+TEST(Shapes, TrianglesAreClosedOutwardAndOnTheSurface) {
   const std::map<std::string, double> volumes = {{"sphere", 4.0 / 3.0 * kPi * 0.343},
                                                  {"box", 0.96},
                                                  {"cylinder", kPi * 0.25 * 1.4},
@@ -450,7 +450,7 @@ TEST(Shapes, trianglesAreClosedOutwardAndOnTheSurface) {
   }
 }
 
-TEST(Shapes, factoryBuildsEachShapeAndRefusesNonsense) {
+TEST(Shapes, FactoryBuildsEachShapeAndRefusesNonsense) {
   ObstacleParams obstacle;
   obstacle.name = "ball";
   obstacle.radius = 0.5;

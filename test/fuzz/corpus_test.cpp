@@ -40,14 +40,14 @@ void checkFiles(void (*check)(const std::string&), const std::vector<std::string
   }
 }
 
-TEST(FuzzCorpus, SceneTexts) {
+TEST(FuzzCorpus, SceneTextsBreakNothing) {
   checkFiles(curtain_test::checkSceneText, {"test/fuzz/corpus/scene_yaml", "config/scenes", "test/scenes"});
 }
 
-TEST(FuzzCorpus, Meshes) { checkFiles(curtain_test::checkMesh, {"test/fuzz/corpus/mesh", "test/meshes"}); }
+TEST(FuzzCorpus, MeshesBreakNothing) { checkFiles(curtain_test::checkMesh, {"test/fuzz/corpus/mesh", "test/meshes"}); }
 
-TEST(FuzzCorpus, Snapshots) { checkFiles(curtain_test::checkSnapshot, {"test/fuzz/corpus/snapshot"}); }
+TEST(FuzzCorpus, SnapshotsBreakNothing) { checkFiles(curtain_test::checkSnapshot, {"test/fuzz/corpus/snapshot"}); }
 
-TEST(FuzzCorpus, Steps) { checkFiles(curtain_test::checkSteps, {"test/fuzz/corpus/step"}); }
+TEST(FuzzCorpus, StepsBreakNothing) { checkFiles(curtain_test::checkSteps, {"test/fuzz/corpus/step"}); }
 
 }  // namespace

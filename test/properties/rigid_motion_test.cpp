@@ -84,7 +84,7 @@ class RigidMotion : public ::testing::TestWithParam<std::tuple<Kind, Method>> {
 };
 
 // About any axis, gravity turned as well; and about the vertical, gravity plumb.
-TEST_P(RigidMotion, Turned) {
+TEST_P(RigidMotion, TurnedSceneMovesTurned) {
   int fit = 0, rods_alone = 0;
   for (const std::uint64_t seed : seeds(8, {12})) {
     const Trial trial = trialOf(seed);
@@ -106,7 +106,7 @@ TEST_P(RigidMotion, Turned) {
   }
 }
 
-TEST_P(RigidMotion, Shifted) {
+TEST_P(RigidMotion, ShiftedSceneMovesShifted) {
   for (const std::uint64_t seed : seeds(8)) {
     const Trial trial = trialOf(seed);
     if (!trial.fit) continue;

@@ -15,7 +15,7 @@ std::string wind(const std::string& text) { return with("wind: [{id: fan, " + te
 std::string drag(const std::string& text) { return with("drag: [{id: hand, " + text + "}]"); }
 std::string obstacle(const std::string& text) { return with("obstacles: [{name: thing, " + text + "}]"); }
 
-TEST(BadInput, NothingToRead) {
+TEST(BadInput, TextWithoutASceneIsRefused) {
   for (const char* text : {"", "# only a comment\n", "---\n", "~"}) expectProblem(text, "", {"is empty", "map"});
   expectProblem("[1, 2]", "", {"must be a map", "is a list of 2"});
   expectProblem("hello", "", {"must be a map", "is the text \"hello\""});
@@ -42,7 +42,7 @@ TEST(BadInput, FileThatCantBeOpenedIsNamed) {
   }
 }
 
-TEST(BadInput, MissingSize) {
+TEST(BadInput, MissingRowsAndColumnsAreNamed) {
   expectProblem("cloth: {columns: 3}", "cloth.rows", {"is missing", "an integer in [2, 4096]"});
   expectProblem("cloth: {rows: 3}", "cloth.columns", {"is missing", "an integer in [2, 4096]"});
   const std::vector<Problem> problems = readSceneText("gravity: [0, 0, -9.81]").problems;
@@ -51,7 +51,7 @@ TEST(BadInput, MissingSize) {
   EXPECT_EQ(problems[1].key, "cloth.columns");
 }
 
-TEST(BadInput, Integers) {
+TEST(BadInput, IntegersOutOfRangeOrOfAnotherTypeAreNamed) {
   const std::string range = "must be an integer in [2, 4096], is ";
   expectProblem("cloth: {rows: 1, columns: 3}", "cloth.rows", {range + "1"});
   expectProblem("cloth: {rows: 4097, columns: 3}", "cloth.rows", {range + "4097"});
@@ -68,7 +68,7 @@ TEST(BadInput, Integers) {
   expectProblem("cloth: {rows: 4, columns: 2, closed: true}", "cloth.columns", {"an integer in [3, 4096], is 2"});
 }
 
-TEST(BadInput, NumbersGivenAsText) {
+TEST(BadInput, NumbersGivenAsTextAreNamedWithTheRightSpelling) {
   const std::string key = "solver.stretch_tolerance";
   const auto tolerance = [](const std::string& value) { return with("solver: {stretch_tolerance: " + value + "}"); };
   expectProblem(tolerance("1e-6"), key, {"a number in [1e-12, 0.1]", "is the text \"1e-6\"", "write 1.0e-6"});
@@ -84,7 +84,7 @@ TEST(BadInput, NumbersGivenAsText) {
   expectProblem(wind("end: '.inf'"), "wind[0].end", {"write .inf without quotes"});
 }
 
-TEST(BadInput, NumbersOutOfRange) {
+TEST(BadInput, NumbersOutOfRangeAreNamedWithTheirRange) {
   expectProblem(cloth("width: 0.0, hem_width: 1.0"), "cloth.width", {"a number in [1e-09, 1000000000], is 0"});
   expectProblem(cloth("height: -2"), "cloth.height", {"a number in [1e-09, 1000000000], is -2"});
   expectProblem(cloth("height: .inf"), "cloth.height", {"a number in [1e-09, 1000000000], is .inf"});
@@ -108,7 +108,7 @@ TEST(BadInput, NumbersOutOfRange) {
   expectProblem(with("hang: {tilt: .nan}"), "hang.tilt", {"a number in [-1000000000, 1000000000], is .nan"});
 }
 
-TEST(BadInput, Substeps) {
+TEST(BadInput, SubstepsAreAutoOrAWholeNumber) {
   const std::string wanted = "auto or an integer in [1, 10000], is ";
   expectProblem(with("solver: {substeps: 0}"), "solver.substeps", {wanted + "0"});
   expectProblem(with("solver: {substeps: 2.5}"), "solver.substeps", {wanted + "2.5"});
@@ -119,14 +119,14 @@ TEST(BadInput, Substeps) {
   EXPECT_EQ(validate(scene)[0].key, "solver.substeps");
 }
 
-TEST(BadInput, Seed) {
+TEST(BadInput, SeedIsAWholeNumberOf64Bits) {
   for (const char* seed : {"-1", "1.5", "18446744073709551616", "'1'"}) {
     expectProblem(with(std::string("solver: {seed: ") + seed + "}"), "solver.seed",
                   {"an integer in [0, 18446744073709551615]"});
   }
 }
 
-TEST(BadInput, WordsAndFlags) {
+TEST(BadInput, UnknownWordsAreNamedWithTheKnownOnes) {
   expectProblem(cloth("lumping: even"), "cloth.lumping", {"area or uniform, is the text \"even\""});
   expectProblem(cloth("closed: 'true'"), "cloth.closed", {"true or false, is the text \"true\""});
   expectProblem(cloth("closed: 1"), "cloth.closed", {"true or false, is 1"});
@@ -141,7 +141,7 @@ TEST(BadInput, WordsAndFlags) {
   expectProblem(with("wind: [{radius: 1.0}]"), "wind[0].id", {"is missing", "text"});
 }
 
-TEST(BadInput, UnknownKeys) {
+TEST(BadInput, UnknownKeysAreNamedWithTheLikelyOne) {
   expectProblem(cloth("heigth: 2.0"), "cloth.heigth", {"not a known key", "did you mean height?"});
   expectProblem(with("obstacle: []"), "obstacle", {"did you mean obstacles?"});
   expectProblem(wind("raduis: 2.0"), "wind[0].raduis", {"did you mean radius?"});
@@ -152,13 +152,13 @@ TEST(BadInput, UnknownKeys) {
                 "obstacles[0].motion[0].pos", {"not a known key"});
 }
 
-TEST(BadInput, DuplicateKeys) {
+TEST(BadInput, KeysGivenTwiceAreNamedWithTheirLines) {
   expectProblem("cloth:\n  rows: 4\n  columns: 3\n  rows: 5\n", "cloth.rows", {"more than once", "lines 2 and 4"});
   expectProblem(with("gravity: [0, 0, -1]\ngravity: [0, 0, -1]"), "gravity", {"more than once"});
   expectProblem(wind("radius: 1.0, radius: 1.0"), "wind[0].radius", {"more than once"});
 }
 
-TEST(BadInput, MapsAndLists) {
+TEST(BadInput, MapsAndListsDoNotStandForEachOther) {
   expectProblem(with("air: 5"), "air", {"must be a map, is 5"});
   expectProblem(with("hang: [1]"), "hang", {"must be a map, is a list of 1"});
   expectProblem("cloth: 5", "cloth", {"must be a map, is 5"});
@@ -170,7 +170,7 @@ TEST(BadInput, MapsAndLists) {
   expectProblem(cloth("row_mass: 2.0"), "cloth.row_mass", {"must be a list of numbers, is 2.0"});
 }
 
-TEST(BadInput, Vectors) {
+TEST(BadInput, VectorsAreThreeFiniteNumbers) {
   expectProblem(with("gravity: -9.81"), "gravity", {"a list of 3 numbers, is -9.81"});
   expectProblem(with("gravity: [0, -9.81]"), "gravity", {"a list of 3 numbers, is a list of 2"});
   expectProblem(with("gravity: [0, 0, down]"), "gravity[2]",
@@ -182,7 +182,7 @@ TEST(BadInput, Vectors) {
   expectProblem(wind("direction: [0, 0.0, 1.0e-200]"), "wind[0].direction", {"a length > 0"});
 }
 
-TEST(BadInput, PerNodeLists) {
+TEST(BadInput, ListsOfTheWrongLengthAreNamed) {
   expectProblem(cloth("row_spacing: [1, 2]"), "cloth.row_spacing", {"3 entries (rows - 1)", "has 2"});
   expectProblem(cloth("column_spacing: [1, 2, 3]"), "cloth.column_spacing", {"2 entries (columns - 1)", "has 3"});
   expectProblem(cloth("closed: true, column_spacing: [1, 2]"), "cloth.column_spacing",
@@ -194,7 +194,7 @@ TEST(BadInput, PerNodeLists) {
                 {"a number in [1e-09, 1000000000], is the text \"x\""});
 }
 
-TEST(BadInput, Pins) {
+TEST(BadInput, PinsOutsideTheClothAreNamed) {
   expectProblem(with("pins: bottom"), "pins", {"top, left, top_corners or none, or a list", "\"bottom\""});
   expectProblem(with("pins: 3"), "pins", {"or a list of [row, column], is 3"});
   expectProblem(with("pins: [[0, 0], [4, 0]]"), "pins[1]", {"row in [0, 3] and column in [0, 2], is [4, 0]"});
@@ -205,7 +205,7 @@ TEST(BadInput, Pins) {
   expectProblem(with("pins: [[0, 1.5]]"), "pins[0][1]", {"an integer, is 1.5"});
 }
 
-TEST(BadInput, HangLine) {
+TEST(BadInput, HangLineLongerThanTheClothIsWideIsNamed) {
   expectProblem(with("hang: {from: [0, 0, 2], to: [1.1, 0, 2]}"), "hang.to",
                 {"no further from hang.from than cloth.width = 1 m", "is 1.1 m away"});
   expectProblem(with("hang: {from: [0, 0, 2], to: [0, 0, 2]}"), "hang.to", {"must differ from hang.from"});
@@ -214,7 +214,7 @@ TEST(BadInput, HangLine) {
   expectScene(with("hang: {from: [0.1, 0, 2], to: [1.1000000000000001, 0, 2]}"));
 }
 
-TEST(BadInput, HemTapersFasterThanTheRodsAreLong) {
+TEST(BadInput, HemThatTapersFasterThanTheRodsAreLongIsNamed) {
   // Rods of 2/3 m; the outer one would have to lean over by half of the rows' difference, 1 m.
   const std::string text =
       "cloth: {rows: 4, columns: 3, width: 7.0, hem_width: 1.0}\nhang: {from: [0, 0, 2], to: [7, 0, 2]}";
@@ -224,7 +224,7 @@ TEST(BadInput, HemTapersFasterThanTheRodsAreLong) {
   expectScene("cloth: {rows: 4, columns: 3, hem_width: 9.0}");
 }
 
-TEST(BadInput, RingWiderThanItsWeft) {
+TEST(BadInput, RingWiderThanItsWeftIsNamed) {
   // 6 links of 1/6 m: the hexagon's radius is 1/6 m, the circle's 1/(2 pi) = 0.159 m.
   const std::string ring = "cloth: {rows: 5, columns: 6, closed: true";
   expectScene(ring + "}\n");
@@ -239,7 +239,7 @@ TEST(BadInput, RingWiderThanItsWeft) {
   expectProblem(ring + "}\nhang: {radius: 0}\n", "hang.radius", {"a number in [1e-09, 1000000000], is 0"});
 }
 
-TEST(BadInput, RingOfUnevenLinks) {
+TEST(BadInput, RingOfUnevenLinksIsBoundByItsShortOnes) {
   // A long link bulges least: its chord is the shortest for its length, so the short ones decide. 12 m around, links
   // 1, 1, 10: for links of 1/12 of the way around the largest radius is (1/2) / sin(pi / 12) = 1.9319 m.
   const std::string ring = "cloth: {rows: 3, columns: 3, width: 12.0, closed: true, column_spacing: [1, 1, 10]}\n";
@@ -247,7 +247,7 @@ TEST(BadInput, RingOfUnevenLinks) {
   expectProblem(ring + "hang: {radius: 1.932}\n", "hang.radius", {"row 0", "link 0", "at most 1 m"});
 }
 
-TEST(BadInput, Times) {
+TEST(BadInput, EndsMustComeAfterStarts) {
   expectProblem(wind("start: 2.0, end: 1.0"), "wind[0].end", {"> start = 2, is 1"});
   expectProblem(wind("start: 2.0, end: 2.0"), "wind[0].end", {"> start = 2, is 2"});
   expectProblem(wind("start: .inf"), "wind[0].start", {"a number in [-1000000000, 1000000000], is .inf"});
@@ -257,13 +257,13 @@ TEST(BadInput, Times) {
 }
 
 // It could not be written again, and no topic would take it.
-TEST(BadInput, TextThatIsNoUtf8) {
+TEST(BadInput, TextThatIsNoUtf8IsNamed) {
   for (const std::string bad : {"a\xFF", "\xC0\xAF", "\xE2\x82", "\xED\xA0\x80"}) {
     expectProblem(smallScene() + std::string("wind: [{id: ") + bad + "}]\n", "wind[0].id", {"UTF-8"});
   }
 }
 
-TEST(BadInput, Wind) {
+TEST(BadInput, BadWindsAreNamed) {
   expectProblem(wind("radius: 0"), "wind[0].radius", {"a number in [1e-09, 1000000000], is 0"});
   expectProblem(wind("half_angle: 1.6"), "wind[0].half_angle", {"a number in [0, 1.5], is 1.6"});
   expectProblem(wind("pressure: -1"), "wind[0].pressure", {"a number in [0, 1000000000], is -1"});
@@ -277,7 +277,7 @@ TEST(BadInput, Wind) {
   expectProblem(with("wind: [{id: a}, {id: b}, {id: a}]"), "wind[2].id", {"unique", "\"a\" is taken by wind[0]"});
 }
 
-TEST(BadInput, Drag) {
+TEST(BadInput, BadDragsAreNamed) {
   expectProblem(drag("force: [0, 0, 1]"), "drag[0]", {"exactly one of node and point, gives neither"});
   expectProblem(drag("node: [0, 0], point: [0, 0, 0]"), "drag[0]", {"exactly one of node and point, gives both"});
   expectProblem(drag("node: [4, 0]"), "drag[0].node", {"row in [0, 3]", "is [4, 0]"});
@@ -290,7 +290,7 @@ TEST(BadInput, Drag) {
   expectProblem(with("drag: [{id: a, node: [0, 0]}, {id: a, node: [0, 0]}]"), "drag[1].id", {"taken by drag[0]"});
 }
 
-TEST(BadInput, ObstacleShapes) {
+TEST(BadInput, KeysOfAnotherShapeAreNamed) {
   expectProblem(obstacle("shape: cone"), "obstacles[0].shape",
                 {"sphere, box, cylinder, capsule, plane or mesh", "is the text \"cone\""});
   expectProblem(obstacle("shape: box, size: [1, 1, 1], radius: 1.0"), "obstacles[0].radius",
@@ -302,7 +302,7 @@ TEST(BadInput, ObstacleShapes) {
   expectProblem(obstacle("shape: mesh, mesh: a.stl, radius: 1.0"), "obstacles[0].radius", {"belong to shape mesh"});
 }
 
-TEST(BadInput, ObstacleSizes) {
+TEST(BadInput, MissingSizesOfObstaclesAreNamed) {
   expectProblem(obstacle("shape: sphere"), "obstacles[0].radius", {"is missing", "a number in [1e-09, 1000000000]"});
   expectProblem(obstacle("shape: cylinder, radius: 1.0"), "obstacles[0].length", {"is missing"});
   expectProblem(obstacle("shape: box"), "obstacles[0].size", {"is missing"});
@@ -320,7 +320,7 @@ TEST(BadInput, ObstacleSizes) {
                 {"at least 1e-09 in size, is .inf"});
 }
 
-TEST(BadInput, ObstacleRest) {
+TEST(BadInput, BadPosesAndMotionsOfObstaclesAreNamed) {
   const auto ball = [](const std::string& text) { return obstacle("shape: sphere, radius: 1.0, " + text); };
   const std::string key = "obstacles[0].orientation";
   expectProblem(ball("orientation: [0, 0, 0, 0]"), key, {"unit quaternion", "is [0, 0, 0, 0] (norm 0)"});
@@ -339,7 +339,7 @@ TEST(BadInput, ObstacleRest) {
                 {"\"a\" is taken by obstacles[0]"});
 }
 
-TEST(BadInput, AllProblemsAtOnce) {
+TEST(BadInput, AllProblemsAreNamedAtOnce) {
   const std::string text =
       "cloth: {rows: 1, columns: x, widht: 2.0}\nair: {density: -1}\nwind: [{id: a, radius: 0}, {id: a}]\n"
       "drag: [{id: hand}]\npins: [[90, 90]]\nsolver: {seed: -3}\n";

@@ -47,7 +47,7 @@ contact: {thickness: 0.004, friction: 0.3, self: false, recovery_speed: 0.1, zon
 solver: {method: auto, frame_rate: 60, substeps: auto, stretch_tolerance: 1.0e-3, seed: 1}
 )";
 
-TEST(GoodInput, DesignExample) {
+TEST(GoodInput, DesignExampleIsRead) {
   const Scene scene = expectScene(kDesignExample);
   EXPECT_EQ(scene.cloth.rows, 44);
   EXPECT_EQ(scene.cloth.columns, 40);
@@ -98,7 +98,7 @@ TEST(GoodInput, EveryWordHasItsMeaning) {
   EXPECT_EQ(shape("mesh, mesh: a.stl"), ShapeKind::kMesh);
 }
 
-TEST(GoodInput, MethodNames) {
+TEST(GoodInput, MethodNamesReadBack) {
   const std::vector<std::string> expected = {"auto", "leapfrog", "leapfrog4", "bdf2", "implicit", "paper"};
   EXPECT_EQ(methodNames(), expected);
   EXPECT_EQ(toString(Method::kAuto), "auto");
@@ -109,7 +109,7 @@ TEST(GoodInput, MethodNames) {
   EXPECT_EQ(expectScene(std::string(smallScene()) + "solver: {method: paper}").solver.method, Method::kPaper);
 }
 
-TEST(GoodInput, NumbersAsYaml11SpellsThem) {
+TEST(GoodInput, NumbersAreReadAsYaml11SpellsThem) {
   const auto height = [](const std::string& text) {
     return expectScene("cloth: {rows: 2, columns: 2, height: " + text + "}").cloth.height;
   };
@@ -124,7 +124,7 @@ TEST(GoodInput, NumbersAsYaml11SpellsThem) {
   EXPECT_EQ(height("!!float 1e-3"), 0.001);  // the tag makes it a number in YAML 1.1 too
 }
 
-TEST(GoodInput, Flags) {
+TEST(GoodInput, FlagsAreReadAsYaml11SpellsThem) {
   const auto closed = [](const std::string& text) {
     return expectScene("cloth: {rows: 2, columns: 3, closed: " + text + "}").cloth.closed;
   };
@@ -132,7 +132,7 @@ TEST(GoodInput, Flags) {
   for (const char* text : {"false", "False", "FALSE", "no", "Off"}) EXPECT_FALSE(closed(text)) << text;
 }
 
-TEST(GoodInput, PinListScaleSubstepsAndSeed) {
+TEST(GoodInput, PinListScaleSubstepsAndSeedAreRead) {
   const Scene scene = expectScene(std::string(smallScene()) +
                                   "pins: [[0, 0], [3, 2]]\nsolver: {substeps: 7, seed: 18446744073709551615}\n"
                                   "obstacles:\n- {name: a, shape: mesh, mesh: a.stl, scale: 0.001}\n"
@@ -159,7 +159,7 @@ TEST(GoodInput, NearlyUnitQuaternionsAreNormalised) {
 }
 
 // What the node does: values by their type, text with the tag "!".
-TEST(GoodInput, TreeBuiltInCode) {
+TEST(GoodInput, TreeBuiltInCodeIsRead) {
   YAML::Node root;
   root["cloth"]["rows"] = 4;
   root["cloth"]["columns"] = 3;
@@ -211,7 +211,7 @@ TEST(GoodInput, RelativeMeshPathsAreTakenFromTheFilesFolder) {
 }
 
 // The scenes that the package ships can be read, each by itself.
-TEST(GoodInput, ShippedScenes) {
+TEST(GoodInput, ShippedScenesAreRead) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(std::string(CURTAIN_SOURCE_DIR) + "/config/scenes")) {
     if (entry.path().extension() != ".yaml") continue;

@@ -36,13 +36,13 @@ std::string repeated(const std::string& part, int count) {
 }
 
 // yaml-cpp 0.7 gives empty documents without end for a sign that nothing begins with.
-TEST(HostileText, ADocumentThatNeverEnds) {
+TEST(HostileText, ADocumentThatNeverEndsIsRefused) {
   expectRefused("cloth: {rows: 4, columns: 3}\n...\n}", "not YAML");
   expectRefused("a\nb: {c}, d", "not YAML");
   expectRefused("cloth: {rows: 2}}\n", "not YAML");
 }
 
-TEST(HostileText, AliasesOfAliases) {
+TEST(HostileText, AliasesOfAliasesAreRefused) {
   std::string text = "x0: &x0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
   for (int i = 1; i < 12; ++i) {
     const std::string before = "*x" + std::to_string(i - 1) + ", ";
@@ -52,24 +52,24 @@ TEST(HostileText, AliasesOfAliases) {
 }
 
 // A list of aliases of a list of aliases of a map: each would be copied into the scene.
-TEST(HostileText, ListsOfTheSameLists) {
+TEST(HostileText, ListsOfTheSameListsAreRefused) {
   const std::string motion = "{name: ball, radius: 1, motion: [&m {time: 0.0}" + repeated(", *m", 3000) + "]}";
   expectRefused(std::string(smallScene()) + "obstacles: [&o " + motion + repeated(", *o", 3000) + "]\n",
                 "more than 1000000 values");
 }
 
-TEST(HostileText, AnAliasWithinWhatItNames) {
+TEST(HostileText, AnAliasWithinWhatItNamesIsRefused) {
   expectRefused(std::string(smallScene()) + "pins: &a [*a]\n", "an alias within what it stands for");
 }
 
-TEST(HostileText, ABarrelOfKeys) {
+TEST(HostileText, ABarrelOfKeysGivesOneShortMessage) {
   std::string text = smallScene();
   for (int i = 0; i < 150000; ++i) text += "k" + std::to_string(i) + ": 1\n";
   expectRefused(text, "more problems than these 200");
   expectRefused(smallScene() + repeated("again: 1\n", 100000), "given more than once");
 }
 
-TEST(HostileText, LongWords) {
+TEST(HostileText, LongWordsAreCutInMessages) {
   const int long_enough = 1000000;
   expectRefused(std::string(smallScene()) + "? " + repeated(".", long_enough) + "\n: 1\n", "is not a known key");
   expectRefused("cloth: {rows: " + repeated("9", long_enough) + ", columns: 3}\n", "cloth.rows");
@@ -87,21 +87,21 @@ TEST(HostileText, WordsAreCutBetweenCharacters) {
   }
 }
 
-TEST(HostileText, Depth) {
+TEST(HostileText, DeepTextIsRefused) {
   for (const char* open : {"[", "{", "- ", "? ", "{a: ", "[a, "}) {
     refuse(repeated(open, 100000));
     refuse(smallScene() + std::string("pins: ") + repeated(open, 100000));
   }
 }
 
-TEST(HostileText, TooLong) {
+TEST(HostileText, TooLongTextIsRefused) {
   expectRefused(smallScene() + repeated("# nothing\n", 2000000), "longer than 16 MiB");
   const std::vector<Problem> problems = readSceneFile("/dev/zero").problems;
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_NE(problems[0].text.find("longer than 16 MiB"), std::string::npos) << problems[0].text;
 }
 
-TEST(HostileText, ThatIsOnlyLarge) {
+TEST(HostileText, TextThatIsOnlyLargeIsRead) {
   std::string text = "cloth: {rows: 4096, columns: 4096, row_mass: [";
   for (int i = 0; i < 4096; ++i) text += "1.5, ";
   text += "]}\nobstacles: [{name: ball, shape: sphere, radius: 0.1, motion: [";

@@ -294,16 +294,16 @@ Scene oddScene() {
   return scene;
 }
 
-TEST(RoundTrip, Defaults) {
+TEST(RoundTrip, KeepsDefaults) {
   Scene scene;
   scene.cloth.rows = 44;
   scene.cloth.columns = 40;
   expectRoundTrip(scene);
 }
 
-TEST(RoundTrip, EveryFieldDifferentFromItsDefault) { expectRoundTrip(oddScene()); }
+TEST(RoundTrip, KeepsEveryFieldDifferentFromItsDefault) { expectRoundTrip(oddScene()); }
 
-TEST(RoundTrip, ClosedCloth) {
+TEST(RoundTrip, KeepsClosedCloth) {
   Scene scene;
   scene.cloth.rows = 5;
   scene.cloth.columns = 7;
@@ -316,7 +316,7 @@ TEST(RoundTrip, ClosedCloth) {
 }
 
 // Written numbers are numbers to YAML 1.1 too: the strict reader takes them, however small or large.
-TEST(RoundTrip, NumbersOfEverySize) {
+TEST(RoundTrip, KeepsNumbersOfEverySize) {
   for (int exponent = -323; exponent <= 99; ++exponent) {
     Scene scene;
     scene.cloth.rows = 2;

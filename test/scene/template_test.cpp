@@ -58,7 +58,7 @@ std::set<std::string> sceneKeys(const std::string& text) {
   return keys;
 }
 
-TEST(KnownKeys, SortedWithoutRepeatsListsWithBrackets) {
+TEST(KnownKeys, AreSortedWithoutRepeatsListsWithBrackets) {
   const std::vector<std::string> keys = knownSceneKeys();
   EXPECT_TRUE(std::is_sorted(keys.begin(), keys.end()));
   const std::set<std::string> set(keys.begin(), keys.end());
@@ -129,7 +129,7 @@ TEST(Template, EntriesAreReadableAndShowDefaults) {
 }
 
 // The node's own parameters stand above the scene; the node's tests compare them with what it reads.
-TEST(Template, NodeParameters) {
+TEST(Template, DocumentsTheNodeParameters) {
   const YAML::Node root = YAML::Load(templateText());
   std::set<std::string> keys;
   for (const auto& entry : root) keys.insert(entry.first.Scalar());

@@ -56,7 +56,7 @@ class FloatTrapsInSteps : public testing::Test {
   }
 };
 
-TEST_F(FloatTrapsInSteps, OfAllScenes) {
+TEST_F(FloatTrapsInSteps, FindNothingInAllScenes) {
   int count = 0;
   for (const char* folder : {"/config/scenes", "/test/scenes"}) {
     for (const auto& entry : fs::directory_iterator(std::string(CURTAIN_SOURCE_DIR) + folder)) {
@@ -72,7 +72,7 @@ TEST_F(FloatTrapsInSteps, OfAllScenes) {
 }
 
 // Where something is nothing: no air, no weight, no friction, nodes in one place, a wind without width.
-TEST_F(FloatTrapsInSteps, OfScenesWithZeros) {
+TEST_F(FloatTrapsInSteps, FindNothingInScenesWithZeros) {
   Scene scene;
   scene.cloth.rows = 6;
   scene.cloth.columns = 5;

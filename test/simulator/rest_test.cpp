@@ -60,7 +60,7 @@ void expectRest(const char* name, const Scene& scene, double allowed) {
   EXPECT_GT(simulator.statistics().contacts, 100);
 }
 
-TEST(Rest, OnASphere) {
+TEST(Rest, ComesOnASphere) {
   ObstacleParams ball;
   ball.name = "ball";
   ball.radius = 0.3;
@@ -79,13 +79,13 @@ ObstacleParams table(double width) {
   return table;
 }
 
-TEST(Rest, OnATable) { expectRest("table", sheetAbove(0.55, table(1.2)), 1e-3); }
+TEST(Rest, ComesOnATable) { expectRest("table", sheetAbove(0.55, table(1.2)), 1e-3); }
 
 // With its border hanging over the edges, pulled taut across four corners, the solve leaves a restlessness of a few
 // millimetres per second.
-TEST(Rest, OnATableThatIsSmaller) { expectRest("smaller table", sheetAbove(0.55, table(0.6)), 2e-2); }
+TEST(Rest, ComesOnATableThatIsSmaller) { expectRest("smaller table", sheetAbove(0.55, table(0.6)), 2e-2); }
 
-TEST(Rest, OnTheFloor) {
+TEST(Rest, ComesOnTheFloor) {
   ObstacleParams floor;
   floor.name = "floor";
   floor.shape = ShapeKind::kPlane;

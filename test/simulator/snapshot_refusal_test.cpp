@@ -114,7 +114,7 @@ TEST_F(Refusal, IsNotForWhatIsSound) {
   ASSERT_NO_FATAL_FAILURE(goBack());
 }
 
-TEST_F(Refusal, OfEveryBeginning) {
+TEST_F(Refusal, IsOfEveryBeginning) {
   for (std::size_t length = 0; length < snapshot_.size(); ++length) {
     SCOPED_TRACE(length);
     ASSERT_NO_FATAL_FAILURE(
@@ -123,7 +123,7 @@ TEST_F(Refusal, OfEveryBeginning) {
   expectRefused(snapshot_ + '\0', "is too long");
 }
 
-TEST_F(Refusal, OfEveryFlippedByte) {
+TEST_F(Refusal, IsOfEveryFlippedByte) {
   for (std::size_t at = 0; at < snapshot_.size(); ++at) {
     SCOPED_TRACE(at);
     std::string bytes = snapshot_;
@@ -132,7 +132,7 @@ TEST_F(Refusal, OfEveryFlippedByte) {
   }
 }
 
-TEST_F(Refusal, OfOtherFormatsByName) {
+TEST_F(Refusal, IsOfOtherFormatsByName) {
   expectRefused("cloth: {rows: 5, columns: 4}\n", "is no snapshot");
   expectRefused(std::string(100000, '\0'), "is no snapshot");
   std::string bytes = snapshot_;
@@ -148,7 +148,7 @@ TEST_F(Refusal, OfOtherFormatsByName) {
   expectRefused(withRightChecksum(bytes), "another build");
 }
 
-TEST_F(Refusal, OfOtherScenesNamesTheFirstKeyThatDiffers) {
+TEST_F(Refusal, NamesTheFirstKeyOfOtherScenesThatDiffers) {
   const auto refused = [&](Scene scene, const std::string& fragment) {
     Simulator simulator(scene);
     expectRefused(simulator.snapshot(), fragment);
@@ -189,7 +189,7 @@ TEST_F(Refusal, IsNotForWhatMayDiffer) {
   ASSERT_NO_FATAL_FAILURE(goBack());
 }
 
-TEST_F(Refusal, OfAMeshThatHasChanged) {
+TEST_F(Refusal, IsOfAMeshThatHasChanged) {
   const std::filesystem::path folder = testing::TempDir();
   const std::string moved = (folder / "moved.obj").string(), changed = (folder / "changed.obj").string();
   std::filesystem::copy_file(busyScene().obstacles[1].mesh, moved, std::filesystem::copy_options::overwrite_existing);
@@ -219,7 +219,7 @@ void useAll(Simulator& simulator) {
 }
 
 // CURTAIN_HOSTILE=count for more.
-TEST_F(Refusal, OrNoHarmWhenTheChecksumIsRight) {
+TEST_F(Refusal, IsOrNoHarmIsDoneWhenTheChecksumIsRight) {
   SnapshotParts parts;
   ASSERT_FALSE(unpackSnapshot(snapshot_, parts).has_value());
   const auto first = static_cast<std::size_t>(parts.carried.data() - snapshot_.data());
@@ -260,7 +260,7 @@ TEST_F(Refusal, OrNoHarmWhenTheChecksumIsRight) {
 }
 
 // Lengths and text of the scene too.
-TEST_F(Refusal, OfBadHeadersWithARightChecksum) {
+TEST_F(Refusal, IsOfBadHeadersWithARightChecksum) {
   Random random(3);
   SnapshotParts parts;
   ASSERT_FALSE(unpackSnapshot(snapshot_, parts).has_value());

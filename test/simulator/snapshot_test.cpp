@@ -137,7 +137,7 @@ TEST(Snapshot, GoesOnWhileItCrumples) {
 }
 
 // CURTAIN_SEEDS=first:count for others than these.
-TEST(Snapshot, OfRandomScenesAtRandomFrames) {
+TEST(Snapshot, GoesOnInRandomScenesAtRandomFrames) {
   std::uint64_t first = 1, count = 20;
   if (const char* const seeds = std::getenv("CURTAIN_SEEDS")) {
     char* end = nullptr;
