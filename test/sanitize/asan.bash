@@ -7,7 +7,7 @@ if [ "${1:-}" = quick ]; then
   not=null,alignment  # half of the time to build; a null pointer AddressSanitizer sees, too
 else
   not=
-  tests+=(scene cloth forces solver contact simulator)
+  tests+=(scene cloth forces solver contact simulator budget)
 fi
 configure Debug "-O1 -g1 -fno-omit-frame-pointer" -DCURTAIN_SANITIZE=address,undefined,float-cast-overflow \
   -DCURTAIN_SANITIZE_NOT="$not" -DCURTAIN_PRECOMPILED=all -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON
