@@ -28,13 +28,18 @@ curtain_install() {
   DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
-# Configures and builds; arguments go to cmake.
-curtain_configure_and_build() {
+# Configures; arguments go to cmake.
+curtain_configure() {
   mkdir -p "$curtain_build/devel/lib/python3/dist-packages"  # else the environment is cached without the messages
   touch "$curtain_build/CATKIN_IGNORE"
   cmake -S "$curtain_root" -B "$curtain_build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
     -DPython3_EXECUTABLE=/usr/bin/python3 "$@" >"$curtain_build/configure.log" 2>&1 ||
     { cat "$curtain_build/configure.log"; return 1; }
+}
+
+# The same, and builds.
+curtain_configure_and_build() {
+  curtain_configure "$@"
   cmake --build "$curtain_build"
 }
 
