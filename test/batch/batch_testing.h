@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -74,6 +75,14 @@ class BatchTest : public testing::Test {
     run.out = readFile(said_ + ".out");
     run.err = readFile(said_ + ".err");
     return run;
+  }
+
+  /// Its --stats.
+  nlohmann::json stats(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.end(), {"--stats", path("stats.json")});
+    const Outcome run = batch(arguments);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return nlohmann::json::parse(readFile(path("stats.json")));
   }
 
   /// Names of the files in the folder.

@@ -3,7 +3,6 @@
 // Every option of curtain_batch does what its help says, and the files it writes have the columns, digits, keys and
 // counts that tools outside the package rely on.
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "batch/batch_testing.h"
@@ -17,15 +16,7 @@ using curtain_test::lines;
 using curtain_test::Outcome;
 using curtain_test::readFile;
 
-class Options : public BatchTest {
- protected:
-  nlohmann::json stats(std::vector<std::string> arguments) {
-    arguments.insert(arguments.end(), {"--stats", path("stats.json")});
-    const Outcome run = batch(arguments);
-    EXPECT_EQ(run.exit_code, 0) << run.err;
-    return nlohmann::json::parse(readFile(path("stats.json")));
-  }
-};
+using Options = BatchTest;
 
 std::vector<std::string> cells(const std::string& line) {
   std::vector<std::string> result;

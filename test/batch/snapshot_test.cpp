@@ -2,7 +2,6 @@
 //
 // --save and --restore: a run in two parts is the run in one, to the bit; and what can't be restored or saved ends with
 // exit code 2.
-#include <nlohmann/json.hpp>
 
 #include "batch/batch_testing.h"
 
@@ -20,12 +19,6 @@ const char* const kMore =
 
 class Snapshots : public BatchTest {
  protected:
-  nlohmann::json stats(std::vector<std::string> arguments) {
-    arguments.insert(arguments.end(), {"--stats", path("stats.json")});
-    const Outcome run = batch(arguments);
-    EXPECT_EQ(run.exit_code, 0) << run.err;
-    return nlohmann::json::parse(readFile(path("stats.json")));
-  }
   void expectRefused(const std::vector<std::string>& arguments, const std::vector<std::string>& fragments,
                      int exit_code = 2) {
     const auto before = files();

@@ -7,31 +7,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <string>
 
-#include "../../docs/examples/rounded_box.h"
-#include "contact/shapes/shapes.h"
+#include "contact/solids.h"
 #include "testing.h"
 
 namespace curtain {
 namespace {
 
-using curtain_test::Random;
+using namespace curtain_test;
 using Triangle = std::array<Vec3, 3>;
 using Edge = std::array<Vec3, 2>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-const SphereShape kSphere(0.7);
-const BoxShape kBox(Vec3(1.0, 1.6, 0.6));
-const CylinderShape kCylinder(0.5, 1.4);
-const CapsuleShape kCapsule(0.4, 1.2);
-const PlaneShape kPlane;
-const RoundedBoxShape kRoundedBox(Vec3(1.0, 1.2, 0.8), 0.2);
-const std::map<std::string, const ConvexShape*> kSolids = {{"sphere", &kSphere},     {"box", &kBox},
-                                                           {"cylinder", &kCylinder}, {"capsule", &kCapsule},
-                                                           {"plane", &kPlane},       {"rounded box", &kRoundedBox}};
 
 template <std::size_t N>
 Vec3 pointAt(const std::array<Vec3, N>& corners, const std::array<double, 3>& weights) {
