@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Impact zones: nodes that would go through each other move as one body, with their momentum.
-#include "contact/response/zones.h"
+#include "contact/response/impact_zones.h"
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ struct Ways {
 
 TEST(Zones, KeepMomentumAngularMomentumAndToFirstOrderDistances) {
   Ways ways;
-  Zones zones(ways.pattern);
+  ImpactZones zones(ways.pattern);
   const std::vector<std::size_t> members{ways.node(0, 0), ways.node(1, 3), ways.node(2, 2), ways.node(3, 4)};
   const auto sum = [&](bool angular) {
     Vec3 total = Vec3::Zero();
@@ -67,7 +67,7 @@ TEST(Zones, TwoNodesThatMeetHeadOnGoOnTogether) {
   ways.start.set(b, Vec3(1.0, 0.0, 0.0));
   ways.end.set(a, Vec3(2.0, 0.0, 0.0));
   ways.end.set(b, Vec3(0.0, 0.0, 0.0));
-  Zones zones(ways.pattern);
+  ImpactZones zones(ways.pattern);
   zones.join(a, b);
   zones.makeRigid(ways.start, ways.end);
   EXPECT_LT((ways.end.at(a) - Vec3(0.5, 0.0, 0.0)).norm(), 4.0 * kEps);
@@ -78,7 +78,7 @@ TEST(Zones, OneWithAPinGoesWithIt) {
   Ways ways(PinKind::kTop);
   const std::size_t pin = ways.node(0, 2), free = ways.node(2, 2), far = ways.node(3, 0);
   const Vec3 pin_move = ways.move(pin), far_end = ways.end.at(far);
-  Zones zones(ways.pattern);
+  ImpactZones zones(ways.pattern);
   zones.join(free, pin);
   zones.makeRigid(ways.start, ways.end);
   EXPECT_EQ(ways.end.at(free), ways.start.at(free) + pin_move);
@@ -88,7 +88,7 @@ TEST(Zones, OneWithAPinGoesWithIt) {
 
 TEST(Zones, JoinedByANodeTheyAreOneAndOtherwiseMoveApart) {
   Ways ways;
-  Zones zones(ways.pattern);
+  ImpactZones zones(ways.pattern);
   EXPECT_FALSE(zones.any());
   zones.join(ways.node(0, 0), ways.node(0, 1));
   zones.join(ways.node(3, 3), ways.node(3, 4));
@@ -114,7 +114,7 @@ TEST(Zones, StoppedStayWhereTheyWereButForPins) {
   Ways ways(PinKind::kTop);
   const std::size_t pin = ways.node(0, 0), free = ways.node(1, 0);
   const Vec3 pin_end = ways.end.at(pin);
-  Zones zones(ways.pattern);
+  ImpactZones zones(ways.pattern);
   zones.join(pin, free);
   zones.stop(ways.start, ways.end);
   EXPECT_EQ(ways.end.at(free), ways.start.at(free));

@@ -2,7 +2,7 @@
 //
 // Candidates for contact, against all there are: what comes within reach of an obstacle on its way is listed, what has
 // no room is told.
-#include "contact/broad_phase/vicinity.h"
+#include "contact/broad_phase/obstacle_candidates.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 #include <optional>
 #include <set>
 
-#include "contact/narrow_phase/candidates.h"
 #include "contact/narrow_phase/closest_points.h"
+#include "contact/narrow_phase/element_pairs.h"
 #include "testing.h"
 
 namespace curtain {
@@ -57,11 +57,11 @@ struct Past {
   Vec3 middle = Vec3::Zero();
   std::optional<ObstacleSet> obstacles;
   const Workers alone{1};
-  std::optional<Vicinity> near;
+  std::optional<ObstacleCandidates> near;
   Field3 start, end;
 };
 
-TEST(Vicinity, ListsEveryNodeThatComesWithinReachOnItsWayAndNotAll) {
+TEST(ObstacleCandidates, ListsEveryNodeThatComesWithinReachOnItsWayAndNotAll) {
   int listed = 0, within = 0, all = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Past past(seed);
@@ -85,13 +85,13 @@ TEST(Vicinity, ListsEveryNodeThatComesWithinReachOnItsWayAndNotAll) {
   EXPECT_LT(listed, all / 2);
 }
 
-TEST(Vicinity, ListsEveryFaceThatEndsWithinReachAndNotAll) {
+TEST(ObstacleCandidates, ListsEveryFaceThatEndsWithinReachAndNotAll) {
   int listed = 0, within = 0, all = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Past past(seed);
     past.lay(past.random.between(1.0, 1.2) * kRadius, past.random.between(0.0, 0.05));
     std::set<std::array<std::uint32_t, 3>> faces;
-    for (const Vicinity::Face& face : past.near->faces()) {
+    for (const ObstacleCandidates::Face& face : past.near->faces()) {
       std::array<std::uint32_t, 3> nodes{face.node[0], face.node[1], face.node[2]};
       std::sort(nodes.begin(), nodes.end());
       EXPECT_TRUE(faces.insert(nodes).second) << "once each";
