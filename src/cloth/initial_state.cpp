@@ -31,6 +31,9 @@ HangFrame hangFrame(const HangParams& hang) {
 // Relative overlength of weft links that counts as rounding.
 constexpr double kRounded = 1e-9;
 
+// Of a rod across the warp, as a share of its length.
+constexpr double kMostSlant = 0.9;
+
 // A point in the plane of the flat cloth: across from the middle of the hung edge, and down [m].
 using Flat = Eigen::Vector2d;
 
@@ -78,6 +81,7 @@ class FlatCloth {
     const double span = (scene_.hang.to - scene_.hang.from).norm();
     const double hem_width = scene_.cloth.hem_width.value_or(scene_.cloth.width);
     const double depth = pattern_.warp_coordinate[static_cast<std::size_t>(i)] / scene_.cloth.height;
+    width_above_ = width_;
     width_ = std::min(span, scene_.cloth.width + (hem_width - scene_.cloth.width) * depth);
     above_ = row_;
     row_.resize(shares_.size());
@@ -95,12 +99,13 @@ class FlatCloth {
     const Grid& grid = pattern_.grid;
     const Flat& above = above_[static_cast<std::size_t>(j)];
     const double rod = pattern_.warp_rest[grid.index(i, static_cast<int>(j))];
-    const double slant = at.x() - above.x();
-    if (std::abs(slant) > 0.9 * rod) {
+    const double share = shares_[static_cast<std::size_t>(j)];
+    if (std::abs(share * (width_ - width_above_)) > kMostSlant * rod) {
       throw std::invalid_argument("cloth.hem_width: the cloth tapers faster than its warp rods are long (row " +
                                   std::to_string(i) + ")");
     }
-    at.y() = above.y() + std::sqrt(rod * rod - slant * slant);
+    const double slant = std::clamp(at.x() - above.x(), -kMostSlant * rod, kMostSlant * rod);
+    at = above + Flat(slant, std::sqrt(rod * rod - slant * slant));
     if (beside == j) return;
     const Flat& neighbour = row_[static_cast<std::size_t>(beside)];
     const double weft = pattern_.weft_rest[grid.index(i, static_cast<int>(std::max(j, beside)))];
@@ -109,10 +114,10 @@ class FlatCloth {
 
   const Scene& scene_;
   const ClothPattern& pattern_;
-  std::vector<double> shares_;           // position in the top row by column, from its middle, over its width
-  std::ptrdiff_t first_ = 0, last_ = 0;  // the one or two columns nearest to the middle
-  double width_ = 0.0;                   // of the present row [m]
-  std::vector<Flat> row_, above_;        // the present row and the one above [m]
+  std::vector<double> shares_;              // position in the top row by column, from its middle, over its width
+  std::ptrdiff_t first_ = 0, last_ = 0;     // the one or two columns nearest to the middle
+  double width_ = 0.0, width_above_ = 0.0;  // of the present row [m]
+  std::vector<Flat> row_, above_;           // the present row and the one above [m]
 };
 
 // Closed cloth starts as a cone around the vertical through hang.from, with normals outward.
