@@ -160,6 +160,7 @@ void StepControl::rejected(const SubstepPlan& plan) noexcept {
 }
 
 void StepControl::tookTooLong(const SubstepPlan& plan) noexcept {
+  if (trust_.bounded()) return trust_.schemeFailed();  // a last resort is taken even where its time is over
   limit_ = std::min(limit_, std::max(0.5 * plan.h, 2.0 * frame_ / max_substeps_));
   good_ = 0;
 }

@@ -38,7 +38,7 @@ class StepControl {
   void accepted(const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept;
   void rejected(const SubstepPlan& plan) noexcept;
   /// The substep did not finish within a frame's computing time. Makes shorter ones, but not so short that the last
-  /// resort takes over.
+  /// resort takes over; if it was the scheme's retry, the last resort goes on.
   void tookTooLong(const SubstepPlan& plan) noexcept;
 
   void carry(Archive& archive);

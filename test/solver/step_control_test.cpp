@@ -97,6 +97,26 @@ TEST(StepControl, WhatFailsAtTheSmallestStepIsLeftToTheLastResort) {
   EXPECT_EQ(control.next().h, kFrame / kLastResortSubsteps);
 }
 
+TEST(StepControl, ALastResortThatFailsInContactLetsTheSchemeTryOnceAFrame) {
+  Control control(Method::kLeapfrog, 0, 8);
+  for (int failure = 0; failure < 4; ++failure) control.steps->rejected(control.next());
+  SubstepOutcome unsettled;
+  unsettled.accepted = unsettled.touches = true;
+  const auto fail = [&] { control.steps->accepted(control.next(kFrame / 2), unsettled); };
+  fail();
+  EXPECT_TRUE(control.next(kFrame / 2).isLastResort());
+  EXPECT_FALSE(control.next().isLastResort());
+  control.steps->rejected(control.next());
+  EXPECT_TRUE(control.next().isLastResort()) << "until it fails again";
+  fail();
+  EXPECT_FALSE(control.next().isLastResort());
+  control.steps->tookTooLong(control.next());
+  EXPECT_TRUE(control.next().isLastResort()) << "which moves even where its time is over";
+  fail();
+  control.accept(1);
+  EXPECT_FALSE(control.next(kFrame / 2).isLastResort()) << "it has got on by itself";
+}
+
 TEST(StepControl, ShortTimeMakesLongerSubstepsButAtMostTwice) {
   Control control(Method::kAuto);
   control.accept(1, 5.5 * kPhasePerStep / kFrame);
