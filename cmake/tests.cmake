@@ -68,7 +68,7 @@ endif()
 # By the formatter's major version that Debian 12 has: others break other lines.
 find_program(CLANG_FORMAT NAMES clang-format-14)
 if(CLANG_FORMAT)
-  add_test(NAME format COMMAND sh -c "git ls-files '*.cpp' '*.h' | xargs ${CLANG_FORMAT} --dry-run -Werror"
+  add_test(NAME format COMMAND sh -c "find include src test docs -name '*.cpp' -o -name '*.h' | xargs ${CLANG_FORMAT} --dry-run -Werror"
     WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
 endif()
 
