@@ -2,7 +2,6 @@
 //
 // ~snapshot_file. The simulation thread takes a snapshot, which is quick; another thread writes it, so that no frame
 // waits for a disk. At most one waits: a newer one replaces it, which is counted.
-
 //
 // Simulated time is restored, too: winds and drags have the rest of their lifetimes. Stamps are of now: the time
 // between the runs is not made up for.
