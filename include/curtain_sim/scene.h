@@ -27,10 +27,14 @@ struct Problem {
 /// All problems, one per line, each as "source: key: text" (without source when that is empty).
 std::string describe(const std::vector<Problem>& problems, const std::string& source = "");
 
+/// A rotation as a quaternion. Not aligned: an aligned one, and with it a Scene, would be laid out otherwise in
+/// programs compiled for AVX (-march=native) than in the library.
+using Rotation = Eigen::Quaternion<double, Eigen::DontAlign>;
+
 /// A rigid pose; orientation is a unit quaternion.
 struct Pose {
-  Vec3 position = Vec3::Zero();                                     ///< [m]
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< unit
+  Vec3 position = Vec3::Zero();                 ///< [m]
+  Rotation orientation = Rotation::Identity();  ///< unit
 };
 
 /// A node of the grid: row 0 is the hung edge, columns run along it.

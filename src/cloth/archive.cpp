@@ -123,7 +123,7 @@ void Archive::finite(const char* name, Pose& pose) {
   const Naming naming(*this, name);
   finite("position", pose.position);
   one("orientation", "a finite quaternion", pose.orientation,
-      [](const Eigen::Quaterniond& value) { return value.coeffs().allFinite(); });
+      [](const Rotation& value) { return value.coeffs().allFinite(); });
 }
 
 void Archive::within(const char* name, double& value, double low, double high) {

@@ -24,7 +24,7 @@ class KeyCollector {
   void vector(Key key, const Vec3&, Range) { note(key); }
   void optionalVector(Key key, const std::optional<Vec3>&, Range) { note(key); }
   void scale(Key key, const Vec3&, Range) { note(key); }
-  void rotation(Key key, const Eigen::Quaterniond&) { note(key); }
+  void rotation(Key key, const Rotation&) { note(key); }
   void node(Key key, const std::optional<NodeIndex>&) { note(key); }
   void numbers(Key key, const std::vector<double>&, Range) { note(key); }
   void pins(Key key, const PinParams&) { note(key); }

@@ -3,8 +3,9 @@
 // When a quaternion in an input counts as a rotation.
 #pragma once
 
-#include <Eigen/Geometry>
 #include <cmath>
+
+#include "curtain_sim/scene.h"
 
 namespace curtain {
 
@@ -12,13 +13,13 @@ namespace curtain {
 constexpr double kUnitTolerance = 1e-3;
 
 /// False for NaN.
-inline bool isNearlyUnit(const Eigen::Quaterniond& q) { return std::abs(q.norm() - 1.0) <= kUnitTolerance; }
+inline bool isNearlyUnit(const Rotation& q) { return std::abs(q.norm() - 1.0) <= kUnitTolerance; }
 
 /// Normalises q if it is nearly unit; one that is unit to rounding stays as it is, so that scenes read back with the
 /// same bits.
-inline Eigen::Quaterniond nearlyUnit(const Eigen::Quaterniond& q) {
+inline Rotation nearlyUnit(const Rotation& q) {
   constexpr double kRounding = 1e-14;
-  return isNearlyUnit(q) && std::abs(q.norm() - 1.0) > kRounding ? q.normalized() : q;
+  return isNearlyUnit(q) && std::abs(q.norm() - 1.0) > kRounding ? Rotation(q.normalized()) : q;
 }
 
 }  // namespace curtain

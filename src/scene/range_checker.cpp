@@ -46,7 +46,7 @@ void RangeChecker::optionalVector(Key key, const std::optional<Vec3>& value, Ran
   if (value) vector(key, *value, range);
 }
 
-void RangeChecker::rotation(Key key, const Eigen::Quaterniond& value) {
+void RangeChecker::rotation(Key key, const Rotation& value) {
   if (isNearlyUnit(value)) return;
   log_.add(keyOf(key), "must be a unit quaternion [x, y, z, w] (norm within 0.001 of 1), is [" +
                            formatNumber(value.x()) + ", " + formatNumber(value.y()) + ", " + formatNumber(value.z()) +

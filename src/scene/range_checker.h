@@ -32,7 +32,7 @@ class RangeChecker {
   void vector(Key key, const Vec3& value, Range range);
   void optionalVector(Key key, const std::optional<Vec3>& value, Range range);
   void scale(Key key, const Vec3& value, Range range) { vector(key, value, range); }
-  void rotation(Key key, const Eigen::Quaterniond& value);
+  void rotation(Key key, const Rotation& value);
   void node(Key, const std::optional<NodeIndex>&) {}  // its range depends on the cloth: checkNodeOnGrid()
   void numbers(Key key, const std::vector<double>& values, Range range);
   void pins(Key, const PinParams&) {}  // the same

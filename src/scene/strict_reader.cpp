@@ -270,7 +270,7 @@ void StrictReader::scale(Key key, Vec3& value, Range range) {
   }
 }
 
-void StrictReader::rotation(Key key, Eigen::Quaterniond& value) {
+void StrictReader::rotation(Key key, Rotation& value) {
   const std::string wanted = "a list of 4 numbers [x, y, z, w]";
   const YAML::Node* found = find(key, wanted);
   if (!found || !checkSequence(*found, keyOf(key), wanted)) return;
@@ -283,7 +283,7 @@ void StrictReader::rotation(Key key, Eigen::Quaterniond& value) {
   for (std::size_t i = 0; i < 4; ++i) {
     all = readNumber((*found)[i], itemKey(keyOf(key), i), anywhere(), read[static_cast<Eigen::Index>(i)]) && all;
   }
-  if (all) value = nearlyUnit(Eigen::Quaterniond(read));
+  if (all) value = nearlyUnit(Rotation(read));
 }
 
 void StrictReader::node(Key key, std::optional<NodeIndex>& value) {

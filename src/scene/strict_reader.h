@@ -35,7 +35,7 @@ class StrictReader {
   void vector(Key key, Vec3& value, Range range);
   void optionalVector(Key key, std::optional<Vec3>& value, Range range);
   void scale(Key key, Vec3& value, Range range);
-  void rotation(Key key, Eigen::Quaterniond& value);
+  void rotation(Key key, Rotation& value);
   void node(Key key, std::optional<NodeIndex>& value);
   void numbers(Key key, std::vector<double>& values, Range range);
   void pins(Key key, PinParams& value);

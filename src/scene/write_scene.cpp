@@ -38,7 +38,7 @@ class SceneWriter {
     if (value) vector(key, *value, range);
   }
   void scale(Key key, const Vec3& value, Range range) { vector(key, value, range); }
-  void rotation(Key key, const Eigen::Quaterniond& value) { flow(key, {value.x(), value.y(), value.z(), value.w()}); }
+  void rotation(Key key, const Rotation& value) { flow(key, {value.x(), value.y(), value.z(), value.w()}); }
   void node(Key key, const std::optional<NodeIndex>& value) {
     if (!value) return;
     out_ << YAML::Key << key.name << YAML::Value;

@@ -62,7 +62,7 @@ class Breaker {
     add(key, {"[1, 2]", "{}", "~"});
     (void)value;
   }
-  void rotation(Key key, const Eigen::Quaterniond&) {
+  void rotation(Key key, const curtain::Rotation&) {
     add(key, {"1", "[0, 0, 1]", "[0, 0, 0, 0]", "[1, 1, 1, 1]", "[0, 0, .nan, 1]", "[0, 0, 0, up]", "~"});
   }
   void node(Key key, const std::optional<curtain::NodeIndex>& value) {

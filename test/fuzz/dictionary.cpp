@@ -32,7 +32,7 @@ class WordCollector {
   void vector(Key key, const curtain::Vec3&, Range) { note(key); }
   void optionalVector(Key key, const std::optional<curtain::Vec3>&, Range) { note(key); }
   void scale(Key key, const curtain::Vec3&, Range) { note(key); }
-  void rotation(Key key, const Eigen::Quaterniond&) { note(key); }
+  void rotation(Key key, const curtain::Rotation&) { note(key); }
   void node(Key key, const std::optional<curtain::NodeIndex>&) { note(key); }
   void numbers(Key key, const std::vector<double>&, Range) { note(key); }
   void pins(Key key, const curtain::PinParams&) {

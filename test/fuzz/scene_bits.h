@@ -37,7 +37,7 @@ class SceneBits {
   void vector(Key, const curtain::Vec3& value, Range) { addVector(value); }
   void optionalVector(Key, const std::optional<curtain::Vec3>& value, Range) { addOptional(value); }
   void scale(Key, const curtain::Vec3& value, Range) { addVector(value); }
-  void rotation(Key, const Eigen::Quaterniond& value) {
+  void rotation(Key, const curtain::Rotation& value) {
     for (int i = 0; i < 4; ++i) add(value.coeffs()[i]);
   }
   void node(Key, const std::optional<curtain::NodeIndex>& value) { addOptional(value); }

@@ -113,7 +113,7 @@ NodeIndex SceneMaker::pickNode() {
   return node;
 }
 
-void SceneMaker::rotation(Key, Eigen::Quaterniond& value) {
+void SceneMaker::rotation(Key, curtain::Rotation& value) {
   if (choices_.oneIn(2)) return;
   Eigen::Vector4d q = Eigen::Vector4d::Zero();
   for (int i = 0; i < 4; ++i) q[i] = choices_.between(-1.0, 1.0);

@@ -46,7 +46,7 @@ class SceneMaker {
     pickVector(range, *value);
   }
   void scale(Key key, curtain::Vec3& value, curtain::Range range) { vector(key, value, range); }
-  void rotation(Key, Eigen::Quaterniond& value);
+  void rotation(Key, curtain::Rotation& value);
   void node(Key, std::optional<curtain::NodeIndex>& value) {
     if (choices_.oneIn(2)) value = pickNode();
   }

@@ -158,6 +158,14 @@ TEST(GoodInput, NearlyUnitQuaternionsAreNormalised) {
   EXPECT_EQ(orientation("[0.0, 0.0, 0.6, 0.8]").z(), 0.6);  // unit already: as typed
 }
 
+// Programs may be compiled for AVX, where aligned quaternions are laid out otherwise than in the library.
+TEST(GoodInput, LayoutDoesNotDependOnInstructionSet) {
+  EXPECT_EQ(alignof(Pose), alignof(double));
+  EXPECT_EQ(alignof(PoseKey), alignof(double));
+  EXPECT_EQ(alignof(ObstacleParams), alignof(double));
+  EXPECT_EQ(alignof(Scene), alignof(double));
+}
+
 // What the node does: values by their type, text with the tag "!".
 TEST(GoodInput, TreeBuiltInCodeIsRead) {
   YAML::Node root;
