@@ -79,8 +79,8 @@ struct HangParams {
   /// Radius of the hung ring [m], closed cloth only; default: width / (2 pi). The chord between
   /// neighbours must not be longer than their weft link.
   std::optional<double> radius;
-  /// [rad] Rotation of the flat cloth about its hung edge out of the vertical; pi/2 = horizontal, towards the normal
-  /// (to - from) x up. Closed cloth: half-angle of the cone that the cloth starts as.
+  /// [rad], [-6.3..6.3]. Rotation of the flat cloth about its hung edge out of the vertical; pi/2 = horizontal, towards
+  /// the normal (to - from) x up. Closed cloth: half-angle of the cone that the cloth starts as.
   double tilt = 0.0;
 };
 

@@ -63,7 +63,7 @@ struct Fields<HangParams> {
     v.vector("from", hang.from, anywhere());
     v.vector("to", hang.to, anywhere());
     v.optionalNumber("radius", hang.radius, positive());
-    v.number("tilt", hang.tilt, anywhere());
+    v.number("tilt", hang.tilt, turn());
   }
 };
 

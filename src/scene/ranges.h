@@ -36,6 +36,8 @@ inline Range between(double low, double high) {
 inline Range anywhere() { return {}; }
 inline Range positive() { return between(kSmallest, kLargest); }
 inline Range notNegative() { return between(0.0, kLargest); }
+/// An angle [rad]: a turn either way. What is larger was meant in degrees.
+inline Range turn() { return between(-6.3, 6.3); }
 inline Range anyForce() { return between(-kStrongest, kStrongest); }
 inline Range notZero() {
   Range range;

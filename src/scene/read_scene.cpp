@@ -4,8 +4,10 @@
 // once.
 #include <yaml-cpp/yaml.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
+#include <system_error>
 
 #include "curtain_sim/scene_yaml.h"
 #include "scene/checks.h"
@@ -65,7 +67,9 @@ SceneReading readSceneFile(const std::string& path) {
   std::error_code ignored;  // opening the file fails too then, and that is reported
   const bool is_folder = std::filesystem::is_directory(path, ignored);
   std::ifstream file(path, std::ios::binary);
-  if (is_folder || !file) return failed("can't open " + path + (is_folder ? ": is a folder" : ""));
+  if (is_folder || !file) {
+    return failed("can't open " + path + ": " + (is_folder ? "is a folder" : std::generic_category().message(errno)));
+  }
   SceneReading reading = readSceneText(readText(file));
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   for (ObstacleParams& obstacle : reading.scene.obstacles) obstacle.mesh = resolvePath(obstacle.mesh, folder);

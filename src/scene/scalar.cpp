@@ -132,7 +132,10 @@ std::string hintFor(const std::string& text, bool in_quotes) {
   const std::string word = lowerCase(text);
   if (word == "inf" || word == "+inf" || word == "infinity") return "write .inf" + how;
   NumberParts parts;
-  return splitNumber(text, parts) ? "write " + yaml11Spelling(parts) + how : "";
+  if (splitNumber(text, parts)) return "write " + yaml11Spelling(parts) + how;
+  // "20 mm", "30deg": what is in front of the unit's name.
+  const bool has_unit = splitNumber(text.substr(0, text.find_first_not_of("+-.0123456789")), parts);
+  return has_unit ? "write the number alone, in SI units" : "";
 }
 
 bool isNumberTag(const std::string& tag) { return tag == "tag:yaml.org,2002:float" || tag == "tag:yaml.org,2002:int"; }

@@ -76,6 +76,8 @@ TEST(BadInput, NumbersGivenAsTextAreNamedWithTheRightSpelling) {
   expectProblem(tolerance("-.5"), key, {"is the text \"-.5\"", "write -0.5"});
   expectProblem(tolerance("\"1.0e-6\""), key, {"is the text", "write 1.0e-6 without quotes"});
   expectProblem(tolerance("\"1e-6\""), key, {"is the text", "write 1.0e-6 without quotes"});
+  expectProblem(tolerance("2 mm"), key, {"is the text \"2 mm\"", "write the number alone, in SI units"});
+  expectProblem(tolerance("1e-3m"), key, {"is the text \"1e-3m\"", "write the number alone, in SI units"});
   expectProblem(tolerance("!!str 1.0e-6"), key, {"is the text", "write 1.0e-6"});
   expectProblem(tolerance("small"), key, {"a number in [1e-12, 0.1], is the text \"small\""});
   expectProblem(tolerance("yes"), key, {"a number in [1e-12, 0.1], is yes"});
@@ -105,7 +107,8 @@ TEST(BadInput, NumbersOutOfRangeAreNamedWithTheirRange) {
   expectProblem(with("solver: {stretch_tolerance: 0.2}"), "solver.stretch_tolerance", {"is 0.2"});
   expectProblem(with("solver: {max_sweeps: 0}"), "solver.max_sweeps", {"an integer in [1, 10000], is 0"});
   expectProblem(with("solver: {max_substeps: 10001}"), "solver.max_substeps", {"[1, 10000], is 10001"});
-  expectProblem(with("hang: {tilt: .nan}"), "hang.tilt", {"a number in [-1000000000, 1000000000], is .nan"});
+  expectProblem(with("hang: {tilt: .nan}"), "hang.tilt", {"a number in [-6.3, 6.3], is .nan"});
+  expectProblem(with("hang: {tilt: 45}"), "hang.tilt", {"a number in [-6.3, 6.3], is 45"});  // degrees
 }
 
 TEST(BadInput, SubstepsAreAutoOrAWholeNumber) {
