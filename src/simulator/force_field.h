@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The winds and drags that act on a cloth, by id, and the sum of all forces at one time.
+// The winds and drags that act on a cloth, by id: the sum of all forces at one time, and which columns a change reaches.
 #pragma once
 
 #include <string>
