@@ -6,6 +6,7 @@
 
 #include "cloth/cloth.h"
 #include "scene/pi.h"
+#include "scene/shares.h"
 
 namespace curtain {
 namespace {
@@ -34,15 +35,13 @@ void placeFlat(const Scene& scene, const ClothPattern& pattern, Field3& position
   const double span = (scene.hang.to - scene.hang.from).norm();
   const Vec3 middle = 0.5 * (scene.hang.from + scene.hang.to);
   const double top_width = pattern.weft_coordinate.back();
-  const double hem_width = scene.cloth.hem_width.value_or(scene.cloth.width);
   for (int j = 0; j < grid.columns; ++j) {
     const double share = pattern.weft_coordinate[static_cast<std::size_t>(j)] / top_width - 0.5;
     double down = 0.0;
     double last_across = 0.0;
     for (int i = 0; i < grid.rows; ++i) {
       const double depth = pattern.warp_coordinate[static_cast<std::size_t>(i)] / scene.cloth.height;
-      const double row_width = scene.cloth.width + (hem_width - scene.cloth.width) * depth;
-      const double across = share * std::min(span, row_width);
+      const double across = share * std::min(span, rowWidth(scene.cloth, depth));
       if (i > 0) {
         const double rest = pattern.warp_rest[grid.index(i, j)];
         const double slant = across - last_across;

@@ -1,22 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "cloth/cloth.h"
+#include "scene/shares.h"
 
 namespace curtain {
 namespace {
-
-// Lengths in proportion to weights that add up to total; no weights: all equal.
-std::vector<double> shareLength(const std::vector<double>& weights, int count, double total) {
-  const auto size = static_cast<std::size_t>(count);
-  if (weights.empty()) return std::vector<double>(size, total / count);
-  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-  std::vector<double> lengths(size);
-  for (std::size_t i = 0; i < size; ++i) lengths[i] = weights[i] / sum * total;
-  return lengths;
-}
 
 double factor(const std::vector<double>& factors, int i) {
   return factors.empty() ? 1.0 : factors[static_cast<std::size_t>(i)];
@@ -24,18 +14,16 @@ double factor(const std::vector<double>& factors, int i) {
 
 void fillRestLengths(const ClothParams& cloth, ClothPattern& pattern) {
   const Grid& grid = pattern.grid;
-  const std::vector<double> rods = shareLength(cloth.row_spacing, grid.rows - 1, cloth.height);
+  const std::vector<double> rods = shareOut(cloth.height, cloth.row_spacing, grid.rows - 1);
   pattern.warp_coordinate.assign(static_cast<std::size_t>(grid.rows), 0.0);
   for (int i = 1; i < grid.rows; ++i) {
     const auto row = static_cast<std::size_t>(i);
     pattern.warp_coordinate[row] = pattern.warp_coordinate[row - 1] + rods[row - 1];
     for (int j = 0; j < grid.columns; ++j) pattern.warp_rest[grid.index(i, j)] = rods[row - 1];
   }
-  const double hem_width = cloth.hem_width.value_or(cloth.width);
   for (int i = 0; i < grid.rows; ++i) {
     const double down = pattern.warp_coordinate[static_cast<std::size_t>(i)] / cloth.height;
-    const double width = cloth.width + (hem_width - cloth.width) * down;
-    const std::vector<double> links = shareLength(cloth.column_spacing, grid.linkCount(), width);
+    const std::vector<double> links = shareOut(rowWidth(cloth, down), cloth.column_spacing, grid.linkCount());
     for (int j = 1; j < grid.columns; ++j) pattern.weft_rest[grid.index(i, j)] = links[static_cast<std::size_t>(j - 1)];
     if (grid.closed) pattern.weft_rest[grid.index(i, 0)] = links.back();
   }

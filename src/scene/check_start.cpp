@@ -8,26 +8,16 @@
 //      s_i /  tilt |
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "scene/checks.h"
 #include "scene/pi.h"
 #include "scene/range_checker.h"
+#include "scene/shares.h"
 
 namespace curtain {
 namespace {
 
 constexpr double kSlack = 1e-9;  // relative: for rounding of typed lengths, which the solver corrects at once
-
-// Shares of the whole in proportion to weights; empty: all equal.
-std::vector<double> shares(const std::vector<double>& weights, int count) {
-  const auto size = static_cast<std::size_t>(count);
-  if (weights.empty()) return std::vector<double>(size, 1.0 / count);
-  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-  std::vector<double> result(size);
-  std::transform(weights.begin(), weights.end(), result.begin(), [sum](double weight) { return weight / sum; });
-  return result;
-}
 
 bool clothIsGood(const ClothParams& cloth, const ProblemLog& log) {
   for (const char* key : {"cloth.closed", "cloth.rows", "cloth.columns", "cloth.height", "cloth.width",
@@ -37,8 +27,6 @@ bool clothIsGood(const ClothParams& cloth, const ProblemLog& log) {
   // The log may hold a problem of a map above these keys, and what follows divides by them.
   return cloth.rows >= 2 && cloth.columns >= 2;
 }
-
-double hemWidth(const ClothParams& cloth) { return cloth.hem_width.value_or(cloth.width); }
 
 void checkFlat(const Scene& scene, ProblemLog& log) {
   const ClothParams& cloth = scene.cloth;
@@ -56,10 +44,8 @@ void checkFlat(const Scene& scene, ProblemLog& log) {
   }
   // Rows narrower than the line make the warp rods slant, most in the outermost columns.
   constexpr double kSteepest = 0.9;
-  const std::vector<double> rods = shares(cloth.row_spacing, cloth.rows - 1);
-  const auto rowSpan = [&](double depth) {
-    return std::min(span, cloth.width + (hemWidth(cloth) - cloth.width) * depth);
-  };
+  const std::vector<double> rods = shareOut(1.0, cloth.row_spacing, cloth.rows - 1);
+  const auto rowSpan = [&](double depth) { return std::min(span, rowWidth(cloth, depth)); };
   double down = 0.0;
   for (std::size_t i = 0; i < rods.size(); ++i) {
     const double slant = 0.5 * std::abs(rowSpan(down + rods[i]) - rowSpan(down));
@@ -77,13 +63,13 @@ void checkRing(const Scene& scene, ProblemLog& log) {
   const ClothParams& cloth = scene.cloth;
   const double top_radius = scene.hang.radius.value_or(cloth.width / (2.0 * kPi));
   const double slope = std::sin(scene.hang.tilt);
-  const std::vector<double> rods = shares(cloth.row_spacing, cloth.rows - 1);
-  const std::vector<double> links = shares(cloth.column_spacing, cloth.columns);
+  const std::vector<double> rods = shareOut(1.0, cloth.row_spacing, cloth.rows - 1);
+  const std::vector<double> links = shareOut(1.0, cloth.column_spacing, cloth.columns);
   double down = 0.0;
   for (int i = 0; i < cloth.rows; ++i) {
     if (i > 0) down += rods[static_cast<std::size_t>(i - 1)];
     const double radius = top_radius + down * cloth.height * slope;
-    const double width = cloth.width + (hemWidth(cloth) - cloth.width) * down;
+    const double width = rowWidth(cloth, down);
     const std::string key = i == 0 ? "hang.radius" : "hang.tilt";
     const std::string is = i == 0 ? formatNumber(top_radius) : formatNumber(scene.hang.tilt);
     if (!(radius > 0.0)) {
