@@ -64,9 +64,9 @@ void carryStatistics(Archive& archive, Statistics& s) {
 // Winds follow from their parameters and the time, drags from theirs and the grasped node. The last forces are needed
 // for velocities that lag behind the positions.
 void ForceField::carry(Archive& archive, AirParams& air) {
-  std::vector<WindParams> winds = wind_params_;
+  std::vector<WindParams> winds = winds_.params;
   std::vector<Grasp> grasps;
-  for (const DragForce& drag : drags_) grasps.push_back({drag.params(), drag.node()});
+  for (const DragForce& drag : drags_.list) grasps.push_back({drag.params(), drag.node()});
   AirParams of_then = air;
   archive.atOnce([&] {
     archive.list("winds", winds, [&](WindParams& wind) { carryParams(archive, wind); });
@@ -85,20 +85,17 @@ void ForceField::carry(Archive& archive, AirParams& air) {
   archive.numbers("damping", forces_.damping);
   archive.flag("has_damping", forces_.has_damping);
   if (!archive.loads()) return;
-  std::vector<WindSource> sources;
-  sources.reserve(winds.size());
-  for (const WindParams& wind : winds) sources.emplace_back(wind, pattern_, scene_.cloth.porosity, scene_.solver.seed);
-  std::vector<DragForce> drags;
-  std::vector<DragParams> drag_params;
+  Sources<WindSource, WindParams> loaded_winds;
+  for (const WindParams& wind : winds)
+    loaded_winds.put(WindSource(wind, pattern_, scene_.cloth.porosity, scene_.solver.seed));
+  Sources<DragForce, DragParams> loaded_drags;
   for (const Grasp& grasp : grasps) {
-    drags.emplace_back(grasp.drag, pattern_);
-    if (grasp.node) drags.back().grasp(*grasp.node, pattern_);
-    drag_params.push_back(grasp.drag);
+    DragForce drag(grasp.drag, pattern_);
+    if (grasp.node) drag.grasp(*grasp.node, pattern_);
+    loaded_drags.put(std::move(drag));
   }
-  archive.put(winds_, std::move(sources));
-  archive.put(wind_params_, std::move(winds));
-  archive.put(drags_, std::move(drags));
-  archive.put(drag_params_, std::move(drag_params));
+  archive.put(winds_, std::move(loaded_winds));
+  archive.put(drags_, std::move(loaded_drags));
   archive.put(air, of_then);
   archive.put(air_damping_, AirDamping(of_then, pattern_));
   archive.put(forces_.force, static_cast<const Field3*>(more_than_weight ? &sum_ : &weight_));

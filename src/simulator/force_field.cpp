@@ -7,25 +7,6 @@
 namespace curtain {
 namespace {
 
-template <typename Item>
-auto findId(std::vector<Item>& items, const std::string& id) {
-  return std::find_if(items.begin(), items.end(), [&id](const Item& item) { return item.params().id == id; });
-}
-
-template <typename Item, typename Params>
-void listParams(const std::vector<Item>& items, std::vector<Params>& out) {
-  out.clear();
-  for (const Item& item : items) out.push_back(item.params());
-}
-
-template <typename Item>
-bool eraseId(std::vector<Item>& items, const std::string& id) {
-  const auto found = findId(items, id);
-  if (found == items.end()) return false;
-  items.erase(found);
-  return true;
-}
-
 // An event on the border of two frames belongs to both, whatever the rounding [s].
 constexpr double kSlack = 1e-9;
 
@@ -48,11 +29,8 @@ ForceField::ForceField(const Scene& scene, const ClothPattern& pattern)
 void ForceField::reset() {
   winds_.clear();
   drags_.clear();
-  for (const WindParams& wind : scene_.wind)
-    winds_.emplace_back(wind, pattern_, scene_.cloth.porosity, scene_.solver.seed);
-  for (const DragParams& drag : scene_.drag) drags_.emplace_back(drag, pattern_);
-  listParams(winds_, wind_params_);
-  listParams(drags_, drag_params_);
+  for (const WindParams& wind : scene_.wind) setWind(wind);
+  for (const DragParams& drag : scene_.drag) setDrag(drag);
   sum_.assign(pattern_.grid.size(), 0.0);
   forces_.force = &sum_;
 }
@@ -62,56 +40,22 @@ void ForceField::takeGravity() noexcept {
 }
 
 void ForceField::setWind(const WindParams& wind) {
-  WindSource source(wind, pattern_, scene_.cloth.porosity, scene_.solver.seed);
-  const auto found = findId(winds_, wind.id);
-  if (found == winds_.end()) {
-    winds_.push_back(std::move(source));
-  } else {
-    *found = std::move(source);
-  }
-  listParams(winds_, wind_params_);
-}
-
-bool ForceField::removeWind(const std::string& id) {
-  const bool removed = eraseId(winds_, id);
-  listParams(winds_, wind_params_);
-  return removed;
-}
-
-void ForceField::clearWinds() {
-  winds_.clear();
-  wind_params_.clear();
+  winds_.put(WindSource(wind, pattern_, scene_.cloth.porosity, scene_.solver.seed));
 }
 
 void ForceField::setDrag(const DragParams& drag) {
   DragForce force(drag, pattern_);
-  const auto found = findId(drags_, drag.id);
-  if (found == drags_.end()) {
-    drags_.push_back(std::move(force));
-  } else {
-    // A drag that is replaced keeps its node, wherever the node has moved since.
-    if (!force.node() && found->node()) force.grasp(*found->node(), pattern_);
-    *found = std::move(force);
-  }
-  listParams(drags_, drag_params_);
-}
-
-bool ForceField::removeDrag(const std::string& id) {
-  const bool removed = eraseId(drags_, id);
-  listParams(drags_, drag_params_);
-  return removed;
-}
-
-void ForceField::clearDrags() {
-  drags_.clear();
-  drag_params_.clear();
+  const DragForce* const old = drags_.find(drag.id);
+  // A drag that is replaced keeps its node, wherever the node has moved since.
+  if (old != nullptr && !force.node() && old->node()) force.grasp(*old->node(), pattern_);
+  drags_.put(std::move(force));
 }
 
 // Finds the nodes that the active winds reach; false: none.
 bool ForceField::findWinds(const Field3& position, double time) noexcept {
   std::optional<Eigen::AlignedBox3d> cloth;
   bool any = false;
-  for (WindSource& wind : winds_) {
+  for (WindSource& wind : winds_.list) {
     if (!wind.blowsAt(time)) continue;
     if (!cloth) cloth = bounds_.around(position);
     wind.find(pattern_.grid, position, *cloth);
@@ -125,9 +69,10 @@ void ForceField::addWinds(const Field3& position, double time) noexcept {
     const auto reads = [=](const WindSource& wind) {
       return wind.blowsAt(time) && wind.readsNormals() && wind.reachesRow(i);
     };
-    if (std::any_of(winds_.begin(), winds_.end(), reads)) nodeAreaVectors(pattern_.grid, i, position, area_vectors_);
+    if (std::any_of(winds_.list.begin(), winds_.list.end(), reads))
+      nodeAreaVectors(pattern_.grid, i, position, area_vectors_);
   }
-  for (WindSource& wind : winds_) {
+  for (WindSource& wind : winds_.list) {
     if (wind.blowsAt(time)) wind.addForces(pattern_, position, area_vectors_, time, sum_);
   }
 }
@@ -136,7 +81,7 @@ void ForceField::addWinds(const Field3& position, double time) noexcept {
 const NodeForces& ForceField::evaluate(const ClothState& state, double time, double dt) noexcept {
   const auto acts = [time](const DragForce& drag) { return drag.actsAt(time); };
   const bool windy = findWinds(state.position, time);
-  const bool dragged = std::any_of(drags_.begin(), drags_.end(), acts);
+  const bool dragged = std::any_of(drags_.list.begin(), drags_.list.end(), acts);
   forces_.force = &weight_;
   forces_.weight_only = !windy && !dragged;
   forces_.gravity = scene_.gravity;
@@ -146,10 +91,10 @@ const NodeForces& ForceField::evaluate(const ClothState& state, double time, dou
   }
   if (windy) addWinds(state.position, time);
   const auto damps = [&acts](const DragForce& drag) { return drag.damps() && acts(drag); };
-  forces_.has_damping = air_damping_.active() || std::any_of(drags_.begin(), drags_.end(), damps);
+  forces_.has_damping = air_damping_.active() || std::any_of(drags_.list.begin(), drags_.list.end(), damps);
   if (forces_.has_damping) std::fill(forces_.damping.begin(), forces_.damping.end(), 0.0);
   if (air_damping_.active()) air_damping_.addCoefficients(pattern_.grid, state.velocity, forces_.damping);
-  for (DragForce& drag : drags_) {
+  for (DragForce& drag : drags_.list) {
     if (acts(drag)) drag.addForces(pattern_, state.position, dt + state.velocity_age, sum_, forces_.damping);
   }
   return forces_;
@@ -185,36 +130,36 @@ void ForceField::markReached(const WindSource& wind, const Field3& position, Col
 }
 
 void ForceField::markChanges(double from, double to, const Field3& position, ColumnSet& out) const noexcept {
-  for (const WindSource& wind : winds_) {
+  for (const WindSource& wind : winds_.list) {
     if (within(wind.params().start, from, to) || within(wind.params().end, from, to)) markReached(wind, position, out);
   }
-  for (const DragForce& drag : drags_) {
+  for (const DragForce& drag : drags_.list) {
     if (within(drag.params().start, from, to) || within(drag.params().end, from, to))
       drag.markColumns(pattern_.grid, out);
   }
 }
 
 void ForceField::markGusts(double time, const Field3& position, ColumnSet& out) const noexcept {
-  for (const WindSource& wind : winds_) {
+  for (const WindSource& wind : winds_.list) {
     if (wind.params().unsteadiness > 0.0 && wind.blowsAt(time)) markReached(wind, position, out);
   }
 }
 
 void ForceField::markWind(const std::string& id, const Field3& position, ColumnSet& out) const noexcept {
-  for (const WindSource& wind : winds_) {
+  for (const WindSource& wind : winds_.list) {
     if (wind.params().id == id) markReached(wind, position, out);
   }
 }
 
 void ForceField::markDrag(const std::string& id, ColumnSet& out) const noexcept {
-  for (const DragForce& drag : drags_) {
+  for (const DragForce& drag : drags_.list) {
     if (drag.params().id == id) drag.markColumns(pattern_.grid, out);
   }
 }
 
 bool ForceField::reaches(const std::string& id, double time, const Field3& position) const {
   ColumnSet columns(pattern_.grid.columns);
-  for (const WindSource& wind : winds_) {
+  for (const WindSource& wind : winds_.list) {
     if (wind.params().id == id && wind.blowsAt(time)) markReached(wind, position, columns);
   }
   return !columns.empty();

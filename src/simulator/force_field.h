@@ -11,6 +11,7 @@
 #include "forces/air_damping.h"
 #include "forces/drag_force.h"
 #include "forces/wind_source.h"
+#include "scene/find_by_id.h"
 #include "solver/substep.h"
 
 namespace curtain {
@@ -18,6 +19,43 @@ namespace curtain {
 /// They differ at most in start and end.
 bool sameWhileItBlows(const WindParams& a, const WindParams& b);
 bool sameWhileItActs(const DragParams& a, const DragParams& b);
+
+/// Sources of one kind, and their parameters in the same order.
+template <typename Source, typename Params>
+struct Sources {
+  std::vector<Source> list;
+  std::vector<Params> params;
+
+  /// The one with this id; null: there is none.
+  Source* find(const std::string& id) {
+    const Params* const found = findById(params, id);
+    return found == nullptr ? nullptr : &list[static_cast<std::size_t>(found - params.data())];
+  }
+  /// Adds the source, or replaces the one with its id.
+  void put(Source source) {
+    Source* const old = find(source.params().id);
+    if (old == nullptr) {
+      params.push_back(source.params());
+      list.push_back(std::move(source));
+    } else {
+      params[static_cast<std::size_t>(old - list.data())] = source.params();
+      *old = std::move(source);
+    }
+  }
+  /// False: there is none.
+  bool remove(const std::string& id) {
+    const Source* const old = find(id);
+    if (old == nullptr) return false;
+    const auto at = old - list.data();
+    params.erase(params.begin() + at);
+    list.erase(list.begin() + at);
+    return true;
+  }
+  void clear() {
+    params.clear();
+    list.clear();
+  }
+};
 
 class ForceField {
  public:
@@ -28,14 +66,14 @@ class ForceField {
 
   /// Valid ones.
   void setWind(const WindParams& wind);
-  bool removeWind(const std::string& id);
-  void clearWinds();
-  const std::vector<WindParams>& winds() const { return wind_params_; }
+  bool removeWind(const std::string& id) { return winds_.remove(id); }
+  void clearWinds() { winds_.clear(); }
+  const std::vector<WindParams>& winds() const { return winds_.params; }
 
   void setDrag(const DragParams& drag);
-  bool removeDrag(const std::string& id);
-  void clearDrags();
-  const std::vector<DragParams>& drags() const { return drag_params_; }
+  bool removeDrag(const std::string& id) { return drags_.remove(id); }
+  void clearDrags() { drags_.clear(); }
+  const std::vector<DragParams>& drags() const { return drags_.params; }
 
   /// Forces at a time [s] on the cloth's present state; dt: how long they will act [s]. Allocates nothing.
   const NodeForces& evaluate(const ClothState& state, double time, double dt) noexcept;
@@ -71,10 +109,8 @@ class ForceField {
   const ClothPattern& pattern_;
   SampledBounds bounds_;
   AirDamping air_damping_;
-  std::vector<WindSource> winds_;
-  std::vector<WindParams> wind_params_;
-  std::vector<DragForce> drags_;
-  std::vector<DragParams> drag_params_;
+  Sources<WindSource, WindParams> winds_;
+  Sources<DragForce, DragParams> drags_;
   Field3 weight_;
   Field3 sum_;           // with winds and drags, when one acts
   Field3 area_vectors_;  // in rows that a wind reaches

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "curtain_sim/simulator.h"
 
-#include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include "contact/oracle/piercings.h"
+#include "scene/find_by_id.h"
 #include "scene/fnv1a.h"
 #include "scene/ranges.h"
 #include "simulator/self_crossings.h"
@@ -13,25 +14,9 @@
 namespace curtain {
 
 const char* stageName(Stage stage) {
-  switch (stage) {
-    case Stage::kForces:
-      return "forces";
-    case Stage::kPredict:
-      return "predict";
-    case Stage::kWarp:
-      return "warp";
-    case Stage::kWeft:
-      return "weft";
-    case Stage::kContact:
-      return "contact";
-    case Stage::kFinish:
-      return "finish";
-    case Stage::kEstimate:
-      return "estimate";
-    case Stage::kStageCount:
-      break;
-  }
-  return "";
+  constexpr std::array<const char*, kStageCount> kNames = {"forces",  "predict", "warp",    "weft",
+                                                           "contact", "finish",  "estimate"};
+  return kNames.at(static_cast<std::size_t>(stage));
 }
 
 namespace {
@@ -140,12 +125,6 @@ NodeIndex Simulator::nearestNode(const Vec3& point) const {
 }
 
 namespace {
-
-template <typename Params>
-const Params* findById(const std::vector<Params>& all, const std::string& id) {
-  const auto found = std::find_if(all.begin(), all.end(), [&id](const Params& one) { return one.id == id; });
-  return found != all.end() ? &*found : nullptr;
-}
 
 template <typename Params>
 bool actsAt(const Params& source, double time) {

@@ -3,11 +3,11 @@
 
 #include <visualization_msgs/InteractiveMarkerUpdate.h>
 
-#include <algorithm>
 #include <boost/make_shared.hpp>
 #include <cmath>
 
 #include "ros/frames/geometry.h"
+#include "scene/find_by_id.h"
 
 namespace curtain_ros {
 
@@ -88,9 +88,7 @@ void Handles::update(const curtain::Simulator& simulator) {
   if (!touched_.exchange(false) && shown_ == simulator.revision()) return;
   shown_ = simulator.revision();
   for (const Handle& handle : handles_) {
-    const auto& drags = simulator.drags();
-    const auto is_it = [&](const curtain::DragParams& drag) { return drag.id == handle.name; };
-    if (std::any_of(drags.begin(), drags.end(), is_it)) {  // dragged
+    if (curtain::findById(simulator.drags(), handle.name) != nullptr) {  // dragged
       touched_ = true;
       continue;
     }

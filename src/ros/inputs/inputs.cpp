@@ -3,9 +3,8 @@
 
 #include <ros/console.h>
 
-#include <algorithm>
-
 #include "ros/inputs/read_messages.h"
+#include "scene/find_by_id.h"
 
 namespace curtain_ros {
 
@@ -26,14 +25,8 @@ constexpr double kWarnPeriod = 2.0;  // [s] between warnings of one kind
 constexpr std::size_t kMostSources = 256;
 
 template <typename Params>
-const Params* find(const std::vector<Params>& all, const std::string& id) {
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Params& one) { return one.id == id; });
-  return found == all.end() ? nullptr : &*found;
-}
-
-template <typename Params>
 Problems checkRoom(const std::vector<Params>& all, const std::string& id) {
-  if (all.size() < kMostSources || find(all, id) != nullptr) return {};
+  if (all.size() < kMostSources || curtain::findById(all, id) != nullptr) return {};
   return {{"id", "is new, and there are " + std::to_string(all.size()) + " already; at most " +
                      std::to_string(kMostSources) + " at a time"}};
 }
@@ -49,7 +42,7 @@ std::vector<std::string> idsOver(const std::vector<Params>& all, double time) {
 
 // What a message does to the simulator, in the words of its type.
 Problems add(const WindSource& message, const curtain::Pose& frame, Simulator& simulator) {
-  const curtain::WindParams* replaced = find(simulator.winds(), message.id);
+  const curtain::WindParams* replaced = curtain::findById(simulator.winds(), message.id);
   curtain::WindParams wind = replaced ? *replaced : curtain::WindParams();
   Problems problems = toWind(message, frame, simulator.time(), wind);
   if (problems.empty()) problems = checkRoom(simulator.winds(), message.id);
