@@ -31,6 +31,11 @@ struct Link {
   double not_finite;  // 0, or NaN when a position at its ends is not finite
 };
 
+// What is looked for the largest of, and Link::not_finite.
+struct Size {
+  double size, not_finite;
+};
+
 // A link takes part when it is too long or still pulls, and has an end that can move.
 CURTAIN_INTO_WIDE Link look(const Row& row, std::size_t left, std::size_t right) {
   const double rx = row.x[right] - row.x[left], ry = row.y[right] - row.y[left], rz = row.z[right] - row.z[left];
@@ -63,6 +68,26 @@ CURTAIN_INTO_WIDE void overLinks(const ColumnSpan& span, std::size_t columns, co
   }
 }
 
+// Largest sizeOf(left, right) of a row's links, called once for each; infinite when a position is not finite.
+template <typename SizeOf>
+CURTAIN_INTO_WIDE double largestOf(const Grid& grid, const ColumnSpan& span, const SizeOf& sizeOf) {
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  double worst = 0.0, finite = 0.0;
+  overLinks(span, columns, [&](std::size_t first, std::size_t end) {
+    double largest = 0.0, sum = 0.0;
+#pragma omp simd reduction(max : largest) reduction(+ : sum)
+    for (std::size_t j = first; j < end; ++j) {
+      const Size link = sizeOf(j - 1, j);
+      largest = largest > link.size ? largest : link.size;
+      sum += link.not_finite;
+    }
+    worst = largest;
+    finite = sum;
+  });
+  if (grid.closed) worst = std::max(worst, sizeOf(columns - 1, 0).size);
+  return finite == 0.0 ? worst : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 CURTAIN_WIDE void setWeftDirections(const Grid& grid, int row, const ColumnSpan& span, const Field3& position,
@@ -82,28 +107,11 @@ CURTAIN_WIDE void setWeftDirections(const Grid& grid, int row, const ColumnSpan&
 }
 
 CURTAIN_WIDE double weftResidual(const LineSolve& line, int i) noexcept {
-  const Grid& grid = line.pattern.grid;
   const Row row(line, i);
-  const auto columns = static_cast<std::size_t>(grid.columns);
-  double worst = 0.0;
-  double finite = 0.0;
-  overLinks(line.span, columns, [&](std::size_t first, std::size_t end) {
-    double largest = 0.0, sum = 0.0;
-#pragma omp simd reduction(max : largest) reduction(+ : sum)
-    for (std::size_t j = first; j < end; ++j) {
-      const Link link = look(row, j - 1, j);
-      const double size = link.active * std::abs(link.violation);
-      largest = largest > size ? largest : size;
-      sum += link.not_finite;
-    }
-    worst = largest;
-    finite = sum;
+  return largestOf(line.pattern.grid, line.span, [=](std::size_t left, std::size_t right) -> Size {
+    const Link link = look(row, left, right);
+    return {link.active * std::abs(link.violation), link.not_finite};
   });
-  if (grid.closed) {
-    const Link link = look(row, columns - 1, 0);
-    worst = std::max(worst, link.active * std::abs(link.violation));
-  }
-  return finite == 0.0 ? worst : std::numeric_limits<double>::infinity();
 }
 
 void freeWeft(const ClothPattern& pattern, const Field& inverse_mass, Field& out) noexcept {
@@ -121,58 +129,25 @@ CURTAIN_WIDE double weftSquare(const Grid& grid, int i, const ColumnSpan& span, 
                                const Field& free_per_square) noexcept {
   const ConstFieldView p(position, grid.row(i));
   const double* const per_square = free_per_square.data() + grid.row(i);
-  const auto columns = static_cast<std::size_t>(grid.columns);
-  double worst = 0.0;
-  double finite = 0.0;
-  const auto square = [=](std::size_t left, std::size_t right) {
+  return largestOf(grid, span, [=](std::size_t left, std::size_t right) -> Size {
     const double rx = p.x[right] - p.x[left], ry = p.y[right] - p.y[left], rz = p.z[right] - p.z[left];
-    return (rx * rx + ry * ry + rz * rz) * per_square[right];
-  };
-  overLinks(span, columns, [&](std::size_t first, std::size_t end) {
-    double largest = 0.0, sum = 0.0;
-#pragma omp simd reduction(max : largest) reduction(+ : sum)
-    for (std::size_t j = first; j < end; ++j) {
-      const double size = square(j - 1, j);
-      largest = largest > size ? largest : size;
-      sum += 0.0 * size;
-    }
-    worst = largest;
-    finite = sum;
+    const double square = (rx * rx + ry * ry + rz * rz) * per_square[right];
+    return {square, 0.0 * square};
   });
-  if (grid.closed) worst = std::max(worst, square(columns - 1, 0));
-  return finite == 0.0 ? worst : std::numeric_limits<double>::infinity();
 }
 
 CURTAIN_WIDE double measureWeft(const LineSolve& line, int i, Field& violation, Field& active) noexcept {
   const Grid& grid = line.pattern.grid;
   const Row row(line, i);
-  const auto columns = static_cast<std::size_t>(grid.columns);
   const double* const rest = line.pattern.weft_rest.data() + grid.row(i);
   double* const c_out = violation.data() + grid.row(i);
   double* const active_out = active.data() + grid.row(i);
-  double worst = 0.0;
-  double finite = 0.0;
-  overLinks(line.span, columns, [&](std::size_t first, std::size_t end) {
-    double largest = 0.0, sum = 0.0;
-#pragma omp simd reduction(max : largest) reduction(+ : sum)
-    for (std::size_t j = first; j < end; ++j) {
-      const Link link = look(row, j - 1, j);
-      active_out[j] = link.active;
-      c_out[j] = link.violation * rest[j] * rest[j];
-      const double size = link.active * std::abs(link.violation);
-      largest = largest > size ? largest : size;
-      sum += link.not_finite;
-    }
-    worst = largest;
-    finite = sum;
+  return largestOf(grid, line.span, [=](std::size_t left, std::size_t right) -> Size {
+    const Link link = look(row, left, right);
+    active_out[right] = link.active;
+    c_out[right] = link.violation * rest[right] * rest[right];
+    return {link.active * std::abs(link.violation), link.not_finite};
   });
-  if (grid.closed) {
-    const Link link = look(row, columns - 1, 0);
-    active_out[0] = link.active;
-    c_out[0] = link.violation * rest[0] * rest[0];
-    worst = std::max(worst, link.active * std::abs(link.violation));
-  }
-  return finite == 0.0 ? worst : std::numeric_limits<double>::infinity();
 }
 
 double measureWeftRates(const LineSolve& line, int i, Field& violation, Field& active) noexcept {

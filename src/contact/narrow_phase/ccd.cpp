@@ -51,10 +51,8 @@ using Four = Eigen::Array4d;
 struct Points {
   Four x, y, z;
   Vec3 point(int i) const { return {x[i], y[i], z[i]}; }
-  void set(int i, const Vec3& point) {
-    x[i] = point.x();
-    y[i] = point.y();
-    z[i] = point.z();
+  static Points of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    return {{a.x(), b.x(), c.x(), d.x()}, {a.y(), b.y(), c.y(), d.y()}, {a.z(), b.z(), c.z(), d.z()}};
   }
   Four along(const Vec3& n) const { return x * n.x() + y * n.y() + z * n.z(); }
   Vec3 largest() const { return {x.abs().maxCoeff(), y.abs().maxCoeff(), z.abs().maxCoeff()}; }
@@ -297,12 +295,7 @@ std::optional<double> vertexTriangleTimeOfImpact(const Vec3& p0, const Vec3& a0,
                                                  const Vec3& p1, const Vec3& a1, const Vec3& b1, const Vec3& c1,
                                                  double min_distance) noexcept {
   const auto difference = [](const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-    Points points;
-    points.set(0, p - a);
-    points.set(1, p - b);
-    points.set(2, p - c);
-    points.set(3, p - c);
-    return points;
+    return Points::of(p - a, p - b, p - c, p - c);
   };
   return timeOfImpact<VertexTriangle>(difference(p0, a0, b0, c0), difference(p1, a1, b1, c1), min_distance);
 }
@@ -311,12 +304,7 @@ std::optional<double> edgeEdgeTimeOfImpact(const Vec3& a0, const Vec3& b0, const
                                            const Vec3& a1, const Vec3& b1, const Vec3& c1, const Vec3& d1,
                                            double min_distance) noexcept {
   const auto difference = [](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-    Points points;
-    points.set(0, a - c);
-    points.set(1, a - d);
-    points.set(2, b - c);
-    points.set(3, b - d);
-    return points;
+    return Points::of(a - c, a - d, b - c, b - d);
   };
   return timeOfImpact<EdgeEdge>(difference(a0, b0, c0, d0), difference(a1, b1, c1, d1), min_distance);
 }
