@@ -43,8 +43,21 @@ struct ClothState {
 /// Rest lengths, masses and pins of a validated scene.
 ClothPattern makePattern(const Scene& scene);
 
-/// The cloth at rest at scene.hang. Throws std::invalid_argument when the hem tapers faster than the rods are long.
+/// The cloth of a validated scene at rest at scene.hang.
 ClothState makeInitialState(const Scene& scene, const ClothPattern& pattern);
+
+/// Calls look(node, other, rest length [m], is a rod) for every link, row by row; it is stored at `node`.
+template <typename Look>
+void forEachLink(const ClothPattern& pattern, const Look& look) {
+  const Grid& grid = pattern.grid;
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) {
+      const std::size_t n = grid.index(i, j);
+      if (i > 0) look(n, grid.index(i - 1, j), pattern.warp_rest[n], true);
+      if (j > 0 || grid.closed) look(n, grid.index(i, j > 0 ? j - 1 : grid.columns - 1), pattern.weft_rest[n], false);
+    }
+  }
+}
 
 /// Rest length of the shortest rod or weft link [m].
 double shortestLink(const ClothPattern& pattern);

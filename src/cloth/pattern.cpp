@@ -116,14 +116,8 @@ ClothPattern makePattern(const Scene& scene) {
 }
 
 double shortestLink(const ClothPattern& pattern) {
-  const Grid& grid = pattern.grid;
   double shortest = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j) {
-      if (i > 0) shortest = std::min(shortest, pattern.warp_rest[grid.index(i, j)]);
-      if (j > 0 || grid.closed) shortest = std::min(shortest, pattern.weft_rest[grid.index(i, j)]);
-    }
-  }
+  forEachLink(pattern, [&](std::size_t, std::size_t, double rest, bool) { shortest = std::min(shortest, rest); });
   return shortest;
 }
 

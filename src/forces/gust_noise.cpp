@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "cloth/wide.h"
 
@@ -17,7 +19,12 @@ std::uint64_t mix(std::uint64_t value) {
   return value ^ (value >> 31);
 }
 
-double smoothStep(double t) { return t * t * (3.0 - 2.0 * t); }
+// Of the lattice points on both sides, at t in [0, 1] between them.
+std::pair<double, double> weightsAt(double t) {
+  const double fraction = t * t * (3.0 - 2.0 * t);  // smooth at both ends
+  const double size = std::sqrt(fraction * fraction + (1.0 - fraction) * (1.0 - fraction));
+  return {(1.0 - fraction) / size, fraction / size};
+}
 
 // Number of cells no longer than the correlation length. The slack is for rounding of the length, a sum of rods.
 int latticeCells(double length, double correlation_length, int least, int most) {
@@ -44,10 +51,7 @@ GustNoise::Place GustNoise::place(double coordinate) {
   Place place;
   place.low = static_cast<int>(coordinate);
   place.high = place.low + 1;
-  const double fraction = smoothStep(coordinate - place.low);
-  const double size = std::sqrt(fraction * fraction + (1.0 - fraction) * (1.0 - fraction));
-  place.low_weight = (1.0 - fraction) / size;
-  place.high_weight = fraction / size;
+  std::tie(place.low_weight, place.high_weight) = weightsAt(coordinate - place.low);
   return place;
 }
 
@@ -75,10 +79,7 @@ void GustNoise::setTime(double time) noexcept {
   const double slab_time = time / correlation_time_;
   const double slab_floor = std::floor(slab_time);
   slab_ = static_cast<std::int64_t>(slab_floor);
-  const double fraction = smoothStep(slab_time - slab_floor);
-  const double size = std::sqrt(fraction * fraction + (1.0 - fraction) * (1.0 - fraction));
-  before_weight_ = (1.0 - fraction) / size;
-  after_weight_ = fraction / size;
+  std::tie(before_weight_, after_weight_) = weightsAt(slab_time - slab_floor);
   for (LatticeRow& row : lattice_rows_) row.mixed = false;
 }
 

@@ -14,8 +14,8 @@ namespace curtain {
 inline std::vector<double> shareOut(double total, const std::vector<double>& weights, int count) {
   if (weights.empty()) return std::vector<double>(static_cast<std::size_t>(count), total / count);
   const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-  std::vector<double> shares;
-  for (const double weight : weights) shares.push_back(weight / sum * total);
+  std::vector<double> shares = weights;
+  for (double& share : shares) share = share / sum * total;
   return shares;
 }
 

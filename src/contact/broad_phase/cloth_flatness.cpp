@@ -17,18 +17,13 @@ constexpr double kIrregular = 1e-6;
 // Covers rounding of slopes and kIrregular.
 constexpr double kSlack = 1e-5;
 
-struct Place {
-  const double *x, *y, *z;
-  Place(const Field3& field, std::size_t n) : x(&field.x[n]), y(&field.y[n]), z(&field.z[n]) {}
-};
-
 struct Extremes {
   double least_square, least, most_across;
 };
 
 // Over vectors from nodes to nodes, `stride` apart: squared length, component along one direction, and across it.
-CURTAIN_INTO_WIDE Extremes extremes(const Place& from, const Place& to, std::size_t count, std::size_t stride,
-                                    const Vec3& along, const Vec3& across) noexcept {
+CURTAIN_INTO_WIDE Extremes extremes(const ConstFieldView& from, const ConstFieldView& to, std::size_t count,
+                                    std::size_t stride, const Vec3& along, const Vec3& across) noexcept {
   const double *const ax = from.x, *const ay = from.y, *const az = from.z;
   const double *const bx = to.x, *const by = to.y, *const bz = to.z;
   const double px = along.x(), py = along.y(), pz = along.z(), qx = across.x(), qy = across.y(), qz = across.z();
@@ -45,13 +40,13 @@ CURTAIN_INTO_WIDE Extremes extremes(const Place& from, const Place& to, std::siz
   return {least_square, least, most_across};
 }
 
-CURTAIN_WIDE Extremes extremesOfRow(const Place& from, const Place& to, std::size_t count, const Vec3& along,
-                                    const Vec3& across) noexcept {
+CURTAIN_WIDE Extremes extremesOfRow(const ConstFieldView& from, const ConstFieldView& to, std::size_t count,
+                                    const Vec3& along, const Vec3& across) noexcept {
   return extremes(from, to, count, 1, along, across);
 }
 
-CURTAIN_WIDE Extremes extremesOfColumn(const Place& from, const Place& to, std::size_t count, std::size_t stride,
-                                       const Vec3& along, const Vec3& across) noexcept {
+CURTAIN_WIDE Extremes extremesOfColumn(const ConstFieldView& from, const ConstFieldView& to, std::size_t count,
+                                       std::size_t stride, const Vec3& along, const Vec3& across) noexcept {
   return extremes(from, to, count, stride, along, across);
 }
 
@@ -102,14 +97,11 @@ bool ClothFlatness::isRegular(const ClothPattern& pattern) const {
   const Grid& grid = pattern.grid;
   if (grid.closed) return false;
   const double u = pattern.weft_rest[1], v = pattern.warp_rest[grid.index(1, 0)];
-  for (int i = 0; i < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j) {
-      const std::size_t n = grid.index(i, j);
-      if (i > 0 && std::abs(pattern.warp_rest[n] / v - 1.0) > kIrregular) return false;
-      if (j > 0 && std::abs(pattern.weft_rest[n] / u - 1.0) > kIrregular) return false;
-    }
-  }
-  return true;
+  bool regular = true;
+  forEachLink(pattern, [&](std::size_t, std::size_t, double rest, bool rod) {
+    regular = regular && std::abs(rest / (rod ? v : u) - 1.0) <= kIrregular;
+  });
+  return regular;
 }
 
 std::vector<ClothFlatness::Span> ClothFlatness::spansOf(const Field& coordinate, int most_links) {

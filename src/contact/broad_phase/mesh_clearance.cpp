@@ -15,13 +15,8 @@ namespace {
 // Radius of a new window over the least that would do: larger ones last longer and hold more features.
 constexpr double kMargin = 1.5;
 
-struct Places {
-  const double *x, *y, *z;
-};
-Places placesOf(const Field3& p, std::size_t first) { return {&p.x[first], &p.y[first], &p.z[first]}; }
-
 struct Windows {
-  Places centre, normal;
+  ConstFieldView centre, normal;
   const double *radius, *top;
 };
 
@@ -30,7 +25,7 @@ struct Extent {
   double away = 0.0, low = std::numeric_limits<double>::infinity(), sum = 0.0;
 };
 
-CURTAIN_INTO_WIDE void extend(const Windows& w, const Places& p, std::size_t q, Extent& extent) {
+CURTAIN_INTO_WIDE void extend(const Windows& w, const ConstFieldView& p, std::size_t q, Extent& extent) {
   const double x = p.x[q] - w.centre.x[q], y = p.y[q] - w.centre.y[q], z = p.z[q] - w.centre.z[q];
   const double square = x * x + y * y + z * z;
   const double height = w.normal.x[q] * x + w.normal.y[q] * y + w.normal.z[q] * z;
@@ -40,8 +35,8 @@ CURTAIN_INTO_WIDE void extend(const Windows& w, const Places& p, std::size_t q, 
 }
 
 // Classifies quads side by side, given their four corners at the start and at the end.
-CURTAIN_WIDE void classifyAll(const Windows& w, const std::array<Places, 8>& corners, double reach, std::size_t count,
-                              QuadClearance* views) noexcept {
+CURTAIN_WIDE void classifyAll(const Windows& w, const std::array<ConstFieldView, 8>& corners, double reach,
+                              std::size_t count, QuadClearance* views) noexcept {
 #pragma omp simd
   for (std::size_t q = 0; q < count; ++q) {
     Extent extent;
@@ -132,11 +127,16 @@ const QuadClearance* MeshClearance::classify(int row, const Field3& start, const
   const std::size_t above = grid_.row(row), below = grid_.row(row + 1);
   const auto classifyFrom = [&](std::size_t left, std::size_t right, std::size_t count) {
     const std::size_t n = above + left;
-    const Windows windows{placesOf(centre_, n), placesOf(normal_, n), &radius_[n], &top_[n]};
+    const Windows windows{{centre_, n}, {normal_, n}, &radius_[n], &top_[n]};
     classifyAll(windows,
-                {placesOf(start, n), placesOf(start, above + right), placesOf(start, below + left),
-                 placesOf(start, below + right), placesOf(end, n), placesOf(end, above + right),
-                 placesOf(end, below + left), placesOf(end, below + right)},
+                {{{start, n},
+                  {start, above + right},
+                  {start, below + left},
+                  {start, below + right},
+                  {end, n},
+                  {end, above + right},
+                  {end, below + left},
+                  {end, below + right}}},
                 reach, count, &clearances_[n]);
   };
   classifyFrom(0, 1, columns - 1);

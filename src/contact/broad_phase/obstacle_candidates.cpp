@@ -20,16 +20,14 @@ constexpr std::size_t kRoomOverPart = 2;
 // Nodes that one worker takes at a time.
 constexpr std::size_t kNodesAtOnce = 64;
 
+// Upper bound of a diagonal, which no link holds.
 double longestEdge(const ClothPattern& pattern) {
-  const Grid& grid = pattern.grid;
   double warp = 0.0, weft = 0.0;
-  for (int i = 0; i < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j) {
-      if (i > 0) warp = std::max(warp, pattern.warp_rest[grid.index(i, j)]);
-      if (j > 0 || grid.closed) weft = std::max(weft, pattern.weft_rest[grid.index(i, j)]);
-    }
-  }
-  return warp + weft;  // upper bound of a diagonal: no link holds it
+  forEachLink(pattern, [&](std::size_t, std::size_t, double rest, bool rod) {
+    double& longest = rod ? warp : weft;
+    longest = std::max(longest, rest);
+  });
+  return warp + weft;
 }
 
 struct Range {

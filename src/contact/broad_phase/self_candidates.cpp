@@ -34,19 +34,15 @@ CURTAIN_WIDE double sumOfDifferences(const double* __restrict from, const double
   return sum;
 }
 
-struct Doubles3 {
-  const double *x, *y, *z;
-};
-
 struct Floats3 {
   const float *x, *y, *z;
 };
 
 // Marks the nodes of a row that are further than the bound from where they were expected, and counts them (in floats,
 // so that all lanes have one width).
-CURTAIN_WIDE std::size_t markRow(const Doubles3& at, const Floats3& expected, const Vec3& origin, float most_squared,
-                                 std::size_t count, std::uint8_t* __restrict marks) {
-  const Doubles3 p = at;
+CURTAIN_WIDE std::size_t markRow(const ConstFieldView& at, const Floats3& expected, const Vec3& origin,
+                                 float most_squared, std::size_t count, std::uint8_t* __restrict marks) {
+  const ConstFieldView p = at;
   const Floats3 q = expected;
   const double ox = origin.x(), oy = origin.y(), oz = origin.z();
   float marked = 0.0f;
@@ -59,21 +55,6 @@ CURTAIN_WIDE std::size_t markRow(const Doubles3& at, const Floats3& expected, co
     marked += apart;
   }
   return static_cast<std::size_t>(marked);
-}
-
-// Tests the pairs from `near` on and keeps those that are not separated.
-template <typename Separated>
-void keepUnseparated(const Separated& separated, std::vector<FourNodes>& pairs, std::size_t& near) noexcept {
-  for (std::size_t first = near; first < pairs.size(); first += kPairsAtOnce) {
-    const std::size_t count = std::min(kPairsAtOnce, pairs.size() - first);
-    std::array<FourNodes, kPairsAtOnce> some;
-    for (std::size_t k = 0; k < kPairsAtOnce; ++k) some[k] = pairs[first + std::min(k, count - 1)];
-    const std::uint32_t apart = separated(some);
-    for (std::size_t k = 0; k < count; ++k) {
-      if ((apart >> k & 1U) == 0) pairs[near++] = some[k];
-    }
-  }
-  pairs.resize(near);
 }
 
 }  // namespace
@@ -174,8 +155,8 @@ std::size_t SelfCandidates::markDeviating(const Field3& end, double most) noexce
   for (std::size_t i = 0; i < static_cast<std::size_t>(grid_.rows); ++i) {
     const std::size_t n = i * static_cast<std::size_t>(grid_.stride), m = i * expected_.nodes.stride;
     const Floats3 expected{&expected_.nodes.end[0][m], &expected_.nodes.end[1][m], &expected_.nodes.end[2][m]};
-    count += markRow({&end.x[n], &end.y[n], &end.z[n]}, expected, expected_.end, most_squared,
-                     static_cast<std::size_t>(grid_.columns), &marked_[n]);
+    count +=
+        markRow({end, n}, expected, expected_.end, most_squared, static_cast<std::size_t>(grid_.columns), &marked_[n]);
   }
   return count;
 }
@@ -209,8 +190,8 @@ void SelfCandidates::collectShare(const Query& query, int index, Share& share) c
   if (query.bent) {
     windows_.forEachPair(
         swept(), around, static_cast<std::size_t>(index), shares_.size(),
-        [&](const FourNodes& nodes) { addVertex(query, nodes, share); },
-        [&](const FourNodes& nodes) { addEdge(query, nodes, share); });
+        [&](const FourNodes& nodes) { add(query, nodes, share.vertices, share); },
+        [&](const FourNodes& nodes) { add(query, nodes, share.edges, share); });
   }
   pairs_.find(around, query.bent ? 0 : flat_level_, {index, static_cast<int>(shares_.size())},
               [&](std::size_t a, std::size_t b) {
@@ -218,12 +199,12 @@ void SelfCandidates::collectShare(const Query& query, int index, Share& share) c
                 share.quads.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)});
               });
   addElements(query, share);
-  discardSeparatedVertices(query, share);
-  discardSeparatedEdges(query, share);
+  discardSeparated(query, share.vertices);
+  discardSeparated(query, share.edges);
 }
 
 // Keeps the pairs of quads that the test does not separate.
-void SelfCandidates::keepUnseparatedQuads(QuadTest separated, const Query& query,
+void SelfCandidates::keepUnseparatedQuads(decltype(&quadsSeparated) separated, const Query& query,
                                           std::vector<QuadPair>& quads) const noexcept {
   const BoxHierarchy::Level& level = hierarchy_.levels().front();
   const auto corners = [&](std::size_t quad) {
@@ -255,29 +236,19 @@ void SelfCandidates::addElements(const Query& query, Share& share) const noexcep
   for (const QuadPair& pair : share.quads) {
     elements_.forEach(
         level.rowOf(pair.a), level.columnOf(pair.a), level.rowOf(pair.b), level.columnOf(pair.b),
-        [&](const FourNodes& nodes) { addVertex(query, nodes, share); },
-        [&](const FourNodes& nodes) { addEdge(query, nodes, share); });
+        [&](const FourNodes& nodes) { add(query, nodes, share.vertices, share); },
+        [&](const FourNodes& nodes) { add(query, nodes, share.edges, share); });
   }
   share.quads.clear();
 }
 
-// A full share tests what it has; if that makes no room, it is flushed to the output.
-void SelfCandidates::addVertex(const Query& query, const FourNodes& nodes, Share& share) const noexcept {
-  if (share.vertices.isFull()) discardSeparatedVertices(query, share);
-  if (share.vertices.isFull()) makeRoom(query, share);
-  share.vertices.nodes.push_back(nodes);
-}
-
-void SelfCandidates::addEdge(const Query& query, const FourNodes& nodes, Share& share) const noexcept {
-  if (share.edges.isFull()) discardSeparatedEdges(query, share);
-  if (share.edges.isFull()) makeRoom(query, share);
-  share.edges.nodes.push_back(nodes);
-}
-
-// Other workers may flush at the same time.
-void SelfCandidates::makeRoom(const Query& query, Share& share) const noexcept {
-  discardSeparatedVertices(query, share);
-  discardSeparatedEdges(query, share);
+// A full share tests what it has; if that makes no room, it is flushed to the output. Other workers may flush at the
+// same time.
+void SelfCandidates::makeRoom(const Query& query, Pairs& pairs, Share& share) const noexcept {
+  discardSeparated(query, pairs);
+  if (!pairs.isFull()) return;
+  discardSeparated(query, share.vertices);
+  discardSeparated(query, share.edges);
   const std::lock_guard<std::mutex> alone(making_room_);
   flush(query, share);
 }
@@ -289,14 +260,19 @@ void SelfCandidates::flush(const Query& query, Share& share) noexcept {
   share.clear();
 }
 
-void SelfCandidates::discardSeparatedVertices(const Query& query, Share& share) const noexcept {
-  keepUnseparated([&](const auto& some) { return vertexSeparated(some, swept(), query.reach, query.rounding); },
-                  share.vertices.nodes, share.vertices.near);
-}
-
-void SelfCandidates::discardSeparatedEdges(const Query& query, Share& share) const noexcept {
-  keepUnseparated([&](const auto& some) { return edgesSeparated(some, swept(), query.reach, query.rounding); },
-                  share.edges.nodes, share.edges.near);
+// Tests the pairs from `near` on and keeps those that are not separated.
+void SelfCandidates::discardSeparated(const Query& query, Pairs& pairs) const noexcept {
+  std::vector<FourNodes>& nodes = pairs.nodes;
+  for (std::size_t first = pairs.near; first < nodes.size(); first += kPairsAtOnce) {
+    const std::size_t count = std::min(kPairsAtOnce, nodes.size() - first);
+    std::array<FourNodes, kPairsAtOnce> some;
+    for (std::size_t k = 0; k < kPairsAtOnce; ++k) some[k] = nodes[first + std::min(k, count - 1)];
+    const std::uint32_t apart = pairs.separated(some, swept(), query.reach, query.rounding);
+    for (std::size_t k = 0; k < count; ++k) {
+      if ((apart >> k & 1U) == 0) nodes[pairs.near++] = some[k];
+    }
+  }
+  nodes.resize(pairs.near);
 }
 
 }  // namespace curtain

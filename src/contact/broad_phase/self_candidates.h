@@ -66,14 +66,15 @@ class SelfCandidates {
   };
   /// Pairs of elements: the first `near` passed the separating axis test, the others are still to be tested.
   struct Pairs {
-    std::vector<FourNodes> nodes;
+    decltype(&vertexSeparated) separated;
+    std::vector<FourNodes> nodes{};
     std::size_t near = 0;
     bool isFull() const noexcept { return nodes.size() == nodes.capacity(); }
   };
   /// Result of one worker's share of blocks and windows.
   struct Share {
     std::vector<QuadPair> quads;  // to be tested, many at once
-    Pairs vertices, edges;
+    Pairs vertices{vertexSeparated}, edges{edgesSeparated};
     void clear() noexcept {
       for (Pairs* const pairs : {&vertices, &edges}) {
         pairs->nodes.clear();
@@ -87,18 +88,18 @@ class SelfCandidates {
     bool bent;  // some blocks are not proven flat
     Candidates* out;
   };
-  using QuadTest = std::uint32_t (*)(const std::array<TwoQuads, kPairsAtOnce>&, const SweptNodes&, float,
-                                     float) noexcept;
   SweptNodes swept() const noexcept { return {starts_.data(), ends_.data()}; }
   void collectShare(const Query& query, int index, Share& share) const noexcept;
-  void keepUnseparatedQuads(QuadTest separated, const Query& query, std::vector<QuadPair>& quads) const noexcept;
+  void keepUnseparatedQuads(decltype(&quadsSeparated) separated, const Query& query,
+                            std::vector<QuadPair>& quads) const noexcept;
   void addElements(const Query& query, Share& share) const noexcept;
-  void addVertex(const Query& query, const FourNodes& nodes, Share& share) const noexcept;
-  void addEdge(const Query& query, const FourNodes& nodes, Share& share) const noexcept;
-  void makeRoom(const Query& query, Share& share) const noexcept;
+  void add(const Query& query, const FourNodes& nodes, Pairs& pairs, Share& share) const noexcept {
+    if (pairs.isFull()) makeRoom(query, pairs, share);
+    pairs.nodes.push_back(nodes);
+  }
+  void makeRoom(const Query& query, Pairs& pairs, Share& share) const noexcept;
   static void flush(const Query& query, Share& share) noexcept;
-  void discardSeparatedVertices(const Query& query, Share& share) const noexcept;
-  void discardSeparatedEdges(const Query& query, Share& share) const noexcept;
+  void discardSeparated(const Query& query, Pairs& pairs) const noexcept;
 
   Grid grid_;
   ElementPairs elements_;

@@ -47,16 +47,22 @@ bool startsInside(const std::array<std::uint32_t, 3>& node, std::size_t nodes, c
 // Key of the feature, for the order of contacts.
 std::uint32_t sourceOf(const FeaturePair& pair) { return 2 * pair.feature + (pair.edges ? 1 : 0); }
 
+// A point of an element that was at `at` when it was `surface` from the obstacle.
+ContactPoint contactPoint(const MeshTriangle& node, int nodes, const std::array<double, 3>& weight,
+                          const SurfacePoint& surface, const Corners& at, const Corners& start) {
+  ContactPoint point;
+  point.node = node;
+  point.weight = weight;
+  point.nodes = nodes;
+  point.start = mix(weight, start);
+  point.normal = surface.normal;
+  point.height = point.normal.dot(mix(weight, at)) - surface.distance;
+  return point;
+}
+
 ContactPoint contactPoint(const MeshTriangle& face, const ElementPoint& nearest, const Corners& at,
                           const Corners& start) {
-  ContactPoint point;
-  point.node = face;
-  point.weight = nearest.weights;
-  point.nodes = 3;
-  point.start = mix(nearest.weights, start);
-  point.normal = nearest.surface.normal;
-  point.height = point.normal.dot(mix(nearest.weights, at)) - nearest.surface.distance;
-  return point;
+  return contactPoint(face, 3, nearest.weights, nearest.surface, at, start);
 }
 
 // Closest points of an edge or a face of the cloth and a feature of the mesh.
@@ -121,14 +127,8 @@ bool isInside(const FeaturePair& pair, const ObstacleCandidates& candidates, con
 }
 
 ContactPoint contactPoint(const FeaturePair& pair, const PairPoint& closest, const Corners& at, const Corners& start) {
-  ContactPoint point;
-  point.node = pair.node;
-  point.weight = closest.weight;
-  point.nodes = pair.edges ? 2 : 3;
-  point.start = mix(closest.weight, start);
-  point.normal = closest.apart / closest.distance;
-  point.height = point.normal.dot(mix(closest.weight, at)) - closest.distance;
-  return point;
+  const SurfacePoint surface{closest.distance, closest.apart / closest.distance};
+  return contactPoint(pair.node, pair.edges ? 2 : 3, closest.weight, surface, at, start);
 }
 
 void add(const ObstacleSubstep& substep, const ClothPattern& pattern, ContactPoint& point, double distance, double kept,
@@ -138,6 +138,14 @@ void add(const ObstacleSubstep& substep, const ClothPattern& pattern, ContactPoi
   contact.source = source;
   // A contact of a single node is left to the node.
   if (makeContact(substep, pattern, point, contact) && contact.nodes > 1) addWithinRoom(contact, contacts);
+}
+
+void add(const ObstacleSubstep& substep, const ClothPattern& pattern, ContactPoint& point, double distance, double kept,
+         std::uint32_t source, std::vector<Crossing>& crossings) {
+  point.keep(distance, kept, substep);
+  Crossing crossing{point.node, point.nodes, {}};
+  crossing.contact.source = source;
+  if (makeContact(substep, pattern, point, crossing.contact)) addWithinRoom(crossing, crossings);
 }
 
 }  // namespace
@@ -201,11 +209,7 @@ void crossingFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, 
     const Corners at = between(start, end, *time);
     if (!shape.nearestOnTriangle(at, std::numeric_limits<double>::infinity(), nearest)) continue;
     ContactPoint point = contactPoint(face.node, nearest, at, start);
-    point.keep(distance, candidates.core(), substep);
-    Crossing crossing;
-    crossing.node = face.node;
-    crossing.nodes = 3;
-    if (makeContact(substep, pattern, point, crossing.contact)) addWithinRoom(crossing, crossings);
+    add(substep, pattern, point, distance, candidates.core(), 0, crossings);
   }
 }
 
@@ -267,12 +271,7 @@ void crossingPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, 
       there = first;
     }
     ContactPoint point = contactPoint(pair, there, at, start);
-    point.keep(first.distance, candidates.core(), substep);
-    Crossing crossing;
-    crossing.node = pair.node;
-    crossing.nodes = point.nodes;
-    crossing.contact.source = sourceOf(pair);
-    if (makeContact(substep, pattern, point, crossing.contact)) addWithinRoom(crossing, crossings);
+    add(substep, pattern, point, first.distance, candidates.core(), sourceOf(pair), crossings);
   }
 }
 

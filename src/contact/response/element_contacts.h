@@ -24,6 +24,9 @@ struct ObstacleSubstep {
   bool frictionless;      ///< no friction
   double recovery_speed;  ///< depenetration speed within the gap [m/s]
   double most_recovery;   ///< largest depenetration in this substep [m]
+
+  /// Depenetration of a part at this signed distance [m].
+  double recoveryAt(double distance) const noexcept;
 };
 
 /// A node or element that would cross an obstacle (CCD hit).
@@ -34,9 +37,9 @@ struct Crossing {
 };
 
 /// Signed distance to require at the end of a substep [m], for a part at `distance` at its start that should be at
-/// `kept`. Parts nearer than that recover slowly, and not at all if they lack less than a tenth: a resting contact
-/// must not be shaken.
-double recoveredDistance(double distance, double kept, const ObstacleSubstep& substep) noexcept;
+/// `kept`. Parts nearer than that recover by `recovery` at most, and not at all if they lack less than a tenth: a
+/// resting contact must not be shaken by the residual of the solve.
+double recoveredDistance(double distance, double kept, double recovery) noexcept;
 
 /// Contacts of nodes. Refreshes the cached planes.
 void collectNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, ObstacleCandidates& candidates,
@@ -71,7 +74,7 @@ struct ContactPoint {
 
   /// Requires `kept` at the end, or recovery towards it.
   void keep(double at_start, double kept, const ObstacleSubstep& substep) noexcept {
-    const double asked = recoveredDistance(at_start, kept, substep);
+    const double asked = recoveredDistance(at_start, kept, substep.recoveryAt(at_start));
     distance = at_start;
     height += asked;
     recovery = at_start < 0.0 ? asked - at_start : 0.0;

@@ -19,12 +19,14 @@ constexpr double kSlack = 0.1;
 
 }  // namespace
 
-double recoveredDistance(double distance, double kept, const ObstacleSubstep& substep) noexcept {
+double ObstacleSubstep::recoveryAt(double distance) const noexcept {
+  return std::min((distance < 0.0 ? kFasterInside : 1.0) * recovery_speed * h, most_recovery);
+}
+
+double recoveredDistance(double distance, double kept, double recovery) noexcept {
   if (distance >= kept) return kept;
   const double least = (1.0 - kSlack) * kept;
-  if (distance >= least) return distance;
-  const double speed = distance < 0.0 ? kFasterInside * substep.recovery_speed : substep.recovery_speed;
-  return std::min(least, distance + std::min(speed * substep.h, substep.most_recovery));
+  return distance >= least ? distance : std::min(least, distance + recovery);
 }
 
 bool makeContact(const ObstacleSubstep& substep, const ClothPattern& pattern, const ContactPoint& point,

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "contact/narrow_phase/closest_points.h"
+#include "contact/response/element_contacts.h"
 #include "curtain_sim/ccd.h"
 
 namespace curtain {
@@ -12,9 +13,6 @@ namespace {
 
 // Capacity for touching or crossing pairs, per node.
 constexpr std::size_t kRoomPerNode = 8;
-// Share of the gap that may be missing without recovery: a resting contact must not be shaken by the residual of the
-// solve.
-constexpr double kSlack = 0.1;
 
 Vec3 mix(const std::array<double, 4>& weight, const std::array<Vec3, 4>& at) {
   return weight[0] * at[0] + weight[1] * at[1] + weight[2] * at[2] + weight[3] * at[3];
@@ -74,9 +72,7 @@ SelfContacts::SelfContacts(const ClothPattern& pattern, double gap, const Contac
 }
 
 double SelfContacts::offsetAt(double distance, double h) const noexcept {
-  if (distance >= gap_) return gap_;
-  const double kept = (1.0 - kSlack) * gap_;
-  return distance >= kept ? distance : std::min(kept, distance + std::min(recovery_speed_ * h, most_recovery_));
+  return recoveredDistance(distance, gap_, std::min(recovery_speed_ * h, most_recovery_));
 }
 
 Contact SelfContacts::makeContact(const PairKey& key, const ClosestPoints& closest) const noexcept {

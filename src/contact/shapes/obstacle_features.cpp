@@ -31,13 +31,6 @@ EdgeBend bendOf(const Vec3& normal, const Vec3& across, const Vec3& along, doubl
   return sine >= -flat_angle ? EdgeBend::kConvex : EdgeBend::kConcave;
 }
 
-/// Unit mean of two unit normals; the first if they cancel.
-Vec3 meanNormal(const Vec3& one, const Vec3& other) {
-  const Vec3 sum = one + other;
-  const double norm = sum.norm();
-  return norm > 1e-9 ? Vec3(sum / norm) : one;
-}
-
 }  // namespace
 
 template <typename Feature>
@@ -128,7 +121,7 @@ void ObstacleFeatures::addEdges(const MeshTopology& topology, FlatEdges flat_edg
       const Vec3& half_way = topology.edge_normals[side.triangle][side.slot];
       across = 2.0 * half_way.dot(normal) * half_way - normal;
     }
-    edge.outward = meanNormal(normal, across);
+    edge.outward = unitOrFallback(normal + across, normal);
     if (count > 2) {
       edge.bend = EdgeBend::kBranch;
     } else if (count == 1 && !closed_) {

@@ -119,12 +119,6 @@ Vec3 normalAcross(const ShapeTriangles& mesh, const std::vector<std::int64_t>& p
   return unitOrZero(sum);
 }
 
-/// Unit vector, or the fallback where a knife edge cancels it.
-Vec3 unitOrFallback(const Vec3& v, const Vec3& fallback) {
-  const double norm = v.norm();
-  return norm > 1e-9 ? Vec3(v / norm) : fallback;
-}
-
 /// Sums of the face normals around each corner, weighted by angle.
 std::vector<Vec3> cornerNormals(const ShapeTriangles& mesh, const std::vector<Vec3>& normals) {
   std::vector<Vec3> sums(mesh.corners.size(), Vec3::Zero());
@@ -160,6 +154,11 @@ std::vector<MeshSide> sortedSides(const ShapeTriangles& mesh) {
            std::tie(other.low, other.high, other.triangle, other.slot);
   });
   return sides;
+}
+
+Vec3 unitOrFallback(const Vec3& sum, const Vec3& fallback) noexcept {
+  const double norm = sum.norm();
+  return norm > 1e-9 ? Vec3(sum / norm) : fallback;
 }
 
 bool isDegenerate(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {

@@ -19,6 +19,9 @@ constexpr double kDegenerateHeight = 1e-12;
 
 bool isDegenerate(const Vec3& a, const Vec3& b, const Vec3& c) noexcept;
 
+/// A sum of unit normals, made unit; the fallback where a knife edge cancels it.
+Vec3 unitOrFallback(const Vec3& sum, const Vec3& fallback) noexcept;
+
 /// A triangle's side, as it lies on an edge of the mesh.
 struct MeshSide {
   int low, high;  ///< the edge's corners

@@ -7,22 +7,6 @@
 #include "solver/constants.h"
 
 namespace curtain {
-namespace {
-
-// Calls look(node, other, rest length, is a rod) for every link, which ends at `node`.
-template <typename Look>
-void forEachLink(const ClothPattern& pattern, const Look& look) {
-  const Grid& grid = pattern.grid;
-  for (int i = 0; i < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j) {
-      const std::size_t n = grid.index(i, j);
-      if (i > 0) look(n, grid.index(i - 1, j), pattern.warp_rest[n], true);
-      if (j > 0 || grid.closed) look(n, grid.index(i, j > 0 ? j - 1 : grid.columns - 1), pattern.weft_rest[n], false);
-    }
-  }
-}
-
-}  // namespace
 
 LastResort::LastResort(const ClothPattern& pattern) : Scheme({true, false, 0.5, false}), pattern_(pattern) {
   const Grid& grid = pattern.grid;
