@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 #include "cloth/cloth.h"
 #include "scene/pi.h"
@@ -45,10 +43,6 @@ void placeFlat(const Scene& scene, const ClothPattern& pattern, Field3& position
       if (i > 0) {
         const double rest = pattern.warp_rest[grid.index(i, j)];
         const double slant = across - last_across;
-        if (std::abs(slant) > 0.9 * rest) {
-          throw std::invalid_argument("cloth.hem_width: the cloth tapers faster than its warp rods are long (row " +
-                                      std::to_string(i) + ")");
-        }
         down += std::sqrt(rest * rest - slant * slant);
       }
       last_across = across;
