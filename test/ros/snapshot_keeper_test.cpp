@@ -5,6 +5,7 @@
 #include "ros/snapshots/snapshot_keeper.h"
 
 #include <gtest/gtest.h>
+#include <pthread.h>
 #include <ros/time.h>
 #include <unistd.h>
 
@@ -72,6 +73,27 @@ TEST_F(SnapshotKeeperTest, GoesOnFromTheLastOne) {
   ASSERT_TRUE(keeper.restore(other));
   EXPECT_EQ(other.stateHash(), simulator.stateHash());
   EXPECT_EQ(keeper.health().restored_time, simulator.time());
+}
+
+// The stack of a thread that is larger than what there is of addresses: none can be started.
+TEST_F(SnapshotKeeperTest, WithoutAThreadTheWriteFailsAndTheNextOneIsTried) {
+  const curtain::Simulator simulator = makeSimulator();
+  SnapshotKeeper keeper(file_, 10.0);
+  pthread_attr_t usual, too_large;
+  ASSERT_EQ(pthread_getattr_default_np(&usual), 0);
+  ASSERT_EQ(pthread_attr_init(&too_large), 0);
+  ASSERT_EQ(pthread_attr_setstacksize(&too_large, std::size_t{1} << 47U), 0);
+  ASSERT_EQ(pthread_setattr_default_np(&too_large), 0);
+  keeper.take(simulator);
+  ASSERT_EQ(pthread_setattr_default_np(&usual), 0);
+  EXPECT_TRUE(keeper.idle());
+  EXPECT_EQ(keeper.health().failed, 1U);
+  EXPECT_NE(keeper.health().last_failure.find(file_ + ": cannot be written"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(file_));
+  keeper.finish(simulator);
+  EXPECT_EQ(keeper.health().written, 1U);
+  EXPECT_TRUE(keeper.health().last_failure.empty());
+  EXPECT_EQ(content(), simulator.snapshot());
 }
 
 // One each period of the clock; not at the start, and not when the clock jumps back, which begins another period.

@@ -111,15 +111,25 @@ void SnapshotKeeper::count(curtain_sim::Statistics& statistics) const {
 }
 
 void SnapshotKeeper::startWriting(std::string snapshot) {
-  writing_ = std::async(std::launch::async, [file = file_, bytes = std::move(snapshot), aside = put_aside_] {
-    return write(file, bytes, aside);
-  });
+  try {
+    writing_ = std::async(std::launch::async, [file = file_, bytes = std::move(snapshot), aside = put_aside_] {
+      return write(file, bytes, aside);
+    });
+  } catch (const std::system_error& error) {  // there is no thread to be had
+    note(file_ + ": cannot be written: " + error.code().message());
+  }
 }
 
-// Takes note of a write that has ended, and starts the one that waits.
+// Starts the one that waits when a write has ended.
 void SnapshotKeeper::collect() {
   if (!writing_.valid() || writing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-  health_.last_failure = writing_.get();
+  note(writing_.get());
+  if (waiting_) startWriting(std::move(*waiting_));
+  waiting_.reset();
+}
+
+void SnapshotKeeper::note(std::string failure) {
+  health_.last_failure = std::move(failure);
   if (health_.last_failure.empty()) {
     ++health_.written;
     put_aside_ = false;
@@ -127,8 +137,6 @@ void SnapshotKeeper::collect() {
     ++health_.failed;
     ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "the snapshot could not be written: " << health_.last_failure);
   }
-  if (waiting_) startWriting(std::move(*waiting_));
-  waiting_.reset();
 }
 
 void SnapshotKeeper::drain() {

@@ -65,6 +65,8 @@ class SnapshotKeeper {
   bool writes() const { return health_.wanted && !health_.foreign; }
   void startWriting(std::string snapshot);
   void collect();
+  /// A write has ended. failure: why; empty: it is written.
+  void note(std::string failure);
   void drain();
 
   std::string file_;
