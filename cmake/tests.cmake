@@ -88,6 +88,10 @@ if(QEMU AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
 endif()
 include(cmake/stress.cmake)
 include(cmake/judge.cmake)
+if(catkin_FOUND)  # with the other tests, not with the node
+  set_target_properties(curtain_stress curtain_soak curtain_judge PROPERTIES EXCLUDE_FROM_ALL ON)
+  add_dependencies(tests curtain_stress curtain_soak curtain_judge)
+endif()
 include(cmake/packaging_tests.cmake)
 
 # What scripts/test --fast builds and runs.
