@@ -23,7 +23,7 @@ Vector unitOr(const Vector& v, const Vector& fallback, double& length) {
 /// Unit vector along v and its length; for v = 0 along `beside`, if that has a direction.
 template <typename Vector>
 Vector unitBeside(const Vector& v, const Vector& beside, const Vector& fallback, double& length) {
-  const Vector unit = unitOr<Vector>(v, fallback, length);
+  Vector unit = unitOr<Vector>(v, fallback, length);
   if (length > 0.0) return unit;
   double far = 0.0;
   return unitOr<Vector>(beside, fallback, far);

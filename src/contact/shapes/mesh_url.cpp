@@ -64,7 +64,7 @@ fs::path findPackage(const fs::path& folder, const std::string& name, int depth)
   }
   std::sort(folders.begin(), folders.end());
   for (const fs::path& below : folders) {
-    const fs::path found = findPackage(below, name, depth - 1);
+    fs::path found = findPackage(below, name, depth - 1);
     if (!found.empty()) {
       return found;
     }
@@ -81,12 +81,12 @@ fs::path packageFolder(const std::string& name) {
       continue;
     }
     // Fast path: most packages are in the folder of their name.
-    const fs::path direct = fs::path(entry) / name;
+    fs::path direct = fs::path(entry) / name;
     std::error_code error;
     if (fs::exists(direct / "package.xml", error) && packageName(direct / "package.xml") == name) {
       return direct;
     }
-    const fs::path found = findPackage(entry, name, kSearchDepth);
+    fs::path found = findPackage(entry, name, kSearchDepth);
     if (!found.empty()) {
       return found;
     }
