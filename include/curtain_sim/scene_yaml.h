@@ -32,7 +32,4 @@ SceneReading readSceneFile(const std::string& path);  ///< as readSceneText()
 /// The scene as YAML text with every key spelled out; readSceneText gives the same scene back, bit by bit.
 std::string writeScene(const Scene& scene);
 
-/// Every key the parser knows, dotted, lists as "wind[].radius"; sorted.
-std::vector<std::string> knownSceneKeys();
-
 }  // namespace curtain

@@ -31,8 +31,6 @@ class FoldShape {
   /// rod_count  k, rods per weft link, >= 1
   explicit FoldShape(int rod_count);
 
-  int rodCount() const { return rod_count_; }
-
   /// Writes the k - 1 inner nodes [m]. Rods have the length rest / k; if the link is taut or too long, the nodes divide
   /// the chord evenly.
   void place(const FoldArc& arc, Vec3* inner) const noexcept;

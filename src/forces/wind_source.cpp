@@ -77,16 +77,8 @@ CURTAIN_INTO_WIDE WindSource::Direction WindSource::Cone::directionAt(double x, 
   return d;
 }
 
-WindAtPoint WindSource::at(const Vec3& point) const noexcept {
-  WindAtPoint air;
-  const double factor = cone_.distanceFactorAt(point.x(), point.y(), point.z());
-  air.reached = factor > 0.0;
-  if (!air.reached) return air;
-  const Direction d = cone_.directionAt(point.x(), point.y(), point.z());
-  air.direction = Vec3(d.x, d.y, d.z);
-  air.along_axis = d.along;
-  air.distance_factor = factor;
-  return air;
+bool WindSource::reachesPoint(const Vec3& point) const noexcept {
+  return cone_.distanceFactorAt(point.x(), point.y(), point.z()) > 0.0;
 }
 
 // A node is reached if it is not behind the disc and no further from the axis than r + k depth. The distance from the

@@ -19,14 +19,6 @@
 
 namespace curtain {
 
-/// The air of one source at one point.
-struct WindAtPoint {
-  bool reached = false;           ///< inside the cone and in front of the disc
-  Vec3 direction = Vec3::Zero();  ///< unit d
-  double along_axis = 0.0;        ///< cosine between d and the axis (0 only where nothing is reached)
-  double distance_factor = 0.0;   ///< 1 / (c_d (1 + |d|^2)), |d| over the reference length
-};
-
 class WindSource {
  public:
   /// wind must be valid (validate()).
@@ -35,7 +27,8 @@ class WindSource {
   const WindParams& params() const { return wind_; }
   bool blowsAt(double time) const { return time >= wind_.start && time < wind_.end && strength_ > 0.0; }
 
-  WindAtPoint at(const Vec3& point) const noexcept;
+  /// The point is inside the cone and in front of the disc.
+  bool reachesPoint(const Vec3& point) const noexcept;
 
   /// False: it reaches no point of the box. Takes constant time.
   bool mayReach(const Eigen::AlignedBox3d& box) const noexcept;

@@ -14,7 +14,7 @@ namespace curtain {
 /// The first key, in the order of `ours`, that differs in `theirs`, with both values; none: they are equal.
 /// ours    from writeScene()
 /// theirs  any text
-/// aside   keys that may differ, as knownSceneKeys() names them: "air", "obstacles[].mesh"
+/// aside   keys that may differ, lists without their index: "air", "obstacles[].mesh"
 std::optional<Problem> firstDifference(const std::string& ours, const std::string& theirs,
                                        const std::vector<std::string>& aside);
 

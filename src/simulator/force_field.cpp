@@ -124,7 +124,7 @@ void ForceField::markReached(const WindSource& wind, const Field3& position, Col
   const Grid& grid = pattern_.grid;
   for (int j = 0; j < grid.columns; ++j) {
     for (int i = 0; i < grid.rows && !out.has(j); ++i) {
-      if (wind.at(position.at(grid.index(i, j))).reached) out.add(j);
+      if (wind.reachesPoint(position.at(grid.index(i, j)))) out.add(j);
     }
   }
 }

@@ -23,9 +23,9 @@ using curtain_test::ringScene;
 const int kRodCounts[] = {2, 3, 6, 16, 64};
 
 // first, inner nodes, second.
-std::vector<Vec3> place(const FoldShape& shape, const FoldArc& arc) {
-  std::vector<Vec3> points(static_cast<std::size_t>(shape.rodCount()) + 1);
-  shape.place(arc, points.data() + 1);
+std::vector<Vec3> place(int k, const FoldArc& arc) {
+  std::vector<Vec3> points(static_cast<std::size_t>(k) + 1);
+  FoldShape(k).place(arc, points.data() + 1);
   points.front() = arc.first;
   points.back() = arc.second;
   return points;
@@ -57,10 +57,9 @@ double pieceTolerance(int k, double rest) { return 1e-12 * rest / k + 4.0 * k * 
 TEST(Folds, EveryPieceHasItsLengthAndTheEndsAreMet) {
   Random random(1);
   for (const int k : kRodCounts) {
-    const FoldShape shape(k);
     for (const double ratio : chordRatios()) {
       const FoldArc arc = randomArc(random, ratio);
-      const std::vector<Vec3> points = place(shape, arc);
+      const std::vector<Vec3> points = place(k, arc);
       for (int p = 0; p < k; ++p) {
         const auto at = static_cast<std::size_t>(p);
         // Where the chord is 0 there is no direction along it and the nodes lie in one point: see the next test.
@@ -88,12 +87,11 @@ TEST(FoldsDeathTest, OneRodPlacesNothingOnASlackLink) {
 
 TEST(Folds, CoincidentEndsGiveFinitePointsWithinReach) {
   for (const int k : kRodCounts) {
-    const FoldShape shape(k);
     FoldArc arc;
     arc.first = arc.second = Vec3(1.0, 2.0, 3.0);
     arc.bow = Vec3::UnitY();
     arc.rest = 0.1;
-    for (const Vec3& point : place(shape, arc)) {
+    for (const Vec3& point : place(k, arc)) {
       ASSERT_TRUE(point.allFinite());
       EXPECT_LE((point - arc.first).norm(), 0.05 + 8 * kEps) << "no rod chain of 0.1 m reaches further and comes back";
     }
@@ -103,13 +101,12 @@ TEST(Folds, CoincidentEndsGiveFinitePointsWithinReach) {
 TEST(Folds, LieInThePlaneOfChordAndBowOnTheBowsSide) {
   Random random(2);
   for (const int k : {2, 6, 16}) {
-    const FoldShape shape(k);
     for (const double ratio : chordRatios()) {
       if (ratio == 0.0) continue;
       const FoldArc arc = randomArc(random, ratio);
       const Vec3 along = (arc.second - arc.first).normalized();
       const double tolerance = 4.0 * k * kEps * (3.5 + arc.rest);  // as above
-      for (const Vec3& point : place(shape, arc)) {
+      for (const Vec3& point : place(k, arc)) {
         ASSERT_NEAR((point - arc.first).dot(along.cross(arc.bow)), 0.0, tolerance) << "k " << k << " ratio " << ratio;
         ASSERT_GE((point - arc.first).dot(arc.bow), -tolerance) << "k " << k << " ratio " << ratio;
       }
@@ -120,10 +117,9 @@ TEST(Folds, LieInThePlaneOfChordAndBowOnTheBowsSide) {
 TEST(Folds, TautOrOverlongLinksAreStraightAndEven) {
   Random random(4);
   for (const int k : {2, 6, 16}) {
-    const FoldShape shape(k);
     for (const double ratio : {1.0 - 1e-13, 1.0, 1.0 + 1e-6, 1.5}) {
       const FoldArc arc = randomArc(random, ratio);
-      const std::vector<Vec3> points = place(shape, arc);
+      const std::vector<Vec3> points = place(k, arc);
       for (int p = 0; p <= k; ++p) {
         const Vec3 expected = arc.first + (arc.second - arc.first) * (static_cast<double>(p) / k);
         EXPECT_LE((points[static_cast<std::size_t>(p)] - expected).norm(), 8 * kEps * 3.5);
@@ -139,7 +135,6 @@ TEST(Folds, ChangeContinuouslyFromClosedToTaut) {
   constexpr int kSteps = 2000;
   constexpr double ds = 1.0 / kSteps;
   for (const int k : {2, 3, 6, 16}) {
-    const FoldShape shape(k);
     std::vector<Vec3> before;
     double highest = 0.0;
     for (int step = 1; step < kSteps; ++step) {
@@ -149,7 +144,7 @@ TEST(Folds, ChangeContinuouslyFromClosedToTaut) {
       arc.first = Vec3::Zero();
       arc.second = Vec3(1.0 - s * s, 0.0, 0.0);
       arc.bow = Vec3::UnitZ();
-      const std::vector<Vec3> points = place(shape, arc);
+      const std::vector<Vec3> points = place(k, arc);
       for (std::size_t p = 0; p < points.size(); ++p) {
         const Vec3 start = before.empty() ? Vec3(static_cast<double>(p) / k, 0.0, 0.0) : before[p];
         ASSERT_LE((points[p] - start).norm(), 1.2 * (kPi + 2.0) * ds) << "k " << k << " s " << s << " node " << p;
@@ -228,9 +223,8 @@ TEST(FoldArcs, AlternateAlongARowAndAgreeDownAColumn) {
 }
 
 void expectOneTangent(const Cloth& cloth, int k, int i, int j, int next, double tolerance) {
-  const FoldShape shape(k);
-  const std::vector<Vec3> left = place(shape, cloth.arc(i, j));
-  const std::vector<Vec3> right = place(shape, cloth.arc(i, next));
+  const std::vector<Vec3> left = place(k, cloth.arc(i, j));
+  const std::vector<Vec3> right = place(k, cloth.arc(i, next));
   const auto last = static_cast<std::size_t>(k);
   const Vec3 in = (left[last] - left[last - 1]).normalized();
   const Vec3 out = (right[1] - right[0]).normalized();

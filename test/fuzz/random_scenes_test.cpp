@@ -12,6 +12,7 @@
 #include "fuzz/breakages.h"
 #include "fuzz/scene_bits.h"
 #include "fuzz/scene_maker.h"
+#include "known_keys.h"
 
 namespace {
 

@@ -12,6 +12,7 @@
 #include <set>
 #include <sstream>
 
+#include "known_keys.h"
 #include "scene/scene_testing.h"
 
 namespace curtain {

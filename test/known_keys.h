@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
+//
+// Every key of a scene, from the table of fields.
+#pragma once
+
 #include <algorithm>
 
-#include "curtain_sim/scene_yaml.h"
 #include "scene/fields.h"
 #include "scene/problem_log.h"
 
 namespace curtain {
-namespace {
 
 // Collects the names of all keys.
 class KeyCollector {
@@ -55,9 +57,8 @@ class KeyCollector {
   std::vector<std::string>& keys_;
 };
 
-}  // namespace
-
-std::vector<std::string> knownSceneKeys() {
+/// Dotted, lists as "wind[].radius"; sorted.
+inline std::vector<std::string> knownSceneKeys() {
   std::vector<std::string> keys;
   KeyCollector collector("", keys);
   const Scene scene;
