@@ -27,29 +27,16 @@ struct Range {
   std::string text() const;           ///< e.g. "a number in [0, 1]"
 };
 
-inline Range between(double low, double high) {
-  Range range;
-  range.low = low;
-  range.high = high;
-  return range;
-}
+inline Range between(double low, double high) { return {low, high}; }
 inline Range anywhere() { return {}; }
 inline Range positive() { return between(kSmallest, kLargest); }
 inline Range notNegative() { return between(0.0, kLargest); }
 /// An angle [rad]: a turn either way. What is larger was meant in degrees.
 inline Range turn() { return between(-6.3, 6.3); }
 inline Range anyForce() { return between(-kStrongest, kStrongest); }
-inline Range notZero() {
-  Range range;
-  range.not_zero = true;
-  return range;
-}
+inline Range notZero() { return {-kLargest, kLargest, true}; }
 /// An end time.
-inline Range orInfinite() {
-  Range range = between(-kLargest, kLatest);
-  range.or_infinite = true;
-  return range;
-}
+inline Range orInfinite() { return {-kLargest, kLatest, false, true}; }
 
 /// Integers from low to high, both included.
 struct IntRange {

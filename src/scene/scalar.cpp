@@ -144,6 +144,8 @@ bool isNumberTag(const std::string& tag) { return tag == "tag:yaml.org,2002:floa
 
 ScalarValue scalarValue(const YAML::Node& node) {
   ScalarValue value;
+  if (!node.IsScalar()) return value;
+  value.kind = ScalarKind::kText;
   const std::string& text = node.Scalar();
   const std::string& tag = node.Tag();
   const bool is_value = tag.empty() || isNumberTag(tag);  // built in code, or tagged as a number

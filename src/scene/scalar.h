@@ -15,11 +15,11 @@ class Node;
 
 namespace curtain {
 
-enum class ScalarKind { kBool, kInteger, kReal, kText };
+enum class ScalarKind { kNone, kBool, kInteger, kReal, kText };
 
 /// A scalar with its value; `kind` tells which members are set.
 struct ScalarValue {
-  ScalarKind kind = ScalarKind::kText;
+  ScalarKind kind = ScalarKind::kNone;
   bool flag = false;            ///< kBool
   double number = 0.0;          ///< kInteger, kReal; infinite when the text is beyond a double's range
   bool negative = false;        ///< kInteger: sign
@@ -28,7 +28,7 @@ struct ScalarValue {
   std::string hint;             ///< kText that was meant as a number: how to write it, e.g. "write 1.0e-6"
 };
 
-/// node must be a scalar.
+/// kNone: the node is no scalar.
 ScalarValue scalarValue(const YAML::Node& node);
 
 /// Describes a value for a problem: `1`, `the text "auto"`, `a list of 2`, `a map`, `empty`; with a hint for a number

@@ -15,6 +15,8 @@ namespace {
 // Longest name of a key that is read; known ones are shorter.
 constexpr std::size_t kLongestName = 100;
 
+const char* const kNodeWords = "[row, column], two integers";
+
 // Whether YAML preserves the text: yaml-cpp reads any bytes, but writes U+FFFD for invalid characters.
 bool isWritable(const std::string& text) {
   YAML::Emitter out;
@@ -52,11 +54,14 @@ StrictReader::StrictReader(const YAML::Node& map, std::string key, ProblemLog& l
   }
 }
 
+StrictReader::Entries::const_iterator StrictReader::entryOf(Key key) const {
+  return std::find_if(entries_.begin(), entries_.end(), [&key](const auto& one) { return one.first == key.name; });
+}
+
 // The value of the key, or null when it is missing or empty; wanted: what it must be, for the problem.
 const YAML::Node* StrictReader::find(Key key, const std::string& wanted) {
   asked_.emplace_back(key.name);
-  const auto same = [&key](const auto& entry) { return entry.first == key.name; };
-  const auto found = std::find_if(entries_.begin(), entries_.end(), same);
+  const auto found = entryOf(key);
   if (found == entries_.end()) {
     if (key.required) log_.add(keyOf(key), "is missing, must be " + wanted);
     return nullptr;
@@ -77,51 +82,47 @@ void StrictReader::reportUnknown() const {
   }
 }
 
+void StrictReader::refuse(const std::string& key, const std::string& wanted, const YAML::Node& node) {
+  log_.add(key, "must be " + wanted + ", is " + describeValue(node));
+}
+
 YAML::Node StrictReader::mapUnder(Key key) {
   const YAML::Node* found = find(key, "a map");
   if (found && found->IsMap()) return *found;
-  if (found) log_.add(keyOf(key), "must be a map, is " + describeValue(*found));
+  if (found) refuse(keyOf(key), "a map", *found);
   return YAML::Node(YAML::NodeType::Map);  // missing: all defaults; required keys are reported
 }
 
-bool StrictReader::checkSequence(const YAML::Node& node, const std::string& key, const std::string& wanted) {
-  if (node.IsSequence()) return true;
-  log_.add(key, "must be " + wanted + ", is " + describeValue(node));
+bool StrictReader::checkSequence(const YAML::Node& node, const std::string& key, const std::string& wanted,
+                                 std::optional<std::size_t> size) {
+  if (node.IsSequence() && node.size() == size.value_or(node.size())) return true;
+  refuse(key, wanted, node);
   return false;
 }
 
 bool StrictReader::readNumber(const YAML::Node& node, const std::string& key, Range range, double& value) {
-  if (node.IsScalar()) {
-    const ScalarValue scalar = scalarValue(node);
-    if (scalar.kind == ScalarKind::kInteger || scalar.kind == ScalarKind::kReal) {
-      value = scalar.number;
-      return true;
-    }
-  }
-  log_.add(key, "must be " + range.text() + ", is " + describeValue(node));
-  return false;
+  const ScalarValue scalar = scalarValue(node);
+  const bool is_number = scalar.kind == ScalarKind::kInteger || scalar.kind == ScalarKind::kReal;
+  if (is_number)
+    value = scalar.number;
+  else
+    refuse(key, range.text(), node);
+  return is_number;
 }
 
 bool StrictReader::readInteger(const YAML::Node& node, const std::string& key, const std::string& wanted, int& value) {
-  if (node.IsScalar()) {
-    const ScalarValue scalar = scalarValue(node);
-    const bool fits = !scalar.overflow && scalar.magnitude <= std::uint64_t{std::numeric_limits<int>::max()};
-    if (scalar.kind == ScalarKind::kInteger && fits) {
-      value = (scalar.negative ? -1 : 1) * static_cast<int>(scalar.magnitude);
-      return true;
-    }
-  }
-  log_.add(key, "must be " + wanted + ", is " + describeValue(node));
-  return false;
+  const ScalarValue scalar = scalarValue(node);
+  const bool fits = !scalar.overflow && scalar.magnitude <= std::uint64_t{std::numeric_limits<int>::max()};
+  const bool is_int = scalar.kind == ScalarKind::kInteger && fits;
+  if (is_int)
+    value = (scalar.negative ? -1 : 1) * static_cast<int>(scalar.magnitude);
+  else
+    refuse(key, wanted, node);
+  return is_int;
 }
 
 bool StrictReader::readVector(const YAML::Node& node, const std::string& key, Range range, Vec3& value) {
-  const std::string wanted = "a list of 3 numbers";
-  if (!checkSequence(node, key, wanted)) return false;
-  if (node.size() != 3) {
-    log_.add(key, "must be " + wanted + ", is " + describeValue(node));
-    return false;
-  }
+  if (!checkSequence(node, key, "a list of 3 numbers", 3)) return false;
   Vec3 read = Vec3::Zero();
   bool all = true;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -132,12 +133,7 @@ bool StrictReader::readVector(const YAML::Node& node, const std::string& key, Ra
 }
 
 bool StrictReader::readNode(const YAML::Node& node, const std::string& key, NodeIndex& value) {
-  const std::string wanted = "[row, column], two integers";
-  if (!checkSequence(node, key, wanted)) return false;
-  if (node.size() != 2) {
-    log_.add(key, "must be " + wanted + ", is " + describeValue(node));
-    return false;
-  }
+  if (!checkSequence(node, key, kNodeWords, 2)) return false;
   NodeIndex read;
   const bool row = readInteger(node[0], itemKey(key, 0), "an integer", read.row);
   const bool column = readInteger(node[1], itemKey(key, 1), "an integer", read.column);
@@ -145,15 +141,18 @@ bool StrictReader::readNode(const YAML::Node& node, const std::string& key, Node
   return row && column;
 }
 
+// Place of the scalar among the names; none: it is another one, or no scalar.
+std::optional<std::size_t> StrictReader::placeAmong(const std::vector<std::string>& names, const YAML::Node& node) {
+  const auto name = node.IsScalar() ? std::find(names.begin(), names.end(), node.Scalar()) : names.end();
+  return name == names.end() ? std::nullopt : std::optional<std::size_t>(name - names.begin());
+}
+
 std::optional<std::size_t> StrictReader::choiceIndex(Key key, const std::vector<std::string>& names) {
   const YAML::Node* found = find(key, alternatives(names));
   if (!found) return std::nullopt;
-  if (found->IsScalar()) {
-    const auto name = std::find(names.begin(), names.end(), found->Scalar());
-    if (name != names.end()) return static_cast<std::size_t>(name - names.begin());
-  }
-  log_.add(keyOf(key), "must be " + alternatives(names) + ", is " + describeValue(*found));
-  return std::nullopt;
+  const std::optional<std::size_t> place = placeAmong(names, *found);
+  if (!place) refuse(keyOf(key), alternatives(names), *found);
+  return place;
 }
 
 void StrictReader::integer(Key key, int& value, IntRange range) {
@@ -171,26 +170,22 @@ void StrictReader::integerOr(Key key, int& value, IntRange range, const char* wo
   int read = 0;
   if (!readInteger(*found, keyOf(key), wanted, read)) return;
   // Checked here: the number that encodes the word in the struct is not allowed in files.
-  if (range.contains(read)) {
+  if (range.contains(read))
     value = read;
-  } else {
-    log_.add(keyOf(key), "must be " + wanted + ", is " + describeValue(*found));
-  }
+  else
+    refuse(keyOf(key), wanted, *found);
 }
 
 void StrictReader::seed(Key key, std::uint64_t& value) {
   const std::string wanted = "an integer in [0, " + std::to_string(std::numeric_limits<std::uint64_t>::max()) + "]";
   const YAML::Node* found = find(key, wanted);
   if (!found) return;
-  if (found->IsScalar()) {
-    const ScalarValue scalar = scalarValue(*found);
-    const bool fits = !scalar.overflow && (!scalar.negative || scalar.magnitude == 0);
-    if (scalar.kind == ScalarKind::kInteger && fits) {
-      value = scalar.magnitude;
-      return;
-    }
-  }
-  log_.add(keyOf(key), "must be " + wanted + ", is " + describeValue(*found));
+  const ScalarValue scalar = scalarValue(*found);
+  const bool fits = !scalar.overflow && (!scalar.negative || scalar.magnitude == 0);
+  if (scalar.kind == ScalarKind::kInteger && fits)
+    value = scalar.magnitude;
+  else
+    refuse(keyOf(key), wanted, *found);
 }
 
 void StrictReader::number(Key key, double& value, Range range) {
@@ -208,39 +203,33 @@ void StrictReader::numberOrUnset(Key key, double& value, Range range) {
   double read = 0.0;
   if (!found || !readNumber(*found, keyOf(key), range, read)) return;
   // NaN encodes "not given" in the struct; in a file it is a mistake.
-  if (std::isnan(read)) {
-    log_.add(keyOf(key), "must be " + range.text() + ", is " + describeValue(*found));
-  } else {
+  if (std::isnan(read))
+    refuse(keyOf(key), range.text(), *found);
+  else
     value = read;
-  }
 }
 
 void StrictReader::flag(Key key, bool& value) {
-  const std::string wanted = "true or false";
-  const YAML::Node* found = find(key, wanted);
+  const YAML::Node* found = find(key, "true or false");
   if (!found) return;
-  if (found->IsScalar()) {
-    const ScalarValue scalar = scalarValue(*found);
-    if (scalar.kind == ScalarKind::kBool) {
-      value = scalar.flag;
-      return;
-    }
-  }
-  log_.add(keyOf(key), "must be " + wanted + ", is " + describeValue(*found));
+  const ScalarValue scalar = scalarValue(*found);
+  if (scalar.kind == ScalarKind::kBool)
+    value = scalar.flag;
+  else
+    refuse(keyOf(key), "true or false", *found);
 }
 
 void StrictReader::text(Key key, std::string& value) {
   const YAML::Node* found = find(key, "text");
   if (!found) return;
-  const bool scalar = found->IsScalar();
-  if (scalar && scalarValue(*found).kind == ScalarKind::kText) {
-    if (isWritable(found->Scalar()))
-      value = found->Scalar();
-    else
-      log_.add(keyOf(key), "must be text in UTF-8");
-    return;
+  if (scalarValue(*found).kind != ScalarKind::kText) {
+    const std::string how = found->IsScalar() ? " (write it in quotes)" : "";
+    log_.add(keyOf(key), "must be text, is " + describeValue(*found) + how);
+  } else if (isWritable(found->Scalar())) {
+    value = found->Scalar();
+  } else {
+    log_.add(keyOf(key), "must be text in UTF-8");
   }
-  log_.add(keyOf(key), "must be text, is " + describeValue(*found) + (scalar ? " (write it in quotes)" : ""));
 }
 
 void StrictReader::vector(Key key, Vec3& value, Range range) {
@@ -263,21 +252,16 @@ void StrictReader::scale(Key key, Vec3& value, Range range) {
   double read = 1.0;
   if (!readNumber(*found, keyOf(key), range, read)) return;
   // Checked here, so that one number gives one problem and not three.
-  if (range.contains(read)) {
+  if (range.contains(read))
     value = Vec3::Constant(read);
-  } else {
-    log_.add(keyOf(key), "must be " + range.text() + ", is " + describeValue(*found));
-  }
+  else
+    refuse(keyOf(key), range.text(), *found);
 }
 
 void StrictReader::rotation(Key key, Rotation& value) {
   const std::string wanted = "a list of 4 numbers [x, y, z, w]";
   const YAML::Node* found = find(key, wanted);
-  if (!found || !checkSequence(*found, keyOf(key), wanted)) return;
-  if (found->size() != 4) {
-    log_.add(keyOf(key), "must be " + wanted + ", is " + describeValue(*found));
-    return;
-  }
+  if (!found || !checkSequence(*found, keyOf(key), wanted, 4)) return;
   Eigen::Vector4d read = Eigen::Vector4d::Zero();
   bool all = true;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -287,7 +271,7 @@ void StrictReader::rotation(Key key, Rotation& value) {
 }
 
 void StrictReader::node(Key key, std::optional<NodeIndex>& value) {
-  const YAML::Node* found = find(key, "[row, column], two integers");
+  const YAML::Node* found = find(key, kNodeWords);
   NodeIndex read;
   if (found && readNode(*found, keyOf(key), read)) value = read;
 }
@@ -307,21 +291,16 @@ void StrictReader::pins(Key key, PinParams& value) {
     value.kind = PinKind::kList;
     value.nodes.assign(found->size(), NodeIndex{});
     for (std::size_t i = 0; i < value.nodes.size(); ++i) readNode((*found)[i], itemKey(keyOf(key), i), value.nodes[i]);
-    return;
+  } else if (const std::optional<std::size_t> place = placeAmong(pinNames(), *found)) {
+    value.kind = static_cast<PinKind>(*place);
+  } else {
+    refuse(keyOf(key), wanted, *found);
   }
-  const auto& names = pinNames();
-  const auto name = found->IsScalar() ? std::find(names.begin(), names.end(), found->Scalar()) : names.end();
-  if (name == names.end()) {
-    log_.add(keyOf(key), "must be " + wanted + ", is " + describeValue(*found));
-    return;
-  }
-  value.kind = static_cast<PinKind>(name - names.begin());
 }
 
 bool StrictReader::belongs(Key key, bool yes, ShapeKind shape) {
   // With an unknown shape nothing is known of its keys: this one counts as known.
-  const bool given =
-      std::any_of(entries_.begin(), entries_.end(), [&key](const auto& entry) { return entry.first == key.name; });
+  const bool given = entryOf(key) != entries_.end();
   asked_.emplace_back(key.name);
   if (!log_.good(joinKey(prefix_, "shape"))) return false;
   if (given && !yes) {

@@ -63,7 +63,7 @@ class StrictReader {
       if (item.IsMap()) {
         readMap(item, item_key, values.back(), log_);
       } else {
-        log_.add(item_key, "must be a map, is " + describeValue(item));
+        refuse(item_key, "a map", item);
       }
     }
   }
@@ -79,11 +79,16 @@ class StrictReader {
   }
 
  private:
+  using Entries = std::vector<std::pair<std::string, YAML::Node>>;
   std::string keyOf(Key key) const { return joinKey(prefix_, key.name); }
+  Entries::const_iterator entryOf(Key key) const;
   const YAML::Node* find(Key key, const std::string& wanted);
   YAML::Node mapUnder(Key key);
   std::optional<std::size_t> choiceIndex(Key key, const std::vector<std::string>& names);
-  bool checkSequence(const YAML::Node& node, const std::string& key, const std::string& wanted);
+  static std::optional<std::size_t> placeAmong(const std::vector<std::string>& names, const YAML::Node& node);
+  bool checkSequence(const YAML::Node& node, const std::string& key, const std::string& wanted,
+                     std::optional<std::size_t> size = std::nullopt);
+  void refuse(const std::string& key, const std::string& wanted, const YAML::Node& node);
   bool readNumber(const YAML::Node& node, const std::string& key, Range range, double& value);
   bool readInteger(const YAML::Node& node, const std::string& key, const std::string& wanted, int& value);
   bool readVector(const YAML::Node& node, const std::string& key, Range range, Vec3& value);
@@ -91,7 +96,7 @@ class StrictReader {
 
   std::string prefix_;
   ProblemLog& log_;
-  std::vector<std::pair<std::string, YAML::Node>> entries_;
+  Entries entries_;
   std::vector<std::string> asked_;
 };
 
