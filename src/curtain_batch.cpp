@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 
@@ -124,6 +125,17 @@ void checkSamples(const Options& options, double start) {
                               (start > 0.0 ? " on top of " + std::to_string(start) : std::string()));
 }
 
+const std::map<std::string, std::string Options::*> kTexts = {
+    {"--method", &Options::method}, {"--out", &Options::out},   {"--mesh", &Options::mesh},
+    {"--stats", &Options::stats},   {"--save", &Options::save}, {"--restore", &Options::restore}};
+const std::map<std::string, int Options::*> kCounts = {
+    {"--substeps", &Options::substeps}, {"--rows", &Options::rows}, {"--columns", &Options::columns}};
+const std::map<std::string, bool Options::*> kFlags = {{"--progress", &Options::progress},
+                                                       {"--explain", &Options::explain},
+                                                       {"--list-methods", &Options::list_methods},
+                                                       {"--help", &Options::help},
+                                                       {"-h", &Options::help}};
+
 Options readOptions(int argc, char** argv) {
   Options options;
   for (int a = 1; a < argc; ++a) {
@@ -132,36 +144,19 @@ Options readOptions(int argc, char** argv) {
       if (a + 1 >= argc) throw std::invalid_argument(option + ": needs a value");
       return argv[++a];
     };
-    if (option == "--duration")
+    const auto text = kTexts.find(option);
+    const auto count = kCounts.find(option);
+    const auto flag = kFlags.find(option);
+    if (text != kTexts.end())
+      options.*(text->second) = value();
+    else if (count != kCounts.end())
+      options.*(count->second) = readCount(option, value());
+    else if (flag != kFlags.end())
+      options.*(flag->second) = true;
+    else if (option == "--duration")
       options.duration = readDuration(option, value());
-    else if (option == "--method")
-      options.method = value();
-    else if (option == "--substeps")
-      options.substeps = readCount(option, value());
-    else if (option == "--rows")
-      options.rows = readCount(option, value());
-    else if (option == "--columns")
-      options.columns = readCount(option, value());
-    else if (option == "--out")
-      options.out = value();
     else if (option == "--sample")
       options.samples = readSamples(option, value());
-    else if (option == "--mesh")
-      options.mesh = value();
-    else if (option == "--stats")
-      options.stats = value();
-    else if (option == "--save")
-      options.save = value();
-    else if (option == "--restore")
-      options.restore = value();
-    else if (option == "--progress")
-      options.progress = true;
-    else if (option == "--explain")
-      options.explain = true;
-    else if (option == "--list-methods")
-      options.list_methods = true;
-    else if (option == "--help" || option == "-h")
-      options.help = true;
     else if (option.size() > 1 && option[0] == '-')
       throw std::invalid_argument(option + ": unknown option");
     else if (options.scene.empty())
