@@ -24,9 +24,7 @@ class CylinderShape final : public ConvexShape {
     SurfacePoint surface;
     Eigen::Vector2d profile = beyond[0] >= beyond[1] ? Eigen::Vector2d::UnitX() : Eigen::Vector2d::UnitY();
     surface.distance = beyond.maxCoeff();
-    if (surface.distance > 0.0) {
-      profile = unitOr<Eigen::Vector2d>(beyond.cwiseMax(0.0), profile, surface.distance);
-    }
+    if (surface.distance > 0.0) profile = unitOr<Eigen::Vector2d>(beyond.cwiseMax(0.0), profile, surface.distance);
     surface.normal << profile[0] * outward, profile[1] * sideOf(point.z(), beside.z());
     return surface;
   }

@@ -23,9 +23,7 @@ double positive(const ObstacleParams& obstacle, const std::string& key, double v
 std::unique_ptr<const ContactShape> makeMesh(const ObstacleParams& obstacle, const MeshResolver& resolve) {
   const std::string who = "obstacle '" + obstacle.name + "': ";
   for (const double factor : obstacle.scale) {
-    if (!(std::isfinite(factor) && factor != 0.0)) {
-      throw std::invalid_argument(who + "scale must be finite and not 0");
-    }
+    if (!(std::isfinite(factor) && factor != 0.0)) throw std::invalid_argument(who + "scale must be finite and not 0");
   }
   const std::string path = resolve(obstacle.mesh);
   if (path.empty()) {

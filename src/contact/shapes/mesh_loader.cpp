@@ -34,25 +34,15 @@ constexpr std::size_t kMostTriangles = 4000000;
 
 void requireReadable(const std::string& path, const std::string& obstacle) {
   std::error_code error;
-  if (!std::filesystem::exists(path, error)) {
-    fail(obstacle, path, "does not exist");
-  }
-  if (!std::filesystem::is_regular_file(path, error)) {
-    fail(obstacle, path, "is not a file");
-  }
-  if (!std::ifstream(path, std::ios::binary)) {
-    fail(obstacle, path, "cannot be opened for reading");
-  }
-  if (std::filesystem::file_size(path, error) > kLargestFile) {
-    fail(obstacle, path, "is larger than 256 MiB");
-  }
+  if (!std::filesystem::exists(path, error)) fail(obstacle, path, "does not exist");
+  if (!std::filesystem::is_regular_file(path, error)) fail(obstacle, path, "is not a file");
+  if (!std::ifstream(path, std::ios::binary)) fail(obstacle, path, "cannot be opened for reading");
+  if (std::filesystem::file_size(path, error) > kLargestFile) fail(obstacle, path, "is larger than 256 MiB");
   std::string ending = std::filesystem::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   const std::string problem = ending == ".dae" ? colladaProblem(path) : "";
-  if (!problem.empty()) {
-    fail(obstacle, path, "cannot be read: " + problem);
-  }
+  if (!problem.empty()) fail(obstacle, path, "cannot be read: " + problem);
 }
 
 /// Opens the mesh's file only: materials are not used, and what an OBJ or DAE refers to may be a device or a pipe.
@@ -112,9 +102,7 @@ void appendPart(const aiMesh& part, const Eigen::Matrix4d& pose, const Vec3& sca
     }
     Eigen::Vector3i triangle(first + static_cast<int>(face.mIndices[0]), first + static_cast<int>(face.mIndices[1]),
                              first + static_cast<int>(face.mIndices[2]));
-    if (mirrored) {
-      std::swap(triangle[1], triangle[2]);
-    }
+    if (mirrored) std::swap(triangle[1], triangle[2]);
     mesh.triangles.push_back(triangle);
   }
 }
@@ -159,16 +147,12 @@ ShapeTriangles weld(const ShapeTriangles& mesh) {
   ShapeTriangles welded;
   std::vector<int> place(mesh.corners.size(), -1);
   for (std::size_t i = 0; i < order.size(); ++i) {
-    if (i == 0 || corner(order[i]) != corner(order[i - 1])) {
-      welded.corners.push_back(corner(order[i]));
-    }
+    if (i == 0 || corner(order[i]) != corner(order[i - 1])) welded.corners.push_back(corner(order[i]));
     place[static_cast<std::size_t>(order[i])] = static_cast<int>(welded.corners.size()) - 1;
   }
   for (const Eigen::Vector3i& triangle : mesh.triangles) {
     const Eigen::Vector3i moved = triangle.unaryExpr([&place](int i) { return place[static_cast<std::size_t>(i)]; });
-    if (moved[0] != moved[1] && moved[1] != moved[2] && moved[2] != moved[0]) {
-      welded.triangles.push_back(moved);
-    }
+    if (moved[0] != moved[1] && moved[1] != moved[2] && moved[2] != moved[0]) welded.triangles.push_back(moved);
   }
   return welded;
 }
@@ -205,13 +189,9 @@ ShapeTriangles loadMesh(const std::string& path, const Vec3& scale, const std::s
   } catch (const std::exception& error) {  // of a reader, or out of memory
     reason = error.what();
   }
-  if (scene == nullptr || scene->mRootNode == nullptr) {
-    fail(obstacle, path, "cannot be read: " + reason);
-  }
+  if (scene == nullptr || scene->mRootNode == nullptr) fail(obstacle, path, "cannot be read: " + reason);
   ShapeTriangles mesh = collectParts(*scene, scale, path, obstacle);
-  if (mesh.triangles.empty()) {
-    fail(obstacle, path, "has no triangles");
-  }
+  if (mesh.triangles.empty()) fail(obstacle, path, "has no triangles");
   requireSound(mesh, path, obstacle);
   mesh = weld(mesh);
   const auto corner = [&mesh](int i) -> const Vec3& { return mesh.corners[static_cast<std::size_t>(i)]; };

@@ -51,9 +51,7 @@ fs::path findPackage(const fs::path& folder, const std::string& name, int depth)
   if (fs::exists(folder / "package.xml", error)) {
     return packageName(folder / "package.xml") == name ? folder : fs::path();
   }
-  if (depth == 0 || fs::exists(folder / "CATKIN_IGNORE", error)) {
-    return {};
-  }
+  if (depth == 0 || fs::exists(folder / "CATKIN_IGNORE", error)) return {};
   std::vector<fs::path> folders;
   fs::directory_iterator entry(folder, fs::directory_options::skip_permission_denied, error);
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
@@ -65,9 +63,7 @@ fs::path findPackage(const fs::path& folder, const std::string& name, int depth)
   std::sort(folders.begin(), folders.end());
   for (const fs::path& below : folders) {
     fs::path found = findPackage(below, name, depth - 1);
-    if (!found.empty()) {
-      return found;
-    }
+    if (!found.empty()) return found;
   }
   return {};
 }
@@ -77,19 +73,13 @@ fs::path packageFolder(const std::string& name) {
   const char* const variable = std::getenv("ROS_PACKAGE_PATH");
   std::istringstream entries(variable == nullptr ? "" : variable);
   for (std::string entry; std::getline(entries, entry, ':');) {
-    if (entry.empty()) {
-      continue;
-    }
+    if (entry.empty()) continue;
     // Fast path: most packages are in the folder of their name.
     fs::path direct = fs::path(entry) / name;
     std::error_code error;
-    if (fs::exists(direct / "package.xml", error) && packageName(direct / "package.xml") == name) {
-      return direct;
-    }
+    if (fs::exists(direct / "package.xml", error) && packageName(direct / "package.xml") == name) return direct;
     fs::path found = findPackage(entry, name, kSearchDepth);
-    if (!found.empty()) {
-      return found;
-    }
+    if (!found.empty()) return found;
   }
   return {};
 }
@@ -117,17 +107,13 @@ std::string decodePercent(const std::string& text) {
 std::string resolveMeshUrl(const std::string& url) {
   const std::string file_scheme = "file://";
   const std::string package_scheme = "package://";
-  if (startsWith(url, file_scheme)) {
-    return decodePercent(url.substr(file_scheme.size()));
-  }
+  if (startsWith(url, file_scheme)) return decodePercent(url.substr(file_scheme.size()));
   if (!startsWith(url, package_scheme)) {
     return url.find("://") == std::string::npos ? url : "";  // http:// and the like are not fetched
   }
   const std::string rest = url.substr(package_scheme.size());
   const std::size_t slash = rest.find('/');
-  if (slash == 0 || slash == std::string::npos) {
-    return "";
-  }
+  if (slash == 0 || slash == std::string::npos) return "";
   const fs::path folder = packageFolder(rest.substr(0, slash));
   return folder.empty() ? "" : (folder / rest.substr(slash + 1)).string();
 }

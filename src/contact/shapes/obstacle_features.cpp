@@ -130,9 +130,8 @@ void ObstacleFeatures::addEdges(const MeshTopology& topology, FlatEdges flat_edg
       edge.bend = bendOf(normal, across, (edge.ends[1] - edge.ends[0]).normalized(), flat_angle);
     }
     edge.touchable = edge.bend != EdgeBend::kFlat && !(closed_ && edge.bend == EdgeBend::kConcave);
-    if (edge.touchable) {
+    if (edge.touchable)
       for (const std::uint32_t vertex : edge.vertices) vertices_[vertex].touchable = true;
-    }
     if (edge.bend != EdgeBend::kFlat || flat_edges == FlatEdges::kKeep) edges_.push_back(edge);
     first = next;
   }

@@ -81,9 +81,7 @@ bool TriangleMeshShape::entry(const Vec3& previous, const Vec3& current, Surface
   // A node that starts on a shell is on neither side and leaves freely. A solid knows its inside.
   const double least_fraction = topology_.watertight ? 0.0 : tiny_ / displacement.norm();
   TriangleHit hit;
-  if (!tree_.firstHit(previous, current, least_fraction, hit)) {
-    return false;
-  }
+  if (!tree_.firstHit(previous, current, least_fraction, hit)) return false;
   const Vec3& face = topology_.face_normals[hit.triangle];
   const bool from_behind = !topology_.watertight && face.dot(displacement) > 0.0;
   out.normal = from_behind ? Vec3(-face) : face;
@@ -105,9 +103,7 @@ bool TriangleMeshShape::querySolid(const Vec3& previous, const Vec3& current, do
   const double bound = std::max(std::abs(bracket.low), std::abs(bracket.high));
   const double limit = bracket.low < 0.0 ? bound : std::min(wanted, bound);
   NearestTriangle nearest;
-  if (!search(limit * limit, nearest)) {
-    return false;
-  }
+  if (!search(limit * limit, nearest)) return false;
   const SurfacePoint surface = surfacePoint(current, nearest);
   SurfacePoint entry_plane;
   if (std::abs(surface.distance) <= motion && entry(previous, current, entry_plane) &&
@@ -115,9 +111,7 @@ bool TriangleMeshShape::querySolid(const Vec3& previous, const Vec3& current, do
     out = entry_plane;
     return true;
   }
-  if (surface.distance > reach) {
-    return false;
-  }
+  if (surface.distance > reach) return false;
   out = surface;
   return true;
 }
@@ -129,23 +123,17 @@ bool TriangleMeshShape::queryShell(const Vec3& previous, const Vec3& current, do
   const DistanceGrid::Bracket bracket = grid_->bracket(current);
   const double limit = std::min(std::max(reach, motion), bracket.high);
   NearestTriangle nearest;
-  if (!(bracket.low <= limit) || !search(limit * limit, nearest)) {
-    return false;
-  }
+  if (!(bracket.low <= limit) || !search(limit * limit, nearest)) return false;
   const SurfacePoint surface = surfacePoint(current, nearest);
   SurfacePoint entry_plane;
   if (surface.distance <= motion && entry(previous, current, entry_plane)) {
     out = entry_plane;
     return true;
   }
-  if (surface.distance > reach) {
-    return false;
-  }
+  if (surface.distance > reach) return false;
   out = surface;
   // On the shell only `previous` determines the side.
-  if (surface.distance <= tiny_ && surface.normal.dot(previous - nearest.point) < 0.0) {
-    out.normal = -out.normal;
-  }
+  if (surface.distance <= tiny_ && surface.normal.dot(previous - nearest.point) < 0.0) out.normal = -out.normal;
   return true;
 }
 

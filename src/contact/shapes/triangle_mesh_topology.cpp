@@ -64,9 +64,7 @@ int orientation(const ShapeTriangles& mesh) {
     volume += a.dot(b.cross(c)) / 6.0;
     area += 0.5 * (b - a).cross(c - a).norm();
   }
-  if (std::abs(volume) <= kSheetThickness * area * box.diagonal().norm()) {
-    return 0;
-  }
+  if (std::abs(volume) <= kSheetThickness * area * box.diagonal().norm()) return 0;
   return volume > 0.0 ? 1 : -1;
 }
 
@@ -90,9 +88,7 @@ void borrowNormals(const ShapeTriangles& mesh, const std::vector<std::int64_t>& 
   for (int pass = 0; pass < kBorrowPasses; ++pass) {
     for (const std::size_t t : degenerate) {
       const std::int64_t partner = partners[3 * t + longestEdge(mesh, t)];
-      if (partner != kNoPartner) {
-        normals[t] = normals[static_cast<std::size_t>(partner) / 3];
-      }
+      if (partner != kNoPartner) normals[t] = normals[static_cast<std::size_t>(partner) / 3];
     }
   }
 }
@@ -100,21 +96,15 @@ void borrowNormals(const ShapeTriangles& mesh, const std::vector<std::int64_t>& 
 /// Normal of the surface across an edge; zero: nothing there.
 Vec3 normalAcross(const ShapeTriangles& mesh, const std::vector<std::int64_t>& partners,
                   const std::vector<bool>& is_degenerate, const std::vector<Vec3>& normals, std::size_t slot) {
-  if (partners[slot] == kNoPartner) {
-    return Vec3::Zero();
-  }
+  if (partners[slot] == kNoPartner) return Vec3::Zero();
   const auto other_slot = static_cast<std::size_t>(partners[slot]);
   const std::size_t other = other_slot / 3;
-  if (!is_degenerate[other] || other_slot % 3 != longestEdge(mesh, other)) {
-    return normals[other];
-  }
+  if (!is_degenerate[other] || other_slot % 3 != longestEdge(mesh, other)) return normals[other];
   // Across its longest edge a degenerate triangle stands for the neighbours at its short edges.
   Vec3 sum = Vec3::Zero();
   for (std::size_t e = 1; e < 3; ++e) {
     const std::int64_t beyond = partners[3 * other + (other_slot + e) % 3];
-    if (beyond != kNoPartner) {
-      sum += normals[static_cast<std::size_t>(beyond) / 3];
-    }
+    if (beyond != kNoPartner) sum += normals[static_cast<std::size_t>(beyond) / 3];
   }
   return unitOrZero(sum);
 }
@@ -195,9 +185,7 @@ MeshTopology analyseMesh(ShapeTriangles mesh) {
   borrowNormals(mesh, partners, degenerate, normals);
   topology.corner_normals = cornerNormals(mesh, normals);
   for (std::size_t t = 0; t < count; ++t) {
-    if (is_degenerate[t]) {
-      continue;
-    }
+    if (is_degenerate[t]) continue;
     std::array<Vec3, 3> edges;
     for (std::size_t e = 0; e < 3; ++e) {
       const Vec3 across = normalAcross(mesh, partners, is_degenerate, normals, 3 * t + e);

@@ -35,9 +35,7 @@ class Segment {
     const double u = edge(local[1], local[2]);
     const double v = edge(local[2], local[0]);
     const double w = edge(local[0], local[1]);
-    if ((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0)) {
-      return false;
-    }
+    if ((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0)) return false;
     const double sum = u + v + w;
     if (sum == 0.0) {
       return false;  // coplanar: the neighbours see the crossing
@@ -53,9 +51,7 @@ class Segment {
       const double below = low[i] - margin - from_[i];
       const double above = high[i] + margin - from_[i];
       if (displacement_[i] == 0.0) {
-        if (below > 0.0 || above < 0.0) {
-          return false;
-        }
+        if (below > 0.0 || above < 0.0) return false;
         continue;
       }
       const double one = below / displacement_[i];
@@ -111,29 +107,19 @@ NearestTriangle nearestOnTriangle(const Vec3& point, const Vec3& a, const Vec3& 
   const Vec3 ap = point - a;
   const double d1 = ab.dot(ap);
   const double d2 = ac.dot(ap);
-  if (d1 <= 0.0 && d2 <= 0.0) {
-    return at(TriangleFeature::kCornerA, a);
-  }
+  if (d1 <= 0.0 && d2 <= 0.0) return at(TriangleFeature::kCornerA, a);
   const Vec3 bp = point - b;
   const double d3 = ab.dot(bp);
   const double d4 = ac.dot(bp);
-  if (d3 >= 0.0 && d4 <= d3) {
-    return at(TriangleFeature::kCornerB, b);
-  }
+  if (d3 >= 0.0 && d4 <= d3) return at(TriangleFeature::kCornerB, b);
   const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
-    return at(TriangleFeature::kEdgeAb, a + d1 / (d1 - d3) * ab);
-  }
+  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return at(TriangleFeature::kEdgeAb, a + d1 / (d1 - d3) * ab);
   const Vec3 cp = point - c;
   const double d5 = ab.dot(cp);
   const double d6 = ac.dot(cp);
-  if (d6 >= 0.0 && d5 <= d6) {
-    return at(TriangleFeature::kCornerC, c);
-  }
+  if (d6 >= 0.0 && d5 <= d6) return at(TriangleFeature::kCornerC, c);
   const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) {
-    return at(TriangleFeature::kEdgeCa, a + d2 / (d2 - d6) * ac);
-  }
+  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return at(TriangleFeature::kEdgeCa, a + d2 / (d2 - d6) * ac);
   const double va = d3 * d6 - d5 * d4;
   if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
     return at(TriangleFeature::kEdgeBc, b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b));
