@@ -30,6 +30,7 @@ class KeyCollector {
   void node(Key key, const std::optional<NodeIndex>&) { note(key); }
   void numbers(Key key, const std::vector<double>&, Range) { note(key); }
   void pins(Key key, const PinParams&) { note(key); }
+  void slits(Key key, const std::vector<SlitParams>&) { note(key); }
   bool belongs(Key, bool, ShapeKind) { return true; }
 
   template <typename Enum>

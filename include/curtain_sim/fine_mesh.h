@@ -16,12 +16,19 @@ namespace curtain {
 
 /// The constant part of a fine mesh.
 struct FineMeshTopology {
-  int rows = 0;         ///< of the grid
-  int columns = 0;      ///< fine columns: links * folds + 1, closed cloth: links * folds
-  int folds = 1;        ///< rods per weft link
-  bool closed = false;  ///< the rows are rings
+  int rows = 0;           ///< of the grid
+  int columns = 0;        ///< fine columns: links * folds + 1, closed cloth: links * folds
+  int folds = 1;          ///< rods per weft link
+  bool closed = false;    ///< the rows are rings
+  std::vector<char> cut;  ///< by row and weft link: a slit takes the strip below away; empty: none is
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into FineMesh::positions, of equal winding
 };
+
+/// Whether there is cloth between rows `row` and row + 1 at the weft link with this number.
+inline bool hasStrip(const FineMeshTopology& topology, int row, int link) {
+  const int links = (topology.closed ? topology.columns : topology.columns - 1) / topology.folds;
+  return topology.cut.empty() || topology.cut[static_cast<std::size_t>(row * links + link)] == 0;
+}
 
 /// The moving part of a fine mesh; shape [rows * columns], row-major.
 struct FineMesh {

@@ -49,6 +49,12 @@ enum class Lumping {
   kUniform  ///< every node has total mass / node count
 };
 
+/// A cut along the warp: no weft links, and no cloth, between two neighbouring columns.
+struct SlitParams {
+  int column = 0;    ///< between this column and the next, [0..columns - 2] (closed cloth: [0..columns - 1])
+  int from_row = 0;  ///< the weft links of this row and of all below it are cut [0..rows - 1]
+};
+
 /// The cloth: its grid, its size and its mass.
 struct ClothParams {
   int rows = 0;                      ///< nodes along the warp, hung edge first [2..4096]; no default
@@ -61,6 +67,7 @@ struct ClothParams {
   bool closed = false;               ///< the weft closes to a ring (skirt, canopy)
   int folds = 6;                     ///< rods per weft link [1..64]; 1 = no second-layer nodes
   double porosity = 0.0;             ///< share of the air that passes through [0..1]
+  std::vector<SlitParams> slits;     ///< cuts along the warp, each between other columns
   /// Relative lengths of the rows-1 warp rods, top first, each > 0; scaled to height. Empty: all equal.
   std::vector<double> row_spacing;
   /// Relative lengths of the weft links of a row (columns-1, closed: columns), each > 0; scaled to the

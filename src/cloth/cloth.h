@@ -20,7 +20,7 @@ struct ClothPattern {
   Field warp_rest;  ///< rest length of the rod from node (i-1, j) to (i, j) [m]; row 0 and padding: 1
   Field weft_rest;  ///< rest length of the link from node (i, j-1) to (i, j) [m]; closed: column 0 closes the ring
   Field warp_per_square;  ///< 1 / warp_rest^2 [1/m^2]
-  Field weft_per_square;  ///< 1 / weft_rest^2 [1/m^2]
+  Field weft_per_square;  ///< 1 / weft_rest^2 [1/m^2]; cut links: 0, so that they are never too long
   Field area;             ///< the node's share of the cloth [m^2]
   Field mass;             ///< [kg]; padding: 0
   Field inverse_mass;     ///< [1/kg]; pinned and padding: 0
@@ -54,7 +54,7 @@ void forEachLink(const ClothPattern& pattern, const Look& look) {
     for (int j = 0; j < grid.columns; ++j) {
       const std::size_t n = grid.index(i, j);
       if (i > 0) look(n, grid.index(i - 1, j), pattern.warp_rest[n], true);
-      if (j > 0 || grid.closed) look(n, grid.index(i, j > 0 ? j - 1 : grid.columns - 1), pattern.weft_rest[n], false);
+      if (grid.hasLink(i, j)) look(n, grid.index(i, j > 0 ? j - 1 : grid.columns - 1), pattern.weft_rest[n], false);
     }
   }
 }

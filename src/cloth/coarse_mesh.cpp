@@ -8,7 +8,7 @@ CoarseMesh makeCoarseMesh(const Grid& grid) {
   for (int i = 0; i + 1 < grid.rows; ++i) {
     for (int j = 0; j < grid.linkCount(); ++j) {
       const QuadElements quad = quadElements(grid, i, j);
-      mesh.triangles.insert(mesh.triangles.end(), quad.triangles.begin(), quad.triangles.end());
+      mesh.triangles.insert(mesh.triangles.end(), quad.triangles.begin(), quad.triangles.begin() + quad.triangle_count);
       mesh.edges.insert(mesh.edges.end(), quad.edges.begin(), quad.edges.begin() + quad.edge_count);
     }
   }

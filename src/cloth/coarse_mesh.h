@@ -7,6 +7,8 @@
 //        |       /    |           and both triangles; a quad of the last row owns its lower edge and lower left
 //        |    /       |           vertex too, one of the last column of open cloth its right edge and upper
 //     (i+1,j) --- (i+1,j+1)       right vertex, and the one in the corner the corner.
+//
+// A quad that a slit takes away has no triangles and no diagonal; what else it owns is there if its nodes are linked.
 #pragma once
 
 #include <array>
@@ -35,6 +37,7 @@ struct QuadElements {
   std::array<MeshTriangle, 2> triangles;
   std::array<std::uint32_t, 4> vertices;  ///< the first vertex_count are owned
   std::array<MeshEdge, 5> edges;          ///< the first edge_count are owned
+  int triangle_count = 2;                 ///< 0: a slit
   int vertex_count = 0;
   int edge_count = 0;
 };
@@ -48,14 +51,20 @@ inline QuadElements quadElements(const Grid& grid, int i, int j) noexcept {
   const auto b = static_cast<std::uint32_t>(grid.index(i, right));
   const auto c = static_cast<std::uint32_t>(grid.index(i + 1, j));
   const auto d = static_cast<std::uint32_t>(grid.index(i + 1, right));
-  QuadElements quad{{a, b, c, d}, {{{a, c, b}, {b, c, d}}}, {a, b, c, d}, {{{a, b}, {a, c}, {b, c}}}, 1, 3};
+  QuadElements quad{{a, b, c, d}, {{{a, c, b}, {b, c, d}}}, {a, b, c, d}, {}, 2, 1, 0};
+  const auto own = [&quad](MeshEdge edge) { quad.edges[static_cast<std::size_t>(quad.edge_count++)] = edge; };
+  const bool is_cloth = grid.hasQuad(i, right);
+  if (is_cloth || grid.hasLink(i, right)) own({a, b});
+  own({a, c});
+  if (is_cloth) own({b, c});
+  if (!is_cloth) quad.triangle_count = 0;
   if (last_column) {
     quad.vertices[static_cast<std::size_t>(quad.vertex_count++)] = b;
-    quad.edges[static_cast<std::size_t>(quad.edge_count++)] = {b, d};
+    own({b, d});
   }
   if (last_row) {
     quad.vertices[static_cast<std::size_t>(quad.vertex_count++)] = c;
-    quad.edges[static_cast<std::size_t>(quad.edge_count++)] = {c, d};
+    if (is_cloth) own({c, d});
   }
   if (last_row && last_column) quad.vertices[static_cast<std::size_t>(quad.vertex_count++)] = d;
   return quad;

@@ -50,6 +50,7 @@ struct Grid {
   int columns = 0;
   int stride = 0;  ///< distance between rows in a Field
   bool closed = false;
+  std::vector<int> slit_row;  ///< by column: first row whose weft link on the column's left is cut; empty: none is
 
   Grid() = default;
   Grid(int row_count, int column_count, bool is_closed)
@@ -63,8 +64,14 @@ struct Grid {
   std::size_t index(int i, int j) const { return row(i) + static_cast<std::size_t>(j); }
   std::size_t index(NodeIndex node) const { return index(node.row, node.column); }
   std::size_t nodeCount() const { return static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns); }
-  /// Weft links of a row.
+  /// Weft links of a row, cut ones included.
   int linkCount() const { return closed ? columns : columns - 1; }
+  /// Whether there is a weft link from the column on the left of `right` to it.
+  bool hasLink(int row, int right) const {
+    return (right > 0 || closed) && (slit_row.empty() || row < slit_row[static_cast<std::size_t>(right)]);
+  }
+  /// Whether there is cloth between rows `row` and row + 1 on the left of column `right`.
+  bool hasQuad(int row, int right) const { return hasLink(row + 1, right); }
 };
 
 /// Three components of a vector field over the grid.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "curtain_sim/fine_mesh.h"
 
+#include <algorithm>
+
 namespace curtain {
 
 FineMeshTopology makeFineMeshTopology(const ClothParams& cloth) {
@@ -11,9 +13,16 @@ FineMeshTopology makeFineMeshTopology(const ClothParams& cloth) {
   const int quad_columns = weftLinkCount(cloth) * cloth.folds;
   topology.columns = cloth.closed ? quad_columns : quad_columns + 1;
   const auto at = [&](int i, int f) { return static_cast<std::uint32_t>(i * topology.columns + f % topology.columns); };
+  const int links = weftLinkCount(cloth);
+  if (!cloth.slits.empty()) topology.cut.assign(static_cast<std::size_t>(cloth.rows * links), 0);
+  for (const SlitParams& slit : cloth.slits) {
+    for (int i = std::max(slit.from_row - 1, 0); i + 1 < cloth.rows; ++i)
+      topology.cut[static_cast<std::size_t>(i * links + slit.column)] = 1;
+  }
   topology.triangles.reserve(static_cast<std::size_t>(cloth.rows - 1) * static_cast<std::size_t>(quad_columns) * 2);
   for (int i = 0; i + 1 < cloth.rows; ++i) {
     for (int f = 0; f < quad_columns; ++f) {
+      if (!hasStrip(topology, i, f / cloth.folds)) continue;
       // Winding: (below - here) x (right - here) has the direction of the node normals.
       topology.triangles.push_back({at(i, f), at(i + 1, f), at(i, f + 1)});
       topology.triangles.push_back({at(i, f + 1), at(i + 1, f), at(i + 1, f + 1)});

@@ -37,7 +37,7 @@ std::vector<double> awayAlongLinks(const ClothPattern& pattern, const std::vecto
         const std::size_t before = grid.index(i, j > 0 ? j - 1 : grid.columns - 1);
         if (i > 0) changed |= relax(n, grid.index(i - 1, j), pattern.warp_rest[n]);
         if (i > 0) changed |= relax(grid.index(i - 1, j), n, pattern.warp_rest[n]);
-        if (j == 0 && !grid.closed) continue;
+        if (!grid.hasLink(i, j)) continue;
         changed |= relax(n, before, pattern.weft_rest[n]);
         changed |= relax(before, n, pattern.weft_rest[n]);
       }

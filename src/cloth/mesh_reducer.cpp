@@ -165,6 +165,7 @@ double MeshReducer::stripError(int row, int link) const {
 }
 
 void MeshReducer::drawStrip(int row, int link) {
+  if (!hasStrip(topology_, row, link)) return;
   const Joints& upper = levels_[level_[fold(row, link)]];
   const Joints& lower = levels_[level_[fold(row + 1, link)]];
   std::size_t u = 0, l = 0;

@@ -25,6 +25,13 @@ CURTAIN_WIDE void nodeAreaVectors(const Grid& grid, int i, const Field3& positio
 #pragma omp simd
   for (std::size_t j = 1; j < last; ++j) node(j, j - 1, j + 1);
   node(last, last - 1, grid.closed ? 0 : last);
+  if (grid.slit_row.empty()) return;
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  for (std::size_t j = 0; j < columns; ++j) {
+    const std::size_t left = (j + columns - 1) % columns, right = (j + 1) % columns;
+    const bool on_left = grid.hasLink(i, static_cast<int>(j)), on_right = grid.hasLink(i, static_cast<int>(right));
+    if (!on_left || !on_right) node(j, on_left ? left : j, on_right ? right : j);
+  }
 }
 
 void nodeAreaVectors(const Grid& grid, const Field3& position, Field3& out) noexcept {

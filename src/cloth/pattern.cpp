@@ -31,6 +31,11 @@ void fillRestLengths(const ClothParams& cloth, ClothPattern& pattern) {
     pattern.warp_per_square[n] = 1.0 / (pattern.warp_rest[n] * pattern.warp_rest[n]);
     pattern.weft_per_square[n] = 1.0 / (pattern.weft_rest[n] * pattern.weft_rest[n]);
   }
+  for (int i = 0; i < grid.rows && !grid.slit_row.empty(); ++i) {
+    for (int j = 0; j < grid.columns; ++j) {
+      if (!grid.hasLink(i, j)) pattern.weft_per_square[grid.index(i, j)] = 0.0;
+    }
+  }
   pattern.weft_coordinate.assign(static_cast<std::size_t>(grid.columns), 0.0);
   for (int j = 1; j < grid.columns; ++j) {
     const auto column = static_cast<std::size_t>(j);
@@ -45,11 +50,9 @@ double nodeArea(const ClothPattern& pattern, int i, int j) {
   if (i > 0) along_warp += 0.5 * pattern.warp_rest[grid.index(i, j)];
   if (i + 1 < grid.rows) along_warp += 0.5 * pattern.warp_rest[grid.index(i + 1, j)];
   double along_weft = 0.0;
-  if (j > 0 || grid.closed) along_weft += 0.5 * pattern.weft_rest[grid.index(i, j)];
-  if (j + 1 < grid.columns)
-    along_weft += 0.5 * pattern.weft_rest[grid.index(i, j + 1)];
-  else if (grid.closed)
-    along_weft += 0.5 * pattern.weft_rest[grid.index(i, 0)];
+  const int right = j + 1 < grid.columns ? j + 1 : 0;
+  if (grid.hasLink(i, j)) along_weft += 0.5 * pattern.weft_rest[grid.index(i, j)];
+  if (grid.hasLink(i, right)) along_weft += 0.5 * pattern.weft_rest[grid.index(i, right)];
   return along_warp * along_weft;
 }
 
@@ -69,6 +72,14 @@ void fillMasses(const ClothParams& cloth, ClothPattern& pattern) {
       pattern.inverse_mass[node] = 1.0 / pattern.mass[node];
     }
   }
+}
+
+std::vector<int> slitRows(const ClothParams& cloth) {
+  std::vector<int> rows;
+  if (!cloth.slits.empty()) rows.assign(static_cast<std::size_t>(cloth.columns), cloth.rows);
+  for (const SlitParams& slit : cloth.slits)
+    rows[static_cast<std::size_t>((slit.column + 1) % cloth.columns)] = slit.from_row;
+  return rows;
 }
 
 std::vector<NodeIndex> pinnedNodes(const Scene& scene) {
@@ -97,6 +108,7 @@ std::vector<NodeIndex> pinnedNodes(const Scene& scene) {
 ClothPattern makePattern(const Scene& scene) {
   ClothPattern pattern;
   pattern.grid = Grid(scene.cloth.rows, scene.cloth.columns, scene.cloth.closed);
+  pattern.grid.slit_row = slitRows(scene.cloth);
   const std::size_t size = pattern.grid.size();
   pattern.warp_rest.assign(size, 1.0);
   pattern.weft_rest.assign(size, 1.0);

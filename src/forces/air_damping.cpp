@@ -14,7 +14,7 @@ AirDamping::AirDamping(const AirParams& air, const ClothPattern& pattern) : air_
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = 0; j < grid.columns; ++j) {
       const bool on_row_edge = i == 0 || i + 1 == grid.rows;
-      const bool on_column_edge = !grid.closed && (j == 0 || j + 1 == grid.columns);
+      const bool on_column_edge = !grid.hasLink(i, j) || !grid.hasLink(i, j + 1 < grid.columns ? j + 1 : 0);
       const double place = on_row_edge && on_column_edge   ? air.corner
                            : on_row_edge || on_column_edge ? air.border
                                                            : air.inside;

@@ -5,7 +5,7 @@
 //
 // A visitor has these members; keys are relative to the visited map:
 //   integer, integerOr (a word stands for one value), seed, number, optionalNumber, numberOrUnset (NaN: not given),
-//   flag, text, choice, vector, optionalVector, scale (one number or three), rotation, node, numbers, pins,
+//   flag, text, choice, vector, optionalVector, scale (one number or three), rotation, node, numbers, pins, slits,
 //   map (a struct below), list (a list of structs), belongs (false: the key is not for this value).
 #pragma once
 
@@ -36,6 +36,15 @@ void visitFields(Visitor& visitor, T& value) {
 }
 
 template <>
+struct Fields<SlitParams> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& slit) {
+    v.integer(required("column"), slit.column, IntRange{0, 4095});
+    v.integer("from_row", slit.from_row, IntRange{0, 4095});
+  }
+};
+
+template <>
 struct Fields<ClothParams> {
   template <typename Visitor, typename T>
   static void visit(Visitor& v, T& cloth) {
@@ -49,6 +58,7 @@ struct Fields<ClothParams> {
     v.choice("lumping", cloth.lumping, lumpingNames());
     v.integer("folds", cloth.folds, IntRange{1, 64});
     v.number("porosity", cloth.porosity, between(0.0, 1.0));
+    v.slits("slits", cloth.slits);
     v.numbers("row_spacing", cloth.row_spacing, positive());
     v.numbers("column_spacing", cloth.column_spacing, positive());
     v.numbers("row_mass", cloth.row_mass, positive());

@@ -35,7 +35,8 @@ class RangeChecker {
   void rotation(Key key, const Rotation& value);
   void node(Key, const std::optional<NodeIndex>&) {}  // its range depends on the cloth: checkNodeOnGrid()
   void numbers(Key key, const std::vector<double>& values, Range range);
-  void pins(Key, const PinParams&) {}  // the same
+  void pins(Key, const PinParams&) {}                 // the same
+  void slits(Key, const std::vector<SlitParams>&) {}  // the same: checkSlits()
   bool belongs(Key, bool yes, ShapeKind) {
     return yes && log_.good(joinKey(prefix_, "shape"));  // with an unknown shape nothing is known of its keys
   }

@@ -298,6 +298,21 @@ void StrictReader::pins(Key key, PinParams& value) {
   }
 }
 
+void StrictReader::slits(Key key, std::vector<SlitParams>& values) {
+  const YAML::Node* found = find(key, "a list");
+  if (!found || !checkSequence(*found, keyOf(key), "a list")) return;
+  values.assign(found->size(), SlitParams{});
+  for (std::size_t i = 0; i < values.size(); ++i) readSlit((*found)[i], itemKey(keyOf(key), i), values[i]);
+}
+
+void StrictReader::readSlit(const YAML::Node& node, const std::string& key, SlitParams& value) {
+  if (node.IsMap()) {
+    readMap(node, key, value, log_);
+  } else {
+    readInteger(node, key, "a column, or a map {column, from_row}", value.column);
+  }
+}
+
 bool StrictReader::belongs(Key key, bool yes, ShapeKind shape) {
   // With an unknown shape nothing is known of its keys: this one counts as known.
   const bool given = entryOf(key) != entries_.end();

@@ -39,6 +39,7 @@ class StrictReader {
   void node(Key key, std::optional<NodeIndex>& value);
   void numbers(Key key, std::vector<double>& values, Range range);
   void pins(Key key, PinParams& value);
+  void slits(Key key, std::vector<SlitParams>& values);
   bool belongs(Key key, bool yes, ShapeKind shape);
 
   template <typename Enum>
@@ -92,6 +93,7 @@ class StrictReader {
   bool readNumber(const YAML::Node& node, const std::string& key, Range range, double& value);
   bool readInteger(const YAML::Node& node, const std::string& key, const std::string& wanted, int& value);
   bool readVector(const YAML::Node& node, const std::string& key, Range range, Vec3& value);
+  void readSlit(const YAML::Node& node, const std::string& key, SlitParams& value);
   bool readNode(const YAML::Node& node, const std::string& key, NodeIndex& value);
 
   std::string prefix_;

@@ -34,6 +34,27 @@ void checkCloth(const ClothParams& cloth, ProblemLog& log) {
   }
 }
 
+void checkSlits(const ClothParams& cloth, ProblemLog& log) {
+  if (!log.good("cloth.slits") || !log.good("cloth.rows") || !log.good("cloth.columns") || !log.good("cloth.closed"))
+    return;
+  std::map<int, std::size_t> seen;
+  for (std::size_t i = 0; i < cloth.slits.size(); ++i) {
+    const std::string key = itemKey("cloth.slits", i);
+    const SlitParams& slit = cloth.slits[i];
+    const auto check = [&](const std::string& name, int value, int most) {
+      if (value >= 0 && value <= most) return;
+      log.add(joinKey(key, name), "must be in [0, " + std::to_string(most) + "], is " + std::to_string(value));
+    };
+    check("column", slit.column, weftLinkCount(cloth) - 1);
+    check("from_row", slit.from_row, cloth.rows - 1);
+    const auto [first, inserted] = seen.emplace(slit.column, i);
+    if (!inserted) {
+      log.add(joinKey(key, "column"), "must be unique, " + std::to_string(slit.column) + " is taken by " +
+                                          itemKey("cloth.slits", first->second));
+    }
+  }
+}
+
 void checkPins(const Scene& scene, ProblemLog& log) {
   if (scene.pins.kind != PinKind::kList) return;
   for (std::size_t i = 0; i < scene.pins.nodes.size(); ++i) {
@@ -117,6 +138,7 @@ void checkScene(const Scene& scene, ProblemLog& log) {
   RangeChecker checker("", log);
   visitFields(checker, scene);
   checkCloth(scene.cloth, log);
+  checkSlits(scene.cloth, log);
   checkStart(scene, log);
   checkPins(scene, log);
   checkUnique(scene.wind, "wind", "id", &WindParams::id, log);

@@ -57,6 +57,15 @@ class SceneWriter {
     out_ << YAML::EndSeq;
   }
 
+  void slits(Key key, const std::vector<SlitParams>& values) {
+    out_ << YAML::Key << key.name << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    for (const SlitParams& slit : values) {
+      out_ << YAML::BeginMap << YAML::Key << "column" << YAML::Value << slit.column;
+      out_ << YAML::Key << "from_row" << YAML::Value << slit.from_row << YAML::EndMap;
+    }
+    out_ << YAML::EndSeq;
+  }
+
   template <typename Enum>
   void choice(Key key, const Enum& value, const std::vector<std::string>& names) {
     plain(key, names.at(static_cast<std::size_t>(value)));

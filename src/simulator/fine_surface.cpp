@@ -75,6 +75,10 @@ Vec3& FineSurface::node(int row, int link, int p) {
 // Places the fold, turned by the angle about its chord.
 void FineSurface::place(int row, int link, double angle) {
   const int column = (link + 1) % pattern_.grid.columns;
+  if (!pattern_.grid.hasLink(row, column)) {  // no triangle has these nodes
+    for (int p = 1; p < topology_.folds; ++p) node(row, link, p) = node(row, link, topology_.folds);
+    return;
+  }
   FoldArc arc = foldArc(pattern_, *position_, area_vectors_, row, column);
   if (angle != 0.0) {
     // With x along the chord: the bow points down in folds that bow along the cloth's normal, up in the others.
@@ -109,6 +113,7 @@ void FineSurface::findStrips() {
   for (int i = 0; i + 1 < grid.rows; ++i) {
     for (int link = 0; link < links_; ++link) {
       const int right = (link + 1) % grid.columns;
+      if (!grid.hasQuad(i, right)) continue;
       const Vec3 upper = 0.5 * (node(i, link, 0) + node(i, link, topology_.folds));
       const Vec3 lower = 0.5 * (node(i + 1, link, 0) + node(i + 1, link, topology_.folds));
       const Vec3 middle = 0.5 * (upper + lower);

@@ -322,6 +322,22 @@ TEST(SelfCandidates, MissesNoPairOfAHeap) {
   }
 }
 
+// Columns cut off from both neighbours, cuts side by side, through all rows and from some row on, next to the seam.
+TEST(SelfCandidates, NamesJustThePairsOfTheStripsOfCutCloth) {
+  for (const bool closed : {false, true}) {
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      ClothPattern pattern = squareCloth(13, 18, 0.025, closed);
+      Random random(seed);
+      pattern.grid.slit_row.assign(18, 13);
+      for (int& row : pattern.grid.slit_row) {
+        if (random.between(0.0, 1.0) < 0.4) row = static_cast<int>(random.between(-6.0, 13.0) > 0.0 ? row / 2 : 0);
+      }
+      const Field3 cloth = heap(pattern.grid, seed);
+      EXPECT_FALSE(isEmpty(checked({"cut heap", pattern, cloth, moved(pattern, cloth, 0.003, seed), 0.006})));
+    }
+  }
+}
+
 TEST(SelfCandidates, MissesNoPairOfAnyShapeOfGrid) {
   for (const auto& [rows, columns] :
        std::vector<std::pair<int, int>>{{2, 2}, {2, 3}, {3, 2}, {2, 50}, {50, 2}, {9, 10}, {17, 9}}) {

@@ -167,6 +167,17 @@ void drawMore(Drawn& drawn) {
   scene.contact.self = false;
 }
 
+// The same, later still.
+void drawSlits(Drawn& drawn) {
+  Dice dice(3 * drawn.seed + static_cast<std::uint64_t>(drawn.kind) + (1ULL << 61));
+  if (!dice.chance(0.1)) return;
+  ClothParams& cloth = drawn.scene.cloth;
+  const double share = dice.between(0.0, 0.5);
+  for (int column = 0; column < weftLinkCount(cloth); ++column) {
+    if (dice.chance(share)) cloth.slits.push_back({column, dice.chance(0.7) ? 0 : dice.integer(0, cloth.rows - 1)});
+  }
+}
+
 }  // namespace
 
 const char* kindName(Kind kind) {
@@ -203,6 +214,7 @@ Drawn draw(Kind kind, std::uint64_t seed) {
     drawPlate(dice, drawn);
   else
     drawMore(drawn);
+  drawSlits(drawn);
   if (!validate(scene).empty()) scene.cloth.hem_width.reset();  // tapered more than its rods can slant
   if (beginsTorn(scene)) scene.cloth.hem_width.reset();
   return drawn;

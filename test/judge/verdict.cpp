@@ -331,6 +331,7 @@ Drawn shrink(Drawn drawn, const Rigour& rigour) {
     return d.scene.air.inside + d.scene.air.border > 0.0 ? (d.scene.air = AirParams(), true) : false;
   });
   const auto plain = [](std::vector<double>& values) { return values.empty() ? false : (values.clear(), true); };
+  cut([](Drawn& d) { return d.scene.cloth.slits.empty() ? false : (d.scene.cloth.slits.clear(), true); });
   cut([plain](Drawn& d) { return plain(d.scene.cloth.row_spacing); });
   cut([plain](Drawn& d) { return plain(d.scene.cloth.column_spacing); });
   cut([plain](Drawn& d) { return plain(d.scene.cloth.row_mass); });
@@ -340,7 +341,7 @@ Drawn shrink(Drawn drawn, const Rigour& rigour) {
     rows = std::max(2, rows);
     columns = std::max(2, columns);
     const bool plain_grid = cloth.row_spacing.empty() && cloth.column_spacing.empty() && cloth.row_mass.empty() &&
-                            cloth.column_mass.empty();
+                            cloth.column_mass.empty() && cloth.slits.empty();
     if (!plain_grid || (rows == cloth.rows && columns == cloth.columns)) return false;
     const auto move = [&](NodeIndex& node) {
       node.row = node.row * (rows - 1) / (cloth.rows - 1);

@@ -208,6 +208,18 @@ TEST(BadInput, PinsOutsideTheClothAreNamed) {
   expectProblem(with("pins: [[0, 1.5]]"), "pins[0][1]", {"an integer, is 1.5"});
 }
 
+TEST(BadInput, SlitsOutsideTheClothAndTwiceAtOnePlaceAreNamed) {
+  expectProblem(cloth("slits: 1"), "cloth.slits", {"a list", "is 1"});
+  expectProblem(cloth("slits: [x]"), "cloth.slits[0]", {"a column, or a map {column, from_row}", "\"x\""});
+  expectProblem(cloth("slits: [0, 2]"), "cloth.slits[1].column", {"in [0, 1], is 2"});
+  expectProblem(cloth("slits: [-1]"), "cloth.slits[0].column", {"in [0, 1], is -1"});
+  expectProblem(cloth("slits: [{column: 0, from_row: 4}]"), "cloth.slits[0].from_row", {"in [0, 3], is 4"});
+  expectProblem(cloth("slits: [{from_row: 1}]"), "cloth.slits[0].column", {"is missing"});
+  expectProblem(cloth("slits: [{column: 1, row: 1}]"), "cloth.slits[0].row", {"from_row"});
+  expectProblem(cloth("slits: [1, {column: 1, from_row: 2}]"), "cloth.slits[1].column",
+                {"unique, 1 is taken by cloth.slits[0]"});
+}
+
 TEST(BadInput, HangLineLongerThanTheClothIsWideIsNamed) {
   expectProblem(with("hang: {from: [0, 0, 2], to: [1.1, 0, 2]}"), "hang.to",
                 {"no further from hang.from than cloth.width = 1 m", "is 1.1 m away"});

@@ -132,6 +132,17 @@ TEST(GoodInput, FlagsAreReadAsYaml11SpellsThem) {
   for (const char* text : {"false", "False", "FALSE", "no", "Off"}) EXPECT_FALSE(closed(text)) << text;
 }
 
+TEST(GoodInput, SlitsAreReadAsColumnsAndAsMaps) {
+  const Scene scene = expectScene("cloth: {rows: 4, columns: 5, slits: [2, {column: 0, from_row: 3}]}");
+  ASSERT_EQ(scene.cloth.slits.size(), 2u);
+  EXPECT_EQ(scene.cloth.slits[0].column, 2);
+  EXPECT_EQ(scene.cloth.slits[0].from_row, 0);
+  EXPECT_EQ(scene.cloth.slits[1].column, 0);
+  EXPECT_EQ(scene.cloth.slits[1].from_row, 3);
+  const Scene ring = expectScene("cloth: {rows: 4, columns: 5, closed: true, slits: [4]}");
+  EXPECT_EQ(ring.cloth.slits[0].column, 4);
+}
+
 TEST(GoodInput, PinListScaleSubstepsAndSeedAreRead) {
   const Scene scene = expectScene(std::string(smallScene()) +
                                   "pins: [[0, 0], [3, 2]]\nsolver: {substeps: 7, seed: 18446744073709551615}\n"

@@ -61,6 +61,11 @@ void compareCloth(const ClothParams& a, const ClothParams& b) {
   c.same("closed", a.closed, b.closed);
   c.same("folds", a.folds, b.folds);
   c.number("porosity", a.porosity, b.porosity);
+  ASSERT_EQ(a.slits.size(), b.slits.size());
+  for (std::size_t i = 0; i < a.slits.size(); ++i) {
+    c.same("slits.column", a.slits[i].column, b.slits[i].column);
+    c.same("slits.from_row", a.slits[i].from_row, b.slits[i].from_row);
+  }
   c.numbers("row_spacing", a.row_spacing, b.row_spacing);
   c.numbers("column_spacing", a.column_spacing, b.column_spacing);
   c.numbers("row_mass", a.row_mass, b.row_mass);
@@ -248,6 +253,7 @@ Scene oddScene() {
   scene.cloth.lumping = Lumping::kUniform;
   scene.cloth.folds = 9;
   scene.cloth.porosity = 1.0 / 3.0;
+  scene.cloth.slits = {{3, 0}, {0, 5}};
   scene.cloth.row_spacing = numbers.list(5);
   scene.cloth.column_spacing = numbers.list(4);
   scene.cloth.row_mass = numbers.list(6);

@@ -95,7 +95,7 @@ ClothFlatness::ClothFlatness(const ClothPattern& pattern, double overlong)
 
 bool ClothFlatness::isRegular(const ClothPattern& pattern) const {
   const Grid& grid = pattern.grid;
-  if (grid.closed) return false;
+  if (grid.closed || !grid.slit_row.empty()) return false;
   const double u = pattern.weft_rest[1], v = pattern.warp_rest[grid.index(1, 0)];
   bool regular = true;
   forEachLink(pattern, [&](std::size_t, std::size_t, double rest, bool rod) {

@@ -19,7 +19,7 @@ Windows::Windows(const Grid& grid, const Spacings& per_spacing, const ElementPai
 
 void Windows::makeLocalPairs() {
   if (rows_ < 2 || grid_.columns < 4) return;
-  const ElementPairs all(grid_);
+  const ElementPairs all(Grid(grid_.rows, grid_.columns, grid_.closed));
   const auto addTo = [this](std::vector<LocalPair>& pairs) {
     return [this, &pairs](const FourNodes& nodes) {
       LocalPair local;

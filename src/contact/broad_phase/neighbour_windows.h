@@ -36,7 +36,7 @@ class Windows {
     const std::size_t end = bent_.size() * (share + 1) / shares;
     for (std::size_t k = bent_.size() * share / shares; k < end; ++k) {
       const Window& window = bent_[k];
-      if (window.row + 1 == rows_ || window.column + 4 > grid_.columns)
+      if (window.row + 1 == rows_ || window.column + 4 > grid_.columns || isCut(window))
         forEachPairOf(window, vertex, edge);
       else
         forEachNearPairOf(window, swept, reach, vertex, edge);
@@ -86,6 +86,12 @@ class Windows {
     }
   }
   void makeLocalPairs();
+  /// A slit takes a quad of the window away. The last row has the most slits.
+  bool isCut(const Window& window) const noexcept {
+    if (grid_.slit_row.empty()) return false;
+    const int row = window.row + high_ - 1;
+    return !grid_.hasQuad(row, window.column + 1) || !grid_.hasQuad(row, window.column + 2);
+  }
 
   Grid grid_;
   const ElementPairs& elements_;

@@ -46,8 +46,8 @@ void ObstacleCandidates::listFaces(double reach) noexcept {
       const QuadElements quad = quadElements(grid, i, j);
       if (!boxOf(quad.corners).intersects(box)) continue;
       auto index = static_cast<std::uint32_t>(2 * grid.index(i, j));
-      for (const MeshTriangle& triangle : quad.triangles) {
-        const Face face{triangle, index++};
+      for (int k = 0; k < quad.triangle_count; ++k) {
+        const Face face{quad.triangles[static_cast<std::size_t>(k)], index++};
         if (!staysAbove(face, reach)) faces_.push_back(face);
       }
     }
@@ -102,7 +102,8 @@ void ObstacleCandidates::listPairsOf(const QuadElements& quad, const SweptQuad& 
       },
       [&](std::uint32_t index, const ObstacleVertex& corner) {
         if (swept.lowest(corner.outward, corner.position) > reach) return;
-        for (const MeshTriangle& triangle : quad.triangles) addCornerPair(triangle, index, corner, reach, out);
+        for (int k = 0; k < quad.triangle_count; ++k)
+          addCornerPair(quad.triangles[static_cast<std::size_t>(k)], index, corner, reach, out);
       });
 }
 

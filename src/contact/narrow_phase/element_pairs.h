@@ -102,7 +102,8 @@ class ElementPairs {
   void forEachOf(const QuadElements& p, const QuadElements& q, const Vertex& vertex) const {
     for (int k = 0; k < p.vertex_count; ++k) {
       const std::uint32_t v = p.vertices[static_cast<std::size_t>(k)];
-      for (const MeshTriangle& t : q.triangles) {
+      for (int l = 0; l < q.triangle_count; ++l) {
+        const MeshTriangle& t = q.triangles[static_cast<std::size_t>(l)];
         if (v == t[0] || v == t[1] || v == t[2]) continue;
         const std::array<std::uint32_t, 4> nodes{v, t[0], t[1], t[2]};
         if (canMove(nodes)) vertex(nodes);

@@ -108,6 +108,7 @@ void PaperSolver::adjust(std::size_t a, std::size_t b, double excess, Field3& po
 void PaperSolver::adjustRow(int row, Field3& position) noexcept {
   const Grid& grid = pattern_.grid;
   for (int j = grid.closed ? 0 : 1; j < grid.columns; ++j) {
+    if (!grid.hasLink(row, j)) continue;
     const std::size_t right = grid.index(row, j);
     const std::size_t left = grid.index(row, j > 0 ? j - 1 : grid.columns - 1);
     const double rest = pattern_.weft_rest[right];
