@@ -67,7 +67,7 @@ struct ClothParams {
   bool closed = false;               ///< the weft closes to a ring (skirt, canopy)
   int folds = 6;                     ///< rods per weft link [1..64]; 1 = no second-layer nodes
   double porosity = 0.0;             ///< share of the air that passes through [0..1]
-  std::vector<SlitParams> slits;     ///< cuts along the warp, each between other columns
+  std::vector<SlitParams> slits;     ///< cuts along the warp, each elsewhere; strips have at least two columns
   /// Relative lengths of the rows-1 warp rods, top first, each > 0; scaled to height. Empty: all equal.
   std::vector<double> row_spacing;
   /// Relative lengths of the weft links of a row (columns-1, closed: columns), each > 0; scaled to the

@@ -53,6 +53,17 @@ void checkSlits(const ClothParams& cloth, ProblemLog& log) {
                                           itemKey("cloth.slits", first->second));
     }
   }
+  // A strip of one column would have no width, and so no mass.
+  const int links = weftLinkCount(cloth);
+  const auto isEdge = [&](int link) { return !cloth.closed && (link < 0 || link >= links); };
+  for (const auto& [column, entry] : seen) {
+    const int next = cloth.closed ? (column + 1) % links : column + 1;
+    const bool alone = isEdge(column - 1) || isEdge(next) || (next != column && seen.count(next) > 0);
+    if (!alone) continue;
+    const int lone = isEdge(column - 1) ? column : next % cloth.columns;
+    log.add(joinKey(itemKey("cloth.slits", entry), "column"),
+            "must leave strips of two columns and more, leaves column " + std::to_string(lone) + " alone");
+  }
 }
 
 void checkPins(const Scene& scene, ProblemLog& log) {

@@ -46,12 +46,10 @@ void fitTogether(Scene& scene, Choices& choices) {
     *count = std::min(*count, kMostRounds);
   }
   scene.solver.threads = std::min(scene.solver.threads, kMostThreads);
+  const int room = (curtain::weftLinkCount(cloth) - 1) / 2;  // strips of two columns
+  cloth.slits.resize(std::min(cloth.slits.size(), static_cast<std::size_t>(room)));
   for (std::size_t i = 0; i < cloth.slits.size(); ++i) {
-    if (static_cast<int>(i) >= curtain::weftLinkCount(cloth)) {
-      cloth.slits.resize(i);
-      break;
-    }
-    cloth.slits[i] = {static_cast<int>(i), std::min(std::max(cloth.slits[i].from_row, 0), cloth.rows - 1)};
+    cloth.slits[i] = {2 * static_cast<int>(i) + 1, std::min(std::max(cloth.slits[i].from_row, 0), cloth.rows - 1)};
   }
   resizeUnlessEmpty(cloth.row_spacing, cloth.rows - 1);
   resizeUnlessEmpty(cloth.column_spacing, curtain::weftLinkCount(cloth));

@@ -173,8 +173,10 @@ void drawSlits(Drawn& drawn) {
   if (!dice.chance(0.1)) return;
   ClothParams& cloth = drawn.scene.cloth;
   const double share = dice.between(0.0, 0.5);
-  for (int column = 0; column < weftLinkCount(cloth); ++column) {
-    if (dice.chance(share)) cloth.slits.push_back({column, dice.chance(0.7) ? 0 : dice.integer(0, cloth.rows - 1)});
+  for (int column = 1; column < weftLinkCount(cloth) - 1; ++column) {
+    const bool after_another = !cloth.slits.empty() && cloth.slits.back().column == column - 1;
+    if (dice.chance(share) && !after_another)
+      cloth.slits.push_back({column, dice.chance(0.7) ? 0 : dice.integer(0, cloth.rows - 1)});
   }
 }
 

@@ -211,13 +211,19 @@ TEST(BadInput, PinsOutsideTheClothAreNamed) {
 TEST(BadInput, SlitsOutsideTheClothAndTwiceAtOnePlaceAreNamed) {
   expectProblem(cloth("slits: 1"), "cloth.slits", {"a list", "is 1"});
   expectProblem(cloth("slits: [x]"), "cloth.slits[0]", {"a column, or a map {column, from_row}", "\"x\""});
-  expectProblem(cloth("slits: [0, 2]"), "cloth.slits[1].column", {"in [0, 1], is 2"});
-  expectProblem(cloth("slits: [-1]"), "cloth.slits[0].column", {"in [0, 1], is -1"});
-  expectProblem(cloth("slits: [{column: 0, from_row: 4}]"), "cloth.slits[0].from_row", {"in [0, 3], is 4"});
+  const auto wide = [](const std::string& slits) { return "cloth: {rows: 4, columns: 8, slits: " + slits + "}"; };
+  expectProblem(wide("[3, 7]"), "cloth.slits[1].column", {"in [0, 6], is 7"});
+  expectProblem(wide("[-1]"), "cloth.slits[0].column", {"in [0, 6], is -1"});
+  expectProblem(wide("[{column: 3, from_row: 4}]"), "cloth.slits[0].from_row", {"in [0, 3], is 4"});
   expectProblem(cloth("slits: [{from_row: 1}]"), "cloth.slits[0].column", {"is missing"});
   expectProblem(cloth("slits: [{column: 1, row: 1}]"), "cloth.slits[0].row", {"from_row"});
-  expectProblem(cloth("slits: [1, {column: 1, from_row: 2}]"), "cloth.slits[1].column",
-                {"unique, 1 is taken by cloth.slits[0]"});
+  expectProblem(wide("[3, {column: 3, from_row: 2}]"), "cloth.slits[1].column",
+                {"unique, 3 is taken by cloth.slits[0]"});
+  expectProblem(wide("[0]"), "cloth.slits[0].column", {"strips of two columns and more, leaves column 0 alone"});
+  expectProblem(wide("[6]"), "cloth.slits[0].column", {"leaves column 7 alone"});
+  expectProblem(wide("[4, 3]"), "cloth.slits[1].column", {"leaves column 4 alone"});
+  expectProblem("cloth: {rows: 4, columns: 8, closed: true, slits: [7, 0]}", "cloth.slits[0].column",
+                {"leaves column 0 alone"});
 }
 
 TEST(BadInput, HangLineLongerThanTheClothIsWideIsNamed) {

@@ -133,11 +133,11 @@ TEST(GoodInput, FlagsAreReadAsYaml11SpellsThem) {
 }
 
 TEST(GoodInput, SlitsAreReadAsColumnsAndAsMaps) {
-  const Scene scene = expectScene("cloth: {rows: 4, columns: 5, slits: [2, {column: 0, from_row: 3}]}");
+  const Scene scene = expectScene("cloth: {rows: 4, columns: 7, slits: [3, {column: 1, from_row: 3}]}");
   ASSERT_EQ(scene.cloth.slits.size(), 2u);
-  EXPECT_EQ(scene.cloth.slits[0].column, 2);
+  EXPECT_EQ(scene.cloth.slits[0].column, 3);
   EXPECT_EQ(scene.cloth.slits[0].from_row, 0);
-  EXPECT_EQ(scene.cloth.slits[1].column, 0);
+  EXPECT_EQ(scene.cloth.slits[1].column, 1);
   EXPECT_EQ(scene.cloth.slits[1].from_row, 3);
   const Scene ring = expectScene("cloth: {rows: 4, columns: 5, closed: true, slits: [4]}");
   EXPECT_EQ(ring.cloth.slits[0].column, 4);

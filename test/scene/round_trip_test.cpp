@@ -253,7 +253,7 @@ Scene oddScene() {
   scene.cloth.lumping = Lumping::kUniform;
   scene.cloth.folds = 9;
   scene.cloth.porosity = 1.0 / 3.0;
-  scene.cloth.slits = {{3, 0}, {0, 5}};
+  scene.cloth.slits = {{1, 5}};
   scene.cloth.row_spacing = numbers.list(5);
   scene.cloth.column_spacing = numbers.list(4);
   scene.cloth.row_mass = numbers.list(6);
