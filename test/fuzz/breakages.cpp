@@ -75,6 +75,9 @@ class Breaker {
   void pins(Key key, const curtain::PinParams&) {
     add(key, {"bottom", "1", "{}", "[1]", "[[1]]", "[[0, 99999]]", "[[-1, 0]]", "[[0, 0], top]", "~"});
   }
+  void slits(Key key, const std::vector<curtain::SlitParams>&) {
+    add(key, {"1", "{}", "all", "[x]", "[-1]", "[99999]", "[[0]]", "[{from_row: 1}]", "[{column: 1, row: 1}]", "~"});
+  }
   bool belongs(Key key, bool yes, curtain::ShapeKind) {
     if (!yes) add(key, "1.0");  // one that does not belong there
     return yes;

@@ -39,6 +39,10 @@ class WordCollector {
     note(key);
     words.insert(curtain::pinNames().begin(), curtain::pinNames().end());
   }
+  void slits(Key key, const std::vector<curtain::SlitParams>&) {
+    note(key);
+    words.insert({"column", "from_row"});
+  }
   bool belongs(Key, bool, curtain::ShapeKind) { return true; }
 
   template <typename Enum>

@@ -50,6 +50,13 @@ class SceneBits {
     add(value.nodes.size());
     for (const curtain::NodeIndex& node : value.nodes) addOne(node);
   }
+  void slits(Key, const std::vector<curtain::SlitParams>& values) {
+    add(values.size());
+    for (const curtain::SlitParams& slit : values) {
+      add(slit.column);
+      add(slit.from_row);
+    }
+  }
   bool belongs(Key, bool yes, curtain::ShapeKind) { return yes; }
 
   template <typename Enum>

@@ -130,6 +130,12 @@ void SceneMaker::numbers(Key, std::vector<double>& values, Range range) {
   for (int i = 0; i < 3; ++i) values.push_back(pick(range, 1.0));
 }
 
+// Their columns are made to fit when the cloth is known.
+void SceneMaker::slits(Key, std::vector<curtain::SlitParams>& values) {
+  if (!choices_.oneIn(4)) return;
+  for (int i = 0; i < 3; ++i) values.push_back({0, static_cast<int>(choices_.below(8))});
+}
+
 void SceneMaker::pins(Key, curtain::PinParams& value) {
   value.kind = static_cast<curtain::PinKind>(choices_.below(curtain::pinNames().size() + 1));
   if (value.kind != curtain::PinKind::kList) return;

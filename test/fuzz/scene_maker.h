@@ -52,6 +52,7 @@ class SceneMaker {
   }
   void numbers(Key, std::vector<double>& values, curtain::Range range);
   void pins(Key, curtain::PinParams& value);
+  void slits(Key, std::vector<curtain::SlitParams>& values);
   bool belongs(Key, bool yes, curtain::ShapeKind) { return yes; }
 
   template <typename Enum>
