@@ -36,15 +36,6 @@ void visitFields(Visitor& visitor, T& value) {
 }
 
 template <>
-struct Fields<SlitParams> {
-  template <typename Visitor, typename T>
-  static void visit(Visitor& v, T& slit) {
-    v.integer(required("column"), slit.column, IntRange{0, 4095});
-    v.integer("from_row", slit.from_row, IntRange{0, 4095});
-  }
-};
-
-template <>
 struct Fields<ClothParams> {
   template <typename Visitor, typename T>
   static void visit(Visitor& v, T& cloth) {

@@ -10,6 +10,16 @@
 #include "scene/spelling.h"
 
 namespace curtain {
+
+// Of the entries of cloth.slits that are maps.
+template <>
+struct Fields<SlitParams> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& slit) {
+    v.integer(required("column"), slit.column, IntRange{0, 4095});
+    v.integer("from_row", slit.from_row, IntRange{0, 4095});
+  }
+};
 namespace {
 
 // Longest name of a key that is read; known ones are shorter.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The winds and drags that act on a cloth, by id: the sum of all forces at one time, and which columns a change reaches.
+// The winds and drags that act on a cloth, by id: the sum of all forces at one time, and which columns a change
+// reaches.
 #pragma once
 
 #include <string>
