@@ -59,6 +59,24 @@ inline curtain::Scene ringScene(int rows, int columns, double height = 1.0, doub
   return scene;
 }
 
+/// A source "fan" that blows along +y.
+inline curtain::WindParams fanAt(const curtain::Vec3& position, double radius) {
+  curtain::WindParams wind;
+  wind.id = "fan";
+  wind.position = position;
+  wind.direction = curtain::Vec3::UnitY();
+  wind.radius = radius;
+  return wind;
+}
+
+inline curtain::ObstacleParams ballAt(const curtain::Vec3& position, double radius) {
+  curtain::ObstacleParams ball;
+  ball.name = "ball";
+  ball.radius = radius;
+  ball.pose.position = position;
+  return ball;
+}
+
 /// A grid of nodes anywhere in a box.
 inline curtain::Field3 randomPositions(const curtain::Grid& grid, Random& random, double half_edge) {
   curtain::Field3 position;

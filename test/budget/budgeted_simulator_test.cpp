@@ -21,6 +21,8 @@ std::chrono::steady_clock::time_point std::chrono::steady_clock::now() noexcept 
 namespace curtain {
 namespace {
 
+using curtain_test::ballAt;
+using curtain_test::fanAt;
 using curtain_test::flatScene;
 
 // What half of the first frames take at most, when they take what they need [ms].
@@ -42,19 +44,12 @@ Scene blownCurtain() {
   scene.contact.self = true;
   scene.solver.threads = 1;
   scene.air.inside = scene.air.border = scene.air.corner = 0.2;
-  WindParams fan;
-  fan.id = "fan";
-  fan.position = {0.3, -1.5, 0.5};
-  fan.direction = Vec3::UnitY();
-  fan.radius = 1.5;
+  WindParams fan = fanAt({0.3, -1.5, 0.5}, 1.5);
   fan.pressure = 6.0;
   fan.unsteadiness = 4.0;
   fan.end = 4.0;
   scene.wind.push_back(fan);
-  ObstacleParams ball;
-  ball.name = "ball";
-  ball.radius = 0.15;
-  ball.pose.position = {0.35, -0.6, 0.5};
+  ObstacleParams ball = ballAt({0.35, -0.6, 0.5}, 0.15);
   ball.motion = {{1.0, ball.pose}, {2.0, ball.pose}, {3.0, ball.pose}};
   ball.motion[1].pose.position.y() = 0.3;
   scene.obstacles.push_back(ball);

@@ -28,10 +28,7 @@ constexpr double kThickness = 0.008, kRadius = 0.2;
 struct Past {
   explicit Past(std::uint64_t seed) : random(seed) {
     scene.pins.kind = PinKind::kNone;
-    ObstacleParams ball;
-    ball.name = "ball";
-    ball.radius = kRadius;
-    ball.pose.position = random.inBox(10.0);
+    ObstacleParams ball = ballAt(random.inBox(10.0), kRadius);
     scene.obstacles.push_back(ball);
     middle = ball.pose.position;
     obstacles.emplace(scene, resolveMeshUrl);

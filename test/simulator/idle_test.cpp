@@ -10,6 +10,7 @@
 namespace curtain {
 namespace {
 
+using curtain_test::ballAt;
 using curtain_test::flatScene;
 
 Scene swing() {
@@ -105,10 +106,7 @@ TEST(Idle, AnObstacleFarAwayIsNone) {
   for (const Vec3& place : {Vec3(20.0, 0.0, 0.0), Vec3(2.2, 0.0, 1.0), Vec3(1.5, 0.0, 1.0)}) {
     Scene scene = swing();
     const std::uint64_t without = hashAfter(scene);
-    ObstacleParams ball;
-    ball.name = "ball";
-    ball.radius = 0.3;
-    ball.pose.position = place;
+    ObstacleParams ball = ballAt(place, 0.3);
     scene.obstacles.push_back(ball);
     EXPECT_EQ(hashAfter(scene), without) << place.transpose();
   }

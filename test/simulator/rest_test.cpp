@@ -13,6 +13,7 @@
 namespace curtain {
 namespace {
 
+using curtain_test::ballAt;
 using curtain_test::flatScene;
 using curtain_test::kPi;
 
@@ -61,10 +62,7 @@ void expectRest(const char* name, const Scene& scene, double allowed) {
 }
 
 TEST(Rest, ComesOnASphere) {
-  ObstacleParams ball;
-  ball.name = "ball";
-  ball.radius = 0.3;
-  ball.pose.position = {0.0, 0.0, 0.3};
+  ObstacleParams ball = ballAt({0.0, 0.0, 0.3}, 0.3);
   ball.friction = 0.3;
   expectRest("sphere", sheetAbove(0.65, ball), 1e-3);
 }

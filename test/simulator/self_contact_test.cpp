@@ -15,6 +15,7 @@
 namespace curtain {
 namespace {
 
+using curtain_test::fanAt;
 using curtain_test::flatScene;
 using curtain_test::kPi;
 
@@ -79,11 +80,7 @@ TEST(SelfContact, ACurtainGatheredToAQuarterAndBlownNeverCrossesItself) {
   Scene scene = clothOf44x40();
   scene.hang.to = scene.hang.from + Vec3(0.25, 0.0, 0.0);
   scene.air.inside = scene.air.border = scene.air.corner = 0.2;
-  WindParams fan;
-  fan.id = "fan";
-  fan.position = {0.1, -1.5, 1.2};
-  fan.direction = Vec3::UnitY();
-  fan.radius = 1.5;
+  WindParams fan = fanAt({0.1, -1.5, 1.2}, 1.5);
   fan.half_angle = 0.2;
   fan.pressure = 6.0;
   fan.unsteadiness = 4.0;

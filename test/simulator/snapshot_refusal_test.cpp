@@ -15,6 +15,7 @@
 namespace curtain {
 namespace {
 
+using curtain_test::ballAt;
 using curtain_test::flatScene;
 using curtain_test::pick;
 using curtain_test::Random;
@@ -40,10 +41,7 @@ Scene busyScene() {
   drag.point = Vec3(0.1, 0.0, 0.0);
   drag.target = Vec3(0.1, 0.1, 0.1);
   scene.drag = {drag};
-  ObstacleParams ball;
-  ball.name = "ball";
-  ball.radius = 0.05;
-  ball.pose.position = {0.08, 0.1, 0.15};
+  ObstacleParams ball = ballAt({0.08, 0.1, 0.15}, 0.05);
   ball.motion = {{0.0, ball.pose}, {1.0, Pose()}};
   ObstacleParams cube = ball;
   cube.name = "cube";

@@ -11,6 +11,7 @@
 namespace curtain {
 namespace {
 
+using curtain_test::ballAt;
 using curtain_test::Deeds;
 using curtain_test::expectContinues;
 using curtain_test::expectSameStatistics;
@@ -23,21 +24,13 @@ using curtain_test::randomScene;
 using curtain_test::restoreOrFail;
 using curtain_test::run;
 
-// A curtain of 1 m x 1 m in damping air; short substeps, as of test/simulator/sleep_test.cpp.
+// A curtain of 1 m x 1 m in damping air; short substeps, as of test/simulator/sleeping_cloth.h.
 Scene hanging(int columns = 20) {
   Scene scene = flatScene(16, columns);
   scene.hang.to.x() = 0.9;
   scene.air.inside = scene.air.border = scene.air.corner = 1.0;
   scene.solver.substeps = 32;
   return scene;
-}
-
-ObstacleParams ball(const Vec3& position, double radius) {
-  ObstacleParams obstacle;
-  obstacle.name = "ball";
-  obstacle.radius = radius;
-  obstacle.pose.position = position;
-  return obstacle;
 }
 
 TEST(Snapshot, GoesOnWithEveryMethod) {
@@ -123,10 +116,10 @@ TEST(Snapshot, GoesOnWhileItCrumples) {
   scene.pins.kind = PinKind::kNone;
   scene.contact.self = true;
   scene.contact.thickness = 0.01;
-  ObstacleParams floor = ball({0.0, 0.0, -0.05}, 1.0);
+  ObstacleParams floor = ballAt({0.0, 0.0, -0.05}, 1.0);
   floor.name = "floor";
   floor.shape = ShapeKind::kPlane;
-  scene.obstacles = {floor, ball({0.5, 0.05, 0.2}, 0.15)};
+  scene.obstacles = {floor, ballAt({0.5, 0.05, 0.2}, 0.15)};
   for (const int saved_at : {10, 25, 45}) {
     SCOPED_TRACE(saved_at);
     Life life;
@@ -206,7 +199,7 @@ TEST(Snapshot, HasAVersionForEveryLayout) {
   Scene all = flatScene(4, 5);
   all.solver.position_tolerance = 1e-3;
   all.contact.self = true;
-  all.obstacles = {ball({0.0, 0.0, 0.0}, 0.1), ball({0.0, 1.0, 0.0}, 0.1)};
+  all.obstacles = {ballAt({0.0, 0.0, 0.0}, 0.1), ballAt({0.0, 1.0, 0.0}, 0.1)};
   all.obstacles[1].name = "cube";
   all.obstacles[1].shape = ShapeKind::kMesh;
   all.obstacles[1].mesh = std::string(CURTAIN_SOURCE_DIR) + "/test/meshes/cube_quads.obj";

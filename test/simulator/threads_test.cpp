@@ -56,10 +56,7 @@ Scene skirt() {
 Scene curtainInContact() {
   Scene scene = gatheredCurtain();
   scene.contact.self = true;
-  ObstacleParams ball;
-  ball.name = "ball";
-  ball.radius = 0.2;
-  ball.pose.position = Vec3(0.2, 0.35, 1.5);
+  ObstacleParams ball = curtain_test::ballAt({0.2, 0.35, 1.5}, 0.2);
   ObstacleParams body = ball;
   body.name = "body";
   body.shape = ShapeKind::kMesh;
