@@ -10,27 +10,25 @@
 #include <functional>
 #include <set>
 
-#include "contact/narrow_phase/separating_axis.h"
-#include "contact/shapes/triangle_mesh_tree.h"
+#include "contact/all_pairs.h"
 #include "count_allocations.h"
 #include "testing.h"
 
 namespace curtain {
 namespace {
 
+using curtain_test::ElementPair;
+using curtain_test::Elements;
 using curtain_test::flatScene;
 using curtain_test::kPi;
+using curtain_test::Motion;
+using curtain_test::Oracle;
+using curtain_test::pairOf;
 using curtain_test::Random;
 using curtain_test::randomPositions;
 using curtain_test::ringScene;
 using curtain_test::shake;
-
-struct Motion {
-  std::string name;
-  ClothPattern pattern;
-  Field3 start, end;
-  double reach;  // [m]
-};
+using curtain_test::sorted;
 
 using Place = std::function<Vec3(int i, int j)>;
 
@@ -93,125 +91,6 @@ Field3 pleats(const Grid& grid, double swing, double shift, double link = 0.025)
     return profile[static_cast<std::size_t>(j)] + Vec3(0.0, 0.003 * std::sin(0.4 * i + shift), -i * link);
   });
 }
-
-double distanceOfSegments(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
-  // Ericson, Real-Time Collision Detection, 5.1.9.
-  const Vec3 d = q - p, e = s - r, w = p - r;
-  const double a = d.squaredNorm(), b = d.dot(e), c = d.dot(w), f = e.dot(w), g = e.squaredNorm();
-  const double volume = a * g - b * b;
-  double along = volume > 0.0 ? std::clamp((b * f - c * g) / volume, 0.0, 1.0) : 0.0;
-  double other = (b * along + f) / g;
-  if (other < 0.0 || other > 1.0) {
-    other = std::clamp(other, 0.0, 1.0);
-    along = std::clamp((b * other - c) / a, 0.0, 1.0);
-  }
-  return (p + along * d - r - other * e).norm();
-}
-
-using Elements = std::vector<std::uint32_t>;  // an element's nodes, sorted
-using ElementPair = std::pair<Elements, Elements>;
-
-Elements sorted(Elements nodes) {
-  std::sort(nodes.begin(), nodes.end());
-  return nodes;
-}
-
-ElementPair pairOf(const VertexTriangle& c) { return {{c.vertex}, sorted({c.triangle.begin(), c.triangle.end()})}; }
-
-ElementPair pairOf(const EdgeEdge& c) {
-  Elements first = sorted({c.first.begin(), c.first.end()}), second = sorted({c.second.begin(), c.second.end()});
-  if (second < first) std::swap(first, second);
-  return {first, second};
-}
-
-/// All pairs of a motion, by the definition.
-class Oracle {
- public:
-  explicit Oracle(const Motion& motion) : motion_(motion) {}
-
-  /// Says what is wrong with what was named.
-  void check(const Candidates& candidates) {
-    std::set<ElementPair> named;
-    for (const VertexTriangle& c : candidates.vertex_triangles) add(pairOf(c), named);
-    for (const EdgeEdge& c : candidates.edge_edges) add(pairOf(c), named);
-    const CoarseMesh mesh = makeCoarseMesh(motion_.pattern.grid);
-    std::vector<Elements> vertices, edges, triangles;
-    for (int i = 0; i < motion_.pattern.grid.rows; ++i) {
-      for (int j = 0; j < motion_.pattern.grid.columns; ++j) {
-        vertices.push_back({static_cast<std::uint32_t>(motion_.pattern.grid.index(i, j))});
-      }
-    }
-    for (const MeshEdge& edge : mesh.edges) edges.push_back(sorted({edge.begin(), edge.end()}));
-    for (const MeshTriangle& t : mesh.triangles) triangles.push_back(sorted({t.begin(), t.end()}));
-    std::sort(edges.begin(), edges.end());
-    const std::vector<Eigen::AlignedBox3d> edge_boxes = boxesOf(edges), triangle_boxes = boxesOf(triangles);
-    const std::vector<Eigen::AlignedBox3d> vertex_boxes = boxesOf(vertices);
-    for (std::size_t v = 0; v < vertices.size(); ++v) {
-      for (std::size_t t = 0; t < triangles.size(); ++t) {
-        compare(vertices[v], triangles[t], gap(vertex_boxes[v], triangle_boxes[t]), named);
-      }
-    }
-    for (std::size_t e = 0; e < edges.size(); ++e) {
-      for (std::size_t f = e + 1; f < edges.size(); ++f)
-        compare(edges[e], edges[f], gap(edge_boxes[e], edge_boxes[f]), named);
-    }
-    EXPECT_TRUE(named.empty()) << motion_.name << ": " << named.size() << " pairs that are not in the mesh";
-  }
-
-  int left_out = 0;  ///< pairs whose boxes are within reach
-
- private:
-  void add(ElementPair pair, std::set<ElementPair>& named) const {
-    const Grid& grid = motion_.pattern.grid;
-    const bool may_be_twice = grid.closed && grid.columns <= 4;
-    EXPECT_TRUE(named.insert(std::move(pair)).second || may_be_twice) << motion_.name << ": twice";
-  }
-
-  std::vector<Eigen::AlignedBox3d> boxesOf(const std::vector<Elements>& elements) const {
-    std::vector<Eigen::AlignedBox3d> boxes(elements.size());
-    for (std::size_t k = 0; k < elements.size(); ++k) {
-      for (const std::uint32_t n : elements[k]) boxes[k].extend(motion_.start.at(n)).extend(motion_.end.at(n));
-    }
-    return boxes;
-  }
-
-  static double gap(const Eigen::AlignedBox3d& one, const Eigen::AlignedBox3d& other) {
-    return (one.min() - other.max()).cwiseMax(other.min() - one.max()).maxCoeff();
-  }
-
-  void compare(const Elements& one, const Elements& other, double gap, std::set<ElementPair>& named) {
-    const bool was_named = named.erase({one, other}) > 0;
-    const auto immovable = [&](std::uint32_t n) { return motion_.pattern.inverse_mass[n] == 0.0; };
-    const bool dropped =
-        std::all_of(one.begin(), one.end(), immovable) && std::all_of(other.begin(), other.end(), immovable);
-    const auto is_shared = [&](std::uint32_t n) { return std::count(other.begin(), other.end(), n) > 0; };
-    const bool shared = std::any_of(one.begin(), one.end(), is_shared);
-    if (was_named) {
-      EXPECT_FALSE(shared || dropped) << motion_.name;
-    }
-    if (was_named || shared || dropped || gap > motion_.reach) return;
-    ++left_out;
-    EXPECT_GT(leastDistance(one, other), motion_.reach) << motion_.name << ": missed " << one[0] << " " << other[0];
-  }
-
-  double leastDistance(const Elements& one, const Elements& other) const {
-    constexpr int kInstants = 16;
-    double least = 1e300;
-    for (int k = 0; k <= kInstants; ++k) {
-      const double t = static_cast<double>(k) / kInstants;
-      const auto at = [&](std::uint32_t n) -> Vec3 { return (1.0 - t) * motion_.start.at(n) + t * motion_.end.at(n); };
-      if (one.size() == 1) {
-        least = std::min(
-            least, std::sqrt(nearestOnTriangle(at(one[0]), at(other[0]), at(other[1]), at(other[2])).distance_squared));
-      } else {
-        least = std::min(least, distanceOfSegments(at(one[0]), at(one[1]), at(other[0]), at(other[1])));
-      }
-    }
-    return least;
-  }
-
-  const Motion motion_;
-};
 
 template <typename Pair>
 std::multiset<ElementPair> named(const std::vector<Pair>& pairs) {
@@ -519,87 +398,6 @@ TEST(SelfCandidates, NamesNoPairOfTiltedLayersThatStayApart) {
       EXPECT_EQ(across, 0) << angle;
     }
   }
-}
-
-constexpr std::size_t kNodes = 4 * kPairsAtOnce;
-
-// Simd8 pairs at a time, by chance and close to the reach: what is said to stay apart does, and what is far is said to.
-TEST(StayingApart, IsProvedOfWhatStaysApartAlone) {
-  Random random(5);
-  int proved = 0, apart_in_truth = 0;
-  for (int round = 0; round < 4000; ++round) {
-    std::array<Eigen::Array4f, kNodes> starts, ends;
-    std::array<FourNodes, kPairsAtOnce> pairs;
-    const double size = random.between(0.005, 0.05), speed = random.between(0.0, 0.03);
-    const Vec3 common = random.inBox(0.1);
-    for (std::uint32_t n = 0; n < kNodes; ++n) {
-      const Vec3 place = random.inBox(size), move = common + random.inBox(speed);
-      const Eigen::Vector3f start = place.cast<float>(), end = Vec3(place + move).cast<float>();
-      starts[n] = {start.x(), start.y(), start.z(), 0.0f};
-      ends[n] = {end.x(), end.y(), end.z(), 0.0f};
-      pairs[n / 4][n % 4] = n;
-    }
-    const double reach = random.between(0.0, 0.01);
-    for (const bool edges : {false, true}) {
-      const auto lanes = (edges ? edgesSeparated : vertexSeparated)(pairs, {starts.data(), ends.data()},
-                                                                    static_cast<float>(reach), 1e-7f);
-      for (std::size_t k = 0; k < kPairsAtOnce; ++k) {
-        double least = 1e300;
-        for (int instant = 0; instant <= 32; ++instant) {
-          const double t = instant / 32.0;
-          const auto at = [&](std::size_t n) -> Vec3 {
-            const std::uint32_t node = pairs[k][n];
-            return ((1.0 - t) * starts[node].head<3>().cast<double>() + t * ends[node].head<3>().cast<double>())
-                .matrix();
-          };
-          least = std::min(least, edges ? distanceOfSegments(at(0), at(1), at(2), at(3))
-                                        : std::sqrt(nearestOnTriangle(at(0), at(1), at(2), at(3)).distance_squared));
-        }
-        const bool said = (lanes >> k & 1U) != 0;
-        if (said) {
-          EXPECT_GT(least, reach) << round << (edges ? " edges" : " vertex");
-        }
-        proved += said ? 1 : 0;
-        apart_in_truth += least > reach ? 1 : 0;
-      }
-    }
-  }
-  EXPECT_GT(proved, apart_in_truth * 6 / 10);
-}
-
-// The same pairs in a doll's and in an airship's metres, many of edges that are nearly parallel, or none.
-TEST(StayingApart, IsProvedInAnyUnit) {
-  Random random(6);
-  int proved = 0;
-  for (int round = 0; round < 4000; ++round) {
-    std::array<Vec3, kNodes> start, end;
-    std::array<FourNodes, kPairsAtOnce> pairs;
-    const double trifle = round % 4 == 0 ? 0.0 : round % 4 == 1 ? 1e-7 : 0.01;
-    for (std::uint32_t n = 0; n < kNodes; ++n) {
-      const Vec3 way = random.inBox(0.02);
-      start[n] = n % 4 < 2 ? random.inBox(0.05) : Vec3(start[n - 2] + Vec3(0.0, 0.0, 0.01) + random.inBox(trifle));
-      if (round % 5 == 0 && n % 4 == 1) start[n] = start[n - 1];
-      end[n] = n % 4 == 0 ? Vec3(start[n] + way) : Vec3(start[n] + end[n - 1] - start[n - 1]);
-      pairs[n / 4][n % 4] = n;
-    }
-    const auto provedIn = [&](double unit, bool edges) {
-      std::array<Eigen::Array4f, kNodes> starts, ends;
-      for (std::size_t n = 0; n < kNodes; ++n) {
-        const Eigen::Vector3f a = (unit * start[n]).cast<float>(), b = (unit * end[n]).cast<float>();
-        starts[n] = {a.x(), a.y(), a.z(), 0.0f};
-        ends[n] = {b.x(), b.y(), b.z(), 0.0f};
-      }
-      const auto reach = static_cast<float>(unit * 0.005), rounding = static_cast<float>(unit * 1e-7);
-      return (edges ? edgesSeparated : vertexSeparated)(pairs, {starts.data(), ends.data()}, reach, rounding);
-    };
-    for (const bool edges : {false, true}) {
-      const std::uint32_t bits = provedIn(1.0, edges);
-      EXPECT_EQ(provedIn(0x1p-12, edges), bits) << round << (edges ? " edges" : " vertex");
-      EXPECT_EQ(provedIn(0x1p12, edges), bits) << round << (edges ? " edges" : " vertex");
-      proved += bits != 0 ? 1 : 0;
-    }
-  }
-  EXPECT_GT(proved, 1000);
 }
 
 // What ends elsewhere than expected is looked for again: nothing that comes within the lesser reach is missing.

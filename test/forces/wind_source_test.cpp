@@ -1,57 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A wind source does what Cheng 2000, Eqs. (2)(3) say, nothing outside its cone, the same to both sides of the cloth,
-// and, given as a pressure, the same to a cloth whatever its grid.
+// A wind source does what Cheng 2000, Eqs. (2)(3) say, the same to both sides of the cloth, and, given as a pressure,
+// the same to a cloth whatever its grid.
 #include "forces/wind_source.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "testing.h"
+#include "forces/wind_on_cloth.h"
 
 namespace curtain {
 namespace {
 
-using curtain_test::flatScene;
-using curtain_test::kEps;
-using curtain_test::kPi;
-using curtain_test::Random;
-using curtain_test::randomPositions;
-
-struct Cloth {
-  explicit Cloth(const Scene& scene)
-      : pattern(makePattern(scene)), position(makeInitialState(scene, pattern).position) {
-    renew();
-  }
-  void renew() {
-    normals.assign(pattern.grid.size(), 0.0);
-    nodeAreaVectors(pattern.grid, position, normals);
-  }
-  Field3 push(WindSource& source, double time = 0.0) const {
-    Field3 force;
-    force.assign(pattern.grid.size(), 0.0);
-    Eigen::AlignedBox3d bounds;
-    for (int i = 0; i < pattern.grid.rows; ++i) {
-      for (int j = 0; j < pattern.grid.columns; ++j) bounds.extend(position.at(pattern.grid.index(i, j)));
-    }
-    source.find(pattern.grid, position, bounds);
-    source.addForces(pattern, position, normals, time, force);
-    return force;
-  }
-  Field3 push(const WindParams& wind, double porosity = 0.0) const {
-    WindSource source(wind, pattern, porosity, 1);
-    return push(source);
-  }
-  Vec3 total(const WindParams& wind) const {
-    const Field3 force = push(wind);
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t n = 0; n < pattern.grid.size(); ++n) sum += force.at(n);
-    return sum;
-  }
-  ClothPattern pattern;
-  Field3 position, normals;
-};
+using namespace curtain_test;
 
 // Eqs. (2)(3) as printed, with the cone's apex and B from the meeting of a line and a plane.
 struct Printed {
@@ -87,24 +49,9 @@ Printed printedWind(const WindParams& wind, const Vec3& c, const Vec3& normal, d
   return result;
 }
 
-WindParams randomWind(Random& random) {
-  WindParams wind;
-  wind.id = "fan";
-  wind.position = random.inBox(1.0);
-  wind.direction = random.between(0.1, 10.0) * random.direction();
-  wind.radius = random.between(0.3, 1.5);
-  wind.half_angle = random.between(0.0, 1.0) < 0.2 ? 0.0 : random.between(0.02, 1.5);
-  wind.pressure = random.between(0.0, 20.0);
-  wind.node_force = random.between(0.0, 1.0);
-  wind.porosity_weight = random.between(0.0, 1.0);
-  wind.distance_weight = random.between(0.1, 3.0);
-  wind.reference_length = random.between(0.3, 3.0);
-  return wind;
-}
-
 TEST(WindSource, IsEquations2And3AtRandomPlacesOfRandomCones) {
   Random random(21);
-  Cloth cloth(flatScene(8, 8));
+  WindyCloth cloth(flatScene(8, 8));
   int reached = 0, spared = 0;
   for (int trial = 0; trial < 500; ++trial) {
     const WindParams wind = randomWind(random);
@@ -131,38 +78,9 @@ TEST(WindSource, IsEquations2And3AtRandomPlacesOfRandomCones) {
   EXPECT_GT(spared, 3000) << "and outside";
 }
 
-TEST(WindSource, NothingOutsideTheConeOrBehindTheDisc) {
-  WindParams wind;
-  wind.id = "fan";
-  wind.position = {1.0, 2.0, 3.0};
-  wind.direction = Vec3::UnitZ();
-  wind.radius = 0.5;
-  wind.half_angle = std::atan(0.25);  // apex 2 m behind the disc; the cone is 0.25 m wider each metre
-  wind.pressure = 1.0;
-  Cloth cloth(flatScene(3, 3));
-  const WindSource source(wind, cloth.pattern, 0.0, 1);
-  const auto reached = [&](double across, double along) {
-    return source.reachesPoint(wind.position + Vec3(across, 0.0, along));
-  };
-  EXPECT_TRUE(reached(0.0, 0.0)) << "the disc itself";
-  EXPECT_TRUE(reached(0.499, 0.0));
-  EXPECT_FALSE(reached(0.501, 0.0));
-  EXPECT_TRUE(reached(0.749, 1.0));
-  EXPECT_FALSE(reached(0.751, 1.0));
-  EXPECT_TRUE(reached(1.499, 4.0));
-  EXPECT_FALSE(reached(1.501, 4.0));
-  EXPECT_FALSE(reached(0.0, -1e-9));
-  EXPECT_FALSE(reached(0.0, -1.0)) << "between apex and disc";
-  EXPECT_FALSE(reached(0.0, -5.0)) << "behind the apex";
-  const std::size_t middle = cloth.pattern.grid.index(1, 1);
-  cloth.position.set(middle, wind.position);
-  cloth.normals.set(middle, Vec3(0.0, 0.6, 0.8));
-  EXPECT_EQ(cloth.push(wind).at(middle).normalized(), wind.direction) << "at the disc's centre d is no direction";
-}
-
 TEST(WindSource, PushesBothSidesOfTheClothAlike) {
   Random random(22);
-  Cloth cloth(flatScene(6, 6));
+  WindyCloth cloth(flatScene(6, 6));
   WindParams wind = randomWind(random);
   wind.half_angle = 0.5;
   wind.position = {0.5, -1.0, 0.5};
@@ -181,7 +99,7 @@ TEST(WindSource, PushesBothSidesOfTheClothAlike) {
 }
 
 TEST(WindSource, ClothAlongTheWindOrCrushedCatchesNone) {
-  Cloth cloth(flatScene(4, 4));  // in the plane y = 0
+  WindyCloth cloth(flatScene(4, 4));  // in the plane y = 0
   WindParams wind;
   wind.id = "fan";
   wind.position = {-1.0, 0.0, 0.5};
@@ -195,7 +113,7 @@ TEST(WindSource, ClothAlongTheWindOrCrushedCatchesNone) {
 
 TEST(WindSource, NarrowConesTendToParallelWind) {
   Random random(23);
-  Cloth cloth(flatScene(8, 8));
+  WindyCloth cloth(flatScene(8, 8));
   for (int trial = 0; trial < 20; ++trial) {
     WindParams wind = randomWind(random);
     wind.radius = 2.0;
@@ -234,7 +152,7 @@ TEST(WindSource, TotalForceDoesNotDependOnTheGrid) {
   wind.radius = 1.2;
   wind.half_angle = 0.5;  // the whole sheet is inside: no edge of the wind on the cloth
   wind.pressure = 8.0;
-  const Cloth fine(flatScene(81, 81));
+  const WindyCloth fine(flatScene(81, 81));
   const auto pressureAt = [&](double x, double z) -> Vec3 {
     return printedWind(wind, {x, 0.0, z}, Vec3::UnitY(), 1.0, 0.0).force;
   };
@@ -253,7 +171,7 @@ TEST(WindSource, TotalForceDoesNotDependOnTheGrid) {
   EXPECT_GT(total.y(), 1.0);
   double error_before = 0.0;
   for (const int links : {10, 20, 40}) {
-    const Vec3 coarse = Cloth(flatScene(links + 1, links + 1)).total(wind);
+    const Vec3 coarse = WindyCloth(flatScene(links + 1, links + 1)).total(wind);
     const double h = 1.0 / links;
     const double error = (coarse - total).norm();
     EXPECT_LE(error, (h * h + 1.0 / 6400.0) / 12.0 * bend) << links;
@@ -266,11 +184,7 @@ TEST(WindSource, TotalForceDoesNotDependOnTheGrid) {
 }
 
 TEST(WindSource, TotalForceOfADiscOnAWiderClothIsItsArea) {
-  WindParams wind;
-  wind.id = "fan";
-  wind.position = {0.5, 0.0, 0.5};
-  wind.direction = Vec3::UnitY();
-  wind.radius = 0.3;
+  WindParams wind = fanAt({0.5, 0.0, 0.5}, 0.3);
   wind.pressure = 8.0;
   wind.distance_weight = 2.0;
   const double expected = 8.0 / 2.0 * kPi * 0.09;
@@ -278,19 +192,15 @@ TEST(WindSource, TotalForceOfADiscOnAWiderClothIsItsArea) {
     // Nodes stand for cells of h x h; only cells that the rim cuts may be wrong, and they lie within h/sqrt(2) of it.
     const double h = 1.0 / links;
     const double strip = 2.0 * kPi * 0.3 * 2.0 * h / std::sqrt(2.0);
-    EXPECT_NEAR(Cloth(flatScene(links + 1, links + 1)).total(wind).y(), expected, 4.0 * strip) << links;
+    EXPECT_NEAR(WindyCloth(flatScene(links + 1, links + 1)).total(wind).y(), expected, 4.0 * strip) << links;
   }
 }
 
 TEST(WindSource, NodeForceIsThePapersForcePerNode) {
-  WindParams wind;
-  wind.id = "fan";
-  wind.position = {0.5, 0.0, 0.5};  // in the cloth's plane: |d| = 0
-  wind.direction = Vec3::UnitY();
-  wind.radius = 5.0;
+  WindParams wind = fanAt({0.5, 0.0, 0.5}, 5.0);  // in the cloth's plane: |d| = 0
   wind.node_force = 0.25;
   for (const int count : {4, 9}) {
-    const Cloth cloth(flatScene(count, count));
+    const WindyCloth cloth(flatScene(count, count));
     const Field3 force = cloth.push(wind);
     for (int i = 0; i < count; ++i) {
       for (int j = 0; j < count; ++j) {
@@ -308,12 +218,8 @@ TEST(WindSource, NodeForceIsThePapersForcePerNode) {
 }
 
 TEST(WindSource, WeightsScaleTheForce) {
-  const Cloth cloth(flatScene(5, 5));
-  WindParams wind;
-  wind.id = "fan";
-  wind.position = {0.5, -1.0, 0.5};
-  wind.direction = Vec3::UnitY();
-  wind.radius = 5.0;
+  const WindyCloth cloth(flatScene(5, 5));
+  WindParams wind = fanAt({0.5, -1.0, 0.5}, 5.0);
   wind.pressure = 4.0;
   const double plain = cloth.total(wind).y();
   EXPECT_NEAR(plain, 4.0 / (1.0 + 1.0), 200 * kEps) << "1 m away: half the pressure";
@@ -336,7 +242,7 @@ TEST(WindSource, WeightsScaleTheForce) {
 }
 
 TEST(WindSource, BlowsFromStartUntilBeforeEndAndOnlyWithStrength) {
-  const Cloth cloth(flatScene(3, 3));
+  const WindyCloth cloth(flatScene(3, 3));
   WindParams wind;
   wind.id = "fan";
   wind.start = 1.0;
@@ -351,143 +257,6 @@ TEST(WindSource, BlowsFromStartUntilBeforeEndAndOnlyWithStrength) {
     EXPECT_FALSE(blows(2.0));
     *strength = 0.0;
   }
-}
-
-// ---- what it can't reach -----------------------------------------------------------------------------------------
-
-Eigen::AlignedBox3d randomBox(Random& random) {
-  const Vec3 middle = random.inBox(4.0), half = random.between(0.1, 1.5) * (random.inBox(0.5) + Vec3::Constant(0.5));
-  return {middle - half, middle + half};
-}
-
-TEST(WindSource, ReachesNoPlaceOfABoxThatItMayNotReach) {
-  Random random(8);
-  const Cloth cloth(flatScene(2, 2));
-  int out_of_reach = 0, missed = 0;
-  for (int trial = 0; trial < 4000; ++trial) {
-    const WindSource source(randomWind(random), cloth.pattern, 0.0, 1);
-    const Eigen::AlignedBox3d box = randomBox(random);
-    const bool may = source.mayReach(box);
-    bool does = false;
-    for (int sample = 0; sample < 200; ++sample) {
-      Vec3 place;
-      for (int k = 0; k < 3; ++k) {
-        // Corners and sides more often than chance would have them.
-        const double share = std::min(1.0, std::max(0.0, random.between(-0.5, 1.5)));
-        place[k] = box.min()[k] + share * (box.max()[k] - box.min()[k]);
-      }
-      does = does || source.reachesPoint(place);
-    }
-    ASSERT_TRUE(may || !does) << "trial " << trial;
-    out_of_reach += does ? 0 : 1;
-    missed += may && !does ? 1 : 0;
-  }
-  // A plane parts most of what can be parted.
-  EXPECT_GT(out_of_reach, 1000);
-  EXPECT_LT(missed, out_of_reach / 4);
-}
-
-TEST(WindSource, ReachesAlongItsEdge) {
-  const Cloth cloth(flatScene(2, 2));
-  WindParams wind;
-  wind.id = "edge";
-  wind.direction = Vec3::UnitX();
-  wind.radius = 1.0;
-  wind.pressure = 1.0;
-  wind.half_angle = std::atan(0.5);
-  const WindSource source(wind, cloth.pattern, 0.0, 1);
-  const auto at = [](double x, double y) { return Eigen::AlignedBox3d(Vec3(x, y, -0.5), Vec3(x + 1.0, y + 1.0, 0.5)); };
-  EXPECT_FALSE(source.mayReach(at(-1.001, -0.5)));  // behind the disc
-  EXPECT_TRUE(source.mayReach(at(-0.999, -0.5)));
-  EXPECT_FALSE(source.mayReach(at(1.0, 2.001)));  // the cone's radius is 2 where the box ends
-  EXPECT_TRUE(source.mayReach(at(1.0, 1.999)));
-}
-
-// Parallel wind on the middle of a cloth of 1 m.
-WindParams gustless() {
-  WindParams wind;
-  wind.id = "fan";
-  wind.position = {0.5, -1.0, 0.5};
-  wind.direction = Vec3::UnitY();
-  wind.radius = 0.3;
-  wind.pressure = 3.0;
-  return wind;
-}
-
-TEST(WindSource, FindsNothingOutsideTheBounds) {
-  const Cloth cloth(flatScene(5, 5));
-  WindSource source(gustless(), cloth.pattern, 0.0, 1);
-  source.find(cloth.pattern.grid, cloth.position, Eigen::AlignedBox3d(Vec3(0, 0, 0), Vec3(1, 0, 1)));
-  EXPECT_TRUE(source.reaches());
-  EXPECT_FALSE(source.reachesRow(0));
-  EXPECT_TRUE(source.reachesRow(2));
-  source.find(cloth.pattern.grid, cloth.position, Eigen::AlignedBox3d(Vec3(0, 0, 9), Vec3(1, 0, 10)));
-  EXPECT_FALSE(source.reaches());
-  EXPECT_FALSE(source.reachesRow(2)) << "of an earlier look";
-}
-
-// ---- gusts of a source -------------------------------------------------------------------------------------------
-
-WindParams gusts(const std::string& id) {
-  WindParams wind;
-  wind.id = id;
-  wind.position = {0.5, 0.0, 0.5};
-  wind.direction = Vec3::UnitY();
-  wind.radius = 5.0;
-  wind.unsteadiness = 2.0;
-  return wind;
-}
-
-// Sum over nodes and times of the product of two sources' gusts over the geometric mean of their squares.
-double likeness(const WindParams& one, std::uint64_t seed_one, const WindParams& other, std::uint64_t seed_other) {
-  const Cloth cloth(flatScene(9, 9));
-  WindSource a(one, cloth.pattern, 0.0, seed_one), b(other, cloth.pattern, 0.0, seed_other);
-  double ab = 0.0, aa = 0.0, bb = 0.0;
-  for (int sample = 0; sample < 500; ++sample) {
-    const double time = 2.1 * sample * one.correlation_time;
-    const Field3 fa = cloth.push(a, time), fb = cloth.push(b, time);
-    for (std::size_t n = 0; n < cloth.pattern.grid.size(); ++n) {
-      ab += fa.at(n).dot(fb.at(n));
-      aa += fa.at(n).squaredNorm();
-      bb += fb.at(n).squaredNorm();
-    }
-  }
-  return ab / std::sqrt(aa * bb);
-}
-
-TEST(WindSource, GustsRepeatWithIdAndSeedAndAreTheirOwnOtherwise) {
-  // 500 independent times x 3 components x at least one independent patch: 1/sqrt(1500) = 0.026 standard deviation.
-  EXPECT_NEAR(likeness(gusts("a"), 1, gusts("a"), 1), 1.0, 1e-12);
-  EXPECT_NEAR(likeness(gusts("a"), 1, gusts("b"), 1), 0.0, 5 * 0.026);
-  EXPECT_NEAR(likeness(gusts("a"), 1, gusts("a"), 2), 0.0, 5 * 0.026);
-  EXPECT_NEAR(likeness(gusts("fan"), 1, gusts("fan2"), 1), 0.0, 5 * 0.026);
-}
-
-TEST(WindSource, GustsStartWithTheSource) {
-  const Cloth cloth(flatScene(4, 4));
-  WindParams wind = gusts("a");
-  WindSource early(wind, cloth.pattern, 0.0, 1);
-  wind.start = 8.0;
-  WindSource late(wind, cloth.pattern, 0.0, 1);
-  const Field3 a = cloth.push(early, 0.375), b = cloth.push(late, 8.375);  // exact in binary
-  for (std::size_t n = 0; n < cloth.pattern.grid.size(); ++n) EXPECT_EQ(a.at(n), b.at(n));
-}
-
-TEST(WindSource, GustsAreTheUnsteadinessInPascalOnTheNodesArea) {
-  const Cloth cloth(flatScene(9, 9));
-  WindSource source(gusts("a"), cloth.pattern, 0.0, 1);
-  double sum = 0.0;
-  int count = 0;
-  for (int sample = 0; sample < 2000; ++sample) {
-    const Field3 force = cloth.push(source, 2.1 * sample * 0.2);
-    for (const auto& [i, j] : {std::pair{0, 0}, std::pair{4, 4}, std::pair{8, 3}}) {
-      const std::size_t n = cloth.pattern.grid.index(i, j);
-      sum += (force.at(n) / (2.0 * cloth.pattern.area[n])).squaredNorm();
-      count += 3;
-    }
-  }
-  // Variance 1 a component; 2000 independent times x 3 components x 3 nodes more than a correlation length apart.
-  EXPECT_NEAR(sum / count, 1.0, 5.0 * std::sqrt(2.0 / count));
 }
 
 }  // namespace

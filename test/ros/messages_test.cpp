@@ -8,40 +8,28 @@
 #include <vector>
 
 #include "count_allocations.h"
-#include "curtain_sim/scene_yaml.h"
 #include "ros/outputs/markers.h"
 #include "ros/outputs/state_messages.h"
 #include "ros/time/pace.h"
+#include "simulator/scenes.h"
+#include "testing.h"
 
 namespace curtain_ros {
 namespace {
 
-curtain::Scene shippedScene(const std::string& name) {
-  const auto reading = curtain::readSceneFile(std::string(CURTAIN_SOURCE_DIR) + "/config/scenes/" + name + ".yaml");
-  EXPECT_TRUE(reading.problems.empty()) << curtain::describe(reading.problems);
-  return reading.scene;
-}
+using curtain_test::shippedScene;
 
 curtain::Scene smallScene() {
   curtain::Scene scene;
   scene.cloth.rows = 6;
   scene.cloth.columns = 5;
   scene.hang.to.x() = 0.6;
-  curtain::ObstacleParams ball;
-  ball.name = "ball";
-  ball.shape = curtain::ShapeKind::kSphere;
-  ball.radius = 0.1;
-  ball.pose.position = curtain::Vec3(0.3, 0.4, 1.5);
-  scene.obstacles.push_back(ball);
+  scene.obstacles.push_back(curtain_test::ballAt({0.3, 0.4, 1.5}, 0.1));
   return scene;
 }
 
 curtain::WindParams fan(double pressure) {
-  curtain::WindParams wind;
-  wind.id = "fan";
-  wind.position = curtain::Vec3(0.3, -1.0, 1.5);
-  wind.direction = curtain::Vec3::UnitY();
-  wind.radius = 0.5;
+  curtain::WindParams wind = curtain_test::fanAt({0.3, -1.0, 1.5}, 0.5);
   wind.pressure = pressure;
   return wind;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The simulator as a whole: it conserves what it must, repeats itself to the bit, allocates nothing in a step, and
-// holds its links however the cloth is pinned.
+// The simulator as a whole: it conserves what it must and repeats itself to the bit.
 #include "curtain_sim/simulator.h"
 
 #include <gtest/gtest.h>
@@ -9,28 +8,14 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "count_allocations.h"
-#include "curtain_sim/scene_yaml.h"
+#include "simulator/scenes.h"
 
 namespace curtain {
 namespace {
 
-Scene sceneOf(int rows, int columns) {
-  Scene scene;
-  scene.cloth.rows = rows;
-  scene.cloth.columns = columns;
-  return scene;
-}
-
-Scene shippedScene(const std::string& name) {
-  const SceneReading reading = readSceneFile(std::string(CURTAIN_SOURCE_DIR) + "/config/scenes/" + name + ".yaml");
-  EXPECT_TRUE(reading.problems.empty()) << describe(reading.problems);
-  return reading.scene;
-}
-
-void run(Simulator& simulator, int frames) {
-  for (int frame = 0; frame < frames; ++frame) simulator.step();
-}
+using curtain_test::run;
+using curtain_test::sceneOf;
+using curtain_test::shippedScene;
 
 TEST(Simulator, RefusesABadSceneNamingEveryProblem) {
   Scene scene = sceneOf(1, 5);
@@ -135,93 +120,6 @@ TEST(Simulator, ReadingTheStateDoesNotChangeTheMotion) {
     read.energy();
   }
   EXPECT_EQ(read.stateHash(), unread.stateHash());
-}
-
-TEST(Simulator, AStepAllocatesNothing) {
-  for (const char* name : {"curtain", "flag", "skirt", "sheet"}) {
-    Simulator simulator(shippedScene(name));
-    DragParams pull;
-    pull.id = "pull";
-    pull.point = Vec3(0.3, 0.0, 1.0);
-    pull.radius = 0.2;
-    pull.target = Vec3(0.3, 0.4, 1.0);
-    ASSERT_TRUE(simulator.setDrag(pull).empty());
-    const long before = allocations;
-    run(simulator, 30);
-    EXPECT_EQ(allocations - before, 0) << name;
-  }
-}
-
-// Nor does the mesh that the eye sees, near an obstacle, once it was made there.
-TEST(Simulator, AllocatesNothingWhileColumnsFallAsleepAndWakeInLimitedFrames) {
-  Scene scene = sceneOf(12, 16);
-  scene.hang.to.x() = 0.8;
-  scene.air.inside = scene.air.border = scene.air.corner = 1.0;
-  scene.contact.self = true;
-  scene.solver.budget_ms = 0.3;
-  scene.solver.threads = 1;
-  for (int k = 0; k < 3; ++k) {
-    DragParams drag;
-    drag.id = std::to_string(k);
-    drag.node = NodeIndex{11, 5 * k};
-    drag.force = Vec3(0.0, 0.02, 0.0);
-    drag.start = 2.0 + 5.0 * k;
-    drag.end = 3.0 + 5.0 * k;
-    scene.drag.push_back(drag);
-  }
-  Simulator simulator(scene);
-  run(simulator, 10);
-  const long before = allocations;
-  run(simulator, 1200);
-  EXPECT_EQ(allocations - before, 0);
-  EXPECT_GT(simulator.statistics().wakes, 2);
-  EXPECT_GT(simulator.statistics().asleep_frames, 100);
-}
-
-// Its iterates are kept with the contacts that they were found with.
-TEST(Simulator, TheLastResortAllocatesNothing) {
-  Scene scene = sceneOf(12, 10);
-  scene.contact.self = true;
-  ObstacleParams ball;
-  ball.name = "ball";
-  ball.radius = 0.1;
-  const Vec3 middle = 0.5 * (scene.hang.from + scene.hang.to) - Vec3(0.0, 0.0, 0.5 * scene.cloth.height);
-  ball.motion = {{0.0, {middle - Vec3(0.0, 1.0, 0.0), Eigen::Quaterniond::Identity()}},
-                 {0.05, {middle + Vec3(0.0, 1.0, 0.0), Eigen::Quaterniond::Identity()}}};
-  ball.pose = ball.motion[0].pose;
-  scene.obstacles.push_back(ball);
-  DragParams pull;
-  pull.id = "pull";
-  pull.node = NodeIndex{11, 4};
-  pull.force = Vec3(0.0, 1e6, 0.0);
-  scene.drag.push_back(pull);
-  Simulator simulator(scene);
-  const long before = allocations;
-  for (int frame = 0; frame < 30; ++frame) simulator.step();
-  EXPECT_EQ(allocations - before, 0);
-  EXPECT_GT(simulator.statistics().last_resort_substeps, 0);
-  EXPECT_GT(simulator.statistics().contacts_max, 0);
-}
-
-TEST(Simulator, AFineMeshAllocatesNothing) {
-  ObstacleParams obstacle;
-  obstacle.name = "obstacle";
-  obstacle.pose.position = Vec3(0.5, 0.0, 1.2);
-  for (const ShapeKind shape : {ShapeKind::kBox, ShapeKind::kMesh}) {
-    Scene scene = sceneOf(20, 15);
-    obstacle.shape = shape;
-    obstacle.size = Vec3(0.3, 0.3, 0.3);
-    obstacle.mesh = std::string(CURTAIN_SOURCE_DIR) + "/test/meshes/icosphere.stl";
-    if (shape == ShapeKind::kMesh) obstacle.scale = Vec3::Constant(0.2);
-    scene.obstacles.push_back(obstacle);
-    Simulator simulator(scene);
-    run(simulator, 10);
-    FineMesh mesh;
-    simulator.copyFineMesh(mesh);
-    const long before = allocations;
-    simulator.copyFineMesh(mesh);
-    EXPECT_EQ(allocations - before, 0);
-  }
 }
 
 // A scene that is its own mirror image moves like it. The rows' solves run from left to right, so only rounding
@@ -340,68 +238,6 @@ TEST(Simulator, AForceBeyondNumbersIsSurvived) {
   EXPECT_TRUE(std::isfinite(simulator.energy().kinetic));
   EXPECT_GT(simulator.position({9, 0}).y(), 0.01);
 }
-
-struct PinCase {
-  const char* name;
-  PinKind kind;
-  bool closed;
-  std::vector<NodeIndex> nodes;
-};
-
-class Pinning : public ::testing::TestWithParam<PinCase> {};
-
-// However it is pinned: links within the tolerance at every frame's end, pins where they were, nothing blows up.
-TEST_P(Pinning, HoldsItsLinksInWind) {
-  const PinCase& pins = GetParam();
-  Scene scene = sceneOf(16, 16);
-  scene.cloth.height = 1.0;
-  scene.cloth.closed = pins.closed;
-  scene.pins.kind = pins.kind;
-  scene.pins.nodes = pins.nodes;
-  scene.hang.to = Vec3(0.9, 0.0, 2.2);
-  scene.air.inside = scene.air.border = scene.air.corner = 0.3;
-  WindParams wind;
-  wind.id = "gusty";
-  wind.position = Vec3(0.3, -2.0, 1.7);
-  wind.direction = Vec3(0.2, 1.0, 0.1);
-  wind.radius = 3.0;
-  wind.pressure = 30.0;
-  wind.unsteadiness = 10.0;
-  scene.wind.push_back(wind);
-  Simulator simulator(scene);
-  std::vector<Vec3> start, end;
-  simulator.copyPositions(start);
-  run(simulator, 300);
-  simulator.copyPositions(end);
-  const Statistics& s = simulator.statistics();
-  EXPECT_TRUE(s.finite);
-  EXPECT_LE(s.warp_stretch_max, 1e-3);
-  EXPECT_LE(s.warp_compression_max, 1e-3);
-  EXPECT_LE(s.weft_stretch_max, 1e-3);
-  EXPECT_EQ(s.unsettled, 0);
-  int pinned = 0;
-  for (int i = 0; i < 16; ++i) {
-    for (int j = 0; j < 16; ++j) {
-      const auto n = static_cast<std::size_t>(i * 16 + j);
-      if (!simulator.pinned({i, j})) continue;
-      ++pinned;
-      EXPECT_EQ(start[n], end[n]);
-    }
-  }
-  EXPECT_EQ(pinned == 0, pins.kind == PinKind::kNone);
-}
-
-INSTANTIATE_TEST_SUITE_P(Everyway, Pinning,
-                         ::testing::Values(PinCase{"Top", PinKind::kTop, false, {}},
-                                           PinCase{"Left", PinKind::kLeft, false, {}},
-                                           PinCase{"TwoCorners", PinKind::kTopCorners, false, {}},
-                                           PinCase{"None", PinKind::kNone, false, {}},
-                                           PinCase{"Listed", PinKind::kList, false, {{0, 0}, {0, 7}, {8, 15}}},
-                                           PinCase{"OneNode", PinKind::kList, false, {{5, 5}}},
-                                           PinCase{"ClosedTop", PinKind::kTop, true, {}},
-                                           PinCase{"ClosedNone", PinKind::kNone, true, {}},
-                                           PinCase{"ClosedListed", PinKind::kList, true, {{0, 0}, {0, 8}}}),
-                         [](const auto& test) { return test.param.name; });
 
 // The least-step safety net: at one substep a frame the leapfrog solve of a tall cloth fails, is done again with
 // smaller steps, and is counted.

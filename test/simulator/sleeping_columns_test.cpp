@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Which columns fall asleep and when, told where the cloth is: no motion is computed. Whole simulators: sleep_test.cpp.
+// Which columns fall asleep and when, told where the cloth is: no motion is computed. Whole simulators: sleep_test.cpp,
+// wake_test.cpp.
 #include <gtest/gtest.h>
 
 #include <vector>
