@@ -7,6 +7,11 @@ if(TARGET test_ros)
   add_dependencies(test_ros ${curtain_sim_EXPORTED_TARGETS})
 endif()
 
+curtain_add_tests(rviz curtain_ros curtain_surface)
+if(TARGET test_rviz)
+  add_dependencies(test_rviz ${curtain_sim_EXPORTED_TARGETS})
+endif()
+
 # In C++, with a master.
 add_rostest_gtest(test_ros_sharing test/ros/sharing.test test/ros/sharing_master.cpp)
 target_link_libraries(test_ros_sharing curtain_ros curtain_warnings)
@@ -23,8 +28,11 @@ foreach(file ${CURTAIN_ROSTESTS})
   add_rostest(${file} DEPENDENCIES curtain_node curtain_nodelet curtain_flood ${curtain_sim_EXPORTED_TARGETS})
 endforeach()
 
+if(TARGET curtain_rviz)
+  add_dependencies(tests curtain_rviz)
+endif()
 # Two rviz at a time on a small machine: one of them did not get its window.
-foreach(name rviz_handle rviz_reopen)
+foreach(name rviz_display rviz_handle rviz_reopen)
   set_tests_properties(_ctest_${PROJECT_NAME}_rostest_test_ros_${name}.test PROPERTIES RESOURCE_LOCK screen)
 endforeach()
 

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "curtain_sim/scene.h"
@@ -47,5 +48,27 @@ void fineMeshNormals(const FineMeshTopology& topology, const FineMesh& mesh, std
 /// The same for other triangles over the same nodes, such as MeshReducer's. Nodes without a triangle get +z.
 void fineMeshNormals(const std::vector<std::array<std::uint32_t, 3>>& triangles, const FineMesh& mesh,
                      std::vector<Vec3>& out);
+
+/// Places the second layer's nodes between given first-layer nodes, as Simulator::copyFineMesh() does where no obstacle
+/// is near: for viewers, which get the nodes alone. Not thread-safe. Allocates in the constructor and for a larger
+/// `out`.
+class FineMeshBuilder {
+ public:
+  /// cloth      valid; its rows, columns, folds, slits and whether it is closed are read
+  /// weft_rest  rest lengths of the weft links [m], > 0, row by row, shape [rows * links]; in closed cloth a row's last
+  ///            link closes the ring
+  /// Throws std::invalid_argument for another number of lengths, or one that is not > 0.
+  FineMeshBuilder(const ClothParams& cloth, const std::vector<double>& weft_rest);
+  ~FineMeshBuilder();
+  FineMeshBuilder(FineMeshBuilder&&) noexcept;
+  FineMeshBuilder& operator=(FineMeshBuilder&&) noexcept;  ///< as above
+
+  /// nodes  first-layer nodes [m], finite, row-major; throws std::invalid_argument for another number of them
+  void build(const std::vector<Vec3>& nodes, FineMesh& out);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
 }  // namespace curtain

@@ -79,6 +79,21 @@ struct ClothParams {
   std::vector<double> column_mass;
 };
 
+/// What the top edge of cloth is gathered by.
+enum class Heading {
+  kGathered,  ///< nothing: a straight edge; where it is shorter than the cloth, each weft link makes a fold
+  kPencil,    ///< narrow pleats side by side
+  kPinch,     ///< pleats of three fingers, flat between
+  kRipple     ///< an even wave
+};
+
+/// The weight of the bottom row, over that of its cloth.
+struct HemParams {
+  double line_density = 0.0;  ///< of a lead band or a chain [kg/m], >= 0
+  /// Single weights [kg], shape [columns], each >= 0. Empty: none.
+  std::vector<double> weights;
+};
+
 /// Where the cloth starts.
 struct HangParams {
   Vec3 from = Vec3(0.0, 0.0, 2.2);  ///< [m]; closed cloth: the ring's centre
@@ -89,6 +104,13 @@ struct HangParams {
   /// [rad], [-6.3..6.3]. Rotation of the flat cloth about its hung edge out of the vertical; pi/2 = horizontal, towards
   /// the normal (to - from) x up. Closed cloth: half-angle of the cone that the cloth starts as.
   double tilt = 0.0;
+  Heading heading = Heading::kGathered;  ///< not for closed or tapered cloth
+  /// Of a heading other than kGathered [0..1024]; 0: as many as the links can show. Each needs four links at least, and
+  /// nine with kPinch.
+  int pleats = 0;
+  /// Width over |to - from|, [1..3]. Scene files may give it in place of cloth.width; if both are there they must
+  /// agree.
+  std::optional<double> fullness;
 };
 
 /// Which nodes are pinned.
@@ -106,32 +128,57 @@ struct PinParams {
   std::vector<NodeIndex> nodes;  ///< for kList
 };
 
-/// How air damping grows with speed.
-enum class DampingLaw {
-  kContinuous,  ///< quadratic branch divided by the threshold, so that the law has no jump
-  kPrinted      ///< Cheng 2000, Eq. (4) to the letter
+/// The law of the air's force.
+enum class AirLaw {
+  kContinuous,  ///< Cheng 2000, Eqs. (2) to (4); Eq. (4) with its quadratic branch divided by the threshold: no jump
+  kPrinted,     ///< Cheng 2000, Eqs. (2) to (4) to the letter
+  kRelative     ///< of the air's velocity relative to the cloth; winds are speeds of air instead of forces
 };
 
-/// Air damping, Cheng 2000, Eq. (4): force against the velocity, per area of cloth.
-/// c_r is one of inside / border / corner by the node's place, times (1 + fast_gain * |v|).
+/// Air. Cheng 2000, Eq. (4): force against the velocity, per area of cloth; c_r is one of inside / border / corner by
+/// the node's place, times (1 + fast_gain * |v|). Law kRelative: normal_drag and tangential_drag instead.
 struct AirParams {
-  double density = 1.2;                      ///< rho [kg/m^3], >= 0
-  DampingLaw law = DampingLaw::kContinuous;  ///< beyond the threshold
-  double threshold = 1.0;                    ///< speed at which the law turns from linear to quadratic [m/s], > 0
-  double inside = 0.0;                       ///< c_r of nodes with four neighbours [m/s], >= 0
-  double border = 0.0;                       ///< c_r of border nodes [m/s], >= 0
-  double corner = 0.0;                       ///< c_r of corner nodes [m/s], >= 0
-  double fast_gain = 0.0;                    ///< growth of c_r with speed [s/m], >= 0
+  double density = 1.2;              ///< rho [kg/m^3], >= 0
+  AirLaw law = AirLaw::kContinuous;  ///< which law
+  double threshold = 1.0;            ///< speed at which the law turns from linear to quadratic [m/s], > 0
+  double inside = 0.0;               ///< c_r of nodes with four neighbours [m/s], >= 0
+  double border = 0.0;               ///< c_r of border nodes [m/s], >= 0
+  double corner = 0.0;               ///< c_r of corner nodes [m/s], >= 0
+  double fast_gain = 0.0;            ///< growth of c_r with speed [s/m], >= 0
+  double normal_drag = 1.2;          ///< kRelative: c_n, of the velocity along the normal, [0..100]
+  double tangential_drag = 0.02;     ///< kRelative: c_t, of the velocity along the cloth, both sides together, [0..100]
+};
+
+/// One-dimensional spectra of gusts.
+enum class GustSpectrum {
+  kVonKarman,  ///< MIL-F-8785C, Sect. 3.7.1, von Karman form
+  kDryden      ///< MIL-F-8785C, Sect. 3.7.1, Dryden form
+};
+
+/// The wind that blows everywhere; for AirLaw::kRelative. Its gusts are carried along unchanged (Taylor 1938).
+struct AmbientParams {
+  Vec3 velocity = Vec3::Zero();  ///< mean [m/s]
+  double intensity = 0.0;        ///< standard deviation of each component of the gusts over the mean speed, [0..1]
+  double length_scale = 5.0;     ///< L of the spectra, in all directions [m], [1e-3..1e6]
+  GustSpectrum spectrum = GustSpectrum::kVonKarman;  ///< of the gusts
+  std::uint64_t seed = 1;                            ///< of the gusts
+};
+
+/// How the pressure of a wind source varies over its disc.
+enum class WindProfile {
+  kUniform,  ///< not at all
+  kRingJet   ///< strongest in a ring at 0.76 radii, none on the axis and at the edge: a rotor's downwash
 };
 
 /// A cone wind source, Cheng 2000, Eq. (2)(3).
 struct WindParams {
-  std::string id;                    ///< unique among the winds, not empty
-  Vec3 position = Vec3::Zero();      ///< centre of the disc [m]
-  Vec3 direction = Vec3::UnitX();    ///< axis, any length > 0
-  double radius = 1.0;               ///< of the disc [m], > 0
-  double half_angle = 0.0;           ///< of the cone [rad], [0, 1.5]; 0 = parallel wind
-  double pressure = 0.0;             ///< at the disc's centre [Pa], >= 0
+  std::string id;                               ///< unique among the winds, not empty
+  Vec3 position = Vec3::Zero();                 ///< centre of the disc [m]
+  Vec3 direction = Vec3::UnitX();               ///< axis, any length > 0
+  double radius = 1.0;                          ///< of the disc [m], > 0
+  double half_angle = 0.0;                      ///< of the cone [rad], [0, 1.5]; 0 = parallel wind
+  WindProfile profile = WindProfile::kUniform;  ///< of the pressure over the disc
+  double pressure = 0.0;                        ///< on the disc, kRingJet: where it is highest [Pa], >= 0
   double node_force = 0.0;           ///< the paper's own form: a force per node [N], >= 0, added to the pressure's
   double porosity_weight = 1.0;      ///< c_mu of Eq. (3), [0..1]
   double distance_weight = 1.0;      ///< c_d of Eq. (3), > 0
@@ -139,6 +186,7 @@ struct WindParams {
   double unsteadiness = 0.0;         ///< standard deviation of each component of the gusts [Pa], >= 0
   double correlation_time = 0.2;     ///< of the gusts [s], [1e-6..1e6]
   double correlation_length = 0.25;  ///< of the gusts along the cloth [m], > 0
+  bool shadow = false;               ///< obstacles shade the nodes behind them
   double start = 0.0;                ///< [s]
   double end = std::numeric_limits<double>::infinity();  ///< [s], > start
 };
@@ -230,9 +278,11 @@ struct SolverParams {
 struct Scene {
   ClothParams cloth;                      ///< grid, size and mass
   HangParams hang;                        ///< start position
+  HemParams hem;                          ///< weights along the bottom row
   PinParams pins;                         ///< pinned nodes
   Vec3 gravity = Vec3(0.0, 0.0, -9.81);   ///< [m/s^2]
-  AirParams air;                          ///< damping
+  AirParams air;                          ///< damping, or the law of the relative velocity
+  AmbientParams ambient;                  ///< the wind everywhere
   std::vector<WindParams> wind;           ///< unique ids
   std::vector<DragParams> drag;           ///< unique ids
   std::vector<ObstacleParams> obstacles;  ///< unique names

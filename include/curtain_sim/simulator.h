@@ -55,6 +55,17 @@ class Simulator {
   /// tensions. Zero before the first step.
   void copyForces(std::vector<Vec3>& out) const;
 
+  /// The contacts' part of it [N].
+  void copyContactForces(std::vector<Vec3>& out) const;
+  /// Tensions of the links in the last substep [N], row-major, shape [rows * columns]; resized. warp: of the rod above
+  /// each node (row 0: 0), negative where it is pushed; weft: of the link to the left, 0 where it is slack (column 0:
+  /// of the link that closes the ring, or 0). All 0 before the first step and with method: paper.
+  void copyTensions(std::vector<double>& warp, std::vector<double>& weft) const;
+
+  /// Rest lengths [m]. warp: of the rods between two rows, from the top down, the same in every column, shape
+  /// [rows - 1]; weft: of the links, row by row, shape [rows * links], as FineMeshBuilder takes them. Resized.
+  void copyRestLengths(std::vector<double>& warp, std::vector<double>& weft) const;
+
   Vec3 position(NodeIndex node) const;             ///< [m]
   double mass(NodeIndex node) const;               ///< [kg]
   bool pinned(NodeIndex node) const;               ///< its position is prescribed

@@ -11,6 +11,7 @@ class ParamCarrier {
   explicit ParamCarrier(Archive& archive, const Grid& grid = {}) : archive_(archive), grid_(grid) {}
 
   void number(Key key, double& value, Range) { archive_.number(key.name, value); }
+  void flag(Key key, bool& value) { archive_.flag(key.name, value); }
   void text(Key key, std::string& value) { archive_.text(key.name, value); }
   void vector(Key key, Vec3& value, Range) { archive_.numbers(key.name, value); }
   void optionalVector(Key key, std::optional<Vec3>& value, Range) {

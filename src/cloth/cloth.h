@@ -42,6 +42,8 @@ struct ClothState {
 
 /// Rest lengths, masses and pins of a validated scene.
 ClothPattern makePattern(const Scene& scene);
+/// Its shape, with the slits.
+Grid makeGrid(const ClothParams& cloth);
 
 /// The cloth of a validated scene at rest at scene.hang.
 ClothState makeInitialState(const Scene& scene, const ClothPattern& pattern);

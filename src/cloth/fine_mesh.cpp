@@ -2,6 +2,11 @@
 #include "curtain_sim/fine_mesh.h"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "cloth/cloth.h"
+#include "cloth/folds.h"
 
 namespace curtain {
 
@@ -46,6 +51,72 @@ void fineMeshNormals(const std::vector<std::array<std::uint32_t, 3>>& triangles,
   for (Vec3& normal : out) {
     const double size = normal.norm();
     normal = size > 0.0 ? Vec3(normal / size) : Vec3::UnitZ();
+  }
+}
+
+struct FineMeshBuilder::Impl {
+  Grid grid;
+  int folds, fine_columns;
+  FoldShape shape;
+  Field weft_rest;  // at the link's right node
+  Field3 position, area_vectors;
+
+  /// Column of a link's right node.
+  int rightOf(int link) const { return (link + 1) % grid.columns; }
+};
+
+FineMeshBuilder::FineMeshBuilder(const ClothParams& cloth, const std::vector<double>& weft_rest) {
+  const Grid grid = makeGrid(cloth);
+  const int links = grid.linkCount();
+  const std::size_t count = static_cast<std::size_t>(grid.rows) * static_cast<std::size_t>(links);
+  if (weft_rest.size() != count) {
+    throw std::invalid_argument("weft_rest: has " + std::to_string(weft_rest.size()) + " lengths, must have " +
+                                std::to_string(count));
+  }
+  impl_ = std::make_unique<Impl>(Impl{grid, cloth.folds, makeFineMeshTopology(cloth).columns, FoldShape(cloth.folds), {}, {}, {}});
+  impl_->weft_rest.assign(grid.size(), 1.0);
+  impl_->position.assign(grid.size(), 0.0);
+  impl_->area_vectors.assign(grid.size(), 0.0);
+  auto rest = weft_rest.begin();
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int link = 0; link < links; ++link, ++rest) {
+      if (!(*rest > 0.0)) throw std::invalid_argument("weft_rest: must be > 0, is " + std::to_string(*rest));
+      impl_->weft_rest[grid.index(i, impl_->rightOf(link))] = *rest;
+    }
+  }
+}
+
+FineMeshBuilder::~FineMeshBuilder() = default;
+FineMeshBuilder::FineMeshBuilder(FineMeshBuilder&&) noexcept = default;
+FineMeshBuilder& FineMeshBuilder::operator=(FineMeshBuilder&&) noexcept = default;
+
+void FineMeshBuilder::build(const std::vector<Vec3>& nodes, FineMesh& out) {
+  Impl& im = *impl_;
+  const Grid& grid = im.grid;
+  if (nodes.size() != grid.nodeCount()) {
+    throw std::invalid_argument("nodes: there are " + std::to_string(nodes.size()) + ", must be " +
+                                std::to_string(grid.nodeCount()));
+  }
+  auto node = nodes.begin();
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) im.position.set(grid.index(i, j), *node++);
+  }
+  nodeAreaVectors(grid, im.position, im.area_vectors);
+  out.positions.resize(static_cast<std::size_t>(grid.rows) * static_cast<std::size_t>(im.fine_columns));
+  out.flattened_folds = 0;
+  const int folds = im.folds;
+  Vec3* row = out.positions.data();
+  for (int i = 0; i < grid.rows; ++i, row += im.fine_columns) {
+    for (int j = 0; j < grid.columns; ++j) row[j * folds] = im.position.at(grid.index(i, j));
+    for (int link = 0; link < grid.linkCount(); ++link) {
+      Vec3* const inner = row + link * folds + 1;
+      const int right = im.rightOf(link);
+      if (grid.hasLink(i, right)) {
+        im.shape.place(foldArc(grid, im.weft_rest, im.position, im.area_vectors, i, right), inner);
+      } else {  // no triangle has these nodes
+        std::fill_n(inner, folds - 1, im.position.at(grid.index(i, right)));
+      }
+    }
   }
 }
 

@@ -86,14 +86,14 @@ void FoldShape::place(const FoldArc& arc, Vec3* inner) const noexcept {
   }
 }
 
-FoldArc foldArc(const ClothPattern& pattern, const Field3& position, const Field3& area_vectors, int row, int column) {
-  const Grid& grid = pattern.grid;
+FoldArc foldArc(const Grid& grid, const Field& weft_rest, const Field3& position, const Field3& area_vectors, int row,
+                int column) {
   const std::size_t right = grid.index(row, column);
   const std::size_t left = grid.index(row, column > 0 ? column - 1 : grid.columns - 1);
   FoldArc arc;
   arc.first = position.at(left);
   arc.second = position.at(right);
-  arc.rest = pattern.weft_rest[right];
+  arc.rest = weft_rest[right];
   const Vec3 chord = arc.second - arc.first;
   const double length_squared = chord.squaredNorm();
   // Normals of both ends: more faces than the paper's two at the link, so less sensitive to one crushed face.

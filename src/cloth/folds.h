@@ -42,8 +42,9 @@ class FoldShape {
   std::vector<double> table_;  // turning angle at even steps of sqrt(1 - chord ratio) in [0, 1]
 };
 
-/// The fold of the weft link that ends at (row, column); in closed cloth column 0 closes the ring. area_vectors: from
-/// nodeAreaVectors().
-FoldArc foldArc(const ClothPattern& pattern, const Field3& position, const Field3& area_vectors, int row, int column);
+/// The fold of the weft link that ends at (row, column); in closed cloth column 0 closes the ring. weft_rest: as in
+/// ClothPattern; area_vectors: from nodeAreaVectors().
+FoldArc foldArc(const Grid& grid, const Field& weft_rest, const Field3& position, const Field3& area_vectors, int row,
+                int column);
 
 }  // namespace curtain

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "cloth/cloth.h"
+#include "scene/heading.h"
 #include "scene/pi.h"
 #include "scene/shares.h"
 
@@ -51,6 +52,24 @@ void placeFlat(const Scene& scene, const ClothPattern& pattern, Field3& position
   }
 }
 
+// Each row lies as the pleats have the top edge in plan; the rods hang straight down.
+void placePleated(const Scene& scene, const ClothPattern& pattern, Field3& position) {
+  const Grid& grid = pattern.grid;
+  const HangFrame frame = hangFrame(scene.hang);
+  const Vec3 across = frame.along.cross(frame.down);
+  const std::vector<double> links = shareOut(scene.cloth.width, scene.cloth.column_spacing, grid.linkCount());
+  const std::vector<double> angles = headingAngles(scene.hang, links, (scene.hang.to - scene.hang.from).norm());
+  Vec3 top = scene.hang.from;
+  for (int j = 0; j < grid.columns; ++j) {
+    if (j > 0) {
+      const auto link = static_cast<std::size_t>(j - 1);
+      top += links[link] * (std::cos(angles[link]) * frame.along + std::sin(angles[link]) * across);
+    }
+    for (int i = 0; i < grid.rows; ++i)
+      position.set(grid.index(i, j), top + pattern.warp_coordinate[static_cast<std::size_t>(i)] * frame.down);
+  }
+}
+
 // Closed cloth starts as a cone around the vertical through hang.from; outside = the side of positive normals.
 void placeRing(const Scene& scene, const ClothPattern& pattern, Field3& position) {
   const Grid& grid = pattern.grid;
@@ -75,6 +94,8 @@ ClothState makeInitialState(const Scene& scene, const ClothPattern& pattern) {
   state.velocity.assign(grid.size(), 0.0);
   if (scene.cloth.closed) {
     placeRing(scene, pattern, state.position);
+  } else if (isPleated(scene.hang)) {
+    placePleated(scene, pattern, state.position);
   } else {
     placeFlat(scene, pattern, state.position);
   }

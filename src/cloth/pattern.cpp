@@ -43,17 +43,23 @@ void fillRestLengths(const ClothParams& cloth, ClothPattern& pattern) {
   }
 }
 
+// Half the rest lengths at the node along the weft.
+double nodeWidth(const ClothPattern& pattern, int i, int j) {
+  const Grid& grid = pattern.grid;
+  double along_weft = 0.0;
+  const int right = j + 1 < grid.columns ? j + 1 : 0;
+  if (grid.hasLink(i, j)) along_weft += 0.5 * pattern.weft_rest[grid.index(i, j)];
+  if (grid.hasLink(i, right)) along_weft += 0.5 * pattern.weft_rest[grid.index(i, right)];
+  return along_weft;
+}
+
 // Half the rest lengths at the node along the warp, times those along the weft.
 double nodeArea(const ClothPattern& pattern, int i, int j) {
   const Grid& grid = pattern.grid;
   double along_warp = 0.0;
   if (i > 0) along_warp += 0.5 * pattern.warp_rest[grid.index(i, j)];
   if (i + 1 < grid.rows) along_warp += 0.5 * pattern.warp_rest[grid.index(i + 1, j)];
-  double along_weft = 0.0;
-  const int right = j + 1 < grid.columns ? j + 1 : 0;
-  if (grid.hasLink(i, j)) along_weft += 0.5 * pattern.weft_rest[grid.index(i, j)];
-  if (grid.hasLink(i, right)) along_weft += 0.5 * pattern.weft_rest[grid.index(i, right)];
-  return along_warp * along_weft;
+  return along_warp * nodeWidth(pattern, i, j);
 }
 
 void fillMasses(const ClothParams& cloth, ClothPattern& pattern) {
@@ -69,17 +75,25 @@ void fillMasses(const ClothParams& cloth, ClothPattern& pattern) {
       const double base =
           cloth.lumping == Lumping::kUniform ? uniform_mass : cloth.surface_density * pattern.area[node];
       pattern.mass[node] = base * factor(cloth.row_mass, i) * factor(cloth.column_mass, j);
-      pattern.inverse_mass[node] = 1.0 / pattern.mass[node];
     }
   }
 }
 
-std::vector<int> slitRows(const ClothParams& cloth) {
-  std::vector<int> rows;
-  if (!cloth.slits.empty()) rows.assign(static_cast<std::size_t>(cloth.columns), cloth.rows);
-  for (const SlitParams& slit : cloth.slits)
-    rows[static_cast<std::size_t>((slit.column + 1) % cloth.columns)] = slit.from_row;
-  return rows;
+void addHem(const HemParams& hem, ClothPattern& pattern) {
+  const int bottom = pattern.grid.rows - 1;
+  for (int j = 0; j < pattern.grid.columns; ++j) {
+    double& mass = pattern.mass[pattern.grid.index(bottom, j)];
+    mass += hem.line_density * nodeWidth(pattern, bottom, j);
+    if (!hem.weights.empty()) mass += hem.weights[static_cast<std::size_t>(j)];
+  }
+}
+
+void invertMasses(ClothPattern& pattern) {
+  const Grid& grid = pattern.grid;
+  for (int i = 0; i < grid.rows; ++i) {
+    for (std::size_t n = grid.index(i, 0); n < grid.index(i, grid.columns); ++n)
+      pattern.inverse_mass[n] = 1.0 / pattern.mass[n];
+  }
 }
 
 std::vector<NodeIndex> pinnedNodes(const Scene& scene) {
@@ -105,10 +119,17 @@ std::vector<NodeIndex> pinnedNodes(const Scene& scene) {
 
 }  // namespace
 
+Grid makeGrid(const ClothParams& cloth) {
+  Grid grid(cloth.rows, cloth.columns, cloth.closed);
+  if (!cloth.slits.empty()) grid.slit_row.assign(static_cast<std::size_t>(cloth.columns), cloth.rows);
+  for (const SlitParams& slit : cloth.slits)
+    grid.slit_row[static_cast<std::size_t>((slit.column + 1) % cloth.columns)] = slit.from_row;
+  return grid;
+}
+
 ClothPattern makePattern(const Scene& scene) {
   ClothPattern pattern;
-  pattern.grid = Grid(scene.cloth.rows, scene.cloth.columns, scene.cloth.closed);
-  pattern.grid.slit_row = slitRows(scene.cloth);
+  pattern.grid = makeGrid(scene.cloth);
   const std::size_t size = pattern.grid.size();
   pattern.warp_rest.assign(size, 1.0);
   pattern.weft_rest.assign(size, 1.0);
@@ -120,6 +141,8 @@ ClothPattern makePattern(const Scene& scene) {
   pattern.pinned.assign(size, 0);
   fillRestLengths(scene.cloth, pattern);
   fillMasses(scene.cloth, pattern);
+  addHem(scene.hem, pattern);
+  invertMasses(pattern);
   for (const NodeIndex& node : pinnedNodes(scene)) {
     pattern.pinned[pattern.grid.index(node)] = 1;
     pattern.inverse_mass[pattern.grid.index(node)] = 0.0;

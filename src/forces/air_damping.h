@@ -54,7 +54,7 @@ inline DampedStep implicitlyDampedStep(double coefficient, double inverse_mass, 
 /// Coefficient of Eq. (4) at a speed, over its value at small speeds. As printed, it jumps at the threshold; divided by
 /// the threshold it does not.
 inline double dampingGrowth(const AirParams& air, double speed) {
-  const double beyond = air.law == DampingLaw::kPrinted ? speed : speed / air.threshold;
+  const double beyond = air.law == AirLaw::kPrinted ? speed : speed / air.threshold;
   return (1.0 + air.fast_gain * speed) * (speed > air.threshold ? beyond : 1.0);
 }
 

@@ -46,6 +46,23 @@ class WindSource {
   void addForces(const ClothPattern& pattern, const Field3& position, const Field3& area_vectors, double time,
                  Field3& force) noexcept;
 
+  /// In place of the force, for AirLaw::kRelative: adds the velocity of the source's air at the found nodes [m/s],
+  /// which has the dynamic pressure of Eqs. (2)(3): 1/2 rho |u|^2 = p. So has each component of the gusts.
+  void addVelocities(const ClothPattern& pattern, const Field3& position, double time, double density,
+                     Field3& velocity) noexcept;
+  /// Largest speed of its air, without gusts [m/s].
+  double topSpeed(const ClothPattern& pattern, double density) const noexcept;
+
+  /// Share of the wind that obstacles leave each node [0..1], shape [grid.size()], read by find(); WindParams::shadow.
+  Field& shade() noexcept { return shade_; }
+  /// An obstacle is in the cone; else all of shade() is 1 and not read.
+  bool shaded() const noexcept { return shaded_; }
+  void setShaded(bool shaded) noexcept { shaded_ = shaded; }
+  /// Two directions across the axis and each other, 0 and 1.
+  Vec3 across(int direction) const noexcept { return direction == 0 ? across_ : axis_.cross(across_); }
+  /// Where the air that reaches this point has passed the disc: B, or for a point behind it the point's projection.
+  Vec3 origin(const Vec3& point) const noexcept;
+
  private:
   struct Direction {
     double x, y, z;  // unit d
@@ -61,11 +78,16 @@ class WindSource {
     double of_place, of_axis;            // the line AC = of_place * (C from the centre) + of_axis * axis
     Direction directionAt(double x, double y, double z) const noexcept;
     double distanceFactorAt(double x, double y, double z) const noexcept;
+    double ringShareAt(double x, double y, double z) const noexcept;
   };
   bool findInRow(const Grid& grid, int i, const Field3& position) noexcept;
+  void formRingInRow(const Grid& grid, int i, const Field3& position) noexcept;
   void addSteady(const ClothPattern& pattern, int i, const Field3& position, const Field3& area_vectors,
                  Field3& force) const noexcept;
   void addGusts(const ClothPattern& pattern, int i, Field3& force) noexcept;
+  void addSteadyVelocities(const ClothPattern& pattern, int i, const Field3& position, double per_pressure,
+                           Field3& velocity) const noexcept;
+  void addGustVelocities(const Grid& grid, int i, double per_pressure, Field3& velocity) noexcept;
 
   WindParams wind_;
   Vec3 axis_;
@@ -79,6 +101,9 @@ class WindSource {
   Field gust_row_;                  // scratch: a component of the gusts along a row
   std::vector<std::uint8_t> rows_;  // rows with a node in reach, from the last find() whose box was reached
   bool reaches_ = false;
+  Vec3 across_;
+  Field shade_;  // empty: no shadow is asked for
+  bool shaded_ = false;
 };
 
 }  // namespace curtain

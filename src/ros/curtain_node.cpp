@@ -103,6 +103,7 @@ void CurtainNode::makeFrame(const ros::Time& stamp, bool latest) {
 void CurtainNode::restart() {
   ++restarts_;
   simulator_.reset();
+  inputs_.restart();
   obstacles_.restart(simulator_);
 }
 

@@ -10,6 +10,8 @@
 #include <cmath>
 
 #include "scene/checks.h"
+#include "scene/heading.h"
+#include "scene/names.h"
 #include "scene/pi.h"
 #include "scene/range_checker.h"
 #include "scene/shares.h"
@@ -42,6 +44,10 @@ void checkFlat(const Scene& scene, ProblemLog& log) {
                            formatNumber(span) + " m away (" + line + ")");
     return;
   }
+  if (hang.fullness && std::abs(*hang.fullness * span - cloth.width) > kSlack * cloth.width) {
+    log.add("hang.fullness", "must be cloth.width / |to - from| = " + formatNumber(cloth.width / span) + ", is " +
+                                 formatNumber(*hang.fullness) + "; give one of the two keys");
+  }
   // Rows narrower than the line make the warp rods slant, most in the outermost columns.
   constexpr double kSteepest = 0.9;
   const std::vector<double> rods = shareOut(1.0, cloth.row_spacing, cloth.rows - 1);
@@ -56,6 +62,32 @@ void checkFlat(const Scene& scene, ProblemLog& log) {
       return;
     }
     down += rods[i];
+  }
+}
+
+void checkHeading(const Scene& scene, ProblemLog& log) {
+  const HangParams& hang = scene.hang;
+  const ClothParams& cloth = scene.cloth;
+  if (cloth.closed && hang.fullness) log.add("hang.fullness", "is not for closed cloth (cloth.closed: true)");
+  if (!isPleated(hang)) return;
+  const std::string name = headingNames()[static_cast<std::size_t>(hang.heading)];
+  const std::string is = ", is " + name;
+  if (cloth.closed) log.add("hang.heading", "must be gathered with closed cloth (cloth.closed: true)" + is);
+  // The pleats go straight down.
+  if (hemWidth(cloth) != cloth.width) log.add("hang.heading", "must be gathered with tapered cloth (hem_width)" + is);
+  const int links = cloth.columns - 1, fewest = fewestLinks(hang.heading);
+  const int pleats = pleatCount(hang, links);
+  if (!cloth.closed && links < pleats * fewest) {
+    const bool given = hang.pleats > 0;
+    log.add(given ? "hang.pleats" : "hang.heading", "must leave each pleat of heading " + name + " " +
+                                                        std::to_string(fewest) + " weft links, there are " +
+                                                        std::to_string(links) + " for " + std::to_string(pleats));
+  }
+  const double span = (hang.to - hang.from).norm();
+  constexpr double kFullest = 3.0;  // beyond, the wave's neighbours come close to each other
+  if (!cloth.closed && span > 0.0 && cloth.width > kFullest * (1.0 + kSlack) * span) {
+    log.add("hang.heading", "must be gathered where cloth.width is more than three times |to - from|" + is + " at " +
+                                formatNumber(cloth.width / span) + " times");
   }
 }
 
@@ -95,6 +127,7 @@ void checkStart(const Scene& scene, ProblemLog& log) {
     log.add("hang.radius", "is for closed cloth only (cloth.closed: true), is " + formatNumber(*scene.hang.radius));
   }
   if (!clothIsGood(scene.cloth, log)) return;
+  if (log.good("hang.heading") && log.good("hang.pleats") && log.good("hang.fullness")) checkHeading(scene, log);
   if (scene.cloth.closed) {
     if (log.good("hang.radius") && log.good("hang.tilt")) checkRing(scene, log);
   } else if (log.good("hang.from") && log.good("hang.to")) {

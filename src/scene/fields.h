@@ -65,6 +65,18 @@ struct Fields<HangParams> {
     v.vector("to", hang.to, anywhere());
     v.optionalNumber("radius", hang.radius, positive());
     v.number("tilt", hang.tilt, turn());
+    v.choice("heading", hang.heading, headingNames());
+    v.integer("pleats", hang.pleats, IntRange{0, 1024});
+    v.optionalNumber("fullness", hang.fullness, between(1.0, 3.0));
+  }
+};
+
+template <>
+struct Fields<HemParams> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& hem) {
+    v.number("line_density", hem.line_density, notNegative());
+    v.numbers("weights", hem.weights, notNegative());
   }
 };
 
@@ -73,12 +85,26 @@ struct Fields<AirParams> {
   template <typename Visitor, typename T>
   static void visit(Visitor& v, T& air) {
     v.number("density", air.density, notNegative());
-    v.choice("law", air.law, dampingLawNames());
+    v.choice("law", air.law, airLawNames());
     v.number("threshold", air.threshold, positive());
     v.number("inside", air.inside, notNegative());
     v.number("border", air.border, notNegative());
     v.number("corner", air.corner, notNegative());
     v.number("fast_gain", air.fast_gain, notNegative());
+    v.number("normal_drag", air.normal_drag, between(0.0, 100.0));
+    v.number("tangential_drag", air.tangential_drag, between(0.0, 100.0));
+  }
+};
+
+template <>
+struct Fields<AmbientParams> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& ambient) {
+    v.vector("velocity", ambient.velocity, anywhere());
+    v.number("intensity", ambient.intensity, between(0.0, 1.0));
+    v.number("length_scale", ambient.length_scale, between(1e-3, 1e6));
+    v.choice("spectrum", ambient.spectrum, gustSpectrumNames());
+    v.seed("seed", ambient.seed);
   }
 };
 
@@ -91,6 +117,7 @@ struct Fields<WindParams> {
     v.vector("direction", wind.direction, anywhere());
     v.number("radius", wind.radius, positive());
     v.number("half_angle", wind.half_angle, between(0.0, 1.5));
+    v.choice("profile", wind.profile, windProfileNames());
     v.number("pressure", wind.pressure, notNegative());
     v.number("node_force", wind.node_force, notNegative());
     v.number("porosity_weight", wind.porosity_weight, between(0.0, 1.0));
@@ -99,6 +126,7 @@ struct Fields<WindParams> {
     v.number("unsteadiness", wind.unsteadiness, notNegative());
     v.number("correlation_time", wind.correlation_time, between(1e-6, 1e6));
     v.number("correlation_length", wind.correlation_length, positive());
+    v.flag("shadow", wind.shadow);
     v.number("start", wind.start, anywhere());
     v.number("end", wind.end, orInfinite());
   }
@@ -198,9 +226,11 @@ struct Fields<Scene> {
   static void visit(Visitor& v, T& scene) {
     v.map("cloth", scene.cloth);
     v.map("hang", scene.hang);
+    v.map("hem", scene.hem);
     v.pins("pins", scene.pins);
     v.vector("gravity", scene.gravity, anywhere());
     v.map("air", scene.air);
+    v.map("ambient", scene.ambient);
     v.list("wind", scene.wind);
     v.list("drag", scene.drag);
     v.list("obstacles", scene.obstacles);

@@ -12,13 +12,28 @@ const std::vector<std::string>& lumpingNames() {
   return kNames;
 }
 
+const std::vector<std::string>& headingNames() {
+  static const std::vector<std::string> kNames = {"gathered", "pencil", "pinch", "ripple"};
+  return kNames;
+}
+
 const std::vector<std::string>& pinNames() {
   static const std::vector<std::string> kNames = {"top", "left", "top_corners", "none"};
   return kNames;
 }
 
-const std::vector<std::string>& dampingLawNames() {
-  static const std::vector<std::string> kNames = {"continuous", "printed"};
+const std::vector<std::string>& airLawNames() {
+  static const std::vector<std::string> kNames = {"continuous", "printed", "relative"};
+  return kNames;
+}
+
+const std::vector<std::string>& gustSpectrumNames() {
+  static const std::vector<std::string> kNames = {"von_karman", "dryden"};
+  return kNames;
+}
+
+const std::vector<std::string>& windProfileNames() {
+  static const std::vector<std::string> kNames = {"uniform", "ring_jet"};
   return kNames;
 }
 

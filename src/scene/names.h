@@ -9,8 +9,11 @@
 namespace curtain {
 
 const std::vector<std::string>& lumpingNames();
+const std::vector<std::string>& headingNames();
 const std::vector<std::string>& pinNames();  ///< without kList, which is a list of nodes
-const std::vector<std::string>& dampingLawNames();
+const std::vector<std::string>& airLawNames();
+const std::vector<std::string>& gustSpectrumNames();
+const std::vector<std::string>& windProfileNames();
 const std::vector<std::string>& shapeNames();
 
 /// "a, b or c"

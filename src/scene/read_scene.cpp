@@ -40,6 +40,15 @@ std::string readText(std::istream& file) {
   return text;
 }
 
+// A fullness gives the width where that is left out.
+void takeFullness(const YAML::Node& root, Scene& scene) {
+  const YAML::Node cloth = root["cloth"];
+  const bool has_width = cloth.IsDefined() && cloth.IsMap() && cloth["width"].IsDefined();
+  const double span = (scene.hang.to - scene.hang.from).norm();
+  if (scene.hang.fullness && !has_width && !scene.cloth.closed && span > 0.0)
+    scene.cloth.width = *scene.hang.fullness * span;
+}
+
 }  // namespace
 
 SceneReading readScene(const YAML::Node& root) {
@@ -49,6 +58,7 @@ SceneReading readScene(const YAML::Node& root) {
     SceneReading reading;
     ProblemLog log;
     StrictReader::readMap(root, "", reading.scene, log);
+    takeFullness(root, reading.scene);
     checkScene(reading.scene, log);
     reading.problems = log.problems();
     return reading;

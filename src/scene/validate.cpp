@@ -6,10 +6,14 @@
 
 #include "scene/checks.h"
 #include "scene/range_checker.h"
+#include "scene/ranges.h"
 #include "scene/scalar.h"
 
 namespace curtain {
 namespace {
+
+// Least density of air that has a velocity [kg/m^3]: with the strongest wind its speeds and their squares are finite.
+constexpr double kThinnest = 1e-6;
 
 std::string formatNode(const NodeIndex& node) {
   return "[" + std::to_string(node.row) + ", " + std::to_string(node.column) + "]";
@@ -32,6 +36,10 @@ void checkCloth(const ClothParams& cloth, ProblemLog& log) {
                cloth.closed ? "columns" : "columns - 1", log);
     checkCount("cloth.column_mass", cloth.column_mass, cloth.columns, "columns", log);
   }
+}
+
+void checkHem(const Scene& scene, ProblemLog& log) {
+  if (log.good("cloth.columns")) checkCount("hem.weights", scene.hem.weights, scene.cloth.columns, "columns", log);
 }
 
 void checkSlits(const ClothParams& cloth, ProblemLog& log) {
@@ -76,6 +84,37 @@ void checkPins(const Scene& scene, ProblemLog& log) {
 void checkTimes(double start, double end, const std::string& key, ProblemLog& log) {
   if (!log.good(joinKey(key, "start")) || !log.good(joinKey(key, "end")) || end > start) return;
   log.add(joinKey(key, "end"), "must be > start = " + formatNumber(start) + ", is " + formatNumber(end));
+}
+
+void checkAir(const AirParams& air, const std::string& key, ProblemLog& log) {
+  if (air.law != AirLaw::kRelative || !log.good(joinKey(key, "law"))) return;
+  const std::string density_key = joinKey(key, "density");
+  // Winds are given as pressures; without density there is no speed of air that has one.
+  if (log.good(density_key) && !(air.density >= kThinnest)) {
+    log.add(density_key,
+            "must be >= " + formatNumber(kThinnest) + " with law relative, is " + formatNumber(air.density));
+  }
+  const auto mustBeZero = [&](const char* name, double value) {
+    if (value == 0.0 || !log.good(joinKey(key, name))) return;
+    log.add(joinKey(key, name),
+            "must be 0 with law relative, which has normal_drag and tangential_drag; is " + formatNumber(value));
+  };
+  mustBeZero("inside", air.inside);
+  mustBeZero("border", air.border);
+  mustBeZero("corner", air.corner);
+}
+
+// What only some laws and schemes can do.
+void checkLaw(const Scene& scene, ProblemLog& log) {
+  if (!log.good("air.law")) return;
+  const bool relative = scene.air.law == AirLaw::kRelative;
+  if (!relative && !scene.ambient.velocity.isZero() && log.good("ambient.velocity")) {
+    log.add("ambient.velocity", "must be [0, 0, 0] unless air.law is relative: other laws know no velocity of the air");
+  }
+  if (relative && scene.solver.method == Method::kPaper && log.good("solver.method")) {
+    log.add("air.law",
+            "must be continuous or printed with solver.method paper, which has no forces of the links for it");
+  }
 }
 
 void checkWind(const WindParams& wind, const std::string& key, ProblemLog& log) {
@@ -150,7 +189,10 @@ void checkScene(const Scene& scene, ProblemLog& log) {
   visitFields(checker, scene);
   checkCloth(scene.cloth, log);
   checkSlits(scene.cloth, log);
+  checkHem(scene, log);
   checkStart(scene, log);
+  checkAir(scene.air, "air", log);
+  checkLaw(scene, log);
   checkPins(scene, log);
   checkUnique(scene.wind, "wind", "id", &WindParams::id, log);
   checkUnique(scene.drag, "drag", "id", &DragParams::id, log);
@@ -177,7 +219,7 @@ std::vector<Problem> validate(const DragParams& drag, const ClothParams& cloth, 
 }
 
 std::vector<Problem> validate(const AirParams& air, const std::string& key) {
-  return problemsOf(air, key, [](ProblemLog&) {});
+  return problemsOf(air, key, [&](ProblemLog& log) { checkAir(air, key, log); });
 }
 
 std::vector<Problem> validate(const SolverParams& solver, const std::string& key) {

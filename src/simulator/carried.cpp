@@ -98,6 +98,7 @@ void ForceField::carry(Archive& archive, AirParams& air) {
   archive.put(drags_, std::move(loaded_drags));
   archive.put(air, of_then);
   archive.put(air_damping_, AirDamping(of_then, pattern_));
+  archive.put(relative_air_, RelativeAir(of_then, scene_.cloth.porosity, pattern_));
   archive.put(forces_.force, static_cast<const Field3*>(more_than_weight ? &sum_ : &weight_));
 }
 

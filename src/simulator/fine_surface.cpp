@@ -79,7 +79,7 @@ void FineSurface::place(int row, int link, double angle) {
     for (int p = 1; p < topology_.folds; ++p) node(row, link, p) = node(row, link, topology_.folds);
     return;
   }
-  FoldArc arc = foldArc(pattern_, *position_, area_vectors_, row, column);
+  FoldArc arc = foldArc(pattern_.grid, pattern_.weft_rest, *position_, area_vectors_, row, column);
   if (angle != 0.0) {
     // With x along the chord: the bow points down in folds that bow along the cloth's normal, up in the others.
     const Vec3 across = (arc.second - arc.first).cross(arc.bow).normalized() * (column % 2 == 0 ? 1.0 : -1.0);

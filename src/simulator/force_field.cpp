@@ -15,11 +15,17 @@ bool within(double time, double from, double to) { return time >= from - kSlack 
 }  // namespace
 
 ForceField::ForceField(const Scene& scene, const ClothPattern& pattern)
-    : scene_(scene), pattern_(pattern), bounds_(pattern), air_damping_(scene.air, pattern) {
+    : scene_(scene),
+      pattern_(pattern),
+      bounds_(pattern),
+      air_damping_(scene.air, pattern),
+      relative_air_(scene.air, scene.cloth.porosity, pattern),
+      ambient_(scene.ambient) {
   const std::size_t size = pattern.grid.size();
   weight_.assign(size, 0.0);
   takeGravity();
   area_vectors_.assign(size, 0.0);
+  air_velocity_.assign(size, 0.0);
   sum_.assign(size, 0.0);
   forces_.damping.assign(size, 0.0);
   forces_.has_damping = air_damping_.active();
@@ -39,6 +45,18 @@ void ForceField::takeGravity() noexcept {
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) weight_.set(n, pattern_.mass[n] * scene_.gravity);
 }
 
+void ForceField::takeAir() {
+  air_damping_ = AirDamping(scene_.air, pattern_);
+  relative_air_ = RelativeAir(scene_.air, scene_.cloth.porosity, pattern_);
+}
+
+double ForceField::dampingPerMass() const noexcept {
+  if (!relative_air_.active()) return air_damping_.strongestPerMass(pattern_);
+  double speed = ambient_.meanSpeed();
+  for (const WindSource& wind : winds_.list) speed += wind.topSpeed(pattern_, relative_air_.density());
+  return relative_air_.strongestPerMass(speed);
+}
+
 void ForceField::setWind(const WindParams& wind) {
   winds_.put(WindSource(wind, pattern_, scene_.cloth.porosity, scene_.solver.seed));
 }
@@ -49,6 +67,13 @@ void ForceField::setDrag(const DragParams& drag) {
   // A drag that is replaced keeps its node, wherever the node has moved since.
   if (old != nullptr && !force.node() && old->node()) force.grasp(*old->node(), pattern_);
   drags_.put(std::move(force));
+}
+
+void ForceField::castShadows(const ObstacleSet& obstacles, const Field3& position, double from, double to) {
+  for (WindSource& wind : winds_.list) {
+    const bool blows = wind.params().start < to && wind.params().end > from;
+    if (blows) shadow_.cast(obstacles, pattern_.grid, position, wind);
+  }
 }
 
 // Finds the nodes that the active winds reach; false: none.
@@ -77,19 +102,31 @@ void ForceField::addWinds(const Field3& position, double time) noexcept {
   }
 }
 
+void ForceField::addRelativeAir(const ClothState& state, double time, bool windy, const SubstepAhead& ahead) noexcept {
+  nodeAreaVectors(pattern_.grid, state.position, area_vectors_);
+  ambient_.setVelocities(pattern_.grid, state.position, time, air_velocity_);
+  for (WindSource& wind : winds_.list) {
+    if (windy && wind.blowsAt(time))
+      wind.addVelocities(pattern_, state.position, time, relative_air_.density(), air_velocity_);
+  }
+  relative_air_.addForces(pattern_, area_vectors_, air_velocity_, state.velocity, ahead, sum_);
+}
+
 // A source that reaches nothing is left out: with weight alone the solver takes a shorter path.
-const NodeForces& ForceField::evaluate(const ClothState& state, double time, double dt) noexcept {
+const NodeForces& ForceField::evaluate(const ClothState& state, double time, double dt,
+                                       const SubstepAhead& ahead) noexcept {
   const auto acts = [time](const DragForce& drag) { return drag.actsAt(time); };
   const bool windy = findWinds(state.position, time);
   const bool dragged = std::any_of(drags_.list.begin(), drags_.list.end(), acts);
   forces_.force = &weight_;
-  forces_.weight_only = !windy && !dragged;
+  const bool relative = relative_air_.active();
+  forces_.weight_only = !windy && !dragged && !relative;
   forces_.gravity = scene_.gravity;
-  if (windy || dragged) {
+  if (!forces_.weight_only) {
     sum_ = weight_;
     forces_.force = &sum_;
   }
-  if (windy) addWinds(state.position, time);
+  if (windy && !relative) addWinds(state.position, time);
   const auto damps = [&acts](const DragForce& drag) { return drag.damps() && acts(drag); };
   forces_.has_damping = air_damping_.active() || std::any_of(drags_.list.begin(), drags_.list.end(), damps);
   if (forces_.has_damping) std::fill(forces_.damping.begin(), forces_.damping.end(), 0.0);
@@ -97,6 +134,7 @@ const NodeForces& ForceField::evaluate(const ClothState& state, double time, dou
   for (DragForce& drag : drags_.list) {
     if (acts(drag)) drag.addForces(pattern_, state.position, dt + state.velocity_age, sum_, forces_.damping);
   }
+  if (relative) addRelativeAir(state, time, windy, ahead);  // last: it reads the others
   return forces_;
 }
 
@@ -105,7 +143,8 @@ bool sameWhileItBlows(const WindParams& a, const WindParams& b) {
          a.half_angle == b.half_angle && a.pressure == b.pressure && a.node_force == b.node_force &&
          a.porosity_weight == b.porosity_weight && a.distance_weight == b.distance_weight &&
          a.reference_length == b.reference_length && a.unsteadiness == b.unsteadiness &&
-         a.correlation_time == b.correlation_time && a.correlation_length == b.correlation_length;
+         a.correlation_time == b.correlation_time && a.correlation_length == b.correlation_length &&
+         a.profile == b.profile && a.shadow == b.shadow;
 }
 
 bool sameWhileItActs(const DragParams& a, const DragParams& b) {
@@ -140,8 +179,22 @@ void ForceField::markChanges(double from, double to, const Field3& position, Col
 }
 
 void ForceField::markGusts(double time, const Field3& position, ColumnSet& out) const noexcept {
+  if (relative_air_.active() && ambient_.gusty()) out.addAll();
   for (const WindSource& wind : winds_.list) {
     if (wind.params().unsteadiness > 0.0 && wind.blowsAt(time)) markReached(wind, position, out);
+  }
+}
+
+void ForceField::markShadows(const ObstacleSet& obstacles, double time, const Field3& position,
+                             ColumnSet& out) const noexcept {
+  for (const WindSource& wind : winds_.list) {
+    if (!wind.params().shadow || !wind.blowsAt(time)) continue;
+    // One that has left the cone, or is gone, still has its shade there.
+    bool changes = wind.shaded() && obstacles.anyMoved();
+    for (int index = 0; index < obstacles.count() && !changes; ++index) {
+      changes = obstacles.moved(index) && mayShade(obstacles, index, wind);
+    }
+    if (changes) markReached(wind, position, out);
   }
 }
 

@@ -10,9 +10,12 @@
 #include "cloth/column_set.h"
 #include "cloth/link_ways.h"
 #include "forces/air_damping.h"
+#include "forces/ambient_wind.h"
 #include "forces/drag_force.h"
+#include "forces/relative_air.h"
 #include "forces/wind_source.h"
 #include "scene/find_by_id.h"
+#include "simulator/wind_shadow.h"
 #include "solver/substep.h"
 
 namespace curtain {
@@ -76,21 +79,28 @@ class ForceField {
   void clearDrags() { drags_.clear(); }
   const std::vector<DragParams>& drags() const { return drags_.params; }
 
-  /// Forces at a time [s] on the cloth's present state; dt: how long they will act [s]. Allocates nothing.
-  const NodeForces& evaluate(const ClothState& state, double time, double dt) noexcept;
+  /// Before the substeps of the frame from .. to [s]: where the obstacles keep the winds from the cloth.
+  void castShadows(const ObstacleSet& obstacles, const Field3& position, double from, double to);
+
+  /// Forces at a time [s] on the cloth's present state; dt: how long they will act [s]; ahead: read if readsPulls().
+  /// Allocates nothing.
+  const NodeForces& evaluate(const ClothState& state, double time, double dt, const SubstepAhead& ahead = {}) noexcept;
   const NodeForces& last() const { return forces_; }
 
   /// Links are near their lengths: winds may be culled by a few sampled nodes.
   void setLinksHold(bool hold) noexcept { bounds_.setLinksHold(hold); }
+
+  /// The air's force depends on its velocity relative to the cloth.
+  bool readsPulls() const noexcept { return relative_air_.active(); }
 
   /// air: the scene's, which the damping follows. After loading call takeGravity().
   void carry(Archive& archive, AirParams& air);
 
   /// The scene's gravity, or air, has changed.
   void takeGravity() noexcept;
-  void takeAir() { air_damping_ = AirDamping(scene_.air, pattern_); }
+  void takeAir();
   /// Largest air damping of a node at rest, over its mass [1/s].
-  double dampingPerMass() const noexcept { return air_damping_.strongestPerMass(pattern_); }
+  double dampingPerMass() const noexcept;
 
   /// Marks the columns that are reached now: by sources that begin or end within [from, to]; by gusts; by the wind or
   /// drag of this id, active or not.
@@ -98,6 +108,10 @@ class ForceField {
   void markGusts(double time, const Field3& position, ColumnSet& out) const noexcept;
   void markWind(const std::string& id, const Field3& position, ColumnSet& out) const noexcept;
   void markDrag(const std::string& id, ColumnSet& out) const noexcept;
+  /// The wind everywhere, and whether it acts.
+  const AmbientWind& ambient() const noexcept { return ambient_; }
+  /// Columns in whose wind an obstacle moves that may shade them.
+  void markShadows(const ObstacleSet& obstacles, double time, const Field3& position, ColumnSet& out) const noexcept;
   /// The wind of this id blows at this time and reaches the cloth.
   bool reaches(const std::string& id, double time, const Field3& position) const;
 
@@ -105,16 +119,21 @@ class ForceField {
   void markReached(const WindSource& wind, const Field3& position, ColumnSet& out) const noexcept;
   bool findWinds(const Field3& position, double time) noexcept;
   void addWinds(const Field3& position, double time) noexcept;
+  void addRelativeAir(const ClothState& state, double time, bool windy, const SubstepAhead& ahead) noexcept;
 
   const Scene& scene_;
   const ClothPattern& pattern_;
   SampledBounds bounds_;
   AirDamping air_damping_;
+  RelativeAir relative_air_;
+  AmbientWind ambient_;
+  WindShadow shadow_;
   Sources<WindSource, WindParams> winds_;
   Sources<DragForce, DragParams> drags_;
   Field3 weight_;
   Field3 sum_;           // with winds and drags, when one acts
-  Field3 area_vectors_;  // in rows that a wind reaches
+  Field3 area_vectors_;  // in rows that a wind reaches, or of all for relative_air_
+  Field3 air_velocity_;  // at the nodes, for relative_air_
   NodeForces forces_;
 };
 

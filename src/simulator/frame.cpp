@@ -53,6 +53,7 @@ double Simulator::Impl::moveThrough(Budget::Clock::time_point begin) {
   const bool links_hold = !pins.any() && std::max(s.warp_stretch, s.weft_stretch) < kHold;
   motion.contact.beginFrame(links_hold);
   motion.forces.setLinksHold(links_hold);
+  motion.forces.castShadows(motion.obstacles, motion.state.position, times.begin(), times.end());
   const bool first = times.frame() == 0;
   if (errors && first) errors->makePilotRuns();  // not limited by the budget
   budget.beginFrame(first ? Budget::Clock::now() : begin);

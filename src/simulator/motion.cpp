@@ -22,6 +22,7 @@ Motion::Motion(const Scene& scene_, const ClothPattern& pattern_, const FrameTim
       ledger(pattern) {
   exact.expectContacts(contact.capacity());
   velocities_.assign(pattern.grid.size(), 0.0);
+  pulls_.assign(pattern.grid.size(), 0.0);
 }
 
 void Motion::reset() {
@@ -36,6 +37,13 @@ void Motion::reset() {
   velocities_fresh_ = false;
 }
 
+// What the air's force must know of the substep, where it depends on it.
+SubstepAhead Motion::ahead(const SubstepPlan& plan) noexcept {
+  if (!forces.readsPulls()) return {};
+  exact.copyPulls(state, pushing(), pulls_);
+  return {exact.kickOf(plan, state), exact.isBackward(plan), &pulls_};
+}
+
 SubstepOutcome Motion::attempt(const SubstepPlan& plan, double done) {
   const bool by_paper = scene.solver.method == Method::kPaper;
   ContactFinder* const finder = contact.wanted() ? &contact : nullptr;
@@ -44,7 +52,7 @@ SubstepOutcome Motion::attempt(const SubstepPlan& plan, double done) {
     contact.skipSubstep();
   else
     lag.setSubstep(plan, done, state.position);
-  const NodeForces& now = forces.evaluate(state, statistics.time + done, plan.h);
+  const NodeForces& now = forces.evaluate(state, statistics.time + done, plan.h, ahead(plan));
   clock.lap(Stage::kForces);
   if (counts_work) ledger.begin(state);
   const SubstepOutcome outcome =

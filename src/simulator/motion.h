@@ -66,8 +66,10 @@ struct Motion {
 
  private:
   void computeVelocities() noexcept;
+  SubstepAhead ahead(const SubstepPlan& plan) noexcept;
 
   Field3 velocities_;
+  Field3 pulls_;  // scratch of ahead()
   bool velocities_fresh_ = false;
 };
 

@@ -74,11 +74,20 @@ void planForces(const Motion& motion, Plan& plan) {
     acts = acts || plan.back().runs;
   }
   plan.push_back({"normals", normals, normals ? "a wind needs them, in the rows it reaches" : "no wind reads them"});
-  const bool damps = forces.dampingPerMass() > 0.0;
+  const bool relative = forces.readsPulls(), blows = relative && !forces.ambient().still();
+  const char* const ambient = !blows                     ? "the air around is still"
+                              : forces.ambient().gusty() ? "blows everywhere, with gusts"
+                                                         : "blows everywhere; no gusts, so no table of them";
+  plan.push_back({"ambient wind", blows, ambient});
+  plan.push_back({"relative air", relative,
+                  relative ? "the force of the air's velocity relative to the cloth, with normals of all rows"
+                           : "another law is asked for (air.law), or no drag"});
+  const bool damps = !relative && forces.dampingPerMass() > 0.0;
   plan.push_back({"air damping", damps,
                   damps ? "by " + number(forces.dampingPerMass()) + " 1/s at most" : "all coefficients are 0"});
-  plan.push_back({"force field", windy || acts,
-                  windy || acts ? "weight and what is above" : "gravity alone: one acceleration for all nodes"});
+  plan.push_back(
+      {"force field", windy || acts || relative,
+       windy || acts || relative ? "weight and what is above" : "gravity alone: one acceleration for all nodes"});
 }
 
 void planContact(const Motion& motion, Plan& plan) {

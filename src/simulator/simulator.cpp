@@ -115,6 +115,38 @@ void Simulator::copyForces(std::vector<Vec3>& out) const {
   copyField(grid, total, out);
 }
 
+void Simulator::copyContactForces(std::vector<Vec3>& out) const {
+  Impl& im = *impl_;
+  im.total_force.assign(im.pattern.grid.size(), 0.0);
+  if (im.motion.contact.wanted()) im.motion.contact.addForces(im.total_force);
+  copyField(im.pattern.grid, im.total_force, out);
+}
+
+void Simulator::copyTensions(std::vector<double>& warp, std::vector<double>& weft) const {
+  warp.clear();
+  weft.clear();
+  for (int i = 0; i < rows(); ++i) {
+    for (int j = 0; j < columns(); ++j) {
+      const Constraints::LinkTensions tensions = impl_->motion.exact.tensionsAt(i, j);
+      warp.push_back(tensions.warp);
+      weft.push_back(tensions.weft);
+    }
+  }
+}
+
+void Simulator::copyRestLengths(std::vector<double>& warp, std::vector<double>& weft) const {
+  const ClothPattern& pattern = impl_->pattern;
+  const Grid& grid = pattern.grid;
+  warp.clear();
+  weft.clear();
+  for (int i = 0; i < grid.rows; ++i) {
+    if (i > 0) warp.push_back(pattern.warp_rest[grid.index(i, 0)]);
+    for (int link = 0; link < grid.linkCount(); ++link) {
+      weft.push_back(pattern.weft_rest[grid.index(i, (link + 1) % grid.columns)]);
+    }
+  }
+}
+
 Vec3 Simulator::position(NodeIndex node) const {
   return impl_->motion.state.position.at(impl_->pattern.grid.index(node));
 }
@@ -153,6 +185,7 @@ std::vector<Problem> Simulator::setWind(const WindParams& wind) {
   if (im.sleep.rest().watches())
     im.motion.forces.markWind(wind.id, im.motion.state.position, im.sleep.rest().disturbed());
   im.motion.forces.setWind(wind);
+  if (im.motion.forces.readsPulls()) im.sleep.takeLimits();  // the wind's speed damps
   if (im.sleep.rest().watches())
     im.motion.forces.markWind(wind.id, im.motion.state.position, im.sleep.rest().disturbed());
   return problems;
@@ -215,7 +248,9 @@ std::vector<Problem> Simulator::setGravity(const Vec3& gravity) {
 }
 
 std::vector<Problem> Simulator::setAir(const AirParams& air) {
-  std::vector<Problem> problems = validate(air, "air");
+  Scene with_air = impl_->scene;
+  with_air.air = air;
+  std::vector<Problem> problems = validate(with_air);  // not every method and wind goes with every law
   if (!problems.empty()) return problems;
   impl_->motion.velocities();  // as in setGravity()
   impl_->scene.air = air;

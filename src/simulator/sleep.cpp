@@ -25,6 +25,7 @@ void Sleep::wakeForFrame(bool pins_move) {
   if (!rest_.watches()) return;
   const double now = motion_.statistics.time;
   motion_.forces.markChanges(now, now + motion_.times.length(), motion_.state.position, rest_.disturbed());
+  motion_.forces.markShadows(motion_.obstacles, now, motion_.state.position, rest_.disturbed());
   if (pins_move) rest_.disturbAll();
   rest_.approachedBy(motion_.obstacles);
   if (rest_.wake()) takeOver();

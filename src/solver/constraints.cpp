@@ -140,6 +140,18 @@ Vec3 Constraints::pullAt(int row, int column) const noexcept {
   return pull;
 }
 
+// Links are as long as at rest within the stretch tolerance. Rods of blocks that are left out have the multipliers of
+// the substep after which they were.
+Constraints::LinkTensions Constraints::tensionsAt(int row, int column, double scale) const noexcept {
+  const std::size_t n = pattern_.grid.index(row, column);
+  const int block = column / kLane;
+  const double rod_scale = held_.skips(block) ? frozen_scale_[static_cast<std::size_t>(block)] : scale;
+  LinkTensions tensions;
+  if (rod_scale != 0.0 && row > 0) tensions.warp = last_warp_[n] * pattern_.warp_rest[n] / rod_scale;
+  if (scale != 0.0 && weft_pulls_) tensions.weft = last_weft_[n] * pattern_.weft_rest[n] / scale;
+  return tensions;
+}
+
 void Constraints::save(Memory& memory) const {
   memory.warp = last_warp_;
   memory.weft = last_weft_;

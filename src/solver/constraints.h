@@ -49,6 +49,12 @@ class Constraints {
   bool snapsTaut() const noexcept;
   /// Sum over the rods of their relative change of velocity in the last substep [1/s^2] (WarpMotion::bent).
   double bent() const noexcept;
+  /// Tensions in the last substep [N] of the rod above a node and of the link to its left; a rod that pushes has a
+  /// negative one. scale: of that substep, h * kick [s^2]; 0: there was none.
+  struct LinkTensions {
+    double warp = 0.0, weft = 0.0;
+  };
+  LinkTensions tensionsAt(int row, int column, double scale) const noexcept;
   /// Sum of multiplier times direction over a node's links, of the last substep [kg m].
   Vec3 pullAt(int row, int column) const noexcept;
 
@@ -106,6 +112,9 @@ class Constraints {
   /// penetrates. Starts from `share` of the last substep's forces between nodes, so friction goes on and cloth at rest
   /// is a fixed point.
   void project(const Field3& position, const Contacts* contacts, double share, Field3& velocity) noexcept;
+  /// Adds what links and contacts pulled by in the last substep, along their directions at these positions, times share
+  /// and over the nodes' masses. Between substeps only.
+  void addPulls(const Field3& position, const Contacts* contacts, double share, Field3& velocity) noexcept;
 
   // ---- Columns that fall asleep and wake (constraints_hold.cpp)
 

@@ -18,7 +18,7 @@ void Constraints::spreadForces(const LineSolve& warp, const LineSolve& weft, con
     applyWarpMultipliers(warp, block);
   });
   if (weft_pulls_) {
-    for (std::size_t n = 0; n < pattern_.grid.size(); ++n) change_[n] = share * weft_.multiplier[n];
+    for (std::size_t n = 0; n < pattern_.grid.size(); ++n) change_[n] = share * last_weft_[n];
     for (int i = 0; i < pattern_.grid.rows; ++i) pullWeft(weft, i, change_);
   }
   for (std::size_t n = 0; contacts != nullptr && n < contacts->size(); ++n) {
@@ -26,6 +26,13 @@ void Constraints::spreadForces(const LineSolve& warp, const LineSolve& weft, con
     if (contact.pushes())
       contact.move(inertia_.masses(), share * (contact.push * contact.normal + contact.slide), warp.value);
   }
+}
+
+void Constraints::addPulls(const Field3& position, const Contacts* contacts, double share, Field3& velocity) noexcept {
+  setWarpDirections(pattern_.grid, position, warp_.direction);
+  if (weft_pulls_) setWeftDirectionsAt(position);
+  spreadForces({pattern_, inertia_.masses(), warp_, velocity, held_.movingSpan()},
+               {pattern_, inertia_.masses(), weft_, velocity, held_.movingSpan()}, contacts, share);
 }
 
 void Constraints::project(const Field3& position, const Contacts* contacts, double share, Field3& velocity) noexcept {

@@ -292,6 +292,12 @@ void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& f
   guard_.bound(most, out);  // unsolvable links (pins pulled apart) give unbounded velocities
 }
 
+void ExactSolver::copyPulls(const ClothState& state, const Contacts* contacts, Field3& out) noexcept {
+  out.assign(pattern_.grid.size(), 0.0);
+  const double scale = inertia_.tensions().scale;
+  if (scale != 0.0) constraints_.addPulls(state.position, contacts, 1.0 / scale, out);
+}
+
 // Keeps the momentum of cloth without pins.
 void ExactSolver::projectVelocity(const Field3& position, const Contacts* contacts, double share,
                                   Field3& out) noexcept {

@@ -43,10 +43,25 @@ class ExactSolver {
   /// substep's scale it is a force.
   Vec3 pullAt(int row, int column) const noexcept { return constraints_.pullAt(row, column); }
 
+  /// Tensions of the rod above a node and of the link to its left in the last substep [N].
+  Constraints::LinkTensions tensionsAt(int row, int column) const noexcept {
+    return constraints_.tensionsAt(row, column, inertia_.tensions().scale);
+  }
+
   /// Velocities at the time of the positions (leapfrog keeps them half a substep behind): advanced by the forces and
   /// projected on the constraints. contacts: of the last substep, or null.
   void currentVelocities(const ClothState& state, const NodeForces& forces, const Contacts* contacts,
                          Field3& out) noexcept;
+
+  /// Time that the forces of a planned substep act for [s], and whether they are wanted at its end. For bdf2, whose
+  /// step starts from two, the substep itself: its end is what counts.
+  double kickOf(const SubstepPlan& plan, const ClothState& state) noexcept {
+    return state.velocity_age + (1.0 - schemeOf(plan.scheme).rules().age) * plan.h;
+  }
+  bool isBackward(const SubstepPlan& plan) noexcept { return schemeOf(plan.scheme).rules().backward; }
+  /// Acceleration by what links and contacts (or null) pulled with in the last substep, along their present directions
+  /// [m/s^2]. Between substeps only.
+  void copyPulls(const ClothState& state, const Contacts* contacts, Field3& out) noexcept;
 
   /// The last substep's tensions and inertia.
   const NodeInertia& inertia() const noexcept { return inertia_; }

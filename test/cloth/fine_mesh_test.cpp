@@ -8,8 +8,8 @@
 
 #include <map>
 #include <set>
+#include <stdexcept>
 
-#include "cloth/folds.h"
 #include "testing.h"
 
 namespace curtain {
@@ -74,21 +74,19 @@ TEST(FineMesh, IsADiscOrAnAnnulusWoundOneWay) {
   }
 }
 
-// Both layers, as the simulator would build them without obstacles.
-FineMesh build(const Scene& scene, const ClothPattern& pattern, const Field3& position, const Field3& vectors) {
-  const FineMeshTopology topology = makeFineMeshTopology(scene.cloth);
-  FineMesh mesh;
-  mesh.positions.assign(static_cast<std::size_t>(topology.rows * topology.columns), Vec3::Constant(1e9));
-  const FoldShape shape(scene.cloth.folds);
-  for (int i = 0; i < pattern.grid.rows; ++i) {
-    Vec3* const row = mesh.positions.data() + i * topology.columns;
-    for (int j = 0; j < pattern.grid.columns; ++j) row[j * topology.folds] = position.at(pattern.grid.index(i, j));
-    if (topology.folds == 1) continue;
-    for (int j = pattern.grid.closed ? 0 : 1; j < pattern.grid.columns; ++j) {
-      const int left = j > 0 ? j - 1 : pattern.grid.columns - 1;
-      shape.place(foldArc(pattern, position, vectors, i, j), row + left * topology.folds + 1);
+// Both layers without obstacles.
+FineMesh build(const Scene& scene, const ClothPattern& pattern, const Field3& position) {
+  const Grid& grid = pattern.grid;
+  std::vector<double> weft_rest;
+  std::vector<Vec3> nodes;
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) nodes.push_back(position.at(grid.index(i, j)));
+    for (int link = 0; link < grid.linkCount(); ++link) {
+      weft_rest.push_back(pattern.weft_rest[grid.index(i, (link + 1) % grid.columns)]);
     }
   }
+  FineMesh mesh;
+  FineMeshBuilder(scene.cloth, weft_rest).build(nodes, mesh);
   return mesh;
 }
 
@@ -103,7 +101,7 @@ TEST(FineMesh, WindingAndNormalsAgreeWithTheNodeNormals) {
       vectors.assign(pattern.grid.size(), 0.0);
       nodeAreaVectors(pattern.grid, position, vectors);
       const FineMeshTopology topology = makeFineMeshTopology(scene.cloth);
-      const FineMesh mesh = build(scene, pattern, position, vectors);
+      const FineMesh mesh = build(scene, pattern, position);
       std::vector<Vec3> normals;
       fineMeshNormals(topology, mesh, normals);
       ASSERT_EQ(normals.size(), mesh.positions.size());
@@ -117,6 +115,25 @@ TEST(FineMesh, WindingAndNormalsAgreeWithTheNodeNormals) {
           EXPECT_GE(fine.dot(node), closed ? std::cos(0.53 + 0.27) : 1.0 - 64 * kEps) << i << ", " << j;
         }
       }
+    }
+  }
+}
+
+TEST(FineMeshBuilder, RefusesLengthsAndNodesThatAreNotOfItsGrid) {
+  for (const bool closed : {false, true}) {
+    const ClothParams cloth = clothOf({3, 4, 2, closed});
+    const std::size_t links = closed ? 12 : 9;
+    const std::vector<double> rest(links, 0.1);
+    FineMeshBuilder builder(cloth, rest);
+    FineMesh mesh;
+    builder.build(std::vector<Vec3>(12, Vec3::Zero()), mesh);
+    EXPECT_EQ(mesh.positions.size(), closed ? 24u : 21u);
+    EXPECT_THROW(builder.build(std::vector<Vec3>(11, Vec3::Zero()), mesh), std::invalid_argument);
+    EXPECT_THROW(FineMeshBuilder(cloth, std::vector<double>(links + 1, 0.1)), std::invalid_argument);
+    for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+      std::vector<double> with_bad = rest;
+      with_bad[4] = bad;
+      EXPECT_THROW(FineMeshBuilder(cloth, with_bad), std::invalid_argument) << bad;
     }
   }
 }

@@ -165,7 +165,7 @@ struct Cloth {
     renew();
   }
   void renew() { nodeAreaVectors(pattern.grid, position, vectors); }
-  FoldArc arc(int i, int j) const { return foldArc(pattern, position, vectors, i, j); }
+  FoldArc arc(int i, int j) const { return foldArc(pattern.grid, pattern.weft_rest, position, vectors, i, j); }
   ClothPattern pattern;
   Field3 position, vectors;
 };

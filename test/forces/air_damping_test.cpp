@@ -33,7 +33,7 @@ Field coefficients(const AirParams& air, const Scene& scene, double speed) {
 
 TEST(DampingGrowth, IsEquation4Printed) {
   AirParams air;
-  air.law = DampingLaw::kPrinted;
+  air.law = AirLaw::kPrinted;
   for (const double threshold : {0.5, 1.0, 2.0}) {
     air.threshold = threshold;
     // Force over rho c_r v: 1 up to the threshold, |v| above.
@@ -61,7 +61,7 @@ TEST(DampingGrowth, FastGainRaisesTheCoefficientWithSpeed) {
   air.threshold = 2.0;
   EXPECT_EQ(dampingGrowth(air, 1.0), 1.5);
   EXPECT_EQ(dampingGrowth(air, 4.0), 3.0 * 2.0);
-  air.law = DampingLaw::kPrinted;
+  air.law = AirLaw::kPrinted;
   EXPECT_EQ(dampingGrowth(air, 4.0), 3.0 * 4.0);
 }
 
@@ -211,7 +211,7 @@ struct Motion {
 // One free node of area 1 m^2: what a solver does with the coefficients of the step's start.
 Motion integrate(const Case& c, double until, double dt) {
   AirParams air;
-  air.law = DampingLaw::kPrinted;
+  air.law = AirLaw::kPrinted;
   air.threshold = c.threshold;
   Motion motion{c.v0, 0.0};
   const auto steps = static_cast<int>(std::lround(until / dt));

@@ -55,6 +55,10 @@ void fitTogether(Scene& scene, Choices& choices) {
   resizeUnlessEmpty(cloth.column_spacing, curtain::weftLinkCount(cloth));
   resizeUnlessEmpty(cloth.row_mass, cloth.rows);
   resizeUnlessEmpty(cloth.column_mass, cloth.columns);
+  resizeUnlessEmpty(scene.hem.weights, cloth.columns);
+  if (cloth.closed || cloth.hem_width) scene.hang.heading = curtain::Heading::kGathered;
+  scene.hang.pleats %= std::max(curtain::weftLinkCount(cloth) / 9, 1);
+  scene.hang.fullness.reset();
   if (cloth.closed) {
     if (scene.hang.radius) scene.hang.radius = choices.between(0.05, 1.0) * cloth.width / (2.0 * std::acos(-1.0));
     if (scene.hang.tilt != 0.0) scene.hang.tilt = -choices.between(0.0, 0.02);
@@ -63,6 +67,13 @@ void fitTogether(Scene& scene, Choices& choices) {
     placeLine(scene, choices);
   }
   for (NodeIndex& pin : scene.pins.nodes) putOnGrid(pin, cloth);
+  if (scene.air.law == curtain::AirLaw::kRelative) {
+    scene.air.density = std::max(scene.air.density, 1e-6);
+    scene.air.inside = scene.air.border = scene.air.corner = 0.0;
+    if (scene.solver.method == curtain::Method::kPaper) scene.solver.method = curtain::Method::kAuto;
+  } else {
+    scene.ambient.velocity.setZero();
+  }
   for (WindParams& wind : scene.wind) {
     const double length = wind.direction.norm();
     if (!(length >= 1e-150 && length <= 1e150)) wind.direction = Vec3::UnitX();

@@ -114,7 +114,7 @@ void drawForces(Dice& dice, const Ranges& ranges, Drawn& drawn) {
     scene.air.border = dice.between(0.0, 1.5);
     scene.air.corner = dice.between(0.0, 2.0);
     scene.air.fast_gain = dice.between(0.0, 0.3);
-    if (dice.chance(0.2)) scene.air.law = DampingLaw::kPrinted;
+    if (dice.chance(0.2)) scene.air.law = AirLaw::kPrinted;
   }
 }
 
@@ -180,6 +180,27 @@ void drawSlits(Drawn& drawn) {
   }
 }
 
+// Air by its relative velocity, by dice of its own again.
+void drawAir(Drawn& drawn) {
+  Dice dice(3 * drawn.seed + static_cast<std::uint64_t>(drawn.kind) + (3ULL << 60));
+  Scene& scene = drawn.scene;
+  const bool wild = drawn.kind == Kind::kWild;
+  if (scene.solver.method == Method::kPaper || !dice.chance(0.2)) return;
+  scene.air = AirParams();
+  scene.air.law = AirLaw::kRelative;
+  scene.air.normal_drag = dice.between(0.0, 2.0);
+  scene.air.tangential_drag = dice.between(0.0, 0.1);
+  if (dice.chance(0.7)) scene.ambient.velocity = dice.magnitude(0.3, wild ? 100.0 : 15.0) * dice.direction();
+  if (dice.chance(0.5)) scene.ambient.intensity = dice.between(0.0, wild ? 1.0 : 0.4);
+  scene.ambient.length_scale = dice.magnitude(0.1, 100.0);
+  if (dice.chance(0.5)) scene.ambient.spectrum = GustSpectrum::kDryden;
+  scene.ambient.seed = drawn.seed;
+  for (WindParams& wind : scene.wind) {
+    wind.shadow = dice.chance(0.3);
+    if (dice.chance(0.3)) wind.profile = WindProfile::kRingJet;
+  }
+}
+
 }  // namespace
 
 const char* kindName(Kind kind) {
@@ -217,6 +238,7 @@ Drawn draw(Kind kind, std::uint64_t seed) {
   else
     drawMore(drawn);
   drawSlits(drawn);
+  if (kind != Kind::kSudden) drawAir(drawn);
   if (!validate(scene).empty()) scene.cloth.hem_width.reset();  // tapered more than its rods can slant
   if (beginsTorn(scene)) scene.cloth.hem_width.reset();
   return drawn;

@@ -330,6 +330,11 @@ Drawn shrink(Drawn drawn, const Rigour& rigour) {
   cut([](Drawn& d) {
     return d.scene.air.inside + d.scene.air.border > 0.0 ? (d.scene.air = AirParams(), true) : false;
   });
+  cut([](Drawn& d) {
+    const bool relative = d.scene.air.law == AirLaw::kRelative;
+    return relative ? (d.scene.air = AirParams(), d.scene.ambient = AmbientParams(), true) : false;
+  });
+  cut([](Drawn& d) { return d.scene.ambient.intensity > 0.0 ? (d.scene.ambient.intensity = 0.0, true) : false; });
   const auto plain = [](std::vector<double>& values) { return values.empty() ? false : (values.clear(), true); };
   cut([](Drawn& d) { return d.scene.cloth.slits.empty() ? false : (d.scene.cloth.slits.clear(), true); });
   cut([plain](Drawn& d) { return plain(d.scene.cloth.row_spacing); });

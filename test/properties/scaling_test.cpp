@@ -60,6 +60,23 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Scaling,
                                             kEveryMethod),
                          nameOfKind);
 
+// Air by its relative velocity, with gusts: their length scale is a length, their seed none.
+TEST(ScalingOfRelativeAir, ChangesNoBit) {
+  for (const std::uint64_t seed : seeds(2)) {
+    Scene scene = randomScene(seed, slack().wanted);
+    scene.air = curtain::AirParams();
+    scene.air.law = curtain::AirLaw::kRelative;
+    scene.ambient.velocity = Vec3(1.0, 3.0, 0.5);
+    scene.ambient.intensity = 0.3;
+    scene.ambient.length_scale = 2.0;
+    const Motion motion = record(scene, kFrames);
+    for (const Similarity& s : {units(0x1p-10, 0x1p-5, 0x1p-20), units(0x1p6, 1.0, 0x1p4), units(1.0, 0x1p-4, 1.0)}) {
+      const Motion other = seenBack(s, record(seen(s, scene), kFrames));
+      EXPECT_EQ(firstDifference(motion, other), -1) << describe(s) << "; " << repeat(seed);
+    }
+  }
+}
+
 class ScalingOfRest : public ::testing::TestWithParam<Method> {};
 
 // Sleep goes by seconds, but not by metres and kilograms.

@@ -103,6 +103,8 @@ Scene seen(const Similarity& s, Scene scene) {
   for (double* const speed : {&scene.air.threshold, &scene.air.inside, &scene.air.border, &scene.air.corner})
     *speed *= s.speed();
   scene.air.fast_gain /= s.speed();
+  scene.ambient.velocity = s.speed() * s.direction(scene.ambient.velocity);
+  scene.ambient.length_scale *= s.length;
   for (auto& wind : scene.wind) see(s, wind);
   for (auto& drag : scene.drag) see(s, drag);
   for (auto& obstacle : scene.obstacles) see(s, obstacle);

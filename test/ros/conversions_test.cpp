@@ -83,6 +83,8 @@ TEST(Conversions, WindIsTurnedIntoTheWorld) {
   message.pose.position.x = 2.0;
   message.lifetime = 3.0;
   message.unsteadiness = 0.7;
+  message.shadow = true;
+  message.profile = WindSource::RING_JET;
   curtain::WindParams wind;
   wind.porosity_weight = 0.25;
   ASSERT_EQ(curtain::describe(toWind(message, turnedFrame(), 2.0, wind)), "");
@@ -92,6 +94,8 @@ TEST(Conversions, WindIsTurnedIntoTheWorld) {
   EXPECT_EQ(wind.end, 5.0);
   EXPECT_EQ(wind.pressure, 3.0);
   EXPECT_EQ(wind.unsteadiness, 0.7);
+  EXPECT_TRUE(wind.shadow);
+  EXPECT_EQ(wind.profile, curtain::WindProfile::kRingJet);
   EXPECT_EQ(wind.correlation_time, curtain::WindParams().correlation_time) << "0 is the default";
   EXPECT_EQ(wind.porosity_weight, 0.25) << "what a message does not name is kept";
 }
@@ -129,6 +133,7 @@ TEST(Conversions, BadWindsAreNamed) {
   expect("unsteadiness", [](WindSource& m) { m.unsteadiness = -1.0; });
   expect("correlation_time", [](WindSource& m) { m.correlation_time = -1.0; });
   expect("lifetime", [](WindSource& m) { m.lifetime = kNan; });
+  expect("profile", [](WindSource& m) { m.profile = 2; });
   // Finite, but nothing that a cloth could be held against.
   expect("pose.position", [](WindSource& m) { m.pose.position.x = -1e300; });
   expect("pose.orientation", [](WindSource& m) { m.pose.orientation.x = 1e200; });

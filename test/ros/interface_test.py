@@ -48,13 +48,15 @@ class InterfaceTest(unittest.TestCase):
         self.assertEqual(types[NODE + "/mesh"], "visualization_msgs/Marker")
         self.assertEqual(types[NODE + "/markers"], "visualization_msgs/MarkerArray")
         self.assertEqual(types[NODE + "/contacts"], "curtain_sim/Contacts")
+        self.assertEqual(types[NODE + "/loads"], "curtain_sim/Loads")
         published, subscribed, _ = master.getSystemState()
         inputs = [topic for topic, nodes in subscribed if NODE in nodes]
         outputs = [topic for topic, nodes in published if NODE in nodes]
         self.assertEqual(sorted(t for t in inputs if "handles" not in t),
                          ["/stage/drag_force", "/stage/wind_source"], "no obstacle: no tf2")
         self.assertEqual(sorted(t for t in outputs if t != "/rosout" and "handles" not in t),
-                         ["/diagnostics", NODE + "/contacts", NODE + "/markers", NODE + "/mesh", NODE + "/state"])
+                         ["/diagnostics", NODE + "/contacts", NODE + "/loads", NODE + "/markers", NODE + "/mesh",
+                          NODE + "/state"])
         self.assertEqual(types["/stage/wind_source"], "curtain_sim/WindSource")
         self.assertEqual(types["/stage/drag_force"], "curtain_sim/DragForce")
 
@@ -69,6 +71,8 @@ class InterfaceTest(unittest.TestCase):
         self.assertEqual(len(state.fold_nodes), 3 * ROWS * (COLUMNS - 1) * (FOLDS - 1))
         for column in range(COLUMNS):
             self.assertLess(distance(node_position(state, 0, column), (0.1 * column, 0.0, 2.0)), 1e-6)
+        self.assertEqual((len(state.warp_rest), len(state.weft_rest)), (ROWS - 1, ROWS * (COLUMNS - 1)))
+        self.assertTrue(all(rest > 0.0 for rest in state.warp_rest + state.weft_rest))
         self.assertTrue(state.statistics.finite)
         self.assertGreater(state.statistics.substeps_total, 0)
         self.assertEqual(state.statistics.absent_obstacles, 0)

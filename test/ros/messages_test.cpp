@@ -40,6 +40,7 @@ class Messages {
   explicit Messages(const curtain::Simulator& simulator)
       : geometry(simulator),
         state(withFolds(), geometry),
+        loads(withFolds(), simulator),
         contacts(withFolds()),
         mesh("world", geometry),
         details("world", geometry) {}
@@ -54,6 +55,7 @@ class Messages {
   }
   void buildAll() {
     state.build(stamp, {});
+    loads.build(stamp);
     contacts.build(geometry.simulator(), stamp);
     buildMesh();
     buildDetails();
@@ -61,6 +63,7 @@ class Messages {
 
   GeometryCache geometry;
   StateMessages state;
+  LoadMessages loads;
   ContactMessages contacts;
   MeshMarker mesh;
   DetailMarkers details;
@@ -80,6 +83,7 @@ void expectAsNew(Messages& messages) {
   Messages fresh(messages.geometry.simulator());
   fresh.stamp = messages.stamp;
   EXPECT_TRUE(*messages.state.build(messages.stamp, {}) == *fresh.state.build(fresh.stamp, {}));
+  EXPECT_TRUE(*messages.loads.build(messages.stamp) == *fresh.loads.build(fresh.stamp));
   EXPECT_TRUE(*messages.contacts.build(messages.geometry.simulator(), messages.stamp) ==
               *fresh.contacts.build(messages.geometry.simulator(), fresh.stamp));
   EXPECT_TRUE(*messages.buildMesh() == *fresh.buildMesh());

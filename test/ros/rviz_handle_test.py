@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A handle that is dragged with the mouse in rviz, shown by config/curtain.rviz, takes the hem along.
+"""A handle that is dragged with the mouse in rviz, shown by config/markers.rviz, takes the hem along.
 
 rviz runs on an X server of its own (Xvfb), the mouse is xdotool's. Passes with a message where one of them is not
 installed.
@@ -23,8 +23,8 @@ HEM = 13
 
 class RvizHandleTest(ScreenTest):
     def configuration(self):
-        """config/curtain.rviz with a camera that looks at the hem from the front."""
-        with open(os.path.join(roslib.packages.get_pkg_dir("curtain_sim"), "config", "curtain.rviz")) as file:
+        """config/markers.rviz with a camera that looks at the hem from the front."""
+        with open(os.path.join(roslib.packages.get_pkg_dir("curtain_sim"), "config", "markers.rviz")) as file:
             text = file.read()
         head, views = text.split("  Views:\n    Current:", 1)
         view = ("\n      Class: rviz/Orbit\n      Distance: 2.5\n      Focal Point: {X: 0.4, Y: 0, Z: 0.7}\n"

@@ -33,7 +33,7 @@ class RvizReopenTest(ScreenTest):
         self.curtain = Curtain(NODE)
         self.assertEqual(self.sent(), (0, 0), "nobody looks yet")
         environment = self.start_screen()
-        configuration = os.path.join(roslib.packages.get_pkg_dir("curtain_sim"), "config", "curtain.rviz")
+        configuration = os.path.join(roslib.packages.get_pkg_dir("curtain_sim"), "config", "markers.rviz")
         for ending in (signal.SIGTERM, signal.SIGKILL, signal.SIGTERM):
             before = self.sent()
             rviz = self.start("rviz", "-d", configuration, env=environment)

@@ -129,12 +129,29 @@ TEST(BadInput, SeedIsAWholeNumberOf64Bits) {
   }
 }
 
+TEST(BadInput, AirByRelativeVelocityNamesWhatDoesNotGoWithIt) {
+  const std::string law = "air: {law: relative";
+  expectProblem(with(law + ", density: 0}"), "air.density", {"must be >= 1e-06 with law relative, is 0"});
+  for (const char* const key : {"inside", "border", "corner"}) {
+    expectProblem(with(law + ", " + key + ": 0.5}"), std::string("air.") + key,
+                  {"must be 0 with law relative", "normal_drag and tangential_drag", "is 0.5"});
+  }
+  expectProblem(with(law + "}\nsolver: {method: paper}"), "air.law",
+                {"continuous or printed with solver.method paper"});
+  expectProblem(with("ambient: {velocity: [0, 3, 0]}"), "ambient.velocity",
+                {"must be [0, 0, 0] unless air.law is relative"});
+  expectProblem(with("ambient: {intensity: 1.5}"), "ambient.intensity", {"a number in [0, 1], is 1.5"});
+  expectProblem(with("ambient: {length_scale: 0}"), "ambient.length_scale", {"a number in [0.001, 1000000], is 0"});
+  expectProblem(with("ambient: {spectrum: pink}"), "ambient.spectrum", {"von_karman or dryden", "\"pink\""});
+  expectProblem(wind("profile: ring"), "wind[0].profile", {"uniform or ring_jet", "\"ring\""});
+}
+
 TEST(BadInput, UnknownWordsAreNamedWithTheKnownOnes) {
   expectProblem(cloth("lumping: even"), "cloth.lumping", {"area or uniform, is the text \"even\""});
   expectProblem(cloth("closed: 'true'"), "cloth.closed", {"true or false, is the text \"true\""});
   expectProblem(cloth("closed: 1"), "cloth.closed", {"true or false, is 1"});
   expectProblem(cloth("closed: maybe"), "cloth.closed", {"true or false, is the text \"maybe\""});
-  expectProblem(with("air: {law: 3}"), "air.law", {"continuous or printed, is 3"});
+  expectProblem(with("air: {law: 3}"), "air.law", {"continuous, printed or relative, is 3"});
   expectProblem(with("solver: {method: magic}"), "solver.method",
                 {"auto, leapfrog, leapfrog4, bdf2, implicit or paper", "\"magic\""});
   expectProblem(with("contact: {self: 0}"), "contact.self", {"true or false, is 0"});
@@ -258,6 +275,30 @@ TEST(BadInput, RingWiderThanItsWeftIsNamed) {
   expectScene(ring + ", hem_width: 2.0}\nhang: {tilt: 0.0796}\n");
   expectProblem(ring + "}\nhang: {tilt: -1.0}\n", "hang.tilt", {"radius > 0", "row 1"});
   expectProblem(ring + "}\nhang: {radius: 0}\n", "hang.radius", {"a number in [1e-09, 1000000000], is 0"});
+}
+
+TEST(BadInput, HeadingsThatDoNotFitTheirClothAreRefused) {
+  const auto pleated = [](const std::string& of_cloth, const std::string& of_hang) {
+    return "cloth: {rows: 4, columns: 19, " + of_cloth + "}\nhang: {from: [0, 0, 2], to: [0.5, 0, 2], " + of_hang +
+           "}\n";
+  };
+  expectScene(pleated("width: 1.0", "heading: pinch"));
+  expectScene(pleated("width: 1.0", "heading: pinch, fullness: 2.0"));
+  EXPECT_EQ(expectScene(pleated("height: 1.0", "heading: ripple, fullness: 2.5")).cloth.width, 1.25);
+  expectProblem(pleated("width: 1.0", "fullness: 1.9"), "hang.fullness", {"cloth.width / |to - from| = 2", "is 1.9"});
+  expectProblem(pleated("width: 1.0", "fullness: 3.5"), "hang.fullness", {"[1, 3]", "is 3.5"});
+  expectProblem(pleated("width: 1.6", "heading: pencil"), "hang.heading",
+                {"more than three times", "is pencil at 3.2"});
+  expectProblem(pleated("width: 1.0", "heading: pleated"), "hang.heading", {"gathered, pencil, pinch or ripple"});
+  expectProblem(pleated("width: 1.0", "heading: ripple, pleats: 5"), "hang.pleats", {"4 weft links", "18 for 5"});
+  expectProblem(pleated("width: 1.0", "heading: pinch, pleats: 3"), "hang.pleats", {"9 weft links", "18 for 3"});
+  expectProblem(pleated("width: 1.0, hem_width: 1.2", "heading: pencil"), "hang.heading", {"tapered", "is pencil"});
+  expectProblem("cloth: {rows: 4, columns: 19, closed: true}\nhang: {heading: ripple}\n", "hang.heading",
+                {"closed cloth"});
+  expectProblem("cloth: {rows: 4, columns: 8}\nhang: {heading: pinch}\n", "hang.heading", {"9 weft links", "7 for 1"});
+  expectProblem(pleated("width: 1.0", "tilt: 0.0}\nhem: {weights: [0.1]"), "hem.weights",
+                {"19 entries (columns)", "has 1"});
+  expectProblem(pleated("width: 1.0", "tilt: 0.0}\nhem: {line_density: -1"), "hem.line_density", {"is -1"});
 }
 
 TEST(BadInput, RingOfUnevenLinksIsBoundByItsShortOnes) {

@@ -85,8 +85,9 @@ TEST(GoodInput, EveryWordHasItsMeaning) {
   const auto law = [](const char* word) {
     return expectScene(std::string(smallScene()) + "air: {law: " + word + "}").air.law;
   };
-  EXPECT_EQ(law("continuous"), DampingLaw::kContinuous);
-  EXPECT_EQ(law("printed"), DampingLaw::kPrinted);
+  EXPECT_EQ(law("continuous"), AirLaw::kContinuous);
+  EXPECT_EQ(law("printed"), AirLaw::kPrinted);
+  EXPECT_EQ(law("relative"), AirLaw::kRelative);
   const auto shape = [](const char* text) {
     return expectScene(std::string(smallScene()) + "obstacles: [{name: a, shape: " + text + "}]").obstacles[0].shape;
   };

@@ -87,6 +87,8 @@ void compareWind(const WindParams& a, const WindParams& b) {
   c.number("unsteadiness", a.unsteadiness, b.unsteadiness);
   c.number("correlation_time", a.correlation_time, b.correlation_time);
   c.number("correlation_length", a.correlation_length, b.correlation_length);
+  c.same("profile", a.profile, b.profile);
+  c.same("shadow", a.shadow, b.shadow);
   c.number("start", a.start, b.start);
   c.number("end", a.end, b.end);
 }
@@ -147,6 +149,11 @@ void compareRest(const Scene& a, const Scene& b) {
   c.vector("hang.to", a.hang.to, b.hang.to);
   c.optional("hang.radius", a.hang.radius, b.hang.radius);
   c.number("hang.tilt", a.hang.tilt, b.hang.tilt);
+  c.same("hang.heading", a.hang.heading, b.hang.heading);
+  c.same("hang.pleats", a.hang.pleats, b.hang.pleats);
+  c.optional("hang.fullness", a.hang.fullness, b.hang.fullness);
+  c.number("hem.line_density", a.hem.line_density, b.hem.line_density);
+  c.numbers("hem.weights", a.hem.weights, b.hem.weights);
   c.same("pins.kind", a.pins.kind, b.pins.kind);
   ASSERT_EQ(a.pins.nodes.size(), b.pins.nodes.size());
   for (std::size_t i = 0; i < a.pins.nodes.size(); ++i) c.node("pins", a.pins.nodes[i], b.pins.nodes[i]);
@@ -158,6 +165,13 @@ void compareRest(const Scene& a, const Scene& b) {
   c.number("air.border", a.air.border, b.air.border);
   c.number("air.corner", a.air.corner, b.air.corner);
   c.number("air.fast_gain", a.air.fast_gain, b.air.fast_gain);
+  c.number("air.normal_drag", a.air.normal_drag, b.air.normal_drag);
+  c.number("air.tangential_drag", a.air.tangential_drag, b.air.tangential_drag);
+  c.vector("ambient.velocity", a.ambient.velocity, b.ambient.velocity);
+  c.number("ambient.intensity", a.ambient.intensity, b.ambient.intensity);
+  c.number("ambient.length_scale", a.ambient.length_scale, b.ambient.length_scale);
+  c.same("ambient.spectrum", a.ambient.spectrum, b.ambient.spectrum);
+  c.same("ambient.seed", a.ambient.seed, b.ambient.seed);
   c.number("contact.thickness", a.contact.thickness, b.contact.thickness);
   c.number("contact.friction", a.contact.friction, b.contact.friction);
   c.same("contact.self", a.contact.self, b.contact.self);
@@ -217,6 +231,8 @@ WindParams oddWind(Numbers& numbers, const std::string& id) {
   wind.unsteadiness = 4.9406564584124654e-324;  // the smallest double there is
   wind.correlation_time = numbers.between(0.1, 1.0);
   wind.correlation_length = numbers.between(0.1, 1.0);
+  wind.profile = WindProfile::kRingJet;
+  wind.shadow = true;
   wind.start = -0.0;
   wind.end = numbers.between(1.0, 2.0);
   return wind;
@@ -259,12 +275,16 @@ Scene oddScene() {
   scene.cloth.row_mass = numbers.list(6);
   scene.cloth.column_mass = numbers.list(5);
   scene.hang.from = Vec3(0.1, 0.2, 0.3);
-  scene.hang.to = Vec3(0.1 + 1.0 / 3.0, 0.7, 1e-17);
+  scene.hang.to = Vec3(0.1 + 4.0 / 3.0, 0.7, 1e-17);
   scene.hang.tilt = 3.14159265358979323846 / 2.0;
+  scene.hang.fullness = scene.cloth.width / (scene.hang.to - scene.hang.from).norm();
+  scene.hem.line_density = 1.0 / 11.0;
+  scene.hem.weights = numbers.list(5);
   scene.pins.kind = PinKind::kList;
   scene.pins.nodes = {{0, 0}, {5, 4}};
   scene.gravity = numbers.vector();
-  scene.air = {1.0 / 7.0, DampingLaw::kPrinted, 2.0 / 7.0, 3.0 / 7.0, 4.0 / 7.0, 5.0 / 7.0, 6.0 / 7.0};
+  scene.air = {1.0 / 7.0, AirLaw::kRelative, 2.0 / 7.0, 0.0, 0.0, 0.0, 6.0 / 7.0, 8.0 / 7.0, 9.0 / 7.0};
+  scene.ambient = {numbers.vector(), 1.0 / 3.0, 10.0 / 3.0, GustSpectrum::kDryden, 12345678901234567890ULL};
   // Ids that YAML would take for something else, were they not quoted.
   const std::string controls("tab\t line\n nul\0 end", 18);
   for (const std::string& id : {std::string("5"), std::string("on"), std::string("~"), controls}) {
@@ -344,7 +364,7 @@ TEST(RoundTrip, EveryKeyIsSpelledOut) {
   const auto has = [](const YAML::Node& node, const std::vector<std::string>& keys) {
     for (const std::string& key : keys) EXPECT_TRUE(node[key].IsDefined()) << key;
   };
-  has(root, {"cloth", "hang", "pins", "gravity", "air", "wind", "drag", "obstacles", "contact", "solver"});
+  has(root, {"cloth", "hang", "hem", "pins", "gravity", "air", "wind", "drag", "obstacles", "contact", "solver"});
   has(root["cloth"], {"rows", "columns", "closed", "folds", "porosity", "lumping", "row_spacing", "hem_width"});
   has(root["wind"][0], {"id", "node_force", "correlation_length", "start", "end"});
   has(root["obstacles"][0], {"name", "frame", "shape", "radius", "position", "orientation", "motion"});

@@ -206,11 +206,11 @@ TEST(Snapshot, HasAVersionForEveryLayout) {
   SnapshotParts parts;
   const std::string snapshot = Simulator(all).snapshot();
   ASSERT_FALSE(unpackSnapshot(snapshot, parts).has_value());
-  EXPECT_EQ(kSnapshotVersion, 5U);
-  EXPECT_EQ(parts.layout, 1887345276U);
+  EXPECT_EQ(kSnapshotVersion, 6U);
+  EXPECT_EQ(parts.layout, 3958578607U);
   const std::string plain = Simulator(flatScene(4, 5)).snapshot();
   ASSERT_FALSE(unpackSnapshot(plain, parts).has_value());
-  EXPECT_EQ(parts.layout, 3649772723U);
+  EXPECT_EQ(parts.layout, 3033870120U);
 }
 
 }  // namespace

@@ -5,6 +5,9 @@
 //
 //   0 scene < 1 cloth < 2 forces < 3 solver, contact < 4 simulator < 5 ros < 6 programs
 //
+// The rviz display stands beside ros, a house of its own: it includes public headers and messages alone, and nothing
+// includes it.
+//
 // So do the rooms of contact and of ros, with what puts them together above them:
 //
 //   0 shapes < 1 narrow_phase, oracle < 2 broad_phase < 3 response < 4 contact's own files
@@ -27,7 +30,7 @@ using curtain_test::SourceFile;
 using curtain_test::sourceFiles;
 
 const std::map<std::string, int> kFolders = {{"scene", 0},   {"cloth", 1},     {"forces", 2}, {"solver", 3},
-                                             {"contact", 3}, {"simulator", 4}, {"ros", 5}};
+                                             {"contact", 3}, {"simulator", 4}, {"ros", 5},    {"rviz", 5}};
 using Rooms = std::map<std::string, int>;
 const Rooms kContactRooms = {{"shapes", 0}, {"narrow_phase", 1}, {"oracle", 1}, {"broad_phase", 2}, {"response", 3}};
 const Rooms kRosRooms = {{"parameters", 0}, {"time", 0},      {"frames", 0}, {"inputs", 1}, {"obstacles", 1},
@@ -219,11 +222,42 @@ TEST(Floors, PublicHeadersDefineTheTypesTheyName) {
   }
 }
 
+// A part of rviz, Ogre or Qt.
+bool isOfRviz(const Include& include) {
+  if (include.quoted) return false;
+  const std::regex name("(rviz|Overlay|OGRE)/.*|Ogre\\w+\\.h|Q[A-Z]\\w+");
+  return std::regex_match(include.file, name);
+}
+
+TEST(Floors, TheRvizDisplayIsAHouseOfItsOwn) {
+  int own = 0, of_rviz = 0;
+  for (const SourceFile& file : houseFiles()) {
+    const bool inside = file.name.rfind("src/rviz/", 0) == 0;
+    const bool surface = file.name.rfind("src/rviz/surface/", 0) == 0;
+    for (const Include& include : includesOf(file)) {
+      const std::string folder = firstFolder(include.file);
+      if (include.quoted && folder == "rviz") {
+        EXPECT_TRUE(inside) << file.name << " includes " << include.file;
+        const bool of_surface = include.file.rfind("rviz/surface/", 0) == 0;
+        EXPECT_TRUE(of_surface || !surface) << file.name << " includes " << include.file << ", which needs rviz";
+        ++own;
+      } else if (inside && include.quoted) {
+        EXPECT_EQ(folder, "curtain_sim") << file.name << " includes " << include.file;
+      }
+      if (!isOfRviz(include)) continue;
+      EXPECT_TRUE(inside && !surface) << file.name << " includes " << include.file;
+      ++of_rviz;
+    }
+  }
+  EXPECT_GT(own, 15) << "looked in the wrong place";
+  EXPECT_GT(of_rviz, 15) << "the test must recognise them";
+}
+
 TEST(Floors, OnlyTheTopKnowsRos) {
   int ros_includes = 0;
   for (const SourceFile& file : houseFiles()) {
-    const bool top = file.name.rfind("src/ros/", 0) == 0 || file.name == "src/curtain_node.cpp" ||
-                     file.name == "src/curtain_nodelet.cpp";
+    const bool top = file.name.rfind("src/ros/", 0) == 0 || file.name.rfind("src/rviz/", 0) == 0 ||
+                     file.name == "src/curtain_node.cpp" || file.name == "src/curtain_nodelet.cpp";
     for (const Include& include : includesOf(file)) {
       const std::string folder = firstFolder(include.file);
       const bool message_package = folder.size() > 5 && folder.compare(folder.size() - 5, 5, "_msgs") == 0;

@@ -85,6 +85,7 @@ void Inputs::apply(Simulator& simulator) {
   warnOfOverflow();
   for (const std::string& id : idsOver(simulator.winds(), simulator.time())) simulator.removeWind(id);
   for (const std::string& id : idsOver(simulator.drags(), simulator.time())) simulator.removeDrag(id);
+  carried_.update(frames_, simulator);
 }
 
 template <typename Message>
@@ -116,6 +117,7 @@ bool Inputs::handle(const char* topic, const Message& message, Simulator& simula
   }
   if (problems.empty()) {
     ++taken_;
+    note(message);
   } else {
     ++invalid_;
     drop(name, curtain::describe(problems));

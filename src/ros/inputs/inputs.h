@@ -18,6 +18,7 @@
 #include "curtain_sim/WindSource.h"
 #include "curtain_sim/simulator.h"
 #include "ros/frames/frames.h"
+#include "ros/inputs/carried_winds.h"
 #include "ros/inputs/mailbox.h"
 
 namespace curtain_ros {
@@ -30,8 +31,12 @@ class Inputs {
   /// Leaves a user force as if it came on the topic. Any thread.
   void post(const curtain_sim::DragForce::ConstPtr& message) { drags_.mailbox.post(message); }
 
-  /// Applies what arrived, in order, and removes sources whose lifetime is over. Simulation thread.
+  /// Applies what arrived, in order, moves winds with their frames, and removes sources whose lifetime is over.
+  /// Simulation thread.
   void apply(curtain::Simulator& simulator);
+
+  /// A new run begins: the simulator has gone back to the scene's winds and drags. Simulation thread.
+  void restart() { carried_.clear(); }
 
   /// Messages taken and dropped since construction. Simulation thread.
   void count(curtain_sim::Statistics& statistics) const;
@@ -62,7 +67,11 @@ class Inputs {
   void drop(const std::string& message, const std::string& why);
   void warnOfOverflow();
 
+  void note(const curtain_sim::WindSource& message) { carried_.take(message); }
+  void note(const curtain_sim::DragForce&) {}
+
   Frames& frames_;
+  CarriedWinds carried_;
   Topic<curtain_sim::WindSource> winds_;
   Topic<curtain_sim::DragForce> drags_;
   std::uint64_t taken_ = 0;

@@ -77,20 +77,32 @@ Problems toWind(const WindSource& message, const curtain::Pose& frame, double ti
   check.number("correlation_time", message.correlation_time, kTime);
   check.number("pressure", message.pressure, kStrength);
   check.number("unsteadiness", message.unsteadiness, kStrength);
+  if (message.profile != WindSource::UNIFORM && message.profile != WindSource::RING_JET) {
+    log.add("profile", "must be UNIFORM (0) or RING_JET (1), is " + std::to_string(message.profile));
+  }
   if (!log.problems().empty()) return log.problems();
 
   wind.id = message.id;
-  wind.position = transformPoint(frame, position);
-  wind.direction = frame.orientation * (orientation.normalized() * Vec3::UnitX());
+  placeWind(message, frame, wind);
   wind.radius = message.radius;
   wind.half_angle = message.half_angle;
   wind.pressure = message.pressure;
   wind.unsteadiness = message.unsteadiness;
+  wind.shadow = message.shadow != 0;
+  wind.profile =
+      message.profile == WindSource::RING_JET ? curtain::WindProfile::kRingJet : curtain::WindProfile::kUniform;
   wind.correlation_time =
       message.correlation_time > 0.0 ? message.correlation_time : curtain::WindParams().correlation_time;
   wind.start = time;
   wind.end = endOf(message.lifetime, time);
   return {};
+}
+
+void placeWind(const WindSource& message, const curtain::Pose& frame, curtain::WindParams& wind) {
+  const auto& q = message.pose.orientation;
+  const Eigen::Quaterniond orientation(q.w, q.x, q.y, q.z);
+  wind.position = transformPoint(frame, toVec3(message.pose.position));
+  wind.direction = frame.orientation * (orientation.normalized() * Vec3::UnitX());
 }
 
 Problems toDrag(const DragForce& message, const curtain::Pose& frame, double time, const curtain::ClothParams& cloth,

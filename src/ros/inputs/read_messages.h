@@ -30,6 +30,9 @@ std::vector<curtain::Problem> checkHead(const curtain_sim::DragForce& message);
 std::vector<curtain::Problem> toWind(const curtain_sim::WindSource& message, const curtain::Pose& frame, double time,
                                      curtain::WindParams& wind);
 
+/// Puts a wind source where a valid message has it in its frame.
+void placeWind(const curtain_sim::WindSource& message, const curtain::Pose& frame, curtain::WindParams& wind);
+
 /// An ADD message as a user force on the grid of `cloth`. Simulator::setDrag() checks the remaining fields.
 std::vector<curtain::Problem> toDrag(const curtain_sim::DragForce& message, const curtain::Pose& frame, double time,
                                      const curtain::ClothParams& cloth, curtain::DragParams& drag);

@@ -12,6 +12,9 @@
 
 namespace curtain_ros {
 
+/// The source blows at this time [s].
+inline bool blows(const curtain::WindParams& wind, double time) { return wind.start <= time && time < wind.end; }
+
 /// Simulation thread only.
 class GeometryCache {
  public:

@@ -170,7 +170,7 @@ std::uint64_t DetailMarkers::update() {
   const curtain::Simulator& simulator = geometry_.simulator();
   cones_now_.clear();
   for (const curtain::WindParams& source : simulator.winds()) {
-    if (source.start <= simulator.time() && simulator.time() < source.end) addCone(source, cones_now_);
+    if (blows(source, simulator.time())) addCone(source, cones_now_);
   }
   if (cones_now_ != cones_ || revision_ != geometry_.revision()) ++picture_;
   std::swap(cones_, cones_now_);

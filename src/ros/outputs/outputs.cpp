@@ -18,12 +18,14 @@ Outputs::Outputs(ros::NodeHandle node, const NodeParams& params, const curtain::
       viewer_frame_(params.mesh_viewer_frame),
       state_{node.advertise<curtain_sim::CurtainState>("state", 2),
              {params.state_rate, params.state_rest_rate, simulator.scene().solver.frame_rate}},
+      loads_{node.advertise<curtain_sim::Loads>("loads", 2), state_.pace},
       contacts_{node.advertise<curtain_sim::Contacts>("contacts", 2), state_.pace},
       mesh_{node.advertise<visualization_msgs::Marker>("mesh", 1),
             {params.mesh_rate, kMarkersAtRest, simulator.scene().solver.frame_rate}},
       markers_{node.advertise<visualization_msgs::MarkerArray>("markers", 1),
                {params.markers_rate, kMarkersAtRest, simulator.scene().solver.frame_rate}},
       states_(params, geometry_),
+      load_messages_(params, simulator),
       contact_messages_(params),
       mesh_marker_(params.world_frame, geometry_),
       detail_markers_(params.world_frame, geometry_),
@@ -33,11 +35,14 @@ Outputs::Outputs(ros::NodeHandle node, const NodeParams& params, const curtain::
 }
 
 void Outputs::publish(const ros::Time& stamp, curtain_sim::Statistics statistics, bool latest) {
-  for (Stream* stream : {&state_, &contacts_, &mesh_, &markers_}) stream->pace.tick();
+  for (Stream* stream : {&state_, &loads_, &contacts_, &mesh_, &markers_}) stream->pace.tick();
   if (state_.due() && state_.pace.send(geometry_.revision())) {
     ++state_.sent;
     count(statistics);
     state_.publisher.publish(states_.build(stamp, statistics));
+  }
+  if (loads_.due() && loads_.pace.send(geometry_.revision())) {
+    loads_.publisher.publish(load_messages_.build(stamp));
   }
   if (contacts_.due() && contacts_.pace.send(geometry_.revision())) {
     contacts_.publisher.publish(contact_messages_.build(geometry_.simulator(), stamp));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// ~state, ~contacts, ~mesh and ~markers. What nobody subscribes to is not built; what is built is shared with
+// ~state, ~loads, ~contacts, ~mesh and ~markers. What nobody subscribes to is not built; what is built is shared with
 // subscribers in this process, not copied. And the plan (what runs for the scene, what is skipped) in the log, at level
 // DEBUG.
 #pragma once
@@ -56,8 +56,9 @@ class Outputs {
   std::string viewer_frame_;
   std::string viewer_error_;
   curtain::MeshDetail detail_;
-  Stream state_, contacts_, mesh_, markers_;
+  Stream state_, loads_, contacts_, mesh_, markers_;
   StateMessages states_;
+  LoadMessages load_messages_;
   ContactMessages contact_messages_;
   MeshMarker mesh_marker_;
   DetailMarkers detail_markers_;

@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/outputs/state_messages.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "ros/frames/geometry.h"
 
 namespace curtain_ros {
 
 namespace {
+
+void toFloats(const std::vector<double>& numbers, std::vector<float>& out) {
+  out.resize(numbers.size());
+  std::transform(numbers.begin(), numbers.end(), out.begin(), [](double x) { return static_cast<float>(x); });
+}
 
 curtain_sim::CurtainState blankState(const NodeParams& params, const curtain::Simulator& simulator) {
   curtain_sim::CurtainState message;
@@ -14,6 +22,22 @@ curtain_sim::CurtainState blankState(const NodeParams& params, const curtain::Si
   message.columns = static_cast<std::uint32_t>(simulator.columns());
   message.closed = simulator.scene().cloth.closed;
   message.folds = static_cast<std::uint32_t>(simulator.scene().cloth.folds);
+  std::vector<double> warp, weft;
+  simulator.copyRestLengths(warp, weft);
+  toFloats(warp, message.warp_rest);
+  toFloats(weft, message.weft_rest);
+  for (const curtain::SlitParams& slit : simulator.scene().cloth.slits) {
+    message.slit_columns.push_back(static_cast<std::uint32_t>(slit.column));
+    message.slit_rows.push_back(static_cast<std::uint32_t>(slit.from_row));
+  }
+  return message;
+}
+
+curtain_sim::Loads blankLoads(const NodeParams& params, const curtain::Simulator& simulator) {
+  curtain_sim::Loads message;
+  message.header.frame_id = params.world_frame;
+  message.rows = static_cast<std::uint32_t>(simulator.rows());
+  message.columns = static_cast<std::uint32_t>(simulator.columns());
   return message;
 }
 
@@ -72,6 +96,21 @@ void toMessage(const curtain::Statistics& statistics, curtain_sim::Statistics& m
   message.stops = static_cast<std::uint64_t>(statistics.stops);
 }
 
+void toMessage(const curtain::WindParams& wind, double time, curtain_sim::WindSource& message) {
+  message.id = wind.id;
+  message.action = curtain_sim::WindSource::ADD;
+  message.pose = toPose({wind.position, Eigen::Quaterniond::FromTwoVectors(curtain::Vec3::UnitX(), wind.direction)});
+  message.radius = wind.radius;
+  message.half_angle = wind.half_angle;
+  message.pressure = wind.pressure;
+  message.unsteadiness = wind.unsteadiness;
+  message.correlation_time = wind.correlation_time;
+  message.profile = wind.profile == curtain::WindProfile::kRingJet ? curtain_sim::WindSource::RING_JET
+                                                                   : curtain_sim::WindSource::UNIFORM;
+  message.shadow = wind.shadow ? 1 : 0;
+  message.lifetime = std::isfinite(wind.end) ? wind.end - time : 0.0;
+}
+
 StateMessages::StateMessages(const NodeParams& params, GeometryCache& geometry)
     : geometry_(geometry), folds_(params.state_folds), message_(blankState(params, geometry.simulator())) {}
 
@@ -80,6 +119,7 @@ curtain_sim::CurtainState::ConstPtr StateMessages::build(const ros::Time& stamp,
   const auto message = message_.edit();
   if (filled_ != geometry_.revision()) fill(*message);
   filled_ = geometry_.revision();
+  fillWinds(*message);
   message->header.stamp = stamp;
   message->statistics = statistics;
   toMessage(geometry_.simulator().statistics(), message->statistics);
@@ -94,6 +134,32 @@ void StateMessages::fill(curtain_sim::CurtainState& message) {
   simulator.copyForces(vectors_);
   flatten(vectors_, message.forces);
   if (folds_) flattenFolds(simulator.fineMeshTopology(), geometry_.fineMesh(), message.fold_nodes);
+}
+
+// They come and go without a new revision.
+void StateMessages::fillWinds(curtain_sim::CurtainState& message) {
+  const curtain::Simulator& simulator = geometry_.simulator();
+  std::size_t count = 0;
+  for (const curtain::WindParams& wind : simulator.winds()) {
+    if (!blows(wind, simulator.time())) continue;
+    if (message.winds.size() == count) message.winds.emplace_back();
+    toMessage(wind, simulator.time(), message.winds[count++]);
+  }
+  message.winds.resize(count);
+}
+
+LoadMessages::LoadMessages(const NodeParams& params, const curtain::Simulator& simulator)
+    : simulator_(simulator), message_(blankLoads(params, simulator)) {}
+
+curtain_sim::Loads::ConstPtr LoadMessages::build(const ros::Time& stamp) {
+  const auto message = message_.edit();
+  message->header.stamp = stamp;
+  simulator_.copyTensions(warp_, weft_);
+  toFloats(warp_, message->warp_tension);
+  toFloats(weft_, message->weft_tension);
+  simulator_.copyContactForces(forces_);
+  flatten(forces_, message->contact_forces);
+  return message;
 }
 
 ContactMessages::ContactMessages(const NodeParams& params) : message_(blankContacts(params)) {}

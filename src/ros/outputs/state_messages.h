@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The messages of ~state and ~contacts, and what they are made of. Needs no ROS master.
+// The messages of ~state, ~loads and ~contacts, and what they are made of. Needs no ROS master.
 #pragma once
 
 #include <ros/time.h>
@@ -11,6 +11,7 @@
 
 #include "curtain_sim/Contacts.h"
 #include "curtain_sim/CurtainState.h"
+#include "curtain_sim/Loads.h"
 #include "ros/outputs/geometry_cache.h"
 #include "ros/outputs/reused_message.h"
 #include "ros/parameters/parameters.h"
@@ -26,6 +27,9 @@ void flattenFolds(const curtain::FineMeshTopology& topology, const curtain::Fine
 /// The engine's part of the statistics; the node's own fields are left as they are.
 void toMessage(const curtain::Statistics& statistics, curtain_sim::Statistics& message);
 
+/// A wind source as the message that would set it at this time [s], with the world frame's pose.
+void toMessage(const curtain::WindParams& wind, double time, curtain_sim::WindSource& message);
+
 /// Node states. One thread at a time.
 class StateMessages {
  public:
@@ -38,12 +42,28 @@ class StateMessages {
 
  private:
   void fill(curtain_sim::CurtainState& message);
+  void fillWinds(curtain_sim::CurtainState& message);
 
   GeometryCache& geometry_;
   bool folds_;
   std::vector<curtain::Vec3> vectors_;
   std::optional<std::uint64_t> filled_;  // revision of the arrays in the message
   ReusedMessage<curtain_sim::CurtainState> message_;
+};
+
+/// Tensions and contact forces. One thread at a time.
+class LoadMessages {
+ public:
+  /// simulator must outlive this.
+  LoadMessages(const NodeParams& params, const curtain::Simulator& simulator);
+
+  curtain_sim::Loads::ConstPtr build(const ros::Time& stamp);
+
+ private:
+  const curtain::Simulator& simulator_;
+  std::vector<double> warp_, weft_;
+  std::vector<curtain::Vec3> forces_;
+  ReusedMessage<curtain_sim::Loads> message_;
 };
 
 /// What the cloth does to the obstacles that are present. One thread at a time.

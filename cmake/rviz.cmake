@@ -1,0 +1,21 @@
+# The rviz display curtain_sim/Curtain, where rviz's library is (Debian: librviz-dev). Its part that needs no rviz, the
+# surface, is always built: so is its test.
+file(GLOB CURTAIN_SURFACE_SOURCES CONFIGURE_DEPENDS src/rviz/surface/*.cpp)
+add_library(curtain_surface STATIC ${CURTAIN_SURFACE_SOURCES})
+add_dependencies(curtain_surface ${curtain_sim_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
+target_include_directories(curtain_surface PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/src)
+target_include_directories(curtain_surface SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/include ${catkin_INCLUDE_DIRS})
+target_link_libraries(curtain_surface PUBLIC curtain_engine PRIVATE curtain_warnings)
+
+find_package(rviz QUIET)
+find_package(Qt5 QUIET COMPONENTS Widgets)
+if(NOT rviz_FOUND OR NOT Qt5_FOUND)
+  message(STATUS "curtain_sim: no librviz found, building without the rviz display (Debian: librviz-dev)")
+  return()
+endif()
+message(STATUS "curtain_sim: building the rviz display with librviz ${rviz_VERSION}")
+file(GLOB CURTAIN_RVIZ_SOURCES CONFIGURE_DEPENDS src/rviz/*.cpp)
+add_library(curtain_rviz MODULE ${CURTAIN_RVIZ_SOURCES})
+target_include_directories(curtain_rviz SYSTEM PRIVATE ${rviz_INCLUDE_DIRS})
+target_compile_definitions(curtain_rviz PRIVATE QT_NO_KEYWORDS)
+target_link_libraries(curtain_rviz PRIVATE curtain_surface curtain_warnings ${catkin_LIBRARIES} ${rviz_LIBRARIES} Qt5::Widgets)
