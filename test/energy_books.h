@@ -72,7 +72,8 @@ class EnergyBooks {
     const double moves = std::accumulate(works_.begin(), works_.end(), scale_);
     const double put_in = forces + pins + obstacles, kinetic = simulator.energy().kinetic,
                  energy = freeEnergy(simulator);
-    const double own = own_.add(work.kinetic - last_.kinetic - (work.gravity - last_.gravity) - put_in, kinetic, moves);
+    const double own = own_.add(work.kinetic - last_.kinetic - (work.gravity - last_.gravity) -
+                                (work.bending - last_.bending) - put_in, kinetic, moves);
     const double synchronised = synchronised_.add(energy - last_energy_ - put_in, kinetic, moves);
     worst_ = std::max(worst_, gravity_changes ? own : std::min(own, synchronised));
     last_ = work;

@@ -55,19 +55,38 @@ struct SlitParams {
   int from_row = 0;  ///< the weft links of this row and of all below it are cut [0..rows - 1]
 };
 
+/// Fabrics with known properties (docs/materials.md).
+enum class Material {
+  kNone,
+  kCottonVoile,
+  kLinen,
+  kSilk,
+  kPolyester,
+  kVelvet,
+  kBlackout,
+  kHospital,
+  kShowerPeva,
+  kPvcStrip,
+  kCanvas,
+  kParachuteNylon
+};
+
 /// The cloth: its grid, its size and its mass.
 struct ClothParams {
-  int rows = 0;                      ///< nodes along the warp, hung edge first [2..4096]; no default
-  int columns = 0;                   ///< nodes along the weft [2..4096] (closed cloth: [3..4096]); no default
-  double height = 2.0;               ///< warp length [m], > 0
-  double width = 1.0;                ///< weft length of the top row [m], > 0
-  std::optional<double> hem_width;   ///< weft length of the bottom row [m], > 0; default: width
-  double surface_density = 0.2;      ///< [kg/m^2], > 0
-  Lumping lumping = Lumping::kArea;  ///< how mass is shared among the nodes
-  bool closed = false;               ///< the weft closes to a ring (skirt, canopy)
-  int folds = 6;                     ///< rods per weft link [1..64]; 1 = no second-layer nodes
-  double porosity = 0.0;             ///< share of the air that passes through [0..1]
-  std::vector<SlitParams> slits;     ///< cuts along the warp, each elsewhere; strips have at least two columns
+  int rows = 0;                         ///< nodes along the warp, hung edge first [2..4096]; no default
+  int columns = 0;                      ///< nodes along the weft [2..4096] (closed cloth: [3..4096]); no default
+  double height = 2.0;                  ///< warp length [m], > 0
+  double width = 1.0;                   ///< weft length of the top row [m], > 0
+  std::optional<double> hem_width;      ///< weft length of the bottom row [m], > 0; default: width
+  Material material = Material::kNone;  ///< what applyMaterial() was called with; has no effect of its own
+  double surface_density = 0.2;         ///< [kg/m^2], > 0
+  Lumping lumping = Lumping::kArea;     ///< how mass is shared among the nodes
+  bool closed = false;                  ///< the weft closes to a ring (skirt, canopy)
+  int folds = 6;                        ///< rods per weft link [1..64]; 1 = no second-layer nodes
+  double porosity = 0.0;                ///< share of the air that passes through [0..1]
+  double bending_warp = 0.0;            ///< bending rigidity along the warp [N m], >= 0: moment per width and curvature
+  double bending_weft = 0.0;            ///< the same along the weft; 0: limp
+  std::vector<SlitParams> slits;        ///< cuts along the warp, each elsewhere; strips have at least two columns
   /// Relative lengths of the rows-1 warp rods, top first, each > 0; scaled to height. Empty: all equal.
   std::vector<double> row_spacing;
   /// Relative lengths of the weft links of a row (columns-1, closed: columns), each > 0; scaled to the
@@ -300,6 +319,11 @@ std::vector<Problem> validate(const DragParams& drag, const ClothParams& cloth,
 std::vector<Problem> validate(const ObstacleParams& obstacle, const std::string& key);  ///< as above
 std::vector<Problem> validate(const AirParams& air, const std::string& key);            ///< as above
 std::vector<Problem> validate(const SolverParams& solver, const std::string& key);      ///< as above
+
+/// Sets what is known of the material: its density, bending, porosity, friction, thickness and air drag
+/// (docs/materials.md); the coefficients of Eq. (4) unless air.law, to be set first, is relative. kNone changes nothing
+/// but the name. A scene file's other keys come after it.
+void applyMaterial(Material material, Scene& scene);
 
 /// Names of the methods as scene files and --method spell them, in the order of the enum.
 const std::vector<std::string>& methodNames();

@@ -72,11 +72,12 @@ struct ContactWrench {
 };
 
 /// Work on the cloth since Simulator::countWork(), all in J. The sum
-///     kinetic - (gravity + forces + pins + obstacles)
+///     kinetic - (gravity + bending + forces + pins + obstacles)
 /// is minus what damping, friction and links that snap taut have dissipated, so but for the scheme's error it never
 /// rises.
 struct Work {
-  double gravity = 0.0;  ///< decrease of the potential energy
+  double gravity = 0.0;  ///< decrease of the gravitational potential energy
+  double bending = 0.0;  ///< decrease of the elastic energy
   double forces = 0.0;   ///< work of winds and drags
   double pins = 0.0;     ///< work of moved pins; unknown to Method::kPaper, and where links are drawn straight between
                          ///< two pins, since their tensions are not unique then

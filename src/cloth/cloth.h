@@ -25,6 +25,12 @@ struct ClothPattern {
   Field mass;             ///< [kg]; padding: 0
   Field inverse_mass;     ///< [1/kg]; pinned and padding: 0
   std::vector<std::uint8_t> pinned;
+  /// Bending stiffness of the warp line through the node, and of the weft line [N m]: E = k (1 - cos(turn)) for the turn
+  /// between the node's two links. 0 at the lines' ends, and where both links are held fast. Empty: limp.
+  Field warp_bending, weft_bending;
+  /// Turn of the line at the node where nothing bends it [rad], within (-pi/2, pi/2): of the warp about the weft's
+  /// direction there, of the weft about the warp's. Empty: straight.
+  Field warp_rest_turn, weft_rest_turn;
   Field warp_coordinate;  ///< of each row, length along the warp from the hung edge [m], shape [rows]
   Field weft_coordinate;  ///< of each column, length along the weft of the top row [m], shape [columns]
 
@@ -40,7 +46,10 @@ struct ClothState {
   void carry(Archive& archive);
 };
 
-/// Rest lengths, masses and pins of a validated scene.
+/// The stiffness of either direction's lines from the bending rigidities [N m] (ClothPattern::warp_bending).
+void fillBending(const ClothParams& cloth, ClothPattern& pattern);
+
+/// Rest lengths, masses, pins and bending of a validated scene.
 ClothPattern makePattern(const Scene& scene);
 /// Its shape, with the slits.
 Grid makeGrid(const ClothParams& cloth);

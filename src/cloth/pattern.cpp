@@ -147,6 +147,7 @@ ClothPattern makePattern(const Scene& scene) {
     pattern.pinned[pattern.grid.index(node)] = 1;
     pattern.inverse_mass[pattern.grid.index(node)] = 0.0;
   }
+  fillBending(scene.cloth, pattern);
   return pattern;
 }
 

@@ -36,6 +36,15 @@ void visitFields(Visitor& visitor, T& value) {
 }
 
 template <>
+struct Fields<SlitParams> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& slit) {
+    v.integer(required("column"), slit.column, IntRange{0, 4095});
+    v.integer("from_row", slit.from_row, IntRange{0, 4095});
+  }
+};
+
+template <>
 struct Fields<ClothParams> {
   template <typename Visitor, typename T>
   static void visit(Visitor& v, T& cloth) {
@@ -45,10 +54,13 @@ struct Fields<ClothParams> {
     v.number("height", cloth.height, positive());
     v.number("width", cloth.width, positive());
     v.optionalNumber("hem_width", cloth.hem_width, positive());
+    v.choice("material", cloth.material, materialNames());
     v.number("surface_density", cloth.surface_density, positive());
     v.choice("lumping", cloth.lumping, lumpingNames());
     v.integer("folds", cloth.folds, IntRange{1, 64});
     v.number("porosity", cloth.porosity, between(0.0, 1.0));
+    v.number("bending_warp", cloth.bending_warp, notNegative());
+    v.number("bending_weft", cloth.bending_weft, notNegative());
     v.slits("slits", cloth.slits);
     v.numbers("row_spacing", cloth.row_spacing, positive());
     v.numbers("column_spacing", cloth.column_spacing, positive());

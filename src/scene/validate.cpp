@@ -74,6 +74,12 @@ void checkSlits(const ClothParams& cloth, ProblemLog& log) {
   }
 }
 
+void checkMethod(const Scene& scene, ProblemLog& log) {
+  const bool bends = scene.cloth.bending_warp > 0.0 || scene.cloth.bending_weft > 0.0;
+  if (!bends || scene.solver.method != Method::kPaper) return;
+  log.add("solver.method", "can't be paper for cloth that resists bending (cloth.bending_warp, cloth.bending_weft > 0)");
+}
+
 void checkPins(const Scene& scene, ProblemLog& log) {
   if (scene.pins.kind != PinKind::kList) return;
   for (std::size_t i = 0; i < scene.pins.nodes.size(); ++i) {
@@ -194,6 +200,7 @@ void checkScene(const Scene& scene, ProblemLog& log) {
   checkAir(scene.air, "air", log);
   checkLaw(scene, log);
   checkPins(scene, log);
+  checkMethod(scene, log);
   checkUnique(scene.wind, "wind", "id", &WindParams::id, log);
   checkUnique(scene.drag, "drag", "id", &DragParams::id, log);
   checkUnique(scene.obstacles, "obstacles", "name", &ObstacleParams::name, log);

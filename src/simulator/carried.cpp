@@ -194,6 +194,7 @@ void Motion::carryVelocities(Archive& archive) {
 
 void EnergyLedger::carry(Archive& archive) {
   archive.finite("gravity", work_.gravity);
+  archive.finite("bending", work_.bending);
   archive.finite("forces", work_.forces);
   archive.finite("pins", work_.pins);
   archive.finite("obstacles", work_.obstacles);

@@ -37,7 +37,8 @@ bool EnergyGuard::isClosed(bool pins_move) const noexcept {
 }
 
 // Energy before the velocity projection, which bounds it from above (Motion::velocities()): nearly free, while the
-// projection costs as much as a substep.
+// projection costs as much as a substep. That of bending is leapfrog's own, x_n A x_(n-1) / 2 beside the velocities
+// between them, with the last substep's force -A x_(n-1).
 double EnergyGuard::energyWithoutLinks() const noexcept {
   const ClothState& state = motion_.state;
   const Vec3 fall = state.velocity_age * motion_.scene.gravity;
@@ -47,6 +48,8 @@ double EnergyGuard::energyWithoutLinks() const noexcept {
     if (motion_.pattern.pinned[n] == 0) kinetic += 0.5 * m * (state.velocity.at(n) + fall).squaredNorm();
     potential -= m * motion_.scene.gravity.dot(state.position.at(n));
   }
+  if (const Field3* const with_bending = motion_.exact.forcesWithBending())
+    potential -= 0.5 * workOf(*with_bending, *motion_.forces.last().force, state.position);
   return kinetic + potential;
 }
 

@@ -7,9 +7,10 @@ EnergyLedger::EnergyLedger(const ClothPattern& pattern) : pattern_(pattern) {
   before_.assign(pattern.grid.size(), 0.0);
 }
 
-// Weight, and all forces but damping, which only takes energy out.
-void EnergyLedger::addForces(const Field3& velocity, const NodeForces& forces, double kick) noexcept {
-  double kinetic = 0.0, weight = 0.0, others = 0.0;
+// Weight, bending, and all forces but damping, which only takes energy out.
+void EnergyLedger::addForces(const Field3& velocity, const NodeForces& forces, const Field3* with_bending,
+                             double kick) noexcept {
+  double kinetic = 0.0, weight = 0.0, others = 0.0, bending = 0.0;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     if (pattern_.inverse_mass[n] <= 0.0) continue;
     const Vec3 mean = 0.5 * (before_.at(n) + velocity.at(n));
@@ -17,10 +18,12 @@ void EnergyLedger::addForces(const Field3& velocity, const NodeForces& forces, d
     const Vec3 own = pattern_.mass[n] * forces.gravity;
     weight += kick * own.dot(mean);
     others += kick * (forces.force->at(n) - own).dot(mean);
+    if (with_bending != nullptr) bending += kick * (with_bending->at(n) - forces.force->at(n)).dot(mean);
   }
   work_.kinetic += kinetic;
   work_.gravity += weight;
   work_.forces += others;
+  work_.bending += bending;
 }
 
 void EnergyLedger::addPins(const Field3& velocity, const ExactSolver& links, double per_h) noexcept {
@@ -37,7 +40,7 @@ void EnergyLedger::addPins(const Field3& velocity, const ExactSolver& links, dou
 
 void EnergyLedger::end(const ClothState& state, const NodeForces& forces, const Contacts* contacts,
                        const ExactSolver* links, double h, const SubstepOutcome& outcome) noexcept {
-  addForces(state.velocity, forces, outcome.kick);
+  addForces(state.velocity, forces, links != nullptr ? links->forcesWithBending() : nullptr, outcome.kick);
   const double per_h = outcome.scale != 0.0 ? outcome.kick / outcome.scale : 1.0 / h;
   if (links != nullptr) addPins(state.velocity, *links, per_h);
   for (std::size_t k = 0; contacts != nullptr && k < contacts->size(); ++k) {

@@ -42,7 +42,10 @@ void ExactSolver::Memory::carry(Archive& archive) {
 }
 
 // Which columns are held comes from Rest: see resume().
-void HeldColumns::carry(Archive& archive) { archive.numbers("pull", pull_); }
+void HeldColumns::carry(Archive& archive) {
+  archive.numbers("pull", pull_);
+  archive.numbers("bent", bent_);
+}
 
 void Constraints::carry(Archive& archive) {
   archive.numbers("last_warp", last_warp_);

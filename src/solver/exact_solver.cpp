@@ -29,6 +29,7 @@ ExactSolver::ExactSolver(const ClothPattern& pattern, double stretch_tolerance, 
       inertia_(pattern),
       held_(pattern),
       skipped_before_(static_cast<std::size_t>(warpBlockCount(pattern.grid)), 0),
+      bending_(pattern, workers),
       constraints_(pattern, kInnerTolerance * stretch_tolerance, inertia_, held_, workers),
       sweeps_(constraints_, inertia_, stretch_tolerance, stretch_tolerance * smallest_rest_, max_sweeps),
       guard_(pattern, inertia_, stretch_tolerance, constraints_.middleRest()),
@@ -85,12 +86,13 @@ ExactSolver::Attempt ExactSolver::predict(const SubstepPlan& plan, const NodeFor
   const double kick = state.velocity_age + (1.0 - rules.age) * step;
   const double scale = step * kick;
   inertia_.set(forces, kick, scale, plan.most_phase, rules.backward);
+  bending_.begin(inertia_, inertia_.inverse(), scale, !rules.follows);
   // Warm start only along fixed directions: with present directions old tensions diverge where rods have turned much.
   const double before = inertia_.tensions().scale;
   const double ratio = !rules.follows && before != 0.0 ? scale / before : 0.0;
-  const Attempt attempt{
-      plan,   forces, finder, state, clock,
-      scheme, step,   kick,   ratio, scheme.start(plan, step, kick, forces, inertia_, state, outcome)};
+  const Scheme::Task task{plan, step, kick, forces, inertia_, bending_};
+  const Attempt attempt{plan,   forces, finder, state, clock,
+                        scheme, step,   kick,   ratio, scheme.start(task, state, outcome)};
   constraints_.begin(attempt.start, ratio);
   clock.lap(Stage::kPredict);
   return attempt;
@@ -187,8 +189,8 @@ void ExactSolver::judge(const Attempt& attempt, Progress& progress, SubstepOutco
   if (held_.any()) {
     const bool stuck = progress.crossed || (last_resort && !progress.settled);
     const LinkSet* const strings = constraints_.stringsAct() ? &constraints_.strings() : nullptr;
-    outcome.disturbed =
-        held_.disturbedBy(strings, progress.contacts, 1.0 / attempt.scale(), attempt.forces.gravity.norm(), stuck);
+    outcome.disturbed = held_.disturbedBy(strings, constraints_.next, progress.contacts, 1.0 / attempt.scale(),
+                                          attempt.forces.gravity.norm(), stuck);
   }
   outcome.sweeps = progress.sweeps;
   outcome.touches = !progress.alone();
@@ -281,10 +283,13 @@ void ExactSolver::keepMomentum(const SubstepStart& start) noexcept {
 void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& forces, const Contacts* contacts,
                                     Field3& out) noexcept {
   const double age = state.velocity_age;
+  double elastic = 0.0;
+  const Field3* const bending = bendingAt(state.position, elastic);
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     const double w = inertia_.masses()[n];
     const DampedStep step = forces.has_damping ? dampedStep(forces.damping[n], w, age) : DampedStep{1.0, 1.0};
-    out.set(n, step.keep * state.velocity.at(n) + age * step.gain * w * forces.force->at(n));
+    const Vec3 force = bending != nullptr ? Vec3(forces.force->at(n) + bending->at(n)) : forces.force->at(n);
+    out.set(n, step.keep * state.velocity.at(n) + age * step.gain * w * force);
   }
   if (age == 0.0) return;
   const double most = guard_.most(out, contacts != nullptr ? fastestSurface(*contacts) : 0.0);
@@ -292,10 +297,23 @@ void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& f
   guard_.bound(most, out);  // unsolvable links (pins pulled apart) give unbounded velocities
 }
 
+// From what a snapshot holds, so that it is the same after it.
+const Field3* ExactSolver::bendingAt(const Field3& position, double& energy) noexcept {
+  energy = 0.0;
+  if (!bending_.any()) return nullptr;
+  bending_.begin(inertia_, inertia_.masses(), inertia_.tensions().scale, true);
+  return &bending_.forceAt(position, energy);
+}
+
 void ExactSolver::copyPulls(const ClothState& state, const Contacts* contacts, Field3& out) noexcept {
   out.assign(pattern_.grid.size(), 0.0);
   const double scale = inertia_.tensions().scale;
   if (scale != 0.0) constraints_.addPulls(state.position, contacts, 1.0 / scale, out);
+  double elastic = 0.0;
+  const Field3* const bending = bendingAt(state.position, elastic);
+  for (std::size_t n = 0; bending != nullptr && n < pattern_.grid.size(); ++n) {
+    out.add(n, inertia_.masses()[n] * bending->at(n));
+  }
 }
 
 // Keeps the momentum of cloth without pins.

@@ -7,6 +7,7 @@
 
 #include <limits>
 
+#include "solver/bending.h"
 #include "solver/constraints.h"
 #include "solver/kinetic_guard.h"
 #include "solver/schemes/bdf2.h"
@@ -47,6 +48,14 @@ class ExactSolver {
   Constraints::LinkTensions tensionsAt(int row, int column) const noexcept {
     return constraints_.tensionsAt(row, column, inertia_.tensions().scale);
   }
+
+  /// As the last substep, or question, saw it.
+  const Bending& bending() const noexcept { return bending_; }
+  /// Forces of the last substep with those of bending [N]; null: limp cloth.
+  const Field3* forcesWithBending() const noexcept { return bending_.any() ? &bending_.sum() : nullptr; }
+  /// Force of bending at these positions [N], and its elastic energy [J], as a substep like the last one sees them; null
+  /// and 0: limp cloth.
+  const Field3* bendingAt(const Field3& position, double& energy) noexcept;
 
   /// Velocities at the time of the positions (leapfrog keeps them half a substep behind): advanced by the forces and
   /// projected on the constraints. contacts: of the last substep, or null.
@@ -133,6 +142,7 @@ class ExactSolver {
   NodeInertia inertia_;
   HeldColumns held_;
   std::vector<std::uint8_t> skipped_before_;  // scratch of hold()
+  Bending bending_;
   Constraints constraints_;
   Sweeps sweeps_;
   KineticGuard guard_;

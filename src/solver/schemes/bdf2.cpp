@@ -22,10 +22,10 @@ double Bdf2::stepFor(double h) const noexcept {
   return (1.0 + r) / (1.0 + 2.0 * r) * h;
 }
 
-SubstepStart Bdf2::start(const SubstepPlan& plan, double step, double kick, const NodeForces& forces,
-                         const NodeInertia& inertia, const ClothState& state, SubstepOutcome&) noexcept {
-  if (!usesTwo(plan.h)) return startFrom(state, step, kick, forces, inertia);
-  const double r = plan.h / memory_.h;
+SubstepStart Bdf2::start(const Task& task, const ClothState& state, SubstepOutcome&) noexcept {
+  const double h = task.plan.h;
+  if (!usesTwo(h)) return startFrom(state, task);
+  const double r = h / memory_.h;
   const double change = r * r / (1.0 + 2.0 * r);  // (1+r)^2/(1+2r) = 1 + change: cloth at rest stays to the bit
   const auto combine = [change](const Field& y, const Field& older, Field& out) {
     for (std::size_t n = 0; n < y.size(); ++n) out[n] = y[n] + change * (y[n] - older[n]);
@@ -37,11 +37,11 @@ SubstepStart Bdf2::start(const SubstepPlan& plan, double step, double kick, cons
   combine(state.velocity.y, memory_.velocity.y, base_.velocity.y);
   combine(state.velocity.z, memory_.velocity.z, base_.velocity.z);
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    if (inertia.masses()[n] > 0.0) continue;  // pins have no history: their motion is prescribed
-    base_.position.set(n, state.position.at(n) + (plan.h - step) * state.velocity.at(n));
+    if (task.inertia.masses()[n] > 0.0) continue;  // pins have no history: their motion is prescribed
+    base_.position.set(n, state.position.at(n) + (h - task.step) * state.velocity.at(n));
     base_.velocity.set(n, state.velocity.at(n));
   }
-  return startFrom(base_, step, kick, forces, inertia);
+  return startFrom(base_, task);
 }
 
 bool Bdf2::struck() noexcept {

@@ -26,8 +26,7 @@ class Bdf2 final : public Scheme {
   const Memory& memory() const noexcept { return memory_; }
 
   double stepFor(double h) const noexcept override;
-  SubstepStart start(const SubstepPlan& plan, double step, double kick, const NodeForces& forces,
-                     const NodeInertia& inertia, const ClothState& state, SubstepOutcome& outcome) noexcept override;
+  SubstepStart start(const Task& task, const ClothState& state, SubstepOutcome& outcome) noexcept override;
   bool struck() noexcept override;
   void taken(const ClothState& before, double h) noexcept override;
   void passedOver() noexcept override;
