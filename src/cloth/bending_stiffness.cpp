@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The discrete elastic line (Hencky 1920): a line of links whose joints turn against springs. A strip of rigidity B [N m]
-// and of a width stores B / 2 curvature^2 per length and width; a joint that turns by theta stands for the curvature
+// The discrete elastic line (Hencky 1920): a line of links whose joints turn against springs. A strip of rigidity B [N
+// m] and of a width stores B / 2 curvature^2 per length and width; a joint that turns by theta stands for the curvature
 // theta / l over the length l between the middles of its links, so k = B width / l. A link between two pins is clamped
 // and bends nowhere: its half does not count, and the line begins at the clamp's end.
 #include "cloth/cloth.h"

@@ -13,9 +13,9 @@ const std::vector<std::string>& lumpingNames() {
 }
 
 const std::vector<std::string>& materialNames() {
-  static const std::vector<std::string> kNames = {
-      "none",     "cotton_voile", "linen",       "silk",      "polyester", "velvet",
-      "blackout", "hospital",     "shower_peva", "pvc_strip", "canvas",    "parachute_nylon"};
+  static const std::vector<std::string> kNames = {"none",        "cotton_voile", "linen",    "silk",
+                                                  "polyester",   "velvet",       "blackout", "hospital",
+                                                  "shower_peva", "pvc_strip",    "canvas",   "parachute_nylon"};
   return kNames;
 }
 

@@ -161,7 +161,8 @@ const Field3& Bending::forceAt(const Field3& position, double& energy) noexcept 
   return sum_;
 }
 
-// Summed by lanes: the order does not depend on the register width. From the first node, which is nearer than the origin.
+// Summed by lanes: the order does not depend on the register width. From the first node, which is nearer than the
+// origin.
 CURTAIN_WIDE double workOf(const Field3& with, const Field3& without, const Field3& position) noexcept {
   std::array<double, kLane> sums{};
   const auto add = [&](const Field& f, const Field& g, const Field& x) {

@@ -6,10 +6,10 @@
 // limit * m / scale at a node of mass m, of which the links' tensions take their part (Gershgorin, as in
 // NodeInertia). Where the line is stiffer its nodes give way (bending_lines.h) until it is not:
 //     D = 1 / E - 1 / bound of K,   A = (K^-1 + D)^-1 <= E.
-// With D = scale / (4 m) that is the implicit-explicit variational integrator of Stern, Grinspun 2009: midpoint bending,
-// explicit everything else. A is symmetric, so the force has a potential, and leapfrog stays symplectic with the step it
-// has without bending. The links pull unfiltered: at rest, lines that are stiffer than the step bears are softer over
-// lengths of (B scale / density)^(1/4).
+// With D = scale / (4 m) that is the implicit-explicit variational integrator of Stern, Grinspun 2009: midpoint
+// bending, explicit everything else. A is symmetric, so the force has a potential, and leapfrog stays symplectic with
+// the step it has without bending. The links pull unfiltered: at rest, lines that are stiffer than the step bears are
+// softer over lengths of (B scale / density)^(1/4).
 #pragma once
 
 #include "solver/bending_lines.h"

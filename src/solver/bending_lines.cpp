@@ -11,8 +11,8 @@
 namespace curtain {
 namespace {
 
-// By links; and row sums of |K|: of joint i, k_i |c_r| (|a_i| + |a_i + a_(i+1)| + |a_(i+1)|) at each of its three nodes r.
-// before, after: the index of a node's neighbour.
+// By links; and row sums of |K|: of joint i, k_i |c_r| (|a_i| + |a_i + a_(i+1)| + |a_(i+1)|) at each of its three nodes
+// r. before, after: the index of a node's neighbour.
 template <typename Before, typename After>
 void fillMatrix(const Grid& grid, const Before& before, const After& after, BendingLines& lines) {
   for (Field* field : {&lines.bound, &lines.own, &lines.joined}) field->assign(grid.size(), 0.0);
@@ -196,8 +196,7 @@ Vec3 weftBendingAt(const Grid& grid, const BendingLines& lines, const Field3& po
   const auto wrapped = [&](int j) { return (j + grid.columns) % grid.columns; };
   const auto a = [&](int j) { return lines.per_rest[grid.index(row, wrapped(j))]; };
   const auto step = [&](int j) {
-    return Vec3(a(j) *
-                (position.at(grid.index(row, wrapped(j))) - position.at(grid.index(row, wrapped(j - 1)))));
+    return Vec3(a(j) * (position.at(grid.index(row, wrapped(j))) - position.at(grid.index(row, wrapped(j - 1)))));
   };
   const auto moment = [&](int j) {
     return Vec3(lines.stiffness[grid.index(row, wrapped(j))] * (step(j + 1) - step(j)));

@@ -26,10 +26,10 @@ struct BendingLines {
   Field stiffness;   ///< k [N m]
   Field compliance;  ///< 1/k [1/(N m)]; infinite: no joint
   /// K by links: the shear of link i is own_i d_i - joined_i d_(i-1) - joined_(i+1) d_(i+1), d = x_i - x_(i-1), own =
-  /// a_i^2 (k_(i-1) + k_i), joined = a_i a_(i-1) k_(i-1) [N/m]. Differences first: their rounding is that of lengths. The
-  /// link that closes a ring is left out.
+  /// a_i^2 (k_(i-1) + k_i), joined = a_i a_(i-1) k_(i-1) [N/m]. Differences first: their rounding is that of lengths.
+  /// The link that closes a ring is left out.
   Field own, joined;
-  Field bound;       ///< sum of the magnitudes in the node's row of K, so that K <= diag(bound) (Gershgorin) [N/m]
+  Field bound;  ///< sum of the magnitudes in the node's row of K, so that K <= diag(bound) (Gershgorin) [N/m]
 
   bool bend() const noexcept { return !stiffness.empty(); }
 };

@@ -67,10 +67,10 @@ template <bool kClosed>
 CURTAIN_INTO_WIDE void eliminate(const Bundle& b, Border& border) {
   BendingScratch& s = b.scratch;
   const int end = kClosed ? b.count - 2 : b.count - 1;
-  Lanes near_before = {}, far_before = {}, far_two = {};        // u_(i-1), v_(i-1), v_(i-2), over their pivots
-  Lanes near_raw = {}, far_raw = {}, far_raw_two = {};          // the same before division
-  Lanes p_before = {}, p_two = {}, q_before = {}, q_two = {};   // border entries of the last two rows
-  Lanes x1 = {}, y1 = {}, z1 = {}, x2 = {}, y2 = {}, z2 = {};   // their right-hand sides
+  Lanes near_before = {}, far_before = {}, far_two = {};       // u_(i-1), v_(i-1), v_(i-2), over their pivots
+  Lanes near_raw = {}, far_raw = {}, far_raw_two = {};         // the same before division
+  Lanes p_before = {}, p_two = {}, q_before = {}, q_two = {};  // border entries of the last two rows
+  Lanes x1 = {}, y1 = {}, z1 = {}, x2 = {}, y2 = {}, z2 = {};  // their right-hand sides
   Entries e;
   Lanes x, y, z;
   for (int i = kClosed ? 0 : 1; i < end; ++i) {
@@ -219,13 +219,20 @@ CURTAIN_INTO_WIDE double forceAt(const double* a, const double* m, std::size_t b
 
 }  // namespace
 
-CURTAIN_WIDE void bendWarpGiving(const Grid& grid, const BendingLines& lines, const Field& give,
-                                 const Field3& position, int block, BendingScratch& scratch, Field3& force) noexcept {
+CURTAIN_WIDE void bendWarpGiving(const Grid& grid, const BendingLines& lines, const Field& give, const Field3& position,
+                                 int block, BendingScratch& scratch, Field3& force) noexcept {
   const auto offset = static_cast<std::size_t>(block) * kLane;
-  const Bundle b{position.x.data(),      position.y.data(),        position.z.data(),
-                 give.data(),            lines.per_rest.data(),    lines.compliance.data(),
-                 scratch,                offset,                   static_cast<std::size_t>(grid.stride),
-                 grid.rows,              false};
+  const Bundle b{position.x.data(),
+                 position.y.data(),
+                 position.z.data(),
+                 give.data(),
+                 lines.per_rest.data(),
+                 lines.compliance.data(),
+                 scratch,
+                 offset,
+                 static_cast<std::size_t>(grid.stride),
+                 grid.rows,
+                 false};
   solveMoments(b);
   const double* const a = lines.per_rest.data();
   for (int i = 0; i < grid.rows; ++i) {
@@ -239,8 +246,8 @@ CURTAIN_WIDE void bendWarpGiving(const Grid& grid, const BendingLines& lines, co
   }
 }
 
-CURTAIN_WIDE void bendWeftGiving(const Grid& grid, const BendingLines& lines, const Field& give,
-                                 const Field3& position, int block, BendingScratch& scratch, Field3& force) noexcept {
+CURTAIN_WIDE void bendWeftGiving(const Grid& grid, const BendingLines& lines, const Field& give, const Field3& position,
+                                 int block, BendingScratch& scratch, Field3& force) noexcept {
   const int top = block * kLane, rows = std::min(kLane, grid.rows - top);
   const std::size_t first = static_cast<std::size_t>(top) * static_cast<std::size_t>(grid.columns);
   // Lanes beyond the last row repeat it.
@@ -257,10 +264,17 @@ CURTAIN_WIDE void bendWeftGiving(const Grid& grid, const BendingLines& lines, co
     turn(lines.per_rest, scratch.per_rest);
     turn(lines.compliance, scratch.compliance);
   }
-  const Bundle b{scratch.x.data(),    scratch.y.data(),        scratch.z.data(),
-                 scratch.give.data(), scratch.per_rest.data(), scratch.compliance.data(),
-                 scratch,             first,                   kLane,
-                 grid.columns,        grid.closed};
+  const Bundle b{scratch.x.data(),
+                 scratch.y.data(),
+                 scratch.z.data(),
+                 scratch.give.data(),
+                 scratch.per_rest.data(),
+                 scratch.compliance.data(),
+                 scratch,
+                 first,
+                 kLane,
+                 grid.columns,
+                 grid.closed};
   solveMoments(b);
   const double* const a = scratch.per_rest.data();
   for (std::size_t lane = 0; lane < static_cast<std::size_t>(rows); ++lane) {

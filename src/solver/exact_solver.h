@@ -53,8 +53,8 @@ class ExactSolver {
   const Bending& bending() const noexcept { return bending_; }
   /// Forces of the last substep with those of bending [N]; null: limp cloth.
   const Field3* forcesWithBending() const noexcept { return bending_.any() ? &bending_.sum() : nullptr; }
-  /// Force of bending at these positions [N], and its elastic energy [J], as a substep like the last one sees them; null
-  /// and 0: limp cloth.
+  /// Force of bending at these positions [N], and its elastic energy [J], as a substep like the last one sees them;
+  /// null and 0: limp cloth.
   const Field3* bendingAt(const Field3& position, double& energy) noexcept;
 
   /// Velocities at the time of the positions (leapfrog keeps them half a substep behind): advanced by the forces and
@@ -75,6 +75,10 @@ class ExactSolver {
   /// The last substep's tensions and inertia.
   const NodeInertia& inertia() const noexcept { return inertia_; }
 
+  /// What slides on the rail.
+  Carriers& carriers() noexcept { return constraints_.carriers(); }
+  const Carriers& carriers() const noexcept { return constraints_.carriers(); }
+
   /// A string pulled in the last substep.
   bool weftPulls() const noexcept { return constraints_.weftPulls(); }
 
@@ -83,6 +87,7 @@ class ExactSolver {
     Constraints::Memory constraints;
     Bdf2::Memory bdf2;
     NodeInertia::Tensions tensions;
+    Carriers::Memory carriers;
 
     void carry(Archive& archive);
   };

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Columns that sleep while others move. They are fixed like pinned nodes, and blocks of only such columns are left out
-// of the solve. The strings' pull at their borders, and what the weft's bending exerts on them, are compared with that when
-// they fell asleep: if it has changed by more than kWakeShare of the weight, the substep is repeated with them awake.
+// of the solve. The strings' pull at their borders, and what the weft's bending exerts on them, are compared with that
+// when they fell asleep: if it has changed by more than kWakeShare of the weight, the substep is repeated with them
+// awake.
 #pragma once
 
 #include "cloth/cloth.h"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Lines that are not straight at rest. A joint whose rest is a turn of theta_0 about the axis n stores
-//     k (1 - cos(theta - theta_0)) = k cos(theta_0) (1 - cos(theta)) + k (1 - cos(theta_0)) - k sin(theta_0) sin(theta).
+//     k (1 - cos(theta - theta_0)) = k cos(theta_0) (1 - cos(theta)) + k (1 - cos(theta_0)) - k sin(theta_0)
+//     sin(theta).
 // The first term is that of a straight line (bending_lines.h) of stiffness k cos(theta_0), the second a constant, the
 // third a couple on the two links. With their directions t and t' (in rest lengths) sin(theta) = n . (t x t'), and n is
 // the direction of the line across, between the node's neighbours on it: it follows the cloth, so that the couple and

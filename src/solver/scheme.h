@@ -55,8 +55,8 @@ class Scheme {
  protected:
   SubstepStart startFrom(const ClothState& base, const Task& task) const noexcept {
     const bool falls = task.forces.weight_only && task.inertia.massesAlone() && !task.bending.any();
-    return {base,      forceFrom(base, task), falls ? &task.forces.gravity : nullptr, task.inertia.keep(),
-            task.kick, task.step};
+    return {base,     forceFrom(base, task), falls ? &task.forces.gravity : nullptr, task.inertia.keep(), task.kick,
+            task.step};
   }
 
   /// All forces but those of links and damping, of a substep from here.

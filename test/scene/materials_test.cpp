@@ -49,7 +49,8 @@ TEST(Materials, AreWhatTheirPageSays) {
 
 TEST(Materials, GiveWayToWhatTheSceneGives) {
   const SceneReading reading = readSceneText(
-      "contact: {friction: 0.7}\nair: {border: 0.1}\ncloth: {bending_weft: 1.0e-3, rows: 5, columns: 4, material: velvet}\n");
+      "contact: {friction: 0.7}\nair: {border: 0.1}\ncloth: {bending_weft: 1.0e-3, rows: 5, columns: 4, material: "
+      "velvet}\n");
   EXPECT_TRUE(reading.problems.empty()) << describe(reading.problems);
   const Scene velvet = withMaterial("velvet");
   EXPECT_EQ(reading.scene.cloth.material, Material::kVelvet);
@@ -76,8 +77,7 @@ TEST(Materials, AreKeptByWritingAndReading) {
 
 TEST(Materials, UnknownOnesAreRefusedWithTheList) {
   for (const char* const value : {"velvt", "[velvet]", "{}", "7"}) {
-    const SceneReading reading =
-        readSceneText(std::string("cloth: {rows: 5, columns: 4, material: ") + value + "}\n");
+    const SceneReading reading = readSceneText(std::string("cloth: {rows: 5, columns: 4, material: ") + value + "}\n");
     ASSERT_EQ(reading.problems.size(), 1u) << value;
     EXPECT_EQ(reading.problems[0].key, "cloth.material");
     EXPECT_NE(reading.problems[0].text.find("parachute_nylon"), std::string::npos) << reading.problems[0].text;

@@ -14,10 +14,10 @@ namespace curtain_test {
 /// A strip of two lines of `rods` links that stands out horizontally; one more link is held fast.
 struct Strip {
   int rods = 40;
-  double length = 1.0;       // [m]
-  double density = 0.2;      // [kg/m^2]
-  double rigidity = 0.02;    // [N m]
-  bool along_warp = true;    // else the weft's threads bend
+  double length = 1.0;     // [m]
+  double density = 0.2;    // [kg/m^2]
+  double rigidity = 0.02;  // [N m]
+  bool along_warp = true;  // else the weft's threads bend
 };
 
 inline curtain::NodeIndex nodeOf(const Strip& strip, int row) {
@@ -54,8 +54,7 @@ inline Overhang sinkToRest(const Strip& strip, curtain::Scene scene) {
   scene.air.threshold = 1e6;  // linear throughout
   curtain::Simulator simulator(scene);
   const auto overhang = [&] {
-    const curtain::Vec3 way =
-        simulator.position(nodeOf(strip, strip.rods + 1)) - simulator.position(nodeOf(strip, 1));
+    const curtain::Vec3 way = simulator.position(nodeOf(strip, strip.rods + 1)) - simulator.position(nodeOf(strip, 1));
     return Overhang{-way.z(), std::hypot(way.x(), way.y())};
   };
   // A tenth of a period without motion: what is left is below the share of it that decays in that time.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Lines that resist bending against the same written out with dense matrices: A = K (1 + D K)^-1, K = C^T k C.
+#include "solver/bending.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -8,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "solver/bending.h"
 #include "solver/bending_lines.h"
 #include "testing.h"
 
@@ -157,8 +158,8 @@ TEST_P(BendingLines_, BoundIsAboveTheMatrix) {
 
 INSTANTIATE_TEST_SUITE_P(Shapes, BendingLines_,
                          ::testing::Values(Shape{12, 9, false}, Shape{3, 3, false}, Shape{2, 2, false},
-                                           Shape{9, 17, false}, Shape{4, 3, true}, Shape{4, 4, true},
-                                           Shape{4, 5, true}, Shape{10, 16, true}));
+                                           Shape{9, 17, false}, Shape{4, 3, true}, Shape{4, 4, true}, Shape{4, 5, true},
+                                           Shape{10, 16, true}));
 
 // What a substep bears, of what leapfrog does: scale A W has no eigenvalue above the limit, however stiff the cloth is,
 // with both directions and the links' tensions.
@@ -232,11 +233,12 @@ TEST(RestCurvature, ForcesAreTheSlopeOfTheEnergyAndBalance) {
       EXPECT_EQ(bending.gives(), scale > 1e-6);
       Random random(5);
       Field3 position = makeInitialState(
-          [&] {
-            Scene scene = closed ? curtain_test::ringScene(6, 7) : curtain_test::flatScene(6, 7);
-            return scene;
-          }(),
-          pattern).position;
+                            [&] {
+                              Scene scene = closed ? curtain_test::ringScene(6, 7) : curtain_test::flatScene(6, 7);
+                              return scene;
+                            }(),
+                            pattern)
+                            .position;
       for (std::size_t n = 0; n < pattern.grid.size(); ++n) position.add(n, random.inBox(0.02));
       double energy = 0.0, nearby = 0.0;
       const Field3 force = bending.forceAt(position, energy);
@@ -267,8 +269,8 @@ TEST(RestCurvature, ForcesAreTheSlopeOfTheEnergyAndBalance) {
   }
 }
 
-// A line bent by its rest turn at each joint has no energy, and turns no rod: what is left runs along the rods, which are
-// at their lengths. Bent further or less it has the energy of its joints.
+// A line bent by its rest turn at each joint has no energy, and turns no rod: what is left runs along the rods, which
+// are at their lengths. Bent further or less it has the energy of its joints.
 TEST(RestCurvature, IsAtRestWhereItsTurnsAre) {
   constexpr double kTurn = 0.3, kRod = 0.1;
   Scene scene = curtain_test::flatScene(6, 3, 5 * kRod, 2 * kRod);

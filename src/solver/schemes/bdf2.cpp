@@ -10,6 +10,7 @@ namespace curtain {
 Bdf2::Bdf2(const ClothPattern& pattern) : Scheme({true, true, 0.0, true}), pattern_(pattern) {
   for (Field3* field : {&memory_.position, &memory_.velocity, &base_.position, &base_.velocity})
     field->assign(pattern.grid.size(), 0.0);
+  for (std::vector<double>* places : {&memory_.place, &base_.place}) places->assign(pattern.rail.size(), 0.0);
 }
 
 bool Bdf2::usesTwo(double h) const noexcept { return memory_.h != 0.0 && h <= kMostGrowth * memory_.h; }
@@ -41,6 +42,17 @@ SubstepStart Bdf2::start(const Task& task, const ClothState& state, SubstepOutco
     base_.position.set(n, state.position.at(n) + (h - task.step) * state.velocity.at(n));
     base_.velocity.set(n, state.velocity.at(n));
   }
+  // Carriers: the same combinations of their places and of their speeds along the rail.
+  const RailPattern& rail = pattern_.rail;
+  for (std::size_t k = 0; k < rail.size(); ++k) {
+    const auto n = static_cast<std::size_t>(rail.columns[k]);
+    const double speed = state.velocity.at(n).dot(rail.path.at(state.place[k]).tangent);
+    const double older = memory_.velocity.at(n).dot(rail.path.at(memory_.place[k]).tangent);
+    base_.place[k] = state.place[k] + change * (state.place[k] - memory_.place[k]);
+    const RailPath::Place at = rail.path.at(base_.place[k]);
+    base_.position.set(n, at.point);
+    base_.velocity.set(n, (speed + change * (speed - older)) * at.tangent);
+  }
   return startFrom(base_, task);
 }
 
@@ -56,6 +68,7 @@ void Bdf2::taken(const ClothState& before, double h) noexcept {
   if (memory_.single_steps > 0) return;
   memory_.position = before.position;
   memory_.velocity = before.velocity;
+  memory_.place = before.place;
   memory_.h = h;
 }
 

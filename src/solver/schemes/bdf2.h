@@ -16,8 +16,9 @@ class Bdf2 final : public Scheme {
   /// The step before the last one.
   struct Memory {
     Field3 position, velocity;
-    double h = 0.0;        ///< length of the last step [s]; 0: no history
-    int single_steps = 0;  ///< steps still to be made without history
+    std::vector<double> place;  ///< of the carriers [m]
+    double h = 0.0;             ///< length of the last step [s]; 0: no history
+    int single_steps = 0;       ///< steps still to be made without history
 
     void forget() noexcept { h = 0.0, single_steps = 0; }
     void carry(Archive& archive);

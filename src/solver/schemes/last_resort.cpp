@@ -24,11 +24,14 @@ SubstepStart LastResort::start(const Task& task, const ClothState& state, Subste
   const Field& w = task.inertia.inverse();
   const Field3& force = forceFrom(state, task);
   base_.position = state.position;
+  base_.place = state.place;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     const Vec3 v = state.velocity.at(n);
     base_.velocity.set(
         n, w[n] > 0.0 ? Vec3((keep != nullptr ? (*keep)[n] : 1.0) * v + task.kick * w[n] * force.at(n)) : v);
   }
+  for (const int column : pattern_.rail.columns)  // they stand still
+    base_.velocity.set(static_cast<std::size_t>(column), Vec3::Zero());
   outcome.momentum_cut += cut(base_.position, w, task.plan.h, task.plan.reach, base_.velocity);
   return {base_, no_force_, nullptr, nullptr, task.kick, task.step};
 }
