@@ -1,10 +1,11 @@
 # Messages, and what packages that depend on this one get: them, and the target curtain_sim::engine in catkin_LIBRARIES.
 file(GLOB CURTAIN_MESSAGES RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/msg CONFIGURE_DEPENDS msg/*.msg)
 add_message_files(DIRECTORY msg FILES ${CURTAIN_MESSAGES})
-generate_messages(DEPENDENCIES std_msgs geometry_msgs)
+add_action_files(DIRECTORY action FILES OpenCurtain.action)
+generate_messages(DEPENDENCIES std_msgs geometry_msgs actionlib_msgs)
 
 catkin_package(
   INCLUDE_DIRS include
-  CATKIN_DEPENDS message_runtime std_msgs geometry_msgs
+  CATKIN_DEPENDS message_runtime std_msgs geometry_msgs actionlib_msgs
   DEPENDS EIGEN3
   CFG_EXTRAS curtain_sim-engine.cmake)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes docs/keys.md from config/curtain.yaml and docs/messages.md from msg/*.msg: docs/make_pages.py.
+"""Writes docs/keys.md from config/curtain.yaml and docs/messages.md from msg/*.msg and action/*.action: docs/make_pages.py.
 With --check it only says whether the pages are up to date.
 
 A line of the template is a row of the page: key, value, and the comment behind it; so is a line of a message. A line that is
@@ -33,7 +33,7 @@ How numbers scale with the size of a scene: [units.md](units.md).
 
 MESSAGES_HEAD = """# Messages
 
-Made by `docs/make_pages.py` from [msg](../msg); do not edit. A test fails when it is out of date. Which topic carries what:
+Made by `docs/make_pages.py` from [msg](../msg) and [action](../action); do not edit. A test fails when it is out of date. Which topic carries what:
 [node.md](node.md).
 """
 
@@ -158,14 +158,26 @@ def messages_page():
     for path in sorted(glob.glob(os.path.join(ROOT, "msg", "*.msg"))):
         name = os.path.splitext(os.path.basename(path))[0]
         text += "\n## %s\n\n[msg/%s.msg](../msg/%s.msg)\n" % (name, name, name)
-        for comments, fields in group(read(path).splitlines()):
-            if comments:
-                says = "\n".join(comments).strip()
-                says = re.sub(r"^(header\.\w+) +", r"- `\1`: ", says, flags=re.M)
-                text += "\n" + says[0].upper() + says[1:] + "\n"
-            if fields:
-                text += "\n| field | type | meaning |\n|---|---|---|\n"
-                text += "".join("| `%s` | `%s` | %s |\n" % (field, kind, cell(says)) for field, kind, says in fields)
+        text += fields_text(read(path))
+    for path in sorted(glob.glob(os.path.join(ROOT, "action", "*.action"))):
+        name = os.path.splitext(os.path.basename(path))[0]
+        text += "\n## %s (action)\n\n[action/%s.action](../action/%s.action)\n" % (name, name, name)
+        for part, fields in zip(("Goal", "Result", "Feedback"), read(path).split("---\n")):
+            text += "\n**%s**\n" % part + fields_text(fields)
+    return text
+
+
+def fields_text(message):
+    """Comments and fields of a message."""
+    text = ""
+    for comments, fields in group(message.splitlines()):
+        if comments:
+            says = "\n".join(comments).strip()
+            says = re.sub(r"^(header\.\w+) +", r"- `\1`: ", says, flags=re.M)
+            text += "\n" + says[0].upper() + says[1:] + "\n"
+        if fields:
+            text += "\n| field | type | meaning |\n|---|---|---|\n"
+            text += "".join("| `%s` | `%s` | %s |\n" % (field, kind, cell(says)) for field, kind, says in fields)
     return text
 
 
@@ -181,7 +193,7 @@ def main():
             with open(path, "w", encoding="utf-8") as file:
                 file.write(text)
         elif not os.path.exists(path) or read(path) != text:
-            sys.exit("docs/%s is not what config/curtain.yaml or msg say: run docs/make_pages.py" % name)
+            sys.exit("docs/%s is not what config/curtain.yaml, msg or action say: run docs/make_pages.py" % name)
 
 
 if __name__ == "__main__":

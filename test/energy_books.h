@@ -66,13 +66,15 @@ class EnergyBooks {
   }
   void look(const curtain::Simulator& simulator, bool gravity_changes) {
     const curtain::Work work = simulator.work();
-    const double forces = work.forces - last_.forces, pins = work.pins - last_.pins,
+    const double forces = work.forces + work.drive - last_.forces - last_.drive, pins = work.pins - last_.pins,
                  obstacles = work.obstacles - last_.obstacles;
     works_[frame_++ % works_.size()] = std::abs(forces) + std::abs(pins) + std::abs(obstacles);
     const double moves = std::accumulate(works_.begin(), works_.end(), scale_);
     const double put_in = forces + pins + obstacles, kinetic = simulator.energy().kinetic,
                  energy = freeEnergy(simulator);
-    const double own = own_.add(work.kinetic - last_.kinetic - (work.gravity - last_.gravity) - put_in, kinetic, moves);
+    const double own = own_.add(
+        work.kinetic - last_.kinetic - (work.gravity - last_.gravity) - (work.bending - last_.bending) - put_in,
+        kinetic, moves);
     const double synchronised = synchronised_.add(energy - last_energy_ - put_in, kinetic, moves);
     worst_ = std::max(worst_, gravity_changes ? own : std::min(own, synchronised));
     last_ = work;

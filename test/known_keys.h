@@ -29,8 +29,10 @@ class KeyCollector {
   void rotation(Key key, const Rotation&) { note(key); }
   void node(Key key, const std::optional<NodeIndex>&) { note(key); }
   void numbers(Key key, const std::vector<double>&, Range) { note(key); }
+  void integers(Key key, const std::vector<int>&, IntRange) { note(key); }
   void pins(Key key, const PinParams&) { note(key); }
   void slits(Key key, const std::vector<SlitParams>&) { note(key); }
+  void path(Key key, const std::vector<RailPiece>&, Range) { note(key); }
   bool belongs(Key, bool, ShapeKind) { return true; }
 
   template <typename Enum>

@@ -55,19 +55,38 @@ struct SlitParams {
   int from_row = 0;  ///< the weft links of this row and of all below it are cut [0..rows - 1]
 };
 
+/// Fabrics with known properties (docs/materials.md).
+enum class Material {
+  kNone,
+  kCottonVoile,
+  kLinen,
+  kSilk,
+  kPolyester,
+  kVelvet,
+  kBlackout,
+  kHospital,
+  kShowerPeva,
+  kPvcStrip,
+  kCanvas,
+  kParachuteNylon
+};
+
 /// The cloth: its grid, its size and its mass.
 struct ClothParams {
-  int rows = 0;                      ///< nodes along the warp, hung edge first [2..4096]; no default
-  int columns = 0;                   ///< nodes along the weft [2..4096] (closed cloth: [3..4096]); no default
-  double height = 2.0;               ///< warp length [m], > 0
-  double width = 1.0;                ///< weft length of the top row [m], > 0
-  std::optional<double> hem_width;   ///< weft length of the bottom row [m], > 0; default: width
-  double surface_density = 0.2;      ///< [kg/m^2], > 0
-  Lumping lumping = Lumping::kArea;  ///< how mass is shared among the nodes
-  bool closed = false;               ///< the weft closes to a ring (skirt, canopy)
-  int folds = 6;                     ///< rods per weft link [1..64]; 1 = no second-layer nodes
-  double porosity = 0.0;             ///< share of the air that passes through [0..1]
-  std::vector<SlitParams> slits;     ///< cuts along the warp, each elsewhere; strips have at least two columns
+  int rows = 0;                         ///< nodes along the warp, hung edge first [2..4096]; no default
+  int columns = 0;                      ///< nodes along the weft [2..4096] (closed cloth: [3..4096]); no default
+  double height = 2.0;                  ///< warp length [m], > 0
+  double width = 1.0;                   ///< weft length of the top row [m], > 0
+  std::optional<double> hem_width;      ///< weft length of the bottom row [m], > 0; default: width
+  Material material = Material::kNone;  ///< what applyMaterial() was called with; has no effect of its own
+  double surface_density = 0.2;         ///< [kg/m^2], > 0
+  Lumping lumping = Lumping::kArea;     ///< how mass is shared among the nodes
+  bool closed = false;                  ///< the weft closes to a ring (skirt, canopy)
+  int folds = 6;                        ///< rods per weft link [1..64]; 1 = no second-layer nodes
+  double porosity = 0.0;                ///< share of the air that passes through [0..1]
+  double bending_warp = 0.0;      ///< bending rigidity along the warp [N m], [0..1000]: moment per width and curvature
+  double bending_weft = 0.0;      ///< the same along the weft; 0: limp
+  std::vector<SlitParams> slits;  ///< cuts along the warp, each elsewhere; strips have at least two columns
   /// Relative lengths of the rows-1 warp rods, top first, each > 0; scaled to height. Empty: all equal.
   std::vector<double> row_spacing;
   /// Relative lengths of the weft links of a row (columns-1, closed: columns), each > 0; scaled to the
@@ -126,6 +145,38 @@ enum class PinKind {
 struct PinParams {
   PinKind kind = PinKind::kTop;  ///< which nodes
   std::vector<NodeIndex> nodes;  ///< for kList
+};
+
+/// A piece of a rail, from the end of the one before it.
+struct RailPiece {
+  Vec3 to = Vec3::Zero();      ///< its end [m]; of the first piece: where the rail begins
+  std::optional<Vec3> centre;  ///< of an arc, the shorter way round [m]; none: straight
+};
+
+/// What the cloth hangs from a rail by. The first and the last column have a carrier.
+struct CarrierParams {
+  int every = 4;             ///< a carrier at every so many columns [1..4095], and at the last; not read with `columns`
+  std::vector<int> columns;  ///< the carriers' columns, increasing, from 0 to the last; empty: see `every`
+  double mass = 0.01;        ///< of each [kg], >= 0; added to that of its node
+  double friction = 0.15;    ///< Coulomb coefficient on the rail [0..10]
+  double gap = 0.015;        ///< least distance of neighbours along the rail [m], > 0
+};
+
+/// What draws the master carriers.
+struct DriveParams {
+  double speed = 0.2;   ///< [m/s], > 0
+  double force = 10.0;  ///< at most, on each master [N], >= 0
+};
+
+/// A rail on which the top edge's carriers slide. The cloth hangs down from it; between carriers its edge is free.
+struct RailParams {
+  std::vector<RailPiece> path;  ///< in the order of the columns; empty: there is no rail
+  CarrierParams carriers;       ///< on it
+  double opening = 0.0;         ///< where the carriers start: 0 drawn shut, 1 gathered as far as the gaps allow [0..1]
+  DriveParams drive;            ///< of Simulator::setOpening()
+  /// Columns of the carriers that the drive moves: one, and the cloth gathers at the rail's beginning, or two
+  /// neighbouring ones, and it gathers at both ends. Empty: the last.
+  std::vector<int> masters;
 };
 
 /// The law of the air's force.
@@ -281,7 +332,8 @@ struct Scene {
   ClothParams cloth;                      ///< grid, size and mass
   HangParams hang;                        ///< start position
   HemParams hem;                          ///< weights along the bottom row
-  PinParams pins;                         ///< pinned nodes
+  PinParams pins;                         ///< pinned nodes; on a rail kTop pins none
+  RailParams rail;                        ///< the top edge slides on it, or there is none
   Vec3 gravity = Vec3(0.0, 0.0, -9.81);   ///< [m/s^2]
   AirParams air;                          ///< damping, or the law of the relative velocity
   AmbientParams ambient;                  ///< the wind everywhere
@@ -301,7 +353,13 @@ std::vector<Problem> validate(const DragParams& drag, const ClothParams& cloth,
                               const std::string& key);                                  ///< on this cloth
 std::vector<Problem> validate(const ObstacleParams& obstacle, const std::string& key);  ///< as above
 std::vector<Problem> validate(const AirParams& air, const std::string& key);            ///< as above
+std::vector<Problem> validate(const DriveParams& drive, const std::string& key);        ///< as above
 std::vector<Problem> validate(const SolverParams& solver, const std::string& key);      ///< as above
+
+/// Sets what is known of the material: its density, bending, porosity, friction, thickness and air drag
+/// (docs/materials.md); the coefficients of Eq. (4) unless air.law, to be set first, is relative. kNone changes nothing
+/// but the name. A scene file's other keys come after it.
+void applyMaterial(Material material, Scene& scene);
 
 /// Names of the methods as scene files and --method spell them, in the order of the enum.
 const std::vector<std::string>& methodNames();

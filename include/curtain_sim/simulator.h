@@ -67,8 +67,8 @@ class Simulator {
   void copyRestLengths(std::vector<double>& warp, std::vector<double>& weft) const;
 
   Vec3 position(NodeIndex node) const;             ///< [m]
-  double mass(NodeIndex node) const;               ///< [kg]
-  bool pinned(NodeIndex node) const;               ///< its position is prescribed
+  double mass(NodeIndex node) const;               ///< [kg], with its carrier's
+  bool pinned(NodeIndex node) const;               ///< its position is prescribed; false for carriers
   NodeIndex nearestNode(const Vec3& point) const;  ///< to a point [m]; linear in the number of nodes
 
   /// Adds a wind source, or replaces the one with the same id; start and end are simulated times. Returns what is wrong
@@ -96,10 +96,22 @@ class Simulator {
   std::vector<Problem> setFrameRate(double rate);
 
   /// Sets positions [m] and velocities [m/s] of all nodes, row-major, shape [rows * columns]; velocities of pinned
-  /// nodes are ignored. Wakes all of the cloth and forgets the tensions. Links may be far from their lengths and nodes
-  /// may coincide: the solver corrects lengths as fast as it can. Contact takes the present sides as the right ones.
-  /// Returns what is wrong (sizes, numbers not finite or beyond 1e9); then nothing changed. The time stays.
+  /// nodes are ignored, carriers are put where the rail is nearest. Wakes all of the cloth and forgets the tensions.
+  /// Links may be far from their lengths and nodes may coincide: the solver corrects lengths as fast as it can. Contact
+  /// takes the present sides as the right ones. Returns what is wrong (sizes, numbers not finite or beyond 1e9); then
+  /// nothing changed. The time stays.
   std::vector<Problem> setState(const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities);
+
+  /// Draws the master carriers of the rail to an opening, 0 (shut) to 1 (gathered as far as the gaps allow), by the
+  /// drive: not faster than its speed, not harder than its force. Arrived, it keeps them there. Returns what is wrong:
+  /// no rail, not in [0, 1]; then nothing changed.
+  std::vector<Problem> setOpening(double opening);
+  /// The drive lets go: carriers slide freely, as before the first setOpening().
+  void releaseDrive();
+  /// Changes the drive's speed and force, until reset(). Returns what is wrong with them; then nothing changed.
+  std::vector<Problem> setDrive(const DriveParams& drive);
+  bool drives() const;               ///< the drive has not let go
+  const DriveParams& drive() const;  ///< the present one
 
   /// Moves a pinned node to this point [m], evenly over the next step; there it stays. False: it is not pinned, or the
   /// point is not finite.

@@ -53,6 +53,8 @@ struct Statistics {
   double step_seconds_max = 0.0;  ///< of the longest frame [s]
   double step_seconds_sum = 0.0;  ///< of all frames [s]
   std::array<double, kStageCount> stage_seconds{};  ///< computing time by stage, all frames [s]
+  double opening = 0.0;         ///< present place of the master carriers, as rail.opening; 0 without a rail
+  double drive_force = 0.0;     ///< of the rail's drive on all masters, mean over the last frame [N]
   double position_error = 0.0;  ///< estimate per simulated second [m], RMS; 0: no solver.position_tolerance
   bool finite = true;           ///< the state holds no NaN or infinity
 };
@@ -72,12 +74,14 @@ struct ContactWrench {
 };
 
 /// Work on the cloth since Simulator::countWork(), all in J. The sum
-///     kinetic - (gravity + forces + pins + obstacles)
-/// is minus what damping, friction and links that snap taut have dissipated, so but for the scheme's error it never
-/// rises.
+///     kinetic - (gravity + bending + forces + drive + pins + obstacles)
+/// is minus what damping, friction, carriers that stop and links that snap taut have dissipated, so but for the
+/// scheme's error it never rises.
 struct Work {
-  double gravity = 0.0;  ///< decrease of the potential energy
+  double gravity = 0.0;  ///< decrease of the gravitational potential energy
+  double bending = 0.0;  ///< decrease of the elastic energy
   double forces = 0.0;   ///< work of winds and drags
+  double drive = 0.0;    ///< work of the drive on a rail's carriers
   double pins = 0.0;     ///< work of moved pins; unknown to Method::kPaper, and where links are drawn straight between
                          ///< two pins, since their tensions are not unique then
   double obstacles = 0.0;  ///< work of moving obstacles

@@ -119,6 +119,7 @@ void Archive::finite(const char* name, Field3& values) {
   many("y", "finite numbers", values.y, isFinite);
   many("z", "finite numbers", values.z, isFinite);
 }
+void Archive::finite(const char* name, std::vector<double>& values) { many(name, "finite numbers", values, isFinite); }
 void Archive::finite(const char* name, Pose& pose) {
   const Naming naming(*this, name);
   finite("position", pose.position);

@@ -61,6 +61,7 @@ class Archive {
   void finite(const char* name, Vec3& value);
   void finite(const char* name, Eigen::Matrix3d& value);
   void finite(const char* name, Field3& values);
+  void finite(const char* name, std::vector<double>& values);
   void finite(const char* name, Pose& pose);
 
   /// In [low, high], which may be infinite.

@@ -10,6 +10,7 @@ void ClothState::carry(Archive& archive) {
   archive.finite("position", position);
   archive.finite("velocity", velocity);
   archive.finite("velocity_age", velocity_age);
+  archive.finite("place", place);
 }
 
 }  // namespace curtain

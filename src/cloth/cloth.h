@@ -9,10 +9,32 @@
 
 #include "cloth/field.h"
 #include "curtain_sim/scene.h"
+#include "scene/rail_layout.h"
+#include "scene/rail_path.h"
 
 namespace curtain {
 
 class Archive;
+
+/// What a node of ClothPattern::pinned is.
+enum : std::uint8_t {
+  kFree = 0,
+  kPinned = 1,   ///< its position is prescribed
+  kCarrier = 2,  ///< it slides on the rail: a pin that moves, for all but the solver
+};
+
+/// Carriers of the cloth, which are nodes of the top row, in their order on the rail; none: there is no rail.
+struct RailPattern {
+  RailPath path;
+  RailLayout layout;
+  std::vector<int> columns;
+  std::vector<std::uint8_t> fastened;  ///< by carrier: it stays where it starts
+  double friction = 0.0;               ///< Coulomb coefficient
+  double gap = 0.0;                    ///< least distance of neighbours [m]
+
+  std::size_t size() const { return columns.size(); }
+  bool empty() const { return columns.empty(); }
+};
 
 /// The constant part of a cloth.
 struct ClothPattern {
@@ -22,13 +44,20 @@ struct ClothPattern {
   Field warp_per_square;  ///< 1 / warp_rest^2 [1/m^2]
   Field weft_per_square;  ///< 1 / weft_rest^2 [1/m^2]; cut links: 0, so that they are never too long
   Field area;             ///< the node's share of the cloth [m^2]
-  Field mass;             ///< [kg]; padding: 0
-  Field inverse_mass;     ///< [1/kg]; pinned and padding: 0
+  Field mass;             ///< [kg], with its carrier's; padding: 0
+  Field inverse_mass;     ///< [1/kg]; pinned, carriers and padding: 0
   std::vector<std::uint8_t> pinned;
+  RailPattern rail;
+  /// Bending stiffness of the warp line through the node, and of the weft line [N m]: E = k (1 - cos(turn)) for the
+  /// turn between the node's two links. 0 at the lines' ends, and where both links are held fast. Empty: limp.
+  Field warp_bending, weft_bending;
+  /// Turn of the line at the node where nothing bends it [rad], within (-pi/2, pi/2): of the warp about the weft's
+  /// direction there, of the weft about the warp's. Empty: straight.
+  Field warp_rest_turn, weft_rest_turn;
   Field warp_coordinate;  ///< of each row, length along the warp from the hung edge [m], shape [rows]
   Field weft_coordinate;  ///< of each column, length along the weft of the top row [m], shape [columns]
 
-  bool isPinned(NodeIndex node) const { return pinned[grid.index(node)] != 0; }
+  bool isPinned(NodeIndex node) const { return pinned[grid.index(node)] == kPinned; }
 };
 
 /// The moving part of a cloth. Velocities may lag behind: leapfrog keeps them half a substep older than positions.
@@ -36,17 +65,24 @@ struct ClothState {
   Field3 position;            ///< [m]
   Field3 velocity;            ///< [m/s], at the time of the positions minus velocity_age
   double velocity_age = 0.0;  ///< [s], >= 0 between substeps
+  std::vector<double> place;  ///< of the carriers along the rail [m]; their velocity is along it
 
   void carry(Archive& archive);
 };
 
-/// Rest lengths, masses and pins of a validated scene.
+/// The stiffness of either direction's lines from the bending rigidities [N m] (ClothPattern::warp_bending).
+void fillBending(const ClothParams& cloth, ClothPattern& pattern);
+
+/// Rest lengths, masses, pins and bending of a validated scene.
 ClothPattern makePattern(const Scene& scene);
 /// Its shape, with the slits.
 Grid makeGrid(const ClothParams& cloth);
 
-/// The cloth of a validated scene at rest at scene.hang.
+/// The cloth of a validated scene at rest at scene.hang, or on the rail.
 ClothState makeInitialState(const Scene& scene, const ClothPattern& pattern);
+
+/// Positions of cloth on a rail, with its carriers at these places [m].
+void placeOnRail(const ClothPattern& pattern, const std::vector<double>& places, Field3& position);
 
 /// Calls look(node, other, rest length [m], is a rod) for every link, row by row; it is stored at `node`.
 template <typename Look>

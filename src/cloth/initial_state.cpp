@@ -92,7 +92,10 @@ ClothState makeInitialState(const Scene& scene, const ClothPattern& pattern) {
   ClothState state;
   state.position.assign(grid.size(), 0.0);
   state.velocity.assign(grid.size(), 0.0);
-  if (scene.cloth.closed) {
+  if (!pattern.rail.empty()) {
+    state.place = pattern.rail.layout.placesFor(scene.rail.opening);
+    placeOnRail(pattern, state.place, state.position);
+  } else if (scene.cloth.closed) {
     placeRing(scene, pattern, state.position);
   } else if (isPleated(scene.hang)) {
     placePleated(scene, pattern, state.position);

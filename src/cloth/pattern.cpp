@@ -100,7 +100,7 @@ std::vector<NodeIndex> pinnedNodes(const Scene& scene) {
   std::vector<NodeIndex> nodes;
   switch (scene.pins.kind) {
     case PinKind::kTop:
-      for (int j = 0; j < scene.cloth.columns; ++j) nodes.push_back({0, j});
+      for (int j = 0; j < scene.cloth.columns && scene.rail.path.empty(); ++j) nodes.push_back({0, j});
       break;
     case PinKind::kLeft:
       for (int i = 0; i < scene.cloth.rows; ++i) nodes.push_back({i, 0});
@@ -115,6 +115,24 @@ std::vector<NodeIndex> pinnedNodes(const Scene& scene) {
       break;
   }
   return nodes;
+}
+
+// Pinned carriers are fastened to the rail.
+void fillRail(const Scene& scene, ClothPattern& pattern) {
+  if (scene.rail.path.empty()) return;
+  RailPattern& rail = pattern.rail;
+  rail.path = RailPath(scene.rail.path);
+  rail.layout = RailLayout(scene);
+  rail.columns = RailLayout::columnsOf(scene);
+  rail.friction = scene.rail.carriers.friction;
+  rail.gap = scene.rail.carriers.gap;
+  for (const int column : rail.columns) {
+    const std::size_t node = pattern.grid.index(0, column);
+    rail.fastened.push_back(pattern.pinned[node]);
+    pattern.pinned[node] = kCarrier;
+    pattern.mass[node] += scene.rail.carriers.mass;
+    pattern.inverse_mass[node] = 0.0;
+  }
 }
 
 }  // namespace
@@ -144,9 +162,11 @@ ClothPattern makePattern(const Scene& scene) {
   addHem(scene.hem, pattern);
   invertMasses(pattern);
   for (const NodeIndex& node : pinnedNodes(scene)) {
-    pattern.pinned[pattern.grid.index(node)] = 1;
+    pattern.pinned[pattern.grid.index(node)] = kPinned;
     pattern.inverse_mass[pattern.grid.index(node)] = 0.0;
   }
+  fillRail(scene, pattern);
+  fillBending(scene.cloth, pattern);
   return pattern;
 }
 

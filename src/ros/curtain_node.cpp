@@ -20,7 +20,7 @@ std::unique_ptr<RoscppWatch> makeWatch(const ros::NodeHandle& node, const ros::N
                                        const Inputs& inputs) {
   std::vector<std::string> topics = inputs.topics();
   for (const char* tf : {"/tf", "/tf_static"}) topics.push_back(node.resolveName(tf));
-  topics.push_back(private_node.resolveName("handles/feedback"));
+  for (const char* own : {"handles/feedback", "open"}) topics.push_back(private_node.resolveName(own));
   return std::make_unique<RoscppWatch>(private_node.getNamespace(), topics);
 }
 
@@ -40,6 +40,7 @@ CurtainNode::CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& pri
       snapshots_(reading.node.snapshot_file, reading.node.snapshot_period),
       diagnostics_(node, private_node, reading.node.diagnostic_period, clock_.simulated()) {
   if (reading.node.handles) handles_ = std::make_unique<Handles>(private_node, reading.node, simulator_, inputs_);
+  if (!reading.scene.rail.path.empty()) opening_ = std::make_unique<OpenCurtain>(private_node, inputs_);
   if (reading.node.watch_roscpp) watch_ = makeWatch(node, private_node, inputs_);
   if (snapshots_.restore(simulator_)) {
     obstacles_.resume(simulator_);
@@ -87,6 +88,7 @@ void CurtainNode::makeFrames(std::int64_t now) {
 
 void CurtainNode::makeFrame(const ros::Time& stamp, bool latest) {
   inputs_.apply(simulator_);
+  if (opening_) opening_->apply(simulator_);
   obstacles_.update(simulator_, ros::Time::now());
   simulator_.step();
   if (!simulator_.statistics().finite) {
@@ -97,12 +99,14 @@ void CurtainNode::makeFrame(const ros::Time& stamp, bool latest) {
   }
   outputs_.publish(stamp, nodeStatistics(), latest);
   if (handles_) handles_->update(simulator_);
+  if (opening_) opening_->update(simulator_);
   diagnostics_.frameMade();
 }
 
 void CurtainNode::restart() {
   ++restarts_;
   simulator_.reset();
+  if (opening_) opening_->restart();
   inputs_.restart();
   obstacles_.restart(simulator_);
 }

@@ -11,8 +11,11 @@ namespace curtain {
 /// Adds all problems of the scene's values to the log.
 void checkScene(const Scene& scene, ProblemLog& log);
 
-/// Checks that the links can have their lengths at the start (hang, hem_width).
+/// Checks that the links can have their lengths at the start (hang, hem_width; without a rail).
 void checkStart(const Scene& scene, ProblemLog& log);
+
+/// Checks that rail, carriers and cloth fit together.
+void checkRail(const Scene& scene, ProblemLog& log);
 
 /// Checks that row and column are on the grid, unless the grid's size is wrong.
 void checkNodeOnGrid(const NodeIndex& node, const ClothParams& cloth, const std::string& key, ProblemLog& log);

@@ -5,8 +5,9 @@
 //
 // A visitor has these members; keys are relative to the visited map:
 //   integer, integerOr (a word stands for one value), seed, number, optionalNumber, numberOrUnset (NaN: not given),
-//   flag, text, choice, vector, optionalVector, scale (one number or three), rotation, node, numbers, pins, slits,
-//   map (a struct below), list (a list of structs), belongs (false: the key is not for this value).
+//   flag, text, choice, vector, optionalVector, scale (one number or three), rotation, node, numbers, integers, pins,
+//   slits, path (of a rail), map (a struct below), list (a list of structs), belongs (false: the key is not for this
+//   value).
 #pragma once
 
 #include <type_traits>
@@ -45,10 +46,13 @@ struct Fields<ClothParams> {
     v.number("height", cloth.height, positive());
     v.number("width", cloth.width, positive());
     v.optionalNumber("hem_width", cloth.hem_width, positive());
+    v.choice("material", cloth.material, materialNames());
     v.number("surface_density", cloth.surface_density, positive());
     v.choice("lumping", cloth.lumping, lumpingNames());
     v.integer("folds", cloth.folds, IntRange{1, 64});
     v.number("porosity", cloth.porosity, between(0.0, 1.0));
+    v.number("bending_warp", cloth.bending_warp, between(0.0, 1e3));
+    v.number("bending_weft", cloth.bending_weft, between(0.0, 1e3));
     v.slits("slits", cloth.slits);
     v.numbers("row_spacing", cloth.row_spacing, positive());
     v.numbers("column_spacing", cloth.column_spacing, positive());
@@ -77,6 +81,39 @@ struct Fields<HemParams> {
   static void visit(Visitor& v, T& hem) {
     v.number("line_density", hem.line_density, notNegative());
     v.numbers("weights", hem.weights, notNegative());
+  }
+};
+
+template <>
+struct Fields<CarrierParams> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& carriers) {
+    v.integer("every", carriers.every, IntRange{1, 4095});
+    v.integers("columns", carriers.columns, IntRange{0, 4095});
+    v.number("mass", carriers.mass, notNegative());
+    v.number("friction", carriers.friction, between(0.0, 10.0));
+    v.number("gap", carriers.gap, positive());
+  }
+};
+
+template <>
+struct Fields<DriveParams> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& drive) {
+    v.number("speed", drive.speed, positive());
+    v.number("force", drive.force, notNegative());
+  }
+};
+
+template <>
+struct Fields<RailParams> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& rail) {
+    v.path("path", rail.path, anywhere());
+    v.map("carriers", rail.carriers);
+    v.number("opening", rail.opening, between(0.0, 1.0));
+    v.map("drive", rail.drive);
+    v.integers("masters", rail.masters, IntRange{0, 4095});
   }
 };
 
@@ -230,6 +267,7 @@ struct Fields<Scene> {
     v.map("hang", scene.hang);
     v.map("hem", scene.hem);
     v.pins("pins", scene.pins);
+    v.map("rail", scene.rail);
     v.vector("gravity", scene.gravity, anywhere());
     v.map("air", scene.air);
     v.map("ambient", scene.ambient);

@@ -12,6 +12,13 @@ const std::vector<std::string>& lumpingNames() {
   return kNames;
 }
 
+const std::vector<std::string>& materialNames() {
+  static const std::vector<std::string> kNames = {"none",        "cotton_voile", "linen",    "silk",
+                                                  "polyester",   "velvet",       "blackout", "hospital",
+                                                  "shower_peva", "pvc_strip",    "canvas",   "parachute_nylon"};
+  return kNames;
+}
+
 const std::vector<std::string>& headingNames() {
   static const std::vector<std::string> kNames = {"gathered", "pencil", "pinch", "ripple"};
   return kNames;

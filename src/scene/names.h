@@ -10,6 +10,7 @@ namespace curtain {
 
 const std::vector<std::string>& lumpingNames();
 const std::vector<std::string>& headingNames();
+const std::vector<std::string>& materialNames();
 const std::vector<std::string>& pinNames();  ///< without kList, which is a list of nodes
 const std::vector<std::string>& airLawNames();
 const std::vector<std::string>& gustSpectrumNames();

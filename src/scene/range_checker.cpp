@@ -57,4 +57,19 @@ void RangeChecker::numbers(Key key, const std::vector<double>& values, Range ran
   for (std::size_t i = 0; i < values.size(); ++i) check(itemKey(keyOf(key), i), values[i], range);
 }
 
+void RangeChecker::integers(Key key, const std::vector<int>& values, IntRange range) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (range.contains(values[i])) continue;
+    log_.add(itemKey(keyOf(key), i), "must be " + range.text() + ", is " + std::to_string(values[i]));
+  }
+}
+
+void RangeChecker::path(Key key, const std::vector<RailPiece>& pieces, Range range) {
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    RangeChecker piece(itemKey(keyOf(key), i), log_);
+    piece.vector("to", pieces[i].to, range);
+    if (pieces[i].centre) piece.vector("centre", *pieces[i].centre, range);
+  }
+}
+
 }  // namespace curtain

@@ -35,6 +35,8 @@ class RangeChecker {
   void rotation(Key key, const Rotation& value);
   void node(Key, const std::optional<NodeIndex>&) {}  // its range depends on the cloth: checkNodeOnGrid()
   void numbers(Key key, const std::vector<double>& values, Range range);
+  void integers(Key key, const std::vector<int>& values, IntRange range);
+  void path(Key key, const std::vector<RailPiece>& pieces, Range range);
   void pins(Key, const PinParams&) {}                 // the same
   void slits(Key, const std::vector<SlitParams>&) {}  // the same: checkSlits()
   bool belongs(Key, bool yes, ShapeKind) {

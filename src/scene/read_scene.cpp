@@ -4,6 +4,7 @@
 // once.
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +12,7 @@
 
 #include "curtain_sim/scene_yaml.h"
 #include "scene/checks.h"
+#include "scene/names.h"
 #include "scene/strict_reader.h"
 #include "scene/yaml_text.h"
 
@@ -49,6 +51,23 @@ void takeFullness(const YAML::Node& root, Scene& scene) {
     scene.cloth.width = *scene.hang.fullness * span;
 }
 
+// The material comes first: the other keys are read over it. Whatever else it may be is a problem that the reader
+// finds.
+void takeMaterial(const YAML::Node& root, Scene& scene) {
+  const YAML::Node cloth = root["cloth"];
+  if (!cloth.IsDefined() || !cloth.IsMap()) return;
+  const YAML::Node name = cloth["material"];
+  if (!name.IsDefined() || !name.IsScalar()) return;
+  const auto& names = materialNames();
+  const auto found = std::find(names.begin(), names.end(), name.Scalar());
+  if (found == names.end()) return;
+  const YAML::Node air = root["air"];
+  if (air.IsDefined() && air.IsMap() && air["law"].IsDefined() && air["law"].IsScalar() &&
+      air["law"].Scalar() == airLawNames()[static_cast<std::size_t>(AirLaw::kRelative)])
+    scene.air.law = AirLaw::kRelative;
+  applyMaterial(static_cast<Material>(found - names.begin()), scene);
+}
+
 }  // namespace
 
 SceneReading readScene(const YAML::Node& root) {
@@ -57,6 +76,7 @@ SceneReading readScene(const YAML::Node& root) {
     if (!root.IsMap()) return failed("must be a map with at least cloth: rows, columns, is " + describeValue(root));
     SceneReading reading;
     ProblemLog log;
+    takeMaterial(root, reading.scene);
     StrictReader::readMap(root, "", reading.scene, log);
     takeFullness(root, reading.scene);
     checkScene(reading.scene, log);

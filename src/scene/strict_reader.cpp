@@ -293,6 +293,35 @@ void StrictReader::numbers(Key key, std::vector<double>& values, Range range) {
   for (std::size_t i = 0; i < values.size(); ++i) readNumber((*found)[i], itemKey(keyOf(key), i), range, values[i]);
 }
 
+void StrictReader::integers(Key key, std::vector<int>& values, IntRange range) {
+  const YAML::Node* found = find(key, "a list of integers");
+  if (!found || !checkSequence(*found, keyOf(key), "a list of integers")) return;
+  values.assign(found->size(), 0);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    readInteger((*found)[i], itemKey(keyOf(key), i), range.text(), values[i]);
+}
+
+// Points [x, y, z], and arcs {to: [x, y, z], centre: [x, y, z]}.
+void StrictReader::path(Key key, std::vector<RailPiece>& pieces, Range range) {
+  const std::string wanted = "a list of points [x, y, z] and arcs {to, centre}";
+  const YAML::Node* found = find(key, wanted);
+  if (!found || !checkSequence(*found, keyOf(key), wanted)) return;
+  pieces.assign(found->size(), RailPiece());
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const std::string item_key = itemKey(keyOf(key), i);
+    const YAML::Node item = (*found)[i];
+    if (!item.IsMap()) {
+      readVector(item, item_key, range, pieces[i].to);
+      continue;
+    }
+    StrictReader arc(item, item_key, log_);
+    pieces[i].centre.emplace(Vec3::Zero());
+    arc.vector(required("to"), pieces[i].to, range);
+    arc.vector(required("centre"), *pieces[i].centre, range);
+    arc.reportUnknown();
+  }
+}
+
 void StrictReader::pins(Key key, PinParams& value) {
   const std::string wanted = alternatives(pinNames()) + ", or a list of [row, column]";
   const YAML::Node* found = find(key, wanted);

@@ -38,8 +38,10 @@ class StrictReader {
   void rotation(Key key, Rotation& value);
   void node(Key key, std::optional<NodeIndex>& value);
   void numbers(Key key, std::vector<double>& values, Range range);
+  void integers(Key key, std::vector<int>& values, IntRange range);
   void pins(Key key, PinParams& value);
   void slits(Key key, std::vector<SlitParams>& values);
+  void path(Key key, std::vector<RailPiece>& pieces, Range range);
   bool belongs(Key key, bool yes, ShapeKind shape);
 
   template <typename Enum>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Checks a scene's values: each by itself (RangeChecker), and together (here and in check_start.cpp).
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -8,12 +9,16 @@
 #include "scene/range_checker.h"
 #include "scene/ranges.h"
 #include "scene/scalar.h"
+#include "scene/shares.h"
 
 namespace curtain {
 namespace {
 
 // Least density of air that has a velocity [kg/m^3]: with the strongest wind its speeds and their squares are finite.
 constexpr double kThinnest = 1e-6;
+
+// Shortest link of cloth that resists bending [m].
+constexpr double kShortestThatBends = 1e-6;
 
 std::string formatNode(const NodeIndex& node) {
   return "[" + std::to_string(node.row) + ", " + std::to_string(node.column) + "]";
@@ -72,6 +77,28 @@ void checkSlits(const ClothParams& cloth, ProblemLog& log) {
     log.add(joinKey(itemKey("cloth.slits", entry), "column"),
             "must leave strips of two columns and more, leaves column " + std::to_string(lone) + " alone");
   }
+}
+
+// Springs of a joint are as stiff as its links' lengths are small, to the third power.
+void checkBending(const Scene& scene, ProblemLog& log) {
+  const ClothParams& cloth = scene.cloth;
+  if (!(cloth.bending_warp > 0.0 || cloth.bending_weft > 0.0)) return;
+  if (scene.solver.method == Method::kPaper)
+    log.add("solver.method",
+            "can't be paper for cloth that resists bending (cloth.bending_warp, cloth.bending_weft > 0)");
+  for (const char* key :
+       {"rows", "columns", "height", "width", "hem_width", "closed", "row_spacing", "column_spacing"}) {
+    if (!log.good("cloth." + std::string(key))) return;
+  }
+  const std::vector<double> rods = shareOut(cloth.height, cloth.row_spacing, cloth.rows - 1);
+  const std::vector<double> links =
+      shareOut(std::min(cloth.width, hemWidth(cloth)), cloth.column_spacing, weftLinkCount(cloth));
+  const double shortest =
+      std::min(*std::min_element(rods.begin(), rods.end()), *std::min_element(links.begin(), links.end()));
+  if (!(shortest >= kShortestThatBends))
+    log.add("cloth", "must have links of at least " + formatNumber(kShortestThatBends) +
+                         " m where it resists bending (bending_warp, bending_weft > 0), has one of " +
+                         formatNumber(shortest) + " m");
 }
 
 void checkPins(const Scene& scene, ProblemLog& log) {
@@ -190,10 +217,12 @@ void checkScene(const Scene& scene, ProblemLog& log) {
   checkCloth(scene.cloth, log);
   checkSlits(scene.cloth, log);
   checkHem(scene, log);
-  checkStart(scene, log);
+  if (scene.rail.path.empty()) checkStart(scene, log);
   checkAir(scene.air, "air", log);
   checkLaw(scene, log);
   checkPins(scene, log);
+  checkRail(scene, log);
+  checkBending(scene, log);
   checkUnique(scene.wind, "wind", "id", &WindParams::id, log);
   checkUnique(scene.drag, "drag", "id", &DragParams::id, log);
   checkUnique(scene.obstacles, "obstacles", "name", &ObstacleParams::name, log);
@@ -220,6 +249,10 @@ std::vector<Problem> validate(const DragParams& drag, const ClothParams& cloth, 
 
 std::vector<Problem> validate(const AirParams& air, const std::string& key) {
   return problemsOf(air, key, [&](ProblemLog& log) { checkAir(air, key, log); });
+}
+
+std::vector<Problem> validate(const DriveParams& drive, const std::string& key) {
+  return problemsOf(drive, key, [](ProblemLog&) {});
 }
 
 std::vector<Problem> validate(const SolverParams& solver, const std::string& key) {

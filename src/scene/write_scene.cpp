@@ -45,6 +45,9 @@ class SceneWriter {
     writeNode(*value);
   }
   void numbers(Key key, const std::vector<double>& values, Range) { flow(key, values); }
+  void integers(Key key, const std::vector<int>& values, IntRange) {
+    out_ << YAML::Key << key.name << YAML::Value << YAML::Flow << values;
+  }
   bool belongs(Key, bool yes, ShapeKind) { return yes; }
 
   void pins(Key key, const PinParams& value) {
@@ -62,6 +65,21 @@ class SceneWriter {
     for (const SlitParams& slit : values) {
       out_ << YAML::BeginMap << YAML::Key << "column" << YAML::Value << slit.column;
       out_ << YAML::Key << "from_row" << YAML::Value << slit.from_row << YAML::EndMap;
+    }
+    out_ << YAML::EndSeq;
+  }
+
+  void path(Key key, const std::vector<RailPiece>& pieces, Range range) {
+    out_ << YAML::Key << key.name << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    for (const RailPiece& piece : pieces) {
+      if (!piece.centre) {
+        numbers({piece.to.x(), piece.to.y(), piece.to.z()});
+        continue;
+      }
+      out_ << YAML::Flow << YAML::BeginMap;
+      vector("to", piece.to, range);
+      vector("centre", *piece.centre, range);
+      out_ << YAML::EndMap;
     }
     out_ << YAML::EndSeq;
   }
@@ -95,7 +113,12 @@ class SceneWriter {
   void plain(Key key, const std::string& value) { out_ << YAML::Key << key.name << YAML::Value << value; }
 
   void flow(Key key, const std::vector<double>& values) {
-    out_ << YAML::Key << key.name << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    out_ << YAML::Key << key.name << YAML::Value;
+    numbers(values);
+  }
+
+  void numbers(const std::vector<double>& values) {
+    out_ << YAML::Flow << YAML::BeginSeq;
     for (const double value : values) out_ << formatYamlNumber(value);
     out_ << YAML::EndSeq;
   }

@@ -56,6 +56,8 @@ void carryStatistics(Archive& archive, Statistics& s) {
   archive.number("step_seconds_sum", s.step_seconds_sum);
   for (double& seconds : s.stage_seconds) archive.number("stage_seconds", seconds);
   archive.number("position_error", s.position_error);
+  archive.number("opening", s.opening);
+  archive.number("drive_force", s.drive_force);
   archive.flag("finite", s.finite);
 }
 
@@ -169,7 +171,7 @@ void StepControls::carry(Archive& archive) {
 void PinMoves::carry(Archive& archive, const ClothPattern& of) {
   archive.list("pin_moves", moves_, [&](Move& move) {
     archive.node("node", move.node, of.grid);
-    archive.require(of.pinned[move.node] != 0, "must be a pinned node");
+    archive.require(of.pinned[move.node] == kPinned, "must be a pinned node");
     archive.finite("target", move.target);
     archive.flag("behind", move.behind);
   });
@@ -194,7 +196,9 @@ void Motion::carryVelocities(Archive& archive) {
 
 void EnergyLedger::carry(Archive& archive) {
   archive.finite("gravity", work_.gravity);
+  archive.finite("bending", work_.bending);
   archive.finite("forces", work_.forces);
+  archive.finite("drive", work_.drive);
   archive.finite("pins", work_.pins);
   archive.finite("obstacles", work_.obstacles);
   archive.finite("kinetic", work_.kinetic);
@@ -214,6 +218,7 @@ void Simulator::Impl::carry(Archive& archive) {
   archive.part("budget", budget);
   if (errors) errors->carry(archive);
   pins.carry(archive, pattern);
+  archive.part("opening", opening);
   archive.group("statistics", [&] { carryStatistics(archive, motion.statistics); });
   archive.part("clock", motion.clock);
   archive.part("ledger", motion.ledger);
@@ -227,6 +232,7 @@ void Simulator::Impl::carry(Archive& archive) {
 void Simulator::Impl::resume() noexcept {
   takeGravity();
   takeFrame();
+  opening.resume();
   motion.exact.resume(sleep.rest().asleep(), motion.state);
   motion.contact.skipSubstep();
   motion.contact.clearCaches();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Changes by the user between frames: frame rate and state of the cloth.
+#include <algorithm>
 #include <string>
 
 #include "simulator/simulator_impl.h"
@@ -21,6 +22,21 @@ void check(const std::vector<Vec3>& values, std::size_t count, const std::string
     if (values[n].cwiseAbs().maxCoeff() <= kFarthest && values[n].allFinite()) continue;
     problems.push_back({name + "[" + std::to_string(n) + "]", "must be finite and within [-1e9, 1e9]"});
     return;
+  }
+}
+
+// Carriers to the nearest places that the gaps between them leave.
+void putOnRail(const ClothPattern& pattern, ClothState& state) {
+  const RailPattern& rail = pattern.rail;
+  double least = 0.0;
+  for (std::size_t k = 0; k < rail.size(); ++k, least += rail.gap) {
+    const auto n = static_cast<std::size_t>(rail.columns[k]);
+    const double most = rail.path.length() - rail.gap * static_cast<double>(rail.size() - 1 - k);
+    const double after = k > 0 ? state.place[k - 1] + rail.gap : 0.0;
+    state.place[k] = std::min(most, std::max(after, rail.path.nearest(state.position.at(n))));
+    const RailPath::Place at = rail.path.at(state.place[k]);
+    state.position.set(n, at.point);
+    state.velocity.set(n, state.velocity.at(n).dot(at.tangent) * at.tangent);
   }
 }
 
@@ -52,14 +68,16 @@ std::vector<Problem> Simulator::setState(const std::vector<Vec3>& positions, con
     for (int j = 0; j < grid.columns; ++j, ++from) {
       const std::size_t n = grid.index(i, j);
       motion.state.position.set(n, positions[from]);
-      motion.state.velocity.set(n, im.pattern.pinned[n] != 0 ? Vec3::Zero() : velocities[from]);
+      motion.state.velocity.set(n, im.pattern.pinned[n] == kPinned ? Vec3::Zero() : velocities[from]);
     }
   }
+  putOnRail(im.pattern, motion.state);
   motion.state.velocity_age = 0.0;
   motion.exact.reset();
   motion.contact.forget();
   motion.forgetVelocities();
   motion.measureStretch();
+  im.opening.measure(motion.state, motion.statistics);
   im.guard.forget();
   if (im.errors) im.errors->lose();
   ++im.revision;

@@ -33,20 +33,24 @@ EnergyGuard::EnergyGuard(Motion& motion, StepControls& controls, bool chooses)
 bool EnergyGuard::isClosed(bool pins_move) const noexcept {
   const NodeForces& last = motion_.forces.last();
   const bool chooses = motion_.scene.solver.substeps == 0 || motion_.statistics.rejected > 0;
-  return wanted_ && chooses && !pins_move && last.weight_only && !last.has_damping && motion_.pushing() == nullptr;
+  return wanted_ && chooses && !pins_move && last.weight_only && !last.has_damping && motion_.pushing() == nullptr &&
+         !motion_.exact.carriers().drive().draws;
 }
 
 // Energy before the velocity projection, which bounds it from above (Motion::velocities()): nearly free, while the
-// projection costs as much as a substep.
+// projection costs as much as a substep. That of bending is leapfrog's own, x_n A x_(n-1) / 2 beside the velocities
+// between them, with the last substep's force -A x_(n-1).
 double EnergyGuard::energyWithoutLinks() const noexcept {
   const ClothState& state = motion_.state;
   const Vec3 fall = state.velocity_age * motion_.scene.gravity;
   double kinetic = 0.0, potential = 0.0;
   for (std::size_t n = 0; n < motion_.pattern.grid.size(); ++n) {
     const double m = motion_.pattern.mass[n];
-    if (motion_.pattern.pinned[n] == 0) kinetic += 0.5 * m * (state.velocity.at(n) + fall).squaredNorm();
+    if (motion_.pattern.pinned[n] != kPinned) kinetic += 0.5 * m * (state.velocity.at(n) + fall).squaredNorm();
     potential -= m * motion_.scene.gravity.dot(state.position.at(n));
   }
+  if (const Field3* const with_bending = motion_.exact.forcesWithBending())
+    potential -= 0.5 * workOf(*with_bending, *motion_.forces.last().force, state.position);
   return kinetic + potential;
 }
 
@@ -66,7 +70,7 @@ void EnergyGuard::endFrame(bool pins_move) {
   if (!std::isfinite(share)) return;
   Field3& velocity = motion_.state.velocity;
   for (std::size_t n = 0; n < motion_.pattern.grid.size(); ++n) {
-    if (motion_.pattern.pinned[n] == 0) velocity.set(n, share * velocity.at(n));
+    if (motion_.pattern.pinned[n] != kPinned) velocity.set(n, share * velocity.at(n));
   }
   motion_.forgetVelocities();
 }

@@ -7,20 +7,23 @@ EnergyLedger::EnergyLedger(const ClothPattern& pattern) : pattern_(pattern) {
   before_.assign(pattern.grid.size(), 0.0);
 }
 
-// Weight, and all forces but damping, which only takes energy out.
-void EnergyLedger::addForces(const Field3& velocity, const NodeForces& forces, double kick) noexcept {
-  double kinetic = 0.0, weight = 0.0, others = 0.0;
+// Weight, bending, and all forces but damping, which only takes energy out.
+void EnergyLedger::addForces(const Field3& velocity, const NodeForces& forces, const Field3* with_bending,
+                             double kick) noexcept {
+  double kinetic = 0.0, weight = 0.0, others = 0.0, bending = 0.0;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    if (pattern_.inverse_mass[n] <= 0.0) continue;
+    if (pattern_.inverse_mass[n] <= 0.0 && pattern_.pinned[n] != kCarrier) continue;
     const Vec3 mean = 0.5 * (before_.at(n) + velocity.at(n));
     kinetic += pattern_.mass[n] * mean.dot(velocity.at(n) - before_.at(n));
     const Vec3 own = pattern_.mass[n] * forces.gravity;
     weight += kick * own.dot(mean);
     others += kick * (forces.force->at(n) - own).dot(mean);
+    if (with_bending != nullptr) bending += kick * (with_bending->at(n) - forces.force->at(n)).dot(mean);
   }
   work_.kinetic += kinetic;
   work_.gravity += weight;
   work_.forces += others;
+  work_.bending += bending;
 }
 
 void EnergyLedger::addPins(const Field3& velocity, const ExactSolver& links, double per_h) noexcept {
@@ -28,18 +31,27 @@ void EnergyLedger::addPins(const Field3& velocity, const ExactSolver& links, dou
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = 0; j < grid.columns; ++j) {
       const std::size_t n = grid.index(i, j);
-      if (pattern_.pinned[n] == 0) continue;
+      if (pattern_.pinned[n] != kPinned) continue;
       const Vec3 v = velocity.at(n);
       if (!v.isZero(0.0)) work_.pins -= per_h * links.pullAt(i, j).dot(v);
     }
   }
 }
 
+void EnergyLedger::addDrive(const Field3& velocity, const Carriers& carriers, double kick) noexcept {
+  for (std::size_t k = 0; k < carriers.all().size(); ++k) {
+    const Carrier& carrier = carriers.all()[k];
+    const Vec3 mean = 0.5 * (before_.at(carriers.node(carrier)) + velocity.at(carriers.node(carrier)));
+    work_.drive += kick * carriers.memory().drawn[k] * mean.dot(carrier.now);
+  }
+}
+
 void EnergyLedger::end(const ClothState& state, const NodeForces& forces, const Contacts* contacts,
                        const ExactSolver* links, double h, const SubstepOutcome& outcome) noexcept {
-  addForces(state.velocity, forces, outcome.kick);
+  addForces(state.velocity, forces, links != nullptr ? links->forcesWithBending() : nullptr, outcome.kick);
   const double per_h = outcome.scale != 0.0 ? outcome.kick / outcome.scale : 1.0 / h;
   if (links != nullptr) addPins(state.velocity, *links, per_h);
+  if (links != nullptr) addDrive(state.velocity, links->carriers(), outcome.kick);
   for (std::size_t k = 0; contacts != nullptr && k < contacts->size(); ++k) {
     const Contact& contact = (*contacts)[k];
     if (contact.obstacle == Contact::kCloth || !contact.pushes()) continue;

@@ -37,8 +37,9 @@ class EnergyLedger {
   void restore(const Work& work) noexcept { work_ = work; }
 
  private:
-  void addForces(const Field3& velocity, const NodeForces& forces, double kick) noexcept;
+  void addForces(const Field3& velocity, const NodeForces& forces, const Field3* with_bending, double kick) noexcept;
   void addPins(const Field3& velocity, const ExactSolver& links, double per_h) noexcept;
+  void addDrive(const Field3& velocity, const Carriers& carriers, double kick) noexcept;
 
   const ClothPattern& pattern_;
   Field3 before_;

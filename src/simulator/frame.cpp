@@ -49,6 +49,7 @@ void Simulator::Impl::sleepThrough() {
 // Returns the share of the frame that was made.
 double Simulator::Impl::moveThrough(Budget::Clock::time_point begin) {
   const Statistics& s = motion.statistics;
+  motion.drive_impulse = 0.0;
   guard.beginFrame(pins.any());
   const bool links_hold = !pins.any() && std::max(s.warp_stretch, s.weft_stretch) < kHold;
   motion.contact.beginFrame(links_hold);
@@ -75,7 +76,9 @@ void Simulator::Impl::endFrame(double share) {
   nextFrame(share);
   ++revision;
   motion.measure();
-  sleep.fallAsleep();
+  opening.measure(motion.state, s);
+  s.drive_force = motion.drive_impulse / times.length();
+  if (!opening.isUnderWay(motion.state)) sleep.fallAsleep();
   if (errors && sleep.all()) errors->lose();
   s.stage_seconds = motion.clock.seconds();
 }

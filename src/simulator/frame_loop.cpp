@@ -66,7 +66,7 @@ SubstepPlan FrameLoop::plan(StepControl& steps, double done) {
 }
 
 bool FrameLoop::makeStages(const SubstepPlan& plan, double done) {
-  if (controls_.plain_frames > 0 || motion_.exact.weftPulls()) return false;
+  if (controls_.plain_frames > 0 || motion_.exact.weftPulls() || motion_.exact.carriers().any()) return false;
   motion_.save(before_);
   double at = done;
   for (const double gamma : kStages) {
@@ -114,6 +114,7 @@ void FrameLoop::accept(StepControl& steps, const SubstepPlan& plan, const Subste
   if (outcome.share < kStopped) ++s.stops;
   if (plan.isLastResort()) ++s.last_resort_substeps;
   s.momentum_cut += outcome.momentum_cut;
+  motion_.drive_impulse += plan.h * motion_.exact.carriers().driveForce();
   s.obstacles_waited += motion_.lag.substepMade(outcome.share, plan.h);
   steps.accepted(plan, outcome);
   if (&steps != &controls_.main) {

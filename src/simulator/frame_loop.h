@@ -27,8 +27,8 @@ class FrameLoop {
   /// A pin stayed where it was in a substep of that frame.
   bool pinsWaited() const noexcept { return pins_waited_; }
 
-  /// Makes a substep of five stages. False, and nothing changed: stages are paused, or a string pulls or something
-  /// touches, which can't be reversed in time.
+  /// Makes a substep of five stages. False, and nothing changed: stages are paused, or a string pulls, something
+  /// touches, or carriers slide, which can't be reversed in time.
   bool makeStages(const SubstepPlan& plan, double done);
 
  private:

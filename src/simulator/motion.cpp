@@ -105,6 +105,9 @@ Energy Motion::energy() {
     energy.kinetic += 0.5 * pattern.mass[n] * velocity.at(n).squaredNorm();
     energy.potential -= pattern.mass[n] * scene.gravity.dot(state.position.at(n));
   }
+  double elastic = 0.0;
+  exact.bendingAt(state.position, elastic);
+  energy.potential += elastic;
   return energy;
 }
 

@@ -61,6 +61,7 @@ struct Motion {
   PaperSolver paper;
   EnergyLedger ledger;
   bool counts_work = false;
+  double drive_impulse = 0.0;  ///< of the rail's drive in this frame [N s]
   Statistics statistics;
   StageClock clock;
 

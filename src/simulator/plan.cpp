@@ -107,10 +107,20 @@ void planSolver(const Motion& motion, const Budget& budget, Plan& plan) {
   const std::string substeps =
       solver.substeps > 0 ? std::to_string(solver.substeps) + " substeps a frame" : "substeps from the tensions";
   plan.push_back({"warp", true, toString(solver.method) + ", " + substeps});
+  const Bending& bending = motion.exact.bending();
+  const char* const bends = bending.gives() ? "where lines are stiffer than the substeps bear, nodes give way"
+                                            : "explicit: substeps bear all of its stiffness";
+  plan.push_back({"bending", bending.any(), bending.any() ? bends : "bending_warp and bending_weft are 0"});
   const bool pulls = motion.exact.weftPulls();
   plan.push_back({"weft", true,
                   pulls ? "strings pull: all taut ones are solved for at once"
                         : "no string pulls: looked at, and nothing more unless one gets taut"});
+  const std::size_t carriers = motion.exact.carriers().all().size();
+  const bool draws = motion.exact.carriers().drive().draws;
+  plan.push_back({"rail", carriers > 0,
+                  carriers == 0 ? "there is none"
+                                : std::to_string(carriers) + " carriers slide" +
+                                      (draws ? ", and the drive draws them" : "; the drive has let go")});
   const bool estimates = ErrorControl::wanted(solver);
   plan.push_back(
       {"estimate", estimates,

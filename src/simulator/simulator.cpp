@@ -27,8 +27,11 @@ const Scene& judged(const Scene& scene) {
   return scene;
 }
 
-bool leapfrogs(const SolverParams& params) {
-  return params.method == Method::kAuto || params.method == Method::kLeapfrog;
+// Carriers push each other along the rail, so cloth on a rail sleeps as a whole.
+bool sleepsByColumn(const Scene& scene) {
+  const Method method = scene.solver.method;
+  const bool leapfrogs = method == Method::kAuto || method == Method::kLeapfrog;
+  return leapfrogs && !ErrorControl::wanted(scene.solver) && scene.rail.path.empty();
 }
 
 }  // namespace
@@ -38,13 +41,15 @@ Simulator::Impl::Impl(const Scene& given, const MeshResolver& resolve)
       pattern(makePattern(scene)),
       times(scene.solver.frame_rate),
       motion(scene, pattern, times, resolve),
+      opening(scene, pattern, motion.exact),
       controls(scene.solver, pattern, scene.gravity),
-      sleep(motion, controls, leapfrogs(scene.solver) && !ErrorControl::wanted(scene.solver)),
+      sleep(motion, controls, sleepsByColumn(scene)),
       budget(scene.solver.budget_ms),
       loop(motion, controls, sleep, budget),
       guard(motion, controls, !ErrorControl::wanted(scene.solver)),
       surface(scene.cloth, pattern) {
   if (ErrorControl::wanted(scene.solver)) errors.emplace(motion, controls, loop, budget);
+  opening.measure(motion.state, motion.statistics);
 }
 
 void Simulator::Impl::reset() {
@@ -56,12 +61,20 @@ void Simulator::Impl::reset() {
   if (errors) errors->reset();
   guard.forget();
   pins.clear();
+  opening.reset();
+  opening.measure(motion.state, motion.statistics);
   ++revision;
 }
 
 void Simulator::Impl::takeGravity() noexcept {
   motion.forces.takeGravity();
   controls.takeGravity(pattern, scene.gravity);
+}
+
+// The drive does something else from now on.
+void Simulator::Impl::driven() noexcept {
+  guard.forget();
+  sleep.rest().disturbAll();
 }
 
 void Simulator::Impl::takeFrame() noexcept {
@@ -260,6 +273,34 @@ std::vector<Problem> Simulator::setAir(const AirParams& air) {
   return problems;
 }
 const std::vector<DragParams>& Simulator::drags() const { return impl_->motion.forces.drags(); }
+
+std::vector<Problem> Simulator::setOpening(double opening) {
+  Impl& im = *impl_;
+  if (im.pattern.rail.empty()) return {{"opening", "is for cloth on a rail: this scene has no rail.path"}};
+  const Range range = between(0.0, 1.0);
+  if (!range.contains(opening)) return {{"opening", "must be " + range.text() + ", is " + formatNumber(opening)}};
+  if (im.opening.draws() && opening == im.opening.goal()) return {};
+  im.opening.draw(opening);
+  im.driven();
+  return {};
+}
+
+void Simulator::releaseDrive() {
+  if (!impl_->opening.draws()) return;
+  impl_->opening.letGo();
+  impl_->driven();
+}
+
+std::vector<Problem> Simulator::setDrive(const DriveParams& drive) {
+  std::vector<Problem> problems = validate(drive, "drive");
+  if (!problems.empty()) return problems;
+  impl_->opening.setDrive(drive);
+  impl_->driven();
+  return problems;
+}
+
+bool Simulator::drives() const { return impl_->opening.draws(); }
+const DriveParams& Simulator::drive() const { return impl_->opening.drive(); }
 
 bool Simulator::movePin(NodeIndex node, const Vec3& target) {
   const Grid& grid = impl_->pattern.grid;

@@ -14,6 +14,7 @@
 #include "simulator/frame_loop.h"
 #include "simulator/frame_times.h"
 #include "simulator/motion.h"
+#include "simulator/opening.h"
 #include "simulator/pin_moves.h"
 #include "simulator/sleep.h"
 
@@ -26,6 +27,7 @@ struct Simulator::Impl {
   void step();
   void takeGravity() noexcept;
   void takeFrame() noexcept;
+  void driven() noexcept;
   void carry(Archive& archive);
   void resume() noexcept;
   std::uint32_t layout();
@@ -34,6 +36,7 @@ struct Simulator::Impl {
   const ClothPattern pattern;
   FrameTimes times;
   Motion motion;
+  Opening opening;
   StepControls controls;
   Sleep sleep;
   Budget budget;

@@ -25,6 +25,7 @@ void NodeInertia::Tensions::carry(Archive& archive) {
 void Bdf2::Memory::carry(Archive& archive) {
   archive.numbers("position", position);
   archive.numbers("velocity", velocity);
+  archive.numbers("place", place);
   archive.number("h", h);
   archive.integer("single_steps", single_steps, 0, kCount);
 }
@@ -39,10 +40,14 @@ void ExactSolver::Memory::carry(Archive& archive) {
   archive.part("constraints", constraints);
   archive.part("bdf2", bdf2);
   archive.part("tensions", tensions);
+  archive.part("carriers", carriers);
 }
 
 // Which columns are held comes from Rest: see resume().
-void HeldColumns::carry(Archive& archive) { archive.numbers("pull", pull_); }
+void HeldColumns::carry(Archive& archive) {
+  archive.numbers("pull", pull_);
+  archive.numbers("bent", bent_);
+}
 
 void Constraints::carry(Archive& archive) {
   archive.numbers("last_warp", last_warp_);
@@ -55,6 +60,7 @@ void ExactSolver::carry(Archive& archive) {
   archive.part("constraints", constraints_);
   archive.part("bdf2", bdf2_.memory());
   archive.part("tensions", inertia_.tensions());
+  archive.part("carriers", constraints_.carriers().memory());
   archive.part("held", held_);
 }
 

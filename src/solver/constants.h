@@ -137,6 +137,11 @@ constexpr double kMassScalingShare = 0.02;
 // h * omega at which mass scaling sets in, below leapfrog's limit of 2. At 1.7 a swing in two fixed substeps
 // gains 2.5e-2 of its energy in 20 s.
 constexpr double kStablePhase = 1.9;
+// What bending may take of h^2 omega^2 where tensions take all that they may: up to leapfrog's limit of 4.
+constexpr double kLeastForBending = 4.0 - kStablePhase * kStablePhase;
+// The same where links follow, which then take none. There bending acts where the step leads to, which is stable below
+// 4 / 3; at 1 a line that gives way takes backward Euler's step.
+constexpr double kBackwardLimit = 1.0;
 // h * turning rate that substeps are chosen for where only rods act and the motion is smooth. Leapfrog's error is about
 // (h * turning)^2 / 24 of the displacement: 1 mm in 5 m at 0.07. Chains of 2 m then end a second's fall with 0.2 to 0.9
 // mm (RMS) for any number of rods. The cost of smooth motion is inversely proportional to it.

@@ -21,6 +21,7 @@ Constraints::Constraints(const ClothPattern& pattern, double tolerance, const No
       held_(held),
       workers_(workers),
       net_(pattern, workers),
+      carriers_(pattern),
       middle_rest_(middleRestOf(pattern)) {
   const std::size_t size = pattern.grid.size();
   const std::size_t links = size + static_cast<std::size_t>(pattern.grid.stride);
@@ -31,12 +32,13 @@ Constraints::Constraints(const ClothPattern& pattern, double tolerance, const No
   weft_.most_give = tolerance;
   for (Field* field : {&last_warp_, &last_weft_, &best_.warp, &best_.weft}) field->assign(links, 0.0);
   for (Field* field : {&violation_, &active_, &change_, &free_per_square_}) field->assign(size, 0.0);
-  freeWeft(pattern, pattern.inverse_mass, free_per_square_);
+  freeWeft(pattern, inertia.masses(), free_per_square_);
   next.assign(size, 0.0);
   best_.position.assign(size, 0.0);
   block_motion_.resize(blocks);
   block_progress_.resize(blocks);
   frozen_scale_.assign(blocks, 0.0);
+  if (carriers_.any()) top_force_.assign(static_cast<std::size_t>(pattern.grid.stride), 0.0);
   row_worst_.resize(static_cast<std::size_t>((pattern.grid.rows + kRowsAtOnce - 1) / kRowsAtOnce));
 }
 
@@ -48,32 +50,37 @@ void Constraints::expectContacts(std::size_t count) {
 void Constraints::reset() noexcept {
   for (Field* field : {&last_warp_, &last_weft_, &weft_.multiplier}) std::fill(field->begin(), field->end(), 0.0);
   weft_pulls_ = false;
+  carriers_.forget();
   net_.reset();
   scratch_.assign(pattern_.grid);
 }
 
 // ---- Begin and end of a substep
 
-void Constraints::begin(const SubstepStart& start, double ratio) noexcept {
+void Constraints::begin(const SubstepStart& start, const ClothState& state, double h, double ratio) noexcept {
+  if (carriers_.any()) beginCarriers(start, state, h);
   const LineSolve warp = rods(), weft = wefts();
   directions_set_ = measured_ = false;
   forEachBlock([&](int block) { warpBegin(start, warp, last_warp_, ratio, block); });
-  if (!weft_pulls_) return;  // all multipliers are zero, in weft_ too
-  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) weft_.multiplier[n] = ratio * last_weft_[n];
-  if (ratio == 0.0) return;
-  directions_set_ = true;
-  worstOfRows([&](int i) {
-    setWeftDirections(pattern_.grid, i, held_.movingSpan(), start.state.position, weft_.direction);
-    pullWeft(weft, i, weft_.multiplier);
-    return 0.0;
-  });
+  if (weft_pulls_) {  // else all multipliers are zero, in weft_ too
+    for (std::size_t n = 0; n < pattern_.grid.size(); ++n) weft_.multiplier[n] = ratio * last_weft_[n];
+    directions_set_ = ratio != 0.0;
+  }
+  if (directions_set_) {
+    worstOfRows([&](int i) {
+      setWeftDirections(pattern_.grid, i, held_.movingSpan(), start.state.position, weft_.direction);
+      pullWeft(weft, i, weft_.multiplier);
+      return 0.0;
+    });
+  }
+  settleCarriers();
 }
 
-double Constraints::commit(const Field3& from, double step, bool bends, ClothState& state, Field& load) noexcept {
+double Constraints::commit(const SubstepStart& start, bool bends, ClothState& state, Field& load) noexcept {
   const LineSolve warp = rods();
   forEachBlock([&](int block) {
     block_motion_[static_cast<std::size_t>(block)] =
-        warpFinish(warp, from, 1.0 / step, bends, state.velocity, load, block);
+        warpFinish(warp, start.state.position, 1.0 / start.h, bends, state.velocity, load, block);
   });
   double heaviest = 0.0;
   for (const WarpMotion& block : block_motion_) heaviest = std::max(heaviest, block.heaviest);
@@ -85,7 +92,7 @@ double Constraints::commit(const Field3& from, double step, bool bends, ClothSta
   }
   std::swap(state.position, next);  // equal in held columns
   std::swap(last_warp_, warp_.multiplier);
-  return heaviest;
+  return carriers_.any() ? std::max(heaviest, commitCarriers(state, load)) : heaviest;
 }
 
 void Constraints::end(bool taken) noexcept {
@@ -127,16 +134,16 @@ double Constraints::bent() const noexcept {
   return sum;
 }
 
-Vec3 Constraints::pullAt(int row, int column) const noexcept {
+Vec3 Constraints::pullAt(int row, int column, const Field& warp, const Field& weft, bool strings) const noexcept {
   const Grid& grid = pattern_.grid;
   const std::size_t n = grid.index(row, column);
   const auto stride = static_cast<std::size_t>(grid.stride);
   const bool last = column + 1 == grid.columns;
   const std::size_t right = last ? grid.index(row, 0) : n + 1;  // closed cloth: the first column's link closes the ring
-  Vec3 pull = last_warp_[n + stride] * warp_.direction.at(n + stride) - last_warp_[n] * warp_.direction.at(n);
-  if (!weft_pulls_) return pull;
-  pull -= last_weft_[n] * weft_.direction.at(n);
-  if (!last || grid.closed) pull += last_weft_[right] * weft_.direction.at(right);
+  Vec3 pull = warp[n + stride] * warp_.direction.at(n + stride) - warp[n] * warp_.direction.at(n);
+  if (!strings) return pull;
+  pull -= weft[n] * weft_.direction.at(n);
+  if (!last || grid.closed) pull += weft[right] * weft_.direction.at(right);
   return pull;
 }
 

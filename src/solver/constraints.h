@@ -32,11 +32,12 @@ class Constraints {
 
   // ---- Begin and end of a substep
 
-  /// Predicts, and warm-starts with the last substep's multipliers times ratio.
-  void begin(const SubstepStart& start, double ratio) noexcept;
+  /// Predicts, and warm-starts with the last substep's multipliers times ratio. state: at the start of the substep, of
+  /// h [s].
+  void begin(const SubstepStart& start, const ClothState& state, double h, double ratio) noexcept;
   /// Accepts the substep: sets velocities and loads (returns the largest load over its mass) and keeps the multipliers.
   /// bends: compute WarpMotion::bent.
-  double commit(const Field3& from, double step, bool bends, ClothState& state, Field& load) noexcept;
+  double commit(const SubstepStart& start, bool bends, ClothState& state, Field& load) noexcept;
   /// Ends the substep, accepted or not.
   void end(bool taken) noexcept;
 
@@ -56,7 +57,10 @@ class Constraints {
   };
   LinkTensions tensionsAt(int row, int column, double scale) const noexcept;
   /// Sum of multiplier times direction over a node's links, of the last substep [kg m].
-  Vec3 pullAt(int row, int column) const noexcept;
+  Vec3 pullAt(int row, int column) const noexcept { return pullAt(row, column, last_warp_, last_weft_, weft_pulls_); }
+
+  Carriers& carriers() noexcept { return carriers_; }
+  const Carriers& carriers() const noexcept { return carriers_; }
 
   // ---- Parts of a solve
 
@@ -95,6 +99,9 @@ class Constraints {
   /// One step of all taut strings and contacts. Moves the nodes; the rods are solved for next.
   void solveNet(const NetAim& aim, Contacts* contacts) noexcept;
 
+  /// After nodes were moved by others: carriers are where the rail lets them be.
+  void settleCarriers() noexcept;
+
   /// Sum of the squared violations of links and contacts, in lengths of a link; rods_lack: violation assumed of every
   /// rod, where their solve has not converged. A damped step reduces it if it is short enough, while the largest
   /// violation may stay the same.
@@ -110,7 +117,7 @@ class Constraints {
 
   /// Projects the velocities on the constraints: no rod or pulling string changes its length, no pushing contact
   /// penetrates. Starts from `share` of the last substep's forces between nodes, so friction goes on and cloth at rest
-  /// is a fixed point.
+  /// is a fixed point. Carriers: after Carriers::beginRates().
   void project(const Field3& position, const Contacts* contacts, double share, Field3& velocity) noexcept;
   /// Adds what links and contacts pulled by in the last substep, along their directions at these positions, times share
   /// and over the nodes' masses. Between substeps only.
@@ -152,8 +159,12 @@ class Constraints {
   void freeze(int block, const ClothState& state, NodeInertia::Tensions& tensions) noexcept;
   void thaw(int block, NodeInertia::Tensions& tensions) noexcept;
   double heaviestOf(int block, const Field& load) const noexcept;
-  LineSolve rods() noexcept { return {pattern_, inertia_.inverse(), warp_, next, held_.movingSpan()}; }
-  LineSolve wefts() noexcept { return {pattern_, inertia_.inverse(), weft_, next, held_.movingSpan()}; }
+  Carriers* sliding() noexcept { return carriers_.slide() ? &carriers_ : nullptr; }
+  LineSolve rods() noexcept { return {pattern_, inertia_.inverse(), warp_, next, held_.movingSpan(), sliding()}; }
+  LineSolve wefts() noexcept { return {pattern_, inertia_.inverse(), weft_, next, held_.movingSpan(), sliding()}; }
+  void beginCarriers(const SubstepStart& start, const ClothState& state, double h) noexcept;
+  double commitCarriers(ClothState& state, const Field& load) noexcept;
+  Vec3 pullAt(int row, int column, const Field& warp, const Field& weft, bool strings) const noexcept;
   template <typename Look>
   double worstOfRows(const Look& look) noexcept;
   template <typename Block>
@@ -166,6 +177,10 @@ class Constraints {
   const HeldColumns& held_;
   const Workers& workers_;
   NetSolver net_;
+  Carriers carriers_;
+  Field3 top_force_;      // on the nodes of the top row but the links' [N]; with a rail only
+  double per_scale_ = 0;  // 1 / (h kick) [1/s^2]
+  int presses_ = 0;       // times that the rail's friction has been set in this substep
   LineScratch scratch_;
   LinkSet warp_, weft_;
   Field last_warp_, last_weft_;  // multipliers of the last accepted substep

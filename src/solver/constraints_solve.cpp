@@ -35,6 +35,7 @@ Constraints::RodsProgress Constraints::solveRods(const RodsAim& aim) noexcept {
     all.converged = all.converged && block.converged;
     all.first_residual = std::max(all.first_residual, block.first_residual);
   }
+  settleCarriers();
   return all;
 }
 
@@ -77,14 +78,15 @@ void Constraints::setWeftDirectionsAt(const Field3& position) noexcept {
 void Constraints::followDirections() noexcept {
   forEachBlock([&](int block) { setWarpDirections(pattern_.grid, block, next, warp_.direction); });
   setWeftDirectionsAt(next);
-  net_.begin(next, inertia_.inverse(), held_.movingSpan());
+  carriers_.followDirections();
+  net_.begin(next, inertia_.inverse(), held_.movingSpan(), sliding());
   directions_set_ = net_ready_ = true;
 }
 
 void Constraints::takeDirections(const Field3& start) noexcept {
   if (net_ready_) return;
   if (!directions_set_) setWeftDirectionsAt(start);
-  net_.begin(start, inertia_.inverse(), held_.movingSpan());
+  net_.begin(start, inertia_.inverse(), held_.movingSpan(), sliding());
   directions_set_ = net_ready_ = true;
 }
 
@@ -107,10 +109,12 @@ void Constraints::solveNet(const NetAim& aim, Contacts* contacts) noexcept {
     pullWeft(weft, i, change_);
     return 0.0;
   });
-  if (contacts == nullptr) return;
-  net_.forEachContactChange([&](std::uint32_t index, double push, const Vec3& slide) {
-    takeUpContact(inertia_.inverse(), share * push, share * slide, (*contacts)[index], next);
-  });
+  if (contacts != nullptr) {
+    net_.forEachContactChange([&](std::uint32_t index, double push, const Vec3& slide) {
+      takeUpContact(inertia_.inverse(), share * push, share * slide, (*contacts)[index], next);
+    });
+  }
+  settleCarriers();
 }
 
 double Constraints::merit(const Contacts* contacts, double rods_lack) noexcept {

@@ -37,17 +37,25 @@ void Constraints::addPulls(const Field3& position, const Contacts* contacts, dou
 
 void Constraints::project(const Field3& position, const Contacts* contacts, double share, Field3& velocity) noexcept {
   setWarpDirections(pattern_.grid, position, warp_.direction);
-  const LineSolve warp{pattern_, inertia_.masses(), warp_, velocity, held_.movingSpan()};
-  const LineSolve weft{pattern_, inertia_.masses(), weft_, velocity, held_.movingSpan()};
+  Carriers* const sliding = carriers_.any() ? &carriers_ : nullptr;
+  const LineSolve warp{pattern_, inertia_.masses(), warp_, velocity, held_.movingSpan(), sliding};
+  const LineSolve weft{pattern_, inertia_.masses(), weft_, velocity, held_.movingSpan(), sliding};
   const bool presses = contacts != nullptr && anyPushes(*contacts);
   const bool alone = !weft_pulls_ && !presses;
-  const auto solveRods = [&] { forEachBlock([&](int block) { warpProjectVelocity(warp, scratch_, block); }); };
+  const auto settle = [&] {
+    if (sliding != nullptr) carriers_.settleRates(velocity);
+  };
+  const auto solveRods = [&] {
+    forEachBlock([&](int block) { warpProjectVelocity(warp, scratch_, block); });
+    settle();
+  };
   if (weft_pulls_) std::copy(last_weft_.begin(), last_weft_.end(), weft_.multiplier.begin());  // which links pull
   if (!alone) setWeftDirectionsAt(position);
   if (share > 0.0) spreadForces(warp, weft, contacts, share);
+  settle();
   solveRods();
   if (alone) return;
-  net_.begin(position, inertia_.masses(), held_.movingSpan());
+  net_.begin(position, inertia_.masses(), held_.movingSpan(), sliding);
   double first_rate = 0.0;
   for (int round = 0; round < (presses ? kContactRounds : kVelocityRounds); ++round) {
     double rate = worstOfRows([&](int i) { return measureWeftRates(weft, i, violation_, active_); });
@@ -63,6 +71,7 @@ void Constraints::project(const Field3& position, const Contacts* contacts, doub
         contact.move(inertia_.masses(), push * contact.normal + slide, velocity);
       });
     }
+    settle();
     solveRods();
   }
   if (weft_pulls_) std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0);

@@ -29,6 +29,7 @@ ExactSolver::ExactSolver(const ClothPattern& pattern, double stretch_tolerance, 
       inertia_(pattern),
       held_(pattern),
       skipped_before_(static_cast<std::size_t>(warpBlockCount(pattern.grid)), 0),
+      bending_(pattern, workers),
       constraints_(pattern, kInnerTolerance * stretch_tolerance, inertia_, held_, workers),
       sweeps_(constraints_, inertia_, stretch_tolerance, stretch_tolerance * smallest_rest_, max_sweeps),
       guard_(pattern, inertia_, stretch_tolerance, constraints_.middleRest()),
@@ -84,14 +85,16 @@ ExactSolver::Attempt ExactSolver::predict(const SubstepPlan& plan, const NodeFor
   const double step = scheme.stepFor(plan.h);
   const double kick = state.velocity_age + (1.0 - rules.age) * step;
   const double scale = step * kick;
+  inertia_.letSlide(!plan.isLastResort());
   inertia_.set(forces, kick, scale, plan.most_phase, rules.backward);
+  bending_.begin(inertia_, inertia_.inverse(), scale, !rules.follows);
   // Warm start only along fixed directions: with present directions old tensions diverge where rods have turned much.
   const double before = inertia_.tensions().scale;
   const double ratio = !rules.follows && before != 0.0 ? scale / before : 0.0;
-  const Attempt attempt{
-      plan,   forces, finder, state, clock,
-      scheme, step,   kick,   ratio, scheme.start(plan, step, kick, forces, inertia_, state, outcome)};
-  constraints_.begin(attempt.start, ratio);
+  const Scheme::Task task{plan, step, kick, forces, inertia_, bending_};
+  const Attempt attempt{plan,   forces, finder, state, clock,
+                        scheme, step,   kick,   ratio, scheme.start(task, state, outcome)};
+  constraints_.begin(attempt.start, state, plan.h, ratio);
   clock.lap(Stage::kPredict);
   return attempt;
 }
@@ -128,6 +131,7 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const Attempt& attempt) noexce
   while (true) {
     if (contacts != nullptr) {
       beginContacts(inertia_.inverse(), attempt.ratio, known, *contacts, constraints_.next);
+      constraints_.settleCarriers();
       known = contacts->size();
       if (known > 0 && task.path == 0.0) task.path = plan.h * std::sqrt(meanSquare(attempt.state.velocity));
     }
@@ -156,7 +160,7 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const Attempt& attempt) noexce
 
 // A string has snapped taut in this substep, or a new contact pushes.
 bool ExactSolver::struck(const Progress& progress) const noexcept {
-  if (constraints_.snapsTaut()) return true;
+  if (constraints_.snapsTaut() || constraints_.carriers().strikes()) return true;
   return progress.contacts != nullptr &&
          std::any_of(progress.contacts->begin(), progress.contacts->end(),
                      [](const Contact& contact) { return contact.pushes() && !contact.pressed; });
@@ -173,11 +177,12 @@ void ExactSolver::judge(const Attempt& attempt, Progress& progress, SubstepOutco
   const bool last_resort = attempt.plan.isLastResort();
   const double surface =
       progress.contacts != nullptr ? fastestDrive(*progress.contacts, attempt.state.position, attempt.plan.h) : 0.0;
+  const double drawn = constraints_.carriers().driveEnergy();
   if (progress.late || (last_resort && progress.alone())) {
-    progress.most_kinetic = guard_.most(attempt.scheme.rules(), attempt.start, constraints_.next, surface);
+    progress.most_kinetic = guard_.most(attempt.scheme.rules(), attempt.start, constraints_.next, surface, drawn);
   } else if (!last_resort && progress.settled && needsEnergyCheck(attempt, progress)) {
     const KineticGuard::Finding finding =
-        guard_.look(attempt.scheme.rules(), attempt.start, constraints_.next, surface);
+        guard_.look(attempt.scheme.rules(), attempt.start, constraints_.next, surface, drawn);
     progress.most_kinetic = finding.most;
     // If half the step gains no less, the excess stems from the positions before: it is taken out of the velocities.
     const bool again = std::abs(attempt.plan.h) < std::abs(gained_.h);
@@ -187,8 +192,8 @@ void ExactSolver::judge(const Attempt& attempt, Progress& progress, SubstepOutco
   if (held_.any()) {
     const bool stuck = progress.crossed || (last_resort && !progress.settled);
     const LinkSet* const strings = constraints_.stringsAct() ? &constraints_.strings() : nullptr;
-    outcome.disturbed =
-        held_.disturbedBy(strings, progress.contacts, 1.0 / attempt.scale(), attempt.forces.gravity.norm(), stuck);
+    outcome.disturbed = held_.disturbedBy(strings, constraints_.next, progress.contacts, 1.0 / attempt.scale(),
+                                          attempt.forces.gravity.norm(), stuck);
   }
   outcome.sweeps = progress.sweeps;
   outcome.touches = !progress.alone();
@@ -231,8 +236,7 @@ void ExactSolver::take(const Attempt& attempt, const Progress& progress, Substep
     else
       scheme->passedOver();
   }
-  tensions.heaviest =
-      constraints_.commit(attempt.start.state.position, attempt.step, plan.tells_turning, state, tensions.load);
+  tensions.heaviest = constraints_.commit(attempt.start, plan.tells_turning, state, tensions.load);
   state.velocity_age = attempt.scheme.rules().age * attempt.step;
   if (std::isfinite(progress.most_kinetic)) guard_.bound(progress.most_kinetic, state.velocity);
   gained_ = {};
@@ -242,6 +246,7 @@ void ExactSolver::take(const Attempt& attempt, const Progress& progress, Substep
   if (fastest > 0.0) outcome.longest_step = kMostSurfaceMotion * smallest_rest_ / fastest;
   // Such a substep also moved links to their lengths, which is no motion: project the velocities.
   if ((progress.end != SweepEnd::kConverged || plan.isLastResort()) && !progress.late) {
+    constraints_.carriers().beginRates(state, 0.0, state.velocity);
     projectVelocity(state.position, progress.contacts, 0.0, state.velocity);
   }
 }
@@ -281,21 +286,38 @@ void ExactSolver::keepMomentum(const SubstepStart& start) noexcept {
 void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& forces, const Contacts* contacts,
                                     Field3& out) noexcept {
   const double age = state.velocity_age;
+  double elastic = 0.0;
+  const Field3* const bending = bendingAt(state.position, elastic);
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     const double w = inertia_.masses()[n];
     const DampedStep step = forces.has_damping ? dampedStep(forces.damping[n], w, age) : DampedStep{1.0, 1.0};
-    out.set(n, step.keep * state.velocity.at(n) + age * step.gain * w * forces.force->at(n));
+    const Vec3 force = bending != nullptr ? Vec3(forces.force->at(n) + bending->at(n)) : forces.force->at(n);
+    out.set(n, step.keep * state.velocity.at(n) + age * step.gain * w * force);
   }
   if (age == 0.0) return;
+  constraints_.carriers().beginRates(state, age, out);
   const double most = guard_.most(out, contacts != nullptr ? fastestSurface(*contacts) : 0.0);
   projectVelocity(state.position, contacts, age / inertia_.tensions().scale, out);
   guard_.bound(most, out);  // unsolvable links (pins pulled apart) give unbounded velocities
+}
+
+// From what a snapshot holds, so that it is the same after it.
+const Field3* ExactSolver::bendingAt(const Field3& position, double& energy) noexcept {
+  energy = 0.0;
+  if (!bending_.any()) return nullptr;
+  bending_.begin(inertia_, inertia_.masses(), inertia_.tensions().scale, true);
+  return &bending_.forceAt(position, energy);
 }
 
 void ExactSolver::copyPulls(const ClothState& state, const Contacts* contacts, Field3& out) noexcept {
   out.assign(pattern_.grid.size(), 0.0);
   const double scale = inertia_.tensions().scale;
   if (scale != 0.0) constraints_.addPulls(state.position, contacts, 1.0 / scale, out);
+  double elastic = 0.0;
+  const Field3* const bending = bendingAt(state.position, elastic);
+  for (std::size_t n = 0; bending != nullptr && n < pattern_.grid.size(); ++n) {
+    out.add(n, inertia_.masses()[n] * bending->at(n));
+  }
 }
 
 // Keeps the momentum of cloth without pins.
@@ -333,12 +355,14 @@ void ExactSolver::save(Memory& memory) const {
   constraints_.save(memory.constraints);
   memory.bdf2 = bdf2_.memory();
   memory.tensions = inertia_.tensions();
+  memory.carriers = constraints_.carriers().memory();
 }
 
 void ExactSolver::restore(const Memory& memory) {
   constraints_.restore(memory.constraints);
   bdf2_.memory() = memory.bdf2;
   inertia_.tensions() = memory.tensions;
+  constraints_.carriers().memory() = memory.carriers;
   gained_ = {};
 }
 

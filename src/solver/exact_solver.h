@@ -7,6 +7,7 @@
 
 #include <limits>
 
+#include "solver/bending.h"
 #include "solver/constraints.h"
 #include "solver/kinetic_guard.h"
 #include "solver/schemes/bdf2.h"
@@ -48,6 +49,14 @@ class ExactSolver {
     return constraints_.tensionsAt(row, column, inertia_.tensions().scale);
   }
 
+  /// As the last substep, or question, saw it.
+  const Bending& bending() const noexcept { return bending_; }
+  /// Forces of the last substep with those of bending [N]; null: limp cloth.
+  const Field3* forcesWithBending() const noexcept { return bending_.any() ? &bending_.sum() : nullptr; }
+  /// Force of bending at these positions [N], and its elastic energy [J], as a substep like the last one sees them;
+  /// null and 0: limp cloth.
+  const Field3* bendingAt(const Field3& position, double& energy) noexcept;
+
   /// Velocities at the time of the positions (leapfrog keeps them half a substep behind): advanced by the forces and
   /// projected on the constraints. contacts: of the last substep, or null.
   void currentVelocities(const ClothState& state, const NodeForces& forces, const Contacts* contacts,
@@ -66,6 +75,10 @@ class ExactSolver {
   /// The last substep's tensions and inertia.
   const NodeInertia& inertia() const noexcept { return inertia_; }
 
+  /// What slides on the rail.
+  Carriers& carriers() noexcept { return constraints_.carriers(); }
+  const Carriers& carriers() const noexcept { return constraints_.carriers(); }
+
   /// A string pulled in the last substep.
   bool weftPulls() const noexcept { return constraints_.weftPulls(); }
 
@@ -74,6 +87,7 @@ class ExactSolver {
     Constraints::Memory constraints;
     Bdf2::Memory bdf2;
     NodeInertia::Tensions tensions;
+    Carriers::Memory carriers;
 
     void carry(Archive& archive);
   };
@@ -133,6 +147,7 @@ class ExactSolver {
   NodeInertia inertia_;
   HeldColumns held_;
   std::vector<std::uint8_t> skipped_before_;  // scratch of hold()
+  Bending bending_;
   Constraints constraints_;
   Sweeps sweeps_;
   KineticGuard guard_;

@@ -17,6 +17,7 @@ constexpr double kWakeShare = 1e-4;
 
 HeldColumns::HeldColumns(const ClothPattern& pattern)
     : pattern_(pattern),
+      weft_(weftLines(pattern)),
       mass_(static_cast<std::size_t>(pattern.grid.columns), 0.0),
       held_(pattern.grid.columns),
       disturbed_(pattern.grid.columns),
@@ -27,6 +28,7 @@ HeldColumns::HeldColumns(const ClothPattern& pattern)
     for (int j = 0; j < grid.columns; ++j) mass_[static_cast<std::size_t>(j)] += pattern.mass[grid.index(i, j)];
   }
   pull_.assign(grid.size(), 0.0);
+  if (weft_.bend()) bent_.assign(grid.size(), 0.0);
   span_ = {0, static_cast<std::size_t>(grid.columns)};
   for (int block = 0; block < warpBlockCount(grid); ++block) {
     skips_[static_cast<std::size_t>(block)] = block * kLane >= grid.columns ? 1 : 0;
@@ -57,6 +59,10 @@ void HeldColumns::resume(const ColumnSet& held) noexcept {
 
 void HeldColumns::set(const ColumnSet& held, const Field3& position, const Field& weft, double per_scale) noexcept {
   const Grid& grid = pattern_.grid;
+  for (int j = 0; weft_.bend() && j < grid.columns; ++j) {
+    for (int i = 0; held.has(j) && !held_.has(j) && i < grid.rows; ++i)
+      bent_.set(grid.index(i, j), weftBendingAt(grid, weft_, position, i, j));
+  }
   take(held);
   for (int j = grid.closed ? 0 : 1; j < grid.columns; ++j) {
     const int left = leftOf(j);
@@ -85,8 +91,27 @@ double HeldColumns::changeAtBorder(int column, const LinkSet* weft, double per_s
   return sum;
 }
 
-bool HeldColumns::disturbedBy(const LinkSet* weft, const Contacts* contacts, double per_scale, double gravity,
-                              bool stuck) noexcept {
+// A moving column is so near that the weft's bending joins them.
+bool HeldColumns::bendsWithMoving(int column) const noexcept {
+  const int columns = pattern_.grid.columns;
+  for (const int side : {-2, -1, 1, 2}) {
+    const int other = pattern_.grid.closed ? (column + side + columns) % columns : column + side;
+    if (other >= 0 && other < columns && !held_.has(other)) return true;
+  }
+  return false;
+}
+
+// Sum over the rows of the change of the weft's force on a held column [N].
+double HeldColumns::changeOfBending(int column, const Field3& position) const noexcept {
+  const Grid& grid = pattern_.grid;
+  double sum = 0.0;
+  for (int i = 0; i < grid.rows; ++i)
+    sum += (weftBendingAt(grid, weft_, position, i, column) - bent_.at(grid.index(i, column))).norm();
+  return sum;
+}
+
+bool HeldColumns::disturbedBy(const LinkSet* weft, const Field3& position, const Contacts* contacts, double per_scale,
+                              double gravity, bool stuck) noexcept {
   disturbed_.clear();
   if (stuck) disturbed_ = held_;
   if (stuck) return true;
@@ -95,6 +120,11 @@ bool HeldColumns::disturbedBy(const LinkSet* weft, const Contacts* contacts, dou
     const int held = held_.has(j) ? j : leftOf(j);
     const double allowed = kWakeShare * mass_[static_cast<std::size_t>(held)] * gravity;
     if (!(changeAtBorder(j, weft, per_scale) <= allowed)) disturbed_.add(held);
+  }
+  for (int j = 0; weft_.bend() && j < pattern_.grid.columns; ++j) {
+    if (!held_.has(j) || !bendsWithMoving(j)) continue;
+    const double allowed = kWakeShare * mass_[static_cast<std::size_t>(j)] * gravity;
+    if (!(changeOfBending(j, position) <= allowed)) disturbed_.add(j);
   }
   if (contacts == nullptr) return !disturbed_.empty();
   const auto stride = static_cast<std::uint32_t>(pattern_.grid.stride);

@@ -22,7 +22,7 @@ double mostOf(double put_in, double driven) noexcept {
 std::vector<std::size_t> pinsOf(const ClothPattern& pattern) {
   std::vector<std::size_t> pins;
   for (std::size_t n = 0; n < pattern.grid.size(); ++n) {
-    if (pattern.pinned[n] != 0) pins.push_back(n);
+    if (pattern.pinned[n] == kPinned) pins.push_back(n);
   }
   return pins;
 }
@@ -43,9 +43,10 @@ bool KineticGuard::isSmall(double predicted_violation) noexcept {
 }
 
 KineticGuard::Finding KineticGuard::look(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end,
-                                         double surface) const noexcept {
+                                         double surface, double drawn) const noexcept {
   const Vec3 frame = frameOf(start.state.velocity);
-  const Sums sums = sumsOf(start, end, frame, rules.follows);
+  Sums sums = sumsOf(start, end, frame, rules.follows);
+  sums.put_in += drawn;
   if (!(sums.stepped > kMostAdded * sums.put_in)) return {};
   const double driven = drivenBy(start.state.velocity, frame, surface);
   Finding finding;
@@ -58,10 +59,11 @@ KineticGuard::Finding KineticGuard::look(const Scheme::Rules& rules, const Subst
   return finding;
 }
 
-double KineticGuard::most(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end,
-                          double surface) const noexcept {
+double KineticGuard::most(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end, double surface,
+                          double drawn) const noexcept {
   const Vec3 frame = frameOf(start.state.velocity);
-  return mostOf(sumsOf(start, end, frame, rules.follows).put_in, drivenBy(start.state.velocity, frame, surface));
+  return mostOf(sumsOf(start, end, frame, rules.follows).put_in + drawn,
+                drivenBy(start.state.velocity, frame, surface));
 }
 
 double KineticGuard::most(const Field3& velocity, double surface) const noexcept {

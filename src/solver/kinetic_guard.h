@@ -31,10 +31,13 @@ class KineticGuard {
   /// after the prediction with the last substep's multipliers.
   static bool isSmall(double predicted_violation) noexcept;
   /// Checks a solved substep. surface: largest speed that contacts drive points with [m/s]; 0: no contact, or at rest.
-  Finding look(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end, double surface) const noexcept;
+  /// drawn: twice what a rail's drive put in [J].
+  Finding look(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end, double surface,
+               double drawn = 0.0) const noexcept;
 
   /// Twice the largest allowed kinetic energy of such a substep [J]: free nodes without links, and the pins' share.
-  double most(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end, double surface) const noexcept;
+  double most(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end, double surface,
+              double drawn = 0.0) const noexcept;
   /// The same for velocities [m/s] before their projection; surface: largest speed of what is touched [m/s].
   double most(const Field3& velocity, double surface) const noexcept;
 

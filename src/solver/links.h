@@ -14,6 +14,7 @@
 
 #include "cloth/cloth.h"
 #include "cloth/column_set.h"
+#include "solver/carriers.h"
 
 namespace curtain {
 
@@ -34,8 +35,9 @@ struct LineSolve {
   const ClothPattern& pattern;
   const Field& inverse_inertia;  ///< of the nodes in this substep [1/kg]
   LinkSet& links;
-  Field3& value;    ///< positions [m], or velocities [m/s]
-  ColumnSpan span;  ///< outside it nothing moves
+  Field3& value;                 ///< positions [m], or velocities [m/s]
+  ColumnSpan span;               ///< outside it nothing moves
+  Carriers* carriers = nullptr;  ///< null: none slides
 };
 
 /// Scratch of a line solver.

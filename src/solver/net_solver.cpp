@@ -105,7 +105,9 @@ CURTAIN_WIDE void NetSolver::takeRow(const Field3& position, const Field& invers
   off[0] = grid.closed ? -w[0] * (x[0] * x[1] + y[0] * y[1] + z[0] * z[1]) : 0.0F;
 }
 
-void NetSolver::begin(const Field3& position, const Field& inverse_inertia, const ColumnSpan& span) noexcept {
+void NetSolver::begin(const Field3& position, const Field& inverse_inertia, const ColumnSpan& span,
+                      const Carriers* carriers) noexcept {
+  carriers_ = carriers;
   first_block_ = static_cast<int>(span.first) / kColumns;
   moving_blocks_ = (static_cast<int>(span.end) + kColumns - 1) / kColumns - first_block_;
   inertia_scale_ = largestOf(inverse_inertia);
@@ -114,6 +116,7 @@ void NetSolver::begin(const Field3& position, const Field& inverse_inertia, cons
     const int end = std::min((b + 1) * kRows, pattern_.grid.rows);
     for (int i = b * kRows; i < end; ++i) takeRow(position, inverse_inertia, span, i);
   });
+  if (carriers_ != nullptr) takeCarriers();
   workers_.run(moving_blocks_, [&](int b) {
     factorWarp(first_block_ + b);
     couple(first_block_ + b);
@@ -142,6 +145,7 @@ CURTAIN_WIDE void NetSolver::couple(int block) noexcept {
       below_right[j] = bx[j] * hx + by[j] * hy + bz[j] * hz;
     }
   }
+  if (carriers_ != nullptr) coupleCarriers(block);
 }
 
 // A rod between two fixed nodes has no inertia: its inverse is 0 and it takes no part.
@@ -170,6 +174,7 @@ CURTAIN_WIDE void NetSolver::factorWarp(int block) noexcept {
       off_above[j] = off;
       lower_above[j] = off * inverted;
     }
+    if (i == 1 && carriers_ != nullptr) factorCarriers(block, lower_above);
   }
 }
 
@@ -236,7 +241,10 @@ double NetSolver::applySchur() noexcept {
   workers_.run(moving_blocks_, [&](int b) { answerOfRods(first_block_ + b); });
   const double sum = sumOverRowBlocks([&](int b) { return schurProduct(b); });
   if (!contacts_.any()) return sum;
-  workers_.run(moving_blocks_, [&](int b) { moveNodes(first_block_ + b); });
+  workers_.run(moving_blocks_, [&](int b) {
+    moveNodes(first_block_ + b);
+    if (carriers_ != nullptr) keepOnRail(move_, (first_block_ + b) * kColumns, (first_block_ + b + 1) * kColumns);
+  });
   return sum + contacts_.product({move_.x.data(), move_.y.data(), move_.z.data()},
                                  {push_.x.data(), push_.y.data(), push_.z.data()});
 }
@@ -277,6 +285,7 @@ NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active,
   contacts_.load({pattern_.grid, stride_, weight_.data(), inertia_scale_, violation_scale_, damping_}, contacts);
   findPushed();
   workers_.run(row_blocks_, [&](int b) { load(violation, active, aim.multiplier, b); });
+  if (carriers_ != nullptr) leaveOutFixedLinks();
   const bool changes = aim.multiplier != nullptr && !contacts_.any();
   sumOverRowBlocks([&](int b) {
     factorWeft(b);
@@ -297,6 +306,7 @@ NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active,
       return 0.0;
     });
     contacts_.turn(beta, {push_.x.data(), push_.y.data(), push_.z.data()});
+    if (carriers_ != nullptr) keepOnRail(push_, 0, pattern_.grid.columns);
     const double curvature = applySchur();
     const auto alpha = static_cast<float>(aligned / curvature);
     if (!(curvature > 0.0) || !std::isfinite(alpha)) break;

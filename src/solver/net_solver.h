@@ -23,6 +23,7 @@
 
 #include "cloth/cloth.h"
 #include "cloth/column_set.h"
+#include "solver/carriers.h"
 #include "solver/net_contacts.h"
 #include "solver/workers.h"
 
@@ -37,8 +38,10 @@ class NetSolver {
   void expectContacts(std::size_t count) { contacts_.reserve(count); }
 
   /// Sets the links' directions from these positions, and the nodes' inverse inertia [1/kg]. Nothing moves outside the
-  /// span; call reset() before the span changes.
-  void begin(const Field3& position, const Field& inverse_inertia, const ColumnSpan& span) noexcept;
+  /// span; call reset() before the span changes. carriers: those that slide, with their directions of these positions;
+  /// or null.
+  void begin(const Field3& position, const Field& inverse_inertia, const ColumnSpan& span,
+             const Carriers* carriers = nullptr) noexcept;
 
   /// Zeroes all vectors, e.g. after a solve with non-finite numbers.
   void reset() noexcept;
@@ -95,6 +98,12 @@ class NetSolver {
   double precondition(int row_block) noexcept;
   void conjugate(int row_block, Real beta) noexcept;
   void addPushes(int row) noexcept;
+  float throughTop(int column, const Vec3& a, const Vec3& b) const noexcept;
+  void takeCarriers() noexcept;
+  void factorCarriers(int block, float* lower_above) noexcept;
+  void coupleCarriers(int block) noexcept;
+  void leaveOutFixedLinks() noexcept;
+  void keepOnRail(Values3& vectors, int first, int end) noexcept;
   void findPushed() noexcept;
   bool isPushed(int row, int block) const noexcept {
     return pushed_[static_cast<std::size_t>(row * (static_cast<int>(stride_) / kColumns) + block)] != 0;
@@ -132,6 +141,7 @@ class NetSolver {
   Values3 move_;                         // of the nodes of contacts
   Values3 push_;                         // nodal impulses of the contacts' search direction; zero outside a product
   NetContacts contacts_;
+  const Carriers* carriers_ = nullptr;
   std::vector<std::uint8_t> pushed_;  // by row and block of columns: it has a node of a contact
   Values mask_, residual_, preconditioned_, pull_, product_, solution_;
   Values least_;                    // lower bound of the solution: minus the multipliers

@@ -18,30 +18,48 @@ double freeMass(const ClothPattern& pattern, const Field& inverse_mass) {
   return sum;
 }
 
+Field withCarriers(const ClothPattern& pattern) {
+  if (pattern.rail.empty()) return {};
+  Field inverse = pattern.inverse_mass;
+  for (const int column : pattern.rail.columns) {
+    const std::size_t n = pattern.grid.index(0, column);
+    inverse[n] = 1.0 / pattern.mass[n];
+  }
+  return inverse;
+}
+
 }  // namespace
 
 NodeInertia::NodeInertia(const ClothPattern& pattern)
     : pattern_(pattern),
-      free_mass_(freeMass(pattern, pattern.inverse_mass)),
-      changed_(pattern.inverse_mass),
+      sliding_(withCarriers(pattern)),
+      all_(sliding_.empty() ? &pattern.inverse_mass : &sliding_),
+      free_mass_(freeMass(pattern, *all_)),
+      changed_(*all_),
       keep_(pattern.grid.size(), 1.0),
-      held_(pattern.inverse_mass),
-      masses_(&pattern.inverse_mass),
-      inverse_(&pattern.inverse_mass) {
+      held_(*all_),
+      masses_(all_),
+      inverse_(all_) {
   tensions_.load.assign(pattern.grid.size(), 0.0);
 }
 
 void NodeInertia::hold(const ColumnSet& columns) noexcept {
   const Grid& grid = pattern_.grid;
-  masses_ = columns.empty() ? &pattern_.inverse_mass : &held_;
+  masses_ = columns.empty() ? all_ : &held_;
   for (int i = 0; i < grid.rows && !columns.empty(); ++i) {
     for (int j = 0; j < grid.columns; ++j) {
       const std::size_t n = grid.index(i, j);
-      held_[n] = columns.has(j) ? 0.0 : pattern_.inverse_mass[n];
+      held_[n] = columns.has(j) ? 0.0 : (*all_)[n];
     }
   }
   inverse_ = masses_;
   free_mass_ = freeMass(pattern_, *masses_);
+}
+
+void NodeInertia::letSlide(bool slide) noexcept {
+  if (sliding_.empty()) return;
+  all_ = slide ? &sliding_ : &pattern_.inverse_mass;
+  if (masses_ != &held_) inverse_ = masses_ = all_;
 }
 
 void NodeInertia::forget() noexcept {

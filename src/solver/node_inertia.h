@@ -20,6 +20,9 @@ class NodeInertia {
 
   /// From now on these columns have no inverse inertia, as if pinned.
   void hold(const ColumnSet& columns) noexcept;
+  /// Whether carriers slide from now on, or have no inverse inertia either. No columns are held with a rail while
+  /// others move.
+  void letSlide(bool slide) noexcept;
 
   const Field& inverse() const noexcept { return *inverse_; }  ///< [1/kg]
   const Field& masses() const noexcept { return *masses_; }    ///< without damping and mass scaling [1/kg]
@@ -48,9 +51,11 @@ class NodeInertia {
   double addedMass(double per_load) const noexcept;
 
   const ClothPattern& pattern_;
-  double free_mass_;  // [kg]
+  const Field sliding_;  // the pattern's inverse masses, and those of its carriers [1/kg]; empty: no rail
+  const Field* all_;     // when no column is held: the pattern's, or sliding_
+  double free_mass_;     // [kg]
   Field changed_, keep_, held_;
-  const Field* masses_;  // the pattern's, or held_
+  const Field* masses_;  // all_, or held_
   const Field* inverse_;
   bool damped_ = false;
   Tensions tensions_;

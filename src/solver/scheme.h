@@ -2,8 +2,12 @@
 //
 // What distinguishes the exact schemes: where a substep starts, how long forces act in it, along which directions links
 // pull, and what it leaves to the next one. The solve is the same for all. One file a scheme in schemes/.
+//
+// Bending acts at the positions that a substep starts from, or, where the links follow, at those it would lead to
+// without links and bending.
 #pragma once
 
+#include "solver/bending.h"
 #include "solver/node_inertia.h"
 #include "solver/substep.h"
 #include "solver/warp_solver.h"
@@ -27,11 +31,18 @@ class Scheme {
   /// Length of the step from start() when the substep is h long [s].
   virtual double stepFor(double h) const noexcept { return h; }
 
-  /// Start of the substep. inertia: set for it. Momentum that is not taken along is added to the outcome.
-  virtual SubstepStart start(const SubstepPlan& plan, double step, double kick, const NodeForces& forces,
-                             const NodeInertia& inertia, const ClothState& state, SubstepOutcome& outcome) noexcept {
-    (void)plan, (void)outcome;
-    return startFrom(state, step, kick, forces, inertia);
+  /// A substep about to be made.
+  struct Task {
+    const SubstepPlan& plan;
+    double step, kick;  ///< [s]
+    const NodeForces& forces;
+    const NodeInertia& inertia;  ///< set for it
+    Bending& bending;            ///< begun for it
+  };
+  /// Start of the substep. Momentum that is not taken along is added to the outcome.
+  virtual SubstepStart start(const Task& task, const ClothState& state, SubstepOutcome& outcome) noexcept {
+    (void)outcome;
+    return startFrom(state, task);
   }
 
   /// A string has snapped taut in the substep, or a new contact pushes. True: make the substep again.
@@ -42,10 +53,19 @@ class Scheme {
   virtual void passedOver() noexcept {}
 
  protected:
-  static SubstepStart startFrom(const ClothState& base, double step, double kick, const NodeForces& forces,
-                                const NodeInertia& inertia) noexcept {
-    const bool falls = forces.weight_only && inertia.massesAlone();
-    return {base, *forces.force, falls ? &forces.gravity : nullptr, inertia.keep(), kick, step};
+  SubstepStart startFrom(const ClothState& base, const Task& task) const noexcept {
+    const bool falls = task.forces.weight_only && task.inertia.massesAlone() && !task.bending.any();
+    return {base,     forceFrom(base, task), falls ? &task.forces.gravity : nullptr, task.inertia.keep(), task.kick,
+            task.step};
+  }
+
+  /// All forces but those of links and damping, of a substep from here.
+  const Field3& forceFrom(const ClothState& base, const Task& task) const noexcept {
+    const Field3& outer = *task.forces.force;
+    if (!task.bending.any()) return outer;
+    if (!rules_.follows) return task.bending.addTo(outer, base.position);
+    return task.bending.addAhead({base, outer, nullptr, task.inertia.keep(), task.kick, task.step},
+                                 task.inertia.inverse());
   }
 
  private:

@@ -53,7 +53,10 @@ Sweeps::Residual Sweeps::look(Contacts* contacts, const Constraints::RodsProgres
   Residual residual;
   residual.rods = rods;
   const bool touches = contacts != nullptr && !contacts->empty();
-  if (touches && sweeps <= kFrictionSweeps) projectFriction(inertia_.inverse(), *contacts, constraints_.next);
+  if (touches && sweeps <= kFrictionSweeps) {
+    projectFriction(inertia_.inverse(), *contacts, constraints_.next);
+    constraints_.settleCarriers();
+  }
   if (touches) residual.touch = contactResidual(*contacts, constraints_.next);
   clock.lap(Stage::kContact);
   residual.strings = constraints_.lookAtStrings(constraints_.weftPulls() || !first);

@@ -22,6 +22,7 @@ struct PositionLevel {
     return 0.5 * (rx * rx + ry * ry + rz * rz - rest_squared);
   }
   static double gradient(double r, double) { return r; }
+  static void settle(Carriers& carriers, int first, int end, Field3& value) { carriers.settle(first, end, value); }
 };
 struct VelocityLevel {
   // dC/dt = d . (v_b - v_a), its gradient d.
@@ -29,6 +30,7 @@ struct VelocityLevel {
     return rx * dx + ry * dy + rz * dz;
   }
   static double gradient(double, double d) { return d; }
+  static void settle(Carriers& carriers, int first, int end, Field3& value) { carriers.settleRates(first, end, value); }
 };
 
 // Largest residual by column of a block, reduced once a block.
@@ -81,6 +83,27 @@ CURTAIN_INTO_WIDE void eliminateRow(const LineSolve& line, LineScratch& scratch,
   }
 }
 
+// The same for the top rods that hang from carriers, whose inertia is not that of free nodes.
+template <typename Level>
+void eliminateCarriers(const LineSolve& line, LineScratch& scratch, int block, Worst& worst) {
+  const Grid& grid = line.pattern.grid;
+  const auto stride = static_cast<std::size_t>(grid.stride);
+  line.carriers->forEach(block * kLane, (block + 1) * kLane, [&](const Carrier& carrier) {
+    const std::size_t n = grid.index(1, carrier.column);
+    const Vec3 r = line.value.at(n) - line.value.at(n - stride), d = line.links.direction.at(n);
+    const double rest_squared = line.pattern.warp_rest[n] * line.pattern.warp_rest[n];
+    const double c = Level::violation(r.x(), r.y(), r.z(), d.x(), d.y(), d.z(), rest_squared);
+    const Vec3 g(Level::gradient(r.x(), d.x()), Level::gradient(r.y(), d.y()), Level::gradient(r.z(), d.z()));
+    const double below = line.inverse_inertia[n], w = below + carrier.mobility;
+    const double pivot = below * g.dot(d) + carrier.mobility * g.dot(carrier.now) * d.dot(carrier.along);
+    const bool sound = pivot > kSmallestPivot * w * rest_squared;
+    const double inverse = sound ? 1.0 / pivot : 0.0;
+    scratch.elimination[n] = -below * g.dot(line.links.direction.at(n + stride)) * inverse;
+    scratch.solution[n] = c * inverse;
+    if (!sound && w > 0.0) worst.of[carrier.column % kLane] = kUnsound;
+  });
+}
+
 // Back substitution of the same row; moves its nodes.
 CURTAIN_INTO_WIDE void substituteRow(const LineSolve& line, LineScratch& scratch, std::size_t first) {
   const auto stride = static_cast<std::size_t>(line.pattern.grid.stride);
@@ -114,9 +137,12 @@ CURTAIN_INTO_WIDE LineOutcome newton(const LineSolve& line, LineScratch& scratch
   const Grid& grid = line.pattern.grid;
   const auto offset = static_cast<std::size_t>(block) * kLane;
   Worst worst;
-  for (int i = 1; i < grid.rows; ++i) eliminateRow<Level>(line, scratch, grid.row(i) + offset, worst);
+  eliminateRow<Level>(line, scratch, grid.row(1) + offset, worst);
+  if (line.carriers != nullptr) eliminateCarriers<Level>(line, scratch, block, worst);
+  for (int i = 2; i < grid.rows; ++i) eliminateRow<Level>(line, scratch, grid.row(i) + offset, worst);
   for (int i = grid.rows - 1; i >= 0; --i) substituteRow(line, scratch, grid.row(i) + offset);
   forgetTop(line, scratch, offset);
+  if (line.carriers != nullptr) Level::settle(*line.carriers, block * kLane, (block + 1) * kLane, line.value);
   return worst.outcome();
 }
 

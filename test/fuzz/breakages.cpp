@@ -72,6 +72,17 @@ class Breaker {
     add(key, {"1", "{}", "all", "~", "[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20]"});
     for (const std::string& value : badNumbers(range)) add(key, "[" + value + "]");
   }
+  void integers(Key key, const std::vector<int>&, IntRange range) {
+    add(key, {"1", "{}", "all", "~", "[1.5]", "[a]", "['1']", "[[1]]", "[" + std::to_string(range.low - 1) + "]",
+              "[" + std::to_string(range.high + 1) + "]"});
+  }
+  void path(Key key, const std::vector<curtain::RailPiece>&, Range range) {
+    add(key, {"1", "{}", "straight", "~", "[[1, 2]]", "[[0, 0, 0]]", "[[0, 0, 0], [0, 0, 0]]",
+              "[[0, 0, 0], {to: [1, 0, 0]}]", "[[0, 0, 0], {to: [1, 0, 0], centre: [0, 1, 0]}]"});
+    for (const std::string& value : badNumbers(range)) {
+      if (value != "0" && value != "-0.0") add(key, "[[0, 0, 0], [1.0, " + value + ", 0]]");
+    }
+  }
   void pins(Key key, const curtain::PinParams&) {
     add(key, {"bottom", "1", "{}", "[1]", "[[1]]", "[[0, 99999]]", "[[-1, 0]]", "[[0, 0], top]", "~"});
   }

@@ -35,6 +35,11 @@ class WordCollector {
   void rotation(Key key, const curtain::Rotation&) { note(key); }
   void node(Key key, const std::optional<curtain::NodeIndex>&) { note(key); }
   void numbers(Key key, const std::vector<double>&, Range) { note(key); }
+  void integers(Key key, const std::vector<int>&, curtain::IntRange) { note(key); }
+  void path(Key key, const std::vector<curtain::RailPiece>&, Range) {
+    note(key);
+    words.insert({"to: ", "centre: "});
+  }
   void pins(Key key, const curtain::PinParams&) {
     note(key);
     words.insert(curtain::pinNames().begin(), curtain::pinNames().end());

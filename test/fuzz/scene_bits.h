@@ -45,6 +45,17 @@ class SceneBits {
     add(values.size());
     for (const double value : values) add(value);
   }
+  void integers(Key, const std::vector<int>& values, IntRange) {
+    add(values.size());
+    for (const int value : values) add(value);
+  }
+  void path(Key, const std::vector<curtain::RailPiece>& pieces, Range) {
+    add(pieces.size());
+    for (const curtain::RailPiece& piece : pieces) {
+      addVector(piece.to);
+      addOptional(piece.centre);
+    }
+  }
   void pins(Key, const curtain::PinParams& value) {
     add(value.kind);
     add(value.nodes.size());

@@ -35,6 +35,31 @@ void placeLine(Scene& scene, Choices& choices) {
   scene.hang.to = scene.hang.from + (1.0 - 0.9 * choices.share()) * scene.cloth.width * along;
 }
 
+// A rail that the cloth hangs from: flat pieces a few metres long, and arcs of a quarter of a circle.
+void fitRail(Scene& scene, Choices& choices) {
+  curtain::RailParams& rail = scene.rail;
+  if (rail.path.empty()) return;
+  scene.cloth.closed = false;
+  scene.hang.radius.reset();
+  if (scene.cloth.hem_width) scene.cloth.hem_width = std::max(*scene.cloth.hem_width, scene.cloth.width);
+  if (scene.solver.method == curtain::Method::kPaper) scene.solver.method = curtain::Method::kAuto;
+  rail.path[0].centre.reset();
+  Vec3 along = Vec3::UnitX();
+  for (std::size_t i = 1; i < rail.path.size(); ++i) {
+    const double length = scene.cloth.width * choices.between(0.3, 1.0);
+    const Vec3 from = rail.path[i - 1].to, across(-along.y(), along.x(), 0.0);
+    rail.path[i].to = from + length * along;
+    if (!rail.path[i].centre) continue;
+    rail.path[i].centre = from + length * across;
+    rail.path[i].to = *rail.path[i].centre + length * along;
+    along = across;
+  }
+  rail.carriers.every = std::min(rail.carriers.every, scene.cloth.columns - 1);
+  rail.carriers.columns.clear();
+  if (!rail.masters.empty()) rail.masters = {0};
+  rail.carriers.gap = choices.between(0.01, 0.5) * 0.3 * scene.cloth.width / (scene.cloth.columns - 1);
+}
+
 // Values that have a meaning together; what is left over is for validate().
 void fitTogether(Scene& scene, Choices& choices) {
   curtain::ClothParams& cloth = scene.cloth;
@@ -66,6 +91,7 @@ void fitTogether(Scene& scene, Choices& choices) {
     scene.hang.radius.reset();
     placeLine(scene, choices);
   }
+  fitRail(scene, choices);
   for (NodeIndex& pin : scene.pins.nodes) putOnGrid(pin, cloth);
   if (scene.air.law == curtain::AirLaw::kRelative) {
     scene.air.density = std::max(scene.air.density, 1e-6);
@@ -147,6 +173,21 @@ void SceneMaker::slits(Key, std::vector<curtain::SlitParams>& values) {
   for (int i = 0; i < 3; ++i) values.push_back({0, static_cast<int>(choices_.below(8))});
 }
 
+void SceneMaker::integers(Key, std::vector<int>& values, curtain::IntRange range) {
+  for (std::uint64_t left = choices_.below(4); left > 1; --left) values.push_back(pickInteger(range));
+}
+
+// Half of the scenes have no rail.
+void SceneMaker::path(Key, std::vector<curtain::RailPiece>& pieces, Range range) {
+  for (std::uint64_t left = choices_.oneIn(2) ? 0 : 2 + choices_.below(3); left > 0; --left) {
+    pieces.emplace_back();
+    pickVector(range, pieces.back().to);
+    if (!choices_.oneIn(3)) continue;
+    pieces.back().centre.emplace(Vec3::Zero());
+    pickVector(range, *pieces.back().centre);
+  }
+}
+
 void SceneMaker::pins(Key, curtain::PinParams& value) {
   value.kind = static_cast<curtain::PinKind>(choices_.below(curtain::pinNames().size() + 1));
   if (value.kind != curtain::PinKind::kList) return;
@@ -158,6 +199,8 @@ std::optional<Scene> makeScene(Choices& choices) {
   SceneMaker maker(choices);
   curtain::visitFields(maker, scene);
   fitTogether(scene, choices);
+  // Bending asks for links that have a length, and for another method than the paper's.
+  if (!curtain::validate(scene).empty()) scene.cloth.bending_warp = scene.cloth.bending_weft = 0.0;
   if (!curtain::validate(scene).empty()) return std::nullopt;
   return scene;
 }

@@ -51,8 +51,10 @@ class SceneMaker {
     if (choices_.oneIn(2)) value = pickNode();
   }
   void numbers(Key, std::vector<double>& values, curtain::Range range);
+  void integers(Key, std::vector<int>& values, curtain::IntRange range);
   void pins(Key, curtain::PinParams& value);
   void slits(Key, std::vector<curtain::SlitParams>& values);
+  void path(Key, std::vector<curtain::RailPiece>& pieces, curtain::Range range);
   bool belongs(Key, bool yes, curtain::ShapeKind) { return yes; }
 
   template <typename Enum>

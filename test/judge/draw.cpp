@@ -201,6 +201,50 @@ void drawAir(Drawn& drawn) {
   }
 }
 
+// Bending, from voile to strips of PVC.
+void drawBending(Drawn& drawn) {
+  Dice dice(3 * drawn.seed + static_cast<std::uint64_t>(drawn.kind) + (5ULL << 59));
+  if (drawn.scene.solver.method == Method::kPaper || !dice.chance(0.2)) return;
+  const double most = drawn.kind == Kind::kWild ? 1.0 : 1e-2;
+  if (dice.chance(0.8)) drawn.scene.cloth.bending_warp = dice.magnitude(1e-7, most);
+  if (dice.chance(0.8)) drawn.scene.cloth.bending_weft = dice.magnitude(1e-7, most);
+}
+
+// A rail instead of pins, by dice of its own for the same reason: one to three pieces, straight ones and arcs, from
+// where the cloth hung.
+void putOnRail(Drawn& drawn) {
+  Dice dice(3 * drawn.seed + static_cast<std::uint64_t>(drawn.kind) + (7ULL << 59));
+  Scene& scene = drawn.scene;
+  if (scene.cloth.closed || scene.solver.method == Method::kPaper || !dice.chance(0.1)) return;
+  RailParams& rail = scene.rail;
+  rail.path.push_back({scene.hang.from, {}});
+  double heading = dice.between(-kPi, kPi);
+  for (int pieces = dice.integer(1, 3); pieces > 0; --pieces) {
+    const double length = scene.cloth.width * dice.between(0.2, 0.8), turn = dice.between(-1.5, 1.5);
+    const Vec3 from = rail.path.back().to, along(std::cos(heading), std::sin(heading), 0.0);
+    heading += turn;
+    if (dice.chance(0.6)) {
+      rail.path.push_back({from + length * along, {}});
+      continue;
+    }
+    const double radius = length / turn;  // negative: to the right
+    const Vec3 centre = from + radius * Vec3(-along.y(), along.x(), 0.0);
+    rail.path.push_back({centre + radius * Vec3(std::sin(heading), -std::cos(heading), 0.0), centre});
+  }
+  const bool wild = drawn.kind == Kind::kWild;
+  rail.carriers.every = dice.integer(1, std::max(1, scene.cloth.columns / 3));
+  rail.carriers.mass = dice.chance(0.2) ? 0.0 : dice.magnitude(1e-3, wild ? 10.0 : 0.1);
+  rail.carriers.friction = dice.chance(0.2) ? 0.0 : dice.between(0.0, wild ? 2.0 : 0.4);
+  rail.carriers.gap = dice.between(0.02, 0.2) * scene.cloth.width / scene.cloth.columns;
+  rail.opening = dice.chance(0.5) ? 0.0 : dice.between(0.0, 1.0);
+  rail.drive = {dice.magnitude(0.1, wild ? 10.0 : 1.0), dice.magnitude(1.0, wild ? 1e3 : 30.0)};
+  if (dice.chance(0.7)) drawn.happenings.opening = dice.between(0.0, 1.0);
+  drawn.happenings.pin_swing = drawn.happenings.pin_jerk = Vec3::Zero();
+  scene.pins = PinParams();
+  scene.cloth.hem_width.reset();
+  if (!validate(scene).empty()) rail = RailParams();
+}
+
 }  // namespace
 
 const char* kindName(Kind kind) {
@@ -239,6 +283,8 @@ Drawn draw(Kind kind, std::uint64_t seed) {
     drawMore(drawn);
   drawSlits(drawn);
   if (kind != Kind::kSudden) drawAir(drawn);
+  if (kind != Kind::kSudden) drawBending(drawn);
+  if (kind != Kind::kSudden) putOnRail(drawn);
   if (!validate(scene).empty()) scene.cloth.hem_width.reset();  // tapered more than its rods can slant
   if (beginsTorn(scene)) scene.cloth.hem_width.reset();
   return drawn;

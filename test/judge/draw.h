@@ -27,7 +27,8 @@ struct Happenings {
   curtain::Vec3 pin_jerk = curtain::Vec3::Zero();   ///< pins go by this within one frame [m]
   curtain::Vec3 gravity = curtain::Vec3::Zero();    ///< from `at` on [m/s^2]; zero: as it was
   double other_rate = 0.0;                          ///< frames a second from `at` on; 0: as before
-  double at = 0.0;                                  ///< when pins jerk and gravity and frame rate change [s]
+  double opening = -1.0;                            ///< a rail's drive draws to it from `at` on; negative: none
+  double at = 0.0;  ///< when pins jerk, a drive sets in, and gravity and frame rate change [s]
 };
 
 struct Drawn {

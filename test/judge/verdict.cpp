@@ -109,6 +109,7 @@ class Court {
     if (after && !happened_) {
       happened_ = true;
       if (!happenings.gravity.isZero()) simulator_.setGravity(happenings.gravity);
+      if (happenings.opening >= 0.0) simulator_.setOpening(happenings.opening);
       if (happenings.other_rate > 0.0) simulator_.setFrameRate(std::min(finer_ * happenings.other_rate, kMostFrames));
     }
     if (happenings.pin_swing.isZero() && happenings.pin_jerk.isZero()) return;
@@ -327,6 +328,7 @@ Drawn shrink(Drawn drawn, const Rigour& rigour) {
   cut([](Drawn& d) { return d.happenings.pin_swing.isZero() ? false : (d.happenings.pin_swing.setZero(), true); });
   cut([](Drawn& d) { return d.happenings.pin_jerk.isZero() ? false : (d.happenings.pin_jerk.setZero(), true); });
   cut([](Drawn& d) { return d.happenings.gravity.isZero() ? false : (d.happenings.gravity.setZero(), true); });
+  cut([](Drawn& d) { return d.happenings.opening < 0.0 ? false : (d.happenings.opening = -1.0, true); });
   cut([](Drawn& d) {
     return d.scene.air.inside + d.scene.air.border > 0.0 ? (d.scene.air = AirParams(), true) : false;
   });

@@ -32,7 +32,9 @@ double energyOf(const Simulator& simulator) {
   return energy.kinetic + energy.potential;
 }
 
-double balance(const Work& work) { return work.kinetic - (work.gravity + work.forces + work.pins + work.obstacles); }
+double balance(const Work& work) {
+  return work.kinetic - (work.gravity + work.bending + work.forces + work.pins + work.obstacles);
+}
 
 }  // namespace
 

@@ -22,7 +22,7 @@ std::vector<std::string> sceneFiles() {
   std::vector<std::string> files;
   for (const char* folder : {"/config/scenes", "/test/scenes"}) {
     for (const auto& entry : std::filesystem::directory_iterator(std::string(CURTAIN_SOURCE_DIR) + folder)) {
-      files.push_back(entry.path().string());
+      if (readSceneFile(entry.path().string()).scene.rail.path.empty()) files.push_back(entry.path().string());
     }
   }
   std::sort(files.begin(), files.end());

@@ -35,7 +35,7 @@ inline bool sameBits(double a, double b) { return a == b || (std::isnan(a) && st
 /// Every statistic but computing times.
 inline void expectSameStatistics(const curtain::Statistics& a, const curtain::Statistics& b) {
   // A new one is to be compared here, or it is a computing time; and to be carried by snapshots.
-  static_assert(sizeof(curtain::Statistics) == 328, "statistics have changed");
+  static_assert(sizeof(curtain::Statistics) == 344, "statistics have changed");
   EXPECT_EQ(a.frames, b.frames);
   EXPECT_EQ(a.time, b.time);
   EXPECT_EQ(a.substeps, b.substeps);
@@ -66,6 +66,8 @@ inline void expectSameStatistics(const curtain::Statistics& a, const curtain::St
   EXPECT_EQ(a.contacts, b.contacts);
   EXPECT_EQ(a.contacts_max, b.contacts_max);
   EXPECT_EQ(a.penetration_max, b.penetration_max);
+  EXPECT_EQ(a.opening, b.opening);
+  EXPECT_EQ(a.drive_force, b.drive_force);
   EXPECT_EQ(a.position_error, b.position_error);
   EXPECT_EQ(a.finite, b.finite);
 }

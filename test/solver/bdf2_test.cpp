@@ -17,7 +17,9 @@ struct Scheme2 {
       : scene(flatScene(3, 4)),
         pattern(makePattern(scene)),
         state(makeInitialState(scene, pattern)),
+        workers(1),
         inertia(pattern),
+        bending(pattern, workers),
         scheme(pattern) {
     force.assign(pattern.grid.size(), 0.0);
     forces.force = &force;
@@ -32,7 +34,7 @@ struct Scheme2 {
     plan.h = h;
     SubstepOutcome outcome;
     const double step = scheme.stepFor(h);
-    return scheme.start(plan, step, step, forces, inertia, state, outcome);
+    return scheme.start({plan, step, step, forces, inertia, bending}, state, outcome);
   }
 
   Scene scene;
@@ -40,7 +42,9 @@ struct Scheme2 {
   ClothState state;
   Field3 force;
   NodeForces forces;
+  Workers workers;
   NodeInertia inertia;
+  Bending bending;
   SubstepPlan plan;
   Bdf2 scheme;
 };

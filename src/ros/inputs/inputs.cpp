@@ -116,13 +116,17 @@ bool Inputs::handle(const char* topic, const Message& message, Simulator& simula
     }
   }
   if (problems.empty()) {
-    ++taken_;
+    take();
     note(message);
   } else {
-    ++invalid_;
-    drop(name, curtain::describe(problems));
+    refuse(name, problems);
   }
   return true;
+}
+
+void Inputs::refuse(const std::string& message, const Problems& problems) {
+  ++invalid_;
+  drop(message, curtain::describe(problems));
 }
 
 void Inputs::drop(const std::string& message, const std::string& why) {

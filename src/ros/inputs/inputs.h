@@ -31,6 +31,11 @@ class Inputs {
   /// Leaves a user force as if it came on the topic. Any thread.
   void post(const curtain_sim::DragForce::ConstPtr& message) { drags_.mailbox.post(message); }
 
+  /// Counts a message that another input of the node took, or refused. Simulation thread.
+  void take() { ++taken_; }
+  void refuse(const std::string& message, const std::vector<curtain::Problem>& problems);
+
+  /// Applies what arrived, in order, and removes sources whose lifetime is over. Simulation thread.
   /// Applies what arrived, in order, moves winds with their frames, and removes sources whose lifetime is over.
   /// Simulation thread.
   void apply(curtain::Simulator& simulator);

@@ -85,6 +85,8 @@ void toMessage(const curtain::Statistics& statistics, curtain_sim::Statistics& m
   message.warp_stretch = statistics.warp_stretch;
   message.weft_stretch = statistics.weft_stretch;
   message.contacts = static_cast<std::uint32_t>(statistics.contacts);
+  message.opening = statistics.opening;
+  message.drive_force = statistics.drive_force;
   message.position_error = statistics.position_error;
   message.penetration_max = statistics.penetration_max;
   message.step_ms = 1e3 * statistics.step_seconds;

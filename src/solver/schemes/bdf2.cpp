@@ -10,6 +10,7 @@ namespace curtain {
 Bdf2::Bdf2(const ClothPattern& pattern) : Scheme({true, true, 0.0, true}), pattern_(pattern) {
   for (Field3* field : {&memory_.position, &memory_.velocity, &base_.position, &base_.velocity})
     field->assign(pattern.grid.size(), 0.0);
+  for (std::vector<double>* places : {&memory_.place, &base_.place}) places->assign(pattern.rail.size(), 0.0);
 }
 
 bool Bdf2::usesTwo(double h) const noexcept { return memory_.h != 0.0 && h <= kMostGrowth * memory_.h; }
@@ -22,10 +23,10 @@ double Bdf2::stepFor(double h) const noexcept {
   return (1.0 + r) / (1.0 + 2.0 * r) * h;
 }
 
-SubstepStart Bdf2::start(const SubstepPlan& plan, double step, double kick, const NodeForces& forces,
-                         const NodeInertia& inertia, const ClothState& state, SubstepOutcome&) noexcept {
-  if (!usesTwo(plan.h)) return startFrom(state, step, kick, forces, inertia);
-  const double r = plan.h / memory_.h;
+SubstepStart Bdf2::start(const Task& task, const ClothState& state, SubstepOutcome&) noexcept {
+  const double h = task.plan.h;
+  if (!usesTwo(h)) return startFrom(state, task);
+  const double r = h / memory_.h;
   const double change = r * r / (1.0 + 2.0 * r);  // (1+r)^2/(1+2r) = 1 + change: cloth at rest stays to the bit
   const auto combine = [change](const Field& y, const Field& older, Field& out) {
     for (std::size_t n = 0; n < y.size(); ++n) out[n] = y[n] + change * (y[n] - older[n]);
@@ -37,11 +38,22 @@ SubstepStart Bdf2::start(const SubstepPlan& plan, double step, double kick, cons
   combine(state.velocity.y, memory_.velocity.y, base_.velocity.y);
   combine(state.velocity.z, memory_.velocity.z, base_.velocity.z);
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    if (inertia.masses()[n] > 0.0) continue;  // pins have no history: their motion is prescribed
-    base_.position.set(n, state.position.at(n) + (plan.h - step) * state.velocity.at(n));
+    if (task.inertia.masses()[n] > 0.0) continue;  // pins have no history: their motion is prescribed
+    base_.position.set(n, state.position.at(n) + (h - task.step) * state.velocity.at(n));
     base_.velocity.set(n, state.velocity.at(n));
   }
-  return startFrom(base_, step, kick, forces, inertia);
+  // Carriers: the same combinations of their places and of their speeds along the rail.
+  const RailPattern& rail = pattern_.rail;
+  for (std::size_t k = 0; k < rail.size(); ++k) {
+    const auto n = static_cast<std::size_t>(rail.columns[k]);
+    const double speed = state.velocity.at(n).dot(rail.path.at(state.place[k]).tangent);
+    const double older = memory_.velocity.at(n).dot(rail.path.at(memory_.place[k]).tangent);
+    base_.place[k] = state.place[k] + change * (state.place[k] - memory_.place[k]);
+    const RailPath::Place at = rail.path.at(base_.place[k]);
+    base_.position.set(n, at.point);
+    base_.velocity.set(n, (speed + change * (speed - older)) * at.tangent);
+  }
+  return startFrom(base_, task);
 }
 
 bool Bdf2::struck() noexcept {
@@ -56,6 +68,7 @@ void Bdf2::taken(const ClothState& before, double h) noexcept {
   if (memory_.single_steps > 0) return;
   memory_.position = before.position;
   memory_.velocity = before.velocity;
+  memory_.place = before.place;
   memory_.h = h;
 }
 

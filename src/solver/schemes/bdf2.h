@@ -16,8 +16,9 @@ class Bdf2 final : public Scheme {
   /// The step before the last one.
   struct Memory {
     Field3 position, velocity;
-    double h = 0.0;        ///< length of the last step [s]; 0: no history
-    int single_steps = 0;  ///< steps still to be made without history
+    std::vector<double> place;  ///< of the carriers [m]
+    double h = 0.0;             ///< length of the last step [s]; 0: no history
+    int single_steps = 0;       ///< steps still to be made without history
 
     void forget() noexcept { h = 0.0, single_steps = 0; }
     void carry(Archive& archive);
@@ -26,8 +27,7 @@ class Bdf2 final : public Scheme {
   const Memory& memory() const noexcept { return memory_; }
 
   double stepFor(double h) const noexcept override;
-  SubstepStart start(const SubstepPlan& plan, double step, double kick, const NodeForces& forces,
-                     const NodeInertia& inertia, const ClothState& state, SubstepOutcome& outcome) noexcept override;
+  SubstepStart start(const Task& task, const ClothState& state, SubstepOutcome& outcome) noexcept override;
   bool struck() noexcept override;
   void taken(const ClothState& before, double h) noexcept override;
   void passedOver() noexcept override;

@@ -19,18 +19,21 @@ LastResort::LastResort(const ClothPattern& pattern) : Scheme({true, false, 0.5, 
   });
 }
 
-SubstepStart LastResort::start(const SubstepPlan& plan, double step, double kick, const NodeForces& forces,
-                               const NodeInertia& inertia, const ClothState& state, SubstepOutcome& outcome) noexcept {
-  const Field* const keep = inertia.keep();
-  const Field& w = inertia.inverse();
+SubstepStart LastResort::start(const Task& task, const ClothState& state, SubstepOutcome& outcome) noexcept {
+  const Field* const keep = task.inertia.keep();
+  const Field& w = task.inertia.inverse();
+  const Field3& force = forceFrom(state, task);
   base_.position = state.position;
+  base_.place = state.place;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     const Vec3 v = state.velocity.at(n);
     base_.velocity.set(
-        n, w[n] > 0.0 ? Vec3((keep != nullptr ? (*keep)[n] : 1.0) * v + kick * w[n] * forces.force->at(n)) : v);
+        n, w[n] > 0.0 ? Vec3((keep != nullptr ? (*keep)[n] : 1.0) * v + task.kick * w[n] * force.at(n)) : v);
   }
-  outcome.momentum_cut += cut(base_.position, w, plan.h, plan.reach, base_.velocity);
-  return {base_, no_force_, nullptr, nullptr, kick, step};
+  for (const int column : pattern_.rail.columns)  // they stand still
+    base_.velocity.set(static_cast<std::size_t>(column), Vec3::Zero());
+  outcome.momentum_cut += cut(base_.position, w, task.plan.h, task.plan.reach, base_.velocity);
+  return {base_, no_force_, nullptr, nullptr, task.kick, task.step};
 }
 
 // Least-squares rigid motion of the nodes with prescribed velocity; false: there are none.

@@ -22,8 +22,7 @@ class LastResort final : public Scheme {
   /// pattern must outlive this.
   explicit LastResort(const ClothPattern& pattern);
 
-  SubstepStart start(const SubstepPlan& plan, double step, double kick, const NodeForces& forces,
-                     const NodeInertia& inertia, const ClothState& state, SubstepOutcome& outcome) noexcept override;
+  SubstepStart start(const Task& task, const ClothState& state, SubstepOutcome& outcome) noexcept override;
 
   /// Cuts the velocities [m/s] of a substep of h [s] from `position` [m]; nodes with inverse inertia 0 keep theirs.
   /// Returns the momentum taken out [N s].

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The table of materials. Where each number comes from, and how sure it is: docs/materials.md, which a test compares
+// with this table.
+#include <array>
+
+#include "curtain_sim/scene.h"
+
+namespace curtain {
+namespace {
+
+struct Properties {
+  double density;       // [kg/m^2]
+  double bending_warp;  // [N m]
+  double bending_weft;  // [N m]
+  double porosity;
+  double friction;
+  double thickness;  // [m]
+};
+
+// In the order of the enum.
+constexpr std::array<Properties, 11> kTable = {{
+    {0.0673, 1.78e-6, 3.076e-6, 0.2, 0.5, 0.25e-3},     // cotton_voile
+    {0.1834, 6.121e-5, 2.412e-5, 0.05, 0.5, 0.5e-3},    // linen
+    {0.0585, 2.977e-6, 4.967e-6, 0.02, 0.25, 0.2e-3},   // silk
+    {0.0974, 1.138e-6, 1.899e-6, 0.03, 0.3, 0.2e-3},    // polyester
+    {0.4773, 3.278e-5, 2.21e-5, 0.015, 0.6, 1.5e-3},    // velvet
+    {0.3111, 6.067e-5, 4.285e-5, 0.0, 0.4, 0.5e-3},     // blackout
+    {0.1972, 9.183e-6, 7.598e-6, 0.04, 0.3, 0.35e-3},   // hospital
+    {0.14, 2.1e-5, 2.1e-5, 0.0, 0.4, 0.15e-3},          // shower_peva
+    {2.44, 1.3e-2, 1.3e-2, 0.0, 0.6, 2.0e-3},           // pvc_strip
+    {0.3374, 1.89e-4, 3.722e-5, 0.002, 0.5, 0.7e-3},    // canvas
+    {0.0373, 3.367e-7, 2.23e-7, 0.035, 0.25, 0.076e-3}  // parachute_nylon
+}};
+
+// Of a flat plate across the flow: Hoerner, Fluid-Dynamic Drag (1965), Sect. 3.
+constexpr double kPlateDrag = 1.17;
+
+}  // namespace
+
+void applyMaterial(Material material, Scene& scene) {
+  scene.cloth.material = material;
+  if (material == Material::kNone) return;
+  const Properties& properties = kTable.at(static_cast<std::size_t>(material) - 1);
+  scene.cloth.surface_density = properties.density;
+  scene.cloth.bending_warp = properties.bending_warp;
+  scene.cloth.bending_weft = properties.bending_weft;
+  scene.cloth.porosity = properties.porosity;
+  scene.contact.friction = properties.friction;
+  scene.contact.thickness = properties.thickness;
+  if (scene.air.law == AirLaw::kRelative) return;  // which has no use for the coefficients of Eq. (4)
+  // Eq. (4) is linear up to the threshold; there it is the plate's drag, rho / 2 C v^2, and beyond it stays that.
+  const double drag = 0.5 * kPlateDrag * (1.0 - properties.porosity) * scene.air.threshold;
+  scene.air.inside = scene.air.border = scene.air.corner = drag;
+}
+
+}  // namespace curtain

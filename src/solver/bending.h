@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Bending in a substep: a force that is added to the others before the links are solved for.
+//
+// It is taken as implicitly as stability asks, and no more. A step of `scale` = h * kick bears a stiffness of
+// limit * m / scale at a node of mass m, of which the links' tensions take their part (Gershgorin, as in
+// NodeInertia). Where the line is stiffer its nodes give way (bending_lines.h) until it is not:
+//     D = 1 / E - 1 / bound of K,   A = (K^-1 + D)^-1 <= E.
+// With D = scale / (4 m) that is the implicit-explicit variational integrator of Stern, Grinspun 2009: midpoint
+// bending, explicit everything else. A is symmetric, so the force has a potential, and leapfrog stays symplectic with
+// the step it has without bending. The links pull unfiltered: at rest, lines that are stiffer than the step bears are
+// softer over lengths of (B scale / density)^(1/4).
+#pragma once
+
+#include "solver/bending_lines.h"
+#include "solver/node_inertia.h"
+#include "solver/rest_curvature.h"
+#include "solver/warp_solver.h"
+#include "solver/workers.h"
+
+namespace curtain {
+
+/// Not thread-safe. Allocates only in the constructor, and nothing for limp cloth.
+class Bending {
+ public:
+  /// All arguments must outlive this.
+  Bending(const ClothPattern& pattern, const Workers& workers);
+
+  bool any() const noexcept { return warp_.bend() || weft_.bend(); }
+
+  /// After begin(): lines are stiffer than the step bears.
+  bool gives() const noexcept { return gives_; }
+
+  /// What a substep bears: |scale| = h * kick [s^2], inverse inertia [1/kg]. explicit_links: links pull along their
+  /// directions at the start of the step, and their tensions take a part.
+  void begin(const NodeInertia& inertia, const Field& inverse, double scale, bool explicit_links) noexcept;
+
+  /// The force and that of bending at these positions [N]; valid until the next call of one of these.
+  const Field3& addTo(const Field3& force, const Field3& position) noexcept;
+  /// The same where a substep leads to with this force and without links. inverse: inertia of the substep [1/kg].
+  const Field3& addAhead(const SubstepStart& start, const Field& inverse) noexcept;
+  /// That of bending alone. energy: elastic energy, as the steps after begin() see it [J].
+  const Field3& forceAt(const Field3& position, double& energy) noexcept;
+  /// What the last of them returned.
+  const Field3& sum() const noexcept { return sum_; }
+
+ private:
+  void setGive(const NodeInertia& inertia, const Field& inverse, double scale, double per_load, double limit) noexcept;
+  void addStraight(const Field3& force, const Field3& position, Field3& sum) noexcept;
+  void addWarpGiving(const Field3& position, Field3& sum) noexcept;
+  void addWeftGiving(const Field3& position, Field3& sum) noexcept;
+  template <typename Add>
+  double addCouples(const RestCurvature& rest, const Field& give, const Add& add, const Field3& position,
+                    Field3& force) noexcept;
+  double addCurved(const Field3& position, Field3& force) noexcept;
+
+  const ClothPattern& pattern_;
+  const Workers& workers_;
+  const BendingLines warp_, weft_;
+  const RestCurvature warp_rest_, weft_rest_;
+  double stiffest_;  // largest bound of K over mass [1/s^2]
+  bool gives_ = false;
+  Field warp_give_, weft_give_;  // [m/N]
+  Field3 sum_, ahead_, no_force_;
+  Field3 couples_, moved_;  // scratch of addCouples()
+  BendingScratch scratch_;
+};
+
+/// Sum over the nodes of (with - without) . (x - x_0), x_0 the first node's position [J]: what the difference of two
+/// forces, which has no sum, does over the cloth's extent.
+double workOf(const Field3& with, const Field3& without, const Field3& position) noexcept;
+
+}  // namespace curtain

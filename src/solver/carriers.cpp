@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/carriers.h"
+
+#include <cmath>
+#include <limits>
+
+#include "cloth/archive.h"
+
+namespace curtain {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+Carriers::Carriers(const ClothPattern& pattern)
+    : pattern_(pattern), law_(pattern.rail.size(), pattern.rail.gap, pattern.rail.path.length()) {
+  const RailPattern& rail = pattern.rail;
+  index_.assign(static_cast<std::size_t>(pattern.grid.columns), -1);
+  all_.resize(rail.size());
+  for (std::size_t k = 0; k < rail.size(); ++k) {
+    const int column = rail.columns[k];
+    all_[k].column = column;
+    index_[static_cast<std::size_t>(column)] = static_cast<int>(k);
+    const bool left = k > 0 && rail.columns[k - 1] + 1 == column;
+    const bool right = k + 1 < rail.size() && rail.columns[k + 1] == column + 1;
+    adjacent_.push_back(left || right ? 1 : 0);
+  }
+  rows_.resize(rail.size());
+  drive_.goal.assign(rail.layout.masters().size(), 0.0);
+  for (std::vector<double>* values : {&memory_.force, &memory_.drawn}) values->resize(rail.size());
+  for (std::vector<std::uint8_t>* flags : {&memory_.stays, &memory_.joins}) flags->resize(rail.size());
+  forget();
+}
+
+void Carriers::forget() noexcept {
+  std::fill(memory_.stays.begin(), memory_.stays.end(), std::uint8_t{1});
+  std::fill(memory_.joins.begin(), memory_.joins.end(), std::uint8_t{0});
+  std::fill(memory_.force.begin(), memory_.force.end(), 0.0);
+  std::fill(memory_.drawn.begin(), memory_.drawn.end(), 0.0);
+}
+
+void Carriers::begin(const ClothState& state, const ClothState& start, const Field& inverse, double h, double step,
+                     double scale) noexcept {
+  step_ = step;
+  scale_ = scale;
+  stands_ = false;
+  for (std::size_t k = 0; k < all_.size(); ++k) {
+    Carrier& carrier = all_[k];
+    RailRow& row = rows_[k];
+    carrier.inverse = carrier.mobility = inverse[node(carrier)];
+    stands_ = stands_ || !(carrier.inverse > 0.0);
+    carrier.along = carrier.now = pattern_.rail.path.at(start.place[k]).tangent;
+    carrier.point = start.position.at(node(carrier));
+    carrier.moved = false;
+    carrier.began = start.place[k];
+    carrier.entered = start.velocity.at(node(carrier)).dot(carrier.along);
+    row = RailRow();
+    row.mass = 1.0 / carrier.inverse;
+    row.wish = row.place = start.place[k];
+    row.friction = {state.place[k], pattern_.rail.fastened[k] != 0 ? kInfinity : 0.0};
+  }
+  if (!drive_.draws) return;
+  const std::vector<std::size_t>& masters = pattern_.rail.layout.masters();
+  for (std::size_t m = 0; m < masters.size(); ++m) {
+    const double from = state.place[masters[m]], most = std::abs(drive_.speed * h);
+    rows_[masters[m]].drive = {from + std::clamp(drive_.goal[m] - from, -most, most), scale * drive_.force};
+  }
+}
+
+// The rail's reaction across itself carries what acts there and turns the carrier in its arc.
+void Carriers::press(std::size_t k, const Vec3& force) noexcept {
+  if (pattern_.rail.fastened[k] != 0) return;
+  const RailPath::Place at = pattern_.rail.path.at(rows_[k].place);
+  const double speed = (rows_[k].place - all_[k].began) / step_;
+  const Vec3 across =
+      force - force.dot(at.tangent) * at.tangent - pattern_.mass[node(all_[k])] * speed * speed * at.curvature;
+  const double bound = scale_ * pattern_.rail.friction * across.norm();
+  rows_[k].friction.bound = std::isfinite(bound) ? bound : 0.0;
+}
+
+void Carriers::put(std::size_t k, double place, Field3& position) noexcept {
+  Carrier& carrier = all_[k];
+  const RailPath::Place at = pattern_.rail.path.at(place);
+  carrier.now = at.tangent;
+  carrier.point = at.point;
+  position.set(node(carrier), at.point);
+}
+
+void Carriers::settle(int first, int end, Field3& position) noexcept {
+  for (auto k = static_cast<std::size_t>(from(first) - all_.data()); k < all_.size() && all_[k].column < end; ++k) {
+    const double change = all_[k].along.dot(position.at(node(all_[k])) - all_[k].point);
+    rows_[k].wish += change;
+    if (all_[k].mobility > 0.0) rows_[k].place += change;
+    put(k, rows_[k].place, position);
+  }
+}
+
+bool Carriers::settle(Field3& position) noexcept {
+  for (std::size_t k = 0; k < all_.size(); ++k)
+    rows_[k].wish += all_[k].along.dot(position.at(node(all_[k])) - all_[k].point);
+  law_.solve(rows_);
+  bool changed = false;
+  for (std::size_t k = 0; k < all_.size(); ++k) {
+    Carrier& carrier = all_[k];
+    put(k, rows_[k].place, position);
+    carrier.moved = carrier.moved || (carrier.mobility == 0.0 && !rows_[k].stays);
+    // A string between neighbouring columns must have an end that moves, so that its pull can grow until one does.
+    const bool may_stay = !carrier.moved && (adjacent_[k] == 0 || pattern_.rail.fastened[k] != 0);
+    const double mobility = rows_[k].stays && may_stay ? 0.0 : carrier.inverse;
+    changed = changed || mobility != carrier.mobility;
+    carrier.mobility = mobility;
+  }
+  return changed;
+}
+
+void Carriers::followDirections() noexcept {
+  for (Carrier& carrier : all_) carrier.along = carrier.now;
+}
+
+bool Carriers::strikes() const noexcept {
+  bool strikes = false;
+  for (std::size_t k = 0; k < all_.size(); ++k) strikes = strikes || (rows_[k].stays && memory_.stays[k] == 0);
+  law_.forEachRun([&](std::size_t first, std::size_t end) {
+    for (std::size_t k = first; k + 1 < end; ++k) strikes = strikes || memory_.joins[k] == 0;
+  });
+  return strikes;
+}
+
+void Carriers::commit(ClothState& state) noexcept {
+  forget();
+  for (std::size_t k = 0; k < all_.size(); ++k) {
+    const RailRow& row = rows_[k];
+    state.place[k] = row.place;
+    state.velocity.set(node(all_[k]), (row.place - all_[k].began) / step_ * all_[k].now);
+    if (stands_) continue;
+    memory_.stays[k] = row.stays ? 1 : 0;
+    memory_.force[k] = row.mass * (row.place - row.wish) / scale_;
+    memory_.drawn[k] = row.drawn / scale_;
+  }
+  if (stands_) return;
+  law_.forEachRun([&](std::size_t first, std::size_t end) {
+    for (std::size_t k = first; k + 1 < end; ++k) memory_.joins[k] = 1;
+  });
+}
+
+double Carriers::driveForce() const noexcept {
+  double sum = 0.0;
+  for (const double force : memory_.drawn) sum += std::abs(force);
+  return sum;
+}
+
+// An impulse puts in itself times the mean speed; that of the drive is its multiplier over the step.
+double Carriers::driveEnergy() const noexcept {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < all_.size(); ++k) {
+    const double made = (rows_[k].place - all_[k].began) / step_;
+    sum += rows_[k].drawn / step_ * (all_[k].entered + made);
+  }
+  return sum;
+}
+
+void Carriers::beginRates(const ClothState& state, double age, Field3& velocity) noexcept {
+  for (std::size_t k = 0; k < all_.size(); ++k) {
+    Carrier& carrier = all_[k];
+    const std::size_t n = node(carrier);
+    carrier.now = carrier.along = pattern_.rail.path.at(state.place[k]).tangent;
+    carrier.mobility = memory_.stays[k] != 0 ? 0.0 : 1.0 / pattern_.mass[n];
+    const Vec3 v = memory_.stays[k] != 0 ? state.velocity.at(n) : velocity.at(n);
+    carrier.speed = v.dot(carrier.now) + age * carrier.mobility * memory_.force[k];
+    velocity.set(n, carrier.speed * carrier.now);
+  }
+}
+
+void Carriers::settleRates(int first, int end, Field3& velocity) noexcept {
+  for (auto k = static_cast<std::size_t>(from(first) - all_.data()); k < all_.size() && all_[k].column < end; ++k) {
+    Carrier& carrier = all_[k];
+    if (carrier.mobility > 0.0) carrier.speed = velocity.at(node(carrier)).dot(carrier.now);
+    velocity.set(node(carrier), carrier.speed * carrier.now);
+  }
+}
+
+// Those of a run move as one.
+void Carriers::settleRates(Field3& velocity) noexcept {
+  settleRates(0, pattern_.grid.columns, velocity);
+  for (std::size_t first = 0, end = 0; first < all_.size(); first = end) {
+    double mass = 0.0, moment = 0.0;
+    bool more = true;
+    for (end = first; end < all_.size() && more; ++end) {
+      mass += pattern_.mass[node(all_[end])];
+      moment += pattern_.mass[node(all_[end])] * all_[end].speed;
+      more = memory_.joins[end] != 0;
+    }
+    for (std::size_t k = first; k < end && end - first > 1; ++k) {
+      if (all_[k].mobility == 0.0) continue;
+      all_[k].speed = moment / mass;
+      velocity.set(node(all_[k]), all_[k].speed * all_[k].now);
+    }
+  }
+}
+
+void Carriers::Memory::carry(Archive& archive) {
+  archive.flags("stays", stays);
+  archive.flags("joins", joins);
+  archive.finite("force", force);
+  archive.finite("drawn", drawn);
+}
+
+}  // namespace curtain

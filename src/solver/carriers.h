@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Carriers on a rail, in the solve. A carrier is a node of the top row with one freedom, its place s along the rail:
+// x = gamma(s), and since |gamma'| = 1, the mass that belongs to s is that of node and carrier, on arcs too. A force f
+// moves it by w (f . tangent): its inverse inertia is the matrix w tangent tangent^T.
+//
+// Loops over nodes move it as if it were free, by w f. After each of them the carriers come here: what the loop moved
+// them by counts along the tangent only, as a change of the wished place, where a carrier would be without the rail's
+// forces, and RailLaw says where it is. So it is on the rail whatever happens. Where a system of equations is set up
+// the matrix itself is needed: see mobility.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "cloth/cloth.h"
+#include "solver/rail_law.h"
+
+namespace curtain {
+
+/// Where the masters are to be drawn. In a substep they move towards their goals by their speed at most.
+struct RailDrive {
+  bool draws = false;
+  double speed = 0.0;        ///< [m/s], > 0
+  double force = 0.0;        ///< on each master, at most [N], >= 0
+  std::vector<double> goal;  ///< of the masters [m]
+};
+
+/// A carrier during a solve.
+struct Carrier {
+  int column = 0;
+  Vec3 along = Vec3::UnitX();  ///< tangent that forces act along: where the links' directions are from
+  Vec3 now = Vec3::UnitX();    ///< tangent at its place
+  Vec3 point = Vec3::Zero();   ///< of the rail at its place [m]
+  double inverse = 0.0;        ///< w [1/kg]
+  double mobility = 0.0;       ///< w, or 0: it stays whatever the links change
+  bool moved = false;    ///< it did not stay as first found: from now on its mobility is w, so that the solve ends
+  double began = 0.0;    ///< place that the substep starts from [m]
+  double entered = 0.0;  ///< speed along the rail that it starts with [m/s]
+  double speed = 0.0;    ///< along the rail, while velocities are projected [m/s]
+};
+
+/// Not thread-safe; blocks of columns may settle() in parallel. Allocates only in the constructor.
+class Carriers {
+ public:
+  /// pattern must outlive this.
+  explicit Carriers(const ClothPattern& pattern);
+
+  bool any() const noexcept { return !pattern_.rail.empty(); }
+  /// In this substep they may move.
+  bool slide() const noexcept { return any() && !stands_; }
+  const std::vector<Carrier>& all() const noexcept { return all_; }
+  std::size_t node(const Carrier& carrier) const noexcept { return static_cast<std::size_t>(carrier.column); }
+  /// The carrier of this column; null: it has none.
+  const Carrier* at(int column) const noexcept {
+    const int index = index_[static_cast<std::size_t>(column)];
+    return index < 0 ? nullptr : &all_[static_cast<std::size_t>(index)];
+  }
+  /// Calls act(carrier) for those of columns [first, end).
+  template <typename Act>
+  void forEach(int first, int end, const Act& act) const {
+    for (const Carrier* carrier = from(first); carrier != all_.data() + all_.size() && carrier->column < end; ++carrier)
+      act(*carrier);
+  }
+
+  // ---- A substep
+
+  void setDrive(const RailDrive& drive) { drive_ = drive; }
+  const RailDrive& drive() const noexcept { return drive_; }
+
+  /// Begins a substep of h [s] from `start`: as `state` is, or a scheme's combination of states, `step` [s] before the
+  /// end. inverse: inertia; scale: step times kick [s^2].
+  void begin(const ClothState& state, const ClothState& start, const Field& inverse, double h, double step,
+             double scale) noexcept;
+  /// After a loop over columns [first, end) has moved them: each by itself, without the law.
+  void settle(int first, int end, Field3& position) noexcept;
+  /// After loops over all nodes: all together. True: a mobility has changed.
+  bool settle(Field3& position) noexcept;
+  /// Sets the bound of friction from what acts on each carrier now: force(column), of links and all else [N].
+  template <typename Force>
+  void press(const Force& force) noexcept {
+    for (std::size_t k = 0; k < all_.size(); ++k) press(k, force(all_[k].column));
+  }
+  /// Directions follow the present positions.
+  void followDirections() noexcept;
+  /// A carrier stays, or touches its neighbour, that did not in the last accepted substep.
+  bool strikes() const noexcept;
+
+  /// Accepts the substep: sets places and velocities.
+  void commit(ClothState& state) noexcept;
+  /// Force of the drive on all masters in the last substep [N]; 0: none draws.
+  double driveForce() const noexcept;
+  /// Twice the work of the drive in the substep being made [J].
+  double driveEnergy() const noexcept;
+
+  // ---- Velocities at the places of the last accepted substep
+
+  /// Velocities [m/s] that forces have changed for `age` [s]: as the rail lets them; before: without the change.
+  void beginRates(const ClothState& state, double age, Field3& velocity) noexcept;
+  void settleRates(int first, int end, Field3& velocity) noexcept;
+  void settleRates(Field3& velocity) noexcept;
+
+  /// What a substep leaves to the next.
+  struct Memory {
+    std::vector<std::uint8_t> stays;  ///< it stayed
+    std::vector<std::uint8_t> joins;  ///< it pushed the next one
+    std::vector<double> force;        ///< of the rail, along it [N]
+    std::vector<double> drawn;        ///< of the drive [N]
+
+    void carry(Archive& archive);
+  };
+  Memory& memory() noexcept { return memory_; }
+  const Memory& memory() const noexcept { return memory_; }
+  void forget() noexcept;
+
+ private:
+  const Carrier* from(int column) const noexcept {
+    return std::lower_bound(all_.data(), all_.data() + all_.size(), column,
+                            [](const Carrier& carrier, int at) { return carrier.column < at; });
+  }
+  void put(std::size_t k, double place, Field3& position) noexcept;
+  void press(std::size_t k, const Vec3& force) noexcept;
+
+  const ClothPattern& pattern_;
+  std::vector<Carrier> all_;
+  std::vector<int> index_;              // by column; -1: no carrier
+  std::vector<std::uint8_t> adjacent_;  // a neighbouring column has one too
+  std::vector<RailRow> rows_;           // wishes and places
+  RailLaw law_;
+  RailDrive drive_;
+  double step_ = 0.0;    // of the substep [s]
+  double scale_ = 0.0;   // step times kick [s^2]
+  bool stands_ = false;  // nothing moves a carrier in this substep
+  Memory memory_;
+};
+
+}  // namespace curtain

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Lines that are not straight at rest. A joint whose rest is a turn of theta_0 about the axis n stores
+//     k (1 - cos(theta - theta_0)) = k cos(theta_0) (1 - cos(theta)) + k (1 - cos(theta_0)) - k sin(theta_0)
+//     sin(theta).
+// The first term is that of a straight line (bending_lines.h) of stiffness k cos(theta_0), the second a constant, the
+// third a couple on the two links. With their directions t and t' (in rest lengths) sin(theta) = n . (t x t'), and n is
+// the direction of the line across, between the node's neighbours on it: it follows the cloth, so that the couple and
+// what it exerts across leave no net force and no net torque.
+#pragma once
+
+#include "solver/bending_lines.h"
+
+namespace curtain {
+
+class RestCurvature {
+ public:
+  /// Of the warp's lines, or of the weft's.
+  RestCurvature(const ClothPattern& pattern, bool warp);
+
+  bool any() const noexcept { return !couples_.empty(); }
+  /// Adds the couples' force [N] at these positions. Returns their energy and the constant one [J].
+  double addTo(const Field3& position, Field3& force) const noexcept;
+
+ private:
+  struct Couple {
+    std::size_t before, node, after;  // along the line
+    std::size_t left, right;          // across
+    double moment;                    // k sin(theta_0) [N m]
+    double constant;                  // k (1 - cos(theta_0)) [J]
+    double per_before, per_after;     // 1 / rest length [1/m]
+  };
+  std::vector<Couple> couples_;
+};
+
+}  // namespace curtain

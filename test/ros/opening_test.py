@@ -1,0 +1,110 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""A curtain on a rail opens and shuts by ~open and by ~open_curtain; what is out of range is refused and counted."""
+import sys
+import threading
+import unittest
+
+import actionlib
+import rospy
+import rostest
+from actionlib_msgs.msg import GoalStatus
+from curtain_sim.msg import OpenCurtainAction, OpenCurtainGoal
+from curtain_testing import Curtain, publisher, wait_until
+from std_msgs.msg import Float64
+
+MASTER = 20  # its column
+
+
+class OpeningTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("opening_test")
+        cls.curtain = Curtain("/curtain")
+        cls.open = publisher("/curtain/open", Float64)
+        cls.client = actionlib.SimpleActionClient("/curtain/open_curtain", OpenCurtainAction)
+        assert cls.client.wait_for_server(rospy.Duration(20.0))
+        cls.curtain.next()
+
+    def setUp(self):
+        self.open.publish(0.0)
+        self.wait_for_opening(0.0)
+
+    def wait_for_opening(self, opening):
+        return self.curtain.wait_for(lambda s: abs(s.statistics.opening - opening) < 1e-6, "it is open by %g" % opening)
+
+    def send(self, feedback=None, **fields):
+        self.client.send_goal(OpenCurtainGoal(**fields), feedback_cb=feedback)
+
+    def wait_for_end(self):
+        """The goal's terminal state and result."""
+        done = threading.Event()
+        threading.Thread(target=lambda: (self.client.wait_for_result(), done.set()), daemon=True).start()
+        wait_until(done.is_set, "the goal has ended", 40.0)
+        return self.client.get_state(), self.client.get_result()
+
+    def test_topic_moves_the_master(self):
+        shut = self.curtain.last().positions[3 * MASTER]
+        self.open.publish(1.0)
+        opened = self.wait_for_opening(1.0).positions[3 * MASTER]
+        self.assertGreater(shut, 0.95)
+        self.assertLess(opened, 0.1)
+
+    def test_action_says_how_far_it_is_and_that_it_has_arrived(self):
+        heard = []
+        self.send(heard.append, opening=0.6)
+        state, result = self.wait_for_end()
+        self.assertEqual(state, GoalStatus.SUCCEEDED)
+        self.assertAlmostEqual(result.opening, 0.6, delta=2e-3)
+        openings = [f.opening for f in heard]
+        self.assertGreater(len(openings), 5)
+        self.assertEqual(openings, sorted(openings))
+        self.assertTrue(all(0.0 <= f.force <= 20.0 + 1e-9 for f in heard))
+
+    def test_speed_is_that_of_the_goal(self):
+        began = self.curtain.last().statistics.simulated_time
+        self.send(opening=1.0, speed=0.5)
+        self.wait_for_end()
+        # 0.9 m at 0.5 m/s; a frame or two more until everybody has heard of it.
+        self.assertGreater(self.curtain.last().statistics.simulated_time - began, 1.7)
+
+    def test_too_weak_a_drive_is_given_up(self):
+        self.send(opening=1.0, force=0.01)
+        state, result = self.wait_for_end()
+        self.assertEqual(state, GoalStatus.ABORTED)
+        self.assertIn("force", result.message)
+        self.curtain.wait_for(lambda s: s.statistics.drive_force == 0.0, "the drive has let go")
+
+    def test_cancelled_goal_lets_go(self):
+        self.send(opening=1.0, speed=0.1)
+        self.curtain.wait_for(lambda s: s.statistics.opening > 0.05, "it opens")
+        self.client.cancel_goal()
+        state, _ = self.wait_for_end()
+        self.assertEqual(state, GoalStatus.PREEMPTED)
+        self.curtain.wait_for(lambda s: s.statistics.drive_force == 0.0, "the drive has let go")
+
+    def test_topic_takes_the_place_of_a_goal(self):
+        self.send(opening=1.0, speed=0.1)
+        self.curtain.wait_for(lambda s: s.statistics.opening > 0.05, "it opens")
+        self.open.publish(0.0)
+        state, result = self.wait_for_end()
+        self.assertEqual(state, GoalStatus.PREEMPTED)
+        self.assertIn("~open", result.message)
+        self.wait_for_opening(0.0)
+
+    def test_what_is_out_of_range_is_refused_and_counted(self):
+        refused = self.curtain.last().statistics.dropped_invalid
+        for opening in (-0.1, 1.1, float("nan")):
+            self.open.publish(opening)
+        self.send(opening=2.0)
+        state, result = self.wait_for_end()
+        self.assertEqual(state, GoalStatus.REJECTED)
+        self.assertIn("opening: must be a number in [0, 1]", result.message)
+        self.send(opening=0.5, speed=-1.0)
+        self.assertEqual(self.wait_for_end()[0], GoalStatus.REJECTED)
+        self.curtain.wait_for(lambda s: s.statistics.dropped_invalid == refused + 5, "all five are counted")
+        self.assertAlmostEqual(self.curtain.last().statistics.opening, 0.0, delta=1e-6)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("curtain_sim", "opening", OpeningTest, sys.argv)
