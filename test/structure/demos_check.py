@@ -55,7 +55,7 @@ TILES = {"size!": vector(2), "gap": color, "vary": NUMBER, "shift": NUMBER, "joi
 PLACED = {"shape!": TEXT, "frame": TEXT, "at": XYZ, "turn": XYZ, "color!": color}
 SCENERY = {
     "box": {"size!": XYZ},
-    "tube": {"path!": rows(3), "radius!": NUMBER, "close": FLAG},
+    "tube": {"path!": rows(3), "radius!": NUMBER, "round": FLAG},
     "ball": {"radius!": NUMBER, "scale": XYZ},
     "panel": {"size!": vector(2), "tiles": TILES, "fade": FLAG, "shades": rows(5)},
     "spokes": {"radius!": NUMBER, "count!": int, "to!": XYZ, "thickness!": NUMBER},

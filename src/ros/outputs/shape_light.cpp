@@ -15,9 +15,9 @@ const double kCosCrease = std::cos(0.7);  // 40 degrees: wider than between face
 // Light of a clear day, from before the scene, the left and above; from the sky, and less from the ground. It is added
 // up as it is in nature and shown with a gamma of 2, as that on the cloth (src/rviz/cloth_shader.h).
 const Vec3 kToLight = Vec3(-0.45, -0.60, 0.75).normalized();
-const Vec3 kDirect(0.80, 0.77, 0.72);
-const Vec3 kFromAbove(0.38, 0.40, 0.44);
-const Vec3 kFromBelow(0.20, 0.19, 0.18);
+const Vec3 kDirect(0.92, 0.88, 0.82);
+const Vec3 kFromAbove(0.46, 0.48, 0.52);
+const Vec3 kFromBelow(0.24, 0.23, 0.22);
 
 // Twice the triangle's area long.
 Vec3 areaNormal(const curtain::ShapeTriangles& shape, const Eigen::Vector3i& triangle) {
