@@ -392,6 +392,9 @@ TEST(BadInput, BadPosesAndMotionsOfObstaclesAreNamed) {
   expectProblem(ball("orientation: [0, 0, 0, one]"), key + "[3]", {"is the text \"one\""});
   expectProblem(ball("friction: -1"), "obstacles[0].friction", {"a number in [0, 10], is -1"});
   expectProblem(ball("friction: .nan"), "obstacles[0].friction", {"a number in [0, 10], is .nan"});
+  expectProblem(ball("color: [0.5, 1.5, 0.5]"), "obstacles[0].color[1]", {"a number in [0, 1], is 1.5"});
+  expectProblem(ball("color: red"), "obstacles[0].color", {"is the text \"red\""});
+  expectProblem(ball("visible: 1"), "obstacles[0].visible", {"true or false"});
   expectProblem(ball("frame: ''"), "obstacles[0].frame", {"not empty"});
   expectProblem(ball("motion: [{time: 0.0}, {time: 1.0}, {time: 1.0}]"), "obstacles[0].motion[2].time",
                 {"> the time before it = 1, is 1"});

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ros/frames/geometry.h"
+#include "ros/outputs/shape_light.h"
 #include "scene/pi.h"
 
 namespace curtain_ros {
@@ -113,7 +114,7 @@ visualization_msgs::MarkerArray blankDetails(const std::string& frame, const cur
       makeMarker(frame, "wind", Marker::LINE_LIST, kWindWidth, colour(0.55F, 0.80F, 1.00F)),
   };
   for (int i = 0; i < simulator.obstacleCount(); ++i) {  // shapes never change: their triangles are made once
-    Marker marker = makeMarker(frame, "obstacles", Marker::TRIANGLE_LIST, 1.0, colour(0.45F, 0.50F, 0.58F));
+    Marker marker = makeMarker(frame, "obstacles", Marker::TRIANGLE_LIST, 1.0, colour(1.0F, 1.0F, 1.0F));
     marker.id = i;
     const curtain::ShapeTriangles shape = simulator.obstacleShape(i).triangles();
     addTriangles(shape.corners, shape.triangles, marker.points);
@@ -164,7 +165,10 @@ void MeshMarker::fill(Marker& marker) {
 }
 
 DetailMarkers::DetailMarkers(const std::string& world_frame, GeometryCache& geometry)
-    : geometry_(geometry), message_(blankDetails(world_frame, geometry.simulator())) {}
+    : geometry_(geometry), message_(blankDetails(world_frame, geometry.simulator())) {
+  for (int i = 0; i < geometry.simulator().obstacleCount(); ++i)
+    obstacle_normals_.push_back(cornerNormals(geometry.simulator().obstacleShape(i).triangles()));
+}
 
 std::uint64_t DetailMarkers::update() {
   const curtain::Simulator& simulator = geometry_.simulator();
@@ -210,8 +214,15 @@ void DetailMarkers::fill(visualization_msgs::MarkerArray& array) {
 
   for (int i = 0; i < simulator.obstacleCount(); ++i) {
     Marker& obstacle = array.markers[static_cast<std::size_t>(kFirstObstacle) + static_cast<std::size_t>(i)];
-    obstacle.action = simulator.obstaclePresent(i) ? Marker::ADD : Marker::DELETE;
-    obstacle.pose = toPose(simulator.obstaclePose(i));
+    const curtain::ObstacleParams& params = simulator.scene().obstacles[static_cast<std::size_t>(i)];
+    const curtain::Pose pose = simulator.obstaclePose(i);
+    obstacle.action = params.visible && simulator.obstaclePresent(i) ? Marker::ADD : Marker::DELETE;
+    const geometry_msgs::Quaternion was = obstacle.pose.orientation;
+    obstacle.pose = toPose(pose);
+    if (!obstacle.colors.empty() && was == obstacle.pose.orientation) continue;
+    obstacle.colors.clear();
+    for (const Vec3& normal : obstacle_normals_[static_cast<std::size_t>(i)])
+      obstacle.colors.push_back(litColour(params.color, pose.orientation * normal));
   }
 }
 

@@ -70,6 +70,7 @@ class DetailMarkers {
   std::optional<std::uint64_t> revision_, filled_;  // of that picture; of the array, without its wind
   // Winds come and go without a new revision. They are few: their lines are compared.
   std::vector<geometry_msgs::Point> cones_, cones_now_;
+  std::vector<std::vector<curtain::Vec3>> obstacle_normals_;  // at their triangles' corners
   ReusedMessage<visualization_msgs::MarkerArray> message_;
 };
 

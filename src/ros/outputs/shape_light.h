@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Light on obstacles, in the colours of their triangles' corners. Rviz would light triangles flat, from where the
+// viewer is; so round shapes would show their facets, and boxes their nearest side alone.
+#pragma once
+
+#include <std_msgs/ColorRGBA.h>
+
+#include <vector>
+
+#include "curtain_sim/obstacle_shape.h"
+
+namespace curtain_ros {
+
+/// Normals at the corners of a shape's triangles: three of each triangle, in its order, unit length. Faces that meet at
+/// less than 40 degrees share theirs (round shapes look round), others keep their own (boxes have edges).
+std::vector<curtain::Vec3> cornerNormals(const curtain::ShapeTriangles& shape);
+
+/// Colour of a surface in the light.
+///   base    red, green, blue [0..1]
+///   normal  outward, unit length, world frame, z up
+std_msgs::ColorRGBA litColour(const curtain::Vec3& base, const curtain::Vec3& normal);
+
+}  // namespace curtain_ros
