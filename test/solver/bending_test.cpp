@@ -308,6 +308,27 @@ TEST(RestCurvature, ForcesAreTheSlopeOfTheEnergyAndBalance) {
   }
 }
 
+// Cloth that starts in pressed pleats stays in them.
+TEST(RestCurvature, HoldsPressedPleatsWhereTheyStart) {
+  Scene scene = curtain_test::flatScene(5, 25, 1.0, 2.0);
+  scene.cloth.bending_weft = kRigidity;
+  scene.hang.to = scene.hang.from + Vec3(1.2, 0.0, 0.0);
+  scene.hang.heading = Heading::kRipple;
+  double energy[2] = {};
+  for (const double pressed : {0.0, 1.0}) {
+    scene.hang.pressed = pressed;
+    ASSERT_TRUE(validate(scene).empty()) << describe(validate(scene));
+    const ClothPattern pattern = makePattern(scene);
+    const Workers workers(1);
+    NodeInertia inertia(pattern);
+    Bending bending(pattern, workers);
+    bending.begin(inertia, inertia.inverse(), 1e-12, true);
+    bending.forceAt(makeInitialState(scene, pattern).position, energy[pressed > 0.0]);
+  }
+  EXPECT_GT(energy[0], kRigidity);
+  EXPECT_LT(std::abs(energy[1]), 1e-10 * energy[0]);
+}
+
 // A line bent by its rest turn at each joint has no energy, and turns no rod: what is left runs along the rods, which
 // are at their lengths. Bent further or less it has the energy of its joints.
 TEST(RestCurvature, IsAtRestWhereItsTurnsAre) {
