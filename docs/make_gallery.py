@@ -10,7 +10,6 @@ Printed of each: frames and computing time of the node. Needs Xvfb, rviz, xdotoo
 """
 import argparse
 import os
-import shutil
 import signal
 import statistics
 import subprocess
@@ -26,7 +25,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 DEMOS = os.path.join(ROOT, "config", "demos")
 WIDTH, HEIGHT = 1920, 1280  # of the screen; rviz fills it, and pictures are made smaller: that smooths edges
 PICTURE, STRIP = 960, 480  # widths of what is kept
-FRAMES, STEP = 24, 0.16  # of the strip; s
+FRAMES, STEP = 24, 0.2  # of the strip; s
 STATE = "/curtain/curtain_node/state"
 
 
@@ -56,10 +55,10 @@ class Programs:
 
 
 def start_screen(programs, folder):
-    """An X server that keeps its picture in a file; its display."""
+    """An X server; its display."""
     reader, writer = os.pipe()
     programs.start(os.path.join(folder, "screen.log"), "Xvfb", "-displayfd", str(writer), "-screen", "0",
-                   "%dx%dx24" % (WIDTH, HEIGHT), "-nolisten", "tcp", "-nocursor", "-fbdir", folder, pass_fds=(writer,))
+                   "%dx%dx24" % (WIDTH, HEIGHT), "-nolisten", "tcp", "-nocursor", pass_fds=(writer,))
     os.close(writer)
     with os.fdopen(reader) as answer:
         return answer.readline().strip()
@@ -104,7 +103,6 @@ def take(name, folder, port, seconds, out):
         gallery = yaml.safe_load(file).get("gallery", {})
     at = seconds or gallery.get("at", 12.0)
     step = gallery.get("step", STEP)
-    screen = os.path.join(folder, "Xvfb_screen0")
     shots = [os.path.join(folder, "%s_%02d.xwd" % (name, i)) for i in range(FRAMES)]
     figures = Figures()
     with Programs() as programs:
@@ -116,7 +114,10 @@ def take(name, folder, port, seconds, out):
         begin = time.monotonic()
         for i, shot in enumerate(shots):
             time.sleep(max(0.0, begin + i * step - time.monotonic()))
-            shutil.copyfile(screen, shot)
+            # Asked of the server, which answers between two pictures of rviz; its memory can hold parts of both.
+            programs.start(os.path.join(folder, "import.log"), "import", "-silent", "-window", "root", "xwd:" + shot)
+        for shot in programs.running[-FRAMES:]:
+            shot.wait()
         text = figures.line()
     convert("xwd:" + shots[0], "-resize", str(PICTURE), "-quality", "95", os.path.join(out, name + ".png"))
     convert("-delay", "%d" % round(100 * step), "-loop", "0", *("xwd:" + shot for shot in shots), "-resize", str(STRIP), "+dither",

@@ -4,6 +4,7 @@
 // that somebody holds is left alone, and once all have been seen nothing is allocated. No ROS master needed.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 #include <vector>
 
@@ -123,6 +124,8 @@ TEST(Messages, HoldWhatNewOnesWouldWhateverChanges) {
   simulator.setObstaclePresent(0, true);
   simulator.setObstaclePose(0, curtain::Pose(), true);
   expectAsNew(messages);
+  simulator.setObstaclePose(0, {curtain::Vec3::Zero(), Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0)}, true);
+  expectAsNew(messages);  // other light
   simulator.reset();
   expectAsNew(messages);
 }
@@ -220,6 +223,29 @@ TEST(DetailMarkers, ANumberForEveryPicture) {
 }
 
 // One that is free again is filled again; while somebody holds it a copy takes its place.
+TEST(DetailMarkers, ObstaclesHaveTheirColorAndMayBeInvisible) {
+  curtain::Scene scene = smallScene();
+  scene.obstacles.push_back(curtain_test::ballAt({0.3, -0.4, 1.5}, 0.1));
+  scene.obstacles[1].name = "hidden";
+  scene.obstacles[0].color = {1.0, 0.5, 0.0};
+  scene.obstacles[1].visible = false;
+  const curtain::Simulator simulator(scene);
+  Messages messages(simulator);
+  const auto array = messages.buildDetails();
+  const auto of = [&](int id) {
+    return *std::find_if(array->markers.begin(), array->markers.end(),
+                         [&](const auto& marker) { return marker.ns == "obstacles" && marker.id == id; });
+  };
+  EXPECT_EQ(of(0).action, visualization_msgs::Marker::ADD);
+  EXPECT_EQ(of(1).action, visualization_msgs::Marker::DELETE);
+  ASSERT_EQ(of(0).colors.size(), of(0).points.size());
+  for (const auto& colour : of(0).colors) {
+    EXPECT_GT(colour.r, colour.g);
+    EXPECT_GT(colour.g, 0.0F);
+    EXPECT_EQ(colour.b, 0.0F);
+  }
+}
+
 TEST(ReusedMessage, IsCopiedOnlyWhileItIsHeld) {
   ReusedMessage<int> message(7);
   const auto held = message.edit();

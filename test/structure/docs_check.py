@@ -170,7 +170,7 @@ class Commands(unittest.TestCase):
                 ctest = program == "scripts/test" and option in subprocess.check_output(["ctest", "--help"], text=True)
                 self.assertTrue(ctest or option in read(program), "no option " + option)
             if program == "scripts/demo" and arguments and not arguments[0].startswith("-"):
-                self.check_scene(arguments[0], page)
+                self.check_demo(arguments[0])
             if program == "test/sanitize/run":
                 self.assertTrue(os.path.exists(os.path.join(ROOT, "test/sanitize", arguments[0] + ".bash")))
         elif program == "roslaunch":
@@ -193,6 +193,9 @@ class Commands(unittest.TestCase):
         path = "config/scenes/%s.yaml" % name
         self.assertTrue(os.path.exists(os.path.join(ROOT, path)) or path in new_files(page), "there is no " + path)
 
+    def check_demo(self, name):
+        self.assertTrue(os.path.exists(os.path.join(ROOT, "config/demos", name, "demo.yaml")), "there is no demo " + name)
+
     def check_batch(self, arguments, page):
         usage = read("src/curtain_batch.cpp")
         for word in arguments:
@@ -211,7 +214,7 @@ class Commands(unittest.TestCase):
                 continue
             self.assertIn('<arg name="%s"' % name, launch)
             if name == "scene":
-                self.check_scene(value, page)
+                self.check_demo(value) if arguments[1] == "demo.launch" else self.check_scene(value, page)
 
     def check_topic(self, arguments):
         words = [word for word in arguments[1:] if not re.match(r"-|\d+$", word)]
