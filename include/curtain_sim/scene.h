@@ -129,8 +129,9 @@ struct HangParams {
   /// Of a heading other than kGathered [0..1024]; 0: as many as the links can show. Each needs four links at least, and
   /// nine with kPinch.
   int pleats = 0;
-  /// Depth below the edge down to which the cloth keeps its pleats' curvature, as of a heading tape or pressed [m], >= 0;
-  /// of a heading other than kGathered, with bending_weft > 0, and pleats that turn by less than a right angle a node.
+  /// Depth below the edge down to which the cloth keeps its pleats' curvature, as of a heading tape or pressed [m], >=
+  /// 0; of a heading other than kGathered, with bending_weft > 0, and pleats that turn by less than a right angle a
+  /// node.
   double pressed = 0.0;
   /// Width over |to - from|, [1..3]. Scene files may give it in place of cloth.width; if both are there they must
   /// agree.
