@@ -286,7 +286,7 @@ struct ObstacleParams {
   double friction = std::numeric_limits<double>::quiet_NaN();  ///< [0..10]; NaN: contact.friction
   Vec3 color = Vec3(0.45, 0.50, 0.58);  ///< red, green, blue [0..1]; drawn by the node, nothing else
   bool visible = true;                  ///< the same; false: it is there, and not drawn
-  std::vector<PoseKey> motion;  ///< offline only: linear in position, slerp in orientation, held at both ends
+  std::vector<PoseKey> motion;          ///< offline only: linear in position, slerp in orientation, held at both ends
 };
 
 /// Contact of the cloth with obstacles and with itself.

@@ -12,8 +12,13 @@ namespace {
 
 // Scene keys that may differ: gravity, air and the frame rate come with the snapshot, the bits do not depend on the
 // number of threads, and of a mesh the triangles are compared, not the path.
-const std::vector<std::string> kAside = {"gravity", "air", "solver.frame_rate", "solver.threads", "obstacles[].mesh",
-                                         "obstacles[].color", "obstacles[].visible"};
+const std::vector<std::string> kAside = {"gravity",
+                                         "air",
+                                         "solver.frame_rate",
+                                         "solver.threads",
+                                         "obstacles[].mesh",
+                                         "obstacles[].color",
+                                         "obstacles[].visible"};
 
 }  // namespace
 
