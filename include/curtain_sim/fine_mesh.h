@@ -60,7 +60,7 @@ class FineMeshBuilder {
   /// Throws std::invalid_argument for another number of lengths, or one that is not > 0.
   FineMeshBuilder(const ClothParams& cloth, const std::vector<double>& weft_rest);
   ~FineMeshBuilder();
-  FineMeshBuilder(FineMeshBuilder&&) noexcept;
+  FineMeshBuilder(FineMeshBuilder&&) noexcept;             ///< the other one may only be destroyed or assigned to
   FineMeshBuilder& operator=(FineMeshBuilder&&) noexcept;  ///< as above
 
   /// nodes  first-layer nodes [m], finite, row-major; throws std::invalid_argument for another number of them

@@ -103,7 +103,9 @@ enum class Heading {
   kGathered,  ///< nothing: a straight edge; where it is shorter than the cloth, each weft link makes a fold
   kPencil,    ///< narrow pleats side by side
   kPinch,     ///< pleats of three fingers, flat between
-  kRipple     ///< an even wave
+  kRipple,    ///< an even wave
+  kEyelets,   ///< an even wave about a pole that goes through it, two eyelets a wave
+  kTabs       ///< bows to one side between tabs, one a pleat
 };
 
 /// The weight of the bottom row, over that of its cloth.
@@ -127,6 +129,10 @@ struct HangParams {
   /// Of a heading other than kGathered [0..1024]; 0: as many as the links can show. Each needs four links at least, and
   /// nine with kPinch.
   int pleats = 0;
+  /// Depth below the edge down to which the cloth keeps its pleats' curvature, as of a heading tape or pressed [m], >=
+  /// 0; of a heading other than kGathered, with bending_weft > 0, and pleats that turn by less than a right angle a
+  /// node.
+  double pressed = 0.0;
   /// Width over |to - from|, [1..3]. Scene files may give it in place of cloth.width; if both are there they must
   /// agree.
   std::optional<double> fullness;
@@ -134,7 +140,7 @@ struct HangParams {
 
 /// Which nodes are pinned.
 enum class PinKind {
-  kTop,         ///< the whole row 0
+  kTop,         ///< the whole row 0; of headings kEyelets and kTabs where it hangs by them
   kLeft,        ///< the whole column 0
   kTopCorners,  ///< both ends of row 0
   kNone,        ///< none

@@ -73,7 +73,8 @@ FineMeshBuilder::FineMeshBuilder(const ClothParams& cloth, const std::vector<dou
     throw std::invalid_argument("weft_rest: has " + std::to_string(weft_rest.size()) + " lengths, must have " +
                                 std::to_string(count));
   }
-  impl_ = std::make_unique<Impl>(Impl{grid, cloth.folds, makeFineMeshTopology(cloth).columns, FoldShape(cloth.folds), {}, {}, {}});
+  impl_ = std::make_unique<Impl>(
+      Impl{grid, cloth.folds, makeFineMeshTopology(cloth).columns, FoldShape(cloth.folds), {}, {}, {}});
   impl_->weft_rest.assign(grid.size(), 1.0);
   impl_->position.assign(grid.size(), 0.0);
   impl_->area_vectors.assign(grid.size(), 0.0);

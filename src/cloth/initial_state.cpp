@@ -57,7 +57,7 @@ void placePleated(const Scene& scene, const ClothPattern& pattern, Field3& posit
   const Grid& grid = pattern.grid;
   const HangFrame frame = hangFrame(scene.hang);
   const Vec3 across = frame.along.cross(frame.down);
-  const std::vector<double> links = shareOut(scene.cloth.width, scene.cloth.column_spacing, grid.linkCount());
+  const std::vector<double> links = edgeLinks(scene.cloth);
   const std::vector<double> angles = headingAngles(scene.hang, links, (scene.hang.to - scene.hang.from).norm());
   Vec3 top = scene.hang.from;
   for (int j = 0; j < grid.columns; ++j) {

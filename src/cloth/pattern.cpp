@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "cloth/cloth.h"
+#include "scene/heading.h"
 #include "scene/shares.h"
 
 namespace curtain {
@@ -96,11 +97,22 @@ void invertMasses(ClothPattern& pattern) {
   }
 }
 
+// All of the top row, or what hangs by a heading.
+std::vector<NodeIndex> hungNodes(const Scene& scene) {
+  std::vector<NodeIndex> nodes;
+  if (isPleated(scene.hang)) {
+    for (const int column : headingColumns(scene.hang, edgeLinks(scene.cloth))) nodes.push_back({0, column});
+    return nodes;
+  }
+  for (int column = 0; column < scene.cloth.columns; ++column) nodes.push_back({0, column});
+  return nodes;
+}
+
 std::vector<NodeIndex> pinnedNodes(const Scene& scene) {
   std::vector<NodeIndex> nodes;
   switch (scene.pins.kind) {
     case PinKind::kTop:
-      for (int j = 0; j < scene.cloth.columns && scene.rail.path.empty(); ++j) nodes.push_back({0, j});
+      if (scene.rail.path.empty()) return hungNodes(scene);
       break;
     case PinKind::kLeft:
       for (int i = 0; i < scene.cloth.rows; ++i) nodes.push_back({i, 0});
@@ -132,6 +144,23 @@ void fillRail(const Scene& scene, ClothPattern& pattern) {
     pattern.pinned[node] = kCarrier;
     pattern.mass[node] += scene.rail.carriers.mass;
     pattern.inverse_mass[node] = 0.0;
+  }
+}
+
+// Pleats that are pressed in turn at rest as they do at the start. The weft's turn is about the way down, the angles
+// are about the way up (rest_curvature.h).
+void pressPleats(const Scene& scene, ClothPattern& pattern) {
+  if (!isPleated(scene.hang) || !(scene.hang.pressed > 0.0)) return;
+  const Grid& grid = pattern.grid;
+  const std::vector<double> angles =
+      headingAngles(scene.hang, edgeLinks(scene.cloth), (scene.hang.to - scene.hang.from).norm());
+  pattern.weft_rest_turn.assign(grid.size(), 0.0);
+  for (int i = 0; i < grid.rows && pattern.warp_coordinate[static_cast<std::size_t>(i)] <= scene.hang.pressed; ++i) {
+    for (int j = 1; j + 1 < grid.columns; ++j) {
+      const auto link = static_cast<std::size_t>(j);
+      if (grid.hasLink(i, j) && grid.hasLink(i, j + 1))
+        pattern.weft_rest_turn[grid.index(i, j)] = angles[link - 1] - angles[link];
+    }
   }
 }
 
@@ -167,6 +196,7 @@ ClothPattern makePattern(const Scene& scene) {
   }
   fillRail(scene, pattern);
   fillBending(scene.cloth, pattern);
+  pressPleats(scene, pattern);
   return pattern;
 }
 

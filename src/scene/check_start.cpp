@@ -91,6 +91,28 @@ void checkHeading(const Scene& scene, ProblemLog& log) {
   }
 }
 
+// The rest turn of a joint has a cosine, which its stiffness is multiplied by.
+void checkPressed(const Scene& scene, ProblemLog& log) {
+  const HangParams& hang = scene.hang;
+  if (!(hang.pressed > 0.0)) return;
+  if (!isPleated(hang)) {
+    log.add("hang.pressed", "must be 0 without pleats (hang.heading: gathered), is " + formatNumber(hang.pressed));
+    return;
+  }
+  if (!(scene.cloth.bending_weft > 0.0)) {
+    log.add("hang.pressed",
+            "must be 0 for cloth that does not bend (cloth.bending_weft: 0), is " + formatNumber(hang.pressed));
+    return;
+  }
+  const std::vector<double> angles = headingAngles(hang, edgeLinks(scene.cloth), (hang.to - hang.from).norm());
+  double most = 0.0;
+  for (std::size_t j = 1; j < angles.size(); ++j) most = std::max(most, std::abs(angles[j] - angles[j - 1]));
+  constexpr double kMost = 80.0 * kPi / 180.0;  // 1/cos < 6
+  if (most > kMost)
+    log.add("hang.pressed", "must be 0 where pleats turn by more than 80 degrees from link to link, here " +
+                                formatNumber(most * 180.0 / kPi) + ": give the cloth more columns, or fewer pleats");
+}
+
 void checkRing(const Scene& scene, ProblemLog& log) {
   const ClothParams& cloth = scene.cloth;
   const double top_radius = scene.hang.radius.value_or(cloth.width / (2.0 * kPi));
@@ -133,6 +155,7 @@ void checkStart(const Scene& scene, ProblemLog& log) {
   } else if (log.good("hang.from") && log.good("hang.to")) {
     checkFlat(scene, log);
   }
+  if (log.problems().empty()) checkPressed(scene, log);
 }
 
 }  // namespace curtain

@@ -71,6 +71,7 @@ struct Fields<HangParams> {
     v.number("tilt", hang.tilt, turn());
     v.choice("heading", hang.heading, headingNames());
     v.integer("pleats", hang.pleats, IntRange{0, 1024});
+    v.number("pressed", hang.pressed, notNegative());
     v.optionalNumber("fullness", hang.fullness, between(1.0, 3.0));
   }
 };

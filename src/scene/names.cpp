@@ -20,7 +20,7 @@ const std::vector<std::string>& materialNames() {
 }
 
 const std::vector<std::string>& headingNames() {
-  static const std::vector<std::string> kNames = {"gathered", "pencil", "pinch", "ripple"};
+  static const std::vector<std::string> kNames = {"gathered", "pencil", "pinch", "ripple", "eyelets", "tabs"};
   return kNames;
 }
 

@@ -38,8 +38,7 @@ bool EnergyGuard::isClosed(bool pins_move) const noexcept {
 }
 
 // Energy before the velocity projection, which bounds it from above (Motion::velocities()): nearly free, while the
-// projection costs as much as a substep. That of bending is leapfrog's own, x_n A x_(n-1) / 2 beside the velocities
-// between them, with the last substep's force -A x_(n-1).
+// projection costs as much as a substep.
 double EnergyGuard::energyWithoutLinks() const noexcept {
   const ClothState& state = motion_.state;
   const Vec3 fall = state.velocity_age * motion_.scene.gravity;
@@ -49,8 +48,7 @@ double EnergyGuard::energyWithoutLinks() const noexcept {
     if (motion_.pattern.pinned[n] != kPinned) kinetic += 0.5 * m * (state.velocity.at(n) + fall).squaredNorm();
     potential -= m * motion_.scene.gravity.dot(state.position.at(n));
   }
-  if (const Field3* const with_bending = motion_.exact.forcesWithBending())
-    potential -= 0.5 * workOf(*with_bending, *motion_.forces.last().force, state.position);
+  potential += motion_.exact.bendingEnergy(*motion_.forces.last().force, state.position);
   return kinetic + potential;
 }
 

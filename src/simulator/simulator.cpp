@@ -2,6 +2,7 @@
 #include "curtain_sim/simulator.h"
 
 #include <array>
+#include <cmath>
 #include <stdexcept>
 
 #include "contact/oracle/piercings.h"
@@ -273,6 +274,21 @@ std::vector<Problem> Simulator::setAir(const AirParams& air) {
   return problems;
 }
 const std::vector<DragParams>& Simulator::drags() const { return impl_->motion.forces.drags(); }
+
+std::vector<NodeIndex> Simulator::carriers() const {
+  std::vector<NodeIndex> nodes;
+  for (const int column : impl_->pattern.rail.columns) nodes.push_back({0, column});
+  return nodes;
+}
+
+std::vector<Vec3> Simulator::railPoints(double spacing) const {
+  const RailPattern& rail = impl_->pattern.rail;
+  if (rail.empty()) return {};
+  const int parts = static_cast<int>(std::ceil(rail.path.length() / spacing));
+  std::vector<Vec3> points;
+  for (int k = 0; k <= parts; ++k) points.push_back(rail.path.at(rail.path.length() * k / parts).point);
+  return points;
+}
 
 std::vector<Problem> Simulator::setOpening(double opening) {
   Impl& im = *impl_;

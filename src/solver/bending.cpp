@@ -40,7 +40,7 @@ Bending::Bending(const ClothPattern& pattern, const Workers& workers)
   if (!any()) return;
   const std::size_t size = pattern.grid.size();
   for (Field* give : {&warp_give_, &weft_give_}) give->assign(size, 0.0);
-  for (Field3* field : {&sum_, &ahead_, &no_force_}) field->assign(size, 0.0);
+  for (Field3* field : {&sum_, &ahead_, &no_force_, &shears_.q, &shears_.spared}) field->assign(size, 0.0);
   scratch_.assign(pattern.grid);
   if (!warp_rest_.any() && !weft_rest_.any()) return;
   for (Field3* field : {&couples_, &moved_}) field->assign(size, 0.0);
@@ -89,8 +89,8 @@ void Bending::addStraight(const Field3& force, const Field3& position, Field3& s
     if (warp_.bend()) addWarpGiving(position, sum);
   }
   if (!weft_.bend()) return;
-  if (gives_) return addWeftGiving(position, sum);
-  workers_.run(rowBlocks(grid), [&](int block) { bendWeft(grid, weft_, position, block, scratch_, sum); });
+  if (gives_) return addWeftGiving(position, true, sum);
+  workers_.run(rowBlocks(grid), [&](int block) { bendWeft(grid, weft_, position, block, shears_, sum); });
 }
 
 void Bending::addWarpGiving(const Field3& position, Field3& sum) noexcept {
@@ -99,10 +99,11 @@ void Bending::addWarpGiving(const Field3& position, Field3& sum) noexcept {
                [&](int block) { bendWarpGiving(grid, warp_, warp_give_, position, block, scratch_, sum); });
 }
 
-void Bending::addWeftGiving(const Field3& position, Field3& sum) noexcept {
+void Bending::addWeftGiving(const Field3& position, bool spares, Field3& sum) noexcept {
   const Grid& grid = pattern_.grid;
-  workers_.run(rowBlocks(grid),
-               [&](int block) { bendWeftGiving(grid, weft_, weft_give_, position, block, scratch_, sum); });
+  workers_.run(rowBlocks(grid), [&](int block) {
+    bendWeftGiving(grid, weft_, weft_give_, position, block, scratch_, spares, shears_, sum);
+  });
 }
 
 // Rest curvature of a direction, with the energy V at y = x - D A x: the force is (1 - A D) g, g = -V'(y). add: adds
@@ -132,7 +133,7 @@ double Bending::addCurved(const Field3& position, Field3& force) noexcept {
     energy += addCouples(warp_rest_, warp_give_, warp, position, force);
   }
   if (weft_rest_.any()) {
-    const auto weft = [this](const Field3& x, Field3& out) { addWeftGiving(x, out); };
+    const auto weft = [this](const Field3& x, Field3& out) { addWeftGiving(x, false, out); };
     energy += addCouples(weft_rest_, weft_give_, weft, position, force);
   }
   return energy;
@@ -154,9 +155,14 @@ const Field3& Bending::addAhead(const SubstepStart& start, const Field& inverse)
   return addTo(start.force, ahead_);
 }
 
+double Bending::energyAfter(const Field3& outer, const Field3& position) const noexcept {
+  return 0.5 *
+         ((weft_.bend() ? workOfSpared(pattern_.grid, shears_.spared, position) : 0.0) - workOf(sum_, outer, position));
+}
+
 const Field3& Bending::forceAt(const Field3& position, double& energy) noexcept {
   addStraight(no_force_, position, sum_);
-  energy = -0.5 * workOf(sum_, no_force_, position);
+  energy = energyAfter(no_force_, position);
   energy += addCurved(position, sum_);
   return sum_;
 }

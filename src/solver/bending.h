@@ -43,12 +43,17 @@ class Bending {
   const Field3& forceAt(const Field3& position, double& energy) noexcept;
   /// What the last of them returned.
   const Field3& sum() const noexcept { return sum_; }
+  /// What it spared of the links on the left of the nodes [N], see addShears().
+  const Field3& spared() const noexcept { return shears_.spared; }
+  /// Elastic energy that leapfrog keeps with that of motion [J]: after addTo(outer, ...) moved the cloth to `position`,
+  /// x_n A x_(n-1) / 2 beside the velocities between them.
+  double energyAfter(const Field3& outer, const Field3& position) const noexcept;
 
  private:
   void setGive(const NodeInertia& inertia, const Field& inverse, double scale, double per_load, double limit) noexcept;
   void addStraight(const Field3& force, const Field3& position, Field3& sum) noexcept;
   void addWarpGiving(const Field3& position, Field3& sum) noexcept;
-  void addWeftGiving(const Field3& position, Field3& sum) noexcept;
+  void addWeftGiving(const Field3& position, bool spares, Field3& sum) noexcept;
   template <typename Add>
   double addCouples(const RestCurvature& rest, const Field& give, const Add& add, const Field3& position,
                     Field3& force) noexcept;
@@ -62,8 +67,10 @@ class Bending {
   bool gives_ = false;
   Field warp_give_, weft_give_;  // [m/N]
   Field3 sum_, ahead_, no_force_;
+  Field3 spared_;           // of the weft's links, what would press them together [N]
   Field3 couples_, moved_;  // scratch of addCouples()
   BendingScratch scratch_;
+  WeftShears shears_;
 };
 
 /// Sum over the nodes of (with - without) . (x - x_0), x_0 the first node's position [J]: what the difference of two

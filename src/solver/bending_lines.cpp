@@ -129,19 +129,17 @@ double shearAtEnd(const BendingLines& lines, const Field& x, std::size_t n) {
   return shear;
 }
 
-// What the link does that closes row i to a ring, with its neighbours.
-void closeRow(const Grid& grid, const BendingLines& lines, int i, const Field& x, Field& sum) {
+// The link that closes row i to a ring: its shear, and what it adds to those of its neighbours.
+void closeRow(const Grid& grid, const BendingLines& lines, int i, const Field& x, Field& q) {
   const std::size_t first = grid.row(i), last = first + static_cast<std::size_t>(grid.columns) - 1;
   const Field& a = lines.per_rest;
   const Field& k = lines.stiffness;
   const double seam = x[first] - x[last];
   const double before = a[first] * a[last] * k[last], after = a[first + 1] * a[first] * k[first];
-  const double shear = a[first] * a[first] * (k[last] + k[first]) * seam - before * (x[last] - x[last - 1]) -
-                       after * (x[first + 1] - x[first]);
-  sum[first] -= shear + after * seam;
-  sum[first + 1] += after * seam;
-  sum[last] += shear + before * seam;
-  sum[last - 1] -= before * seam;
+  q[first] = a[first] * a[first] * (k[last] + k[first]) * seam - before * (x[last] - x[last - 1]) -
+             after * (x[first + 1] - x[first]);
+  q[first + 1] -= after * seam;
+  q[last] -= before * seam;
 }
 
 }  // namespace
@@ -156,53 +154,33 @@ CURTAIN_WIDE void bendWarp(const Grid& grid, const BendingLines& lines, const Fi
 
 // Rows follow one another in a field: links between them, and in the padding, have no stiffness.
 CURTAIN_WIDE void bendWeft(const Grid& grid, const BendingLines& lines, const Field3& position, int block,
-                           BendingScratch& scratch, Field3& sum) noexcept {
+                           WeftShears& shears, Field3& sum) noexcept {
   const int top = block * kLane, bottom = std::min(top + kLane, grid.rows);
   const std::size_t begin = grid.row(top), end = grid.row(bottom);
   const std::size_t first = std::max(begin, std::size_t{2}), last = std::min(end, grid.size() - 1);
   const double* const own = lines.own.data();
   const double* const joined = lines.joined.data();
   const ConstFieldView x(position, 0);
-  double *const qx = scratch.mx.data(), *const qy = scratch.my.data(), *const qz = scratch.mz.data();
+  const FieldView q(shears.q, 0);
 #pragma omp simd
   for (std::size_t n = first; n < last; ++n) {
-    qx[n] = shearOf(own, joined, x.x, n);
-    qy[n] = shearOf(own, joined, x.y, n);
-    qz[n] = shearOf(own, joined, x.z, n);
+    q.x[n] = shearOf(own, joined, x.x, n);
+    q.y[n] = shearOf(own, joined, x.y, n);
+    q.z[n] = shearOf(own, joined, x.z, n);
   }
   const auto end_link = [&](std::size_t n) {
-    qx[n] = shearAtEnd(lines, position.x, n);
-    qy[n] = shearAtEnd(lines, position.y, n);
-    qz[n] = shearAtEnd(lines, position.z, n);
+    q.x[n] = shearAtEnd(lines, position.x, n);
+    q.y[n] = shearAtEnd(lines, position.y, n);
+    q.z[n] = shearAtEnd(lines, position.z, n);
   };
   for (std::size_t n = begin; n < first; ++n) end_link(n);
   for (std::size_t n = last; n < end; ++n) end_link(n);
-  const FieldView out(sum, 0);
-#pragma omp simd
-  for (std::size_t n = begin; n < end - 1; ++n) {
-    out.x[n] -= qx[n] - qx[n + 1];
-    out.y[n] -= qy[n] - qy[n + 1];
-    out.z[n] -= qz[n] - qz[n + 1];
-  }
-  sum.add(end - 1, -Vec3(qx[end - 1], qy[end - 1], qz[end - 1]));
   for (int i = top; grid.closed && i < bottom; ++i) {
-    closeRow(grid, lines, i, position.x, sum.x);
-    closeRow(grid, lines, i, position.y, sum.y);
-    closeRow(grid, lines, i, position.z, sum.z);
+    closeRow(grid, lines, i, position.x, shears.q.x);
+    closeRow(grid, lines, i, position.y, shears.q.y);
+    closeRow(grid, lines, i, position.z, shears.q.z);
   }
-}
-
-Vec3 weftBendingAt(const Grid& grid, const BendingLines& lines, const Field3& position, int row, int column) noexcept {
-  const auto wrapped = [&](int j) { return (j + grid.columns) % grid.columns; };
-  const auto a = [&](int j) { return lines.per_rest[grid.index(row, wrapped(j))]; };
-  const auto step = [&](int j) {
-    return Vec3(a(j) * (position.at(grid.index(row, wrapped(j))) - position.at(grid.index(row, wrapped(j - 1)))));
-  };
-  const auto moment = [&](int j) {
-    return Vec3(lines.stiffness[grid.index(row, wrapped(j))] * (step(j + 1) - step(j)));
-  };
-  const Vec3 here = moment(column);
-  return a(column + 1) * (here - moment(column + 1)) - a(column) * (moment(column - 1) - here);
+  addShears(grid, position, block, shears.q, &shears.spared, sum);
 }
 
 }  // namespace curtain

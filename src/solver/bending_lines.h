@@ -49,18 +49,30 @@ struct BendingScratch {
 /// sum = force - K x of a block of columns (a cache line wide) of warp lines.
 void bendWarp(const Grid& grid, const BendingLines& lines, const Field3& force, const Field3& position, int block,
               Field3& sum) noexcept;
-/// Adds -K x of kLane rows, which are weft lines, from row block * kLane on.
-void bendWeft(const Grid& grid, const BendingLines& lines, const Field3& position, int block, BendingScratch& scratch,
+/// What weft lines are computed with, by nodes: of the link on the left of each.
+struct WeftShears {
+  Field3 q;       ///< that it transmits [N]
+  Field3 spared;  ///< what would press it together [N], see addShears()
+};
+/// Adds -K x of kLane rows, which are weft lines, from row block * kLane on, but for what is spared.
+void bendWeft(const Grid& grid, const BendingLines& lines, const Field3& position, int block, WeftShears& shears,
               Field3& sum) noexcept;
 
 /// Adds -A x to the force; give: of the nodes, in the layout of Field. kLane warp lines from column block * kLane on;
-/// kLane weft lines from row block * kLane on.
+/// kLane weft lines from row block * kLane on, but for what is spared, or all of it.
 void bendWarpGiving(const Grid& grid, const BendingLines& lines, const Field& give, const Field3& position, int block,
                     BendingScratch& scratch, Field3& force) noexcept;
 void bendWeftGiving(const Grid& grid, const BendingLines& lines, const Field& give, const Field3& position, int block,
-                    BendingScratch& scratch, Field3& force) noexcept;
+                    BendingScratch& scratch, bool spares, WeftShears& shears, Field3& force) noexcept;
 
-/// The force -K x of one weft line at one of its nodes [N].
+/// Adds the shears q of kLane rows to the nodes; before that, if `spared` is not null, q loses to it the part that
+/// presses a link together. A line whose links keep their lengths has no use for that part, which has no moment;
+/// strings do not hold against it, and would be shortened by the square of the turn.
+void addShears(const Grid& grid, const Field3& position, int block, Field3& q, Field3* spared, Field3& sum) noexcept;
+/// Work of the parts that were spared, over the links at these positions [J].
+double workOfSpared(const Grid& grid, const Field3& spared, const Field3& position) noexcept;
+
+/// The force of one weft line at one of its nodes, as bendWeft() has it [N].
 Vec3 weftBendingAt(const Grid& grid, const BendingLines& lines, const Field3& position, int row, int column) noexcept;
 
 }  // namespace curtain

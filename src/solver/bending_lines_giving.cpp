@@ -211,6 +211,11 @@ CURTAIN_INTO_WIDE void solveMoments(const Bundle& b) {
   substitute<false>(b);
 }
 
+// Shear of link i = a_i (m_(i-1) - m_i).
+CURTAIN_INTO_WIDE double shearAt(const double* a, const double* m, std::size_t before, std::size_t here) {
+  return a[here] * (m[before] - m[here]);
+}
+
 // -(C^T m) of node i = a_(i+1) (m_i - m_(i+1)) - a_i (m_(i-1) - m_i).
 CURTAIN_INTO_WIDE double forceAt(const double* a, const double* m, std::size_t before, std::size_t here,
                                  std::size_t one) {
@@ -247,7 +252,8 @@ CURTAIN_WIDE void bendWarpGiving(const Grid& grid, const BendingLines& lines, co
 }
 
 CURTAIN_WIDE void bendWeftGiving(const Grid& grid, const BendingLines& lines, const Field& give, const Field3& position,
-                                 int block, BendingScratch& scratch, Field3& force) noexcept {
+                                 int block, BendingScratch& scratch, bool spares, WeftShears& shears,
+                                 Field3& force) noexcept {
   const int top = block * kLane, rows = std::min(kLane, grid.rows - top);
   const std::size_t first = static_cast<std::size_t>(top) * static_cast<std::size_t>(grid.columns);
   // Lanes beyond the last row repeat it.
@@ -280,12 +286,13 @@ CURTAIN_WIDE void bendWeftGiving(const Grid& grid, const BendingLines& lines, co
   for (std::size_t lane = 0; lane < static_cast<std::size_t>(rows); ++lane) {
     for (int j = 0; j < grid.columns; ++j) {
       const std::size_t n = grid.index(top + static_cast<int>(lane), j);
-      const std::size_t before = b.around(j - 1) + lane, here = b.at(j) + lane, one = b.around(j + 1) + lane;
-      force.x[n] += forceAt(a, scratch.mx.data(), before, here, one);
-      force.y[n] += forceAt(a, scratch.my.data(), before, here, one);
-      force.z[n] += forceAt(a, scratch.mz.data(), before, here, one);
+      const std::size_t before = b.around(j - 1) + lane, here = b.at(j) + lane;
+      shears.q.x[n] = shearAt(a, scratch.mx.data(), before, here);
+      shears.q.y[n] = shearAt(a, scratch.my.data(), before, here);
+      shears.q.z[n] = shearAt(a, scratch.mz.data(), before, here);
     }
   }
+  addShears(grid, position, block, shears.q, spares ? &shears.spared : nullptr, force);
 }
 
 }  // namespace curtain

@@ -53,6 +53,10 @@ class ExactSolver {
   const Bending& bending() const noexcept { return bending_; }
   /// Forces of the last substep with those of bending [N]; null: limp cloth.
   const Field3* forcesWithBending() const noexcept { return bending_.any() ? &bending_.sum() : nullptr; }
+  /// Elastic energy after a substep with these forces, as leapfrog keeps it with that of motion [J].
+  double bendingEnergy(const Field3& outer, const Field3& position) const noexcept {
+    return bending_.any() ? bending_.energyAfter(outer, position) : 0.0;
+  }
   /// Force of bending at these positions [N], and its elastic energy [J], as a substep like the last one sees them;
   /// null and 0: limp cloth.
   const Field3* bendingAt(const Field3& position, double& energy) noexcept;

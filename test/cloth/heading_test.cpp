@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "testing.h"
 
@@ -15,7 +17,7 @@ namespace {
 using curtain_test::kEps;
 using curtain_test::Random;
 
-constexpr Heading kPleated[] = {Heading::kPencil, Heading::kPinch, Heading::kRipple};
+constexpr Heading kPleated[] = {Heading::kPencil, Heading::kPinch, Heading::kRipple, Heading::kEyelets, Heading::kTabs};
 
 Scene pleatedScene(Heading heading, double fullness, int columns = 73) {
   Scene scene;
@@ -79,13 +81,52 @@ TEST(Heading, HasThePleatsAskedForAndElseThoseThatItsLinksShow) {
   for (const Heading heading : kPleated) {
     HangParams hang;
     hang.heading = heading;
-    EXPECT_EQ(pleatCount(hang, 72), heading == Heading::kPencil ? 18 : heading == Heading::kPinch ? 8 : 9);
+    const bool narrow = heading == Heading::kPencil || heading == Heading::kTabs;
+    EXPECT_EQ(pleatCount(hang, 72), narrow ? 18 : heading == Heading::kPinch ? 8 : 9);
     hang.pleats = 6;
     // An even wave turns to the other side twice a pleat, where its first and last quarters are one side's; three
-    // fingers do five times, and once more to the next pleat's.
-    const int turns = heading == Heading::kPinch ? 6 * 6 - 1 : 2 * 6;
+    // fingers do five times, and once more to the next pleat's. Tabs' bows turn at each end.
+    const int turns = heading == Heading::kPinch ? 6 * 6 - 1 : heading == Heading::kTabs ? 2 * 6 - 1 : 2 * 6;
     EXPECT_EQ(crossings(headingAngles(hang, links, 1.5)), turns);
   }
+}
+
+// The places of eyelets and tabs, each by the column nearest to it.
+TEST(Heading, EyeletsAndTabsHangByTheNearestColumns) {
+  Random random(5);
+  for (const Heading heading : {Heading::kEyelets, Heading::kTabs}) {
+    for (int trial = 0; trial < 200; ++trial) {
+      HangParams hang;
+      hang.heading = heading;
+      std::vector<double> links, places = {0.0};
+      for (int j = static_cast<int>(random.between(8.0, 60.0)); j > 0; --j) links.push_back(random.between(0.5, 1.5));
+      for (const double link : links) places.push_back(places.back() + link);
+      const int parts = pleatCount(hang, static_cast<int>(links.size())) * (heading == Heading::kEyelets ? 2 : 1);
+      std::set<int> nearest = {0, static_cast<int>(links.size())};
+      for (int k = 0; k <= parts; ++k) {
+        const double at = places.back() * k / parts;
+        const auto closer = [at](double a, double b) { return std::abs(a - at) < std::abs(b - at); };
+        nearest.insert(static_cast<int>(std::min_element(places.begin(), places.end(), closer) - places.begin()));
+      }
+      const std::vector<int> columns = headingColumns(hang, links);
+      EXPECT_EQ(std::set<int>(columns.begin(), columns.end()), nearest) << trial;
+      EXPECT_TRUE(std::is_sorted(columns.begin(), columns.end()));
+    }
+  }
+}
+
+TEST(Heading, PinsTopHoldsEyeletsOnTheirPole) {
+  const Scene scene = pleatedScene(Heading::kEyelets, 2.0);
+  const ClothPattern pattern = makePattern(scene);
+  const Field3 position = makeInitialState(scene, pattern).position;
+  const Vec3 pole = (scene.hang.to - scene.hang.from).normalized();
+  int eyelets = 0;
+  for (int j = 0; j < 73; ++j) {
+    if (pattern.pinned[pattern.grid.index(0, j)] == 0) continue;
+    ++eyelets;
+    EXPECT_LT((position.at(pattern.grid.index(0, j)) - scene.hang.from).cross(pole).norm(), kRounding) << j;
+  }
+  EXPECT_EQ(eyelets, 19);  // nine waves
 }
 
 TEST(Heading, FlatWhereTheEdgeIsAsLongAsTheCloth) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/heading.h"
+
 namespace curtain_test {
 namespace {
 
@@ -14,6 +16,9 @@ using curtain::Range;
 using curtain::Scene;
 using curtain::Vec3;
 using curtain::WindParams;
+
+// Rails begin so near that lengths of their pieces count [m].
+constexpr double kFarthestRail = 1e6;
 
 // A magnitude between 10^low and 10^high.
 double magnitude(Choices& choices, double low, double high) { return std::pow(10.0, choices.between(low, high)); }
@@ -39,11 +44,11 @@ void placeLine(Scene& scene, Choices& choices) {
 void fitRail(Scene& scene, Choices& choices) {
   curtain::RailParams& rail = scene.rail;
   if (rail.path.empty()) return;
-  scene.cloth.closed = false;
   scene.hang.radius.reset();
   if (scene.cloth.hem_width) scene.cloth.hem_width = std::max(*scene.cloth.hem_width, scene.cloth.width);
   if (scene.solver.method == curtain::Method::kPaper) scene.solver.method = curtain::Method::kAuto;
   rail.path[0].centre.reset();
+  rail.path[0].to = rail.path[0].to.cwiseMax(-kFarthestRail).cwiseMin(kFarthestRail);
   Vec3 along = Vec3::UnitX();
   for (std::size_t i = 1; i < rail.path.size(); ++i) {
     const double length = scene.cloth.width * choices.between(0.3, 1.0);
@@ -63,6 +68,7 @@ void fitRail(Scene& scene, Choices& choices) {
 // Values that have a meaning together; what is left over is for validate().
 void fitTogether(Scene& scene, Choices& choices) {
   curtain::ClothParams& cloth = scene.cloth;
+  if (!scene.rail.path.empty()) cloth.closed = false;
   cloth.rows = std::min(cloth.rows, kMostRows);
   cloth.columns = std::min(cloth.columns, kMostColumns);
   // Together they say how much a frame may take: their product, times the nodes.
@@ -81,9 +87,9 @@ void fitTogether(Scene& scene, Choices& choices) {
   resizeUnlessEmpty(cloth.row_mass, cloth.rows);
   resizeUnlessEmpty(cloth.column_mass, cloth.columns);
   resizeUnlessEmpty(scene.hem.weights, cloth.columns);
-  if (cloth.closed || cloth.hem_width) scene.hang.heading = curtain::Heading::kGathered;
+  const bool shows_pleats = curtain::weftLinkCount(cloth) >= curtain::fewestLinks(scene.hang.heading);
+  if (cloth.closed || cloth.hem_width || !shows_pleats) scene.hang.heading = curtain::Heading::kGathered;
   scene.hang.pleats %= std::max(curtain::weftLinkCount(cloth) / 9, 1);
-  scene.hang.fullness.reset();
   if (cloth.closed) {
     if (scene.hang.radius) scene.hang.radius = choices.between(0.05, 1.0) * cloth.width / (2.0 * std::acos(-1.0));
     if (scene.hang.tilt != 0.0) scene.hang.tilt = -choices.between(0.0, 0.02);
@@ -91,6 +97,9 @@ void fitTogether(Scene& scene, Choices& choices) {
     scene.hang.radius.reset();
     placeLine(scene, choices);
   }
+  const double fullness = scene.cloth.width / (scene.hang.to - scene.hang.from).norm();
+  if (scene.hang.fullness) scene.hang.fullness = fullness;
+  if (cloth.closed || !(fullness >= 1.0 && fullness <= 3.0)) scene.hang.fullness.reset();
   fitRail(scene, choices);
   for (NodeIndex& pin : scene.pins.nodes) putOnGrid(pin, cloth);
   if (scene.air.law == curtain::AirLaw::kRelative) {
@@ -199,7 +208,8 @@ std::optional<Scene> makeScene(Choices& choices) {
   SceneMaker maker(choices);
   curtain::visitFields(maker, scene);
   fitTogether(scene, choices);
-  // Bending asks for links that have a length, and for another method than the paper's.
+  // Pressed pleats ask for bending, which asks for links that have a length, and another method than the paper's.
+  if (!curtain::validate(scene).empty()) scene.hang.pressed = 0.0;
   if (!curtain::validate(scene).empty()) scene.cloth.bending_warp = scene.cloth.bending_weft = 0.0;
   if (!curtain::validate(scene).empty()) return std::nullopt;
   return scene;

@@ -210,6 +210,20 @@ void drawBending(Drawn& drawn) {
   if (dice.chance(0.8)) drawn.scene.cloth.bending_weft = dice.magnitude(1e-7, most);
 }
 
+// Pleats, some of them pressed in.
+void drawHeading(Drawn& drawn) {
+  Dice dice(3 * drawn.seed + static_cast<std::uint64_t>(drawn.kind) + (9ULL << 59));
+  Scene& scene = drawn.scene;
+  if (scene.cloth.closed || !dice.chance(0.15)) return;
+  const Scene before = scene;
+  scene.cloth.hem_width.reset();
+  scene.hang.heading = static_cast<Heading>(dice.integer(1, 5));
+  if (scene.cloth.bending_weft > 0.0 && dice.chance(0.7))
+    scene.hang.pressed = dice.between(0.01, 1.0) * scene.cloth.height;
+  if (!validate(scene).empty()) scene.hang.pressed = 0.0;
+  if (!validate(scene).empty()) scene = before;
+}
+
 // A rail instead of pins, by dice of its own for the same reason: one to three pieces, straight ones and arcs, from
 // where the cloth hung.
 void putOnRail(Drawn& drawn) {
@@ -284,6 +298,7 @@ Drawn draw(Kind kind, std::uint64_t seed) {
   drawSlits(drawn);
   if (kind != Kind::kSudden) drawAir(drawn);
   if (kind != Kind::kSudden) drawBending(drawn);
+  if (kind != Kind::kSudden) drawHeading(drawn);
   if (kind != Kind::kSudden) putOnRail(drawn);
   if (!validate(scene).empty()) scene.cloth.hem_width.reset();  // tapered more than its rods can slant
   if (beginsTorn(scene)) scene.cloth.hem_width.reset();

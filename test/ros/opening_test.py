@@ -10,8 +10,9 @@ import rospy
 import rostest
 from actionlib_msgs.msg import GoalStatus
 from curtain_sim.msg import OpenCurtainAction, OpenCurtainGoal
-from curtain_testing import Curtain, publisher, wait_until
+from curtain_testing import Curtain, Listener, publisher, wait_until
 from std_msgs.msg import Float64
+from visualization_msgs.msg import MarkerArray
 
 MASTER = 20  # its column
 
@@ -49,6 +50,17 @@ class OpeningTest(unittest.TestCase):
         opened = self.wait_for_opening(1.0).positions[3 * MASTER]
         self.assertGreater(shut, 0.95)
         self.assertLess(opened, 0.1)
+
+    def test_markers_show_rail_and_carriers(self):
+        listener = Listener("/curtain/markers", MarkerArray)
+        wait_until(listener.last, "markers come")
+        markers = {m.ns: m for m in listener.last().markers}
+        rail = [(p.x, p.y, p.z) for p in markers["rail"].points]
+        self.assertEqual((rail[0], rail[-1]), ((0.0, 0.0, 2.0), (1.0, 0.0, 2.0)))
+        carriers = markers["carriers"].points
+        self.assertEqual(len(carriers), 6)  # every fourth of 21 columns
+        self.assertTrue(all(p.y == 0.0 and abs(p.z - 2.0) < 1e-12 for p in carriers))
+        listener.close()
 
     def test_action_says_how_far_it_is_and_that_it_has_arrived(self):
         heard = []

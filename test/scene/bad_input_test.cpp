@@ -289,12 +289,18 @@ TEST(BadInput, HeadingsThatDoNotFitTheirClothAreRefused) {
   expectProblem(pleated("width: 1.0", "fullness: 3.5"), "hang.fullness", {"[1, 3]", "is 3.5"});
   expectProblem(pleated("width: 1.6", "heading: pencil"), "hang.heading",
                 {"more than three times", "is pencil at 3.2"});
-  expectProblem(pleated("width: 1.0", "heading: pleated"), "hang.heading", {"gathered, pencil, pinch or ripple"});
+  expectProblem(pleated("width: 1.0", "heading: pleated"), "hang.heading",
+                {"gathered, pencil, pinch, ripple, eyelets or tabs"});
   expectProblem(pleated("width: 1.0", "heading: ripple, pleats: 5"), "hang.pleats", {"4 weft links", "18 for 5"});
   expectProblem(pleated("width: 1.0", "heading: pinch, pleats: 3"), "hang.pleats", {"9 weft links", "18 for 3"});
   expectProblem(pleated("width: 1.0, hem_width: 1.2", "heading: pencil"), "hang.heading", {"tapered", "is pencil"});
   expectProblem("cloth: {rows: 4, columns: 19, closed: true}\nhang: {heading: ripple}\n", "hang.heading",
                 {"closed cloth"});
+  expectProblem(pleated("width: 1.0", "heading: pencil, pressed: 0.1"), "hang.pressed", {"bending_weft: 0"});
+  expectProblem(pleated("width: 1.0, bending_weft: 1.0e-5", "heading: gathered, pressed: 0.1"), "hang.pressed",
+                {"gathered"});
+  expectProblem(pleated("width: 1.4, bending_weft: 1.0e-5", "heading: pencil, pressed: 0.1"), "hang.pressed",
+                {"80 degrees", "more columns"});
   expectProblem("cloth: {rows: 4, columns: 8}\nhang: {heading: pinch}\n", "hang.heading", {"9 weft links", "7 for 1"});
   expectProblem(pleated("width: 1.0", "tilt: 0.0}\nhem: {weights: [0.1]"), "hem.weights",
                 {"19 entries (columns)", "has 1"});

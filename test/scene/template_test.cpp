@@ -104,6 +104,7 @@ TEST(Template, EntriesAreReadableAndShowDefaults) {
   // What cannot be given together is documented together.
   scene["drag"][0].remove("point");
   scene["hang"].remove("radius");
+  scene["hang"].remove("fullness");
   for (const char* key : {"length", "size", "mesh", "scale"}) scene["obstacles"][0].remove(key);
   const SceneReading reading = readScene(scene);
   ASSERT_TRUE(reading.problems.empty()) << describe(reading.problems);

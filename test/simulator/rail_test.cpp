@@ -226,6 +226,23 @@ TEST(CurtainOnARail, FallsAsleepAndWakesWhenItIsOpened) {
   EXPECT_NEAR(simulator.statistics().opening, 1.0, 1e-9);
 }
 
+TEST(Rail, IsDrawnByPointsOnIt) {
+  Scene scene = curtain_test::flatScene(3, 9, 1.0, 2.0);
+  scene.rail.path = {{{0.0, 0.0, 2.0}, {}}, {{0.5, 0.0, 2.0}, {}}, {{0.8, 0.3, 2.0}, Vec3(0.5, 0.3, 2.0)}};
+  const Simulator simulator(scene);
+  const std::vector<Vec3> points = simulator.railPoints(0.1);
+  const RailPath path(scene.rail.path);
+  ASSERT_EQ(points.size(), static_cast<std::size_t>(std::ceil(path.length() / 0.1)) + 1);
+  EXPECT_EQ(points.front(), Vec3(0.0, 0.0, 2.0));
+  EXPECT_LT((points.back() - Vec3(0.8, 0.3, 2.0)).norm(), 1e-12);
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    EXPECT_LE((points[k] - points[k - 1]).norm(), 0.1);
+    EXPECT_LT((path.at(path.nearest(points[k])).point - points[k]).norm(), 1e-12);
+  }
+  EXPECT_EQ(simulator.carriers().size(), 3u);
+  EXPECT_TRUE(Simulator(curtain_test::flatScene(3, 9, 1.0, 2.0)).railPoints(0.1).empty());
+}
+
 TEST(FastenedCarrier, StaysWhereItStarts) {
   Scene scene = curtain_test::railScene(6, 13, 4, 0.8, 2.0);
   scene.rail.carriers.friction = 0.0;

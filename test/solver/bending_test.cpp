@@ -87,15 +87,50 @@ void PrintTo(const Shape& shape, std::ostream* out) {
   *out << shape.rows << " x " << shape.columns << (shape.closed ? ", closed" : "");
 }
 
+// Of the link on the left of a node.
+std::size_t startOf(const Grid& grid, int row, int column) {
+  return grid.index(row, column > 0 ? column - 1 : grid.columns - 1);
+}
+
+// The force that has a potential: with what was spared.
+Field3 withSpared(const Grid& grid, const Field3& force, const Field3& spared) {
+  Field3 all = force;
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) {
+      all.add(grid.index(i, j), -spared.at(grid.index(i, j)));
+      all.add(startOf(grid, i, j), spared.at(grid.index(i, j)));
+    }
+  }
+  return all;
+}
+
 class BendingLines_ : public ::testing::TestWithParam<Shape> {
  protected:
   BendingLines_()
       : pattern_(unevenPattern(GetParam().rows, GetParam().columns, GetParam().closed)),
         position_(curtain_test::randomPositions(pattern_.grid, random_, 1.0)) {
-    for (Field3* field : {&force_, &nothing_}) field->assign(pattern_.grid.size(), 0.0);
+    for (Field3* field : {&force_, &nothing_, &shears_.q, &shears_.spared}) field->assign(pattern_.grid.size(), 0.0);
     give_.assign(pattern_.grid.size(), 0.0);
     scratch_.assign(pattern_.grid);
     for (double& one : give_) one = random_.between(-1.0, 1.0) > 0.0 ? 10.0 * random_.between(0.0, 1.0) : 0.0;
+  }
+  Field3 withSpared() const { return curtain::withSpared(pattern_.grid, force_, shears_.spared); }
+  // How hard the shears that are left press a link together, of all that they are; and what is spared of a link that
+  // is not pressed, or across it.
+  double mostPress() const {
+    double worst = 0.0;
+    for (int i = 0; i < pattern_.grid.rows; ++i) {
+      for (int j = 0; j < pattern_.grid.columns; ++j) {
+        const std::size_t n = pattern_.grid.index(i, j);
+        const Vec3 way = (position_.at(n) - position_.at(startOf(pattern_.grid, i, j))).normalized(),
+                   spared = shears_.spared.at(n);
+        const double all = (shears_.q.at(n) + spared).norm() + 1e-300;
+        worst =
+            std::max({worst, shears_.q.at(n).dot(way) / all, -spared.dot(way) / all, spared.cross(way).norm() / all});
+        if (!spared.isZero()) worst = std::max(worst, std::abs(shears_.q.at(n).dot(way)) / all);
+      }
+    }
+    return worst;
   }
   int blocks() const { return pattern_.grid.stride / kLane; }
 
@@ -105,6 +140,7 @@ class BendingLines_ : public ::testing::TestWithParam<Shape> {
   Field3 force_, nothing_;
   Field give_;
   BendingScratch scratch_;
+  WeftShears shears_;
 };
 
 // Bound: the dense solution's own rounding, some ten operations deep; matrices have condition numbers below 1e4.
@@ -119,8 +155,9 @@ TEST_P(BendingLines_, WarpExertsMinusKx) {
 TEST_P(BendingLines_, WeftExertsMinusKx) {
   const BendingLines lines = weftLines(pattern_);
   for (int b = 0; b < (pattern_.grid.rows + kLane - 1) / kLane; ++b)
-    bendWeft(pattern_.grid, lines, position_, b, scratch_, force_);
-  EXPECT_LT(differenceFrom(pattern_, false, nullptr, position_, force_), kRounding);
+    bendWeft(pattern_.grid, lines, position_, b, shears_, force_);
+  EXPECT_LT(differenceFrom(pattern_, false, nullptr, position_, withSpared()), kRounding);
+  EXPECT_LT(mostPress(), kRounding);
   for (int i = 0; i < pattern_.grid.rows; ++i) {
     for (int j = 0; j < pattern_.grid.columns; ++j) {
       const Vec3 one = weftBendingAt(pattern_.grid, lines, position_, i, j);
@@ -138,8 +175,9 @@ TEST_P(BendingLines_, WarpThatGivesWayIsInSeriesWithItsNodes) {
 TEST_P(BendingLines_, WeftThatGivesWayIsInSeriesWithItsNodes) {
   const BendingLines lines = weftLines(pattern_);
   for (int b = 0; b < (pattern_.grid.rows + kLane - 1) / kLane; ++b)
-    bendWeftGiving(pattern_.grid, lines, give_, position_, b, scratch_, force_);
-  EXPECT_LT(differenceFrom(pattern_, false, &give_, position_, force_), kRounding);
+    bendWeftGiving(pattern_.grid, lines, give_, position_, b, scratch_, true, shears_, force_);
+  EXPECT_LT(differenceFrom(pattern_, false, &give_, position_, withSpared()), kRounding);
+  EXPECT_LT(mostPress(), kRounding);
 }
 
 TEST_P(BendingLines_, BoundIsAboveTheMatrix) {
@@ -194,7 +232,7 @@ TEST(Bending, StaysWithinWhatTheStepBears) {
       unit.assign(grid.size(), 0.0);
       unit.x[at(n)] = 1.0;
       double energy = 0.0;
-      const Field3& force = bending.forceAt(unit, energy);
+      const Field3 force = withSpared(grid, bending.forceAt(unit, energy), bending.spared());
       for (Eigen::Index m = 0; m < count; ++m)
         a(m, n) = -scale * force.x[at(m)] * std::sqrt(pattern.inverse_mass[at(m)] * pattern.inverse_mass[at(n)]);
     }
@@ -241,12 +279,13 @@ TEST(RestCurvature, ForcesAreTheSlopeOfTheEnergyAndBalance) {
                             .position;
       for (std::size_t n = 0; n < pattern.grid.size(); ++n) position.add(n, random.inBox(0.02));
       double energy = 0.0, nearby = 0.0;
-      const Field3 force = bending.forceAt(position, energy);
+      const Field3 exerted = bending.forceAt(position, energy),
+                   force = withSpared(pattern.grid, exerted, bending.spared());
       Vec3 sum = Vec3::Zero(), torque = Vec3::Zero();
       double largest = 0.0;
       for (std::size_t n = 0; n < pattern.grid.size(); ++n) {
-        sum += force.at(n);
-        torque += position.at(n).cross(force.at(n));
+        sum += exerted.at(n);
+        torque += position.at(n).cross(exerted.at(n));
         largest = std::max(largest, force.at(n).norm());
       }
       EXPECT_LT(sum.norm(), 1e-12 * largest);
@@ -267,6 +306,27 @@ TEST(RestCurvature, ForcesAreTheSlopeOfTheEnergyAndBalance) {
       }
     }
   }
+}
+
+// Cloth that starts in pressed pleats stays in them.
+TEST(RestCurvature, HoldsPressedPleatsWhereTheyStart) {
+  Scene scene = curtain_test::flatScene(5, 25, 1.0, 2.0);
+  scene.cloth.bending_weft = kRigidity;
+  scene.hang.to = scene.hang.from + Vec3(1.2, 0.0, 0.0);
+  scene.hang.heading = Heading::kRipple;
+  double energy[2] = {};
+  for (const double pressed : {0.0, 1.0}) {
+    scene.hang.pressed = pressed;
+    ASSERT_TRUE(validate(scene).empty()) << describe(validate(scene));
+    const ClothPattern pattern = makePattern(scene);
+    const Workers workers(1);
+    NodeInertia inertia(pattern);
+    Bending bending(pattern, workers);
+    bending.begin(inertia, inertia.inverse(), 1e-12, true);
+    bending.forceAt(makeInitialState(scene, pattern).position, energy[pressed > 0.0]);
+  }
+  EXPECT_GT(energy[0], kRigidity);
+  EXPECT_LT(std::abs(energy[1]), 1e-10 * energy[0]);
 }
 
 // A line bent by its rest turn at each joint has no energy, and turns no rod: what is left runs along the rods, which

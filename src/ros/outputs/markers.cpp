@@ -15,13 +15,16 @@ using visualization_msgs::Marker;
 namespace {
 
 // Places in the array; obstacles follow.
-enum Slot { kWires, kNodes, kFolds, kWind, kFirstObstacle };
+enum Slot { kWires, kNodes, kFolds, kWind, kRail, kCarriers, kFirstObstacle };
 
 // Sizes in the picture [m].
 constexpr double kWireWidth = 0.002;
 constexpr double kNodeSize = 0.012;
 constexpr double kFoldSize = 0.006;
 constexpr double kWindWidth = 0.004;
+constexpr double kRailWidth = 0.02;
+constexpr double kCarrierSize = 0.024;
+constexpr double kRailStep = 0.05;   // from point to point
 constexpr double kWindLength = 0.5;  // of the drawn part of a cone
 constexpr int kWindSpokes = 12;
 
@@ -112,7 +115,11 @@ visualization_msgs::MarkerArray blankDetails(const std::string& frame, const cur
       makeMarker(frame, "nodes", Marker::POINTS, kNodeSize, colour(0.10F, 0.75F, 0.95F)),
       makeMarker(frame, "folds", Marker::POINTS, kFoldSize, colour(0.95F, 0.85F, 0.30F)),
       makeMarker(frame, "wind", Marker::LINE_LIST, kWindWidth, colour(0.55F, 0.80F, 1.00F)),
+      makeMarker(frame, "rail", Marker::LINE_STRIP, kRailWidth, colour(0.62F, 0.63F, 0.66F)),
+      makeMarker(frame, "carriers", Marker::SPHERE_LIST, kCarrierSize, colour(0.86F, 0.87F, 0.90F)),
   };
+  for (const Vec3& point : simulator.railPoints(kRailStep)) array.markers[kRail].points.push_back(toPoint(point));
+  for (const Slot slot : {kRail, kCarriers}) showUnlessEmpty(array.markers[slot]);
   for (int i = 0; i < simulator.obstacleCount(); ++i) {  // shapes never change: their triangles are made once
     Marker marker = makeMarker(frame, "obstacles", Marker::TRIANGLE_LIST, 1.0, colour(1.0F, 1.0F, 1.0F));
     marker.id = i;
@@ -201,6 +208,12 @@ void DetailMarkers::fill(visualization_msgs::MarkerArray& array) {
   Points& nodes = array.markers[kNodes].points;
   nodes.resize(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) nodes[i] = toPoint(positions[i]);
+
+  Marker& carriers = array.markers[kCarriers];
+  carriers.points.clear();
+  for (const curtain::NodeIndex& node : simulator.carriers())
+    carriers.points.push_back(toPoint(simulator.position(node)));
+  showUnlessEmpty(carriers);
 
   const curtain::FineMesh& mesh = geometry_.fineMesh();
   const curtain::FineMeshTopology& topology = simulator.fineMeshTopology();

@@ -6,6 +6,7 @@
 //   wires      the links of the grid            nodes      first-layer nodes
 //   folds      second-layer nodes               wind       cones of the sources that blow now
 //   obstacles  the shapes that are present
+//   rail       its path                          carriers   on it
 //
 // Messages are filled again only where the picture has changed.
 #pragma once
