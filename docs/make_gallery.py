@@ -5,7 +5,8 @@
   docs/make_gallery.py [NAME ...] [--seconds S] [--out FOLDER]
 
 In an environment with a build of this package (source build/devel/setup.bash). rviz draws in software, on an X server of its
-own. The picture shows the demo at `gallery.at` of its demo.yaml [s], default 12, or at S; the strip goes on from there.
+own. The strip shows the demo from `gallery.at` of its demo.yaml [s] on, default 12, or from S on, a picture every
+`gallery.step` [s]; number `gallery.picture` of them, default 0, is the large one.
 Printed of each: frames and computing time of the node. Needs Xvfb, rviz, xdotool, ImageMagick.
 """
 import argparse
@@ -119,7 +120,7 @@ def take(name, folder, port, seconds, out):
         for shot in programs.running[-FRAMES:]:
             shot.wait()
         text = figures.line()
-    convert("xwd:" + shots[0], "-resize", str(PICTURE), "-quality", "95", os.path.join(out, name + ".png"))
+    convert("xwd:" + shots[gallery.get("picture", 0)], "-resize", str(PICTURE), "-quality", "95", os.path.join(out, name + ".png"))
     convert("-delay", "%d" % round(100 * step), "-loop", "0", *("xwd:" + shot for shot in shots), "-resize", str(STRIP), "+dither",
             "-colors", "128", "-fuzz", "1.5%", "-layers", "Optimize", os.path.join(out, name + ".gif"))
     for shot in shots:

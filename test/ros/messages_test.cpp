@@ -125,6 +125,7 @@ TEST(Messages, HoldWhatNewOnesWouldWhateverChanges) {
   simulator.setObstaclePose(0, curtain::Pose(), true);
   expectAsNew(messages);
   simulator.setObstaclePose(0, {curtain::Vec3::Zero(), Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0)}, true);
+  simulator.step();
   expectAsNew(messages);  // other light
   simulator.reset();
   expectAsNew(messages);

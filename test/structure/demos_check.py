@@ -71,7 +71,7 @@ DEMO = {
     "openings": [{"period!": NUMBER, "path!": path(2)}],
     "follow": {"frame!": TEXT, "lag": NUMBER},
     "scenery!": ANY,
-    "gallery": {"at": NUMBER, "step": NUMBER},
+    "gallery": {"at": NUMBER, "step": NUMBER, "picture": int},
     "look!": {"camera!": {"from!": XYZ, "at!": XYZ, "frame": TEXT, "view": NUMBER}, "background!": color,
               "cloth!": {"pattern": TEXT, "color": color, "pattern_color": color, "pattern_size": NUMBER, "sheen": NUMBER,
                          "translucency": NUMBER},
