@@ -61,7 +61,7 @@ TEST(RandomSceneMaker, MostScenesAreValid) {
 
 TEST(RandomSceneMaker, EveryKeyIsBroken) {
   std::vector<Breakage> all;
-  for (std::uint64_t n = 0; n < 50; ++n) {
+  for (std::uint64_t n = 0; n < 100; ++n) {
     for (Breakage& breakage : curtain_test::breakagesOf(validScene(n))) all.push_back(std::move(breakage));
   }
   for (const std::string& key : curtain::knownSceneKeys()) {
