@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes docs/keys.md from config/curtain.yaml and docs/messages.md from msg/*.msg and action/*.action: docs/make_pages.py.
+"""Writes docs/keys.md from config/curtain.yaml and docs/messages.md from msg/*.msg, action/*.action and srv/*.srv:
+docs/make_pages.py.
 With --check it only says whether the pages are up to date.
 
 A line of the template is a row of the page: key, value, and the comment behind it; so is a line of a message. A line that is
@@ -33,7 +34,7 @@ How numbers scale with the size of a scene: [units.md](units.md).
 
 MESSAGES_HEAD = """# Messages
 
-Made by `docs/make_pages.py` from [msg](../msg) and [action](../action); do not edit. A test fails when it is out of date. Which topic carries what:
+Made by `docs/make_pages.py` from [msg](../msg), [action](../action) and [srv](../srv); do not edit. A test fails when it is out of date. Which topic carries what:
 [node.md](node.md).
 """
 
@@ -164,6 +165,11 @@ def messages_page():
         text += "\n## %s (action)\n\n[action/%s.action](../action/%s.action)\n" % (name, name, name)
         for part, fields in zip(("Goal", "Result", "Feedback"), read(path).split("---\n")):
             text += "\n**%s**\n" % part + fields_text(fields)
+    for path in sorted(glob.glob(os.path.join(ROOT, "srv", "*.srv"))):
+        name = os.path.splitext(os.path.basename(path))[0]
+        text += "\n## %s (service)\n\n[srv/%s.srv](../srv/%s.srv)\n" % (name, name, name)
+        for part, fields in zip(("Request", "Response"), read(path).split("---\n")):
+            text += "\n**%s**\n" % part + fields_text(fields)
     return text
 
 
@@ -193,7 +199,7 @@ def main():
             with open(path, "w", encoding="utf-8") as file:
                 file.write(text)
         elif not os.path.exists(path) or read(path) != text:
-            sys.exit("docs/%s is not what config/curtain.yaml, msg or action say: run docs/make_pages.py" % name)
+            sys.exit("docs/%s is not what config/curtain.yaml, msg, action or srv say: run docs/make_pages.py" % name)
 
 
 if __name__ == "__main__":

@@ -28,6 +28,7 @@ class KeyCollector {
   void scale(Key key, const Vec3&, Range) { note(key); }
   void rotation(Key key, const Rotation&) { note(key); }
   void node(Key key, const std::optional<NodeIndex>&) { note(key); }
+  void nodes(Key key, const std::vector<NodeIndex>&) { note(key); }
   void numbers(Key key, const std::vector<double>&, Range) { note(key); }
   void integers(Key key, const std::vector<int>&, IntRange) { note(key); }
   void pins(Key key, const PinParams&) { note(key); }

@@ -133,8 +133,7 @@ struct HangParams {
   /// 0; of a heading other than kGathered, with bending_weft > 0, and pleats that turn by less than a right angle a
   /// node.
   double pressed = 0.0;
-  /// Width over |to - from|, [1..3]. Scene files may give it in place of cloth.width; if both are there they must
-  /// agree.
+  /// Width over |to - from|, [1..3]. Scene files may give it in place of cloth.width; if both, they must agree.
   std::optional<double> fullness;
 };
 
@@ -183,6 +182,27 @@ struct RailParams {
   /// Columns of the carriers that the drive moves: one, and the cloth gathers at the rail's beginning, or two
   /// neighbouring ones, and it gathers at both ends. Empty: the last.
   std::vector<int> masters;
+};
+
+/// Lines from nodes to a common end, a fixed point or a free load. They only pull, weigh and touch nothing.
+struct LineParams {
+  std::string id;                ///< unique among the lines, not empty
+  std::vector<NodeIndex> nodes;  ///< each has a line of its own; different ones, at least one
+  std::optional<double> length;  ///< of each line [m], >= its distance at the start; default: that distance
+  std::optional<Vec3> to;        ///< end, or start of a load [m]; default of a load: as low as the lines reach
+  std::optional<double> mass;    ///< of a load [kg], > 0; none: the end is fixed, and Simulator::setLineEnd() moves it
+};
+
+/// A loop around nodes of a row. Closed, it keeps them within its reach of a point, which shrinks to `radius`.
+struct TieBackParams {
+  std::string id;             ///< unique among the tie-backs, not empty
+  int row = 0;                ///< [0..rows - 1]
+  int first_column = 0;       ///< [0..columns - 1]
+  int last_column = 0;        ///< [first_column..columns - 1]
+  Vec3 point = Vec3::Zero();  ///< where the loop is held [m]
+  double radius = 0.1;        ///< of the closed loop [m], >= 1e-3
+  double speed = 0.3;         ///< at which it closes [m/s], > 0
+  bool closed = true;         ///< at the start it begins to close
 };
 
 /// The law of the air's force.
@@ -340,6 +360,8 @@ struct Scene {
   HemParams hem;                          ///< weights along the bottom row
   PinParams pins;                         ///< pinned nodes; on a rail kTop pins none
   RailParams rail;                        ///< the top edge slides on it, or there is none
+  std::vector<LineParams> lines;          ///< unique ids
+  std::vector<TieBackParams> tie_back;    ///< unique ids
   Vec3 gravity = Vec3(0.0, 0.0, -9.81);   ///< [m/s^2]
   AirParams air;                          ///< damping, or the law of the relative velocity
   AmbientParams ambient;                  ///< the wind everywhere

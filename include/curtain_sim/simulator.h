@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -120,6 +121,22 @@ class Simulator {
   /// Moves a pinned node to this point [m], evenly over the next step; there it stays. False: it is not pinned, or the
   /// point is not finite.
   bool movePin(NodeIndex node, const Vec3& target);
+
+  /// Closes a tie-back, from where its nodes are and at its speed, or opens it: its nodes are free at once. Returns
+  /// what is wrong: there is none of this id; then nothing changed.
+  std::vector<Problem> setTieBack(const std::string& id, bool closed);
+  bool tieBackClosed(const std::string& id) const;  ///< it is, or closes; false: open, or there is none
+
+  /// Where the lines of this id end [m]; none: there are no such lines.
+  std::optional<Vec3> lineEnd(const std::string& id) const;
+  /// Force of the lines on their end in the last substep [N]: up for a load that hangs. Zero: all are slack, or there
+  /// are none.
+  Vec3 linePull(const std::string& id) const;
+  /// Tension of each of the lines in the last substep [N], in the order of LineParams::nodes; 0: slack. Resized.
+  void copyLineTensions(const std::string& id, std::vector<double>& out) const;
+  /// Moves a fixed end to this point [m], evenly over the next step; there it stays. False: there are no such lines,
+  /// they end at a load, or the point is not finite.
+  bool setLineEnd(const std::string& id, const Vec3& target);
 
   /// Obstacles are numbered in the scene's order.
   int obstacleCount() const;

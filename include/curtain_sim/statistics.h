@@ -81,7 +81,7 @@ struct Work {
   double gravity = 0.0;  ///< decrease of the gravitational potential energy
   double bending = 0.0;  ///< decrease of the elastic energy
   double forces = 0.0;   ///< work of winds and drags
-  double drive = 0.0;    ///< work of the drive on a rail's carriers
+  double drive = 0.0;    ///< work of the drive on a rail's carriers, and of tie-backs that close
   double pins = 0.0;     ///< work of moved pins; unknown to Method::kPaper, and where links are drawn straight between
                          ///< two pins, since their tensions are not unique then
   double obstacles = 0.0;  ///< work of moving obstacles

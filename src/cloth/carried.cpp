@@ -11,6 +11,7 @@ void ClothState::carry(Archive& archive) {
   archive.finite("velocity", velocity);
   archive.finite("velocity_age", velocity_age);
   archive.finite("place", place);
+  archive.finite("reach", reach);
 }
 
 }  // namespace curtain

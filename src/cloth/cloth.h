@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cloth/cords.h"
 #include "cloth/field.h"
 #include "curtain_sim/scene.h"
 #include "scene/rail_layout.h"
@@ -48,6 +49,7 @@ struct ClothPattern {
   Field inverse_mass;     ///< [1/kg]; pinned, carriers and padding: 0
   std::vector<std::uint8_t> pinned;
   RailPattern rail;
+  CordsPattern cords;
   /// Bending stiffness of the warp line through the node, and of the weft line [N m]: E = k (1 - cos(turn)) for the
   /// turn between the node's two links. 0 at the lines' ends, and where both links are held fast. Empty: limp.
   Field warp_bending, weft_bending;
@@ -57,6 +59,8 @@ struct ClothPattern {
   Field warp_coordinate;  ///< of each row, length along the warp from the hung edge [m], shape [rows]
   Field weft_coordinate;  ///< of each column, length along the weft of the top row [m], shape [columns]
 
+  /// Whether there is a node, or an end, at an index of a Field.
+  bool isThere(std::size_t n) const { return mass[n] > 0.0 || pinned[n] != kFree; }
   bool isPinned(NodeIndex node) const { return pinned[grid.index(node)] == kPinned; }
 };
 
@@ -66,6 +70,7 @@ struct ClothState {
   Field3 velocity;            ///< [m/s], at the time of the positions minus velocity_age
   double velocity_age = 0.0;  ///< [s], >= 0 between substeps
   std::vector<double> place;  ///< of the carriers along the rail [m]; their velocity is along it
+  std::vector<double> reach;  ///< of the tie-backs: how far from its point a closed one lets its nodes be [m]
 
   void carry(Archive& archive);
 };
@@ -80,6 +85,9 @@ Grid makeGrid(const ClothParams& cloth);
 
 /// The cloth of a validated scene at rest at scene.hang, or on the rail.
 ClothState makeInitialState(const Scene& scene, const ClothPattern& pattern);
+
+/// Places the nodes of the cloth at the start, but not the ends of its cords.
+void placeCloth(const Scene& scene, const ClothPattern& pattern, Field3& position);
 
 /// Positions of cloth on a rail, with its carriers at these places [m].
 void placeOnRail(const ClothPattern& pattern, const std::vector<double>& places, Field3& position);

@@ -50,6 +50,7 @@ struct Grid {
   int columns = 0;
   int stride = 0;  ///< distance between rows in a Field
   bool closed = false;
+  int end_rows = 0;           ///< rows below the cloth's, of points that are no cloth: the ends of cords
   std::vector<int> slit_row;  ///< by column: first row whose weft link on the column's left is cut; empty: none is
 
   Grid() = default;
@@ -59,7 +60,14 @@ struct Grid {
   /// An odd number of cache lines, so that a column's successive rows fall into different sets of the cache.
   static int strideFor(int column_count) { return ((column_count + kLane - 1) / kLane | 1) * kLane; }
 
-  std::size_t size() const { return static_cast<std::size_t>(rows) * static_cast<std::size_t>(stride); }
+  std::size_t size() const { return row(allRows()); }
+  /// With those of the ends.
+  int allRows() const { return rows + end_rows; }
+  /// Where the k-th end is in a Field.
+  std::size_t end(std::size_t k) const {
+    return row(rows) + k / static_cast<std::size_t>(columns) * static_cast<std::size_t>(stride) +
+           k % static_cast<std::size_t>(columns);
+  }
   std::size_t row(int i) const { return static_cast<std::size_t>(i) * static_cast<std::size_t>(stride); }
   std::size_t index(int i, int j) const { return row(i) + static_cast<std::size_t>(j); }
   std::size_t index(NodeIndex node) const { return index(node.row, node.column); }

@@ -87,21 +87,28 @@ void placeRing(const Scene& scene, const ClothPattern& pattern, Field3& position
 
 }  // namespace
 
+void placeCloth(const Scene& scene, const ClothPattern& pattern, Field3& position) {
+  if (!pattern.rail.empty()) {
+    placeOnRail(pattern, pattern.rail.layout.placesFor(scene.rail.opening), position);
+  } else if (scene.cloth.closed) {
+    placeRing(scene, pattern, position);
+  } else if (isPleated(scene.hang)) {
+    placePleated(scene, pattern, position);
+  } else {
+    placeFlat(scene, pattern, position);
+  }
+}
+
 ClothState makeInitialState(const Scene& scene, const ClothPattern& pattern) {
   const Grid& grid = pattern.grid;
   ClothState state;
   state.position.assign(grid.size(), 0.0);
   state.velocity.assign(grid.size(), 0.0);
-  if (!pattern.rail.empty()) {
-    state.place = pattern.rail.layout.placesFor(scene.rail.opening);
-    placeOnRail(pattern, state.place, state.position);
-  } else if (scene.cloth.closed) {
-    placeRing(scene, pattern, state.position);
-  } else if (isPleated(scene.hang)) {
-    placePleated(scene, pattern, state.position);
-  } else {
-    placeFlat(scene, pattern, state.position);
-  }
+  if (!pattern.rail.empty()) state.place = pattern.rail.layout.placesFor(scene.rail.opening);
+  placeCloth(scene, pattern, state.position);
+  for (const CordEnd& end : pattern.cords.ends) state.position.set(end.node, end.start);
+  for (std::size_t k = 0; k < pattern.cords.loops.size(); ++k)
+    state.reach.push_back(reachOf(pattern.cords, k, state.position));
   // Padding hangs plumb with rods of length 1 (its rest length), so that no kernel meets a zero there.
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = grid.columns; j < grid.stride; ++j) state.position.set(grid.index(i, j), Vec3(0.0, 0.0, -i));

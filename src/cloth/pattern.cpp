@@ -177,6 +177,7 @@ Grid makeGrid(const ClothParams& cloth) {
 ClothPattern makePattern(const Scene& scene) {
   ClothPattern pattern;
   pattern.grid = makeGrid(scene.cloth);
+  addEndRows(scene, pattern.grid);
   const std::size_t size = pattern.grid.size();
   pattern.warp_rest.assign(size, 1.0);
   pattern.weft_rest.assign(size, 1.0);
@@ -197,6 +198,7 @@ ClothPattern makePattern(const Scene& scene) {
   fillRail(scene, pattern);
   fillBending(scene.cloth, pattern);
   pressPleats(scene, pattern);
+  fillCords(scene, pattern);
   return pattern;
 }
 

@@ -11,7 +11,7 @@ namespace {
 curtain::Simulator makeSimulator(const curtain::Scene& scene, const std::string& private_space) {
   try {
     return curtain::Simulator(scene);
-  } catch (const std::invalid_argument& e) {  // a mesh that can't be read
+  } catch (const std::invalid_argument& e) {  // a mesh that can't be read, a line that is too short
     throw ParameterError("can't start, problem(s) with " + private_space + "/scene:\n  " + e.what());
   }
 }
@@ -41,6 +41,7 @@ CurtainNode::CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& pri
       diagnostics_(node, private_node, reading.node.diagnostic_period, clock_.simulated()) {
   if (reading.node.handles) handles_ = std::make_unique<Handles>(private_node, reading.node, simulator_, inputs_);
   if (!reading.scene.rail.path.empty()) opening_ = std::make_unique<OpenCurtain>(private_node, inputs_);
+  if (!reading.scene.tie_back.empty()) tie_backs_ = std::make_unique<TieBacks>(private_node, reading.scene);
   if (reading.node.watch_roscpp) watch_ = makeWatch(node, private_node, inputs_);
   if (snapshots_.restore(simulator_)) {
     obstacles_.resume(simulator_);
@@ -89,6 +90,7 @@ void CurtainNode::makeFrames(std::int64_t now) {
 void CurtainNode::makeFrame(const ros::Time& stamp, bool latest) {
   inputs_.apply(simulator_);
   if (opening_) opening_->apply(simulator_);
+  if (tie_backs_) tie_backs_->apply(simulator_);
   obstacles_.update(simulator_, ros::Time::now());
   simulator_.step();
   if (!simulator_.statistics().finite) {

@@ -10,7 +10,8 @@
 //
 //   parameters  time  frames                      what the node is told; when frames are due; poses on tf2
 //   inputs  obstacles  outputs  snapshots  watch  what it does; watch, which looks into roscpp, can be switched off
-//   opening  health                               the rail's drive; what it says of itself on /diagnostics
+//   opening  health                               the rail's drive and tie-backs; what it says of itself on
+//   /diagnostics
 #pragma once
 
 #include <ros/node_handle.h>
@@ -27,6 +28,7 @@
 #include "ros/inputs/inputs.h"
 #include "ros/obstacles/obstacle_tracker.h"
 #include "ros/opening/open_curtain.h"
+#include "ros/opening/tie_backs.h"
 #include "ros/outputs/outputs.h"
 #include "ros/parameters/parameters.h"
 #include "ros/snapshots/snapshot_keeper.h"
@@ -39,8 +41,8 @@ class CurtainNode {
  public:
   /// Reads the parameters, builds the curtain and starts.
   ///   node          wind_source and drag_force are in its namespace
-  ///   private_node  parameters, ~open, ~open_curtain, ~state, ~mesh, ~markers, ~contacts, ~handles; also its name on
-  ///   /diagnostics
+  ///   private_node  parameters, ~open, ~open_curtain, ~tie_back, ~state, ~mesh, ~markers, ~contacts, ~handles; also
+  ///   its name on /diagnostics
   /// Throws ParameterError with every problem.
   CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
 
@@ -72,6 +74,7 @@ class CurtainNode {
   Outputs outputs_;
   std::unique_ptr<Handles> handles_;      // none unless ~handles
   std::unique_ptr<OpenCurtain> opening_;  // none without a rail
+  std::unique_ptr<TieBacks> tie_backs_;   // none without one in the scene
   FrameClock clock_;
   SnapshotKeeper snapshots_;
   std::unique_ptr<RoscppWatch> watch_;  // none unless ~watch_roscpp

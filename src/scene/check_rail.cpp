@@ -99,12 +99,13 @@ void checkRail(const Scene& scene, ProblemLog& log) {
   if (scene.rail.path.empty() || !log.good("rail") || !log.good("cloth")) return;
   if (scene.solver.method == Method::kPaper)
     log.add("solver.method", "must not be paper where there is a rail: that scheme knows no carriers");
+  const bool path_is_good = checkPath(scene.rail.path, log);
   if (scene.cloth.closed) log.add("cloth.closed", "must be false where there is a rail");
   if (scene.cloth.hem_width && *scene.cloth.hem_width < scene.cloth.width) {
     log.add("cloth.hem_width", "must not be less than cloth.width = " + formatNumber(scene.cloth.width) +
                                    " where there is a rail, is " + formatNumber(*scene.cloth.hem_width));
   }
-  if (!log.good("cloth") || !checkPath(scene.rail.path, log) || !checkColumns(scene, log)) return;
+  if (!log.good("cloth") || !path_is_good || !checkColumns(scene, log)) return;
   const std::vector<int> columns = RailLayout::columnsOf(scene);
   if (checkMasters(scene, columns, log)) checkFit(scene, columns, log);
 }

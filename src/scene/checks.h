@@ -17,6 +17,9 @@ void checkStart(const Scene& scene, ProblemLog& log);
 /// Checks that rail, carriers and cloth fit together.
 void checkRail(const Scene& scene, ProblemLog& log);
 
+/// Checks that lines and tie-backs belong to nodes of the cloth and have an end.
+void checkLines(const Scene& scene, ProblemLog& log);
+
 /// Checks that row and column are on the grid, unless the grid's size is wrong.
 void checkNodeOnGrid(const NodeIndex& node, const ClothParams& cloth, const std::string& key, ProblemLog& log);
 

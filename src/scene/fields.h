@@ -5,9 +5,9 @@
 //
 // A visitor has these members; keys are relative to the visited map:
 //   integer, integerOr (a word stands for one value), seed, number, optionalNumber, numberOrUnset (NaN: not given),
-//   flag, text, choice, vector, optionalVector, scale (one number or three), rotation, node, numbers, integers, pins,
-//   slits, path (of a rail), map (a struct below), list (a list of structs), belongs (false: the key is not for this
-//   value).
+//   flag, text, choice, vector, optionalVector, scale (one number or three), rotation, node, nodes, numbers, integers,
+//   pins, slits, path (of a rail), map (a struct below), list (a list of structs), belongs (false: the key is not for
+//   this value).
 #pragma once
 
 #include <type_traits>
@@ -115,6 +115,33 @@ struct Fields<RailParams> {
     v.number("opening", rail.opening, between(0.0, 1.0));
     v.map("drive", rail.drive);
     v.integers("masters", rail.masters, IntRange{0, 4095});
+  }
+};
+
+template <>
+struct Fields<LineParams> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& line) {
+    v.text(required("id"), line.id);
+    v.nodes(required("nodes"), line.nodes);
+    v.optionalNumber("length", line.length, positive());
+    v.optionalVector("to", line.to, anywhere());
+    v.optionalNumber("mass", line.mass, positive());
+  }
+};
+
+template <>
+struct Fields<TieBackParams> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& loop) {
+    v.text(required("id"), loop.id);
+    v.integer(required("row"), loop.row, IntRange{0, 4095});
+    v.integer(required("first_column"), loop.first_column, IntRange{0, 4095});
+    v.integer(required("last_column"), loop.last_column, IntRange{0, 4095});
+    v.vector(required("point"), loop.point, anywhere());
+    v.number("radius", loop.radius, between(1e-3, kLargest));
+    v.number("speed", loop.speed, positive());
+    v.flag("closed", loop.closed);
   }
 };
 
@@ -269,6 +296,8 @@ struct Fields<Scene> {
     v.map("hem", scene.hem);
     v.pins("pins", scene.pins);
     v.map("rail", scene.rail);
+    v.list("lines", scene.lines);
+    v.list("tie_back", scene.tie_back);
     v.vector("gravity", scene.gravity, anywhere());
     v.map("air", scene.air);
     v.map("ambient", scene.ambient);

@@ -34,6 +34,7 @@ class RangeChecker {
   void scale(Key key, const Vec3& value, Range range) { vector(key, value, range); }
   void rotation(Key key, const Rotation& value);
   void node(Key, const std::optional<NodeIndex>&) {}  // its range depends on the cloth: checkNodeOnGrid()
+  void nodes(Key, const std::vector<NodeIndex>&) {}   // the same
   void numbers(Key key, const std::vector<double>& values, Range range);
   void integers(Key key, const std::vector<int>& values, IntRange range);
   void path(Key key, const std::vector<RailPiece>& pieces, Range range);

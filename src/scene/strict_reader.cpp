@@ -286,6 +286,17 @@ void StrictReader::node(Key key, std::optional<NodeIndex>& value) {
   if (found && readNode(*found, keyOf(key), read)) value = read;
 }
 
+void StrictReader::nodes(Key key, std::vector<NodeIndex>& values) {
+  const std::string wanted = "a list of [row, column]";
+  const YAML::Node* found = find(key, wanted);
+  if (found && checkSequence(*found, keyOf(key), wanted)) readNodes(*found, key, values);
+}
+
+void StrictReader::readNodes(const YAML::Node& nodes, Key key, std::vector<NodeIndex>& values) {
+  values.assign(nodes.size(), NodeIndex{});
+  for (std::size_t i = 0; i < values.size(); ++i) readNode(nodes[i], itemKey(keyOf(key), i), values[i]);
+}
+
 void StrictReader::numbers(Key key, std::vector<double>& values, Range range) {
   const YAML::Node* found = find(key, "a list of numbers");
   if (!found || !checkSequence(*found, keyOf(key), "a list of numbers")) return;
@@ -328,8 +339,7 @@ void StrictReader::pins(Key key, PinParams& value) {
   if (!found) return;
   if (found->IsSequence()) {
     value.kind = PinKind::kList;
-    value.nodes.assign(found->size(), NodeIndex{});
-    for (std::size_t i = 0; i < value.nodes.size(); ++i) readNode((*found)[i], itemKey(keyOf(key), i), value.nodes[i]);
+    readNodes(*found, key, value.nodes);
   } else if (const std::optional<std::size_t> place = placeAmong(pinNames(), *found)) {
     value.kind = static_cast<PinKind>(*place);
   } else {

@@ -37,6 +37,7 @@ class StrictReader {
   void scale(Key key, Vec3& value, Range range);
   void rotation(Key key, Rotation& value);
   void node(Key key, std::optional<NodeIndex>& value);
+  void nodes(Key key, std::vector<NodeIndex>& values);
   void numbers(Key key, std::vector<double>& values, Range range);
   void integers(Key key, std::vector<int>& values, IntRange range);
   void pins(Key key, PinParams& value);
@@ -96,6 +97,7 @@ class StrictReader {
   bool readInteger(const YAML::Node& node, const std::string& key, const std::string& wanted, int& value);
   bool readVector(const YAML::Node& node, const std::string& key, Range range, Vec3& value);
   void readSlit(const YAML::Node& node, const std::string& key, SlitParams& value);
+  void readNodes(const YAML::Node& nodes, Key key, std::vector<NodeIndex>& values);
   bool readNode(const YAML::Node& node, const std::string& key, NodeIndex& value);
 
   std::string prefix_;

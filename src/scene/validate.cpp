@@ -223,6 +223,9 @@ void checkScene(const Scene& scene, ProblemLog& log) {
   checkPins(scene, log);
   checkRail(scene, log);
   checkBending(scene, log);
+  checkLines(scene, log);
+  checkUnique(scene.lines, "lines", "id", &LineParams::id, log);
+  checkUnique(scene.tie_back, "tie_back", "id", &TieBackParams::id, log);
   checkUnique(scene.wind, "wind", "id", &WindParams::id, log);
   checkUnique(scene.drag, "drag", "id", &DragParams::id, log);
   checkUnique(scene.obstacles, "obstacles", "name", &ObstacleParams::name, log);

@@ -44,6 +44,11 @@ class SceneWriter {
     out_ << YAML::Key << key.name << YAML::Value;
     writeNode(*value);
   }
+  void nodes(Key key, const std::vector<NodeIndex>& values) {
+    out_ << YAML::Key << key.name << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    for (const NodeIndex& node : values) writeNode(node);
+    out_ << YAML::EndSeq;
+  }
   void numbers(Key key, const std::vector<double>& values, Range) { flow(key, values); }
   void integers(Key key, const std::vector<int>& values, IntRange) {
     out_ << YAML::Key << key.name << YAML::Value << YAML::Flow << values;
@@ -55,9 +60,7 @@ class SceneWriter {
       plain(key, pinNames().at(static_cast<std::size_t>(value.kind)));
       return;
     }
-    out_ << YAML::Key << key.name << YAML::Value << YAML::Flow << YAML::BeginSeq;
-    for (const NodeIndex& node : value.nodes) writeNode(node);
-    out_ << YAML::EndSeq;
+    nodes(key, value.nodes);
   }
 
   void slits(Key key, const std::vector<SlitParams>& values) {

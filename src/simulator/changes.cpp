@@ -40,6 +40,24 @@ void putOnRail(const ClothPattern& pattern, ClothState& state) {
   }
 }
 
+// A load goes along with the mean of its lines' nodes; tie-backs close from where their nodes are.
+void carryCords(const ClothPattern& pattern, const ClothState& before, CordLinks& links, ClothState& state) {
+  const CordsPattern& cords = pattern.cords;
+  for (const CordEnd& end : cords.ends) {
+    if (!end.load) continue;
+    const double share = 1.0 / static_cast<double>(end.last - end.first);
+    Vec3 moved = Vec3::Zero(), velocity = Vec3::Zero();
+    for (std::size_t c = end.first; c < end.last; ++c) {
+      const std::size_t n = cords.cords[c].node;
+      moved += share * (state.position.at(n) - before.position.at(n));
+      velocity += share * state.velocity.at(n);
+    }
+    state.position.add(end.node, moved);
+    state.velocity.set(end.node, velocity);
+  }
+  for (std::size_t k = 0; k < cords.loops.size(); ++k) links.close(k, links.closed(k), state);
+}
+
 }  // namespace
 
 std::vector<Problem> Simulator::setFrameRate(double rate) {
@@ -63,6 +81,7 @@ std::vector<Problem> Simulator::setState(const std::vector<Vec3>& positions, con
   if (!problems.empty()) return problems;
   im.sleep.wakeAll();
   Motion& motion = im.motion;
+  const ClothState before = motion.state;
   std::size_t from = 0;
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = 0; j < grid.columns; ++j, ++from) {
@@ -74,6 +93,7 @@ std::vector<Problem> Simulator::setState(const std::vector<Vec3>& positions, con
   putOnRail(im.pattern, motion.state);
   motion.state.velocity_age = 0.0;
   motion.exact.reset();
+  carryCords(im.pattern, before, motion.exact.cords(), motion.state);
   motion.contact.forget();
   motion.forgetVelocities();
   motion.measureStretch();

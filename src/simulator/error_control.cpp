@@ -37,7 +37,7 @@ bool ErrorControl::makeFrame(int substeps) {
   const bool composed = params.method == Method::kLeapfrog4;
   SubstepPlan plan;
   plan.h = motion_.times.length() / substeps;
-  if (params.method == Method::kAuto) plan.most_phase = kStablePhase;
+  if (params.method == Method::kAuto) plan.most_phase = StepControl::phaseShare(motion_.pattern) * kStablePhase;
   plan.precise = composed;
   const int parts = ErrorEstimate::stepsPerSubstep(params.method);
   SubstepPlan part = plan;

@@ -78,7 +78,7 @@ void Simulator::Impl::endFrame(double share) {
   motion.measure();
   opening.measure(motion.state, s);
   s.drive_force = motion.drive_impulse / times.length();
-  if (!opening.isUnderWay(motion.state)) sleep.fallAsleep();
+  if (!opening.isUnderWay(motion.state) && !motion.exact.cords().closing(motion.state)) sleep.fallAsleep();
   if (errors && sleep.all()) errors->lose();
   s.stage_seconds = motion.clock.seconds();
 }

@@ -66,14 +66,17 @@ SubstepPlan FrameLoop::plan(StepControl& steps, double done) {
 }
 
 bool FrameLoop::makeStages(const SubstepPlan& plan, double done) {
-  if (controls_.plain_frames > 0 || motion_.exact.weftPulls() || motion_.exact.carriers().any()) return false;
+  if (controls_.plain_frames > 0 || motion_.exact.stringsPull() || motion_.exact.carriers().any() ||
+      motion_.exact.cords().any()) {
+    return false;
+  }
   motion_.save(before_);
   double at = done;
   for (const double gamma : kStages) {
     SubstepPlan stage = plan;
     stage.h = gamma * plan.h;
     const SubstepOutcome outcome = motion_.attempt(stage, at);
-    if (!outcome.accepted || motion_.exact.weftPulls() || (motion_.contact.wanted() && motion_.contact.any())) {
+    if (!outcome.accepted || motion_.exact.stringsPull() || (motion_.contact.wanted() && motion_.contact.any())) {
       motion_.restore(before_);
       motion_.contact.takeBack(at - done);
       return false;

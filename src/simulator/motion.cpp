@@ -31,6 +31,7 @@ void Motion::reset() {
   obstacles.reset();
   contact.forget();
   exact.reset();
+  exact.cords().resetLoops(state);
   clock.reset();
   statistics = Statistics();
   ledger.restore({});
@@ -115,7 +116,7 @@ void Motion::measureStretch() noexcept {
   const Stretch warp = warpStretch(pattern, state.position);
   statistics.warp_stretch = warp.longer;
   statistics.warp_compression = warp.shorter;
-  statistics.weft_stretch = weftStretch(pattern, state.position);
+  statistics.weft_stretch = std::max(weftStretch(pattern, state.position), exact.cords().stretch(state.position));
 }
 
 void Motion::measure() noexcept {

@@ -3,7 +3,11 @@
 
 #include <algorithm>
 
+#include "scene/ranges.h"
+
 namespace curtain {
+
+bool isPlace(const Vec3& point) { return point.allFinite() && point.cwiseAbs().maxCoeff() <= kLargest; }
 
 void PinMoves::move(std::size_t node, const Vec3& target) {
   const auto found = std::find_if(moves_.begin(), moves_.end(), [node](const Move& move) { return move.node == node; });

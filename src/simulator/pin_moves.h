@@ -10,6 +10,9 @@
 
 namespace curtain {
 
+/// A point that something can be moved to [m].
+bool isPlace(const Vec3& point);
+
 /// Not thread-safe.
 class PinMoves {
  public:

@@ -111,7 +111,7 @@ void planSolver(const Motion& motion, const Budget& budget, Plan& plan) {
   const char* const bends = bending.gives() ? "where lines are stiffer than the substeps bear, nodes give way"
                                             : "explicit: substeps bear all of its stiffness";
   plan.push_back({"bending", bending.any(), bending.any() ? bends : "bending_warp and bending_weft are 0"});
-  const bool pulls = motion.exact.weftPulls();
+  const bool pulls = motion.exact.stringsPull();
   plan.push_back({"weft", true,
                   pulls ? "strings pull: all taut ones are solved for at once"
                         : "no string pulls: looked at, and nothing more unless one gets taut"});
@@ -121,6 +121,12 @@ void planSolver(const Motion& motion, const Budget& budget, Plan& plan) {
                   carriers == 0 ? "there is none"
                                 : std::to_string(carriers) + " carriers slide" +
                                       (draws ? ", and the drive draws them" : "; the drive has let go")});
+  const CordsPattern& cords = motion.pattern.cords;
+  plan.push_back({"lines", !cords.empty(),
+                  cords.empty() ? "there are none"
+                                : std::to_string(cords.cords.size()) + " cords of " +
+                                      std::to_string(cords.ends.size() - cords.loops.size()) + " lines and " +
+                                      std::to_string(cords.loops.size()) + " tie-backs"});
   const bool estimates = ErrorControl::wanted(solver);
   plan.push_back(
       {"estimate", estimates,

@@ -112,12 +112,13 @@ bool Rest::anyStill(const Field3& velocity) noexcept {
   return any;
 }
 
-// Measures how far the nodes of every column are from their place.
+// Measures how far the nodes of every column are from their place. A cord's end, which may be a load that swings,
+// counts as a node of the column that it is stored in.
 CURTAIN_WIDE void Rest::measure(const Field3& position) noexcept {
   const Grid& grid = pattern_.grid;
   double* const farthest = farthest_.data();
   std::fill(farthest_.begin(), farthest_.end(), 0.0);
-  for (int i = 0; i < grid.rows; ++i) {
+  for (int i = 0; i < grid.allRows(); ++i) {
     const std::size_t row = grid.row(i);
     const ConstFieldView p(position, row), place(place_, row);
 #pragma omp simd
@@ -130,7 +131,7 @@ CURTAIN_WIDE void Rest::measure(const Field3& position) noexcept {
 }
 
 void Rest::takePlace(int column, const Field3& position, double time) noexcept {
-  for (int i = 0; i < pattern_.grid.rows; ++i) {
+  for (int i = 0; i < pattern_.grid.allRows(); ++i) {
     const std::size_t n = pattern_.grid.index(i, column);
     place_.set(n, position.at(n));
   }

@@ -28,18 +28,26 @@ const Scene& judged(const Scene& scene) {
   return scene;
 }
 
-// Carriers push each other along the rail, so cloth on a rail sleeps as a whole.
+// Carriers push each other along the rail, and cords pull at several columns, so cloth with them sleeps as a whole.
 bool sleepsByColumn(const Scene& scene) {
   const Method method = scene.solver.method;
   const bool leapfrogs = method == Method::kAuto || method == Method::kLeapfrog;
-  return leapfrogs && !ErrorControl::wanted(scene.solver) && scene.rail.path.empty();
+  return leapfrogs && !ErrorControl::wanted(scene.solver) && scene.rail.path.empty() && scene.lines.empty() &&
+         scene.tie_back.empty();
+}
+
+ClothPattern patternOf(const Scene& scene) {
+  ClothPattern pattern = makePattern(scene);
+  const std::vector<Problem> problems = problemsOfCords(scene, pattern);
+  if (!problems.empty()) throw std::invalid_argument(describe(problems));
+  return pattern;
 }
 
 }  // namespace
 
 Simulator::Impl::Impl(const Scene& given, const MeshResolver& resolve)
     : scene(judged(given)),
-      pattern(makePattern(scene)),
+      pattern(patternOf(scene)),
       times(scene.solver.frame_rate),
       motion(scene, pattern, times, resolve),
       opening(scene, pattern, motion.exact),
@@ -72,7 +80,7 @@ void Simulator::Impl::takeGravity() noexcept {
   controls.takeGravity(pattern, scene.gravity);
 }
 
-// The drive does something else from now on.
+// The drive, or a tie-back, does something else from now on.
 void Simulator::Impl::driven() noexcept {
   guard.forget();
   sleep.rest().disturbAll();
@@ -290,43 +298,6 @@ std::vector<Vec3> Simulator::railPoints(double spacing) const {
   return points;
 }
 
-std::vector<Problem> Simulator::setOpening(double opening) {
-  Impl& im = *impl_;
-  if (im.pattern.rail.empty()) return {{"opening", "is for cloth on a rail: this scene has no rail.path"}};
-  const Range range = between(0.0, 1.0);
-  if (!range.contains(opening)) return {{"opening", "must be " + range.text() + ", is " + formatNumber(opening)}};
-  if (im.opening.draws() && opening == im.opening.goal()) return {};
-  im.opening.draw(opening);
-  im.driven();
-  return {};
-}
-
-void Simulator::releaseDrive() {
-  if (!impl_->opening.draws()) return;
-  impl_->opening.letGo();
-  impl_->driven();
-}
-
-std::vector<Problem> Simulator::setDrive(const DriveParams& drive) {
-  std::vector<Problem> problems = validate(drive, "drive");
-  if (!problems.empty()) return problems;
-  impl_->opening.setDrive(drive);
-  impl_->driven();
-  return problems;
-}
-
-bool Simulator::drives() const { return impl_->opening.draws(); }
-const DriveParams& Simulator::drive() const { return impl_->opening.drive(); }
-
-bool Simulator::movePin(NodeIndex node, const Vec3& target) {
-  const Grid& grid = impl_->pattern.grid;
-  const bool inside = node.row >= 0 && node.row < grid.rows && node.column >= 0 && node.column < grid.columns;
-  if (!inside || !impl_->pattern.isPinned(node) || !(target.cwiseAbs().maxCoeff() <= kLargest) || !target.allFinite())
-    return false;
-  impl_->pins.move(grid.index(node), target);
-  return true;
-}
-
 int Simulator::obstacleCount() const { return impl_->motion.obstacles.count(); }
 void Simulator::setObstaclePose(int index, const Pose& pose, bool jump) {
   impl_->motion.obstacles.setPose(index, pose, jump);
@@ -390,6 +361,12 @@ std::uint64_t Simulator::stateHash() const {
       for (const Field3* field : {&impl_->motion.state.position, &impl_->motion.state.velocity}) {
         for (const Field* axis : {&field->x, &field->y, &field->z}) bits.addBytes(&(*axis)[n], sizeof(double));
       }
+    }
+  }
+  for (const CordEnd& end : impl_->pattern.cords.ends) {
+    for (const Field3* field : {&impl_->motion.state.position, &impl_->motion.state.velocity}) {
+      const Vec3 value = field->at(end.node);
+      bits.addBytes(value.data(), 3 * sizeof(double));
     }
   }
   return bits.hash;

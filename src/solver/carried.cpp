@@ -34,6 +34,14 @@ void Constraints::Memory::carry(Archive& archive) {
   archive.numbers("warp", warp);
   archive.numbers("weft", weft);
   archive.flag("weft_pulls", weft_pulls);
+  archive.part("cords", cords);
+}
+
+void CordLinks::Memory::carry(Archive& archive) { archive.numbers("last", last); }
+
+void CordLinks::carry(Archive& archive) {
+  archive.flags("closed", closed_);
+  for (CordLink& link : all_) archive.number("last", link.last);
 }
 
 void ExactSolver::Memory::carry(Archive& archive) {
@@ -54,6 +62,7 @@ void Constraints::carry(Archive& archive) {
   archive.numbers("last_weft", last_weft_);
   archive.flag("weft_pulls", weft_pulls_);
   archive.numbers("laid_down", frozen_scale_);
+  archive.part("cords", cords_);
 }
 
 void ExactSolver::carry(Archive& archive) {

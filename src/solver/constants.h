@@ -137,6 +137,10 @@ constexpr double kMassScalingShare = 0.02;
 // h * omega at which mass scaling sets in, below leapfrog's limit of 2. At 1.7 a swing in two fixed substeps
 // gains 2.5e-2 of its energy in 20 s.
 constexpr double kStablePhase = 1.9;
+// Share of both with cords. A load keeps its lines as taut as its weight, so that transverse oscillations reach the
+// bound, and they are steep in energy: where it has to be bounded, velocities are lost, and what is left to a substep,
+// x' = (1 - (h omega)^2) x, is stable below sqrt(2) only. With 1 a load of 25 times the cloth's mass shook.
+constexpr double kShareWithCords = 0.73;
 // What bending may take of h^2 omega^2 where tensions take all that they may: up to leapfrog's limit of 4.
 constexpr double kLeastForBending = 4.0 - kStablePhase * kStablePhase;
 // The same where links follow, which then take none. There bending acts where the step leads to, which is stable below

@@ -22,7 +22,8 @@ Constraints::Constraints(const ClothPattern& pattern, double tolerance, const No
       workers_(workers),
       net_(pattern, workers),
       carriers_(pattern),
-      middle_rest_(middleRestOf(pattern)) {
+      middle_rest_(middleRestOf(pattern)),
+      cords_(pattern, tolerance, middle_rest_) {
   const std::size_t size = pattern.grid.size();
   const std::size_t links = size + static_cast<std::size_t>(pattern.grid.stride);
   const auto blocks = static_cast<std::size_t>(warpBlockCount(pattern.grid));
@@ -39,6 +40,10 @@ Constraints::Constraints(const ClothPattern& pattern, double tolerance, const No
   block_progress_.resize(blocks);
   frozen_scale_.assign(blocks, 0.0);
   if (carriers_.any()) top_force_.assign(static_cast<std::size_t>(pattern.grid.stride), 0.0);
+  if (cords_.any()) {
+    rod_change_.assign(size, 0.0);
+    moved_.assign(size, 0.0);
+  }
   row_worst_.resize(static_cast<std::size_t>((pattern.grid.rows + kRowsAtOnce - 1) / kRowsAtOnce));
 }
 
@@ -51,13 +56,15 @@ void Constraints::reset() noexcept {
   for (Field* field : {&last_warp_, &last_weft_, &weft_.multiplier}) std::fill(field->begin(), field->end(), 0.0);
   weft_pulls_ = false;
   carriers_.forget();
+  cords_.forget();
   net_.reset();
   scratch_.assign(pattern_.grid);
 }
 
 // ---- Begin and end of a substep
 
-void Constraints::begin(const SubstepStart& start, const ClothState& state, double h, double ratio) noexcept {
+void Constraints::begin(const SubstepStart& start, const ClothState& state, double h, double ratio,
+                        bool shrinks) noexcept {
   if (carriers_.any()) beginCarriers(start, state, h);
   const LineSolve warp = rods(), weft = wefts();
   directions_set_ = measured_ = false;
@@ -66,12 +73,19 @@ void Constraints::begin(const SubstepStart& start, const ClothState& state, doub
     for (std::size_t n = 0; n < pattern_.grid.size(); ++n) weft_.multiplier[n] = ratio * last_weft_[n];
     directions_set_ = ratio != 0.0;
   }
+  if (cords_.any()) {
+    cords_.begin(state, inertia_.inverse(), h, shrinks);
+    cords_.predict(start, inertia_.inverse(), next);
+    directions_set_ = cords_.warmStart(ratio) || directions_set_;
+  }
   if (directions_set_) {
     worstOfRows([&](int i) {
       setWeftDirections(pattern_.grid, i, held_.movingSpan(), start.state.position, weft_.direction);
       pullWeft(weft, i, weft_.multiplier);
       return 0.0;
     });
+    cords_.setDirections(start.state.position);
+    cords_.pull(inertia_.inverse(), next);
   }
   settleCarriers();
 }
@@ -90,6 +104,7 @@ double Constraints::commit(const SubstepStart& start, bool bends, ClothState& st
     heaviest = loadStrings(load);
     last_weft_ = weft_.multiplier;
   }
+  if (cords_.any()) heaviest = std::max(heaviest, cords_.commit(start, next, state, load));
   std::swap(state.position, next);  // equal in held columns
   std::swap(last_warp_, warp_.multiplier);
   return carriers_.any() ? std::max(heaviest, commitCarriers(state, load)) : heaviest;
@@ -125,7 +140,7 @@ bool Constraints::snapsTaut() const noexcept {
   for (std::size_t n = 0; directions_set_ && n < pattern_.grid.size(); ++n) {
     if (weft_.multiplier[n] > 0.0 && !(weft_pulls_ && last_weft_[n] > 0.0)) return true;
   }
-  return false;
+  return directions_set_ && cords_.snapsTaut();
 }
 
 double Constraints::bent() const noexcept {
@@ -163,12 +178,14 @@ void Constraints::save(Memory& memory) const {
   memory.warp = last_warp_;
   memory.weft = last_weft_;
   memory.weft_pulls = weft_pulls_;
+  cords_.save(memory.cords);
 }
 
 void Constraints::restore(const Memory& memory) {
   last_warp_ = memory.warp;
   last_weft_ = memory.weft;
   weft_pulls_ = memory.weft_pulls;
+  cords_.restore(memory.cords);
   if (!weft_pulls_) std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0);  // as begin() relies on
 }
 

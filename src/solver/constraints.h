@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The constraints of a substep: two-sided warp rods, one-sided weft strings and contacts, with the positions being
-// solved for and the links' directions and multipliers. Rods: Newton, one tridiagonal system a column. Taut strings and
-// pushing contacts: all at once, with the rods eliminated (NetSolver). Sweeps decides what is solved when.
+// The constraints of a substep: two-sided warp rods, one-sided weft strings, cords and contacts, with the positions
+// being solved for and the links' directions and multipliers. Rods: Newton, one tridiagonal system a column. Taut
+// strings and cords and pushing contacts: all at once, with the rods eliminated (NetSolver). Sweeps decides what is
+// solved when. Where functions speak of strings, cords are among them.
 #pragma once
 
 #include <algorithm>
 #include <vector>
 
+#include "solver/cord_links.h"
 #include "solver/held_columns.h"
 #include "solver/net_solver.h"
 #include "solver/node_inertia.h"
@@ -33,8 +35,8 @@ class Constraints {
   // ---- Begin and end of a substep
 
   /// Predicts, and warm-starts with the last substep's multipliers times ratio. state: at the start of the substep, of
-  /// h [s].
-  void begin(const SubstepStart& start, const ClothState& state, double h, double ratio) noexcept;
+  /// h [s]. shrinks: closing loops do.
+  void begin(const SubstepStart& start, const ClothState& state, double h, double ratio, bool shrinks) noexcept;
   /// Accepts the substep: sets velocities and loads (returns the largest load over its mass) and keeps the multipliers.
   /// bends: compute WarpMotion::bent.
   double commit(const SubstepStart& start, bool bends, ClothState& state, Field& load) noexcept;
@@ -42,7 +44,7 @@ class Constraints {
   void end(bool taken) noexcept;
 
   /// A string pulled in the last accepted substep.
-  bool weftPulls() const noexcept { return weft_pulls_; }
+  bool stringsPull() const noexcept { return weft_pulls_ || cords_.pulls(); }
   /// A string pulls now, or directions were set because one was too long.
   bool stringsAct() const noexcept { return directions_set_; }
   const LinkSet& strings() const noexcept { return weft_; }
@@ -57,10 +59,15 @@ class Constraints {
   };
   LinkTensions tensionsAt(int row, int column, double scale) const noexcept;
   /// Sum of multiplier times direction over a node's links, of the last substep [kg m].
-  Vec3 pullAt(int row, int column) const noexcept { return pullAt(row, column, last_warp_, last_weft_, weft_pulls_); }
+  Vec3 pullAt(int row, int column) const noexcept {
+    const Vec3 pull = pullAt(row, column, last_warp_, last_weft_, weft_pulls_);
+    return cords_.any() ? Vec3(pull + cords_.pullAt(pattern_.grid.index(row, column))) : pull;
+  }
 
   Carriers& carriers() noexcept { return carriers_; }
   const Carriers& carriers() const noexcept { return carriers_; }
+  CordLinks& cords() noexcept { return cords_; }
+  const CordLinks& cords() const noexcept { return cords_; }
 
   // ---- Parts of a solve
 
@@ -136,6 +143,7 @@ class Constraints {
   struct Memory {
     Field warp, weft;
     bool weft_pulls = false;
+    CordLinks::Memory cords;
 
     void carry(Archive& archive);
   };
@@ -162,6 +170,9 @@ class Constraints {
   Carriers* sliding() noexcept { return carriers_.slide() ? &carriers_ : nullptr; }
   LineSolve rods() noexcept { return {pattern_, inertia_.inverse(), warp_, next, held_.movingSpan(), sliding()}; }
   LineSolve wefts() noexcept { return {pattern_, inertia_.inverse(), weft_, next, held_.movingSpan(), sliding()}; }
+  double takeUpStrings(double residual) noexcept;
+  double takeUpTogether() noexcept;
+  CordLinks* tied() noexcept { return cords_.any() ? &cords_ : nullptr; }
   void beginCarriers(const SubstepStart& start, const ClothState& state, double h) noexcept;
   double commitCarriers(ClothState& state, const Field& load) noexcept;
   Vec3 pullAt(int row, int column, const Field& warp, const Field& weft, bool strings) const noexcept;
@@ -178,6 +189,10 @@ class Constraints {
   const Workers& workers_;
   NetSolver net_;
   Carriers carriers_;
+  double middle_rest_;
+  CordLinks cords_;
+  Field rod_change_;      // of the rods' multipliers, with those of strings and cords; with cords only
+  Field3 moved_;          // by all of them [m]
   Field3 top_force_;      // on the nodes of the top row but the links' [N]; with a rail only
   double per_scale_ = 0;  // 1 / (h kick) [1/s^2]
   int presses_ = 0;       // times that the rail's friction has been set in this substep
@@ -187,8 +202,7 @@ class Constraints {
   bool weft_pulls_ = false;      // a multiplier of last_weft_ is not zero
   bool directions_set_ = false;  // of the weft, in this substep
   bool measured_ = false;        // violation_ and active_ belong to the present positions
-  double middle_rest_;
-  bool net_ready_ = false;  // net_ has directions of this substep
+  bool net_ready_ = false;       // net_ has directions of this substep
   Field violation_, active_, change_;
   Field free_per_square_;  // 1 / rest length^2 of weft links with a movable end [1/m^2]; others: 0
   std::vector<WarpMotion> block_motion_;

@@ -19,13 +19,17 @@ void Constraints::hold(const std::vector<std::uint8_t>& skipped_before, const Cl
   std::fill(active_.begin(), active_.end(), 0.0);
   net_.reset();
   tensions.heaviest = 0.0;
+  bool any_moves = false;
   for (int block = 0; block < warpBlockCount(grid); ++block) {
     const bool was_skipped = skipped_before[static_cast<std::size_t>(block)] != 0;
     const bool padding = block * kLane >= grid.columns;
     if (held_.skips(block) && (padding || !was_skipped)) freeze(block, state, tensions);
     if (!held_.skips(block) && was_skipped) thaw(block, tensions);
     if (!held_.skips(block)) tensions.heaviest = std::max(tensions.heaviest, heaviestOf(block, tensions.load));
+    any_moves = any_moves || !held_.skips(block);
   }
+  // Cloth with cords sleeps as a whole: now it wakes, and thaw() has counted its rods and strings alone.
+  if (any_moves && cords_.any()) tensions.heaviest = std::max(tensions.heaviest, cords_.addLoads(tensions.load));
 }
 
 void Constraints::freeze(int block, const ClothState& state, NodeInertia::Tensions& tensions) noexcept {
@@ -90,6 +94,7 @@ void Constraints::resume(const ClothState& state) noexcept {
     std::fill(field->begin(), field->end(), 0.0);
   std::fill(block_progress_.begin(), block_progress_.end(), RodsProgress());
   std::fill(block_motion_.begin(), block_motion_.end(), WarpMotion());
+  cords_.resume(state);
   scratch_.assign(pattern_.grid);
   net_.reset();
 }

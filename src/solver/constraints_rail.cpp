@@ -22,8 +22,9 @@ void Constraints::settleCarriers() noexcept {
   if (presses_ <= kFrictionSweeps) {
     ++presses_;
     carriers_.press([&](int column) -> Vec3 {
-      return per_scale_ * pullAt(0, column, warp_.multiplier, weft_.multiplier, directions_set_) +
-             top_force_.at(static_cast<std::size_t>(column));
+      const auto n = static_cast<std::size_t>(column);
+      const Vec3 pull = pullAt(0, column, warp_.multiplier, weft_.multiplier, directions_set_);
+      return per_scale_ * (cords_.any() ? Vec3(pull + cords_.presentPullAt(n)) : pull) + top_force_.at(n);
     });
   }
   if (carriers_.settle(next)) net_ready_ = false;

@@ -53,19 +53,19 @@ double Constraints::lookAtStrings(bool closely) noexcept {
   if (closely) return measureStrings();
   const double longest =
       worstOfRows([&](int i) { return weftSquare(pattern_.grid, i, held_.movingSpan(), next, free_per_square_); });
-  return longest > 1.0 ? 0.5 * (longest - 1.0) : 0.0;
+  return std::max(longest > 1.0 ? 0.5 * (longest - 1.0) : 0.0, cords_.measure(inertia_.inverse(), next));
 }
 
 double Constraints::measureStrings() noexcept {
   const LineSolve weft = wefts();
   const double worst = worstOfRows([&](int i) { return measureWeft(weft, i, violation_, active_); });
   measured_ = true;
-  return worst;
+  return std::max(worst, cords_.measure(inertia_.inverse(), next));
 }
 
 double Constraints::stringsResidual() noexcept {
   const LineSolve weft = wefts();
-  return worstOfRows([&](int i) { return weftResidual(weft, i); });
+  return std::max(worstOfRows([&](int i) { return weftResidual(weft, i); }), cords_.residual(inertia_.inverse(), next));
 }
 
 void Constraints::setWeftDirectionsAt(const Field3& position) noexcept {
@@ -73,33 +73,44 @@ void Constraints::setWeftDirectionsAt(const Field3& position) noexcept {
     setWeftDirections(pattern_.grid, i, held_.movingSpan(), position, weft_.direction);
     return 0.0;
   });
+  cords_.setDirections(position);
 }
 
 void Constraints::followDirections() noexcept {
   forEachBlock([&](int block) { setWarpDirections(pattern_.grid, block, next, warp_.direction); });
   setWeftDirectionsAt(next);
   carriers_.followDirections();
-  net_.begin(next, inertia_.inverse(), held_.movingSpan(), sliding());
+  net_.begin(next, inertia_.inverse(), held_.movingSpan(), sliding(), tied());
   directions_set_ = net_ready_ = true;
 }
 
 void Constraints::takeDirections(const Field3& start) noexcept {
   if (net_ready_) return;
   if (!directions_set_) setWeftDirectionsAt(start);
-  net_.begin(start, inertia_.inverse(), held_.movingSpan(), sliding());
+  net_.begin(start, inertia_.inverse(), held_.movingSpan(), sliding(), tied());
   directions_set_ = net_ready_ = true;
 }
 
 void Constraints::solveNet(const NetAim& aim, Contacts* contacts) noexcept {
   if (!measured_) measureStrings();
   measured_ = false;
-  const LineSolve weft = wefts();
   const Field* const multiplier = aim.newton ? &weft_.multiplier : nullptr;
   net_.solve(violation_, active_, {contacts, &next, false},
              {aim.residual * middle_rest_, aim.damping, aim.enough, kGradientIterations, multiplier}, change_);
-  const double move = aim.residual > kWatchMoves
-                          ? std::sqrt(worstOfRows([&](int i) { return weftMoveSquared(weft, i, change_); }))
-                          : 0.0;
+  const double share = cords_.any() ? takeUpTogether() : takeUpStrings(aim.residual);
+  if (contacts != nullptr) {
+    net_.forEachContactChange([&](std::uint32_t index, double push, const Vec3& slide) {
+      takeUpContact(inertia_.inverse(), share * push, share * slide, (*contacts)[index], next);
+    });
+  }
+  settleCarriers();
+}
+
+// Moves nodes by the changes of the strings, or by a share of them if they are large. Returns the share.
+double Constraints::takeUpStrings(double residual) noexcept {
+  const LineSolve weft = wefts();
+  const double move =
+      residual > kWatchMoves ? std::sqrt(worstOfRows([&](int i) { return weftMoveSquared(weft, i, change_); })) : 0.0;
   const double share = move > kLargestMove ? kLargestMove / move : 1.0;
   if (share != 1.0) {
     for (double& change : change_) change *= share;
@@ -109,12 +120,7 @@ void Constraints::solveNet(const NetAim& aim, Contacts* contacts) noexcept {
     pullWeft(weft, i, change_);
     return 0.0;
   });
-  if (contacts != nullptr) {
-    net_.forEachContactChange([&](std::uint32_t index, double push, const Vec3& slide) {
-      takeUpContact(inertia_.inverse(), share * push, share * slide, (*contacts)[index], next);
-    });
-  }
-  settleCarriers();
+  return share;
 }
 
 double Constraints::merit(const Contacts* contacts, double rods_lack) noexcept {
@@ -124,6 +130,7 @@ double Constraints::merit(const Contacts* contacts, double rods_lack) noexcept {
     const double relative = active_[n] * violation_[n] * pattern_.weft_per_square[n];
     sum += relative * relative;
   }
+  sum += cords_.squares();
   for (std::size_t k = 0; contacts != nullptr && k < contacts->size(); ++k) {
     const double relative = contactViolation((*contacts)[k], next) / middle_rest_;
     sum += relative * relative;
@@ -135,6 +142,7 @@ void Constraints::saveIterate(const Contacts* contacts) {
   best_.position = next;
   best_.warp = warp_.multiplier;
   best_.weft = weft_.multiplier;
+  cords_.saveIterate();
   if (contacts != nullptr) best_.contacts = *contacts;
 }
 
@@ -142,6 +150,7 @@ void Constraints::restoreIterate(Contacts* contacts) noexcept {
   next = best_.position;
   warp_.multiplier = best_.warp;
   weft_.multiplier = best_.weft;
+  cords_.restoreIterate();
   if (contacts != nullptr) *contacts = best_.contacts;
   measured_ = false;
 }

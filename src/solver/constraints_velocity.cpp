@@ -21,6 +21,7 @@ void Constraints::spreadForces(const LineSolve& warp, const LineSolve& weft, con
     for (std::size_t n = 0; n < pattern_.grid.size(); ++n) change_[n] = share * last_weft_[n];
     for (int i = 0; i < pattern_.grid.rows; ++i) pullWeft(weft, i, change_);
   }
+  cords_.spread(share, inertia_.masses(), warp.value);
   for (std::size_t n = 0; contacts != nullptr && n < contacts->size(); ++n) {
     const Contact& contact = (*contacts)[n];
     if (contact.pushes())
@@ -30,7 +31,7 @@ void Constraints::spreadForces(const LineSolve& warp, const LineSolve& weft, con
 
 void Constraints::addPulls(const Field3& position, const Contacts* contacts, double share, Field3& velocity) noexcept {
   setWarpDirections(pattern_.grid, position, warp_.direction);
-  if (weft_pulls_) setWeftDirectionsAt(position);
+  if (stringsPull()) setWeftDirectionsAt(position);
   spreadForces({pattern_, inertia_.masses(), warp_, velocity, held_.movingSpan()},
                {pattern_, inertia_.masses(), weft_, velocity, held_.movingSpan()}, contacts, share);
 }
@@ -41,7 +42,7 @@ void Constraints::project(const Field3& position, const Contacts* contacts, doub
   const LineSolve warp{pattern_, inertia_.masses(), warp_, velocity, held_.movingSpan(), sliding};
   const LineSolve weft{pattern_, inertia_.masses(), weft_, velocity, held_.movingSpan(), sliding};
   const bool presses = contacts != nullptr && anyPushes(*contacts);
-  const bool alone = !weft_pulls_ && !presses;
+  const bool alone = !stringsPull() && !presses;
   const auto settle = [&] {
     if (sliding != nullptr) carriers_.settleRates(velocity);
   };
@@ -55,16 +56,19 @@ void Constraints::project(const Field3& position, const Contacts* contacts, doub
   settle();
   solveRods();
   if (alone) return;
-  net_.begin(position, inertia_.masses(), held_.movingSpan(), sliding);
+  net_.begin(position, inertia_.masses(), held_.movingSpan(), sliding, tied());
   double first_rate = 0.0;
   for (int round = 0; round < (presses ? kContactRounds : kVelocityRounds); ++round) {
     double rate = worstOfRows([&](int i) { return measureWeftRates(weft, i, violation_, active_); });
+    if (cords_.any()) rate = std::max(rate, cords_.measureRates(velocity));
     if (presses) rate = std::max(rate, contactRate(*contacts, velocity) / middle_rest_);
     if (round == 0) first_rate = rate;
     if (rate == 0.0 || (round > 0 && rate <= kVelocityReduction * first_rate)) break;
     net_.solve(violation_, active_, {presses ? contacts : nullptr, &velocity, true},
                {rate * middle_rest_, kVelocityDamping, kVelocityReduction, kVelocityIterations}, change_);
     for (int i = 0; i < pattern_.grid.rows; ++i) pullWeft(weft, i, change_);
+    net_.forEachCordChange(
+        [&](std::size_t cord, double change) { cords_.push(cord, change, inertia_.masses(), velocity); });
     if (presses) {
       net_.forEachContactChange([&](std::uint32_t index, double push, const Vec3& slide) {
         const Contact& contact = (*contacts)[index];

@@ -34,7 +34,7 @@ ExactSolver::ExactSolver(const ClothPattern& pattern, double stretch_tolerance, 
       sweeps_(constraints_, inertia_, stretch_tolerance, stretch_tolerance * smallest_rest_, max_sweeps),
       guard_(pattern, inertia_, stretch_tolerance, constraints_.middleRest()),
       bdf2_(pattern),
-      last_resort_(pattern) {}
+      last_resort_(pattern, constraints_.cords()) {}
 
 void ExactSolver::reset() noexcept {
   gained_ = {};
@@ -73,6 +73,7 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   outcome.accepted = !outcome.disturbed && (progress.settled || plan.isLastResort());
   if (outcome.accepted) take(attempt, progress, outcome);
   constraints_.end(outcome.accepted);
+  if (!outcome.accepted) constraints_.cords().takeLengths(state);
   clock.lap(Stage::kFinish);
   return outcome;
 }
@@ -94,7 +95,7 @@ ExactSolver::Attempt ExactSolver::predict(const SubstepPlan& plan, const NodeFor
   const Scheme::Task task{plan, step, kick, forces, inertia_, bending_};
   const Attempt attempt{plan,   forces, finder, state, clock,
                         scheme, step,   kick,   ratio, scheme.start(task, state, outcome)};
-  constraints_.begin(attempt.start, state, plan.h, ratio);
+  constraints_.begin(attempt.start, state, plan.h, ratio, !plan.isLastResort());
   clock.lap(Stage::kPredict);
   return attempt;
 }
@@ -175,8 +176,9 @@ bool ExactSolver::needsEnergyCheck(const Attempt& attempt, const Progress& progr
 // Decides whether the substep may be accepted: it gains no energy and disturbs no sleeping column.
 void ExactSolver::judge(const Attempt& attempt, Progress& progress, SubstepOutcome& outcome) noexcept {
   const bool last_resort = attempt.plan.isLastResort();
-  const double surface =
+  const double touched =
       progress.contacts != nullptr ? fastestDrive(*progress.contacts, attempt.state.position, attempt.plan.h) : 0.0;
+  const double surface = std::max(touched, constraints_.cords().closingSpeed());
   const double drawn = constraints_.carriers().driveEnergy();
   if (progress.late || (last_resort && progress.alone())) {
     progress.most_kinetic = guard_.most(attempt.scheme.rules(), attempt.start, constraints_.next, surface, drawn);
@@ -241,7 +243,7 @@ void ExactSolver::take(const Attempt& attempt, const Progress& progress, Substep
   if (std::isfinite(progress.most_kinetic)) guard_.bound(progress.most_kinetic, state.velocity);
   gained_ = {};
   outcome.omega_squared = inertia_.omegaSquared();
-  if (progress.alone() && !constraints_.weftPulls()) outcome.turning = turning(outcome.kick);
+  if (progress.alone() && !constraints_.stringsPull()) outcome.turning = turning(outcome.kick);
   const double fastest = progress.contacts != nullptr ? fastestSurface(*progress.contacts) : 0.0;
   if (fastest > 0.0) outcome.longest_step = kMostSurfaceMotion * smallest_rest_ / fastest;
   // Such a substep also moved links to their lengths, which is no motion: project the velocities.
@@ -341,7 +343,7 @@ void ExactSolver::hold(const ColumnSet& columns, ClothState& state) noexcept {
   const double per_scale = tensions.scale != 0.0 ? 1.0 / tensions.scale : 0.0;
   for (int j = 0; j < grid.columns; ++j) {
     if (!columns.has(j) || held_.has(j)) continue;
-    for (int i = 0; i < grid.rows; ++i) state.velocity.set(grid.index(i, j), Vec3::Zero());
+    for (int i = 0; i < grid.allRows(); ++i) state.velocity.set(grid.index(i, j), Vec3::Zero());
   }
   for (int block = 0; block < warpBlockCount(grid); ++block) {
     skipped_before_[static_cast<std::size_t>(block)] = held_.skips(block) ? 1 : 0;

@@ -49,6 +49,12 @@ class ExactSolver {
     return constraints_.tensionsAt(row, column, inertia_.tensions().scale);
   }
 
+  /// Tension of a cord in the last substep [N].
+  double cordTension(std::size_t cord) const noexcept {
+    const double scale = inertia_.tensions().scale;
+    return scale != 0.0 ? cords().last(cord) * cords().all()[cord].length / scale : 0.0;
+  }
+
   /// As the last substep, or question, saw it.
   const Bending& bending() const noexcept { return bending_; }
   /// Forces of the last substep with those of bending [N]; null: limp cloth.
@@ -83,8 +89,11 @@ class ExactSolver {
   Carriers& carriers() noexcept { return constraints_.carriers(); }
   const Carriers& carriers() const noexcept { return constraints_.carriers(); }
 
-  /// A string pulled in the last substep.
-  bool weftPulls() const noexcept { return constraints_.weftPulls(); }
+  CordLinks& cords() noexcept { return constraints_.cords(); }
+  const CordLinks& cords() const noexcept { return constraints_.cords(); }
+
+  /// A string, or a cord, pulled in the last substep.
+  bool stringsPull() const noexcept { return constraints_.stringsPull(); }
 
   /// What a substep leaves to the next; restored when substeps are repeated.
   struct Memory {

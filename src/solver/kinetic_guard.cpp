@@ -146,7 +146,7 @@ double KineticGuard::drivenBy(const Field3& velocity, const Vec3& frame, double 
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     if (inertia_.masses()[n] > 0.0) {
       mass += pattern_.mass[n];
-    } else if (pattern_.mass[n] > 0.0) {
+    } else if (pattern_.isThere(n)) {
       fastest = std::max(fastest, (velocity.at(n) - frame).squaredNorm());
     }
   }

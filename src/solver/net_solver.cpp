@@ -25,9 +25,10 @@ NetSolver::NetSolver(const ClothPattern& pattern, const Workers& workers)
     : pattern_(pattern),
       workers_(workers),
       stride_((static_cast<std::size_t>((pattern.grid.columns + kColumns) / kColumns) | 1U) * kColumns),
-      row_blocks_((pattern.grid.rows + kRows - 1) / kRows) {
-  // Whole row blocks, and a row of zeros below the last one.
-  const std::size_t size = (static_cast<std::size_t>(row_blocks_) * kRows + 1) * stride_;
+      row_blocks_((pattern.grid.rows + kRows - 1) / kRows),
+      cords_(pattern.cords.cords.size()) {
+  // Whole row blocks, and a row of zeros below the last one; of the ends' rows nothing but nodal values is used.
+  const std::size_t size = (static_cast<std::size_t>(row_blocks_ * kRows + 1 + pattern.grid.end_rows)) * stride_;
   for (Values* values : allVectors()) values->assign(size, 0.0F);
   const auto reciprocal = [](const Field& rest) {
     Field out(rest.size());
@@ -106,8 +107,9 @@ CURTAIN_WIDE void NetSolver::takeRow(const Field3& position, const Field& invers
 }
 
 void NetSolver::begin(const Field3& position, const Field& inverse_inertia, const ColumnSpan& span,
-                      const Carriers* carriers) noexcept {
+                      const Carriers* carriers, const CordLinks* cords) noexcept {
   carriers_ = carriers;
+  cord_links_ = cords;
   first_block_ = static_cast<int>(span.first) / kColumns;
   moving_blocks_ = (static_cast<int>(span.end) + kColumns - 1) / kColumns - first_block_;
   inertia_scale_ = largestOf(inverse_inertia);
@@ -116,6 +118,7 @@ void NetSolver::begin(const Field3& position, const Field& inverse_inertia, cons
     const int end = std::min((b + 1) * kRows, pattern_.grid.rows);
     for (int i = b * kRows; i < end; ++i) takeRow(position, inverse_inertia, span, i);
   });
+  if (cord_links_ != nullptr) takeEnds(inverse_inertia);
   if (carriers_ != nullptr) takeCarriers();
   workers_.run(moving_blocks_, [&](int b) {
     factorWarp(first_block_ + b);
@@ -235,36 +238,43 @@ void NetSolver::closeRows(Values& links) noexcept {
   for (int i = 0; i < pattern_.grid.rows; ++i) links[row(i) + columns] = links[row(i)];
 }
 
-// product_ = S pull_, and the contacts' part of it; returns pull_ . product_.
+// product_ = S pull_, and the part of contacts and cords; returns pull_ . product_.
 double NetSolver::applySchur() noexcept {
   closeRows(pull_);
   workers_.run(moving_blocks_, [&](int b) { answerOfRods(first_block_ + b); });
   const double sum = sumOverRowBlocks([&](int b) { return schurProduct(b); });
-  if (!contacts_.any()) return sum;
+  if (!anyPushes()) return sum;
   workers_.run(moving_blocks_, [&](int b) {
     moveNodes(first_block_ + b);
     if (carriers_ != nullptr) keepOnRail(move_, (first_block_ + b) * kColumns, (first_block_ + b + 1) * kColumns);
   });
-  return sum + contacts_.product({move_.x.data(), move_.y.data(), move_.z.data()},
-                                 {push_.x.data(), push_.y.data(), push_.z.data()});
+  const NetNodes move{move_.x.data(), move_.y.data(), move_.z.data()}, push = pushes();
+  moveEnds();
+  const double of_contacts = sum + contacts_.product(move, push);
+  return cords_.any() ? of_contacts + cords_.product(move, push) : of_contacts;
 }
 
 double NetSolver::step(Real alpha) noexcept {
   sumOverRowBlocks([&](int b) { return advance(b, alpha); });
-  return std::max(*std::max_element(partial_.begin(), partial_.end()), contacts_.advance(alpha));
+  const double left = std::max(*std::max_element(partial_.begin(), partial_.end()), contacts_.advance(alpha));
+  return cords_.any() ? std::max(left, cords_.advance(alpha)) : left;
 }
 
 // Updates the active set of strings; false: no change.
 bool NetSolver::changeStrings(Real goal) noexcept {
-  if (sumOverRowBlocks([&](int b) { return countChanges(b, goal); }) == 0.0) return false;
+  const double of_strings = sumOverRowBlocks([&](int b) { return countChanges(b, goal); });
+  const int of_cords = cords_.any() ? cords_.countChanges(goal) : 0;
+  if (of_strings == 0.0 && of_cords == 0) return false;
   changed_ = partial_;
-  const double leave = sumOverRowBlocks([&](int b) { return changeSet(b, goal); });
+  double leave = sumOverRowBlocks([&](int b) { return changeSet(b, goal); });
+  if (cords_.any()) leave += cords_.changeSet(goal, pushes());
   // In a second loop: factorWeft() reads whole vectors, with the first link of the block below.
   sumOverRowBlocks([&](int b) {
     if (changed_[static_cast<std::size_t>(b)] > 0.0) factorWeft(b);
     return 0.0;
   });
   if (leave == 0.0) return true;
+  if (carriers_ != nullptr && cords_.any()) keepOnRail(push_, 0, pattern_.grid.columns);
   applySchur();
   step(1.0F);
   return true;
@@ -272,7 +282,9 @@ bool NetSolver::changeStrings(Real goal) noexcept {
 
 void NetSolver::findPushed() noexcept {
   std::fill(pushed_.begin(), pushed_.end(), std::uint8_t{0});
-  contacts_.forEachNode([this](std::uint32_t node) { pushed_[node / kColumns] = 1; });
+  const auto push = [this](std::uint32_t node) { pushed_[node / kColumns] = 1; };
+  contacts_.forEachNode(push);
+  if (cords_.any()) cords_.forEachNode(push);
 }
 
 // The loop ends before non-finite numbers reach the vectors. With contacts the active set stays fixed: their rows are
@@ -282,11 +294,13 @@ NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active,
   Outcome outcome;
   damping_ = static_cast<float>(aim.damping);
   violation_scale_ = aim.largest;
-  contacts_.load({pattern_.grid, stride_, weight_.data(), inertia_scale_, violation_scale_, damping_}, contacts);
+  const NetContacts::Frame frame{pattern_.grid, stride_, weight_.data(), inertia_scale_, violation_scale_, damping_};
+  contacts_.load(frame, contacts);
+  const bool changes = aim.multiplier != nullptr && !contacts_.any();
+  loadCords(frame, changes);
   findPushed();
   workers_.run(row_blocks_, [&](int b) { load(violation, active, aim.multiplier, b); });
   if (carriers_ != nullptr) leaveOutFixedLinks();
-  const bool changes = aim.multiplier != nullptr && !contacts_.any();
   sumOverRowBlocks([&](int b) {
     factorWeft(b);
     return 0.0;
@@ -295,7 +309,8 @@ NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active,
   bool anew = true;
   outcome.reduction = 1.0;
   while (true) {
-    const double next = sumOverRowBlocks([&](int b) { return precondition(b); }) + contacts_.aligned();
+    const double next =
+        sumOverRowBlocks([&](int b) { return precondition(b); }) + contacts_.aligned() + cords_.aligned();
     const float beta = anew ? 0.0F : static_cast<float>(next / aligned);
     aligned = next;
     anew = false;
@@ -305,7 +320,8 @@ NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active,
       conjugate(b, beta);
       return 0.0;
     });
-    contacts_.turn(beta, {push_.x.data(), push_.y.data(), push_.z.data()});
+    contacts_.turn(beta, pushes());
+    if (cords_.any()) cords_.turn(beta, pushes());
     if (carriers_ != nullptr) keepOnRail(push_, 0, pattern_.grid.columns);
     const double curvature = applySchur();
     const auto alpha = static_cast<float>(aligned / curvature);

@@ -25,6 +25,7 @@
 #include "cloth/column_set.h"
 #include "solver/carriers.h"
 #include "solver/net_contacts.h"
+#include "solver/net_cords.h"
 #include "solver/workers.h"
 
 namespace curtain {
@@ -39,9 +40,9 @@ class NetSolver {
 
   /// Sets the links' directions from these positions, and the nodes' inverse inertia [1/kg]. Nothing moves outside the
   /// span; call reset() before the span changes. carriers: those that slide, with their directions of these positions;
-  /// or null.
+  /// cords: with theirs, which solve() looks at again; or null.
   void begin(const Field3& position, const Field& inverse_inertia, const ColumnSpan& span,
-             const Carriers* carriers = nullptr) noexcept;
+             const Carriers* carriers = nullptr, const CordLinks* cords = nullptr) noexcept;
 
   /// Zeroes all vectors, e.g. after a solve with non-finite numbers.
   void reset() noexcept;
@@ -72,6 +73,15 @@ class NetSolver {
   template <typename Take>
   void forEachContactChange(const Take& take) const {
     contacts_.forEachChange(multiplierScale(), take);
+  }
+  /// Where cords take part: the change of the rods' multipliers [kg] that keeps their lengths under the last solve()'s
+  /// changes of strings and cords, which must have been of positions. out: shape of the grid. What cords with a heavy
+  /// load pull by, and the rods pull back, is far larger than what both leave: nodes are to be moved by all together.
+  void answerSolution(Field& out) noexcept;
+  /// The cords' part: take(index, change of the multiplier). Of positions: after answerSolution().
+  template <typename Take>
+  void forEachCordChange(const Take& take) const {
+    if (cord_links_ != nullptr) cords_.forEachChange(multiplierScale(), take);
   }
 
  private:
@@ -105,6 +115,13 @@ class NetSolver {
   void leaveOutFixedLinks() noexcept;
   void keepOnRail(Values3& vectors, int first, int end) noexcept;
   void findPushed() noexcept;
+  void loadCords(const NetContacts::Frame& frame, bool bounded) noexcept;
+  void takeEnds(const Field& inverse_inertia) noexcept;
+  void moveEnds() noexcept;
+  double mobilityOf(std::uint32_t node, const Vec3& along) const noexcept;
+  NetNodes pushes() noexcept { return {push_.x.data(), push_.y.data(), push_.z.data()}; }
+  /// Contacts or cords take part, which act on nodes.
+  bool anyPushes() const noexcept { return contacts_.any() || cords_.any(); }
   bool isPushed(int row, int block) const noexcept {
     return pushed_[static_cast<std::size_t>(row * (static_cast<int>(stride_) / kColumns) + block)] != 0;
   }
@@ -120,6 +137,11 @@ class NetSolver {
   std::array<Values*, 32> allVectors() noexcept;
   double multiplierScale() const noexcept { return violation_scale_ / inertia_scale_; }
   std::size_t row(int i) const { return static_cast<std::size_t>(i) * stride_; }
+  /// Of a node of the fields.
+  std::size_t placeOf(std::size_t node) const {
+    const auto grid_stride = static_cast<std::size_t>(pattern_.grid.stride);
+    return node / grid_stride * stride_ + node % grid_stride;
+  }
 
   const ClothPattern& pattern_;
   const Workers& workers_;
@@ -138,11 +160,13 @@ class NetSolver {
   Values above_left_, above_right_;      // A_wf at a node: the rod above with the link on the left, on the right
   Values below_left_, below_right_;      // the same for the rod below
   Values rods_;                          // A_ww^-1 A_wf pull_: minus the change of the rods' multipliers
-  Values3 move_;                         // of the nodes of contacts
-  Values3 push_;                         // nodal impulses of the contacts' search direction; zero outside a product
+  Values3 move_;                         // of the nodes of contacts and cords
+  Values3 push_;                         // nodal impulses of their search direction; zero outside a product
   NetContacts contacts_;
+  NetCords cords_;
+  const CordLinks* cord_links_ = nullptr;
   const Carriers* carriers_ = nullptr;
-  std::vector<std::uint8_t> pushed_;  // by row and block of columns: it has a node of a contact
+  std::vector<std::uint8_t> pushed_;  // by row and block of columns: it has a node of a contact or cord
   Values mask_, residual_, preconditioned_, pull_, product_, solution_;
   Values least_;                    // lower bound of the solution: minus the multipliers
   Values interleaved_;              // scratch of precondition()

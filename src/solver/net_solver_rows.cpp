@@ -92,7 +92,7 @@ CURTAIN_WIDE void NetSolver::factorWeft(int b) noexcept {
   }
 }
 
-// rods_ = the rods' response to pull_ (and to the contacts' push_), for a block of columns.
+// rods_ = the rods' response to pull_ (and to push_), for a block of columns.
 CURTAIN_WIDE void NetSolver::answerOfRods(int block) noexcept {
   const std::size_t first = static_cast<std::size_t>(block) * kColumns;
   const int rows = pattern_.grid.rows;
@@ -109,7 +109,7 @@ CURTAIN_WIDE void NetSolver::answerOfRods(int block) noexcept {
       s[j] = above_left[j] * p[j] + above_right[j] * p[j + 1] + below_left[j] * p_above[j] +
              below_right[j] * p_above[j + 1] - lower_above[j] * s_above[j];
     }
-    if (!contacts_.any() || !(isPushed(i, block) || isPushed(i - 1, block))) continue;
+    if (!anyPushes() || !(isPushed(i, block) || isPushed(i - 1, block))) continue;
     const float *const w = &weight_[k], *const w_above = &weight_[above];
     const float *const nx = &warp_.x[k], *const ny = &warp_.y[k], *const nz = &warp_.z[k];
     const float *const px = &push_.x[k], *const py = &push_.y[k], *const pz = &push_.z[k];
@@ -131,7 +131,7 @@ CURTAIN_WIDE void NetSolver::answerOfRods(int block) noexcept {
   }
 }
 
-// move_ = displacement of a block's nodes, where contacts are.
+// move_ = displacement of a block's nodes, where contacts and cords are.
 CURTAIN_WIDE void NetSolver::moveNodes(int block) noexcept {
   const std::size_t first = static_cast<std::size_t>(block) * kColumns;
   const auto move = [&](std::size_t k, const Values& warp, const Values& weft, const Values& push, Values& out) {
@@ -177,12 +177,12 @@ CURTAIN_WIDE double NetSolver::schurProduct(int b) noexcept {
       q[row(i)] = product(row(i) + last, row(i));
       q[row(i) + last + 1] = 0.0F;
     }
-    if (contacts_.any()) addPushes(i);
+    if (anyPushes()) addPushes(i);
   }
   return dot(q + first, p + first, count);
 }
 
-// Adds the contacts' part of a row of product_.
+// Adds the part of contacts and cords of a row of product_.
 CURTAIN_INTO_WIDE void NetSolver::addPushes(int i) noexcept {
   const auto columns = static_cast<std::size_t>(pattern_.grid.columns);
   const std::size_t k = row(i);

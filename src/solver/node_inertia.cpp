@@ -10,9 +10,10 @@
 namespace curtain {
 namespace {
 
+// Of the cloth: with heavy loads, a share of the whole would be all of its mass.
 double freeMass(const ClothPattern& pattern, const Field& inverse_mass) {
   double sum = 0.0;
-  for (std::size_t n = 0; n < pattern.grid.size(); ++n) {
+  for (std::size_t n = 0; n < pattern.grid.row(pattern.grid.rows); ++n) {
     if (inverse_mass[n] > 0.0) sum += pattern.mass[n];
   }
   return sum;

@@ -39,9 +39,14 @@ StepControl::StepControl(const SolverParams& params, const ClothPattern& pattern
       fixed_substeps_(fixedSubsteps(params)),
       max_substeps_(std::max(params.max_substeps, kRoomBelowFixed * params.substeps)),
       method_(params.method),
+      phase_share_(phaseShare(pattern)),
       initial_omega_(hangingOmega(pattern, gravity)),
       composed_(params.method == Method::kLeapfrog4) {
   reset();
+}
+
+double StepControl::phaseShare(const ClothPattern& pattern) noexcept {
+  return pattern.cords.empty() ? 1.0 : kShareWithCords;
 }
 
 void StepControl::reset() noexcept {
@@ -71,11 +76,11 @@ void StepControl::wake(const ExactSolver& solver) noexcept {
 
 double StepControl::stepFromTensions(bool frame_begins, const ExactSolver& solver) noexcept {
   const double longest_stage = composed_ ? kLongestStage : 1.0;
-  const double for_phase = omega_ > 0.0 ? kPhasePerStep / (longest_stage * omega_) : frame_;
+  const double for_phase = omega_ > 0.0 ? phase_share_ * kPhasePerStep / (longest_stage * omega_) : frame_;
   if (method_ != Method::kAuto || for_phase > kWorthLooking * frame_) return for_phase;
   // Once a frame: an impact within it is no reason for longer steps. But at its beginning no tensions may be known.
   if (frame_begins || std::isinf(scaled_step_))
-    scaled_step_ = solver.inertia().stepForPhase(kPhasePerStep, kMassScalingShare);
+    scaled_step_ = solver.inertia().stepForPhase(phase_share_ * kPhasePerStep, kMassScalingShare);
   return std::isfinite(scaled_step_) ? std::max(for_phase, scaled_step_) : for_phase;
 }
 
@@ -102,7 +107,7 @@ SubstepPlan StepControl::next(double remaining, const ExactSolver& solver) noexc
   if (method_ == Method::kImplicit) plan.scheme = SchemeKind::kImplicit;
   if (method_ == Method::kBdf2) plan.scheme = SchemeKind::kBdf2;
   const bool leapfrog = plan.scheme == SchemeKind::kLeapfrog;
-  if (leapfrog && method_ == Method::kAuto) plan.most_phase = kStablePhase;
+  if (leapfrog && method_ == Method::kAuto) plan.most_phase = phase_share_ * kStablePhase;
   if (leapfrog && fixed_substeps_ == 0) {
     const double for_phase = stepFromTensions(frame_begins, solver);
     const double for_turn = turning_ > 0.0 && !composed_ ? kTurnPerStep / turning_ : frame_;
@@ -113,7 +118,7 @@ SubstepPlan StepControl::next(double remaining, const ExactSolver& solver) noexc
     plan.scheme = SchemeKind::kLastResort;
     plan.reach = trust_.reach();
     plan.precise = false;
-    plan.most_phase = kStablePhase;
+    plan.most_phase = phase_share_ * kStablePhase;
     step = std::max(smallest, frame_ / kLastResortSubsteps);
   }
   if (!plan.isLastResort()) step = stretch(step, remaining);
@@ -123,7 +128,7 @@ SubstepPlan StepControl::next(double remaining, const ExactSolver& solver) noexc
 }
 
 double StepControl::longestStableStep() const noexcept {
-  return omega_ > 0.0 ? kLongestPhase / ((composed_ ? kLongestStage : 1.0) * omega_) : frame_;
+  return omega_ > 0.0 ? phase_share_ * kLongestPhase / ((composed_ ? kLongestStage : 1.0) * omega_) : frame_;
 }
 
 bool StepControl::askFor(int substeps) noexcept {

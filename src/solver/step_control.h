@@ -17,6 +17,9 @@ class StepControl {
   StepControl(const SolverParams& params, const ClothPattern& pattern, const Vec3& gravity);
 
   void reset() noexcept;
+
+  /// Share of the h * omega of cloth without cords that steps are chosen for.
+  static double phaseShare(const ClothPattern& pattern) noexcept;
   void takeGravity(const ClothPattern& pattern, const Vec3& gravity) noexcept;
   /// Sets the length of the next frames [s]. To be called between two frames.
   void takeFrame(double length) noexcept;
@@ -51,6 +54,7 @@ class StepControl {
   int fixed_substeps_;
   int max_substeps_;
   Method method_;
+  double phase_share_;    // of the constants for h omega
   double initial_omega_;  // of the cloth hanging by its weight [1/s]
   double omega_;          // from the last tensions [1/s]
   double turning_;        // of the last substep [1/s]

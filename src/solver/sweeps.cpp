@@ -35,7 +35,7 @@ Sweeps::Aim Sweeps::aimOf(const SweepTask& task, bool first, bool touches, int s
     contact *= std::clamp(share, sweeps < kStrictSweeps ? kStrictShare : 1.0, task.last_resort ? 1.0 : kMostTouch);
     if (sweeps < kStrictSweeps) strict = std::clamp(share, kStrictShare, 1.0);
   }
-  if (sweeps < kStrictSweeps && !touches && (constraints_.weftPulls() || constraints_.stringsAct())) {
+  if (sweeps < kStrictSweeps && !touches && (constraints_.stringsPull() || constraints_.stringsAct())) {
     // The last resort leaves no more than its far shorter successors can correct without a jump.
     strict =
         task.last_resort ? kLastResortShare
@@ -59,7 +59,7 @@ Sweeps::Residual Sweeps::look(Contacts* contacts, const Constraints::RodsProgres
   }
   if (touches) residual.touch = contactResidual(*contacts, constraints_.next);
   clock.lap(Stage::kContact);
-  residual.strings = constraints_.lookAtStrings(constraints_.weftPulls() || !first);
+  residual.strings = constraints_.lookAtStrings(constraints_.stringsPull() || !first);
   return residual;
 }
 
@@ -104,9 +104,9 @@ SweepOutcome Sweeps::run(const SweepTask& task, Contacts* contacts, StageClock& 
     const Aim aim = aimOf(task, first, touches, outcome.sweeps);
     const Constraints::RodsProgress rods =
         constraints_.solveRods({follow,
-                                task.precise                         ? kPreciseStop
-                                : first && !constraints_.weftPulls() ? kNewtonStop
-                                                                     : kNewtonStopLater,
+                                task.precise                           ? kPreciseStop
+                                : first && !constraints_.stringsPull() ? kNewtonStop
+                                                                       : kNewtonStopLater,
                                 first ? 0.0 : kLeaveAlone * aim.links, task.last_resort ? kInfinity : kMostViolation});
     clock.lap(Stage::kWarp);
     if (first) outcome.predicted_violation = rods.first_residual;

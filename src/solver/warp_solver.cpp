@@ -353,7 +353,7 @@ CURTAIN_WIDE Stretch warpStretch(const ClothPattern& pattern, const Field3& posi
   const Grid& grid = pattern.grid;
   const auto stride = static_cast<std::size_t>(grid.stride);
   double longest = 1.0, shortest = 1.0;  // squared, over the rest length's square
-  for (std::size_t row = stride; row < grid.size(); row += stride) {
+  for (std::size_t row = stride; row < grid.row(grid.rows); row += stride) {
     const ConstFieldView above(position, row - stride), below(position, row);
     const double* const w = pattern.inverse_mass.data() + row;
     const double* const w_above = w - stride;

@@ -68,6 +68,10 @@ class Breaker {
   void node(Key key, const std::optional<curtain::NodeIndex>& value) {
     if (value) add(key, {"1", "[1]", "[1, 2, 3]", "[0, 99999]", "[-1, 0]", "[0.5, 0]", "[a, b]", "~"});
   }
+  void nodes(Key key, const std::vector<curtain::NodeIndex>&) {
+    add(key,
+        {"1", "{}", "all", "[]", "[1]", "[[1]]", "[[0, 99999]]", "[[-1, 0]]", "[[0, 0], [0, 0]]", "[[0.5, 0]]", "~"});
+  }
   void numbers(Key key, const std::vector<double>&, Range range) {
     add(key, {"1", "{}", "all", "~", "[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20]"});
     for (const std::string& value : badNumbers(range)) add(key, "[" + value + "]");

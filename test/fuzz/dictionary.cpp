@@ -34,6 +34,7 @@ class WordCollector {
   void scale(Key key, const curtain::Vec3&, Range) { note(key); }
   void rotation(Key key, const curtain::Rotation&) { note(key); }
   void node(Key key, const std::optional<curtain::NodeIndex>&) { note(key); }
+  void nodes(Key key, const std::vector<curtain::NodeIndex>&) { note(key); }
   void numbers(Key key, const std::vector<double>&, Range) { note(key); }
   void integers(Key key, const std::vector<int>&, curtain::IntRange) { note(key); }
   void path(Key key, const std::vector<curtain::RailPiece>&, Range) {

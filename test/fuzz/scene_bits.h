@@ -41,6 +41,10 @@ class SceneBits {
     for (int i = 0; i < 4; ++i) add(value.coeffs()[i]);
   }
   void node(Key, const std::optional<curtain::NodeIndex>& value) { addOptional(value); }
+  void nodes(Key, const std::vector<curtain::NodeIndex>& values) {
+    add(values.size());
+    for (const curtain::NodeIndex& node : values) addOne(node);
+  }
   void numbers(Key, const std::vector<double>& values, Range) {
     add(values.size());
     for (const double value : values) add(value);
@@ -58,8 +62,7 @@ class SceneBits {
   }
   void pins(Key, const curtain::PinParams& value) {
     add(value.kind);
-    add(value.nodes.size());
-    for (const curtain::NodeIndex& node : value.nodes) addOne(node);
+    nodes("nodes", value.nodes);
   }
   void slits(Key, const std::vector<curtain::SlitParams>& values) {
     add(values.size());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth/cloth.h"
 #include "scene/heading.h"
 
 namespace curtain_test {
@@ -65,6 +66,31 @@ void fitRail(Scene& scene, Choices& choices) {
   rail.carriers.gap = choices.between(0.01, 0.5) * 0.3 * scene.cloth.width / (scene.cloth.columns - 1);
 }
 
+// Lines from nodes of the cloth, each once, to an end that they reach.
+void fitLines(Scene& scene) {
+  const curtain::ClothParams& cloth = scene.cloth;
+  for (curtain::LineParams& line : scene.lines) {
+    std::vector<NodeIndex> nodes;
+    for (NodeIndex& node : line.nodes) {
+      putOnGrid(node, cloth);
+      const bool is_new = std::none_of(nodes.begin(), nodes.end(), [&](const NodeIndex& other) {
+        return other.row == node.row && other.column == node.column;
+      });
+      if (is_new) nodes.push_back(node);
+    }
+    line.nodes = nodes;
+    if (!line.to && (!line.mass || !line.length || scene.gravity.isZero())) line.to = scene.hang.from;
+    if (line.to && line.length) line.length = std::max(*line.length, 4.0 * (cloth.width + cloth.height));
+  }
+  for (curtain::TieBackParams& loop : scene.tie_back) {
+    loop.row = std::min(loop.row, cloth.rows - 1);
+    loop.last_column = std::min(loop.last_column, cloth.columns - 1);
+    loop.first_column = std::min(loop.first_column, loop.last_column);
+  }
+  if (scene.solver.method == curtain::Method::kPaper && !(scene.lines.empty() && scene.tie_back.empty()))
+    scene.solver.method = curtain::Method::kAuto;
+}
+
 // Values that have a meaning together; what is left over is for validate().
 void fitTogether(Scene& scene, Choices& choices) {
   curtain::ClothParams& cloth = scene.cloth;
@@ -102,6 +128,7 @@ void fitTogether(Scene& scene, Choices& choices) {
   if (cloth.closed || !(fullness >= 1.0 && fullness <= 3.0)) scene.hang.fullness.reset();
   fitRail(scene, choices);
   for (NodeIndex& pin : scene.pins.nodes) putOnGrid(pin, cloth);
+  fitLines(scene);
   if (scene.air.law == curtain::AirLaw::kRelative) {
     scene.air.density = std::max(scene.air.density, 1e-6);
     scene.air.inside = scene.air.border = scene.air.corner = 0.0;
@@ -171,6 +198,10 @@ void SceneMaker::rotation(Key, curtain::Rotation& value) {
   if (q.norm() > 0.01) value = Eigen::Quaterniond(q).normalized();
 }
 
+void SceneMaker::nodes(Key, std::vector<NodeIndex>& values) {
+  for (std::uint64_t left = 1 + choices_.below(4); left > 0; --left) values.push_back(pickNode());
+}
+
 void SceneMaker::numbers(Key, std::vector<double>& values, Range range) {
   if (!choices_.oneIn(4)) return;
   for (int i = 0; i < 3; ++i) values.push_back(pick(range, 1.0));
@@ -212,6 +243,10 @@ std::optional<Scene> makeScene(Choices& choices) {
   if (!curtain::validate(scene).empty()) scene.hang.pressed = 0.0;
   if (!curtain::validate(scene).empty()) scene.cloth.bending_warp = scene.cloth.bending_weft = 0.0;
   if (!curtain::validate(scene).empty()) return std::nullopt;
+  if (!curtain::problemsOfCords(scene, curtain::makePattern(scene)).empty()) {
+    scene.lines.clear();
+    scene.tie_back.clear();
+  }
   return scene;
 }
 

@@ -50,6 +50,7 @@ class SceneMaker {
   void node(Key, std::optional<curtain::NodeIndex>& value) {
     if (choices_.oneIn(2)) value = pickNode();
   }
+  void nodes(Key, std::vector<curtain::NodeIndex>& values);
   void numbers(Key, std::vector<double>& values, curtain::Range range);
   void integers(Key, std::vector<int>& values, curtain::IntRange range);
   void pins(Key, curtain::PinParams& value);

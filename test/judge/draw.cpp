@@ -259,6 +259,51 @@ void putOnRail(Drawn& drawn) {
   if (!validate(scene).empty()) rail = RailParams();
 }
 
+LineParams drawLine(Dice& dice, bool wild, const std::string& id, const Scene& scene) {
+  LineParams line;
+  line.id = id;
+  const int row = dice.chance(0.6) ? scene.cloth.rows - 1 : dice.integer(0, scene.cloth.rows - 1);
+  const int step = dice.integer(1, scene.cloth.columns);
+  for (int column = dice.integer(0, step - 1); column < scene.cloth.columns; column += step)
+    line.nodes.push_back({row, column});
+  const double size = scene.cloth.width + scene.cloth.height;
+  line.to = scene.hang.from - scene.cloth.height * Vec3::UnitZ() + dice.between(0.05, 1.0) * size * dice.direction();
+  if (dice.chance(0.6))
+    line.mass =
+        dice.magnitude(1e-3, wild ? 1e2 : 10.0) * scene.cloth.surface_density * scene.cloth.width * scene.cloth.height;
+  return line;
+}
+
+// Loads, guy lines and tie-backs.
+void drawLines(Drawn& drawn) {
+  Dice dice(3 * drawn.seed + static_cast<std::uint64_t>(drawn.kind) + (11ULL << 59));
+  Scene& scene = drawn.scene;
+  const bool wild = drawn.kind == Kind::kWild;
+  if (scene.solver.method == Method::kPaper || !dice.chance(0.15)) return;
+  for (int left = dice.integer(0, 2); left > 0; --left)
+    scene.lines.push_back(drawLine(dice, wild, "line" + std::to_string(left), scene));
+  if (scene.lines.empty() || dice.chance(0.3)) {
+    TieBackParams loop;
+    loop.id = "tie";
+    loop.row = dice.integer(1, scene.cloth.rows - 1);
+    loop.first_column = dice.integer(0, scene.cloth.columns - 1);
+    loop.last_column = dice.integer(loop.first_column, scene.cloth.columns - 1);
+    loop.radius = dice.between(0.05, 0.5) * scene.cloth.width;
+    loop.speed = dice.magnitude(0.1, wild ? 10.0 : 1.0);
+    const double depth = scene.cloth.height * loop.row / (scene.cloth.rows - 1);
+    loop.point = 0.5 * (scene.hang.from + (scene.cloth.closed ? scene.hang.from : scene.hang.to)) -
+                 dice.between(0.3, 0.9) * depth * Vec3::UnitZ() +
+                 0.3 * scene.cloth.width * dice.between(-1.0, 1.0) * Vec3::UnitX();
+    scene.tie_back.push_back(loop);
+    drawn.happenings.pin_swing = drawn.happenings.pin_jerk = Vec3::Zero();
+    if (dice.chance(0.6)) drawn.happenings.tie_back = dice.chance(0.5) ? 0 : 1;
+    scene.tie_back[0].closed = drawn.happenings.tie_back != 1;
+  }
+  if (validate(scene).empty() && problemsOfCords(scene, makePattern(scene)).empty()) return;
+  scene.lines.clear();
+  scene.tie_back.clear();
+}
+
 }  // namespace
 
 const char* kindName(Kind kind) {
@@ -302,6 +347,7 @@ Drawn draw(Kind kind, std::uint64_t seed) {
   if (kind != Kind::kSudden) putOnRail(drawn);
   if (!validate(scene).empty()) scene.cloth.hem_width.reset();  // tapered more than its rods can slant
   if (beginsTorn(scene)) scene.cloth.hem_width.reset();
+  if (kind != Kind::kSudden) drawLines(drawn);
   return drawn;
 }
 

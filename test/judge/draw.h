@@ -28,7 +28,8 @@ struct Happenings {
   curtain::Vec3 gravity = curtain::Vec3::Zero();    ///< from `at` on [m/s^2]; zero: as it was
   double other_rate = 0.0;                          ///< frames a second from `at` on; 0: as before
   double opening = -1.0;                            ///< a rail's drive draws to it from `at` on; negative: none
-  double at = 0.0;  ///< when pins jerk, a drive sets in, and gravity and frame rate change [s]
+  int tie_back = -1;  ///< from `at` on the first one is open (0), closed (1); -1: as it was
+  double at = 0.0;    ///< when pins jerk, a drive or a tie-back sets in, and gravity and frame rate change [s]
 };
 
 struct Drawn {

@@ -33,6 +33,7 @@ std::string write(const Drawn& drawn) {
   put(out, "gravity", happenings.gravity);
   out << YAML::Key << "other_rate" << YAML::Value << happenings.other_rate;
   out << YAML::Key << "opening" << YAML::Value << happenings.opening;
+  out << YAML::Key << "tie_back" << YAML::Value << happenings.tie_back;
   out << YAML::Key << "at" << YAML::Value << happenings.at;
   out << YAML::Key << "scene" << YAML::Value << YAML::Literal << writeScene(drawn.scene);
   out << YAML::EndMap;
@@ -58,6 +59,7 @@ Drawn readTrial(const std::string& text) {
   drawn.happenings.gravity = vector("gravity");
   drawn.happenings.other_rate = node["other_rate"].as<double>();
   drawn.happenings.opening = node["opening"].as<double>(-1.0);  // trials of before have none
+  drawn.happenings.tie_back = node["tie_back"].as<int>(-1);
   drawn.happenings.at = node["at"].as<double>();
   const SceneReading reading = readSceneText(node["scene"].as<std::string>());
   if (!reading.problems.empty()) throw std::runtime_error(describe(reading.problems));

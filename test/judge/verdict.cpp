@@ -59,6 +59,7 @@ class Court {
               std::min(shortest_rod_, (simulator_.position({i, j}) - simulator_.position({i - 1, j})).norm());
       }
     }
+    for (const LineParams& line : drawn.scene.lines) ends_.push_back(*simulator_.lineEnd(line.id));
     const Happenings& happenings = drawn.happenings;
     pulls_known_ = (happenings.pin_swing.isZero() && happenings.pin_jerk.isZero()) || !linksStraightBetweenPins();
     every_ = std::max(1, static_cast<int>(cloth.rows * cloth.columns * drawn.seconds * drawn.scene.solver.frame_rate /
@@ -110,6 +111,8 @@ class Court {
       happened_ = true;
       if (!happenings.gravity.isZero()) simulator_.setGravity(happenings.gravity);
       if (happenings.opening >= 0.0) simulator_.setOpening(happenings.opening);
+      if (happenings.tie_back >= 0 && !drawn_.scene.tie_back.empty())
+        simulator_.setTieBack(drawn_.scene.tie_back[0].id, happenings.tie_back == 1);
       if (happenings.other_rate > 0.0) simulator_.setFrameRate(std::min(finer_ * happenings.other_rate, kMostFrames));
     }
     if (happenings.pin_swing.isZero() && happenings.pin_jerk.isZero()) return;
@@ -119,6 +122,8 @@ class Court {
       move +=
           (finer_ == 1 ? 1.0 : std::min(1.0, (time + frame - happenings.at) / (finer_ * frame))) * happenings.pin_jerk;
     for (const Pin& pin : pins_) simulator_.movePin(pin.node, pin.place + move);
+    for (std::size_t k = 0; k < drawn_.scene.lines.size(); ++k)  // with the pins, or lines would be drawn apart
+      simulator_.setLineEnd(drawn_.scene.lines[k].id, ends_[k] + move);
   }
 
   // Links drawn straight between two pins of a column or row: what they pull has no one answer, so the work of pins
@@ -264,6 +269,7 @@ class Court {
   const int finer_;
   Simulator simulator_;
   std::vector<Pin> pins_;
+  std::vector<Vec3> ends_;  // of the lines at the start [m]
   std::vector<bool>
       judged_;  // by obstacle: the cloth started clear of it, and it has met no pin, which can't give way, and no other
   std::vector<Pose> places_;  // by obstacle, a frame ago
@@ -312,7 +318,8 @@ Verdict judge(const Drawn& drawn, const Rigour& rigour) {
 
 Drawn shrink(Drawn drawn, const Rigour& rigour) {
   const auto fails = [&](const Drawn& candidate) {
-    return validate(candidate.scene).empty() && !judge(candidate, rigour).holds();
+    return validate(candidate.scene).empty() &&
+           problemsOfCords(candidate.scene, makePattern(candidate.scene)).empty() && !judge(candidate, rigour).holds();
   };
   std::vector<std::function<bool(Drawn&)>> cuts;
   const auto cut = [&cuts](std::function<bool(Drawn&)> one) { cuts.push_back(std::move(one)); };
@@ -328,6 +335,9 @@ Drawn shrink(Drawn drawn, const Rigour& rigour) {
   cut([](Drawn& d) { return d.happenings.pin_swing.isZero() ? false : (d.happenings.pin_swing.setZero(), true); });
   cut([](Drawn& d) { return d.happenings.pin_jerk.isZero() ? false : (d.happenings.pin_jerk.setZero(), true); });
   cut([](Drawn& d) { return d.happenings.gravity.isZero() ? false : (d.happenings.gravity.setZero(), true); });
+  cut([](Drawn& d) { return d.scene.tie_back.empty() ? false : (d.scene.tie_back.clear(), true); });
+  cut([](Drawn& d) { return d.scene.lines.empty() ? false : (d.scene.lines.pop_back(), true); });
+  cut([](Drawn& d) { return d.scene.lines.empty() ? false : (d.scene.lines.clear(), true); });
   cut([](Drawn& d) { return d.happenings.opening < 0.0 ? false : (d.happenings.opening = -1.0, true); });
   cut([](Drawn& d) {
     return d.scene.air.inside + d.scene.air.border > 0.0 ? (d.scene.air = AirParams(), true) : false;

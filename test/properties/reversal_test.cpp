@@ -52,7 +52,7 @@ class Swing {
     plan_.h = h;
     StageClock clock;
     const SubstepOutcome outcome = exact_.substep(plan_, forces_, nullptr, state_, clock);
-    good_ = good_ && outcome.accepted && !exact_.weftPulls();
+    good_ = good_ && outcome.accepted && !exact_.stringsPull();
     farthest_ = std::max(farthest_, away());
   }
   /// How far the farthest node is from where it began [m].

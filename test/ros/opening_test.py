@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A curtain on a rail opens and shuts by ~open and by ~open_curtain; what is out of range is refused and counted."""
+"""A curtain on a rail opens and shuts by ~open and by ~open_curtain, and ~tie_back gathers it; what is out of range is
+refused and counted."""
+import math
 import sys
 import threading
 import unittest
@@ -10,6 +12,7 @@ import rospy
 import rostest
 from actionlib_msgs.msg import GoalStatus
 from curtain_sim.msg import OpenCurtainAction, OpenCurtainGoal
+from curtain_sim.srv import TieBack
 from curtain_testing import Curtain, Listener, publisher, wait_until
 from std_msgs.msg import Float64
 from visualization_msgs.msg import MarkerArray
@@ -60,6 +63,31 @@ class OpeningTest(unittest.TestCase):
         carriers = markers["carriers"].points
         self.assertEqual(len(carriers), 6)  # every fourth of 21 columns
         self.assertTrue(all(p.y == 0.0 and abs(p.z - 2.0) < 1e-12 for p in carriers))
+        listener.close()
+
+    def test_service_ties_it_back_and_lets_it_go(self):
+        tie_back = rospy.ServiceProxy("/curtain/tie_back", TieBack)
+        tie_back.wait_for_service(20.0)
+
+        def farthest(state):
+            nodes = range(6 * 21, 6 * 21 + 9)
+            return max(math.dist(state.positions[3 * n:3 * n + 3], (0.2, 0.0, 1.5)) for n in nodes)
+
+        self.assertTrue(tie_back("tie", True).success)
+        self.curtain.wait_for(lambda s: farthest(s) <= 0.1001, "it is tied")
+        self.assertTrue(tie_back("tie", False).success)
+        self.curtain.wait_for(lambda s: farthest(s) > 0.12, "it is let go")
+        answer = tie_back("rope", True)
+        self.assertFalse(answer.success)
+        self.assertIn("'tie'", answer.message)
+
+    def test_lines_and_loads_are_drawn(self):
+        listener = Listener("/curtain/markers", MarkerArray)
+        wait_until(listener.last, "markers come")
+        markers = {(m.ns, m.id): m for m in listener.last().markers}
+        self.assertEqual(len(markers["lines", 0].points), 2)
+        self.assertEqual(len(markers["lines", 1].points), 1)
+        self.assertEqual(markers["lines", 0].points[1], markers["lines", 1].points[0])
         listener.close()
 
     def test_action_says_how_far_it_is_and_that_it_has_arrived(self):

@@ -28,7 +28,7 @@ std::string templateText() {
 
 std::string withCommentedKeys(const std::string& text) {
   static const std::regex kCommentedKey("^( *)# ( *(- )?[a-z_]+: .*# .*)$");
-  static const std::regex kEmptyLists("^  (wind|drag|obstacles): \\[\\]$");
+  static const std::regex kEmptyLists("^  (lines|tie_back|wind|drag|obstacles): \\[\\]$");
   std::stringstream in(text);
   std::string line, out;
   while (std::getline(in, line)) {
@@ -110,6 +110,14 @@ TEST(Template, EntriesAreReadableAndShowDefaults) {
   ASSERT_TRUE(reading.problems.empty()) << describe(reading.problems);
   Scene defaults;
   defaults.cloth = reading.scene.cloth;
+  defaults.lines = reading.scene.lines;  // no key of theirs has a default value
+  TieBackParams loop;
+  loop.id = reading.scene.tie_back[0].id;
+  loop.row = reading.scene.tie_back[0].row;
+  loop.first_column = reading.scene.tie_back[0].first_column;
+  loop.last_column = reading.scene.tie_back[0].last_column;
+  loop.point = reading.scene.tie_back[0].point;
+  defaults.tie_back = {loop};
   WindParams wind;
   wind.id = reading.scene.wind[0].id;
   wind.position = reading.scene.wind[0].position;

@@ -22,7 +22,9 @@ std::vector<std::string> sceneFiles() {
   std::vector<std::string> files;
   for (const char* folder : {"/config/scenes", "/test/scenes"}) {
     for (const auto& entry : std::filesystem::directory_iterator(std::string(CURTAIN_SOURCE_DIR) + folder)) {
-      if (readSceneFile(entry.path().string()).scene.rail.path.empty()) files.push_back(entry.path().string());
+      const Scene scene = readSceneFile(entry.path().string()).scene;
+      if (scene.rail.path.empty() && scene.lines.empty() && scene.tie_back.empty())
+        files.push_back(entry.path().string());
     }
   }
   std::sort(files.begin(), files.end());

@@ -25,7 +25,8 @@ struct Cloth {
       : scene(std::move(given)),
         pattern(makePattern(scene)),
         state(makeInitialState(scene, pattern)),
-        resort(pattern) {}
+        cords(pattern, 1e-3, 1.0),
+        resort(pattern, cords) {}
 
   double stretchOf(const Field3& position) const {
     const Stretch warp = warpStretch(pattern, position);
@@ -35,6 +36,7 @@ struct Cloth {
   Scene scene;
   ClothPattern pattern;
   ClothState state;
+  CordLinks cords;
   LastResort resort;
 };
 

@@ -62,7 +62,8 @@ SCENERY = {
     "sky": {"radius": NUMBER, "zenith!": color},
 }
 DEMO = {
-    "frames": [{"frame!": TEXT, "parent": TEXT, "at": XYZ, "turn": XYZ, "waves": [WAVE]}],
+    "frames": [{"frame!": TEXT, "parent": TEXT, "at": XYZ, "turn": XYZ, "waves": [WAVE],
+                "drift": {"move!": XYZ, "period!": NUMBER, "begin": NUMBER}}],
     "winds": [{"id!": TEXT, "frame": TEXT, "at": XYZ, "direction": XYZ, "sweep": NUMBER, "sweep_rate": NUMBER, "radius!": NUMBER,
                "half_angle": NUMBER, "pressure!": NUMBER, "unsteadiness": NUMBER, "correlation_time": NUMBER, "ring_jet": FLAG,
                "shadow": FLAG, "moves": FLAG, "rest": vector(2)}],

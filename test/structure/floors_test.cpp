@@ -61,11 +61,12 @@ const std::set<std::string> kRosFolders = {"ros",
                                            "dynamic_reconfigure",
                                            "rospack"};
 
-/// A message, or one of an action: NAMEAction.h, NAMEGoal.h, …
+/// A message, a service, or a message of an action: NAMEAction.h, NAMEGoal.h, …
 bool isMessage(const std::string& header) {
   const std::string name = header.substr(0, header.size() - 2);
   const std::filesystem::path root(CURTAIN_SOURCE_DIR);
   if (std::filesystem::exists(root / "msg" / (name + ".msg"))) return true;
+  if (std::filesystem::exists(root / "srv" / (name + ".srv"))) return true;
   const auto entries = std::filesystem::directory_iterator(root / "action");
   return std::any_of(begin(entries), end(entries),
                      [&](const auto& entry) { return name.rfind(entry.path().stem().string(), 0) == 0; });

@@ -92,7 +92,7 @@ void SelfCandidates::setMotion(const Field3& start, const Field3& end, Motion& m
   motion.start = start.at(0);
   const auto copy = [&](const Field& from, double origin, BoxHierarchy::Floats& to) {
     if (!grid_.closed) {
-      subtract(from.data(), origin, from.size(), to.data());
+      subtract(from.data(), origin, grid_.row(grid_.rows), to.data());
       return;
     }
     for (std::size_t i = 0; i < static_cast<std::size_t>(grid_.rows); ++i) {

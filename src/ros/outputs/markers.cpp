@@ -15,7 +15,7 @@ using visualization_msgs::Marker;
 namespace {
 
 // Places in the array; obstacles follow.
-enum Slot { kWires, kNodes, kFolds, kWind, kRail, kCarriers, kFirstObstacle };
+enum Slot { kWires, kNodes, kFolds, kWind, kRail, kCarriers, kLines, kLoads, kFirstObstacle };
 
 // Sizes in the picture [m].
 constexpr double kWireWidth = 0.002;
@@ -24,6 +24,8 @@ constexpr double kFoldSize = 0.006;
 constexpr double kWindWidth = 0.004;
 constexpr double kRailWidth = 0.02;
 constexpr double kCarrierSize = 0.024;
+constexpr double kLineWidth = 0.006;
+constexpr double kLoadSize = 0.12;
 constexpr double kRailStep = 0.05;   // from point to point
 constexpr double kWindLength = 0.5;  // of the drawn part of a cone
 constexpr int kWindSpokes = 12;
@@ -68,6 +70,22 @@ using Points = std::vector<geometry_msgs::Point>;
 void addLine(const Vec3& a, const Vec3& b, Points& points) {
   points.push_back(toPoint(a));
   points.push_back(toPoint(b));
+}
+
+// From the nodes to where they end.
+void buildLines(const curtain::Simulator& simulator, Points& lines, Points& loads) {
+  lines.clear();
+  loads.clear();
+  for (const curtain::LineParams& line : simulator.scene().lines) {
+    const Vec3 end = simulator.lineEnd(line.id).value_or(Vec3::Zero());
+    for (const curtain::NodeIndex& node : line.nodes) addLine(simulator.position(node), end, lines);
+    if (line.mass) loads.push_back(toPoint(end));
+  }
+  for (const curtain::TieBackParams& loop : simulator.scene().tie_back) {
+    if (!simulator.tieBackClosed(loop.id)) continue;
+    for (int column = loop.first_column; column <= loop.last_column; ++column)
+      addLine(simulator.position({loop.row, column}), loop.point, lines);
+  }
 }
 
 void buildWires(const std::vector<Vec3>& nodes, int rows, int columns, bool closed, Points& points) {
@@ -117,7 +135,10 @@ visualization_msgs::MarkerArray blankDetails(const std::string& frame, const cur
       makeMarker(frame, "wind", Marker::LINE_LIST, kWindWidth, colour(0.55F, 0.80F, 1.00F)),
       makeMarker(frame, "rail", Marker::LINE_STRIP, kRailWidth, colour(0.62F, 0.63F, 0.66F)),
       makeMarker(frame, "carriers", Marker::SPHERE_LIST, kCarrierSize, colour(0.86F, 0.87F, 0.90F)),
+      makeMarker(frame, "lines", Marker::LINE_LIST, kLineWidth, colour(0.80F, 0.72F, 0.52F)),
+      makeMarker(frame, "lines", Marker::SPHERE_LIST, kLoadSize, colour(0.35F, 0.33F, 0.32F)),
   };
+  array.markers[kLoads].id = 1;
   for (const Vec3& point : simulator.railPoints(kRailStep)) array.markers[kRail].points.push_back(toPoint(point));
   for (const Slot slot : {kRail, kCarriers}) showUnlessEmpty(array.markers[slot]);
   for (int i = 0; i < simulator.obstacleCount(); ++i) {  // shapes never change: their triangles are made once
@@ -214,6 +235,9 @@ void DetailMarkers::fill(visualization_msgs::MarkerArray& array) {
   for (const curtain::NodeIndex& node : simulator.carriers())
     carriers.points.push_back(toPoint(simulator.position(node)));
   showUnlessEmpty(carriers);
+
+  buildLines(simulator, array.markers[kLines].points, array.markers[kLoads].points);
+  for (const Slot slot : {kLines, kLoads}) showUnlessEmpty(array.markers[slot]);
 
   const curtain::FineMesh& mesh = geometry_.fineMesh();
   const curtain::FineMeshTopology& topology = simulator.fineMeshTopology();

@@ -7,6 +7,7 @@
 //   folds      second-layer nodes               wind       cones of the sources that blow now
 //   obstacles  the shapes that are present
 //   rail       its path                          carriers   on it
+//   lines      lines and closed tie-backs, and the loads
 //
 // Messages are filled again only where the picture has changed.
 #pragma once

@@ -8,7 +8,8 @@
 
 namespace curtain {
 
-LastResort::LastResort(const ClothPattern& pattern) : Scheme({true, false, 0.5, false}), pattern_(pattern) {
+LastResort::LastResort(const ClothPattern& pattern, const CordLinks& cords)
+    : Scheme({true, false, 0.5, false}), pattern_(pattern), cords_(cords) {
   const Grid& grid = pattern.grid;
   for (Field3* field : {&base_.position, &base_.velocity, &no_force_}) field->assign(grid.size(), 0.0);
   shortest_.assign(grid.size(), std::numeric_limits<double>::infinity());
@@ -17,6 +18,22 @@ LastResort::LastResort(const ClothPattern& pattern) : Scheme({true, false, 0.5, 
     shortest_[n] = std::min(shortest_[n], rest);
     shortest_[other] = std::min(shortest_[other], rest);
   });
+  for (const Cord& cord : pattern.cords.cords) {
+    const std::size_t end = pattern.cords.ends[cord.end].node;
+    shortest_[cord.node] = std::min(shortest_[cord.node], cord.length);
+    shortest_[end] = std::min(shortest_[end], cord.length);
+  }
+}
+
+// Calls look(node, other, rest length, is a rod) for every link and cord with a movable end.
+template <typename Look>
+void LastResort::forEachBound(const Field& inverse, const Look& look) const {
+  forEachLink(pattern_, [&](std::size_t n, std::size_t other, double rest, bool rod) {
+    if (inverse[n] + inverse[other] > 0.0) look(n, other, rest, rod);
+  });
+  for (const CordLink& cord : cords_.all()) {
+    if (cord.ties) look(cord.node, cord.end, cord.length, false);
+  }
 }
 
 SubstepStart LastResort::start(const Task& task, const ClothState& state, SubstepOutcome& outcome) noexcept {
@@ -41,7 +58,7 @@ bool LastResort::rigidMotionOfPins(const Field3& position, const Field& inverse,
                                    RigidMotion& motion) const noexcept {
   double pins = 0.0;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    if (!(pattern_.mass[n] > 0.0) || inverse[n] > 0.0) continue;
+    if (!pattern_.isThere(n) || inverse[n] > 0.0) continue;
     pins += 1.0;
     motion.centre += position.at(n);
     motion.drift += velocity.at(n);
@@ -52,7 +69,7 @@ bool LastResort::rigidMotionOfPins(const Field3& position, const Field& inverse,
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   Vec3 spin = Vec3::Zero();
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    if (!(pattern_.mass[n] > 0.0) || inverse[n] > 0.0) continue;
+    if (!pattern_.isThere(n) || inverse[n] > 0.0) continue;
     const Vec3 arm = position.at(n) - motion.centre;
     inertia += arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose();
     spin += arm.cross(velocity.at(n) - motion.drift);
@@ -93,8 +110,7 @@ double LastResort::cut(const Field3& position, const Field& inverse, double h, d
 // Relative overlengths of links (and underlengths of rods) with a movable end: largest and sum of squares.
 LastResort::Misfit LastResort::misfitOf(const Field3& position, const Field& inverse) const noexcept {
   Misfit misfit;
-  forEachLink(pattern_, [&](std::size_t n, std::size_t other, double rest, bool rod) {
-    if (!(inverse[n] + inverse[other] > 0.0)) return;
+  forEachBound(inverse, [&](std::size_t n, std::size_t other, double rest, bool rod) {
     const double over = (position.at(n) - position.at(other)).norm() / rest - 1.0;
     const double lacks = rod ? std::abs(over) : std::max(0.0, over);
     misfit.worst = std::max(misfit.worst, lacks);
@@ -134,8 +150,8 @@ LastResort::Bound LastResort::bound(const Field& inverse, double allowed, Field3
   // the share down to another of finitely many roots.
   for (double before = 2.0; share < before;) {
     before = share;
-    forEachLink(pattern_, [&](std::size_t n, std::size_t other, double rest, bool rod) {
-      if (inverse[n] + inverse[other] > 0.0) share = shareOf(other, n, rest, rod, most, share, end);
+    forEachBound(inverse, [&](std::size_t n, std::size_t other, double rest, bool rod) {
+      share = shareOf(other, n, rest, rod, most, share, end);
     });
   }
   if (share == 1.0) return {};

@@ -12,6 +12,7 @@
 #pragma once
 
 #include "cloth/free_body.h"
+#include "solver/cord_links.h"
 #include "solver/scheme.h"
 
 namespace curtain {
@@ -19,8 +20,8 @@ namespace curtain {
 /// Not thread-safe. Allocates only in the constructor.
 class LastResort final : public Scheme {
  public:
-  /// pattern must outlive this.
-  explicit LastResort(const ClothPattern& pattern);
+  /// pattern and cords must outlive this.
+  LastResort(const ClothPattern& pattern, const CordLinks& cords);
 
   SubstepStart start(const Task& task, const ClothState& state, SubstepOutcome& outcome) noexcept override;
 
@@ -46,6 +47,8 @@ class LastResort final : public Scheme {
  private:
   bool rigidMotionOfPins(const Field3& position, const Field& inverse, const Field3& velocity,
                          RigidMotion& motion) const noexcept;
+  template <typename Look>
+  void forEachBound(const Field& inverse, const Look& look) const;
   struct Misfit {
     double worst = 0.0, squares = 0.0;
   };
@@ -54,10 +57,11 @@ class LastResort final : public Scheme {
                  const Field3& end) const noexcept;
 
   const ClothPattern& pattern_;
+  const CordLinks& cords_;
   bool pins_move_ = false;
   ClothState base_;  // positions, and velocities after the forces and the cut
   Field3 no_force_;
-  Field shortest_;  // link at each node [m]
+  Field shortest_;  // link or line at each node [m]
   Field3 follows_;  // where the pins' rigid motion leads; without pins: the nodes' positions [m]
 };
 

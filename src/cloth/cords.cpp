@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cloth/cords.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "cloth/cloth.h"
+#include "scene/problem_log.h"
+#include "scene/ranges.h"
+
+namespace curtain {
+namespace {
+
+constexpr double kSlack = 1e-9;  // relative: for rounding of typed lengths, which the solver corrects at once
+
+// As far below the mean of the nodes as lines of this length let it.
+Vec3 placeOfLoad(const LineParams& line, const Vec3& gravity, const std::vector<Vec3>& nodes) {
+  if (line.to) return *line.to;
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& node : nodes) mean += node / static_cast<double>(nodes.size());
+  const Vec3 down = gravity.normalized();
+  const double length = line.length.value_or(0.0);
+  double depth = length;
+  for (const Vec3& node : nodes) {
+    // |mean + t down - node| = length, the larger t.
+    const Vec3 off = mean - node;
+    const double along = off.dot(down);
+    depth = std::min(depth, -along + std::sqrt(std::max(0.0, along * along - off.squaredNorm() + length * length)));
+  }
+  return mean + depth * down;
+}
+
+void addCord(std::size_t node, double length, CordsPattern& cords) {
+  cords.cords.push_back({node, cords.ends.size() - 1, length});
+  cords.ends.back().last = cords.cords.size();
+}
+
+void addLine(const LineParams& line, const Vec3& gravity, const Field3& position, ClothPattern& pattern) {
+  CordsPattern& cords = pattern.cords;
+  std::vector<Vec3> nodes;
+  for (const NodeIndex& node : line.nodes) nodes.push_back(position.at(pattern.grid.index(node)));
+  const std::size_t end = pattern.grid.end(cords.ends.size());
+  cords.ends.push_back({end, cords.cords.size(), 0, placeOfLoad(line, gravity, nodes), line.mass.has_value()});
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    addCord(pattern.grid.index(line.nodes[i]), line.length.value_or((cords.ends.back().start - nodes[i]).norm()),
+            cords);
+  if (line.mass) {
+    pattern.mass[end] = *line.mass;
+    pattern.inverse_mass[end] = 1.0 / *line.mass;
+  } else {
+    pattern.pinned[end] = kPinned;
+  }
+}
+
+void addTieBack(const TieBackParams& loop, ClothPattern& pattern) {
+  CordsPattern& cords = pattern.cords;
+  const std::size_t end = pattern.grid.end(cords.ends.size());
+  cords.loops.push_back({cords.ends.size(), loop.radius, loop.speed, loop.closed});
+  cords.ends.push_back({end, cords.cords.size(), 0, loop.point, false});
+  for (int j = loop.first_column; j <= loop.last_column; ++j)
+    addCord(pattern.grid.index(loop.row, j), loop.radius, cords);
+  pattern.pinned[end] = kPinned;
+}
+
+void checkLine(const LineParams& line, const std::string& key, const CordEnd& end, const CordsPattern& cords,
+               const Field3& position, std::vector<Problem>& problems) {
+  for (std::size_t c = end.first; c < end.last; ++c) {
+    const double apart = (end.start - position.at(cords.cords[c].node)).norm();
+    const std::string node = itemKey(joinKey(key, "nodes"), c - end.first);
+    if (!line.length && !(apart >= kSmallest)) {
+      problems.push_back({node, "must not start where its line ends, unless lines[].length is given"});
+      return;
+    }
+    if (!line.length || apart <= *line.length * (1.0 + kSlack)) continue;
+    problems.push_back({joinKey(key, "length"), "must be at least " + formatNumber(apart) + ", the distance of " +
+                                                    node + " from the end at the start, is " +
+                                                    formatNumber(*line.length)});
+    return;
+  }
+}
+
+// Where a column hangs from a pin, its rods bound how far a node gets.
+void checkTieBack(const TieBackParams& loop, const std::string& key, const ClothPattern& pattern,
+                  const Field3& position, std::vector<Problem>& problems) {
+  for (int j = loop.first_column; j <= loop.last_column; ++j) {
+    for (int i = 0; i < pattern.grid.rows; ++i) {
+      if (!pattern.isPinned({i, j})) continue;
+      const double rods = std::abs(pattern.warp_coordinate[static_cast<std::size_t>(loop.row)] -
+                                   pattern.warp_coordinate[static_cast<std::size_t>(i)]);
+      const double apart = (loop.point - position.at(pattern.grid.index(i, j))).norm();
+      if (apart <= rods + loop.radius) continue;
+      problems.push_back({joinKey(key, "point"), "must be within the cloth's reach: it is " + formatNumber(apart) +
+                                                     " m from the pinned node [" + std::to_string(i) + ", " +
+                                                     std::to_string(j) + "], rods and radius are " +
+                                                     formatNumber(rods + loop.radius) + " m long"});
+      return;
+    }
+  }
+}
+
+Field3 startOf(const Scene& scene, const ClothPattern& pattern) {
+  Field3 position;
+  position.assign(pattern.grid.size(), 0.0);
+  placeCloth(scene, pattern, position);
+  return position;
+}
+
+}  // namespace
+
+bool CordsPattern::anyLoad() const {
+  return std::any_of(ends.begin(), ends.end(), [](const CordEnd& end) { return end.load; });
+}
+
+void addEndRows(const Scene& scene, Grid& grid) {
+  const auto ends = static_cast<int>(scene.lines.size() + scene.tie_back.size());
+  grid.end_rows = (ends + grid.columns - 1) / grid.columns;
+}
+
+void fillCords(const Scene& scene, ClothPattern& pattern) {
+  if (scene.lines.empty() && scene.tie_back.empty()) return;
+  const Field3 position = startOf(scene, pattern);
+  for (const LineParams& line : scene.lines) addLine(line, scene.gravity, position, pattern);
+  for (const TieBackParams& loop : scene.tie_back) addTieBack(loop, pattern);
+}
+
+double reachOf(const CordsPattern& cords, std::size_t loop, const Field3& position) {
+  const CordEnd& end = cords.ends[cords.loops[loop].end];
+  double reach = cords.loops[loop].radius;
+  for (std::size_t c = end.first; c < end.last; ++c)
+    reach = std::max(reach, (position.at(end.node) - position.at(cords.cords[c].node)).norm());
+  return reach;
+}
+
+std::vector<Problem> problemsOfCords(const Scene& scene, const ClothPattern& pattern) {
+  std::vector<Problem> problems;
+  const CordsPattern& cords = pattern.cords;
+  if (cords.empty()) return problems;
+  const Field3 position = startOf(scene, pattern);
+  for (std::size_t i = 0; i < scene.lines.size(); ++i)
+    checkLine(scene.lines[i], itemKey("lines", i), cords.ends[i], cords, position, problems);
+  for (std::size_t i = 0; i < scene.tie_back.size(); ++i)
+    checkTieBack(scene.tie_back[i], itemKey("tie_back", i), pattern, position, problems);
+  return problems;
+}
+
+}  // namespace curtain

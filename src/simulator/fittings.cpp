@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The public interface of what cloth hangs by: pins, rail, lines and tie-backs.
+#include <cmath>
+
+#include "scene/find_by_id.h"
+#include "scene/problem_log.h"
+#include "scene/ranges.h"
+#include "scene/scalar.h"
+#include "simulator/simulator_impl.h"
+
+namespace curtain {
+namespace {
+
+// Where an entry of this id is in the list; none: there is none.
+template <typename Params>
+std::optional<std::size_t> placeOf(const std::vector<Params>& list, const std::string& id) {
+  const Params* const found = findById(list, id);
+  return found == nullptr ? std::nullopt : std::optional<std::size_t>(found - list.data());
+}
+
+}  // namespace
+
+std::vector<Problem> Simulator::setOpening(double opening) {
+  Impl& im = *impl_;
+  if (im.pattern.rail.empty()) return {{"opening", "is for cloth on a rail: this scene has no rail.path"}};
+  const Range range = between(0.0, 1.0);
+  if (!range.contains(opening)) return {{"opening", "must be " + range.text() + ", is " + formatNumber(opening)}};
+  if (im.opening.draws() && opening == im.opening.goal()) return {};
+  im.opening.draw(opening);
+  im.driven();
+  return {};
+}
+
+void Simulator::releaseDrive() {
+  if (!impl_->opening.draws()) return;
+  impl_->opening.letGo();
+  impl_->driven();
+}
+
+std::vector<Problem> Simulator::setDrive(const DriveParams& drive) {
+  std::vector<Problem> problems = validate(drive, "drive");
+  if (!problems.empty()) return problems;
+  impl_->opening.setDrive(drive);
+  impl_->driven();
+  return problems;
+}
+
+bool Simulator::drives() const { return impl_->opening.draws(); }
+const DriveParams& Simulator::drive() const { return impl_->opening.drive(); }
+
+bool Simulator::movePin(NodeIndex node, const Vec3& target) {
+  const Grid& grid = impl_->pattern.grid;
+  const bool inside = node.row >= 0 && node.row < grid.rows && node.column >= 0 && node.column < grid.columns;
+  if (!inside || !impl_->pattern.isPinned(node) || !isPlace(target)) return false;
+  impl_->pins.move(grid.index(node), target);
+  return true;
+}
+
+std::vector<Problem> Simulator::setTieBack(const std::string& id, bool closed) {
+  Impl& im = *impl_;
+  const std::optional<std::size_t> loop = placeOf(im.scene.tie_back, id);
+  if (!loop) {
+    std::string known;
+    for (const TieBackParams& one : im.scene.tie_back) known += (known.empty() ? "" : ", ") + quoted(one.id);
+    return {{"tie_back",
+             "has no entry of id " + quoted(id) + (known.empty() ? ", nor any other" : ", known are " + known)}};
+  }
+  CordLinks& cords = im.motion.exact.cords();
+  if (cords.closed(*loop) == closed) return {};
+  im.motion.velocities();  // caches them while the pulls that made them are known
+  cords.close(*loop, closed, im.motion.state);
+  im.driven();
+  return {};
+}
+
+bool Simulator::tieBackClosed(const std::string& id) const {
+  const std::optional<std::size_t> loop = placeOf(impl_->scene.tie_back, id);
+  return loop && impl_->motion.exact.cords().closed(*loop);
+}
+
+std::optional<Vec3> Simulator::lineEnd(const std::string& id) const {
+  const std::optional<std::size_t> line = placeOf(impl_->scene.lines, id);
+  if (!line) return std::nullopt;
+  return impl_->motion.state.position.at(impl_->pattern.cords.ends[*line].node);
+}
+
+Vec3 Simulator::linePull(const std::string& id) const {
+  std::vector<double> tensions;
+  copyLineTensions(id, tensions);
+  const std::optional<std::size_t> line = placeOf(impl_->scene.lines, id);
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < tensions.size(); ++k) {
+    const CordEnd& end = impl_->pattern.cords.ends[*line];
+    const Field3& position = impl_->motion.state.position;
+    const Vec3 up = position.at(impl_->pattern.cords.cords[end.first + k].node) - position.at(end.node);
+    if (tensions[k] > 0.0) sum += tensions[k] * up.normalized();
+  }
+  return sum;
+}
+
+void Simulator::copyLineTensions(const std::string& id, std::vector<double>& out) const {
+  out.clear();
+  const std::optional<std::size_t> line = placeOf(impl_->scene.lines, id);
+  if (!line) return;
+  const CordEnd& end = impl_->pattern.cords.ends[*line];
+  for (std::size_t c = end.first; c < end.last; ++c) out.push_back(impl_->motion.exact.cordTension(c));
+}
+
+bool Simulator::setLineEnd(const std::string& id, const Vec3& target) {
+  const std::optional<std::size_t> line = placeOf(impl_->scene.lines, id);
+  if (!line || impl_->pattern.cords.ends[*line].load || !isPlace(target)) return false;
+  impl_->pins.move(impl_->pattern.cords.ends[*line].node, target);
+  return true;
+}
+
+}  // namespace curtain
