@@ -126,12 +126,11 @@ struct HangParams {
   /// the normal (to - from) x up. Closed cloth: half-angle of the cone that the cloth starts as.
   double tilt = 0.0;
   Heading heading = Heading::kGathered;  ///< not for closed or tapered cloth
-  /// Of a heading other than kGathered [0..1024]; 0: as many as the links can show. Each needs four links at least, and
-  /// nine with kPinch.
+  /// Of a heading other than kGathered [0..1024]; 0: as many as the links can show. Each needs four links at least,
+  /// nine with kPinch, two with kTabs.
   int pleats = 0;
   /// Depth below the edge down to which the cloth keeps its pleats' curvature, as of a heading tape or pressed [m], >=
-  /// 0; of a heading other than kGathered, with bending_weft > 0, and pleats that turn by less than a right angle a
-  /// node.
+  /// 0; of a heading other than kGathered, with bending_weft > 0, and pleats that turn by 80 degrees a node at most.
   double pressed = 0.0;
   /// Width over |to - from|, [1..3]. Scene files may give it in place of cloth.width; if both, they must agree.
   std::optional<double> fullness;

@@ -19,7 +19,8 @@
 namespace curtain {
 namespace {
 
-constexpr double kSlack = 1e-9;  // relative: for rounding of typed lengths, which the solver corrects at once
+constexpr double kMostGap = 1e-6;  // of the width, between an edge in pleats and its end
+constexpr double kSlack = 1e-9;    // relative: for rounding of typed lengths, which the solver corrects at once
 
 bool clothIsGood(const ClothParams& cloth, const ProblemLog& log) {
   for (const char* key : {"cloth.closed", "cloth.rows", "cloth.columns", "cloth.height", "cloth.width",
@@ -89,6 +90,14 @@ void checkHeading(const Scene& scene, ProblemLog& log) {
     log.add("hang.heading", "must be gathered where cloth.width is more than three times |to - from|" + is + " at " +
                                 formatNumber(cloth.width / span) + " times");
   }
+  if (!log.problems().empty() || !(span > 0.0)) return;
+  // A link that is long beside the others can't be turned out of the way.
+  const std::vector<double> row = edgeLinks(cloth), angles = headingAngles(hang, row, span);
+  double reach = 0.0;
+  for (std::size_t j = 0; j < row.size(); ++j) reach += row[j] * std::cos(angles[j]);
+  if (cloth.width > span && std::abs(reach - span) > kMostGap * cloth.width)
+    log.add("hang.heading", "must be gathered where pleats of these links reach " + formatNumber(reach) +
+                                " m at least, and |to - from| is " + formatNumber(span) + " m" + is);
 }
 
 // The rest turn of a joint has a cosine, which its stiffness is multiplied by.

@@ -155,14 +155,19 @@ const Field3& Bending::addAhead(const SubstepStart& start, const Field& inverse)
   return addTo(start.force, ahead_);
 }
 
-double Bending::energyAfter(const Field3& outer, const Field3& position) const noexcept {
+// Half the work of the last force over the cloth's extent: of forces that are homogeneous in the positions.
+double Bending::halfWork(const Field3& outer, const Field3& position) const noexcept {
   return 0.5 *
          ((weft_.bend() ? workOfSpared(pattern_.grid, shears_.spared, position) : 0.0) - workOf(sum_, outer, position));
 }
 
+double Bending::energyAfter(const Field3& outer, const Field3& position) const noexcept {
+  return halfWork(outer, position) + warp_rest_.constant() + weft_rest_.constant();
+}
+
 const Field3& Bending::forceAt(const Field3& position, double& energy) noexcept {
   addStraight(no_force_, position, sum_);
-  energy = energyAfter(no_force_, position);
+  energy = halfWork(no_force_, position);
   energy += addCurved(position, sum_);
   return sum_;
 }

@@ -7,9 +7,9 @@
 // NodeInertia). Where the line is stiffer its nodes give way (bending_lines.h) until it is not:
 //     D = 1 / E - 1 / bound of K,   A = (K^-1 + D)^-1 <= E.
 // With D = scale / (4 m) that is the implicit-explicit variational integrator of Stern, Grinspun 2009: midpoint
-// bending, explicit everything else. A is symmetric, so the force has a potential, and leapfrog stays symplectic with
-// the step it has without bending. The links pull unfiltered: at rest, lines that are stiffer than the step bears are
-// softer over lengths of (B scale / density)^(1/4).
+// bending, explicit everything else. A is symmetric, so the force has a potential (but for what taut weft links are
+// spared, see addShears()), and leapfrog stays symplectic with the step it has without bending. The links pull
+// unfiltered: at rest, lines that are stiffer than the step bears are softer over lengths of (B scale / density)^(1/4).
 #pragma once
 
 #include "solver/bending_lines.h"
@@ -57,6 +57,7 @@ class Bending {
   template <typename Add>
   double addCouples(const RestCurvature& rest, const Field& give, const Add& add, const Field3& position,
                     Field3& force) noexcept;
+  double halfWork(const Field3& outer, const Field3& position) const noexcept;
   double addCurved(const Field3& position, Field3& force) noexcept;
 
   const ClothPattern& pattern_;
@@ -67,7 +68,6 @@ class Bending {
   bool gives_ = false;
   Field warp_give_, weft_give_;  // [m/N]
   Field3 sum_, ahead_, no_force_;
-  Field3 spared_;           // of the weft's links, what would press them together [N]
   Field3 couples_, moved_;  // scratch of addCouples()
   BendingScratch scratch_;
   WeftShears shears_;

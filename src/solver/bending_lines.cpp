@@ -3,6 +3,7 @@
 // What is constant of the lines, and their forces where no node gives way.
 #include "solver/bending_lines.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,8 +14,10 @@ namespace {
 
 // By links; and row sums of |K|: of joint i, k_i |c_r| (|a_i| + |a_i + a_(i+1)| + |a_(i+1)|) at each of its three nodes
 // r. before, after: the index of a node's neighbour.
+// Joints that turn at rest also have couples, of k |sin(theta_0)| (rest_curvature.h).
 template <typename Before, typename After>
-void fillMatrix(const Grid& grid, const Before& before, const After& after, BendingLines& lines) {
+void fillMatrix(const Grid& grid, const Field& rest_turn, const Before& before, const After& after,
+                BendingLines& lines) {
   for (Field* field : {&lines.bound, &lines.own, &lines.joined}) field->assign(grid.size(), 0.0);
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = 0; j < grid.columns; ++j) {
@@ -26,9 +29,10 @@ void fillMatrix(const Grid& grid, const Before& before, const After& after, Bend
       if (!seam_before) lines.own[n] += k * a * a;
       if (!seam_after) lines.own[after(i, j)] += k * b * b;
       if (!seam_before && !seam_after) lines.joined[after(i, j)] = k * a * b;
-      lines.bound[before(i, j)] += k * a * sum;
-      lines.bound[n] += k * (a + b) * sum;
-      lines.bound[after(i, j)] += k * b * sum;
+      const double most = rest_turn.empty() ? k : k * (1.0 + std::abs(std::tan(rest_turn[n])));
+      lines.bound[before(i, j)] += most * a * sum;
+      lines.bound[n] += most * (a + b) * sum;
+      lines.bound[after(i, j)] += most * b * sum;
     }
   }
 }
@@ -56,8 +60,8 @@ BendingLines warpLines(const ClothPattern& pattern) {
   lines.per_rest.assign(grid.size(), 0.0);
   for (std::size_t n = grid.row(1); n < grid.size(); ++n) lines.per_rest[n] = 1.0 / pattern.warp_rest[n];
   fillMatrix(
-      grid, [&](int i, int j) { return grid.index(i - 1, j); }, [&](int i, int j) { return grid.index(i + 1, j); },
-      lines);
+      grid, pattern.warp_rest_turn, [&](int i, int j) { return grid.index(i - 1, j); },
+      [&](int i, int j) { return grid.index(i + 1, j); }, lines);
   fillCompliance(lines);
   return lines;
 }
@@ -75,8 +79,15 @@ BendingLines weftLines(const ClothPattern& pattern) {
   }
   const int last = grid.columns - 1;
   fillMatrix(
-      grid, [&](int i, int j) { return grid.index(i, j > 0 ? j - 1 : last); },
+      grid, pattern.weft_rest_turn, [&](int i, int j) { return grid.index(i, j > 0 ? j - 1 : last); },
       [&](int i, int j) { return grid.index(i, j < last ? j + 1 : 0); }, lines);
+  lines.string = lines.per_rest;
+  for (int i = 0; i < grid.rows && !pattern.weft_rest_turn.empty(); ++i) {
+    const auto row = lines.string.begin() + static_cast<std::ptrdiff_t>(grid.row(i));
+    const auto turn = pattern.weft_rest_turn.begin() + static_cast<std::ptrdiff_t>(grid.row(i));
+    if (std::any_of(turn, turn + grid.columns, [](double angle) { return angle != 0.0; }))
+      std::fill(row, row + grid.columns, 0.0);
+  }
   fillCompliance(lines);
   return lines;
 }
@@ -180,7 +191,7 @@ CURTAIN_WIDE void bendWeft(const Grid& grid, const BendingLines& lines, const Fi
     closeRow(grid, lines, i, position.y, shears.q.y);
     closeRow(grid, lines, i, position.z, shears.q.z);
   }
-  addShears(grid, position, block, shears.q, &shears.spared, sum);
+  addShears(grid, lines.string, position, block, shears.q, &shears.spared, sum);
 }
 
 }  // namespace curtain

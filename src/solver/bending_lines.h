@@ -29,7 +29,10 @@ struct BendingLines {
   /// a_i^2 (k_(i-1) + k_i), joined = a_i a_(i-1) k_(i-1) [N/m]. Differences first: their rounding is that of lengths.
   /// The link that closes a ring is left out.
   Field own, joined;
-  Field bound;  ///< sum of the magnitudes in the node's row of K, so that K <= diag(bound) (Gershgorin) [N/m]
+  /// a of weft links whose press is spared, see addShears(); 0 of lines that turn at rest, whose couples press as well.
+  Field string;
+  Field bound;  ///< sum of the magnitudes in the node's row of K and of the couples of its rest, so that K <=
+                ///< diag(bound) (Gershgorin) [N/m]
 
   bool bend() const noexcept { return !stiffness.empty(); }
 };
@@ -66,9 +69,11 @@ void bendWeftGiving(const Grid& grid, const BendingLines& lines, const Field& gi
                     BendingScratch& scratch, bool spares, WeftShears& shears, Field3& force) noexcept;
 
 /// Adds the shears q of kLane rows to the nodes; before that, if `spared` is not null, q loses to it the part that
-/// presses a link together. A line whose links keep their lengths has no use for that part, which has no moment;
-/// strings do not hold against it, and would be shortened by the square of the turn.
-void addShears(const Grid& grid, const Field3& position, int block, Field3& q, Field3* spared, Field3& sum) noexcept;
+/// presses together a link whose string holds it: all of it at its length, none where it is shorter by a hundredth,
+/// since of slack links that part belongs to the potential. A line whose links keep their lengths has no use for that
+/// part, which has no moment; strings do not hold against it, and would be shortened by the square of the turn.
+void addShears(const Grid& grid, const Field& string, const Field3& position, int block, Field3& q, Field3* spared,
+               Field3& sum) noexcept;
 /// Work of the parts that were spared, over the links at these positions [J].
 double workOfSpared(const Grid& grid, const Field3& spared, const Field3& position) noexcept;
 

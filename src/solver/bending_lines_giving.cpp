@@ -292,7 +292,7 @@ CURTAIN_WIDE void bendWeftGiving(const Grid& grid, const BendingLines& lines, co
       shears.q.z[n] = shearAt(a, scratch.mz.data(), before, here);
     }
   }
-  addShears(grid, position, block, shears.q, spares ? &shears.spared : nullptr, force);
+  addShears(grid, lines.string, position, block, shears.q, spares ? &shears.spared : nullptr, force);
 }
 
 }  // namespace curtain

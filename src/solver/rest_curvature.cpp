@@ -4,6 +4,11 @@
 #include <cmath>
 
 namespace curtain {
+namespace {
+
+constexpr double kShortest = 0.1;  // of the two links across
+
+}  // namespace
 
 RestCurvature::RestCurvature(const ClothPattern& pattern, bool warp) {
   const Field& turn = warp ? pattern.warp_rest_turn : pattern.weft_rest_turn;
@@ -35,6 +40,10 @@ RestCurvature::RestCurvature(const ClothPattern& pattern, bool warp) {
       couple.constant = k * (1.0 - std::cos(angle));
       couple.per_before = 1.0 / rest[n];
       couple.per_after = 1.0 / rest[couple.after];
+      const Field& across = warp ? pattern.weft_rest : pattern.warp_rest;
+      couple.shortest =
+          kShortest * ((couple.left != n ? across[n] : 0.0) + (couple.right != n ? across[couple.right] : 0.0));
+      constant_ += couple.constant;
       couples_.push_back(couple);
     }
   }
@@ -51,12 +60,14 @@ double RestCurvature::addTo(const Field3& position, Field3& force) const noexcep
     const Vec3 next = couple.per_after * (position.at(couple.after) - here);
     const Vec3 across = position.at(couple.right) - position.at(couple.left);
     const double length = across.norm();
-    if (!(length > 0.0)) continue;  // folded onto itself: no axis
-    const Vec3 axis = across / length, turn = t.cross(next);
+    // Folded onto itself it has no direction: there the axis shortens with it, so that forces stay bounded.
+    const bool folded = length < couple.shortest;
+    const double reach = folded ? couple.shortest : length;
+    const Vec3 axis = across / reach, turn = t.cross(next);
     energy -= couple.moment * axis.dot(turn);
     const Vec3 on_before = couple.moment * couple.per_before * next.cross(axis);
     const Vec3 on_after = couple.moment * couple.per_after * axis.cross(t);
-    const Vec3 on_axis = couple.moment / length * (turn - axis.dot(turn) * axis);
+    const Vec3 on_axis = couple.moment / reach * (folded ? turn : Vec3(turn - axis.dot(turn) * axis));
     force.add(couple.before, -on_before);
     force.add(couple.node, on_before - on_after);
     force.add(couple.after, on_after);

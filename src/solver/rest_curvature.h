@@ -18,6 +18,8 @@ class RestCurvature {
   /// Of the warp's lines, or of the weft's.
   RestCurvature(const ClothPattern& pattern, bool warp);
 
+  /// Part of the energy that does not change [J].
+  double constant() const noexcept { return constant_; }
   bool any() const noexcept { return !couples_.empty(); }
   /// Adds the couples' force [N] at these positions. Returns their energy and the constant one [J].
   double addTo(const Field3& position, Field3& force) const noexcept;
@@ -29,8 +31,10 @@ class RestCurvature {
     double moment;                    // k sin(theta_0) [N m]
     double constant;                  // k (1 - cos(theta_0)) [J]
     double per_before, per_after;     // 1 / rest length [1/m]
+    double shortest;                  // line across that has a direction [m]
   };
   std::vector<Couple> couples_;
+  double constant_ = 0.0;
 };
 
 }  // namespace curtain
