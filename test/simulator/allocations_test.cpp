@@ -14,7 +14,7 @@ using curtain_test::sceneOf;
 using curtain_test::shippedScene;
 
 TEST(Allocations, NoneInAStep) {
-  for (const char* name : {"curtain", "flag", "skirt", "sheet"}) {
+  for (const char* name : {"curtain", "flag", "skirt", "sheet", "tied_curtain", "parachute_load"}) {
     Simulator simulator(shippedScene(name));
     DragParams pull;
     pull.id = "pull";
