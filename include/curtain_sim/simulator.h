@@ -45,9 +45,10 @@ class Simulator {
   /// The full state of the motion as bytes (docs/snapshots.md). Does not affect the motion.
   std::string snapshot() const;
   /// Restores a snapshot of the same scene and continues with the same bits: time, winds and drags, gravity and air,
-  /// moves of obstacles and pins, grasps, sleep, statistics. The scene may differ in gravity, air and frame rate, which come
-  /// with the snapshot, in solver.threads, and in mesh paths. Returns what is wrong (damaged, cut short, of another
-  /// scene or format); then nothing changed. With solver.budget_ms later bits depend on computing time. Allocates.
+  /// moves of obstacles and pins, grasps, sleep, statistics. The scene may differ in gravity, air and frame rate, which
+  /// come with the snapshot, in solver.threads, and in mesh paths. Returns what is wrong (damaged, cut short, of
+  /// another scene or format); then nothing changed. With solver.budget_ms later bits depend on computing time.
+  /// Allocates.
   std::vector<Problem> restore(const std::string& snapshot);
 
   /// Node state, row-major, shape [rows * columns]; out is resized.

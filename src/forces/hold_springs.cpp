@@ -21,7 +21,9 @@ double HoldSprings::shareOf(const std::vector<HeldNode>& held, const ClothState&
     fastest = std::max(fastest, (targetOf(node, part.end) - at - part.h * before).squaredNorm());
   }
   if (pull_ + mass_ * std::sqrt(fastest) / (part.h * part.h) <= most_force_) return 1.0;
-  const double wanted = sum.norm();
+  // And where they have pulled with more than the limit, the rest of it sets the cloth in motion.
+  const double sets_in = part.h * std::max(0.0, pull_ - most_force_) / mass_;  // [m/s]
+  const double wanted = sum.norm() + static_cast<double>(held.size()) * (stiffness_ * part.h + damping_) * sets_in;
   return wanted > most_force_ ? most_force_ / wanted : 1.0;
 }
 

@@ -222,7 +222,8 @@ void Grasps::carry(Archive& archive) {
   std::fill(loaded_.begin(), loaded_.end(), std::uint8_t{0});
   archive.list("grasps", list_, [&](Grasp& grasp) {
     carryGrasp(archive, grasp);
-    archive.require(std::find(known.begin(), known.end(), grasp.params.id) == known.end(), "must have ids of their own");
+    archive.require(std::find(known.begin(), known.end(), grasp.params.id) == known.end(),
+                    "must have ids of their own");
     known.push_back(grasp.params.id);
   });
 }
@@ -268,9 +269,8 @@ void Simulator::Impl::carry(Archive& archive) {
   archive.part("budget", budget);
   if (errors) errors->carry(archive);
   archive.group("hands", [&] { grasps.carry(archive); });
-  pins.carry(archive, pattern.grid, [this](std::size_t node) {
-    return grasps.scenePins()[node] == kPinned || grasps.willPin(node);
-  });
+  pins.carry(archive, pattern.grid,
+             [this](std::size_t node) { return grasps.scenePins()[node] == kPinned || grasps.willPin(node); });
   archive.part("opening", opening);
   archive.group("statistics", [&] { carryStatistics(archive, motion.statistics); });
   archive.part("clock", motion.clock);

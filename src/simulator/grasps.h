@@ -4,10 +4,10 @@
 // (pin_moves.h); others hang on springs (forces/hold_springs.h). What changes who is pinned goes through
 // Simulator::Impl::repin().
 //
-//   setGrasp()            find() the nodes, add()
-//   before a frame        movePins(), begin(): where the hands will be at its end
-//   a substep             setSubstep(), addForces() of the springs; if it is accepted, count(): what pulls, what slides
-//   after a frame         end(): pulls, who has slid out or in, which hands are torn; letGoOfEnded()
+//   grasps.cpp            who is held: setGrasp() finds the nodes and adds the grasp
+//   grasps_frame.cpp      before a frame: movePins(), begin(), where the hands will be at its end;
+//                         a substep: setSubstep(), addForces() of the springs; if it is accepted, count();
+//                         after a frame: end(), pulls, who has slid out or in, which hands are torn
 #pragma once
 
 #include <cstdint>
@@ -129,7 +129,7 @@ class Grasps {
   int holding_ = 0;
   std::vector<std::uint8_t> pinned_;  // by node
   std::vector<std::uint8_t> loaded_;  // by node, of what carry() loads: 2: pinned, 1: held by a spring
-  std::vector<int> hand_;                      // by node: index of the grasp that holds it, or -1
+  std::vector<int> hand_;             // by node: index of the grasp that holds it, or -1
   FramePart part_;
 };
 

@@ -53,7 +53,7 @@ class PinMoves {
   template <typename Stays>
   void keep(const Stays& stays) noexcept;
 
-  std::vector<Move> moves_;  // at most one a node
+  std::vector<Move> moves_;        // at most one a node
   std::vector<std::size_t> slot_;  // by node: its place in moves_, or kNone
   std::size_t arrived_ = 0;        // how many of them have
 };

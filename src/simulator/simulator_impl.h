@@ -35,7 +35,7 @@ struct Simulator::Impl {
   void resume() noexcept;
   std::uint32_t layout();
 
-  Scene scene;  // gravity, air and the frame rate may change
+  Scene scene;           // gravity, air and the frame rate may change
   ClothPattern pattern;  // its pins may change (repin())
   FrameTimes times;
   Motion motion;

@@ -23,10 +23,7 @@ double mostOf(double put_in, double driven) noexcept {
 
 KineticGuard::KineticGuard(const ClothPattern& pattern, const NodeInertia& inertia, double stretch_tolerance,
                            double links)
-    : pattern_(pattern),
-      inertia_(inertia),
-      stretch_tolerance_(stretch_tolerance),
-      links_(links) {
+    : pattern_(pattern), inertia_(inertia), stretch_tolerance_(stretch_tolerance), links_(links) {
   pins_.reserve(pattern.grid.size());
   takePins();
 }

@@ -55,9 +55,9 @@ class NodeInertia {
   double addedMass(double per_load) const noexcept;
 
   const ClothPattern& pattern_;
-  Field sliding_;        // the pattern's inverse masses, and those of its carriers [1/kg]; empty: no rail
-  const Field* all_;     // when no column is held: the pattern's, or sliding_
-  double free_mass_;     // [kg]
+  Field sliding_;     // the pattern's inverse masses, and those of its carriers [1/kg]; empty: no rail
+  const Field* all_;  // when no column is held: the pattern's, or sliding_
+  double free_mass_;  // [kg]
   Field changed_, keep_, held_;
   const Field* masses_;  // all_, or held_
   const Field* inverse_;

@@ -60,6 +60,15 @@ GraspParams pinched(double hold) {
   return grasp;
 }
 
+Vec3 momentumOf(const Simulator& simulator) {
+  std::vector<Vec3> velocities;
+  simulator.copyVelocities(velocities);
+  Vec3 sum = Vec3::Zero();
+  for (int n = 0; n < simulator.rows() * simulator.columns(); ++n)
+    sum += simulator.mass({n / simulator.columns(), n % simulator.columns()}) * velocities[static_cast<std::size_t>(n)];
+  return sum;
+}
+
 Vec3 inFrame(const Pose& frame, const Vec3& at) { return frame.orientation.conjugate() * (at - frame.position); }
 
 Pose randomPose(Random& random, const Pose& from, double way, double turn) {
@@ -218,19 +227,21 @@ TEST(Grasp, FollowsItsFrame) {
 TEST(Grasp, FeelsTheWeight) {
   for (int kind = 0; kind < 3; ++kind) {
     SCOPED_TRACE(kind);
-    Simulator simulator(strip());
+    Scene scene = strip();
+    scene.air.inside = scene.air.border = scene.air.corner = 5.0;
+    Simulator simulator(scene);
     GraspParams grasp = ballGrasp("hand", {0.02, 0.01, 1.0}, 0.06);
     if (kind == 1) grasp.stiffness = 40.0;
     if (kind == 2) grasp.pinch_force = 10.0;
     ASSERT_EQ(refusal(simulator, grasp), "");
-    for (int frame = 0; frame < 900; ++frame) simulator.step();
+    for (int frame = 0; frame < 1500; ++frame) simulator.step();
     const GraspState state = *simulator.graspState("hand");
     EXPECT_LE((state.force - Vec3(0.0, 0.0, -kWeight)).norm(), 1e-3 * kWeight);
     Vec3 torque = Vec3::Zero();
     for (int i = 0; i < simulator.rows(); ++i) {
       for (int j = 0; j < simulator.columns(); ++j)
-        torque += (simulator.position({i, j}) - grasp.frame.position)
-                      .cross(Vec3(0.0, 0.0, -9.81 * simulator.mass({i, j})));
+        torque +=
+            (simulator.position({i, j}) - grasp.frame.position).cross(Vec3(0.0, 0.0, -9.81 * simulator.mass({i, j})));
     }
     EXPECT_LE((state.torque - torque).norm(), 1e-3 * kWeight * 1.0);
     EXPECT_EQ(state.end, GraspEnd::kNone);
@@ -260,15 +271,6 @@ TEST(Grasp, GivesTheMomentumThatTheClothTakes) {
   scene.solver.substeps = 8;
   Simulator simulator(scene);
   ASSERT_EQ(refusal(simulator, ballGrasp("hand", {0.1, 0.0, 1.0}, 0.12)), "");
-  const auto momentum = [&] {
-    std::vector<Vec3> velocities;
-    simulator.copyVelocities(velocities);
-    Vec3 sum = Vec3::Zero();
-    for (int n = 0; n < simulator.rows() * simulator.columns(); ++n)
-      sum += simulator.mass({n / simulator.columns(), n % simulator.columns()}) *
-             velocities[static_cast<std::size_t>(n)];
-    return sum;
-  };
   Vec3 given = Vec3::Zero();
   for (int frame = 1; frame <= 60; ++frame) {
     const double t = frame / 60.0;
@@ -277,8 +279,9 @@ TEST(Grasp, GivesTheMomentumThatTheClothTakes) {
     given -= simulator.graspState("hand")->force / 60.0;
   }
   // Leapfrog's last kick is half done when the velocities are read: up to half a substep of the mean force.
-  const double tolerance = 1e-3 * momentum().norm() + given.norm() / 60.0 / 8.0;
-  EXPECT_LE((given - momentum()).norm(), tolerance) << given.transpose() << " / " << momentum().transpose();
+  const double tolerance = 1e-3 * momentumOf(simulator).norm() + given.norm() / 60.0 / 8.0;
+  EXPECT_LE((given - momentumOf(simulator)).norm(), tolerance)
+      << given.transpose() << " / " << momentumOf(simulator).transpose();
 }
 
 // Two hands share the weight; when one lets go the other has it.
@@ -289,7 +292,7 @@ TEST(Grasp, HandsOver) {
   // Of its region it takes what is beside the other hand.
   ASSERT_EQ(refusal(simulator, ballGrasp("right", simulator.position({0, 3}), 0.07)), "");
   const std::vector<NodeIndex> taken = simulator.graspState("right")->nodes;
-  ASSERT_EQ(taken.size(), 5U);  // {0, 3}, {0, 4}, {1, 2}, {1, 3}, {1, 4}
+  ASSERT_EQ(taken.size(), 3U);  // {0, 3}, {0, 4}, {1, 3}
   for (int frame = 0; frame < 600; ++frame) simulator.step();
   const Vec3 both = simulator.graspState("left")->force + simulator.graspState("right")->force;
   EXPECT_LE((both - Vec3(0.0, 0.0, -kWeight)).norm(), 1e-3 * kWeight);
@@ -348,22 +351,28 @@ TEST(Grasp, SlidesOutBetweenPads) {
   const double hold = 0.5 * kWeight;
   ASSERT_EQ(refusal(simulator, pinched(hold)), "");
   std::size_t held = simulator.graspState("pads")->nodes.size();
-  double slipped = 0.0;
+  double slipped = 0.0, at_first = 0.0;
   int frame = 0;
   for (; simulator.graspState("pads")->end == GraspEnd::kNone && frame < 200; ++frame) {
     simulator.step();
     const GraspState state = *simulator.graspState("pads");
     EXPECT_LE(state.nodes.size(), held) << "nothing comes from above";
     held = state.nodes.size();
-    if (frame > 5 && held > 0) EXPECT_NEAR(-state.force.z(), hold, 0.05 * hold) << "frame " << frame;
+    if (frame >= 3 && held > 0) {
+      EXPECT_NEAR(-state.force.z(), hold, 0.05 * hold) << "frame " << frame;
+    }
     EXPECT_GE(state.slipped, slipped);
     slipped = state.slipped;
+    if (frame == 5) at_first = momentumOf(simulator).z();
+    if (frame == 15) {
+      EXPECT_NEAR(at_first - momentumOf(simulator).z(), (kWeight - hold) * 10.0 / 60.0, 0.05 * hold * 10.0 / 60.0);
+    }
   }
   EXPECT_EQ(simulator.graspState("pads")->end, GraspEnd::kSlippedOut);
-  // The top row is 0.23 m above the box's lower end: with an acceleration of g / 2 that takes 0.306 s, 18.4 frames, and
-  // with a pull that is off by 5 % half a frame more or less. The last frame's way is 0.025 m.
-  EXPECT_NEAR(frame, 18.4, 1.6);
-  EXPECT_NEAR(slipped, 0.23, 0.03);
+  // The top row is 0.23 m above the box's lower end: with an acceleration of g / 2 that takes 0.306 s, 18.4 frames. The
+  // strip's corners lag behind.
+  EXPECT_NEAR(frame, 18.4, 3.0);
+  EXPECT_NEAR(slipped, 0.23, 0.05);
 }
 
 // Two pads that are drawn along hanging cloth: it passes between them, new cloth comes in, and they feel 2 mu N.
@@ -504,38 +513,38 @@ TEST(Grasp, RefusesInWords) {
 // Threads, and a snapshot in the middle, change no bit.
 TEST(Grasp, HasTheSameBits) {
   Scene scene = busy();
-  scene.cloth.rows = 40;
-  scene.cloth.columns = 33;
+  scene.cloth.rows = 18;
+  scene.cloth.columns = 13;
   const auto live = [](Simulator& simulator, int frame) {
     Random random(static_cast<std::uint64_t>(frame));
     if (frame == 5) {
-      ASSERT_EQ(refusal(simulator, ballGrasp("rigid", simulator.position({25, 8}), 0.06)), "");
+      ASSERT_EQ(refusal(simulator, ballGrasp("rigid", simulator.position({11, 3}), 0.09)), "");
     }
     if (frame == 8) {
-      GraspParams soft = ballGrasp("soft", simulator.position({25, 25}), 0.06);
+      GraspParams soft = ballGrasp("soft", simulator.position({11, 10}), 0.09);
       soft.stiffness = 100.0;
       soft.break_force = 30.0;
       ASSERT_EQ(refusal(simulator, soft), "");
     }
     if (frame == 10) {
-      GraspParams pads = ballGrasp("pads", simulator.position({38, 16}), 0.08);
+      GraspParams pads = ballGrasp("pads", simulator.position({16, 6}), 0.1);
       pads.pinch_force = 0.5;
       ASSERT_EQ(refusal(simulator, pads), "");
     }
     for (const std::string& id : simulator.grasps()) {
       const GraspState state = *simulator.graspState(id);
       if (state.nodes.empty()) continue;
-      simulator.moveGrasp(id, {simulator.position(state.nodes.front()) + random.inBox(0.03),
+      simulator.moveGrasp(id, {simulator.position(state.nodes.front()) + random.inBox(0.01),
                                Rotation(Eigen::AngleAxisd(random.between(-0.3, 0.3), Vec3::UnitY()))});
     }
-    if (frame == 40) simulator.releaseGrasp("rigid");
+    if (frame == 30) simulator.releaseGrasp("rigid");
     simulator.step();
   };
   scene.solver.threads = 1;
   Simulator one(scene), again(scene);
   scene.solver.threads = 2;
   Simulator two(scene);
-  for (int frame = 0; frame < 60; ++frame) {
+  for (int frame = 0; frame < 40; ++frame) {
     live(one, frame);
     live(two, frame);
     if (frame % 7 == 3) {

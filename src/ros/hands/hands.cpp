@@ -84,8 +84,7 @@ bool Hands::take(Hand& hand, Simulator& simulator, const ros::Time& now) {
   }
   inputs_.take();
   hand.holds = true;
-  hand.ends =
-      wanted.lifetime > 0.0 ? simulator.time() + wanted.lifetime : std::numeric_limits<double>::infinity();
+  hand.ends = wanted.lifetime > 0.0 ? simulator.time() + wanted.lifetime : std::numeric_limits<double>::infinity();
   hand.goal.setAccepted("holds " + numberOf(simulator.graspState(hand.id)->nodes.size()));
   return true;
 }
@@ -110,14 +109,19 @@ void Hands::cancel(const Goal& goal, Simulator& simulator) {
 }
 
 void Hands::update(Simulator& simulator) {
-  hands_.erase(std::remove_if(hands_.begin(), hands_.end(),
-                              [&](Hand& hand) { return hand.holds && !tell(hand, simulator); }),
-               hands_.end());
+  hands_.erase(
+      std::remove_if(hands_.begin(), hands_.end(), [&](Hand& hand) { return hand.holds && !tell(hand, simulator); }),
+      hands_.end());
 }
 
 // False: it has ended.
 bool Hands::tell(Hand& hand, Simulator& simulator) {
-  const curtain::GraspState state = *simulator.graspState(hand.id);
+  const std::optional<curtain::GraspState> found = simulator.graspState(hand.id);
+  if (!found) {
+    end(hand, simulator, GraspResult::RESET, "the curtain holds another state");
+    return false;
+  }
+  const curtain::GraspState& state = *found;
   const curtain::Rotation to_frame = hand.frame.pose()->orientation.conjugate();
   GraspFeedback feedback;
   feedback.nodes = static_cast<std::uint32_t>(state.nodes.size());

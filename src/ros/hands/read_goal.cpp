@@ -46,8 +46,7 @@ std::vector<curtain::Problem> toGrasp(const GraspGoal& goal, const std::string& 
   grasp = curtain::GraspParams();
   grasp.id = id;
   if (goal.frame.size() > kLongestName) {
-    log.add("frame",
-            "must be no longer than " + std::to_string(kLongestName) + " bytes, is " + forLog(goal.frame, 20));
+    log.add("frame", "must be no longer than " + std::to_string(kLongestName) + " bytes, is " + forLog(goal.frame, 20));
   }
   switch (goal.region) {
     case GraspGoal::SPHERE:

@@ -92,8 +92,8 @@ void buildLines(const curtain::Simulator& simulator, Points& lines, Points& load
 void buildGrasps(const curtain::Simulator& simulator, Points& points) {
   points.clear();
   for (const std::string& id : simulator.grasps()) {
-    for (const curtain::NodeIndex& node : simulator.graspState(id)->nodes)
-      points.push_back(toPoint(simulator.position(node)));
+    const std::optional<curtain::GraspState> grasp = simulator.graspState(id);
+    for (const curtain::NodeIndex& node : grasp->nodes) points.push_back(toPoint(simulator.position(node)));
   }
 }
 
