@@ -83,7 +83,7 @@ bool FrameLoop::makeStages(const SubstepPlan& plan, double done) {
     }
     controls_.main.accepted(stage, outcome);
     controls_.plain.watch(outcome);
-    motion_.contact.afterSubstep(true, stage.h, outcome.scale, motion_.state.position);
+    motion_.contact.afterSubstep(true, stage.h, outcome, motion_.state.position);
     at += stage.h;
   }
   return true;
@@ -126,7 +126,7 @@ void FrameLoop::accept(StepControl& steps, const SubstepPlan& plan, const Subste
   }
   pins_waited_ = pins_waited_ || outcome.pins_wait;
   countSubstep(1);
-  motion_.contact.afterSubstep(outcome.settled, plan.h, outcome.scale, motion_.state.position);
+  motion_.contact.afterSubstep(outcome.settled, plan.h, outcome, motion_.state.position);
 }
 
 void FrameLoop::countSubstep(int steps) noexcept {
