@@ -8,7 +8,7 @@ curtain_packages_build=(
   g++ make cmake ninja-build catkin ros-message-generation libroscpp-dev libroslib-dev libtf2-ros-dev libeigen3-dev
   libyaml-cpp-dev libassimp-dev libtbb-dev nlohmann-json3-dev zlib1g-dev libtinyxml2-dev libnodelet-dev libnodeletlib-dev
   libinteractive-markers-dev libdiagnostic-updater-dev libvisualization-msgs-dev ros-std-msgs ros-geometry-msgs
-  libactionlib-dev ros-actionlib-msgs)
+  libactionlib-dev ros-actionlib-msgs liburdf-dev)
 curtain_packages_run=(python3-roslaunch libnodeletlib-tools tf2-tools rosbash python3-rospy python3-tf2-ros
   python3-visualization-msgs python3-rostopic python3-rosnode python3-actionlib-msgs python3-actionlib python3-numpy
   python3-sensor-msgs ros-robot-state-publisher)

@@ -197,6 +197,9 @@ class Simulator {
 
   /// Force and torque of the cloth on an obstacle, mean over the last frame; zero before the first one.
   ContactWrench contactWrench(int obstacle) const;
+  /// Where the cloth presses on obstacles at the end of the last substep, with the mean forces of that substep, sorted
+  /// by the obstacles' names; empty before the first step. Resized. Costs nothing until it is called.
+  void copyContactPoints(std::vector<ContactForce>& out) const;
 
   /// Changes whenever the cloth or an obstacle may have moved, so that results for the same number can be reused.
   std::uint64_t revision() const;

@@ -28,6 +28,14 @@ class RobotCurtainTest(unittest.TestCase):
         record.wait_until_time(motion["period"] + 1.0, "the robot has opened and shut the curtain")
         times, edge, carrier = record.times(), record.node(row, column), record.node(0, column)
 
+        import pickle
+        pickle.dump(dict(times=times, edge=edge, carrier=carrier, begin=record.frames()[0][0].to_sec(), top=[p[0] for _, p, _ in record.frames()],
+            edgecol=[p[:, -1] for _, p, _ in record.frames()],
+            stats=[(s.step_ms, s.dropped_frames, s.last_resort_substeps, s.stops, s.warp_stretch, s.weft_stretch, s.opening, s.substeps, s.asleep) for _, _, s in record.frames()],
+            felt=[(m.header.stamp.to_sec(), m.feedback.nodes, m.feedback.pull.wrench.force.x, m.feedback.pull.wrench.force.y, m.feedback.pull.wrench.force.z) for m in felt.messages()],
+            tips=[places.at("gripper_tip", f[0]) for f in record.frames()],
+            ended=[(m.header.stamp.to_sec(), m.result.end, m.result.message, m.status.status) for m in ended.messages()]), open("/tmp/rc.pickle", "wb"))
+
         def at(values, time):
             return values[np.argmin(np.abs(times - time))]
 
