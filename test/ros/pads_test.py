@@ -30,11 +30,11 @@ class PadsTest(unittest.TestCase):
         for curtain in curtains:
             curtain.wait_for(lambda s: s.statistics.absent_obstacles == 0, "the pads are there")
         for side, pad in pads:
-            pad.move_to((0.0, side * SHUT, 0.0), 0.5)
+            pad.move_to((0.0, side * SHUT, 0.0), 0.05)
         for curtain in curtains:
             curtain.wait_for(lambda s: s.statistics.contacts >= COLUMNS, "the pads have closed")
         before = [height(curtain.last()) for curtain in curtains]
-        gripper.move_to((0.07, 0.0, HEIGHT + LIFT), 1.5)
+        gripper.move_to((0.07, 0.0, HEIGHT + LIFT), 0.1)
         frames = [curtain.last().statistics.frame for curtain in curtains]
         for curtain, frame in zip(curtains, frames):
             curtain.wait_for(lambda s, frame=frame: s.statistics.frame > frame + 120, "it was lifted")
@@ -47,7 +47,7 @@ class PadsTest(unittest.TestCase):
         self.assertEqual(state.statistics.penetration_max, 0.0)
         # Opened, they let go.
         for side, pad in pads:
-            pad.move_to((0.0, side * 0.03, 0.0), 0.2)
+            pad.move_to((0.0, side * 0.03, 0.0), 0.1)
         wait_until(lambda: height(curtains[0].last()) < before[0] + 0.1 * LIFT, "the strip hangs down again")
 
 
