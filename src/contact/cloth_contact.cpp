@@ -89,7 +89,7 @@ void ClothContact::warmStart() noexcept {
     while (old != last_.end() && before(*old, contact)) ++old;
     if (old == last_.end()) return;
     if (before(contact, *old)) continue;
-    contact.push = old->push;
+    contact.push = contact.press > 0.0 ? old->push : std::max(0.0, old->push);
     contact.slide = old->slide;
   }
 }

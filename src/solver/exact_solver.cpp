@@ -131,7 +131,8 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const Attempt& attempt) noexce
   all.contacts = contacts;
   while (true) {
     if (contacts != nullptr) {
-      beginContacts(inertia_.inverse(), attempt.ratio, known, *contacts, constraints_.next);
+      beginContacts(inertia_.inverse(), std::abs(attempt.step * attempt.kick), attempt.ratio, known, *contacts,
+                    constraints_.next);
       constraints_.settleCarriers();
       known = contacts->size();
       if (known > 0 && task.path == 0.0) task.path = plan.h * std::sqrt(meanSquare(attempt.state.velocity));

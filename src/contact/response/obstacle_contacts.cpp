@@ -28,6 +28,7 @@ ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, const ContactPar
       thickness_(params.thickness),
       recovery_speed_(params.recovery_speed),
       obstacles_(obstacles),
+      pads_(pattern, obstacles, thickness_),
       bounds_(pattern) {
   const auto count = static_cast<std::size_t>(obstacles.count());
   if (count == 0) return;
@@ -86,6 +87,7 @@ void ObstacleContacts::begin(const Field3& start, const Field3& predicted, doubl
     std::sort(contacts.begin() + first, contacts.end(), firstOfOne);
     contacts.erase(std::unique(contacts.begin() + first, contacts.end(), alike), contacts.end());
   }
+  pads_.pinch(start, h, contacts);
 }
 
 // Finds candidates for the motion from start to end of every obstacle near it, which become active; false: none is
@@ -182,13 +184,22 @@ void ObstacleContacts::remember(const Contacts& pushing, const Field3& position,
   for (Load& load : loads_) load.contacts = 0;
   for (const Contact& contact : pushing) {
     if (contact.obstacle == Contact::kCloth) continue;
-    const auto obstacle = static_cast<std::size_t>(contact.obstacle);
     const Vec3 impulse = (-h / scale) * (contact.push * contact.normal + contact.slide);
-    const Vec3 arm = contact.point(position) - obstacles_.moving()[obstacle].after.translation;
-    loads_[obstacle].impulse += impulse;
-    loads_[obstacle].angular += arm.cross(impulse);
-    ++loads_[obstacle].contacts;
+    if (contact.other == Contact::kCloth) {
+      addLoad(contact.obstacle, contact.point(position), impulse);
+    } else {
+      const Vec3 pressed = (h * contact.press) * contact.normal;
+      addLoad(contact.obstacle, contact.point(position), 0.5 * impulse - pressed);
+      addLoad(contact.other, contact.point(position), 0.5 * impulse + pressed);
+    }
   }
+}
+
+void ObstacleContacts::addLoad(int obstacle, const Vec3& point, const Vec3& impulse) noexcept {
+  Load& load = loads_[static_cast<std::size_t>(obstacle)];
+  load.impulse += impulse;
+  load.angular += (point - obstacles_.moving()[static_cast<std::size_t>(obstacle)].after.translation).cross(impulse);
+  ++load.contacts;
 }
 
 void ObstacleContacts::clearCaches() noexcept {

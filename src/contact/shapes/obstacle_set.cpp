@@ -70,6 +70,7 @@ ObstacleSet::ObstacleSet(const Scene& scene, const MeshResolver& resolve)
     MovingObstacle moving;
     moving.shape = item.shape.get();
     moving.bounds = item.shape->bounds();
+    moving.press = params.press;
     moving.friction = std::isnan(params.friction) ? scene.contact.friction : params.friction;
     items_.push_back(std::move(item));
     moving_.push_back(moving);

@@ -33,6 +33,7 @@ struct Transform {
 struct MovingObstacle {
   const ContactShape* shape = nullptr;
   double friction = 0.0;
+  double press = 0.0;  ///< on what another one presses from the other side [N]
   bool present = true;
   Eigen::AlignedBox3d bounds;  ///< of the shape, in its frame
   Transform before;            ///< at the substep's start
