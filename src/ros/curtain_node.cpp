@@ -88,8 +88,7 @@ void CurtainNode::startWatch(const ros::NodeHandle& node, const ros::NodeHandle&
     services.push_back(private_node.resolveName(own));
   if (tie_backs_) services.push_back(private_node.resolveName("tie_back"));
   // dynamic_reconfigure's values are parameters, too: of now, not of the start.
-  watch_ = std::make_unique<RoscppWatch>(private_node.getNamespace(), topics, services,
-                                         [this] { tuning_->refresh(); });
+  watch_ = std::make_unique<RoscppWatch>(private_node.getNamespace(), topics, services, [this] { tuning_->refresh(); });
 }
 
 // Frames, and messages of what became of them, come at an end; then the answers to those who wait for some.

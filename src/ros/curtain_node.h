@@ -10,8 +10,8 @@
 //
 //   parameters  time  frames                      what the node is told; when frames are due; poses on tf2
 //   inputs  obstacles  outputs  snapshots  watch  what it does; watch, which looks into roscpp, can be switched off
-//   opening  services  tuning  health             the rail's drive and tie-backs; what is asked of it, and changed; what
-//                                                 it says of itself on /diagnostics
+//   opening  health  services                     the rail's drive and tie-backs; what it says of itself; is asked for
+//   tuning                                        what is changed meanwhile
 #pragma once
 
 #include <ros/node_handle.h>
@@ -53,8 +53,9 @@ class CurtainNode {
 
   ~CurtainNode() { stop(); }
 
-  /// Makes no more frames, answers callers of services that wait for some, and writes the last snapshot where one is asked for: within the computing time of a frame,
-  /// and what the disk takes. Asks nobody else: what remains for the destructor may have to wait for the ROS master.
+  /// Makes no more frames, answers callers of services that wait for some, and writes the last snapshot where one is
+  /// asked for: within the computing time of a frame, and what the disk takes. Asks nobody else: what remains for the
+  /// destructor may have to wait for the ROS master.
   void stop();
 
   CurtainNode(const CurtainNode&) = delete;

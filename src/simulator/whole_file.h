@@ -10,9 +10,9 @@
 
 namespace curtain {
 
-/// Writes a file into a temporary one beside it, which is renamed when it is on the disk. On failure (no such folder, no
-/// permission, disk full) the problem says what and why, and an existing file is unchanged. No temporary file is left,
-/// nor after a kill where the file system has O_TMPFILE (ext4, xfs, btrfs, tmpfs …). Follows symbolic links.
+/// Writes a file into a temporary one beside it, which is renamed when it is on the disk. On failure (no such folder,
+/// no permission, disk full) the problem says what and why, and an existing file is unchanged. No temporary file is
+/// left, nor after a kill where the file system has O_TMPFILE (ext4, xfs, btrfs, tmpfs …). Follows symbolic links.
 /// Thread-safe; of two writers to one path one wins.
 std::vector<Problem> writeWholeFile(const std::string& path, const std::string& bytes);
 

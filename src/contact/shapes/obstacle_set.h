@@ -106,10 +106,10 @@ class ObstacleSet {
     Pose end;
     bool scripted = false;  // follows its motion
     bool moved = false;
-    double own_path = 0.0;  // displacement of its target since the last frame [m]
-    double share = 1.0;     // part of the remaining path covered in this frame
-    bool behind = false;    // the last frame ended short of the target
-    bool placed = false;    // at rest, with its substep set
+    double own_path = 0.0;      // displacement of its target since the last frame [m]
+    double share = 1.0;         // part of the remaining path covered in this frame
+    bool behind = false;        // the last frame ended short of the target
+    bool placed = false;        // at rest, with its substep set
     bool own_friction = false;  // the scene names its friction
 
     void carry(Archive& archive);

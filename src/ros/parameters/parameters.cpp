@@ -35,15 +35,25 @@ struct Checker : curtain::RangeChecker {
 struct Names {
   std::set<std::string> all;
   template <typename... Rest>
-  void text(curtain::Key key, Rest&&...) { all.insert(key.name); }
+  void text(curtain::Key key, Rest&&...) {
+    all.insert(key.name);
+  }
   template <typename... Rest>
-  void textOrNone(curtain::Key key, Rest&&...) { all.insert(key.name); }
+  void textOrNone(curtain::Key key, Rest&&...) {
+    all.insert(key.name);
+  }
   template <typename... Rest>
-  void number(curtain::Key key, Rest&&...) { all.insert(key.name); }
+  void number(curtain::Key key, Rest&&...) {
+    all.insert(key.name);
+  }
   template <typename... Rest>
-  void integer(curtain::Key key, Rest&&...) { all.insert(key.name); }
+  void integer(curtain::Key key, Rest&&...) {
+    all.insert(key.name);
+  }
   template <typename... Rest>
-  void flag(curtain::Key key, Rest&&...) { all.insert(key.name); }
+  void flag(curtain::Key key, Rest&&...) {
+    all.insert(key.name);
+  }
 };
 
 // A scalar as the scene's reader knows it from a file: "!" is text, whatever it looks like, "?" is a value.
@@ -164,9 +174,10 @@ ParameterReading readParameters(const ros::NodeHandle& private_node) {
   ParameterReading reading = readParameters(tree, private_node.getNamespace());
   for (const std::string& warning : reading.warnings) ROS_WARN_STREAM(warning);
   if (reading.node.publish_clock && !ros::Time::isSimTime()) {
-    reading.problems.push_back(private_node.getNamespace() +
-                               "/publish_clock: needs /use_sim_time: true, set before the node starts; without it nobody "
-                               "follows /clock");
+    reading.problems.push_back(
+        private_node.getNamespace() +
+        "/publish_clock: needs /use_sim_time: true, set before the node starts; without it nobody "
+        "follows /clock");
   }
   if (reading.problems.empty()) return reading;
   std::string list = "can't start, " + std::to_string(reading.problems.size()) + " problem(s) with the parameters:";

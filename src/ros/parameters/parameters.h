@@ -56,8 +56,8 @@ ParameterReading readParameters(const XmlRpc::XmlRpcValue& tree, const std::stri
 /// What is wrong with values of the node's own; empty: nothing.
 std::vector<curtain::Problem> validate(const NodeParams& params);
 
-/// Names of the parameters that dynamic_reconfigure keeps for keys of the scene (cfg/Curtain.cfg). They are there when a
-/// node is started again, and not read.
+/// Names of the parameters that dynamic_reconfigure keeps for keys of the scene (cfg/Curtain.cfg). They are there when
+/// a node is started again, and not read.
 std::vector<std::string> tunedSceneParameters();
 
 /// Parameters that a node can't start with; what() lists every problem.

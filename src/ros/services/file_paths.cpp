@@ -29,7 +29,8 @@ std::string problemOfOutput(const std::string& path) {
   if (!problem.empty()) return problem;
   std::error_code error;
   const fs::path folder = fs::path(path).parent_path();
-  if (!fs::is_directory(folder, error)) return "path: there is no folder '" + forLog(folder.string(), kLongestPath) + "'";
+  if (!fs::is_directory(folder, error))
+    return "path: there is no folder '" + forLog(folder.string(), kLongestPath) + "'";
   if (fs::is_directory(path, error) || !fs::path(path).has_filename()) {
     return "path: '" + forLog(path, kLongestPath) + "' is a folder";
   }

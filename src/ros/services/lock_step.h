@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Whether the clock makes frames, or ~step does: a pause, and the frames that callers ask for in it. Callers take turns,
-// frame by frame: one that asked for many, and may have died since, holds up nobody.
+// Whether the clock makes frames, or ~step does: a pause, and the frames that callers ask for in it. Callers take
+// turns, frame by frame: one that asked for many, and may have died since, holds up nobody.
 #pragma once
 
 #include <cstdint>

@@ -15,7 +15,8 @@ namespace curtain_ros {
 class ServiceThreads {
  public:
   /// count  calls that are served at a time, >= 1; others wait for their turn
-  ServiceThreads(const ros::NodeHandle& private_node, std::uint32_t count) : node_(private_node), spinner_(count, &queue_) {
+  ServiceThreads(const ros::NodeHandle& private_node, std::uint32_t count)
+      : node_(private_node), spinner_(count, &queue_) {
     node_.setCallbackQueue(&queue_);
   }
 

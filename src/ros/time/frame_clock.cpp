@@ -16,7 +16,9 @@ constexpr double kOrigin = 1.0;       // [s] of its own clock
 }  // namespace
 
 FrameClock::FrameClock(double frame_rate, int max_catch_up, bool own)
-    : source_(own ? Source::kOwn : ros::Time::isSimTime() ? Source::kClock : Source::kComputer),
+    : source_(own                      ? Source::kOwn
+              : ros::Time::isSimTime() ? Source::kClock
+                                       : Source::kComputer),
       frame_rate_(frame_rate),
       steps_(frame_rate, max_catch_up),
       own_(frame_rate, max_catch_up) {

@@ -82,8 +82,8 @@ class FrameClock {
   Source source_;
   double frame_rate_;
   StepClock steps_;
-  StepClock own_;              // the grid of its own clock
-  std::int64_t own_now_ = 0;   // [ns]
+  StepClock own_;             // the grid of its own clock
+  std::int64_t own_now_ = 0;  // [ns]
   StampKeeper stamps_;
   std::uint32_t jumps_back_ = 0;
   std::uint64_t logged_dropped_ = 0;

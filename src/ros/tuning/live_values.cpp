@@ -42,7 +42,8 @@ const auto kFromConfig = [](const double& config, double& ours) { ours = config;
 std::vector<Problem> setAir(const CurtainConfig& values, curtain::Simulator& simulator) {
   const std::vector<std::string>& laws = curtain::airLawNames();
   const auto law = std::find(laws.begin(), laws.end(), values.air_law);
-  if (law == laws.end()) return {{"air.law", "must be " + curtain::alternatives(laws) + ", is '" + values.air_law + "'"}};
+  if (law == laws.end())
+    return {{"air.law", "must be " + curtain::alternatives(laws) + ", is '" + values.air_law + "'"}};
   curtain::AirParams air = simulator.scene().air;
   bool same = air.law == static_cast<curtain::AirLaw>(law - laws.begin());
   visitAir(values, air, [&same](double wanted, double present) { same = same && wanted == present; });

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // dynamic_reconfigure on the node's own namespace. Its thread leaves the values that somebody sets as a job for the
-// simulation thread and waits for what holds then; that is what dynamic_reconfigure publishes. It also writes all values
-// to the parameter server, under their names in cfg/Curtain.cfg; ~scene is not touched, and holds at the next start.
+// simulation thread and waits for what holds then; that is what dynamic_reconfigure publishes. It also writes all
+// values to the parameter server, under their names in cfg/Curtain.cfg; ~scene is not touched, and holds at the next
+// start.
 #pragma once
 
 #include <dynamic_reconfigure/server.h>
