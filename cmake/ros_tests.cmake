@@ -22,6 +22,11 @@ add_executable(curtain_flood EXCLUDE_FROM_ALL test/ros/flood.cpp)
 target_link_libraries(curtain_flood curtain_ros curtain_warnings)
 add_dependencies(tests curtain_flood)
 
+# The client of test/bench/node/step_rate.
+add_executable(curtain_step_client EXCLUDE_FROM_ALL test/bench/node/step_client.cpp)
+target_link_libraries(curtain_step_client curtain_ros curtain_warnings)
+add_dependencies(tests curtain_step_client)
+
 file(GLOB CURTAIN_ROSTESTS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS test/ros/*.test)
 list(REMOVE_ITEM CURTAIN_ROSTESTS test/ros/sharing.test)
 foreach(file ${CURTAIN_ROSTESTS})

@@ -383,6 +383,7 @@ std::vector<Problem> validate(const ObstacleParams& obstacle, const std::string&
 std::vector<Problem> validate(const AirParams& air, const std::string& key);            ///< as above
 std::vector<Problem> validate(const DriveParams& drive, const std::string& key);        ///< as above
 std::vector<Problem> validate(const SolverParams& solver, const std::string& key);      ///< as above
+std::vector<Problem> validate(const ContactParams& contact, const std::string& key);    ///< as above
 
 /// Sets what is known of the material: its density, bending, porosity, friction, thickness and air drag
 /// (docs/materials.md); the coefficients of Eq. (4) unless air.law, to be set first, is relative. kNone changes nothing

@@ -27,12 +27,16 @@ struct Simulator::Impl {
   void step();
   void takeGravity() noexcept;
   void takeFrame() noexcept;
+  void takeFriction() noexcept;
+  void takeStretchTolerance() noexcept;
+  void takePositionTolerance() noexcept;
+  void takeBudget() noexcept;
   void driven() noexcept;
   void carry(Archive& archive);
   void resume() noexcept;
   std::uint32_t layout();
 
-  Scene scene;  // gravity, air and the frame rate may change
+  Scene scene;  // some keys may change, see Simulator::scene()
   const ClothPattern pattern;
   FrameTimes times;
   Motion motion;

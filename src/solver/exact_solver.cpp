@@ -36,6 +36,13 @@ ExactSolver::ExactSolver(const ClothPattern& pattern, double stretch_tolerance, 
       bdf2_(pattern),
       last_resort_(pattern, constraints_.cords()) {}
 
+void ExactSolver::takeStretchTolerance(double tolerance) noexcept {
+  stretch_tolerance_ = tolerance;
+  constraints_.takeTolerance(kInnerTolerance * tolerance);
+  sweeps_.takeTolerances(tolerance, tolerance * smallest_rest_);
+  guard_.takeStretchTolerance(tolerance);
+}
+
 void ExactSolver::reset() noexcept {
   gained_ = {};
   constraints_.reset();

@@ -22,6 +22,8 @@ class KineticGuard {
   /// stretch_tolerance: relative; links: a typical link's length [m]. pattern and inertia must outlive this.
   KineticGuard(const ClothPattern& pattern, const NodeInertia& inertia, double stretch_tolerance, double links);
 
+  void takeStretchTolerance(double tolerance) noexcept { stretch_tolerance_ = tolerance; }
+
   struct Finding {
     double most = std::numeric_limits<double>::infinity();  ///< twice the energy to bound it by [J]; infinite: no need
     double gain = 0.0;                                      ///< twice the excess energy [J]
@@ -57,7 +59,8 @@ class KineticGuard {
 
   const ClothPattern& pattern_;
   const NodeInertia& inertia_;
-  const double stretch_tolerance_, links_;
+  double stretch_tolerance_;
+  const double links_;
   const std::vector<std::size_t> pins_;
 };
 

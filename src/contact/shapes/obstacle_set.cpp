@@ -71,7 +71,8 @@ ObstacleSet::ObstacleSet(const Scene& scene, const MeshResolver& resolve)
     moving.shape = item.shape.get();
     moving.bounds = item.shape->bounds();
     moving.press = params.press;
-    moving.friction = std::isnan(params.friction) ? scene.contact.friction : params.friction;
+    item.own_friction = !std::isnan(params.friction);
+    moving.friction = item.own_friction ? params.friction : scene.contact.friction;
     items_.push_back(std::move(item));
     moving_.push_back(moving);
   }
@@ -82,6 +83,12 @@ ObstacleSet::ObstacleSet(const Scene& scene, const MeshResolver& resolve)
   rank_.resize(items_.size());
   for (std::size_t n = 0; n < by_name_.size(); ++n) rank_[at(by_name_[n])] = static_cast<int>(n);
   reset();
+}
+
+void ObstacleSet::takeFriction(double friction) noexcept {
+  for (std::size_t n = 0; n < items_.size(); ++n) {
+    if (!items_[n].own_friction) moving_[n].friction = friction;
+  }
 }
 
 bool ObstacleSet::anyPresent() const noexcept {

@@ -65,6 +65,8 @@ class ObstacleSet {
   void reset() noexcept;
   /// Sets the length of a frame [s].
   void takeFrame(double length) noexcept { frame_length_ = length; }
+  /// Sets the friction of those that have none of their own.
+  void takeFriction(double friction) noexcept;
   /// Sets the pose at the end of the coming frame, or (jump) from now on.
   void setPose(int index, const Pose& pose, bool jump) noexcept;
 
@@ -105,10 +107,11 @@ class ObstacleSet {
     Pose end;
     bool scripted = false;  // follows its motion
     bool moved = false;
-    double own_path = 0.0;  // displacement of its target since the last frame [m]
-    double share = 1.0;     // part of the remaining path covered in this frame
-    bool behind = false;    // the last frame ended short of the target
-    bool placed = false;    // at rest, with its substep set
+    double own_path = 0.0;      // displacement of its target since the last frame [m]
+    double share = 1.0;         // part of the remaining path covered in this frame
+    bool behind = false;        // the last frame ended short of the target
+    bool placed = false;        // at rest, with its substep set
+    bool own_friction = false;  // the scene names its friction
 
     void carry(Archive& archive);
   };

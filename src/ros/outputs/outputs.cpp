@@ -30,8 +30,23 @@ Outputs::Outputs(ros::NodeHandle node, const NodeParams& params, const curtain::
       mesh_marker_(params.world_frame, geometry_),
       detail_markers_(params.world_frame, geometry_),
       plan_rate_(kPlanRate, simulator.scene().solver.frame_rate) {
+  tune(params, simulator.scene().solver.frame_rate);
+}
+
+void Outputs::tune(const NodeParams& params, double frame_rate) {
+  for (Stream* stream : {&state_, &loads_, &contacts_}) {
+    stream->pace.setRates(params.state_rate, params.state_rest_rate, frame_rate);
+  }
+  mesh_.pace.setRates(params.mesh_rate, kMarkersAtRest, frame_rate);
+  markers_.pace.setRates(params.markers_rate, kMarkersAtRest, frame_rate);
+  plan_rate_.setRate(kPlanRate, frame_rate);
   detail_.tolerance = params.mesh_tolerance;
   detail_.viewer_tolerance = params.mesh_viewer_tolerance;
+}
+
+void Outputs::showAgain(const ros::Time& stamp) {
+  for (Stream* stream : {&mesh_, &markers_}) stream->pace.tick();
+  publishMarkers(stamp);
 }
 
 void Outputs::publish(const ros::Time& stamp, curtain_sim::Statistics statistics, bool latest) {
