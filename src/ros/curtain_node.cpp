@@ -72,7 +72,6 @@ void CurtainNode::startServices(const ros::NodeHandle& private_node) {
 
   FileServices::Actions file;
   file.restore = [this](const std::string& snapshot) { return restore(snapshot); };
-  file.restored = [this] { tuning_->refresh(); };
   Tuning::Actions tuning;
   tuning.take = [this](const curtain_sim::CurtainConfig& values) { tune(values); };
   tuning.present = [this] { return liveValues(simulator_.scene(), params_); };
@@ -192,6 +191,7 @@ std::vector<curtain::Problem> CurtainNode::restore(const std::string& snapshot) 
   inputs_.restart();
   obstacles_.resume(simulator_);
   takeRates();
+  tuning_->refresh();
   return problems;
 }
 

@@ -24,7 +24,7 @@ NODE = "/stage/curtain"
 ROWS, COLUMNS, FOLDS = 10, 8, 3
 TRIANGLES = 2 * (ROWS - 1) * (COLUMNS - 1) * FOLDS
 TYPES = {"reset": Trigger, "pause": SetBool, "step": Step, "save": Save, "load": Load, "export_mesh": ExportMesh}
-AWAKE = {"cloth": {"rows": 10, "columns": 8}, "solver": {"rest_speed": 0.0}}  # else 100000 frames take no time
+AWAKE = {"cloth": {"rows": 10, "columns": 8}, "solver": {"rest_speed": 0.0, "substeps": 64}}  # 100000 frames take a while
 CALLER = """
 import rospy
 from curtain_sim.srv import Step

@@ -46,7 +46,6 @@ bool FileServices::load(curtain_sim::Load::Request& request, curtain_sim::Load::
   });
   response.message = tried ? curtain::describe(problems, request.path) : kStops;
   response.success = response.message.empty();
-  if (response.success) actions_.restored();
   return true;
 }
 

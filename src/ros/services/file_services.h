@@ -25,8 +25,6 @@ class FileServices {
   struct Actions {
     /// Goes on from a snapshot; what is wrong with it, then nothing changed. Simulation thread.
     std::function<std::vector<curtain::Problem>(const std::string& snapshot)> restore;
-    /// Called after it has, by the services' thread.
-    std::function<void()> restored;
   };
   /// simulator is read by the simulation thread, through calls; both must outlive this.
   FileServices(const ros::NodeHandle& private_node, Calls& calls, const curtain::Simulator& simulator, Actions actions);

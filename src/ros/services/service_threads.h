@@ -8,7 +8,10 @@
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
 
+#include <boost/make_shared.hpp>
 #include <cstdint>
+#include <functional>
+#include <utility>
 
 namespace curtain_ros {
 
@@ -22,6 +25,11 @@ class ServiceThreads {
 
   /// Calls are served from now on.
   void start() { spinner_.start(); }
+  /// None is any more; returns when those under way are.
+  void stop() { spinner_.stop(); }
+
+  /// Has work done by one of the threads, among the calls.
+  void post(std::function<void()> work) { queue_.addCallback(boost::make_shared<Work>(std::move(work))); }
 
   ServiceThreads(const ServiceThreads&) = delete;
   ServiceThreads& operator=(const ServiceThreads&) = delete;
@@ -30,6 +38,18 @@ class ServiceThreads {
   ros::NodeHandle& node() { return node_; }
 
  private:
+  class Work : public ros::CallbackInterface {
+   public:
+    explicit Work(std::function<void()> work) : work_(std::move(work)) {}
+    CallResult call() override {
+      work_();
+      return Success;
+    }
+
+   private:
+    std::function<void()> work_;
+  };
+
   ros::CallbackQueue queue_;
   ros::NodeHandle node_;
   ros::AsyncSpinner spinner_;

@@ -34,7 +34,7 @@ void Tuning::onChange(Config& config) {
   });
 }
 
-void Tuning::refresh() {
+void Tuning::publish() {
   const boost::recursive_mutex::scoped_lock lock(mutex_);
   Config config;
   if (calls_.run([&] { config = actions_.present(); })) server_.updateConfig(config);

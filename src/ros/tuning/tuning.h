@@ -28,13 +28,19 @@ class Tuning {
   /// outlive this.
   Tuning(const ros::NodeHandle& private_node, Calls& calls, Actions actions);
 
-  /// Publishes the values that hold, when others than this have changed them. Any thread but the simulation thread.
-  void refresh();
+  ~Tuning() { thread_.stop(); }
+
+  /// Has the values that hold published, when others than this have changed them. Does not wait for that: the parameter
+  /// server may not answer. Any thread.
+  void refresh() {
+    thread_.post([this] { publish(); });
+  }
 
  private:
   using Config = curtain_sim::CurtainConfig;
 
   void onChange(Config& config);
+  void publish();
 
   Calls& calls_;
   Actions actions_;
