@@ -30,6 +30,7 @@ CurtainNode::CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& pri
       frames_(node, reading.node.world_frame),
       inputs_(node, frames_),
       obstacles_(reading.scene, reading.node.obstacle_timeout, frames_),
+      hands_(private_node, reading.node.grasp_timeout, frames_, inputs_),
       outputs_(private_node, reading.node, simulator_, frames_),
       clock_(reading.scene.solver.frame_rate, reading.node.max_catch_up, reading.node.publish_clock),
       lock_step_(reading.node.start_paused),
@@ -41,6 +42,7 @@ CurtainNode::CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& pri
   if (!reading.scene.tie_back.empty()) tie_backs_ = std::make_unique<TieBacks>(private_node, reading.scene);
   if (snapshots_.restore(simulator_)) {
     obstacles_.resume(simulator_);
+    hands_.restart(simulator_, "the curtain goes on from a snapshot");
     takeRates();
   } else {
     obstacles_.restart(simulator_);
@@ -158,6 +160,7 @@ void CurtainNode::applyInputs() {
 void CurtainNode::makeFrame(const ros::Time& stamp, bool latest) {
   applyInputs();
   obstacles_.update(simulator_, clock_.rosTime());
+  hands_.apply(simulator_, clock_.rosTime());
   simulator_.step();
   if (!simulator_.statistics().finite) {
     ROS_ERROR_THROTTLE(2.0, "the state is not finite any more: the curtain starts again from the scene");
@@ -169,11 +172,13 @@ void CurtainNode::makeFrame(const ros::Time& stamp, bool latest) {
   outputs_.publish(stamp, nodeStatistics(), latest);
   if (handles_) handles_->update(simulator_);
   if (opening_) opening_->update(simulator_);
+  hands_.update(simulator_);
   diagnostics_.frameMade();
 }
 
 void CurtainNode::restart(const std::string& why) {
   ++restarts_;
+  hands_.restart(simulator_, "the curtain started again");
   simulator_.reset();
   lock_step_.end(why);
   if (opening_) opening_->restart();
@@ -186,6 +191,7 @@ std::vector<curtain::Problem> CurtainNode::restore(const std::string& snapshot) 
   std::vector<curtain::Problem> problems = simulator_.restore(snapshot);
   if (!problems.empty()) return problems;
   ++restarts_;
+  hands_.restart(simulator_, "a snapshot was loaded");
   lock_step_.end("a snapshot was loaded");
   if (opening_) opening_->restart();
   inputs_.restart();

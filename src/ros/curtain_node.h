@@ -10,8 +10,8 @@
 //
 //   parameters  time  frames                      what the node is told; when frames are due; poses on tf2
 //   inputs  obstacles  outputs  snapshots  watch  what it does; watch, which looks into roscpp, can be switched off
-//   opening  health  services                     the rail's drive and tie-backs; what it says of itself; is asked for
-//   tuning                                        what is changed meanwhile
+//   opening  hands  health  services              the rail's drive and tie-backs; grasps; what it says of itself; is
+//   asked for tuning                                        what is changed meanwhile
 #pragma once
 
 #include <ros/node_handle.h>
@@ -23,6 +23,7 @@
 
 #include "curtain_sim/simulator.h"
 #include "ros/frames/frames.h"
+#include "ros/hands/hands.h"
 #include "ros/health/diagnostics.h"
 #include "ros/inputs/handles.h"
 #include "ros/inputs/inputs.h"
@@ -88,6 +89,7 @@ class CurtainNode {
   Frames frames_;
   Inputs inputs_;
   ObstacleTracker obstacles_;
+  Hands hands_;
   Outputs outputs_;
   std::unique_ptr<Handles> handles_;      // none unless ~handles
   std::unique_ptr<OpenCurtain> opening_;  // none without a rail

@@ -23,6 +23,8 @@ class KineticGuard {
   KineticGuard(const ClothPattern& pattern, const NodeInertia& inertia, double stretch_tolerance, double links);
 
   void takeStretchTolerance(double tolerance) noexcept { stretch_tolerance_ = tolerance; }
+  /// The pattern's pins have changed.
+  void takePins() noexcept;
 
   struct Finding {
     double most = std::numeric_limits<double>::infinity();  ///< twice the energy to bound it by [J]; infinite: no need
@@ -61,7 +63,7 @@ class KineticGuard {
   const NodeInertia& inertia_;
   double stretch_tolerance_;
   const double links_;
-  const std::vector<std::size_t> pins_;
+  std::vector<std::size_t> pins_;  // with room for every node
 };
 
 }  // namespace curtain
