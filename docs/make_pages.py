@@ -78,7 +78,7 @@ def read_sections(lines):
         path.append((depth + (2 if key["item"] else 0), key["name"]))
         if parents[:1] != ["scene"]:
             if key["name"] != "scene":
-                sections[0].rows.append(["~" + key["name"], value, text])
+                sections[0].rows.append(["~" + "/".join(parents + [key["name"]]), value, text])
                 last = sections[0].rows[-1]
             pending = []
         elif value in ("", "[]") and len(parents) == 1:

@@ -46,9 +46,9 @@ class Simulator {
   /// The full state of the motion as bytes (docs/snapshots.md). Does not affect the motion.
   std::string snapshot() const;
   /// Restores a snapshot of the same scene and continues with the same bits: time, winds and drags, moves of obstacles
-  /// and pins, grasps, sleep, statistics. The scene may differ in what may change (see scene()), which comes with the snapshot,
-  /// in solver.threads, and in mesh paths. Returns what is wrong (damaged, cut short, of another scene or format); then
-  /// nothing changed. With solver.budget_ms later bits depend on computing time. Allocates.
+  /// and pins, grasps, sleep, statistics. The scene may differ in what may change (see scene()), which comes with the
+  /// snapshot, in solver.threads, and in mesh paths. Returns what is wrong (damaged, cut short, of another scene or
+  /// format); then nothing changed. With solver.budget_ms later bits depend on computing time. Allocates.
   std::vector<Problem> restore(const std::string& snapshot);
 
   /// Node state, row-major, shape [rows * columns]; out is resized.
@@ -209,6 +209,9 @@ class Simulator {
 
   /// Force and torque of the cloth on an obstacle, mean over the last frame; zero before the first one.
   ContactWrench contactWrench(int obstacle) const;
+  /// Where the cloth presses on obstacles at the end of the last substep, with the mean forces of that substep, sorted
+  /// by the obstacles' names; empty before the first step. Resized. Costs nothing until it is called.
+  void copyContactPoints(std::vector<ContactForce>& out) const;
 
   /// Changes whenever the cloth or an obstacle may have moved, so that results for the same number can be reused.
   std::uint64_t revision() const;

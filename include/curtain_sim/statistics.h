@@ -73,6 +73,15 @@ struct ContactWrench {
   int contacts = 0;                                  ///< that pushed at the frame's end
 };
 
+/// A place where the cloth presses on an obstacle, in world axes.
+struct ContactForce {
+  int obstacle = 0;                                    ///< index in the scene
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< of the cloth there [m]
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< unit, out of the obstacle
+  double normal_force = 0.0;                           ///< > 0: the cloth presses on it against the normal [N]
+  Eigen::Vector3d friction = Eigen::Vector3d::Zero();  ///< of the cloth on the obstacle, across the normal [N]
+};
+
 /// Work on the cloth since Simulator::countWork(), all in J. The sum
 ///     kinetic - (gravity + bending + forces + drive + pins + obstacles)
 /// is minus what damping, friction, carriers that stop and links that snap taut have dissipated, so but for the

@@ -52,14 +52,19 @@ void ObstacleSet::Item::carry(Archive& archive) {
   archive.within("own_way", own_path, 0.0, std::numeric_limits<double>::infinity());
   archive.within("share", share, 0.0, 1.0);
   archive.flag("behind", behind);
-  archive.flag("placed", placed);
 }
 
 void ObstacleSet::carry(Archive& archive) {
+  for (int n = 0; n < count(); ++n) moving(n);  // what is saved does not depend on who was asked for
   archive.within("frame_length", frame_length_, 1e-6, 1e3);
   for (Item& item : items_) archive.part("item", item);
   for (MovingObstacle& moving : moving_) archive.part("moving", moving);
-  archive.put(at_rest_, false);
+  archive.flag("any_moved", any_moved_);
+  for (Item& item : items_) {
+    archive.put(item.placed, substep_);
+    archive.put(item.boxed, false);
+  }
+  archive.put(boxed_, false);
 }
 
 void ObstacleContacts::Load::carry(Archive& archive) {

@@ -24,7 +24,7 @@ constexpr std::size_t kRoomPerNode = 8;
 
 }  // namespace
 
-ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles,
+ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& params, ObstacleSet& obstacles,
                            double stretch_tolerance, const Workers& workers)
     : pattern_(pattern),
       obstacles_(obstacles),
@@ -173,7 +173,8 @@ int ClothContact::joinCrossings(const Field3& start, const Field3& end) noexcept
   return count;
 }
 
-void ClothContact::afterSubstep(bool settled, double h, double scale, const Field3& position) noexcept {
+void ClothContact::afterSubstep(bool settled, double h, const SubstepOutcome& outcome,
+                                const Field3& position) noexcept {
   taut_ = settled;
   if (flat_)
     flatness_.advance();
@@ -190,8 +191,8 @@ void ClothContact::afterSubstep(bool settled, double h, double scale, const Fiel
   // verify() appends out of order.
   const auto in_order = [this](const Contact& a, const Contact& b) { return before(a, b); };
   if (!std::is_sorted(last_.begin(), last_.end(), in_order)) std::sort(last_.begin(), last_.end(), in_order);
-  last_scale_ = scale;
-  obstacle_contacts_.remember(last_, position, h, scale);
+  last_scale_ = outcome.scale;
+  obstacle_contacts_.remember(contacts_, position, h, outcome);
 }
 
 void ClothContact::addForces(Field3& force) const noexcept {
@@ -202,6 +203,15 @@ void ClothContact::addForces(Field3& force) const noexcept {
       const auto at = static_cast<std::size_t>(k);
       force.add(contact.node[at], contact.weight[at] * total);
     }
+  }
+}
+
+void ClothContact::copyForces(const Field3& position, std::vector<ContactForce>& out) const {
+  out.clear();
+  for (const Contact& contact : last_) {
+    if (contact.obstacle == Contact::kCloth) continue;
+    out.push_back({contact.obstacle, contact.point(position), contact.normal, contact.push / last_scale_,
+                   -contact.slide / last_scale_});
   }
 }
 

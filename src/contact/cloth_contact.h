@@ -24,7 +24,7 @@ class ClothContact : public ContactFinder {
  public:
   /// stretch_tolerance: largest strain of a link in a settled substep; pattern, obstacles and workers must outlive
   /// this.
-  ClothContact(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles,
+  ClothContact(const ClothPattern& pattern, const ContactParams& params, ObstacleSet& obstacles,
                double stretch_tolerance, const Workers& workers);
 
   /// Whether contact is possible at all.
@@ -51,9 +51,8 @@ class ClothContact : public ContactFinder {
   void clearCaches() noexcept;
   /// For tests: clears the caches in about every other call from now on, drawn from seed; 0: stop.
   void clearCachesAtRandom(std::uint64_t seed) noexcept { clearing_ = seed; }
-  /// After every accepted substep of h [s] that ended at position. settled: all links are within tolerance; scale:
-  /// step times impulse time [s^2].
-  void afterSubstep(bool settled, double h, double scale, const Field3& position) noexcept;
+  /// After every accepted substep of h [s] that ended at position. settled: all links are within tolerance.
+  void afterSubstep(bool settled, double h, const SubstepOutcome& outcome, const Field3& position) noexcept;
   /// Before the first substep of every frame. links_hold: no link is overlong, no pin moves.
   void beginFrame(bool links_hold) noexcept { obstacle_contacts_.beginFrame(links_hold); }
 
@@ -75,6 +74,8 @@ class ClothContact : public ContactFinder {
   ContactWrench wrench(int obstacle) const noexcept { return obstacle_contacts_.wrench(obstacle); }
   /// Adds the contact forces of the last substep [N].
   void addForces(Field3& force) const noexcept;
+  /// Those on obstacles, one by one, for the cloth at `position`; resized.
+  void copyForces(const Field3& position, std::vector<ContactForce>& out) const;
   void forget() noexcept;
   /// The pattern's pins have changed: links between two of them may have any length.
   void takePins() noexcept;

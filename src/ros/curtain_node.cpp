@@ -4,6 +4,8 @@
 #include <ros/console.h>
 #include <ros/init.h>
 
+#include <regex>
+
 #include "ros/tuning/live_values.h"
 
 namespace curtain_ros {
@@ -13,8 +15,9 @@ namespace {
 curtain::Simulator makeSimulator(const curtain::Scene& scene, const std::string& private_space) {
   try {
     return curtain::Simulator(scene);
-  } catch (const std::invalid_argument& e) {  // a mesh that can't be read, a line that is too short
-    throw ParameterError("can't start, problem(s) with " + private_space + "/scene:\n  " + e.what());
+  } catch (const std::invalid_argument& e) {  // meshes that can't be read, a line that is too short
+    const std::string lines = std::regex_replace(e.what(), std::regex("\n"), "\n  ");
+    throw ParameterError("can't start, problem(s) with " + private_space + "/scene:\n  " + lines);
   }
 }
 

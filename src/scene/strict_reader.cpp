@@ -230,15 +230,24 @@ void StrictReader::flag(Key key, bool& value) {
 }
 
 void StrictReader::text(Key key, std::string& value) {
-  const YAML::Node* found = find(key, "text");
-  if (!found) return;
-  if (scalarValue(*found).kind != ScalarKind::kText) {
-    const std::string how = found->IsScalar() ? " (write it in quotes)" : "";
-    log_.add(keyOf(key), "must be text, is " + describeValue(*found) + how);
-  } else if (isWritable(found->Scalar())) {
-    value = found->Scalar();
+  if (const YAML::Node* found = find(key, "text")) readText(*found, keyOf(key), value);
+}
+
+void StrictReader::texts(Key key, std::vector<std::string>& values) {
+  const YAML::Node* found = find(key, "a list of texts");
+  if (!found || !checkSequence(*found, keyOf(key), "a list of texts")) return;
+  values.assign(found->size(), "");
+  for (std::size_t i = 0; i < values.size(); ++i) readText((*found)[i], itemKey(keyOf(key), i), values[i]);
+}
+
+void StrictReader::readText(const YAML::Node& node, const std::string& key, std::string& value) {
+  if (scalarValue(node).kind != ScalarKind::kText) {
+    const std::string how = node.IsScalar() ? " (write it in quotes)" : "";
+    log_.add(key, "must be text, is " + describeValue(node) + how);
+  } else if (isWritable(node.Scalar())) {
+    value = node.Scalar();
   } else {
-    log_.add(keyOf(key), "must be text in UTF-8");
+    log_.add(key, "must be text in UTF-8");
   }
 }
 

@@ -32,6 +32,7 @@ class StrictReader {
   void numberOrUnset(Key key, double& value, Range range);
   void flag(Key key, bool& value);
   void text(Key key, std::string& value);
+  void texts(Key key, std::vector<std::string>& values);
   void vector(Key key, Vec3& value, Range range);
   void optionalVector(Key key, std::optional<Vec3>& value, Range range);
   void scale(Key key, Vec3& value, Range range);
@@ -94,6 +95,7 @@ class StrictReader {
                      std::optional<std::size_t> size = std::nullopt);
   void refuse(const std::string& key, const std::string& wanted, const YAML::Node& node);
   bool readNumber(const YAML::Node& node, const std::string& key, Range range, double& value);
+  void readText(const YAML::Node& node, const std::string& key, std::string& value);
   bool readInteger(const YAML::Node& node, const std::string& key, const std::string& wanted, int& value);
   bool readVector(const YAML::Node& node, const std::string& key, Range range, Vec3& value);
   void readSlit(const YAML::Node& node, const std::string& key, SlitParams& value);

@@ -38,7 +38,7 @@ FineSurface::FineSurface(const ClothParams& cloth, const ClothPattern& pattern)
   kept_.reserve(2 * row_points);
 }
 
-void FineSurface::build(const Field3& position, const ObstacleSet& obstacles, double thickness, FineMesh& out) {
+void FineSurface::build(const Field3& position, ObstacleSet& obstacles, double thickness, FineMesh& out) {
   const Grid& grid = pattern_.grid;
   out.positions.resize(static_cast<std::size_t>(topology_.rows) * static_cast<std::size_t>(topology_.columns));
   out.flattened_folds = 0;
@@ -88,7 +88,7 @@ void FineSurface::place(int row, int link, double angle) {
   shape_.place(arc, &node(row, link, 1));
 }
 
-void FineSurface::findNear(const Field3& position, const ObstacleSet& obstacles) {
+void FineSurface::findNear(const Field3& position, ObstacleSet& obstacles) {
   near_.clear();
   const Grid& grid = pattern_.grid;
   Eigen::AlignedBox3d box;
@@ -98,7 +98,8 @@ void FineSurface::findNear(const Field3& position, const ObstacleSet& obstacles)
   const double reach = 0.5 * *std::max_element(pattern_.weft_rest.begin(), pattern_.weft_rest.end()) + wanted_;
   box.min().array() -= reach;
   box.max().array() += reach;
-  for (const MovingObstacle& obstacle : obstacles.moving()) {
+  for (int index = 0; index < obstacles.count(); ++index) {
+    const MovingObstacle& obstacle = obstacles.moving(index);
     if (obstacle.present && obstacle.sweptBounds().intersects(box)) near_.push_back(&obstacle);
   }
 }

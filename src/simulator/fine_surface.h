@@ -35,7 +35,7 @@ class FineSurface {
   const FineMeshTopology& topology() const { return topology_; }
 
   /// thickness [m], > 0: of the contact; the fine mesh keeps a share of it.
-  void build(const Field3& position, const ObstacleSet& obstacles, double thickness, FineMesh& out);
+  void build(const Field3& position, ObstacleSet& obstacles, double thickness, FineMesh& out);
 
  private:
   enum class Stage : std::uint8_t { kFree, kLifted, kGathered };
@@ -50,7 +50,7 @@ class FineSurface {
     double clearance = 0.0;  ///< to keep [m]; negative: none
   };
 
-  void findNear(const Field3& position, const ObstacleSet& obstacles);
+  void findNear(const Field3& position, ObstacleSet& obstacles);
   void findStrips();
   void settleFold(int row, int link);
   void settleStrips();

@@ -83,7 +83,7 @@ bool FrameLoop::makeStages(const SubstepPlan& plan, double done) {
     }
     controls_.main.accepted(stage, outcome);
     controls_.plain.watch(outcome);
-    motion_.contact.afterSubstep(true, stage.h, outcome.scale, motion_.state.position);
+    motion_.contact.afterSubstep(true, stage.h, outcome, motion_.state.position);
     at += stage.h;
   }
   return true;

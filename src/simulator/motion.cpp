@@ -68,7 +68,7 @@ SubstepOutcome Motion::attempt(const SubstepPlan& plan, double done) {
 }
 
 void Motion::taken(double h, const SubstepOutcome& outcome) noexcept {
-  contact.afterSubstep(outcome.settled, h, outcome.scale, state.position);
+  contact.afterSubstep(outcome.settled, h, outcome, state.position);
   if (!grasps.any()) return;
   const bool by_paper = scene.solver.method == Method::kPaper;
   grasps.count(state, forces.last(), by_paper ? nullptr : &exact, pushing(), outcome.scale);

@@ -30,20 +30,6 @@ constexpr double kAloneAgain = 2.0, kLongestPause = 64.0;
 constexpr double kLowestFrequency = 1.2024;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-// Box around an obstacle over its substep. Rotation moves points beyond the boxes at both ends by less than the sagitta
-// of the arc of the farthest point.
-Eigen::AlignedBox3d sweptBox(const MovingObstacle& obstacle) noexcept {
-  Eigen::AlignedBox3d box = obstacle.sweptBounds();
-  if (!std::isfinite(box.min().sum() + box.max().sum())) return box;
-  const double farthest = obstacle.bounds.min().cwiseAbs().cwiseMax(obstacle.bounds.max().cwiseAbs()).norm();
-  const double cosine = 0.5 * ((obstacle.before.rotation.transpose() * obstacle.after.rotation).trace() - 1.0);
-  const double half_angle = 0.5 * std::acos(std::clamp(cosine, -1.0, 1.0));
-  const Vec3 bulge = Vec3::Constant(farthest * (1.0 - std::cos(half_angle)));
-  box.min() -= bulge;
-  box.max() += bulge;
-  return box;
-}
-
 }  // namespace
 
 Rest::Rest(const ClothPattern& pattern, double frame_length, double thickness, double stretch_tolerance)
@@ -220,8 +206,8 @@ void Rest::approachedBy(ObstacleSet& obstacles) noexcept {
   obstacles.setSubstep(0.0, 1.0);
   for (int index = 0; index < obstacles.count(); ++index) {
     if (!obstacles.moved(index)) continue;
-    Eigen::AlignedBox3d box = sweptBox(obstacles.moving()[static_cast<std::size_t>(index)]);
-    box.extend(obstacles.leftBox(index));  // where it jumped away from
+    Eigen::AlignedBox3d box = obstacles.leftBox(index);  // where it jumped away from
+    if (obstacles.present(index)) box.extend(obstacles.sweptBounds(index));
     swept_.extend(box);
     if (asleep_.empty() || !box.intersects(all_)) continue;
     for (int j = 0; j < pattern_.grid.columns; ++j) {

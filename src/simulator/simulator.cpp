@@ -155,6 +155,11 @@ void Simulator::copyContactForces(std::vector<Vec3>& out) const {
   copyField(im.pattern.grid, im.total_force, out);
 }
 
+void Simulator::copyContactPoints(std::vector<ContactForce>& out) const {
+  out.clear();
+  if (impl_->motion.contact.wanted()) impl_->motion.contact.copyForces(impl_->motion.state.position, out);
+}
+
 void Simulator::copyTensions(std::vector<double>& warp, std::vector<double>& weft) const {
   warp.clear();
   weft.clear();

@@ -18,6 +18,12 @@ using namespace curtain_test;
 
 constexpr int kSubsteps = 150;
 constexpr double kSubstep = 0.005;  // [s]
+const SubstepOutcome kMade = [] {
+  SubstepOutcome outcome;
+  outcome.kick = kSubstep;
+  outcome.scale = 1e-5;
+  return outcome;
+}();
 
 struct Case {
   const char* name;
@@ -144,7 +150,7 @@ TEST_P(ContactCaches, ChangeNoBit) {
       }
       // Some substeps are made again.
       if (k % 7 != 3) {
-        for (Finder* const finder : {&keeps, &forgets}) finder->contact.afterSubstep(true, kSubstep, 1e-5, end);
+        for (Finder* const finder : {&keeps, &forgets}) finder->contact.afterSubstep(true, kSubstep, kMade, end);
         start = end;
       }
       for (Finder* const finder : {&keeps, &forgets}) finder->obstacles.endFrame();
@@ -176,11 +182,11 @@ TEST(ContactCachesOfFlatCloth, AreOfWhereTheSubstepEnds) {
   for (Finder* const finder : {&keeps, &forgets}) {
     finder->contact.begin(flat, flat, kSubstep);
     finder->contact.verify(flat, flat, true);
-    finder->contact.afterSubstep(true, kSubstep, 1e-5, flat);
+    finder->contact.afterSubstep(true, kSubstep, kMade, flat);
     finder->contact.begin(flat, turned, kSubstep);
     finder->contact.verify(flat, turned, true);
     finder->contact.verify(flat, folded, true);
-    finder->contact.afterSubstep(true, kSubstep, 1e-5, folded);
+    finder->contact.afterSubstep(true, kSubstep, kMade, folded);
   }
   forgets.contact.clearCaches();
   const Contacts& found = forgets.contact.begin(folded, folded, kSubstep);

@@ -29,8 +29,8 @@ struct BoxInCloth {
     for (int i = 0; i < 9; ++i) {
       for (int j = 0; j < 9; ++j) position.set(pattern.grid.index(i, j), middle + 0.04 * Vec3(j - 4, 0.0, 4 - i));
     }
-    const MovingObstacle& moving = obstacles->moving().front();
-    near = std::make_unique<ObstacleCandidates>(pattern, *moving.shape, 0.004, 0.0012, alone);
+    const MovingObstacle& moving = obstacles->moving(0);
+    near = std::make_unique<ObstacleCandidates>(pattern, *moving.shape, ObstacleGaps{0.004, 0.0012}, alone);
     near->prepare(moving, position, position);
   }
 

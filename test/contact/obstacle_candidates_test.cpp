@@ -32,9 +32,9 @@ struct Past {
     scene.obstacles.push_back(ball);
     middle = ball.pose.position;
     obstacles.emplace(scene, resolveMeshUrl);
-    near.emplace(pattern, *moving().shape, kThickness, 0.3 * kThickness, alone);
+    near.emplace(pattern, *moving().shape, ObstacleGaps{kThickness, 0.3 * kThickness}, alone);
   }
-  const MovingObstacle& moving() const { return obstacles->moving().front(); }
+  const MovingObstacle& moving() { return obstacles->moving(0); }
   // Flat cloth of links of 5 cm at this height over the middle, each node moved by up to `way`.
   void lay(double height, double way) {
     start.assign(pattern.grid.size(), 0.0);

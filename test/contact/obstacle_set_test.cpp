@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "cloth/archive.h"
@@ -37,8 +38,18 @@ Pose poseOf(double x) {
 // The range that all obstacles take in the substep along x.
 void expectRange(ObstacleSet& set, double low, double high, const std::string& when) {
   set.setSubstep(0.0, 1.0);
-  EXPECT_EQ(set.sweptBounds().min().x(), low) << when;
-  EXPECT_EQ(set.sweptBounds().max().x(), high) << when;
+  Eigen::AlignedBox3d all;
+  for (int n = 0; n < set.count(); ++n) {
+    if (!set.present(n)) continue;
+    all.extend(set.sweptBounds(n));
+    EXPECT_TRUE(set.mayMeet(n, set.sweptBounds(n))) << when;
+    const std::vector<int>& near = set.near(set.sweptBounds(n));
+    EXPECT_EQ(std::count(near.begin(), near.end(), n), 1) << when;
+    EXPECT_TRUE(all.contains(set.moving(n).sweptBounds())) << when;
+  }
+  EXPECT_EQ(all.min().x(), low) << when;
+  EXPECT_EQ(all.max().x(), high) << when;
+  EXPECT_TRUE(set.sweptBounds().contains(all)) << when;
 }
 
 class ObstaclesAtRest : public testing::Test {
@@ -54,8 +65,8 @@ TEST_F(ObstaclesAtRest, AreSeenToMove) {
   expectRange(set_, -0.1, 2.1, "on its way");
   set_.endFrame();
   set_.setSubstep(0.0, 1.0);
-  EXPECT_EQ(set_.sweptBounds().min().x(), -0.1);
-  EXPECT_EQ(set_.moving()[1].sweptBounds().min().x(), 1.9) << "it has arrived";
+  EXPECT_EQ(set_.sweptBounds().min().x(), -0.1) << "boxes of what rests are exact";
+  EXPECT_EQ(set_.moving(1).sweptBounds().min().x(), 1.9) << "it has arrived";
   set_.setPose(0, poseOf(-3.0), true);
   expectRange(set_, -3.1, 2.1, "put elsewhere");
 }
@@ -71,6 +82,36 @@ TEST_F(ObstaclesAtRest, AreSeenToComeAndGo) {
   set_.setPresent(1, false);
   set_.setSubstep(0.0, 1.0);
   EXPECT_TRUE(set_.sweptBounds().isEmpty());
+}
+
+// Wherever a turning box is in the frame, it is within its boxes of the frame; and it is placed as asked, whoever was
+// asked for before.
+TEST(ObstaclesWithMotion, StayWithinTheirBoxesOfTheFrame) {
+  Random random(5);
+  for (int trial = 0; trial < 200; ++trial) {
+    Scene scene = twoSpheres();
+    scene.obstacles[1].shape = ShapeKind::kBox;
+    scene.obstacles[1].size = Vec3(0.1, 0.4, 1.0);
+    ObstacleSet set(scene, resolveMeshUrl);
+    const Vec3 begin = scene.obstacles[1].pose.position, way = random.inBox(0.5);
+    Pose end;
+    end.position = begin + way;
+    end.orientation = Eigen::AngleAxisd(random.between(0.0, 3.0), random.direction());
+    set.setPose(1, end, false);
+    set.beginFrame(0.1);
+    set.setSubstep(0.0, 0.1);
+    const Eigen::AlignedBox3d coarse = set.sweptBounds(), exact = set.sweptBounds(1);
+    EXPECT_TRUE(coarse.contains(exact)) << trial;
+    for (int k = 1; k < 10; ++k) {
+      set.setSubstep(0.1 * k, 0.1 * (k + 1));
+      if (k % 3 == 0) continue;
+      const MovingObstacle& box = set.moving(1);
+      EXPECT_TRUE(exact.contains(box.sweptBounds())) << trial;
+      EXPECT_LT((box.after.translation - begin - 0.1 * (k + 1) * way).norm(), 1e-15);
+    }
+    set.endFrame();
+    EXPECT_LT((set.moving(1).after.translation - end.position).norm(), 1e-15);
+  }
 }
 
 TEST(ObstaclesWithMotion, AreWhereItLedWhileTheyWereGone) {

@@ -56,6 +56,7 @@ void see(const Similarity& s, curtain::ObstacleParams& obstacle) {
   obstacle.length *= s.length;
   obstacle.size *= s.length;
   obstacle.scale *= s.length;
+  obstacle.padding *= s.length;
   obstacle.scale = s.mirrored(obstacle.scale);
   obstacle.pose = s.pose(obstacle.pose);
   for (curtain::PoseKey& key : obstacle.motion) {

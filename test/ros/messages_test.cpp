@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "count_allocations.h"
+#include "ros/frames/geometry.h"
 #include "ros/outputs/markers.h"
 #include "ros/outputs/state_messages.h"
 #include "ros/time/pace.h"
@@ -18,6 +20,7 @@
 namespace curtain_ros {
 namespace {
 
+using curtain::Vec3;
 using curtain_test::shippedScene;
 
 curtain::Scene smallScene() {
@@ -44,7 +47,7 @@ class Messages {
         loads(withFolds(), simulator),
         contacts(withFolds()),
         mesh("world", geometry),
-        details("world", geometry) {}
+        details("world", geometry, false) {}
 
   visualization_msgs::Marker::ConstPtr buildMesh() {
     mesh.update(detail);
@@ -207,6 +210,93 @@ TEST(MeshMarker, HasTheFineTrianglesUnlessLessIsAskedFor) {
   messages.detail.viewer->y() = -20.0;
   EXPECT_LT(messages.buildMesh()->points.size(), reduced->points.size());
   EXPECT_EQ(messages.mesh.update(messages.detail), messages.mesh.update(messages.detail));
+}
+
+// A sheet over two boxes of one link that is turned anyhow: the link feels the sheet's weight, in its own axes and
+// about its own origin.
+TEST(WrenchMessages, AreInTheFrameOfTheLink) {
+  curtain::Scene scene;
+  scene.cloth.rows = 12;
+  scene.cloth.columns = 10;
+  scene.cloth.height = scene.cloth.width = 0.6;
+  scene.hang.from = Vec3(-0.3, 0.3, 0.02);
+  scene.hang.to = Vec3(0.3, 0.3, 0.02);
+  scene.hang.tilt = 0.5 * curtain::kPi;
+  scene.pins.kind = curtain::PinKind::kNone;
+  scene.air.inside = scene.air.border = scene.air.corner = 0.5;
+  curtain::Pose link;  // in the world
+  link.position = Vec3(0.4, -0.3, -0.7);
+  link.orientation = Eigen::AngleAxisd(2.1, Vec3(0.3, -0.5, 0.8).normalized());
+  std::vector<Vec3> middles = {Vec3(-0.2, 0.0, -0.1), Vec3(0.2, 0.0, -0.1), Vec3(5.0, 0.0, 0.0)};
+  for (std::size_t n = 0; n < middles.size(); ++n) {
+    curtain::ObstacleParams box;
+    box.name = "box " + std::to_string(n);
+    box.shape = curtain::ShapeKind::kBox;
+    box.size = Vec3(0.4, 2.0, 0.2);
+    box.pose.orientation = link.orientation.conjugate();
+    box.pose.position = box.pose.orientation * (middles[n] - link.position);
+    scene.obstacles.push_back(box);
+  }
+  curtain::Simulator simulator(scene);
+  for (int n = 0; n < 3; ++n)
+    simulator.setObstaclePose(n, transformPose(link, scene.obstacles[static_cast<std::size_t>(n)].pose), true);
+  simulator.setObstaclePresent(2, false);
+  for (int frame = 0; frame < 240; ++frame) simulator.step();
+  Vec3 centre = Vec3::Zero();
+  double mass = 0.0;
+  for (int i = 0; i < simulator.rows(); ++i) {
+    for (int j = 0; j < simulator.columns(); ++j) {
+      mass += simulator.mass({i, j});
+      centre += simulator.mass({i, j}) * simulator.position({i, j});
+    }
+  }
+  const Vec3 weight(0.0, 0.0, -9.81 * mass);
+  const Vec3 torque = (centre / mass - link.position).cross(weight);
+  WrenchMessages messages("hand", {0, 1, 2});
+  const auto message = messages.build(simulator, ros::Time(3.0));
+  EXPECT_EQ(message->header.frame_id, "hand");
+  EXPECT_EQ(message->header.stamp, ros::Time(3.0));
+  EXPECT_LT((toVec3(message->wrench.force) - link.orientation.conjugate() * weight).norm(), 1e-3 * weight.norm());
+  EXPECT_LT((toVec3(message->wrench.torque) - link.orientation.conjugate() * torque).norm(), 1e-3 * weight.norm());
+  simulator.setObstaclePresent(0, false);
+  simulator.setObstaclePresent(1, false);
+  EXPECT_EQ(toVec3(messages.build(simulator, ros::Time(4.0))->wrench.force), Vec3::Zero())
+      << "absent ones feel nothing";
+}
+
+TEST(ContactMessages, HaveThePointsThatAreAskedFor) {
+  curtain::Scene scene = smallScene();
+  scene.obstacles.insert(scene.obstacles.begin(), curtain_test::ballAt({5.0, 0.0, 0.0}, 0.1));
+  scene.obstacles[0].name = "absent";
+  curtain::Pose pushed;
+  pushed.position = Vec3(0.3, 0.05, 1.5);
+  scene.obstacles[1].motion = {{0.0, scene.obstacles[1].pose}, {1.0, pushed}};
+  curtain::Simulator simulator(scene);
+  simulator.setObstaclePresent(0, false);
+  for (int frame = 0; frame < 60; ++frame) simulator.step();
+  NodeParams params;
+  EXPECT_TRUE(ContactMessages(params).build(simulator, ros::Time(1.0))->points.empty());
+  params.contact_points = true;
+  const auto message = ContactMessages(params).build(simulator, ros::Time(1.0));
+  ASSERT_EQ(message->obstacles.size(), 1U);
+  ASSERT_GT(message->points.size(), 0U);
+  EXPECT_EQ(message->points.size(), message->obstacles[0].contacts);
+  for (const auto& point : message->points) {
+    EXPECT_EQ(point.obstacle, 0U) << "of those in the message";
+    EXPECT_GT(point.normal_force, 0.0);
+    EXPECT_LT(point.normal.y, 0.0) << "out of the ball";
+  }
+  GeometryCache geometry(simulator);
+  for (const bool asked : {false, true}) {
+    DetailMarkers details("world", geometry, asked);
+    details.update();
+    const auto array = details.build(ros::Time(1.0));
+    const auto arrows = std::find_if(array->markers.begin(), array->markers.end(),
+                                     [](const auto& marker) { return marker.ns == "contacts"; });
+    ASSERT_NE(arrows, array->markers.end());
+    EXPECT_EQ(arrows->action, asked ? visualization_msgs::Marker::ADD : visualization_msgs::Marker::DELETE);
+    EXPECT_EQ(arrows->points.size(), asked ? 6 * message->points.size() : 0U);
+  }
 }
 
 TEST(DetailMarkers, ANumberForEveryPicture) {

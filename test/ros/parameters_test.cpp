@@ -8,6 +8,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <fstream>
 #include <limits>
 #include <set>
 
@@ -201,6 +202,74 @@ TEST(Parameters, ManualHasThemAllWithTheirDefaults) {
   reader.known.insert("scene");
   for (const auto& entry : reader.manual)
     EXPECT_EQ(reader.known.count(entry.first.as<std::string>()), 1U) << entry.first;
+}
+
+// The robot's own table, which the manual shows as comments.
+struct RobotManualReader : ManualReader {
+  void texts(curtain::Key key, const std::vector<std::string>& values) { compare(key, values); }
+  void numberOrUnset(curtain::Key key, double, curtain::Range) { known.insert(key.name); }
+};
+
+TEST(Parameters, ManualHasThoseOfTheRobot) {
+  std::ifstream file(std::string(CURTAIN_SOURCE_DIR) + "/config/curtain.yaml");
+  std::string line, text;
+  while (std::getline(file, line)) {
+    if (line.rfind("#   ", 0) == 0 || line.rfind("# robot:", 0) == 0) text += line.substr(2) + "\n";
+  }
+  const std::size_t begin = text.find("robot:");
+  ASSERT_NE(begin, std::string::npos);
+  RobotManualReader reader{{YAML::Load(text.substr(begin))["robot"], {}}};
+  const RobotParams defaults;
+  curtain::visitFields(reader, defaults);
+  for (const auto& entry : reader.manual)
+    EXPECT_EQ(reader.known.count(entry.first.as<std::string>()), 1U) << entry.first;
+  EXPECT_EQ(reader.known.size(), reader.manual.size());
+}
+
+TEST(Parameters, RobotIsReadStrictly) {
+  EXPECT_FALSE(readWith("mesh_rate", value(20.0)).robot.has_value()) << "none is asked for";
+  XmlRpcValue robot;
+  robot["links"][0] = value("arm_.*");
+  robot["links"][1] = value("hand");
+  robot["padding"] = value(0.01);
+  robot["friction"] = value(0.5);
+  robot["tf_prefix"] = value("left");
+  const ParameterReading good = readWith("robot", robot);
+  EXPECT_TRUE(good.problems.empty() && good.warnings.empty());
+  ASSERT_TRUE(good.robot.has_value());
+  EXPECT_EQ(good.robot->links, (std::vector<std::string>{"arm_.*", "hand"}));
+  EXPECT_EQ(good.robot->padding, 0.01);
+  EXPECT_EQ(good.robot->friction, 0.5);
+  EXPECT_EQ(good.robot->tf_prefix, "left");
+  EXPECT_TRUE(good.robot->visible);
+
+  robot["padding"] = value(-0.01);
+  robot["friction"] = value("rough");
+  robot["links"][1] = value(3);
+  robot["visible"] = value(1);
+  robot["paddin"] = value(0.1);
+  const std::vector<std::string> problems = readWith("robot", robot).problems;
+  EXPECT_TRUE(names(problems, "/stage/curtain/robot/padding: must be a number in [0, "));
+  EXPECT_TRUE(names(problems, "/stage/curtain/robot/friction: must be a number in [0, 10]"));
+  EXPECT_TRUE(names(problems, "/stage/curtain/robot/links[1]: must be text"));
+  EXPECT_TRUE(names(problems, "/stage/curtain/robot/visible: must be true or false"));
+  EXPECT_TRUE(names(problems, "/stage/curtain/robot/paddin: is not a known key, did you mean padding?"));
+  EXPECT_EQ(problems.size(), 5U);
+  EXPECT_TRUE(names(readWith("robot", value("my_robot")).problems, "/stage/curtain/robot: must be a map"));
+  EXPECT_TRUE(names(readWith("robot", flag(true)).problems, "/stage/curtain/robot: must be a map"));
+}
+
+// A description in the node's own namespace is no unknown parameter, where a robot is asked for.
+TEST(Parameters, TheDescriptionIsKnown) {
+  XmlRpcValue tree;
+  tree["scene"] = smallScene();
+  tree["robot_description"] = value("<robot/>");
+  EXPECT_TRUE(names(readParameters(tree, "/stage/curtain").warnings, "robot_description: is not a known key"));
+  tree["robot"]["visible"] = flag(false);
+  EXPECT_TRUE(readParameters(tree, "/stage/curtain").warnings.empty());
+  tree["urdf"] = value("<robot/>");
+  tree["robot"]["description"] = value("urdf");
+  EXPECT_TRUE(names(readParameters(tree, "/stage/curtain").warnings, "robot_description: is not a known key"));
 }
 
 }  // namespace

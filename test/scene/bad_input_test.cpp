@@ -397,6 +397,7 @@ TEST(BadInput, BadPosesAndMotionsOfObstaclesAreNamed) {
   expectProblem(ball("orientation: [0, 0, 0, .nan]"), key, {"unit quaternion", ".nan"});
   expectProblem(ball("orientation: [0, 0, 0, one]"), key + "[3]", {"is the text \"one\""});
   expectProblem(ball("friction: -1"), "obstacles[0].friction", {"a number in [0, 10], is -1"});
+  expectProblem(ball("padding: -0.01"), "obstacles[0].padding", {"a number in [0, ", "is -0.01"});
   expectProblem(ball("friction: .nan"), "obstacles[0].friction", {"a number in [0, 10], is .nan"});
   expectProblem(ball("color: [0.5, 1.5, 0.5]"), "obstacles[0].color[1]", {"a number in [0, 1], is 1.5"});
   expectProblem(ball("color: red"), "obstacles[0].color", {"is the text \"red\""});

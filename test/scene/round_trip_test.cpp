@@ -121,6 +121,7 @@ void compareObstacle(const ObstacleParams& a, const ObstacleParams& b) {
   c.pose("pose", a.pose, b.pose);
   c.same("friction given", std::isnan(a.friction), std::isnan(b.friction));
   if (!std::isnan(a.friction)) c.number("friction", a.friction, b.friction);
+  c.number("padding", a.padding, b.padding);
   c.vector("color", a.color, b.color);
   c.same("visible", a.visible, b.visible);
   ASSERT_EQ(a.motion.size(), b.motion.size());
@@ -255,6 +256,7 @@ ObstacleParams oddObstacle(Numbers& numbers, ShapeKind shape, const std::string&
   }
   obstacle.pose = numbers.pose();
   if (shape == ShapeKind::kBox) obstacle.friction = numbers.between(0.0, 10.0);
+  obstacle.padding = numbers.between(0.0, 0.1);
   obstacle.color = Vec3(numbers.between(0.0, 1.0), 0.0, 1.0);
   obstacle.visible = shape != ShapeKind::kBox;
   for (int i = 0; i < 3; ++i) obstacle.motion.push_back({i + numbers.between(0.0, 0.5), numbers.pose()});

@@ -61,6 +61,8 @@ const std::set<std::string> kRosFolders = {"ros",
                                            "roslib",
                                            "message_filters",
                                            "dynamic_reconfigure",
+                                           "urdf",
+                                           "console_bridge",
                                            "rospack"};
 
 /// A message, a service, dynamic_reconfigure's NAMEConfig.h, or a message of an action: NAMEAction.h, NAMEGoal.h, …

@@ -64,25 +64,25 @@ Eigen::AlignedBox3d boxAround(const Grid& grid, const Field3& start, const Field
   return box;
 }
 
-ObstacleCandidates::ObstacleCandidates(const ClothPattern& pattern, const ContactShape& shape, double thickness,
-                                       double core, const Workers& workers)
+ObstacleCandidates::ObstacleCandidates(const ClothPattern& pattern, const ContactShape& shape, const ObstacleGaps& gaps,
+                                       const Workers& workers)
     : pattern_(pattern),
       shape_(shape),
       workers_(workers),
       mesh_(dynamic_cast<const TriangleMeshShape*>(&shape)),
-      thickness_(thickness),
-      core_(core) {
+      gaps_(gaps) {
   // Elements need tests of their own if the longest edge between two nodes at the thickness (less the tenth they may
-  // lack) can come nearer than the core: by the sagitta of a circle of the surface's smallest radius.
+  // lack) can come nearer than the core: by the sagitta of a circle of the padded surface's smallest radius.
   const double longest = longestEdge(pattern);
-  const double radius = (shape.convex() != nullptr ? shape.convex()->smoothRadius() : 0.0) + 0.9 * thickness;
+  const double smooth = shape.convex() != nullptr ? shape.convex()->smoothRadius() : 0.0;
+  const double radius = smooth + gaps.padding + 0.9 * gaps.thickness;
   const double half = 0.5 * longest;
   const double sagitta = half < radius ? radius - std::sqrt((radius - half) * (radius + half)) : radius;
-  elements_wanted_ = std::isfinite(radius) && sagitta > 0.9 * thickness - core;
+  elements_wanted_ = std::isfinite(radius) && sagitta > 0.9 * gaps.thickness - gaps.core;
   const std::size_t size = pattern.grid.size(), count = pattern.grid.nodeCount();
   for (Field3* field : {&start_, &end_}) field->assign(size, 0.0);
   planes_.resize(size);
-  distance_.assign(size, thickness);
+  distance_.assign(size, thickness());
   nodes_.reserve(count);
   near_.assign(size, 0);
   ends_.reserve(count);
@@ -135,7 +135,7 @@ void ObstacleCandidates::invalidate() noexcept {
 void ObstacleCandidates::prepare(const MovingObstacle& moving, const Field3& start, const Field3& predicted) noexcept {
   ++substep_;
   toLocal(moving.before, start, start_);
-  list(moving, predicted, elementReach() + kLeastShare * thickness_);
+  list(moving, predicted, elementReach() + kLeastShare * gaps_.thickness);
 }
 
 void ObstacleCandidates::follow(const MovingObstacle& moving, const Field3& end) noexcept {

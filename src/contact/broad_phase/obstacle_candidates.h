@@ -53,6 +53,13 @@ struct CachedPlane {
   double height(const Vec3& p) const noexcept { return surface.distance + surface.normal.dot(p - at); }
 };
 
+/// What the cloth keeps from one obstacle.
+struct ObstacleGaps {
+  double thickness;      ///< of nodes, from the padding [m]
+  double core;           ///< of faces, from the padding [m]
+  double padding = 0.0;  ///< from the surface [m]
+};
+
 class ObstacleCandidates {
  public:
   /// A triangle of the cloth and its index.
@@ -61,9 +68,8 @@ class ObstacleCandidates {
     std::uint32_t index;
   };
 
-  /// thickness: gap between nodes and obstacle [m]; core: gap between faces and obstacle [m]; pattern, shape and
-  /// workers must outlive this. Allocates everything here.
-  ObstacleCandidates(const ClothPattern& pattern, const ContactShape& shape, double thickness, double core,
+  /// pattern, shape and workers must outlive this. Allocates everything here.
+  ObstacleCandidates(const ClothPattern& pattern, const ContactShape& shape, const ObstacleGaps& gaps,
                      const Workers& workers);
 
   /// Starts a substep: finds candidates of the motion from start to predicted.
@@ -92,33 +98,42 @@ class ObstacleCandidates {
   /// Tangent plane at a face's nearest point, kUnknown before it was computed.
   CachedPlane& facePlane(const Face& face) noexcept { return face_planes_[face.index]; }
 
-  /// Signed distance at the start of the substep, cut at the thickness [m].
+  /// Signed distance at the start of the substep, cut at what nodes keep [m].
   double distanceOf(std::size_t node) const noexcept {
-    return queried_at_[node] == substep_ ? std::min(distance_[node], thickness_) : thickness_;
+    return queried_at_[node] == substep_ ? std::min(distance_[node], thickness()) : thickness();
   }
   /// The node starts inside the obstacle. What has such a node is coming out and must not be stopped.
   bool isInside(std::size_t node) const noexcept { return distanceOf(node) < 0.0 && !isPinned(node); }
   bool isPinned(std::size_t node) const noexcept { return pattern_.inverse_mass[node] <= 0.0; }
 
   const ContactShape& shape() const noexcept { return shape_; }
-  double thickness() const noexcept { return thickness_; }
-  double core() const noexcept { return core_; }
+  /// Distance from the surface that nodes and faces keep [m].
+  double thickness() const noexcept { return gaps_.thickness + gaps_.padding; }
+  double core() const noexcept { return gaps_.core + gaps_.padding; }
   /// Nodes and elements that come nearer than this are candidates, for certain [m].
-  double nodeReach() const noexcept { return 1.5 * thickness_; }
-  double elementReach() const noexcept { return 0.4 * thickness_; }
+  double nodeReach() const noexcept { return 1.5 * gaps_.thickness + gaps_.padding; }
+  double elementReach() const noexcept { return 0.4 * gaps_.thickness + gaps_.padding; }
   /// The same for crossings: twice what counts as crossing, because times of impact may be early [m].
-  double crossingReach() const noexcept { return 2.0 * kLeastShare * thickness_; }
-  /// Share of the thickness below which a part counts as crossing.
-  static constexpr double kLeastShare = 0.02;
+  double crossingReach() const noexcept { return 2.0 * kLeastShare * gaps_.thickness + gaps_.padding; }
+  /// Distance below which a part counts as crossing [m]; at most, and for one that starts at `distance` > 0: one that
+  /// is within the padding already may not go half of the way to the surface.
+  double least() const noexcept { return gaps_.padding + kLeastShare * gaps_.thickness; }
+  double least(double distance) const noexcept {
+    const double above = distance - gaps_.padding;
+    return above > 0.0 ? gaps_.padding + std::min(kLeastShare * gaps_.thickness, 0.5 * above) : 0.5 * distance;
+  }
   /// A list ran full: candidates are missing.
   bool full() const noexcept { return full_; }
 
  private:
+  // What counts as crossing, over the thickness.
+  static constexpr double kLeastShare = 0.02;
+
   static void toLocal(const Transform& place, const Field3& position, Field3& out) noexcept;
   void list(const MovingObstacle& moving, const Field3& end, double reach) noexcept;
   bool query(std::size_t node, const Vec3& previous, const Vec3& current, double reach, SurfacePoint& out) noexcept {
     if (mesh_ == nullptr) return shape_.query(previous, current, reach, out);
-    return mesh_->query(previous, current, reach, thickness_, triangles_[node], out);
+    return mesh_->query(previous, current, reach, gaps_.thickness, triangles_[node], out);
   }
   void listNodes() noexcept;
   bool isNear(std::size_t node, const Eigen::AlignedBox3d& box) noexcept;
@@ -148,7 +163,7 @@ class ObstacleCandidates {
   const ContactShape& shape_;
   const Workers& workers_;
   const TriangleMeshShape* mesh_;
-  double thickness_, core_;
+  ObstacleGaps gaps_;
   bool elements_wanted_;
   Field3 start_, end_;               // of this substep [m]
   std::vector<CachedPlane> planes_;  // by node

@@ -196,7 +196,6 @@ void collectPenetratingFaces(const ObstacleSubstep& substep, const ClothPattern&
 void crossingFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, const ObstacleCandidates& candidates,
                    std::vector<Crossing>& crossings) noexcept {
   const ConvexShape& shape = *candidates.shape().convex();
-  const double most = ObstacleCandidates::kLeastShare * candidates.thickness();
   for (const ObstacleCandidates::Face& face : candidates.faces()) {
     if (startsInside(face.node, 3, candidates)) continue;
     const Corners start = startOf(candidates, face.node), end = endOf(candidates, face.node);
@@ -204,7 +203,7 @@ void crossingFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, 
     const bool close = shape.nearestOnTriangle(start, candidates.thickness(), nearest);
     const double distance = close ? nearest.surface.distance : candidates.thickness();
     if (distance <= 0.0) continue;
-    const std::optional<double> time = shape.timeOfImpact(start, end, std::min(most, 0.5 * distance));
+    const std::optional<double> time = shape.timeOfImpact(start, end, candidates.least(distance));
     if (!time) continue;
     const Corners at = between(start, end, *time);
     if (!shape.nearestOnTriangle(at, std::numeric_limits<double>::infinity(), nearest)) continue;
@@ -253,13 +252,13 @@ void collectPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, c
 void crossingPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, const ObstacleCandidates& candidates,
                    std::vector<Crossing>& crossings) noexcept {
   const ObstacleFeatures& features = *candidates.shape().features();
-  const double most = ObstacleCandidates::kLeastShare * candidates.thickness();
+  const double most = candidates.least();
   for (const FeaturePair& pair : candidates.pairs()) {
     if (startsInside(pair.node, pair.edges ? 2 : 3, candidates)) continue;
     const Corners start = startOf(candidates, pair.node), end = endOf(candidates, pair.node);
     if (staysAbove(pair, features, start, end, most)) continue;
     const PairPoint first = closest(pair, features, start);
-    const double least = std::min(most, 0.5 * first.distance);
+    const double least = candidates.least(first.distance);
     if (first.distance - longestDisplacement(start, end) > least || !(first.distance > 0.0)) continue;
     const std::optional<double> time = impact(pair, features, start, end, least);
     SurfacePoint surface;

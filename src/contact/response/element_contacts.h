@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Narrow phase and response of one obstacle in a substep: contacts of nodes and elements along the predicted motion,
-// and crossings along the solved one. Nodes keep the thickness. Between nodes that do, faces and edges get nearer than
-// the core only where the obstacle is pointed.
+// and crossings along the solved one. Nodes keep the thickness, from the padding where there is one. Between nodes that
+// do, faces and edges get nearer than the core only where the obstacle is pointed.
 #pragma once
 
 #include <array>
@@ -39,9 +39,9 @@ struct Crossing {
 /// Share of the kept distance that may be missing without recovery.
 constexpr double kRestingSlack = 0.1;
 
-/// Signed distance to require at the end of a substep [m], for a part at `distance` at its start that should be at
-/// `kept`. Parts nearer than that recover by `recovery` at most, and not at all if they lack less than a tenth: a
-/// resting contact must not be shaken by the residual of the solve.
+/// Signed distance from the padding to require at the end of a substep [m], for a part at `distance` at its start that
+/// should be at `kept`. Parts nearer than that recover by `recovery` at most, and not at all if they lack less than a
+/// tenth: a resting contact must not be shaken by the residual of the solve.
 double recoveredDistance(double distance, double kept, double recovery) noexcept;
 
 /// Contacts of nodes. Refreshes the cached planes.
@@ -75,9 +75,10 @@ struct ContactPoint {
   double distance = 0.0;        ///< signed, at the start [m]; negative: no friction
   double recovery = 0.0;        ///< part of the height that takes out penetration [m]
 
-  /// Requires `kept` at the end, or recovery towards it.
+  /// Requires `kept` from the surface at the end, or recovery towards it.
   void keep(double at_start, double kept, const ObstacleSubstep& substep) noexcept {
-    const double asked = recoveredDistance(at_start, kept, substep.recoveryAt(at_start));
+    const double padding = substep.moving.padding;
+    const double asked = padding + recoveredDistance(at_start - padding, kept - padding, substep.recoveryAt(at_start));
     distance = at_start;
     height += asked;
     recovery = at_start < 0.0 ? asked - at_start : 0.0;

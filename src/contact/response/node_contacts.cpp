@@ -114,10 +114,10 @@ void collectNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, O
 
 void crossingNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, ObstacleCandidates& candidates,
                    std::vector<Crossing>& crossings) noexcept {
-  const double most = ObstacleCandidates::kLeastShare * candidates.thickness();
+  const double most = candidates.least();
   for (const ObstacleCandidates::NodeEnd& end : candidates.queryEnds(most)) {
     const double distance = candidates.distanceOf(end.node);
-    if (distance <= 0.0 || end.surface.distance >= std::min(most, 0.5 * distance)) continue;
+    if (distance <= 0.0 || end.surface.distance >= candidates.least(distance)) continue;
     Crossing crossing;
     crossing.node[0] = end.node;
     crossing.contact = nodeContact(substep, pattern, end.node, candidates, end.surface, distance);

@@ -22,8 +22,8 @@ bool alike(const Contact& a, const Contact& b) { return orderOf(a) == orderOf(b)
 
 }  // namespace
 
-ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, const ContactParams& params,
-                                   const ObstacleSet& obstacles, const Workers& workers)
+ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, const ContactParams& params, ObstacleSet& obstacles,
+                                   const Workers& workers)
     : pattern_(pattern),
       thickness_(params.thickness),
       recovery_speed_(params.recovery_speed),
@@ -33,8 +33,9 @@ ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, const ContactPar
   const auto count = static_cast<std::size_t>(obstacles.count());
   if (count == 0) return;
   candidates_.reserve(count);
-  for (const MovingObstacle& moving : obstacles.moving())
-    candidates_.emplace_back(pattern, *moving.shape, thickness_, kCore * thickness_, workers);
+  for (int n = 0; n < obstacles.count(); ++n)
+    candidates_.emplace_back(pattern, obstacles.shape(n),
+                             ObstacleGaps{thickness_, kCore * thickness_, obstacles.padding(n)}, workers);
   active_.assign(count, 0);
   loads_.assign(count, Load());
   crossings_.reserve(pattern.grid.nodeCount());
@@ -52,17 +53,15 @@ Eigen::AlignedBox3d ObstacleContacts::reached(Eigen::AlignedBox3d box) const noe
 }
 
 ObstacleStanding ObstacleContacts::standing(int obstacle, const Field3& position) const noexcept {
-  const MovingObstacle& moving = obstacles_.moving()[static_cast<std::size_t>(obstacle)];
-  if (!moving.present) return ObstacleStanding::kAbsent;
-  const bool near = reached(boxAround(pattern_.grid, position, position)).intersects(moving.sweptBounds());
+  if (!obstacles_.present(obstacle)) return ObstacleStanding::kAbsent;
+  const Eigen::AlignedBox3d box = reached(boxAround(pattern_.grid, position, position));
+  const bool near = box.intersects(obstacles_.moving(obstacle).sweptBounds());
   return near ? ObstacleStanding::kNear : ObstacleStanding::kFar;
 }
 
 bool ObstacleContacts::anyWithin(const Eigen::AlignedBox3d& box) const noexcept {
-  const auto is_within = [&box](const MovingObstacle& moving) {
-    return moving.present && box.intersects(moving.sweptBounds());
-  };
-  return std::any_of(obstacles_.moving().begin(), obstacles_.moving().end(), is_within);
+  const std::vector<int>& near = obstacles_.near(box);
+  return std::any_of(near.begin(), near.end(), [&](int n) { return obstacles_.mayMeet(n, box); });
 }
 
 void ObstacleContacts::begin(const Field3& start, const Field3& predicted, double h, bool frictionless,
@@ -102,12 +101,13 @@ bool ObstacleContacts::activate(const Field3& start, const Field3& end, bool lin
   const Eigen::AlignedBox3d box = reached(boxAround(pattern_.grid, start, end));
   bool any = false;
   for (std::size_t n = 0; n < candidates_.size(); ++n) {
-    const MovingObstacle& moving = obstacles_.moving()[n];
-    if (!moving.present || !(active_[n] != 0 || box.intersects(moving.sweptBounds()))) continue;
+    if (active_[n] == 0 && !obstacles_.mayMeet(static_cast<int>(n), box)) continue;
+    const MovingObstacle& obstacle = moving(n);
+    if (active_[n] == 0 && !box.intersects(obstacle.sweptBounds())) continue;
     if (active_[n] != 0)
-      candidates_[n].follow(moving, end);
+      candidates_[n].follow(obstacle, end);
     else
-      candidates_[n].prepare(moving, start, end);
+      candidates_[n].prepare(obstacle, start, end);
     active_[n] = 1;
     any = true;
   }
@@ -155,7 +155,7 @@ int ObstacleContacts::advect(const Field3& start, Field3& end) noexcept {
 // False: it moves with an obstacle already, or is pinned.
 bool ObstacleContacts::advectNode(std::uint32_t node, int obstacle, const Field3& start, Field3& end) noexcept {
   if (advected_by_[node] >= 0 || pattern_.inverse_mass[node] <= 0.0) return false;
-  const MovingObstacle& moving = obstacles_.moving()[static_cast<std::size_t>(obstacle)];
+  const MovingObstacle& moving = obstacles_.moving(obstacle);
   advected_by_[node] = obstacle;
   advected_.push_back(node);
   end.set(node, moving.after.toWorld(moving.before.toLocal(start.at(node))));
@@ -179,27 +179,29 @@ void ObstacleContacts::endAdvection() noexcept {
   advected_.clear();
 }
 
-void ObstacleContacts::remember(const Contacts& pushing, const Field3& position, double h, double scale) noexcept {
+void ObstacleContacts::remember(const Contacts& contacts, const Field3& position, double h,
+                                const SubstepOutcome& outcome) noexcept {
   loaded_for_ += h;
   for (Load& load : loads_) load.contacts = 0;
-  for (const Contact& contact : pushing) {
-    if (contact.obstacle == Contact::kCloth) continue;
-    const Vec3 impulse = (-h / scale) * (contact.push * contact.normal + contact.slide);
+  for (const Contact& contact : contacts) {
+    if (contact.obstacle == Contact::kCloth || (!contact.pushes() && contact.slide.isZero(0.0))) continue;
+    const Vec3 point = contact.point(position);
+    const Vec3 impulse = (-outcome.kick / outcome.scale) * (contact.push * contact.normal + contact.slide);
     if (contact.other == Contact::kCloth) {
-      addLoad(contact.obstacle, contact.point(position), impulse);
+      addLoad(contact.obstacle, point, impulse, contact.pushes());
     } else {
-      const Vec3 pressed = (h * contact.press) * contact.normal;
-      addLoad(contact.obstacle, contact.point(position), 0.5 * impulse - pressed);
-      addLoad(contact.other, contact.point(position), 0.5 * impulse + pressed);
+      const Vec3 pressed = (outcome.kick * contact.press) * contact.normal;
+      addLoad(contact.obstacle, point, 0.5 * impulse - pressed, true);
+      addLoad(contact.other, point, 0.5 * impulse + pressed, true);
     }
   }
 }
 
-void ObstacleContacts::addLoad(int obstacle, const Vec3& point, const Vec3& impulse) noexcept {
+void ObstacleContacts::addLoad(int obstacle, const Vec3& point, const Vec3& impulse, bool pushes) noexcept {
   Load& load = loads_[static_cast<std::size_t>(obstacle)];
   load.impulse += impulse;
-  load.angular += (point - obstacles_.moving()[static_cast<std::size_t>(obstacle)].after.translation).cross(impulse);
-  ++load.contacts;
+  load.angular += (point - obstacles_.moving(obstacle).after.translation).cross(impulse);
+  load.contacts += pushes ? 1 : 0;
 }
 
 void ObstacleContacts::clearCaches() noexcept {
@@ -223,7 +225,7 @@ double ObstacleContacts::deepest(const Contacts& contacts, const Field3& positio
   for (const Contact& contact : contacts) {
     if (contact.obstacle == Contact::kCloth || contact.nodes > 1) continue;
     const auto obstacle = static_cast<std::size_t>(contact.obstacle);
-    const Vec3 local = obstacles_.moving()[obstacle].after.toLocal(position.at(contact.node[0]));
+    const Vec3 local = moving(obstacle).after.toLocal(position.at(contact.node[0]));
     const CachedPlane& plane = candidates_[obstacle].plane(contact.node[0]);
     if (plane.kind != CachedPlane::Kind::kUnknown && plane.lowerBound(local) > 0.0) continue;
     SurfacePoint surface;

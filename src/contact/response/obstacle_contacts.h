@@ -4,7 +4,7 @@
 // obstacle and a thickness away, with Coulomb friction against the moving surface; inelastic. Parts that would cross on
 // the solved motion get planes where they enter; as a last resort they move with the obstacle.
 //
-//   box around a few nodes         rejects far obstacles at next to no cost
+//   box around a few nodes         rejects far obstacles, by their boxes of the frame, at next to no cost
 //   box around all nodes           rejects most others
 //   obstacle_candidates.h          broad phase
 //   element_contacts.h             narrow phase and response for the candidates
@@ -20,6 +20,7 @@
 #include "contact/shapes/obstacle_set.h"
 #include "curtain_sim/statistics.h"
 #include "solver/contacts.h"
+#include "solver/substep.h"
 
 namespace curtain {
 
@@ -29,7 +30,7 @@ enum class ObstacleStanding { kAbsent, kFar, kNear };
 class ObstacleContacts {
  public:
   /// Uses thickness and recovery_speed of params; pattern, obstacles and workers must outlive this.
-  ObstacleContacts(const ClothPattern& pattern, const ContactParams& params, const ObstacleSet& obstacles,
+  ObstacleContacts(const ClothPattern& pattern, const ContactParams& params, ObstacleSet& obstacles,
                    const Workers& workers);
 
   /// Begins a substep of h [s]: adds what may touch along the motion from start to predicted, sorted by the obstacles'
@@ -51,9 +52,9 @@ class ObstacleContacts {
   void freezeRest(const Field3& start, Field3& end) const noexcept;
   void endAdvection() noexcept;
 
-  /// After an accepted substep of h [s]: takes the contacts that push, whose multipliers are scale [s^2] times forces,
-  /// into the wrenches.
-  void remember(const Contacts& pushing, const Field3& position, double h, double scale) noexcept;
+  /// After an accepted substep of h [s]: takes its contacts into the wrenches. What counts is the momentum
+  /// that the cloth has got from them: forces times the time that they acted for, which is not h where steps change.
+  void remember(const Contacts& contacts, const Field3& position, double h, const SubstepOutcome& outcome) noexcept;
   /// Accepted substeps without contact are undone, `time` [s] in all.
   void takeBack(double time) noexcept { loaded_for_ -= time; }
   /// Results do not depend on it.
@@ -78,11 +79,13 @@ class ObstacleContacts {
 
     void carry(Archive& archive);
   };
-  ObstacleSubstep substepOf(std::size_t obstacle) const noexcept {
-    return {
-        obstacles_.moving()[obstacle], static_cast<int>(obstacle), h_, frictionless_, recovery_speed_, most_recovery_};
+  const MovingObstacle& moving(std::size_t obstacle) const noexcept {
+    return obstacles_.moving(static_cast<int>(obstacle));
   }
-  void addLoad(int obstacle, const Vec3& point, const Vec3& impulse) noexcept;
+  ObstacleSubstep substepOf(std::size_t obstacle) const noexcept {
+    return {moving(obstacle), static_cast<int>(obstacle), h_, frictionless_, recovery_speed_, most_recovery_};
+  }
+  void addLoad(int obstacle, const Vec3& point, const Vec3& impulse, bool pushes) noexcept;
   bool anyWithin(const Eigen::AlignedBox3d& box) const noexcept;
   Eigen::AlignedBox3d reached(Eigen::AlignedBox3d box) const noexcept;
   bool activate(const Field3& start, const Field3& end, bool links_hold) noexcept;
@@ -92,7 +95,7 @@ class ObstacleContacts {
   const ClothPattern& pattern_;
   double thickness_, recovery_speed_;
   double most_recovery_ = std::numeric_limits<double>::infinity();  // in a substep [m]
-  const ObstacleSet& obstacles_;
+  ObstacleSet& obstacles_;
   Pads pads_;
   SampledBounds bounds_;
   Eigen::AlignedBox3d start_box_;               // around the cloth at the start of the substep

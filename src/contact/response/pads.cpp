@@ -17,13 +17,12 @@ double roomOf(const Contact& contact, const Vec3& point) { return contact.normal
 
 Pads::Pads(const ClothPattern& pattern, const ObstacleSet& obstacles, double thickness)
     : pattern_(pattern), obstacles_(obstacles), most_play_(2.0 * kRestingSlack * thickness) {
-  const auto& moving = obstacles.moving();
-  const auto pads = static_cast<std::size_t>(
-      std::count_if(moving.begin(), moving.end(), [](const MovingObstacle& m) { return m.press > 0.0; }));
+  std::size_t pads = 0;
+  for (int n = 0; n < obstacles.count(); ++n) pads += obstacles.press(n) > 0.0 ? 1 : 0;
   if (pads < 2) return;
   touches_.reserve(pads * pattern.grid.nodeCount());
   pairs_.reserve(pattern.grid.nodeCount());
-  pinched_.assign(moving.size(), 0.0);
+  pinched_.assign(static_cast<std::size_t>(obstacles.count()), 0.0);
 }
 
 bool Pads::closes(const Contact& a, const Contact& b) const noexcept {

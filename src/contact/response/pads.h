@@ -30,9 +30,7 @@ class Pads {
   struct Pair {
     std::size_t first, second;  // contacts
   };
-  double pressOf(const Contact& contact) const noexcept {
-    return obstacles_.moving()[static_cast<std::size_t>(contact.obstacle)].press;
-  }
+  double pressOf(const Contact& contact) const noexcept { return obstacles_.press(contact.obstacle); }
   bool closes(const Contact& a, const Contact& b) const noexcept;
 
   const ClothPattern& pattern_;

@@ -5,9 +5,14 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 
 namespace curtain {
 namespace {
+
+// Obstacles are looked for this much around the cloth, over its size: it moves by less in a frame, mostly. What is
+// found does not depend on it.
+constexpr double kLookFurther = 0.1;
 
 // Interpolates between two poses of a frame. For small angles normalised linear interpolation suffices (error angle^3
 // / 100).
@@ -32,6 +37,20 @@ Eigen::AlignedBox3d boxAround(const Eigen::AlignedBox3d& box, const Transform& t
   const Vec3 middle = transform.toWorld(box.center());
   const Vec3 half = transform.rotation.cwiseAbs() * (0.5 * box.sizes());
   return {middle - half, middle + half};
+}
+
+Eigen::AlignedBox3d grownBy(double margin, Eigen::AlignedBox3d box) {
+  box.min().array() -= margin;
+  box.max().array() += margin;
+  return box;
+}
+
+// How far points leave the boxes at both ends of a rotation: the sagitta of the farthest point's arc [m].
+double arcBulge(double farthest, const Eigen::Matrix3d& before, const Eigen::Matrix3d& after) {
+  if (!std::isfinite(farthest)) return 0.0;
+  const double cosine = 0.5 * ((before.transpose() * after).trace() - 1.0);
+  const double half_angle = 0.5 * std::acos(std::clamp(cosine, -1.0, 1.0));
+  return farthest * (1.0 - std::cos(half_angle));
 }
 
 }  // namespace
@@ -62,20 +81,30 @@ double followingSpeed(const Scene& scene) noexcept {
 
 ObstacleSet::ObstacleSet(const Scene& scene, const MeshResolver& resolve)
     : frame_length_(1.0 / scene.solver.frame_rate), following_speed_(followingSpeed(scene)) {
+  std::string unusable;
   for (const ObstacleParams& params : scene.obstacles) {
     Item item;
-    item.shape = makeContactShape(params, resolve);
+    try {
+      item.shape = makeContactShape(params, resolve);
+    } catch (const std::invalid_argument& error) {
+      unusable += (unusable.empty() ? "" : "\n") + std::string(error.what());
+      continue;
+    }
     item.motion = params.motion;
     item.initial = params.motion.empty() ? params.pose : poseAt(params.motion, 0.0);
     MovingObstacle moving;
     moving.shape = item.shape.get();
-    moving.bounds = item.shape->bounds();
+    moving.padding = params.padding;
     moving.press = params.press;
+    moving.bounds = grownBy(params.padding, item.shape->bounds());
+    item.radius = moving.bounds.min().cwiseAbs().cwiseMax(moving.bounds.max().cwiseAbs()).norm();
     item.own_friction = !std::isnan(params.friction);
     moving.friction = item.own_friction ? params.friction : scene.contact.friction;
     items_.push_back(std::move(item));
     moving_.push_back(moving);
   }
+  if (!unusable.empty()) throw std::invalid_argument(unusable);
+  near_.reserve(items_.size());
   by_name_.resize(items_.size());
   std::iota(by_name_.begin(), by_name_.end(), 0);
   std::sort(by_name_.begin(), by_name_.end(),
@@ -99,24 +128,20 @@ void ObstacleSet::reset() noexcept {
   for (std::size_t n = 0; n < items_.size(); ++n) {
     items_[n].left = items_[n].begin = items_[n].end = items_[n].initial;
     items_[n].scripted = !items_[n].motion.empty();
-    items_[n].moved = items_[n].placed = items_[n].behind = false;
+    items_[n].moved = items_[n].behind = items_[n].boxed = false;
     items_[n].own_path = 0.0;
     items_[n].share = 1.0;
     moving_[n].present = true;
   }
-  at_rest_ = false;
+  any_moved_ = boxed_ = false;
   setSubstep(1.0, 1.0);
 }
 
 void ObstacleSet::setPresent(int index, bool present) noexcept {
-  Item& item = items_[at(index)];
-  item.moved = item.moved || present != moving_[at(index)].present;
-  item.placed = at_rest_ = false;  // its motion continued without it
+  if (present == moving_[at(index)].present) return;
   moving_[at(index)].present = present;
-}
-
-bool ObstacleSet::anyMoved() const noexcept {
-  return std::any_of(items_.begin(), items_.end(), [](const Item& item) { return item.moved; });
+  items_[at(index)].moved = true;
+  touch(items_[at(index)]);  // its motion continued without it
 }
 
 Eigen::AlignedBox3d ObstacleSet::leftBox(int index) const noexcept {
@@ -126,13 +151,15 @@ Eigen::AlignedBox3d ObstacleSet::leftBox(int index) const noexcept {
 void ObstacleSet::setPose(int index, const Pose& pose, bool jump) noexcept {
   Item& item = items_[at(index)];
   item.scripted = false;
-  item.moved = item.moved || !samePlace(pose, item.end);
+  const bool moves = !samePlace(pose, item.end);
+  if (!moves && !jump) return;
   moveOn(at(index), pose);
-  item.placed = at_rest_ = false;
-  if (!jump) return;
-  item.begin = pose;
-  item.behind = false;
-  moving_[at(index)].move(Transform(pose), Transform(pose));
+  if (jump) {
+    item.begin = pose;
+    item.behind = false;
+  }
+  item.moved = item.moved || moves;
+  touch(item);
 }
 
 void ObstacleSet::beginFrame(double end_time) noexcept {
@@ -141,6 +168,7 @@ void ObstacleSet::beginFrame(double end_time) noexcept {
     if (item.scripted) {
       moveOn(n, poseAt(item.motion, end_time));
       item.moved = item.moved || !samePlace(item.begin, item.end);
+      if (item.moved) touch(item);
     }
     item.share = 1.0;
     if (!item.behind) continue;
@@ -152,8 +180,7 @@ void ObstacleSet::beginFrame(double end_time) noexcept {
 
 // Bound of the largest displacement of its points [m].
 double ObstacleSet::pathBetween(const Pose& a, const Pose& b, std::size_t index) const noexcept {
-  const Eigen::AlignedBox3d& box = moving_[index].bounds;
-  const double radius = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).norm();
+  const double radius = items_[index].radius;
   const double turned = a.orientation.angularDistance(b.orientation);
   return (b.position - a.position).norm() + (std::isfinite(radius) ? radius * turned : 0.0);
 }
@@ -169,32 +196,88 @@ double ObstacleSet::path(int index) const noexcept {
   return item.share * pathBetween(item.begin, item.end, at(index));
 }
 
+// Its place and box are to be worked out anew.
+void ObstacleSet::touch(Item& item) noexcept {
+  any_moved_ = any_moved_ || item.moved;
+  item.placed = 0;
+  item.boxed = boxed_ = false;
+}
+
 void ObstacleSet::setSubstep(double from, double to) noexcept {
-  if (at_rest_ && !anyMoved()) return;
-  at_rest_ = true;
+  if (boxed_ && at_rest_) return;
+  from_ = from;
+  to_ = to;
+  ++substep_;
+  if (!boxed_) takeBoxes();
+}
+
+void ObstacleSet::takeBoxes() noexcept {
+  boxed_ = at_rest_ = true;
   swept_.setEmpty();
+  looked_.setEmpty();
   for (std::size_t n = 0; n < items_.size(); ++n) {
     Item& item = items_[n];
     if (!moving_[n].present) continue;
-    if (!samePlace(item.begin, item.end)) {
-      moving_[n].move(Transform(between(item.begin, item.end, from * item.share)),
-                      Transform(between(item.begin, item.end, to * item.share)));
-      item.placed = at_rest_ = false;
-    } else if (!item.placed) {
-      moving_[n].move(Transform(item.end), Transform(item.end));
-      item.placed = true;
+    if (!item.boxed) {
+      const bool rests = samePlace(item.begin, item.end);
+      item.boxed = rests;
+      at_rest_ = at_rest_ && rests;
+      item.exact = false;
+      if (rests) {
+        takeExactBox(n);
+      } else {
+        const Vec3 low = item.begin.position.cwiseMin(item.end.position);
+        const Vec3 high = item.begin.position.cwiseMax(item.end.position);
+        item.swept = {low.array() - item.radius, high.array() + item.radius};
+      }
     }
-    swept_.extend(moving_[n].sweptBounds());
+    swept_.extend(item.swept);
+  }
+}
+
+void ObstacleSet::takeExactBox(std::size_t index) noexcept {
+  Item& item = items_[index];
+  const Eigen::AlignedBox3d& box = moving_[index].bounds;
+  const Transform begin(item.begin);
+  item.exact = true;
+  item.swept = boxAround(box, begin);
+  if (samePlace(item.begin, item.end)) return;
+  const Transform end(between(item.begin, item.end, item.share));
+  item.swept = grownBy(arcBulge(item.radius, begin.rotation, end.rotation), item.swept.merged(boxAround(box, end)));
+}
+
+void ObstacleSet::lookAround(const Eigen::AlignedBox3d& box) noexcept {
+  looked_ = grownBy(kLookFurther * box.sizes().maxCoeff(), box);
+  near_.clear();
+  for (std::size_t n = 0; n < items_.size(); ++n) {
+    if (moving_[n].present && items_[n].swept.intersects(looked_)) near_.push_back(static_cast<int>(n));
+  }
+}
+
+void ObstacleSet::place(std::size_t index) noexcept {
+  Item& item = items_[index];
+  item.placed = substep_;
+  if (samePlace(item.begin, item.end)) {
+    moving_[index].move(Transform(item.end), Transform(item.end));
+  } else {
+    moving_[index].move(Transform(between(item.begin, item.end, from_ * item.share)),
+                        Transform(between(item.begin, item.end, to_ * item.share)));
   }
 }
 
 void ObstacleSet::endFrame(double share) noexcept {
+  from_ = to_ = 0.0;
+  if (!any_moved_) return;
+  any_moved_ = false;
   for (Item& item : items_) {
+    if (!item.moved) continue;
     const double made = share * item.share;
     item.begin = made >= 1.0 ? item.end : between(item.begin, item.end, made);
     item.moved = item.behind = !samePlace(item.begin, item.end);
     item.own_path = 0.0;
     item.left = item.begin;
+    item.boxed = boxed_ = false;
+    any_moved_ = any_moved_ || item.moved;
   }
 }
 

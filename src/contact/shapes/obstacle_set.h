@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The obstacles of a scene and their poses: at the start and the end of the frame, interpolated in between.
+//
+// Where an obstacle moves in a substep is worked out for those alone that somebody asks for (moving()). Whether it may
+// be near is told by a box around its whole motion in the frame, at first around the ball that it can turn in: a robot
+// out of reach costs such a box a moving link and frame, and none where it stands still. What is near is looked for in
+// a box somewhat larger than asked for, and again when the cloth leaves that.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -33,9 +39,10 @@ struct Transform {
 struct MovingObstacle {
   const ContactShape* shape = nullptr;
   double friction = 0.0;
-  double press = 0.0;  ///< on what another one presses from the other side [N]
+  double press = 0.0;    ///< on what another one presses from the other side [N]
+  double padding = 0.0;  ///< kept beyond the thickness [m]
   bool present = true;
-  Eigen::AlignedBox3d bounds;  ///< of the shape, in its frame
+  Eigen::AlignedBox3d bounds;  ///< of the shape with its padding, in its frame
   Transform before;            ///< at the substep's start
   Transform after;             ///< at its end
 
@@ -81,13 +88,33 @@ class ObstacleSet {
 
   /// It moves in this frame, or was placed, added or removed since the last one.
   bool moved(int index) const noexcept { return items_[at(index)].moved; }
-  bool anyMoved() const noexcept;
+  bool anyMoved() const noexcept { return any_moved_; }
   /// Box around its pose at the end of the last frame, world frame.
   Eigen::AlignedBox3d leftBox(int index) const noexcept;
 
-  const std::vector<MovingObstacle>& moving() const { return moving_; }
-  /// Box around all present obstacles during the substep, world frame; empty: none.
+  /// The obstacle during the substep; between frames where it has got to. Valid until the next call that moves it.
+  const MovingObstacle& moving(int index) noexcept {
+    if (items_[at(index)].placed != substep_) place(at(index));
+    return moving_[at(index)];
+  }
+  double padding(int index) const { return moving_[at(index)].padding; }
+  double press(int index) const { return moving_[at(index)].press; }
+  /// Box around all present obstacles during the frame or more, world frame, as of the last setSubstep(); empty: none.
   const Eigen::AlignedBox3d& sweptBounds() const noexcept { return swept_; }
+  /// Box around one of them during the frame, with the arcs of its rotation.
+  const Eigen::AlignedBox3d& sweptBounds(int index) noexcept {
+    if (!items_[at(index)].exact) takeExactBox(at(index));
+    return items_[at(index)].swept;
+  }
+  /// Present obstacles whose box of the frame may meet this one, and all that do. Valid until the next call.
+  const std::vector<int>& near(const Eigen::AlignedBox3d& box) noexcept {
+    if (!looked_.contains(box)) lookAround(box);
+    return near_;
+  }
+  /// It is present and its box of the frame meets this one.
+  bool mayMeet(int index, const Eigen::AlignedBox3d& box) noexcept {
+    return moving_[at(index)].present && items_[at(index)].swept.intersects(box) && sweptBounds(index).intersects(box);
+  }
   /// Bound of how far a point of its surface moves in the frame [m]; plane: its origin.
   double path(int index) const noexcept;
   /// Indices sorted by name: results depend on names, not on the order in the scene.
@@ -107,10 +134,14 @@ class ObstacleSet {
     Pose end;
     bool scripted = false;  // follows its motion
     bool moved = false;
+    double radius = 0.0;        // of its points about its origin, with the padding [m]
     double own_path = 0.0;      // displacement of its target since the last frame [m]
     double share = 1.0;         // part of the remaining path covered in this frame
     bool behind = false;        // the last frame ended short of the target
-    bool placed = false;        // at rest, with its substep set
+    std::uint64_t placed = 0;   // substep that its MovingObstacle is of
+    Eigen::AlignedBox3d swept;  // around its motion in the frame, world frame
+    bool exact = false;         // that box is no larger than need be
+    bool boxed = false;         // and holds until it moves
     bool own_friction = false;  // the scene names its friction
 
     void carry(Archive& archive);
@@ -118,6 +149,11 @@ class ObstacleSet {
   static std::size_t at(int index) { return static_cast<std::size_t>(index); }
   double pathBetween(const Pose& a, const Pose& b, std::size_t index) const noexcept;
   void moveOn(std::size_t index, const Pose& pose) noexcept;
+  void touch(Item& item) noexcept;
+  void place(std::size_t index) noexcept;
+  void takeBoxes() noexcept;
+  void takeExactBox(std::size_t index) noexcept;
+  void lookAround(const Eigen::AlignedBox3d& box) noexcept;
 
   double frame_length_;     // [s]
   double following_speed_;  // [m/s]
@@ -125,7 +161,13 @@ class ObstacleSet {
   std::vector<Item> items_;
   std::vector<MovingObstacle> moving_;
   Eigen::AlignedBox3d swept_;
-  bool at_rest_ = false;  // no obstacle moved in the last substep: the next one need not be set
+  double from_ = 0.0, to_ = 0.0;  // the substep, as shares of the frame
+  std::uint64_t substep_ = 1;     // counts what obstacles are placed anew for
+  bool any_moved_ = false;
+  bool boxed_ = false;          // the boxes are those of the frame
+  bool at_rest_ = false;        // and no obstacle moves in it
+  Eigen::AlignedBox3d looked_;  // that near_ holds for
+  std::vector<int> near_;
   std::vector<int> by_name_, rank_;
 };
 

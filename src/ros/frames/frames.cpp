@@ -22,6 +22,8 @@ std::string withoutSlash(const std::string& frame) {
 Frames::Frames(const ros::NodeHandle& node, const std::string& world_frame)
     : node_(node), world_(withoutSlash(world_frame)) {}
 
+std::string Frames::resolve(const std::string& frame) const { return frame.empty() ? world_ : withoutSlash(frame); }
+
 bool Frames::isWorld(const std::string& frame) const { return frame.empty() || withoutSlash(frame) == world_; }
 
 void Frames::listen() {

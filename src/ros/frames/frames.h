@@ -33,6 +33,9 @@ class Frames {
 
   const std::string& world() const { return world_; }
 
+  /// Its name as tf2 has it: without a leading slash; of an empty one the world frame's.
+  std::string resolve(const std::string& frame) const;
+
   /// Empty and the world frame's own name, with or without a leading slash.
   bool isWorld(const std::string& frame) const;
 

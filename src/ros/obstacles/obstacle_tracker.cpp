@@ -3,8 +3,6 @@
 
 #include <ros/console.h>
 
-#include <algorithm>
-
 #include "ros/frames/geometry.h"
 #include "scene/ranges.h"
 
@@ -22,85 +20,97 @@ ObstacleTracker::ObstacleTracker(const curtain::Scene& scene, double timeout, Fr
     Tracked tracked;
     tracked.index = static_cast<int>(i);
     tracked.offset = obstacle.pose;
-    tracked.health.name = obstacle.name;
-    tracked.health.frame = obstacle.frame;
+    tracked.name = obstacle.name;
+    tracked.frame = placeOf(frames.resolve(obstacle.frame));
+    Followed& frame = followed_[tracked.frame];
+    frame.names += (frame.names.empty() ? "'" : ", '") + obstacle.name + "'";
+    frame.obstacles.push_back(tracked_.size());
     tracked_.push_back(tracked);
   }
   if (!tracked_.empty()) frames_.listen();
 }
 
+std::size_t ObstacleTracker::placeOf(const std::string& frame) {
+  std::size_t place = 0;
+  while (place < followed_.size() && followed_[place].health.frame != frame) ++place;
+  if (place == followed_.size()) followed_.emplace_back().health.frame = frame;
+  return place;
+}
+
+void ObstacleTracker::setPresent(Followed& frame, bool present, curtain::Simulator& simulator) const {
+  frame.health.present = present;
+  for (const std::size_t n : frame.obstacles) simulator.setObstaclePresent(tracked_[n].index, present);
+}
+
 void ObstacleTracker::restart(curtain::Simulator& simulator) {
-  for (Tracked& obstacle : tracked_) {
-    obstacle.health.present = false;
-    obstacle.health.is_static = false;
-    obstacle.stamp = ros::Time();
-    obstacle.resumed = false;
-    simulator.setObstaclePresent(obstacle.index, false);
+  for (Followed& frame : followed_) {
+    frame.health.is_static = false;
+    frame.stamp = ros::Time();
+    frame.resumed = false;
+    setPresent(frame, false, simulator);
   }
 }
 
 void ObstacleTracker::resume(const curtain::Simulator& simulator) {
-  for (Tracked& obstacle : tracked_) {
-    obstacle.health.present = simulator.obstaclePresent(obstacle.index);
-    obstacle.resumed = obstacle.health.present;
+  for (Followed& frame : followed_) {
+    frame.health.present = simulator.obstaclePresent(tracked_[frame.obstacles.front()].index);
+    frame.resumed = frame.health.present;
   }
 }
 
 void ObstacleTracker::update(curtain::Simulator& simulator, const ros::Time& now) {
   std::string left_out;
-  for (Tracked& obstacle : tracked_) {
-    const std::string why = follow(obstacle, simulator, now);
+  for (Followed& frame : followed_) {
+    const std::string why = follow(frame, simulator, now);
     if (why.empty()) continue;
-    const ObstacleHealth& health = obstacle.health;
-    left_out += (left_out.empty() ? "'" : "; '") + health.name + "': its frame '" + health.frame + "' " + why;
+    left_out += (left_out.empty() ? "" : "; ") + frame.names + ": its frame '" + frame.health.frame + "' " + why;
   }
   // One message for all: throttled ones for each would show only the first.
   if (!left_out.empty()) ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "obstacles left out: " << left_out);
 }
 
-FrameLookup ObstacleTracker::lookUp(Tracked& obstacle, const ros::Time& now) {
-  ObstacleHealth& health = obstacle.health;
+FrameLookup ObstacleTracker::lookUp(Followed& followed, const ros::Time& now) {
+  ObstacleHealth& health = followed.health;
   FrameLookup frame = frames_.lookup(health.frame);
   const double ahead = frame.known && !frame.stamp.isZero() ? (frame.stamp - now).toSec() : 0.0;
   health.early = ahead > timeout_;
   if (health.early) {
-    ++early_poses_;
+    early_poses_ += followed.obstacles.size();
     frame = frames_.lookup(health.frame, now);
     if (!frame.known) frame.error = "its transform is " + std::to_string(ahead) + " s ahead of the clock";
   }
   if (frame.known) {
-    obstacle.stamp = frame.stamp;
+    followed.stamp = frame.stamp;
     health.is_static = frame.stamp.isZero();
   }
   health.error = frame.error;
   return frame;
 }
 
-std::string ObstacleTracker::follow(Tracked& obstacle, curtain::Simulator& simulator, const ros::Time& now) {
-  const FrameLookup frame = lookUp(obstacle, now);
-  ObstacleHealth& health = obstacle.health;
+std::string ObstacleTracker::follow(Followed& followed, curtain::Simulator& simulator, const ros::Time& now) {
+  const FrameLookup frame = lookUp(followed, now);
+  ObstacleHealth& health = followed.health;
   const bool seen = frame.known || health.present;
-  if (obstacle.resumed && obstacle.stamp.isZero() && !health.is_static) obstacle.stamp = now;
-  health.age = seen && !health.is_static ? (now - obstacle.stamp).toSec() : 0.0;
-  const bool fresh = seen && (health.age <= timeout_ || (obstacle.resumed && frame.may_come));
+  if (followed.resumed && followed.stamp.isZero() && !health.is_static) followed.stamp = now;
+  health.age = seen && !health.is_static ? (now - followed.stamp).toSec() : 0.0;
+  const bool fresh = seen && (health.age <= timeout_ || (followed.resumed && frame.may_come));
   health.late = fresh && health.age > 0.5 * timeout_;
-  late_poses_ += health.late ? 1 : 0;
+  late_poses_ += health.late ? followed.obstacles.size() : 0;
 
   if (fresh && frame.known) {
-    const bool jump = !health.present || obstacle.resumed;
-    obstacle.resumed = false;
-    if (jump) simulator.setObstaclePresent(obstacle.index, true);
-    simulator.setObstaclePose(obstacle.index, transformPose(frame.pose, obstacle.offset), jump);
-    health.present = true;
+    const bool jump = !health.present || followed.resumed;
+    followed.resumed = false;
+    if (jump) setPresent(followed, true, simulator);
+    for (const std::size_t n : followed.obstacles)
+      simulator.setObstaclePose(tracked_[n].index, transformPose(frame.pose, tracked_[n].offset), jump);
     return {};
   }
   if (fresh) return {};  // late: the last pose
 
   if (health.present) {
-    simulator.setObstaclePresent(obstacle.index, false);
-    health.present = false;
-    obstacle.resumed = false;
-    ++lost_;
+    setPresent(followed, false, simulator);
+    followed.resumed = false;
+    lost_ += static_cast<std::uint32_t>(followed.obstacles.size());
   }
   if (frame.may_come) return {};  // the listener is young: too early to warn
   if (!frame.known) return "is not known in '" + frames_.world() + "': " + health.error;
@@ -109,8 +119,9 @@ std::string ObstacleTracker::follow(Tracked& obstacle, curtain::Simulator& simul
 }
 
 void ObstacleTracker::count(curtain_sim::Statistics& statistics) const {
-  statistics.absent_obstacles = static_cast<std::uint32_t>(
-      std::count_if(tracked_.begin(), tracked_.end(), [](const Tracked& o) { return !o.health.present; }));
+  statistics.absent_obstacles = 0;
+  for (const Followed& frame : followed_)
+    statistics.absent_obstacles += frame.health.present ? 0U : static_cast<std::uint32_t>(frame.obstacles.size());
   statistics.late_poses = late_poses_;
   statistics.early_poses = early_poses_;
   statistics.obstacles_lost = lost_;
@@ -118,7 +129,10 @@ void ObstacleTracker::count(curtain_sim::Statistics& statistics) const {
 
 std::vector<ObstacleHealth> ObstacleTracker::health() const {
   std::vector<ObstacleHealth> result;
-  for (const Tracked& obstacle : tracked_) result.push_back(obstacle.health);
+  for (const Tracked& obstacle : tracked_) {
+    result.push_back(followed_[obstacle.frame].health);
+    result.back().name = obstacle.name;
+  }
   return result;
 }
 

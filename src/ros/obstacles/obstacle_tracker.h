@@ -9,6 +9,8 @@
 //     than the timeout           no older one the frame is late
 //   never seen                 it is left out
 //   static frame               never late
+//
+// Several obstacles on one frame, as those of a robot's link, are one lookup.
 #pragma once
 
 #include <ros/time.h>
@@ -63,20 +65,29 @@ class ObstacleTracker {
 
  private:
   struct Tracked {
-    int index = 0;         // in the simulator
-    curtain::Pose offset;  // in its frame
-    ros::Time stamp;       // of the last transform
-    bool resumed = false;  // from a snapshot, and its frame not known since
-    ObstacleHealth health;
+    int index = 0;          // in the simulator
+    curtain::Pose offset;   // in its frame
+    std::string name;       // its own
+    std::size_t frame = 0;  // in followed_
+  };
+  struct Followed {
+    std::vector<std::size_t> obstacles;  // on this frame, in tracked_
+    std::string names;                   // of these, for messages
+    ros::Time stamp;                     // of the last transform
+    bool resumed = false;                // from a snapshot, and the frame not known since
+    ObstacleHealth health;               // of each of them, but for its name
   };
 
-  FrameLookup lookUp(Tracked& obstacle, const ros::Time& now);
-  /// Returns why it is left out; empty: it is not, or it is too early to tell.
-  std::string follow(Tracked& obstacle, curtain::Simulator& simulator, const ros::Time& now);
+  std::size_t placeOf(const std::string& frame);
+  void setPresent(Followed& frame, bool present, curtain::Simulator& simulator) const;
+  FrameLookup lookUp(Followed& frame, const ros::Time& now);
+  /// Returns why its obstacles are left out; empty: they are not, or it is too early to tell.
+  std::string follow(Followed& frame, curtain::Simulator& simulator, const ros::Time& now);
 
   double timeout_;
   Frames& frames_;
-  std::vector<Tracked> tracked_;
+  std::vector<Tracked> tracked_;    // in the scene's order
+  std::vector<Followed> followed_;  // their frames
   std::uint64_t late_poses_ = 0;
   std::uint64_t early_poses_ = 0;
   std::uint32_t lost_ = 0;

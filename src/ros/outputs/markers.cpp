@@ -15,7 +15,7 @@ using visualization_msgs::Marker;
 namespace {
 
 // Places in the array; obstacles follow.
-enum Slot { kWires, kNodes, kFolds, kWind, kRail, kCarriers, kLines, kLoads, kGrasps, kFirstObstacle };
+enum Slot { kWires, kNodes, kFolds, kWind, kRail, kCarriers, kLines, kLoads, kGrasps, kContacts, kFirstObstacle };
 
 // Sizes in the picture [m].
 constexpr double kWireWidth = 0.002;
@@ -27,6 +27,9 @@ constexpr double kCarrierSize = 0.024;
 constexpr double kLineWidth = 0.006;
 constexpr double kLoadSize = 0.12;
 constexpr double kGraspSize = 0.03;
+constexpr double kArrowWidth = 0.003;
+constexpr double kLongestArrow = 0.25;
+constexpr double kHalfArrow = 0.1;   // [N] whose arrow is half as long
 constexpr double kRailStep = 0.05;   // from point to point
 constexpr double kWindLength = 0.5;  // of the drawn part of a cone
 constexpr int kWindSpokes = 12;
@@ -97,6 +100,20 @@ void buildGrasps(const curtain::Simulator& simulator, Points& points) {
   }
 }
 
+// Arrows to where the cloth presses, along its force. Forces of a node's weight and of a fist can both be seen.
+void buildArrows(const std::vector<curtain::ContactForce>& forces, Points& points) {
+  points.clear();
+  for (const curtain::ContactForce& contact : forces) {
+    const Vec3 force = contact.friction - contact.normal_force * contact.normal;
+    const double size = force.norm();
+    const Vec3 along = kLongestArrow / (size + kHalfArrow) * force;
+    const Vec3 aside = 0.15 * along.norm() * along.unitOrthogonal();
+    const Vec3& tip = contact.position;
+    addLine(tip - along, tip, points);
+    for (const double side : {1.0, -1.0}) addLine(tip - 0.3 * along + side * aside, tip, points);
+  }
+}
+
 void buildWires(const std::vector<Vec3>& nodes, int rows, int columns, bool closed, Points& points) {
   const auto at = [&](int row, int column) -> const Vec3& {
     return nodes[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column)];
@@ -148,6 +165,7 @@ visualization_msgs::MarkerArray blankDetails(const std::string& frame, const cur
       makeMarker(frame, "lines", Marker::SPHERE_LIST, kLoadSize, colour(0.35F, 0.33F, 0.32F)),
       makeMarker(frame, "grasps", Marker::SPHERE_LIST, kGraspSize, colour(0.98F, 0.62F, 0.12F)),
   };
+  array.markers.push_back(makeMarker(frame, "contacts", Marker::LINE_LIST, kArrowWidth, colour(1.00F, 0.55F, 0.10F)));
   array.markers[kLoads].id = 1;
   for (const Vec3& point : simulator.railPoints(kRailStep)) array.markers[kRail].points.push_back(toPoint(point));
   for (const Slot slot : {kRail, kCarriers}) showUnlessEmpty(array.markers[slot]);
@@ -202,8 +220,8 @@ void MeshMarker::fill(Marker& marker) {
   }
 }
 
-DetailMarkers::DetailMarkers(const std::string& world_frame, GeometryCache& geometry)
-    : geometry_(geometry), message_(blankDetails(world_frame, geometry.simulator())) {
+DetailMarkers::DetailMarkers(const std::string& world_frame, GeometryCache& geometry, bool contact_points)
+    : geometry_(geometry), contact_points_(contact_points), message_(blankDetails(world_frame, geometry.simulator())) {
   for (int i = 0; i < geometry.simulator().obstacleCount(); ++i)
     obstacle_normals_.push_back(cornerNormals(geometry.simulator().obstacleShape(i).triangles()));
 }
@@ -248,7 +266,9 @@ void DetailMarkers::fill(visualization_msgs::MarkerArray& array) {
 
   buildLines(simulator, array.markers[kLines].points, array.markers[kLoads].points);
   buildGrasps(simulator, array.markers[kGrasps].points);
-  for (const Slot slot : {kLines, kLoads, kGrasps}) showUnlessEmpty(array.markers[slot]);
+  if (contact_points_) simulator.copyContactPoints(forces_);
+  buildArrows(forces_, array.markers[kContacts].points);
+  for (const Slot slot : {kLines, kLoads, kGrasps, kContacts}) showUnlessEmpty(array.markers[slot]);
 
   const curtain::FineMesh& mesh = geometry_.fineMesh();
   const curtain::FineMeshTopology& topology = simulator.fineMeshTopology();

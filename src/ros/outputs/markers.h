@@ -9,6 +9,7 @@
 //   rail       its path                          carriers   on it
 //   lines      lines and closed tie-backs, and the loads
 //   grasps     nodes that hands hold
+//   contacts   arrows: forces of the cloth on obstacles, where they are asked for
 //
 // Messages are filled again only where the picture has changed.
 #pragma once
@@ -57,7 +58,7 @@ class MeshMarker {
 class DetailMarkers {
  public:
   /// geometry must outlive this.
-  DetailMarkers(const std::string& world_frame, GeometryCache& geometry);
+  DetailMarkers(const std::string& world_frame, GeometryCache& geometry, bool contact_points);
 
   /// The same as MeshMarker's.
   std::uint64_t update();
@@ -69,6 +70,8 @@ class DetailMarkers {
   void fill(visualization_msgs::MarkerArray& array);
 
   GeometryCache& geometry_;
+  bool contact_points_;
+  std::vector<curtain::ContactForce> forces_;
   std::uint64_t picture_ = 0;
   std::optional<std::uint64_t> revision_, filled_;  // of that picture; of the array, without its wind
   // Winds come and go without a new revision. They are few: their lines are compared.

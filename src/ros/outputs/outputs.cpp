@@ -3,12 +3,24 @@
 
 #include <ros/console.h>
 
+#include <algorithm>
+#include <cctype>
+#include <map>
+
 namespace curtain_ros {
 
 namespace {
 constexpr double kMarkersAtRest = 1.0;  // [1/s]
 constexpr double kPlanRate = 1.0;       // [1/s]
 constexpr double kWarnPeriod = 10.0;    // [s] between warnings
+
+// Names of frames may have letters that names of topics can't.
+std::string topicOf(std::string frame) {
+  const auto is_good = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '/'; };
+  std::replace_if(
+      frame.begin(), frame.end(), [&](char c) { return !is_good(c); }, '_');
+  return "wrench/" + frame;
+}
 }  // namespace
 
 // Short queues: late listeners want the newest frame, not the ones they missed.
@@ -28,7 +40,7 @@ Outputs::Outputs(ros::NodeHandle node, const NodeParams& params, const curtain::
       load_messages_(params, simulator),
       contact_messages_(params),
       mesh_marker_(params.world_frame, geometry_),
-      detail_markers_(params.world_frame, geometry_),
+      detail_markers_(params.world_frame, geometry_, params.contact_points),
       plan_rate_(kPlanRate, simulator.scene().solver.frame_rate) {
   tune(params, simulator.scene().solver.frame_rate);
 }
@@ -42,6 +54,19 @@ void Outputs::tune(const NodeParams& params, double frame_rate) {
   plan_rate_.setRate(kPlanRate, frame_rate);
   detail_.tolerance = params.mesh_tolerance;
   detail_.viewer_tolerance = params.mesh_viewer_tolerance;
+  advertiseWrenches(node);
+}
+
+void Outputs::advertiseWrenches(ros::NodeHandle& node) {
+  std::map<std::string, std::vector<int>> obstacles;  // by frame
+  for (int index = 0; index < geometry_.simulator().obstacleCount(); ++index) {
+    const auto at = static_cast<std::size_t>(index);
+    obstacles[frames_.resolve(geometry_.simulator().scene().obstacles[at].frame)].push_back(index);
+  }
+  for (const auto& [frame, on_it] : obstacles) {
+    wrenches_.push_back({{node.advertise<geometry_msgs::WrenchStamped>(topicOf(frame), 2), contacts_.pace},
+                         WrenchMessages(frame, on_it)});
+  }
 }
 
 void Outputs::showAgain(const ros::Time& stamp) {
@@ -51,6 +76,7 @@ void Outputs::showAgain(const ros::Time& stamp) {
 
 void Outputs::publish(const ros::Time& stamp, curtain_sim::Statistics statistics, bool latest) {
   for (Stream* stream : {&state_, &loads_, &contacts_, &mesh_, &markers_}) stream->pace.tick();
+  publishWrenches(stamp);
   if (state_.due() && state_.pace.send(geometry_.revision())) {
     ++state_.sent;
     count(statistics);
@@ -64,6 +90,14 @@ void Outputs::publish(const ros::Time& stamp, curtain_sim::Statistics statistics
   }
   if (latest) publishMarkers(stamp);
   logPlan();
+}
+
+void Outputs::publishWrenches(const ros::Time& stamp) {
+  for (Wrench& wrench : wrenches_) {
+    wrench.stream.pace.tick();
+    if (wrench.stream.due() && wrench.stream.pace.send(geometry_.revision()))
+      wrench.stream.publisher.publish(wrench.messages.build(geometry_.simulator(), stamp));
+  }
 }
 
 void Outputs::publishMarkers(const ros::Time& stamp) {

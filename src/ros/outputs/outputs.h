@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// ~state, ~loads, ~contacts, ~mesh and ~markers. What nobody subscribes to is not built; what is built is shared with
-// subscribers in this process, not copied. And the plan (what runs for the scene, what is skipped) in the log, at level
-// DEBUG.
+// ~state, ~loads, ~contacts, ~wrench/FRAME, ~mesh and ~markers. What nobody subscribes to is not built; what is built
+// is shared with subscribers in this process, not copied. And the plan (what runs for the scene, what is skipped) in
+// the log, at level DEBUG.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "curtain_sim/simulator.h"
 #include "ros/frames/frames.h"
@@ -53,6 +54,13 @@ class Outputs {
     bool due() { return pace.due(publisher.getNumSubscribers()); }
   };
 
+  struct Wrench {
+    Stream stream;
+    WrenchMessages messages;
+  };
+
+  void advertiseWrenches(ros::NodeHandle& node);
+  void publishWrenches(const ros::Time& stamp);
   void publishMarkers(const ros::Time& stamp);
   curtain::MeshDetail meshDetail();
   void logPlan();
@@ -66,6 +74,7 @@ class Outputs {
   StateMessages states_;
   LoadMessages load_messages_;
   ContactMessages contact_messages_;
+  std::vector<Wrench> wrenches_;  // by tf2 frame
   MeshMarker mesh_marker_;
   DetailMarkers detail_markers_;
   RateDivider plan_rate_;

@@ -164,12 +164,14 @@ curtain_sim::Loads::ConstPtr LoadMessages::build(const ros::Time& stamp) {
   return message;
 }
 
-ContactMessages::ContactMessages(const NodeParams& params) : message_(blankContacts(params)) {}
+ContactMessages::ContactMessages(const NodeParams& params)
+    : points_(params.contact_points), message_(blankContacts(params)) {}
 
 curtain_sim::Contacts::ConstPtr ContactMessages::build(const curtain::Simulator& simulator, const ros::Time& stamp) {
   const auto message = message_.edit();
   message->header.stamp = stamp;
   message->obstacles.resize(static_cast<std::size_t>(simulator.obstacleCount()));
+  place_.assign(message->obstacles.size(), 0);
   auto to = message->obstacles.begin();
   for (int index = 0; index < simulator.obstacleCount(); ++index) {
     if (!simulator.obstaclePresent(index)) continue;
@@ -181,9 +183,51 @@ curtain_sim::Contacts::ConstPtr ContactMessages::build(const curtain::Simulator&
     to->wrench.torque = toVector(wrench.torque);
     to->origin = toPoint(simulator.obstaclePose(index).position);
     to->contacts = static_cast<std::uint32_t>(wrench.contacts);
+    place_[static_cast<std::size_t>(index)] = static_cast<std::uint32_t>(to - message->obstacles.begin());
     ++to;
   }
   message->obstacles.erase(to, message->obstacles.end());
+  if (points_) fillPoints(simulator, *message);
+  return message;
+}
+
+void ContactMessages::fillPoints(const curtain::Simulator& simulator, curtain_sim::Contacts& message) {
+  simulator.copyContactPoints(forces_);
+  message.points.clear();
+  for (const curtain::ContactForce& force : forces_) {
+    if (!simulator.obstaclePresent(force.obstacle)) continue;
+    curtain_sim::ContactPoint& point = message.points.emplace_back();
+    point.obstacle = place_[static_cast<std::size_t>(force.obstacle)];
+    point.position = toPoint(force.position);
+    point.normal = toVector(force.normal);
+    point.normal_force = force.normal_force;
+    point.friction_force = toVector(force.friction);
+  }
+}
+
+WrenchMessages::WrenchMessages(const std::string& frame, std::vector<int> obstacles)
+    : obstacles_(std::move(obstacles)), message_([&frame] {
+        geometry_msgs::WrenchStamped blank;
+        blank.header.frame_id = frame;
+        return blank;
+      }()) {}
+
+geometry_msgs::WrenchStamped::ConstPtr WrenchMessages::build(const curtain::Simulator& simulator,
+                                                             const ros::Time& stamp) {
+  curtain::Vec3 force = curtain::Vec3::Zero(), torque = curtain::Vec3::Zero();
+  for (const int index : obstacles_) {
+    if (!simulator.obstaclePresent(index)) continue;
+    const curtain::ContactWrench wrench = simulator.contactWrench(index);
+    const curtain::Pose& offset = simulator.scene().obstacles[static_cast<std::size_t>(index)].pose;
+    const auto to_frame = offset.orientation * simulator.obstaclePose(index).orientation.conjugate();
+    const curtain::Vec3 pull = to_frame * wrench.force;
+    force += pull;
+    torque += to_frame * wrench.torque + offset.position.cross(pull);
+  }
+  const auto message = message_.edit();
+  message->header.stamp = stamp;
+  message->wrench.force = toVector(force);
+  message->wrench.torque = toVector(torque);
   return message;
 }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The messages of ~state, ~loads and ~contacts, and what they are made of. Needs no ROS master.
+// The messages of ~state, ~loads, ~contacts and ~wrench/…, and what they are made of. Needs no ROS master.
 #pragma once
 
+#include <geometry_msgs/WrenchStamped.h>
 #include <ros/time.h>
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "curtain_sim/Contacts.h"
@@ -74,7 +76,26 @@ class ContactMessages {
   curtain_sim::Contacts::ConstPtr build(const curtain::Simulator& simulator, const ros::Time& stamp);
 
  private:
+  void fillPoints(const curtain::Simulator& simulator, curtain_sim::Contacts& message);
+
+  bool points_;
+  std::vector<curtain::ContactForce> forces_;
+  std::vector<std::uint32_t> place_;  // by obstacle of the scene: in the message
   ReusedMessage<curtain_sim::Contacts> message_;
+};
+
+/// What the cloth does to all obstacles on one tf2 frame: in its axes, about its origin. One thread at a time.
+class WrenchMessages {
+ public:
+  /// obstacles  on the frame, as the simulator numbers them
+  WrenchMessages(const std::string& frame, std::vector<int> obstacles);
+
+  /// Absent obstacles feel nothing.
+  geometry_msgs::WrenchStamped::ConstPtr build(const curtain::Simulator& simulator, const ros::Time& stamp);
+
+ private:
+  std::vector<int> obstacles_;
+  ReusedMessage<geometry_msgs::WrenchStamped> message_;
 };
 
 }  // namespace curtain_ros

@@ -2,13 +2,16 @@
 #include "ros/parameters/parameters.h"
 
 #include <ros/console.h>
+#include <ros/exceptions.h>
 #include <ros/param.h>
 #include <ros/time.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <set>
 
 #include "curtain_sim/CurtainConfig.h"
+#include "curtain_sim/obstacle_shape.h"
 #include "curtain_sim/scene_yaml.h"
 #include "scene/range_checker.h"
 #include "scene/strict_reader.h"
@@ -20,6 +23,8 @@ using XmlRpc::XmlRpcValue;
 namespace {
 
 const char kScene[] = "scene";
+const char kRobot[] = "robot";
+const char kDescription[] = "robot_description";  // where every tool looks for the URDF
 
 // The scene's visitors, with the one kind of value that only nodes have: text that may be empty.
 struct Reader : curtain::StrictReader {
@@ -105,6 +110,27 @@ void readOwn(const YAML::Node& own, const std::string& space, ParameterReading& 
   }
 }
 
+// Name of the parameter that holds the URDF.
+std::string descriptionOf(const RobotParams& robot) {
+  return robot.description.empty() ? kDescription : robot.description;
+}
+
+void readRobotTree(const YAML::Node& yaml, const std::string& name, ParameterReading& reading) {
+  reading.robot.emplace();
+  if (!yaml.IsMap()) {
+    reading.problems.push_back(name + ": must be a map, with description, links, …");
+    return;
+  }
+  curtain::ProblemLog log;
+  Reader reader(yaml, "", log);
+  curtain::visitFields(reader, *reading.robot);
+  reader.reportUnknown();
+  Checker checker("", log);
+  curtain::visitFields(checker, *reading.robot);
+  for (const curtain::Problem& problem : log.problems())
+    reading.problems.push_back(name + "/" + curtain::describe({problem}));
+}
+
 // Obstacles that name no frame stand still in the world, whatever the world frame is called here.
 void fillObstacleFrames(const YAML::Node& scene, const std::string& world_frame) {
   const YAML::Node obstacles = scene["obstacles"];
@@ -129,6 +155,55 @@ void readSceneTree(const YAML::Node& yaml, const std::string& name, ParameterRea
     obstacle.motion.clear();
   }
   reading.scene = std::move(scene.scene);
+}
+
+// The URDF of the robot: in the private namespace, or the nearest one above it. Nothing: problems say why.
+std::optional<std::string> findDescription(const ros::NodeHandle& node, const RobotParams& robot, std::string& name,
+                                           std::vector<std::string>& problems) {
+  const std::string wanted = descriptionOf(robot);
+  const std::string asked = node.getNamespace() + "/" + kRobot + ": ";
+  try {
+    XmlRpcValue text;
+    if (!node.searchParam(wanted, name) || !node.getParam(name, text)) {
+      problems.push_back(asked + "there is no URDF: no parameter '" + wanted + "' in " + node.getNamespace() +
+                         " or above it");
+    } else if (text.getType() != XmlRpcValue::TypeString) {
+      problems.push_back(name + ": must be the text of a URDF");
+    } else {
+      return static_cast<std::string>(text);
+    }
+  } catch (const ros::InvalidNameException& error) {
+    problems.push_back(asked + "description: " + error.what());
+  }
+  return {};
+}
+
+void addRobot(const ros::NodeHandle& node, ParameterReading& reading) {
+  std::string name;
+  const std::optional<std::string> urdf = findDescription(node, *reading.robot, name, reading.problems);
+  if (!urdf) return;
+  const std::string asked = node.getNamespace() + "/" + kRobot + "/";
+  RobotReading robot = readRobot(*reading.robot, *urdf);
+  for (const curtain::Problem& problem : robot.problems)
+    reading.problems.push_back((problem.key.empty() ? name : asked + problem.key) + ": " + problem.text);
+  for (curtain::ObstacleParams& obstacle : robot.obstacles) {
+    const auto has_its_name = [&](const curtain::ObstacleParams& other) { return other.name == obstacle.name; };
+    if (std::any_of(reading.scene.obstacles.begin(), reading.scene.obstacles.end(), has_its_name))
+      reading.problems.push_back(name + ": the link '" + obstacle.name + "' has the name of an obstacle of the scene");
+    reading.scene.obstacles.push_back(std::move(obstacle));
+  }
+}
+
+// The simulator, which would tell of them, is not going to be made.
+void tryMeshes(ParameterReading& reading) {
+  for (const curtain::ObstacleParams& obstacle : reading.scene.obstacles) {
+    if (obstacle.shape != curtain::ShapeKind::kMesh || obstacle.mesh.empty()) continue;
+    try {
+      curtain::makeObstacleShape(obstacle);
+    } catch (const std::invalid_argument& error) {
+      reading.problems.push_back(error.what());
+    }
+  }
 }
 
 }  // namespace
@@ -156,7 +231,13 @@ ParameterReading readParameters(const XmlRpcValue& tree, const std::string& priv
   const YAML::Node scene = static_cast<const YAML::Node&>(own)[kScene];
   own.remove(kScene);
   for (const std::string& name : tunedSceneParameters()) own.remove(name);
+  const YAML::Node robot = static_cast<const YAML::Node&>(own)[kRobot];
+  own.remove(kRobot);
   ParameterReading reading;
+  if (robot) {
+    readRobotTree(robot, private_space + "/" + kRobot, reading);
+    own.remove(descriptionOf(*reading.robot));
+  }
   readOwn(own, private_space + "/", reading);
   const std::string scene_name = private_space + "/" + kScene;
   if (scene) {
@@ -172,6 +253,7 @@ ParameterReading readParameters(const ros::NodeHandle& private_node) {
   XmlRpcValue tree;
   ros::param::get(private_node.getNamespace(), tree);
   ParameterReading reading = readParameters(tree, private_node.getNamespace());
+  if (reading.robot) addRobot(private_node, reading);
   for (const std::string& warning : reading.warnings) ROS_WARN_STREAM(warning);
   if (reading.node.publish_clock && !ros::Time::isSimTime()) {
     reading.problems.push_back(
@@ -180,6 +262,7 @@ ParameterReading readParameters(const ros::NodeHandle& private_node) {
         "follows /clock");
   }
   if (reading.problems.empty()) return reading;
+  tryMeshes(reading);
   std::string list = "can't start, " + std::to_string(reading.problems.size()) + " problem(s) with the parameters:";
   for (const std::string& problem : reading.problems) list += "\n  " + problem;
   throw ParameterError(list);

@@ -8,11 +8,13 @@
 #include <ros/node_handle.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "curtain_sim/scene.h"
+#include "ros/parameters/robot.h"
 #include "scene/fields.h"
 
 namespace curtain_ros {
@@ -22,7 +24,7 @@ struct NodeParams {
   std::string world_frame = "world";     ///< tf2 frame of the simulation, not empty
   double obstacle_timeout = 0.5;         ///< [s] an obstacle whose frame is older is left out
   double grasp_timeout = 1.0;            ///< [s] a hand whose frame is older lets go
-  double state_rate = 0.0;               ///< of ~state and ~contacts [1/s of simulated time]; 0 = every frame
+  double state_rate = 0.0;               ///< of ~state, ~contacts and the like [1/s of simulated time]; 0 = every frame
   double state_rest_rate = 0.0;          ///< of them while nothing moves; 0 = the same
   double mesh_rate = 20.0;               ///< of ~mesh; the frame rate is its cap
   double mesh_tolerance = 0.0;           ///< [m] that ~mesh may be off the fine mesh
@@ -31,6 +33,7 @@ struct NodeParams {
   double markers_rate = 10.0;            ///< of ~markers, as mesh_rate
   int max_catch_up = 4;                  ///< frames that a late node makes at once before it drops some
   bool state_folds = false;              ///< ~state carries the second-layer nodes
+  bool contact_points = false;           ///< ~contacts and ~markers carry where the cloth presses on obstacles
   bool handles = true;                   ///< interactive markers on the hem
   double handle_stiffness = 100.0;       ///< of their springs [N/m]
   std::string snapshot_file;             ///< where the state is kept for the next start; empty: nowhere
@@ -44,12 +47,13 @@ struct NodeParams {
 /// What reading gave: usable only when problems is empty.
 struct ParameterReading {
   NodeParams node;
-  curtain::Scene scene;
+  std::optional<RobotParams> robot;
+  curtain::Scene scene;               ///< with the robot's obstacles behind its own, once the URDF is read
   std::vector<std::string> problems;  ///< "parameter: text", one each
   std::vector<std::string> warnings;
 };
 
-/// Reads a tree of private parameters.
+/// Reads a tree of private parameters, without the robot's URDF, which another parameter holds.
 ///   tree           struct, or invalid when there are none
 ///   private_space  the tree's name on the parameter server, for messages, e.g. /curtain/curtain_node
 ParameterReading readParameters(const XmlRpc::XmlRpcValue& tree, const std::string& private_space);
@@ -67,7 +71,7 @@ class ParameterError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Reads the private parameters from the server, logs the warnings, throws ParameterError.
+/// Reads the private parameters and the robot's URDF from the server, logs the warnings, throws ParameterError.
 ParameterReading readParameters(const ros::NodeHandle& private_node);
 
 }  // namespace curtain_ros
@@ -91,6 +95,7 @@ struct Fields<curtain_ros::NodeParams> {
     v.number("markers_rate", params.markers_rate, between(kSmallest, 10000.0));
     v.integer("max_catch_up", params.max_catch_up, IntRange{1, 1000});
     v.flag("state_folds", params.state_folds);
+    v.flag("contact_points", params.contact_points);
     v.flag("handles", params.handles);
     v.number("handle_stiffness", params.handle_stiffness, between(kSmallest, 1e6));
     v.textOrNone("snapshot_file", params.snapshot_file);

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/parameters/robot.h"
+
+#include <console_bridge/console.h>
+#include <urdf/model.h>
+
+#include <regex>
+#include <set>
+
+namespace curtain_ros {
+
+using curtain::ObstacleParams;
+using curtain::ShapeKind;
+
+namespace {
+
+// Keeps the errors of the URDF's parser, which tells them to the log alone; the rest goes on to the log.
+class ParserErrors : public console_bridge::OutputHandler {
+ public:
+  ParserErrors() : log_(console_bridge::getOutputHandler()) { console_bridge::useOutputHandler(this); }
+  ~ParserErrors() override { console_bridge::useOutputHandler(log_); }
+  ParserErrors(const ParserErrors&) = delete;
+  ParserErrors& operator=(const ParserErrors&) = delete;
+
+  void log(const std::string& text, console_bridge::LogLevel level, const char* file, int line) override {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR)
+      text_ += (text_.empty() ? "" : "; ") + text;
+    else if (log_ != nullptr)
+      log_->log(text, level, file, line);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  console_bridge::OutputHandler* log_;
+  std::string text_;
+};
+
+std::vector<urdf::CollisionSharedPtr> geometriesOf(const urdf::Link& link) {
+  if (!link.collision_array.empty()) return link.collision_array;
+  if (link.collision) return {link.collision};
+  return {};
+}
+
+// The links that an entry of ~robot/links names. Throws std::regex_error.
+std::set<std::string> linksNamed(const std::string& entry, const urdf::Model& model) {
+  if (model.links_.count(entry) > 0) return {entry};
+  const std::regex expression(entry);
+  std::set<std::string> names;
+  for (const auto& [name, link] : model.links_) {
+    if (std::regex_match(name, expression)) names.insert(name);
+  }
+  return names;
+}
+
+bool anyCollides(const std::set<std::string>& names, const urdf::Model& model) {
+  for (const std::string& name : names) {
+    if (!geometriesOf(*model.links_.at(name)).empty()) return true;
+  }
+  return false;
+}
+
+std::set<std::string> chosenLinks(const RobotParams& params, const urdf::Model& model, RobotReading& reading) {
+  std::set<std::string> chosen;
+  const auto refuse = [&](const std::string& entry, const std::string& why) {
+    reading.problems.push_back({"links", "'" + entry + "' " + why});
+  };
+  for (const std::string& entry : params.links) {
+    try {
+      const std::set<std::string> names = linksNamed(entry, model);
+      if (names.empty())
+        refuse(entry, "names no link of '" + model.getName() + "'");
+      else if (!anyCollides(names, model))
+        refuse(entry, "names no link with collision geometry");
+      chosen.insert(names.begin(), names.end());
+    } catch (const std::regex_error& error) {
+      refuse(entry, std::string("is no link and no regular expression: ") + error.what());
+    }
+  }
+  if (!params.links.empty()) return chosen;
+  for (const auto& [name, link] : model.links_) chosen.insert(name);
+  if (!anyCollides(chosen, model))
+    reading.problems.push_back({"", "no link of '" + model.getName() + "' has collision geometry"});
+  return chosen;
+}
+
+void takeShape(const urdf::Geometry& geometry, ObstacleParams& obstacle) {
+  switch (geometry.type) {
+    case urdf::Geometry::SPHERE:
+      obstacle.shape = ShapeKind::kSphere;
+      obstacle.radius = static_cast<const urdf::Sphere&>(geometry).radius;
+      return;
+    case urdf::Geometry::BOX: {
+      const urdf::Vector3& size = static_cast<const urdf::Box&>(geometry).dim;
+      obstacle.shape = ShapeKind::kBox;
+      obstacle.size = curtain::Vec3(size.x, size.y, size.z);
+      return;
+    }
+    case urdf::Geometry::CYLINDER: {
+      const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
+      obstacle.shape = ShapeKind::kCylinder;
+      obstacle.radius = cylinder.radius;
+      obstacle.length = cylinder.length;
+      return;
+    }
+    case urdf::Geometry::MESH: {
+      const auto& mesh = static_cast<const urdf::Mesh&>(geometry);
+      obstacle.shape = ShapeKind::kMesh;
+      obstacle.mesh = mesh.filename;
+      obstacle.scale = curtain::Vec3(mesh.scale.x, mesh.scale.y, mesh.scale.z);
+      return;
+    }
+  }
+}
+
+ObstacleParams obstacleOf(const RobotParams& params, const std::string& link, const urdf::Collision& collision) {
+  ObstacleParams obstacle;
+  obstacle.frame = params.tf_prefix.empty() ? link : params.tf_prefix + "/" + link;
+  const urdf::Pose& origin = collision.origin;
+  obstacle.pose.position = curtain::Vec3(origin.position.x, origin.position.y, origin.position.z);
+  const urdf::Rotation& turn = origin.rotation;
+  obstacle.pose.orientation = Eigen::Quaterniond(turn.w, turn.x, turn.y, turn.z).normalized();
+  takeShape(*collision.geometry, obstacle);
+  return obstacle;
+}
+
+}  // namespace
+
+RobotReading readRobot(const RobotParams& params, const std::string& urdf) {
+  RobotReading reading;
+  urdf::Model model;
+  {
+    ParserErrors errors;
+    const bool whole = model.initString(urdf);
+    if (!whole || !errors.text().empty()) {  // with some errors it only leaves out what it can't read
+      reading.problems.push_back({"", "is not a valid URDF: " + errors.text()});
+      return reading;
+    }
+  }
+  for (const std::string& link : chosenLinks(params, model, reading)) {
+    const std::vector<urdf::CollisionSharedPtr> geometries = geometriesOf(*model.links_.at(link));
+    for (std::size_t k = 0; k < geometries.size(); ++k) {
+      ObstacleParams obstacle = obstacleOf(params, link, *geometries[k]);
+      obstacle.name = geometries.size() == 1 ? link : link + "/" + std::to_string(k);
+      for (const curtain::Problem& problem : validate(obstacle, ""))
+        reading.problems.push_back({"", "collision geometry '" + obstacle.name + "': " + curtain::describe({problem})});
+      obstacle.padding = params.padding;
+      obstacle.friction = params.friction;
+      obstacle.visible = params.visible;
+      reading.obstacles.push_back(obstacle);
+    }
+  }
+  return reading;
+}
+
+}  // namespace curtain_ros
