@@ -101,12 +101,12 @@ TEST(ObstaclesWithMotion, StayWithinTheirBoxesOfTheFrame) {
     set.beginFrame(0.1);
     set.setSubstep(0.0, 0.1);
     const Eigen::AlignedBox3d coarse = set.sweptBounds(), exact = set.sweptBounds(1);
-    EXPECT_TRUE(coarse.contains(exact)) << trial;
     for (int k = 1; k < 10; ++k) {
       set.setSubstep(0.1 * k, 0.1 * (k + 1));
       if (k % 3 == 0) continue;
       const MovingObstacle& box = set.moving(1);
       EXPECT_TRUE(exact.contains(box.sweptBounds())) << trial;
+      EXPECT_TRUE(coarse.contains(box.sweptBounds())) << trial;
       EXPECT_LT((box.after.translation - begin - 0.1 * (k + 1) * way).norm(), 1e-15);
     }
     set.endFrame();

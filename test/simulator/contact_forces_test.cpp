@@ -67,6 +67,7 @@ struct Blow {
   const char* name;
   Vec3 velocity;  // of the box [m/s]
   double spin;    // of the box about z [rad/s]
+  Method method = Method::kAuto;
 };
 
 class Blows : public ::testing::TestWithParam<Blow> {};
@@ -77,6 +78,7 @@ class Blows : public ::testing::TestWithParam<Blow> {};
 TEST_P(Blows, TakeTheMomentumThatTheClothGivesUp) {
   const Blow& blow = GetParam();
   Scene scene = sheetAt(1.0, 0.0);
+  scene.solver.method = blow.method;
   const double leaves = 0.7, duration = 1.0;
   ObstacleParams box = boxOf(Vec3(0.5, 0.5, 0.1), Vec3(0.05, 0.02, 0.6));
   for (int k = 0; k <= 7; ++k) {
@@ -113,7 +115,10 @@ TEST_P(Blows, TakeTheMomentumThatTheClothGivesUp) {
 INSTANTIATE_TEST_SUITE_P(ContactWrench, Blows,
                          ::testing::Values(Blow{"from below", Vec3(0.0, 0.0, 1.0), 0.0},
                                            Blow{"aslant", Vec3(0.8, 0.3, 0.5), 0.0},
-                                           Blow{"spinning", Vec3(0.0, 0.0, 0.3), 3.0}));
+                                           Blow{"spinning", Vec3(0.0, 0.0, 0.3), 3.0},
+                                           Blow{"bdf2", Vec3(0.8, 0.3, 0.5), 2.0, Method::kBdf2},
+                                           Blow{"leapfrog4", Vec3(0.8, 0.3, 0.5), 2.0, Method::kLeapfrog4},
+                                           Blow{"implicit", Vec3(0.8, 0.3, 0.5), 2.0, Method::kImplicit}));
 
 // The places where a sheet at rest presses: their forces add up to its weight and to the wrench, each pushes out of its
 // obstacle, and friction is within Coulomb's bound.
