@@ -20,8 +20,8 @@ enum class GraspRegion {
 
 /// A hand that takes hold of the cloth. What it holds moves with the gripper's frame.
 ///
-/// Without stiffness and pinch_force the held nodes are pinned: they follow the frame rigidly. Otherwise each hangs on
-/// a damped spring from its place in the frame, and is one of the cloth's free nodes for all else.
+/// Where nothing but releaseGrasp() ends it and it does not give, the held nodes are pinned. Otherwise each hangs on a
+/// spring from its place in the frame (stiff: 0.05 mm at break_force), and is a free node of the cloth for all else.
 struct GraspParams {
   std::string id;                             ///< unique among the grasps, not empty
   Pose frame;                                 ///< of the gripper in the world, when it takes hold

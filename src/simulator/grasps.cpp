@@ -12,7 +12,7 @@
 namespace curtain {
 namespace {
 
-// How far cloth between two pads moves before it slides [m]: half of the 1e-4 m that a held node may be off.
+// How far cloth moves in a hand before it slides, or is lost [m]: half of the 1e-4 m that a held node may be off.
 constexpr double kPresliding = 5e-5;
 // Pulls of more than so many times the cloth's weight may move it further: pads that are stiffer by far than all that
 // pulls at them are hard to solve for.
@@ -20,8 +20,10 @@ constexpr double kMostWeights = 10.0, kStandardGravity = 9.81;
 // Share of the cloth's mass that a hand which gives way moves with it, as drag_force.cpp has it.
 constexpr double kHeldShare = 0.25;
 
+// It neither gives way nor loses the cloth. Else it needs some elasticity: between two pins, what straight links pull
+// with has no one answer.
 bool isRigid(const GraspParams& grasp) noexcept {
-  return !(grasp.stiffness <= kLargest || grasp.pinch_force <= kLargest);
+  return !(grasp.stiffness <= kLargest || grasp.pinch_force <= kLargest || grasp.break_force <= kLargest);
 }
 
 std::string textOf(const NodeIndex& node) {
@@ -84,7 +86,7 @@ std::vector<Problem> Grasps::find(const GraspParams& grasp, const Field3& positi
                                   std::vector<std::size_t>& nodes) const {
   std::vector<Problem> problems;
   if (holds(grasp.id)) return {{"grasp.id", "'" + grasp.id + "' holds the cloth already: release it first"}};
-  if (scene_.solver.method == Method::kPaper && (!isRigid(grasp) || grasp.break_force <= kLargest)) {
+  if (scene_.solver.method == Method::kPaper && !isRigid(grasp)) {
     return {{"grasp",
              "can have a stiffness, break_force or pinch_force only where pulls are known: not with method paper"}};
   }
@@ -128,7 +130,7 @@ void Grasps::prepare(Grasp& grasp) const {
     const double damping = 2.0 * std::sqrt(params.stiffness * kHeldShare * total_mass_);
     grasp.springs = {share * params.stiffness, share * damping, most, total_mass_};
   } else {
-    const double bears = std::min(most, kMostWeights * kStandardGravity * total_mass_);
+    const double bears = std::min({most, params.break_force, kMostWeights * kStandardGravity * total_mass_});
     grasp.springs = {bears / kPresliding, 0.0, most, total_mass_};
   }
 }

@@ -59,7 +59,8 @@ class GraspTest(DrivenCurtain):
         self.frames.clear()
         if self.curtain.last() is None:
             self.begin(10.0)
-        self.put("gripper", FAR)
+        self.drive(100)  # it comes to rest from the test before
+        self.put("gripper", self.hem())
 
     def tearDown(self):
         for goal in self.goals:
@@ -87,7 +88,7 @@ class GraspTest(DrivenCurtain):
             self.run_until(self.now + FRAME)
 
     def send(self, feedback=None, **fields):
-        """A goal that has come to the node; a ball around the gripper unless it says otherwise."""
+        """A goal that the node knows of; a ball around the gripper unless it says otherwise."""
         goal = GraspGoal(frame="gripper", region=GraspGoal.SPHERE, radius=0.15)
         for key, value in fields.items():
             at = goal
@@ -97,14 +98,15 @@ class GraspTest(DrivenCurtain):
         self.drive(2)  # the node knows the frames
         handle = self.client.send_goal(goal, feedback_cb=feedback and (lambda _, f: feedback(f)))
         self.goals.append(handle)
-        wait_until(lambda: handle.get_comm_state() != actionlib.CommState.WAITING_FOR_GOAL_ACK, "the goal has come")
+        # The server's status comes with the clock, and with what becomes of the goal.
+        wait_until(lambda: handle.get_comm_state() != actionlib.CommState.WAITING_FOR_GOAL_ACK or self.drive(),
+                   "the goal has come")
         return handle
 
     def hold(self, feedback=None, **fields):
-        """A goal that holds: in the frame after it came."""
+        """A goal that holds."""
         handle = self.send(feedback, **fields)
-        self.drive()
-        wait_until(lambda: handle.get_goal_status() != GoalStatus.PENDING, "it is taken")
+        wait_until(lambda: handle.get_goal_status() != GoalStatus.PENDING or self.drive(), "it is taken")
         self.assertEqual(handle.get_goal_status(), GoalStatus.ACTIVE, handle.get_goal_status_text())
         return handle
 
@@ -121,6 +123,16 @@ class GraspTest(DrivenCurtain):
         wait_until(lambda: self.over(handle), "the goal is over")
         return handle.get_terminal_state(), handle.get_result()
 
+    def hem(self):
+        """The middle of the hem, where it is now."""
+        return self.nodes()[12 * 11 + 5]
+
+    def near(self, name, radius=0.15):
+        """Nodes within a ball around a frame, and their places in it."""
+        place, rotation = self.frames[name]
+        return {n: rotate(inverse(rotation), at - place) for n, at in enumerate(self.nodes())
+                if numpy.linalg.norm(at - place) <= radius}
+
     def nodes(self):
         return numpy.array(self.curtain.last().positions).reshape(-1, 3)
 
@@ -133,27 +145,25 @@ class GraspTest(DrivenCurtain):
     def test_1_what_is_held_follows_the_frame_at_every_state(self):
         heard = []
         self.hold(heard.append)
-        place, rotation = self.frames["gripper"]
         wait_until(lambda: heard, "feedback comes")
-        places = {n: self.nodes()[n] - place for n in range(13 * 11)
-                  if numpy.linalg.norm(self.nodes()[n] - place) <= 0.15}
+        places = self.near("gripper")
         self.assertEqual(len(places), heard[-1].nodes)
         self.assertGreater(len(places), 3)
-        before = (place, rotation)
+        sent = [self.frames["gripper"]]
         for k in range(150):  # up to 3 m/s, jerked, turned
             angle = 2.0 * math.pi * k / 50.0
             jerk = 0.02 if k % 7 == 0 else 0.0
             self.put("gripper", FAR + [0.3 * math.sin(angle), 0.3 - 0.3 * math.cos(angle) + jerk, 0.2],
                      turn([0.3, 1.0, 0.2], 0.8 * math.sin(1.7 * angle)))
             self.drive()
-            # A transform that is sent with the clock may come after the frame has begun: then it is the one before.
-            off = min(self.farthest_from(places, self.frames["gripper"]), self.farthest_from(places, before))
+            # Transforms and clock come by different ways: what was sent last may come after the frame has begun. Then it
+            # is at one that was sent before, never between two.
+            sent.append(self.frames["gripper"])
+            off = min(self.farthest_from(places, pose) for pose in sent[-10:])
             self.assertLessEqual(off, 1e-4, "frame %d" % k)
-            before = self.frames["gripper"]
         self.assertEqual(heard[-1].slipped, 0.0)
 
     def test_2_cancelled_it_lets_go(self):
-        self.put("gripper", FAR)
         handle = self.hold()
         self.put("gripper", FAR + [0.0, 0.4, 0.3])
         self.drive(25)
@@ -166,7 +176,7 @@ class GraspTest(DrivenCurtain):
 
     def test_3_pull_is_in_the_grippers_frame(self):
         heard = []
-        self.put("gripper", FAR, turn([1, 0, 0], math.pi))  # upside down
+        self.put("gripper", self.hem(), turn([1, 0, 0], math.pi))  # upside down
         self.hold(heard.append)
         self.put("gripper", FAR + [0.0, 0.0, 0.3], turn([1, 0, 0], math.pi))
         self.drive(150)
@@ -211,15 +221,15 @@ class GraspTest(DrivenCurtain):
     def test_7_lost_frame(self):
         heard = []
         handle = self.hold(heard.append)
+        held = list(self.near("gripper"))
         self.put("gripper", FAR + [0.0, 0.2, 0.1])
         self.drive(5)
-        held = [n for n in range(13 * 11) if self.nodes()[n][1] > 0.19]
         there = self.nodes()[held]
         del self.frames["gripper"]
         lost = self.now
         while self.now < lost + TIMEOUT - 1.5 * FRAME:
             self.drive()
-            self.assertLess(numpy.abs(self.nodes()[held] - there).max(), 1e-9, "it holds where it was")
+            self.assertLess(numpy.abs(self.nodes()[held] - there).max(), 1e-6, "it holds where it was")
         wait_until(lambda: heard[-1].late, "feedback says so")
         state, result = self.end_of(handle, 5)
         self.assertEqual((state, result.end), (GoalStatus.ABORTED, GraspResult.FRAME_LOST))
@@ -229,7 +239,7 @@ class GraspTest(DrivenCurtain):
 
     def test_8_several_hands_hand_over(self):
         left = self.hold(region=GraspGoal.NODES, rows=[12, 12], columns=[4, 5])
-        self.put("right", FAR)
+        self.put("right", self.hem())
         both = []
         right = self.hold(both.append, frame="right", radius=0.25)
         wait_until(lambda: both, "feedback comes")
@@ -264,25 +274,25 @@ class GraspTest(DrivenCurtain):
         nan = float("nan")
         self.refused(["frame", "'nowhere' is not known in 'world'"], frame="nowhere")
         self.put("away", FAR + [0.0, 9.0, 0.0])
-        self.refused(["region holds no free node"], frame="away")
-        self.refused(["radius must be a number"], radius=-0.1)
-        self.refused(["radius must be a number"], radius=nan)
-        self.refused(["size[1] must be a number"], region=GraspGoal.BOX, size__x=0.1, size__z=0.1)
+        self.refused(["holds no free node"], frame="away")
+        self.refused(["radius: must be a number"], radius=-0.1)
+        self.refused(["radius: must be a number"], radius=nan)
+        self.refused(["size[1]: must be a number"], region=GraspGoal.BOX, size__x=0.1, size__z=0.1)
         self.refused(["place.position[2]"], place__position__z=nan)
-        self.refused(["place.orientation must be a unit quaternion"], place__orientation__z=3.0)
-        self.refused(["break_force must be a number"], break_force=-1.0)
-        self.refused(["pinch_force must be a number"], pinch_force=-1.0)
-        self.refused(["stiffness must be a number"], stiffness=nan)
-        self.refused(["friction must be a number"], friction=-0.5, pinch_force=1.0)
-        self.refused(["lifetime must be a number"], lifetime=-1.0)
-        self.refused(["region must be SPHERE"], region=7)
-        self.refused(["nodes must list at least one"], region=GraspGoal.NODES)
-        self.refused(["columns must have as many"], region=GraspGoal.NODES, rows=[1, 2], columns=[1])
-        self.refused(["nodes[0] must be [row, column]"], region=GraspGoal.NODES, rows=[13], columns=[0])
+        self.refused(["place.orientation: must be a unit quaternion"], place__orientation__z=3.0)
+        self.refused(["break_force: must be a number"], break_force=-1.0)
+        self.refused(["pinch_force: must be a number"], pinch_force=-1.0)
+        self.refused(["stiffness: must be a number"], stiffness=nan)
+        self.refused(["friction: must be a number"], friction=-0.5, pinch_force=1.0)
+        self.refused(["lifetime: must be a number"], lifetime=-1.0)
+        self.refused(["region: must be SPHERE"], region=7)
+        self.refused(["nodes: must list at least one"], region=GraspGoal.NODES)
+        self.refused(["columns: must have as many"], region=GraspGoal.NODES, rows=[1, 2], columns=[1])
+        self.refused(["nodes[0]: must be [row, column]"], region=GraspGoal.NODES, rows=[13], columns=[0])
         self.refused(["is pinned by the scene"], region=GraspGoal.NODES, rows=[0], columns=[3])
         self.hold(region=GraspGoal.NODES, rows=[8], columns=[3])
         self.refused(["node [8, 3] is held already"], region=GraspGoal.NODES, rows=[8], columns=[3])
-        self.refused(["frame must be no longer than"], frame="f" * 300)
+        self.refused(["frame: must be no longer than"], frame="f" * 300)
 
     def test_a_restart_lets_go(self):
         """A clock that jumps back starts the curtain anew: the goal ends, and the cloth hangs as at its start."""

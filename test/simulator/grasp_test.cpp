@@ -358,12 +358,15 @@ TEST(Grasp, SlidesOutBetweenPads) {
     const GraspState state = *simulator.graspState("pads");
     EXPECT_LE(state.nodes.size(), held) << "nothing comes from above";
     held = state.nodes.size();
-    if (frame >= 3 && held > 0) EXPECT_NEAR(-state.force.z(), hold, 0.05 * hold) << "frame " << frame;
+    if (frame >= 3 && held > 0) {
+      EXPECT_NEAR(-state.force.z(), hold, 0.05 * hold) << "frame " << frame;
+    }
     EXPECT_GE(state.slipped, slipped);
     slipped = state.slipped;
     if (frame == 5) at_first = momentumOf(simulator).z();
-    if (frame == 15)
+    if (frame == 15) {
       EXPECT_NEAR(at_first - momentumOf(simulator).z(), (kWeight - hold) * 10.0 / 60.0, 0.05 * hold * 10.0 / 60.0);
+    }
   }
   EXPECT_EQ(simulator.graspState("pads")->end, GraspEnd::kSlippedOut);
   // The top row is 0.23 m above the box's lower end: with an acceleration of g / 2 that takes 0.306 s, 18.4 frames. The
