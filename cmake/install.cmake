@@ -39,7 +39,7 @@ else()
   install(TARGETS curtain_nodelet LIBRARY DESTINATION ${curtain_lib})
   set_target_properties(curtain_node PROPERTIES INSTALL_RPATH "$ORIGIN/${from_bin_to_lib}")
   set_target_properties(curtain_nodelet PROPERTIES INSTALL_RPATH "$ORIGIN")
-  catkin_install_python(PROGRAMS scripts/curtain_rviz scripts/demo_motion scripts/demo_scenery
+  catkin_install_python(PROGRAMS scripts/curtain_rviz scripts/demo_motion scripts/demo_robot scripts/demo_scenery
     scripts/live_figures DESTINATION ${curtain_bin})
   install(DIRECTORY launch DESTINATION ${curtain_share})
   if(TARGET curtain_rviz)

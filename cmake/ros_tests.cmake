@@ -27,10 +27,16 @@ add_executable(curtain_step_client EXCLUDE_FROM_ALL test/bench/node/step_client.
 target_link_libraries(curtain_step_client curtain_ros curtain_warnings)
 add_dependencies(tests curtain_step_client)
 
+# Looks at every frame that a node publishes.
+add_executable(curtain_judge_frames EXCLUDE_FROM_ALL test/ros/judge_frames.cpp)
+target_link_libraries(curtain_judge_frames curtain_ros curtain_warnings)
+add_dependencies(curtain_judge_frames ${curtain_sim_EXPORTED_TARGETS})
+add_dependencies(tests curtain_judge_frames)
+
 file(GLOB CURTAIN_ROSTESTS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS test/ros/*.test)
 list(REMOVE_ITEM CURTAIN_ROSTESTS test/ros/sharing.test)
 foreach(file ${CURTAIN_ROSTESTS})
-  add_rostest(${file} DEPENDENCIES curtain_node curtain_nodelet curtain_flood ${curtain_sim_EXPORTED_TARGETS})
+  add_rostest(${file} DEPENDENCIES curtain_node curtain_nodelet curtain_flood curtain_judge_frames ${curtain_sim_EXPORTED_TARGETS})
 endforeach()
 
 if(TARGET curtain_rviz)

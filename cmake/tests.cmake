@@ -58,6 +58,7 @@ curtain_add_tests(structure)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 add_test(NAME docs_check COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/structure/docs_check.py)
 add_test(NAME demos_check COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/structure/demos_check.py $<TARGET_FILE:curtain_batch>)
+add_test(NAME robot_check COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/structure/robot_check.py)
 add_test(NAME worked_examples COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/structure/worked_examples.py
   ${CMAKE_CURRENT_BINARY_DIR}/worked_examples -G ${CMAKE_GENERATOR} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER})
 find_program(DOXYGEN doxygen)

@@ -134,6 +134,10 @@ struct HangParams {
   double pressed = 0.0;
   /// Width over |to - from|, [1..3]. Scene files may give it in place of cloth.width; if both, they must agree.
   std::optional<double> fullness;
+  /// Strips that slits cut from row 0 down overlap by so much [m], [0..half of the narrowest strip); each is two
+  /// contact thicknesses in front of or behind its neighbours. Flat cloth only. Not given: they hang side by side, the
+  /// cut links between them.
+  std::optional<double> overlap;
 };
 
 /// Which nodes are pinned.

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "cloth/cloth.h"
 #include "scene/heading.h"
 #include "scene/pi.h"
 #include "scene/shares.h"
+#include "scene/strips.h"
 
 namespace curtain {
 namespace {
@@ -27,27 +29,49 @@ HangFrame hangFrame(const HangParams& hang) {
   return frame;
 }
 
+// Where columns hang [m]: along the edge, and in front of the line hang.from -> hang.to (towards along x down).
+struct HungColumns {
+  Field along;
+  Field front;
+};
+
+// Overlapping strips hang on two lines, as far apart as cloth is thick on both: they touch each other when they swing.
+HungColumns hungColumns(const Scene& scene, const ClothPattern& pattern) {
+  HungColumns hung{pattern.weft_coordinate, Field(pattern.weft_coordinate.size(), 0.0)};
+  if (!scene.hang.overlap) return hung;
+  const std::vector<double> widths = overlappedWidths(scene);
+  std::partial_sum(widths.begin(), widths.end(), hung.along.begin() + 1);
+  const std::vector<int> strips = stripNumbers(scene.cloth);
+  for (std::size_t j = 0; j < strips.size(); ++j)
+    hung.front[j] = strips[j] % 2 == 0 ? scene.contact.thickness : -scene.contact.thickness;
+  return hung;
+}
+
 // A row starts as wide as the hung edge is, or as its own weft if that is shorter; the rods keep their lengths.
 void placeFlat(const Scene& scene, const ClothPattern& pattern, Field3& position) {
   const Grid& grid = pattern.grid;
   const HangFrame frame = hangFrame(scene.hang);
   const double span = (scene.hang.to - scene.hang.from).norm();
   const Vec3 middle = 0.5 * (scene.hang.from + scene.hang.to);
-  const double top_width = pattern.weft_coordinate.back();
+  const Vec3 to_front = frame.along.cross(frame.down);
+  const HungColumns hung = hungColumns(scene, pattern);
+  const double top_width = hung.along.back();
+  const double narrower = scene.hang.overlap ? top_width / scene.cloth.width : 1.0;
   for (int j = 0; j < grid.columns; ++j) {
-    const double share = pattern.weft_coordinate[static_cast<std::size_t>(j)] / top_width - 0.5;
+    const double share = hung.along[static_cast<std::size_t>(j)] / top_width - 0.5;
+    const Vec3 line = middle + hung.front[static_cast<std::size_t>(j)] * to_front;
     double down = 0.0;
     double last_across = 0.0;
     for (int i = 0; i < grid.rows; ++i) {
       const double depth = pattern.warp_coordinate[static_cast<std::size_t>(i)] / scene.cloth.height;
-      const double across = share * std::min(span, rowWidth(scene.cloth, depth));
+      const double across = share * std::min(span, narrower * rowWidth(scene.cloth, depth));
       if (i > 0) {
         const double rest = pattern.warp_rest[grid.index(i, j)];
         const double slant = across - last_across;
         down += std::sqrt(rest * rest - slant * slant);
       }
       last_across = across;
-      position.set(grid.index(i, j), middle + across * frame.along + down * frame.down);
+      position.set(grid.index(i, j), line + across * frame.along + down * frame.down);
     }
   }
 }

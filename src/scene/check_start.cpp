@@ -15,6 +15,7 @@
 #include "scene/pi.h"
 #include "scene/range_checker.h"
 #include "scene/shares.h"
+#include "scene/strips.h"
 
 namespace curtain {
 namespace {
@@ -31,6 +32,25 @@ bool clothIsGood(const ClothParams& cloth, const ProblemLog& log) {
   return cloth.rows >= 2 && cloth.columns >= 2;
 }
 
+// Each strip's neighbours hang on the same line, and must not reach each other.
+void checkOverlap(const Scene& scene, ProblemLog& log) {
+  const ClothParams& cloth = scene.cloth;
+  const std::vector<int> strips = stripNumbers(cloth);
+  if (cloth.closed || strips.back() == 0 || isPleated(scene.hang)) {
+    log.add("hang.overlap", "is for flat cloth with slits from row 0 on (cloth.slits), and without a heading");
+    return;
+  }
+  const std::vector<double> links = edgeLinks(cloth);
+  std::vector<double> widths(static_cast<std::size_t>(strips.back()) + 1, 0.0);
+  for (std::size_t j = 0; j < links.size(); ++j) {
+    if (strips[j] == strips[j + 1]) widths[static_cast<std::size_t>(strips[j])] += links[j];
+  }
+  const double most = 0.5 * *std::min_element(widths.begin(), widths.end());
+  if (!(*scene.hang.overlap < most))
+    log.add("hang.overlap", "must be less than half of the narrowest strip's width, " + formatNumber(most) + " m, is " +
+                                formatNumber(*scene.hang.overlap));
+}
+
 void checkFlat(const Scene& scene, ProblemLog& log) {
   const ClothParams& cloth = scene.cloth;
   const HangParams& hang = scene.hang;
@@ -40,8 +60,10 @@ void checkFlat(const Scene& scene, ProblemLog& log) {
     log.add("hang.to", "must differ from hang.from, is " + formatVector(hang.to));
     return;
   }
-  if (!(span <= cloth.width * (1.0 + kSlack))) {
-    log.add("hang.to", "must be no further from hang.from than cloth.width = " + formatNumber(cloth.width) + " m, is " +
+  const double longest = longestEdge(scene);
+  if (!(span <= longest * (1.0 + kSlack))) {
+    const std::string limit = scene.hang.overlap ? "the overlapping strips reach, " : "cloth.width = ";
+    log.add("hang.to", "must be no further from hang.from than " + limit + formatNumber(longest) + " m, is " +
                            formatNumber(span) + " m away (" + line + ")");
     return;
   }
@@ -52,7 +74,7 @@ void checkFlat(const Scene& scene, ProblemLog& log) {
   // Rows narrower than the line make the warp rods slant, most in the outermost columns.
   constexpr double kSteepest = 0.9;
   const std::vector<double> rods = shareOut(1.0, cloth.row_spacing, cloth.rows - 1);
-  const auto rowSpan = [&](double depth) { return std::min(span, rowWidth(cloth, depth)); };
+  const auto rowSpan = [&](double depth) { return std::min(span, longest / cloth.width * rowWidth(cloth, depth)); };
   double down = 0.0;
   for (std::size_t i = 0; i < rods.size(); ++i) {
     const double slant = 0.5 * std::abs(rowSpan(down + rods[i]) - rowSpan(down));
@@ -159,6 +181,10 @@ void checkStart(const Scene& scene, ProblemLog& log) {
   }
   if (!clothIsGood(scene.cloth, log)) return;
   if (log.good("hang.heading") && log.good("hang.pleats") && log.good("hang.fullness")) checkHeading(scene, log);
+  if (scene.hang.overlap && log.good("hang.overlap") && log.good("hang.heading") && log.good("cloth.slits")) {
+    checkOverlap(scene, log);
+    if (!log.good("hang.overlap")) return;
+  }
   if (scene.cloth.closed) {
     if (log.good("hang.radius") && log.good("hang.tilt")) checkRing(scene, log);
   } else if (log.good("hang.from") && log.good("hang.to")) {

@@ -73,6 +73,7 @@ struct Fields<HangParams> {
     v.integer("pleats", hang.pleats, IntRange{0, 1024});
     v.number("pressed", hang.pressed, notNegative());
     v.optionalNumber("fullness", hang.fullness, between(1.0, 3.0));
+    v.optionalNumber("overlap", hang.overlap, notNegative());
   }
 };
 

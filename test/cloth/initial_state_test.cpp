@@ -126,6 +126,42 @@ TEST(InitialState, TaperedSheetKeepsItsRodsAndNoWeftIsOverlong) {
   }
 }
 
+// Three strips of 0.2 m: 0.6 m less two overlaps. The middle one hangs behind the others.
+TEST(InitialState, OverlappingStripsHangBoardOnBoard) {
+  Scene scene = flatScene(4, 9, 1.0, 0.7);
+  scene.cloth.column_spacing = {2.0, 2.0, 1.0, 2.0, 2.0, 1.0, 2.0, 2.0};
+  scene.cloth.slits = {{2, 0}, {5, 0}};
+  scene.contact.thickness = 0.003;
+  scene.hang.overlap = 0.04;
+  scene.hang.to = scene.hang.from + Vec3(0.0, 0.52, 0.0);
+  ASSERT_TRUE(validate(scene).empty()) << describe(validate(scene));
+  const Start start(scene);
+  expectRodsKeepTheirLength(start);
+  for (int j = 0; j < 9; ++j) {
+    const int strip = j / 3;
+    const double along = 0.16 * strip + 0.1 * (j % 3), in_front = strip == 1 ? -0.003 : 0.003;
+    for (int i = 0; i < 4; ++i) {
+      // Along +y the front, along x down, is the side of -x.
+      EXPECT_LT((start.at(i, j) - Vec3(-in_front, along, 1.0 - i / 3.0)).norm(), kRounding)
+          << "node " << i << ", " << j;
+    }
+    EXPECT_EQ(start.pattern.pinned[start.pattern.grid.index(0, j)], kPinned);
+  }
+}
+
+// A shorter line gathers strips and overlaps alike, as it does whole cloth.
+TEST(InitialState, OverlappingStripsGather) {
+  Scene scene = flatScene(3, 6, 1.0, 0.5);
+  scene.cloth.slits = {{2, 0}};
+  scene.hang.overlap = 0.05;
+  scene.hang.to = scene.hang.from + Vec3(0.175, 0.0, 0.0);
+  ASSERT_TRUE(validate(scene).empty()) << describe(validate(scene));
+  const Start start(scene);
+  EXPECT_NEAR(start.at(2, 2).x(), 0.1, kRounding) << "half of the strip's 0.2 m";
+  EXPECT_NEAR(start.at(2, 3).x(), 0.075, kRounding) << "half of the overlap before it";
+  EXPECT_NEAR(start.at(2, 5).x(), 0.175, kRounding);
+}
+
 TEST(InitialState, RingHangsAroundItsCentre) {
   Scene scene = ringScene(4, 12, 0.9, 1.5);
   const Start start(scene);

@@ -307,6 +307,25 @@ TEST(BadInput, HeadingsThatDoNotFitTheirClothAreRefused) {
   expectProblem(pleated("width: 1.0", "tilt: 0.0}\nhem: {line_density: -1"), "hem.line_density", {"is -1"});
 }
 
+// Two strips of three columns: 0.2 m each, and 0.1 m between them that the overlap takes the place of.
+TEST(BadInput, OverlapsThatDoNotFitTheirStripsAreRefused) {
+  const auto strips = [](const std::string& of_cloth, const std::string& of_hang) {
+    return "cloth: {rows: 4, columns: 6, width: 0.5" + of_cloth + "}\nhang: {from: [0, 0, 2], to: [0.35, 0, 2], " +
+           of_hang + "}\n";
+  };
+  const std::string cut = ", slits: [2]";
+  expectScene(strips(cut, "overlap: 0.05"));
+  expectScene("cloth: {rows: 4, columns: 6, width: 0.5, slits: [2]}\nhang: {to: [0.4, 0, 2.2], overlap: 0.0}\n");
+  expectProblem(strips("", "overlap: 0.05"), "hang.overlap", {"slits from row 0"});
+  expectProblem(strips(", slits: [{column: 2, from_row: 1}]", "overlap: 0.05"), "hang.overlap", {"slits from row 0"});
+  expectProblem(strips(cut, "overlap: 0.05, heading: pencil, pleats: 1"), "hang.overlap", {"without a heading"});
+  expectProblem(strips(cut, "overlap: 0.1"), "hang.overlap", {"half of the narrowest strip's width, 0.1 m", "is 0.1"});
+  expectProblem(strips(cut, "overlap: -0.1"), "hang.overlap", {"is -0.1"});
+  expectProblem(strips(cut, "overlap: 0.06"), "hang.to", {"overlapping strips reach, 0.34 m", "0.35 m away"});
+  expectProblem("cloth: {rows: 3, columns: 6, closed: true, slits: [2, 5]}\nhang: {overlap: 0.01}\n", "hang.overlap",
+                {"flat cloth"});
+}
+
 TEST(BadInput, RingOfUnevenLinksIsBoundByItsShortOnes) {
   // A long link bulges least: its chord is the shortest for its length, so the short ones decide. 12 m around, links
   // 1, 1, 10: for links of 1/12 of the way around the largest radius is (1/2) / sin(pi / 12) = 1.9319 m.

@@ -155,6 +155,7 @@ void compareRest(const Scene& a, const Scene& b) {
   c.same("hang.heading", a.hang.heading, b.hang.heading);
   c.same("hang.pleats", a.hang.pleats, b.hang.pleats);
   c.optional("hang.fullness", a.hang.fullness, b.hang.fullness);
+  c.optional("hang.overlap", a.hang.overlap, b.hang.overlap);
   c.number("hem.line_density", a.hem.line_density, b.hem.line_density);
   c.numbers("hem.weights", a.hem.weights, b.hem.weights);
   c.same("pins.kind", a.pins.kind, b.pins.kind);

@@ -105,6 +105,7 @@ TEST(Template, EntriesAreReadableAndShowDefaults) {
   scene["drag"][0].remove("point");
   scene["hang"].remove("radius");
   scene["hang"].remove("fullness");
+  scene["hang"].remove("overlap");
   for (const char* key : {"length", "size", "mesh", "scale"}) scene["obstacles"][0].remove(key);
   const SceneReading reading = readScene(scene);
   ASSERT_TRUE(reading.problems.empty()) << describe(reading.problems);

@@ -76,8 +76,12 @@ DEMO = {
     "look!": {"camera!": {"from!": XYZ, "at!": XYZ, "frame": TEXT, "view": NUMBER}, "background!": color,
               "cloth!": {"pattern": TEXT, "color": color, "pattern_color": color, "pattern_size": NUMBER, "sheen": NUMBER,
                          "translucency": NUMBER},
-              "wind": FLAG, "handles": FLAG},
+              "wind": FLAG, "handles": FLAG, "robot": FLAG},
 }
+GRASP = {"from!": NUMBER, "until!": NUMBER, "radius": NUMBER, "stiffness": NUMBER, "break_force": NUMBER, "pinch_force": NUMBER,
+         "friction": NUMBER}
+ROBOT = {"period!": NUMBER, "poses!": ANY, "base!": path(4), "fingers!": path(2), "grasps": [GRASP],
+         "arm!": [{"t!": NUMBER, "joints": TEXT, "move": XYZ, "node": vector(2), "turn": XYZ, "offset": XYZ}]}
 
 
 def problems(value, wanted, key):
@@ -108,6 +112,15 @@ def scenery_problems(entries):
     return found
 
 
+def has_robot(name):
+    return name.startswith("robot_")
+
+
+def robot_links():
+    with open(os.path.join(ROOT, "config", "robot", "curtain_robot.urdf"), encoding="utf-8") as file:
+        return set(re.findall(r'<link name="(\w+)"', file.read()))
+
+
 def demo_names():
     return sorted(os.listdir(DEMOS))
 
@@ -133,7 +146,7 @@ class Demos(unittest.TestCase):
 
     @of_each
     def test_folders_are_complete(self, name):
-        self.assertEqual(sorted(os.listdir(os.path.join(DEMOS, name))), ["demo.yaml", "scene.yaml"])
+        self.assertEqual(sorted(os.listdir(os.path.join(DEMOS, name))), ["demo.yaml"] + ["robot.yaml"] * has_robot(name) + ["scene.yaml"])
 
     @of_each
     def test_keys_are_known(self, name):
@@ -148,13 +161,36 @@ class Demos(unittest.TestCase):
     @of_each
     def test_frames_are_broadcast(self, name):
         demo, scene = load(name, "demo.yaml"), load(name, "scene.yaml")
-        known = {"world", demo.get("follow", {}).get("frame")} | {frame["frame"] for frame in demo.get("frames", [])}
+        known = robot_links() if has_robot(name) else set()
+        known |= {"world", demo.get("follow", {}).get("frame")} | {frame["frame"] for frame in demo.get("frames", [])}
         asked = {obstacle.get("frame", "world") for obstacle in scene.get("obstacles", [])}
         asked |= {frame.get("parent", "world") for frame in demo.get("frames", [])}
         asked |= {entry.get("frame", "world") for key in ("winds", "scenery") for entry in demo.get(key, [])}
         self.assertEqual(asked - known, set())
         camera = demo["look"]["camera"].get("frame")
         self.assertIn(camera, {None} | known)
+
+    def test_robots_move_as_they_can(self):
+        for name in filter(has_robot, demo_names()):
+            robot, cloth = load(name, "robot.yaml"), load(name, "scene.yaml")["cloth"]
+            self.assertEqual(problems(robot, ROBOT, name), [])
+            self.assertTrue(load(name, "demo.yaml")["look"]["robot"])
+            times = [entry["t"] for entry in robot["arm"]]
+            self.assertEqual(times, sorted(set(times)))
+            for entry in robot["arm"]:
+                self.assertEqual(sum(key in entry for key in ("joints", "move", "node")), 1, entry)
+                self.assertIn(entry.get("joints"), {None} | set(robot["poses"]))
+                row, column = entry.get("node", (0, 0))
+                self.assertTrue(row < cloth["rows"] and column < cloth["columns"], entry)
+                self.assertEqual("node" in entry, "turn" in entry, entry)
+            # It begins anew where it ended.
+            ends = [robot["arm"], robot["base"], robot["fingers"]]
+            for rows in ends:
+                begin, end = ([row[1:] if isinstance(row, list) else row["joints"]] for row in (rows[0], rows[-1]))
+                self.assertEqual(begin, end)
+            self.assertLessEqual(max(rows[-1]["t"] if rows is ends[0] else rows[-1][0] for rows in ends), robot["period"])
+            holds = [time for grasp in robot.get("grasps", []) for time in (grasp["from"], grasp["until"])]
+            self.assertEqual(holds, sorted(set(holds)))
 
     @of_each
     def test_hands_and_openings_find_what_they_move(self, name):

@@ -181,7 +181,9 @@ curtain_sim::Contacts::ConstPtr ContactMessages::build(const curtain::Simulator&
     to->frame = obstacle.frame;
     to->wrench.force = toVector(wrench.force);
     to->wrench.torque = toVector(wrench.torque);
-    to->origin = toPoint(simulator.obstaclePose(index).position);
+    const geometry_msgs::Pose pose = toPose(simulator.obstaclePose(index));
+    to->origin = pose.position;
+    to->orientation = pose.orientation;
     to->contacts = static_cast<std::uint32_t>(wrench.contacts);
     place_[static_cast<std::size_t>(index)] = static_cast<std::uint32_t>(to - message->obstacles.begin());
     ++to;

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests of demos with a robot share: a record of all frames, and the verdict on them."""
+import threading
+
+import numpy as np
+import rospy
+import tf2_ros
+from curtain_sim.msg import CurtainState
+from curtain_testing import wait_until
+from std_srvs.srv import Trigger
+
+NODE = "/curtain/curtain_node"
+STRETCH_TOLERANCE = 1e-3  # solver.stretch_tolerance
+DROPPED_AT_MOST = 0.01  # of the frames
+
+
+class Record:
+    """All frames: times since the first one [s], positions [m] of shape [rows, columns, 3], statistics."""
+
+    def __init__(self):
+        self._lock = threading.Lock()
+        self._frames = []
+        self._subscriber = rospy.Subscriber(NODE + "/state", CurtainState, self._take, queue_size=600, tcp_nodelay=True)
+        wait_until(self.count, "the curtain moves", 60.0)
+
+    def _take(self, state):
+        positions = np.array(state.positions, np.float32).reshape(state.rows, state.columns, 3)
+        with self._lock:
+            self._frames.append((state.header.stamp, positions, state.statistics))
+
+    def count(self):
+        with self._lock:
+            return len(self._frames)
+
+    def frames(self):
+        with self._lock:
+            return list(self._frames)
+
+    def last(self):
+        with self._lock:
+            return self._frames[-1]
+
+    def wait_until_time(self, simulated, what):
+        wait_until(lambda: self.last()[2].simulated_time >= simulated, what, 60.0 + 2.0 * simulated)
+
+    def node(self, row, column):
+        """Its places in all frames, shape [frames, 3]."""
+        return np.array([positions[row, column] for _, positions, _ in self.frames()])
+
+    def times(self):
+        """Of all frames, simulated [s]."""
+        return np.array([statistics.simulated_time for _, _, statistics in self.frames()])
+
+
+class Places:
+    """Where frames of tf2 are, and were in the last minute and a half."""
+
+    def __init__(self):
+        self.buffer = tf2_ros.Buffer(rospy.Duration(90.0))
+        self.listener = tf2_ros.TransformListener(self.buffer)
+
+    def at(self, frame, stamp):
+        """[m] in the world; None: not known."""
+        try:
+            place = self.buffer.lookup_transform("world", frame, stamp).transform.translation
+        except (tf2_ros.LookupException, tf2_ros.ExtrapolationException, tf2_ros.ConnectivityException):
+            return None
+        return np.array([place.x, place.y, place.z])
+
+
+def assert_frames_are_sound(test, record):
+    """60 a second, links of their length, nothing given up, nothing dropped, nothing crossed or pierced in any frame."""
+    frames = record.frames()
+    first, last = frames[0][2], frames[-1][2]
+    dropped, made = last.dropped_frames - first.dropped_frames, last.frame - first.frame
+    test.assertLessEqual(dropped, DROPPED_AT_MOST * made, "%d of %d frames were dropped" % (dropped, made))
+    for _, _, statistics in frames:
+        test.assertLessEqual(max(statistics.warp_stretch, statistics.weft_stretch), STRETCH_TOLERANCE * (1.0 + 1e-9))
+    for count in ("last_resort_substeps", "stops", "obstacles_waited", "restarts", "dropped_invalid", "dropped_untransformed"):
+        test.assertEqual(getattr(last, count), 0, count)
+    verdict = rospy.ServiceProxy("judge_frames/verdict", Trigger)
+    verdict.wait_for_service(20.0)
+    answer = verdict()
+    test.assertTrue(answer.success, answer.message)
+    rospy.loginfo("%d frames dropped of %d; %s", dropped, made, answer.message)
