@@ -42,6 +42,7 @@ Outputs::Outputs(ros::NodeHandle node, const NodeParams& params, const curtain::
       mesh_marker_(params.world_frame, geometry_),
       detail_markers_(params.world_frame, geometry_, params.contact_points),
       plan_rate_(kPlanRate, simulator.scene().solver.frame_rate) {
+  advertiseWrenches(node);
   tune(params, simulator.scene().solver.frame_rate);
 }
 
@@ -49,12 +50,12 @@ void Outputs::tune(const NodeParams& params, double frame_rate) {
   for (Stream* stream : {&state_, &loads_, &contacts_}) {
     stream->pace.setRates(params.state_rate, params.state_rest_rate, frame_rate);
   }
+  for (Wrench& wrench : wrenches_) wrench.stream.pace.setRates(params.state_rate, params.state_rest_rate, frame_rate);
   mesh_.pace.setRates(params.mesh_rate, kMarkersAtRest, frame_rate);
   markers_.pace.setRates(params.markers_rate, kMarkersAtRest, frame_rate);
   plan_rate_.setRate(kPlanRate, frame_rate);
   detail_.tolerance = params.mesh_tolerance;
   detail_.viewer_tolerance = params.mesh_viewer_tolerance;
-  advertiseWrenches(node);
 }
 
 void Outputs::advertiseWrenches(ros::NodeHandle& node) {
