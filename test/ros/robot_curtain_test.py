@@ -14,6 +14,7 @@ from curtain_testing import Listener
 from robot_testing import NODE, Places, Record, assert_frames_are_sound
 
 GRAVITY = 9.81
+HOSPITAL = 0.1972  # kg/m^2, of that material (docs/materials.md)
 
 
 class RobotCurtainTest(unittest.TestCase):
@@ -27,14 +28,6 @@ class RobotCurtainTest(unittest.TestCase):
         row, column = next(entry["node"] for entry in motion["arm"] if "node" in entry)
         record.wait_until_time(motion["period"] + 1.0, "the robot has opened and shut the curtain")
         times, edge, carrier = record.times(), record.node(row, column), record.node(0, column)
-
-        import pickle
-        pickle.dump(dict(times=times, edge=edge, carrier=carrier, begin=record.frames()[0][0].to_sec(), top=[p[0] for _, p, _ in record.frames()],
-            edgecol=[p[:, -1] for _, p, _ in record.frames()],
-            stats=[(s.step_ms, s.dropped_frames, s.last_resort_substeps, s.stops, s.warp_stretch, s.weft_stretch, s.opening, s.substeps, s.asleep) for _, _, s in record.frames()],
-            felt=[(m.header.stamp.to_sec(), m.feedback.nodes, m.feedback.pull.wrench.force.x, m.feedback.pull.wrench.force.y, m.feedback.pull.wrench.force.z) for m in felt.messages()],
-            tips=[places.at("gripper_tip", f[0]) for f in record.frames()],
-            ended=[(m.header.stamp.to_sec(), m.result.end, m.result.message, m.status.status) for m in ended.messages()]), open("/tmp/rc.pickle", "wb"))
 
         def at(values, time):
             return values[np.argmin(np.abs(times - time))]
@@ -59,8 +52,38 @@ class RobotCurtainTest(unittest.TestCase):
             self.assertLess(np.linalg.norm((at(edge, time) - at(carrier, time))[:2]), 0.05, "at %g s" % time)
         results = [message.result for message in ended.messages()]
         self.assertEqual([result.end for result in results], [GraspActionResult().result.CANCELLED] * 2)
-        self.check_pull(felt, scene, opens)
+        self.check_pull(felt, record, scene, motion)
         assert_frames_are_sound(self, record)
+
+    def check_pull(self, felt, record, scene, motion):
+        """The mean of each second is at most the weight that hangs on the rail. While the hand draws evenly it is at least the friction of
+        the carriers that slide: of the weight of their columns, and of what the hand pulls down itself."""
+        cloth, carriers, times = scene["cloth"], scene["rail"]["carriers"], record.times()
+        weight = GRAVITY * (HOSPITAL * cloth["width"] * cloth["height"] + cloth["columns"] * carriers["mass"])
+        stamp, _, statistics = record.frames()[0]
+        zero = stamp.to_sec() - statistics.simulated_time
+        pulls = [(m.header.stamp.to_sec() - zero, m.feedback.pull.wrench.force, m.feedback.nodes) for m in felt.messages()]
+        self.assertTrue(all(nodes > 0 for _, _, nodes in pulls))
+        pulls = np.array([[time, force.x, force.y, force.z] for time, force, _ in pulls])
+
+        def mean(begin):
+            return pulls[(pulls[:, 0] >= begin) & (pulls[:, 0] < begin + 1.0), 1:].mean(axis=0)
+
+        for hold in motion["grasps"]:
+            for begin in np.arange(hold["from"] + 0.1, hold["until"] - 1.1, 0.5):
+                self.assertLess(np.linalg.norm(mean(begin)), weight, "in the second from %g s on" % begin)
+
+        # The base goes evenly in the middle half of its move; the gripper's z axis is up.
+        starts, ends = next((a, b) for a, b in zip(motion["base"], motion["base"][1:]) if a[1] - b[1] > 2.0)
+        begin = starts[0] + 0.75 * (ends[0] - starts[0]) - 1.0
+        first, last = (record.frames()[np.argmin(np.abs(times - time))][1][0, :, 0] for time in (begin, begin + 1.0))
+        slid = first - last > 0.9 * (first - last)[-1]
+        self.assertGreater((first - last)[-1], 0.3, "the hand draws it")
+        down = mean(begin)[2]
+        least = carriers["friction"] * (weight * np.count_nonzero(slid) / cloth["columns"] + down)
+        self.assertGreater(np.hypot(*mean(begin)[:2]), least)
+        rospy.loginfo("pulled by %.2f N along the rail, friction is at least %.2f N; %.2f N down; %.1f N hang there",
+                      np.hypot(*mean(begin)[:2]), least, down, weight)
 
 
 if __name__ == "__main__":
