@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "curtain_sim/fine_mesh.h"
+#include "curtain_sim/grasp.h"
 #include "curtain_sim/obstacle_shape.h"
 #include "curtain_sim/plan.h"
 #include "curtain_sim/scene.h"
@@ -31,7 +32,7 @@ class Simulator {
   const Scene& scene() const;  ///< as given, with the present gravity, air and frame rate
 
   /// Back to the scene's start: time 0, its winds and drags, zero statistics. Obstacles return to their scene poses and
-  /// are all present.
+  /// are all present; hands let go.
   void reset();
 
   /// One frame of 1 / solver.frame_rate seconds (setFrameRate()). Obstacles with a scripted motion follow it.
@@ -44,9 +45,10 @@ class Simulator {
   /// The full state of the motion as bytes (docs/snapshots.md). Does not affect the motion.
   std::string snapshot() const;
   /// Restores a snapshot of the same scene and continues with the same bits: time, winds and drags, gravity and air,
-  /// moves of obstacles and pins, sleep, statistics. The scene may differ in gravity, air and frame rate, which come
-  /// with the snapshot, in solver.threads, and in mesh paths. Returns what is wrong (damaged, cut short, of another
-  /// scene or format); then nothing changed. With solver.budget_ms later bits depend on computing time. Allocates.
+  /// moves of obstacles and pins, grasps, sleep, statistics. The scene may differ in gravity, air and frame rate, which
+  /// come with the snapshot, in solver.threads, and in mesh paths. Returns what is wrong (damaged, cut short, of
+  /// another scene or format); then nothing changed. With solver.budget_ms later bits depend on computing time.
+  /// Allocates.
   std::vector<Problem> restore(const std::string& snapshot);
 
   /// Node state, row-major, shape [rows * columns]; out is resized.
@@ -69,7 +71,7 @@ class Simulator {
 
   Vec3 position(NodeIndex node) const;             ///< [m]
   double mass(NodeIndex node) const;               ///< [kg], with its carrier's
-  bool pinned(NodeIndex node) const;               ///< its position is prescribed; false for carriers
+  bool pinned(NodeIndex node) const;               ///< its position is prescribed, or a rigid hand's; not carriers
   NodeIndex nearestNode(const Vec3& point) const;  ///< to a point [m]; linear in the number of nodes
 
   /// Adds a wind source, or replaces the one with the same id; start and end are simulated times. Returns what is wrong
@@ -118,9 +120,26 @@ class Simulator {
   bool drives() const;               ///< the drive has not let go
   const DriveParams& drive() const;  ///< the present one
 
-  /// Moves a pinned node to this point [m], evenly over the next step; there it stays. False: it is not pinned, or the
-  /// point is not finite.
+  /// Moves a pinned node to this point [m], evenly over the next step; there it stays. False: it is not pinned, a hand
+  /// holds it, or the point is not finite.
   bool movePin(NodeIndex node, const Vec3& target);
+
+  /// A hand takes hold of the cloth where it is now: of all nodes in its region, or of listed ones. Nodes of the region
+  /// that the scene pins, that hang on a rail or that another hand holds are passed over. Sleeping cloth wakes. Returns
+  /// what is wrong: a value, a region without a free node, a listed node that is not free, an id that holds already, or
+  /// anything but a rigid grasp with method: paper; then nothing changed. Allocates.
+  std::vector<Problem> setGrasp(const GraspParams& grasp);
+  /// Pose of the gripper's frame at the end of the next step. The nodes move there evenly, and stay; where a frame ends
+  /// early (solver.budget_ms), or pins have to wait for the cloth, they follow in the next ones. False: no grasp of
+  /// this id holds, or the pose is not finite.
+  bool moveGrasp(const std::string& id, const Pose& frame);
+  /// Lets go, and forgets the grasp; its nodes keep the velocity they moved with. False: there is none of this id.
+  bool releaseGrasp(const std::string& id);
+  void releaseAllGrasps();
+  /// How a grasp goes, or how it ended (until releaseGrasp(), reset(), or another of this id); none: there is none.
+  std::optional<GraspState> graspState(const std::string& id) const;
+  /// Ids of the grasps that hold or have ended, in their order.
+  std::vector<std::string> grasps() const;
 
   /// Closes a tie-back, from where its nodes are and at its speed, or opens it: its nodes are free at once. Returns
   /// what is wrong: there is none of this id; then nothing changed.

@@ -90,7 +90,7 @@ struct Work {
 
 /// Energy of the cloth; the gravitational potential is zero at the world's origin.
 struct Energy {
-  double kinetic = 0.0;    ///< [J]
+  double kinetic = 0.0;    ///< [J], of nodes whose position is not prescribed
   double potential = 0.0;  ///< [J]
 };
 

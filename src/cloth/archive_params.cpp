@@ -54,4 +54,22 @@ void carryParams(Archive& archive, AirParams& air) {
   judge(archive, validate(air, "air"));
 }
 
+void carryParams(Archive& archive, GraspParams& grasp, const ClothParams& cloth) {
+  const Grid grid(cloth.rows, cloth.columns, cloth.closed);
+  archive.atOnce([&] {
+    archive.text("id", grasp.id);
+    archive.finite("frame", grasp.frame);
+    archive.integer("region", grasp.region, 0, 2);
+    archive.finite("place", grasp.place);
+    archive.number("radius", grasp.radius);
+    archive.numbers("size", grasp.size);
+    archive.list("nodes", grasp.nodes, [&](NodeIndex& node) { archive.node("node", node, grid); });
+    archive.number("stiffness", grasp.stiffness);
+    archive.number("break_force", grasp.break_force);
+    archive.number("pinch_force", grasp.pinch_force);
+    archive.number("friction", grasp.friction);
+  });
+  judge(archive, validate(grasp, cloth, "grasp"));
+}
+
 }  // namespace curtain

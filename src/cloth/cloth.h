@@ -37,7 +37,7 @@ struct RailPattern {
   bool empty() const { return columns.empty(); }
 };
 
-/// The constant part of a cloth.
+/// The part of a cloth that does not move. Constant but for what follows from its pins (pinBeside()).
 struct ClothPattern {
   Grid grid;
   Field warp_rest;  ///< rest length of the rod from node (i-1, j) to (i, j) [m]; row 0 and padding: 1
@@ -77,6 +77,13 @@ struct ClothState {
 
 /// The stiffness of either direction's lines from the bending rigidities [N m] (ClothPattern::warp_bending).
 void fillBending(const ClothParams& cloth, ClothPattern& pattern);
+
+/// Pins these nodes beside those of the scene, and frees all others; inverse masses and bending follow. Whoever keeps
+/// something that follows from them must take it again: Simulator::Impl::takePins() tells all of them.
+///   scene_pins  ClothPattern::pinned of the scene's own pattern
+///   held        by node, 1 or 0; read where scene_pins has kFree
+void pinBeside(const std::vector<std::uint8_t>& scene_pins, const std::vector<std::uint8_t>& held,
+               const ClothParams& cloth, ClothPattern& pattern) noexcept;
 
 /// Rest lengths, masses, pins and bending of a validated scene.
 ClothPattern makePattern(const Scene& scene);

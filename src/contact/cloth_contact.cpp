@@ -215,6 +215,12 @@ void ClothContact::forget() noexcept {
   obstacle_contacts_.beginFrame(true);
 }
 
+void ClothContact::takePins() noexcept {
+  self_candidates_.takePins(pattern_);
+  flatness_.takePins();
+  flatness_.invalidate();
+}
+
 void ClothContact::clearCaches() noexcept {
   flatness_.invalidate();
   obstacle_contacts_.clearCaches();

@@ -71,6 +71,8 @@ class ClothContact : public ContactFinder {
   /// Adds the contact forces of the last substep [N].
   void addForces(Field3& force) const noexcept;
   void forget() noexcept;
+  /// The pattern's pins have changed: links between two of them may have any length.
+  void takePins() noexcept;
   /// The next substep does not start at the end of the last accepted one.
   void invalidateStart() noexcept {
     taut_ = false;

@@ -78,6 +78,11 @@ RelativeAir::RelativeAir(const AirParams& air, double porosity, const ClothPatte
     : density_(air.density),
       normal_(air.law == AirLaw::kRelative ? 0.5 * air.density * air.normal_drag * (1.0 - porosity) : 0.0),
       tangential_(air.law == AirLaw::kRelative ? 0.5 * air.density * air.tangential_drag : 0.0) {
+  takePins(pattern);
+}
+
+void RelativeAir::takePins(const ClothPattern& pattern) noexcept {
+  area_per_mass_ = 0.0;
   for (std::size_t n = 0; n < pattern.grid.size(); ++n) {
     area_per_mass_ = std::max(area_per_mass_, pattern.area[n] * pattern.inverse_mass[n]);
   }

@@ -41,6 +41,9 @@ class RelativeAir {
   bool active() const noexcept { return normal_ > 0.0 || tangential_ > 0.0; }
   double density() const noexcept { return density_; }
 
+  /// The pattern's pins have changed.
+  void takePins(const ClothPattern& pattern) noexcept;
+
   /// Largest coefficient of a node at rest, over its mass, in wind of this speed [m/s].
   double strongestPerMass(double speed) const noexcept;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Serialization of the simulator's own parts; those of lower floors are in src/*/carried.cpp.
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "cloth/archive_params.h"
@@ -14,8 +16,8 @@ constexpr double kLargest = std::numeric_limits<double>::max();
 constexpr std::int64_t kCount = 1 << 30;  // bound of counters: adding to them can't overflow an int
 constexpr std::int64_t kMany = std::int64_t{1} << 53;
 
-// A drag with its grasped node.
-struct Grasp {
+// A drag with the node that it pulls at.
+struct HeldDrag {
   DragParams drag;
   std::optional<NodeIndex> node;
 };
@@ -67,12 +69,12 @@ void carryStatistics(Archive& archive, Statistics& s) {
 // for velocities that lag behind the positions.
 void ForceField::carry(Archive& archive, AirParams& air) {
   std::vector<WindParams> winds = winds_.params;
-  std::vector<Grasp> grasps;
-  for (const DragForce& drag : drags_.list) grasps.push_back({drag.params(), drag.node()});
+  std::vector<HeldDrag> held_drags;
+  for (const DragForce& drag : drags_.list) held_drags.push_back({drag.params(), drag.node()});
   AirParams of_then = air;
   archive.atOnce([&] {
     archive.list("winds", winds, [&](WindParams& wind) { carryParams(archive, wind); });
-    archive.list("drags", grasps, [&](Grasp& grasp) {
+    archive.list("drags", held_drags, [&](HeldDrag& grasp) {
       carryParams(archive, grasp.drag, scene_.cloth);
       archive.optional("holds", grasp.node, NodeIndex(),
                        [&](NodeIndex& node) { archive.node("node", node, pattern_.grid); });
@@ -91,7 +93,7 @@ void ForceField::carry(Archive& archive, AirParams& air) {
   for (const WindParams& wind : winds)
     loaded_winds.put(WindSource(wind, pattern_, scene_.cloth.porosity, scene_.solver.seed));
   Sources<DragForce, DragParams> loaded_drags;
-  for (const Grasp& grasp : grasps) {
+  for (const HeldDrag& grasp : held_drags) {
     DragForce drag(grasp.drag, pattern_);
     if (grasp.node) drag.grasp(*grasp.node, pattern_);
     loaded_drags.put(std::move(drag));
@@ -168,12 +170,61 @@ void StepControls::carry(Archive& archive) {
   archive.part("plain_control", plain);
 }
 
-void PinMoves::carry(Archive& archive, const ClothPattern& of) {
+// Ends of lines are no nodes of the cloth, but pins that move as they do.
+void PinMoves::carry(Archive& archive, const Grid& grid, const std::function<bool(std::size_t)>& is_pinned) {
+  std::vector<std::uint8_t> seen(archive.loads() ? slot_.size() : 0, 0);
   archive.list("pin_moves", moves_, [&](Move& move) {
-    archive.node("node", move.node, of.grid);
-    archive.require(of.pinned[move.node] == kPinned, "must be a pinned node");
+    archive.node("node", move.node, grid);
+    if (archive.loads()) {
+      archive.require(is_pinned(move.node), "must be a pinned node");
+      archive.require(seen[move.node] == 0, "must name a node once");
+      seen[move.node] = 1;
+    }
     archive.finite("target", move.target);
     archive.flag("behind", move.behind);
+    archive.flag("arrived", move.arrived);
+  });
+}
+
+void Grasps::carryGrasp(Archive& archive, Grasp& grasp) {
+  carryParams(archive, grasp.params, scene_.cloth);
+  const auto carryPose = [&](const char* name, Pose& pose) {
+    archive.finite(name, pose);
+    archive.require(std::abs(pose.orientation.norm() - 1.0) <= 1e-3, "must have a unit quaternion");
+  };
+  carryPose("from", grasp.from);
+  carryPose("to", grasp.to);
+  archive.integer("taken", grasp.taken, 1, kCount);
+  double pull = grasp.springs.pull();
+  archive.atOnce([&] { archive.number("pull", pull); });
+  archive.list("held", grasp.held, [&](HeldNode& held) {
+    archive.node("node", held.node, pattern_.grid);
+    archive.require(scene_pins_[held.node] == kFree, "must be a node that nothing else holds");
+    archive.finite("place", held.place);
+    archive.finite("velocity", held.velocity);
+  });
+  archive.finite("force", grasp.force);
+  archive.finite("torque", grasp.torque);
+  archive.within("slipped", grasp.slipped, 0.0, kLargest);
+  archive.integer("end", grasp.end, 0, 2);
+  archive.require(grasp.holds() == (grasp.end == GraspEnd::kNone), "must hold nodes unless it has ended");
+  if (!archive.loads()) return;
+  prepare(grasp);
+  grasp.springs.setPull(pull);
+  for (const HeldNode& held : grasp.held) {
+    archive.require(loaded_[held.node] == 0, "must hold nodes that no other holds");
+    loaded_[held.node] = grasp.pins ? 2 : 1;
+  }
+}
+
+void Grasps::carry(Archive& archive) {
+  std::vector<std::string> known;
+  std::fill(loaded_.begin(), loaded_.end(), std::uint8_t{0});
+  archive.list("grasps", list_, [&](Grasp& grasp) {
+    carryGrasp(archive, grasp);
+    archive.require(std::find(known.begin(), known.end(), grasp.params.id) == known.end(),
+                    "must have ids of their own");
+    known.push_back(grasp.params.id);
   });
 }
 
@@ -217,7 +268,9 @@ void Simulator::Impl::carry(Archive& archive) {
   archive.part("rest", sleep.rest());
   archive.part("budget", budget);
   if (errors) errors->carry(archive);
-  pins.carry(archive, pattern);
+  archive.group("hands", [&] { grasps.carry(archive); });
+  pins.carry(archive, pattern.grid,
+             [this](std::size_t node) { return grasps.scenePins()[node] == kPinned || grasps.willPin(node); });
   archive.part("opening", opening);
   archive.group("statistics", [&] { carryStatistics(archive, motion.statistics); });
   archive.part("clock", motion.clock);
@@ -230,6 +283,9 @@ void Simulator::Impl::carry(Archive& archive) {
 
 // After carry() has loaded: restores what follows from it.
 void Simulator::Impl::resume() noexcept {
+  grasps.resume();
+  pins.resume();
+  takePins();
   takeGravity();
   takeFrame();
   opening.resume();

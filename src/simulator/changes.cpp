@@ -93,6 +93,7 @@ std::vector<Problem> Simulator::setState(const std::vector<Vec3>& positions, con
   putOnRail(im.pattern, motion.state);
   motion.state.velocity_age = 0.0;
   motion.exact.reset();
+  im.grasps.holdWhereTheyAre(motion.state);
   carryCords(im.pattern, before, motion.exact.cords(), motion.state);
   motion.contact.forget();
   motion.forgetVelocities();

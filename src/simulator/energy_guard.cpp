@@ -26,8 +26,11 @@ bool canGuard(const Motion& motion) {
 EnergyGuard::EnergyGuard(Motion& motion, StepControls& controls, bool chooses)
     : motion_(motion),
       controls_(controls),
+      chooses_(chooses),
       wanted_(chooses && canGuard(motion)),
       total_mass_(std::accumulate(motion.pattern.mass.begin(), motion.pattern.mass.end(), 0.0)) {}
+
+void EnergyGuard::takePins() noexcept { wanted_ = chooses_ && canGuard(motion_); }
 
 // Nothing adds or removes energy but the scheme, and the engine chooses the steps.
 bool EnergyGuard::isClosed(bool pins_move) const noexcept {

@@ -23,6 +23,8 @@ class EnergyGuard {
     if (!most_) endFrame(pins_move);
   }
   void endFrame(bool pins_move);
+  /// The pattern's pins have changed.
+  void takePins() noexcept;
   /// Something has changed the energy.
   void forget() noexcept { most_.reset(); }
   void carry(Archive& archive);
@@ -33,7 +35,8 @@ class EnergyGuard {
 
   Motion& motion_;
   StepControls& controls_;
-  const bool wanted_;
+  const bool chooses_;
+  bool wanted_;
   const double total_mass_;     // [kg]
   std::optional<double> most_;  // bound of the energy [J]; none: not closed
 };

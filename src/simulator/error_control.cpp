@@ -93,6 +93,16 @@ void ErrorControl::makePilotRuns() {
   motion_.clock.lap(Stage::kEstimate);
 }
 
+// The reference run has the motion's pins.
+void ErrorControl::movePinsAsIn(const ClothState& state) noexcept {
+  const ClothPattern& pattern = motion_.pattern;
+  for (std::size_t n = 0; n < pattern.grid.size(); ++n) {
+    if (pattern.pinned[n] != kPinned) continue;
+    motion_.state.position.set(n, state.position.at(n));
+    motion_.state.velocity.set(n, state.velocity.at(n));
+  }
+}
+
 // Advances the reference run by the coming frame, before the motion, so that forces and contacts end as the motion's.
 void ErrorControl::moveReference() {
   if (estimate_.referenceStarts()) {
@@ -106,6 +116,7 @@ void ErrorControl::moveReference() {
   }
   motion_.save(start_);
   motion_.restore(reference_.at);
+  movePinsAsIn(start_.state);
   const int substeps = estimate_.referenceSubsteps(reference_.in_finer_steps);
   if (substeps != reference_.substeps) motion_.synchronise();
   reference_.substeps = substeps;

@@ -48,6 +48,7 @@ class ErrorControl {
   bool makeFrame(int substeps);
   bool makeSubstep(const SubstepPlan& plan, double done, int divisions);
   void moveReference();
+  void movePinsAsIn(const ClothState& state) noexcept;
   int stableSubsteps() const noexcept;
 
   Motion& motion_;

@@ -53,6 +53,7 @@ bool Simulator::movePin(NodeIndex node, const Vec3& target) {
   const Grid& grid = impl_->pattern.grid;
   const bool inside = node.row >= 0 && node.row < grid.rows && node.column >= 0 && node.column < grid.columns;
   if (!inside || !impl_->pattern.isPinned(node) || !isPlace(target)) return false;
+  if (impl_->grasps.holdsNode(grid.index(node))) return false;  // its hand moves it
   impl_->pins.move(grid.index(node), target);
   return true;
 }

@@ -14,13 +14,14 @@ bool within(double time, double from, double to) { return time >= from - kSlack 
 
 }  // namespace
 
-ForceField::ForceField(const Scene& scene, const ClothPattern& pattern)
+ForceField::ForceField(const Scene& scene, const ClothPattern& pattern, Grasps* hands)
     : scene_(scene),
       pattern_(pattern),
       bounds_(pattern),
       air_damping_(scene.air, pattern),
       relative_air_(scene.air, scene.cloth.porosity, pattern),
-      ambient_(scene.ambient) {
+      ambient_(scene.ambient),
+      hands_(hands) {
   const std::size_t size = pattern.grid.size();
   weight_.assign(size, 0.0);
   takeGravity();
@@ -119,8 +120,8 @@ const NodeForces& ForceField::evaluate(const ClothState& state, double time, dou
   const bool windy = findWinds(state.position, time);
   const bool dragged = std::any_of(drags_.list.begin(), drags_.list.end(), acts);
   forces_.force = &weight_;
-  const bool relative = relative_air_.active();
-  forces_.weight_only = !windy && !dragged && !relative;
+  const bool relative = relative_air_.active(), gives = hands_ != nullptr && hands_->anySprings();
+  forces_.weight_only = !windy && !dragged && !relative && !gives;
   forces_.gravity = scene_.gravity;
   if (!forces_.weight_only) {
     sum_ = weight_;
@@ -128,13 +129,16 @@ const NodeForces& ForceField::evaluate(const ClothState& state, double time, dou
   }
   if (windy && !relative) addWinds(state.position, time);
   const auto damps = [&acts](const DragForce& drag) { return drag.damps() && acts(drag); };
-  forces_.has_damping = air_damping_.active() || std::any_of(drags_.list.begin(), drags_.list.end(), damps);
+  forces_.has_damping = air_damping_.active() || gives || std::any_of(drags_.list.begin(), drags_.list.end(), damps);
   if (forces_.has_damping) std::fill(forces_.damping.begin(), forces_.damping.end(), 0.0);
   if (air_damping_.active()) air_damping_.addCoefficients(pattern_.grid, state.velocity, forces_.damping);
   for (DragForce& drag : drags_.list) {
     if (acts(drag)) drag.addForces(pattern_, state.position, dt + state.velocity_age, sum_, forces_.damping);
   }
-  if (relative) addRelativeAir(state, time, windy, ahead);  // last: it reads the others
+  if (gives && relative) hands_->keepForces(sum_);
+  if (relative) addRelativeAir(state, time, windy, ahead);  // after the others: it reads the others
+  if (gives && relative) hands_->restoreForces(sum_);
+  if (gives) hands_->addForces(state, sum_, forces_.damping);
   return forces_;
 }
 

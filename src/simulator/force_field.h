@@ -15,6 +15,7 @@
 #include "forces/relative_air.h"
 #include "forces/wind_source.h"
 #include "scene/find_by_id.h"
+#include "simulator/grasps.h"
 #include "simulator/wind_shadow.h"
 #include "solver/substep.h"
 
@@ -63,7 +64,8 @@ struct Sources {
 
 class ForceField {
  public:
-  ForceField(const Scene& scene, const ClothPattern& pattern);
+  /// hands: null: there are none; else it must outlive this, as scene and pattern must.
+  ForceField(const Scene& scene, const ClothPattern& pattern, Grasps* hands = nullptr);
 
   /// Back to the scene's winds and drags.
   void reset();
@@ -99,6 +101,8 @@ class ForceField {
   /// The scene's gravity, or air, has changed.
   void takeGravity() noexcept;
   void takeAir();
+  /// The pattern's pins have changed.
+  void takePins() noexcept { relative_air_.takePins(pattern_); }
   /// Largest air damping of a node at rest, over its mass [1/s].
   double dampingPerMass() const noexcept;
 
@@ -130,6 +134,7 @@ class ForceField {
   WindShadow shadow_;
   Sources<WindSource, WindParams> winds_;
   Sources<DragForce, DragParams> drags_;
+  Grasps* hands_;
   Field3 weight_;
   Field3 sum_;           // with winds and drags, when one acts
   Field3 area_vectors_;  // in rows that a wind reaches, or of all for relative_air_

@@ -17,7 +17,8 @@ void Simulator::Impl::step() {
   const Budget::Clock::time_point begin = Budget::Clock::now();
   motion.statistics.time = times.begin();
   motion.obstacles.beginFrame(times.end());
-  sleep.wakeForFrame(pins.any());
+  grasps.movePins(pins);
+  sleep.wakeForFrame(pins.any() || grasps.anyMoves());
   if (sleep.all()) {
     sleepThrough();
     countTime(begin);
@@ -50,16 +51,18 @@ void Simulator::Impl::sleepThrough() {
 double Simulator::Impl::moveThrough(Budget::Clock::time_point begin) {
   const Statistics& s = motion.statistics;
   motion.drive_impulse = 0.0;
+  if (pins.settle(motion.state)) motion.forgetVelocities();
   guard.beginFrame(pins.any());
-  const bool links_hold = !pins.any() && std::max(s.warp_stretch, s.weft_stretch) < kHold;
+  const bool links_hold = !pins.any() && !grasps.any() && std::max(s.warp_stretch, s.weft_stretch) < kHold;
   motion.contact.beginFrame(links_hold);
   motion.forces.setLinksHold(links_hold);
   motion.forces.castShadows(motion.obstacles, motion.state.position, times.begin(), times.end());
   const bool first = times.frame() == 0;
   if (errors && first) errors->makePilotRuns();  // not limited by the budget
   budget.beginFrame(first ? Budget::Clock::now() : begin);
-  if (errors) errors->beginFrame();
   pins.start(times.rate(), followingSpeed(scene), motion.state);
+  if (grasps.any()) grasps.begin(motion.state, times.rate());
+  if (errors) errors->beginFrame();
   return loop.make();
 }
 
@@ -78,9 +81,14 @@ void Simulator::Impl::endFrame(double share) {
   motion.measure();
   opening.measure(motion.state, s);
   s.drive_force = motion.drive_impulse / times.length();
-  if (!opening.isUnderWay(motion.state) && !motion.exact.cords().closing(motion.state)) sleep.fallAsleep();
+  if (grasps.any()) endGrasps(share);
+  if (!opening.isUnderWay(motion.state) && !motion.exact.cords().closing(motion.state)) sleep.fallAsleep(grasps.any());
   if (errors && sleep.all()) errors->lose();
   s.stage_seconds = motion.clock.seconds();
+}
+
+void Simulator::Impl::endGrasps(double share) {
+  if (grasps.end(share, motion.state)) repin([this] { grasps.letGoOfEnded(pins); });
 }
 
 void Simulator::Impl::nextFrame(double share) noexcept {

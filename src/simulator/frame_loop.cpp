@@ -67,7 +67,7 @@ SubstepPlan FrameLoop::plan(StepControl& steps, double done) {
 
 bool FrameLoop::makeStages(const SubstepPlan& plan, double done) {
   if (controls_.plain_frames > 0 || motion_.exact.stringsPull() || motion_.exact.carriers().any() ||
-      motion_.exact.cords().any()) {
+      motion_.exact.cords().any() || motion_.grasps.any()) {
     return false;
   }
   motion_.save(before_);
@@ -126,7 +126,7 @@ void FrameLoop::accept(StepControl& steps, const SubstepPlan& plan, const Subste
   }
   pins_waited_ = pins_waited_ || outcome.pins_wait;
   countSubstep(1);
-  motion_.contact.afterSubstep(outcome.settled, plan.h, outcome.scale, motion_.state.position);
+  motion_.taken(plan.h, outcome);
 }
 
 void FrameLoop::countSubstep(int steps) noexcept {

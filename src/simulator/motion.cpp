@@ -12,7 +12,8 @@ Motion::Motion(const Scene& scene_, const ClothPattern& pattern_, const FrameTim
       times(times_),
       initial(makeInitialState(scene, pattern)),
       state(initial),
-      forces(scene, pattern),
+      grasps(scene, pattern),
+      forces(scene, pattern, &grasps),
       obstacles(scene, resolve),
       workers(threadsFor(scene.solver.threads, pattern.grid.nodeCount())),
       contact(pattern, scene.contact, obstacles, scene.solver.stretch_tolerance, workers),
@@ -53,6 +54,7 @@ SubstepOutcome Motion::attempt(const SubstepPlan& plan, double done) {
     contact.skipSubstep();
   else
     lag.setSubstep(plan, done, state.position);
+  if (grasps.any()) grasps.setSubstep(done, plan.h);
   const NodeForces& now = forces.evaluate(state, statistics.time + done, plan.h, ahead(plan));
   clock.lap(Stage::kForces);
   if (counts_work) ledger.begin(state);
@@ -63,6 +65,26 @@ SubstepOutcome Motion::attempt(const SubstepPlan& plan, double done) {
   if (counts_work && outcome.accepted)
     ledger.end(state, now, &contact.contacts(), by_paper ? nullptr : &exact, plan.h, outcome);
   return outcome;
+}
+
+void Motion::taken(double h, const SubstepOutcome& outcome) noexcept {
+  contact.afterSubstep(outcome.settled, h, outcome.scale, state.position);
+  if (!grasps.any()) return;
+  const bool by_paper = scene.solver.method == Method::kPaper;
+  grasps.count(state, forces.last(), by_paper ? nullptr : &exact, pushing(), outcome.scale);
+}
+
+void Motion::takePins() {
+  forces.takePins();
+  contact.takePins();
+  exact.takePins();
+  if (scene.solver.method == Method::kPaper) paper.takePins();
+}
+
+void Motion::repinned() noexcept {
+  contact.invalidateStart();
+  exact.repinned();
+  velocities_fresh_ = false;
 }
 
 void Motion::save(Checkpoint& checkpoint) const {
@@ -103,7 +125,7 @@ Energy Motion::energy() {
   const Field3& velocity = velocities();
   Energy energy;
   for (std::size_t n = 0; n < pattern.grid.size(); ++n) {
-    energy.kinetic += 0.5 * pattern.mass[n] * velocity.at(n).squaredNorm();
+    if (pattern.pinned[n] != kPinned) energy.kinetic += 0.5 * pattern.mass[n] * velocity.at(n).squaredNorm();
     energy.potential -= pattern.mass[n] * scene.gravity.dot(state.position.at(n));
   }
   double elastic = 0.0;

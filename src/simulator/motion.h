@@ -7,6 +7,7 @@
 #include "curtain_sim/statistics.h"
 #include "simulator/energy_ledger.h"
 #include "simulator/force_field.h"
+#include "simulator/grasps.h"
 #include "simulator/obstacle_lag.h"
 #include "solver/exact_solver.h"
 #include "solver/schemes/paper_solver.h"
@@ -31,6 +32,13 @@ struct Motion {
   void save(Checkpoint& checkpoint) const;
   void restore(const Checkpoint& checkpoint);
 
+  /// A substep of h [s] that was planned, was accepted.
+  void taken(double h, const SubstepOutcome& outcome) noexcept;
+  /// Takes what follows from the pattern's pins. Allocates nothing but for Method::kPaper.
+  void takePins();
+  /// After it: what the last substep left is that of other pins.
+  void repinned() noexcept;
+
   /// Contacts that pushed in the last accepted substep; null: none.
   const Contacts* pushing() const noexcept { return contact.pushing().empty() ? nullptr : &contact.pushing(); }
   /// Velocities at the time of the positions; cached until forgetVelocities().
@@ -52,6 +60,7 @@ struct Motion {
   const FrameTimes& times;
   const ClothState initial;
   ClothState state;
+  Grasps grasps;
   ForceField forces;
   ObstacleSet obstacles;
   Workers workers;

@@ -9,12 +9,50 @@ namespace curtain {
 
 bool isPlace(const Vec3& point) { return point.allFinite() && point.cwiseAbs().maxCoeff() <= kLargest; }
 
-void PinMoves::move(std::size_t node, const Vec3& target) {
-  const auto found = std::find_if(moves_.begin(), moves_.end(), [node](const Move& move) { return move.node == node; });
-  if (found != moves_.end())
-    found->target = target;
-  else
-    moves_.push_back({node, target, false});
+// Keeps the moves that stays(move) is true for, in their order.
+template <typename Stays>
+void PinMoves::keep(const Stays& stays) noexcept {
+  std::size_t left = 0;
+  arrived_ = 0;
+  for (const Move& move : moves_) {
+    if (!stays(move)) {
+      slot_[move.node] = kNone;
+      continue;
+    }
+    slot_[move.node] = left;
+    arrived_ += move.arrived ? 1 : 0;
+    moves_[left++] = move;
+  }
+  moves_.resize(left);
+}
+
+void PinMoves::move(std::size_t node, const Vec3& target) noexcept {
+  if (slot_[node] == kNone) {
+    slot_[node] = moves_.size();
+    moves_.push_back({node, target, false, false});
+    return;
+  }
+  Move& known = moves_[slot_[node]];
+  known.target = target;
+  arrived_ -= known.arrived ? 1 : 0;
+  known.arrived = false;
+}
+
+void PinMoves::letGo(std::size_t node) noexcept {
+  if (slot_[node] != kNone) keep([node](const Move& move) { return move.node != node; });
+}
+
+void PinMoves::clear() noexcept {
+  keep([](const Move&) { return false; });
+}
+
+bool PinMoves::settle(ClothState& state) noexcept {
+  if (arrived_ == 0) return false;
+  keep([&](const Move& move) {
+    if (move.arrived) state.velocity.set(move.node, Vec3::Zero());
+    return !move.arrived;
+  });
+  return true;
 }
 
 // Pinned nodes move by their velocity alone.
@@ -28,17 +66,20 @@ void PinMoves::start(double frame_rate, double following_speed, ClothState& stat
 }
 
 void PinMoves::stop(bool whole, ClothState& state) noexcept {
-  std::size_t left = 0;
   for (Move& move : moves_) {
-    state.velocity.set(move.node, Vec3::Zero());
-    if (whole && !move.behind) {
+    move.arrived = whole && !move.behind;
+    move.behind = !move.arrived;
+    if (move.arrived)
       state.position.set(move.node, move.target);
-    } else {
-      move.behind = true;
-      moves_[left++] = move;
-    }
+    else
+      state.velocity.set(move.node, Vec3::Zero());
   }
-  moves_.resize(left);
+  resume();
+}
+
+void PinMoves::resume() noexcept {
+  std::fill(slot_.begin(), slot_.end(), kNone);
+  keep([](const Move&) { return true; });
 }
 
 }  // namespace curtain

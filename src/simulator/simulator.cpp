@@ -56,6 +56,8 @@ Simulator::Impl::Impl(const Scene& given, const MeshResolver& resolve)
       budget(scene.solver.budget_ms),
       loop(motion, controls, sleep, budget),
       guard(motion, controls, !ErrorControl::wanted(scene.solver)),
+      grasps(motion.grasps),
+      pins(pattern),
       surface(scene.cloth, pattern) {
   if (ErrorControl::wanted(scene.solver)) errors.emplace(motion, controls, loop, budget);
   opening.measure(motion.state, motion.statistics);
@@ -63,6 +65,7 @@ Simulator::Impl::Impl(const Scene& given, const MeshResolver& resolve)
 
 void Simulator::Impl::reset() {
   times.reset();
+  if (grasps.clear(pins)) takePins();
   motion.reset();
   controls.reset();
   sleep.reset();
@@ -78,6 +81,14 @@ void Simulator::Impl::reset() {
 void Simulator::Impl::takeGravity() noexcept {
   motion.forces.takeGravity();
   controls.takeGravity(pattern, scene.gravity);
+}
+
+// Takes what follows from the pins. Allocates nothing but for Method::kPaper.
+void Simulator::Impl::takePins() {
+  pinBeside(grasps.scenePins(), grasps.pinned(), scene.cloth, pattern);
+  motion.takePins();
+  guard.takePins();
+  sleep.takeLimits();
 }
 
 // The drive, or a tie-back, does something else from now on.

@@ -27,13 +27,16 @@ struct Simulator::Impl {
   void step();
   void takeGravity() noexcept;
   void takeFrame() noexcept;
+  void takePins();
   void driven() noexcept;
+  template <typename Change>
+  void repin(const Change& change);
   void carry(Archive& archive);
   void resume() noexcept;
   std::uint32_t layout();
 
-  Scene scene;  // gravity, air and the frame rate may change
-  const ClothPattern pattern;
+  Scene scene;           // gravity, air and the frame rate may change
+  ClothPattern pattern;  // its pins may change (repin())
   FrameTimes times;
   Motion motion;
   Opening opening;
@@ -43,17 +46,33 @@ struct Simulator::Impl {
   FrameLoop loop;
   std::optional<ErrorControl> errors;  // where a position tolerance is asked for
   EnergyGuard guard;
+  Grasps& grasps;  // of motion
   PinMoves pins;
   FineSurface surface;
   std::uint64_t revision = 0;  // of the positions of cloth and obstacles
   Field3 total_force;          // scratch of copyForces()
 
  private:
+  void endGrasps(double share);
   void sleepThrough();
   double moveThrough(Budget::Clock::time_point begin);
   void endFrame(double share);
   void nextFrame(double share) noexcept;
   void countTime(Budget::Clock::time_point begin);
 };
+
+// Between substeps: what hands hold changes by change(). Nodes that were pinned keep the velocity they moved with.
+template <typename Change>
+void Simulator::Impl::repin(const Change& change) {
+  sleep.wakeAll();
+  motion.synchronise();
+  change();
+  takePins();
+  motion.repinned();
+  controls.wake(motion.exact);
+  guard.forget();
+  if (errors) errors->lose();
+  ++revision;
+}
 
 }  // namespace curtain

@@ -41,11 +41,13 @@ void Sleep::wakeAll() {
 }
 
 // Gusts matter only to columns that may fall asleep soon, so not before rest_ watches.
-void Sleep::fallAsleep() {
+void Sleep::fallAsleep(bool as_a_whole) {
   if (!rest_.due()) return;
   kept_awake_.clear();
   if (rest_.watches()) motion_.forces.markGusts(motion_.statistics.time, motion_.state.position, kept_awake_);
-  if (rest_.look(motion_.state, motion_.times.madeTime(), kept_awake_, motion_.pushing(), by_column_)) takeOver();
+  if (rest_.look(motion_.state, motion_.times.madeTime(), kept_awake_, motion_.pushing(), by_column_ && !as_a_whole)) {
+    takeOver();
+  }
 }
 
 void Sleep::takeOver() {

@@ -25,8 +25,8 @@ class Sleep {
   /// Wakes the columns that the last attempt at a substep would have moved.
   void wakePulled();
   void wakeAll();
-  /// After a frame with motion.
-  void fallAsleep();
+  /// After a frame with motion. as_a_whole: no column alone.
+  void fallAsleep(bool as_a_whole);
 
   void reset();
   /// Gravity, air or the frames' length have changed.

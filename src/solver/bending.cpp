@@ -46,6 +46,14 @@ Bending::Bending(const ClothPattern& pattern, const Workers& workers)
   for (Field3* field : {&couples_, &moved_}) field->assign(size, 0.0);
 }
 
+void Bending::takePins() noexcept {
+  fillWarpLines(pattern_, warp_);
+  fillWeftLines(pattern_, weft_);
+  warp_rest_.takePins();
+  weft_rest_.takePins();
+  stiffest_ = stiffestOf(pattern_, warp_, weft_);
+}
+
 void Bending::begin(const NodeInertia& inertia, const Field& inverse, double scale, bool explicit_links) noexcept {
   if (!any()) return;
   const NodeInertia::Tensions& tensions = inertia.tensions();

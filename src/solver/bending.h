@@ -27,6 +27,8 @@ class Bending {
   Bending(const ClothPattern& pattern, const Workers& workers);
 
   bool any() const noexcept { return warp_.bend() || weft_.bend(); }
+  /// The pattern's pins have changed.
+  void takePins() noexcept;
 
   /// After begin(): lines are stiffer than the step bears.
   bool gives() const noexcept { return gives_; }
@@ -62,8 +64,8 @@ class Bending {
 
   const ClothPattern& pattern_;
   const Workers& workers_;
-  const BendingLines warp_, weft_;
-  const RestCurvature warp_rest_, weft_rest_;
+  BendingLines warp_, weft_;
+  RestCurvature warp_rest_, weft_rest_;
   double stiffest_;  // largest bound of K over mass [1/s^2]
   bool gives_ = false;
   Field warp_give_, weft_give_;  // [m/N]

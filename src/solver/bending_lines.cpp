@@ -37,10 +37,9 @@ void fillMatrix(const Grid& grid, const Field& rest_turn, const Before& before, 
   }
 }
 
-Field stiffnessOf(const Field& bending, const Field& rest_turn) {
-  Field stiffness = bending;
+void fillStiffness(const Field& bending, const Field& rest_turn, Field& stiffness) {
+  stiffness = bending;
   for (std::size_t n = 0; n < rest_turn.size() && n < stiffness.size(); ++n) stiffness[n] *= std::cos(rest_turn[n]);
-  return stiffness;
 }
 
 void fillCompliance(BendingLines& lines) {
@@ -52,25 +51,22 @@ void fillCompliance(BendingLines& lines) {
 
 }  // namespace
 
-BendingLines warpLines(const ClothPattern& pattern) {
+void fillWarpLines(const ClothPattern& pattern, BendingLines& lines) noexcept {
   const Grid& grid = pattern.grid;
-  BendingLines lines;
-  lines.stiffness = stiffnessOf(pattern.warp_bending, pattern.warp_rest_turn);
-  if (!lines.bend()) return lines;
+  fillStiffness(pattern.warp_bending, pattern.warp_rest_turn, lines.stiffness);
+  if (!lines.bend()) return;
   lines.per_rest.assign(grid.size(), 0.0);
   for (std::size_t n = grid.row(1); n < grid.size(); ++n) lines.per_rest[n] = 1.0 / pattern.warp_rest[n];
   fillMatrix(
       grid, pattern.warp_rest_turn, [&](int i, int j) { return grid.index(i - 1, j); },
       [&](int i, int j) { return grid.index(i + 1, j); }, lines);
   fillCompliance(lines);
-  return lines;
 }
 
-BendingLines weftLines(const ClothPattern& pattern) {
+void fillWeftLines(const ClothPattern& pattern, BendingLines& lines) noexcept {
   const Grid& grid = pattern.grid;
-  BendingLines lines;
-  lines.stiffness = stiffnessOf(pattern.weft_bending, pattern.weft_rest_turn);
-  if (!lines.bend()) return lines;
+  fillStiffness(pattern.weft_bending, pattern.weft_rest_turn, lines.stiffness);
+  if (!lines.bend()) return;
   lines.per_rest.assign(grid.size(), 0.0);
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = 0; j < grid.columns; ++j) {
@@ -89,6 +85,17 @@ BendingLines weftLines(const ClothPattern& pattern) {
       std::fill(row, row + grid.columns, 0.0);
   }
   fillCompliance(lines);
+}
+
+BendingLines warpLines(const ClothPattern& pattern) {
+  BendingLines lines;
+  fillWarpLines(pattern, lines);
+  return lines;
+}
+
+BendingLines weftLines(const ClothPattern& pattern) {
+  BendingLines lines;
+  fillWeftLines(pattern, lines);
   return lines;
 }
 

@@ -40,6 +40,9 @@ struct BendingLines {
 /// Of a line that turns at rest: stiffness is k cos(theta_0), see rest_curvature.h.
 BendingLines warpLines(const ClothPattern& pattern);
 BendingLines weftLines(const ClothPattern& pattern);
+/// The same into lines of this pattern, whose pins have changed. Allocates nothing.
+void fillWarpLines(const ClothPattern& pattern, BendingLines& lines) noexcept;
+void fillWeftLines(const ClothPattern& pattern, BendingLines& lines) noexcept;
 
 /// Room for the moments of all lines; the lines of one block use their own part.
 struct BendingScratch {

@@ -138,6 +138,11 @@ class Constraints {
   void hold(const std::vector<std::uint8_t>& skipped_before, const ClothState& state,
             NodeInertia::Tensions& tensions) noexcept;
 
+  /// The pattern's pins have changed, and inertia has taken them.
+  void takePins() noexcept;
+  /// Forgets the tensions of links between two pins: nothing solves for them any more.
+  void slackenBetweenPins() noexcept;
+
   // ---- What a substep leaves to the next
 
   struct Memory {

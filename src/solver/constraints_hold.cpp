@@ -32,6 +32,18 @@ void Constraints::hold(const std::vector<std::uint8_t>& skipped_before, const Cl
   if (any_moves && cords_.any()) tensions.heaviest = std::max(tensions.heaviest, cords_.addLoads(tensions.load));
 }
 
+void Constraints::takePins() noexcept {
+  freeWeft(pattern_, inertia_.masses(), free_per_square_);
+  net_.reset();
+}
+
+void Constraints::slackenBetweenPins() noexcept {
+  const Field& w = inertia_.masses();
+  forEachLink(pattern_, [&](std::size_t n, std::size_t other, double, bool rod) {
+    if (w[n] + w[other] == 0.0) (rod ? last_warp_ : last_weft_)[n] = 0.0;
+  });
+}
+
 void Constraints::freeze(int block, const ClothState& state, NodeInertia::Tensions& tensions) noexcept {
   const Grid& grid = pattern_.grid;
   const std::size_t first = static_cast<std::size_t>(block) * kLane;

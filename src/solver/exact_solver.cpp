@@ -19,11 +19,16 @@ bool isWithinNumbers(const Field3& position) noexcept {
   return within(position.x) && within(position.y) && within(position.z);
 }
 
+// No node is pinned.
+bool isFree(const ClothPattern& pattern) noexcept {
+  return std::none_of(pattern.pinned.begin(), pattern.pinned.end(), [](std::uint8_t pin) { return pin != 0; });
+}
+
 }  // namespace
 
 ExactSolver::ExactSolver(const ClothPattern& pattern, double stretch_tolerance, int max_sweeps, const Workers& workers)
     : pattern_(pattern),
-      free_(std::none_of(pattern.pinned.begin(), pattern.pinned.end(), [](std::uint8_t pin) { return pin != 0; })),
+      free_(isFree(pattern)),
       stretch_tolerance_(stretch_tolerance),
       smallest_rest_(shortestLink(pattern)),
       inertia_(pattern),
@@ -41,6 +46,22 @@ void ExactSolver::reset() noexcept {
   constraints_.reset();
   inertia_.forget();
   bdf2_.memory().forget();
+}
+
+void ExactSolver::takePins() noexcept {
+  free_ = isFree(pattern_);
+  inertia_.takePins(held_.columns());
+  held_.takePins();
+  bending_.takePins();
+  constraints_.takePins();
+  guard_.takePins();
+}
+
+void ExactSolver::repinned() noexcept {
+  constraints_.slackenBetweenPins();
+  inertia_.tensions().heaviest = inertia_.heaviest();
+  bdf2_.memory().forget();
+  gained_ = {};
 }
 
 Scheme& ExactSolver::schemeOf(SchemeKind kind) noexcept {

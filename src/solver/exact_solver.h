@@ -30,6 +30,11 @@ class ExactSolver {
   /// Forgets the tensions of the last substep.
   void reset() noexcept;
 
+  /// Takes what follows from the pattern's pins. Allocates nothing.
+  void takePins() noexcept;
+  /// After it, when the pins have changed, with no column held: what the last substep left is that of other pins.
+  void repinned() noexcept;
+
   /// Freezes these columns at rest, wakes all others. Waking columns start with the tensions they fell asleep with. For
   /// leapfrog and the last resort.
   void hold(const ColumnSet& columns, ClothState& state) noexcept;

@@ -18,6 +18,9 @@ class HeldColumns {
  public:
   explicit HeldColumns(const ClothPattern& pattern);
 
+  /// The pattern's pins have changed; nothing is held meanwhile.
+  void takePins() noexcept { fillWeftLines(pattern_, weft_); }
+
   bool any() const noexcept { return !held_.empty(); }
   const ColumnSet& columns() const noexcept { return held_; }
   bool has(int column) const noexcept { return held_.has(column); }
@@ -49,7 +52,7 @@ class HeldColumns {
   double changeAtBorder(int column, const LinkSet* weft, double per_scale) const noexcept;
 
   const ClothPattern& pattern_;
-  const BendingLines weft_;
+  BendingLines weft_;
   std::vector<double> mass_;  // of each column [kg]
   ColumnSet held_, disturbed_;
   ColumnSet borders_;  // columns whose left strings join a held and a moving column

@@ -19,23 +19,21 @@ double mostOf(double put_in, double driven) noexcept {
   return factor * factor * put_in;
 }
 
-std::vector<std::size_t> pinsOf(const ClothPattern& pattern) {
-  std::vector<std::size_t> pins;
-  for (std::size_t n = 0; n < pattern.grid.size(); ++n) {
-    if (pattern.pinned[n] == kPinned) pins.push_back(n);
-  }
-  return pins;
-}
-
 }  // namespace
 
 KineticGuard::KineticGuard(const ClothPattern& pattern, const NodeInertia& inertia, double stretch_tolerance,
                            double links)
-    : pattern_(pattern),
-      inertia_(inertia),
-      stretch_tolerance_(stretch_tolerance),
-      links_(links),
-      pins_(pinsOf(pattern)) {}
+    : pattern_(pattern), inertia_(inertia), stretch_tolerance_(stretch_tolerance), links_(links) {
+  pins_.reserve(pattern.grid.size());
+  takePins();
+}
+
+void KineticGuard::takePins() noexcept {
+  pins_.clear();
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    if (pattern_.pinned[n] == kPinned) pins_.push_back(n);
+  }
+}
 
 // A rod that is predicted longer by a share e, from rest, has turned by sqrt(2 e) and gains e / 2 of its energy.
 bool KineticGuard::isSmall(double predicted_violation) noexcept {

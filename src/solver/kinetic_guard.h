@@ -22,6 +22,9 @@ class KineticGuard {
   /// stretch_tolerance: relative; links: a typical link's length [m]. pattern and inertia must outlive this.
   KineticGuard(const ClothPattern& pattern, const NodeInertia& inertia, double stretch_tolerance, double links);
 
+  /// The pattern's pins have changed.
+  void takePins() noexcept;
+
   struct Finding {
     double most = std::numeric_limits<double>::infinity();  ///< twice the energy to bound it by [J]; infinite: no need
     double gain = 0.0;                                      ///< twice the excess energy [J]
@@ -58,7 +61,7 @@ class KineticGuard {
   const ClothPattern& pattern_;
   const NodeInertia& inertia_;
   const double stretch_tolerance_, links_;
-  const std::vector<std::size_t> pins_;
+  std::vector<std::size_t> pins_;  // with room for every node
 };
 
 }  // namespace curtain

@@ -19,13 +19,17 @@ double freeMass(const ClothPattern& pattern, const Field& inverse_mass) {
   return sum;
 }
 
-Field withCarriers(const ClothPattern& pattern) {
-  if (pattern.rail.empty()) return {};
-  Field inverse = pattern.inverse_mass;
+void fillWithCarriers(const ClothPattern& pattern, Field& inverse) {
+  inverse = pattern.inverse_mass;
   for (const int column : pattern.rail.columns) {
     const std::size_t n = pattern.grid.index(0, column);
     inverse[n] = 1.0 / pattern.mass[n];
   }
+}
+
+Field withCarriers(const ClothPattern& pattern) {
+  Field inverse;
+  if (!pattern.rail.empty()) fillWithCarriers(pattern, inverse);
   return inverse;
 }
 
@@ -55,6 +59,17 @@ void NodeInertia::hold(const ColumnSet& columns) noexcept {
   }
   inverse_ = masses_;
   free_mass_ = freeMass(pattern_, *masses_);
+}
+
+void NodeInertia::takePins(const ColumnSet& columns) noexcept {
+  if (!sliding_.empty()) fillWithCarriers(pattern_, sliding_);
+  hold(columns);
+}
+
+double NodeInertia::heaviest() const noexcept {
+  double worst = 0.0;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) worst = std::max(worst, tensions_.load[n] * (*masses_)[n]);
+  return worst;
 }
 
 void NodeInertia::letSlide(bool slide) noexcept {

@@ -20,6 +20,10 @@ class NodeInertia {
 
   /// From now on these columns have no inverse inertia, as if pinned.
   void hold(const ColumnSet& columns) noexcept;
+  /// The pattern's pins have changed; these columns are held.
+  void takePins(const ColumnSet& columns) noexcept;
+  /// Largest of the last substep's loads over its mass, by the present pins.
+  double heaviest() const noexcept;
   /// Whether carriers slide from now on, or have no inverse inertia either. No columns are held with a rail while
   /// others move.
   void letSlide(bool slide) noexcept;
@@ -51,9 +55,9 @@ class NodeInertia {
   double addedMass(double per_load) const noexcept;
 
   const ClothPattern& pattern_;
-  const Field sliding_;  // the pattern's inverse masses, and those of its carriers [1/kg]; empty: no rail
-  const Field* all_;     // when no column is held: the pattern's, or sliding_
-  double free_mass_;     // [kg]
+  Field sliding_;     // the pattern's inverse masses, and those of its carriers [1/kg]; empty: no rail
+  const Field* all_;  // when no column is held: the pattern's, or sliding_
+  double free_mass_;  // [kg]
   Field changed_, keep_, held_;
   const Field* masses_;  // all_, or held_
   const Field* inverse_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/rest_curvature.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace curtain {
@@ -10,12 +11,22 @@ constexpr double kShortest = 0.1;  // of the two links across
 
 }  // namespace
 
-RestCurvature::RestCurvature(const ClothPattern& pattern, bool warp) {
+RestCurvature::RestCurvature(const ClothPattern& pattern, bool warp) : pattern_(pattern), warp_(warp) {
   const Field& turn = warp ? pattern.warp_rest_turn : pattern.weft_rest_turn;
-  const Field& stiffness = warp ? pattern.warp_bending : pattern.weft_bending;
-  const Field& rest = warp ? pattern.warp_rest : pattern.weft_rest;
+  couples_.reserve(
+      static_cast<std::size_t>(std::count_if(turn.begin(), turn.end(), [](double angle) { return angle != 0.0; })));
+  fill();
+}
+
+void RestCurvature::fill() noexcept {
+  const Field& turn = warp_ ? pattern_.warp_rest_turn : pattern_.weft_rest_turn;
+  const Field& stiffness = warp_ ? pattern_.warp_bending : pattern_.weft_bending;
+  const Field& rest = warp_ ? pattern_.warp_rest : pattern_.weft_rest;
+  couples_.clear();
+  constant_ = 0.0;
   if (turn.empty() || stiffness.empty()) return;
-  const Grid& grid = pattern.grid;
+  const bool warp = warp_;
+  const Grid& grid = pattern_.grid;
   // Neighbours along the warp and the weft; at a border, or a slit, the node itself.
   const auto up = [&](int i, int j) { return grid.index(std::max(i - 1, 0), j); };
   const auto down = [&](int i, int j) { return grid.index(std::min(i + 1, grid.rows - 1), j); };
@@ -40,7 +51,7 @@ RestCurvature::RestCurvature(const ClothPattern& pattern, bool warp) {
       couple.constant = k * (1.0 - std::cos(angle));
       couple.per_before = 1.0 / rest[n];
       couple.per_after = 1.0 / rest[couple.after];
-      const Field& across = warp ? pattern.weft_rest : pattern.warp_rest;
+      const Field& across = warp ? pattern_.weft_rest : pattern_.warp_rest;
       couple.shortest =
           kShortest * ((couple.left != n ? across[n] : 0.0) + (couple.right != n ? across[couple.right] : 0.0));
       constant_ += couple.constant;

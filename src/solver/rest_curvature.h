@@ -15,8 +15,11 @@ namespace curtain {
 
 class RestCurvature {
  public:
-  /// Of the warp's lines, or of the weft's.
+  /// Of the warp's lines, or of the weft's. pattern must outlive this.
   RestCurvature(const ClothPattern& pattern, bool warp);
+
+  /// The pins of its pattern have changed. Allocates nothing.
+  void takePins() noexcept { fill(); }
 
   /// Part of the energy that does not change [J].
   double constant() const noexcept { return constant_; }
@@ -33,7 +36,11 @@ class RestCurvature {
     double per_before, per_after;     // 1 / rest length [1/m]
     double shortest;                  // line across that has a direction [m]
   };
-  std::vector<Couple> couples_;
+  void fill() noexcept;
+
+  const ClothPattern& pattern_;
+  const bool warp_;
+  std::vector<Couple> couples_;  // with room for all that turn at rest, whether they are pinned or not
   double constant_ = 0.0;
 };
 

@@ -37,10 +37,26 @@ struct Sample {
   std::string snapshot;
 };
 
+// A rigid hand on its way, and two pads.
+void holdCorners(Simulator& simulator) {
+  curtain::GraspParams grasp;
+  grasp.id = "rigid";
+  grasp.frame.position = simulator.position({simulator.rows() - 1, 0});
+  grasp.radius = 0.12;
+  require(simulator.setGrasp(grasp).empty(), "the corner is held");
+  grasp.id = "pads";
+  grasp.frame.position = simulator.position({simulator.rows() - 1, simulator.columns() - 1});
+  grasp.pinch_force = 0.5;
+  require(simulator.setGrasp(grasp).empty(), "the other corner is held");
+  simulator.moveGrasp("rigid", {simulator.position({simulator.rows() - 1, 0}) + curtain::Vec3(0.0, 0.05, 0.05),
+                                curtain::Rotation::Identity()});
+}
+
 Sample makeSample(const char* text) {
   const curtain::SceneReading reading = curtain::readSceneText(text);
   require(reading.problems.empty(), "the sample is a scene: " + curtain::describe(reading.problems, "sample"));
   Simulator simulator(reading.scene);
+  holdCorners(simulator);
   for (int frame = 0; frame < 30; ++frame) simulator.step();
   return {reading.scene, simulator.snapshot()};
 }

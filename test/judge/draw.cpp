@@ -304,6 +304,35 @@ void drawLines(Drawn& drawn) {
   scene.tie_back.clear();
 }
 
+// Hands, by dice of their own. Two that do not give could be drawn through each other with what they hold: of those,
+// and beside pins that move, there is one.
+void drawHands(Drawn& drawn) {
+  Dice dice(3 * drawn.seed + static_cast<std::uint64_t>(drawn.kind) + (13ULL << 59));
+  const Scene& scene = drawn.scene;
+  const bool wild = drawn.kind == Kind::kWild, paper = scene.solver.method == Method::kPaper;
+  if (!dice.chance(0.2)) return;
+  const double size = std::min(scene.cloth.height, scene.cloth.width);
+  const double weight = scene.cloth.surface_density * scene.cloth.height * scene.cloth.width * 9.81;
+  bool rigid = !scene.lines.empty() || !scene.tie_back.empty();
+  for (int more = dice.integer(1, 3); more > 0; --more) {
+    Hand hand;
+    hand.node = anyNode(dice, scene.cloth);
+    hand.radius = dice.between(0.02, 0.2) * size;
+    hand.from = dice.between(0.0, 0.5) * drawn.seconds;
+    hand.until = hand.from + dice.between(0.1, 1.0) * drawn.seconds;
+    hand.frequency = dice.magnitude(0.3, wild ? 10.0 : 2.0);
+    hand.swing = dice.between(0.0, wild ? 1.0 : 0.2) * size * dice.direction();
+    hand.turn = dice.between(0.0, wild ? 2.0 : 0.5);
+    if (!paper && dice.chance(0.4)) hand.stiffness = dice.magnitude(0.1, wild ? 1e4 : 1e2) * weight / size;
+    if (!paper && dice.chance(0.4)) hand.pinch_force = dice.magnitude(0.05, 10.0) * weight;
+    if (!paper && dice.chance(0.4)) hand.break_force = dice.magnitude(0.3, 30.0) * weight;
+    const bool gives = hand.stiffness > 0.0 || hand.pinch_force > 0.0;
+    if (!gives && rigid) continue;
+    rigid = rigid || !gives;
+    drawn.happenings.hands.push_back(hand);
+  }
+}
+
 }  // namespace
 
 const char* kindName(Kind kind) {
@@ -348,6 +377,7 @@ Drawn draw(Kind kind, std::uint64_t seed) {
   if (!validate(scene).empty()) scene.cloth.hem_width.reset();  // tapered more than its rods can slant
   if (beginsTorn(scene)) scene.cloth.hem_width.reset();
   if (kind != Kind::kSudden) drawLines(drawn);
+  if (kind != Kind::kSudden) drawHands(drawn);
   return drawn;
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "curtain_sim/scene.h"
 
@@ -19,6 +20,17 @@ enum class Kind {
 };
 const char* kindName(Kind kind);
 
+/// A hand that takes the nodes around one of them, and swings and turns about where it took them.
+struct Hand {
+  curtain::NodeIndex node;
+  double radius = 0.0;                                           ///< [m]
+  double from = 0.0, until = 0.0;                                ///< [s]
+  curtain::Vec3 swing = curtain::Vec3::Zero();                   ///< amplitude [m]
+  double turn = 0.0;                                             ///< amplitude, about the swing's direction [rad]
+  double frequency = 0.0;                                        ///< of both [1/s]
+  double stiffness = 0.0, pinch_force = 0.0, break_force = 0.0;  ///< of GraspParams; 0: none
+};
+
 /// What happens beside the scene's own winds, drags and motions. All pins move as one body, so that links never lack a
 /// choice.
 struct Happenings {
@@ -28,6 +40,7 @@ struct Happenings {
   curtain::Vec3 gravity = curtain::Vec3::Zero();    ///< from `at` on [m/s^2]; zero: as it was
   double other_rate = 0.0;                          ///< frames a second from `at` on; 0: as before
   double opening = -1.0;                            ///< a rail's drive draws to it from `at` on; negative: none
+  std::vector<Hand> hands;
   int tie_back = -1;  ///< from `at` on the first one is open (0), closed (1); -1: as it was
   double at = 0.0;    ///< when pins jerk, a drive or a tie-back sets in, and gravity and frame rate change [s]
 };

@@ -32,6 +32,10 @@ constexpr int kFiner = 16;
 constexpr double kMostFrames = 1e4;  // a second, that a scene may have
 // Of the paper's rods, relative: they are rebuilt to rounding (5e-15 is measured), that of the places apart.
 constexpr double kPaperRods = 1e-12;
+// After a hand that may have pulled them apart [s]: links come back at the speed of a fall. But not from beyond this
+// share of their length: cloth that is torn so far may jam.
+constexpr double kComesBack = 0.5;
+constexpr double kTorn = 0.1;
 // A node deeper than this is inside [m]: a tenth of the thickness may lack, the rest is rounding.
 constexpr double kInside = 1e-6;
 
@@ -61,7 +65,10 @@ class Court {
     }
     for (const LineParams& line : drawn.scene.lines) ends_.push_back(*simulator_.lineEnd(line.id));
     const Happenings& happenings = drawn.happenings;
-    pulls_known_ = (happenings.pin_swing.isZero() && happenings.pin_jerk.isZero()) || !linksStraightBetweenPins();
+    took_.resize(happenings.hands.size());
+    taken_at_.resize(happenings.hands.size());
+    pulls_known_ = happenings.hands.empty() &&  // hands put in what they like
+                   ((happenings.pin_swing.isZero() && happenings.pin_jerk.isZero()) || !linksStraightBetweenPins());
     every_ = std::max(1, static_cast<int>(cloth.rows * cloth.columns * drawn.seconds * drawn.scene.solver.frame_rate /
                                           kNodesLookedAt));
     simulator_.countWork(rigour.energy && !paper_);
@@ -115,6 +122,7 @@ class Court {
         simulator_.setTieBack(drawn_.scene.tie_back[0].id, happenings.tie_back == 1);
       if (happenings.other_rate > 0.0) simulator_.setFrameRate(std::min(finer_ * happenings.other_rate, kMostFrames));
     }
+    for (std::size_t k = 0; k < happenings.hands.size(); ++k) moveHand(k);
     if (happenings.pin_swing.isZero() && happenings.pin_jerk.isZero()) return;
     const double frame = 1.0 / simulator_.scene().solver.frame_rate;
     Vec3 move = std::sin(2.0 * kPi * happenings.pin_frequency * (time + frame)) * happenings.pin_swing;
@@ -124,6 +132,46 @@ class Court {
     for (const Pin& pin : pins_) simulator_.movePin(pin.node, pin.place + move);
     for (std::size_t k = 0; k < drawn_.scene.lines.size(); ++k)  // with the pins, or lines would be drawn apart
       simulator_.setLineEnd(drawn_.scene.lines[k].id, ends_[k] + move);
+  }
+
+  void moveHand(std::size_t index) {
+    const Hand& hand = drawn_.happenings.hands[index];
+    const std::string id = "hand" + std::to_string(index);
+    const double frame = 1.0 / simulator_.scene().solver.frame_rate, time = simulator_.time();
+    if (time >= hand.until) simulator_.releaseGrasp(id);
+    if (time < hand.from || time >= hand.until) return;
+    if (!took_[index]) {
+      took_[index] = true;
+      taken_at_[index] = simulator_.position(hand.node);
+      GraspParams grasp;
+      grasp.id = id;
+      grasp.frame.position = taken_at_[index];
+      grasp.radius = hand.radius;
+      if (hand.stiffness > 0.0) grasp.stiffness = hand.stiffness;
+      if (hand.pinch_force > 0.0) grasp.pinch_force = hand.pinch_force;
+      if (hand.break_force > 0.0) grasp.break_force = hand.break_force;
+      simulator_.setGrasp(grasp);  // refused where everything is held
+    }
+    const double phase = std::sin(2.0 * kPi * hand.frequency * (time + frame - hand.from));
+    const Vec3 axis = hand.swing.isZero() ? Vec3(Vec3::UnitZ()) : Vec3(hand.swing.normalized());
+    simulator_.moveGrasp(id,
+                         {taken_at_[index] + phase * hand.swing, Rotation(Eigen::AngleAxisd(phase * hand.turn, axis))});
+  }
+
+  // A hand that does not give can pull the cloth apart, and push it through what is in its way. Links that it has
+  // pulled too long come back within a while.
+  void lookAtHands() {
+    for (std::size_t k = 0; k < took_.size(); ++k) {
+      const Hand& hand = drawn_.happenings.hands[k];
+      if (hand.stiffness > 0.0 || hand.pinch_force > 0.0) continue;
+      const auto state = simulator_.graspState("hand" + std::to_string(k));
+      if (!state || state->nodes.empty()) continue;
+      const Statistics& s = simulator_.statistics();
+      const bool torn = std::max(s.warp_stretch, s.weft_stretch) > kTorn;
+      forced_until_ =
+          std::max(forced_until_, torn ? std::numeric_limits<double>::infinity() : simulator_.time() + kComesBack);
+      std::fill(judged_.begin(), judged_.end(), false);
+    }
   }
 
   // Links drawn straight between two pins of a column or row: what they pull has no one answer, so the work of pins
@@ -233,9 +281,11 @@ class Court {
     if (!s.finite) fault("not finite");
     const double stretch = std::max({s.warp_stretch, s.warp_compression, s.weft_stretch});
     verdict_.stretch = std::max(verdict_.stretch, stretch);
-    if (paper_)
+    lookAtHands();
+    const bool forced = simulator_.time() <= forced_until_;
+    if (paper_ && took_.empty())
       lookAtPaper(s);
-    else if (!(stretch <= kToleranceShare * drawn_.scene.solver.stretch_tolerance))
+    else if (!paper_ && !forced && !(stretch <= kToleranceShare * drawn_.scene.solver.stretch_tolerance))
       fault("stretch", stretch);
     if (verdict_.most_solves > kMostSolves) fault("solves in a frame", static_cast<double>(verdict_.most_solves));
     if (rigour_.energy || rigour_.brute_force) lookAtObstacles();
@@ -280,6 +330,9 @@ class Court {
   bool happened_ = false;
   bool pulls_known_ = true;
   int every_ = 1;
+  std::vector<bool> took_;      // by hand
+  std::vector<Vec3> taken_at_;  // the same [m]
+  double forced_until_ = -1.0;  // [s]
   Verdict verdict_;
 };
 
@@ -335,6 +388,10 @@ Drawn shrink(Drawn drawn, const Rigour& rigour) {
   cut([](Drawn& d) { return d.happenings.pin_swing.isZero() ? false : (d.happenings.pin_swing.setZero(), true); });
   cut([](Drawn& d) { return d.happenings.pin_jerk.isZero() ? false : (d.happenings.pin_jerk.setZero(), true); });
   cut([](Drawn& d) { return d.happenings.gravity.isZero() ? false : (d.happenings.gravity.setZero(), true); });
+  cut([](Drawn& d) { return d.happenings.hands.empty() ? false : (d.happenings.hands.pop_back(), true); });
+  cut([](Drawn& d) {
+    return d.happenings.hands.size() < 2 ? false : (d.happenings.hands.erase(d.happenings.hands.begin()), true);
+  });
   cut([](Drawn& d) { return d.scene.tie_back.empty() ? false : (d.scene.tie_back.clear(), true); });
   cut([](Drawn& d) { return d.scene.lines.empty() ? false : (d.scene.lines.pop_back(), true); });
   cut([](Drawn& d) { return d.scene.lines.empty() ? false : (d.scene.lines.clear(), true); });
@@ -366,6 +423,7 @@ Drawn shrink(Drawn drawn, const Rigour& rigour) {
     };
     for (DragParams& drag : d.scene.drag) move(*drag.node);
     for (NodeIndex& node : d.scene.pins.nodes) move(node);
+    for (Hand& hand : d.happenings.hands) move(hand.node);
     cloth.rows = rows;
     cloth.columns = columns;
     return true;

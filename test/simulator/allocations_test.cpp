@@ -3,6 +3,8 @@
 // The simulator allocates nothing in a step, whatever it is busy with.
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "count_allocations.h"
 #include "simulator/scenes.h"
 
@@ -51,6 +53,37 @@ TEST(Allocations, NoneWhileColumnsFallAsleepAndWakeInLimitedFrames) {
   EXPECT_EQ(allocations - before, 0);
   EXPECT_GT(simulator.statistics().wakes, 2);
   EXPECT_GT(simulator.statistics().asleep_frames, 100);
+}
+
+// Hands that move, slide, are torn off; what they hold bends and touches itself.
+TEST(Allocations, NoneWhileHandsHoldAndLoseTheCloth) {
+  Scene scene = sceneOf(16, 16);
+  scene.contact.self = true;
+  scene.cloth.bending_warp = scene.cloth.bending_weft = 1e-5;
+  Simulator simulator(scene);
+  GraspParams grasp;
+  for (const char* id : {"rigid", "soft", "pads"}) {
+    grasp.id = id;
+    grasp.frame.position = simulator.position({14, id[0] == 'r' ? 2 : id[0] == 's' ? 7 : 12});
+    grasp.radius = 0.1;
+    grasp.stiffness = id[0] == 's' ? 100.0 : std::numeric_limits<double>::infinity();
+    grasp.pinch_force = id[0] == 'p' ? 0.3 : std::numeric_limits<double>::infinity();
+    grasp.break_force = id[0] == 'r' ? 20.0 : std::numeric_limits<double>::infinity();
+    ASSERT_TRUE(simulator.setGrasp(grasp).empty()) << id;
+  }
+  const Vec3 from = grasp.frame.position;
+  run(simulator, 2);
+  long in_steps = 0;
+  for (int frame = 0; frame < 60; ++frame) {
+    for (const char* id : {"rigid", "soft", "pads"})
+      simulator.moveGrasp(id, {from - Vec3(0.0, 0.0, 0.01 * frame), Rotation::Identity()});
+    const long before = allocations;
+    simulator.step();
+    in_steps += allocations - before;
+  }
+  EXPECT_EQ(in_steps, 0);
+  EXPECT_EQ(simulator.graspState("rigid")->end, GraspEnd::kBroken);
+  EXPECT_GT(simulator.graspState("pads")->slipped, 0.01);
 }
 
 // Its iterates are kept with the contacts that they were found with.

@@ -206,11 +206,11 @@ TEST(Snapshot, HasAVersionForEveryLayout) {
   SnapshotParts parts;
   const std::string snapshot = Simulator(all).snapshot();
   ASSERT_FALSE(unpackSnapshot(snapshot, parts).has_value());
-  EXPECT_EQ(kSnapshotVersion, 6U);
-  EXPECT_EQ(parts.layout, 640718228U);
+  EXPECT_EQ(kSnapshotVersion, 7U);
+  EXPECT_EQ(parts.layout, 1546583294U);
   const std::string plain = Simulator(flatScene(4, 5)).snapshot();
   ASSERT_FALSE(unpackSnapshot(plain, parts).has_value());
-  EXPECT_EQ(parts.layout, 1246261940U);
+  EXPECT_EQ(parts.layout, 1270470069U);
 }
 
 }  // namespace

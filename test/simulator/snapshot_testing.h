@@ -80,6 +80,7 @@ struct Reading {
   std::vector<curtain::Vec3> wrenches;
   std::vector<std::string> sources;
   std::vector<double> obstacles;
+  std::vector<curtain::Vec3> pulls;
 
   explicit Reading(const curtain::Simulator& of) {
     curtain::Plan entries = of.plan();
@@ -105,6 +106,11 @@ struct Reading {
     }
     for (const curtain::WindParams& wind : of.winds()) sources.push_back(wind.id + std::to_string(wind.pressure));
     for (const curtain::DragParams& drag : of.drags()) sources.push_back(drag.id + std::to_string(drag.force.norm()));
+    for (const std::string& id : of.grasps()) {
+      const curtain::GraspState state = *of.graspState(id);
+      sources.push_back(id + std::to_string(state.nodes.size()) + " " + std::to_string(static_cast<int>(state.end)));
+      pulls.insert(pulls.end(), {state.force, state.torque, curtain::Vec3::Constant(state.slipped)});
+    }
     const curtain::Vec3 gravity = of.scene().gravity;
     obstacles.insert(obstacles.end(), {gravity.x(), gravity.y(), gravity.z(), of.scene().air.inside, of.time()});
   }
@@ -121,6 +127,7 @@ inline void expectSameReading(const curtain::Simulator& a, const curtain::Simula
   EXPECT_EQ(p.potential, q.potential);
   EXPECT_EQ(p.wrenches, q.wrenches);
   EXPECT_EQ(p.sources, q.sources);
+  EXPECT_EQ(p.pulls, q.pulls);
   EXPECT_EQ(p.obstacles, q.obstacles);
 }
 
@@ -286,6 +293,39 @@ inline curtain::Scene randomScene(Random& random) {
   return scene;
 }
 
+/// A hand near a node, of any kind that the method knows.
+inline curtain::GraspParams randomGrasp(Random& random, const std::string& id, const curtain::Simulator& simulator) {
+  const double size = simulator.scene().cloth.height;
+  const curtain::NodeIndex node{pick(random, 0, simulator.rows() - 1), pick(random, 0, simulator.columns() - 1)};
+  curtain::GraspParams grasp;
+  grasp.id = id;
+  grasp.frame.position = simulator.position(node) + random.inBox(0.02 * size);
+  grasp.frame.orientation = Eigen::AngleAxisd(random.between(0.0, 3.0), random.direction());
+  grasp.region = chance(random, 0.7) ? curtain::GraspRegion::kSphere : curtain::GraspRegion::kBox;
+  grasp.radius = random.between(0.03, 0.2) * size;
+  grasp.size = curtain::Vec3::Constant(grasp.radius);
+  if (simulator.scene().solver.method == curtain::Method::kPaper) return grasp;
+  if (chance(random, 0.3)) grasp.stiffness = std::exp(random.between(0.0, 9.0));
+  if (chance(random, 0.3)) grasp.pinch_force = std::exp(random.between(-3.0, 3.0));
+  if (chance(random, 0.5)) grasp.break_force = std::exp(random.between(-1.0, 4.0));
+  return grasp;
+}
+
+/// Hands take hold, move and let go.
+inline void moveHands(curtain::Simulator& simulator, Random& random, double often) {
+  const std::string id = "hand" + std::to_string(pick(random, 1, 3));
+  if (chance(random, 0.5 * often)) simulator.setGrasp(randomGrasp(random, id, simulator));
+  if (chance(random, 0.1 * often)) simulator.releaseGrasp(id);
+  for (const std::string& hand : simulator.grasps()) {
+    const curtain::GraspState state = *simulator.graspState(hand);
+    if (state.nodes.empty() || chance(random, 0.3)) continue;
+    curtain::Pose pose;
+    pose.position = simulator.position(state.nodes.front()) + random.inBox(0.03);
+    pose.orientation = Eigen::AngleAxisd(random.between(-0.2, 0.2), random.direction());
+    simulator.moveGrasp(hand, pose);
+  }
+}
+
 /// Now and then something from outside; the same for the same seed and frame, whoever it is done to.
 inline Deeds randomDeeds(std::uint64_t seed, double often) {
   return [=](curtain::Simulator& simulator, int frame) {
@@ -334,6 +374,9 @@ inline Deeds randomDeeds(std::uint64_t seed, double often) {
         }
       }
     }
+    // By dice of their own: the rest stays as it was before there were hands.
+    Random hands(seed * 1000003U + static_cast<std::uint64_t>(frame) + (std::uint64_t{1} << 60U));
+    if (seed % 2 == 0) moveHands(simulator, hands, often);
   };
 }
 

@@ -70,21 +70,27 @@ CURTAIN_WIDE bool holdsRow(const ClothPattern& pattern, const Field3& position, 
 ClothFlatness::ClothFlatness(const ClothPattern& pattern, double overlong)
     : pattern_(pattern),
       overlong_(overlong),
-      usable_(isRegular(pattern)),
-      checks_top_(false),
+      regular_(isRegular(pattern)),
       strips_(spansOf(pattern.warp_coordinate, kMostRods)),
       spans_(spansOf(pattern.weft_coordinate, kMostWefts)) {
   const Grid& grid = pattern.grid;
   const double per_u = 1.0 / pattern.weft_rest[1], per_v = 1.0 / pattern.warp_rest[grid.index(1, 0)];
   per_altitude_ = std::sqrt(per_u * per_u + per_v * per_v);
+  takePins();
+}
+
+void ClothFlatness::takePins() noexcept {
+  const Grid& grid = pattern_.grid;
+  usable_ = regular_;
+  checks_top_ = false;
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = 0; j < grid.columns; ++j) {
       const std::size_t n = grid.index(i, j);
-      if (pattern.inverse_mass[n] > 0.0) continue;
+      if (pattern_.inverse_mass[n] > 0.0) continue;
       // Links between pins are not bounded by the solve. Those of the top row are checked; for others the proof is not
       // used.
-      if (i > 0 && pattern.inverse_mass[grid.index(i - 1, j)] == 0.0) usable_ = false;
-      if (j == 0 || pattern.inverse_mass[n - 1] > 0.0) continue;
+      if (i > 0 && pattern_.inverse_mass[grid.index(i - 1, j)] == 0.0) usable_ = false;
+      if (j == 0 || pattern_.inverse_mass[n - 1] > 0.0) continue;
       if (i == 0)
         checks_top_ = true;
       else

@@ -28,6 +28,9 @@ class ClothFlatness {
   /// overlong: largest strain of a link [1].
   ClothFlatness(const ClothPattern& pattern, double overlong);
 
+  /// The pattern's pins have changed.
+  void takePins() noexcept;
+
   /// True: any two elements of the cloth without a common node are further apart than `reach` [m]; false: unknown. No
   /// link, except between pins, may be longer than `overlong` allows. Allocates nothing.
   bool isFlat(const Field3& position, double reach) noexcept;
@@ -72,8 +75,9 @@ class ClothFlatness {
 
   const ClothPattern& pattern_;
   double overlong_;
-  bool usable_;
-  bool checks_top_;  // pins are side by side in the top row, and may be moved apart
+  const bool regular_;
+  bool usable_ = false;
+  bool checks_top_ = false;  // pins are side by side in the top row, and may be moved apart
   std::vector<Span> strips_, spans_;
   double per_altitude_ = 0.0;  // [1/m]
   Projection start_, end_;

@@ -31,6 +31,9 @@ class SelfCandidates {
   /// nodes. workers share the search and must outlive this; null: single-threaded.
   explicit SelfCandidates(const ClothPattern& pattern, const Workers* workers = nullptr);
 
+  /// Which nodes can't move has changed.
+  void takePins(const ClothPattern& pattern) noexcept { elements_.takePins(pattern); }
+
   /// Appends every pair (vertex, triangle) and (edge, edge) that has no common node, has a movable node, and comes
   /// within `reach` [m, >= 0] at some time while nodes move straight from start to end (finite, of the grid's size);
   /// also some that only nearly do, so rounding never loses a pair. Each pair comes once, except for closed cloth of

@@ -72,6 +72,11 @@ class ElementPairs {
   /// For cloth without pins.
   explicit ElementPairs(const Grid& grid) : grid_(grid), immovable_(grid.size(), 0) {}
   explicit ElementPairs(const ClothPattern& pattern) : grid_(pattern.grid), immovable_(pattern.grid.size()) {
+    takePins(pattern);
+  }
+
+  /// Which nodes can't move.
+  void takePins(const ClothPattern& pattern) noexcept {
     for (std::size_t n = 0; n < immovable_.size(); ++n) immovable_[n] = pattern.inverse_mass[n] == 0.0 ? 1 : 0;
   }
 

@@ -23,10 +23,17 @@ Vec3 directionOf(const Vec3& v) noexcept {
 
 PaperSolver::PaperSolver(const ClothPattern& pattern)
     : pattern_(pattern), most_way_(kMostSizes * (pattern.warp_coordinate.back() + pattern.weft_coordinate.back())) {
-  for (int j = 0; j < pattern.grid.columns; ++j) addColumn(j);
+  takePins();
   start_.assign(pattern.grid.size(), 0.0);
   rebuilt_ = start_;
   taut_.assign(static_cast<std::size_t>(pattern.grid.columns), 0);
+}
+
+void PaperSolver::takePins() {
+  chains_.clear();
+  pins_.clear();
+  between_.clear();
+  for (int j = 0; j < pattern_.grid.columns; ++j) addColumn(j);
 }
 
 // Chains of a column: up from its topmost pin, down from its lowest, half way between two pins.
