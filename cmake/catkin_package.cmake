@@ -2,7 +2,7 @@
 file(GLOB CURTAIN_MESSAGES RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/msg CONFIGURE_DEPENDS msg/*.msg)
 add_message_files(DIRECTORY msg FILES ${CURTAIN_MESSAGES})
 add_service_files(DIRECTORY srv FILES TieBack.srv)
-add_action_files(DIRECTORY action FILES OpenCurtain.action)
+add_action_files(DIRECTORY action FILES Grasp.action OpenCurtain.action)
 generate_messages(DEPENDENCIES std_msgs geometry_msgs actionlib_msgs)
 
 catkin_package(

@@ -13,7 +13,8 @@ curtain_packages_run=(python3-roslaunch libnodeletlib-tools tf2-tools rosbash py
   python3-visualization-msgs python3-rostopic python3-rosnode python3-actionlib-msgs)
 curtain_packages_view=(rviz librviz-dev)
 curtain_packages_test=(libfcl-dev librostest-dev python3-rostest libgtest-dev libgmock-dev xvfb xdotool imagemagick libgl1-mesa-dri
-  valgrind qemu-user catkin-lint clang-format-14 doxygen patch python3-diagnostic-msgs python3-rosmaster python3-actionlib)
+  valgrind qemu-user catkin-lint clang-format-14 doxygen patch python3-diagnostic-msgs python3-rosmaster python3-actionlib
+  python3-numpy)
 
 # Installs the packages among its arguments that are missing.
 curtain_install() {

@@ -35,6 +35,7 @@ CurtainNode::CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& pri
       frames_(node, reading.node.world_frame),
       inputs_(node, frames_),
       obstacles_(reading.scene, reading.node.obstacle_timeout, frames_),
+      hands_(private_node, reading.node.grasp_timeout, frames_, inputs_),
       outputs_(private_node, reading.node, simulator_, frames_),
       clock_(reading.scene.solver.frame_rate, reading.node.max_catch_up),
       snapshots_(reading.node.snapshot_file, reading.node.snapshot_period),
@@ -45,6 +46,7 @@ CurtainNode::CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& pri
   if (reading.node.watch_roscpp) watch_ = makeWatch(node, private_node, inputs_);
   if (snapshots_.restore(simulator_)) {
     obstacles_.resume(simulator_);
+    hands_.restart(simulator_, "the curtain goes on from a snapshot");
   } else {
     obstacles_.restart(simulator_);
   }
@@ -92,6 +94,7 @@ void CurtainNode::makeFrame(const ros::Time& stamp, bool latest) {
   if (opening_) opening_->apply(simulator_);
   if (tie_backs_) tie_backs_->apply(simulator_);
   obstacles_.update(simulator_, ros::Time::now());
+  hands_.apply(simulator_, ros::Time::now());
   simulator_.step();
   if (!simulator_.statistics().finite) {
     ROS_ERROR_THROTTLE(2.0, "the state is not finite any more: the curtain starts again from the scene");
@@ -102,11 +105,13 @@ void CurtainNode::makeFrame(const ros::Time& stamp, bool latest) {
   outputs_.publish(stamp, nodeStatistics(), latest);
   if (handles_) handles_->update(simulator_);
   if (opening_) opening_->update(simulator_);
+  hands_.update(simulator_);
   diagnostics_.frameMade();
 }
 
 void CurtainNode::restart() {
   ++restarts_;
+  hands_.restart(simulator_, "the curtain started again");
   simulator_.reset();
   if (opening_) opening_->restart();
   inputs_.restart();

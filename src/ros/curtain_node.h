@@ -10,8 +10,8 @@
 //
 //   parameters  time  frames                      what the node is told; when frames are due; poses on tf2
 //   inputs  obstacles  outputs  snapshots  watch  what it does; watch, which looks into roscpp, can be switched off
-//   opening  health                               the rail's drive and tie-backs; what it says of itself on
-//   /diagnostics
+//   opening  hands  health                        the rail's drive and tie-backs; grasps; what it says of itself on
+//                                                 /diagnostics
 #pragma once
 
 #include <ros/node_handle.h>
@@ -23,6 +23,7 @@
 
 #include "curtain_sim/simulator.h"
 #include "ros/frames/frames.h"
+#include "ros/hands/hands.h"
 #include "ros/health/diagnostics.h"
 #include "ros/inputs/handles.h"
 #include "ros/inputs/inputs.h"
@@ -41,8 +42,8 @@ class CurtainNode {
  public:
   /// Reads the parameters, builds the curtain and starts.
   ///   node          wind_source and drag_force are in its namespace
-  ///   private_node  parameters, ~open, ~open_curtain, ~tie_back, ~state, ~mesh, ~markers, ~contacts, ~handles; also
-  ///   its name on /diagnostics
+  ///   private_node  parameters, ~open, ~open_curtain, ~tie_back, ~grasp, ~state, ~mesh, ~markers, ~contacts, ~handles;
+  ///   also its name on /diagnostics
   /// Throws ParameterError with every problem.
   CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
 
@@ -71,6 +72,7 @@ class CurtainNode {
   Frames frames_;
   Inputs inputs_;
   ObstacleTracker obstacles_;
+  Hands hands_;
   Outputs outputs_;
   std::unique_ptr<Handles> handles_;      // none unless ~handles
   std::unique_ptr<OpenCurtain> opening_;  // none without a rail

@@ -11,7 +11,8 @@
 // So do the rooms of contact and of ros, with what puts them together above them:
 //
 //   0 shapes < 1 narrow_phase, oracle < 2 broad_phase < 3 response < 4 contact's own files
-//   0 parameters, time, frames < 1 inputs, obstacles, outputs, snapshots, watch < 2 opening, health < 3 ros' own files
+//   0 parameters, time, frames < 1 inputs, obstacles, outputs, snapshots, watch < 2 opening, hands, health < 3 ros' own
+//   files
 //
 // Rooms of ros at the same height do not know each other.
 #include <gtest/gtest.h>
@@ -33,8 +34,9 @@ const std::map<std::string, int> kFolders = {{"scene", 0},   {"cloth", 1},     {
                                              {"contact", 3}, {"simulator", 4}, {"ros", 5},    {"rviz", 5}};
 using Rooms = std::map<std::string, int>;
 const Rooms kContactRooms = {{"shapes", 0}, {"narrow_phase", 1}, {"oracle", 1}, {"broad_phase", 2}, {"response", 3}};
-const Rooms kRosRooms = {{"parameters", 0}, {"time", 0},      {"frames", 0}, {"inputs", 1},  {"obstacles", 1},
-                         {"outputs", 1},    {"snapshots", 1}, {"watch", 1},  {"opening", 2}, {"health", 2}};
+const Rooms kRosRooms = {{"parameters", 0}, {"time", 0},    {"frames", 0},    {"inputs", 1},
+                         {"obstacles", 1},  {"outputs", 1}, {"snapshots", 1}, {"watch", 1},
+                         {"opening", 2},    {"hands", 2},   {"health", 2}};
 constexpr int kAboveRooms = 4;
 constexpr int kRos = 5;
 constexpr int kPrograms = 6;

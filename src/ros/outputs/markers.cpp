@@ -15,7 +15,7 @@ using visualization_msgs::Marker;
 namespace {
 
 // Places in the array; obstacles follow.
-enum Slot { kWires, kNodes, kFolds, kWind, kRail, kCarriers, kLines, kLoads, kFirstObstacle };
+enum Slot { kWires, kNodes, kFolds, kWind, kRail, kCarriers, kLines, kLoads, kGrasps, kFirstObstacle };
 
 // Sizes in the picture [m].
 constexpr double kWireWidth = 0.002;
@@ -26,6 +26,7 @@ constexpr double kRailWidth = 0.02;
 constexpr double kCarrierSize = 0.024;
 constexpr double kLineWidth = 0.006;
 constexpr double kLoadSize = 0.12;
+constexpr double kGraspSize = 0.03;
 constexpr double kRailStep = 0.05;   // from point to point
 constexpr double kWindLength = 0.5;  // of the drawn part of a cone
 constexpr int kWindSpokes = 12;
@@ -88,6 +89,14 @@ void buildLines(const curtain::Simulator& simulator, Points& lines, Points& load
   }
 }
 
+void buildGrasps(const curtain::Simulator& simulator, Points& points) {
+  points.clear();
+  for (const std::string& id : simulator.grasps()) {
+    const std::optional<curtain::GraspState> grasp = simulator.graspState(id);
+    for (const curtain::NodeIndex& node : grasp->nodes) points.push_back(toPoint(simulator.position(node)));
+  }
+}
+
 void buildWires(const std::vector<Vec3>& nodes, int rows, int columns, bool closed, Points& points) {
   const auto at = [&](int row, int column) -> const Vec3& {
     return nodes[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column)];
@@ -137,6 +146,7 @@ visualization_msgs::MarkerArray blankDetails(const std::string& frame, const cur
       makeMarker(frame, "carriers", Marker::SPHERE_LIST, kCarrierSize, colour(0.86F, 0.87F, 0.90F)),
       makeMarker(frame, "lines", Marker::LINE_LIST, kLineWidth, colour(0.80F, 0.72F, 0.52F)),
       makeMarker(frame, "lines", Marker::SPHERE_LIST, kLoadSize, colour(0.35F, 0.33F, 0.32F)),
+      makeMarker(frame, "grasps", Marker::SPHERE_LIST, kGraspSize, colour(0.98F, 0.62F, 0.12F)),
   };
   array.markers[kLoads].id = 1;
   for (const Vec3& point : simulator.railPoints(kRailStep)) array.markers[kRail].points.push_back(toPoint(point));
@@ -237,7 +247,8 @@ void DetailMarkers::fill(visualization_msgs::MarkerArray& array) {
   showUnlessEmpty(carriers);
 
   buildLines(simulator, array.markers[kLines].points, array.markers[kLoads].points);
-  for (const Slot slot : {kLines, kLoads}) showUnlessEmpty(array.markers[slot]);
+  buildGrasps(simulator, array.markers[kGrasps].points);
+  for (const Slot slot : {kLines, kLoads, kGrasps}) showUnlessEmpty(array.markers[slot]);
 
   const curtain::FineMesh& mesh = geometry_.fineMesh();
   const curtain::FineMeshTopology& topology = simulator.fineMeshTopology();

@@ -8,6 +8,7 @@
 //   obstacles  the shapes that are present
 //   rail       its path                          carriers   on it
 //   lines      lines and closed tie-backs, and the loads
+//   grasps     nodes that hands hold
 //
 // Messages are filled again only where the picture has changed.
 #pragma once

@@ -20,6 +20,7 @@ namespace curtain_ros {
 struct NodeParams {
   std::string world_frame = "world";     ///< tf2 frame of the simulation, not empty
   double obstacle_timeout = 0.5;         ///< [s] an obstacle whose frame is older is left out
+  double grasp_timeout = 1.0;            ///< [s] a hand whose frame is older lets go
   double state_rate = 0.0;               ///< of ~state and ~contacts [1/s of simulated time]; 0 = every frame
   double state_rest_rate = 0.0;          ///< of them while nothing moves; 0 = the same
   double mesh_rate = 20.0;               ///< of ~mesh; the frame rate is its cap
@@ -70,6 +71,7 @@ struct Fields<curtain_ros::NodeParams> {
   static void visit(Visitor& v, T& params) {
     v.text("world_frame", params.world_frame);
     v.number("obstacle_timeout", params.obstacle_timeout, between(kSmallest, 3600.0));
+    v.number("grasp_timeout", params.grasp_timeout, between(kSmallest, 3600.0));
     v.number("state_rate", params.state_rate, between(0.0, 10000.0));
     v.number("state_rest_rate", params.state_rest_rate, between(0.0, 10000.0));
     v.number("mesh_rate", params.mesh_rate, between(kSmallest, 10000.0));

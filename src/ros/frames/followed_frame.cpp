@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/frames/followed_frame.h"
+
+#include "scene/ranges.h"
+
+namespace curtain_ros {
+
+FollowedFrame::Standing FollowedFrame::look(Frames& frames, const ros::Time& now) {
+  FrameLookup found = frames.lookup(name_);
+  const double ahead = found.known && !found.stamp.isZero() ? (found.stamp - now).toSec() : 0.0;
+  if (ahead > timeout_) {
+    found = frames.lookup(name_, now);
+    if (!found.known) found.error = "its transform is " + curtain::formatNumber(ahead) + " s ahead of the clock";
+  }
+  if (found.known) {
+    pose_ = found.pose;
+    stamp_ = found.stamp;
+  } else if (!pose_) {
+    error_ = "is not known in '" + frames.world() + "': " + found.error;
+    return found.may_come ? Standing::kWaiting : Standing::kLost;
+  }
+  age_ = stamp_.isZero() ? 0.0 : (now - stamp_).toSec();
+  if (age_ <= timeout_) return Standing::kFresh;
+  error_ = "has not been heard of for " + curtain::formatNumber(age_) + " s (~grasp_timeout is " +
+           curtain::formatNumber(timeout_) + " s)";
+  return Standing::kLost;
+}
+
+}  // namespace curtain_ros

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A tf2 frame that something follows from frame to frame of the simulation: the newest transform, never waited for.
+// One that is ahead of the clock by more than the timeout is that of now; while none comes the last one counts, for the
+// timeout at most. A static frame is never late.
+#pragma once
+
+#include <ros/time.h>
+
+#include <optional>
+#include <string>
+
+#include "ros/frames/frames.h"
+
+namespace curtain_ros {
+
+class FollowedFrame {
+ public:
+  /// name: of the frame; timeout [s], > 0.
+  FollowedFrame(std::string name, double timeout) : name_(std::move(name)), timeout_(timeout) {}
+
+  const std::string& name() const { return name_; }
+
+  enum class Standing {
+    kFresh,    ///< it has a pose, not older than the timeout
+    kWaiting,  ///< it has never been known, but the listener is young: it may come
+    kLost      ///< unknown or too old: error() says which
+  };
+  /// now: of the node's clock, which stamps are compared with.
+  Standing look(Frames& frames, const ros::Time& now);
+
+  /// The newest known; none before the first.
+  const std::optional<curtain::Pose>& pose() const { return pose_; }
+  const ros::Time& stamp() const { return stamp_; }
+  /// Older than half of the timeout.
+  bool late() const { return age_ > 0.5 * timeout_; }
+  const std::string& error() const { return error_; }
+
+ private:
+  std::string name_;
+  double timeout_;
+  std::optional<curtain::Pose> pose_;
+  ros::Time stamp_;   // of that transform; zero: static
+  double age_ = 0.0;  // [s]
+  std::string error_;
+};
+
+}  // namespace curtain_ros
