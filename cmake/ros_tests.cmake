@@ -22,6 +22,11 @@ add_executable(curtain_flood EXCLUDE_FROM_ALL test/ros/flood.cpp)
 target_link_libraries(curtain_flood curtain_ros curtain_warnings)
 add_dependencies(tests curtain_flood)
 
+# The client of test/bench/node/step_rate.
+add_executable(curtain_step_client EXCLUDE_FROM_ALL test/bench/node/step_client.cpp)
+target_link_libraries(curtain_step_client curtain_ros curtain_warnings)
+add_dependencies(tests curtain_step_client)
+
 # Looks at every frame that a node publishes.
 add_executable(curtain_judge_frames EXCLUDE_FROM_ALL test/ros/judge_frames.cpp)
 target_link_libraries(curtain_judge_frames curtain_ros curtain_warnings)

@@ -31,7 +31,7 @@ const char* const kUsage =
     "  --columns N        instead of the scene's cloth.columns\n"
     "  --out FILE.csv     states t,row,column,x,y,z,vx,vy,vz of the first-layer nodes\n"
     "  --sample T,T,...   times of these states [s], each at the first frame not before it (default: the end)\n"
-    "  --mesh FILE        fine mesh at the end, .ply or .obj\n"
+    "  --mesh FILE        fine mesh at the end, .ply, .obj or .stl\n"
     "  --stats FILE.json  what it took and how well it went\n"
     "  --save FILE        snapshot at the end, for --restore\n"
     "  --restore FILE     go on from a snapshot of the same scene; the duration comes on top, times of --sample go on, "
@@ -106,9 +106,8 @@ void checkOutput(const std::string& option, const std::string& path) {
 }
 
 void checkMeshName(const std::string& path) {
-  const std::string ending = std::filesystem::path(path).extension().string();
-  if (!path.empty() && ending != ".ply" && ending != ".obj") {
-    throw std::invalid_argument("--mesh: must end in .ply or .obj, is '" + path + "'");
+  if (!path.empty() && !curtain::meshFormatOf(path)) {
+    throw std::invalid_argument(std::string("--mesh: must end in ") + curtain::kMeshEndings + ", is '" + path + "'");
   }
 }
 

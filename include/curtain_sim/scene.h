@@ -313,7 +313,8 @@ struct ObstacleParams {
   Vec3 scale = Vec3::Ones();             ///< mesh: factor to metres, each != 0 (a single number in YAML: all three)
   Pose pose;                             ///< offline: in the world; in the node: in its frame
   double friction = std::numeric_limits<double>::quiet_NaN();  ///< [0..10]; NaN: contact.friction
-  double padding = 0.0;                 ///< kept between cloth and surface beyond contact.thickness [m], >= 0
+  double press = 0.0;    ///< a finger pad: force on cloth that another pad presses from the other side [N], >= 0
+  double padding = 0.0;  ///< kept between cloth and surface beyond contact.thickness [m], >= 0
   Vec3 color = Vec3(0.45, 0.50, 0.58);  ///< red, green, blue [0..1]; drawn by the node, nothing else
   bool visible = true;                  ///< the same; false: it is there, and not drawn
   std::vector<PoseKey> motion;          ///< offline only: linear in position, slerp in orientation, held at both ends
@@ -387,6 +388,7 @@ std::vector<Problem> validate(const ObstacleParams& obstacle, const std::string&
 std::vector<Problem> validate(const AirParams& air, const std::string& key);            ///< as above
 std::vector<Problem> validate(const DriveParams& drive, const std::string& key);        ///< as above
 std::vector<Problem> validate(const SolverParams& solver, const std::string& key);      ///< as above
+std::vector<Problem> validate(const ContactParams& contact, const std::string& key);    ///< as above
 
 /// Sets what is known of the material: its density, bending, porosity, friction, thickness and air drag
 /// (docs/materials.md); the coefficients of Eq. (4) unless air.law, to be set first, is relative. kNone changes nothing

@@ -29,7 +29,8 @@ class Simulator {
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;  ///< as above
 
-  const Scene& scene() const;  ///< as given, with the present gravity, air and frame rate
+  /// As given, with the present values of what may change: gravity, air, frame rate, friction, tolerances, budget.
+  const Scene& scene() const;
 
   /// Back to the scene's start: time 0, its winds and drags, zero statistics. Obstacles return to their scene poses and
   /// are all present; hands let go.
@@ -44,11 +45,10 @@ class Simulator {
 
   /// The full state of the motion as bytes (docs/snapshots.md). Does not affect the motion.
   std::string snapshot() const;
-  /// Restores a snapshot of the same scene and continues with the same bits: time, winds and drags, gravity and air,
-  /// moves of obstacles and pins, grasps, sleep, statistics. The scene may differ in gravity, air and frame rate, which
-  /// come with the snapshot, in solver.threads, and in mesh paths. Returns what is wrong (damaged, cut short, of
-  /// another scene or format); then nothing changed. With solver.budget_ms later bits depend on computing time.
-  /// Allocates.
+  /// Restores a snapshot of the same scene and continues with the same bits: time, winds and drags, moves of obstacles
+  /// and pins, grasps, sleep, statistics. The scene may differ in what may change (see scene()), which comes with the
+  /// snapshot, in solver.threads, and in mesh paths. Returns what is wrong (damaged, cut short, of another scene or
+  /// format); then nothing changed. With solver.budget_ms later bits depend on computing time. Allocates.
   std::vector<Problem> restore(const std::string& snapshot);
 
   /// Node state, row-major, shape [rows * columns]; out is resized.
@@ -97,6 +97,18 @@ class Simulator {
   /// second. May change before every frame. Sleeping columns stay asleep, but with frames longer than 1/20 s none falls
   /// asleep. Returns what is wrong with it; then nothing changed.
   std::vector<Problem> setFrameRate(double rate);
+
+  /// Change a key of the scene from the next step on, also after reset(); cloth that sleeps wakes where the change may
+  /// move it. Each returns what is wrong with the value; then nothing changed.
+  ///   friction   contact.friction, [0, 10]: of the cloth on itself and on obstacles that name none
+  ///   tolerance  solver.stretch_tolerance, [1e-12, 0.1]; links that are longer than a smaller one are shortened within
+  ///              the next step
+  ///   tolerance  solver.position_tolerance, (0, 1] m, where the scene asks for one; it is not turned on or off
+  ///   ms         solver.budget_ms, [0, 1e6]; 0: no limit
+  std::vector<Problem> setFriction(double friction);
+  std::vector<Problem> setStretchTolerance(double tolerance);
+  std::vector<Problem> setPositionTolerance(double tolerance);
+  std::vector<Problem> setBudget(double ms);
 
   /// Sets positions [m] and velocities [m/s] of all nodes, row-major, shape [rows * columns]; velocities of pinned
   /// nodes are ignored, carriers are put where the rail is nearest. Wakes all of the cloth and forgets the tensions.

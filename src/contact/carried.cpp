@@ -85,9 +85,13 @@ void ClothContact::carryPushing(Archive& archive, Contact& contact) const {
   for (double& weight : contact.weight) archive.number("weight", weight);
   archive.integer("nodes", contact.nodes, 0, 4);
   archive.integer("obstacle", contact.obstacle, Contact::kCloth, obstacles_.count() - 1);
+  archive.integer("other", contact.other, Contact::kCloth, obstacles_.count() - 1);
   archive.integer("source", contact.source, 0, std::numeric_limits<std::uint32_t>::max());
   archive.numbers("normal", contact.normal);
   archive.numbers("surface_velocity", contact.surface_velocity);
+  archive.number("friction", contact.friction);
+  archive.number("press", contact.press);
+  archive.number("hold", contact.hold);
   archive.number("push", contact.push);
   archive.numbers("slide", contact.slide);
   archive.flag("sticks", contact.sticks);

@@ -89,7 +89,7 @@ void ClothContact::warmStart() noexcept {
     while (old != last_.end() && before(*old, contact)) ++old;
     if (old == last_.end()) return;
     if (before(contact, *old)) continue;
-    contact.push = old->push;
+    contact.push = contact.press > 0.0 ? old->push : std::max(0.0, old->push);
     contact.slide = old->slide;
   }
 }
@@ -210,9 +210,15 @@ void ClothContact::copyForces(const Field3& position, std::vector<ContactForce>&
   out.clear();
   for (const Contact& contact : last_) {
     if (contact.obstacle == Contact::kCloth) continue;
-    out.push_back({contact.obstacle, contact.point(position), contact.normal, contact.push / last_scale_,
-                   -contact.slide / last_scale_});
+    const bool pinched = contact.other != Contact::kCloth;
+    const double share = (pinched ? 0.5 : 1.0) / last_scale_;
+    const Vec3 point = contact.point(position), friction = -share * contact.slide;
+    out.push_back({contact.obstacle, point, contact.normal, contact.press + share * contact.push, friction});
+    if (pinched) out.push_back({contact.other, point, -contact.normal, contact.press - share * contact.push, friction});
   }
+  std::stable_sort(out.begin(), out.end(), [this](const ContactForce& a, const ContactForce& b) {
+    return obstacles_.rank(a.obstacle) < obstacles_.rank(b.obstacle);
+  });
 }
 
 void ClothContact::forget() noexcept {

@@ -36,6 +36,11 @@ class ClothContact : public ContactFinder {
     self_contacts_.limitRecovery(most);
   }
 
+  /// Sets the friction of the cloth on itself; the obstacles have their own.
+  void takeFriction(double friction) noexcept { self_contacts_.takeFriction(friction); }
+  /// Sets the largest strain of a link in a settled substep. Where links are longer now, invalidateStart() must follow.
+  void takeStretchTolerance(double tolerance) noexcept { flatness_.takeOverlong(tolerance); }
+
   Contacts& begin(const Field3& start, const Field3& predicted, double h) noexcept override;
   Verdict verify(const Field3& start, const Field3& end, bool settled) noexcept override;
   void hold(const Field3& start, Field3& end) noexcept override;

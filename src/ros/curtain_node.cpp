@@ -6,6 +6,8 @@
 
 #include <regex>
 
+#include "ros/tuning/live_values.h"
+
 namespace curtain_ros {
 
 namespace {
@@ -19,14 +21,6 @@ curtain::Simulator makeSimulator(const curtain::Scene& scene, const std::string&
   }
 }
 
-std::unique_ptr<RoscppWatch> makeWatch(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
-                                       const Inputs& inputs) {
-  std::vector<std::string> topics = inputs.topics();
-  for (const char* tf : {"/tf", "/tf_static"}) topics.push_back(node.resolveName(tf));
-  for (const char* own : {"handles/feedback", "open"}) topics.push_back(private_node.resolveName(own));
-  return std::make_unique<RoscppWatch>(private_node.getNamespace(), topics);
-}
-
 }  // namespace
 
 CurtainNode::CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
@@ -34,25 +28,35 @@ CurtainNode::CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& pri
 
 CurtainNode::CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                          const ParameterReading& reading)
-    : simulator_(makeSimulator(reading.scene, private_node.getNamespace())),
+    : params_(reading.node),
+      simulator_(makeSimulator(reading.scene, private_node.getNamespace())),
       frames_(node, reading.node.world_frame),
       inputs_(node, frames_),
       obstacles_(reading.scene, reading.node.obstacle_timeout, frames_),
       hands_(private_node, reading.node.grasp_timeout, frames_, inputs_),
       outputs_(private_node, reading.node, simulator_, frames_),
-      clock_(reading.scene.solver.frame_rate, reading.node.max_catch_up),
+      clock_(reading.scene.solver.frame_rate, reading.node.max_catch_up, reading.node.publish_clock),
+      lock_step_(reading.node.start_paused),
       snapshots_(reading.node.snapshot_file, reading.node.snapshot_period),
-      diagnostics_(node, private_node, reading.node.diagnostic_period, clock_.simulated()) {
+      calls_([this] { wake(); }),
+      diagnostics_(node, private_node, reading.node.diagnostic_period, clock_.follows()) {
   if (reading.node.handles) handles_ = std::make_unique<Handles>(private_node, reading.node, simulator_, inputs_);
   if (!reading.scene.rail.path.empty()) opening_ = std::make_unique<OpenCurtain>(private_node, inputs_);
   if (!reading.scene.tie_back.empty()) tie_backs_ = std::make_unique<TieBacks>(private_node, reading.scene);
-  if (reading.node.watch_roscpp) watch_ = makeWatch(node, private_node, inputs_);
   if (snapshots_.restore(simulator_)) {
     obstacles_.resume(simulator_);
     hands_.restart(simulator_, "the curtain goes on from a snapshot");
+    takeRates();
   } else {
     obstacles_.restart(simulator_);
   }
+  if (reading.node.publish_clock) {
+    clock_publisher_ = std::make_unique<ClockPublisher>();
+    clock_.begin(simulator_.time());
+    clock_publisher_->publish(clock_.rosTime());
+  }
+  startServices(private_node);
+  if (reading.node.watch_roscpp) startWatch(node, private_node);
   const curtain::Scene& scene = simulator_.scene();
   ROS_INFO_STREAM("curtain of " << simulator_.rows() << " x " << simulator_.columns() << " nodes, "
                                 << scene.obstacles.size() << " obstacle(s), method "
@@ -61,6 +65,37 @@ CurtainNode::CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& pri
   thread_ = std::thread([this] { run(); });
 }
 
+void CurtainNode::startServices(const ros::NodeHandle& private_node) {
+  ControlServices::Actions control;
+  control.reset = [this] { restart("the curtain was reset"); };
+  control.set_paused = [this](bool paused) { setPaused(paused); };
+  control.lock_step = &lock_step_;
+  if (clock_.follows()) {
+    control.no_step = "the node follows /clock, which others drive: step that, or set ~publish_clock";
+  }
+  control_services_ = std::make_unique<ControlServices>(private_node, calls_, control);
+
+  FileServices::Actions file;
+  file.restore = [this](const std::string& snapshot) { return restore(snapshot); };
+  Tuning::Actions tuning;
+  tuning.take = [this](const curtain_sim::CurtainConfig& values) { tune(values); };
+  tuning.present = [this] { return liveValues(simulator_.scene(), params_); };
+  tuning_ = std::make_unique<Tuning>(private_node, calls_, tuning);
+  file_services_ = std::make_unique<FileServices>(private_node, calls_, simulator_, file);
+}
+
+void CurtainNode::startWatch(const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
+  std::vector<std::string> topics = inputs_.topics(), services;
+  for (const char* tf : {"/tf", "/tf_static"}) topics.push_back(node.resolveName(tf));
+  for (const char* own : {"handles/feedback", "open"}) topics.push_back(private_node.resolveName(own));
+  for (const char* own : {"reset", "pause", "step", "save", "load", "export_mesh", "set_parameters"})
+    services.push_back(private_node.resolveName(own));
+  if (tie_backs_) services.push_back(private_node.resolveName("tie_back"));
+  // dynamic_reconfigure's values are parameters, too: of now, not of the start.
+  watch_ = std::make_unique<RoscppWatch>(private_node.getNamespace(), topics, services, [this] { tuning_->refresh(); });
+}
+
+// Frames, and messages of what became of them, come at an end; then the answers to those who wait for some.
 void CurtainNode::stop() {
   if (!thread_.joinable()) return;
   {
@@ -69,15 +104,19 @@ void CurtainNode::stop() {
   }
   stop_signal_.notify_all();
   thread_.join();
+  calls_.close();
+  lock_step_.end(kStops);
   snapshots_.finish(simulator_);
 }
 
 void CurtainNode::run() {
   while (!stopping()) {
+    calls_.work();
     const std::int64_t now = clock_.now();
-    if (now > 0) makeFrames(now);
+    if (now > 0) lock_step_.paused() ? pause(now) : makeFrames(now);
+    if (lock_step_.asked()) makeAskedFrame();
     if (diagnostics_.wanted()) diagnostics_.answer(health());
-    waitForNextFrame();
+    if (!lock_step_.asked()) waitForNextFrame();
   }
 }
 
@@ -85,26 +124,54 @@ void CurtainNode::makeFrames(std::int64_t now) {
   const StepClock::Due due = clock_.update(now);
   if (due.restarted) {
     frames_.clear();
-    restart();
+    restart("/clock jumped back");
   }
   for (int i = 0; i < due.frames && !stopping(); ++i) makeFrame(clock_.take(), i + 1 == due.frames);
   clock_.logLosses(simulator_.statistics().step_seconds);
-  if (due.frames > 0) snapshots_.update(simulator_, now);
+  if (due.frames > 0) snapshots_.update(simulator_, clock_.nodeTime());
 }
 
-void CurtainNode::makeFrame(const ros::Time& stamp, bool latest) {
+// Messages are taken all the same: mailboxes are small.
+void CurtainNode::pause(std::int64_t now) {
+  const StepClock::Due due = clock_.pass(now);
+  if (due.restarted) {
+    frames_.clear();
+    restart("/clock jumped back");
+  }
+  if (due.frames == 0) return;
+  applyInputs();
+  outputs_.showAgain(clock_.rosTime());
+}
+
+void CurtainNode::makeAskedFrame() {
+  const ros::Time stamp = clock_.takeInPause();
+  makeFrame(stamp, lock_step_.lastOfRequest());
+  LockStep::Answer made;
+  made.frame = static_cast<std::uint64_t>(simulator_.statistics().frames);
+  made.simulated_time = simulator_.time();
+  made.stamp = stamp;
+  lock_step_.made(made);
+  snapshots_.update(simulator_, clock_.nodeTime());
+}
+
+void CurtainNode::applyInputs() {
   inputs_.apply(simulator_);
   if (opening_) opening_->apply(simulator_);
   if (tie_backs_) tie_backs_->apply(simulator_);
-  obstacles_.update(simulator_, ros::Time::now());
-  hands_.apply(simulator_, ros::Time::now());
+}
+
+void CurtainNode::makeFrame(const ros::Time& stamp, bool latest) {
+  applyInputs();
+  obstacles_.update(simulator_, clock_.rosTime());
+  hands_.apply(simulator_, clock_.rosTime());
   simulator_.step();
   if (!simulator_.statistics().finite) {
     ROS_ERROR_THROTTLE(2.0, "the state is not finite any more: the curtain starts again from the scene");
     ++not_finite_;
-    restart();
+    restart("the state was not finite any more");
     return;
   }
+  if (clock_publisher_) clock_publisher_->publish(stamp);  // first: nobody gets a stamp ahead of the clock
   outputs_.publish(stamp, nodeStatistics(), latest);
   if (handles_) handles_->update(simulator_);
   if (opening_) opening_->update(simulator_);
@@ -112,13 +179,49 @@ void CurtainNode::makeFrame(const ros::Time& stamp, bool latest) {
   diagnostics_.frameMade();
 }
 
-void CurtainNode::restart() {
+void CurtainNode::restart(const std::string& why) {
   ++restarts_;
   hands_.restart(simulator_, "the curtain started again");
   simulator_.reset();
+  lock_step_.end(why);
   if (opening_) opening_->restart();
   inputs_.restart();
   obstacles_.restart(simulator_);
+}
+
+// Another run goes on here: what belonged to the one until now ends as in restart().
+std::vector<curtain::Problem> CurtainNode::restore(const std::string& snapshot) {
+  std::vector<curtain::Problem> problems = simulator_.restore(snapshot);
+  if (!problems.empty()) return problems;
+  ++restarts_;
+  hands_.restart(simulator_, "a snapshot was loaded");
+  lock_step_.end("a snapshot was loaded");
+  if (opening_) opening_->restart();
+  inputs_.restart();
+  obstacles_.resume(simulator_);
+  takeRates();
+  tuning_->refresh();
+  return problems;
+}
+
+void CurtainNode::setPaused(bool paused) {
+  if (lock_step_.paused() && !paused) clock_.resume();
+  lock_step_.setPaused(paused);
+}
+
+void CurtainNode::tune(const curtain_sim::CurtainConfig& values) {
+  const std::vector<curtain::Problem> problems = takeLiveValues(values, simulator_, params_);
+  if (!problems.empty()) inputs_.refuse("~set_parameters", problems);
+  obstacles_.setTimeout(params_.obstacle_timeout);
+  takeRates();
+}
+
+// The frame rate may have changed, and rates of the outputs are shares of it.
+void CurtainNode::takeRates() {
+  const double rate = simulator_.scene().solver.frame_rate;
+  clock_.setRate(rate);
+  outputs_.tune(params_, rate);
+  if (handles_) handles_->takeFrameRate(rate);
 }
 
 curtain_sim::Statistics CurtainNode::nodeStatistics() const {
@@ -143,6 +246,7 @@ Health CurtainNode::health() const {
   toMessage(simulator_.statistics(), health.statistics);
   health.stretch_tolerance = simulator_.scene().solver.stretch_tolerance;
   health.frame_rate = simulator_.scene().solver.frame_rate;
+  health.paused = lock_step_.paused();
   health.obstacles = obstacles_.health();
   health.snapshots = snapshots_.health();
   health.last_drop = inputs_.lastDrop();
@@ -154,7 +258,17 @@ Health CurtainNode::health() const {
 
 void CurtainNode::waitForNextFrame() {
   std::unique_lock<std::mutex> lock(stop_mutex_);
-  stop_signal_.wait_for(lock, clock_.untilNext(), [this] { return stop_; });
+  stop_signal_.wait_for(lock, clock_.untilNext(), [this] { return stop_ || woken_; });
+  woken_ = false;
+}
+
+// A call waits for the simulation thread. Any thread.
+void CurtainNode::wake() {
+  {
+    const std::lock_guard<std::mutex> lock(stop_mutex_);
+    woken_ = true;
+  }
+  stop_signal_.notify_all();
 }
 
 bool CurtainNode::stopping() {

@@ -2,16 +2,16 @@
 //
 // Floor 5: the wiring of a curtain in ROS. A thread of its own makes the frames:
 //
-//   wait for the clock -> messages -> obstacle frames -> step -> publish
+//   wait for the clock -> calls of services -> messages -> obstacle frames -> step -> publish
 //
 // Callbacks run in whoever spins the given handles' queue and only leave messages; no lock is held while solving or
-// publishing. Diagnostics, snapshots and the watch on roscpp, which may have to wait for others, have threads of their
-// own. The same class serves the node program and the nodelet. The rooms, each knows only those above it:
+// publishing. Services, diagnostics, snapshots and the watch on roscpp, which may have to wait for others, have threads
+// of their own. The same class serves the node program and the nodelet. The rooms, each knows only those above it:
 //
 //   parameters  time  frames                      what the node is told; when frames are due; poses on tf2
 //   inputs  obstacles  outputs  snapshots  watch  what it does; watch, which looks into roscpp, can be switched off
-//   opening  hands  health                        the rail's drive and tie-backs; grasps; what it says of itself on
-//                                                 /diagnostics
+//   opening  hands  health  services              the rail's drive and tie-backs; grasps; what it says of itself; is
+//   asked for tuning                                        what is changed meanwhile
 #pragma once
 
 #include <ros/node_handle.h>
@@ -32,8 +32,14 @@
 #include "ros/opening/tie_backs.h"
 #include "ros/outputs/outputs.h"
 #include "ros/parameters/parameters.h"
+#include "ros/services/calls.h"
+#include "ros/services/control_services.h"
+#include "ros/services/file_services.h"
+#include "ros/services/lock_step.h"
 #include "ros/snapshots/snapshot_keeper.h"
+#include "ros/time/clock_publisher.h"
 #include "ros/time/frame_clock.h"
+#include "ros/tuning/tuning.h"
 #include "ros/watch/roscpp_watch.h"
 
 namespace curtain_ros {
@@ -42,15 +48,15 @@ class CurtainNode {
  public:
   /// Reads the parameters, builds the curtain and starts.
   ///   node          wind_source and drag_force are in its namespace
-  ///   private_node  parameters, ~open, ~open_curtain, ~tie_back, ~grasp, ~state, ~mesh, ~markers, ~contacts, ~handles;
-  ///   also its name on /diagnostics
+  ///   private_node  parameters, what is published, services, actions; also its name on /diagnostics
   /// Throws ParameterError with every problem.
   CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
 
   ~CurtainNode() { stop(); }
 
-  /// Makes no more frames, and writes the last snapshot where one is asked for: within the computing time of a frame,
-  /// and what the disk takes. Asks nobody else: what remains for the destructor may have to wait for the ROS master.
+  /// Makes no more frames, answers callers of services that wait for some, and writes the last snapshot where one is
+  /// asked for: within the computing time of a frame, and what the disk takes. Asks nobody else: what remains for the
+  /// destructor may have to wait for the ROS master.
   void stop();
 
   CurtainNode(const CurtainNode&) = delete;
@@ -61,13 +67,24 @@ class CurtainNode {
 
   void run();
   void makeFrames(std::int64_t now);
+  void pause(std::int64_t now);
   void makeFrame(const ros::Time& stamp, bool latest);
-  void restart();
+  void makeAskedFrame();
+  void applyInputs();
+  void restart(const std::string& why);
+  std::vector<curtain::Problem> restore(const std::string& snapshot);
+  void setPaused(bool paused);
+  void tune(const curtain_sim::CurtainConfig& values);
+  void takeRates();
+  void startServices(const ros::NodeHandle& private_node);
+  void startWatch(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
   void waitForNextFrame();
+  void wake();
   bool stopping();
   curtain_sim::Statistics nodeStatistics() const;
   Health health() const;
 
+  NodeParams params_;  // as they are now
   curtain::Simulator simulator_;
   Frames frames_;
   Inputs inputs_;
@@ -78,14 +95,21 @@ class CurtainNode {
   std::unique_ptr<OpenCurtain> opening_;  // none without a rail
   std::unique_ptr<TieBacks> tie_backs_;   // none without one in the scene
   FrameClock clock_;
+  std::unique_ptr<ClockPublisher> clock_publisher_;  // none unless ~publish_clock
+  LockStep lock_step_;
   SnapshotKeeper snapshots_;
-  std::unique_ptr<RoscppWatch> watch_;  // none unless ~watch_roscpp
   std::uint32_t restarts_ = 0;
   std::uint32_t not_finite_ = 0;
 
   std::mutex stop_mutex_;
   std::condition_variable stop_signal_;
   bool stop_ = false;
+  bool woken_ = false;
+  Calls calls_;
+  std::unique_ptr<ControlServices> control_services_;
+  std::unique_ptr<Tuning> tuning_;
+  std::unique_ptr<FileServices> file_services_;
+  std::unique_ptr<RoscppWatch> watch_;  // none unless ~watch_roscpp
   Diagnostics diagnostics_;
   std::thread thread_;
 };

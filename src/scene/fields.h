@@ -236,6 +236,7 @@ struct Fields<ObstacleParams> {
     v.vector("position", obstacle.pose.position, anywhere());
     v.rotation("orientation", obstacle.pose.orientation);
     v.numberOrUnset("friction", obstacle.friction, between(0.0, 10.0));
+    v.number("press", obstacle.press, notNegative());
     v.number("padding", obstacle.padding, notNegative());
     v.vector("color", obstacle.color, between(0.0, 1.0));
     v.flag("visible", obstacle.visible);

@@ -262,6 +262,10 @@ std::vector<Problem> validate(const SolverParams& solver, const std::string& key
   return problemsOf(solver, key, [](ProblemLog&) {});
 }
 
+std::vector<Problem> validate(const ContactParams& contact, const std::string& key) {
+  return problemsOf(contact, key, [](ProblemLog&) {});
+}
+
 std::vector<Problem> validate(const ObstacleParams& obstacle, const std::string& key) {
   return problemsOf(obstacle, key, [&](ProblemLog& log) { checkObstacle(obstacle, key, log); });
 }

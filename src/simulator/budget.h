@@ -29,6 +29,8 @@ class Budget {
     return std::chrono::duration<double>(Clock::now() - begin).count();
   }
 
+  /// Sets the limit; 0: none. Between frames.
+  void take(double milliseconds) noexcept { seconds_ = 1e-3 * milliseconds; }
   bool any() const noexcept { return seconds_ > 0.0; }
   void forget() noexcept;
 

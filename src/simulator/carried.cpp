@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLargest = std::numeric_limits<double>::max();
+constexpr double kLeast = std::numeric_limits<double>::min();
 constexpr std::int64_t kCount = 1 << 30;  // bound of counters: adding to them can't overflow an int
 constexpr std::int64_t kMany = std::int64_t{1} << 53;
 
@@ -259,6 +260,10 @@ void EnergyLedger::carry(Archive& archive) {
 // revision, which belongs to this simulator's users.
 void Simulator::Impl::carry(Archive& archive) {
   archive.finite("gravity", scene.gravity);
+  archive.within("friction", scene.contact.friction, 0.0, 10.0);
+  archive.within("stretch_tolerance", scene.solver.stretch_tolerance, 1e-12, 0.1);
+  if (errors) archive.within("position_tolerance", scene.solver.position_tolerance, kLeast, 1.0);
+  archive.within("budget_ms", scene.solver.budget_ms, 0.0, 1e6);
   archive.part("state", motion.state);
   archive.group("forces", [&] { motion.forces.carry(archive, scene.air); });
   archive.part("obstacles", motion.obstacles);
@@ -287,7 +292,11 @@ void Simulator::Impl::resume() noexcept {
   pins.resume();
   takePins();
   takeGravity();
+  takeFriction();
+  takeStretchTolerance();
+  takeBudget();
   takeFrame();
+  takePositionTolerance();
   opening.resume();
   motion.exact.resume(sleep.rest().asleep(), motion.state);
   motion.contact.skipSubstep();

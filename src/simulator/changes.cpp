@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Changes by the user between frames: frame rate and state of the cloth.
+// Changes by the user between frames: keys of the scene that may change, and the state of the cloth. Gravity and air:
+// simulator.cpp.
 #include <algorithm>
 #include <string>
 
@@ -69,6 +70,79 @@ std::vector<Problem> Simulator::setFrameRate(double rate) {
   im.times.setRate(rate);
   im.takeFrame();
   if (im.errors) im.errors->takeFrame();
+  return problems;
+}
+
+void Simulator::Impl::takeFriction() noexcept {
+  motion.obstacles.takeFriction(scene.contact.friction);
+  motion.contact.takeFriction(scene.contact.friction);
+}
+
+void Simulator::Impl::takeStretchTolerance() noexcept {
+  const double tolerance = scene.solver.stretch_tolerance;
+  motion.exact.takeStretchTolerance(tolerance);
+  motion.contact.takeStretchTolerance(tolerance);
+  sleep.rest().takeStretchTolerance(tolerance);
+}
+
+void Simulator::Impl::takePositionTolerance() noexcept {
+  if (errors) errors->takeTolerance(scene.solver.position_tolerance);
+  sleep.takeLimits();
+}
+
+void Simulator::Impl::takeBudget() noexcept {
+  budget.take(scene.solver.budget_ms);
+  if (!budget.any()) controls.allowAll();
+}
+
+std::vector<Problem> Simulator::setFriction(double friction) {
+  Impl& im = *impl_;
+  ContactParams params = im.scene.contact;
+  params.friction = friction;
+  std::vector<Problem> problems = validate(params, "contact");
+  if (!problems.empty() || friction == im.scene.contact.friction) return problems;
+  im.scene.contact.friction = friction;
+  im.takeFriction();
+  im.sleep.rest().disturbAll();
+  return problems;
+}
+
+std::vector<Problem> Simulator::setStretchTolerance(double tolerance) {
+  Impl& im = *impl_;
+  SolverParams params = im.scene.solver;
+  params.stretch_tolerance = tolerance;
+  std::vector<Problem> problems = validate(params, "solver");
+  if (!problems.empty() || tolerance == im.scene.solver.stretch_tolerance) return problems;
+  im.scene.solver.stretch_tolerance = tolerance;
+  im.takeStretchTolerance();
+  im.motion.contact.invalidateStart();
+  im.sleep.rest().disturbAll();
+  return problems;
+}
+
+std::vector<Problem> Simulator::setPositionTolerance(double tolerance) {
+  Impl& im = *impl_;
+  SolverParams params = im.scene.solver;
+  params.position_tolerance = tolerance;
+  std::vector<Problem> problems = validate(params, "solver");
+  if (!problems.empty() || tolerance == im.scene.solver.position_tolerance) return problems;
+  // The reference run has memory of its own, and is a part of snapshots.
+  const bool asked = im.scene.solver.position_tolerance > 0.0;
+  if (asked && tolerance == 0.0) return {{"solver.position_tolerance", "must stay above 0: the scene asks for one"}};
+  if (!asked) return {{"solver.position_tolerance", "must stay 0: the scene asks for none"}};
+  im.scene.solver.position_tolerance = tolerance;
+  im.takePositionTolerance();
+  return problems;
+}
+
+std::vector<Problem> Simulator::setBudget(double ms) {
+  Impl& im = *impl_;
+  SolverParams params = im.scene.solver;
+  params.budget_ms = ms;
+  std::vector<Problem> problems = validate(params, "solver");
+  if (!problems.empty() || ms == im.scene.solver.budget_ms) return problems;
+  im.scene.solver.budget_ms = ms;
+  im.takeBudget();
   return problems;
 }
 

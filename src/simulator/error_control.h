@@ -30,6 +30,7 @@ class ErrorControl {
   void lose() noexcept { reference_.lost = true; }
 
   void reset() noexcept { estimate_.reset(); }
+  void takeTolerance(double tolerance) noexcept { estimate_.takeTolerance(tolerance); }
   /// The frames' length has changed.
   void takeFrame() noexcept;
   void carry(Archive& archive);

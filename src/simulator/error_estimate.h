@@ -31,6 +31,7 @@ class ErrorEstimate {
   }
 
   void reset() noexcept;
+  void takeTolerance(double tolerance) noexcept { tolerance_ = tolerance; }
   /// Sets the length of the next frames [s]; the next comparison starts at once.
   void takeFrame(double length) noexcept;
 

@@ -3,18 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
-#include <fstream>
+#include <cstring>
+#include <filesystem>
 #include <iomanip>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
+
+#include "simulator/whole_file.h"
 
 namespace curtain {
 namespace {
-
-bool endsWith(const std::string& text, const std::string& ending) {
-  return text.size() >= ending.size() && text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
-}
 
 void writePly(const FineMesh& mesh, const FineMeshTopology& topology, std::ostream& out) {
   out << "ply\nformat ascii 1.0\nelement vertex " << mesh.positions.size()
@@ -27,6 +28,37 @@ void writePly(const FineMesh& mesh, const FineMeshTopology& topology, std::ostre
 void writeObj(const FineMesh& mesh, const FineMeshTopology& topology, std::ostream& out) {
   for (const Vec3& p : mesh.positions) out << "v " << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
   for (const auto& t : topology.triangles) out << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
+}
+
+void put(std::uint32_t value, std::size_t bytes, std::string& out) {
+  for (std::size_t k = 0; k < bytes; ++k) out.push_back(static_cast<char>(value >> (8 * k) & 0xFFU));
+}
+
+void put(const Vec3& vector, std::string& out) {
+  for (const double value : {vector.x(), vector.y(), vector.z()}) {
+    const auto single = static_cast<float>(value);
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &single, sizeof bits);
+    put(bits, 4, out);
+  }
+}
+
+// Binary STL: 80 bytes of anything but "solid", the number of facets, and for each its normal, three corners and an
+// unused 16-bit number; little-endian (Burns, Automated Fabrication, 1993, Sect. 6.5). A facet without an area has the
+// normal 0, which readers work out themselves.
+std::string stlFile(const FineMesh& mesh, const FineMeshTopology& topology) {
+  constexpr std::size_t kHeader = 80, kFacet = 50;
+  std::string out = "binary STL, metres";
+  out.reserve(kHeader + 4 + kFacet * topology.triangles.size());
+  out.resize(kHeader, ' ');
+  put(static_cast<std::uint32_t>(topology.triangles.size()), 4, out);
+  for (const auto& t : topology.triangles) {
+    const Vec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
+    put((b - a).cross(c - a).stableNormalized(), out);
+    for (const Vec3* corner : {&a, &b, &c}) put(*corner, out);
+    put(0, 2, out);
+  }
+  return out;
 }
 
 // The value below which the given share of the samples lies.
@@ -56,16 +88,29 @@ void writeState(const Simulator& simulator, std::ostream& out) {
   }
 }
 
+std::optional<MeshFormat> meshFormatOf(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending == ".ply") return MeshFormat::kPly;
+  if (ending == ".obj") return MeshFormat::kObj;
+  if (ending == ".stl") return MeshFormat::kStl;
+  return std::nullopt;
+}
+
+std::string meshFile(const FineMesh& mesh, const FineMeshTopology& topology, MeshFormat format) {
+  if (format == MeshFormat::kStl) return stlFile(mesh, topology);
+  std::ostringstream out;
+  out << std::setprecision(9);
+  (format == MeshFormat::kPly ? writePly : writeObj)(mesh, topology, out);
+  return out.str();
+}
+
 void writeMesh(const Simulator& simulator, const std::string& path) {
-  const bool ply = endsWith(path, ".ply");
-  if (!ply && !endsWith(path, ".obj")) throw std::invalid_argument(path + ": a mesh file must end in .ply or .obj");
-  std::ofstream out(path);
+  const std::optional<MeshFormat> format = meshFormatOf(path);
+  if (!format) throw std::invalid_argument(path + ": a mesh file must end in " + kMeshEndings);
   FineMesh mesh;
   simulator.copyFineMesh(mesh);
-  out << std::setprecision(9);
-  (ply ? writePly : writeObj)(mesh, simulator.fineMeshTopology(), out);
-  out.flush();
-  if (!out) throw std::runtime_error(path + ": cannot be written");
+  const std::vector<Problem> problems = writeWholeFile(path, meshFile(mesh, simulator.fineMeshTopology(), *format));
+  if (!problems.empty()) throw std::runtime_error(describe(problems));
 }
 
 std::string statisticsJson(const Simulator& simulator, const Energy& initial,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,16 @@ namespace curtain {
 void writeStateHeader(std::ostream& out);
 void writeState(const Simulator& simulator, std::ostream& out);
 
-/// The fine mesh as .ply (ASCII) or .obj, by the path's ending; throws std::invalid_argument for another one.
+/// Kinds of mesh files, with the endings of their names, for messages.
+enum class MeshFormat { kPly, kObj, kStl };
+constexpr char kMeshEndings[] = ".ply, .obj or .stl";
+std::optional<MeshFormat> meshFormatOf(const std::string& path);  ///< by the name's ending; none: another one
+
+/// A mesh as the content of a file: PLY and OBJ as text with 9 digits, STL as binary, single precision, facets' normals
+/// by the right-hand rule. In metres.
+std::string meshFile(const FineMesh& mesh, const FineMeshTopology& topology, MeshFormat format);
+
+/// The fine mesh as a file, whole or not at all; throws std::invalid_argument for another ending than kMeshEndings.
 void writeMesh(const Simulator& simulator, const std::string& path);
 
 /// What curtain_batch --stats writes. frame_seconds: computing time of every frame [s].

@@ -8,6 +8,16 @@
 #include "simulator/hand_pose.h"
 
 namespace curtain {
+namespace {
+
+// Links that are pulled apart may pull with anything.
+Vec3 withinNumbers(const Vec3& pull) noexcept {
+  if (!pull.allFinite()) return Vec3::Zero();
+  const double size = pull.stableNorm();
+  return size > kLargest ? Vec3(kLargest / size * pull) : pull;
+}
+
+}  // namespace
 
 bool Grasps::anyMoves() const noexcept {
   return std::any_of(list_.begin(), list_.end(), [](const Grasp& grasp) { return grasp.moves(); });
@@ -170,13 +180,14 @@ bool Grasps::end(double share, const ClothState& state) noexcept {
   bool ends = false;
   for (Grasp& grasp : list_) {
     if (!grasp.holds()) continue;
+    const Vec3 pull = grasp.counted > 0.0 ? Vec3(grasp.impulse / grasp.counted) : grasp.force;
     if (grasp.counted > 0.0) {
-      grasp.force = grasp.impulse / grasp.counted;
-      grasp.torque = grasp.angular / grasp.counted;
+      grasp.force = withinNumbers(pull);
+      grasp.torque = withinNumbers(grasp.angular / grasp.counted);
     }
     grasp.from = share < 1.0 ? between(grasp.from, grasp.to, share) : grasp.to;
     // Written so that pulls beyond numbers break it.
-    if (grasp.params.break_force <= kLargest && !(grasp.force.norm() < grasp.params.break_force)) {
+    if (grasp.params.break_force <= kLargest && !(pull.stableNorm() < grasp.params.break_force)) {
       grasp.end = GraspEnd::kBroken;
     } else if (grasp.slid) {
       changeHeld(grasp, state);

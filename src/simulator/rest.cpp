@@ -50,6 +50,8 @@ Rest::Rest(const ClothPattern& pattern, double frame_length, double thickness, d
   place_.assign(pattern.grid.size(), 0.0);
 }
 
+void Rest::takeStretchTolerance(double tolerance) noexcept { jitter_ = kJitter * tolerance * shortestLink(pattern_); }
+
 // A swing of this speed has an amplitude of speed / omega. Overdamped cloth as far from rest is slower, by omega m / c.
 void Rest::setLimits(double speed, double gravity, double damping_per_mass, double height) noexcept {
   const double omega = kLowestFrequency * std::sqrt(gravity / height);

@@ -34,6 +34,8 @@ class Rest {
   /// damping_per_mass  the largest of any node [1/s]: overdamped cloth creeps back to rest, so it must be slower
   void setLimits(double speed, double gravity, double damping_per_mass, double height) noexcept;
 
+  void takeStretchTolerance(double tolerance) noexcept;
+
   /// Sets the length of the next frames [s]. setLimits() must follow.
   void takeFrame(double length) noexcept { frame_length_ = length; }
 

@@ -27,6 +27,10 @@ struct Simulator::Impl {
   void step();
   void takeGravity() noexcept;
   void takeFrame() noexcept;
+  void takeFriction() noexcept;
+  void takeStretchTolerance() noexcept;
+  void takePositionTolerance() noexcept;
+  void takeBudget() noexcept;
   void takePins();
   void driven() noexcept;
   template <typename Change>
@@ -35,7 +39,7 @@ struct Simulator::Impl {
   void resume() noexcept;
   std::uint32_t layout();
 
-  Scene scene;           // gravity, air and the frame rate may change
+  Scene scene;           // some keys may change, see Simulator::scene()
   ClothPattern pattern;  // its pins may change (repin())
   FrameTimes times;
   Motion motion;

@@ -10,15 +10,27 @@
 namespace curtain {
 namespace {
 
-// Scene keys that may differ: gravity, air and the frame rate come with the snapshot, the bits do not depend on the
-// number of threads, and of a mesh the triangles are compared, not the path.
+// Scene keys that may differ: those that may change come with the snapshot, the bits do not depend on the number of
+// threads, and of a mesh the triangles are compared, not the path.
 const std::vector<std::string> kAside = {"gravity",
                                          "air",
+                                         "contact.friction",
                                          "solver.frame_rate",
+                                         "solver.stretch_tolerance",
+                                         "solver.position_tolerance",
+                                         "solver.budget_ms",
                                          "solver.threads",
                                          "obstacles[].mesh",
                                          "obstacles[].color",
                                          "obstacles[].visible"};
+
+// What a position tolerance takes is there or not from the start: it comes with the snapshot only where both have one.
+std::optional<Problem> toleranceOnOneSide(const Scene& ours, const std::string& snapshot) {
+  const double theirs = readSceneText(snapshot).scene.solver.position_tolerance;
+  if ((ours.solver.position_tolerance > 0.0) == (theirs > 0.0)) return std::nullopt;
+  const char* const text = theirs > 0.0 ? "is asked for there, not here" : "is asked for here, not there";
+  return Problem{"solver.position_tolerance", text + std::string(": the snapshot is of another scene")};
+}
 
 }  // namespace
 
@@ -44,6 +56,7 @@ std::vector<Problem> Simulator::restore(const std::string& snapshot) {
       return {{problem->key, problem->text + ": the snapshot is of another scene"}};
     }
     if (parts.layout != impl_->layout()) {
+      if (auto problem = toleranceOnOneSide(impl_->scene, std::string(parts.scene))) return {*problem};
       return {{"snapshot", "holds other things than this program does: it is of another build"}};
     }
     Archive archive = Archive::loading(parts.carried);

@@ -5,56 +5,18 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
 #include <new>
-#include <system_error>
 #include <utility>
 
 #include "simulator/snapshot_format.h"
+#include "simulator/whole_file.h"
 
 namespace curtain {
 namespace {
 
 // Larger files are not read, whatever their header says: a snapshot of the largest cloth is smaller.
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 34;
-
-// Closes its descriptor.
-class File {
- public:
-  explicit File(int descriptor) : descriptor_(descriptor) {}
-  ~File() { close(); }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-
-  bool isOpen() const { return descriptor_ >= 0; }
-  int descriptor() const { return descriptor_; }
-  // False: what was written may be lost.
-  bool close() {
-    const int descriptor = std::exchange(descriptor_, -1);
-    return descriptor < 0 || ::close(descriptor) == 0;
-  }
-
- private:
-  int descriptor_;
-};
-
-std::vector<Problem> failed(const std::string& path, const std::string& what) {
-  return {{path, what + ": " + std::generic_category().message(errno)}};
-}
-
-bool writeAll(int descriptor, const std::string& bytes) {
-  for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t count = ::write(descriptor, bytes.data() + done, bytes.size() - done);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return false;
-    done += static_cast<std::size_t>(count);
-  }
-  return true;
-}
 
 // Reads up to so many bytes; fewer: end of file. -1: see errno.
 ssize_t readUpTo(int descriptor, char* to, std::size_t most) {
@@ -69,97 +31,30 @@ ssize_t readUpTo(int descriptor, char* to, std::size_t most) {
   return static_cast<ssize_t>(done);
 }
 
-// Tries names beside the file until take(name) succeeds: it makes the file, or fails with EEXIST if another thread or
-// process uses the name. False: it failed with another errno.
-template <typename Take>
-bool takeNameBeside(const std::string& path, std::string& name, const Take& take) {
-  static std::atomic<unsigned> next{0};
-  do {
-    name = path + ".tmp-" + std::to_string(::getpid()) + '-' + std::to_string(next++);
-    if (take(name.c_str())) return true;
-  } while (errno == EEXIST);
-  return false;
-}
-
-std::string folderOf(const std::string& path) {
-  const std::string folder = std::filesystem::path(path).parent_path().string();
-  return folder.empty() ? "." : folder;
-}
-
-// Names the file only when it is complete, so that nothing is left when the process is killed. Not all file systems can
-// do that.
-bool writeNamedAtLast(const std::string& path, const std::string& bytes, std::string& name) {
-  File file(::open(folderOf(path).c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666));
-  if (!file.isOpen() || !writeAll(file.descriptor(), bytes) || ::fsync(file.descriptor()) != 0) return false;
-  const std::string nameless = "/proc/self/fd/" + std::to_string(file.descriptor());
-  return takeNameBeside(path, name, [&](const char* to) {
-    return ::linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, to, AT_SYMLINK_FOLLOW) == 0;
-  });
-}
-
-// Fallback: a file with a name from the start. On failure it is removed, and errno says why.
-bool writeNamed(const std::string& path, const std::string& bytes, std::string& name) {
-  int descriptor = -1;
-  const auto create = [&](const char* as) {
-    descriptor = ::open(as, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);  // reduced by the umask
-    return descriptor >= 0;
-  };
-  if (!takeNameBeside(path, name, create)) return false;
-  File file(descriptor);
-  if (writeAll(descriptor, bytes) && ::fsync(descriptor) == 0 && file.close()) return true;
-  const int why = errno;
-  ::unlink(name.c_str());
-  errno = why;
-  return false;
-}
-
-// Makes the new name survive a power failure; some file systems can't.
-bool syncFolderOf(const std::string& path) {
-  const File file(::open(folderOf(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!file.isOpen()) return errno == EACCES;  // writable but not readable
-  return ::fsync(file.descriptor()) == 0 || errno == EINVAL || errno == ENOTSUP;
-}
-
 }  // namespace
 
 std::vector<Problem> writeSnapshotFile(const std::string& path, const std::string& snapshot) {
-  std::error_code ignored;
-  const bool is_link = std::filesystem::is_symlink(path, ignored) && std::filesystem::exists(path, ignored);
-  const std::string target = is_link ? std::filesystem::canonical(path, ignored).string() : path;
-  if (std::filesystem::exists(target, ignored) && !std::filesystem::is_regular_file(target, ignored)) {
-    return {{path, "cannot be written: it is not a file"}};
-  }
-  std::string name;
-  if (!writeNamedAtLast(target, snapshot, name) && !writeNamed(target, snapshot, name)) {
-    return failed(path, "cannot be written");
-  }
-  if (std::rename(name.c_str(), target.c_str()) != 0) {
-    std::vector<Problem> problems = failed(path, "cannot be written");
-    ::unlink(name.c_str());
-    return problems;
-  }
-  if (!syncFolderOf(target)) return failed(path, "is written, but may not outlast a power failure");
-  return {};
+  return writeWholeFile(path, snapshot);
 }
 
 std::vector<Problem> readSnapshotFile(const std::string& path, std::string& out) {
   // O_NONBLOCK: opening a pipe without a writer would block.
   const File file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
-  if (!file.isOpen()) return failed(path, "cannot be read");
+  if (!file.isOpen()) return failedOn(path, "cannot be read");
   struct stat status {};
-  if (::fstat(file.descriptor(), &status) != 0) return failed(path, "cannot be read");
+  if (::fstat(file.descriptor(), &status) != 0) return failedOn(path, "cannot be read");
   if (!S_ISREG(status.st_mode)) return {{path, "cannot be read: it is not a file"}};
   const auto size = static_cast<std::uint64_t>(status.st_size);
   try {
     std::string bytes(kSnapshotHeader, '\0');
     const ssize_t begun = readUpTo(file.descriptor(), bytes.data(), bytes.size());
-    if (begun < 0) return failed(path, "cannot be read");
+    if (begun < 0) return failedOn(path, "cannot be read");
     bytes.resize(static_cast<std::size_t>(begun));
     if (auto problem = judgeHeader(bytes, size)) return {{path, problem->text}};
     if (size > kMostBytes) return {{path, "is too large for a snapshot: " + std::to_string(size) + " bytes"}};
     bytes.resize(size);
     const ssize_t rest = readUpTo(file.descriptor(), bytes.data() + kSnapshotHeader, size - kSnapshotHeader);
-    if (rest < 0) return failed(path, "cannot be read");
+    if (rest < 0) return failedOn(path, "cannot be read");
     if (static_cast<std::uint64_t>(rest) != size - kSnapshotHeader)
       return {{path, "cannot be read: it changes meanwhile"}};
     out = std::move(bytes);

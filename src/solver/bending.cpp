@@ -27,6 +27,15 @@ void clear(Field3& field) noexcept {
   for (Field* one : {&field.x, &field.y, &field.z}) std::fill(one->begin(), one->end(), 0.0);
 }
 
+// What acts on the ends of cords, which do not bend.
+void copyEnds(const Grid& grid, const Field3& force, Field3& sum) noexcept {
+  const auto from = static_cast<std::ptrdiff_t>(grid.row(grid.rows));
+  const auto copy = [from](const Field& f, Field& to) { std::copy(f.begin() + from, f.end(), to.begin() + from); };
+  copy(force.x, sum.x);
+  copy(force.y, sum.y);
+  copy(force.z, sum.z);
+}
+
 }  // namespace
 
 Bending::Bending(const ClothPattern& pattern, const Workers& workers)
@@ -92,6 +101,7 @@ void Bending::addStraight(const Field3& force, const Field3& position, Field3& s
   const Grid& grid = pattern_.grid;
   if (warp_.bend() && !gives_) {
     workers_.run(warpBlockCount(grid), [&](int block) { bendWarp(grid, warp_, force, position, block, sum); });
+    copyEnds(grid, force, sum);
   } else {
     sum = force;
     if (warp_.bend()) addWarpGiving(position, sum);

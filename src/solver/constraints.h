@@ -64,6 +64,12 @@ class Constraints {
     return cords_.any() ? Vec3(pull + cords_.pullAt(pattern_.grid.index(row, column))) : pull;
   }
 
+  /// Sets the relative overlength that the links' compliance may reach.
+  void takeTolerance(double tolerance) noexcept {
+    weft_.most_give = tolerance;
+    cords_.takeMostGive(tolerance);
+  }
+
   Carriers& carriers() noexcept { return carriers_; }
   const Carriers& carriers() const noexcept { return carriers_; }
   CordLinks& cords() noexcept { return cords_; }

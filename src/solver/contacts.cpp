@@ -20,7 +20,7 @@ Vec3 bounded(const Vec3& slide, double most) {
 
 }  // namespace
 
-void beginContacts(const Field& inverse_inertia, double ratio, std::size_t first, Contacts& contacts,
+void beginContacts(const Field& inverse_inertia, double scale, double ratio, std::size_t first, Contacts& contacts,
                    Field3& position) noexcept {
   for (std::size_t n = first; n < contacts.size(); ++n) {
     Contact& contact = contacts[n];
@@ -31,8 +31,9 @@ void beginContacts(const Field& inverse_inertia, double ratio, std::size_t first
     }
     contact.pressed = contact.pushes();
     contact.push *= ratio;
-    contact.slide = bounded(ratio * across(contact.normal, contact.slide), contact.friction * contact.push);
-    contact.sticks = contact.pushes() && contact.slide.norm() < kSticksBelow * contact.friction * contact.push;
+    contact.hold = scale * contact.friction * contact.press;
+    contact.slide = bounded(ratio * across(contact.normal, contact.slide), contact.mostSlide());
+    contact.sticks = contact.pushes() && contact.slide.norm() < kSticksBelow * contact.mostSlide();
     if (!contact.pushes()) continue;
     contact.move(inverse_inertia, contact.push * contact.normal + contact.slide, position);
   }
@@ -92,7 +93,7 @@ void projectFriction(const Field& inverse_inertia, Contacts& contacts, Field3& p
     if (contact.sticks || contact.friction == 0.0 || contact.mobility <= 0.0) continue;
     if (!contact.pushes() && contact.slide.squaredNorm() == 0.0) continue;
     const Vec3 slip = across(contact.normal, contact.point(position) - contact.carried);
-    const double most = contact.friction * contact.push;
+    const double most = contact.mostSlide();
     const Vec3 wanted = contact.slide - slip / contact.mobility;
     const Vec3 change = bounded(wanted, most) - contact.slide;
     contact.slide += change;
@@ -102,10 +103,10 @@ void projectFriction(const Field& inverse_inertia, Contacts& contacts, Field3& p
 
 void takeUpContact(const Field& inverse_inertia, double push, const Vec3& slide, Contact& contact,
                    Field3& position) noexcept {
-  const double push_change = std::max(push, -contact.push);
+  const double push_change = contact.boundedChange(push);
   contact.push += push_change;
   Vec3 slide_change = slide;
-  const double most = contact.friction * contact.push;
+  const double most = contact.mostSlide();
   const Vec3 wanted = contact.slide + slide;
   if (contact.sticks && wanted.squaredNorm() > most * most) {
     slide_change = bounded(wanted, most) - contact.slide;
@@ -119,7 +120,7 @@ void projectContacts(const Field& inverse_inertia, Contacts& contacts, Field3& p
   for (Contact& contact : contacts) {
     if (contact.mobility <= 0.0) continue;
     const double entered = contact.offset - contact.normal.dot(contact.point(position));
-    const double change = std::max(entered / contact.mobility, -contact.push);
+    const double change = contact.boundedChange(entered / contact.mobility);
     contact.push += change;
     contact.sticks = false;
     contact.move(inverse_inertia, change * contact.normal, position);

@@ -8,8 +8,12 @@
 // normal multiplier `push` and tangential multiplier `slide` move the nodes by
 //     x_k += w_k weight_k (push normal + slide),   push >= 0, |slide| <= friction push,
 // so over a substep of length h whose forces act for a time `kick` the forces are (push, slide) / (h kick) [N].
+//
+// A node that two obstacles pinch, which press on it from both sides by a given force, is one contact: two-sided, since
+// either obstacle pushes with press + or - half of `push`, and with a friction bound that does not depend on `push`.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -20,18 +24,22 @@ namespace curtain {
 
 struct Contact {
   static constexpr int kCloth = -1;
+  static constexpr std::uint32_t kNowhere = ~std::uint32_t{0};
 
   std::array<std::uint32_t, 4> node{};  ///< in the grid's fields
   std::array<double, 4> weight{};
   int nodes = 1;                ///< how many of the four are used
   int obstacle = kCloth;        ///< index, or kCloth
+  int other = kCloth;           ///< pinched: the obstacle on the other side, which the normal points to
   Vec3 normal = Vec3::UnitZ();  ///< unit, towards the allowed side
   double offset = 0.0;          ///< [m]
   double recovery = 0.0;        ///< part of the offset that takes out penetration [m]; the last resort may skip it
   Vec3 carried = Vec3::Zero();  ///< point at the end of the substep without slip [m]; only its tangential part is read
   Vec3 surface_velocity = Vec3::Zero();  ///< of what the point touches [m/s]
-  double friction = 0.0;                 ///< Coulomb coefficient, >= 0
-  double push = 0.0;                     ///< normal multiplier [kg m]
+  double friction = 0.0;                 ///< Coulomb coefficient, >= 0; pinched: the sum of both sides'
+  double press = 0.0;                    ///< pinched: what either side presses with [N]; 0: not pinched
+  double hold = 0.0;                     ///< friction * press as a multiplier [kg m]
+  double push = 0.0;                     ///< normal multiplier [kg m], >= 0 unless pinched
   Vec3 slide = Vec3::Zero();             ///< tangential multiplier [kg m]
   double mobility = 0.0;                 ///< sum of weight^2 w, inverse effective mass of the point [1/kg]
   bool pressed = false;                  ///< it pushed when the substep began
@@ -52,14 +60,18 @@ struct Contact {
       value.add(node[at], (inverse_inertia[node[at]] * weight[at]) * multiplier);
     }
   }
-  bool pushes() const noexcept { return push > 0.0; }
+  bool pushes() const noexcept { return push > 0.0 || press > 0.0; }
+  /// Bound of slide [kg m].
+  double mostSlide() const noexcept { return press > 0.0 ? hold : friction * push; }
+  /// A change of push within its bound.
+  double boundedChange(double change) const noexcept { return press > 0.0 ? change : std::max(change, -push); }
 };
 
 using Contacts = std::vector<Contact>;
 
 /// Starts a solve with the contacts from `first` on: sets their mobility and warm-starts them with their multipliers
-/// times `ratio`, which moves the nodes.
-void beginContacts(const Field& inverse_inertia, double ratio, std::size_t first, Contacts& contacts,
+/// times `ratio`, which moves the nodes. scale: h * kick [s^2].
+void beginContacts(const Field& inverse_inertia, double scale, double ratio, std::size_t first, Contacts& contacts,
                    Field3& position) noexcept;
 
 /// Penetration [m], or (negative) separation of a contact that pushes; 0: the constraint is satisfied.

@@ -39,6 +39,7 @@ class CordLinks {
   /// outlive this.
   CordLinks(const ClothPattern& pattern, double most_give, double links);
 
+  void takeMostGive(double most_give) noexcept { most_give_ = most_give; }
   bool any() const noexcept { return !all_.empty(); }
   const std::vector<CordLink>& all() const noexcept { return all_; }
   const CordsPattern& pattern() const noexcept { return pattern_.cords; }
@@ -132,7 +133,8 @@ class CordLinks {
   Vec3 sumAt(std::size_t node, double CordLink::*multiplier) const noexcept;
 
   const ClothPattern& pattern_;
-  const double most_give_, links_;
+  double most_give_;
+  const double links_;
   std::vector<CordLink> all_;
   std::vector<std::uint8_t> closed_;  // by loop
   std::vector<double> reach_;         // of the loops at the end of the substep [m]

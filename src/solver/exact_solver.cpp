@@ -41,6 +41,13 @@ ExactSolver::ExactSolver(const ClothPattern& pattern, double stretch_tolerance, 
       bdf2_(pattern),
       last_resort_(pattern, constraints_.cords()) {}
 
+void ExactSolver::takeStretchTolerance(double tolerance) noexcept {
+  stretch_tolerance_ = tolerance;
+  constraints_.takeTolerance(kInnerTolerance * tolerance);
+  sweeps_.takeTolerances(tolerance, tolerance * smallest_rest_);
+  guard_.takeStretchTolerance(tolerance);
+}
+
 void ExactSolver::reset() noexcept {
   gained_ = {};
   constraints_.reset();
@@ -152,7 +159,8 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const Attempt& attempt) noexce
   all.contacts = contacts;
   while (true) {
     if (contacts != nullptr) {
-      beginContacts(inertia_.inverse(), attempt.ratio, known, *contacts, constraints_.next);
+      beginContacts(inertia_.inverse(), std::abs(attempt.step * attempt.kick), attempt.ratio, known, *contacts,
+                    constraints_.next);
       constraints_.settleCarriers();
       known = contacts->size();
       if (known > 0 && task.path == 0.0) task.path = plan.h * std::sqrt(meanSquare(attempt.state.velocity));

@@ -27,6 +27,9 @@ class ExactSolver {
   /// Reserves room for so many contacts; more make a substep allocate.
   void expectContacts(std::size_t count) { constraints_.expectContacts(count); }
 
+  /// Sets the relative overlength allowed to a link, between substeps.
+  void takeStretchTolerance(double tolerance) noexcept;
+
   /// Forgets the tensions of the last substep.
   void reset() noexcept;
 

@@ -22,6 +22,7 @@ class KineticGuard {
   /// stretch_tolerance: relative; links: a typical link's length [m]. pattern and inertia must outlive this.
   KineticGuard(const ClothPattern& pattern, const NodeInertia& inertia, double stretch_tolerance, double links);
 
+  void takeStretchTolerance(double tolerance) noexcept { stretch_tolerance_ = tolerance; }
   /// The pattern's pins have changed.
   void takePins() noexcept;
 
@@ -60,7 +61,8 @@ class KineticGuard {
 
   const ClothPattern& pattern_;
   const NodeInertia& inertia_;
-  const double stretch_tolerance_, links_;
+  double stretch_tolerance_;
+  const double links_;
   std::vector<std::size_t> pins_;  // with room for every node
 };
 

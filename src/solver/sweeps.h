@@ -77,6 +77,11 @@ class Sweeps {
   Sweeps(Constraints& constraints, const NodeInertia& inertia, double tolerance, double contact_tolerance,
          int most_sweeps);
 
+  void takeTolerances(double tolerance, double contact_tolerance) noexcept {
+    tolerance_ = kInnerTolerance * tolerance;
+    contact_tolerance_ = kInnerTolerance * contact_tolerance;
+  }
+
   /// Moves constraints.next to satisfy links and contacts; contacts: null where nothing can touch.
   SweepOutcome run(const SweepTask& task, Contacts* contacts, StageClock& clock) noexcept;
 
@@ -104,8 +109,8 @@ class Sweeps {
 
   Constraints& constraints_;
   const NodeInertia& inertia_;
-  const double tolerance_;          // inside the solver, relative
-  const double contact_tolerance_;  // [m]
+  double tolerance_;          // inside the solver, relative
+  double contact_tolerance_;  // [m]
   const int most_sweeps_;
   Best best_;                // iterate of a monotone solve
   double most_touch_ = 0.0;  // final tolerance of contacts [m]

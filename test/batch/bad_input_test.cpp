@@ -70,7 +70,7 @@ TEST_F(BadInput, UnknownAndIncompleteOptionsAreRefused) {
   expectRefused({good, "--sample", "0.2,0.1"}, {"--sample", "0.2,0.1"});
   expectRefused({good, "--sample", "-1"}, {"--sample", "'-1'"});
   expectRefused({good, "--sample", ""}, {"--sample"});
-  expectRefused({good, "--mesh", "mesh.stl"}, {"--mesh", "mesh.stl", ".ply", ".obj"});
+  expectRefused({good, "--mesh", "mesh.dae"}, {"--mesh", "mesh.dae", ".ply", ".obj", ".stl"});
 }
 
 TEST_F(BadInput, OverridesAreJudgedLikeTheSceneItself) {
@@ -95,8 +95,11 @@ TEST_F(BadInput, OutputsInMissingFoldersAreRefused) {
 
 // What is written last is noticed too: a short file may wait in a buffer until it is closed.
 TEST_F(BadInput, OutputsOnAFullDiskAreAFailure) {
-  const std::pair<const char*, const char*> outputs[] = {
-      {"--out", "full.csv"}, {"--mesh", "full.ply"}, {"--mesh", "full.obj"}, {"--stats", "full.json"}};
+  const std::pair<const char*, const char*> outputs[] = {{"--out", "full.csv"},
+                                                         {"--mesh", "full.ply"},
+                                                         {"--mesh", "full.obj"},
+                                                         {"--mesh", "full.stl"},
+                                                         {"--stats", "full.json"}};
   for (const auto& [option, name] : outputs) {
     std::filesystem::create_symlink("/dev/full", folder_ / name);
     const Outcome run = batch({smallScene(), "--duration", "0.1", "--sample", "0.1", option, name});

@@ -2,7 +2,9 @@
 //
 // Every option of curtain_batch does what its help says, and the files it writes have the columns, digits, keys and
 // counts that tools outside the package rely on.
+#include <Eigen/Geometry>
 #include <cmath>
+#include <cstring>
 #include <set>
 
 #include "batch/batch_testing.h"
@@ -228,6 +230,29 @@ TEST_F(Options, ObjHoldsTheFineMeshCountedFromOne) {
   EXPECT_EQ(faces, 72);
   EXPECT_EQ(lowest, 1);
   EXPECT_EQ(highest, 50);
+}
+
+// 80 bytes, the number of facets, and for each a normal by the right-hand rule and three corners.
+TEST_F(Options, StlHoldsTheFineMesh) {
+  const std::string mesh = path("mesh.stl");
+  ASSERT_EQ(batch({smallScene(), "--duration", "0.1", "--mesh", mesh}).exit_code, 0);
+  const std::string bytes = readFile(mesh);
+  ASSERT_EQ(bytes.size(), 84u + 72u * 50u);
+  EXPECT_NE(bytes.substr(0, 5), "solid") << "that is how text begins";
+  std::uint32_t count = 0;
+  std::memcpy(&count, bytes.data() + 80, 4);
+  EXPECT_EQ(count, 72u);
+  for (std::size_t at = 84; at < bytes.size(); at += 50) {
+    float f[12];
+    std::memcpy(f, bytes.data() + at, sizeof f);
+    const Eigen::Vector3f normal(f[0], f[1], f[2]), a(f[3], f[4], f[5]), b(f[6], f[7], f[8]), c(f[9], f[10], f[11]);
+    const Eigen::Vector3f across = (b - a).cross(c - a);
+    ASSERT_GT(across.norm(), 0.0f);
+    // Corners are rounded to 24 bits, of edges a tenth to a thousandth of the coordinates.
+    EXPECT_NEAR(normal.dot(across.normalized()), 1.0f, 1e-3f);
+    EXPECT_NEAR(normal.norm(), 1.0f, 1e-6f);
+    EXPECT_TRUE(bytes[at + 48] == 0 && bytes[at + 49] == 0);
+  }
 }
 
 TEST_F(Options, MeshNamesMayHaveDotsAndFoldersInThem) {

@@ -32,8 +32,10 @@ constexpr int kFiner = 16;
 constexpr double kMostFrames = 1e4;  // a second, that a scene may have
 // Of the paper's rods, relative: they are rebuilt to rounding (5e-15 is measured), that of the places apart.
 constexpr double kPaperRods = 1e-12;
-// After a hand that may have pulled them apart [s]: links come back at the speed of a fall.
+// After a hand that may have pulled them apart [s]: links come back at the speed of a fall. But not from beyond this
+// share of their length: cloth that is torn so far may jam.
 constexpr double kComesBack = 0.5;
+constexpr double kTorn = 0.1;
 // A node deeper than this is inside [m]: a tenth of the thickness may lack, the rest is rounding.
 constexpr double kInside = 1e-6;
 
@@ -164,7 +166,10 @@ class Court {
       if (hand.stiffness > 0.0 || hand.pinch_force > 0.0) continue;
       const auto state = simulator_.graspState("hand" + std::to_string(k));
       if (!state || state->nodes.empty()) continue;
-      forced_until_ = simulator_.time() + kComesBack;
+      const Statistics& s = simulator_.statistics();
+      const bool torn = std::max(s.warp_stretch, s.weft_stretch) > kTorn;
+      forced_until_ =
+          std::max(forced_until_, torn ? std::numeric_limits<double>::infinity() : simulator_.time() + kComesBack);
       std::fill(judged_.begin(), judged_.end(), false);
     }
   }

@@ -4,9 +4,13 @@
 import sys
 import time
 
+import rospy
 import rostest
-from curtain_testing import billow, wind_message
+from curtain_sim.srv import Step
+from curtain_testing import Listener, billow, wait_until, wind_message
 from driven_curtain import DrivenCurtain
+from std_srvs.srv import SetBool
+from visualization_msgs.msg import Marker
 
 FRAME = DrivenCurtain.FRAME
 
@@ -75,6 +79,30 @@ class ClockTest(DrivenCurtain):
         self.run_until(self.now + 0.2)
         self.assertEqual(self.curtain.last().statistics.absent_obstacles, 1, "its transform is of another run")
         drive_with_ball(lambda s: s.statistics.absent_obstacles == 0, -0.6, "the ball comes back")
+
+    def test_6_pause_stops_the_frames_while_the_clock_runs(self):
+        """What the clock passes by is neither made nor dropped; frames by ~step are for clocks that are not others'."""
+        self.assertTrue(rospy.ServiceProxy("/curtain/pause", SetBool)(True).success)
+        answer = rospy.ServiceProxy("/curtain/step", Step)(1)
+        self.assertFalse(answer.success)
+        self.assertIn("the node follows /clock", answer.message)
+        before, start = self.curtain.last(), self.now
+        mesh = Listener("/curtain/mesh", Marker)  # who comes in a pause sees the curtain, too
+
+        def seen():
+            """Sets the clock on; the time that the node is known to have passed by."""
+            self.set_clock(self.now + FRAME)
+            return mesh.last() and mesh.last().header.stamp.to_sec()
+        passed = wait_until(lambda: (seen() or 0.0) >= start + 50 * FRAME - 1e-6 and seen(), "a second passes by")
+        mesh.close()
+        self.assertTrue(rospy.ServiceProxy("/curtain/pause", SetBool)(False).success)
+        self.set_clock(self.now + FRAME)
+        goal = self.now
+        state = self.curtain.wait_for(lambda s: abs(s.header.stamp.to_sec() - goal) < 1e-6, "the next frame is made")
+        late = round((goal - passed) / FRAME)  # what it may have missed while it went on
+        frames = state.statistics.frame - before.statistics.frame
+        dropped = state.statistics.dropped_frames - before.statistics.dropped_frames
+        self.assertLessEqual(frames + dropped, late)
 
 
 if __name__ == "__main__":

@@ -132,6 +132,20 @@ TEST(HealthChecks, SlowerThanTheClockIsWarnedOf) {
   EXPECT_EQ(simulation(health, 0.0, rises, 0.0).level, DiagnosticStatus::OK) << "not known yet";
 }
 
+// A pause is no fault, and nobody is slow in it.
+TEST(HealthChecks, APauseIsNoFault) {
+  Rises rises;
+  Health health = well();
+  health.statistics.real_time_factor = 0.1;
+  EXPECT_EQ(simulation(health, 60.0, rises, 0.0).level, DiagnosticStatus::ERROR);
+  health.paused = true;
+  EXPECT_EQ(simulation(health, 60.0, rises, 0.0).level, DiagnosticStatus::OK);
+  EXPECT_EQ(simulation(health, 60.0, rises, 0.0).message, "paused");
+  DiagnosticStatusWrapper status;
+  checkSimulation(health, {at(0.0), ros::SteadyTime()}, rises, status);
+  EXPECT_EQ(status.level, DiagnosticStatus::OK) << "from the start on";
+}
+
 // A thread that makes no frames although the clock runs is an error; a /clock that stands is not.
 TEST(HealthChecks, FramesThatStandStillAreAnError) {
   Rises rises;

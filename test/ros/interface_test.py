@@ -56,7 +56,10 @@ class InterfaceTest(unittest.TestCase):
                          ["/stage/drag_force", "/stage/wind_source"], "no obstacle: no tf2")
         self.assertEqual(sorted(t for t in outputs if t != "/rosout" and "handles" not in t),
                          ["/diagnostics", NODE + "/contacts", NODE + "/loads", NODE + "/markers", NODE + "/mesh",
-                          NODE + "/state"])
+                          NODE + "/parameter_descriptions", NODE + "/parameter_updates", NODE + "/state"])
+        served = [service for service, nodes in master.getSystemState()[2] if NODE in nodes]
+        self.assertEqual(sorted(s[len(NODE) + 1:] for s in served if "handles" not in s and "logger" not in s),
+                         ["export_mesh", "load", "pause", "reset", "save", "set_parameters", "step"])
         self.assertEqual(types["/stage/wind_source"], "curtain_sim/WindSource")
         self.assertEqual(types["/stage/drag_force"], "curtain_sim/DragForce")
 

@@ -3,6 +3,7 @@
 """The nodelet loads, publishes, listens, refuses a bad scene without harming its manager, and unloads at once."""
 import subprocess
 import sys
+import threading
 import time
 import unittest
 
@@ -10,7 +11,9 @@ import roslib.packages
 import rospy
 import rostest
 from curtain_sim.msg import WindSource
+from curtain_sim.srv import Step
 from curtain_testing import Curtain, billow, publisher, wait_until, wind_message
+from std_srvs.srv import SetBool
 
 
 class NodeletTest(unittest.TestCase):
@@ -31,10 +34,35 @@ class NodeletTest(unittest.TestCase):
         self.assertNotEqual(self.nodelet("load", "curtain_sim/CurtainNodelet", "manager", "__name:=bad"), 0)
         self.curtain.next()
 
-    def test_3_unloads_at_once(self):
+    def test_3_serves(self):
+        """Whoever waits for many frames holds up neither others nor the stream of this manager."""
+        rospy.wait_for_service("/curtain/step")
+        step, pause = rospy.ServiceProxy("/curtain/step", Step), rospy.ServiceProxy("/curtain/pause", SetBool)
+        self.assertTrue(pause(True).success)
+        self.waiting = []
+        caller = threading.Thread(target=lambda: self.waiting.append(step(100000)), daemon=True)
+        caller.start()
+        before = self.curtain.next().statistics.frame
+        answer = rospy.ServiceProxy("/curtain/step", Step)(3)
+        self.assertTrue(answer.success, answer.message)
+        self.assertGreaterEqual(answer.frame, before + 3)
+        self.assertTrue(pause(False).success)
+        caller.join(20.0)
+        self.assertIn("told to go on", self.waiting[0].message)
+
+    def test_4_unloads_at_once(self):
+        """Also while somebody waits for frames, who is told."""
+        self.assertTrue(rospy.ServiceProxy("/curtain/pause", SetBool)(True).success)
+        answers = []
+        caller = threading.Thread(target=lambda: answers.append(rospy.ServiceProxy("/curtain/step", Step)(100000)),
+                                  daemon=True)
+        caller.start()
+        self.curtain.next()
         start = time.monotonic()
         self.assertEqual(self.nodelet("unload", "/curtain", "manager"), 0)
         self.assertLess(time.monotonic() - start, 1.5, "less than a second, and the start of the tool")
+        caller.join(20.0)
+        self.assertEqual([answer.message.split(":")[0] for answer in answers], ["the node stops"])
         wait_until(lambda: self.curtain._subscriber.get_num_connections() == 0, "its topics are gone")
 
     @staticmethod

@@ -72,6 +72,40 @@ TEST(StepClock, ForgivesRounding) {
   }
 }
 
+// In a pause frames are left out, but not counted; afterwards the grid goes on, without a jump.
+TEST(StepClock, PassesOverAPause) {
+  StepClock clock(10.0, 4);
+  clock.update(kSecond);
+  clock.update(kSecond + kSecond / 10);
+  clock.take();
+  EXPECT_EQ(clock.pass(kSecond + kSecond / 8).frames, 0);
+  EXPECT_EQ(clock.pass(100 * kSecond + kSecond / 20).frames, 1);
+  EXPECT_EQ(clock.pass(100 * kSecond + kSecond / 20).frames, 0);
+  EXPECT_EQ(clock.update(100 * kSecond + kSecond / 20).frames, 0);
+  EXPECT_EQ(clock.next(), 100 * kSecond + kSecond / 10);
+  EXPECT_EQ(clock.update(100 * kSecond + kSecond / 10).frames, 1);
+  EXPECT_EQ(clock.dropped(), 0U);
+  EXPECT_TRUE(clock.pass(50 * kSecond).restarted) << "it sees a clock that jumps back";
+}
+
+// With other frames the grid begins at the last frame, or where the clock was seen last: nothing is late by it.
+TEST(StepClock, ChangesItsRate) {
+  StepClock clock(10.0, 4);
+  clock.update(kSecond);
+  clock.update(2 * kSecond);
+  for (int i = 0; i < 4; ++i) clock.take();
+  clock.update(2 * kSecond + kSecond / 20);
+  const std::uint64_t dropped = clock.dropped();
+  clock.setRate(1000.0);
+  EXPECT_EQ(clock.next(), 2 * kSecond + kSecond / 20 + kSecond / 1000);
+  EXPECT_EQ(clock.update(2 * kSecond + kSecond / 20 + kSecond / 1000).frames, 1);
+  clock.take();
+  clock.take();  // ahead of the clock, as a grid of stamps is
+  clock.setRate(1.0);
+  EXPECT_EQ(clock.next(), 2 * kSecond + kSecond / 20 + 2 * kSecond / 1000 + kSecond);
+  EXPECT_EQ(clock.dropped(), dropped);
+}
+
 // A clock that stands still asks for nothing.
 TEST(StepClock, PausesWithTheClock) {
   StepClock clock(10.0, 1);

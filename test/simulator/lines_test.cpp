@@ -66,6 +66,26 @@ double pendulum(double angle, double time) {
   return angle;
 }
 
+// Whether the cloth bends or not, a load falls freely until its line is taut, and then hangs with its weight.
+TEST(Lines, ALoadHasItsWeightBelowClothThatBends) {
+  for (const double rigidity : {0.0, 2e-5}) {
+    Scene scene = loadScene({{11, 8}}, 1.0);
+    scene.cloth.bending_warp = scene.cloth.bending_weft = rigidity;
+    scene.lines[0].to = scene.hang.from + Vec3(0.45, 0.0, -1.5);  // half a metre of slack
+    scene.air.inside = scene.air.border = scene.air.corner = 0.2;
+    Simulator simulator(scene);
+    const double start = simulator.lineEnd("line")->z();
+    run(simulator, 15);
+    const double fall = 0.5 * kG * 0.25 * 0.25;
+    EXPECT_NEAR(start - simulator.lineEnd("line")->z(), fall, 1e-9) << rigidity;
+    Simulator restored(scene);
+    ASSERT_TRUE(restored.restore(simulator.snapshot()).empty());
+    EXPECT_EQ(energyOf(restored), energyOf(simulator)) << rigidity;
+    run(simulator, 900);
+    EXPECT_NEAR(simulator.linePull("line").z(), kG, 1e-3 * kG) << rigidity;
+  }
+}
+
 TEST(Lines, ALoadOnARopeIsAPendulum) {
   const double angle = 0.5;
   Scene scene = flatScene(2, 2);

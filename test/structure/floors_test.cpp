@@ -11,8 +11,8 @@
 // So do the rooms of contact and of ros, with what puts them together above them:
 //
 //   0 shapes < 1 narrow_phase, oracle < 2 broad_phase < 3 response < 4 contact's own files
-//   0 parameters, time, frames < 1 inputs, obstacles, outputs, snapshots, watch < 2 opening, hands, health < 3 ros' own
-//   files
+//   0 parameters, time, frames < 1 inputs, obstacles, outputs, snapshots, watch < 2 opening, hands, health, services
+//     < 3 tuning < 4 ros' own files
 //
 // Rooms of ros at the same height do not know each other.
 #include <gtest/gtest.h>
@@ -34,9 +34,9 @@ const std::map<std::string, int> kFolders = {{"scene", 0},   {"cloth", 1},     {
                                              {"contact", 3}, {"simulator", 4}, {"ros", 5},    {"rviz", 5}};
 using Rooms = std::map<std::string, int>;
 const Rooms kContactRooms = {{"shapes", 0}, {"narrow_phase", 1}, {"oracle", 1}, {"broad_phase", 2}, {"response", 3}};
-const Rooms kRosRooms = {{"parameters", 0}, {"time", 0},    {"frames", 0},    {"inputs", 1},
-                         {"obstacles", 1},  {"outputs", 1}, {"snapshots", 1}, {"watch", 1},
-                         {"opening", 2},    {"hands", 2},   {"health", 2}};
+const Rooms kRosRooms = {{"parameters", 0}, {"time", 0},      {"frames", 0}, {"inputs", 1},  {"obstacles", 1},
+                         {"outputs", 1},    {"snapshots", 1}, {"watch", 1},  {"opening", 2}, {"hands", 2},
+                         {"health", 2},     {"services", 2},  {"tuning", 3}};
 constexpr int kAboveRooms = 4;
 constexpr int kRos = 5;
 constexpr int kPrograms = 6;
@@ -65,12 +65,15 @@ const std::set<std::string> kRosFolders = {"ros",
                                            "console_bridge",
                                            "rospack"};
 
-/// A message, a service, or a message of an action: NAMEAction.h, NAMEGoal.h, …
+/// A message, a service, dynamic_reconfigure's NAMEConfig.h, or a message of an action: NAMEAction.h, NAMEGoal.h, …
 bool isMessage(const std::string& header) {
   const std::string name = header.substr(0, header.size() - 2);
   const std::filesystem::path root(CURTAIN_SOURCE_DIR);
   if (std::filesystem::exists(root / "msg" / (name + ".msg"))) return true;
   if (std::filesystem::exists(root / "srv" / (name + ".srv"))) return true;
+  const std::size_t config = name.rfind("Config");
+  if (config != std::string::npos && std::filesystem::exists(root / "cfg" / (name.substr(0, config) + ".cfg")))
+    return true;
   const auto entries = std::filesystem::directory_iterator(root / "action");
   return std::any_of(begin(entries), end(entries),
                      [&](const auto& entry) { return name.rfind(entry.path().stem().string(), 0) == 0; });

@@ -44,6 +44,11 @@ class ClothFlatness {
     end_.known = false;
   }
   void invalidate() noexcept { start_.known = end_.known = false; }
+  /// Sets the largest strain of a link [1].
+  void takeOverlong(double overlong) noexcept {
+    overlong_ = overlong;
+    invalidate();
+  }
 
  private:
   // Bounds of the slopes along a and b, over all links.

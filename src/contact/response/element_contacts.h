@@ -36,6 +36,9 @@ struct Crossing {
   Contact contact;  ///< that prevents it
 };
 
+/// Share of the kept distance that may be missing without recovery.
+constexpr double kRestingSlack = 0.1;
+
 /// Signed distance from the padding to require at the end of a substep [m], for a part at `distance` at its start that
 /// should be at `kept`. Parts nearer than that recover by `recovery` at most, and not at all if they lack less than a
 /// tenth: a resting contact must not be shaken by the residual of the solve.

@@ -14,9 +14,6 @@ namespace {
 // Speed of depenetration inside the obstacle, over that inside the gap around it. Parts that start too close (the
 // obstacle appeared or jumped) must come out slowly, not as a blow.
 constexpr double kFasterInside = 20.0;
-// Share of the kept distance that may be missing without recovery.
-constexpr double kSlack = 0.1;
-
 }  // namespace
 
 double ObstacleSubstep::recoveryAt(double distance) const noexcept {
@@ -25,7 +22,7 @@ double ObstacleSubstep::recoveryAt(double distance) const noexcept {
 
 double recoveredDistance(double distance, double kept, double recovery) noexcept {
   if (distance >= kept) return kept;
-  const double least = (1.0 - kSlack) * kept;
+  const double least = (1.0 - kRestingSlack) * kept;
   return distance >= least ? distance : std::min(least, distance + recovery);
 }
 
@@ -45,7 +42,9 @@ bool makeContact(const ObstacleSubstep& substep, const ClothPattern& pattern, co
   contact.normal = moving.after.rotation * point.normal;
   contact.offset = point.height + contact.normal.dot(moving.after.translation);
   // No friction on the way out: it could lock cloth around an edge for good.
-  contact.friction = substep.frictionless || point.distance < 0.0 ? 0.0 : moving.friction;
+  // A pad's is bounded by what it presses with.
+  const bool frictionless = (substep.frictionless && moving.press == 0.0) || point.distance < 0.0;
+  contact.friction = frictionless ? 0.0 : moving.friction;
   contact.recovery = point.recovery;
   contact.carried = moving.after.toWorld(point.start);
   contact.surface_velocity = (contact.carried - moving.before.toWorld(point.start)) / substep.h;
@@ -68,14 +67,37 @@ Contact nodeContact(const ObstacleSubstep& substep, const ClothPattern& pattern,
   return contact;
 }
 
+bool touchesAtStart(const ObstacleCandidates& candidates, std::uint32_t node, SurfacePoint& surface) {
+  const Vec3 from = candidates.startOf(node);
+  return candidates.shape().query(from, from, candidates.nodeReach(), surface);
+}
+
+// Of nodes that a pad may hold, which end where they start: the planes are those of their start. At the end that is
+// predicted without friction a node may be past the pad's edge, where the plane would push it out.
+void collectHeldNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, const ObstacleCandidates& candidates,
+                      Contacts& contacts) noexcept {
+  for (const std::uint32_t node : candidates.nodes()) {
+    const Vec3 from = candidates.startOf(node);
+    SurfacePoint surface;
+    if (candidates.isPinned(node) || !touchesAtStart(candidates, node, surface)) continue;
+    const double distance = surface.distance;
+    surface.distance += surface.normal.dot(candidates.endOf(node) - from);
+    addWithinRoom(nodeContact(substep, pattern, node, candidates, surface, distance), contacts);
+  }
+}
+
 }  // namespace
 
 void collectNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, ObstacleCandidates& candidates,
                   const ExitDirection& exit, Contacts& contacts) noexcept {
   const double reach = candidates.nodeReach();
+  const bool pad = substep.moving.press > 0.0;
+  if (pad) collectHeldNodes(substep, pattern, candidates, contacts);
   for (ObstacleCandidates::NodeEnd& end : candidates.queryEnds(reach)) {
     const std::uint32_t node = end.node;
     const Vec3 from = candidates.startOf(node), to = candidates.endOf(node);
+    SurfacePoint at_start;
+    if (pad && touchesAtStart(candidates, node, at_start)) continue;
     SurfacePoint& surface = end.surface;
     if (surface.distance >= 0.0) candidates.plane(node) = {to, surface, CachedPlane::Kind::kFound};
     double distance = candidates.distanceOf(node);

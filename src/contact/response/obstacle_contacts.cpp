@@ -28,6 +28,7 @@ ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, const ContactPar
       thickness_(params.thickness),
       recovery_speed_(params.recovery_speed),
       obstacles_(obstacles),
+      pads_(pattern, obstacles, thickness_),
       bounds_(pattern) {
   const auto count = static_cast<std::size_t>(obstacles.count());
   if (count == 0) return;
@@ -85,6 +86,7 @@ void ObstacleContacts::begin(const Field3& start, const Field3& predicted, doubl
     std::sort(contacts.begin() + first, contacts.end(), firstOfOne);
     contacts.erase(std::unique(contacts.begin() + first, contacts.end(), alike), contacts.end());
   }
+  pads_.pinch(start, h, contacts);
 }
 
 // Finds candidates for the motion from start to end of every obstacle near it, which become active; false: none is
@@ -183,13 +185,23 @@ void ObstacleContacts::remember(const Contacts& contacts, const Field3& position
   for (Load& load : loads_) load.contacts = 0;
   for (const Contact& contact : contacts) {
     if (contact.obstacle == Contact::kCloth || (!contact.pushes() && contact.slide.isZero(0.0))) continue;
-    const auto obstacle = static_cast<std::size_t>(contact.obstacle);
+    const Vec3 point = contact.point(position);
     const Vec3 impulse = (-outcome.kick / outcome.scale) * (contact.push * contact.normal + contact.slide);
-    const Vec3 arm = contact.point(position) - moving(obstacle).after.translation;
-    loads_[obstacle].impulse += impulse;
-    loads_[obstacle].angular += arm.cross(impulse);
-    loads_[obstacle].contacts += contact.pushes() ? 1 : 0;
+    if (contact.other == Contact::kCloth) {
+      addLoad(contact.obstacle, point, impulse, contact.pushes());
+    } else {
+      const Vec3 pressed = (outcome.kick * contact.press) * contact.normal;
+      addLoad(contact.obstacle, point, 0.5 * impulse - pressed, true);
+      addLoad(contact.other, point, 0.5 * impulse + pressed, true);
+    }
   }
+}
+
+void ObstacleContacts::addLoad(int obstacle, const Vec3& point, const Vec3& impulse, bool pushes) noexcept {
+  Load& load = loads_[static_cast<std::size_t>(obstacle)];
+  load.impulse += impulse;
+  load.angular += (point - obstacles_.moving(obstacle).after.translation).cross(impulse);
+  load.contacts += pushes ? 1 : 0;
 }
 
 void ObstacleContacts::clearCaches() noexcept {

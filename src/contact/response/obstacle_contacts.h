@@ -16,6 +16,7 @@
 #include "cloth/link_ways.h"
 #include "contact/broad_phase/obstacle_candidates.h"
 #include "contact/response/element_contacts.h"
+#include "contact/response/pads.h"
 #include "contact/shapes/obstacle_set.h"
 #include "curtain_sim/statistics.h"
 #include "solver/contacts.h"
@@ -84,6 +85,7 @@ class ObstacleContacts {
   ObstacleSubstep substepOf(std::size_t obstacle) const noexcept {
     return {moving(obstacle), static_cast<int>(obstacle), h_, frictionless_, recovery_speed_, most_recovery_};
   }
+  void addLoad(int obstacle, const Vec3& point, const Vec3& impulse, bool pushes) noexcept;
   bool anyWithin(const Eigen::AlignedBox3d& box) const noexcept;
   Eigen::AlignedBox3d reached(Eigen::AlignedBox3d box) const noexcept;
   bool activate(const Field3& start, const Field3& end, bool links_hold) noexcept;
@@ -94,6 +96,7 @@ class ObstacleContacts {
   double thickness_, recovery_speed_;
   double most_recovery_ = std::numeric_limits<double>::infinity();  // in a substep [m]
   ObstacleSet& obstacles_;
+  Pads pads_;
   SampledBounds bounds_;
   Eigen::AlignedBox3d start_box_;               // around the cloth at the start of the substep
   std::vector<ObstacleCandidates> candidates_;  // by obstacle

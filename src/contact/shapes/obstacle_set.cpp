@@ -95,9 +95,11 @@ ObstacleSet::ObstacleSet(const Scene& scene, const MeshResolver& resolve)
     MovingObstacle moving;
     moving.shape = item.shape.get();
     moving.padding = params.padding;
+    moving.press = params.press;
     moving.bounds = grownBy(params.padding, item.shape->bounds());
     item.radius = moving.bounds.min().cwiseAbs().cwiseMax(moving.bounds.max().cwiseAbs()).norm();
-    moving.friction = std::isnan(params.friction) ? scene.contact.friction : params.friction;
+    item.own_friction = !std::isnan(params.friction);
+    moving.friction = item.own_friction ? params.friction : scene.contact.friction;
     items_.push_back(std::move(item));
     moving_.push_back(moving);
   }
@@ -110,6 +112,12 @@ ObstacleSet::ObstacleSet(const Scene& scene, const MeshResolver& resolve)
   rank_.resize(items_.size());
   for (std::size_t n = 0; n < by_name_.size(); ++n) rank_[at(by_name_[n])] = static_cast<int>(n);
   reset();
+}
+
+void ObstacleSet::takeFriction(double friction) noexcept {
+  for (std::size_t n = 0; n < items_.size(); ++n) {
+    if (!items_[n].own_friction) moving_[n].friction = friction;
+  }
 }
 
 bool ObstacleSet::anyPresent() const noexcept {

@@ -39,6 +39,7 @@ struct Transform {
 struct MovingObstacle {
   const ContactShape* shape = nullptr;
   double friction = 0.0;
+  double press = 0.0;    ///< on what another one presses from the other side [N]
   double padding = 0.0;  ///< kept beyond the thickness [m]
   bool present = true;
   Eigen::AlignedBox3d bounds;  ///< of the shape with its padding, in its frame
@@ -71,6 +72,8 @@ class ObstacleSet {
   void reset() noexcept;
   /// Sets the length of a frame [s].
   void takeFrame(double length) noexcept { frame_length_ = length; }
+  /// Sets the friction of those that have none of their own.
+  void takeFriction(double friction) noexcept;
   /// Sets the pose at the end of the coming frame, or (jump) from now on.
   void setPose(int index, const Pose& pose, bool jump) noexcept;
 
@@ -95,6 +98,7 @@ class ObstacleSet {
     return moving_[at(index)];
   }
   double padding(int index) const { return moving_[at(index)].padding; }
+  double press(int index) const { return moving_[at(index)].press; }
   /// Box around all present obstacles during the frame or more, world frame, as of the last setSubstep(); empty: none.
   const Eigen::AlignedBox3d& sweptBounds() const noexcept { return swept_; }
   /// Box around one of them during the frame, with the arcs of its rotation.
@@ -138,6 +142,7 @@ class ObstacleSet {
     Eigen::AlignedBox3d swept;  // around its motion in the frame, world frame
     bool exact = false;         // that box is no larger than need be
     bool boxed = false;         // and holds until it moves
+    bool own_friction = false;  // the scene names its friction
 
     void carry(Archive& archive);
   };

@@ -23,7 +23,7 @@ namespace curtain_ros {
 class Diagnostics {
  public:
   ///   period           [s], > 0
-  ///   clock_simulated  frames follow /clock
+  ///   clock_simulated  frames follow a /clock that others drive
   Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, double period, bool clock_simulated);
 
   /// Whether answer() is waited for.

@@ -51,6 +51,7 @@ class Report {
 };
 
 void checkPulse(const Health& health, const Pulse& pulse, Report& report) {
+  if (health.paused) return;
   if (pulse.last_frame.isZero()) {
     report.tellIf(true, pulse.clock_simulated ? "no frame yet: /clock does not run" : "no frame yet");
     return;
@@ -80,7 +81,7 @@ void checkSimulation(const Health& health, const Pulse& pulse, Rises& rises, Dia
   checkPulse(health, pulse, report);
   const double stretch = std::max(s.warp_stretch, s.weft_stretch);
   report.tellIf(stretch > health.stretch_tolerance * (1.0 + kRounding), "links longer than stretch_tolerance");
-  report.tellIf(!pulse.clock_simulated && s.real_time_factor > 0.0 && s.real_time_factor < kTooSlow,
+  report.tellIf(!pulse.clock_simulated && !health.paused && s.real_time_factor > 0.0 && s.real_time_factor < kTooSlow,
                 "slower than the clock");
   report.count("substeps stopped", s.stops);
   report.count("substeps unsettled", s.unsettled);
@@ -99,7 +100,7 @@ void checkSimulation(const Health& health, const Pulse& pulse, Rises& rises, Dia
   report.value("stretch tolerance", health.stretch_tolerance);
   report.value("columns asleep", s.asleep);
   report.value("restarts", s.restarts);
-  report.otherwise("runs");
+  report.otherwise(health.paused ? "paused" : "runs");
 }
 
 void checkInputs(const Health& health, const Pulse& pulse, Rises& rises, DiagnosticStatusWrapper& status) {

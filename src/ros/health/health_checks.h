@@ -2,7 +2,7 @@
 //
 // When the node is well, and when it is not. One check for each status on /diagnostics:
 //
-//   simulation  ERROR  the state was not finite; no frame for 5 s although the clock runs
+//   simulation  ERROR  the state was not finite; no frame for 5 s although the clock runs and nobody paused the node
 //               WARN   no frame yet (a /clock that stops later is OK); links longer than the scene's tolerance;
 //                      slower than 0.95 of the clock; lately: substeps unsettled, of the last resort or stopped,
 //                      frames dropped, late or shortened, /clock jumped back, the computer's clock set back
@@ -33,6 +33,7 @@ struct Health {
   curtain_sim::Statistics statistics;
   double stretch_tolerance = 0.0;  ///< of the scene, relative
   double frame_rate = 0.0;         ///< [1/s]
+  bool paused = false;             ///< by ~pause: frames come by ~step alone
   std::vector<ObstacleHealth> obstacles;
   SnapshotHealth snapshots;
   std::string last_drop;       ///< which message was dropped last, and why; empty: none

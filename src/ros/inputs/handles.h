@@ -32,6 +32,9 @@ class Handles {
   /// Serves ~handles. inputs must outlive this.
   Handles(ros::NodeHandle private_node, const NodeParams& params, const curtain::Simulator& simulator, Inputs& inputs);
 
+  /// Frames a second, from now on.
+  void takeFrameRate(double frame_rate);
+
   /// To be called each frame: about ten times a second moves the handles to their nodes, if somebody subscribed and
   /// either may have moved.
   void update(const curtain::Simulator& simulator);

@@ -51,6 +51,9 @@ class ObstacleTracker {
   /// timeout at most, and then jump there.
   void resume(const curtain::Simulator& simulator);
 
+  /// timeout  [s], > 0, from now on
+  void setTimeout(double timeout) { timeout_ = timeout; }
+
   /// To be called before each step. now  of the node's clock, which the transforms' stamps are compared with.
   void update(curtain::Simulator& simulator, const ros::Time& now);
 

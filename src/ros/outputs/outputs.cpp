@@ -42,9 +42,20 @@ Outputs::Outputs(ros::NodeHandle node, const NodeParams& params, const curtain::
       mesh_marker_(params.world_frame, geometry_),
       detail_markers_(params.world_frame, geometry_, params.contact_points),
       plan_rate_(kPlanRate, simulator.scene().solver.frame_rate) {
+  advertiseWrenches(node);
+  tune(params, simulator.scene().solver.frame_rate);
+}
+
+void Outputs::tune(const NodeParams& params, double frame_rate) {
+  for (Stream* stream : {&state_, &loads_, &contacts_}) {
+    stream->pace.setRates(params.state_rate, params.state_rest_rate, frame_rate);
+  }
+  for (Wrench& wrench : wrenches_) wrench.stream.pace.setRates(params.state_rate, params.state_rest_rate, frame_rate);
+  mesh_.pace.setRates(params.mesh_rate, kMarkersAtRest, frame_rate);
+  markers_.pace.setRates(params.markers_rate, kMarkersAtRest, frame_rate);
+  plan_rate_.setRate(kPlanRate, frame_rate);
   detail_.tolerance = params.mesh_tolerance;
   detail_.viewer_tolerance = params.mesh_viewer_tolerance;
-  advertiseWrenches(node);
 }
 
 void Outputs::advertiseWrenches(ros::NodeHandle& node) {
@@ -57,6 +68,11 @@ void Outputs::advertiseWrenches(ros::NodeHandle& node) {
     wrenches_.push_back({{node.advertise<geometry_msgs::WrenchStamped>(topicOf(frame), 2), contacts_.pace},
                          WrenchMessages(frame, on_it)});
   }
+}
+
+void Outputs::showAgain(const ros::Time& stamp) {
+  for (Stream* stream : {&mesh_, &markers_}) stream->pace.tick();
+  publishMarkers(stamp);
 }
 
 void Outputs::publish(const ros::Time& stamp, curtain_sim::Statistics statistics, bool latest) {

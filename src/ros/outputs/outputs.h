@@ -33,6 +33,12 @@ class Outputs {
   ///   latest      false: another frame follows at once, so that markers of this one are not worth building
   void publish(const ros::Time& stamp, curtain_sim::Statistics statistics, bool latest);
 
+  /// In a pause, once a frame's time: ~mesh and ~markers for those who have just come, and once a second.
+  void showAgain(const ros::Time& stamp);
+
+  /// Changes rates and tolerances from the next frame on. frame_rate [1/s]
+  void tune(const NodeParams& params, double frame_rate);
+
   /// Fills in what was sent since construction.
   void count(curtain_sim::Statistics& statistics) const;
 

@@ -4,10 +4,13 @@
 #include <ros/console.h>
 #include <ros/exceptions.h>
 #include <ros/param.h>
+#include <ros/time.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <set>
 
+#include "curtain_sim/CurtainConfig.h"
 #include "curtain_sim/obstacle_shape.h"
 #include "curtain_sim/scene_yaml.h"
 #include "scene/range_checker.h"
@@ -31,6 +34,31 @@ struct Reader : curtain::StrictReader {
 struct Checker : curtain::RangeChecker {
   using RangeChecker::RangeChecker;
   void textOrNone(curtain::Key, const std::string&) {}
+};
+
+// The names of the node's own parameters.
+struct Names {
+  std::set<std::string> all;
+  template <typename... Rest>
+  void text(curtain::Key key, Rest&&...) {
+    all.insert(key.name);
+  }
+  template <typename... Rest>
+  void textOrNone(curtain::Key key, Rest&&...) {
+    all.insert(key.name);
+  }
+  template <typename... Rest>
+  void number(curtain::Key key, Rest&&...) {
+    all.insert(key.name);
+  }
+  template <typename... Rest>
+  void integer(curtain::Key key, Rest&&...) {
+    all.insert(key.name);
+  }
+  template <typename... Rest>
+  void flag(curtain::Key key, Rest&&...) {
+    all.insert(key.name);
+  }
 };
 
 // A scalar as the scene's reader knows it from a file: "!" is text, whatever it looks like, "?" is a value.
@@ -180,10 +208,29 @@ void tryMeshes(ParameterReading& reading) {
 
 }  // namespace
 
+std::vector<curtain::Problem> validate(const NodeParams& params) {
+  curtain::ProblemLog log;
+  Checker checker("", log);
+  curtain::visitFields(checker, params);
+  return log.problems();
+}
+
+std::vector<std::string> tunedSceneParameters() {
+  Names own;
+  NodeParams params;
+  curtain::visitFields(own, params);
+  std::vector<std::string> names;
+  for (const auto& parameter : curtain_sim::CurtainConfig::__getParamDescriptions__()) {
+    if (own.all.count(parameter->name) == 0) names.push_back(parameter->name);
+  }
+  return names;
+}
+
 ParameterReading readParameters(const XmlRpcValue& tree, const std::string& private_space) {
   YAML::Node own = tree.valid() ? toYaml(tree) : YAML::Node(YAML::NodeType::Map);
   const YAML::Node scene = static_cast<const YAML::Node&>(own)[kScene];
   own.remove(kScene);
+  for (const std::string& name : tunedSceneParameters()) own.remove(name);
   const YAML::Node robot = static_cast<const YAML::Node&>(own)[kRobot];
   own.remove(kRobot);
   ParameterReading reading;
@@ -208,6 +255,12 @@ ParameterReading readParameters(const ros::NodeHandle& private_node) {
   ParameterReading reading = readParameters(tree, private_node.getNamespace());
   if (reading.robot) addRobot(private_node, reading);
   for (const std::string& warning : reading.warnings) ROS_WARN_STREAM(warning);
+  if (reading.node.publish_clock && !ros::Time::isSimTime()) {
+    reading.problems.push_back(
+        private_node.getNamespace() +
+        "/publish_clock: needs /use_sim_time: true, set before the node starts; without it nobody "
+        "follows /clock");
+  }
   if (reading.problems.empty()) return reading;
   tryMeshes(reading);
   std::string list = "can't start, " + std::to_string(reading.problems.size()) + " problem(s) with the parameters:";

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The node's private parameters: one table of names, defaults and ranges, read strictly and judged as a whole before
-// anything starts. config/curtain.yaml is their manual. All are read once, at the start.
+// anything starts. config/curtain.yaml is their manual. All are read once, at the start; what changes live comes from
+// dynamic_reconfigure (tuning).
 #pragma once
 
 #include <ros/node_handle.h>
@@ -38,6 +39,8 @@ struct NodeParams {
   std::string snapshot_file;             ///< where the state is kept for the next start; empty: nowhere
   double snapshot_period = 10.0;         ///< [s] of the node's clock between two snapshots
   double diagnostic_period = 1.0;        ///< [s] of the computer's clock between two messages on /diagnostics
+  bool start_paused = false;             ///< no frame before ~pause or ~step asks for it
+  bool publish_clock = false;            ///< the node publishes /clock
   bool watch_roscpp = true;  ///< register with a restarted master, count messages dropped in roscpp's queues
 };
 
@@ -54,6 +57,13 @@ struct ParameterReading {
 ///   tree           struct, or invalid when there are none
 ///   private_space  the tree's name on the parameter server, for messages, e.g. /curtain/curtain_node
 ParameterReading readParameters(const XmlRpc::XmlRpcValue& tree, const std::string& private_space);
+
+/// What is wrong with values of the node's own; empty: nothing.
+std::vector<curtain::Problem> validate(const NodeParams& params);
+
+/// Names of the parameters that dynamic_reconfigure keeps for keys of the scene (cfg/Curtain.cfg). They are there when
+/// a node is started again, and not read.
+std::vector<std::string> tunedSceneParameters();
 
 /// Parameters that a node can't start with; what() lists every problem.
 class ParameterError : public std::runtime_error {
@@ -91,6 +101,8 @@ struct Fields<curtain_ros::NodeParams> {
     v.textOrNone("snapshot_file", params.snapshot_file);
     v.number("snapshot_period", params.snapshot_period, between(0.1, 86400.0));
     v.number("diagnostic_period", params.diagnostic_period, between(0.1, 3600.0));
+    v.flag("start_paused", params.start_paused);
+    v.flag("publish_clock", params.publish_clock);
     v.flag("watch_roscpp", params.watch_roscpp);
   }
 };

@@ -4,6 +4,7 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace curtain_ros {
 
@@ -11,10 +12,43 @@ namespace {
 constexpr std::chrono::milliseconds kClockPoll(1);
 constexpr double kSpeedPeriod = 1.0;  // [s] that the real-time factor is measured over
 constexpr double kWarnPeriod = 5.0;   // [s] between warnings of one kind
+constexpr double kOrigin = 1.0;       // [s] of its own clock
 }  // namespace
 
-StepClock::Due FrameClock::update(std::int64_t now) {
-  const StepClock::Due due = steps_.update(now);
+FrameClock::FrameClock(double frame_rate, int max_catch_up, bool own)
+    : source_(own                      ? Source::kOwn
+              : ros::Time::isSimTime() ? Source::kClock
+                                       : Source::kComputer),
+      frame_rate_(frame_rate),
+      steps_(frame_rate, max_catch_up),
+      own_(frame_rate, max_catch_up) {
+  begin(0.0);
+}
+
+void FrameClock::begin(double seconds) {
+  own_now_ = std::llround(1e9 * (kOrigin + seconds));
+  own_ = StepClock(frame_rate_, 1);
+  own_.update(own_now_);
+}
+
+void FrameClock::setRate(double frame_rate) {
+  if (frame_rate == frame_rate_) return;
+  frame_rate_ = frame_rate;
+  steps_.setRate(frame_rate);
+  own_.setRate(frame_rate);
+  resume();
+}
+
+void FrameClock::resume() {
+  measured_frames_ = 0;
+  measured_since_ = ros::SteadyTime::now();
+  real_time_factor_ = 0.0;
+}
+
+StepClock::Due FrameClock::update(std::int64_t now) { return told(steps_.update(now)); }
+StepClock::Due FrameClock::pass(std::int64_t now) { return told(steps_.pass(now)); }
+
+StepClock::Due FrameClock::told(const StepClock::Due& due) {
   if (due.restarted) {
     ++jumps_back_;
     ROS_WARN("/clock jumped back: the curtain starts again from the scene");
@@ -22,31 +56,34 @@ StepClock::Due FrameClock::update(std::int64_t now) {
   return due;
 }
 
-ros::Time FrameClock::take() {
+ros::Time FrameClock::take() { return stamp(steps_.take()); }
+
+ros::Time FrameClock::takeInPause() { return stamp(now()); }
+
+// time [ns]: of the frame, by the clock that it is due by.
+ros::Time FrameClock::stamp(std::int64_t time) {
   measureSpeed();
-  std::int64_t time = steps_.take();
-  if (!simulated_) {
-    const std::int64_t before = nanoseconds(ros::SteadyTime::now());
-    const std::int64_t ros_time = nanoseconds(ros::Time::now());
-    const std::int64_t after = nanoseconds(ros::SteadyTime::now());
-    time = stamps_.stamp(time, {ros_time - before - (after - before) / 2, after - before});
-  }
-  return ros::Time().fromNSec(static_cast<std::uint64_t>(time));
+  if (source_ == Source::kClock) return toTime(time);
+  if (source_ == Source::kOwn) return toTime(own_now_ = own_.take());
+  const std::int64_t before = nanoseconds(ros::SteadyTime::now());
+  const std::int64_t ros_time = nanoseconds(ros::Time::now());
+  const std::int64_t after = nanoseconds(ros::SteadyTime::now());
+  return toTime(stamps_.stamp(time, {ros_time - before - (after - before) / 2, after - before}));
 }
 
 std::chrono::nanoseconds FrameClock::untilNext() const {
-  if (simulated_) return kClockPoll;
+  if (follows()) return kClockPoll;
   return std::chrono::nanoseconds(std::max<std::int64_t>(steps_.next() - now(), 0));
 }
 
 void FrameClock::logLosses(double step_seconds) {
-  const std::uint64_t dropped = steps_.dropped();
-  if (dropped > logged_dropped_) {
-    ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "dropped " << dropped - logged_dropped_ << " frames (" << dropped
+  const std::uint64_t lost = dropped();
+  if (lost > logged_dropped_) {
+    ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "dropped " << lost - logged_dropped_ << " frames (" << lost
                                                      << " so far): the node is too slow, a frame takes "
                                                      << 1e3 * step_seconds << " ms");
   }
-  logged_dropped_ = dropped;
+  logged_dropped_ = lost;
   if (stamps_.setBack() > logged_set_back_) {
     ROS_WARN("the computer's clock was set back: stamps follow it, the simulation continues");
   }
@@ -64,7 +101,7 @@ void FrameClock::measureSpeed() {
 
 void FrameClock::count(curtain_sim::Statistics& statistics) const {
   statistics.real_time_factor = real_time_factor_;
-  statistics.dropped_frames = steps_.dropped();
+  statistics.dropped_frames = dropped();
   statistics.clock_jumps_back = jumps_back_;
   statistics.clock_set_back = stamps_.setBack();
 }

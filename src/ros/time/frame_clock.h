@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The time that frames follow. Under use_sim_time that is /clock. Otherwise the monotonic clock paces the frames, so
-// that setting the computer's clock does not reset the curtain, and they are stamped with ROS time.
+// The time that frames follow.
+//
+//   /clock, under use_sim_time          frames are due, and stamped, by it
+//   the computer's clock, otherwise     the monotonic clock paces the frames, so that setting the clock does not reset
+//                                       the curtain, and they are stamped with ROS time
+//   its own, with ~publish_clock        the monotonic clock paces the frames. Each takes the clock on by its length,
+//                                       whenever it is made, so none is ever dropped
 #pragma once
 
 #include <ros/time.h>
@@ -18,20 +23,37 @@ namespace curtain_ros {
 /// Simulation thread only.
 class FrameClock {
  public:
-  /// As of StepClock.
-  FrameClock(double frame_rate, int max_catch_up)
-      : simulated_(ros::Time::isSimTime()), frame_rate_(frame_rate), steps_(frame_rate, max_catch_up) {}
+  /// As of StepClock. own: there is no other /clock.
+  FrameClock(double frame_rate, int max_catch_up, bool own);
 
-  bool simulated() const { return simulated_; }
+  /// Frames follow a /clock that others drive.
+  bool follows() const { return source_ == Source::kClock; }
 
-  /// [ns]; 0: no /clock yet.
-  std::int64_t now() const { return simulated_ ? nanoseconds(ros::Time::now()) : nanoseconds(ros::SteadyTime::now()); }
+  /// [ns], by which frames are due; 0: no /clock yet.
+  std::int64_t now() const { return follows() ? nanoseconds(ros::Time::now()) : nanoseconds(ros::SteadyTime::now()); }
 
   /// Frames that are due; warns about a clock that jumped back.
   StepClock::Due update(std::int64_t now);
+  /// The same in a pause, as of StepClock.
+  StepClock::Due pass(std::int64_t now);
 
   /// Takes the next frame that is due; its stamp. Stamps rise, unless /clock jumped back.
   ros::Time take();
+  /// The stamp of a frame that is made in a pause. Not where follows().
+  ros::Time takeInPause();
+
+  /// ROS time as the node goes by: its own clock, or everybody's.
+  ros::Time rosTime() const { return source_ == Source::kOwn ? toTime(own_now_) : ros::Time::now(); }
+
+  /// [ns], for periods of the node's clock.
+  std::int64_t nodeTime() const { return source_ == Source::kOwn ? own_now_ : now(); }
+
+  /// Sets its own clock on by so many seconds, from where it begins: at 1 s, since 0 is no time in ROS.
+  void begin(double seconds);
+  /// Changes the frames' length.
+  void setRate(double frame_rate);
+  /// A pause is over: the speed is measured anew.
+  void resume();
 
   /// Until the next frame is due; a /clock that others drive is polled.
   std::chrono::nanoseconds untilNext() const;
@@ -42,16 +64,26 @@ class FrameClock {
   void count(curtain_sim::Statistics& statistics) const;
 
  private:
+  enum class Source { kClock, kComputer, kOwn };
+
   template <typename Time>
   static std::int64_t nanoseconds(const Time& time) {
     return static_cast<std::int64_t>(time.toNSec());
   }
+  static ros::Time toTime(std::int64_t nanoseconds) {
+    return ros::Time().fromNSec(static_cast<std::uint64_t>(nanoseconds));
+  }
 
+  StepClock::Due told(const StepClock::Due& due);
+  ros::Time stamp(std::int64_t time);
   void measureSpeed();
+  std::uint64_t dropped() const { return source_ == Source::kOwn ? 0 : steps_.dropped(); }
 
-  bool simulated_;
+  Source source_;
   double frame_rate_;
   StepClock steps_;
+  StepClock own_;             // the grid of its own clock
+  std::int64_t own_now_ = 0;  // [ns]
   StampKeeper stamps_;
   std::uint32_t jumps_back_ = 0;
   std::uint64_t logged_dropped_ = 0;

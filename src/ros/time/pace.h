@@ -15,6 +15,9 @@ class RateDivider {
   /// rate [1/s]; 0, and anything above the frame rate: every frame.
   RateDivider(double rate, double frame_rate) : share_(rate > 0.0 ? rate / frame_rate : 1.0) {}
 
+  /// Changes the rates; the phase stays.
+  void setRate(double rate, double frame_rate) { share_ = rate > 0.0 ? rate / frame_rate : 1.0; }
+
   /// To be called each frame. True: this one.
   bool tick() {
     phase_ += share_;
@@ -35,7 +38,13 @@ class Pace {
  public:
   /// Rates [1/s]; 0: every frame. A rest rate of 0: the same as rate.
   Pace(double rate, double rest_rate, double frame_rate)
-      : rate_(rate, frame_rate), rest_frames_(rest_rate > 0.0 ? std::lround(frame_rate / rest_rate) : 0) {}
+      : rate_(rate, frame_rate), rest_frames_(restFrames(rest_rate, frame_rate)) {}
+
+  /// Changes the rates.
+  void setRates(double rate, double rest_rate, double frame_rate) {
+    rate_.setRate(rate, frame_rate);
+    rest_frames_ = restFrames(rest_rate, frame_rate);
+  }
 
   /// To be called each frame.
   void tick() {
@@ -61,6 +70,8 @@ class Pace {
   }
 
  private:
+  static long restFrames(double rate, double frame_rate) { return rate > 0.0 ? std::lround(frame_rate / rate) : 0; }
+
   RateDivider rate_;
   long rest_frames_;
   long frames_since_sent_ = 0;

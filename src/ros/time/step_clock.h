@@ -25,20 +25,27 @@ class StepClock {
 
   /// now  [ns]; the first call starts the grid, its first frame is due one period later.
   Due update(std::int64_t now) {
-    if (!started_ || now < last_) {
-      const Due due = {0, started_};
-      started_ = true;
-      start_ = last_ = now;
-      frame_ = 0;
-      return due;
-    }
-    last_ = now;
-    const auto latest = static_cast<std::int64_t>(std::floor(static_cast<double>(now + kRounding - start_) / period_));
-    const std::int64_t late = std::max<std::int64_t>(latest - frame_, 0);
+    if (startsAt(now)) return start(now);
+    const std::int64_t late = lateAt(now);
     const std::int64_t made = std::min<std::int64_t>(late, max_catch_up_);
     dropped_ += static_cast<std::uint64_t>(late - made);
     frame_ += late - made;
     return {static_cast<int>(made), false};
+  }
+
+  /// The same in a pause: frames that are due are left out, and not counted. frames: 1 if there were any.
+  Due pass(std::int64_t now) {
+    if (startsAt(now)) return start(now);
+    const std::int64_t late = lateAt(now);
+    frame_ += late;
+    return {late > 0 ? 1 : 0, false};
+  }
+
+  /// Changes the frames' length: the next one is due one period after the last, or after the last update().
+  void setRate(double frame_rate) {
+    start_ = std::max<std::int64_t>(last_, next() - std::llround(period_));
+    frame_ = 0;
+    period_ = 1e9 / frame_rate;
   }
 
   /// Takes the next frame off the grid; its time [ns].
@@ -58,6 +65,21 @@ class StepClock {
   // Frames are due this much early [ns]: clocks that tick in frames, written as floating-point seconds, come a
   // nanosecond short, and would otherwise be a whole tick late now and then.
   static constexpr std::int64_t kRounding = 1000;
+
+  bool startsAt(std::int64_t now) const { return !started_ || now < last_; }
+  Due start(std::int64_t now) {
+    const Due due = {0, started_};
+    started_ = true;
+    start_ = last_ = now;
+    frame_ = 0;
+    return due;
+  }
+  // Frames that are due and not taken yet.
+  std::int64_t lateAt(std::int64_t now) {
+    last_ = now;
+    const auto latest = static_cast<std::int64_t>(std::floor(static_cast<double>(now + kRounding - start_) / period_));
+    return std::max<std::int64_t>(latest - frame_, 0);
+  }
 
   double period_;  // [ns]
   int max_catch_up_;

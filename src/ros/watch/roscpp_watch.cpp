@@ -11,6 +11,8 @@
 #include <ros/xmlrpc_manager.h>
 #include <xmlrpcpp/XmlRpcClient.h>
 
+#include <utility>
+
 namespace curtain_ros {
 
 using XmlRpc::XmlRpcValue;
@@ -89,16 +91,6 @@ bool registerTopics(const std::string& list, const std::string& method) {
   return topics.success;
 }
 
-bool registerServices() {
-  const std::string uri =
-      "rosrpc://" + ros::network::getHost() + ":" + std::to_string(ros::ConnectionManager::instance()->getTCPPort());
-  for (const std::string& service : services()) {
-    if (!askMaster("registerService", {XmlRpcValue(service), XmlRpcValue(uri), XmlRpcValue(ownUri())}).success)
-      return false;
-  }
-  return true;
-}
-
 // Where somebody has set parameters below the name already, those are kept.
 bool restoreParameters(const std::string& space, const XmlRpcValue& parameters) {
   const Answer there = askMaster("hasParam", {XmlRpcValue(space)});
@@ -114,14 +106,30 @@ XmlRpcValue parametersBelow(const std::string& space) {
 
 }  // namespace
 
-RoscppWatch::RoscppWatch(const std::string& private_space, const std::vector<std::string>& topics)
+RoscppWatch::RoscppWatch(const std::string& private_space, const std::vector<std::string>& topics,
+                         const std::vector<std::string>& services, std::function<void()> registered)
     : private_space_(private_space),
       parameters_(parametersBelow(private_space)),
       topics_(topics.begin(), topics.end()),
+      services_(services),
+      registered_(std::move(registered)),
       thread_(kPeriod, [this] {
         checkQueues();
         checkMaster();
       }) {}
+
+// Of the node, and those that roscpp itself serves.
+bool RoscppWatch::registerServices() const {
+  const std::string uri =
+      "rosrpc://" + ros::network::getHost() + ":" + std::to_string(ros::ConnectionManager::instance()->getTCPPort());
+  std::vector<std::string> all = services();
+  all.insert(all.end(), services_.begin(), services_.end());
+  for (const std::string& service : all) {
+    if (!askMaster("registerService", {XmlRpcValue(service), XmlRpcValue(uri), XmlRpcValue(ownUri())}).success)
+      return false;
+  }
+  return true;
+}
 
 void RoscppWatch::checkMaster() {
   // Asks for a service, not for the node: a new master knows the node's name as soon as any topic of it is registered.
@@ -133,6 +141,7 @@ void RoscppWatch::checkMaster() {
   if (!forgotten_ || !registerAll()) return;
   forgotten_ = false;
   ++lost_;
+  registered_();
   ROS_WARN_STREAM(
       "the ROS master at " << ros::master::getURI() << " had forgotten this node, as after a restart: registered "
                            << "its topics, its services and the parameters of " << private_space_ << " again");

@@ -4,7 +4,7 @@
 // without it.
 //
 //   restarted master   Connections outlive a master, but a new one knows no node, and no new subscriber finds this one.
-//                      Roscpp does not register again; this does: topics, roscpp's own services, private parameters.
+//                      Roscpp does not register again; this does: topics, services, private parameters.
 //                      A name that now belongs to another node is left alone: roscpp is about to shut this one down.
 //   dropped messages   Roscpp counts per connection what its receiving queues dropped, in its bus statistics.
 //
@@ -15,6 +15,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -30,7 +31,10 @@ class RoscppWatch {
   /// Starts watching, on a thread of its own. The destructor waits for a check under way: some seconds at most.
   ///   private_space  parameters below it are kept for a new master
   ///   topics         resolved names of the subscriptions whose dropped messages count
-  RoscppWatch(const std::string& private_space, const std::vector<std::string>& topics);
+  ///   services       resolved names of the node's services, for a new master
+  ///   registered     called, by the watch's thread, when a new master knows the node again
+  RoscppWatch(const std::string& private_space, const std::vector<std::string>& topics,
+              const std::vector<std::string>& services, std::function<void()> registered);
 
   /// Whether the master answered when it was last asked.
   bool masterAnswers() const { return answers_; }
@@ -44,10 +48,13 @@ class RoscppWatch {
   void checkQueues();
   void logWhetherMasterAnswers(bool answers);
   bool registerAll() const;
+  bool registerServices() const;
 
   std::string private_space_;
   XmlRpc::XmlRpcValue parameters_;
   std::set<std::string> topics_;
+  std::vector<std::string> services_;
+  std::function<void()> registered_;
   bool forgotten_ = false;                              // by the master, and not yet registered again
   std::map<int, std::uint64_t> dropped_by_connection_;  // as roscpp counts
   std::atomic<bool> answers_{true};

@@ -244,7 +244,7 @@ bool PaperSolver::holdBack(ContactFinder& finder, Contacts& contacts, double h, 
   const auto clear = [&] { return finder.verify(start_, state.position, false) == ContactFinder::Verdict::kClear; };
   if (clear()) return true;
   rebuilt_ = state.position;
-  project(contacts, state.position);
+  project(h, contacts, state.position);
   if (!clear()) {
     finder.hold(start_, state.position);
     if (!clear()) return false;
@@ -255,8 +255,8 @@ bool PaperSolver::holdBack(ContactFinder& finder, Contacts& contacts, double h, 
   return true;
 }
 
-void PaperSolver::project(Contacts& contacts, Field3& position) const noexcept {
-  beginContacts(pattern_.inverse_mass, 0.0, 0, contacts, position);
+void PaperSolver::project(double h, Contacts& contacts, Field3& position) const noexcept {
+  beginContacts(pattern_.inverse_mass, h * h, 0.0, 0, contacts, position);
   projectContacts(pattern_.inverse_mass, contacts, position);
 }
 
@@ -298,7 +298,7 @@ SubstepOutcome PaperSolver::substep(const NodeForces& forces, double h, ContactF
   keepEnergies(state.velocity);
   clock.lap(Stage::kWeft);
   Contacts* const contacts = finder != nullptr ? &finder->begin(start_, state.position, h) : nullptr;
-  if (contacts != nullptr) project(*contacts, state.position);
+  if (contacts != nullptr) project(h, *contacts, state.position);
   clock.lap(Stage::kContact);
   for (const Chain& chain : chains_) rebuild(chain, h, state);
   clock.lap(Stage::kWarp);

@@ -61,7 +61,7 @@ class PaperSolver {
   void adjust(std::size_t a, std::size_t b, double excess, Field3& position) noexcept;
   void adjustRow(int row, Field3& position) noexcept;
   void adjustBetweenPins(Field3& position) noexcept;
-  void project(Contacts& contacts, Field3& position) const noexcept;
+  void project(double h, Contacts& contacts, Field3& position) const noexcept;
   void rebuild(const Chain& chain, double h, ClothState& state) const noexcept;
   bool holdBack(ContactFinder& finder, Contacts& contacts, double h, ClothState& state) noexcept;
   void stopApproach(const Contacts& contacts, Field3& velocity) const noexcept;

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What may be changed while the node runs, as dynamic_reconfigure has it (cfg/Curtain.cfg) and as the node does.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "curtain_sim/CurtainConfig.h"
+#include "curtain_sim/simulator.h"
+#include "ros/parameters/parameters.h"
+
+namespace curtain_ros {
+
+/// The present values.
+curtain_sim::CurtainConfig liveValues(const curtain::Scene& scene, const NodeParams& params);
+
+/// Gives the simulator and the node's parameters these values, judged as the scene's and the parameters' are. Returns
+/// what is wrong; those are left as they are, the others are taken. Simulation thread.
+std::vector<curtain::Problem> takeLiveValues(const curtain_sim::CurtainConfig& values, curtain::Simulator& simulator,
+                                             NodeParams& params);
+
+}  // namespace curtain_ros
