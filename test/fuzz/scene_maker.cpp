@@ -239,6 +239,8 @@ std::optional<Scene> makeScene(Choices& choices) {
   SceneMaker maker(choices);
   curtain::visitFields(maker, scene);
   fitTogether(scene, choices);
+  // Strips overlap where slits cut them from row 0 on, and not by much.
+  if (!curtain::validate(scene).empty()) scene.hang.overlap.reset();
   // Pressed pleats ask for bending, which asks for links that have a length, and another method than the paper's.
   if (!curtain::validate(scene).empty()) scene.hang.pressed = 0.0;
   if (!curtain::validate(scene).empty()) scene.cloth.bending_warp = scene.cloth.bending_weft = 0.0;

@@ -53,9 +53,11 @@ class InterfaceTest(unittest.TestCase):
         inputs = [topic for topic, nodes in subscribed if NODE in nodes]
         outputs = [topic for topic, nodes in published if NODE in nodes]
         self.assertEqual(sorted(t for t in inputs if "handles" not in t),
-                         ["/stage/drag_force", "/stage/wind_source"], "no obstacle: no tf2")
+                         [NODE + "/grasp/cancel", NODE + "/grasp/goal", "/stage/drag_force", "/stage/wind_source"],
+                         "no obstacle: no tf2")
         self.assertEqual(sorted(t for t in outputs if t != "/rosout" and "handles" not in t),
-                         ["/diagnostics", NODE + "/contacts", NODE + "/loads", NODE + "/markers", NODE + "/mesh",
+                         ["/diagnostics", NODE + "/contacts", NODE + "/grasp/feedback", NODE + "/grasp/result",
+                          NODE + "/grasp/status", NODE + "/loads", NODE + "/markers", NODE + "/mesh",
                           NODE + "/parameter_descriptions", NODE + "/parameter_updates", NODE + "/state"])
         served = [service for service, nodes in master.getSystemState()[2] if NODE in nodes]
         self.assertEqual(sorted(s[len(NODE) + 1:] for s in served if "handles" not in s and "logger" not in s),
