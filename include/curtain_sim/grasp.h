@@ -50,12 +50,12 @@ enum class GraspEnd {
 
 /// A grasp after a frame.
 struct GraspState {
-  std::vector<NodeIndex> nodes;  ///< held now, row by row
-  Vec3 force = Vec3::Zero();     ///< of the cloth on the hand, mean over the last frame with motion [N], along the
-                                 ///< world's axes
-  Vec3 torque = Vec3::Zero();    ///< the same about the origin of the gripper's frame [N m]
-  double slipped = 0.0;          ///< way of the cloth between the pads, mean of the held nodes, summed up [m]
-  GraspEnd end = GraspEnd::kNone;
+  std::vector<NodeIndex> nodes;    ///< held now, row by row
+  Vec3 force = Vec3::Zero();       ///< of the cloth on the hand, mean over the last frame with motion [N], along the
+                                   ///< world's axes
+  Vec3 torque = Vec3::Zero();      ///< the same about the origin of the gripper's frame [N m]
+  double slipped = 0.0;            ///< way of the cloth between the pads, mean of the held nodes, summed up [m]
+  GraspEnd end = GraspEnd::kNone;  ///< whether it holds, or why not
 };
 
 }  // namespace curtain

@@ -106,9 +106,9 @@ class Simulator {
   ///   tolerance  solver.position_tolerance, (0, 1] m, where the scene asks for one; it is not turned on or off
   ///   ms         solver.budget_ms, [0, 1e6]; 0: no limit
   std::vector<Problem> setFriction(double friction);
-  std::vector<Problem> setStretchTolerance(double tolerance);
-  std::vector<Problem> setPositionTolerance(double tolerance);
-  std::vector<Problem> setBudget(double ms);
+  std::vector<Problem> setStretchTolerance(double tolerance);   ///< see setFriction()
+  std::vector<Problem> setPositionTolerance(double tolerance);  ///< see setFriction()
+  std::vector<Problem> setBudget(double ms);                    ///< see setFriction()
 
   /// Sets positions [m] and velocities [m/s] of all nodes, row-major, shape [rows * columns]; velocities of pinned
   /// nodes are ignored, carriers are put where the rail is nearest. Wakes all of the cloth and forgets the tensions.
@@ -147,7 +147,7 @@ class Simulator {
   bool moveGrasp(const std::string& id, const Pose& frame);
   /// Lets go, and forgets the grasp; its nodes keep the velocity they moved with. False: there is none of this id.
   bool releaseGrasp(const std::string& id);
-  void releaseAllGrasps();
+  void releaseAllGrasps();  ///< as releaseGrasp(), of all
   /// How a grasp goes, or how it ended (until releaseGrasp(), reset(), or another of this id); none: there is none.
   std::optional<GraspState> graspState(const std::string& id) const;
   /// Ids of the grasps that hold or have ended, in their order.

@@ -83,7 +83,8 @@ TEST(Pads, FeelTheWeightAndEachOther) {
   EXPECT_EQ(simulator.piercings(0).nodes + simulator.piercings(1).nodes, 0);
 }
 
-// They carry the cloth along, at up to 1.8 m/s^2, for which 2 mu N suffice twice; when they have opened, it falls freely.
+// They carry the cloth along, at up to 1.8 m/s^2, for which 2 mu N suffice twice; when they have opened, it falls
+// freely.
 TEST(Pads, CarryAndLetGo) {
   Simulator simulator(pinchedScene(0.5));
   const auto move = [&simulator](double up, double apart) {
