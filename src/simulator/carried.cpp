@@ -184,6 +184,7 @@ void PinMoves::carry(Archive& archive, const Grid& grid, const std::function<boo
     archive.finite("target", move.target);
     archive.flag("behind", move.behind);
     archive.flag("arrived", move.arrived);
+    archive.flag("held", move.held);
   });
 }
 

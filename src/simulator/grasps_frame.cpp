@@ -31,7 +31,7 @@ bool Grasps::anySprings() const noexcept {
 void Grasps::movePins(PinMoves& pins) const noexcept {
   for (const Grasp& grasp : list_) {
     if (!grasp.pins || !grasp.moves()) continue;
-    for (const HeldNode& held : grasp.held) pins.move(held.node, toWorld(grasp.to, held.place));
+    for (const HeldNode& held : grasp.held) pins.move(held.node, toWorld(grasp.to, held.place), true);
   }
 }
 

@@ -26,14 +26,15 @@ void PinMoves::keep(const Stays& stays) noexcept {
   moves_.resize(left);
 }
 
-void PinMoves::move(std::size_t node, const Vec3& target) noexcept {
+void PinMoves::move(std::size_t node, const Vec3& target, bool held) noexcept {
   if (slot_[node] == kNone) {
     slot_[node] = moves_.size();
-    moves_.push_back({node, target, false, false});
+    moves_.push_back({node, target, false, false, held});
     return;
   }
   Move& known = moves_[slot_[node]];
   known.target = target;
+  known.held = held;
   arrived_ -= known.arrived ? 1 : 0;
   known.arrived = false;
 }
@@ -69,12 +70,10 @@ void PinMoves::stop(bool whole, ClothState& state) noexcept {
   for (Move& move : moves_) {
     move.arrived = whole && !move.behind;
     move.behind = !move.arrived;
-    if (move.arrived)
-      state.position.set(move.node, move.target);
-    else
-      state.velocity.set(move.node, Vec3::Zero());
+    if (move.arrived) state.position.set(move.node, move.target);
+    if (!move.arrived || !move.held) state.velocity.set(move.node, Vec3::Zero());
   }
-  resume();
+  keep([](const Move& move) { return !move.arrived || move.held; });
 }
 
 void PinMoves::resume() noexcept {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Moves of pinned nodes, evenly over a frame. One that did not arrive follows in the next frames, no faster than
-// followingSpeed() (contact/shapes/obstacle_set.h). Between two frames a node has the velocity that it moved with.
+// followingSpeed() (contact/shapes/obstacle_set.h). Between two frames a node that is held has the velocity that it
+// moved with, the others none.
 #pragma once
 
 #include <functional>
@@ -21,8 +22,9 @@ class PinMoves {
     moves_.reserve(pattern.grid.size());
   }
 
-  /// node: pinned; target: position at the next frame's end [m]. Allocates nothing.
-  void move(std::size_t node, const Vec3& target) noexcept;
+  /// node: pinned; target: position at the next frame's end [m]; held: by a hand, which may let go of it. Allocates
+  /// nothing.
+  void move(std::size_t node, const Vec3& target, bool held = false) noexcept;
   /// The node is not pinned any more: it keeps its velocity.
   void letGo(std::size_t node) noexcept;
   /// One is under way, or shall be.
@@ -49,6 +51,7 @@ class PinMoves {
     Vec3 target = Vec3::Zero();
     bool behind = false;   // did not arrive in the last frame
     bool arrived = false;  // in the last frame; only its velocity is left
+    bool held = false;     // by a hand
   };
   template <typename Stays>
   void keep(const Stays& stays) noexcept;
