@@ -69,22 +69,9 @@ double KineticGuard::most(const Field3& velocity, double surface) const noexcept
   return mostOf(kineticOf(velocity, frame), drivenBy(velocity, frame, surface));
 }
 
-// Free nodes whose velocity unsolvable links drove beyond all numbers stop: its direction is lost. Returns whether
-// there were any.
-bool KineticGuard::stopOverflown(Field3& velocity) const noexcept {
-  bool any = false;
-  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    if (!(inertia_.masses()[n] > 0.0) || velocity.at(n).allFinite()) continue;
-    velocity.set(n, Vec3::Zero());
-    any = true;
-  }
-  return any;
-}
-
 void KineticGuard::bound(double most, Field3& velocity) const noexcept {
   const Vec3 frame = frameOf(velocity);
   const double seen = kineticOf(velocity, frame);
-  if (!std::isfinite(seen) && stopOverflown(velocity)) return bound(most, velocity);
   if (!(seen > most)) return;
   const double all = frame.isZero(0.0) ? seen : kineticOf(velocity, Vec3::Zero());
   if (!(all > 0.0)) return;

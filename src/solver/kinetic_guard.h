@@ -49,7 +49,6 @@ class KineticGuard {
   void bound(double most, Field3& velocity) const noexcept;
 
  private:
-  bool stopOverflown(Field3& velocity) const noexcept;
   struct Sums {
     double stepped = 0.0;  // twice the kinetic energy of the displacement made [J]
     double put_in = 0.0;   // the same without the links' work [J]
