@@ -329,7 +329,11 @@ void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& f
   constraints_.carriers().beginRates(state, age, out);
   const double most = guard_.most(out, contacts != nullptr ? fastestSurface(*contacts) : 0.0);
   projectVelocity(state.position, contacts, age / inertia_.tensions().scale, out);
-  guard_.bound(most, out);  // unsolvable links (pins pulled apart) give unbounded velocities
+  // Unsolvable links (pins pulled apart) give unbounded velocities, beyond all numbers in the end: those are left out.
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    if (!out.at(n).allFinite()) out.set(n, state.velocity.at(n));
+  }
+  guard_.bound(most, out);
 }
 
 // From what a snapshot holds, so that it is the same after it.

