@@ -147,7 +147,7 @@ TEST(Template, DocumentsTheNodeParameters) {
       "world_frame",   "obstacle_timeout", "state_rate",        "state_rest_rate",       "watch_roscpp",
       "mesh_rate",     "mesh_tolerance",   "mesh_viewer_frame", "mesh_viewer_tolerance", "markers_rate",
       "max_catch_up",  "state_folds",      "handles",           "handle_stiffness",      "scene",
-      "snapshot_file", "snapshot_period",  "diagnostic_period"};
+      "snapshot_file", "snapshot_period",  "diagnostic_period", "contact_points"};
   EXPECT_EQ(keys, expected);
 }
 
