@@ -179,7 +179,7 @@ class RobotTest(DrivenCurtain):
     def test_4_links_follow_within_two_frames(self):
         """From the message on tf2 to the state that has seen it: two frames at most. The message is awaited here, not in the
         curtain, which a busy computer may tell of it later: that one time in ten is let pass."""
-        late = 0
+        needed = []
         for move in range(20):
             type(self).slide = 0.02 * move - 0.2
             stamp = self.tell()
@@ -193,8 +193,9 @@ class RobotTest(DrivenCurtain):
                 if abs(by_name["slider"].origin.x - goal) < 1e-9:
                     break
                 self.assertLess(frames, 20)
-            late += frames > 2
-        self.assertLessEqual(late, 2)
+            needed.append(frames)
+        print("frames until a transform was seen: %s" % needed)
+        self.assertLessEqual(sum(frames > 2 for frames in needed), 2)
 
     def test_5_every_missing_link_is_named(self):
         """Thirty links that nobody tells of: one warning names them all."""
