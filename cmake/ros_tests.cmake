@@ -35,11 +35,6 @@ add_dependencies(tests curtain_judge_frames)
 
 file(GLOB CURTAIN_ROSTESTS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS test/ros/*.test)
 list(REMOVE_ITEM CURTAIN_ROSTESTS test/ros/sharing.test)
-# They do not hold yet (docs/robot.md): not among those that must.
-option(CURTAIN_ROBOT_DEMO_TESTS "Run the rostests of the robot's demos, too" OFF)
-if(NOT CURTAIN_ROBOT_DEMO_TESTS)
-  list(REMOVE_ITEM CURTAIN_ROSTESTS test/ros/robot_curtain.test test/ros/strip_door.test)
-endif()
 foreach(file ${CURTAIN_ROSTESTS})
   add_rostest(${file} DEPENDENCIES curtain_node curtain_nodelet curtain_flood curtain_judge_frames ${curtain_sim_EXPORTED_TARGETS})
 endforeach()

@@ -63,9 +63,11 @@ class Inbox {
     ++judged_;
     change_.notify_all();
   }
-  void waitUntilAllAreJudged() {
+  // All that came before this call.
+  void waitUntilJudged() {
     std::unique_lock<std::mutex> lock(mutex_);
-    change_.wait(lock, [this] { return judged_ >= came_ || stopped_; });
+    const std::uint64_t asked = came_;
+    change_.wait(lock, [&] { return judged_ >= asked || stopped_; });
   }
   void stop() {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -103,12 +105,16 @@ class Judge {
   }
 
   void judge(const Frame& frame) {
-    readPositions(*frame.state);
+    if (!state_ || frame.state->positions != state_->positions) {
+      readPositions(*frame.state);
+      crossings_ = curtain::countSelfCrossings(grid_, position_);
+    }
+    state_ = frame.state;
     ++frames_;
     const std::uint64_t number = frame.state->statistics.frame;
     if (last_ > 0) missing_ += number - last_ - 1;
     last_ = number;
-    note(number, "itself", curtain::countSelfCrossings(grid_, position_));
+    note(number, "itself", crossings_);
     for (const curtain_sim::ObstacleContact& contact : frame.contacts->obstacles) {
       const curtain::Piercings found = curtain::countPiercings(obstacles_.shape(numbers_.at(contact.name)),
                                                                placeOf(contact), grid_, position_, kDepthTolerance);
@@ -161,6 +167,8 @@ class Judge {
   curtain::ObstacleSet obstacles_;
   std::map<std::string, int> numbers_;
   curtain::Field3 position_;
+  curtain_sim::CurtainStateConstPtr state_;  // that position_ and crossings_ are of
+  std::int64_t crossings_ = 0;
   std::uint64_t frames_ = 0, missing_ = 0, last_ = 0;
   std::size_t most_obstacles_ = 0;
   std::map<std::string, Found> found_;
@@ -188,7 +196,7 @@ int run(const std::string& node_name) {
     }
   });
   const auto answer = [&](std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-    inbox.waitUntilAllAreJudged();
+    inbox.waitUntilJudged();
     const std::lock_guard<std::mutex> lock(mutex);
     response.success = judge.clean();
     response.message = judge.report();
