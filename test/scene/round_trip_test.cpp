@@ -349,6 +349,16 @@ TEST(RoundTrip, KeepsClosedCloth) {
 }
 
 // Written numbers are numbers to YAML 1.1 too: the strict reader takes them, however small or large.
+TEST(RoundTrip, KeepsOverlappingStrips) {
+  Scene scene;
+  scene.cloth.rows = 4;
+  scene.cloth.columns = 6;
+  scene.cloth.slits = {{2, 0}};
+  scene.hang.overlap = 1.0 / 30.0;
+  scene.hang.to = scene.hang.from + Vec3(0.5, 0.0, 0.0);
+  expectRoundTrip(scene);
+}
+
 TEST(RoundTrip, KeepsNumbersOfEverySize) {
   for (int exponent = -323; exponent <= 99; ++exponent) {
     Scene scene;
