@@ -17,7 +17,6 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 ROWS, COLUMNS = 12, 11
 WEIGHT = 0.2 * 0.36 * 9.81  # N, of the sheet
-YAW = 0.7                   # rad, of the tray's joint
 TILT = 0.5                  # rad, at which the tray's plates are level
 SCENE = {"cloth": {"rows": 10, "columns": 8}, "solver": {"frame_rate": 50.0}}
 SPHERE = '<collision><geometry><sphere radius="0.1"/></geometry></collision>'
@@ -131,9 +130,11 @@ class RobotTest(DrivenCurtain):
             pose = self.pose(name)
             for a, b in zip(xyz(by_name[name].origin), xyz(pose.translation)):
                 self.assertAlmostEqual(a, b, delta=1e-9)
-        turn = by_name["tray/0"].orientation  # level, and turned with the robot
-        for a, b in zip((turn.x, turn.y, turn.z, turn.w), (0.0, 0.0, math.sin(0.5 * YAW), math.cos(0.5 * YAW))):
-            self.assertAlmostEqual(a, b, delta=1e-9)
+        told, tray = by_name["tray/0"].orientation, self.pose("tray").rotation
+        sine, cosine = math.sin(-0.5 * TILT), math.cos(-0.5 * TILT)  # the plate's turn about y, after the tray's
+        turn = (tray.x * cosine - tray.z * sine, tray.y * cosine + tray.w * sine, tray.z * cosine + tray.x * sine,
+                tray.w * cosine - tray.y * sine)
+        self.assertAlmostEqual(abs(sum(a * b for a, b in zip((told.x, told.y, told.z, told.w), turn))), 1.0, delta=1e-9)
         values = self.diagnostics.wait_for("obstacles", WARN, "'finger_1' is left out", value=("tray/0 on tray", " s old"))
         self.assertIn("left out", values["finger_1 on finger_1"])
         self.assertEqual(sum("left out" in value for value in values.values()), 1)
