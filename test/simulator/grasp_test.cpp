@@ -126,7 +126,8 @@ std::vector<Scene> scenesOfAllKinds() {
 
 // A node held from the start is one that the scene pins: to the bit, whatever keeps something of the pins.
 TEST(Grasp, IsAPin) {
-  const std::vector<NodeIndex> held = patch(6, 4, 3, 2);
+  std::vector<NodeIndex> held = patch(6, 4, 3, 2);
+  held.push_back({0, 1});  // beside a pin: the link between them gets longer than it is
   for (const Scene& scene : scenesOfAllKinds()) {
     SCOPED_TRACE(toString(scene.solver.method));
     const Scene same = pinnedThere(scene, {});
@@ -285,6 +286,31 @@ TEST(Grasp, GivesTheMomentumThatTheClothTakes) {
   const double tolerance = 1e-3 * momentumOf(simulator).norm() + given.norm() / 60.0 / 8.0;
   EXPECT_LE((given - momentumOf(simulator)).norm(), tolerance)
       << given.transpose() << " / " << momentumOf(simulator).transpose();
+}
+
+// A ball beneath the edge of what is held carries a part of it, and so do the held nodes of the faces that lie on it:
+// hand and ball have the weight together.
+TEST(Grasp, FeelsWhatIsPressedOnIt) {
+  Scene scene = flatScene(13, 13);
+  scene.hang.tilt = kPi / 2.0;
+  scene.pins.kind = PinKind::kNone;
+  scene.air.inside = scene.air.border = scene.air.corner = 5.0;
+  Simulator flat(scene);
+  const Vec3 middle = flat.position({6, 6});
+  scene.obstacles.push_back(ballAt(middle + Vec3(0.2, 0.0, -0.152), 0.15));
+  Simulator simulator(scene);
+  ASSERT_EQ(refusal(simulator, ballGrasp("hand", middle, 0.2)), "");
+  for (int frame = 0; frame < 900; ++frame) simulator.step();
+  Vec3 hand = Vec3::Zero(), ball = Vec3::Zero();
+  for (int frame = 0; frame < 60; ++frame) {
+    simulator.step();
+    hand += simulator.graspState("hand")->force / 60.0;
+    ball += simulator.contactWrench(0).force / 60.0;
+  }
+  const double weight = 0.2 * 9.81;
+  EXPECT_LE((hand + ball - Vec3(0.0, 0.0, -weight)).norm(), 1e-2 * weight)
+      << hand.transpose() << " / " << ball.transpose();
+  EXPECT_LT(ball.z(), -0.05 * weight);
 }
 
 // Two hands share the weight; when one lets go the other has it.
