@@ -5,11 +5,10 @@
 #include <cmath>
 
 #include "cloth/wide.h"
+#include "forces/tiny_squared.h"
 
 namespace curtain {
 namespace {
-
-constexpr double kTinySquared = 1e-300;  // avoids a division by zero length; changes no other value
 
 // Mean of a component of the relative velocity over the kick, or its end: from u at its start, what the other forces
 // add to the node's velocity, and z = coefficient * inverse mass * kick. That of the middle is of AirDamping's

@@ -6,12 +6,12 @@
 #include <limits>
 
 #include "cloth/wide.h"
+#include "forces/tiny_squared.h"
 #include "scene/fnv1a.h"
 
 namespace curtain {
 namespace {
 
-constexpr double kTinySquared = 1e-300;  // avoids a division by zero length; changes no other value
 constexpr double kParallel = 1e-6;  // [rad] smaller half-angles are parallel wind: the apex would be 1e6 radii away
 
 std::uint64_t seedOf(std::uint64_t seed, const std::string& id) {

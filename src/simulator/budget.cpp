@@ -12,7 +12,7 @@ constexpr double kSpare = 0.1;
 constexpr int kMostStalledFrames = 4;
 // A substep is started only if this many times their mean computing time is left.
 constexpr double kTimeMargin = 1.4;
-constexpr int kMany = 1 << 20;
+constexpr int kManySubsteps = 1 << 20;
 
 double secondsBetween(Budget::Clock::time_point a, Budget::Clock::time_point b) {
   return std::chrono::duration<double>(b - a).count();
@@ -40,9 +40,9 @@ bool Budget::affordsCompanion() const noexcept { return !any() || frame_ + refer
 bool Budget::mustMove() const noexcept { return stalled_ >= kMostStalledFrames && !moved_; }
 
 int Budget::affordable(Clock::time_point now) const noexcept {
-  if (!any() || substep_ <= 0.0) return kMany;
+  if (!any() || substep_ <= 0.0) return kManySubsteps;
   const double count = secondsBetween(now, end_) / substep_;
-  return count < 1.0 ? 1 : static_cast<int>(std::min(count, static_cast<double>(kMany)));
+  return count < 1.0 ? 1 : static_cast<int>(std::min(count, static_cast<double>(kManySubsteps)));
 }
 
 Budget::Clock::time_point Budget::substepEnds() const noexcept {

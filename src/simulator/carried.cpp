@@ -6,16 +6,16 @@
 #include <limits>
 
 #include "cloth/archive_params.h"
+#include "scene/infinity.h"
 #include "simulator/simulator_impl.h"
 
 namespace curtain {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLargest = std::numeric_limits<double>::max();
 constexpr double kLeast = std::numeric_limits<double>::min();
 constexpr std::int64_t kCount = 1 << 30;  // bound of counters: adding to them can't overflow an int
-constexpr std::int64_t kMany = std::int64_t{1} << 53;
+constexpr std::int64_t kMostCount = std::int64_t{1} << 53;
 
 // A drag with the node that it pulls at.
 struct HeldDrag {
@@ -24,25 +24,25 @@ struct HeldDrag {
 };
 
 void carryStatistics(Archive& archive, Statistics& s) {
-  archive.integer("frames", s.frames, 0, kMany);
+  archive.integer("frames", s.frames, 0, kMostCount);
   archive.number("time", s.time);
-  archive.integer("substeps", s.substeps, 0, kMany);
+  archive.integer("substeps", s.substeps, 0, kMostCount);
   archive.integer("substeps_last", s.substeps_last, 0, kCount);
-  archive.integer("sweeps", s.sweeps, 0, kMany);
+  archive.integer("sweeps", s.sweeps, 0, kMostCount);
   archive.integer("sweeps_last", s.sweeps_last, 0, kCount);
-  archive.integer("rejected", s.rejected, 0, kMany);
-  archive.integer("last_resort_substeps", s.last_resort_substeps, 0, kMany);
-  archive.integer("unsettled", s.unsettled, 0, kMany);
-  archive.integer("asleep_frames", s.asleep_frames, 0, kMany);
-  archive.integer("wakes", s.wakes, 0, kMany);
+  archive.integer("rejected", s.rejected, 0, kMostCount);
+  archive.integer("last_resort_substeps", s.last_resort_substeps, 0, kMostCount);
+  archive.integer("unsettled", s.unsettled, 0, kMostCount);
+  archive.integer("asleep_frames", s.asleep_frames, 0, kMostCount);
+  archive.integer("wakes", s.wakes, 0, kMostCount);
   archive.integer("asleep", s.asleep, 0, kCount);
-  archive.integer("estimates_skipped", s.estimates_skipped, 0, kMany);
-  archive.integer("longer_substeps", s.longer_substeps, 0, kMany);
-  archive.integer("unfinished_substeps", s.unfinished_substeps, 0, kMany);
-  archive.integer("shortened_frames", s.shortened_frames, 0, kMany);
+  archive.integer("estimates_skipped", s.estimates_skipped, 0, kMostCount);
+  archive.integer("longer_substeps", s.longer_substeps, 0, kMostCount);
+  archive.integer("unfinished_substeps", s.unfinished_substeps, 0, kMostCount);
+  archive.integer("shortened_frames", s.shortened_frames, 0, kMostCount);
   archive.number("lost_time", s.lost_time);
-  archive.integer("late_frames", s.late_frames, 0, kMany);
-  archive.integer("stops", s.stops, 0, kMany);
+  archive.integer("late_frames", s.late_frames, 0, kMostCount);
+  archive.integer("stops", s.stops, 0, kMostCount);
   archive.number("momentum_cut", s.momentum_cut);
   archive.number("obstacles_waited", s.obstacles_waited);
   archive.number("warp_stretch", s.warp_stretch);
@@ -124,7 +124,7 @@ void Rest::carry(Archive& archive) {
   archive.numbers("all", all_);
   archive.numbers("swept", swept_);
   archive.flag("watches", watches_);
-  archive.integer("wakes", wakes_, 0, kMany);
+  archive.integer("wakes", wakes_, 0, kMostCount);
 }
 
 // Members of the present frame are set by the next one.
@@ -141,7 +141,7 @@ void ErrorEstimate::carry(Archive& archive) {
   archive.integer("window", window_, 1, kCount);
   archive.flag("of_stages", of_stages_);
   archive.integer("substeps", substeps_, fewest_, most_);
-  archive.integer("frames", frames_, 0, kMany);
+  archive.integer("frames", frames_, 0, kMostCount);
   archive.integer("compared", compared_, 0, kCount);
   archive.within("steps_sum", steps_sum_, 0.0, kLargest);
   archive.within("companion_sum", reference_sum_, 0.0, kLargest);
@@ -231,9 +231,9 @@ void Grasps::carry(Archive& archive) {
 }
 
 void FrameTimes::carry(Archive& archive) {
-  archive.integer("frame", frame_, 0, kMany);
+  archive.integer("frame", frame_, 0, kMostCount);
   archive.within("frame_rate", rate_, 1.0, 10000.0);
-  archive.integer("same_since_frame", since_.frame, 0, kMany);
+  archive.integer("same_since_frame", since_.frame, 0, kMostCount);
   archive.finite("same_since_time", since_.time);
   archive.finite("made_time", made_time_);
 }

@@ -5,14 +5,9 @@
 #include <limits>
 
 #include "cloth/archive.h"
+#include "scene/infinity.h"
 
 namespace curtain {
-namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
-
 Carriers::Carriers(const ClothPattern& pattern)
     : pattern_(pattern), law_(pattern.rail.size(), pattern.rail.gap, pattern.rail.path.length()) {
   const RailPattern& rail = pattern.rail;

@@ -329,10 +329,6 @@ void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& f
   constraints_.carriers().beginRates(state, age, out);
   const double most = guard_.most(out, contacts != nullptr ? fastestSurface(*contacts) : 0.0);
   projectVelocity(state.position, contacts, age / inertia_.tensions().scale, out);
-  // Unsolvable links (pins pulled apart) give unbounded velocities, beyond all numbers in the end: those are left out.
-  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    if (!out.at(n).allFinite()) out.set(n, state.velocity.at(n));
-  }
   guard_.bound(most, out);
 }
 

@@ -102,9 +102,11 @@ void NodeInertia::set(const NodeForces& forces, double kick, double scale, doubl
   if (most_phase <= 0.0 || tensions_.scale == 0.0) return;
   const double per_load = 2.0 * std::abs(scale / tensions_.scale) / (most_phase * most_phase);
   if (!(per_load * tensions_.heaviest > 1.0)) return;
+  // Not more than all of the cloth: where links can't keep their lengths their tensions are as large as the inertia
+  // that they move, and inertia after them would grow without bound.
   const double* const w = inverse_->data();
   for (std::size_t n = 0; n < size; ++n) {
-    const double needed = per_load * tensions_.load[n];
+    const double needed = std::min(per_load * tensions_.load[n], free_mass_);
     changed_[n] = needed * w[n] > 1.0 ? 1.0 / needed : w[n];
   }
   inverse_ = &changed_;

@@ -4,15 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/infinity.h"
 #include "solver/constants.h"
 
 namespace curtain {
-namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
-
 bool StallWatch::stalls(int sweeps, double residual) noexcept {
   if (sweeps % kStallWindow != 0) return false;
   const bool improves = residual < kStallFactor * before_;

@@ -15,7 +15,7 @@ namespace {
 // Radius of a new window over the least that would do: larger ones last longer and hold more features.
 constexpr double kMargin = 1.5;
 
-struct Windows {
+struct FaceWindows {
   ConstFieldView centre, normal;
   const double *radius, *top;
 };
@@ -25,7 +25,7 @@ struct Extent {
   double away = 0.0, low = std::numeric_limits<double>::infinity(), sum = 0.0;
 };
 
-CURTAIN_INTO_WIDE void extend(const Windows& w, const ConstFieldView& p, std::size_t q, Extent& extent) {
+CURTAIN_INTO_WIDE void extend(const FaceWindows& w, const ConstFieldView& p, std::size_t q, Extent& extent) {
   const double x = p.x[q] - w.centre.x[q], y = p.y[q] - w.centre.y[q], z = p.z[q] - w.centre.z[q];
   const double square = x * x + y * y + z * z;
   const double height = w.normal.x[q] * x + w.normal.y[q] * y + w.normal.z[q] * z;
@@ -35,7 +35,7 @@ CURTAIN_INTO_WIDE void extend(const Windows& w, const ConstFieldView& p, std::si
 }
 
 // Classifies quads side by side, given their four corners at the start and at the end.
-CURTAIN_WIDE void classifyAll(const Windows& w, const std::array<ConstFieldView, 8>& corners, double reach,
+CURTAIN_WIDE void classifyAll(const FaceWindows& w, const std::array<ConstFieldView, 8>& corners, double reach,
                               std::size_t count, QuadClearance* views) noexcept {
 #pragma omp simd
   for (std::size_t q = 0; q < count; ++q) {
@@ -127,7 +127,7 @@ const QuadClearance* MeshClearance::classify(int row, const Field3& start, const
   const std::size_t above = grid_.row(row), below = grid_.row(row + 1);
   const auto classifyFrom = [&](std::size_t left, std::size_t right, std::size_t count) {
     const std::size_t n = above + left;
-    const Windows windows{{centre_, n}, {normal_, n}, &radius_[n], &top_[n]};
+    const FaceWindows windows{{centre_, n}, {normal_, n}, &radius_[n], &top_[n]};
     classifyAll(windows,
                 {{{start, n},
                   {start, above + right},

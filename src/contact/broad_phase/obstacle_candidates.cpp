@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "cloth/wide.h"
+#include "contact/broad_phase/worker_share.h"
 #include "contact/shapes/convex_shape.h"
 
 namespace curtain {
@@ -15,8 +16,6 @@ namespace {
 // one). When it runs out the cloth stops, and a mesh that moves on goes through it.
 constexpr std::size_t kPairsPerNode = 8;
 constexpr std::size_t kPairsPerFeature = 4;
-// Capacity of a worker's share, over its fair part.
-constexpr std::size_t kRoomOverPart = 2;
 // Nodes that one worker takes at a time.
 constexpr std::size_t kNodesAtOnce = 64;
 

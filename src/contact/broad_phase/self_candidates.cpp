@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "cloth/wide.h"
+#include "contact/broad_phase/worker_share.h"
 
 namespace curtain {
 namespace {
@@ -15,8 +16,6 @@ constexpr std::size_t kFlatLevel = 3;
 constexpr int kSampledRows = 4;
 // Pairs of quads that are tested together.
 constexpr std::size_t kQuadsAtOnce = 1024;
-// Capacity of a worker's share, over its fair part.
-constexpr std::size_t kRoomOverPart = 2;
 // Padding [floats] behind the arrays, so that vector loads stay inside.
 constexpr std::size_t kBeyond = 16;
 // Unit roundoff of single precision.

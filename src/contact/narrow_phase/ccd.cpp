@@ -201,7 +201,7 @@ Vec3 across(const Vec3& edge, Vec3 n) {
 Vec3 towards(const Vec3& point, const Vec3& normal) { return point.dot(normal) < 0.0 ? Vec3(-normal) : normal; }
 
 /// p - a, p - b, p - c and once more p - c.
-struct VertexTriangle {
+struct VertexTriangleMotion {
   static Directions directions(const Points& hull) {
     const Vec3 a = hull.point(0);
     const Vec3 b = hull.point(1);
@@ -224,7 +224,7 @@ struct VertexTriangle {
 };
 
 /// a - c, a - d, b - c, b - d.
-struct EdgeEdge {
+struct EdgeEdgeMotion {
   static Directions directions(const Points& hull) {
     const Vec3 ac = hull.point(0);
     const Vec3 ab = hull.point(2) - ac;
@@ -297,7 +297,7 @@ std::optional<double> vertexTriangleTimeOfImpact(const Vec3& p0, const Vec3& a0,
   const auto difference = [](const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
     return Points::of(p - a, p - b, p - c, p - c);
   };
-  return timeOfImpact<VertexTriangle>(difference(p0, a0, b0, c0), difference(p1, a1, b1, c1), min_distance);
+  return timeOfImpact<VertexTriangleMotion>(difference(p0, a0, b0, c0), difference(p1, a1, b1, c1), min_distance);
 }
 
 std::optional<double> edgeEdgeTimeOfImpact(const Vec3& a0, const Vec3& b0, const Vec3& c0, const Vec3& d0,
@@ -306,7 +306,7 @@ std::optional<double> edgeEdgeTimeOfImpact(const Vec3& a0, const Vec3& b0, const
   const auto difference = [](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     return Points::of(a - c, a - d, b - c, b - d);
   };
-  return timeOfImpact<EdgeEdge>(difference(a0, b0, c0, d0), difference(a1, b1, c1, d1), min_distance);
+  return timeOfImpact<EdgeEdgeMotion>(difference(a0, b0, c0, d0), difference(a1, b1, c1, d1), min_distance);
 }
 
 }  // namespace curtain

@@ -11,15 +11,13 @@ namespace {
 /// Angle between faces that count as coplanar [rad]: 1 um over an edge of 1 m.
 constexpr double kFlatAngle = 1e-6;
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
-
 /// Rotation of the triangle's normal by rounding of the corners [rad].
 double normalError(const ObstacleTriangle& triangle) {
   const auto& [a, b, c] = triangle.corners;
   const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
   const double height = (b - a).cross(c - a).norm() / longest;
   const double largest = std::max({a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff(), c.cwiseAbs().maxCoeff()});
-  return 8.0 * kEps * largest / height;
+  return 8.0 * std::numeric_limits<double>::epsilon() * largest / height;
 }
 
 /// Bend between two faces with normals on the same side; `along`: unit, in the direction of the first face's edge.

@@ -6,11 +6,11 @@
 #include <limits>
 
 #include "contact/shapes/cutting_planes.h"
+#include "scene/infinity.h"
 
 namespace curtain {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 using cutting_planes::kEps;
 using cutting_planes::largestCoordinate;
 using cutting_planes::longestEdge;
