@@ -2,6 +2,8 @@
 find_package(rostest REQUIRED)
 find_package(roslaunch REQUIRED)
 
+curtain_add_tests(sensing curtain_sensing)
+
 curtain_add_tests(ros curtain_ros)
 if(TARGET test_ros)
   add_dependencies(test_ros ${curtain_sim_EXPORTED_TARGETS})
