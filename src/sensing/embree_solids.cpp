@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "sensing/solid_rays.h"
-
 namespace curtain {
 namespace {
 
@@ -22,29 +20,25 @@ void findBounds(const RTCBoundsFunctionArguments* args) {
   RTCBounds& box = *args->bounds_o;
   const float none = std::numeric_limits<float>::infinity();
   box = {none, none, none, 0.0F, -none, -none, -none, 0.0F};  // empty: left out
-  if (!solid.present) return;
-  Eigen::AlignedBox3d bounds(Vec3::Constant(-kFarthest), Vec3::Constant(kFarthest));
-  if (solid.bounds.sizes().allFinite()) bounds = solid.bounds.transformed(solid.pose);
+  if (!solid.present()) return;
   const auto below = [&](double value) { return std::nextafter(static_cast<float>(value), -none); };
   const auto above = [&](double value) { return std::nextafter(static_cast<float>(value), none); };
+  const Eigen::AlignedBox3d bounds = solid.bounds();
   const Vec3 low = bounds.min(), high = bounds.max();
   box = {below(low.x()), below(low.y()), below(low.z()), 0.0F, above(high.x()), above(high.y()), above(high.z()), 0.0F};
 }
 
 void intersect(const RTCIntersectFunctionNArguments* args) {
   const PlacedSolid& solid = solidOf(args->geometryUserPtr, args->primID);
-  const Eigen::Isometry3d into = solid.pose.inverse();
   RTCRayN* const rays = RTCRayHitN_RayN(args->rayhit, args->N);
   RTCHitN* const hits = RTCRayHitN_HitN(args->rayhit, args->N);
   for (unsigned int i = 0; i < args->N; ++i) {
     if (args->valid[i] == 0) continue;
-    const Vec3 origin(RTCRayN_org_x(rays, args->N, i), RTCRayN_org_y(rays, args->N, i),
-                      RTCRayN_org_z(rays, args->N, i));
     const Vec3 direction(RTCRayN_dir_x(rays, args->N, i), RTCRayN_dir_y(rays, args->N, i),
                          RTCRayN_dir_z(rays, args->N, i));
-    const auto hit = firstHit(solid.shape, into * origin, into.linear() * direction, RTCRayN_tnear(rays, args->N, i));
+    const auto hit = solid.meet(direction, RTCRayN_tnear(rays, args->N, i));
     if (!hit || !(hit->distance <= RTCRayN_tfar(rays, args->N, i))) continue;
-    const Vec3 normal = solid.pose.linear() * hit->normal;
+    const Vec3& normal = hit->normal;
     RTCRayN_tfar(rays, args->N, i) = static_cast<float>(hit->distance);
     RTCHitN_Ng_x(hits, args->N, i) = static_cast<float>(normal.x());
     RTCHitN_Ng_y(hits, args->N, i) = static_cast<float>(normal.y());
@@ -57,6 +51,29 @@ void intersect(const RTCIntersectFunctionNArguments* args) {
 }
 
 }  // namespace
+
+void PlacedSolid::place(bool present, const Eigen::Isometry3d& pose) {
+  present_ = present;
+  pose_ = pose;
+  sensor_ = pose.inverse().translation();
+  const bool finite = bounds_.sizes().allFinite();
+  middle_ = finite ? Vec3(pose * bounds_.center()) : Vec3::Zero();
+  radius_squared_ = finite ? 0.25 * bounds_.sizes().squaredNorm() : std::numeric_limits<double>::infinity();
+}
+
+Eigen::AlignedBox3d PlacedSolid::bounds() const {
+  if (bounds_.sizes().allFinite()) return bounds_.transformed(pose_);
+  return {Vec3::Constant(-kFarthest), Vec3::Constant(kFarthest)};
+}
+
+// A geometry of one solid has no box in Embree that would keep rays away: here is a ball.
+std::optional<SolidHit> PlacedSolid::meet(const Vec3& direction, double nearest) const {
+  constexpr double kSlack = 1.0 + 1e-9;  // for rounding
+  if (middle_.cross(direction).squaredNorm() > kSlack * radius_squared_ * direction.squaredNorm()) return std::nullopt;
+  std::optional<SolidHit> hit = firstHit(shape_, sensor_, pose_.linear().transpose() * direction, nearest);
+  if (hit) hit->normal = pose_.linear() * hit->normal;
+  return hit;
+}
 
 RTCGeometry makeSolidGeometry(RTCDevice device, std::vector<PlacedSolid>& solids) {
   const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);

@@ -91,6 +91,7 @@ struct RayCaster::Impl {
   unsigned int cloth_id = 0;
   float* positions = nullptr;  // of the cloth, in Embree's buffer
   std::vector<PlacedSolid> solids;
+  std::vector<std::size_t> solid_obstacles;  // their numbers
   std::vector<MeshObstacle> meshes;
 
   double porosity = 0.0;
@@ -113,10 +114,12 @@ RayCaster::Impl::Impl(const Simulator& simulator, double of_cloth) : porosity(of
   const std::vector<ObstacleParams>& obstacles = simulator.scene().obstacles;
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     const ObstacleShape& shape = simulator.obstacleShape(static_cast<int>(i));
-    if (obstacles[i].shape == ShapeKind::kMesh)
+    if (obstacles[i].shape == ShapeKind::kMesh) {
       addMesh(i, shape.triangles());
-    else
-      solids.push_back({obstacles[i], shape.bounds(), i});
+      continue;
+    }
+    solids.emplace_back(obstacles[i], shape.bounds());
+    solid_obstacles.push_back(i);
   }
   if (!solids.empty()) {
     solid_geometry = makeSolidGeometry(device, solids);
@@ -180,9 +183,9 @@ void RayCaster::place(const Moment& moment, const Pose& sensor) {
     const Pose& pose = moment.obstacles[obstacle];
     return world * Eigen::Isometry3d(Eigen::Translation3d(pose.position) * pose.orientation);
   };
-  for (PlacedSolid& solid : im.solids) {
-    solid.present = moment.present[solid.obstacle] != 0;
-    solid.pose = poseOf(solid.obstacle);
+  for (std::size_t i = 0; i < im.solids.size(); ++i) {
+    const std::size_t obstacle = im.solid_obstacles[i];
+    im.solids[i].place(moment.present[obstacle] != 0, poseOf(obstacle));
   }
   if (im.solid_geometry != nullptr) rtcCommitGeometry(im.solid_geometry);
   for (const Impl::MeshObstacle& mesh : im.meshes) {
