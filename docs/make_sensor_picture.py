@@ -30,7 +30,7 @@ def configuration(names, folder):
         display["Enabled"] = display["Value"] = display["Name"] in names
         if display["Name"] == "TF":
             display["Frames"] = {"All Enabled": False, "camera": {"Value": True}}
-    manager["Views"]["Current"].update({"Distance": 3.6, "Pitch": 0.12, "Yaw": 5.3, "Focal Point": {"X": 0.25, "Y": -0.5, "Z": 1.2}})
+    manager["Views"]["Current"].update({"Distance": 3.2, "Pitch": 0.12, "Yaw": 5.3, "Focal Point": {"X": 0.25, "Y": -0.3, "Z": 1.2}})
     config["Window Geometry"]["Displays"] = {"collapsed": True}
     config["Window Geometry"]["Hide Left Dock"] = True
     path = os.path.join(folder, "panel.rviz")
@@ -49,6 +49,7 @@ def take(sensor, names, folder, port):
         figures.wait_until(0.5, launch)
         programs.start(os.path.join(folder, "rviz.log"), "rosrun", "curtain_sim", "curtain_rviz", "-d", configuration(names, folder),
                        "--fullscreen")
+        figures.wait_until(AT - 4.0, launch)
         fill_screen()
         figures.wait_until(AT, launch)
         subprocess.run(["import", "-silent", "-window", "root", "xwd:" + shot], check=True)

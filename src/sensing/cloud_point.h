@@ -14,9 +14,11 @@ struct CloudPoint {
 
   float x = kNone, y = kNone, z = kNone;                       ///< [m]; NaN: nothing is seen there
   float normal_x = kNone, normal_y = kNone, normal_z = kNone;  ///< unit; a sensor's: towards it
-  std::int32_t node = -1;                                      ///< nearest node, row * columns + column; -1: no cloth
-  float u = kNone, v = kNone;                                  ///< [m] on the flat cloth; NaN: no cloth
-  float speed = kNone;                                         ///< [m/s]; NaN: no cloth
+  // Of the cloth; -1: what is seen is none. Numbers, so that filters for a range pick the cloth, and means stay
+  // numbers.
+  std::int32_t node = -1;      ///< nearest node, row * columns + column
+  float u = -1.0F, v = -1.0F;  ///< [m] on the flat cloth
+  float speed = -1.0F;         ///< [m/s]
 
   void setPosition(const Eigen::Vector3f& p) { x = p.x(), y = p.y(), z = p.z(); }
   void setNormal(const Eigen::Vector3f& n) { normal_x = n.x(), normal_y = n.y(), normal_z = n.z(); }

@@ -228,7 +228,8 @@ struct PointsManualReader : ManualReader {
 TEST(Parameters, ManualHasThoseOfPoints) {
   const YAML::Node manual = YAML::LoadFile(std::string(CURTAIN_SOURCE_DIR) + "/config/curtain.yaml");
   PointsManualReader reader{{manual["points"], {}}};
-  curtain::visitFields(reader, curtain::SensorParams());
+  const curtain::SensorParams defaults;
+  curtain::visitFields(reader, defaults);
   EXPECT_EQ(reader.known.size(), reader.manual.size());
 }
 
