@@ -18,7 +18,7 @@ from make_gallery import ROOT, Figures, Programs, convert, fill_screen, start_sc
 
 AT = 11.0  # s of the demo: the ball is before the curtain, the fan at it
 # Sensor, displays that are switched on.
-PANELS = [("camera", ["Curtain", "Details", "TF"]), ("camera", ["Points"]), ("camera", ["Depth"]), ("lidar", ["Points"])]
+PANELS = [("camera", ["Curtain", "Details"]), ("camera", ["Points"]), ("camera", ["Depth"]), ("lidar", ["Points"])]
 
 
 def configuration(names, folder):
@@ -28,8 +28,8 @@ def configuration(names, folder):
     manager = config["Visualization Manager"]
     for display in manager["Displays"]:
         display["Enabled"] = display["Value"] = display["Name"] in names
-        if display["Name"] == "TF":
-            display["Frames"] = {"All Enabled": False, "camera": {"Value": True}}
+        if display["Name"] == "Curtain":
+            display["Wind"] = display["Legend"] = False
     manager["Views"]["Current"].update({"Distance": 3.2, "Pitch": 0.12, "Yaw": 5.3, "Focal Point": {"X": 0.25, "Y": -0.3, "Z": 1.2}})
     config["Window Geometry"]["Displays"] = {"collapsed": True}
     config["Window Geometry"]["Hide Left Dock"] = True
