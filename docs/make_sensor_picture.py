@@ -40,7 +40,7 @@ def configuration(names, folder):
 
 
 def take(sensor, names, folder, port):
-    """One panel: a run of its own, so that all are of the same moment."""
+    """One panel, a run of its own, each at about the same moment."""
     shot = os.path.join(folder, "%s_%s.xwd" % (sensor, names[0]))
     figures = Figures()
     with Programs() as programs:

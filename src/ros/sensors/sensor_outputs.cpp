@@ -18,8 +18,9 @@ using sensor_msgs::CameraInfo;
 
 namespace {
 
-constexpr double kCloudsAtRest = 1.0;  // [1/s] all round
-constexpr double kWarnPeriod = 10.0;   // [s] between warnings
+constexpr double kCloudsAtRest = 1.0;     // [1/s] all round
+constexpr double kWarnPeriod = 10.0;      // [s] between warnings
+constexpr std::uint32_t kQueueSize = 50;  // of camera_info, as of other inputs: what roscpp drops is warned of
 
 curtain::FlatCloth flatCloth(const curtain::Simulator& simulator) {
   std::vector<double> warp, weft;
@@ -74,8 +75,8 @@ void SensorOutputs::subscribe(ros::NodeHandle& node) {
   const boost::function<void(const CameraInfo::ConstPtr&)> on_message = [this](const CameraInfo::ConstPtr& message) {
     camera_letters_.post(message);
   };
-  camera_infos_ =
-      node.subscribe<CameraInfo>("camera_info", 1, on_message, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+  camera_infos_ = node.subscribe<CameraInfo>("camera_info", kQueueSize, on_message, ros::VoidConstPtr(),
+                                             ros::TransportHints().tcpNoDelay());
 }
 
 std::vector<std::string> SensorOutputs::topics() const {
