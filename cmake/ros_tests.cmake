@@ -2,6 +2,8 @@
 find_package(rostest REQUIRED)
 find_package(roslaunch REQUIRED)
 
+curtain_add_tests(sensing curtain_sensing)
+
 curtain_add_tests(ros curtain_ros)
 if(TARGET test_ros)
   add_dependencies(test_ros ${curtain_sim_EXPORTED_TARGETS})
@@ -27,6 +29,12 @@ add_executable(curtain_step_client EXCLUDE_FROM_ALL test/bench/node/step_client.
 target_link_libraries(curtain_step_client curtain_ros curtain_warnings)
 add_dependencies(tests curtain_step_client)
 
+# Runs other packages' nodelets.
+add_executable(curtain_nodelet_host EXCLUDE_FROM_ALL test/ros/nodelet_host.cpp)
+target_include_directories(curtain_nodelet_host SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
+target_link_libraries(curtain_nodelet_host ${catkin_LIBRARIES} curtain_warnings)
+add_dependencies(tests curtain_nodelet_host)
+
 # Looks at every frame that a node publishes.
 add_executable(curtain_judge_frames EXCLUDE_FROM_ALL test/ros/judge_frames.cpp)
 target_link_libraries(curtain_judge_frames curtain_ros curtain_warnings)
@@ -36,7 +44,7 @@ add_dependencies(tests curtain_judge_frames)
 file(GLOB CURTAIN_ROSTESTS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS test/ros/*.test)
 list(REMOVE_ITEM CURTAIN_ROSTESTS test/ros/sharing.test)
 foreach(file ${CURTAIN_ROSTESTS})
-  add_rostest(${file} DEPENDENCIES curtain_node curtain_nodelet curtain_flood curtain_judge_frames ${curtain_sim_EXPORTED_TARGETS})
+  add_rostest(${file} DEPENDENCIES curtain_node curtain_nodelet curtain_flood curtain_judge_frames curtain_nodelet_host ${curtain_sim_EXPORTED_TARGETS})
 endforeach()
 
 if(TARGET curtain_rviz)

@@ -7,17 +7,10 @@
 #include <utility>
 
 #include "cloth/wide.h"
+#include "scene/splitmix.h"
 
 namespace curtain {
 namespace {
-
-// Finaliser of splitmix64 (Steele, Lea, Flood 2014).
-std::uint64_t mix(std::uint64_t value) {
-  value += 0x9e3779b97f4a7c15ULL;
-  value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  value = (value ^ (value >> 27)) * 0x94d049bb133111ebULL;
-  return value ^ (value >> 31);
-}
 
 // Of the lattice points on both sides, at t in [0, 1] between them.
 std::pair<double, double> weightsAt(double t) {
@@ -35,10 +28,10 @@ int latticeCells(double length, double correlation_length, int least, int most) 
 }  // namespace
 
 double hashedNormal(std::uint64_t seed, std::int64_t a, std::int64_t b, std::int64_t c) {
-  std::uint64_t bits = mix(seed);
-  bits = mix(bits ^ static_cast<std::uint64_t>(a));
-  bits = mix(bits ^ static_cast<std::uint64_t>(b));
-  bits = mix(bits ^ static_cast<std::uint64_t>(c));
+  std::uint64_t bits = splitmix(seed);
+  bits = splitmix(bits ^ static_cast<std::uint64_t>(a));
+  bits = splitmix(bits ^ static_cast<std::uint64_t>(b));
+  bits = splitmix(bits ^ static_cast<std::uint64_t>(c));
   double sum = 0.0;
   for (int part = 0; part < 4; ++part) {
     sum += (static_cast<double>(bits & 0xffffU) + 0.5) / 65536.0;

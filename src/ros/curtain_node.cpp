@@ -35,6 +35,7 @@ CurtainNode::CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& pri
       obstacles_(reading.scene, reading.node.obstacle_timeout, frames_),
       hands_(private_node, reading.node.grasp_timeout, frames_, inputs_),
       outputs_(private_node, reading.node, simulator_, frames_),
+      sensors_(node, private_node, reading.points, simulator_, frames_, inputs_),
       clock_(reading.scene.solver.frame_rate, reading.node.max_catch_up, reading.node.publish_clock),
       lock_step_(reading.node.start_paused),
       snapshots_(reading.node.snapshot_file, reading.node.snapshot_period),
@@ -90,6 +91,7 @@ void CurtainNode::startWatch(const ros::NodeHandle& node, const ros::NodeHandle&
   for (const char* own : {"handles/feedback", "open"}) topics.push_back(private_node.resolveName(own));
   for (const char* own : {"reset", "pause", "step", "save", "load", "export_mesh", "set_parameters"})
     services.push_back(private_node.resolveName(own));
+  for (const std::string& topic : sensors_.topics()) topics.push_back(topic);
   if (tie_backs_) services.push_back(private_node.resolveName("tie_back"));
   // dynamic_reconfigure's values are parameters, too: of now, not of the start.
   watch_ = std::make_unique<RoscppWatch>(private_node.getNamespace(), topics, services, [this] { tuning_->refresh(); });
@@ -141,11 +143,13 @@ void CurtainNode::pause(std::int64_t now) {
   if (due.frames == 0) return;
   applyInputs();
   outputs_.showAgain(clock_.rosTime());
+  sensors_.publish(clock_.rosTime(), clock_.rosTime());
 }
 
 void CurtainNode::makeAskedFrame() {
   const ros::Time stamp = clock_.takeInPause();
   makeFrame(stamp, lock_step_.lastOfRequest());
+  sensors_.finish();  // who asks for a frame gets what is seen of it
   LockStep::Answer made;
   made.frame = static_cast<std::uint64_t>(simulator_.statistics().frames);
   made.simulated_time = simulator_.time();
@@ -158,6 +162,7 @@ void CurtainNode::applyInputs() {
   inputs_.apply(simulator_);
   if (opening_) opening_->apply(simulator_);
   if (tie_backs_) tie_backs_->apply(simulator_);
+  sensors_.apply();
 }
 
 void CurtainNode::makeFrame(const ros::Time& stamp, bool latest) {
@@ -173,6 +178,7 @@ void CurtainNode::makeFrame(const ros::Time& stamp, bool latest) {
   }
   if (clock_publisher_) clock_publisher_->publish(stamp);  // first: nobody gets a stamp ahead of the clock
   outputs_.publish(stamp, nodeStatistics(), latest);
+  if (latest) sensors_.publish(stamp, clock_.rosTime());
   if (handles_) handles_->update(simulator_);
   if (opening_) opening_->update(simulator_);
   hands_.update(simulator_);
@@ -221,6 +227,7 @@ void CurtainNode::takeRates() {
   const double rate = simulator_.scene().solver.frame_rate;
   clock_.setRate(rate);
   outputs_.tune(params_, rate);
+  sensors_.takeFrameRate(rate);
   if (handles_) handles_->takeFrameRate(rate);
 }
 
@@ -251,6 +258,7 @@ Health CurtainNode::health() const {
   health.snapshots = snapshots_.health();
   health.last_drop = inputs_.lastDrop();
   health.viewer_error = outputs_.viewerError();
+  health.sensor_error = sensors_.error();
   health.master_watched = watch_ != nullptr;
   health.master_answers = !watch_ || watch_->masterAnswers();
   return health;

@@ -10,8 +10,9 @@
 //
 //   parameters  time  frames                      what the node is told; when frames are due; poses on tf2
 //   inputs  obstacles  outputs  snapshots  watch  what it does; watch, which looks into roscpp, can be switched off
-//   opening  hands  health  services              the rail's drive and tie-backs; grasps; what it says of itself; is
-//   asked for tuning                                        what is changed meanwhile
+//   opening  hands  sensors  health  services     the rail's drive and tie-backs; grasps; points and depth images; what
+//                                                 it says of itself; is asked for
+//   tuning                                        what is changed meanwhile
 #pragma once
 
 #include <ros/node_handle.h>
@@ -32,6 +33,7 @@
 #include "ros/opening/tie_backs.h"
 #include "ros/outputs/outputs.h"
 #include "ros/parameters/parameters.h"
+#include "ros/sensors/sensor_outputs.h"
 #include "ros/services/calls.h"
 #include "ros/services/control_services.h"
 #include "ros/services/file_services.h"
@@ -91,6 +93,7 @@ class CurtainNode {
   ObstacleTracker obstacles_;
   Hands hands_;
   Outputs outputs_;
+  SensorOutputs sensors_;
   std::unique_ptr<Handles> handles_;      // none unless ~handles
   std::unique_ptr<OpenCurtain> opening_;  // none without a rail
   std::unique_ptr<TieBacks> tie_backs_;   // none without one in the scene

@@ -27,7 +27,8 @@ const std::vector<Study>& studies() {
                                          {"contact_frames", studyContactFrames},
                                          {"contact_peers", studyContactPeers},
                                          {"ccd", studyCcd},
-                                         {"features", studyFeatures}};
+                                         {"features", studyFeatures},
+                                         {"sensing", studySensing}};
   return all;
 }
 

@@ -309,6 +309,15 @@ def features():
                       'ns'], body)]
 
 
+def sensing():
+    body = [[row['view'].replace(';', ','), row['rays'], row['hits'], figure(value(row, 'ms_hierarchy')), figure(value(row, 'ms_look')),
+             figure(value(row, 'ms_points'))] for row in table('sensing')]
+    return ['## What a sensor sees\n',
+            'Views of the curtain that ships, %s triangles, one core, least of the repeats: the hierarchy of boxes alone; a depth image, '
+            'with the hierarchy, rays and noise; the points of it besides.\n' % table('sensing')[0]['triangles'],
+            markdown(['view', 'rays', 'points', 'hierarchy [ms]', 'depth image [ms]', 'points [ms]'], body)]
+
+
 def head():
     about = {row['key']: row['value'] for row in table('machine')}
     return ['# Benchmark\n',
@@ -329,7 +338,7 @@ def main():
     sections = {'work_precision': work_precision, 'slopes': slopes, 'energy': energy, 'modes': modes, 'nets': nets, 'wind': wind,
                 'hard_spot': hard_spot, 'gusts': gusts, 'scaling': scaling, 'stages': stages, 'contact': contact,
                 'contact_frames': contact_frames, 'contact_peers': contact_peers, 'ccd': ccd,
-                'features': features}
+                'features': features, 'sensing': sensing}
     text = head()
     for study, section in sections.items():
         if table(study):

@@ -35,6 +35,7 @@ void studyContactFrames(const Options& options);
 void studyContactPeers(const Options& options);
 void studyCcd(const Options& options);
 void studyFeatures(const Options& options);
+void studySensing(const Options& options);
 
 /// All of them, in the order of the page.
 const std::vector<Study>& studies();

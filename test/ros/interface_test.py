@@ -58,7 +58,7 @@ class InterfaceTest(unittest.TestCase):
         self.assertEqual(sorted(t for t in outputs if t != "/rosout" and "handles" not in t),
                          ["/diagnostics", NODE + "/contacts", NODE + "/grasp/feedback", NODE + "/grasp/result",
                           NODE + "/grasp/status", NODE + "/loads", NODE + "/markers", NODE + "/mesh",
-                          NODE + "/parameter_descriptions", NODE + "/parameter_updates", NODE + "/state"])
+                          NODE + "/parameter_descriptions", NODE + "/parameter_updates", NODE + "/points", NODE + "/state"])
         served = [service for service, nodes in master.getSystemState()[2] if NODE in nodes]
         self.assertEqual(sorted(s[len(NODE) + 1:] for s in served if "handles" not in s and "logger" not in s),
                          ["export_mesh", "load", "pause", "reset", "save", "set_parameters", "step"])

@@ -200,8 +200,90 @@ TEST(Parameters, ManualHasThemAllWithTheirDefaults) {
   const NodeParams defaults;
   curtain::visitFields(reader, defaults);
   reader.known.insert("scene");
+  reader.known.insert("points");
   for (const auto& entry : reader.manual)
     EXPECT_EQ(reader.known.count(entry.first.as<std::string>()), 1U) << entry.first;
+}
+
+// The table of ~points. What has no default of its own stands in comments.
+struct PointsManualReader : ManualReader {
+  void seed(curtain::Key key, std::uint64_t value) { compare(key, value); }
+  void optionalNumber(curtain::Key key, const std::optional<double>&, curtain::Range) {
+    EXPECT_FALSE(manual[key.name]) << key.name;
+  }
+  void numbers(curtain::Key key, const std::vector<double>& values, curtain::Range) { compare(key, values); }
+  template <typename Enum>
+  void choice(curtain::Key key, Enum value, const std::vector<std::string>& names) {
+    compare(key, names[static_cast<std::size_t>(value)]);
+  }
+  template <typename T>
+  void map(curtain::Key key, const T& value) {
+    PointsManualReader reader{{manual[key.name], {}}};
+    curtain::visitFields(reader, value);
+    EXPECT_EQ(reader.known.size(), reader.manual.size()) << key.name;
+    known.insert(key.name);
+  }
+};
+
+TEST(Parameters, ManualHasThoseOfPoints) {
+  const YAML::Node manual = YAML::LoadFile(std::string(CURTAIN_SOURCE_DIR) + "/config/curtain.yaml");
+  PointsManualReader reader{{manual["points"], {}}};
+  const curtain::SensorParams defaults;
+  curtain::visitFields(reader, defaults);
+  EXPECT_EQ(reader.known.size(), reader.manual.size());
+}
+
+TEST(Parameters, PointsAreReadStrictly) {
+  XmlRpcValue points;
+  points["sensor"] = value("camera");
+  points["camera"]["width"] = value(320);
+  points["camera"]["distortion"][0] = value(-0.1);
+  points["porosity"] = value(0.2);
+  const ParameterReading good = readWith("points", points);
+  ASSERT_TRUE(good.problems.empty()) << good.problems.front();
+  EXPECT_EQ(good.points.sensor, curtain::SensorKind::kCamera);
+  EXPECT_EQ(good.points.camera.width, 320);
+  EXPECT_EQ(good.points.porosity, 0.2);
+
+  points["camera"]["fx"] = value(0.0);
+  points["camera"]["height"] = value(0);
+  points["camera"]["fucus"] = value(1.0);
+  points["lidar"]["lowest"] = value(0.5);
+  points["noise"] = value("salt");
+  points["min_range"] = value(30.0);
+  points["rate"] = value("1e1");
+  const std::vector<std::string> problems = readWith("points", points).problems;
+  const std::string space = "/stage/curtain/points/";
+  EXPECT_TRUE(names(problems, space + "camera.fx: must be a number in [0.001, 1000000], is 0"));
+  EXPECT_TRUE(names(problems, space + "camera.height: must be an integer in [1, 8192], is 0"));
+  EXPECT_TRUE(names(problems, space + "camera.fucus: is not a known key"));
+  EXPECT_TRUE(names(problems, space + "lidar.lowest: must be at most lidar.highest, is 0.5"));
+  EXPECT_TRUE(names(problems, space + "noise: must be none, gaussian, khoshelham_2012 or nguyen_2012"));
+  EXPECT_TRUE(names(problems, space + "min_range: must be less than max_range, is 30"));
+  EXPECT_TRUE(names(problems, space + "rate: must be a number"));
+  EXPECT_TRUE(names(readWith("points", value("camera")).problems, "/stage/curtain/points: must be a map"));
+}
+
+TEST(Parameters, PointsMustGoTogether) {
+  const auto problems = [](const char* sensor, const char* key, const XmlRpcValue& bad) {
+    XmlRpcValue points;
+    points["sensor"] = value(sensor);
+    points[key] = bad;
+    return readWith("points", points).problems;
+  };
+  EXPECT_TRUE(names(problems("all_round", "noise", value("gaussian")), "points/noise: must be none, is gaussian"));
+  EXPECT_TRUE(names(problems("all_round", "dropout", value(0.1)), "points/dropout: must be 0, is 0.1"));
+  EXPECT_TRUE(names(problems("lidar", "noise", value("nguyen_2012")), "points/noise: must be none or gaussian"));
+  XmlRpcValue lidar, camera;
+  lidar["rings"] = value(1024);
+  lidar["columns"] = value(65536);
+  EXPECT_TRUE(names(problems("lidar", "lidar", lidar), "points/lidar.rings: times lidar.columns must be at most"));
+  camera["distortion"][0] = value(-3.0);
+  EXPECT_TRUE(names(problems("camera", "camera", camera), "points/camera.distortion: has no inverse at the pixel"));
+  EXPECT_TRUE(problems("lidar", "camera", camera).empty()) << "no camera is asked for";
+  camera["distortion"].setSize(6);
+  for (int i = 0; i < 6; ++i) camera["distortion"][i] = value(0.0);
+  EXPECT_TRUE(names(problems("camera", "camera", camera), "points/camera.distortion: must have at most 5 numbers"));
 }
 
 // The robot's own table, which the manual shows as comments.

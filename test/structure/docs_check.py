@@ -275,6 +275,12 @@ class Described(unittest.TestCase):
         robot = set(re.findall(r"\bv\.\w+\(\"(\w+)\"", read("src/ros/parameters/robot.h")))
         self.all_described({"robot/" + name for name in robot}, "docs/keys.md", 5)
         self.all_described({"robot/" + name for name in robot}, "docs/robot.md", 5)
+        sensing = read("src/sensing/sensor_params.h")
+        tables = {kind: set(re.findall(r"\bv\.\w+\(\"(\w+)\"", body)) for kind, body in
+                  re.findall(r"struct Fields<(\w+)Params> \{(.*?)\n\};", sensing, re.S)}
+        points = tables["Sensor"] | {"%s/%s" % (kind.lower(), name) for kind in ("Camera", "Lidar") for name in tables[kind]}
+        self.all_described({"points/" + name for name in points}, "docs/keys.md", 25)
+        self.all_described(points - {"camera", "lidar"}, "docs/sensors.md", 25)
         names = set(re.findall(r"\bv\.\w+\(\"(\w+)\"", table)) | names_of_calls(text, r"param|getParam|searchParam")
         self.all_described(names, "docs/node.md", 15)
         self.all_described(names, "docs/keys.md", 15)

@@ -8,11 +8,14 @@
 // The rviz display stands beside ros, a house of its own: it includes public headers and messages alone, and nothing
 // includes it.
 //
+// Sensing stands beside the simulator, whose public headers it includes, and shows itself to ros alone: the engine does
+// without it.
+//
 // So do the rooms of contact and of ros, with what puts them together above them:
 //
 //   0 shapes < 1 narrow_phase, oracle < 2 broad_phase < 3 response < 4 contact's own files
-//   0 parameters, time, frames < 1 inputs, obstacles, outputs, snapshots, watch < 2 opening, hands, health, services
-//     < 3 tuning < 4 ros' own files
+//   0 parameters, time, frames < 1 inputs, obstacles, outputs, snapshots, watch < 2 opening, hands, sensors, health,
+//     services < 3 tuning < 4 ros' own files
 //
 // Rooms of ros at the same height do not know each other.
 #include <gtest/gtest.h>
@@ -30,13 +33,14 @@ using curtain_test::lines;
 using curtain_test::SourceFile;
 using curtain_test::sourceFiles;
 
-const std::map<std::string, int> kFolders = {{"scene", 0},   {"cloth", 1},     {"forces", 2}, {"solver", 3},
-                                             {"contact", 3}, {"simulator", 4}, {"ros", 5},    {"rviz", 5}};
+const std::map<std::string, int> kFolders = {{"scene", 0},   {"cloth", 1},   {"forces", 2},
+                                             {"solver", 3},  {"contact", 3}, {"simulator", 4},
+                                             {"sensing", 4}, {"ros", 5},     {"rviz", 5}};
 using Rooms = std::map<std::string, int>;
 const Rooms kContactRooms = {{"shapes", 0}, {"narrow_phase", 1}, {"oracle", 1}, {"broad_phase", 2}, {"response", 3}};
-const Rooms kRosRooms = {{"parameters", 0}, {"time", 0},      {"frames", 0}, {"inputs", 1},  {"obstacles", 1},
-                         {"outputs", 1},    {"snapshots", 1}, {"watch", 1},  {"opening", 2}, {"hands", 2},
-                         {"health", 2},     {"services", 2},  {"tuning", 3}};
+const Rooms kRosRooms = {{"parameters", 0}, {"time", 0},      {"frames", 0},   {"inputs", 1},  {"obstacles", 1},
+                         {"outputs", 1},    {"snapshots", 1}, {"watch", 1},    {"opening", 2}, {"hands", 2},
+                         {"sensors", 2},    {"health", 2},    {"services", 2}, {"tuning", 3}};
 constexpr int kAboveRooms = 4;
 constexpr int kRos = 5;
 constexpr int kPrograms = 6;
@@ -265,6 +269,25 @@ TEST(Floors, TheRvizDisplayIsAHouseOfItsOwn) {
   }
   EXPECT_GT(own, 15) << "looked in the wrong place";
   EXPECT_GT(of_rviz, 15) << "the test must recognise them";
+}
+
+TEST(Floors, TheEngineDoesWithoutSensing) {
+  int of_ros = 0;
+  for (const SourceFile& file : houseFiles()) {
+    const bool inside = file.name.rfind("src/sensing/", 0) == 0;
+    for (const Include& include : includesOf(file)) {
+      const std::string folder = firstFolder(include.file);
+      if (include.quoted && folder == "sensing" && !inside) {
+        EXPECT_EQ(file.name.rfind("src/ros/", 0), 0U) << file.name << " includes " << include.file;
+        ++of_ros;
+      }
+      if (inside && include.quoted) {
+        EXPECT_NE(folder, "simulator") << file.name << " includes " << include.file;
+      }
+      EXPECT_TRUE(inside || folder != "embree3") << file.name << " includes " << include.file;
+    }
+  }
+  EXPECT_GT(of_ros, 3) << "looked in the wrong place";
 }
 
 TEST(Floors, OnlyTheTopKnowsRos) {

@@ -21,7 +21,7 @@ FollowedFrame::Standing FollowedFrame::look(Frames& frames, const ros::Time& now
   }
   age_ = stamp_.isZero() ? 0.0 : (now - stamp_).toSec();
   if (age_ <= timeout_) return Standing::kFresh;
-  error_ = "has not been heard of for " + curtain::formatNumber(age_) + " s (~grasp_timeout is " +
+  error_ = "has not been heard of for " + curtain::formatNumber(age_) + " s (" + parameter_ + " is " +
            curtain::formatNumber(timeout_) + " s)";
   return Standing::kLost;
 }

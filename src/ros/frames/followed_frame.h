@@ -9,6 +9,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "ros/frames/frames.h"
 
@@ -16,8 +17,9 @@ namespace curtain_ros {
 
 class FollowedFrame {
  public:
-  /// name: of the frame; timeout [s], > 0.
-  FollowedFrame(std::string name, double timeout) : name_(std::move(name)), timeout_(timeout) {}
+  /// name: of the frame; timeout [s], > 0; parameter: that gives the timeout, for error().
+  FollowedFrame(std::string name, double timeout, std::string parameter)
+      : name_(std::move(name)), timeout_(timeout), parameter_(std::move(parameter)) {}
 
   const std::string& name() const { return name_; }
 
@@ -39,6 +41,7 @@ class FollowedFrame {
  private:
   std::string name_;
   double timeout_;
+  std::string parameter_;
   std::optional<curtain::Pose> pose_;
   ros::Time stamp_;   // of that transform; zero: static
   double age_ = 0.0;  // [s]

@@ -59,7 +59,7 @@ void Hands::read(Letter& letter, Simulator& simulator, const ros::Time&) {
   const std::string id = letter.goal.getGoalID().id;
   const std::vector<curtain::Problem> problems = toGrasp(wanted, id, simulator.scene().cloth, grasp);
   if (!problems.empty()) return refuse(letter.goal, problems);
-  hands_.push_back({letter.goal, id, FollowedFrame(wanted.frame, timeout_), false, 0.0});
+  hands_.push_back({letter.goal, id, FollowedFrame(wanted.frame, timeout_, "~grasp_timeout"), false, 0.0});
 }
 
 // Takes hold, if the frame is known. False: it is refused.

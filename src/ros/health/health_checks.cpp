@@ -128,6 +128,8 @@ void checkObstacles(const Health& health, const Pulse& pulse, Rises& rises, Diag
   }
   report.tellIf(!health.viewer_error.empty(), "the frame of mesh_viewer_frame is not known");
   if (!health.viewer_error.empty()) report.value("mesh_viewer_frame", health.viewer_error);
+  report.tellIf(!health.sensor_error.empty(), "~points sees nothing");
+  if (!health.sensor_error.empty()) report.value("points", health.sensor_error);
   report.count("poses late", s.late_poses);
   report.count("poses ahead of the clock", s.early_poses);
   report.count("obstacles lost", s.obstacles_lost);

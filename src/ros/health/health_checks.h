@@ -7,7 +7,9 @@
 //                      slower than 0.95 of the clock; lately: substeps unsettled, of the last resort or stopped,
 //                      frames dropped, late or shortened, /clock jumped back, the computer's clock set back
 //   inputs      WARN   lately: messages refused, in unknown frames, too many for a frame, dropped in roscpp's queue
-//   obstacles   WARN   one left out, late (half of ~obstacle_timeout), or ahead of the clock; no viewer's frame
+//   obstacles   WARN   one left out, late (half of ~obstacle_timeout), or ahead of the clock; no viewer's frame; a
+//   sensor that
+//                      sees nothing
 //   snapshots   WARN   the last one was not written, or the file is no snapshot; lately: one replaced before it was
 //                      written, or the file refused at the start
 //   master      WARN   it does not answer; lately: it had forgotten the node. Without ~watch_roscpp always OK
@@ -38,6 +40,7 @@ struct Health {
   SnapshotHealth snapshots;
   std::string last_drop;       ///< which message was dropped last, and why; empty: none
   std::string viewer_error;    ///< why the frame of ~mesh's viewer is not known; empty: it is, or none is asked for
+  std::string sensor_error;    ///< why ~points sees nothing; empty: it does, or nobody listens
   bool master_watched = true;  ///< ~watch_roscpp
   bool master_answers = true;
 };

@@ -24,6 +24,7 @@ namespace {
 
 const char kScene[] = "scene";
 const char kRobot[] = "robot";
+const char kPoints[] = "points";
 const char kDescription[] = "robot_description";  // where every tool looks for the URDF
 
 // The scene's visitors, with the one kind of value that only nodes have: text that may be empty.
@@ -115,20 +116,38 @@ std::string descriptionOf(const RobotParams& robot) {
   return robot.description.empty() ? kDescription : robot.description;
 }
 
-void readRobotTree(const YAML::Node& yaml, const std::string& name, ParameterReading& reading) {
-  reading.robot.emplace();
+// A table of parameters that is refused as a whole. false: it is no map.
+template <typename T>
+bool readTable(const YAML::Node& yaml, const std::string& name, const char* keys, T& value, curtain::ProblemLog& log,
+               std::vector<std::string>& problems) {
   if (!yaml.IsMap()) {
-    reading.problems.push_back(name + ": must be a map, with description, links, …");
-    return;
+    problems.push_back(name + ": must be a map, with " + keys);
+    return false;
   }
-  curtain::ProblemLog log;
   Reader reader(yaml, "", log);
-  curtain::visitFields(reader, *reading.robot);
+  curtain::visitFields(reader, value);
   reader.reportUnknown();
   Checker checker("", log);
-  curtain::visitFields(checker, *reading.robot);
-  for (const curtain::Problem& problem : log.problems())
-    reading.problems.push_back(name + "/" + curtain::describe({problem}));
+  curtain::visitFields(checker, value);
+  return true;
+}
+
+void addProblems(const curtain::ProblemLog& log, const std::string& name, std::vector<std::string>& problems) {
+  for (const curtain::Problem& problem : log.problems()) problems.push_back(name + "/" + curtain::describe({problem}));
+}
+
+void readRobotTree(const YAML::Node& yaml, const std::string& name, ParameterReading& reading) {
+  reading.robot.emplace();
+  curtain::ProblemLog log;
+  readTable(yaml, name, "description, links, …", *reading.robot, log, reading.problems);
+  addProblems(log, name, reading.problems);
+}
+
+void readPointsTree(const YAML::Node& yaml, const std::string& name, ParameterReading& reading) {
+  curtain::ProblemLog log;
+  if (readTable(yaml, name, "sensor, rate, …", reading.points, log, reading.problems))
+    curtain::checkSensor(reading.points, log);
+  addProblems(log, name, reading.problems);
 }
 
 // Obstacles that name no frame stand still in the world, whatever the world frame is called here.
@@ -233,7 +252,10 @@ ParameterReading readParameters(const XmlRpcValue& tree, const std::string& priv
   for (const std::string& name : tunedSceneParameters()) own.remove(name);
   const YAML::Node robot = static_cast<const YAML::Node&>(own)[kRobot];
   own.remove(kRobot);
+  const YAML::Node points = static_cast<const YAML::Node&>(own)[kPoints];
+  own.remove(kPoints);
   ParameterReading reading;
+  if (points) readPointsTree(points, private_space + "/" + kPoints, reading);
   if (robot) {
     readRobotTree(robot, private_space + "/" + kRobot, reading);
     own.remove(descriptionOf(*reading.robot));

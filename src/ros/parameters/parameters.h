@@ -16,6 +16,7 @@
 #include "curtain_sim/scene.h"
 #include "ros/parameters/robot.h"
 #include "scene/fields.h"
+#include "sensing/sensor_params.h"
 
 namespace curtain_ros {
 
@@ -48,6 +49,7 @@ struct NodeParams {
 struct ParameterReading {
   NodeParams node;
   std::optional<RobotParams> robot;
+  curtain::SensorParams points;
   curtain::Scene scene;               ///< with the robot's obstacles behind its own, once the URDF is read
   std::vector<std::string> problems;  ///< "parameter: text", one each
   std::vector<std::string> warnings;

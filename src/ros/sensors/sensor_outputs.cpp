@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/sensors/sensor_outputs.h"
+
+#include <ros/console.h>
+
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "ros/sensors/read_camera_info.h"
+#include "ros/sensors/sensor_messages.h"
+#include "scene/ranges.h"
+
+namespace curtain_ros {
+
+using curtain::SensorKind;
+using sensor_msgs::CameraInfo;
+
+namespace {
+
+constexpr double kCloudsAtRest = 1.0;     // [1/s] all round
+constexpr double kWarnPeriod = 10.0;      // [s] between warnings
+constexpr std::uint32_t kQueueSize = 50;  // of camera_info, as of other inputs: what roscpp drops is warned of
+
+curtain::FlatCloth flatCloth(const curtain::Simulator& simulator) {
+  std::vector<double> warp, weft;
+  simulator.copyRestLengths(warp, weft);
+  return {simulator.fineMeshTopology(), std::move(warp), std::move(weft)};
+}
+
+}  // namespace
+
+// Short queues: late listeners want the newest view, not the ones they missed.
+SensorOutputs::SensorOutputs(ros::NodeHandle node, ros::NodeHandle private_node, const curtain::SensorParams& params,
+                             const curtain::Simulator& simulator, Frames& frames, Inputs& inputs)
+    : params_(params),
+      simulator_(simulator),
+      frames_(frames),
+      inputs_(inputs),
+      flat_(flatCloth(simulator)),
+      pace_(params.rate, restRate(), simulator.scene().solver.frame_rate),
+      camera_letters_(1),
+      cloud_message_(emptyCloud()),
+      image_message_(sensor_msgs::Image()),
+      info_message_(CameraInfo()) {
+  const double count = flat_.area() * params_.density;
+  if (!isSensor() && count > curtain::kMostRays) {
+    throw ParameterError("can't start, a problem with " + private_node.getNamespace() + "/points/density: gives " +
+                         curtain::formatNumber(std::round(count)) + " points on " +
+                         curtain::formatNumber(flat_.area()) + " m^2 of cloth, must give at most " +
+                         std::to_string(curtain::kMostRays));
+  }
+  if (isCamera() && params_.camera.from_camera_info) {
+    subscribe(node);
+  } else if (isCamera()) {
+    const curtain::CameraModel camera = curtain::cameraModel(params_.camera);
+    CameraInfo message;
+    toMessage(camera, message);
+    std::vector<curtain::Problem> problems;  // the parameters have none
+    setCamera(curtain::cameraRays(camera, problems), message);
+  } else if (isSensor()) {
+    rays_ = curtain::lidarRays(params_.lidar);
+  }
+  if (!params_.frame.empty() || !camera_infos_) frame_.emplace(params_.frame, params_.timeout, "~points/timeout");
+  points_ = private_node.advertise<sensor_msgs::PointCloud2>("points", 2);
+  if (!isCamera()) return;
+  image_ = private_node.advertise<sensor_msgs::Image>("depth/image", 2);
+  info_ = private_node.advertise<CameraInfo>("depth/camera_info", 2);
+}
+
+// A sensor's noise is new in every view, whether anything moves or not.
+double SensorOutputs::restRate() const { return isSensor() ? 0.0 : kCloudsAtRest; }
+
+void SensorOutputs::subscribe(ros::NodeHandle& node) {
+  const boost::function<void(const CameraInfo::ConstPtr&)> on_message = [this](const CameraInfo::ConstPtr& message) {
+    camera_letters_.post(message);
+  };
+  camera_infos_ = node.subscribe<CameraInfo>("camera_info", kQueueSize, on_message, ros::VoidConstPtr(),
+                                             ros::TransportHints().tcpNoDelay());
+}
+
+std::vector<std::string> SensorOutputs::topics() const {
+  if (!camera_infos_) return {};
+  return {camera_infos_.getTopic()};
+}
+
+void SensorOutputs::apply() {
+  if (!camera_infos_) return;
+  std::deque<CameraInfo::ConstPtr> letters;
+  camera_letters_.collect(letters);
+  for (const CameraInfo::ConstPtr& letter : letters) take(*letter);
+}
+
+void SensorOutputs::take(const CameraInfo& message) {
+  CameraInfo known = message;
+  completeProjection(known);
+  known.header.seq = camera_.header.seq;
+  known.header.stamp = camera_.header.stamp;
+  if (has_camera_ && known == camera_) return inputs_.take();  // drivers send the same one with every image
+  curtain::CameraModel camera;
+  std::vector<curtain::Problem> problems = toCamera(message, camera);
+  curtain::RayGrid rays;
+  if (problems.empty()) rays = curtain::cameraRays(camera, problems);
+  if (!problems.empty()) return inputs_.refuse("camera_info", problems);
+  if (params_.frame.empty() && !(frame_ && frame_->name() == known.header.frame_id))
+    frame_.emplace(known.header.frame_id, params_.timeout, "~points/timeout");
+  setCamera(rays, known);
+  inputs_.take();
+}
+
+void SensorOutputs::setCamera(const curtain::RayGrid& rays, const CameraInfo& message) {
+  rays_ = rays;
+  camera_ = message;
+  has_camera_ = true;
+}
+
+bool SensorOutputs::busy() {
+  return looking_.valid() && looking_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
+}
+
+void SensorOutputs::finish() {
+  if (looking_.valid()) looking_.get();
+}
+
+// False: it can't see now.
+bool SensorOutputs::findSensor(const ros::Time& now) {
+  const std::string before = error_;
+  error_.clear();
+  if (!isSensor()) return true;
+  if (isCamera() && !has_camera_) {
+    error_ = "no camera_info has come on " + camera_infos_.getTopic();
+  } else {
+    const FollowedFrame::Standing standing = frame_->look(frames_, now);
+    if (standing == FollowedFrame::Standing::kFresh) return true;
+    if (standing == FollowedFrame::Standing::kLost)
+      error_ = "the sensor's frame '" + frame_->name() + "' " + frame_->error();
+  }
+  if (!error_.empty()) ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "~points sees nothing: " << error_);
+  return false;
+}
+
+// What is only needed where somebody listens.
+void SensorOutputs::prepare() {
+  if (!isSensor()) {
+    if (!sampler_) sampler_ = std::make_unique<curtain::ClothSampler>(flat_, params_.density, params_.seed);
+    return;
+  }
+  if (!sensor_) sensor_ = std::make_unique<curtain::SensorView>(simulator_, flat_, params_);
+  if (rays_) sensor_->setRays(std::move(*rays_));
+  rays_.reset();
+}
+
+void SensorOutputs::publish(const ros::Time& stamp, const ros::Time& now) {
+  pace_.tick();
+  const std::uint32_t clouds = points_.getNumSubscribers();
+  const std::uint32_t images = isCamera() ? image_.getNumSubscribers() + info_.getNumSubscribers() : 0;
+  if (clouds + images == 0) error_.clear();
+  if (busy() || !pace_.due(clouds + images) || !findSensor(now) || !pace_.send(simulator_.revision())) return;
+  finish();
+  try {
+    prepare();
+    view_.stamp = stamp;
+    view_.frame = isSensor() ? frames_.resolve(frame_->name()) : frames_.world();
+    view_.sensor = isSensor() ? *frame_->pose() : curtain::Pose();
+    view_.cloud = clouds > 0;
+    view_.image = images > 0;
+    view_camera_ = camera_;
+    curtain::takeMoment(simulator_, view_.moment);
+    looking_ = std::async(std::launch::async, [this] { show(view_); });
+  } catch (const std::exception& error) {  // no memory, no thread
+    ROS_ERROR_STREAM_THROTTLE(kWarnPeriod, "~points can't be made: " << error.what());
+  }
+}
+
+// On a thread of its own.
+void SensorOutputs::show(const View& view) {
+  try {
+    if (!isSensor()) {
+      sampler_->sample(view.moment, cloud_);
+      return showCloud(view, 1, static_cast<std::uint32_t>(cloud_.size()));
+    }
+    sensor_->look(view.moment, view.sensor);
+    if (view.image) showDepths(view);
+    if (!view.cloud) return;
+    sensor_->points(view.moment, cloud_);
+    showCloud(view, static_cast<std::uint32_t>(sensor_->rays().height),
+              static_cast<std::uint32_t>(sensor_->rays().width));
+  } catch (const std::exception& error) {
+    ROS_ERROR_STREAM_THROTTLE(kWarnPeriod, "~points can't be made: " << error.what());
+  }
+}
+
+void SensorOutputs::showCloud(const View& view, std::uint32_t height, std::uint32_t width) {
+  const auto message = cloud_message_.edit();
+  message->header.stamp = view.stamp;
+  message->header.frame_id = view.frame;
+  fillCloud(cloud_, height, width, !isSensor(), *message);
+  points_.publish(message);
+}
+
+void SensorOutputs::showDepths(const View& view) {
+  const auto image = image_message_.edit();
+  image->header.stamp = view.stamp;
+  image->header.frame_id = view.frame;
+  fillDepths(sensor_->readings(), static_cast<std::uint32_t>(sensor_->rays().height),
+             static_cast<std::uint32_t>(sensor_->rays().width), *image);
+  const auto info = info_message_.edit();
+  *info = view_camera_;
+  info->header = image->header;
+  image_.publish(image);
+  info_.publish(info);
+}
+
+}  // namespace curtain_ros
