@@ -15,14 +15,14 @@ namespace {
 using Self = PythonSimulator;
 
 template <typename Params>
-const std::string& known(const std::vector<Params>& all, const std::string& id, const char* what) {
+const std::string& known(const std::vector<Params>& all, const std::string& id, const char* none) {
   const bool found = std::any_of(all.begin(), all.end(), [&](const Params& one) { return one.id == id; });
-  if (!found) throw py::value_error(std::string("there is no ") + what + " \"" + id + "\"");
+  if (!found) throw py::value_error(std::string(none) + " \"" + id + "\"");
   return id;
 }
 
 const std::string& lines(const Self& self, const std::string& id) {
-  return known(self.look().scene().lines, id, "lines");
+  return known(self.look().scene().lines, id, "there are no lines");
 }
 
 py::object driveOf(const Simulator& simulator) {
@@ -88,7 +88,7 @@ void bindTieBacks(SimulatorClass& simulator) {
       .def(
           "tie_back_closed",
           [](const Self& self, const std::string& id) {
-            return self.look().tieBackClosed(known(self.look().scene().tie_back, id, "tie-back"));
+            return self.look().tieBackClosed(known(self.look().scene().tie_back, id, "there is no tie-back"));
           },
           py::arg("id"), "It is closed, or closes.");
 }
