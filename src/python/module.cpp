@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // import curtain_engine: the engine for Python. See docs/python.md.
+#include <pybind11/numpy.h>
+
 #include "python/bindings.h"
 #include "python/yaml_values.h"
 
@@ -20,6 +22,9 @@ curtain::Scene sceneOf(const py::object& given) {
 
 PYBIND11_MODULE(curtain_engine, module) {
   using curtain::python::PythonSimulator;
+  // Now, and not with the first array: pybind11 keeps it in a static variable, and NumPy's import lets other threads
+  // run, of which one would wait for that variable with the GIL in its hands.
+  py::detail::npy_api::get();
   module.doc() =
       "The curtain simulator's engine, without ROS.\n\n"
       "SI units throughout: m, s, kg, N, rad. Nodes are (row, column); row 0 is the hung edge. Bad input is a "
