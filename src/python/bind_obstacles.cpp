@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "python/arguments.h"
+#include "python/bindings.h"
+#include "python/yaml_values.h"
+
+namespace py = pybind11;
+
+namespace curtain::python {
+namespace {
+
+using Self = PythonSimulator;
+
+void setPose(Self& self, const std::string& name, const py::object& position, const py::object& orientation,
+             bool jump) {
+  const int index = self.obstacle(name);
+  const py::object turned = orientation.is_none() ? toArray(self.look().obstaclePose(index).orientation) : orientation;
+  const Pose pose = readPose(position, turned, name);
+  self.change([&](Simulator& s) { s.setObstaclePose(index, pose, jump); });
+}
+
+py::tuple poseOf(const Self& self, const std::string& name) {
+  const Pose& pose = self.look().obstaclePose(self.obstacle(name));
+  return py::make_tuple(toArray(pose.position), toArray(pose.orientation));
+}
+
+py::dict wrenchOn(const Self& self, const std::string& name) {
+  const ContactWrench wrench = self.look().contactWrench(self.obstacle(name));
+  py::dict values;
+  values["force"] = toArray(wrench.force);
+  values["torque"] = toArray(wrench.torque);
+  values["contacts"] = wrench.contacts;
+  return values;
+}
+
+py::dict contactPoints(const Self& self) {
+  std::vector<ContactForce> contacts;
+  self.look().copyContactPoints(contacts);
+  const auto count = static_cast<py::ssize_t>(contacts.size());
+  const auto vectors = [&](const Vec3 ContactForce::*member) {
+    py::array_t<double> array({count, py::ssize_t{3}});
+    double* out = array.mutable_data();
+    for (const ContactForce& contact : contacts) out = std::copy_n((contact.*member).data(), 3, out);
+    return array;
+  };
+  py::array_t<std::int64_t> obstacle(count);
+  py::array_t<double> normal_force(count);
+  for (py::ssize_t k = 0; k < count; ++k) {
+    obstacle.mutable_at(k) = contacts[static_cast<std::size_t>(k)].obstacle;
+    normal_force.mutable_at(k) = contacts[static_cast<std::size_t>(k)].normal_force;
+  }
+  py::dict values;
+  values["obstacle"] = obstacle;
+  values["position"] = vectors(&ContactForce::position);
+  values["normal"] = vectors(&ContactForce::normal);
+  values["normal_force"] = normal_force;
+  values["friction"] = vectors(&ContactForce::friction);
+  return values;
+}
+
+py::dict piercings(const Self& self, const std::string& name, double tolerance, bool fine) {
+  const int index = self.obstacle(name);
+  const Piercings found = fine ? self.look().finePiercings(index, tolerance) : self.look().piercings(index, tolerance);
+  py::dict values;
+  values["nodes"] = found.nodes;
+  values["edges"] = found.edges;
+  values["faces"] = found.faces;
+  return values;
+}
+
+}  // namespace
+
+void bindObstacles(SimulatorClass& simulator) {
+  simulator
+      .def_property_readonly(
+          "obstacles",
+          [](const Self& self) {
+            py::list names;
+            for (const std::string& name : self.obstacles()) names.append(name);
+            return names;
+          },
+          "Names of the obstacles, in the scene's order.")
+      .def("set_obstacle_pose", &setPose, py::arg("name"), py::arg("position"), py::arg("orientation") = py::none(),
+           py::arg("jump") = false,
+           "Pose of an obstacle at the end of the next frame: position [m], orientation (unit quaternion x, y, z, w; "
+           "None: as it is). It moves there evenly, in place of the scene's motion. jump: it is there at once, without "
+           "a "
+           "velocity.")
+      .def("obstacle_pose", &poseOf, py::arg("name"),
+           "Position [m], shape (3,), and orientation (x, y, z, w), shape (4,), as set last.")
+      .def(
+          "set_obstacle_present",
+          [](Self& self, const std::string& name, bool present) {
+            const int index = self.obstacle(name);
+            self.change([&](Simulator& s) { s.setObstaclePresent(index, present); });
+          },
+          py::arg("name"), py::arg("present"),
+          "An absent obstacle touches nothing. When it comes back, set its pose with jump.")
+      .def(
+          "obstacle_present",
+          [](const Self& self, const std::string& name) { return self.look().obstaclePresent(self.obstacle(name)); },
+          py::arg("name"), "As set; at the start: True.")
+      .def("contact_wrench", &wrenchOn, py::arg("name"),
+           "Force [N] and torque [N m] of the cloth on an obstacle, about the origin of its frame, along the world's "
+           "axes, mean over the last frame; contacts: that pushed at its end.")
+      .def("contact_points", &contactPoints,
+           "Where the cloth presses on obstacles, sorted by their names: a dict of arrays with one entry a place. "
+           "obstacle: its number in obstacles, shape (n,); position of the cloth [m] and normal (unit, out of the "
+           "obstacle), shape (n, 3); normal_force [N], > 0, shape (n,); friction of the cloth on the obstacle [N], "
+           "shape "
+           "(n, 3).")
+      .def(
+          "piercings", &piercings, py::arg("name"), py::arg("depth_tolerance") = 1e-6, py::arg("fine") = false,
+          "Nodes, edges and faces of the cloth that are deeper than the tolerance [m] in an obstacle or go through it, "
+          "by brute force (slow). fine: of the mesh for display.");
+}
+
+}  // namespace curtain::python
