@@ -14,7 +14,9 @@ import unittest
 
 import rospy
 import rostest
-from curtain_sim.msg import WindSource
+from actionlib import ActionClient, CommState
+from actionlib_msgs.msg import GoalStatus
+from curtain_sim.msg import GraspAction, GraspGoal, GraspResult, WindSource
 from curtain_sim.srv import ExportMesh, Load, Save, Step
 from curtain_testing import (OK, Curtain, Diagnostics, NodeProcess, assert_stream_is_sound, billow, distance,
                              node_position, publisher, wait_until, wind_message)
@@ -52,6 +54,8 @@ class ServicesTest(unittest.TestCase):
         cls.curtain.next()
         cls.wind = publisher("/stage/wind_source", WindSource)
         cls.call = Services(NODE)
+        cls.grasp = ActionClient(NODE + "/grasp", GraspAction)
+        wait_until(lambda: all(end.get_num_connections() > 0 for end in (cls.grasp.pub_goal, cls.grasp.status_sub)), "~grasp is there")
         cls.folder = tempfile.mkdtemp()
 
     @classmethod
@@ -140,6 +144,8 @@ class ServicesTest(unittest.TestCase):
             answers = []
             caller = threading.Thread(target=lambda: answers.append(self.call.step(100000)))
             start = self.good(self.call.step(1)).frame
+            self.state_of(start)
+            self.curtain.clear()  # of frames with higher numbers, from before a reset
             caller.start()
             self.curtain.wait_for(lambda s: s.statistics.frame > start + 5, "it has begun")
             self.good(end())
@@ -162,6 +168,46 @@ class ServicesTest(unittest.TestCase):
         self.assertEqual(second.statistics.simulated_time, first.statistics.simulated_time)
         self.assertEqual(second.statistics.restarts, first.statistics.restarts + 1)
         self.assertGreater(second.header.stamp, first.header.stamp)
+
+    def grasp_the_hem(self):
+        """A goal that has come to the node, which is paused. Its region is where the hem is."""
+        goal = GraspGoal(frame="world", region=GraspGoal.NODES, rows=[ROWS - 1] * COLUMNS, columns=list(range(COLUMNS)))
+        handle = self.grasp.send_goal(goal)
+        wait_until(lambda: handle.get_comm_state() == CommState.PENDING, "the goal has come")
+        return handle
+
+    def hem(self, state):
+        return [node_position(state, ROWS - 1, column) for column in range(COLUMNS)]
+
+    def test_grasp_acts_in_the_next_frame(self):
+        self.wind.publish(wind_message())
+        self.curtain.wait_for(lambda s: billow(s) > 0.1, "the curtain blows")
+        self.good(self.call.pause(True))
+        before = self.state_of(self.good(self.call.step(1)).frame)
+        handle = self.grasp_the_hem()
+        after = self.state_of(self.good(self.call.step(1)).frame)
+        self.assertEqual(self.hem(after), self.hem(before), "it is held in the first frame after the goal")
+        wait_until(lambda: handle.get_goal_status() == GoalStatus.ACTIVE, "the goal is taken")
+        handle.cancel()
+        wait_until(lambda: handle.get_comm_state() == CommState.DONE or self.call.step(1), "it is let go")
+        free = self.state_of(self.good(self.call.step(5)).frame)
+        self.assertNotEqual(self.hem(free), self.hem(after))
+
+    def test_load_lets_go(self):
+        """Of what is held, and of what the snapshot says was held when it was saved."""
+        self.wind.publish(wind_message())
+        self.curtain.wait_for(lambda s: billow(s) > 0.1, "the curtain blows")
+        self.good(self.call.pause(True))
+        handle = self.grasp_the_hem()
+        held = self.state_of(self.good(self.call.step(1)).frame)
+        path = self.path("held.snapshot")
+        self.good(self.call.save(path))
+        self.curtain.clear()
+        self.good(self.call.load(path))
+        wait_until(lambda: handle.get_comm_state() == CommState.DONE, "the goal is over")
+        os.remove(path)
+        self.assertEqual(handle.get_result().end, GraspResult.RESET)
+        self.assertNotEqual(self.hem(self.state_of(self.good(self.call.step(5)).frame)), self.hem(held))
 
     def test_paths_that_can_not_be_are_refused(self):
         for call in (self.call.save, self.call.export_mesh, self.call.load):
