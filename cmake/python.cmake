@@ -2,10 +2,9 @@
 # one extension, so that its types (__init__.pyi, py.typed) are found with it. It is for the Python that cmake finds, or
 # -DPython3_EXECUTABLE=…; docs/python.md.
 option(CURTAIN_PYTHON "Build the Python module where pybind11 is found" ON)
-if(NOT CURTAIN_PYTHON)
+if(NOT CURTAIN_PYTHON OR CURTAIN_FUZZ OR CURTAIN_SANITIZE OR CMAKE_CXX_FLAGS MATCHES "-fsanitize")  # Python itself is not watched
   return()
 endif()
-find_package(Python3 QUIET COMPONENTS Interpreter Development.Module)  # first: pybind11 takes the same
 if(Python3_Development.Module_FOUND)
   find_package(pybind11 2.6 QUIET)
 endif()
@@ -31,12 +30,13 @@ else()
 endif()
 
 file(GLOB CURTAIN_PYTHON_SOURCES CONFIGURE_DEPENDS src/python/*.cpp)
-pybind11_add_module(curtain_python MODULE NO_EXTRAS ${CURTAIN_PYTHON_SOURCES})
-set_target_properties(curtain_python PROPERTIES OUTPUT_NAME __init__
+add_library(curtain_python MODULE ${CURTAIN_PYTHON_SOURCES})
+pybind11_extension(curtain_python)
+set_target_properties(curtain_python PROPERTIES OUTPUT_NAME __init__ CXX_VISIBILITY_PRESET hidden
   LIBRARY_OUTPUT_DIRECTORY ${curtain_python_built}/curtain_engine)
 target_include_directories(curtain_python PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
 target_compile_definitions(curtain_python PRIVATE CURTAIN_VERSION="${PROJECT_VERSION}")
-target_link_libraries(curtain_python PRIVATE curtain_engine curtain_warnings)
+target_link_libraries(curtain_python PRIVATE pybind11::module curtain_engine curtain_warnings)
 configure_file(src/python/__init__.pyi ${curtain_python_built}/curtain_engine/__init__.pyi COPYONLY)
 file(TOUCH ${curtain_python_built}/curtain_engine/py.typed)  # type checkers ask for it
 install(FILES src/python/__init__.pyi ${curtain_python_built}/curtain_engine/py.typed DESTINATION ${curtain_python}/curtain_engine)

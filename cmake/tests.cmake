@@ -55,7 +55,9 @@ endif()
 curtain_add_tests(structure)
 
 # The book: its links and commands, what it leaves out, what its examples come to, and the reference of the public headers.
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
+if(NOT Python3_Interpreter_FOUND)
+  message(FATAL_ERROR "curtain_sim: the tests need Python 3")
+endif()
 add_test(NAME docs_check COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/structure/docs_check.py)
 add_test(NAME demos_check COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/structure/demos_check.py $<TARGET_FILE:curtain_batch>)
 add_test(NAME robot_check COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/structure/robot_check.py)
@@ -65,6 +67,15 @@ find_program(DOXYGEN doxygen)
 if(DOXYGEN)
   add_test(NAME doxygen COMMAND sh -c "(cat docs/Doxyfile; echo OUTPUT_DIRECTORY=${CMAKE_CURRENT_BINARY_DIR}/doxygen) | ${DOXYGEN} -"
     WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+endif()
+
+# The Python module, its types, example and page.
+if(TARGET curtain_python AND Python3_NumPy_FOUND)
+  add_test(NAME python COMMAND ${Python3_EXECUTABLE} -B -m unittest discover -s test/python -p *_test.py
+    WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+  set_tests_properties(python PROPERTIES ENVIRONMENT "PYTHONPATH=${curtain_python_built};CURTAIN_BATCH=$<TARGET_FILE:curtain_batch>")
+else()
+  message(STATUS "curtain_sim: no Python module or no NumPy (Debian: python3-numpy), its tests are left out")
 endif()
 
 # By the formatter's major version that Debian 12 has: others break other lines.
@@ -101,6 +112,10 @@ if(NOT catkin_FOUND)
   set(fast scene cloth forces solver contact budget batch structure)
   list(TRANSFORM fast PREPEND test_)
   add_custom_target(fast_tests DEPENDS curtain_batch ${fast})
+  if(TEST python)
+    add_dependencies(fast_tests curtain_python)
+    list(APPEND fast python)
+  endif()
   set_tests_properties(${fast} golden_1 golden_2 docs_check demos_check PROPERTIES LABELS fast)
   if(CLANG_FORMAT)
     set_tests_properties(format PROPERTIES LABELS fast)

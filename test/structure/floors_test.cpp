@@ -6,7 +6,7 @@
 //   0 scene < 1 cloth < 2 forces < 3 solver, contact < 4 simulator < 5 ros < 6 programs
 //
 // The rviz display stands beside ros, a house of its own: it includes public headers and messages alone, and nothing
-// includes it.
+// includes it. So does the Python module, which knows no messages either.
 //
 // Sensing stands beside the simulator, whose public headers it includes, and shows itself to ros alone: the engine does
 // without it.
@@ -33,9 +33,9 @@ using curtain_test::lines;
 using curtain_test::SourceFile;
 using curtain_test::sourceFiles;
 
-const std::map<std::string, int> kFolders = {{"scene", 0},   {"cloth", 1},   {"forces", 2},
-                                             {"solver", 3},  {"contact", 3}, {"simulator", 4},
-                                             {"sensing", 4}, {"ros", 5},     {"rviz", 5}};
+const std::map<std::string, int> kFolders = {{"scene", 0},   {"cloth", 1},     {"forces", 2},  {"solver", 3},
+                                             {"contact", 3}, {"simulator", 4}, {"sensing", 4}, {"ros", 5},
+                                             {"rviz", 5},    {"python", 5}};
 using Rooms = std::map<std::string, int>;
 const Rooms kContactRooms = {{"shapes", 0}, {"narrow_phase", 1}, {"oracle", 1}, {"broad_phase", 2}, {"response", 3}};
 const Rooms kRosRooms = {{"parameters", 0}, {"time", 0},      {"frames", 0},   {"inputs", 1},  {"obstacles", 1},
@@ -288,6 +288,28 @@ TEST(Floors, TheEngineDoesWithoutSensing) {
     }
   }
   EXPECT_GT(of_ros, 3) << "looked in the wrong place";
+}
+
+TEST(Floors, ThePythonModuleIsAHouseOfItsOwn) {
+  int own = 0, of_python = 0;
+  for (const SourceFile& file : houseFiles()) {
+    const bool inside = file.name.rfind("src/python/", 0) == 0;
+    for (const Include& include : includesOf(file)) {
+      const std::string folder = firstFolder(include.file);
+      if (include.quoted && folder == "python") {
+        EXPECT_TRUE(inside) << file.name << " includes " << include.file;
+        ++own;
+      } else if (inside && include.quoted) {
+        EXPECT_EQ(folder, "curtain_sim") << file.name << " includes " << include.file;
+        EXPECT_EQ(kPublicHeaders.count(include.file.substr(12)), 1u) << file.name << " includes " << include.file;
+      }
+      if (folder != "pybind11") continue;
+      EXPECT_TRUE(inside) << file.name << " includes " << include.file;
+      ++of_python;
+    }
+  }
+  EXPECT_GT(own, 15) << "looked in the wrong place";
+  EXPECT_GT(of_python, 5) << "the test must recognise them";
 }
 
 TEST(Floors, OnlyTheTopKnowsRos) {

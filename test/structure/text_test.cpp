@@ -20,7 +20,8 @@ TEST(Text, SourcesBeginWithTheirLicence) {
     for (const SourceFile& file : sourceFiles(folder)) {
       const auto text = lines(file.text);
       ASSERT_FALSE(text.empty()) << file.name;
-      EXPECT_EQ(text[0], "// SPDX-License-Identifier: BSD-3-Clause") << file.name;
+      const bool python = file.name.find(".py") != std::string::npos;
+      EXPECT_EQ(text[0], std::string(python ? "#" : "//") + " SPDX-License-Identifier: BSD-3-Clause") << file.name;
       ++checked;
     }
   }
