@@ -32,8 +32,10 @@ class BagTest : public testing::Test {
   }
   void TearDown() override { std::filesystem::remove(path_); }
 
+  // Bags are in the order in which messages came.
   void write(const CurtainState& state, const std::string& topic = kStates) {
-    bag_.write(topic, state.header.stamp, state);
+    received_ += ros::Duration(0.01);
+    bag_.write(topic, received_, state);
   }
 
   /// So many frames of a run, as the node would send them.
@@ -47,7 +49,7 @@ class BagTest : public testing::Test {
       states_.push_back(state);
       if (frame % 6 == 0) {
         markers.update();
-        bag_.write("/curtain/curtain_node/markers", state.header.stamp, *markers.build(state.header.stamp));
+        bag_.write("/curtain/curtain_node/markers", received_, *markers.build(state.header.stamp));
       }
       simulator.step();
     }
@@ -72,6 +74,7 @@ class BagTest : public testing::Test {
 
   std::string path_;
   rosbag::Bag bag_;
+  ros::Time received_{50.0};
   std::vector<CurtainState> states_;
 };
 
