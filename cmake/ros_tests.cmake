@@ -51,7 +51,7 @@ if(TARGET curtain_rviz)
   add_dependencies(tests curtain_rviz)
 endif()
 # Two rviz at a time on a small machine: one of them did not get its window.
-foreach(name rviz_display rviz_handle rviz_reopen)
+foreach(name rviz_display rviz_handle rviz_reopen bags)
   set_tests_properties(_ctest_${PROJECT_NAME}_rostest_test_ros_${name}.test PROPERTIES RESOURCE_LOCK screen)
 endforeach()
 

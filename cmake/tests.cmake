@@ -36,6 +36,9 @@ endif()
 if(catkin_FOUND)
   include(cmake/ros_tests.cmake)
 endif()
+if(TARGET curtain_export)
+  include(cmake/export_tests.cmake)
+endif()
 
 # These run the program itself and read what it writes; the structure tests read the checkout.
 foreach(target test_batch test_fuzz)

@@ -9,14 +9,16 @@ curtain_packages_build=(
   libyaml-cpp-dev libassimp-dev libtbb-dev nlohmann-json3-dev zlib1g-dev libtinyxml2-dev libnodelet-dev libnodeletlib-dev
   libinteractive-markers-dev libdiagnostic-updater-dev libvisualization-msgs-dev ros-std-msgs ros-geometry-msgs
   libactionlib-dev ros-actionlib-msgs libsensor-msgs-dev libembree-dev libstd-srvs-dev libros-rosgraph-msgs-dev
-  libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure liburdf-dev pybind11-dev python3-dev python3-numpy)
+  libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure liburdf-dev pybind11-dev python3-dev python3-numpy
+  libtinygltf-dev librosbag-storage-dev)
 curtain_packages_run=(python3-roslaunch libnodeletlib-tools tf2-tools rosbash python3-rospy python3-tf2-ros
   python3-visualization-msgs python3-rostopic python3-rosnode python3-actionlib-msgs python3-std-srvs python3-actionlib
-  python3-sensor-msgs ros-robot-state-publisher)
+  python3-sensor-msgs ros-robot-state-publisher python3-rosbag python3-paramiko)
 curtain_packages_view=(rviz librviz-dev)
 curtain_packages_test=(libfcl-dev librostest-dev python3-rostest libgtest-dev libgmock-dev xvfb xdotool imagemagick libgl1-mesa-dri
   valgrind qemu-user catkin-lint clang-format-14 doxygen patch python3-diagnostic-msgs python3-rosmaster liburdfdom-tools
-  libstd-srvs-dev python3-std-srvs libdepth-image-proc0d libpcl-ros-filters0d libimage-transport-dev mypy)
+  libstd-srvs-dev python3-std-srvs libdepth-image-proc0d libpcl-ros-filters0d libimage-transport-dev mypy openssh-server
+  openssh-client)
 
 # Installs the packages among its arguments that are missing.
 curtain_install() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Runs curtain_batch in a folder of its own and keeps what it said.
+// Runs curtain_batch, or another program, in a folder of its own and keeps what it said.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -65,16 +65,20 @@ class BatchTest : public testing::Test {
     return scene("cloth: {rows: 5, columns: 4, folds: 3}\nsolver: {method: leapfrog, substeps: 8}\n" + more);
   }
 
-  Outcome batch(const std::vector<std::string>& arguments) const {
-    std::string command = "cd '" + folder_.string() + "' && timeout 300 '" CURTAIN_BATCH "'";
+  Outcome batch(const std::vector<std::string>& arguments) const { return run(CURTAIN_BATCH, arguments); }
+
+  /// before: commands of the shell in front, ending in && or ;
+  Outcome run(const std::string& program, const std::vector<std::string>& arguments,
+              const std::string& before = "") const {
+    std::string command = "cd '" + folder_.string() + "' && " + before + " timeout 300 '" + program + "'";
     for (const std::string& argument : arguments) command += " '" + argument + "'";
     command += " > '" + said_ + ".out' 2> '" + said_ + ".err' < /dev/null";
     const int status = std::system(command.c_str());
-    Outcome run;
-    run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    run.out = readFile(said_ + ".out");
-    run.err = readFile(said_ + ".err");
-    return run;
+    Outcome outcome;
+    outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    outcome.out = readFile(said_ + ".out");
+    outcome.err = readFile(said_ + ".err");
+    return outcome;
   }
 
   /// Its --stats.

@@ -72,16 +72,6 @@ class RvizDisplayTest(ScreenTest):
         rviz = self.start("rviz", "-l", "-d", self.configuration(**changes), *arguments, env=environment, cwd=self.folder)
         return rviz, environment
 
-    def share(self, environment, wanted):
-        """Of the screen's pixels, those whose colour is wanted."""
-        picture = subprocess.run(["import", "-window", "root", "-depth", "8", "rgb:-"], env=environment,
-                                 stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False).stdout
-        if len(picture) != 3 * WIDTH * HEIGHT:
-            return 0.0
-        step = 7  # looking at every seventh pixel is enough
-        pixels = range(0, WIDTH * HEIGHT, step)
-        return sum(wanted(*picture[3 * i:3 * i + 3]) for i in pixels) / len(pixels)
-
     def wait_for_cloth(self, rviz, environment, wanted):
         def looks():
             self.assertIsNone(rviz.poll(), "rviz runs\n" + self.log_of("rviz"))

@@ -54,3 +54,13 @@ class ScreenTest(unittest.TestCase):
         self.assertTrue(number, "Xvfb starts")
         os.chmod(self.folder, 0o700)
         return dict(os.environ, DISPLAY=":" + number, LIBGL_ALWAYS_SOFTWARE="1", XDG_RUNTIME_DIR=self.folder)
+
+    def share(self, environment, wanted):
+        """Of the screen's pixels, those whose colour is wanted."""
+        picture = subprocess.run(["import", "-window", "root", "-depth", "8", "rgb:-"], env=environment,
+                                 stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False).stdout
+        if len(picture) != 3 * WIDTH * HEIGHT:
+            return 0.0
+        step = 7  # looking at every seventh pixel is enough
+        pixels = range(0, WIDTH * HEIGHT, step)
+        return sum(wanted(*picture[3 * i:3 * i + 3]) for i in pixels) / len(pixels)

@@ -7,6 +7,7 @@ Run without arguments. Needs no ROS and no build.
 import glob
 import os
 import re
+import shlex
 import subprocess
 import sys
 import unittest
@@ -17,7 +18,8 @@ FENCE = re.compile(r"^```(?P<kind>\w*)[^\n]*\n(?P<text>.*?)^```$", re.M | re.S)
 LINK = re.compile(r"\]\((?P<target>[^)\s]+)\)")
 PATH = re.compile(r"(?<![\w/.~-])(?:%s)/[\w./*-]*[\w*/]" % FOLDERS)
 # What a page may use that is not ours.
-FOREIGN = {"cd", "cp", "source", "echo", "cmake", "catkin_make", "doxygen", "rostopic", "rosrun", "roslaunch", "rosparam", "roscore", "export", "python3"}
+FOREIGN = {"cd", "cp", "source", "echo", "cmake", "catkin_make", "doxygen", "rostopic", "rosrun", "roslaunch", "rosparam", "roscore",
+           "export", "python3", "rosbag", "blender"}
 
 
 def read(path):
@@ -160,8 +162,10 @@ class Commands(unittest.TestCase):
 
     def check(self, words, page):
         program, arguments = words[0], words[1:]
-        if os.path.basename(program) == "curtain_batch":
-            self.check_batch(arguments, page)
+        if program == "rosrun" and arguments[:2] == ["curtain_sim", "curtain_export"]:
+            program, arguments = "curtain_export", arguments[2:]
+        if os.path.basename(program) in ("curtain_batch", "curtain_export"):
+            self.check_batch(os.path.basename(program), arguments, page)
         elif program.startswith("build/"):
             self.assertTrue(new_files(page), "nothing on this page makes it")
         elif "/" in program:
@@ -196,8 +200,8 @@ class Commands(unittest.TestCase):
     def check_demo(self, name):
         self.assertTrue(os.path.exists(os.path.join(ROOT, "config/demos", name, "demo.yaml")), "there is no demo " + name)
 
-    def check_batch(self, arguments, page):
-        usage = read("src/curtain_batch.cpp")
+    def check_batch(self, program, arguments, page):
+        usage = read("src/%s.cpp" % program)
         for word in arguments:
             if word.startswith("-"):
                 self.assertIn("  %s " % word, usage.replace('"', " ") + "  --help ")
@@ -205,6 +209,7 @@ class Commands(unittest.TestCase):
             self.assertTrue(os.path.exists(os.path.join(ROOT, arguments[0])) or arguments[0] in new_files(page))
 
     def check_launch(self, arguments, page):
+        arguments = shlex.split(" ".join(arguments))
         self.assertEqual(arguments[0], "curtain_sim")
         launch = read("launch/" + arguments[1])
         for word in arguments[2:]:
@@ -232,7 +237,7 @@ class Commands(unittest.TestCase):
                 self.assertRegex(message, r"(?m)^\S+ %s\b" % token)
 
     def test_options_in_the_text_exist(self):
-        programs = ["src/curtain_batch.cpp"] + find("scripts/*") + find("test/*/run") + find("test/**/main.cpp")
+        programs = ["src/curtain_batch.cpp", "src/curtain_export.cpp"] + find("scripts/*") + find("test/*/run") + find("test/**/main.cpp")
         known = "\n".join(map(read, programs))
         for page in pages():
             for option in re.findall(r"`(--[a-z][a-z-]*)", FENCE.sub("", read(page))):
@@ -306,12 +311,20 @@ class Described(unittest.TestCase):
         for stage in stages:
             self.assertRegex(table, r"(?m)^\| %s \|" % stage)
 
-    def test_options_of_curtain_batch(self):
-        options = set(re.findall(r"\"  (--[\w-]+)", read("src/curtain_batch.cpp")))
-        text = read("docs/batch.md")
-        self.assertGreater(len(options), 10)
-        for option in options:
-            self.assertRegex(text, r"`%s[ `]" % option)
+    def test_options_of_programs(self):
+        for program, page, least in (("curtain_batch", "docs/batch.md", 10), ("curtain_export", "docs/bags.md", 5)):
+            options = set(re.findall(r"\"  (--[\w-]+)", read("src/%s.cpp" % program)))
+            text = read(page)
+            self.assertGreater(len(options), least)
+            for option in options:
+                self.assertRegex(text, r"`%s[ `]" % option)
+
+    def test_arguments_of_launch_files(self):
+        for name, page in (("record", "docs/bags.md"), ("replay", "docs/bags.md"), ("many_curtains", "docs/many.md")):
+            arguments = re.findall(r'^  <arg name="(\w+)"', read("launch/%s.launch" % name), re.M)
+            self.assertGreater(len(arguments), 5)
+            for argument in set(arguments) - {"output", "delay", "rviz_config"}:
+                self.assertIn("`%s`" % argument, read(page), name)
 
     def test_methods(self):
         names = re.search(r"methodNames\(\) \{.*?\{(.*?)\}", read("src/scene/names.cpp"), re.S)[1]

@@ -10,8 +10,6 @@ using curtain::Vec3;
 
 namespace {
 
-const double kCosCrease = std::cos(0.7);  // 40 degrees: wider than between facets of our round shapes
-
 // Light of a clear day, from before the scene, the left and above; from the sky, and less from the ground. It is added
 // up as it is in nature and shown with a gamma of 2, as that on the cloth (src/rviz/cloth_shader.h).
 const Vec3 kToLight = Vec3(-0.45, -0.60, 0.75).normalized();
@@ -19,35 +17,7 @@ const Vec3 kDirect(0.92, 0.88, 0.82);
 const Vec3 kFromAbove(0.46, 0.48, 0.52);
 const Vec3 kFromBelow(0.24, 0.23, 0.22);
 
-// Twice the triangle's area long.
-Vec3 areaNormal(const curtain::ShapeTriangles& shape, const Eigen::Vector3i& triangle) {
-  const auto at = [&](int corner) { return shape.corners[static_cast<std::size_t>(triangle[corner])]; };
-  return (at(1) - at(0)).cross(at(2) - at(0));
-}
-
 }  // namespace
-
-std::vector<Vec3> cornerNormals(const curtain::ShapeTriangles& shape) {
-  std::vector<Vec3> faces;
-  std::vector<std::vector<std::size_t>> faces_at(shape.corners.size());
-  for (const Eigen::Vector3i& triangle : shape.triangles) {
-    for (const int corner : triangle) faces_at[static_cast<std::size_t>(corner)].push_back(faces.size());
-    faces.push_back(areaNormal(shape, triangle));
-  }
-  std::vector<Vec3> normals;
-  normals.reserve(3 * faces.size());
-  for (std::size_t own = 0; own < faces.size(); ++own) {
-    for (const int corner : shape.triangles[own]) {
-      Vec3 sum = Vec3::Zero();
-      for (const std::size_t other : faces_at[static_cast<std::size_t>(corner)]) {
-        const double cosine = faces[own].dot(faces[other]);
-        if (cosine >= kCosCrease * faces[own].norm() * faces[other].norm()) sum += faces[other];
-      }
-      normals.push_back(sum.normalized());  // a triangle without area, which has no normal, keeps zero
-    }
-  }
-  return normals;
-}
 
 std_msgs::ColorRGBA litColour(const Vec3& base, const Vec3& normal) {
   const double from_above = 0.5 + 0.5 * normal.z();

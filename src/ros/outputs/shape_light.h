@@ -6,15 +6,9 @@
 
 #include <std_msgs/ColorRGBA.h>
 
-#include <vector>
-
-#include "curtain_sim/obstacle_shape.h"
+#include "curtain_sim/scene.h"
 
 namespace curtain_ros {
-
-/// Normals at the corners of a shape's triangles: three of each triangle, in its order, unit length. Faces that meet at
-/// less than 40 degrees share theirs (round shapes look round), others keep their own (boxes have edges).
-std::vector<curtain::Vec3> cornerNormals(const curtain::ShapeTriangles& shape);
 
 /// Colour of a surface in the light.
 ///   base    red, green, blue [0..1]

@@ -53,34 +53,10 @@ void CurtainSurface::takeCloth(const curtain_sim::CurtainState& state) {
   topology_ = curtain::makeFineMeshTopology(cloth);
   warp_rest_ = state.warp_rest;
   weft_rest_ = state.weft_rest;
-  builder_.emplace(cloth, std::vector<double>(weft_rest_.begin(), weft_rest_.end()));
-  if (cloth.closed) {
-    ++cloth.columns;
-    cloth.closed = false;
-  }
-  drawn_ = curtain::makeFineMeshTopology(cloth);
+  const std::vector<double> weft(weft_rest_.begin(), weft_rest_.end());
+  builder_.emplace(cloth, weft);
+  drawn_ = curtain::makeDrawnMesh(cloth, std::vector<double>(warp_rest_.begin(), warp_rest_.end()), weft);
   link_length_ = meanOf(weft_rest_);
-  setCoordinates(state);
-}
-
-// Rows may be of different length (a skirt's hem): the pattern follows the columns, at their mean distance.
-void CurtainSurface::setCoordinates(const curtain_sim::CurtainState& state) {
-  const auto folds = static_cast<std::size_t>(drawn_.folds);
-  const auto rows = static_cast<std::size_t>(drawn_.rows);
-  const std::size_t links = weft_rest_.size() / rows;
-  std::vector<float> along_weft{0.0F};
-  for (std::size_t link = 0; link < links; ++link) {
-    double mean = 0.0;
-    for (std::size_t i = 0; i < rows; ++i) mean += weft_rest_[i * links + link] / static_cast<double>(rows);
-    const float rod = static_cast<float>(mean) / static_cast<float>(folds);
-    for (std::size_t p = 0; p < folds; ++p) along_weft.push_back(along_weft.back() + rod);
-  }
-  coordinates_.clear();
-  float along_warp = 0.0F;
-  for (std::size_t i = 0; i < rows; ++i) {
-    if (i > 0) along_warp += state.warp_rest[i - 1];
-    for (const float weft : along_weft) coordinates_.push_back({weft, along_warp});
-  }
 }
 
 // The node's own second layer knows where obstacles are; where the message has none it is built from the first.
@@ -101,12 +77,12 @@ void CurtainSurface::takeNodes(const curtain_sim::CurtainState& state) {
 }
 
 void CurtainSurface::setVertices() {
-  vertices_.resize(static_cast<std::size_t>(drawn_.rows) * static_cast<std::size_t>(drawn_.columns));
+  vertices_.resize(static_cast<std::size_t>(drawn_.topology.rows) * static_cast<std::size_t>(drawn_.topology.columns));
   centre_ = Vec3::Zero();
   lowest_ = highest_ = mesh_.positions.front();
   auto to = vertices_.begin();
-  for (int i = 0; i < drawn_.rows; ++i) {
-    for (int f = 0; f < drawn_.columns; ++f, ++to) {
+  for (int i = 0; i < drawn_.topology.rows; ++i) {
+    for (int f = 0; f < drawn_.topology.columns; ++f, ++to) {
       const int column = f % topology_.columns;
       const Vec3& position = fine(i, column);
       const Vec3& normal = normals_[static_cast<std::size_t>(&position - mesh_.positions.data())];
@@ -139,11 +115,11 @@ float CurtainSurface::hollowAt(int row, int column, const Vec3& normal) const {
 }
 
 void CurtainSurface::spread(const std::vector<float>& nodes, std::vector<float>& out) const {
-  const auto folds = static_cast<std::size_t>(drawn_.folds);
-  const std::size_t columns = nodes.size() / static_cast<std::size_t>(drawn_.rows);
+  const auto folds = static_cast<std::size_t>(drawn_.topology.folds);
+  const std::size_t columns = nodes.size() / static_cast<std::size_t>(drawn_.topology.rows);
   out.clear();
   for (std::size_t row = 0; row < nodes.size(); row += columns) {
-    for (std::size_t f = 0; f < static_cast<std::size_t>(drawn_.columns); ++f) {
+    for (std::size_t f = 0; f < static_cast<std::size_t>(drawn_.topology.columns); ++f) {
       const float share = static_cast<float>(f % folds) / static_cast<float>(folds);
       const float left = nodes[row + f / folds % columns];
       out.push_back(share > 0.0F ? left + share * (nodes[row + (f / folds + 1) % columns] - left) : left);

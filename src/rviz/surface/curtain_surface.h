@@ -2,9 +2,6 @@
 //
 // The cloth's surface as it is drawn, from the nodes of ~state: both layers, smooth normals, the cloth's own
 // coordinates for its pattern, and how deep each point lies in a fold, which decides how much light gets there.
-//
-//   drawn column   0   1 … k   k+1 …     A row of a closed cloth ends with its first column again: the pattern's
-//   row i          o---.-- … o---.--     coordinate runs on there.
 #pragma once
 
 #include <array>
@@ -13,20 +10,18 @@
 #include <vector>
 
 #include "curtain_sim/CurtainState.h"
+#include "curtain_sim/drawn_mesh.h"
 #include "curtain_sim/fine_mesh.h"
 
 namespace curtain_rviz {
+
+using curtain::ClothCoordinate;
 
 /// What moves of a vertex, as it lies in the vertex buffer.
 struct SurfaceVertex {
   std::array<float, 3> position;  ///< [m]
   std::array<float, 3> normal;    ///< unit
   float hollow;                   ///< in [-1, 1]: > 0 in a fold's hollow as seen from where the normal points to
-};
-
-/// Where a vertex is on the cloth [m], along the weft and the warp.
-struct ClothCoordinate {
-  float along_weft, along_warp;
 };
 
 /// One thread at a time. Allocates only for another grid.
@@ -37,8 +32,8 @@ class CurtainSurface {
   bool update(const curtain_sim::CurtainState& state);
 
   const std::vector<SurfaceVertex>& vertices() const { return vertices_; }  ///< row by row
-  const std::vector<ClothCoordinate>& coordinates() const { return coordinates_; }
-  const std::vector<std::array<std::uint32_t, 3>>& triangles() const { return drawn_.triangles; }
+  const std::vector<ClothCoordinate>& coordinates() const { return drawn_.coordinates; }
+  const std::vector<std::array<std::uint32_t, 3>>& triangles() const { return drawn_.topology.triangles; }
 
   /// Values of the nodes at the vertices, in between linear; out is resized. nodes: row-major, of the state's grid.
   void spread(const std::vector<float>& nodes, std::vector<float>& out) const;
@@ -52,7 +47,6 @@ class CurtainSurface {
  private:
   bool isOfThisCloth(const curtain_sim::CurtainState& state) const;
   void takeCloth(const curtain_sim::CurtainState& state);
-  void setCoordinates(const curtain_sim::CurtainState& state);
   void takeNodes(const curtain_sim::CurtainState& state);
   void setVertices();
   const curtain::Vec3& beside(int row, int column, int rightwards) const;
@@ -63,14 +57,13 @@ class CurtainSurface {
   }
 
   curtain::FineMeshTopology topology_;  // of the nodes
-  curtain::FineMeshTopology drawn_;     // with the first column again
+  curtain::DrawnMesh drawn_;            // with the first column again
   std::optional<curtain::FineMeshBuilder> builder_;
   std::vector<float> warp_rest_, weft_rest_;  // of this cloth
   std::vector<std::uint32_t> slit_columns_, slit_rows_;
   std::vector<curtain::Vec3> nodes_, normals_;
   curtain::FineMesh mesh_;
   std::vector<SurfaceVertex> vertices_;
-  std::vector<ClothCoordinate> coordinates_;
   double link_length_ = 1.0;  // mean [m]
   curtain::Vec3 centre_ = curtain::Vec3::Zero(), lowest_ = centre_, highest_ = centre_;
 };

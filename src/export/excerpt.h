@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Which part of a run is taken, and how often.
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+namespace curtain {
+
+struct Excerpt {
+  double start = 0.0;         ///< [s], >= 0
+  std::optional<double> end;  ///< [s], > start; none: as far as it goes
+  double rate = 30.0;         ///< frames a second, > 0
+};
+
+/// Ticks of a frame rate, each served by the first frame that does not come before it.
+class Ticks {
+ public:
+  explicit Ticks(double rate) : rate_(rate) {}
+
+  /// Ticks that a frame at this time [s] is for: none where the next is still to come.
+  int take(double time) {
+    const long due = static_cast<long>(std::floor(time * rate_ + kRounding)) + 1;
+    if (due <= taken_) return 0;
+    const long count = due - taken_;
+    taken_ = due;
+    return static_cast<int>(count);
+  }
+
+ private:
+  // Stamps have whole nanoseconds: up to 1e6 Hz a frame that falls on a tick is not late for it.
+  static constexpr double kRounding = 1e-3;
+
+  double rate_;
+  long taken_ = 0;
+};
+
+}  // namespace curtain
