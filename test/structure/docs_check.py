@@ -197,7 +197,7 @@ class Commands(unittest.TestCase):
         self.assertTrue(os.path.exists(os.path.join(ROOT, "config/demos", name, "demo.yaml")), "there is no demo " + name)
 
     def check_batch(self, arguments, page):
-        usage = read("src/curtain_batch.cpp")
+        usage = read("src/batch/options.cpp")
         for word in arguments:
             if word.startswith("-"):
                 self.assertIn("  %s " % word, usage.replace('"', " ") + "  --help ")
@@ -232,7 +232,7 @@ class Commands(unittest.TestCase):
                 self.assertRegex(message, r"(?m)^\S+ %s\b" % token)
 
     def test_options_in_the_text_exist(self):
-        programs = ["src/curtain_batch.cpp"] + find("scripts/*") + find("test/*/run") + find("test/**/main.cpp")
+        programs = ["src/batch/options.cpp"] + find("scripts/*") + find("test/*/run") + find("test/**/main.cpp")
         known = "\n".join(map(read, programs))
         for page in pages():
             for option in re.findall(r"`(--[a-z][a-z-]*)", FENCE.sub("", read(page))):
@@ -301,7 +301,7 @@ class Described(unittest.TestCase):
             self.assertRegex(table, r"(?m)^\| %s \|" % stage)
 
     def test_options_of_curtain_batch(self):
-        options = set(re.findall(r"\"  (--[\w-]+)", read("src/curtain_batch.cpp")))
+        options = set(re.findall(r"\"  (--[\w-]+)", read("src/batch/options.cpp")))
         text = read("docs/batch.md")
         self.assertGreater(len(options), 10)
         for option in options:

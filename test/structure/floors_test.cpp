@@ -30,8 +30,9 @@ using curtain_test::lines;
 using curtain_test::SourceFile;
 using curtain_test::sourceFiles;
 
-const std::map<std::string, int> kFolders = {{"scene", 0},   {"cloth", 1},     {"forces", 2}, {"solver", 3},
-                                             {"contact", 3}, {"simulator", 4}, {"ros", 5},    {"rviz", 5}};
+const std::map<std::string, int> kFolders = {{"scene", 0},  {"cloth", 1},   {"forces", 2},
+                                             {"solver", 3}, {"contact", 3}, {"simulator", 4},
+                                             {"ros", 5},    {"rviz", 5},    {"batch", 6}};
 using Rooms = std::map<std::string, int>;
 const Rooms kContactRooms = {{"shapes", 0}, {"narrow_phase", 1}, {"oracle", 1}, {"broad_phase", 2}, {"response", 3}};
 const Rooms kRosRooms = {{"parameters", 0}, {"time", 0},      {"frames", 0}, {"inputs", 1},  {"obstacles", 1},
