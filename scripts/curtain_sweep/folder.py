@@ -41,7 +41,8 @@ def difference(ours, theirs, name=""):
             if found:
                 return found
         return None
-    return None if ours == theirs else "%s is %s, was %s" % (name, json.dumps(ours), json.dumps(theirs))
+    text = lambda value: "not given" if value is None else json.dumps(value)
+    return None if ours == theirs else "%s is %s, was %s" % (name, text(ours), text(theirs))
 
 
 class Folder:

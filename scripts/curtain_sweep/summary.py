@@ -6,12 +6,12 @@ USUAL = ["stretch_max.warp", "energy.final", "contacts_max", "wall_s"]
 MOST = 5  # rows and columns of the picture
 
 
-def numbers(values):
-    """Values to draw by: themselves, or places of texts, with the texts."""
+def numbers(values, order):
+    """Values to draw by: themselves, or places of texts in an order, with the texts."""
     if all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values):
         return list(values), None
     texts = [cell(value) for value in values]
-    ticks = list(dict.fromkeys(texts))
+    ticks = list(dict.fromkeys(map(cell, order or values)))
     return [ticks.index(text) for text in texts], ticks
 
 
@@ -33,7 +33,7 @@ def plot(path, results, design):
     figure, axes = pyplot.subplots(len(metrics), len(parameters), sharey="row", sharex="col", squeeze=False,
                                    figsize=(1.5 + 2.8 * len(parameters), 0.8 + 2.2 * len(metrics)))
     for column, (n, parameter) in enumerate(parameters):
-        places, ticks = numbers([result.values[n] for result in results])
+        places, ticks = numbers([result.values[n] for result in results], parameter.values)
         for row, name in enumerate(metrics):
             axis = axes[row][column]
             drawn = [(x, r.metrics[name]) for x, r in zip(places, results) if isinstance(r.metrics.get(name), (int, float))]
