@@ -67,6 +67,8 @@ if(DOXYGEN)
     WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
 endif()
 
+add_test(NAME sweep COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/sweep/sweep_test.py $<TARGET_FILE:curtain_batch>)
+
 # By the formatter's major version that Debian 12 has: others break other lines.
 find_program(CLANG_FORMAT NAMES clang-format-14)
 if(CLANG_FORMAT)

@@ -12,11 +12,11 @@ curtain_packages_build=(
   libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure liburdf-dev)
 curtain_packages_run=(python3-roslaunch libnodeletlib-tools tf2-tools rosbash python3-rospy python3-tf2-ros
   python3-visualization-msgs python3-rostopic python3-rosnode python3-actionlib-msgs python3-std-srvs python3-actionlib
-  python3-numpy python3-sensor-msgs ros-robot-state-publisher)
+  python3-numpy python3-sensor-msgs ros-robot-state-publisher parallel python3-yaml)
 curtain_packages_view=(rviz librviz-dev)
 curtain_packages_test=(libfcl-dev librostest-dev python3-rostest libgtest-dev libgmock-dev xvfb xdotool imagemagick libgl1-mesa-dri
   valgrind qemu-user catkin-lint clang-format-14 doxygen patch python3-diagnostic-msgs python3-rosmaster liburdfdom-tools
-  libstd-srvs-dev python3-std-srvs)
+  libstd-srvs-dev python3-std-srvs parallel python3-yaml python3-matplotlib python3-h5py openssh-client openssh-server rsync)
 
 # Installs the packages among its arguments that are missing.
 curtain_install() {
