@@ -12,6 +12,7 @@
 #include "curtain_sim/scene_yaml.h"
 #include "curtain_sim/snapshot_file.h"
 #include "simulator/export.h"
+#include "simulator/whole_file.h"
 
 namespace {
 
@@ -52,7 +53,7 @@ int simulate(const Options& options) {
   if (!options.stats.empty()) {
     std::ofstream stats(options.stats);
     stats << curtain::statisticsJson(simulator, progress.initial, progress.frame_seconds);
-    if (!stats.flush()) throw std::runtime_error(options.stats + ": cannot be written");
+    if (!stats.flush()) throw std::runtime_error(describe(curtain::failedOn(options.stats, "cannot be written")));
   }
   if (simulator.statistics().finite) return EXIT_SUCCESS;
   std::cerr << "curtain_batch: the state became non-finite at t = " << simulator.time() << " s\n";

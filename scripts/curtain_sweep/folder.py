@@ -26,11 +26,16 @@ LOG_LINE = re.compile(r"(\d+)\t([^\t]*)\t[^\t]*\t([^\t]*)\t\d+\t\d+\t(\d+)\t(\d+
 def replace(path, text):
     """Writes a file completely or not at all."""
     part = path + ".part"
-    with open(part, "w", encoding="utf-8", newline="") as file:
-        file.write(text)
-        file.flush()
-        os.fsync(file.fileno())
-    os.replace(part, path)
+    try:
+        with open(part, "w", encoding="utf-8", newline="") as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(part, path)
+    except OSError as error:
+        if os.path.exists(part):
+            os.remove(part)
+        raise OSError(error.errno, error.strerror, path) from None
 
 
 def difference(ours, theirs, name=""):

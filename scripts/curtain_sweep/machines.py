@@ -13,7 +13,7 @@ import shutil
 import signal
 import subprocess
 
-from curtain_sweep.problem import Problem, Unfinished
+from curtain_sweep.problem import Problem
 
 # Never asks for a password, and gives up a machine that has gone silent.
 SSH = "-o BatchMode=yes -o ConnectTimeout=10 -o ServerAliveInterval=15"
@@ -29,7 +29,7 @@ case $code in
 esac
 printf "run %%s: exit code %%s: %%s\\n" "$1" $code "$said" >&2
 exit $code'''
-TRIES = 3  # of a run that could not be made, each on another machine if there is one
+TRIES = 3  # of a run that could not be made, where there are other machines to try
 FAILED = 3  # runs that could not be made end the sweep: the next ones would hardly fare better
 
 
@@ -104,30 +104,30 @@ class Machines:
         return troubles
 
     def make(self, folder, design, scenes, with_trajectories, bar):
-        """Makes what the folder's job log does not have. Returns when no run is left or nothing goes on; interrupted: raises
-        KeyboardInterrupt when all runs have ended."""
+        """Makes what the folder's job log does not have, until no run is left or nothing goes on; returns what parallel and the runs
+        had to say, which with a bar has gone to the terminal. Interrupted: raises KeyboardInterrupt when all runs have ended."""
         runs = os.path.abspath(folder.of("runs"))
         sample = "--out \"$1.csv\" --sample %s" % ",".join(map(repr, design.sample_times())) if with_trajectories else ""
         empty = ' && : >"$1.csv"' if with_trajectories else ""
         job = JOB % (shlex.quote(self.batch), shlex.quote(runs), repr(design.duration), sample, empty)
         command = ["setpriv", "--pdeathsig", "TERM",  # what a killed sweep leaves starts no more runs
                    "parallel", "--ungroup", "--jobs", str(self.jobs), "--arg-file", os.path.abspath(folder.of("runs.txt")),
-                   "--joblog", os.path.abspath(folder.of("joblog")), "--resume-failed", "--retries", str(TRIES), "--halt", "soon,fail=%d" % FAILED]
+                   "--joblog", os.path.abspath(folder.of("joblog")), "--resume-failed", "--halt", "soon,fail=%d" % FAILED, "--env", "SWEEP_JOB"]
         if bar:
             command.append("--bar")
         if self.hosts:
-            command += ["--ssh", self.ssh, "--sshloginfile", os.path.abspath(folder.of("hosts"))]
+            command += ["--ssh", self.ssh, "--sshloginfile", os.path.abspath(folder.of("hosts")), "--retries", str(TRIES)]
         if self.hosts and self.hosts != [":"]:
             command += ["--workdir", "...", "--cleanup", "--transferfile", "{}.yaml", "--return", "{}.result"]
             for mesh in scenes.meshes:
                 command += ["--transferfile", mesh]
             if with_trajectories:
                 command += ["--return", "{}.csv"]
-        command += ["sh -c %s sh" % shlex.quote(job), "{}"]
-        process = subprocess.Popen(command, cwd=runs, stdin=subprocess.DEVNULL, pass_fds=[folder.lock],
-                                   env=dict(os.environ, PARALLEL_SHELL="/bin/sh"))
+        command += ['sh -c "$SWEEP_JOB" sh', "{}"]
+        process = subprocess.Popen(command, cwd=runs, stdin=subprocess.DEVNULL, stderr=None if bar else subprocess.PIPE, text=True,
+                                   pass_fds=[folder.lock], env=dict(os.environ, PARALLEL_SHELL="/bin/sh", SWEEP_JOB=job))
         try:
-            process.wait()
+            return process.communicate()[1] or ""
         except KeyboardInterrupt:
             for _ in range(2):  # the first: no more runs; the second: end those that are at work
                 process.send_signal(signal.SIGTERM)
@@ -135,13 +135,14 @@ class Machines:
                     process.wait(1.0)
                 except subprocess.TimeoutExpired:
                     continue
-            process.wait()
+            process.communicate()
             raise
 
 
-def need_all(made, scenes, folder):
-    """Tells which runs are missing."""
-    missing = [(n + 1, name) for n, name in enumerate(scenes.names) if made.get(n + 1, ("", "", -1))[2] != 0]
-    if missing:
-        raise Unfinished("%d of %d runs are not made (the first: %s); start the same command again to make them, what there is stays in %s" %
-                         (len(missing), len(scenes.names), missing[0][1], folder.path))
+def missing_runs(made, scenes, said):
+    """What is not made, as text, and why; nothing: all is."""
+    missing = [name for n, name in enumerate(scenes.names) if made.get(n + 1, ("", "", -1))[2] != 0]
+    if not missing:
+        return ""
+    reasons = re.findall(r"^run .*", said, re.M) or [line for line in said.splitlines() if line.strip()]
+    return "%d of %d runs are not made%s" % (len(missing), len(scenes.names), ": " + reasons[0] if reasons else ", the first is " + missing[0])
