@@ -112,11 +112,12 @@ class Machines:
         job = JOB % (shlex.quote(self.batch), shlex.quote(runs), repr(design.duration), sample, empty)
         command = ["setpriv", "--pdeathsig", "TERM",  # what a killed sweep leaves starts no more runs
                    "parallel", "--ungroup", "--jobs", str(self.jobs), "--arg-file", os.path.abspath(folder.of("runs.txt")),
-                   "--joblog", os.path.abspath(folder.of("joblog")), "--resume-failed", "--halt", "soon,fail=%d" % FAILED, "--env", "SWEEP_JOB"]
+                   "--joblog", os.path.abspath(folder.of("joblog")), "--resume-failed", "--halt", "soon,fail=%d" % FAILED]
         if bar:
             command.append("--bar")
         if self.hosts:
-            command += ["--ssh", self.ssh, "--sshloginfile", os.path.abspath(folder.of("hosts")), "--retries", str(TRIES)]
+            command += ["--ssh", self.ssh, "--sshloginfile", os.path.abspath(folder.of("hosts")), "--retries", str(TRIES),
+                        "--env", "SWEEP_JOB"]  # here it is there already, and asking for it would double what parallel takes
         if self.hosts and self.hosts != [":"]:
             command += ["--workdir", "...", "--cleanup", "--transferfile", "{}.yaml", "--return", "{}.result"]
             for mesh in scenes.meshes:

@@ -14,6 +14,7 @@ import importlib
 import json
 import math
 import os
+import pty
 import random
 import re
 import resource
@@ -223,6 +224,23 @@ class Results(SweepTest):
         self.refused("trajectories", "another sweep")
 
 
+    def test_a_terminal_sees_progress_and_the_time_left(self):
+        self.params("duration: 0.1\nparameters:\n  contact.friction: [0.1, 0.2, 0.3]\n")
+        ours, theirs = pty.openpty()
+        process = subprocess.Popen(self.command(), cwd=self.folder, env=dict(self.environment, TERM="xterm"), stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.DEVNULL, stderr=theirs)
+        os.close(theirs)
+        seen = b""
+        try:
+            while part := os.read(ours, 4096):
+                seen += part
+        except OSError:  # the other end is closed
+            pass
+        os.close(ours)
+        self.assertEqual(process.wait(), 0)
+        self.assertRegex(seen.decode(errors="replace"), r"100% 3:0=\d+s")
+
+
 class BadInput(SweepTest):
     def test_is_one_message_before_anything_is_written(self):
         for text, fragments in {
@@ -331,6 +349,17 @@ class Interrupted(SweepTest):
         self.assertEqual(self.untimed(), self.untimed("whole"))
         made = [line.split("\t")[0] for line in self.read("params.sweep", "joblog").splitlines()[1:] if line.split("\t")[6:8] == ["0", "0"]]
         self.assertEqual(sorted(map(int, made)), list(range(1, 21)), "each is logged as made once")
+
+    def test_interrupted_it_ends_its_runs_and_says_so(self):
+        process = self.start()
+        family = self.family(process.pid)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(timeout=30), 4)
+        deadline = time.monotonic() + 30
+        while any(os.path.exists("/proc/%d" % pid) for pid in family) and time.monotonic() < deadline:
+            time.sleep(0.01)
+        self.assertEqual([pid for pid in family if os.path.exists("/proc/%d" % pid)], [], "nothing is left running")
+        self.assertTrue(0 < len(self.rows()) < 20, "what is made is in the table")
 
     def test_a_line_of_the_log_that_is_cut_short_is_made_again(self):
         self.params("count: 5\ndesign: random\nduration: 0.1\nparameters:\n  wind[0].pressure: {min: 1.0, max: 9.0}\n")
