@@ -56,7 +56,7 @@ class Run {
   bool keepsCheckpoints() const { return !options_.checkpoint.empty(); }
 
   std::size_t frames() const { return progress_.frame_seconds.size(); }
-  bool isOver() const { return frames() == framesIn(options_.duration) || !simulator_.statistics().finite; }
+  bool isOver() const { return frames() >= framesIn(options_.duration) || !simulator_.statistics().finite; }
 
   // What is due after a frame, or at the start.
   void write() {
