@@ -13,12 +13,12 @@ curtain_packages_build=(
   libtinygltf-dev librosbag-storage-dev)
 curtain_packages_run=(python3-roslaunch libnodeletlib-tools tf2-tools rosbash python3-rospy python3-tf2-ros
   python3-visualization-msgs python3-rostopic python3-rosnode python3-actionlib-msgs python3-std-srvs python3-actionlib
-  python3-sensor-msgs ros-robot-state-publisher python3-rosbag python3-paramiko)
+  python3-sensor-msgs ros-robot-state-publisher python3-rosbag python3-paramiko parallel python3-yaml)
 curtain_packages_view=(rviz librviz-dev)
 curtain_packages_test=(libfcl-dev librostest-dev python3-rostest libgtest-dev libgmock-dev xvfb xdotool imagemagick libgl1-mesa-dri
   valgrind qemu-user catkin-lint clang-format-14 doxygen patch python3-diagnostic-msgs python3-rosmaster liburdfdom-tools
   libstd-srvs-dev python3-std-srvs libdepth-image-proc0d libpcl-ros-filters0d libimage-transport-dev mypy openssh-server
-  openssh-client)
+  openssh-client python3-matplotlib python3-h5py rsync)
 
 # Installs the packages among its arguments that are missing.
 curtain_install() {

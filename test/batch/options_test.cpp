@@ -51,10 +51,33 @@ TEST_F(Options, HelpNamesEveryOption) {
     const Outcome run = batch({option});
     EXPECT_EQ(run.exit_code, 0);
     for (const char* name : {"--duration", "--method", "--substeps", "--rows", "--columns", "--out", "--sample",
-                             "--mesh", "--stats", "--save", "--restore", "--progress", "--explain", "--list-methods"}) {
+                             "--mesh", "--stats", "--save", "--restore", "--checkpoint", "--every", "--check",
+                             "--version", "--progress", "--explain", "--list-methods"}) {
       EXPECT_NE(run.out.find(name), std::string::npos) << name;
     }
   }
+}
+
+TEST_F(Options, VersionIsOneLine) {
+  const Outcome run = batch({"--version"});
+  EXPECT_EQ(run.exit_code, 0);
+  ASSERT_EQ(lines(run.out).size(), 1U);
+  EXPECT_EQ(run.out.rfind("curtain_batch ", 0), 0U) << run.out;
+}
+
+TEST_F(Options, CheckReadsScenesAndRunsNone) {
+  const std::string good = smallScene();
+  const std::string bad = scene("cloth: {rows: 5, columns: 4}\ncontact: {frictoin: 0.3}\n", "bad.yaml");
+  const std::string worse = scene("cloth: {rows: 1, columns: 4}\n", "worse.yaml");
+  EXPECT_EQ(batch({"--check", good}).exit_code, 0);
+  const Outcome run = batch({"--check", bad, good, worse});
+  EXPECT_EQ(run.exit_code, 2);
+  const auto said = lines(run.err);
+  ASSERT_EQ(said.size(), 2U) << run.err;
+  for (const char* part : {"bad.yaml", "contact.frictoin", "did you mean friction"}) {
+    EXPECT_NE(said[0].find(part), std::string::npos) << said[0];
+  }
+  for (const char* part : {"worse.yaml", "cloth.rows"}) EXPECT_NE(said[1].find(part), std::string::npos) << said[1];
 }
 
 TEST_F(Options, ExplainSaysWhatRunsAtTheStartAndAtTheEnd) {

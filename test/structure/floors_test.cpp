@@ -36,7 +36,7 @@ using curtain_test::sourceFiles;
 
 const std::map<std::string, int> kFolders = {{"scene", 0},   {"cloth", 1},     {"forces", 2},  {"solver", 3},
                                              {"contact", 3}, {"simulator", 4}, {"sensing", 4}, {"ros", 5},
-                                             {"rviz", 5},    {"python", 5},    {"export", 5}};
+                                             {"rviz", 5},    {"python", 5},    {"export", 5},  {"batch", 6}};
 using Rooms = std::map<std::string, int>;
 // Of export alone this file knows ROS: what an animation is made of and written by needs none.
 constexpr char kPlaysBags[] = "src/export/play_bag.cpp";
