@@ -5,7 +5,7 @@
   worked_examples.py BUILD_FOLDER [CMAKE_ARGUMENT ...]
 
 Of a page count: diff blocks, applied in their order; and blocks that name a file after the language, "```cpp PATH". What comes of
-it is built without optimisation, several files at once. Copies are only written where they differ, so that a second run compiles nothing.
+it is built without optimisation. Copies are only written where they differ, so that a second run compiles nothing.
 """
 import filecmp
 import glob
@@ -129,7 +129,7 @@ def main():
         write(outer, text)
     objects = os.path.join(build, "objects")
     run("cmake", "-S", build, "-B", objects, "-DCMAKE_BUILD_TYPE=None", "-DCMAKE_CXX_FLAGS=-O0", "-DBUILD_TESTING=OFF",
-        "-DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON", "-DCURTAIN_PRECOMPILED=all", "-DCMAKE_UNITY_BUILD=ON", *arguments)
+        "-DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON", "-DCURTAIN_PRECOMPILED=all", *arguments)
     run("cmake", "--build", objects, "-j2", "--target", "test_examples", "curtain_batch")
     print(run(os.path.join(objects, "test_examples")))
     batch = [path for path in glob.glob(os.path.join(objects, "**", "curtain_batch"), recursive=True) if os.path.isfile(path)]
