@@ -24,10 +24,11 @@ class Threads(unittest.TestCase):
         sim = curtain_engine.Simulator(testing.scene(solver={"rest_speed": 0.0}))
         positions = sim.positions
         refused = []
+        done = threading.Event()
 
         def knock():
             """Calls in until that is refused, which it only is while frames are made; then interrupts them."""
-            while not refused:
+            while not refused and not done.is_set():
                 try:
                     sim.snapshot()
                 except RuntimeError as error:
@@ -48,6 +49,7 @@ class Threads(unittest.TestCase):
                 thread.start()
                 sim.step(200000)
         finally:
+            done.set()
             thread.join()
             signal.signal(signal.SIGUSR1, before)
         self.assertEqual(refused, ["the simulator is in use: another thread is in one of its methods"] * 9)
