@@ -11,9 +11,10 @@
 
 namespace curtain {
 
-/// Where a vertex is on the cloth [m], along the weft and the warp.
+/// Where a vertex is on the cloth.
 struct ClothCoordinate {
-  float along_weft, along_warp;
+  float along_weft;  ///< from the first column on [m]
+  float along_warp;  ///< from the hung edge down [m]
 };
 
 /// The constant part of a drawn mesh.
