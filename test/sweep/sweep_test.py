@@ -291,7 +291,7 @@ class Interrupted(SweepTest):
 
     def setUp(self):
         super().setUp()
-        self.params("design: latin_hypercube\ncount: 20\nduration: 2.0\nparameters:\n  wind[0].pressure: {min: 1.0, max: 9.0}\n  solver.seed: [1, 2]\n")
+        self.params("design: latin_hypercube\ncount: 20\nduration: 6.0\nparameters:\n  wind[0].pressure: {min: 1.0, max: 9.0}\n  solver.seed: [1, 2]\n")
 
     def start(self):
         """Starts it, and waits until it has made another run; none: it is done before."""
@@ -364,6 +364,7 @@ class Interrupted(SweepTest):
         self.assertEqual(sorted(map(int, made)), list(range(1, 21)), "each is logged as made once")
 
     def test_interrupted_it_ends_its_runs_and_says_so(self):
+        self.params("design: random\ncount: 20\nduration: 60.0\nparameters:\n  solver.seed: [1, 2]\n")  # longer than it may take to end
         process = self.start()
         family = self.family(process.pid)
         process.send_signal(signal.SIGINT)
