@@ -291,7 +291,7 @@ class Interrupted(SweepTest):
 
     def setUp(self):
         super().setUp()
-        self.params("design: latin_hypercube\ncount: 20\nduration: 2.0\nparameters:\n  wind[0].pressure: {min: 1.0, max: 9.0}\n  solver.seed: [1, 2]\n")
+        self.params("design: latin_hypercube\ncount: 20\nduration: 6.0\nparameters:\n  wind[0].pressure: {min: 1.0, max: 9.0}\n  solver.seed: [1, 2]\n")
 
     def start(self):
         """Starts it, and waits until it has made another run; none: it is done before."""
@@ -309,6 +309,17 @@ class Interrupted(SweepTest):
             return len(self.read("params.sweep", "joblog").splitlines())
         except FileNotFoundError:
             return 1
+
+    def good_lines(self):
+        """Of the job log, those of runs that were made; the last may be cut short."""
+        lines = self.read("params.sweep", "joblog").split("\n")[1:-1]
+        return [line for line in lines if line.split("\t")[6:8] == ["0", "0"]]
+
+    def test_one_sweep_at_a_time_is_at_work_in_a_folder(self):
+        process = self.start()
+        self.assertIn("params.sweep is in use by another sweep", self.sweep())
+        self.assertEqual(process.wait(), 0)
+        self.assertEqual(len(self.good_lines()), 20)
 
     def family(self, pid):
         """The process and all that came of it."""
@@ -328,7 +339,7 @@ class Interrupted(SweepTest):
     def test_killed_at_any_moment_it_loses_and_doubles_no_run(self):
         self.sweep("--out", "whole")
         dice = random.Random(20)
-        kills = 0
+        kills, kept = 0, set()
         for attempt in range(6):
             process = self.start()
             if process is None:
@@ -344,13 +355,16 @@ class Interrupted(SweepTest):
                 except ProcessLookupError:
                     pass
             process.wait()
+            kept |= set(self.good_lines())
         self.sweep()
         self.assertGreater(kills, 5)
+        self.assertEqual(kept - set(self.good_lines()), set(), "what was made is not made again")
         self.assertEqual(self.untimed(), self.untimed("whole"))
-        made = [line.split("\t")[0] for line in self.read("params.sweep", "joblog").splitlines()[1:] if line.split("\t")[6:8] == ["0", "0"]]
+        made = [line.split("\t")[0] for line in self.good_lines()]
         self.assertEqual(sorted(map(int, made)), list(range(1, 21)), "each is logged as made once")
 
     def test_interrupted_it_ends_its_runs_and_says_so(self):
+        self.params("design: random\ncount: 20\nduration: 60.0\nparameters:\n  solver.seed: [1, 2]\n")  # longer than it may take to end
         process = self.start()
         family = self.family(process.pid)
         process.send_signal(signal.SIGINT)
