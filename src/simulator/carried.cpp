@@ -12,8 +12,8 @@
 namespace curtain {
 namespace {
 
-constexpr double kLargest = std::numeric_limits<double>::max();
-constexpr double kLeast = std::numeric_limits<double>::min();
+constexpr double kLargestNumber = std::numeric_limits<double>::max();
+constexpr double kLeastNumber = std::numeric_limits<double>::min();
 constexpr std::int64_t kCount = 1 << 30;  // bound of counters: adding to them can't overflow an int
 constexpr std::int64_t kMostCount = std::int64_t{1} << 53;
 
@@ -129,10 +129,10 @@ void Rest::carry(Archive& archive) {
 
 // Members of the present frame are set by the next one.
 void Budget::carry(Archive& archive) {
-  archive.within("substep", substep_, 0.0, kLargest);
-  archive.within("companion", reference_, 0.0, kLargest);
-  archive.within("tail", tail_, 0.0, kLargest);
-  archive.within("frame", frame_, 0.0, kLargest);
+  archive.within("substep", substep_, 0.0, kLargestNumber);
+  archive.within("companion", reference_, 0.0, kLargestNumber);
+  archive.within("tail", tail_, 0.0, kLargestNumber);
+  archive.within("frame", frame_, 0.0, kLargestNumber);
   archive.integer("stalled", stalled_, 0, kCount);
 }
 
@@ -143,8 +143,8 @@ void ErrorEstimate::carry(Archive& archive) {
   archive.integer("substeps", substeps_, fewest_, most_);
   archive.integer("frames", frames_, 0, kMostCount);
   archive.integer("compared", compared_, 0, kCount);
-  archive.within("steps_sum", steps_sum_, 0.0, kLargest);
-  archive.within("companion_sum", reference_sum_, 0.0, kLargest);
+  archive.within("steps_sum", steps_sum_, 0.0, kLargestNumber);
+  archive.within("companion_sum", reference_sum_, 0.0, kLargestNumber);
   archive.within("now", now_, 0.0, kInfinity);
   archive.within("last_second", last_second_, 0.0, kInfinity);
 }
@@ -207,7 +207,7 @@ void Grasps::carryGrasp(Archive& archive, Grasp& grasp) {
   });
   archive.finite("force", grasp.force);
   archive.finite("torque", grasp.torque);
-  archive.within("slipped", grasp.slipped, 0.0, kLargest);
+  archive.within("slipped", grasp.slipped, 0.0, kLargestNumber);
   archive.integer("end", grasp.end, 0, 2);
   archive.require(grasp.holds() == (grasp.end == GraspEnd::kNone), "must hold nodes unless it has ended");
   if (!archive.loads()) return;
@@ -263,7 +263,7 @@ void Simulator::Impl::carry(Archive& archive) {
   archive.finite("gravity", scene.gravity);
   archive.within("friction", scene.contact.friction, 0.0, 10.0);
   archive.within("stretch_tolerance", scene.solver.stretch_tolerance, 1e-12, 0.1);
-  if (errors) archive.within("position_tolerance", scene.solver.position_tolerance, kLeast, 1.0);
+  if (errors) archive.within("position_tolerance", scene.solver.position_tolerance, kLeastNumber, 1.0);
   archive.within("budget_ms", scene.solver.budget_ms, 0.0, 1e6);
   archive.part("state", motion.state);
   archive.group("forces", [&] { motion.forces.carry(archive, scene.air); });

@@ -25,7 +25,7 @@ namespace curtain {
 namespace {
 
 /// Unit roundoff u: an operation is off by at most u times its result.
-constexpr double kUnit = 0.5 * std::numeric_limits<double>::epsilon();
+constexpr double kRoundoff = 0.5 * std::numeric_limits<double>::epsilon();
 
 /// Steps before an impact is reported. A dozen suffice unless the elements slide along at a distance of rounding.
 constexpr int kMostSteps = 100;
@@ -78,7 +78,7 @@ class MovingHull {
   /// Whether a coordinate axis separates them throughout. A difference of two numbers has the exact sign and is off by
   /// u of itself.
   bool apartAlongAxes() const {
-    const double bound = min_distance_ * (1.0 + 4.0 * kUnit);
+    const double bound = min_distance_ * (1.0 + 4.0 * kRoundoff);
     return apart(start_.x, end_.x, bound) || apart(start_.y, end_.y, bound) || apart(start_.z, end_.z, bound);
   }
 
@@ -135,17 +135,17 @@ double MovingHull::apartUntil(const Vec3& n, double t) const {
   if (min_distance_ > 0.0) {
     const double squared = n.squaredNorm();
     if (!(squared > kLeastSquare)) return t;
-    distance += min_distance_ * std::sqrt(squared) * (1.0 + 8.0 * kUnit);
+    distance += min_distance_ * std::sqrt(squared) * (1.0 + 8.0 * kRoundoff);
   }
-  const Four q0 = start_.along(n) - (distance + 6.0 * kUnit * size.dot(largest_start_));
-  const Four q1 = end_.along(n) - (distance + 6.0 * kUnit * size.dot(largest_end_));
+  const Four q0 = start_.along(n) - (distance + 6.0 * kRoundoff * size.dot(largest_start_));
+  const Four q1 = end_.along(n) - (distance + 6.0 * kRoundoff * size.dot(largest_end_));
   if (q0.min(q1).minCoeff() > 0.0) return 2.0;
   double until = 2.0;
   for (int i = 0; i < 4; ++i) {
     if (q0[i] > 0.0 && q1[i] > 0.0) continue;
     if (q0[i] > 0.0) {
-      until = std::min(until, q0[i] / (q0[i] - q1[i]) * (1.0 - 16.0 * kUnit));
-    } else if (!(q1[i] > 0.0 && q0[i] / (q0[i] - q1[i]) * (1.0 + 16.0 * kUnit) < t)) {
+      until = std::min(until, q0[i] / (q0[i] - q1[i]) * (1.0 - 16.0 * kRoundoff));
+    } else if (!(q1[i] > 0.0 && q0[i] / (q0[i] - q1[i]) * (1.0 + 16.0 * kRoundoff) < t)) {
       return t;
     }
   }
@@ -158,8 +158,8 @@ double MovingHull::apartUntil(const Vec3& n, double t) const {
 // interpolation in time and u S for the mean: 16u S covers all.
 double MovingHull::apartUntilTurning(const Vec3& n, double t, const Vec3& m, double last) const {
   const Vec3 largest = largest_start_.cwiseMax(largest_end_);
-  const double bound = min_distance_ * (1.0 + 16.0 * kUnit) + std::numeric_limits<double>::min() +
-                       16.0 * kUnit * n.cwiseAbs().cwiseMax(m.cwiseAbs()).dot(largest);
+  const double bound = min_distance_ * (1.0 + 16.0 * kRoundoff) + std::numeric_limits<double>::min() +
+                       16.0 * kRoundoff * n.cwiseAbs().cwiseMax(m.cwiseAbs()).dot(largest);
   const Four n_start = start_.along(n);
   const Four n_motion = end_.along(n) - n_start;
   const Four m_start = start_.along(m);
@@ -178,14 +178,14 @@ double MovingHull::apartUntilTurning(const Vec3& n, double t, const Vec3& m, dou
       share = std::min(share, 0.5 + 0.5 * c1[i] / (c1[i] - c2[i]));
     }
   }
-  return std::max(t, (t + share * (1.0 - 16.0 * kUnit) * (last - t)) * (1.0 - 4.0 * kUnit));
+  return std::max(t, (t + share * (1.0 - 16.0 * kRoundoff) * (last - t)) * (1.0 - 4.0 * kRoundoff));
 }
 
 MovingHull::Forecast MovingHull::forecast(const Vec3& n, double t, const Directions& directions) const {
   const Four motion = end_.along(n) - start_.along(n);
   const double speed = -(directions.weights * motion).sum();
   const double gap = n.dot(directions.closest) - min_distance_;
-  const double rounding = 6.0 * kUnit * n.cwiseAbs().dot(largest_start_.cwiseMax(largest_end_));
+  const double rounding = 6.0 * kRoundoff * n.cwiseAbs().dot(largest_start_.cwiseMax(largest_end_));
   return {gap < speed * (1.0 - t) ? std::max(t, t + gap / speed) : 1.0, gap <= kTouching * rounding};
 }
 
