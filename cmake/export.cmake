@@ -23,5 +23,5 @@ if(rosbag_storage_FOUND)
   target_link_libraries(curtain_animation PRIVATE curtain_surface ${rosbag_storage_LIBRARIES} ${catkin_LIBRARIES})
 endif()
 
-add_executable(curtain_export src/curtain_export.cpp)
+add_executable(curtain_export src/curtain_export.cpp src/batch/command_line.cpp)
 target_link_libraries(curtain_export PRIVATE curtain_animation curtain_warnings)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // curtain_export: an animation of a scene or of a bag, for programs that draw.
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
@@ -10,6 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "batch/command_line.h"
 #include "curtain_sim/scene_yaml.h"
 #include "export/gltf_animation.h"
 #include "export/play_bag.h"
@@ -45,14 +45,8 @@ struct Options {
 std::string endingOf(const std::string& path) { return std::filesystem::path(path).extension().string(); }
 
 double readNumber(const std::string& option, const std::string& text, double least, double most) {
-  std::size_t used = 0;
-  double value = std::nan("");
-  try {
-    value = std::stod(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  if (used == 0 || used != text.size() || !(value >= least && value <= most)) {
+  const double value = curtain_batch::numberOf(text);
+  if (!(value >= least && value <= most)) {
     std::ostringstream message;
     message << option << ": must be a number in [" << least << ", " << most << "], is '" << text << "'";
     throw std::invalid_argument(message.str());
@@ -78,10 +72,7 @@ void checkOutput(const std::string& path) {
   const std::string ending = endingOf(path);
   if (ending != ".glb" && ending != ".ply")
     throw std::invalid_argument("--out: must end in .glb or .ply, is '" + path + "'");
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  if (!folder.empty() && !std::filesystem::is_directory(folder))
-    throw std::invalid_argument("--out: there is no folder '" + folder.string() + "'");
-  if (std::filesystem::is_directory(path)) throw std::invalid_argument("--out: '" + path + "' is a folder");
+  curtain_batch::checkOutput("--out", path);
 }
 
 void check(Options& options) {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "batch/command_line.h"
 #include "curtain_sim/scene_yaml.h"
 #include "simulator/export.h"
 
@@ -43,14 +44,8 @@ namespace {
 constexpr double kLongest = 1e8;  // s; three years, and few enough frames to keep each one's time
 
 double readNumber(const std::string& option, const std::string& text) {
-  std::size_t used = 0;
-  double value = std::nan("");
-  try {
-    value = std::stod(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  if (used == 0 || used != text.size() || !std::isfinite(value) || value < 0.0) {
+  const double value = numberOf(text);
+  if (!std::isfinite(value) || value < 0.0) {
     throw std::invalid_argument(option + ": must be a finite number >= 0, is '" + text + "'");
   }
   return value;
@@ -83,16 +78,6 @@ std::vector<double> readSamples(const std::string& option, const std::string& te
   return samples;
 }
 
-// An output must have a folder to lie in and not be one itself, before anything is written.
-void checkOutput(const std::string& option, const std::string& path) {
-  if (path.empty()) return;
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
-    throw std::invalid_argument(option + ": there is no folder '" + folder.string() + "'");
-  }
-  if (std::filesystem::is_directory(path)) throw std::invalid_argument(option + ": '" + path + "' is a folder");
-}
-
 void checkMeshName(const std::string& path) {
   if (!path.empty() && !curtain::meshFormatOf(path)) {
     throw std::invalid_argument(std::string("--mesh: must end in ") + curtain::kMeshEndings + ", is '" + path + "'");
@@ -107,11 +92,12 @@ void checkOutputs(const Options& options) {
     return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
   };
   for (const auto& [option, path] : outputs) {
+    if (path.empty()) continue;
     checkOutput(option, path);
-    if (path.empty() || options.checkpoint.empty() || place(path) != place(options.checkpoint)) continue;
+    if (options.checkpoint.empty() || place(path) != place(options.checkpoint)) continue;
     throw std::invalid_argument(std::string(option) + ": '" + path + "' is the checkpoint, too");
   }
-  checkOutput("--checkpoint", options.checkpoint);
+  if (!options.checkpoint.empty()) checkOutput("--checkpoint", options.checkpoint);
 }
 
 const std::map<std::string, std::string Options::*> kTexts = {
