@@ -49,6 +49,7 @@ bool isNumber(const py::array& array) {
 }  // namespace
 
 py::array_t<double> readArray(const py::object& given, const std::string& name, const Shape& shape) {
+  if (py::hasattr(given, "mask")) refuseArray(name, shape, "masked");
   const py::array array = asArray(given, name, shape);
   if (!isNumber(array)) refuseArray(name, shape, "of dtype " + std::string(py::str(array.dtype())));
   if (!hasShape(array, shape))

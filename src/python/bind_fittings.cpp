@@ -2,6 +2,7 @@
 //
 // Rail, tie-backs and lines.
 #include <algorithm>
+#include <cmath>
 
 #include "python/arguments.h"
 #include "python/bindings.h"
@@ -41,7 +42,9 @@ void setDrive(Self& self, double speed, double force) {
 }
 
 py::array_t<double> railPoints(const Self& self, double spacing) {
-  if (!(spacing > 0.0)) throw py::value_error("spacing: must be > 0 [m], is " + std::to_string(spacing));
+  if (!(spacing >= 1e-4 && std::isfinite(spacing)))
+    throw py::value_error("spacing: must be a finite number >= 0.0001 [m], is " +
+                          std::string(py::str(py::float_(spacing))));
   const std::vector<Vec3> points = self.look().railPoints(spacing);
   py::array_t<double> array({static_cast<py::ssize_t>(points.size()), py::ssize_t{3}});
   std::copy_n(points.empty() ? nullptr : points.front().data(), 3 * points.size(), array.mutable_data());

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
 #include "python/arguments.h"
 #include "python/bindings.h"
 #include "python/yaml_values.h"
@@ -58,6 +60,9 @@ py::dict contactPoints(const Self& self) {
 }
 
 py::dict piercings(const Self& self, const std::string& name, double tolerance, bool fine) {
+  if (!(tolerance >= 0.0 && std::isfinite(tolerance)))
+    throw py::value_error("tolerance: must be a finite number >= 0 [m], is " +
+                          std::string(py::str(py::float_(tolerance))));
   const int index = self.obstacle(name);
   const Piercings found = fine ? self.look().finePiercings(index, tolerance) : self.look().piercings(index, tolerance);
   py::dict values;

@@ -30,6 +30,16 @@ std::string numberText(const py::handle& value) {
   return text == "nan" ? ".nan" : text;
 }
 
+// Python's text may hold half a surrogate pair, which is no character.
+std::string textOf(const py::handle& value, const std::string& name) {
+  Py_ssize_t size = 0;
+  const char* const bytes = PyUnicode_AsUTF8AndSize(value.ptr(), &size);
+  if (bytes != nullptr) return {bytes, static_cast<std::size_t>(size)};
+  PyErr_Clear();
+  refuse({{name, "is no text that UTF-8 has"}});
+  return {};
+}
+
 std::string under(const std::string& name, const std::string& key) { return name.empty() ? key : name + "." + key; }
 
 YAML::Node convert(const py::handle& value, const std::string& name, int depth);
@@ -38,7 +48,7 @@ YAML::Node convertDict(const py::handle& value, const std::string& name, int dep
   YAML::Node node(YAML::NodeType::Map);
   for (const auto& [key, entry] : py::reinterpret_borrow<py::dict>(value)) {
     if (!py::isinstance<py::str>(key)) refuse({{name, "a key must be text, is " + std::string(py::repr(key))}});
-    const auto text = key.cast<std::string>();
+    const std::string text = textOf(key, name);
     node.force_insert(scalar(text, "!"), convert(entry, under(name, text), depth + 1));
   }
   return node;
@@ -61,7 +71,7 @@ YAML::Node convert(const py::handle& value, const std::string& name, int depth) 
     const py::float_ plain(value.cast<double>());  // not a class derived from it, whose repr() is its own
     return scalar(numberText(plain), "");
   }
-  if (py::isinstance<py::str>(value)) return scalar(value.cast<std::string>(), "!");
+  if (py::isinstance<py::str>(value)) return scalar(textOf(value, name), "!");
   if (py::isinstance<py::dict>(value)) return convertDict(value, name, depth);
   if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) return convertSequence(value, name, depth);
   if (py::hasattr(value, "tolist")) return convert(value.attr("tolist")(), name, depth + 1);  // NumPy's

@@ -72,13 +72,13 @@ void checkFlat(const Scene& scene, ProblemLog& log) {
                                  formatNumber(*hang.fullness) + "; give one of the two keys");
   }
   // Rows narrower than the line make the warp rods slant, most in the outermost columns.
-  constexpr double kSteepest = 0.9;
+  constexpr double kSteepestRow = 0.9;
   const std::vector<double> rods = shareOut(1.0, cloth.row_spacing, cloth.rows - 1);
   const auto rowSpan = [&](double depth) { return std::min(span, longest / cloth.width * rowWidth(cloth, depth)); };
   double down = 0.0;
   for (std::size_t i = 0; i < rods.size(); ++i) {
     const double slant = 0.5 * std::abs(rowSpan(down + rods[i]) - rowSpan(down));
-    if (slant > kSteepest * (1.0 - kSlack) * rods[i] * cloth.height) {
+    if (slant > kSteepestRow * (1.0 - kSlack) * rods[i] * cloth.height) {
       log.add("cloth.hem_width", "must taper the cloth by less than its warp rods are long: is " +
                                      formatNumber(hemWidth(cloth)) + ", so that the outer rod to row " +
                                      std::to_string(i + 1) + " would have to slant by more than 0.9 of its length");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "curtain_sim/simulator.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -308,7 +309,8 @@ std::vector<NodeIndex> Simulator::carriers() const {
 std::vector<Vec3> Simulator::railPoints(double spacing) const {
   const RailPattern& rail = impl_->pattern.rail;
   if (rail.empty()) return {};
-  const int parts = static_cast<int>(std::ceil(rail.path.length() / spacing));
+  constexpr double kMostParts = 1e6;
+  const int parts = static_cast<int>(std::clamp(std::ceil(rail.path.length() / spacing), 1.0, kMostParts));
   std::vector<Vec3> points;
   for (int k = 0; k <= parts; ++k) points.push_back(rail.path.at(rail.path.length() * k / parts).point);
   return points;

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Bad input is one clear ValueError that names it, and changes nothing."""
+import math
 import unittest
 
 import curtain_engine
@@ -7,7 +8,7 @@ import numpy
 
 import testing
 
-NAN = float("nan")
+NAN = math.nan
 
 
 class BadInput(unittest.TestCase):
@@ -43,7 +44,8 @@ class BadInput(unittest.TestCase):
 
     def test_points_and_poses(self):
         for bad, text in [([1, 2], "shape (3,), is of shape (2,)"), ([1, NAN, 2], "must be finite, is [ 1. nan  2.]"),
-                          ("abc", "is of dtype <U3"), ([1, "2", 3], "is of dtype"), (numpy.zeros((1, 3)), "is of shape (1, 3)")]:
+                          (numpy.ma.masked_array([0, 0, 0], [0, 0, 1]), "is masked"), ("abc", "is of dtype <U3"),
+                          ([1, "2", 3], "is of dtype"), (numpy.zeros((1, 3)), "is of shape (1, 3)")]:
             with self.subTest(text):
                 self.refused(lambda sim, bad=bad: sim.set_gravity(bad), "gravity: must be", text)
                 self.refused(lambda sim, bad=bad: sim.move_pin((0, 0), bad), "target: must be", text)
@@ -53,6 +55,13 @@ class BadInput(unittest.TestCase):
         self.refused(lambda sim: sim.set_obstacle_pose("ball", [0, 0, 0], [0, 0, 0, 2]), "ball.orientation: must be a unit quaternion")
         self.refused(lambda sim: sim.set_obstacle_pose("ball", [0, 0, 0], [0, 0, 1]), "ball.orientation: must be", "shape (4,)")
         self.refused(lambda sim: sim.set_obstacle_pose("ball", [0, 0, 1e300]), "ball.position", "1e+300")
+
+    def test_lengths(self):
+        for bad in (NAN, math.inf, -1.0):
+            with self.subTest(bad):
+                self.refused(lambda sim, bad=bad: sim.piercings("ball", bad), "tolerance: must be a finite number >= 0")
+                self.refused(lambda sim, bad=bad: sim.rail_points(bad), "spacing: must be a finite number >= 0.0001")
+        self.refused(lambda sim: sim.rail_points(0.0), "spacing: must be a finite number >= 0.0001")
 
     def test_nodes(self):
         for bad in [(8, 0), (0, 6), (-1, 0), (0, 0, 0), (0.0, 1.0), "ab", 3, (2**70, 0), None]:
@@ -84,7 +93,6 @@ class BadInput(unittest.TestCase):
         self.refused(lambda sim: sim.set_friction(-1), "contact.friction: must be")
         self.refused(lambda sim: sim.set_opening(0.5), "opening: is for cloth on a rail")
         self.refused(lambda sim: sim.set_drive(-1, 1), "drive")
-        self.refused(lambda sim: sim.rail_points(0.0), "spacing: must be > 0")
         self.refused(lambda sim: sim.set_grasp("hand", [0, 0, 0]), "grasp: must have one of radius", "has none")
         self.refused(lambda sim: sim.set_grasp("hand", [0, 0, 0], radius=1, size=[1, 1, 1]), "has more")
         self.refused(lambda sim: sim.set_grasp("hand", [0, 0, 0], radius=-1), "grasp.radius: must be")

@@ -73,6 +73,7 @@ class Scenes(unittest.TestCase):
         for values, text in [({"pins": {1, 2}}, "pins: must be a number, text, a list or a dict, is a set"),
                              ({"wind": [{"id": object()}]}, "wind[0].id: must be a number, text, a list or a dict, is a object"),
                              ({1: 2}, "a key must be text, is 1"), (ring, "is nested too deeply"),
+                             ({"wind": [{"id": "\ud800"}]}, "wind[0].id: is no text that UTF-8 has"),
                              ({"cloth": {"rows": numpy.nan, "columns": None}}, "cloth.rows: must be an integer in [2, 4096], is .nan"),
                              ({"cloth": {"rows": 8, "columns": None}}, "cloth.columns: must be an integer in [2, 4096], is empty")]:
             with self.subTest(text):
