@@ -1,5 +1,8 @@
 # curtain_export, where tinygltf is (Debian: libtinygltf-dev). It reads bags in a ROS environment with rosbag_storage (Debian:
 # librosbag-storage-dev).
+if(CURTAIN_FUZZ OR CURTAIN_SANITIZE)  # it is not watched
+  return()
+endif()
 find_package(TinyGLTF QUIET)
 if(NOT TinyGLTF_FOUND)
   message(STATUS "curtain_sim: no tinygltf found, building without curtain_export (Debian: libtinygltf-dev)")
