@@ -68,7 +68,7 @@ SensorOutputs::SensorOutputs(ros::NodeHandle node, ros::NodeHandle private_node,
   info_ = private_node.advertise<CameraInfo>("depth/camera_info", 2);
 }
 
-// A sensor's noise is new in every view, whether anything moves or not.
+// A sensor's noise is new in every frame, whether anything moves or not.
 double SensorOutputs::restRate() const { return isSensor() ? 0.0 : kCloudsAtRest; }
 
 void SensorOutputs::subscribe(ros::NodeHandle& node) {
@@ -150,20 +150,33 @@ void SensorOutputs::prepare() {
   rays_.reset();
 }
 
-void SensorOutputs::publish(const ros::Time& stamp, const ros::Time& now) {
-  pace_.tick();
-  const std::uint32_t clouds = points_.getNumSubscribers();
+std::uint32_t SensorOutputs::listeners() {
   const std::uint32_t images = isCamera() ? image_.getNumSubscribers() + info_.getNumSubscribers() : 0;
-  if (clouds + images == 0) error_.clear();
-  if (busy() || !pace_.due(clouds + images) || !findSensor(now) || !pace_.send(simulator_.revision())) return;
+  const std::uint32_t all = points_.getNumSubscribers() + images;
+  if (all == 0) error_.clear();
+  return all;
+}
+
+void SensorOutputs::publish(const ros::Time& stamp, const ros::Time& now) {
+  const std::uint32_t count = listeners();
+  if (!busy() && pace_.due(count)) beginView(stamp, now);
+}
+
+void SensorOutputs::showAgain(const ros::Time& now) {
+  const std::uint32_t count = listeners();
+  if (!busy() && pace_.lacks(simulator_.revision(), count)) beginView(now, now);
+}
+
+void SensorOutputs::beginView(const ros::Time& stamp, const ros::Time& now) {
+  if (!findSensor(now) || !pace_.send(simulator_.revision())) return;
   finish();
   try {
     prepare();
     view_.stamp = stamp;
     view_.frame = isSensor() ? frames_.resolve(frame_->name()) : frames_.world();
     view_.sensor = isSensor() ? *frame_->pose() : curtain::Pose();
-    view_.cloud = clouds > 0;
-    view_.image = images > 0;
+    view_.cloud = points_.getNumSubscribers() > 0;
+    view_.image = isCamera() && image_.getNumSubscribers() + info_.getNumSubscribers() > 0;
     view_camera_ = camera_;
     curtain::takeMoment(simulator_, view_.moment);
     looking_ = std::async(std::launch::async, [this] { show(view_); });

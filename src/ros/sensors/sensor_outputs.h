@@ -48,10 +48,19 @@ class SensorOutputs {
   /// Takes the newest camera_info, once a frame's time. A bad one is dropped, and the camera stays as it was.
   void apply();
 
+  /// A frame was made: the rate is counted in them.
+  void tick() { pace_.tick(); }
+
+  /// The next view is due at once.
+  void hurry() { pace_.hurry(); }
+
   /// Begins a view of the present state, if one is due and wanted, and the last one is published.
   ///   stamp  of the state
   ///   now    of the node's clock, which the sensor's frame is compared with
   void publish(const ros::Time& stamp, const ros::Time& now);
+
+  /// The same in a pause, once for each listener: nothing changes.
+  void showAgain(const ros::Time& now);
 
   /// Waits until the view that was begun is published.
   void finish();
@@ -81,6 +90,8 @@ class SensorOutputs {
   void take(const sensor_msgs::CameraInfo& message);
   void setCamera(const curtain::RayGrid& rays, const sensor_msgs::CameraInfo& message);
   bool busy();
+  std::uint32_t listeners();
+  void beginView(const ros::Time& stamp, const ros::Time& now);
   bool findSensor(const ros::Time& now);
   void prepare();
   void show(const View& view);
