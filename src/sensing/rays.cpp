@@ -72,7 +72,9 @@ std::vector<Problem> checkCamera(const CameraModel& camera) {
 }
 
 bool operator==(const CameraModel& a, const CameraModel& b) {
-  const auto all = [](const CameraModel& m) { return std::tie(m.width, m.height, m.fx, m.fy, m.cx, m.cy, m.distortion); };
+  const auto all = [](const CameraModel& m) {
+    return std::tie(m.width, m.height, m.fx, m.fy, m.cx, m.cy, m.distortion);
+  };
   return all(a) == all(b);
 }
 

@@ -102,7 +102,7 @@ class SensorOutputs {
   std::optional<FollowedFrame> frame_;  // none: not known which
   curtain::Pose pose_;                  // of the sensor
   std::string error_;
-  std::optional<curtain::RayGrid> rays_;  // for the next view; none: those of the last one
+  std::optional<curtain::RayGrid> rays_;           // for the next view; none: those of the last one
   std::optional<sensor_msgs::CameraInfo> camera_;  // of rays_, or of the view's
   std::unique_ptr<curtain::ClothSampler> sampler_;
   std::unique_ptr<curtain::SensorView> sensor_;
