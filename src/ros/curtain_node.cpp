@@ -143,13 +143,12 @@ void CurtainNode::pause(std::int64_t now) {
   if (due.frames == 0) return;
   applyInputs();
   outputs_.showAgain(clock_.rosTime());
-  sensors_.publish(clock_.rosTime(), clock_.rosTime());
+  sensors_.showAgain(clock_.rosTime());
 }
 
 void CurtainNode::makeAskedFrame() {
   const ros::Time stamp = clock_.takeInPause();
   makeFrame(stamp, lock_step_.lastOfRequest());
-  sensors_.finish();  // who asks for a frame gets what is seen of it
   LockStep::Answer made;
   made.frame = static_cast<std::uint64_t>(simulator_.statistics().frames);
   made.simulated_time = simulator_.time();
@@ -178,11 +177,25 @@ void CurtainNode::makeFrame(const ros::Time& stamp, bool latest) {
   }
   if (clock_publisher_) clock_publisher_->publish(stamp);  // first: nobody gets a stamp ahead of the clock
   outputs_.publish(stamp, nodeStatistics(), latest);
-  if (latest) sensors_.publish(stamp, clock_.rosTime());
+  showSensors(stamp, latest);
   if (handles_) handles_->update(simulator_);
   if (opening_) opening_->update(simulator_);
   hands_.update(simulator_);
   diagnostics_.frameMade();
+}
+
+// Frames that are made because time has passed wait for no view. Those that are asked for have their views, at the rate
+// of simulated time, and the last one has one in any case, before the answer.
+void CurtainNode::showSensors(const ros::Time& stamp, bool latest) {
+  sensors_.tick();
+  if (!lock_step_.asked()) {
+    if (latest) sensors_.publish(stamp, clock_.rosTime());
+    return;
+  }
+  sensors_.finish();  // of the pause until now
+  if (latest) sensors_.hurry();
+  sensors_.publish(stamp, clock_.rosTime());
+  sensors_.finish();
 }
 
 void CurtainNode::restart(const std::string& why) {

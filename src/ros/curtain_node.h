@@ -72,6 +72,7 @@ class CurtainNode {
   void pause(std::int64_t now);
   void makeFrame(const ros::Time& stamp, bool latest);
   void makeAskedFrame();
+  void showSensors(const ros::Time& stamp, bool latest);
   void applyInputs();
   void restart(const std::string& why);
   std::vector<curtain::Problem> restore(const std::string& snapshot);

@@ -57,11 +57,8 @@ float RangeReadings::read(std::size_t ray, const Eigen::Vector3f& direction, con
   const double cosine = cosineOf(direction, hit.normal);
   const double distance = hit.distance;
   // What comes back from a surface that scatters evenly, larger than the beam, is as cos(angle) / range^2 (Jelalian,
-  // Laser Radar Systems, 1992); below that of max_range straight on it is lost.
-  if (params_.lambertian) {
-    const double range = distance * static_cast<double>(direction.norm());
-    if (range * range > cosine * params_.max_range * params_.max_range) return kNone;
-  }
+  // Laser Radar Systems, 1992); below that of max_range straight on it is lost. On a ray, depths are as distances.
+  if (params_.lambertian && distance * distance > cosine * params_.max_range * params_.max_range) return kNone;
   if (params_.noise == RangeNoise::kNone) return hit.distance;
   const double deviation = noiseDeviation(params_.noise, params_.sigma, distance, std::acos(cosine));
   const double reading =

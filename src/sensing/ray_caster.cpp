@@ -83,6 +83,7 @@ struct RayCaster::Impl {
     std::size_t obstacle;
     RTCScene scene;
     RTCGeometry instance;
+    unsigned int id;  // of the instance
   };
 
   RTCDevice device = nullptr;
@@ -93,6 +94,7 @@ struct RayCaster::Impl {
   std::vector<PlacedSolid> solids;
   std::vector<std::size_t> solid_obstacles;  // their numbers
   std::vector<MeshObstacle> meshes;
+  std::vector<Eigen::Matrix3f> turns;  // by the instance's id: from its frame, which Embree's normals are in
 
   double porosity = 0.0;
 
@@ -159,8 +161,9 @@ void RayCaster::Impl::addMesh(std::size_t obstacle, const ShapeTriangles& shape)
   commitAlone(own);
   const RTCGeometry instance = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(instance, own);
-  rtcAttachGeometry(scene, instance);
-  meshes.push_back({obstacle, own, instance});
+  const unsigned int id = rtcAttachGeometry(scene, instance);
+  meshes.push_back({obstacle, own, instance, id});
+  turns.resize(id + 1U, Eigen::Matrix3f::Identity());
 }
 
 RayCaster::RayCaster(const Simulator& simulator, double porosity)
@@ -192,6 +195,7 @@ void RayCaster::place(const Moment& moment, const Pose& sensor) {
     moment.present[mesh.obstacle] != 0 ? rtcEnableGeometry(mesh.instance) : rtcDisableGeometry(mesh.instance);
     const Eigen::Matrix4f pose = poseOf(mesh.obstacle).matrix().cast<float>();
     rtcSetGeometryTransform(mesh.instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, pose.data());
+    im.turns[mesh.id] = pose.topLeftCorner<3, 3>();
     rtcCommitGeometry(mesh.instance);
   }
   commitAlone(im.scene);
@@ -250,6 +254,7 @@ void RayCaster::Impl::castPacket(const RayGrid& rays, int column, int row, const
     hit.b1 = packet.hit.u[lane];
     hit.b2 = packet.hit.v[lane];
     hit.normal = {packet.hit.Ng_x[lane], packet.hit.Ng_y[lane], packet.hit.Ng_z[lane]};
+    if (instance != RTC_INVALID_GEOMETRY_ID) hit.normal = turns[instance] * hit.normal;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <tuple>
 
 #include "scene/pi.h"
 #include "scene/ranges.h"
@@ -43,7 +44,15 @@ std::optional<Vec2> undistort(const std::array<double, 5>& distortion, const Vec
   return std::nullopt;
 }
 
-std::vector<Problem> checkNumbers(const CameraModel& camera) {
+void append(const Vec3& direction, RayGrid& rays) {
+  rays.x.push_back(static_cast<float>(direction.x()));
+  rays.y.push_back(static_cast<float>(direction.y()));
+  rays.z.push_back(static_cast<float>(direction.z()));
+}
+
+}  // namespace
+
+std::vector<Problem> checkCamera(const CameraModel& camera) {
   std::vector<Problem> problems;
   const auto require = [&](const char* key, double value, const Range& range) {
     if (!range.contains(value)) problems.push_back({key, "must be " + range.text() + ", is " + formatNumber(value)});
@@ -62,13 +71,12 @@ std::vector<Problem> checkNumbers(const CameraModel& camera) {
   return problems;
 }
 
-void append(const Vec3& direction, RayGrid& rays) {
-  rays.x.push_back(static_cast<float>(direction.x()));
-  rays.y.push_back(static_cast<float>(direction.y()));
-  rays.z.push_back(static_cast<float>(direction.z()));
+bool operator==(const CameraModel& a, const CameraModel& b) {
+  const auto all = [](const CameraModel& m) {
+    return std::tie(m.width, m.height, m.fx, m.fy, m.cx, m.cy, m.distortion);
+  };
+  return all(a) == all(b);
 }
-
-}  // namespace
 
 CameraModel cameraModel(const CameraParams& params) {
   CameraModel camera;
@@ -84,7 +92,7 @@ CameraModel cameraModel(const CameraParams& params) {
 
 RayGrid cameraRays(const CameraModel& camera, std::vector<Problem>& problems) {
   RayGrid rays;
-  problems = checkNumbers(camera);
+  problems = checkCamera(camera);
   if (!problems.empty()) return rays;
   rays.width = camera.width;
   rays.height = camera.height;

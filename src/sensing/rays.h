@@ -33,11 +33,16 @@ struct CameraModel {
   std::array<double, 5> distortion{};  ///< k1, k2, p1, p2, k3
 };
 
+bool operator==(const CameraModel& a, const CameraModel& b);
+
 /// The camera of valid parameters.
 CameraModel cameraModel(const CameraParams& params);
 
-/// The rays of a camera. problems: what is wrong with it, by its fields (sizes, focal lengths, numbers that are not
-/// finite, a distortion without an inverse at some pixel); then the rays are not valid.
+/// What is wrong with a camera's numbers by themselves, by its fields: sizes, focal lengths, what is not finite.
+std::vector<Problem> checkCamera(const CameraModel& camera);
+
+/// The rays of a camera. problems: what checkCamera() says, or a distortion without an inverse at some pixel; then the
+/// rays are not valid.
 RayGrid cameraRays(const CameraModel& camera, std::vector<Problem>& problems);
 
 /// The rays of a lidar with valid parameters: a row a ring, the highest first; columns from -pi on, turning to the

@@ -8,6 +8,7 @@ import tempfile
 import time
 import unittest
 
+import numpy
 import rospy
 import rostest
 from curtain_sim.msg import DragForce
@@ -15,6 +16,7 @@ from curtain_sim.srv import Load, Save, Step
 from curtain_testing import OK, Curtain, Diagnostics, Listener, assert_stream_is_sound, publisher, wait_until
 from geometry_msgs.msg import TransformStamped
 from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import Image
 from std_srvs.srv import SetBool, Trigger
 from tf2_msgs.msg import TFMessage
 
@@ -133,6 +135,41 @@ class LockStepTest(unittest.TestCase):
         self.good(self.pause(True))
         self.assertEqual(self.curtain.last().statistics.dropped_frames, 0)
         assert_stream_is_sound(self.curtain.messages())
+
+    def test_8_views_are_of_the_frames_asked_for(self):
+        """Each request's last frame has its view, others have it at their rate; from where the camera was then."""
+        begin = self.good(self.step(1)).stamp
+        transforms = publisher("/tf", TFMessage)
+        images = Listener("/curtain/curtain_node/depth/image", Image)
+
+        def camera(ahead):
+            """Looks down, and rises by 10 m/s from 0 m; the floor is at -1 m."""
+            transform = TransformStamped()
+            transform.header.stamp = begin + rospy.Duration(ahead)
+            transform.header.frame_id, transform.child_frame_id = "world", "camera"
+            transform.transform.translation.x = 5.0
+            transform.transform.translation.z = 10.0 * ahead
+            transform.transform.rotation.x = 1.0
+            return transform
+        transforms.publish(TFMessage([camera(0.0), camera(0.4)]))
+        first = images.next()
+        self.assertEqual(first.header.stamp, begin, "in the pause: of its frame")
+
+        def views_of(frames):
+            images.clear()
+            stamp = self.good(self.step(frames)).stamp
+            wait_until(lambda: images.last() and images.last().header.stamp == stamp, "the last frame's view is here")
+            return images.messages()
+        seen = [first]
+        for _ in range(8):
+            views = views_of(1)
+            self.assertEqual(len(views), 1)
+            seen += views
+        views = views_of(12)  # 0.2 s: two at 10 Hz, and the last one where it is neither
+        self.assertIn(len(views), (2, 3))
+        for view in seen + views:
+            depths = numpy.frombuffer(view.data, "<f4")
+            numpy.testing.assert_allclose(depths, 1.0 + 10.0 * (view.header.stamp - begin).to_sec(), atol=1e-5)
 
 
 if __name__ == "__main__":

@@ -403,5 +403,18 @@ TEST(Pace, WhatIsDueWaitsForTheLook) {
   EXPECT_FALSE(pace.due(1));
 }
 
+TEST(Pace, HurriesWithoutLosingItsTurn) {
+  Pace pace(10.0, 1.0, 60.0);
+  std::uint64_t picture = 1;
+  EXPECT_EQ(sentIn(3, pace, 1, picture, false), 1);
+  EXPECT_FALSE(pace.lacks(picture, 1));
+  EXPECT_TRUE(pace.lacks(picture, 2)) << "somebody new";
+  EXPECT_TRUE(pace.lacks(picture, 2)) << "until it is sent";
+  pace.hurry();
+  EXPECT_EQ(sentIn(1, pace, 2, picture, false), 1) << "at rest, and between two turns";
+  EXPECT_EQ(sentIn(2, pace, 2, picture, true), 0);
+  EXPECT_EQ(sentIn(1, pace, 2, picture, true), 1) << "the seventh frame's turn";
+}
+
 }  // namespace
 }  // namespace curtain_ros

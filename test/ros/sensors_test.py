@@ -119,11 +119,14 @@ class SensorsTest(unittest.TestCase):
                 (camera_info(distortion_model="rational_polynomial", D=[0.1] * 8), "must be plumb_bob"),
                 (camera_info(D=[-3.0, 0.0, 0.0, 0.0, 0.0]), "has no inverse at the pixel"),
                 (camera_info(binning_x=2, binning_y=2), "binning_x"),
+                (camera_info(R=[float("nan")] * 9), "R: must be finite"),
+                (camera_info(P=[100.0] + [float("inf")] * 11), "P: must be finite"),
                 (camera_info(K=[float("nan")] + [1.0] * 8), "K: must have no skew")]:
-            infos.publish(bad)
-            dropped += 1
-            curtain.wait_for(lambda s: s.statistics.dropped_invalid == dropped, "it is dropped")
-            diagnostics.wait_for("inputs", WARN, value=("last", text))
+            for _ in range(2):  # the second time it is known
+                infos.publish(bad)
+                dropped += 1
+                curtain.wait_for(lambda s: s.statistics.dropped_invalid == dropped, "it is dropped")
+                diagnostics.wait_for("inputs", WARN, value=("last", text))
         image = self.open_eyes()
         self.assertEqual((image.width, image.height, image.encoding, image.header.frame_id),
                          (PIXELS_WIDE, PIXELS_HIGH, "32FC1", "camera"))

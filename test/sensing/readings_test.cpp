@@ -134,10 +134,10 @@ TEST(Readings, NoiseHasTheDeviationOfItsModel) {
   noisy.expectNormal(0.0012 + 0.0019 * 2.6 * 2.6, 3);
 }
 
-// What the papers say of their own models: 4 cm at 5 m (Khoshelham, Oude Elberink, Sect. 5); at 60 degrees the
+// What the papers say of their own models: 1.425e-5 Z^2 in centimetres (Khoshelham, Oude Elberink); at 60 degrees the
 // hyperbolic part begins, as (pi/3 / (pi/6))^2 = 4 times 0.0001 / sqrt(z) (Nguyen et al., Eq. (4)).
 TEST(Readings, NoiseIsThatOfThePapers) {
-  EXPECT_NEAR(noiseDeviation(RangeNoise::kKhoshelham2012, 0.0, 5.0, 0.0), 0.04, 0.005);
+  EXPECT_NEAR(noiseDeviation(RangeNoise::kKhoshelham2012, 0.0, 5.0, 0.0), 0.01 * 1.425e-5 * 500.0 * 500.0, 1e-12);
   const double up_to = noiseDeviation(RangeNoise::kNguyen2012, 0.0, 1.0, curtain_test::kPi / 3.0);
   const double beyond = noiseDeviation(RangeNoise::kNguyen2012, 0.0, 1.0, curtain_test::kPi / 3.0 + 1e-9);
   EXPECT_NEAR(up_to, 0.0012 + 0.0019 * 0.36, 1e-12);
@@ -173,6 +173,19 @@ TEST(Readings, AreLostAtTheirShare) {
       ASSERT_EQ(reading, 2.0F);
   }
   expectShare(lost, kRays, 0.2);
+}
+
+// A camera's range is a depth, however long the ray: this one is 5/4 of it.
+TEST(Readings, ALambertianSurfaceIsLostBeyondADepth) {
+  for (const double share : {0.999, 1.001}) {
+    Noisy noisy(10.0 * share, 0.0);
+    noisy.direction = Eigen::Vector3f(0.75F, 0.0F, 1.0F);
+    noisy.hit.normal = -noisy.direction;
+    noisy.params.max_range = 10.0;
+    noisy.params.lambertian = true;
+    const RangeReadings readings(noisy.params, 1);
+    EXPECT_EQ(std::isnan(readings.read(0, noisy.direction, noisy.hit)), share > 1.0);
+  }
 }
 
 // Seen aslant by 60 degrees a surface is lost beyond the root of a half of the range.

@@ -4,6 +4,7 @@
 #include <sensor_msgs/distortion_models.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "ros/inputs/read_messages.h"
@@ -16,6 +17,11 @@ using curtain::Problem;
 namespace {
 
 bool isZero(double value) { return value == 0.0; }
+
+template <typename Numbers>
+bool areFinite(const Numbers& numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite(number); });
+}
 
 std::vector<Problem> checkKind(const sensor_msgs::CameraInfo& message) {
   std::vector<Problem> problems;
@@ -35,6 +41,8 @@ std::vector<Problem> checkKind(const sensor_msgs::CameraInfo& message) {
   const bool whole = roi.x_offset == 0 && roi.y_offset == 0 && (roi.width == 0 || roi.width == message.width) &&
                      (roi.height == 0 || roi.height == message.height);
   require(whole, "roi", "must be the whole image");
+  require(areFinite(message.R), "R", "must be finite");
+  require(areFinite(message.P), "P", "must be finite");
   require(isZero(message.P[3]) && isZero(message.P[7]), "P",
           "is of the second camera of a stereo pair, whose frame is the first one's: give the first one's");
   return problems;

@@ -12,7 +12,8 @@
 namespace curtain_ros {
 
 /// The camera of a message, as its raw image has it: width, height, K, D. Returns what is wrong: a distortion other
-/// than plumb_bob, binning, a region of interest, the second camera of a stereo pair. cameraRays() checks the numbers.
+/// than plumb_bob, binning, a region of interest, the second camera of a stereo pair, R or P that are not finite.
+/// checkCamera() and cameraRays() check the camera.
 std::vector<curtain::Problem> toCamera(const sensor_msgs::CameraInfo& message, curtain::CameraModel& camera);
 
 /// The message of a camera; its header is left alone. The image is rectified where there is no distortion.

@@ -19,7 +19,7 @@ sensor_msgs::PointCloud2 emptyCloud();
 void fillCloud(const std::vector<curtain::CloudPoint>& points, std::uint32_t height, std::uint32_t width, bool dense,
                sensor_msgs::PointCloud2& cloud);
 
-/// Depths [m] row by row, NaN: none (REP 118).
+/// Depths [m] row by row, NaN: none, as depth_image_proc writes it.
 void fillDepths(const std::vector<float>& depths, std::uint32_t height, std::uint32_t width, sensor_msgs::Image& image);
 
 }  // namespace curtain_ros

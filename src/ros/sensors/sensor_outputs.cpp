@@ -3,7 +3,6 @@
 
 #include <ros/console.h>
 
-#include <chrono>
 #include <cmath>
 #include <stdexcept>
 
@@ -18,9 +17,8 @@ using sensor_msgs::CameraInfo;
 
 namespace {
 
-constexpr double kCloudsAtRest = 1.0;     // [1/s] all round
-constexpr double kWarnPeriod = 10.0;      // [s] between warnings
-constexpr std::uint32_t kQueueSize = 50;  // of camera_info, as of other inputs: what roscpp drops is warned of
+constexpr double kCloudsAtRest = 1.0;  // [1/s] all round
+constexpr double kWarnPeriod = 10.0;   // [s] between warnings
 
 curtain::FlatCloth flatCloth(const curtain::Simulator& simulator) {
   std::vector<double> warp, weft;
@@ -36,10 +34,8 @@ SensorOutputs::SensorOutputs(ros::NodeHandle node, ros::NodeHandle private_node,
     : params_(params),
       simulator_(simulator),
       frames_(frames),
-      inputs_(inputs),
       flat_(flatCloth(simulator)),
       pace_(params.rate, restRate(), simulator.scene().solver.frame_rate),
-      camera_letters_(1),
       cloud_message_(emptyCloud()),
       image_message_(sensor_msgs::Image()),
       info_message_(CameraInfo()) {
@@ -51,87 +47,65 @@ SensorOutputs::SensorOutputs(ros::NodeHandle node, ros::NodeHandle private_node,
                          std::to_string(curtain::kMostRays));
   }
   if (isCamera() && params_.camera.from_camera_info) {
-    subscribe(node);
+    camera_input_ = std::make_unique<CameraInput>(node, inputs, worker_);
   } else if (isCamera()) {
     const curtain::CameraModel camera = curtain::cameraModel(params_.camera);
-    CameraInfo message;
-    toMessage(camera, message);
+    toMessage(camera, camera_.emplace());
     std::vector<curtain::Problem> problems;  // the parameters have none
-    setCamera(curtain::cameraRays(camera, problems), message);
+    rays_ = curtain::cameraRays(camera, problems);
   } else if (isSensor()) {
     rays_ = curtain::lidarRays(params_.lidar);
   }
-  if (!params_.frame.empty() || !camera_infos_) frame_.emplace(params_.frame, params_.timeout, "~points/timeout");
+  if (!params_.frame.empty() || !camera_input_) frame_.emplace(params_.frame, params_.timeout, "~points/timeout");
   points_ = private_node.advertise<sensor_msgs::PointCloud2>("points", 2);
   if (!isCamera()) return;
   image_ = private_node.advertise<sensor_msgs::Image>("depth/image", 2);
   info_ = private_node.advertise<CameraInfo>("depth/camera_info", 2);
 }
 
-// A sensor's noise is new in every view, whether anything moves or not.
+// A sensor's noise is new in every frame, whether anything moves or not.
 double SensorOutputs::restRate() const { return isSensor() ? 0.0 : kCloudsAtRest; }
 
-void SensorOutputs::subscribe(ros::NodeHandle& node) {
-  const boost::function<void(const CameraInfo::ConstPtr&)> on_message = [this](const CameraInfo::ConstPtr& message) {
-    camera_letters_.post(message);
-  };
-  camera_infos_ = node.subscribe<CameraInfo>("camera_info", kQueueSize, on_message, ros::VoidConstPtr(),
-                                             ros::TransportHints().tcpNoDelay());
-}
-
 std::vector<std::string> SensorOutputs::topics() const {
-  if (!camera_infos_) return {};
-  return {camera_infos_.getTopic()};
+  if (!camera_input_) return {};
+  return {camera_input_->topic()};
 }
 
 void SensorOutputs::apply() {
-  if (!camera_infos_) return;
-  std::deque<CameraInfo::ConstPtr> letters;
-  camera_letters_.collect(letters);
-  for (const CameraInfo::ConstPtr& letter : letters) take(*letter);
+  if (!camera_input_) return;
+  camera_input_->apply();
+  takeCamera();
 }
 
-void SensorOutputs::take(const CameraInfo& message) {
-  CameraInfo known = message;
-  completeProjection(known);
-  known.header.seq = camera_.header.seq;
-  known.header.stamp = camera_.header.stamp;
-  if (has_camera_ && known == camera_) return inputs_.take();  // drivers send the same one with every image
-  curtain::CameraModel camera;
-  std::vector<curtain::Problem> problems = toCamera(message, camera);
-  curtain::RayGrid rays;
-  if (problems.empty()) rays = curtain::cameraRays(camera, problems);
-  if (!problems.empty()) return inputs_.refuse("camera_info", problems);
-  if (params_.frame.empty() && !(frame_ && frame_->name() == known.header.frame_id))
-    frame_.emplace(known.header.frame_id, params_.timeout, "~points/timeout");
-  setCamera(rays, known);
-  inputs_.take();
-}
-
-void SensorOutputs::setCamera(const curtain::RayGrid& rays, const CameraInfo& message) {
-  rays_ = rays;
-  camera_ = message;
-  has_camera_ = true;
-}
-
-bool SensorOutputs::busy() {
-  return looking_.valid() && looking_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
+void SensorOutputs::takeCamera() {
+  camera_ = camera_input_->info();
+  std::optional<curtain::RayGrid> rays = camera_input_->takeRays();
+  if (rays) rays_ = std::move(rays);
+  if (camera_ && params_.frame.empty() && !(frame_ && frame_->name() == camera_->header.frame_id))
+    frame_.emplace(camera_->header.frame_id, params_.timeout, "~points/timeout");
 }
 
 void SensorOutputs::finish() {
-  if (looking_.valid()) looking_.get();
+  worker_.finish();
+  if (!camera_input_) return;
+  while (camera_input_->work()) worker_.finish();
+  takeCamera();
 }
 
-// False: it can't see now.
-bool SensorOutputs::findSensor(const ros::Time& now) {
+// False: it can't see now. Where it was at the stamp is known if a later transform is here already.
+bool SensorOutputs::findSensor(const ros::Time& stamp, const ros::Time& now) {
   const std::string before = error_;
   error_.clear();
   if (!isSensor()) return true;
-  if (isCamera() && !has_camera_) {
-    error_ = "no camera_info has come on " + camera_infos_.getTopic();
+  if (isCamera() && !camera_) {
+    error_ = "no camera_info has come on " + camera_input_->topic();
   } else {
     const FollowedFrame::Standing standing = frame_->look(frames_, now);
-    if (standing == FollowedFrame::Standing::kFresh) return true;
+    if (standing == FollowedFrame::Standing::kFresh) {
+      const FrameLookup then = frames_.lookup(frame_->name(), stamp);
+      pose_ = then.known ? then.pose : *frame_->pose();
+      return true;
+    }
     if (standing == FollowedFrame::Standing::kLost)
       error_ = "the sensor's frame '" + frame_->name() + "' " + frame_->error();
   }
@@ -150,23 +124,35 @@ void SensorOutputs::prepare() {
   rays_.reset();
 }
 
-void SensorOutputs::publish(const ros::Time& stamp, const ros::Time& now) {
-  pace_.tick();
-  const std::uint32_t clouds = points_.getNumSubscribers();
+std::uint32_t SensorOutputs::listeners() {
   const std::uint32_t images = isCamera() ? image_.getNumSubscribers() + info_.getNumSubscribers() : 0;
-  if (clouds + images == 0) error_.clear();
-  if (busy() || !pace_.due(clouds + images) || !findSensor(now) || !pace_.send(simulator_.revision())) return;
-  finish();
+  const std::uint32_t all = points_.getNumSubscribers() + images;
+  if (all == 0) error_.clear();
+  return all;
+}
+
+void SensorOutputs::publish(const ros::Time& stamp, const ros::Time& now) {
+  const std::uint32_t count = listeners();
+  if (!worker_.busy() && pace_.due(count)) beginView(stamp, now);
+}
+
+void SensorOutputs::showAgain(const ros::Time& now) {
+  const std::uint32_t count = listeners();
+  if (!worker_.busy() && pace_.lacks(simulator_.revision(), count)) beginView(now, now);
+}
+
+void SensorOutputs::beginView(const ros::Time& stamp, const ros::Time& now) {
+  if (!findSensor(stamp, now) || !pace_.send(simulator_.revision())) return;
   try {
     prepare();
     view_.stamp = stamp;
     view_.frame = isSensor() ? frames_.resolve(frame_->name()) : frames_.world();
-    view_.sensor = isSensor() ? *frame_->pose() : curtain::Pose();
-    view_.cloud = clouds > 0;
-    view_.image = images > 0;
-    view_camera_ = camera_;
+    view_.sensor = pose_;
+    view_.cloud = points_.getNumSubscribers() > 0;
+    view_.image = isCamera() && image_.getNumSubscribers() + info_.getNumSubscribers() > 0;
+    if (camera_) view_camera_ = *camera_;
     curtain::takeMoment(simulator_, view_.moment);
-    looking_ = std::async(std::launch::async, [this] { show(view_); });
+    worker_.begin([this] { show(view_); });
   } catch (const std::exception& error) {  // no memory, no thread
     ROS_ERROR_STREAM_THROTTLE(kWarnPeriod, "~points can't be made: " << error.what());
   }

@@ -7,12 +7,10 @@
 
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
-#include <ros/subscriber.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
 
-#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,9 +20,10 @@
 #include "ros/frames/followed_frame.h"
 #include "ros/frames/frames.h"
 #include "ros/inputs/inputs.h"
-#include "ros/inputs/mailbox.h"
 #include "ros/outputs/reused_message.h"
 #include "ros/parameters/parameters.h"
+#include "ros/sensors/camera_input.h"
+#include "ros/sensors/worker.h"
 #include "ros/time/pace.h"
 #include "sensing/cloth_sampler.h"
 #include "sensing/sensor_view.h"
@@ -41,19 +40,27 @@ class SensorOutputs {
   /// Throws ParameterError for a density of too many points.
   SensorOutputs(ros::NodeHandle node, ros::NodeHandle private_node, const curtain::SensorParams& params,
                 const curtain::Simulator& simulator, Frames& frames, Inputs& inputs);
-  ~SensorOutputs() { finish(); }
   SensorOutputs(const SensorOutputs&) = delete;
   SensorOutputs& operator=(const SensorOutputs&) = delete;
 
-  /// Takes the newest camera_info, once a frame's time. A bad one is dropped, and the camera stays as it was.
+  /// Takes the newest camera_info, once a frame's time.
   void apply();
+
+  /// A frame was made: the rate is counted in them.
+  void tick() { pace_.tick(); }
+
+  /// The next view is due at once.
+  void hurry() { pace_.hurry(); }
 
   /// Begins a view of the present state, if one is due and wanted, and the last one is published.
   ///   stamp  of the state
   ///   now    of the node's clock, which the sensor's frame is compared with
   void publish(const ros::Time& stamp, const ros::Time& now);
 
-  /// Waits until the view that was begun is published.
+  /// The same in a pause, once for each listener: nothing changes.
+  void showAgain(const ros::Time& now);
+
+  /// Waits until the view that was begun is published, and the newest camera_info is the camera's.
   void finish();
 
   /// The frame rate has changed. [1/s]
@@ -77,11 +84,10 @@ class SensorOutputs {
   bool isCamera() const { return params_.sensor == curtain::SensorKind::kCamera; }
   bool isSensor() const { return params_.sensor != curtain::SensorKind::kAllRound; }
   double restRate() const;
-  void subscribe(ros::NodeHandle& node);
-  void take(const sensor_msgs::CameraInfo& message);
-  void setCamera(const curtain::RayGrid& rays, const sensor_msgs::CameraInfo& message);
-  bool busy();
-  bool findSensor(const ros::Time& now);
+  void takeCamera();
+  std::uint32_t listeners();
+  void beginView(const ros::Time& stamp, const ros::Time& now);
+  bool findSensor(const ros::Time& stamp, const ros::Time& now);
   void prepare();
   void show(const View& view);
   void showCloud(const View& view, std::uint32_t height, std::uint32_t width);
@@ -90,17 +96,14 @@ class SensorOutputs {
   curtain::SensorParams params_;
   const curtain::Simulator& simulator_;
   Frames& frames_;
-  Inputs& inputs_;
   curtain::FlatCloth flat_;
   Pace pace_;
   ros::Publisher points_, image_, info_;
-  ros::Subscriber camera_infos_;
-  Mailbox<sensor_msgs::CameraInfo::ConstPtr> camera_letters_;
   std::optional<FollowedFrame> frame_;  // none: not known which
+  curtain::Pose pose_;                  // of the sensor
   std::string error_;
-  std::optional<curtain::RayGrid> rays_;  // for the next view; none: those of the last one
-  bool has_camera_ = false;
-  sensor_msgs::CameraInfo camera_;  // of rays_, or of the view's
+  std::optional<curtain::RayGrid> rays_;           // for the next view; none: those of the last one
+  std::optional<sensor_msgs::CameraInfo> camera_;  // of rays_, or of the view's
   std::unique_ptr<curtain::ClothSampler> sampler_;
   std::unique_ptr<curtain::SensorView> sensor_;
 
@@ -111,7 +114,9 @@ class SensorOutputs {
   ReusedMessage<sensor_msgs::Image> image_message_;
   ReusedMessage<sensor_msgs::CameraInfo> info_message_;
   sensor_msgs::CameraInfo view_camera_;
-  std::future<void> looking_;  // last: it uses the others
+
+  std::unique_ptr<CameraInput> camera_input_;  // none unless from_camera_info
+  Worker worker_;                              // last: its job uses the others
 };
 
 }  // namespace curtain_ros

@@ -52,6 +52,12 @@ class Pace {
     ++frames_since_sent_;
   }
 
+  /// The next one is due at once, as for a new subscriber, whatever was sent.
+  void hurry() {
+    due_ = true;
+    sent_.reset();
+  }
+
   /// Whether the output is due, for that many subscribers. True once: then the next frame at its rate is.
   bool due(std::uint32_t subscribers) {
     if (subscribers > subscribers_) sent_.reset();
@@ -59,6 +65,13 @@ class Pace {
     const bool due = due_;
     due_ = false;
     return due && subscribers > 0;
+  }
+
+  /// Whether these subscribers lack this picture. Tells of new ones once.
+  bool lacks(std::uint64_t picture, std::uint32_t subscribers) {
+    if (subscribers > subscribers_) sent_.reset();
+    subscribers_ = subscribers;
+    return subscribers > 0 && sent_ != picture;
   }
 
   /// Whether a due output is to be sent. picture: a number that changes whenever what it shows may have changed.
