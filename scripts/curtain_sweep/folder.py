@@ -46,8 +46,8 @@ def difference(ours, theirs, name=""):
             if found:
                 return found
         return None
-    text = lambda value: "not given" if value is None else json.dumps(value)
-    return None if ours == theirs else "%s is %s, was %s" % (name, text(ours), text(theirs))
+    ours, theirs = ("not given" if value is None else json.dumps(value, sort_keys=True) for value in (ours, theirs))
+    return None if ours == theirs else "%s is %s, was %s" % (name, ours, theirs)  # texts: 1 is not true
 
 
 class Folder:

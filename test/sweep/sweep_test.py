@@ -223,6 +223,12 @@ class Results(SweepTest):
             self.assertEqual([float(x) for x in last[3:6]], list(file["2/positions"][-1, -1, -1]))
         self.refused("trajectories", "another sweep")
 
+    def test_parameters_in_another_order_are_another_sweep(self):
+        by_name = "  contact.friction: [0.1, 0.5]\n", "  solver.seed: [1, 2]\n"
+        self.params("duration: 0.1\nparameters:\n" + by_name[0] + by_name[1])
+        self.sweep()
+        self.params("duration: 0.1\nparameters:\n" + by_name[1] + by_name[0])
+        self.refused("order of parameters", "another sweep")
 
     def test_a_terminal_sees_progress_and_the_time_left(self):
         self.params("duration: 0.1\nparameters:\n  contact.friction: [0.1, 0.2, 0.3]\n")
