@@ -10,11 +10,20 @@
 import json
 
 from curtain_sweep.folder import replace
+from curtain_sweep.problem import Unfinished
 from curtain_sweep.results import cell, trajectory
 
 
 def write_trajectories(path, folder, results, design, scene):
     """Writes the file completely or not at all. It is made in memory: HDF5 does not survive a disk that is full."""
+    try:
+        replace(path, image(path, folder, results, design, scene))
+    except (RuntimeError, MemoryError) as error:
+        raise Unfinished("%s: cannot be made: %s" % (path, str(error) or "not enough memory")) from error
+
+
+def image(path, folder, results, design, scene):
+    """The bytes of the file."""
     import h5py  # asked for before anything was started
     import numpy
 
@@ -36,5 +45,4 @@ def write_trajectories(path, folder, results, design, scene):
             group["positions"] = rows[:, 3:6].reshape(shape)
             group["velocities"] = rows[:, 6:9].reshape(shape)
         file.flush()
-        image = file.id.get_file_image()
-    replace(path, image)
+        return file.id.get_file_image()

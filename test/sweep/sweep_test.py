@@ -247,6 +247,16 @@ class Results(SweepTest):
             self.assertEqual([float(x) for x in last[3:6]], list(file["2/positions"][-1, -1, -1]))
         self.refused("trajectories", "another sweep")
 
+    def test_trajectories_have_any_number_of_states(self):
+        h5py = module("h5py")
+        if h5py is None:
+            self.skipTest("python3-h5py is not installed")
+        # As a list their times would be longer than the 128 KB that Linux has for one argument.
+        self.params("duration: 0.1\nsamples_per_second: 100000\nparameters:\n  cloth.rows: [4]\n  cloth.columns: [4]\n")
+        self.sweep("--hdf5", "states.h5")
+        with h5py.File(self.of("states.h5")) as file:
+            self.assertEqual(file["1/positions"].shape, (10001, 4, 4, 3))
+
     def test_parameters_in_another_order_are_another_sweep(self):
         by_name = "  contact.friction: [0.1, 0.5]\n", "  solver.seed: [1, 2]\n"
         self.params("duration: 0.1\nparameters:\n" + by_name[0] + by_name[1])
