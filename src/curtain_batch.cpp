@@ -3,7 +3,6 @@
 // curtain_batch: the engine without ROS, for measuring, sweeps and tests.
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
 #include <iostream>
 #include <stdexcept>
 
@@ -42,18 +41,19 @@ void explain(const curtain::Simulator& simulator) {
   std::cout << "t = " << simulator.time() << " s\n" << curtain::describe(simulator.plan());
 }
 
-int simulate(const Options& options) {
+int simulate(Options options) {
   curtain::Simulator simulator(readScene(options.scenes.front(), options));
   restore(simulator, options);
+  if (options.sample_rate > 0.0) options.samples = samplesFrom(simulator.time(), options);
   if (options.explain) explain(simulator);
   const curtain_batch::Progress progress = makeRun(options, simulator);
   if (options.explain && !progress.frame_seconds.empty()) explain(simulator);
   save(simulator, options);
   if (!options.mesh.empty()) curtain::writeMesh(simulator, options.mesh);
   if (!options.stats.empty()) {
-    std::ofstream stats(options.stats);
-    stats << curtain::statisticsJson(simulator, progress.initial, progress.frame_seconds);
-    if (!stats.flush()) throw std::runtime_error(describe(curtain::failedOn(options.stats, "cannot be written")));
+    const std::string text = curtain::statisticsJson(simulator, progress.initial, progress.frame_seconds);
+    const std::vector<curtain::Problem> problems = curtain::writeWholeFile(options.stats, text);
+    if (!problems.empty()) throw std::runtime_error(curtain::describe(problems, "--stats"));
   }
   if (simulator.statistics().finite) return EXIT_SUCCESS;
   std::cerr << "curtain_batch: the state became non-finite at t = " << simulator.time() << " s\n";

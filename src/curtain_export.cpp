@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // curtain_export: an animation of a scene or of a bag, for programs that draw.
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
@@ -149,6 +150,7 @@ bool writePly(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit of file sizes is told by the write that meets it
   try {
     const Options options = readOptions(argc, argv);
     if (options.help) {

@@ -5,6 +5,7 @@ The same file gives the same runs everywhere: random numbers are those of random
 Python promises to keep.
 """
 import itertools
+import json
 import math
 import random
 import re
@@ -19,6 +20,7 @@ RANGE_KEYS = ("min", "max", "scale", "steps", "integer")
 SCALES = ("linear", "log")
 PATH = re.compile(r"[A-Za-z_]\w*(\[\d+\])*(\.[A-Za-z_]\w*(\[\d+\])*)*")
 MOST_RUNS = 1000000
+MOST_SAMPLES = 1000000
 
 
 def number(value, name, low=-math.inf):
@@ -26,7 +28,11 @@ def number(value, name, low=-math.inf):
     if isinstance(value, str):
         raise Problem("%s: must be a number, is the text '%s'%s" %
                       (name, value, " (YAML wants 1.0e-6, not 1e-6)" if re.fullmatch(r"[-+]?\d+e[-+]?\d+", value) else ""))
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value) or value < low:
+    try:
+        good = not isinstance(value, bool) and isinstance(value, (int, float)) and math.isfinite(value) and value >= low
+    except OverflowError:  # a whole number with more digits than a float has room for
+        good = False
+    if not good:
         raise Problem("%s: must be a finite number%s, is %s" % (name, " >= %g" % low if low > -math.inf else "", value))
     return value
 
@@ -76,6 +82,7 @@ class Parameter:
             raise Problem("%s.min: must be > 0 with scale: log, is %s" % (name, self.low))
         if not isinstance(self.integer, bool):
             raise Problem("%s.integer: must be true or false, is %s" % (name, self.integer))
+        self.judge_width()
         if (design == "grid") != ("steps" in given):
             raise Problem("%s.steps: %s" % (name, "is missing; a grid needs to know how many values the range has"
                                             if design == "grid" else "is for design: grid alone"))
@@ -83,16 +90,29 @@ class Parameter:
             steps = whole(given["steps"], name + ".steps", 1)
             self.values = list(dict.fromkeys(self.at(k / (steps - 1) if steps > 1 else 0.5) for k in range(steps)))
 
+    def judge_width(self):
+        """Of a range: it must have a width in double precision, and if whole numbers are wanted, one within."""
+        if not math.isfinite(float(self.high) - float(self.low)):
+            raise Problem("%s: from min %g to max %g is too far" % (self.name, self.low, self.high))
+        if not self.integer:
+            return
+        given = self.low, self.high
+        self.low, self.high = math.ceil(self.low), math.floor(self.high)
+        if self.low > self.high:
+            raise Problem("%s: there is no whole number from min %s to max %s" % (self.name, *given))
+
     def at(self, share):
-        """The value at a share of the range, or of the list, [0, 1)."""
+        """The value at a share of the range, or of the list, [0, 1), for a grid's last step 1. A whole number n has the share of
+        [n, n + 1), so that with scale: linear all have the same."""
         if self.values is not None:
             return self.values[int(share * len(self.values))]
+        end = self.high + 1 if self.integer else self.high
         if self.scale == "log":
-            value = math.exp(math.log(self.low) + share * (math.log(self.high) - math.log(self.low)))
+            value = math.exp(math.log(self.low) + share * (math.log(end) - math.log(self.low)))
         else:
-            value = self.low + share * (self.high - self.low)
-        value = min(max(value, self.low), self.high)  # rounding
-        return round(value) if self.integer else float(value)
+            value = self.low + share * (end - self.low)
+        value = math.floor(value) if self.integer else float(value)
+        return min(max(value, self.low), self.high)  # rounding
 
 
 class Design:
@@ -109,6 +129,8 @@ class Design:
         self.seed = whole(given.get("seed", 1), "seed", 0, 2**32 - 1)
         self.duration = number(given.get("duration", 1.0), "duration", 0.0)
         self.samples_per_second = number(given.get("samples_per_second", 10), "samples_per_second", 0.0)
+        if self.samples() > MOST_SAMPLES:
+            raise Problem("samples_per_second: at most %d states a run are possible, duration has more" % MOST_SAMPLES)
         self.metrics = given.get("metrics")
         if self.metrics is not None and not (isinstance(self.metrics, list) and all(isinstance(m, str) for m in self.metrics)):
             raise Problem("metrics: must be a list of names, is %s" % self.metrics)
@@ -127,10 +149,9 @@ class Design:
         else:
             self.count = whole(given["count"], "count", 1)
 
-    def sample_times(self):
-        """Times of a trajectory's states [s]."""
-        rate = self.samples_per_second
-        return [k / rate for k in range(int(self.duration * rate + 1e-9) + 1)] if rate > 0 else [self.duration]
+    def samples(self):
+        """States of a trajectory, as curtain_batch --sample-rate counts them; without a rate the last one."""
+        return math.floor(min(self.duration * self.samples_per_second, MOST_SAMPLES) + 1e-9) + 1
 
     def runs(self):
         """The values of every run, a list in the order of the parameters for each."""
@@ -148,14 +169,23 @@ class Design:
         return [list(values) for values in zip(*columns)]
 
 
+class Dateless(yaml.SafeLoader):
+    """2024-01-01 is a text, as curtain_batch has it."""
+
+    yaml_implicit_resolvers = {first: [(tag, of) for tag, of in resolvers if not tag.endswith(":timestamp")]
+                               for first, resolvers in yaml.SafeLoader.yaml_implicit_resolvers.items()}
+
+
 def load_yaml(path):
-    """The content of a YAML file, numbers and texts as YAML 1.1 has them."""
+    """The content of a YAML file: keys, lists, numbers and texts as YAML 1.1 has them, but for dates, which are texts."""
     try:
         with open(path, encoding="utf-8") as file:
-            return yaml.safe_load(file)
+            content = yaml.load(file, Loader=Dateless)
+        json.dumps(content)  # what a sweep is of is kept as JSON: no other types, nothing that is within itself
+        return content
     except OSError as error:
         raise Problem("%s: cannot be read: %s" % (path, error.strerror)) from error
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
+    except (yaml.YAMLError, ValueError, TypeError, RecursionError) as error:  # ValueError: no UTF-8, or a number of 5000 digits
         raise Problem("%s: is not YAML: %s" % (path, " ".join(str(error).split()))) from error
 
 

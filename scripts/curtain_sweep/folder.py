@@ -23,12 +23,12 @@ OURS = {"sweep.json", "lock", "runs.txt", "joblog", "hosts", "runs", "results.cs
 LOG_LINE = re.compile(r"(\d+)\t([^\t]*)\t[^\t]*\t([^\t]*)\t\d+\t\d+\t(\d+)\t(\d+)\t[^\n]*\n")
 
 
-def replace(path, text):
-    """Writes a file completely or not at all."""
+def replace(path, content):
+    """Writes a file, of text or bytes, completely or not at all."""
     part = path + ".part"
     try:
-        with open(part, "w", encoding="utf-8", newline="") as file:
-            file.write(text)
+        with open(part, "wb") as file:
+            file.write(content.encode() if isinstance(content, str) else content)
             file.flush()
             os.fsync(file.fileno())
         os.replace(part, path)
@@ -46,8 +46,13 @@ def difference(ours, theirs, name=""):
             if found:
                 return found
         return None
-    text = lambda value: "not given" if value is None else json.dumps(value)
-    return None if ours == theirs else "%s is %s, was %s" % (name, text(ours), text(theirs))
+    ours, theirs = ("not given" if value is None else json.dumps(value, sort_keys=True) for value in (ours, theirs))
+    return None if ours == theirs else "%s is %s, was %s" % (name, ours, theirs)  # texts: 1 is not true
+
+
+def code_of(entry):
+    """Of a line of the log: exit code, or 128 and the signal."""
+    return int(entry[4]) or (128 + int(entry[5]) if int(entry[5]) else 0)
 
 
 class Folder:
@@ -80,9 +85,8 @@ class Folder:
                               (self.path, found))
             if force:
                 self.clear()
-        os.makedirs(self.of("runs"), exist_ok=True)
         replace(self.of("sweep.json"), json.dumps(identity, indent=1) + "\n")
-        self.mend_log()
+        os.makedirs(self.of("runs"), exist_ok=True)
 
     def take_lock(self):
         """Waits for what a killed sweep has left running: its runs end by themselves, and are made again if they were not logged."""
@@ -100,20 +104,28 @@ class Folder:
                 time.sleep(0.1)
 
     def clear(self):
-        """Removes what a sweep writes, and nothing else; the record of what it is of goes first."""
-        for name in sorted(OURS - {"lock"}, reverse=True):
+        """Removes what a sweep writes, and nothing else. Killed on the way it leaves the folder of a sweep of which nothing is made:
+        the log goes first, and what the sweep is of stays, to be replaced."""
+        for name in ["joblog"] + sorted(OURS - {"lock", "joblog", "sweep.json"}):
             if os.path.isdir(self.of(name)):
                 shutil.rmtree(self.of(name))
             elif os.path.exists(self.of(name)):
                 os.remove(self.of(name))
 
-    def mend_log(self):
-        """Removes lines that a kill or a full disk has cut short: those runs are made again."""
+    def mend_log(self, is_made):
+        """Removes lines that a kill or a full disk has cut short, and those of good runs of which is_made(number) is not true: those
+        runs are made again."""
+        def good_line(n, line):
+            entry = LOG_LINE.fullmatch(line)
+            if not entry:
+                return n == 0 and line.startswith("Seq\t") and line.endswith("\n")
+            return code_of(entry) != 0 or is_made(int(entry[1]))
+
         if not os.path.exists(self.of("joblog")):
             return
         with open(self.of("joblog"), encoding="utf-8", errors="replace") as file:
             lines = file.readlines()
-        good = [line for n, line in enumerate(lines) if LOG_LINE.fullmatch(line) or (n == 0 and line.startswith("Seq\t") and line.endswith("\n"))]
+        good = [line for n, line in enumerate(lines) if good_line(n, line)]
         if not good:
             os.remove(self.of("joblog"))
         elif good != lines:
@@ -127,6 +139,5 @@ class Folder:
                 for line in file:
                     entry = LOG_LINE.fullmatch(line)
                     if entry:
-                        code = int(entry[4]) or (128 + int(entry[5]) if int(entry[5]) else 0)
-                        made[int(entry[1])] = (entry[2], entry[3].strip(), code)
+                        made[int(entry[1])] = (entry[2], entry[3].strip(), code_of(entry))
         return made

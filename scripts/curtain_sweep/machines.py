@@ -107,7 +107,8 @@ class Machines:
         """Makes what the folder's job log does not have, until no run is left or nothing goes on; returns what parallel and the runs
         had to say, which with a bar has gone to the terminal. Interrupted: raises KeyboardInterrupt when all runs have ended."""
         runs = os.path.abspath(folder.of("runs"))
-        sample = "--out \"$1.csv\" --sample %s" % ",".join(map(repr, design.sample_times())) if with_trajectories else ""
+        rate = " --sample-rate %r" % design.samples_per_second if design.samples_per_second > 0 else ""
+        sample = '--out "$1.csv"' + rate if with_trajectories else ""
         empty = ' && : >"$1.csv"' if with_trajectories else ""
         job = JOB % (shlex.quote(self.batch), shlex.quote(runs), repr(design.duration), sample, empty)
         command = ["setpriv", "--pdeathsig", "TERM",  # what a killed sweep leaves starts no more runs
@@ -140,9 +141,10 @@ class Machines:
             raise
 
 
-def missing_runs(made, scenes, said):
+def missing_runs(results, scenes, said):
     """What is not made, as text, and why; nothing: all is."""
-    missing = [name for n, name in enumerate(scenes.names) if made.get(n + 1, ("", "", -1))[2] != 0]
+    made = {result.name for result in results}
+    missing = [name for name in scenes.names if name not in made]
     if not missing:
         return ""
     reasons = re.findall(r"^run .*", said, re.M) or [line for line in said.splitlines() if line.strip()]

@@ -22,13 +22,15 @@ def flat(value, name=""):
 
 
 class Result:
-    """Of one run."""
+    """Of one run. ValueError: the text is not whole."""
 
     def __init__(self, name, values, host, text):
         self.name, self.values, self.host = name, values, host
         self.exit_code, self.error, self.metrics = 0, "", {}
         if text.startswith("exit "):
-            first, _, said = text.partition("\n")
+            first, end, said = text.partition("\n")
+            if not end or not text.endswith("\n"):
+                raise ValueError("cut short")
             self.exit_code = int(first[5:])
             self.error = " | ".join(said.replace("curtain_batch: ", "", 1).split("\n")).strip(" |")
             self.error = self.error or "crashed by signal %d" % (self.exit_code - 128)
@@ -36,15 +38,34 @@ class Result:
             self.metrics = dict(flat(json.loads(text)))
 
 
-def read_results(folder, scenes, runs, made):
-    """The runs that the job log has, in their order."""
+def states(path):
+    """Nodes of all the states in a file of trajectories."""
+    with open(path, "rb") as file:
+        return sum(part.count(b"\n") for part in iter(lambda: file.read(1 << 20), b"")) - 1
+
+
+def read_result(folder, name, values, host, samples):
+    """Of one run, with so many states in its trajectory; None: its files are not there, or not whole. The job log can't know that:
+    the run was good, and then they were not brought from the other machine, or a power failure took them."""
+    try:
+        with open(folder.of("runs", name + ".result"), encoding="utf-8", errors="replace") as file:
+            result = Result(name, values, host, file.read())
+        whole = not samples or result.exit_code != 0 or states(folder.of("runs", name + ".csv")) == samples * result.metrics["nodes"]
+    except (FileNotFoundError, ValueError, KeyError):
+        return None
+    return result if whole else None
+
+
+def read_results(folder, scenes, runs, made, samples):
+    """The runs that the job log has, in their order, if their files are whole."""
     results = []
     for n, (name, values) in enumerate(zip(scenes.names, runs)):
         host, _, code = made.get(n + 1, ("", "", -1))
         if code != 0:
             continue
-        with open(folder.of("runs", name + ".result"), encoding="utf-8", errors="replace") as file:
-            results.append(Result(name, values, host, file.read()))
+        result = read_result(folder, name, values, host, samples)
+        if result:
+            results.append(result)
     return results
 
 

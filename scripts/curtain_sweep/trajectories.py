@@ -8,18 +8,26 @@
     /N/velocities      [m/s], the same shape
 """
 import json
-import os
 
+from curtain_sweep.folder import replace
+from curtain_sweep.problem import Unfinished
 from curtain_sweep.results import cell, trajectory
 
 
 def write_trajectories(path, folder, results, design, scene):
-    """Writes the file completely or not at all."""
+    """Writes the file completely or not at all. It is made in memory: HDF5 does not survive a disk that is full."""
+    try:
+        replace(path, image(path, folder, results, design, scene))
+    except (RuntimeError, MemoryError) as error:
+        raise Unfinished("%s: cannot be made: %s" % (path, str(error) or "not enough memory")) from error
+
+
+def image(path, folder, results, design, scene):
+    """The bytes of the file."""
     import h5py  # asked for before anything was started
     import numpy
 
-    part = path + ".part"
-    with h5py.File(part, "w") as file:
+    with h5py.File(path, "w", driver="core", backing_store=False) as file:
         file.attrs["scene"] = json.dumps(scene)
         file.attrs["sweep"] = json.dumps(design.given)
         for result in results:
@@ -36,4 +44,5 @@ def write_trajectories(path, folder, results, design, scene):
             group["t"] = rows[::shape[1] * shape[2], 0]
             group["positions"] = rows[:, 3:6].reshape(shape)
             group["velocities"] = rows[:, 6:9].reshape(shape)
-    os.replace(part, path)
+        file.flush()
+        return file.id.get_file_image()

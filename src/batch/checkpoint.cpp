@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -171,10 +172,13 @@ bool readCheckpoint(const std::string& path, const RunIdentity& run, curtain::Si
 
 void removeLeftovers(const std::string& path) {
   namespace fs = std::filesystem;
-  const fs::path file = fs::weakly_canonical(fs::absolute(path));    // beside what a link leads to
-  const std::string beginning = file.filename().string() + ".tmp-";  // as writeWholeFile() names them
+  const fs::path file = fs::weakly_canonical(fs::absolute(path));  // beside what a link leads to
+  const std::string ours = file.filename().string();
+  const std::regex ending(R"(\.tmp-\d+-\d+)");  // as writeWholeFile() names them
   for (const fs::directory_entry& entry : fs::directory_iterator(file.parent_path())) {
-    if (entry.path().filename().string().rfind(beginning, 0) == 0) fs::remove(entry.path());
+    const std::string name = entry.path().filename().string();
+    if (name.rfind(ours, 0) != 0 || !std::regex_match(name.substr(ours.size()), ending)) continue;
+    if (fs::is_regular_file(entry.symlink_status())) fs::remove(entry.path());
   }
 }
 

@@ -23,6 +23,7 @@ const char* const kUsage =
     "  --columns N        instead of the scene's cloth.columns\n"
     "  --out FILE.csv     states t,row,column,x,y,z,vx,vy,vz of the first-layer nodes\n"
     "  --sample T,T,...   times of these states [s], each at the first frame not before it (default: the end)\n"
+    "  --sample-rate HZ   so many states a second instead, from the start on\n"
     "  --mesh FILE        fine mesh at the end, .ply, .obj or .stl\n"
     "  --stats FILE.json  what it took and how well it went\n"
     "  --save FILE        snapshot at the end, for --restore\n"
@@ -78,6 +79,23 @@ std::vector<double> readSamples(const std::string& option, const std::string& te
   return samples;
 }
 
+double readSampleRate(const std::string& option, const std::string& text) {
+  const double rate = readNumber(option, text);
+  if (rate <= 0.0) throw std::invalid_argument(option + ": must be > 0, is '" + text + "'");
+  return rate;
+}
+
+// Samples after the first; a whole number may have been rounded down.
+double samplesWithin(const Options& options) { return std::floor(options.duration * options.sample_rate + 1e-9); }
+
+void checkSampleRate(const Options& options) {
+  constexpr double kMostSamples = 1e6;
+  if (options.sample_rate == 0.0) return;
+  if (!options.samples.empty()) throw std::invalid_argument("--sample-rate: there is --sample, too; leave one out");
+  if (samplesWithin(options) >= kMostSamples)
+    throw std::invalid_argument("--sample-rate: at most 1000000 states are possible, --duration has more");
+}
+
 void checkMeshName(const std::string& path) {
   if (!path.empty() && !curtain::meshFormatOf(path)) {
     throw std::invalid_argument(std::string("--mesh: must end in ") + curtain::kMeshEndings + ", is '" + path + "'");
@@ -128,6 +146,12 @@ void checkSamples(const Options& options, double start) {
                               (start > 0.0 ? " on top of " + std::to_string(start) : std::string()));
 }
 
+std::vector<double> samplesFrom(double start, const Options& options) {
+  std::vector<double> samples;
+  for (double k = 0.0; k <= samplesWithin(options); ++k) samples.push_back(start + k / options.sample_rate);
+  return samples;
+}
+
 Options readOptions(int argc, char** argv) {
   Options options;
   bool every = false;
@@ -150,6 +174,8 @@ Options readOptions(int argc, char** argv) {
       options.duration = readDuration(option, value());
     else if (option == "--sample")
       options.samples = readSamples(option, value());
+    else if (option == "--sample-rate")
+      options.sample_rate = readSampleRate(option, value());
     else if (option == "--every") {
       options.every = readDuration(option, value());
       every = true;
@@ -162,6 +188,7 @@ Options readOptions(int argc, char** argv) {
   if (options.scenes.empty()) throw std::invalid_argument("a scene file is needed");
   if (options.check) return options;
   if (options.scenes.size() > 1) throw std::invalid_argument(options.scenes[1] + ": one scene at a time");
+  checkSampleRate(options);
   if (options.restore.empty()) checkSamples(options, 0.0);
   checkMeshName(options.mesh);
   if (every && options.checkpoint.empty()) throw std::invalid_argument("--every: of what? it needs --checkpoint");

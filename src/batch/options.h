@@ -20,6 +20,7 @@ struct Options {
   double every = 10.0;  ///< between two checkpoints, simulated [s]
   int substeps = 0, rows = 0, columns = 0;
   std::vector<double> samples;  ///< [s], not decreasing
+  double sample_rate = 0.0;     ///< samples a second instead, from the run's start on [1/s]; 0: none
   bool progress = false;
   bool explain = false;
   bool check = false;
@@ -33,6 +34,9 @@ Options readOptions(int argc, char** argv);
 
 /// Throws std::invalid_argument unless the samples lie within the duration, which begins at a simulated time [s].
 void checkSamples(const Options& options, double start);
+
+/// Times of --sample-rate in a run that begins at a simulated time [s].
+std::vector<double> samplesFrom(double start, const Options& options);
 
 /// A scene file with what the options put in its place; the simulator judges the whole. Throws std::invalid_argument
 /// with every problem of the file.

@@ -70,6 +70,8 @@ StatesMark StatesFile::toDisk() {
   writeBuffer();
   // A pipe or a device can't wait for a disk.
   if (::fsync(file_.descriptor()) != 0 && errno != EINVAL && errno != ENOTSUP) fail(path_, "cannot be written");
+  if (!name_is_on_disk_ && !curtain::syncFolderOf(path_)) fail(path_, "may not outlast a power failure");
+  name_is_on_disk_ = true;
   return mark_;
 }
 

@@ -34,7 +34,7 @@ class StatesFile : private std::streambuf {
   void add(const curtain::Simulator& simulator);
   /// Hands everything to the system, which a full disk may refuse.
   void flush();
-  /// The same, and waits until it is on the disk.
+  /// The same, and waits until it is on the disk, under its name.
   StatesMark toDisk();
 
  private:
@@ -44,6 +44,7 @@ class StatesFile : private std::streambuf {
   std::string path_;
   curtain::File file_;
   StatesMark mark_;
+  bool name_is_on_disk_ = false;
   std::array<char, 1 << 16> buffer_{};
 };
 

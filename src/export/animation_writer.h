@@ -43,8 +43,8 @@ class AnimationWriter {
   /// Returns the body's number.
   virtual std::size_t addBody(const AnimatedBody& body) = 0;
 
-  /// Where a body is from this time on, and whether it is there. Times of a body do not fall; the last of equal ones
-  /// counts.
+  /// Where a body is from this time on, and whether it is there. The last word counts: poses of the body that came
+  /// before it and are of this time or a later one are dropped.
   virtual void addPose(std::size_t body, double time, const Pose& pose, bool present) = 0;
 };
 

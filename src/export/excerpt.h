@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace curtain {
@@ -19,7 +20,10 @@ class Ticks {
  public:
   explicit Ticks(double rate) : rate_(rate) {}
 
-  /// Ticks that a frame at this time [s] is for: none where the next is still to come.
+  /// Whether ticks up to this time [s] can be counted.
+  bool reach(double time) const { return time * rate_ < std::numeric_limits<int>::max() - 1; }
+
+  /// Ticks that a frame at this time [s], within reach(), is for: none where the next is still to come.
   int take(double time) {
     const long due = static_cast<long>(std::floor(time * rate_ + kRounding)) + 1;
     if (due <= taken_) return 0;

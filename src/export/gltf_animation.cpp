@@ -151,7 +151,7 @@ std::size_t GltfAnimation::addBody(const AnimatedBody& body) {
 void GltfAnimation::addPose(std::size_t body, double time, const Pose& pose, bool present) {
   BodyPath& path = bodies_[body];
   const auto single = static_cast<float>(time);
-  if (!path.times.empty() && path.times.back() >= single) {
+  while (!path.times.empty() && path.times.back() >= single) {
     path.times.pop_back();
     path.positions.resize(path.positions.size() - 3);
     path.orientations.resize(path.orientations.size() - 4);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -95,9 +96,11 @@ class BagPlayer {
 
   /// Returns whether the animation goes on.
   bool take(const rosbag::MessageInstance& message) {
-    const double time = message.isType<MarkerArray>() ? takeMarkers(read<MarkerArray>(message))
-                                                      : takeState(read<curtain_sim::CurtainState>(message));
-    return !excerpt_.end || time <= *excerpt_.end;
+    if (message.isType<MarkerArray>()) {
+      takeMarkers(read<MarkerArray>(message));
+      return true;  // states of an earlier time may follow
+    }
+    return isBeforeEnd(takeState(read<curtain_sim::CurtainState>(message)));
   }
 
   bool hasFrames() const { return has_frames_; }
@@ -112,14 +115,18 @@ class BagPlayer {
     return content;
   }
 
-  // From the first state on [s].
-  double timeOf(const ros::Time& stamp) {
-    if (!origin_) origin_ = stamp;
-    return (stamp - *origin_).toSec();
+  // From the first state on [s]. ros::Duration ends at 68 years.
+  double timeOf(const ros::Time& stamp) const {
+    return static_cast<double>(static_cast<std::int64_t>(stamp.toNSec()) -
+                               static_cast<std::int64_t>(origin_->toNSec())) /
+           1e9;
   }
+
+  bool isBeforeEnd(double time) const { return !excerpt_.end || time <= *excerpt_.end; }
 
   double takeState(const curtain_sim::CurtainState::ConstPtr& state) {
     const std::string wrong = curtain_rviz::whatIsWrong(*state);
+    if (!origin_) origin_ = state->header.stamp;
     const double time = timeOf(state->header.stamp);
     const std::string when = "at " + std::to_string(time) + " s ";
     if (!wrong.empty()) throw problem(path_, when + wrong);
@@ -127,9 +134,10 @@ class BagPlayer {
       throw problem(path_, when + "its clock jumps back, by " + std::to_string(*last_ - time) +
                                " s; divide it there, by rosbag filter");
     last_ = time;
-    const bool within = time >= excerpt_.start && (!excerpt_.end || time <= *excerpt_.end);
-    if (!within) return time;
+    if (time < excerpt_.start || !isBeforeEnd(time)) return time;
     if (!begin_) begin_ = time;
+    if (!ticks_.reach(time - *begin_))
+      throw problem(path_, when + "its clock has jumped ahead, by more frames than can be counted; end before that");
     const int due = ticks_.take(time - *begin_);
     if (due == 0) return time;
     const bool is_new = surface_.update(*state);
@@ -144,22 +152,18 @@ class BagPlayer {
   }
 
   // Where bodies were before the animation counts as its start.
-  double takeMarkers(const MarkerArray::ConstPtr& array) {
-    double time = 0.0;
+  void takeMarkers(const MarkerArray::ConstPtr& array) {
     for (const Marker& marker : array->markers) {
       if (marker.ns != "obstacles" || marker.type != Marker::TRIANGLE_LIST || marker.points.empty()) continue;
       const std::string name = "obstacle " + std::to_string(marker.id);
       if (!isSound(marker))
         throw problem(path_, name + ": a number of its marker is not finite, or a corner is missing");
-      if (!origin_) origin_ = marker.header.stamp;
-      time = timeOf(marker.header.stamp);
-      if (excerpt_.end && time > *excerpt_.end) return time;
+      const double time = begin_ ? timeOf(marker.header.stamp) - *begin_ : 0.0;
+      if (begin_ && !isBeforeEnd(timeOf(marker.header.stamp))) continue;
       const auto [body, is_new] = bodies_.try_emplace(marker.id, 0);
       if (is_new) body->second = writer_.addBody({name, meanColour(marker), shapeOf(marker)});
-      writer_.addPose(body->second, std::max(time - begin_.value_or(time), 0.0), poseOf(marker),
-                      marker.action == Marker::ADD);
+      writer_.addPose(body->second, std::max(time, 0.0), poseOf(marker), marker.action == Marker::ADD);
     }
-    return time;
   }
 
   const std::string& path_;

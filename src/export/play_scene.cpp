@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "export/play_scene.h"
 
+#include <stdexcept>
+
 #include "curtain_sim/simulator.h"
 
 namespace curtain {
@@ -73,7 +75,9 @@ bool playScene(const Scene& scene, const Excerpt& excerpt, AnimationWriter& writ
     }
     simulator.step();
   }
-  return simulator.statistics().finite;
+  if (!simulator.statistics().finite) return false;
+  if (!begin) throw std::invalid_argument("there is no frame in the part asked for, from --start to --end");
+  return true;
 }
 
 }  // namespace curtain

@@ -10,7 +10,8 @@
 namespace curtain {
 
 /// Runs a scene up to the excerpt's end, which it must have: cloth, and obstacles that are visible. Throws
-/// std::invalid_argument with every problem of the scene. False: the state became non-finite, and there it ends.
+/// std::invalid_argument with every problem of the scene, and where the excerpt has no frame in it. False: the state
+/// became non-finite, and there it ends.
 bool playScene(const Scene& scene, const Excerpt& excerpt, AnimationWriter& writer);
 
 }  // namespace curtain

@@ -68,14 +68,13 @@ bool writeNamed(const std::string& path, const std::string& bytes, std::string& 
   return false;
 }
 
-// Makes the new name survive a power failure; some file systems can't.
+}  // namespace
+
 bool syncFolderOf(const std::string& path) {
   const File file(::open(folderOf(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!file.isOpen()) return errno == EACCES;  // writable but not readable
   return ::fsync(file.descriptor()) == 0 || errno == EINVAL || errno == ENOTSUP;
 }
-
-}  // namespace
 
 bool File::close() {
   const int descriptor = std::exchange(descriptor_, -1);

@@ -16,6 +16,10 @@ namespace curtain {
 /// Thread-safe; of two writers to one path one wins.
 std::vector<Problem> writeWholeFile(const std::string& path, const std::string& bytes);
 
+/// Makes a name that a file got in its folder survive a power failure, where the file system can do that. False: it may
+/// not, and errno says why.
+bool syncFolderOf(const std::string& path);
+
 /// Closes its descriptor.
 class File {
  public:

@@ -53,7 +53,8 @@ TEST_F(BadInput, UnknownAndIncompleteOptionsAreRefused) {
   expectRefused({good, "--frobnicate"}, {"--frobnicate", "unknown option"});
   expectRefused({good, "-x"}, {"-x", "unknown option"});
   expectRefused({good, good}, {"one scene"});
-  for (const char* option : {"--duration", "--method", "--substeps", "--rows", "--columns", "--sample"}) {
+  for (const char* option :
+       {"--duration", "--method", "--substeps", "--rows", "--columns", "--sample", "--sample-rate"}) {
     expectRefused({good, option}, {option, "needs a value"});
   }
   for (const char* value : {"-1", "nan", "inf", "soon", "1s", ""}) {
@@ -70,6 +71,10 @@ TEST_F(BadInput, UnknownAndIncompleteOptionsAreRefused) {
   expectRefused({good, "--sample", "0.2,0.1"}, {"--sample", "0.2,0.1"});
   expectRefused({good, "--sample", "-1"}, {"--sample", "'-1'"});
   expectRefused({good, "--sample", ""}, {"--sample"});
+  expectRefused({good, "--sample-rate", "0"}, {"--sample-rate", "> 0", "'0'"});
+  expectRefused({good, "--sample-rate", "fast"}, {"--sample-rate", "'fast'"});
+  expectRefused({good, "--sample-rate", "1000000"}, {"--sample-rate", "at most 1000000 states"});
+  expectRefused({good, "--sample-rate", "10", "--sample", "0"}, {"--sample-rate", "--sample, too"});
   expectRefused({good, "--mesh", "mesh.dae"}, {"--mesh", "mesh.dae", ".ply", ".obj", ".stl"});
 }
 

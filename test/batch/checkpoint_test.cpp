@@ -140,6 +140,17 @@ TEST_F(Checkpoints, OfARestoredRunAreItsOwn) {
   expectRefused(rest, {"rest.ck", "--restore", "another run"});
 }
 
+TEST_F(Checkpoints, TakeAwayWhatAKilledRunHasLeftAndNothingElse) {
+  std::ofstream(path("kept.ck.tmp-123-0")) << "half";
+  std::ofstream(path("kept.ck.tmp-notes")) << "somebody's";
+  std::filesystem::create_directories(path("kept.ck.tmp-1-2/full"));
+  const Outcome run = batch(kept("kept"));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(path("kept.ck.tmp-123-0")));
+  EXPECT_TRUE(std::filesystem::exists(path("kept.ck.tmp-notes")));
+  EXPECT_TRUE(std::filesystem::exists(path("kept.ck.tmp-1-2/full")));
+}
+
 TEST_F(Checkpoints, OfAnotherRunAreRefused) {
   ASSERT_EQ(batch(kept("kept")).exit_code, 0);
   const auto with = [&](const std::string& option, const std::string& value) {

@@ -51,8 +51,8 @@ TEST_F(Options, HelpNamesEveryOption) {
     const Outcome run = batch({option});
     EXPECT_EQ(run.exit_code, 0);
     for (const char* name : {"--duration", "--method", "--substeps", "--rows", "--columns", "--out", "--sample",
-                             "--mesh", "--stats", "--save", "--restore", "--checkpoint", "--every", "--check",
-                             "--version", "--progress", "--explain", "--list-methods"}) {
+                             "--sample-rate", "--mesh", "--stats", "--save", "--restore", "--checkpoint", "--every",
+                             "--check", "--version", "--progress", "--explain", "--list-methods"}) {
       EXPECT_NE(run.out.find(name), std::string::npos) << name;
     }
   }
@@ -161,6 +161,20 @@ TEST_F(Options, StatesHaveNineColumnsOf17DigitsAtTheTimesAsked) {
     EXPECT_EQ(std::stoi(row[1]), static_cast<int>(n % 20 / 4)) << "row-major";
     EXPECT_EQ(std::stoi(row[2]), static_cast<int>(n % 4));
   }
+}
+
+TEST_F(Options, StatesComeSoManyASecondFromTheStartOn) {
+  const std::string scene = smallScene();
+  ASSERT_EQ(batch({scene, "--duration", "0.3", "--out", "rate.csv", "--sample-rate", "10"}).exit_code, 0);
+  ASSERT_EQ(batch({scene, "--duration", "0.3", "--out", "times.csv", "--sample", "0,0.1,0.2,0.3"}).exit_code, 0);
+  EXPECT_EQ(readFile(path("rate.csv")), readFile(path("times.csv"))) << "0.3 * 10 is less than 3 in double precision";
+  ASSERT_EQ(batch({scene, "--duration", "0.1", "--save", "s.snap"}).exit_code, 0);
+  ASSERT_EQ(
+      batch({scene, "--restore", "s.snap", "--duration", "0.2", "--out", "rest.csv", "--sample-rate", "10"}).exit_code,
+      0);
+  const auto rest = lines(readFile(path("rest.csv"))), all = lines(readFile(path("rate.csv")));
+  ASSERT_EQ(rest.size(), 1u + 3u * 20u);
+  EXPECT_TRUE(std::equal(rest.begin() + 1, rest.end(), all.begin() + 1 + 20));
 }
 
 TEST_F(Options, StatesAreTheSimulatorsToTheBit) {

@@ -126,6 +126,29 @@ TEST_F(BagTest, ObstaclesAreThoseOfTheMarkers) {
   FAIL() << "the ball does not move";
 }
 
+TEST_F(BagTest, MarkersNeitherBeginNorEndTheAnimation) {
+  curtain::Simulator simulator(exportedScene(false));
+  curtain_ros::GeometryCache geometry(simulator);
+  curtain_ros::DetailMarkers markers("world", geometry, false);
+  const auto mark = [&](double time) {
+    markers.update();
+    bag_.write("/curtain/curtain_node/markers", received_, *markers.build(ros::Time(time)));
+  };
+  mark(95.0);
+  record(simulator, 3);
+  mark(200.0);
+  for (const double time : {100.5, 100.7}) {
+    CurtainState state = states_[0];
+    state.header.stamp = ros::Time(time);
+    write(state);
+  }
+  const tinygltf::Model model = curtain_test::readGltf(exported({0.0, 0.6, 60.0}));
+  EXPECT_EQ(curtain_test::GltfCheck(model).wrong(), std::vector<std::string>());
+  const std::vector<double> times = curtain_test::timesOf(model);
+  ASSERT_EQ(times.size(), 4u) << "from the first state to the last before the end";
+  EXPECT_EQ(times[3], 0.5);
+}
+
 TEST_F(BagTest, OneCurtainOfSeveralIsChosen) {
   curtain::Simulator simulator(exportedScene(false));
   record(simulator, 3);
@@ -152,6 +175,7 @@ TEST_F(BagTest, WhatIsNoAnimationIsRefused) {
   record(simulator, 3);
   const std::pair<std::function<void(CurtainState&)>, const char*> cases[] = {
       {[](CurtainState& state) { state.header.stamp = ros::Time(99.0); }, "jumps back"},
+      {[](CurtainState& state) { state.header.stamp = ros::Time(4e9); }, "jumped ahead"},
       {[](CurtainState& state) { state.weft_rest[3] *= 2.0F; }, "another cloth"},
       {[](CurtainState& state) { state.positions[7] = std::nanf(""); }, "positions: a number is not finite"},
       {[](CurtainState& state) { state.rows = 4000000000U; }, "rows"}};

@@ -120,6 +120,8 @@ TEST(Gltf, ABodyThatIsGoneHasNoSizeAndComesBack) {
   const std::size_t body = animation.addBody({"body", Vec3::Ones(), shape});
   animation.addPose(body, 0.0, {Vec3::UnitX(), curtain::Rotation::Identity()}, true);
   animation.addPose(body, 0.0, curtain::Pose(), true);  // the last of equal times counts
+  animation.addPose(body, 0.5, curtain::Pose(), true);  // dropped, as the next one is
+  animation.addPose(body, 0.6, curtain::Pose(), true);
   animation.addPose(body, 0.4, curtain::Pose(), false);
   animation.addPose(body, 0.8, curtain::Pose(), true);
   const tinygltf::Model model = curtain_test::readGltf(animation.file());

@@ -80,6 +80,20 @@ class Designs(unittest.TestCase):
         self.assertEqual((set(c), set(n)), ({"x", "y", "z"}, {3, 4, 5}))
         self.assertAlmostEqual(sum(value < 0.1 for value in b) / 500, 0.5, delta=4 * math.sqrt(0.25 / 500))  # 4 standard deviations
 
+    def test_whole_numbers_have_their_share_of_the_range(self):
+        count = 6000
+        for scale, low, high, shares in (("linear", 3, 5, [1 / 3] * 3), ("linear", 2.6, 5.9, [1 / 3] * 3),
+                                         ("log", 2, 4, [math.log((n + 1) / n) / math.log(5 / 2) for n in (2, 3, 4)])):
+            given = {"min": low, "max": high, "scale": scale, "integer": True}
+            # Every stratum is met once: the ends of a number's share cut two of them, so its count is off by 2 at most.
+            values = [run[0] for run in Design({"design": "latin_hypercube", "count": count, "parameters": {"n": given}}).runs()]
+            numbers = range(math.ceil(low), math.floor(high) + 1)
+            self.assertEqual(set(values), set(numbers))
+            for n, share in zip(numbers, shares):
+                self.assertAlmostEqual(values.count(n), share * count, delta=2)
+        grid = Design({"parameters": {"n": {"min": 12, "max": 24, "steps": 4, "integer": True}, "m": {"min": 1, "max": 1000, "steps": 4, "integer": True, "scale": "log"}}})
+        self.assertEqual([p.values for p in grid.parameters], [[12, 16, 20, 24], [1, 10, 100, 1000]])
+
     def test_a_grid_has_all_combinations(self):
         runs = Design({"parameters": {"a": [1, 2], "b": {"min": 1.0, "max": 100.0, "steps": 3, "scale": "log"}}}).runs()
         self.assertEqual([run[0] for run in runs], [1, 1, 1, 2, 2, 2])
@@ -93,6 +107,10 @@ class Designs(unittest.TestCase):
                             ({"parameters": {"a": {"min": 0.0, "max": 1.0}}}, "a.steps: is missing"),
                             ({"parameters": {"a": {"min": 0.0}}, "design": "random", "count": 2}, "a.max: is missing"),
                             ({"parameters": {"a": {"min": 0.0, "mx": 1.0}}}, "a.mx: is not a known key, did you mean max"),
+                            ({"parameters": {"a": {"min": 2.6, "max": 2.9, "integer": True}}}, "a: there is no whole number from min 2.6 to max 2.9"),
+                            ({"parameters": {"a": {"min": 1, "max": 10**400}}}, "a.max: must be a finite number"),
+                            ({"parameters": {"a": {"min": -1.0e308, "max": 1.0e308}}}, "a: from min -1e+308 to max 1e+308 is too far"),
+                            ({"parameters": friction, "samples_per_second": 1000001}, "samples_per_second: at most 1000000 states"),
                             ({"parameters": {"a": []}}, "a: the list is empty"),
                             ({"parameters": {"a": 3}}, "a: must be a list of values or {min, max}"),
                             ({"parameters": {"a b": [3]}}, "'a b' is no key"),
@@ -207,6 +225,12 @@ class Results(SweepTest):
         self.assertIn("bad_garbage.stl", bad["error"])
         self.assertNotEqual(good["state_hash"], "")
 
+    def test_what_looks_like_a_date_is_a_text(self):
+        self.write("scene.yaml", SCENE.replace("id: fan", "id: 2024-01-01"))
+        self.params("duration: 0\nparameters:\n  contact.friction: [0.1]\n")
+        self.sweep()
+        self.assertIn("2024-01-01", self.read("params.sweep", "runs", "1.yaml"))
+
     def test_trajectories_are_in_one_file(self):
         h5py = module("h5py")
         if h5py is None:
@@ -223,6 +247,22 @@ class Results(SweepTest):
             self.assertEqual([float(x) for x in last[3:6]], list(file["2/positions"][-1, -1, -1]))
         self.refused("trajectories", "another sweep")
 
+    def test_trajectories_have_any_number_of_states(self):
+        h5py = module("h5py")
+        if h5py is None:
+            self.skipTest("python3-h5py is not installed")
+        # As a list their times would be longer than the 128 KB that Linux has for one argument.
+        self.params("duration: 0.1\nsamples_per_second: 100000\nparameters:\n  cloth.rows: [4]\n  cloth.columns: [4]\n")
+        self.sweep("--hdf5", "states.h5")
+        with h5py.File(self.of("states.h5")) as file:
+            self.assertEqual(file["1/positions"].shape, (10001, 4, 4, 3))
+
+    def test_parameters_in_another_order_are_another_sweep(self):
+        by_name = "  contact.friction: [0.1, 0.5]\n", "  solver.seed: [1, 2]\n"
+        self.params("duration: 0.1\nparameters:\n" + by_name[0] + by_name[1])
+        self.sweep()
+        self.params("duration: 0.1\nparameters:\n" + by_name[1] + by_name[0])
+        self.refused("order of parameters", "another sweep")
 
     def test_a_terminal_sees_progress_and_the_time_left(self):
         self.params("duration: 0.1\nparameters:\n  contact.friction: [0.1, 0.2, 0.3]\n")
@@ -249,6 +289,7 @@ class BadInput(SweepTest):
                 "parameters:\n  contact.friction: [0.1, -0.2]\n": ["run 2", "contact.friction", "[0, 10]", "-0.2"],
                 "parameters:\n  contact.friction: {min: 1.0, max: 0.5, steps: 3}\n": ["params.yaml: contact.friction", "1.0", "0.5"],
                 "metrics: [stretch_max.wrap]\nparameters:\n  contact.friction: [0.1]\n": ["stretch_max.wrap", "did you mean stretch_max.warp"],
+                "parameters:\n  contact.friction: !!set {0.1}\n": ["params.yaml", "not YAML", "set"],
                 "parameters: [": ["params.yaml", "not YAML"]}.items():
             with self.subTest(text):
                 self.params(text)
@@ -277,6 +318,14 @@ class BadInput(SweepTest):
         self.refused("params.sweep", "contact.friction", "0.2", "0.1", "--out", "--force")
         self.assertEqual(self.read("params.sweep", "results.csv"), table)
         self.write("scene.yaml", SCENE.replace("rows: 12", "rows: 13"))
+        self.refused("cloth.rows is 13, was 12")
+        self.assertTrue(os.path.exists(self.of("params.sweep", "joblog")))
+        # Killed inside --force, at the worst of moments: the other sweep's, of which nothing is made.
+        self.write("killed.py", "import os, signal, sys\nsys.path.insert(0, sys.argv[1])\nimport curtain_sweep.folder as folder\n"
+                   "folder.replace = lambda *_: os.kill(os.getpid(), signal.SIGKILL)\nfolder.Folder('params.sweep').open({}, True)\n")
+        killed = subprocess.run([sys.executable, "killed.py", os.path.join(ROOT, "scripts")], cwd=self.folder, check=False)
+        self.assertEqual(killed.returncode, -signal.SIGKILL)
+        self.assertFalse(os.path.exists(self.of("params.sweep", "joblog")))
         self.refused("cloth.rows is 13, was 12")
         self.sweep("--force")
         self.assertEqual([row["contact.friction"] for row in self.rows()], ["0.2"])
@@ -385,6 +434,33 @@ class Interrupted(SweepTest):
             self.sweep()
             self.assertEqual(self.untimed(), rows)
 
+    def test_runs_whose_files_are_not_whole_are_made_again(self):
+        self.params("duration: 0.1\nparameters:\n  contact.friction: [0.1, 0.2, 0.3, 0.4]\n")
+        hdf5 = ["--hdf5", "a.h5"] if module("h5py") else []
+        self.sweep(*hdf5)
+        rows = self.untimed()
+        os.remove(self.of("params.sweep", "runs", "1.result"))
+        self.write("params.sweep/runs/2.result", "")
+        self.write("params.sweep/runs/3.result", self.read("params.sweep", "runs", "3.result")[:-20])
+        if hdf5:
+            self.write("params.sweep/runs/4.csv", self.read("params.sweep", "runs", "4.csv")[:-20])
+        self.sweep(*hdf5)
+        self.assertEqual(self.untimed(), rows)
+        self.assertEqual(sorted(int(line.split("\t")[0]) for line in self.good_lines()), [1, 2, 3, 4])
+
+    def test_a_run_whose_files_do_not_come_is_not_made(self):
+        self.params("duration: 0.1\nparameters:\n  contact.friction: [0.1, 0.2]\n")
+        # As parallel has it where its --return fails: the job is logged as good.
+        self.write("curtain_batch", '#!/bin/sh\n%s "$@" || exit\n[ -e "%s" ] || [ "$1" != 2.yaml ] || [ "$2" = --check ] || rm -f 2.result\n' %
+                   (BATCH, self.of("mended")))
+        os.chmod(self.of("curtain_batch"), 0o755)
+        said = self.sweep("--curtain-batch", self.of("curtain_batch"), code=4)
+        self.assertEqual(said, "sweep: 1 of 2 runs are not made, the first is 2; nothing is lost, start the same command again\n")
+        self.assertEqual([row["run"] for row in self.rows()], ["1"])
+        self.write("mended", "")
+        self.sweep("--curtain-batch", self.of("curtain_batch"))
+        self.assertEqual([row["run"] for row in self.rows()], ["1", "2"])
+
     def test_a_full_disk_is_told_and_nothing_is_lost(self):
         # A limit of file sizes in place of the disk's: trajectories do not fit, everything else does.
         self.params("count: 8\ndesign: random\nduration: 0.5\nsamples_per_second: 60\nparameters:\n  wind[0].pressure: {min: 1.0, max: 9.0}\n")
@@ -397,6 +473,10 @@ class Interrupted(SweepTest):
         self.sweep("--hdf5", "a.h5")
         self.assertEqual([row["exit_code"] for row in self.rows()], ["0"] * 8)
         self.assertGreater(os.path.getsize(self.of("params.sweep", "runs", "1.csv")), limit)
+        os.remove(self.of("a.h5"))
+        said = self.sweep("--hdf5", "a.h5", code=4, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
+        self.assertEqual(said, "sweep: a.h5: File too large; nothing is lost, start the same command again\n")
+        self.assertEqual([name for name in os.listdir(self.folder) if name.startswith("a.h5")], [])
 
 
 @unittest.skipUnless(os.path.exists(SSHD) and shutil.which("ssh") and shutil.which("rsync"), "openssh-server or rsync is not installed")
