@@ -366,8 +366,16 @@ class Interrupted(SweepTest):
 
     def test_one_sweep_at_a_time_is_at_work_in_a_folder(self):
         process = self.start()
-        self.assertIn("params.sweep is in use by another sweep", self.sweep())
+        os.killpg(process.pid, signal.SIGSTOP)  # it has not ended before the second one begins
+        second = subprocess.Popen(self.command(), cwd=self.folder, env=self.environment, stdin=subprocess.DEVNULL,
+                                  stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, universal_newlines=True)
+        try:
+            self.assertTrue(any("params.sweep is in use by another sweep" in line for line in second.stderr))
+        finally:
+            os.killpg(process.pid, signal.SIGCONT)
         self.assertEqual(process.wait(), 0)
+        second.communicate()
+        self.assertEqual(second.returncode, 0)
         self.assertEqual(len(self.good_lines()), 20)
 
     def family(self, pid):
