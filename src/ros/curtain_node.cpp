@@ -143,7 +143,7 @@ void CurtainNode::pause(std::int64_t now) {
   if (due.frames == 0) return;
   applyInputs();
   outputs_.showAgain(clock_.rosTime());
-  sensors_.showAgain(clock_.rosTime());
+  if (!lock_step_.asked()) sensors_.showAgain(clock_.rosTime());  // not between frames that were asked for
 }
 
 void CurtainNode::makeAskedFrame() {

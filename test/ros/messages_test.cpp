@@ -412,8 +412,8 @@ TEST(Pace, HurriesWithoutLosingItsTurn) {
   EXPECT_TRUE(pace.lacks(picture, 2)) << "until it is sent";
   pace.hurry();
   EXPECT_EQ(sentIn(1, pace, 2, picture, false), 1) << "at rest, and between two turns";
-  EXPECT_EQ(sentIn(2, pace, 2, picture, true), 0);
-  EXPECT_EQ(sentIn(1, pace, 2, picture, true), 1) << "the seventh frame's turn";
+  EXPECT_EQ(sentIn(1, pace, 2, picture, true), 0);
+  EXPECT_EQ(sentIn(1, pace, 2, picture, true), 1) << "the sixth frame's turn";
 }
 
 }  // namespace
