@@ -145,6 +145,16 @@ TEST_F(Options, StatisticsHaveTheKeysThatToolsRead) {
   EXPECT_EQ(hash.find_first_not_of("0123456789abcdef"), std::string::npos) << hash;
 }
 
+// As with a disk that is full: no file may grow beyond a block of 512 bytes.
+TEST_F(Options, StatisticsAreWrittenCompletelyOrNotAtAll) {
+  std::ofstream(path("stats.json")) << "of another run";
+  const Outcome run =
+      this->run(CURTAIN_BATCH, {smallScene(), "--duration", "0", "--stats", "stats.json"}, "ulimit -f 1;");
+  EXPECT_EQ(run.exit_code, 4) << run.err;
+  EXPECT_NE(run.err.find("--stats: stats.json: cannot be written: File too large"), std::string::npos) << run.err;
+  EXPECT_EQ(readFile(path("stats.json")), "of another run");
+}
+
 TEST_F(Options, StatesHaveNineColumnsOf17DigitsAtTheTimesAsked) {
   // 60 frames a second: 0.05 s is frame 3, 0.06 s is met first by frame 4, 0 is the start.
   const std::string out = path("states.csv");
