@@ -37,6 +37,12 @@ struct Outcome {
   std::string out, err;
 };
 
+/// Keys of a scene that swings, is blown in gusts and touches a ball.
+constexpr const char* kMoving =
+    "hang: {tilt: 0.7, to: [0.8, 0, 2.2]}\n"
+    "wind: [{id: fan, position: [0.5, -1, 1.5], direction: [0, 1, 0], pressure: 3.0, unsteadiness: 2.0}]\n"
+    "obstacles: [{name: ball, shape: sphere, radius: 0.3, position: [0.4, 0.4, 1.0]}]\n";
+
 /// A folder that is removed with the test, and the program run in it.
 class BatchTest : public testing::Test {
  protected:

@@ -15,19 +15,15 @@
 namespace {
 
 using curtain_test::BatchTest;
+using curtain_test::kMoving;
 using curtain_test::Outcome;
 using curtain_test::readFile;
-
-const char* const kMore =
-    "hang: {tilt: 0.7, to: [0.8, 0, 2.2]}\n"
-    "wind: [{id: fan, position: [0.5, -1, 1.5], direction: [0, 1, 0], pressure: 3.0, unsteadiness: 2.0}]\n"
-    "obstacles: [{name: ball, shape: sphere, radius: 0.3, position: [0.4, 0.4, 1.0]}]\n";
 
 class Checkpoints : public BatchTest {
  protected:
   void SetUp() override {
     BatchTest::SetUp();
-    scene_ = smallScene(kMore);
+    scene_ = smallScene(kMoving);
     const Outcome whole = batch(outputs("whole"));
     ASSERT_EQ(whole.exit_code, 0) << whole.err;
   }
@@ -166,7 +162,7 @@ TEST_F(Checkpoints, OfAnotherRunAreRefused) {
   expectRefused(with("--mesh", "new.ply"), {"--mesh", "new.ply"});
   EXPECT_EQ(batch(with("--every", "2")).exit_code, 0) << "how often is not of the run";
   // Also what a snapshot lets change.
-  smallScene(std::string(kMore) + "gravity: [0, 0, -1.6]\n");
+  smallScene(std::string(kMoving) + "gravity: [0, 0, -1.6]\n");
   expectRefused(kept("kept"), {"kept.ck", "gravity", "another run"});
   smallScene();
   expectRefused(kept("kept"), {"kept.ck", "another run"});

@@ -8,14 +8,10 @@
 namespace {
 
 using curtain_test::BatchTest;
+using curtain_test::kMoving;
 using curtain_test::lines;
 using curtain_test::Outcome;
 using curtain_test::readFile;
-
-const char* const kMore =
-    "hang: {tilt: 0.7, to: [0.8, 0, 2.2]}\n"
-    "wind: [{id: fan, position: [0.5, -1, 1.5], direction: [0, 1, 0], pressure: 3.0, unsteadiness: 2.0}]\n"
-    "obstacles: [{name: ball, shape: sphere, radius: 0.3, position: [0.4, 0.4, 1.0]}]\n";
 
 class Snapshots : public BatchTest {
  protected:
@@ -32,7 +28,7 @@ class Snapshots : public BatchTest {
 };
 
 TEST_F(Snapshots, ARunInTwoPartsIsTheRunInOne) {
-  const std::string scene = smallScene(kMore);
+  const std::string scene = smallScene(kMoving);
   const auto whole = stats({scene, "--duration", "0.8", "--out", path("whole.csv"), "--sample", "0.6,0.8"});
   stats({scene, "--duration", "0.5", "--save", path("half.snap")});
   const auto rest = stats(
@@ -46,7 +42,7 @@ TEST_F(Snapshots, ARunInTwoPartsIsTheRunInOne) {
 }
 
 TEST_F(Snapshots, OfNoDurationIsTheSameAgain) {
-  const std::string scene = smallScene(kMore);
+  const std::string scene = smallScene(kMoving);
   const auto saved = stats({scene, "--duration", "0.2", "--save", path("a.snap")});
   const auto again = stats({scene, "--restore", path("a.snap"), "--duration", "0", "--save", path("b.snap")});
   EXPECT_EQ(saved.at("state_hash"), again.at("state_hash"));
@@ -55,7 +51,7 @@ TEST_F(Snapshots, OfNoDurationIsTheSameAgain) {
 }
 
 TEST_F(Snapshots, ThatDoNotFitAreRefused) {
-  const std::string scene = smallScene(kMore);
+  const std::string scene = smallScene(kMoving);
   stats({scene, "--duration", "0.2", "--save", path("a.snap")});
   const std::string snapshot = readFile(path("a.snap"));
   std::ofstream(path("short.snap"), std::ios::binary) << snapshot.substr(0, snapshot.size() / 2);
