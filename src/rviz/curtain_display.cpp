@@ -7,7 +7,9 @@
 #include <rviz/properties/color_property.h>
 #include <rviz/properties/enum_property.h>
 #include <rviz/properties/float_property.h>
+#include <rviz/visualization_manager.h>
 
+#include <QGuiApplication>
 #include <pluginlib/class_list_macros.hpp>
 
 #include "rviz/surface/state_check.h"
@@ -64,6 +66,7 @@ CurtainDisplay::~CurtainDisplay() {
 
 void CurtainDisplay::onInitialize() {
   MFDClass::onInitialize();
+  stopDrawingWithTheWindow();
   const std::string name = uniqueName();
   try {
     material_ = std::make_unique<ClothMaterial>(name);
@@ -75,6 +78,14 @@ void CurtainDisplay::onInitialize() {
   scene_node_->attachObject(cloth_.get());
   arrows_ = std::make_unique<WindArrows>(scene_node_, name + "/wind");
   legend_overlay_ = std::make_unique<LegendOverlay>(name + "/legend");
+}
+
+// rviz draws on until its event loop ends, into a window that is gone: Mesa without a graphics card then writes past
+// the end of a picture without size, and rviz may abort ("corrupted size vs. prev_size").
+void CurtainDisplay::stopDrawingWithTheWindow() {
+  auto* const manager = dynamic_cast<rviz::VisualizationManager*>(context_);
+  if (manager != nullptr)
+    connect(qGuiApp, &QGuiApplication::lastWindowClosed, manager, &rviz::VisualizationManager::stopUpdate);
 }
 
 // Drawing a status takes longer than moving the cloth: only where it has changed.

@@ -42,6 +42,7 @@ class CurtainDisplay : public rviz::MessageFilterDisplay<curtain_sim::CurtainSta
   void processMessage(const curtain_sim::CurtainState::ConstPtr& state) override;
 
  private:
+  void stopDrawingWithTheWindow();
   void tell(const std::string& about, rviz::StatusProperty::Level level, const std::string& text);
   void takeLoads(const curtain_sim::Loads::ConstPtr& loads);
   ClothLook look() const;

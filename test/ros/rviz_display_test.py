@@ -7,6 +7,7 @@ rviz runs on an X server of its own (Xvfb). Passes with a message where the disp
 """
 import os
 import re
+import signal
 import subprocess
 import sys
 
@@ -78,8 +79,10 @@ class RvizDisplayTest(ScreenTest):
             return self.share(environment, wanted) > MUCH
         wait_until(looks, "the cloth is in the picture", 60.0)
 
-    def assert_no_complaints(self):
+    def assert_ends_without_complaint(self, rviz):
         """With -l rviz's log has Ogre's in it, so the shader's compiler's, too."""
+        rviz.send_signal(signal.SIGINT)
+        self.assertEqual(rviz.wait(20.0), 0, self.log_of("rviz"))
         with open(os.path.join(self.folder, "rviz.log"), errors="replace") as log:
             lines = [line for line in log if re.search(r"\[ *(ERROR|FATAL)\]|Exception|curtain_sim.*(error|warning)", line)]
         self.assertEqual(lines, [])
@@ -90,7 +93,7 @@ class RvizDisplayTest(ScreenTest):
         rviz, environment = self.start_rviz(Color="40; 160; 60", Pattern="Twill")
         self.wait_for_cloth(rviz, environment, is_green)
         self.assertLess(self.share(environment, is_violet), LITTLE)
-        self.assert_no_complaints()
+        self.assert_ends_without_complaint(rviz)
 
     def test_pattern_has_both_colours(self):
         if not self.built():
@@ -98,7 +101,7 @@ class RvizDisplayTest(ScreenTest):
         rviz, environment = self.start_rviz(Color="40; 160; 60", Pattern="Stripes", Pattern_Color="120; 30; 150")
         self.wait_for_cloth(rviz, environment, is_green)
         self.assertGreater(self.share(environment, is_violet), 0.2 * MUCH)
-        self.assert_no_complaints()
+        self.assert_ends_without_complaint(rviz)
 
     def test_tension_is_shown_in_the_scales_colours(self):
         """It is asked for only when it is shown, and most of a hanging cloth bears less than half of the largest."""
@@ -113,7 +116,7 @@ class RvizDisplayTest(ScreenTest):
         rviz, environment = self.start_rviz(Color="40; 160; 60", Layer="Tension")
         self.wait_for_cloth(rviz, environment, is_blue_to_teal)
         self.assertEqual(len(listeners()), 1)
-        self.assert_no_complaints()
+        self.assert_ends_without_complaint(rviz)
 
     def test_wrong_messages_do_no_harm(self):
         """A cloth is shown, then come messages that are wrong in many ways, then the next good one, another cloth, too."""
