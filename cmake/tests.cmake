@@ -19,6 +19,7 @@ function(curtain_add_tests floor)
   target_compile_definitions(${target} PRIVATE
     CURTAIN_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}" CURTAIN_BATCH="$<TARGET_FILE:curtain_batch>")
   target_link_libraries(${target} curtain_engine curtain_warnings ${ARGN})
+  curtain_compile_quickly(${target})
 endfunction()
 
 add_compile_definitions($<$<CONFIG:Debug>:CURTAIN_FLOAT_TRAPS>)  # test/float_traps.h

@@ -10,7 +10,7 @@ else
   tests+=(scene cloth forces solver contact simulator budget)
 fi
 configure Debug "-O1 -g1 -fno-omit-frame-pointer" -DCURTAIN_SANITIZE=address,undefined,float-cast-overflow \
-  -DCURTAIN_SANITIZE_NOT="$not" -DCURTAIN_PRECOMPILED=all -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON
+  -DCURTAIN_SANITIZE_NOT="$not" -DCURTAIN_UNITY=ON -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON
 cmake --build "$build" --target curtain_batch "${tests[@]/#/test_}"
 export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1
 export LSAN_OPTIONS=suppressions=$here/lsan.supp

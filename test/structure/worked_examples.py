@@ -129,7 +129,7 @@ def main():
         write(outer, text)
     objects = os.path.join(build, "objects")
     run("cmake", "-S", build, "-B", objects, "-DCMAKE_BUILD_TYPE=None", "-DCMAKE_CXX_FLAGS=-O0", "-DBUILD_TESTING=OFF",
-        "-DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON", "-DCURTAIN_PRECOMPILED=all", *arguments)
+        "-DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON", "-DCURTAIN_UNITY=ON", *arguments)
     run("cmake", "--build", objects, "-j2", "--target", "test_examples", "curtain_batch")
     print(run(os.path.join(objects, "test_examples")))
     batch = [path for path in glob.glob(os.path.join(objects, "**", "curtain_batch"), recursive=True) if os.path.isfile(path)]
