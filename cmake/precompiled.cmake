@@ -4,7 +4,7 @@ set(curtain_common_headers <algorithm> <array> <cmath> <cstdint> <functional> <l
   <vector> <Eigen/Core> <Eigen/Geometry>)
 target_precompile_headers(curtain_engine PRIVATE ${curtain_common_headers})
 if(CURTAIN_UNITY)
-  set_target_properties(curtain_engine PROPERTIES UNITY_BUILD ON)
+  set_target_properties(curtain_engine PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
 endif()
 if(TARGET curtain_ros)
   target_precompile_headers(curtain_ros PRIVATE ${curtain_common_headers} <ros/node_handle.h> <ros/console.h>)
@@ -13,16 +13,20 @@ if(TARGET curtain_sensing)
   target_precompile_headers(curtain_sensing PRIVATE ${curtain_common_headers})
 endif()
 if(TARGET curtain_python)
-  target_precompile_headers(curtain_python PRIVATE ${curtain_common_headers} <pybind11/numpy.h> <pybind11/stl.h>)
+  target_precompile_headers(curtain_python PRIVATE ${curtain_common_headers} <pybind11/numpy.h>)
+  set_target_properties(curtain_python PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4)  # pybind11's templates
 endif()
 
-# One for all tests, in the order they are made; their code is compiled once and run once.
+# One for all tests, whose code is compiled once and run once.
 function(curtain_compile_quickly target)
-  target_compile_options(${target} PRIVATE -O1)
-  if(TARGET test_scene AND NOT target STREQUAL "test_scene")
-    target_precompile_headers(${target} REUSE_FROM test_scene)
-  else()
-    target_precompile_headers(${target} PRIVATE ${curtain_common_headers} <fstream> <set> <sstream> <gtest/gtest.h>
-      ${CMAKE_CURRENT_SOURCE_DIR}/include/curtain_sim/scene_yaml.h ${CMAKE_CURRENT_SOURCE_DIR}/include/curtain_sim/simulator.h)
+  if(NOT TARGET curtain_test_headers)
+    file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/test_headers.cpp "")
+    add_executable(curtain_test_headers EXCLUDE_FROM_ALL ${CMAKE_CURRENT_BINARY_DIR}/test_headers.cpp)
+    target_compile_options(curtain_test_headers PRIVATE -O1)
+    target_link_libraries(curtain_test_headers PRIVATE curtain_engine GTest::gtest_main)
+    target_precompile_headers(curtain_test_headers PRIVATE ${curtain_common_headers} <fstream> <set> <sstream> <gtest/gtest.h>
+      <curtain_sim/scene_yaml.h> <curtain_sim/simulator.h>)
   endif()
+  target_compile_options(${target} PRIVATE -O1)
+  target_precompile_headers(${target} REUSE_FROM curtain_test_headers)
 endfunction()

@@ -12,8 +12,6 @@
 namespace curtain {
 namespace {
 
-constexpr double kSlack = 1e-9;  // relative: for rounding of typed lengths, which the solver corrects at once
-
 // As far below the mean of the nodes as lines of this length let it.
 Vec3 placeOfLoad(const LineParams& line, const Vec3& gravity, const std::vector<Vec3>& nodes) {
   if (line.to) return *line.to;
@@ -72,7 +70,7 @@ void checkLine(const LineParams& line, const std::string& key, const CordEnd& en
       problems.push_back({node, "must not start where its line ends, unless lines[].length is given"});
       return;
     }
-    if (!line.length || apart <= *line.length * (1.0 + kSlack)) continue;
+    if (!line.length || apart <= *line.length * (1.0 + kTypedRounding)) continue;
     problems.push_back({joinKey(key, "length"), "must be at least " + formatNumber(apart) + ", the distance of " +
                                                     node + " from the end at the start, is " +
                                                     formatNumber(*line.length)});

@@ -15,9 +15,9 @@
 namespace curtain {
 namespace {
 
-constexpr double kOut = 0.25;       // of the carriers' distance
-constexpr double kSlack = 1e-6;     // relative, for rounding of lengths
-const Vec3 kDown = -Vec3::UnitZ();  // where cloth starts to hang towards, whatever gravity is
+constexpr double kOut = 0.25;             // of the carriers' distance
+constexpr double kLengthRounding = 1e-6;  // relative, for rounding of lengths
+const Vec3 kDown = -Vec3::UnitZ();        // where cloth starts to hang towards, whatever gravity is
 
 }  // namespace
 
@@ -29,7 +29,7 @@ void placeOnRail(const ClothPattern& pattern, const std::vector<double>& places,
     const Vec3 a = rail.path.at(places[k]).point, b = rail.path.at(places[k + 1]).point;
     const double from = pattern.weft_coordinate[static_cast<std::size_t>(first)];
     const double cloth = pattern.weft_coordinate[static_cast<std::size_t>(last)] - from;
-    const double apart = (b - a).norm(), reach = (1.0 - kSlack) * cloth;
+    const double apart = (b - a).norm(), reach = (1.0 - kLengthRounding) * cloth;
     // Half of the V: (apart / 2, out, through) is as long as half of the cloth.
     const double free_square = std::max(0.0, 0.25 * (reach * reach - apart * apart));
     const double out = std::min(kOut * apart, std::sqrt(free_square));

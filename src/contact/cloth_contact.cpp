@@ -20,7 +20,7 @@ constexpr int kAdvectionRounds = 64;
 // impact.
 constexpr double kCrossingReach = 2.0 * SelfContacts::kLeastShare;
 // Capacity for contacts, per node.
-constexpr std::size_t kRoomPerNode = 8;
+constexpr std::size_t kContactsPerNode = 8;
 
 }  // namespace
 
@@ -36,8 +36,8 @@ ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& par
       flatness_(pattern, stretch_tolerance),
       zones_(pattern) {
   if (obstacles.count() == 0 && !params.self) return;
-  contacts_.reserve(kRoomPerNode * pattern.grid.nodeCount());
-  last_.reserve(kRoomPerNode * pattern.grid.nodeCount());
+  contacts_.reserve(kContactsPerNode * pattern.grid.nodeCount());
+  last_.reserve(kContactsPerNode * pattern.grid.nodeCount());
   if (!params.self) return;
   self_candidates_.reserve(candidates_);
 }

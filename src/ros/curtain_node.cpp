@@ -97,6 +97,8 @@ void CurtainNode::startWatch(const ros::NodeHandle& node, const ros::NodeHandle&
   watch_ = std::make_unique<RoscppWatch>(private_node.getNamespace(), topics, services, [this] { tuning_->refresh(); });
 }
 
+CurtainNode::~CurtainNode() { stop(); }
+
 // Frames, and messages of what became of them, come at an end; then the answers to those who wait for some.
 void CurtainNode::stop() {
   if (!thread_.joinable()) return;

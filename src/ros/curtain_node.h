@@ -54,7 +54,7 @@ class CurtainNode {
   /// Throws ParameterError with every problem.
   CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
 
-  ~CurtainNode() { stop(); }
+  ~CurtainNode();
 
   /// Makes no more frames, answers callers of services that wait for some, and writes the last snapshot where one is
   /// asked for: within the computing time of a frame, and what the disk takes. Asks nobody else: what remains for the

@@ -14,6 +14,7 @@
 #include "scene/names.h"
 #include "scene/pi.h"
 #include "scene/range_checker.h"
+#include "scene/ranges.h"
 #include "scene/shares.h"
 #include "scene/strips.h"
 
@@ -21,7 +22,6 @@ namespace curtain {
 namespace {
 
 constexpr double kMostGap = 1e-6;  // of the width, between an edge in pleats and its end
-constexpr double kSlack = 1e-9;    // relative: for rounding of typed lengths, which the solver corrects at once
 
 bool clothIsGood(const ClothParams& cloth, const ProblemLog& log) {
   for (const char* key : {"cloth.closed", "cloth.rows", "cloth.columns", "cloth.height", "cloth.width",
@@ -61,13 +61,13 @@ void checkFlat(const Scene& scene, ProblemLog& log) {
     return;
   }
   const double longest = longestEdge(scene);
-  if (!(span <= longest * (1.0 + kSlack))) {
+  if (!(span <= longest * (1.0 + kTypedRounding))) {
     const std::string limit = scene.hang.overlap ? "the overlapping strips reach, " : "cloth.width = ";
     log.add("hang.to", "must be no further from hang.from than " + limit + formatNumber(longest) + " m, is " +
                            formatNumber(span) + " m away (" + line + ")");
     return;
   }
-  if (hang.fullness && std::abs(*hang.fullness * span - cloth.width) > kSlack * cloth.width) {
+  if (hang.fullness && std::abs(*hang.fullness * span - cloth.width) > kTypedRounding * cloth.width) {
     log.add("hang.fullness", "must be cloth.width / |to - from| = " + formatNumber(cloth.width / span) + ", is " +
                                  formatNumber(*hang.fullness) + "; give one of the two keys");
   }
@@ -78,7 +78,7 @@ void checkFlat(const Scene& scene, ProblemLog& log) {
   double down = 0.0;
   for (std::size_t i = 0; i < rods.size(); ++i) {
     const double slant = 0.5 * std::abs(rowSpan(down + rods[i]) - rowSpan(down));
-    if (slant > kSteepestRow * (1.0 - kSlack) * rods[i] * cloth.height) {
+    if (slant > kSteepestRow * (1.0 - kTypedRounding) * rods[i] * cloth.height) {
       log.add("cloth.hem_width", "must taper the cloth by less than its warp rods are long: is " +
                                      formatNumber(hemWidth(cloth)) + ", so that the outer rod to row " +
                                      std::to_string(i + 1) + " would have to slant by more than 0.9 of its length");
@@ -108,7 +108,7 @@ void checkHeading(const Scene& scene, ProblemLog& log) {
   }
   const double span = (hang.to - hang.from).norm();
   constexpr double kFullest = 3.0;  // beyond, the wave's neighbours come close to each other
-  if (!cloth.closed && span > 0.0 && cloth.width > kFullest * (1.0 + kSlack) * span) {
+  if (!cloth.closed && span > 0.0 && cloth.width > kFullest * (1.0 + kTypedRounding) * span) {
     log.add("hang.heading", "must be gathered where cloth.width is more than three times |to - from|" + is + " at " +
                                 formatNumber(cloth.width / span) + " times");
   }
@@ -164,7 +164,7 @@ void checkRing(const Scene& scene, ProblemLog& log) {
     }
     for (std::size_t j = 0; j < links.size(); ++j) {
       const double chord = 2.0 * radius * std::sin(kPi * links[j]);
-      if (chord <= width * links[j] * (1.0 + kSlack)) continue;
+      if (chord <= width * links[j] * (1.0 + kTypedRounding)) continue;
       log.add(key, "must not start weft links longer than they are, is " + is + ": in row " + std::to_string(i) +
                        " (radius " + formatNumber(radius) + " m) link " + std::to_string(j) + " would be " +
                        formatNumber(chord) + " m long, at most " + formatNumber(width * links[j]) + " m are allowed");

@@ -8,9 +8,9 @@ namespace curtain {
 namespace {
 
 // An event on the border of two frames belongs to both, whatever the rounding [s].
-constexpr double kSlack = 1e-9;
+constexpr double kTimeRounding = 1e-9;
 
-bool within(double time, double from, double to) { return time >= from - kSlack && time <= to + kSlack; }
+bool within(double time, double from, double to) { return time >= from - kTimeRounding && time <= to + kTimeRounding; }
 
 }  // namespace
 

@@ -12,11 +12,11 @@ namespace {
 
 constexpr double kNoLength = 1e-300;  // [m^2]; of a link that has none, which has no direction either
 
-constexpr double kSlack = 0.01;  // a link that is shorter by this share is slack
+constexpr double kSlackShare = 0.01;  // a link that is shorter by this share is slack
 
 // How far a string holds its link: 1 at its length, 0 where it is slack. string: 1 / rest length.
 CURTAIN_INTO_WIDE double holds(double string, double square) {
-  const double share = 1.0 - (1.0 - string * std::sqrt(square)) / kSlack;
+  const double share = 1.0 - (1.0 - string * std::sqrt(square)) / kSlackShare;
   return share < 0.0 ? 0.0 : share > 1.0 ? 1.0 : share;
 }
 

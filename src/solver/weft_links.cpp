@@ -10,10 +10,10 @@
 namespace curtain {
 namespace {
 
-struct Row {
+struct LinkRow {
   const double *x, *y, *z, *w, *s, *per_square;
   double most_give;
-  Row(const LineSolve& line, int i) {
+  LinkRow(const LineSolve& line, int i) {
     const std::size_t row = line.pattern.grid.row(i);
     x = line.value.x.data() + row;
     y = line.value.y.data() + row;
@@ -37,7 +37,7 @@ struct Size {
 };
 
 // A link takes part when it is too long or still pulls, and has an end that can move.
-CURTAIN_INTO_WIDE Link look(const Row& row, std::size_t left, std::size_t right) {
+CURTAIN_INTO_WIDE Link look(const LinkRow& row, std::size_t left, std::size_t right) {
   const double rx = row.x[right] - row.x[left], ry = row.y[right] - row.y[left], rz = row.z[right] - row.z[left];
   const double both = row.w[right] + row.w[left];
   const double load = kWeftCompliance * both * row.s[right];
@@ -107,7 +107,7 @@ CURTAIN_WIDE void setWeftDirections(const Grid& grid, int row, const ColumnSpan&
 }
 
 CURTAIN_WIDE double weftResidual(const LineSolve& line, int i) noexcept {
-  const Row row(line, i);
+  const LinkRow row(line, i);
   return largestOf(line.pattern.grid, line.span, [=](std::size_t left, std::size_t right) -> Size {
     const Link link = look(row, left, right);
     return {link.active * std::abs(link.violation), link.not_finite};
@@ -138,7 +138,7 @@ CURTAIN_WIDE double weftSquare(const Grid& grid, int i, const ColumnSpan& span, 
 
 CURTAIN_WIDE double measureWeft(const LineSolve& line, int i, Field& violation, Field& active) noexcept {
   const Grid& grid = line.pattern.grid;
-  const Row row(line, i);
+  const LinkRow row(line, i);
   const double* const rest = line.pattern.weft_rest.data() + grid.row(i);
   double* const c_out = violation.data() + grid.row(i);
   double* const active_out = active.data() + grid.row(i);

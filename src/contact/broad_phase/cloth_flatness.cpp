@@ -15,7 +15,7 @@ constexpr int kMostRods = 4, kMostWefts = 20;
 // Largest relative difference of rest lengths: the bound assumes a regular reference mesh.
 constexpr double kIrregular = 1e-6;
 // Covers rounding of slopes and kIrregular.
-constexpr double kSlack = 1e-5;
+constexpr double kFlatnessRounding = 1e-5;
 
 struct Extremes {
   double least_square, least, most_across;
@@ -178,7 +178,7 @@ double ClothFlatness::slopeDeviation(double least_square, const Span& span) cons
   const double longest = 1.0 + overlong_;
   const double c = std::min(std::sqrt(least_square) * span.per_length, longest);
   const double s = span.links * (1.0 - c) + (span.links - 1.0) * overlong_;
-  return std::sqrt(std::max(0.0, longest * longest - 2.0 * c * (1.0 - s) + c * c)) + kSlack;
+  return std::sqrt(std::max(0.0, longest * longest - 2.0 * c * (1.0 - s) + c * c)) + kFlatnessRounding;
 }
 
 ClothFlatness::Slopes ClothFlatness::slopesOf(const Field3& position, const Projection& projection) const noexcept {
@@ -204,7 +204,7 @@ ClothFlatness::Slopes ClothFlatness::slopesOf(const Field3& position, const Proj
 }
 
 bool ClothFlatness::areFlat(const Slopes& slopes, double reach) const noexcept {
-  const double limit = reach * per_altitude_ * (1.0 + kSlack) + kSlack;
+  const double limit = reach * per_altitude_ * (1.0 + kFlatnessRounding) + kFlatnessRounding;
   const double u = slopes.least_u - limit, v = slopes.least_v - limit;
   const double across = 0.5 * (slopes.most_u_across + slopes.most_v_across);
   return u > 0.0 && v > 0.0 && u * v > across * across;
@@ -232,7 +232,7 @@ bool ClothFlatness::isFlat(const Field3& position, double reach) noexcept {
 bool ClothFlatness::staysFlat(const Field3& end, double reach) noexcept {
   measure(end, end_);
   if (!end_.has_directions) return false;
-  const double longest = (1.0 + overlong_) * (1.0 + kSlack);
+  const double longest = (1.0 + overlong_) * (1.0 + kFlatnessRounding);
   const double off_a = longest * (end_.a - start_.a).norm(), off_b = longest * (end_.b - start_.b).norm();
   Slopes slopes = start_.slopes;
   slopes.least_u -= off_a;

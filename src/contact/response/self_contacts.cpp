@@ -12,7 +12,7 @@ namespace curtain {
 namespace {
 
 // Capacity for touching or crossing pairs, per node.
-constexpr std::size_t kRoomPerNode = 8;
+constexpr std::size_t kSelfPairsPerNode = 8;
 
 Vec3 mix(const std::array<double, 4>& weight, const std::array<Vec3, 4>& at) {
   return weight[0] * at[0] + weight[1] * at[1] + weight[2] * at[2] + weight[3] * at[3];
@@ -67,8 +67,8 @@ ClosestPoints closestPoints(bool edges, const std::array<Vec3, 4>& at) noexcept 
 
 SelfContacts::SelfContacts(const ClothPattern& pattern, double gap, const ContactParams& params)
     : gap_(gap), friction_(params.friction), recovery_speed_(params.recovery_speed) {
-  pairs_.reserve(kRoomPerNode * pattern.grid.nodeCount());
-  closest_.reserve(kRoomPerNode * pattern.grid.nodeCount());
+  pairs_.reserve(kSelfPairsPerNode * pattern.grid.nodeCount());
+  closest_.reserve(kSelfPairsPerNode * pattern.grid.nodeCount());
 }
 
 double SelfContacts::offsetAt(double distance, double h) const noexcept {

@@ -80,8 +80,8 @@ void FrameClock::logLosses(double step_seconds) {
   const std::uint64_t lost = dropped();
   if (lost > logged_dropped_) {
     ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "dropped " << lost - logged_dropped_ << " frames (" << lost
-                                                     << " so far): the node is too slow, a frame takes "
-                                                     << 1e3 * step_seconds << " ms");
+                                                     << " so far): a frame takes " << 1e3 * step_seconds
+                                                     << " ms of the " << 1e3 / frame_rate_ << " ms it has");
   }
   logged_dropped_ = lost;
   if (stamps_.setBack() > logged_set_back_) {
