@@ -84,7 +84,9 @@ if(TARGET curtain_python AND Python3_NumPy_FOUND)
 else()
   message(STATUS "curtain_sim: no Python module or no NumPy (Debian: python3-numpy), its tests are left out")
 endif()
-add_test(NAME sweep COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/sweep/sweep_test.py $<TARGET_FILE:curtain_batch>)
+add_test(NAME sweep COMMAND ${Python3_EXECUTABLE} -B -m unittest discover -s test/sweep -p *_test.py
+  WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+set_tests_properties(sweep PROPERTIES ENVIRONMENT "CURTAIN_BATCH=$<TARGET_FILE:curtain_batch>")
 
 # By the formatter's major version that Debian 12 has: others break other lines.
 find_program(CLANG_FORMAT NAMES clang-format-14)
