@@ -14,7 +14,7 @@ constexpr double kSmallest = 1e-9;
 constexpr double kLargest = 1e9;
 /// Of typed lengths, relative: the solver corrects it at once.
 constexpr double kTypedRounding = 1e-9;
-constexpr double kLatest = 1e12;         // of ends [s]
+constexpr double kLatest = 1e12;  // of ends [s]
 /// Forces may be extreme (the cloth stops while they act), but the squares of their effects must be finite.
 constexpr double kStrongest = 1e100;
 
