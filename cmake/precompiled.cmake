@@ -20,7 +20,7 @@ endif()
 # One for all tests, whose code is compiled once and run once.
 function(curtain_compile_quickly target)
   if(NOT TARGET curtain_test_headers)
-    file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/test_headers.cpp "")
+    file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/test_headers.cpp CONTENT "")
     add_executable(curtain_test_headers EXCLUDE_FROM_ALL ${CMAKE_CURRENT_BINARY_DIR}/test_headers.cpp)
     target_compile_options(curtain_test_headers PRIVATE -O1)
     target_link_libraries(curtain_test_headers PRIVATE curtain_engine GTest::gtest_main)
