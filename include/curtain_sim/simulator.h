@@ -127,8 +127,8 @@ class Simulator {
   std::vector<Problem> setDrive(const DriveParams& drive);
   /// Nodes that hang by carriers, in the order of the rail; none: there is no rail.
   std::vector<NodeIndex> carriers() const;
-  /// Points along the rail, from its beginning to its end, evenly, no further apart than spacing > 0 [m], in a million parts
-  /// at most.
+  /// Points along the rail, from its beginning to its end, evenly, no further apart than spacing > 0 [m], in a million
+  /// parts at most.
   std::vector<Vec3> railPoints(double spacing) const;
   bool drives() const;               ///< the drive has not let go
   const DriveParams& drive() const;  ///< the present one

@@ -10,7 +10,7 @@ if [ "${1:-}" = node ]; then
   CXXFLAGS=$flags curtain_configure_and_build -DCMAKE_BUILD_TYPE=Debug -DCATKIN_ENABLE_TESTING=ON ${CURTAIN_CMAKE:-}
   curtain_enter
   export ROS_HOME=$curtain_build/ros_home
-  for name in interface obstacles handles rest; do
+  for name in interface obstacles handles rest sensors; do
     # Their waits are for a node that is ten times as fast: what they find is not asked here, only what the sanitizer does.
     rostest "$root/test/ros/$name.test" || echo "$name: the test itself is too slow or fails"
   done
