@@ -13,3 +13,6 @@ target_link_libraries(curtain_node PRIVATE curtain_ros curtain_warnings)
 
 add_library(curtain_nodelet MODULE src/curtain_nodelet.cpp)
 target_link_libraries(curtain_nodelet PRIVATE curtain_ros curtain_warnings)
+
+# What a demo runs: the node, its messages and parameters in Python, and rviz's display.
+add_custom_target(curtain_demo DEPENDS curtain_node ${PROJECT_NAME}_generate_messages_py ${PROJECT_NAME}_gencfg)

@@ -1,7 +1,24 @@
-# What a camera or a lidar sees: src/sensing, with Embree as the caster of rays (Debian: libembree-dev). For the node; the engine
-# does without.
-find_package(embree 3 REQUIRED)
+# What a camera or a lidar sees: src/sensing, with Embree 3 or 4 as the caster of rays. For the node; the engine does without.
+# Without Embree points all over the cloth are left.
 file(GLOB CURTAIN_SENSING_SOURCES CONFIGURE_DEPENDS src/sensing/*.cpp)
+set(curtain_embree)
+set(curtain_without_embree)
+foreach(version 4 3)
+  if(NOT curtain_embree)
+    set(curtain_sim_missing)
+    curtain_sim_find(embree${version} embree${version}/rtcore.h embree${version} libembree-dev)
+    if(TARGET curtain_sim::embree${version})
+      set(curtain_embree curtain_sim::embree${version})
+    endif()
+  endif()
+endforeach()
+if(curtain_embree)
+  list(FILTER CURTAIN_SENSING_SOURCES EXCLUDE REGEX "/ray_caster_missing\\.cpp$")
+else()
+  list(FILTER CURTAIN_SENSING_SOURCES EXCLUDE REGEX "/(ray_caster|embree_solids)\\.cpp$")
+  set(curtain_without_embree "no Embree (Debian: libembree-dev)")
+endif()
+curtain_part("camera and lidar" ${curtain_without_embree})
 add_library(curtain_sensing STATIC ${CURTAIN_SENSING_SOURCES})
 target_include_directories(curtain_sensing PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/src)
-target_link_libraries(curtain_sensing PUBLIC curtain_engine PRIVATE embree TBB::tbb curtain_warnings)
+target_link_libraries(curtain_sensing PUBLIC curtain_engine PRIVATE ${curtain_embree} curtain_sim::tbb curtain_warnings)

@@ -16,11 +16,12 @@
 namespace curtain_rviz {
 namespace {
 
-const Ogre::String& kGroup = Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME;
+const Ogre::String& kMaterialGroup = Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME;
 constexpr std::size_t kScaleSize = 256;
 
 void makeProgram(const std::string& name, Ogre::GpuProgramType type, const char* source) {
-  const auto program = Ogre::HighLevelGpuProgramManager::getSingleton().createProgram(name, kGroup, "glsl", type);
+  const auto program =
+      Ogre::HighLevelGpuProgramManager::getSingleton().createProgram(name, kMaterialGroup, "glsl", type);
   program->setSource(source);
   program->load();
   if (!program->isSupported()) throw std::runtime_error("its GLSL does not take the display's shader");
@@ -28,8 +29,9 @@ void makeProgram(const std::string& name, Ogre::GpuProgramType type, const char*
 
 Ogre::TexturePtr makeTexture(const std::string& name, std::size_t width, std::size_t height, int mip_maps) {
   return Ogre::TextureManager::getSingleton().createManual(
-      name, kGroup, Ogre::TEX_TYPE_2D, static_cast<Ogre::uint>(width), static_cast<Ogre::uint>(height), mip_maps,
-      Ogre::PF_BYTE_RGBA, mip_maps > 0 ? Ogre::TU_STATIC_WRITE_ONLY | Ogre::TU_AUTOMIPMAP : Ogre::TU_STATIC_WRITE_ONLY);
+      name, kMaterialGroup, Ogre::TEX_TYPE_2D, static_cast<Ogre::uint>(width), static_cast<Ogre::uint>(height),
+      mip_maps, Ogre::PF_BYTE_RGBA,
+      mip_maps > 0 ? Ogre::TU_STATIC_WRITE_ONLY | Ogre::TU_AUTOMIPMAP : Ogre::TU_STATIC_WRITE_ONLY);
 }
 
 void fillTexture(const Ogre::TexturePtr& texture, std::vector<std::uint8_t>& rgba) {
@@ -42,7 +44,7 @@ void fillTexture(const Ogre::TexturePtr& texture, std::vector<std::uint8_t>& rgb
 ClothMaterial::ClothMaterial(const std::string& name) : name_(name) {
   makeProgram(name + "/vertex", Ogre::GPT_VERTEX_PROGRAM, kVertexShader);
   makeProgram(name + "/fragment", Ogre::GPT_FRAGMENT_PROGRAM, kFragmentShader);
-  material_ = Ogre::MaterialManager::getSingleton().create(name, kGroup);
+  material_ = Ogre::MaterialManager::getSingleton().create(name, kMaterialGroup);
   Ogre::Pass* const pass = material_->getTechnique(0)->getPass(0);
   pass->setCullingMode(Ogre::CULL_NONE);
   pass->setManualCullingMode(Ogre::MANUAL_CULL_NONE);
@@ -72,8 +74,8 @@ ClothMaterial::~ClothMaterial() {
   Ogre::MaterialManager::getSingleton().remove(material_);
   Ogre::TextureManager::getSingleton().remove(fabric_);
   Ogre::TextureManager::getSingleton().remove(scale_);
-  Ogre::HighLevelGpuProgramManager::getSingleton().remove(name_ + "/vertex", kGroup);
-  Ogre::HighLevelGpuProgramManager::getSingleton().remove(name_ + "/fragment", kGroup);
+  Ogre::HighLevelGpuProgramManager::getSingleton().remove(name_ + "/vertex", kMaterialGroup);
+  Ogre::HighLevelGpuProgramManager::getSingleton().remove(name_ + "/fragment", kMaterialGroup);
 }
 
 Ogre::GpuProgramParametersSharedPtr ClothMaterial::lighting() const {

@@ -23,7 +23,7 @@ namespace {
 constexpr int kWidth = 260, kHeight = 72, kMargin = 12, kBarTop = 30, kBarHeight = 12;
 constexpr int kFromEdge = 14;
 
-const Ogre::String& kGroup = Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME;
+const Ogre::String& kOverlayGroup = Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME;
 
 QLinearGradient gradient() {
   QLinearGradient colours(kMargin, 0, kWidth - kMargin, 0);
@@ -40,9 +40,9 @@ QLinearGradient gradient() {
 }  // namespace
 
 LegendOverlay::LegendOverlay(const std::string& name) {
-  texture_ = Ogre::TextureManager::getSingleton().createManual(name, kGroup, Ogre::TEX_TYPE_2D, kWidth, kHeight, 0,
-                                                               Ogre::PF_BYTE_BGRA, Ogre::TU_STATIC_WRITE_ONLY);
-  material_ = Ogre::MaterialManager::getSingleton().create(name, kGroup);
+  texture_ = Ogre::TextureManager::getSingleton().createManual(name, kOverlayGroup, Ogre::TEX_TYPE_2D, kWidth, kHeight,
+                                                               0, Ogre::PF_BYTE_BGRA, Ogre::TU_STATIC_WRITE_ONLY);
+  material_ = Ogre::MaterialManager::getSingleton().create(name, kOverlayGroup);
   Ogre::Pass* const pass = material_->getTechnique(0)->getPass(0);
   pass->createTextureUnitState(name)->setTextureFiltering(Ogre::TFO_NONE);
   pass->setSceneBlending(Ogre::SBT_TRANSPARENT_ALPHA);
@@ -56,7 +56,7 @@ LegendOverlay::LegendOverlay(const std::string& name) {
   panel_->setVerticalAlignment(Ogre::GVA_BOTTOM);
   panel_->setPosition(kFromEdge, -kFromEdge - kHeight);
   panel_->setDimensions(kWidth, kHeight);
-  panel_->setMaterialName(name, kGroup);
+  panel_->setMaterialName(name, kOverlayGroup);
   overlay_ = overlays.create(name);
   overlay_->add2D(panel_);
 }

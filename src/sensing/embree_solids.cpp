@@ -62,8 +62,9 @@ void PlacedSolid::place(bool present, const Eigen::Isometry3d& pose) {
 }
 
 Eigen::AlignedBox3d PlacedSolid::bounds() const {
-  if (bounds_.sizes().allFinite()) return bounds_.transformed(pose_);
-  return {Vec3::Constant(-kFarthest), Vec3::Constant(kFarthest)};
+  if (!bounds_.sizes().allFinite()) return {Vec3::Constant(-kFarthest), Vec3::Constant(kFarthest)};
+  const Vec3 half = pose_.linear().cwiseAbs() * (0.5 * bounds_.sizes());
+  return {middle_ - half, middle_ + half};
 }
 
 // A geometry of one solid has no box in Embree that would keep rays away: here is a ball.

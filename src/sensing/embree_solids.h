@@ -3,13 +3,12 @@
 // Solids as a geometry of Embree's: it asks for their boxes, and for a ray's first hit.
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <Eigen/Geometry>
 #include <optional>
 #include <vector>
 
 #include "curtain_sim/scene.h"
+#include "sensing/embree.h"
 #include "sensing/solid_rays.h"
 
 namespace curtain {

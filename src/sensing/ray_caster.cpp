@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sensing/ray_caster.h"
 
-#include <embree3/rtcore.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "sensing/embree.h"
 #include "sensing/embree_solids.h"
 #include "sensing/hashed_random.h"
 
@@ -21,7 +21,7 @@ constexpr int kPacketWide = 4;  // two rows of four: neighbours in both directio
 
 // Embree hands the context on to the filter, which finds behind it what it needs.
 struct Context {
-  RTCIntersectContext embree;  // first
+  EmbreeContext embree;  // first
   std::uint64_t pore_key;
   double porosity;
 };
@@ -52,7 +52,7 @@ void throwOnError(RTCDevice device) {
 template <typename Points>
 void copyPoints(const Points& points, float* to) {
   for (const Vec3& point : points) {
-    for (const double coordinate : point) *to++ = static_cast<float>(coordinate);
+    for (int axis = 0; axis < 3; ++axis) *to++ = static_cast<float>(point[axis]);
   }
 }
 
@@ -166,6 +166,8 @@ void RayCaster::Impl::addMesh(std::size_t obstacle, const ShapeTriangles& shape)
   turns.resize(id + 1U, Eigen::Matrix3f::Identity());
 }
 
+bool RayCaster::available() { return true; }
+
 RayCaster::RayCaster(const Simulator& simulator, double porosity)
     : impl_(std::make_unique<Impl>(simulator, porosity)) {}
 RayCaster::~RayCaster() = default;
@@ -178,7 +180,7 @@ void RayCaster::place(const Moment& moment, const Pose& sensor) {
   float* to = im.positions;
   for (const Vec3& position : moment.mesh.positions) {
     const Vec3 seen = world * position;
-    for (const double coordinate : seen) *to++ = static_cast<float>(coordinate);
+    for (int axis = 0; axis < 3; ++axis) *to++ = static_cast<float>(seen[axis]);
   }
   rtcUpdateGeometryBuffer(im.cloth, RTC_BUFFER_TYPE_VERTEX, 0);
   rtcCommitGeometry(im.cloth);
@@ -207,8 +209,7 @@ void RayCaster::cast(const RayGrid& rays, const RayRange& range, std::uint64_t p
   const Impl& im = *impl_;
   hits.resize(rays.size());
   Context context;
-  rtcInitIntersectContext(&context.embree);
-  context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  initCoherent(context.embree);
   context.pore_key = pore_key;
   context.porosity = im.porosity;
   for (int row = 0; row < rays.height; row += kLanes / kPacketWide) {
@@ -241,7 +242,7 @@ void RayCaster::Impl::castPacket(const RayGrid& rays, int column, int row, const
     packet.ray.flags[lane] = 0;
     packet.hit.geomID[lane] = packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
   }
-  rtcIntersect8(valid.data(), scene, &context.embree, &packet);
+  intersectCoherent(valid.data(), scene, context.embree, packet);
   for (int lane = 0; lane < kLanes; ++lane) {
     if (valid[static_cast<std::size_t>(lane)] == 0) continue;
     RayHit& hit = hits[place(lane)];

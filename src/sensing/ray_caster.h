@@ -39,6 +39,9 @@ struct RayRange {
 /// One thread at a time.
 class RayCaster {
  public:
+  /// Whether this build has Embree; without it none can be made.
+  static bool available();
+
   /// Copies what does not change: the mesh's triangles and the obstacles' shapes. Throws std::runtime_error when Embree
   /// can't be started.
   ///   porosity  [0..1] probability that a layer of cloth lets a ray through

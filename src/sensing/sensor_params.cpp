@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sensing/sensor_params.h"
 
+#include "sensing/ray_caster.h"
 #include "sensing/rays.h"
 
 namespace curtain {
@@ -31,6 +32,10 @@ void checkNoise(const SensorParams& params, ProblemLog& log) {
 }  // namespace
 
 void checkSensor(const SensorParams& params, ProblemLog& log) {
+  if (params.sensor != SensorKind::kAllRound && !RayCaster::available())
+    log.add("sensor",
+            "is a camera or a lidar, which this build is without: it was made where Embree was not found "
+            "(Debian: libembree-dev); all_round needs none");
   if (log.good("sensor") && log.good("noise") && log.good("dropout")) checkNoise(params, log);
   if (log.good("min_range") && log.good("max_range") && params.min_range >= params.max_range) {
     log.add("min_range", "must be less than max_range, is " + formatNumber(params.min_range) + ", max_range is " +

@@ -4,7 +4,9 @@
 // active set.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
+#include "cloth/shuffle.h"
 #include "cloth/wide.h"
 #include "solver/net_solver.h"
 
@@ -17,31 +19,25 @@ constexpr std::size_t kSquare = kInterleave * kInterleave;  // of as many of the
 // Transposes an 8 x 8 block.
 CURTAIN_INTO_WIDE void transpose(const float* from, std::size_t from_stride, float* to,
                                  std::size_t to_stride) noexcept {
-#if defined(__GNUC__) && !defined(__clang__)
-  typedef float Lanes __attribute__((vector_size(32), aligned(4)));
-  typedef int Order __attribute__((vector_size(32)));
+  typedef float Lanes __attribute__((vector_size(32)));
+  static_assert(sizeof(Lanes) == kInterleave * sizeof(float), "a row of the block");
   Lanes a[kInterleave], b[kInterleave];
-  for (std::size_t l = 0; l < kInterleave; ++l) a[l] = *reinterpret_cast<const Lanes*>(from + l * from_stride);
+  for (std::size_t l = 0; l < kInterleave; ++l) std::memcpy(&a[l], from + l * from_stride, sizeof a[l]);
   for (std::size_t l = 0; l < kInterleave; l += 2) {
-    b[l] = __builtin_shuffle(a[l], a[l + 1], Order{0, 8, 1, 9, 4, 12, 5, 13});
-    b[l + 1] = __builtin_shuffle(a[l], a[l + 1], Order{2, 10, 3, 11, 6, 14, 7, 15});
+    shuffle<0, 8, 1, 9, 4, 12, 5, 13>(a[l], a[l + 1], b[l]);
+    shuffle<2, 10, 3, 11, 6, 14, 7, 15>(a[l], a[l + 1], b[l + 1]);
   }
   for (std::size_t l = 0; l < kInterleave; l += 4) {
     for (std::size_t m = 0; m < 2; ++m) {
-      a[l + 2 * m] = __builtin_shuffle(b[l + m], b[l + m + 2], Order{0, 1, 8, 9, 4, 5, 12, 13});
-      a[l + 2 * m + 1] = __builtin_shuffle(b[l + m], b[l + m + 2], Order{2, 3, 10, 11, 6, 7, 14, 15});
+      shuffle<0, 1, 8, 9, 4, 5, 12, 13>(b[l + m], b[l + m + 2], a[l + 2 * m]);
+      shuffle<2, 3, 10, 11, 6, 7, 14, 15>(b[l + m], b[l + m + 2], a[l + 2 * m + 1]);
     }
   }
   for (std::size_t l = 0; l < kInterleave / 2; ++l) {
-    *reinterpret_cast<Lanes*>(to + l * to_stride) = __builtin_shuffle(a[l], a[l + 4], Order{0, 1, 2, 3, 8, 9, 10, 11});
-    *reinterpret_cast<Lanes*>(to + (l + 4) * to_stride) =
-        __builtin_shuffle(a[l], a[l + 4], Order{4, 5, 6, 7, 12, 13, 14, 15});
+    shuffle<0, 1, 2, 3, 8, 9, 10, 11>(a[l], a[l + 4], b[l]);
+    shuffle<4, 5, 6, 7, 12, 13, 14, 15>(a[l], a[l + 4], b[l + 4]);
   }
-#else
-  for (std::size_t l = 0; l < kInterleave; ++l) {
-    for (std::size_t m = 0; m < kInterleave; ++m) to[m * to_stride + l] = from[l * from_stride + m];
-  }
-#endif
+  for (std::size_t l = 0; l < kInterleave; ++l) std::memcpy(to + l * to_stride, &b[l], sizeof b[l]);
 }
 
 // Fixed number of partial sums, so the bits do not depend on the register width. count is a multiple of it.

@@ -7,7 +7,8 @@ status=0
 if [ "${1:-}" = node ]; then
   source "$root/scripts/setup.bash"
   curtain_build=$build/node
-  CXXFLAGS=$flags curtain_configure_and_build -DCMAKE_BUILD_TYPE=Debug -DCATKIN_ENABLE_TESTING=ON ${CURTAIN_CMAKE:-}
+  CXXFLAGS=$flags curtain_configure -DCMAKE_BUILD_TYPE=Debug -DCATKIN_ENABLE_TESTING=ON ${CURTAIN_CMAKE:-}
+  cmake --build "$curtain_build"
   curtain_enter
   export ROS_HOME=$curtain_build/ros_home
   for name in interface obstacles handles rest sensors; do

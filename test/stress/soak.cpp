@@ -70,6 +70,15 @@ long residentMemory() {
   return resident * (sysconf(_SC_PAGESIZE) / 1024);
 }
 
+// glibc before 2.33 counts in int alone.
+std::size_t heapMemory() {
+#if __GLIBC_PREREQ(2, 33)
+  return mallinfo2().uordblks / 1024;
+#else
+  return static_cast<unsigned int>(mallinfo().uordblks) / 1024;
+#endif
+}
+
 // What the demo's motion node does at a time, to the simulator that owns the ball and the fan.
 Pose ballAt(double time) {
   const double angle = 2.0 * kPi * 0.15 * time;
@@ -150,7 +159,7 @@ Row soakInterval(double seconds, const std::vector<Vec3>& start, Simulator& simu
     }
   }
   row.resident_kb = residentMemory();
-  row.heap_kb = mallinfo2().uordblks / 1024;
+  row.heap_kb = heapMemory();
   row.unsettled = after.unsettled - before.unsettled;
   row.last_resort = after.last_resort_substeps - before.last_resort_substeps;
   row.stops = after.stops - before.stops;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "cloth/shuffle.h"
 #include "cloth/wide.h"
 
 namespace curtain {
@@ -51,12 +52,15 @@ CURTAIN_WIDE void interleave(const std::array<const float*, 3>& low, const std::
     std::memcpy(&x, from[0] + k, sizeof x);
     std::memcpy(&y, from[1] + k, sizeof y);
     std::memcpy(&z, from[2] + k, sizeof z);
-    const Four xy = __builtin_shufflevector(x, y, 0, 4, 1, 5), xy_high = __builtin_shufflevector(x, y, 2, 6, 3, 7);
-    const Four z_zero = __builtin_shufflevector(z, zero, 0, 4, 1, 5),
-               z_high = __builtin_shufflevector(z, zero, 2, 6, 3, 7);
-    const Four out[4] = {
-        __builtin_shufflevector(xy, z_zero, 0, 1, 4, 5), __builtin_shufflevector(xy, z_zero, 2, 3, 6, 7),
-        __builtin_shufflevector(xy_high, z_high, 0, 1, 4, 5), __builtin_shufflevector(xy_high, z_high, 2, 3, 6, 7)};
+    Four xy, xy_high, z_zero, z_high, out[4];
+    shuffle<0, 4, 1, 5>(x, y, xy);
+    shuffle<2, 6, 3, 7>(x, y, xy_high);
+    shuffle<0, 4, 1, 5>(z, zero, z_zero);
+    shuffle<2, 6, 3, 7>(z, zero, z_high);
+    shuffle<0, 1, 4, 5>(xy, z_zero, out[0]);
+    shuffle<2, 3, 6, 7>(xy, z_zero, out[1]);
+    shuffle<0, 1, 4, 5>(xy_high, z_high, out[2]);
+    shuffle<2, 3, 6, 7>(xy_high, z_high, out[3]);
     for (std::size_t box = 0; box < 4; ++box) std::memcpy(to + 8 * box, &out[box], sizeof out[box]);
   };
   for (std::size_t k = 0; k < count; k += 4) {
@@ -157,7 +161,8 @@ void BoxHierarchy::selectRows() noexcept {
   for (std::size_t level = 0; level < levels_.size(); ++level) {
     for (int i = 0; i < levels_[level].rows; ++i) {
       std::uint8_t any = 0;
-      for (int j = 0; j < levels_[level].columns; ++j) any |= selected_[levels_[level].at(i, j)];
+      for (int j = 0; j < levels_[level].columns; ++j)
+        any = static_cast<std::uint8_t>(any | selected_[levels_[level].at(i, j)]);
       selected_rows_[level][static_cast<std::size_t>(i)] = any;
     }
   }

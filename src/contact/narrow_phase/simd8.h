@@ -13,6 +13,7 @@
 #include <emmintrin.h>
 #endif
 
+#include "cloth/shuffle.h"
 #include "cloth/wide.h"
 
 namespace curtain {
@@ -78,17 +79,19 @@ struct Simd8 {
     Quarter q[kCount];
     for (std::size_t k = 0; k < kCount; ++k) std::memcpy(&q[k], places[node_of(k)].data(), sizeof q[k]);
     // Nodes k and k + 4 side by side, and then components across.
-    const Lanes a = __builtin_shufflevector(q[0], q[4], 0, 1, 2, 3, 4, 5, 6, 7),
-                b = __builtin_shufflevector(q[1], q[5], 0, 1, 2, 3, 4, 5, 6, 7);
-    const Lanes c = __builtin_shufflevector(q[2], q[6], 0, 1, 2, 3, 4, 5, 6, 7),
-                d = __builtin_shufflevector(q[3], q[7], 0, 1, 2, 3, 4, 5, 6, 7);
-    const Lanes ab = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13),
-                cd = __builtin_shufflevector(c, d, 0, 8, 1, 9, 4, 12, 5, 13);
-    const Lanes ab_z = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15),
-                cd_z = __builtin_shufflevector(c, d, 2, 10, 3, 11, 6, 14, 7, 15);
-    to.x = __builtin_shufflevector(ab, cd, 0, 1, 8, 9, 4, 5, 12, 13);
-    to.y = __builtin_shufflevector(ab, cd, 2, 3, 10, 11, 6, 7, 14, 15);
-    to.z = __builtin_shufflevector(ab_z, cd_z, 0, 1, 8, 9, 4, 5, 12, 13);
+    Lanes a, b, c, d;
+    join(q[0], q[4], a);
+    join(q[1], q[5], b);
+    join(q[2], q[6], c);
+    join(q[3], q[7], d);
+    Lanes ab, cd, ab_z, cd_z;
+    shuffle<0, 8, 1, 9, 4, 12, 5, 13>(a, b, ab);
+    shuffle<0, 8, 1, 9, 4, 12, 5, 13>(c, d, cd);
+    shuffle<2, 10, 3, 11, 6, 14, 7, 15>(a, b, ab_z);
+    shuffle<2, 10, 3, 11, 6, 14, 7, 15>(c, d, cd_z);
+    shuffle<0, 1, 8, 9, 4, 5, 12, 13>(ab, cd, to.x);
+    shuffle<2, 3, 10, 11, 6, 7, 14, 15>(ab, cd, to.y);
+    shuffle<0, 1, 8, 9, 4, 5, 12, 13>(ab_z, cd_z, to.z);
   }
   /// Bit k: lane k is true (its sign bit).
   template <typename Truth>

@@ -20,15 +20,15 @@ std::vector<Vec3> cornerNormals(const ShapeTriangles& shape) {
   std::vector<Vec3> faces;
   std::vector<std::vector<std::size_t>> faces_at(shape.corners.size());
   for (const Eigen::Vector3i& triangle : shape.triangles) {
-    for (const int corner : triangle) faces_at[static_cast<std::size_t>(corner)].push_back(faces.size());
+    for (int k = 0; k < 3; ++k) faces_at[static_cast<std::size_t>(triangle[k])].push_back(faces.size());
     faces.push_back(areaNormal(shape, triangle));
   }
   std::vector<Vec3> normals;
   normals.reserve(3 * faces.size());
   for (std::size_t own = 0; own < faces.size(); ++own) {
-    for (const int corner : shape.triangles[own]) {
+    for (int k = 0; k < 3; ++k) {
       Vec3 sum = Vec3::Zero();
-      for (const std::size_t other : faces_at[static_cast<std::size_t>(corner)]) {
+      for (const std::size_t other : faces_at[static_cast<std::size_t>(shape.triangles[own][k])]) {
         const double cosine = faces[own].dot(faces[other]);
         if (cosine >= kCosCrease * faces[own].norm() * faces[other].norm()) sum += faces[other];
       }

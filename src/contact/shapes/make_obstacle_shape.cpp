@@ -22,9 +22,8 @@ double positive(const ObstacleParams& obstacle, const std::string& key, double v
 
 std::unique_ptr<const ContactShape> makeMesh(const ObstacleParams& obstacle, const MeshResolver& resolve) {
   const std::string who = "obstacle '" + obstacle.name + "': ";
-  for (const double factor : obstacle.scale) {
-    if (!(std::isfinite(factor) && factor != 0.0)) throw std::invalid_argument(who + "scale must be finite and not 0");
-  }
+  if (!(obstacle.scale.allFinite() && (obstacle.scale.array() != 0.0).all()))
+    throw std::invalid_argument(who + "scale must be finite and not 0");
   const std::string path = resolve(obstacle.mesh);
   if (path.empty()) {
     throw std::invalid_argument(who + "mesh '" + obstacle.mesh +
@@ -40,9 +39,7 @@ std::unique_ptr<const ContactShape> makeContactShape(const ObstacleParams& obsta
     case ShapeKind::kSphere:
       return std::make_unique<const SphereShape>(positive(obstacle, "radius", obstacle.radius));
     case ShapeKind::kBox:
-      for (const double edge : obstacle.size) {
-        positive(obstacle, "size", edge);
-      }
+      for (int axis = 0; axis < 3; ++axis) positive(obstacle, "size", obstacle.size[axis]);
       return std::make_unique<const BoxShape>(obstacle.size);
     case ShapeKind::kCylinder:
       return std::make_unique<const CylinderShape>(positive(obstacle, "radius", obstacle.radius),

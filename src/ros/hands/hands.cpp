@@ -8,6 +8,7 @@
 
 #include "ros/frames/geometry.h"
 #include "ros/hands/read_goal.h"
+#include "ros/inputs/mailbox.h"
 #include "ros/inputs/read_messages.h"
 #include "scene/ranges.h"
 
@@ -18,8 +19,6 @@ using curtain_sim::GraspFeedback;
 using curtain_sim::GraspResult;
 
 namespace {
-
-constexpr std::size_t kMailboxCapacity = 50;  // as the other inputs
 
 std::string numberOf(std::size_t nodes) { return std::to_string(nodes) + (nodes == 1 ? " node" : " nodes"); }
 

@@ -5,15 +5,12 @@
 
 #include <algorithm>
 
+#include "ros/health/warn_period.h"
 #include "ros/inputs/read_messages.h"
 
 namespace curtain_ros {
 
 using curtain_sim::WindSource;
-
-namespace {
-constexpr double kWarnPeriod = 5.0;  // [s] between warnings
-}
 
 void CarriedWinds::take(const WindSource& message) {
   if (message.action == WindSource::DELETEALL) {

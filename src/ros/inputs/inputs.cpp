@@ -3,6 +3,8 @@
 
 #include <ros/console.h>
 
+#include "ros/health/warn_period.h"
+#include "ros/inputs/mailbox.h"
 #include "ros/inputs/read_messages.h"
 #include "scene/find_by_id.h"
 
@@ -17,9 +19,6 @@ namespace {
 using Problems = std::vector<curtain::Problem>;
 
 // Messages kept of a topic between two frames. Senders at 1 kHz for a frame of 1/20 s fit.
-constexpr std::size_t kMailboxCapacity = 50;
-constexpr std::uint32_t kQueueSize = 50;
-constexpr double kWarnPeriod = 2.0;  // [s] between warnings of one kind
 
 // Each source costs a pass over the cloth in each substep: far more than anybody places, few enough for a frame.
 constexpr std::size_t kMostSources = 256;

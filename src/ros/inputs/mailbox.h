@@ -12,6 +12,11 @@
 
 namespace curtain_ros {
 
+/// Messages of a topic that are kept between two frames; more are told as lost.
+constexpr std::size_t kMailboxCapacity = 50;
+/// Of roscpp's own queue before that.
+constexpr std::uint32_t kQueueSize = 50;
+
 /// Messages from any number of threads to one collector, in order. Thread-safe.
 template <typename Message>
 class Mailbox {

@@ -4,13 +4,10 @@
 #include <ros/console.h>
 
 #include "ros/frames/geometry.h"
+#include "ros/health/warn_period.h"
 #include "scene/ranges.h"
 
 namespace curtain_ros {
-
-namespace {
-constexpr double kWarnPeriod = 5.0;  // [s] between warnings
-}
 
 ObstacleTracker::ObstacleTracker(const curtain::Scene& scene, double timeout, Frames& frames)
     : timeout_(timeout), frames_(frames) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "ros/inputs/mailbox.h"
 #include "scene/range_checker.h"
 
 namespace curtain_ros {
@@ -14,8 +15,6 @@ using curtain_sim::OpenCurtainResult;
 
 namespace {
 
-constexpr std::size_t kMailboxCapacity = 50;  // as the other inputs
-constexpr std::uint32_t kQueueSize = 50;
 // How near the goal counts as reached: a millimetre of a metre's way.
 constexpr double kReached = 1e-3;
 // A drive that has not come nearer by kProgress of all the way for so long [s] is stopped by something.

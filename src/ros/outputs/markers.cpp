@@ -149,7 +149,7 @@ void addCone(const curtain::WindParams& wind, Points& points) {
 void addTriangles(const std::vector<Vec3>& corners, const std::vector<Eigen::Vector3i>& triangles, Points& points) {
   points.reserve(3 * triangles.size());
   for (const Eigen::Vector3i& triangle : triangles) {
-    for (const int corner : triangle) points.push_back(toPoint(corners[static_cast<std::size_t>(corner)]));
+    for (int k = 0; k < 3; ++k) points.push_back(toPoint(corners[static_cast<std::size_t>(triangle[k])]));
   }
 }
 

@@ -7,12 +7,13 @@
 #include <cctype>
 #include <map>
 
+#include "ros/health/warn_period.h"
+
 namespace curtain_ros {
 
 namespace {
 constexpr double kMarkersAtRest = 1.0;  // [1/s]
 constexpr double kPlanRate = 1.0;       // [1/s]
-constexpr double kWarnPeriod = 10.0;    // [s] between warnings
 
 // Names of frames may have letters that names of topics can't.
 std::string topicOf(std::string frame) {

@@ -53,7 +53,7 @@ void flatten(const std::vector<curtain::Vec3>& points, std::vector<float>& out) 
   out.resize(3 * points.size());
   float* to = out.data();
   for (const curtain::Vec3& point : points) {
-    for (const double x : point) *to++ = static_cast<float>(x);
+    for (int axis = 0; axis < 3; ++axis) *to++ = static_cast<float>(point[axis]);
   }
 }
 
@@ -62,7 +62,7 @@ void flattenFolds(const curtain::FineMeshTopology& topology, const curtain::Fine
   const auto columns = static_cast<std::size_t>(topology.columns);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     if (i % columns % static_cast<std::size_t>(topology.folds) == 0) continue;  // first layer
-    for (const double x : mesh.positions[i]) out.push_back(static_cast<float>(x));
+    for (int axis = 0; axis < 3; ++axis) out.push_back(static_cast<float>(mesh.positions[i][axis]));
   }
 }
 

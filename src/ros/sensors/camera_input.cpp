@@ -4,17 +4,12 @@
 #include <exception>
 #include <utility>
 
+#include "ros/inputs/mailbox.h"
 #include "ros/sensors/read_camera_info.h"
 
 namespace curtain_ros {
 
 using sensor_msgs::CameraInfo;
-
-namespace {
-
-constexpr std::uint32_t kQueueSize = 50;  // as of other inputs: what roscpp drops is warned of
-
-}  // namespace
 
 CameraInput::CameraInput(ros::NodeHandle& node, Inputs& inputs, Worker& worker)
     : inputs_(inputs), worker_(worker), letters_(1) {

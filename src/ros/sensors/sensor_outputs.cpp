@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "ros/health/warn_period.h"
 #include "ros/sensors/read_camera_info.h"
 #include "ros/sensors/sensor_messages.h"
 #include "scene/ranges.h"
@@ -18,7 +19,6 @@ using sensor_msgs::CameraInfo;
 namespace {
 
 constexpr double kCloudsAtRest = 1.0;  // [1/s] all round
-constexpr double kWarnPeriod = 10.0;   // [s] between warnings
 
 curtain::FlatCloth flatCloth(const curtain::Simulator& simulator) {
   std::vector<double> warp, weft;

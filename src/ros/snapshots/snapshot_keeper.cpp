@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "curtain_sim/snapshot_file.h"
+#include "ros/health/warn_period.h"
 
 namespace curtain_ros {
 
@@ -17,7 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kWarnPeriod = 30.0;    // [s] between warnings
 constexpr std::size_t kSignature = 16;  // bytes that all snapshots begin with
 constexpr char kAside[] = ".refused";   // added to the name of a refused snapshot
 

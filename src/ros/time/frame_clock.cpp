@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ros/health/warn_period.h"
+
 namespace curtain_ros {
 
 namespace {
 constexpr std::chrono::milliseconds kClockPoll(1);
 constexpr double kSpeedPeriod = 1.0;  // [s] that the real-time factor is measured over
-constexpr double kWarnPeriod = 5.0;   // [s] between warnings of one kind
 constexpr double kOrigin = 1.0;       // [s] of its own clock
 }  // namespace
 

@@ -13,15 +13,16 @@
 
 #include <utility>
 
+#include "ros/health/warn_period.h"
+
 namespace curtain_ros {
 
 using XmlRpc::XmlRpcValue;
 
 namespace {
 
-constexpr double kPeriod = 1.0;      // [s] between two checks
-constexpr double kPatience = 2.0;    // [s] for an answer; an idle computer gives it within 1 ms
-constexpr double kWarnPeriod = 5.0;  // [s] between warnings
+constexpr double kPeriod = 1.0;    // [s] between two checks
+constexpr double kPatience = 2.0;  // [s] for an answer; an idle computer gives it within 1 ms
 
 struct Answer {
   bool came = false;     // false: nobody there, or not in time

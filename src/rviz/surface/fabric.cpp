@@ -5,11 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/pi.h"
+
 namespace curtain_rviz {
+
+using curtain::kPi;
+
 namespace {
 
 constexpr int kPixelsPerThread = kFabricSize / kThreadsAcross;
-constexpr double kPi = static_cast<double>(EIGEN_PI);
 
 // A number in [-1, 1] for a whole number: threads differ, but always in the same way.
 double noise(std::uint32_t seed, std::uint32_t n) {

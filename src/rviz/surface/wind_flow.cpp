@@ -4,13 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/pi.h"
+
 namespace curtain_rviz {
 
+using curtain::kPi;
 using curtain::Vec3;
 
 namespace {
 
-constexpr double kPi = static_cast<double>(EIGEN_PI);
 constexpr double kGoldenAngle = 2.39996322972865332;  // [rad] fills a disc evenly with points
 constexpr int kArrows = 16;
 constexpr int kRimParts = 48;

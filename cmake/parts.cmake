@@ -1,0 +1,17 @@
+# What is built, and what is left out as something is missing for it: a line a part at the end of configure.
+#   curtain_part(name "what is missing, with Debian's package, or nothing if the part is built")
+function(curtain_part name)
+  if("${ARGN}" STREQUAL "")
+    set(state "yes")
+  else()
+    set(state "no: ${ARGN}")
+  endif()
+  set_property(GLOBAL APPEND PROPERTY CURTAIN_PARTS "curtain_sim: ${name}: ${state}")
+endfunction()
+
+function(curtain_tell_parts)
+  get_property(parts GLOBAL PROPERTY CURTAIN_PARTS)
+  foreach(part IN LISTS parts)
+    message(STATUS "${part}")
+  endforeach()
+endfunction()
