@@ -70,6 +70,8 @@ add_test(NAME packages_check COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURC
 set(CURTAIN_EIGEN33 ${EIGEN3_INCLUDE_DIR} CACHE PATH "Folder of an Eigen 3.3, to try the sources with")
 add_test(NAME portable_check COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/structure/portable_check.py
   ${CMAKE_CXX_COMPILER} ${CURTAIN_EIGEN33})
+add_test(NAME parts_check COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/structure/parts_check.py
+  ${CMAKE_CURRENT_BINARY_DIR}/without_parts -G ${CMAKE_GENERATOR} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} -DPython3_EXECUTABLE=${Python3_EXECUTABLE})
 add_test(NAME demos_check COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/structure/demos_check.py $<TARGET_FILE:curtain_batch>)
 add_test(NAME robot_check COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/structure/robot_check.py)
 add_test(NAME worked_examples COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/structure/worked_examples.py

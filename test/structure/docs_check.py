@@ -19,7 +19,7 @@ LINK = re.compile(r"\]\((?P<target>[^)\s]+)\)")
 PATH = re.compile(r"(?<![\w/.~-])(?:%s)/[\w./*-]*[\w*/]" % FOLDERS)
 # What a page may use that is not ours.
 FOREIGN = {"cd", "cp", "source", "echo", "cmake", "catkin_make", "doxygen", "rostopic", "rosrun", "roslaunch", "rosparam", "roscore",
-           "export", "python3", "rosbag", "blender"}
+           "export", "python3", "rosbag", "rosdep", "blender"}
 
 USAGE = {"curtain_batch": "src/batch/options.cpp", "curtain_export": "src/curtain_export.cpp"}  # where a program's options are listed
 
