@@ -21,7 +21,7 @@ void setPose(Self& self, const std::string& name, const py::object& position, co
   self.change([&](Simulator& s) { s.setObstaclePose(index, pose, jump); });
 }
 
-py::tuple toTuple(const Pose& pose) { return py::make_tuple(toArray(pose.position), toArray(pose.orientation)); }
+py::tuple poseTuple(const Pose& pose) { return py::make_tuple(toArray(pose.position), toArray(pose.orientation)); }
 
 py::dict wrenchOn(const Self& self, const std::string& name) {
   const ContactWrench wrench = self.look().contactWrench(self.obstacle(name));
@@ -91,7 +91,7 @@ void bindObstacles(SimulatorClass& simulator) {
       .def(
           "obstacle_pose",
           [](const Self& self, const std::string& name) {
-            return toTuple(self.look().obstaclePose(self.obstacle(name)));
+            return poseTuple(self.look().obstaclePose(self.obstacle(name)));
           },
           py::arg("name"),
           "Position [m], shape (3,), and orientation (x, y, z, w), shape (4,): where it is for the cloth, at the end "
@@ -100,7 +100,7 @@ void bindObstacles(SimulatorClass& simulator) {
       .def(
           "obstacle_target",
           [](const Self& self, const std::string& name) {
-            return toTuple(self.look().obstacleTarget(self.obstacle(name)));
+            return poseTuple(self.look().obstacleTarget(self.obstacle(name)));
           },
           py::arg("name"), "The same of where it is going: as set last, or by the scene's motion.")
       .def(
