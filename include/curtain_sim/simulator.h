@@ -173,13 +173,19 @@ class Simulator {
   /// Obstacles are numbered in the scene's order.
   int obstacleCount() const;
   /// Pose of the obstacle at the end of the next step; it moves there evenly, in place of the scene's motion. `jump`:
-  /// it is there at once, without a velocity (first pose, teleport). Where a frame ends early (solver.budget_ms) the
-  /// rest of the motion follows in the next one.
+  /// it is there at once, without a velocity (first pose, teleport). Where the cloth is jammed in its way it waits, and
+  /// where a frame ends early (solver.budget_ms) it is cut short: the rest of the motion follows in the next frames.
   void setObstaclePose(int index, const Pose& pose, bool jump = false);
   /// An absent obstacle touches nothing. When it comes back, set its pose with jump.
   void setObstaclePresent(int index, bool present);
-  bool obstaclePresent(int index) const;                ///< as set; at the start: true
-  const Pose& obstaclePose(int index) const;            ///< as set last
+  bool obstaclePresent(int index) const;  ///< as set; at the start: true
+  /// Where it is for the cloth: at the end of the last step, or where it has jumped to since.
+  const Pose& obstaclePose(int index) const;
+  /// Where it is going: its pose as set last; with a scripted motion, that of the motion at the last step's end.
+  const Pose& obstacleTarget(int index) const;
+  /// How far it is behind its target [m], >= 0: no point of it is further than this from where it will be there (plane:
+  /// its origin). After a step 0, unless it waits for jammed cloth, was cut short by solver.budget_ms, or catches up.
+  double obstacleLag(int index) const;
   const ObstacleShape& obstacleShape(int index) const;  ///< lives as long as the simulator
 
   /// The mesh for display: both layers of nodes, outside the obstacles. Positions [m] in out.positions (resized), row

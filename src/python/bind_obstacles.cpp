@@ -15,15 +15,13 @@ using Self = PythonSimulator;
 void setPose(Self& self, const std::string& name, const py::object& position, const py::object& orientation,
              bool jump) {
   const int index = self.obstacle(name);
-  const py::object turned = orientation.is_none() ? toArray(self.look().obstaclePose(index).orientation) : orientation;
+  const py::object turned =
+      orientation.is_none() ? toArray(self.look().obstacleTarget(index).orientation) : orientation;
   const Pose pose = readPose(position, turned, name);
   self.change([&](Simulator& s) { s.setObstaclePose(index, pose, jump); });
 }
 
-py::tuple poseOf(const Self& self, const std::string& name) {
-  const Pose& pose = self.look().obstaclePose(self.obstacle(name));
-  return py::make_tuple(toArray(pose.position), toArray(pose.orientation));
-}
+py::tuple poseTuple(const Pose& pose) { return py::make_tuple(toArray(pose.position), toArray(pose.orientation)); }
 
 py::dict wrenchOn(const Self& self, const std::string& name) {
   const ContactWrench wrench = self.look().contactWrench(self.obstacle(name));
@@ -84,14 +82,33 @@ void bindObstacles(SimulatorClass& simulator) {
             return names;
           },
           "Names of the obstacles, in the scene's order.")
-      .def("set_obstacle_pose", &setPose, py::arg("name"), py::arg("position"), py::arg("orientation") = py::none(),
-           py::arg("jump") = false,
-           "Pose of an obstacle at the end of the next frame: position [m], orientation (unit quaternion x, y, z, w; "
-           "None: as it is). It moves there evenly, in place of the scene's motion. jump: it is there at once, without "
-           "a "
-           "velocity.")
-      .def("obstacle_pose", &poseOf, py::arg("name"),
-           "Position [m], shape (3,), and orientation (x, y, z, w), shape (4,), as set last.")
+      .def(
+          "set_obstacle_pose", &setPose, py::arg("name"), py::arg("position"), py::arg("orientation") = py::none(),
+          py::arg("jump") = false,
+          "Pose of an obstacle at the end of the next frame: position [m], orientation (unit quaternion x, y, z, w; "
+          "None: that of its target). It moves there evenly, in place of the scene's motion, but waits where the cloth "
+          "is jammed in its way. jump: it is there at once, without a velocity.")
+      .def(
+          "obstacle_pose",
+          [](const Self& self, const std::string& name) {
+            return poseTuple(self.look().obstaclePose(self.obstacle(name)));
+          },
+          py::arg("name"),
+          "Position [m], shape (3,), and orientation (x, y, z, w), shape (4,): where it is for the cloth, at the end "
+          "of "
+          "the last frame.")
+      .def(
+          "obstacle_target",
+          [](const Self& self, const std::string& name) {
+            return poseTuple(self.look().obstacleTarget(self.obstacle(name)));
+          },
+          py::arg("name"), "The same of where it is going: as set last, or by the scene's motion.")
+      .def(
+          "obstacle_lag",
+          [](const Self& self, const std::string& name) { return self.look().obstacleLag(self.obstacle(name)); },
+          py::arg("name"),
+          "How far it is behind its target [m], >= 0: no point of it is further from where it will be there. After a "
+          "frame 0, unless it waits for jammed cloth, was cut short by solver.budget_ms, or catches up.")
       .def(
           "set_obstacle_present",
           [](Self& self, const std::string& name, bool present) {

@@ -131,7 +131,7 @@ void CurtainNode::makeFrames(std::int64_t now) {
     restart("/clock jumped back");
   }
   for (int i = 0; i < due.frames && !stopping(); ++i) makeFrame(clock_.take(), i + 1 == due.frames);
-  clock_.logLosses(simulator_.statistics().step_seconds);
+  clock_.logLosses();
   if (due.frames > 0) snapshots_.update(simulator_, clock_.nodeTime());
 }
 
@@ -269,7 +269,7 @@ Health CurtainNode::health() const {
   health.stretch_tolerance = simulator_.scene().solver.stretch_tolerance;
   health.frame_rate = simulator_.scene().solver.frame_rate;
   health.paused = lock_step_.paused();
-  health.obstacles = obstacles_.health();
+  health.obstacles = obstacles_.health(simulator_);
   health.snapshots = snapshots_.health();
   health.last_drop = inputs_.lastDrop();
   health.viewer_error = outputs_.viewerError();

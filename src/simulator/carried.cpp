@@ -43,6 +43,7 @@ void carryStatistics(Archive& archive, Statistics& s) {
   archive.number("lost_time", s.lost_time);
   archive.integer("late_frames", s.late_frames, 0, kMostCount);
   archive.integer("stops", s.stops, 0, kMostCount);
+  archive.integer("stops_last", s.stops_last, 0, kCount);
   archive.number("momentum_cut", s.momentum_cut);
   archive.number("obstacles_waited", s.obstacles_waited);
   archive.number("warp_stretch", s.warp_stretch);

@@ -132,6 +132,7 @@ std::string statisticsJson(const Simulator& simulator, const Energy& initial,
   json["last_resort_substeps"] = s.last_resort_substeps;
   json["substeps_unsettled"] = s.unsettled;
   json["stops"] = s.stops;
+  json["stops_last"] = s.stops_last;
   json["momentum_cut"] = s.momentum_cut;
   json["obstacles_waited"] = s.obstacles_waited;
   json["stretch_max"] = {{"warp", s.warp_stretch_max}, {"weft", s.weft_stretch_max}};

@@ -19,6 +19,7 @@ FrameLoop::FrameLoop(Motion& motion, StepControls& controls, Sleep& sleep, Budge
 double FrameLoop::make() {
   motion_.statistics.substeps_last = 0;
   motion_.statistics.sweeps_last = 0;
+  motion_.statistics.stops_last = 0;
   motion_.forgetVelocities();
   tally_ = {};
   pins_waited_ = false;
@@ -114,7 +115,7 @@ void FrameLoop::accept(StepControl& steps, const SubstepPlan& plan, const Subste
   if (outcome.late) ++s.unfinished_substeps;
   if (steps.stretched()) ++s.longer_substeps;
   if (!outcome.settled) ++s.unsettled;
-  if (outcome.share < kStopped) ++s.stops;
+  if (outcome.share < kStopped) ++s.stops, ++s.stops_last;
   if (plan.isLastResort()) ++s.last_resort_substeps;
   s.momentum_cut += outcome.momentum_cut;
   motion_.drive_impulse += plan.h * motion_.exact.carriers().driveForce();

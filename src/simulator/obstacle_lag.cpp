@@ -11,9 +11,10 @@ ObstacleLag::ObstacleLag(const ClothPattern& pattern, const FrameTimes& times, O
     : times_(times), obstacles_(obstacles), contact_(contact), shortest_link_(shortestLink(pattern)) {}
 
 void ObstacleLag::setSubstep(const SubstepPlan& plan, double done, const Field3& position) noexcept {
-  const double frame_length = times_.length(), from = (done - lag_) / frame_length;
+  const double frame_length = times_.length();
+  from_ = (done - lag_) / frame_length;
   share_ = 1.0;
-  obstacles_.setSubstep(from, from + plan.h / frame_length);
+  obstacles_.setSubstep(from_, from_ + plan.h / frame_length);
   const double most = plan.isLastResort() ? plan.reach * shortest_link_ : std::numeric_limits<double>::infinity();
   contact_.limitRecovery(most);
   if (!plan.isLastResort()) return;
@@ -24,19 +25,20 @@ void ObstacleLag::setSubstep(const SubstepPlan& plan, double done, const Field3&
   path *= plan.h / frame_length;
   if (path <= most) return;
   share_ = most / path;
-  obstacles_.setSubstep(from, from + share_ * plan.h / frame_length);
+  obstacles_.setSubstep(from_, from_ + share_ * plan.h / frame_length);
 }
 
 double ObstacleLag::substepMade(double share, double h) noexcept {
-  const double waits = (1.0 - share * share_) * h;
+  const double made = share * share_, waits = (1.0 - made) * h;
+  if (share < 1.0) obstacles_.setSubstep(from_, from_ + made * h / times_.length());
   lag_ += waits;
   return obstacles_.anyMoved() ? waits : 0.0;
 }
 
 void ObstacleLag::endFrame(double share) noexcept {
   obstacles_.endFrame(share - lag_ / times_.length());
-  lag_ = 0.0;
-  share_ = 1.0;  // substeps without obstacles do not set it
+  lag_ = from_ = 0.0;
+  share_ = 1.0;  // substeps without obstacles do not set them
 }
 
 }  // namespace curtain

@@ -18,7 +18,8 @@ class ObstacleLag {
 
   /// Sets the obstacles' motion for a substep from `done` seconds into the frame.
   void setSubstep(const SubstepPlan& plan, double done, const Field3& position) noexcept;
-  /// The substep of h [s] was made, over this share of its path. Returns the delay of moving obstacles [s].
+  /// The substep of h [s] was made, over this share of its path, which becomes that of the obstacles. Returns the delay
+  /// of moving ones [s].
   double substepMade(double share, double h) noexcept;
   /// share: of the frame that was made. The delay becomes part of the next frame.
   void endFrame(double share) noexcept;
@@ -28,7 +29,8 @@ class ObstacleLag {
   ObstacleSet& obstacles_;
   ClothContact& contact_;
   const double shortest_link_;  // [m]
-  double share_ = 1.0;          // of the obstacles' motion in the substep
+  double from_ = 0.0;           // start of the obstacles' motion in the substep, as a share of the frame
+  double share_ = 1.0;          // of that motion, in the substep
   double lag_ = 0.0;            // delay in this frame [s]
 };
 

@@ -327,7 +327,9 @@ void Simulator::setObstaclePresent(int index, bool present) {
   ++impl_->revision;
 }
 bool Simulator::obstaclePresent(int index) const { return impl_->motion.obstacles.present(index); }
-const Pose& Simulator::obstaclePose(int index) const { return impl_->motion.obstacles.pose(index); }
+const Pose& Simulator::obstaclePose(int index) const { return impl_->motion.obstacles.reached(index); }
+const Pose& Simulator::obstacleTarget(int index) const { return impl_->motion.obstacles.target(index); }
+double Simulator::obstacleLag(int index) const { return impl_->motion.obstacles.lag(index); }
 const ObstacleShape& Simulator::obstacleShape(int index) const { return impl_->motion.obstacles.shape(index); }
 
 void Simulator::copyFineMesh(FineMesh& out) const {

@@ -121,7 +121,7 @@ TEST_P(ContactCaches, ChangeNoBit) {
       const double turn = 0.002 * (k % 40 < 20 ? 1.0 : 0.0);
       for (Finder* const finder : {&keeps, &forgets}) {
         for (int n = 0; n < finder->obstacles.count(); ++n) {
-          Pose pose = finder->obstacles.pose(n);
+          Pose pose = finder->obstacles.target(n);
           pose.position += turn * Vec3(1.0, -0.5, 0.5);
           pose.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(turn, Vec3::UnitX())) * pose.orientation;
           finder->obstacles.setPose(n, pose, false);

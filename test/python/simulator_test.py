@@ -222,6 +222,13 @@ class Parts(unittest.TestCase):
         position, orientation = sim.obstacle_pose("ball")
         assert_allclose(position, [0.4, 0.11, 1.4])
         assert_array_equal(orientation, [0, 0, 0, 1])
+        assert_array_equal(sim.obstacle_target("ball")[0], position)
+        self.assertEqual(sim.obstacle_lag("ball"), 0.0)
+        sim.set_obstacle_pose("ball", position + [0.0, 0.03, 0.04])  # it is not there yet
+        assert_array_equal(sim.obstacle_pose("ball")[0], position)
+        assert_allclose(sim.obstacle_target("ball")[0], position + [0.0, 0.03, 0.04])
+        assert_allclose(sim.obstacle_lag("ball"), 0.05)
+        sim.set_obstacle_pose("ball", position)
         wrench, points = sim.contact_wrench("ball"), sim.contact_points()
         self.assertGreater(wrench["force"][1], 0.0)  # the wind blows the cloth at it
         self.assertGreater(wrench["contacts"], 0)

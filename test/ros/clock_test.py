@@ -9,6 +9,7 @@ import rostest
 from curtain_sim.srv import Step
 from curtain_testing import Listener, billow, wait_until, wind_message
 from driven_curtain import DrivenCurtain
+from rosgraph_msgs.msg import Log
 from std_srvs.srv import SetBool
 from visualization_msgs.msg import Marker
 
@@ -17,6 +18,11 @@ FRAME = DrivenCurtain.FRAME
 
 class ClockTest(DrivenCurtain):
     NAME = "clock_test"
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.log = Listener("/rosout", Log)
 
     def test_1_frames_follow_the_clock(self):
         """Fifty frames a simulated second, stamped with the clock, however fast it runs."""
@@ -45,6 +51,8 @@ class ClockTest(DrivenCurtain):
         state = self.curtain.wait_for(lambda s: abs(s.header.stamp.to_sec() - goal) < 1e-6, "the last frame is made")
         self.assertEqual(state.statistics.dropped_frames, 46)
         self.assertEqual(state.statistics.frame, frame + 4)
+        wait_until(lambda: any(m.msg.startswith("dropped 46 frames (46 so far): /clock went on by 1 s within 0.0")
+                               for m in self.log.messages()), "it says so, and blames the clock")
 
     def test_4_clock_that_jumps_back_resets(self):
         """A new run: the cloth and its time start again, the wind of the old run is gone, stamps are of the new run."""

@@ -23,7 +23,7 @@ Health well() {
   health.frame_rate = 60.0;
   health.statistics.real_time_factor = 1.0;
   health.statistics.warp_stretch = 1e-3;
-  health.obstacles.push_back({"ball", "hand", true, false, false, false, 0.01, ""});
+  health.obstacles.push_back({"ball", "hand", true, false, false, false, 0.01, "", 0.0});
   return health;
 }
 
@@ -87,7 +87,8 @@ TEST(HealthChecks, CountsThatRoseLatelyAreTold) {
   const Counted obstacle_counts[] = {
       {"late_poses", [](Statistics& s) { ++s.late_poses; }, DiagnosticStatus::WARN},
       {"early_poses", [](Statistics& s) { ++s.early_poses; }, DiagnosticStatus::WARN},
-      {"obstacles_lost", [](Statistics& s) { ++s.obstacles_lost; }, DiagnosticStatus::WARN}};
+      {"obstacles_lost", [](Statistics& s) { ++s.obstacles_lost; }, DiagnosticStatus::WARN},
+      {"obstacles_waited", [](Statistics& s) { s.obstacles_waited += 1e-3; }, DiagnosticStatus::WARN}};
   const auto hold = [](const Counted& counted, const auto& check) {
     SCOPED_TRACE(counted.name);
     Rises rises;
@@ -120,6 +121,22 @@ TEST(HealthChecks, LinksAboveTheToleranceAreWarnedOf) {
   Health health = well();
   health.statistics.weft_stretch = 1.01e-3;
   EXPECT_EQ(simulation(health, 0.0, rises, 0.0).level, DiagnosticStatus::WARN);
+}
+
+// Asleep the cloth makes no substeps, so no more are stopped: that it once was is told all the same, as long as it
+// sleeps.
+TEST(HealthChecks, ClothThatSleepsWhereItWasStoppedIsWarnedOf) {
+  Rises rises;
+  Health health = well();
+  health.statistics.substeps = 8;
+  health.statistics.stops = health.statistics.stops_last = 8;
+  EXPECT_EQ(simulation(health, 0.0, rises, 0.0).message, "substeps stopped");
+  health.statistics.substeps = 0;
+  const DiagnosticStatusWrapper asleep = simulation(health, 60.0, rises, 60.0);
+  EXPECT_EQ(asleep.level, DiagnosticStatus::WARN);
+  EXPECT_EQ(asleep.message, "sleeps where it was stopped, not at rest");
+  health.statistics.stops_last = 0;
+  EXPECT_EQ(simulation(health, 60.0, rises, 60.0).level, DiagnosticStatus::OK) << "another sleep, at rest";
 }
 
 TEST(HealthChecks, SlowerThanTheClockIsWarnedOf) {
@@ -175,6 +192,14 @@ TEST(HealthChecks, ObstaclesSayWhatIsWrong) {
   EXPECT_NE(left_out.message.find("'ball'"), std::string::npos);
   ASSERT_FALSE(left_out.values.empty());
   EXPECT_EQ(left_out.values[0].value, "left out: no such frame");
+  health = well();
+  health.obstacles[0].lag = 0.0981;
+  const DiagnosticStatusWrapper waits = obstacles(health, 0.0, rises);
+  EXPECT_EQ(waits.level, DiagnosticStatus::WARN);
+  EXPECT_EQ(waits.message, "'ball' waits 0.098100 m behind 'hand'");
+  EXPECT_EQ(waits.values[0].value, "0.010000 s old, waits 0.098100 m behind");
+  health.obstacles[0].present = false;
+  EXPECT_EQ(obstacles(health, 0.0, rises).message, "'ball' is left out") << "what is left out waits for nothing";
   health = well();
   health.viewer_error = "no such frame";
   EXPECT_EQ(obstacles(health, 0.0, rises).level, DiagnosticStatus::WARN);

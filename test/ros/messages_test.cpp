@@ -299,6 +299,40 @@ TEST(ContactMessages, HaveThePointsThatAreAskedFor) {
   }
 }
 
+// A ball that can't go through a sheet pinned above and below: ~contacts and ~markers have it where it waits.
+TEST(ContactMessages, AndMarkersHaveAnObstacleWhereItWaits) {
+  curtain::Scene scene = curtain_test::flatScene(16, 16, 0.8, 0.8);
+  scene.pins.kind = curtain::PinKind::kList;
+  for (int j = 0; j < 16; ++j) {
+    scene.pins.nodes.push_back({0, j});
+    scene.pins.nodes.push_back({15, j});
+  }
+  scene.obstacles.push_back(curtain_test::ballAt({0.4, -0.16, 0.42}, 0.15));
+  curtain::Simulator simulator(scene);
+  curtain::Pose goal = scene.obstacles[0].pose;
+  for (int frame = 0; frame < 30; ++frame) {
+    goal.position.y() += 0.007;
+    simulator.setObstaclePose(0, goal);
+    simulator.step();
+  }
+  const auto contacts = ContactMessages(NodeParams()).build(simulator, ros::Time(1.0));
+  const curtain_sim::ObstacleContact& ball = contacts->obstacles.at(0);
+  const Vec3 middle(ball.origin.x, ball.origin.y, ball.origin.z);
+  EXPECT_GT(ball.lag, 0.1);
+  EXPECT_NEAR(ball.lag, goal.position.y() - middle.y(), 1e-12);
+  std::vector<Vec3> nodes;
+  simulator.copyPositions(nodes);
+  double nearest = 1.0;
+  for (const Vec3& node : nodes) nearest = std::min(nearest, (node - middle).norm());
+  EXPECT_GE(nearest, 0.15);
+  Messages messages(simulator);
+  const auto array = messages.buildDetails();
+  const auto drawn = std::find_if(array->markers.begin(), array->markers.end(),
+                                  [](const auto& marker) { return marker.ns == "obstacles"; });
+  ASSERT_NE(drawn, array->markers.end());
+  EXPECT_EQ(drawn->pose.position.y, middle.y());
+}
+
 TEST(DetailMarkers, ANumberForEveryPicture) {
   curtain::Simulator simulator(smallScene());
   Messages messages(simulator);

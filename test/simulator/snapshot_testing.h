@@ -35,7 +35,7 @@ inline bool sameBits(double a, double b) { return a == b || (std::isnan(a) && st
 /// Every statistic but computing times.
 inline void expectSameStatistics(const curtain::Statistics& a, const curtain::Statistics& b) {
   // A new one is to be compared here, or it is a computing time; and to be carried by snapshots.
-  static_assert(sizeof(curtain::Statistics) == 344, "statistics have changed");
+  static_assert(sizeof(curtain::Statistics) == 352, "statistics have changed");
   EXPECT_EQ(a.frames, b.frames);
   EXPECT_EQ(a.time, b.time);
   EXPECT_EQ(a.substeps, b.substeps);
@@ -55,6 +55,7 @@ inline void expectSameStatistics(const curtain::Statistics& a, const curtain::St
   EXPECT_EQ(a.lost_time, b.lost_time);
   EXPECT_EQ(a.late_frames, b.late_frames);
   EXPECT_EQ(a.stops, b.stops);
+  EXPECT_EQ(a.stops_last, b.stops_last);
   EXPECT_EQ(a.momentum_cut, b.momentum_cut);
   EXPECT_EQ(a.obstacles_waited, b.obstacles_waited);
   EXPECT_TRUE(sameBits(a.warp_stretch, b.warp_stretch));

@@ -298,6 +298,17 @@ class Described(unittest.TestCase):
     def test_diagnostics(self):
         self.all_described(names_of_calls(read("src/ros/health/diagnostics.cpp"), "add"), "docs/node.md", 5)
 
+    def test_warnings_of_the_log(self):
+        """What is quoted between placeholders (… and capitals), colons and commas stands in the sources, string by string."""
+        sources = "".join(read(path) for folder in ("ros", "scene") for path in find("src/%s/**/*.[ch]*" % folder))
+        strings = re.sub(r"\"\s*\n\s*\"", "", sources)
+        table = read("docs/troubleshooting.md").split("## What the log's warnings mean")[1].split("## ")[0]
+        warnings = re.findall(r"^\| `([^`]+)` \|", table, re.M)
+        self.assertGreater(len(warnings), 6)
+        for warning in warnings:
+            for part in re.split(r"…|\b[A-Z]\b|[:,] ", warning):
+                self.assertTrue(part.strip() in strings, "%s: '%s' is said nowhere" % (warning, part.strip()))
+
     def test_messages_and_statistics(self):
         for path in find("msg/*.msg"):
             fields = re.findall(r"^[\w/\[\]]+ +(\w+)", read(path), re.M)

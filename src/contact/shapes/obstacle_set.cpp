@@ -134,7 +134,7 @@ void ObstacleSet::reset() noexcept {
     moving_[n].present = true;
   }
   any_moved_ = boxed_ = false;
-  setSubstep(1.0, 1.0);
+  setSubstep(0.0, 0.0);
 }
 
 void ObstacleSet::setPresent(int index, bool present) noexcept {
@@ -276,6 +276,7 @@ void ObstacleSet::endFrame(double share) noexcept {
     item.moved = item.behind = !samePlace(item.begin, item.end);
     item.own_path = 0.0;
     item.left = item.begin;
+    item.placed = 0;
     item.boxed = boxed_ = false;
     any_moved_ = any_moved_ || item.moved;
   }

@@ -62,9 +62,14 @@ class ObstacleSet {
 
   int count() const { return static_cast<int>(items_.size()); }
   bool anyPresent() const noexcept;
-  const Pose& pose(int index) const { return items_[at(index)].end; }
-  /// Pose reached so far; differs from pose() when the last frame ended early.
+  /// Where it is going: its pose as set last, or of its motion.
+  const Pose& target(int index) const { return items_[at(index)].end; }
+  /// Where it is between two frames: not at its target while it waits for the cloth, or where a frame ended early.
   const Pose& reached(int index) const { return items_[at(index)].begin; }
+  /// Bound of how far a point of it is from where it will be at its target [m]; plane: its origin.
+  double lag(int index) const noexcept {
+    return pathBetween(items_[at(index)].begin, items_[at(index)].end, at(index));
+  }
   const ContactShape& shape(int index) const { return *items_[at(index)].shape; }
   bool present(int index) const { return moving_[at(index)].present; }
   void setPresent(int index, bool present) noexcept;

@@ -83,6 +83,7 @@ void checkSimulation(const Health& health, const Pulse& pulse, Rises& rises, Dia
   report.tellIf(stretch > health.stretch_tolerance * (1.0 + kRounding), "links longer than stretch_tolerance");
   report.tellIf(!pulse.clock_simulated && !health.paused && s.real_time_factor > 0.0 && s.real_time_factor < kTooSlow,
                 "slower than the clock");
+  report.tellIf(s.substeps == 0 && s.stops_last > 0, "sleeps where it was stopped, not at rest");
   report.count("substeps stopped", s.stops);
   report.count("substeps unsettled", s.unsettled);
   report.count("substeps of the last resort", s.last_resort_substeps);
@@ -99,6 +100,7 @@ void checkSimulation(const Health& health, const Pulse& pulse, Rises& rises, Dia
   report.value("largest stretch", stretch);
   report.value("stretch tolerance", health.stretch_tolerance);
   report.value("columns asleep", s.asleep);
+  report.value("stops in the last frame awake", s.stops_last);
   report.value("restarts", s.restarts);
   report.otherwise(health.paused ? "paused" : "runs");
 }
@@ -124,6 +126,11 @@ void checkObstacles(const Health& health, const Pulse& pulse, Rises& rises, Diag
     report.tellIf(!o.present, "'" + o.name + "' is left out");
     report.tellIf(o.present && o.early, "'" + o.frame + "' is ahead of the clock");
     report.tellIf(o.present && o.late, "'" + o.frame + "' is late");
+    if (o.present && o.lag > 0.0) {
+      const std::string waits = "waits " + std::to_string(o.lag) + " m behind";
+      report.tellIf(true, "'" + o.name + "' " + waits + " '" + o.frame + "'");
+      how += ", " + waits;
+    }
     report.value(o.name + " on " + o.frame, how);
   }
   report.tellIf(!health.viewer_error.empty(), "the frame of mesh_viewer_frame is not known");
@@ -133,6 +140,7 @@ void checkObstacles(const Health& health, const Pulse& pulse, Rises& rises, Diag
   report.count("poses late", s.late_poses);
   report.count("poses ahead of the clock", s.early_poses);
   report.count("obstacles lost", s.obstacles_lost);
+  report.count("seconds waited for cloth", s.obstacles_waited);
   const std::size_t count = health.obstacles.size();
   report.otherwise(count == 0 ? "none on tf2 frames" : "all " + std::to_string(count) + " there");
 }

@@ -124,11 +124,12 @@ void ObstacleTracker::count(curtain_sim::Statistics& statistics) const {
   statistics.obstacles_lost = lost_;
 }
 
-std::vector<ObstacleHealth> ObstacleTracker::health() const {
+std::vector<ObstacleHealth> ObstacleTracker::health(const curtain::Simulator& simulator) const {
   std::vector<ObstacleHealth> result;
   for (const Tracked& obstacle : tracked_) {
     result.push_back(followed_[obstacle.frame].health);
     result.back().name = obstacle.name;
+    result.back().lag = simulator.obstacleLag(obstacle.index);
   }
   return result;
 }

@@ -35,6 +35,7 @@ struct ObstacleHealth {
   bool early = false;  ///< its transform is ahead of the clock by more than the timeout
   double age = 0.0;    ///< of its transform [s]; of the last one while the frame is not known
   std::string error;   ///< why its frame is not known; empty: it is
+  double lag = 0.0;    ///< how far it is behind its frame [m]; Simulator::obstacleLag()
 };
 
 /// Simulation thread only.
@@ -60,8 +61,8 @@ class ObstacleTracker {
   /// Obstacles left out now; since construction poses taken late and ahead of the clock, and obstacles lost.
   void count(curtain_sim::Statistics& statistics) const;
 
-  /// Of the obstacles on tf2 frames, in the scene's order.
-  std::vector<ObstacleHealth> health() const;
+  /// Of the obstacles on tf2 frames, in the scene's order, after a step.
+  std::vector<ObstacleHealth> health(const curtain::Simulator& simulator) const;
 
  private:
   struct Tracked {

@@ -96,6 +96,7 @@ void toMessage(const curtain::Statistics& statistics, curtain_sim::Statistics& m
   message.momentum_cut = statistics.momentum_cut;
   message.obstacles_waited = statistics.obstacles_waited;
   message.stops = static_cast<std::uint64_t>(statistics.stops);
+  message.stops_last = static_cast<std::uint32_t>(statistics.stops_last);
 }
 
 void toMessage(const curtain::WindParams& wind, double time, curtain_sim::WindSource& message) {
@@ -184,6 +185,7 @@ curtain_sim::Contacts::ConstPtr ContactMessages::build(const curtain::Simulator&
     const geometry_msgs::Pose pose = toPose(simulator.obstaclePose(index));
     to->origin = pose.position;
     to->orientation = pose.orientation;
+    to->lag = simulator.obstacleLag(index);
     to->contacts = static_cast<std::uint32_t>(wrench.contacts);
     place_[static_cast<std::size_t>(index)] = static_cast<std::uint32_t>(to - message->obstacles.begin());
     ++to;

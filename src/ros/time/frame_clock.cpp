@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 
 #include "ros/health/warn_period.h"
 
@@ -14,6 +15,14 @@ namespace {
 constexpr std::chrono::milliseconds kClockPoll(1);
 constexpr double kSpeedPeriod = 1.0;  // [s] that the real-time factor is measured over
 constexpr double kOrigin = 1.0;       // [s] of its own clock
+
+// Computing time of this thread [s]. That of others on a busy computer does not count.
+double threadSeconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 }  // namespace
 
 FrameClock::FrameClock(double frame_rate, int max_catch_up, bool own)
@@ -46,8 +55,29 @@ void FrameClock::resume() {
   real_time_factor_ = 0.0;
 }
 
-StepClock::Due FrameClock::update(std::int64_t now) { return told(steps_.update(now)); }
-StepClock::Due FrameClock::pass(std::int64_t now) { return told(steps_.pass(now)); }
+StepClock::Due FrameClock::update(std::int64_t now) {
+  const std::uint64_t before = dropped();
+  const StepClock::Due due = told(steps_.update(now));
+  look(now);
+  if (dropped() > before) cause_ = causeOf(lateness_, 1.0 / frame_rate_);
+  lateness_.frames = due.frames;
+  return due;
+}
+
+StepClock::Due FrameClock::pass(std::int64_t now) {
+  look(now);
+  lateness_.frames = 0;
+  return told(steps_.pass(now));
+}
+
+void FrameClock::look(std::int64_t now) {
+  const ros::SteadyTime here = ros::SteadyTime::now();
+  lateness_.due = 1e-9 * static_cast<double>(now - looked_at_);
+  lateness_.passed = looked_.isZero() ? lateness_.due : (here - looked_).toSec();
+  looked_at_ = now;
+  looked_ = here;
+  thread_seconds_ = threadSeconds();
+}
 
 StepClock::Due FrameClock::told(const StepClock::Due& due) {
   if (due.restarted) {
@@ -77,12 +107,12 @@ std::chrono::nanoseconds FrameClock::untilNext() const {
   return std::chrono::nanoseconds(std::max<std::int64_t>(steps_.next() - now(), 0));
 }
 
-void FrameClock::logLosses(double step_seconds) {
+void FrameClock::logLosses() {
+  lateness_.spent = threadSeconds() - thread_seconds_;
   const std::uint64_t lost = dropped();
   if (lost > logged_dropped_) {
-    ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "dropped " << lost - logged_dropped_ << " frames (" << lost
-                                                     << " so far): a frame takes " << 1e3 * step_seconds
-                                                     << " ms of the " << 1e3 / frame_rate_ << " ms it has");
+    ROS_WARN_STREAM_THROTTLE(kWarnPeriod,
+                             "dropped " << lost - logged_dropped_ << " frames (" << lost << " so far): " << cause_);
   }
   logged_dropped_ = lost;
   if (stamps_.setBack() > logged_set_back_) {

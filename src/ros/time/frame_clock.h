@@ -13,8 +13,10 @@
 
 #include <chrono>
 #include <cstdint>
+#include <string>
 
 #include "curtain_sim/Statistics.h"
+#include "ros/time/lateness.h"
 #include "ros/time/stamp_keeper.h"
 #include "ros/time/step_clock.h"
 
@@ -58,8 +60,9 @@ class FrameClock {
   /// Until the next frame is due; a /clock that others drive is polled.
   std::chrono::nanoseconds untilNext() const;
 
-  /// Warns about frames dropped and clocks set back since the last call. step_seconds  [s] that a frame takes
-  void logLosses(double step_seconds);
+  /// To be called when the frames of an update() are made. Warns about frames dropped, and why, and clocks set back
+  /// since the last call.
+  void logLosses();
 
   void count(curtain_sim::Statistics& statistics) const;
 
@@ -75,6 +78,7 @@ class FrameClock {
   }
 
   StepClock::Due told(const StepClock::Due& due);
+  void look(std::int64_t now);
   ros::Time stamp(std::int64_t time);
   void measureSpeed();
   std::uint64_t dropped() const { return source_ == Source::kOwn ? 0 : steps_.dropped(); }
@@ -88,6 +92,12 @@ class FrameClock {
   std::uint32_t jumps_back_ = 0;
   std::uint64_t logged_dropped_ = 0;
   std::uint32_t logged_set_back_ = 0;
+  // Since the last look at the clock that frames are due by.
+  std::int64_t looked_at_ = 0;   // of that clock [ns]
+  ros::SteadyTime looked_;       // on the monotonic clock; zero: not yet
+  double thread_seconds_ = 0.0;  // computing time of this thread then [s]
+  Lateness lateness_;            // frames and their time since then; the rest is of the look before
+  std::string cause_;            // of the last frames dropped
   // Frames and their start on the monotonic clock, of the second that is measured now.
   std::int64_t measured_frames_ = 0;
   ros::SteadyTime measured_since_ = ros::SteadyTime::now();
