@@ -2,7 +2,14 @@
 find_package(rostest REQUIRED)
 find_package(roslaunch REQUIRED)
 
-curtain_add_tests(sensing curtain_sensing)
+if(curtain_embree)
+  curtain_add_tests(sensing curtain_sensing)
+endif()
+# As where Embree is missing.
+curtain_add_tests(sensing_missing)
+if(TARGET test_sensing_missing)
+  target_sources(test_sensing_missing PRIVATE src/sensing/ray_caster_missing.cpp src/sensing/sensor_params.cpp src/sensing/rays.cpp)
+endif()
 
 curtain_add_tests(ros curtain_ros)
 if(TARGET test_ros)

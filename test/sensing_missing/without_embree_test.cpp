@@ -3,7 +3,10 @@
 // A build without Embree refuses what needs it before anything starts, and says what to do.
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 #include "curtain_sim/scene_yaml.h"
+#include "curtain_sim/simulator.h"
 #include "sensing/ray_caster.h"
 #include "sensing/sensor_params.h"
 
@@ -30,8 +33,7 @@ TEST(WithoutEmbree, ASensorIsRefused) {
 TEST(WithoutEmbree, PointsAllOverTheClothAreThere) { EXPECT_TRUE(problemsOf(SensorKind::kAllRound).empty()); }
 
 TEST(WithoutEmbree, NoRayIsCast) {
-  const Scene scene = parseScene("cloth: {rows: 3, columns: 3}");
-  const Simulator simulator(scene);
+  const Simulator simulator(readSceneText("cloth: {rows: 3, columns: 3}").scene);
   EXPECT_FALSE(RayCaster::available());
   EXPECT_THROW(RayCaster(simulator, 0.0), std::runtime_error);
 }
