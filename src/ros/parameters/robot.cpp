@@ -179,8 +179,10 @@ RobotReading readRobot(const RobotParams& params, const std::string& urdf) {
     for (std::size_t k = 0; k < geometries.size(); ++k) {
       ObstacleParams obstacle = obstacleOf(params, link, *geometries[k]);
       obstacle.name = geometries.size() == 1 ? link : link + "/" + std::to_string(k);
-      for (const curtain::Problem& problem : validate(obstacle, ""))
+      const std::vector<curtain::Problem> problems = validate(obstacle, "");
+      for (const curtain::Problem& problem : problems)
         reading.problems.push_back({"", "collision geometry '" + obstacle.name + "': " + curtain::describe({problem})});
+      if (!problems.empty()) continue;
       obstacle.padding = params.padding;
       obstacle.friction = params.friction;
       obstacle.visible = params.visible;
@@ -203,7 +205,7 @@ std::vector<std::string> meshProblems(const RobotReading& robot) {
   std::string path;
   for (std::size_t i = 0; i < robot.obstacles.size(); ++i) {
     const ObstacleParams& obstacle = robot.obstacles[i];
-    if (obstacle.shape != ShapeKind::kMesh || !validate(obstacle, "").empty()) continue;
+    if (obstacle.shape != ShapeKind::kMesh) continue;
     if (isRelativeMesh(obstacle)) {
       if (path.empty()) path = obstacle.mesh;
       if (links.empty() || links.back() != robot.links[i]) links.push_back(robot.links[i]);

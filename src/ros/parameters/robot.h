@@ -25,9 +25,9 @@ struct RobotParams {
 
 /// What reading gave: usable only when problems is empty.
 struct RobotReading {
-  std::vector<curtain::ObstacleParams> obstacles;
-  std::vector<std::string> links;          ///< that the obstacles are geometry of, one each
-  std::vector<curtain::Problem> problems;  ///< key "links", or empty for those of the URDF
+  std::vector<curtain::ObstacleParams> obstacles;  ///< without those that problems tell of
+  std::vector<std::string> links;                  ///< that the obstacles are geometry of, one each
+  std::vector<curtain::Problem> problems;          ///< key "links", or empty for those of the URDF
 };
 
 /// Obstacles of a robot, by the names of its links: LINK, or LINK/0, LINK/1, … where it has several geometries, on the
@@ -35,8 +35,7 @@ struct RobotReading {
 ///   urdf  its XML text
 RobotReading readRobot(const RobotParams& params, const std::string& urdf);
 
-/// What is wrong with the mesh files of a robot, which it reads: those that can't be had, with their links. What
-/// readRobot() has told of an obstacle is not told again.
+/// What is wrong with the mesh files of a robot, which it reads: those that can't be had, with their links.
 std::vector<std::string> meshProblems(const RobotReading& robot);
 
 /// A mesh whose path is relative: neither a URL nor a whole path.
