@@ -24,9 +24,10 @@ KEYS_HEAD = """# Every key
 Made by `docs/make_pages.py` from [config/curtain.yaml](../config/curtain.yaml); do not edit. A test fails when it is out of date.
 
 The node reads its own parameters from its private namespace and the scene from `~scene`. A file for `curtain_batch` has at its
-top level what the node has under `~scene`. Units are SI: m, kg, s, N, Pa, rad. Write `1.0e-6`, never `1e-6` or `1.0e6`: YAML 1.1
-reads these as text. In a scene "> 0" means 1e-9 to 1e9 and ">= 0" up to 1e9. Unknown keys, wrong types and values out of range are
-errors; all of them are reported at once.
+top level what the node has under `~scene`. Units are SI: m, kg, s, N, Pa, rad. Where a number is wanted, text that is wholly a
+decimal number is that number: `1e-6`, which YAML 1.1 reads as text, and `"0.5"`. In a scene "> 0" means 1e-9 to 1e9 and ">= 0" up
+to 1e9. Lengths that must fit each other may be rounded: what is out by less than 1e-4 of the length fits. Unknown keys, wrong types
+and values out of range are errors; all of them are reported at once.
 
 The value is what the template shows. It is the default, unless the meaning says *required*, *no default* or another default.
 How numbers scale with the size of a scene: [units.md](units.md).

@@ -48,7 +48,7 @@ class KeyCollector {
   }
 
   template <typename T>
-  void list(Key key, const std::vector<T>&) {
+  void list(Key key, const std::vector<T>&, const T& = {}) {
     KeyCollector collector(joinKey(prefix_, key.name) + "[]", keys_);
     const T item;
     visitFields(collector, item);

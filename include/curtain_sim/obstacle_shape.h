@@ -50,7 +50,7 @@ class ObstacleShape {
 using MeshResolver = std::function<std::string(const std::string& url)>;
 
 /// package://NAME/… by ROS_PACKAGE_PATH (the folder NAME or the one whose package.xml has that name),
-/// file://… and plain paths as they are.
+/// file:///… and file://localhost/… (RFC 8089), and plain paths as they are.
 std::string resolveMeshUrl(const std::string& url);
 
 /// Builds the shape of an obstacle. Throws std::invalid_argument naming obstacle, file and reason: a mesh

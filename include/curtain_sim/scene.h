@@ -92,9 +92,11 @@ struct ClothParams {
   /// Relative lengths of the weft links of a row (columns-1, closed: columns), each > 0; scaled to the
   /// row's width. Empty: all equal.
   std::vector<double> column_spacing;
-  /// Mass factor of each row (rows entries, > 0), e.g. a heavy hem. Empty: 1.
+  /// Factor on the mass that each row has by lumping (rows entries, > 0), e.g. a heavy hem; by area the first and the
+  /// last row have half the mass of an inner one. Empty: 1.
   std::vector<double> row_mass;
-  /// Mass factor of each column (columns entries, > 0). Empty: 1.
+  /// The same of each column (columns entries, > 0); by area a column at an edge or a slit has half the mass of an
+  /// inner one. Empty: 1.
   std::vector<double> column_mass;
 };
 

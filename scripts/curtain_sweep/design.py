@@ -24,10 +24,11 @@ MOST_SAMPLES = 1000000
 
 
 def number(value, name, low=-math.inf):
-    """A finite number, at least low."""
+    """A finite number, at least low. YAML 1.1 takes 1e-6 for text: text that is wholly a number is that number."""
     if isinstance(value, str):
-        raise Problem("%s: must be a number, is the text '%s'%s" %
-                      (name, value, " (YAML wants 1.0e-6, not 1e-6)" if re.fullmatch(r"[-+]?\d+e[-+]?\d+", value) else ""))
+        if not re.fullmatch(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", value):
+            raise Problem("%s: must be a number, is the text '%s'" % (name, value))
+        value = float(value)
     try:
         good = not isinstance(value, bool) and isinstance(value, (int, float)) and math.isfinite(value) and value >= low
     except OverflowError:  # a whole number with more digits than a float has room for

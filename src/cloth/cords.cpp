@@ -34,6 +34,7 @@ void addCord(std::size_t node, double length, CordsPattern& cords) {
   cords.ends.back().last = cords.cords.size();
 }
 
+// A line that is too short for its distance by its rounding is as long as that.
 void addLine(const LineParams& line, const Vec3& gravity, const Field3& position, ClothPattern& pattern) {
   CordsPattern& cords = pattern.cords;
   std::vector<Vec3> nodes;
@@ -41,8 +42,8 @@ void addLine(const LineParams& line, const Vec3& gravity, const Field3& position
   const std::size_t end = pattern.grid.end(cords.ends.size());
   cords.ends.push_back({end, cords.cords.size(), 0, placeOfLoad(line, gravity, nodes), line.mass.has_value()});
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    addCord(pattern.grid.index(line.nodes[i]), line.length.value_or((cords.ends.back().start - nodes[i]).norm()),
-            cords);
+    addCord(pattern.grid.index(line.nodes[i]),
+            std::max(line.length.value_or(0.0), (cords.ends.back().start - nodes[i]).norm()), cords);
   if (line.mass) {
     pattern.mass[end] = *line.mass;
     pattern.inverse_mass[end] = 1.0 / *line.mass;
@@ -51,13 +52,32 @@ void addLine(const LineParams& line, const Vec3& gravity, const Field3& position
   }
 }
 
-void addTieBack(const TieBackParams& loop, ClothPattern& pattern) {
+// Where a column of a loop hangs from a pin, its rods bound how far a node gets: look(pinned node, length of the rods
+// [m], distance of the pin from the loop's point [m]) for each; true ends it.
+template <typename Look>
+void forEachPinAbove(const TieBackParams& loop, const ClothPattern& pattern, const Field3& position, const Look& look) {
+  for (int j = loop.first_column; j <= loop.last_column; ++j) {
+    for (int i = 0; i < pattern.grid.rows; ++i) {
+      if (!pattern.isPinned({i, j})) continue;
+      const double rods = std::abs(pattern.warp_coordinate[static_cast<std::size_t>(loop.row)] -
+                                   pattern.warp_coordinate[static_cast<std::size_t>(i)]);
+      if (look(NodeIndex{i, j}, rods, (loop.point - position.at(pattern.grid.index(i, j))).norm())) return;
+    }
+  }
+}
+
+// A point that is out of the cloth's reach by its rounding makes the loop as much wider.
+void addTieBack(const TieBackParams& loop, const Field3& position, ClothPattern& pattern) {
   CordsPattern& cords = pattern.cords;
+  double radius = loop.radius;
+  forEachPinAbove(loop, pattern, position, [&](const NodeIndex&, double rods, double apart) {
+    radius = std::max(radius, apart - rods);
+    return false;
+  });
   const std::size_t end = pattern.grid.end(cords.ends.size());
-  cords.loops.push_back({cords.ends.size(), loop.radius, loop.speed, loop.closed});
+  cords.loops.push_back({cords.ends.size(), radius, loop.speed, loop.closed});
   cords.ends.push_back({end, cords.cords.size(), 0, loop.point, false});
-  for (int j = loop.first_column; j <= loop.last_column; ++j)
-    addCord(pattern.grid.index(loop.row, j), loop.radius, cords);
+  for (int j = loop.first_column; j <= loop.last_column; ++j) addCord(pattern.grid.index(loop.row, j), radius, cords);
   pattern.pinned[end] = kPinned;
 }
 
@@ -78,23 +98,17 @@ void checkLine(const LineParams& line, const std::string& key, const CordEnd& en
   }
 }
 
-// Where a column hangs from a pin, its rods bound how far a node gets.
 void checkTieBack(const TieBackParams& loop, const std::string& key, const ClothPattern& pattern,
                   const Field3& position, std::vector<Problem>& problems) {
-  for (int j = loop.first_column; j <= loop.last_column; ++j) {
-    for (int i = 0; i < pattern.grid.rows; ++i) {
-      if (!pattern.isPinned({i, j})) continue;
-      const double rods = std::abs(pattern.warp_coordinate[static_cast<std::size_t>(loop.row)] -
-                                   pattern.warp_coordinate[static_cast<std::size_t>(i)]);
-      const double apart = (loop.point - position.at(pattern.grid.index(i, j))).norm();
-      if (apart <= rods + loop.radius) continue;
-      problems.push_back({joinKey(key, "point"), "must be within the cloth's reach: it is " + formatNumber(apart) +
-                                                     " m from the pinned node [" + std::to_string(i) + ", " +
-                                                     std::to_string(j) + "], rods and radius are " +
-                                                     formatNumber(rods + loop.radius) + " m long"});
-      return;
-    }
-  }
+  forEachPinAbove(loop, pattern, position, [&](const NodeIndex& pin, double rods, double apart) {
+    const double reach = rods + loop.radius;
+    if (apart <= reach * (1.0 + kTypedRounding)) return false;
+    problems.push_back({joinKey(key, "point"), "must be within the cloth's reach: it is " + formatNumber(apart) +
+                                                   " m from the pinned node [" + std::to_string(pin.row) + ", " +
+                                                   std::to_string(pin.column) + "], rods and radius are " +
+                                                   formatNumber(reach) + " m long"});
+    return true;
+  });
 }
 
 Field3 startOf(const Scene& scene, const ClothPattern& pattern) {
@@ -119,7 +133,7 @@ void fillCords(const Scene& scene, ClothPattern& pattern) {
   if (scene.lines.empty() && scene.tie_back.empty()) return;
   const Field3 position = startOf(scene, pattern);
   for (const LineParams& line : scene.lines) addLine(line, scene.gravity, position, pattern);
-  for (const TieBackParams& loop : scene.tie_back) addTieBack(loop, pattern);
+  for (const TieBackParams& loop : scene.tie_back) addTieBack(loop, position, pattern);
 }
 
 double reachOf(const CordsPattern& cords, std::size_t loop, const Field3& position) {

@@ -6,6 +6,7 @@
 #include "cloth/cloth.h"
 #include "scene/heading.h"
 #include "scene/pi.h"
+#include "scene/ring_start.h"
 #include "scene/shares.h"
 #include "scene/strips.h"
 
@@ -81,7 +82,7 @@ void placePleated(const Scene& scene, const ClothPattern& pattern, Field3& posit
   const Grid& grid = pattern.grid;
   const HangFrame frame = hangFrame(scene.hang);
   const Vec3 across = frame.along.cross(frame.down);
-  const std::vector<double> links = edgeLinks(scene.cloth);
+  const std::vector<double> links = pleatLinks(scene.cloth);
   const std::vector<double> angles = headingAngles(scene.hang, links, (scene.hang.to - scene.hang.from).norm());
   Vec3 top = scene.hang.from;
   for (int j = 0; j < grid.columns; ++j) {
@@ -97,7 +98,7 @@ void placePleated(const Scene& scene, const ClothPattern& pattern, Field3& posit
 // Closed cloth starts as a cone around the vertical through hang.from; outside = the side of positive normals.
 void placeRing(const Scene& scene, const ClothPattern& pattern, Field3& position) {
   const Grid& grid = pattern.grid;
-  const double radius = scene.hang.radius.value_or(scene.cloth.width / (2.0 * kPi));
+  const double radius = hungRadius(scene);
   for (int i = 0; i < grid.rows; ++i) {
     const double along = pattern.warp_coordinate[static_cast<std::size_t>(i)];
     const double ring = radius + along * std::sin(scene.hang.tilt);

@@ -153,7 +153,7 @@ void pressPleats(const Scene& scene, ClothPattern& pattern) {
   if (!isPleated(scene.hang) || !(scene.hang.pressed > 0.0)) return;
   const Grid& grid = pattern.grid;
   const std::vector<double> angles =
-      headingAngles(scene.hang, edgeLinks(scene.cloth), (scene.hang.to - scene.hang.from).norm());
+      headingAngles(scene.hang, pleatLinks(scene.cloth), (scene.hang.to - scene.hang.from).norm());
   pattern.weft_rest_turn.assign(grid.size(), 0.0);
   for (int i = 0; i < grid.rows && pattern.warp_coordinate[static_cast<std::size_t>(i)] <= scene.hang.pressed; ++i) {
     for (int j = 1; j + 1 < grid.columns; ++j) {

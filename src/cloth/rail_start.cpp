@@ -24,12 +24,15 @@ const Vec3 kDown = -Vec3::UnitZ();        // where cloth starts to hang towards,
 void placeOnRail(const ClothPattern& pattern, const std::vector<double>& places, Field3& position) {
   const Grid& grid = pattern.grid;
   const RailPattern& rail = pattern.rail;
+  // All rows are as wide as the top edge, and the hem may be narrower by its rounding.
+  const double hem = pattern.weft_rest[grid.index(grid.rows - 1, 1)] / pattern.weft_rest[grid.index(0, 1)];
+  const double narrowest = std::min(1.0, hem);
   for (std::size_t k = 0; k + 1 < places.size(); ++k) {
     const int first = rail.columns[k], last = rail.columns[k + 1];
     const Vec3 a = rail.path.at(places[k]).point, b = rail.path.at(places[k + 1]).point;
     const double from = pattern.weft_coordinate[static_cast<std::size_t>(first)];
     const double cloth = pattern.weft_coordinate[static_cast<std::size_t>(last)] - from;
-    const double apart = (b - a).norm(), reach = (1.0 - kLengthRounding) * cloth;
+    const double apart = (b - a).norm(), reach = (1.0 - kLengthRounding) * narrowest * cloth;
     // Half of the V: (apart / 2, out, through) is as long as half of the cloth.
     const double free_square = std::max(0.0, 0.25 * (reach * reach - apart * apart));
     const double out = std::min(kOut * apart, std::sqrt(free_square));

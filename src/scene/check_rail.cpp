@@ -34,7 +34,7 @@ bool checkPath(const std::vector<RailPiece>& pieces, ProblemLog& log) {
   Vec3 before = Vec3::Zero();
   for (std::size_t i = 1; i < pieces.size(); ++i) {
     const RailPath piece({pieces[i - 1].centre ? RailPiece{pieces[i - 1].to, {}} : pieces[i - 1], pieces[i]});
-    if (before.dot(piece.at(0.0).tangent) < kSharpest) {
+    if (before.dot(piece.at(0.0).tangent) < kSharpest * (1.0 + kTypedRounding)) {
       log.add(itemKey("rail.path", i), "must not turn by more than 120 degrees from the piece before it");
       return false;
     }
@@ -101,7 +101,7 @@ void checkRail(const Scene& scene, ProblemLog& log) {
     log.add("solver.method", "must not be paper where there is a rail: that scheme knows no carriers");
   const bool path_is_good = checkPath(scene.rail.path, log);
   if (scene.cloth.closed) log.add("cloth.closed", "must be false where there is a rail");
-  if (scene.cloth.hem_width && *scene.cloth.hem_width < scene.cloth.width) {
+  if (scene.cloth.hem_width && *scene.cloth.hem_width < scene.cloth.width * (1.0 - kTypedRounding)) {
     log.add("cloth.hem_width", "must not be less than cloth.width = " + formatNumber(scene.cloth.width) +
                                    " where there is a rail, is " + formatNumber(*scene.cloth.hem_width));
   }

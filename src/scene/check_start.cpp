@@ -15,6 +15,7 @@
 #include "scene/pi.h"
 #include "scene/range_checker.h"
 #include "scene/ranges.h"
+#include "scene/ring_start.h"
 #include "scene/shares.h"
 #include "scene/strips.h"
 
@@ -78,7 +79,7 @@ void checkFlat(const Scene& scene, ProblemLog& log) {
   double down = 0.0;
   for (std::size_t i = 0; i < rods.size(); ++i) {
     const double slant = 0.5 * std::abs(rowSpan(down + rods[i]) - rowSpan(down));
-    if (slant > kSteepestRow * (1.0 - kTypedRounding) * rods[i] * cloth.height) {
+    if (slant > kSteepestRow * (1.0 + kTypedRounding) * rods[i] * cloth.height) {
       log.add("cloth.hem_width", "must taper the cloth by less than its warp rods are long: is " +
                                      formatNumber(hemWidth(cloth)) + ", so that the outer rod to row " +
                                      std::to_string(i + 1) + " would have to slant by more than 0.9 of its length");
@@ -97,7 +98,8 @@ void checkHeading(const Scene& scene, ProblemLog& log) {
   const std::string is = ", is " + name;
   if (cloth.closed) log.add("hang.heading", "must be gathered with closed cloth (cloth.closed: true)" + is);
   // The pleats go straight down.
-  if (hemWidth(cloth) != cloth.width) log.add("hang.heading", "must be gathered with tapered cloth (hem_width)" + is);
+  if (std::abs(hemWidth(cloth) - cloth.width) > kTypedRounding * cloth.width)
+    log.add("hang.heading", "must be gathered with tapered cloth (hem_width)" + is);
   const int links = cloth.columns - 1, fewest = fewestLinks(hang.heading);
   const int pleats = pleatCount(hang, links);
   if (!cloth.closed && links < pleats * fewest) {
@@ -114,10 +116,10 @@ void checkHeading(const Scene& scene, ProblemLog& log) {
   }
   if (!log.problems().empty() || !(span > 0.0)) return;
   // A link that is long beside the others can't be turned out of the way.
-  const std::vector<double> row = edgeLinks(cloth), angles = headingAngles(hang, row, span);
+  const std::vector<double> row = pleatLinks(cloth), angles = headingAngles(hang, row, span);
   double reach = 0.0;
   for (std::size_t j = 0; j < row.size(); ++j) reach += row[j] * std::cos(angles[j]);
-  if (cloth.width > span && std::abs(reach - span) > kMostGap * cloth.width)
+  if (std::min(cloth.width, hemWidth(cloth)) > span && std::abs(reach - span) > kMostGap * cloth.width)
     log.add("hang.heading", "must be gathered where pleats of these links reach " + formatNumber(reach) +
                                 " m at least, and |to - from| is " + formatNumber(span) + " m" + is);
 }
@@ -135,7 +137,7 @@ void checkPressed(const Scene& scene, ProblemLog& log) {
             "must be 0 for cloth that does not bend (cloth.bending_weft: 0), is " + formatNumber(hang.pressed));
     return;
   }
-  const std::vector<double> angles = headingAngles(hang, edgeLinks(scene.cloth), (hang.to - hang.from).norm());
+  const std::vector<double> angles = headingAngles(hang, pleatLinks(scene.cloth), (hang.to - hang.from).norm());
   double most = 0.0;
   for (std::size_t j = 1; j < angles.size(); ++j) most = std::max(most, std::abs(angles[j] - angles[j - 1]));
   constexpr double kMost = 80.0 * kPi / 180.0;  // 1/cos < 6
@@ -146,7 +148,7 @@ void checkPressed(const Scene& scene, ProblemLog& log) {
 
 void checkRing(const Scene& scene, ProblemLog& log) {
   const ClothParams& cloth = scene.cloth;
-  const double top_radius = scene.hang.radius.value_or(cloth.width / (2.0 * kPi));
+  const double top_radius = typedRadius(scene);
   const double slope = std::sin(scene.hang.tilt);
   const std::vector<double> rods = shareOut(1.0, cloth.row_spacing, cloth.rows - 1);
   const std::vector<double> links = shareOut(1.0, cloth.column_spacing, cloth.columns);
@@ -171,6 +173,10 @@ void checkRing(const Scene& scene, ProblemLog& log) {
       return;
     }
   }
+  const double drawn_in = hungRadius(scene) + std::min(0.0, cloth.height * slope);
+  if (!(drawn_in > 0.0))
+    log.add("hang.tilt", "must leave every row a ring of radius > 0, is " + formatNumber(scene.hang.tilt) +
+                             ": the narrowest would have radius " + formatNumber(drawn_in) + " m");
 }
 
 }  // namespace

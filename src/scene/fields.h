@@ -6,8 +6,8 @@
 // A visitor has these members; keys are relative to the visited map:
 //   integer, integerOr (a word stands for one value), seed, number, optionalNumber, numberOrUnset (NaN: not given),
 //   flag, text, choice, vector, optionalVector, scale (one number or three), rotation, node, nodes, numbers, integers,
-//   pins, slits, path (of a rail), map (a struct below), list (a list of structs), belongs (false: the key is not for
-//   this value).
+//   pins, slits, path (of a rail), map (a struct below), list (a list of structs, and what one has that says nothing),
+//   belongs (false: the key is not for this value).
 #pragma once
 
 #include <type_traits>
@@ -240,7 +240,7 @@ struct Fields<ObstacleParams> {
     v.number("padding", obstacle.padding, notNegative());
     v.vector("color", obstacle.color, between(0.0, 1.0));
     v.flag("visible", obstacle.visible);
-    v.list("motion", obstacle.motion);
+    v.list("motion", obstacle.motion, PoseKey{0.0, obstacle.pose});  // read before
   }
 
  private:

@@ -81,6 +81,10 @@ std::vector<double> edgeLinks(const ClothParams& cloth) {
   return shareOut(cloth.width, cloth.column_spacing, cloth.columns - 1);
 }
 
+std::vector<double> pleatLinks(const ClothParams& cloth) {
+  return shareOut(std::min(cloth.width, hemWidth(cloth)), cloth.column_spacing, cloth.columns - 1);
+}
+
 std::vector<int> headingColumns(const HangParams& hang, const std::vector<double>& links) {
   const int last = static_cast<int>(links.size());
   std::vector<int> columns;

@@ -39,6 +39,10 @@ std::vector<double> headingAngles(const HangParams& hang, const std::vector<doub
 /// Rest lengths of the weft links of row 0 of flat cloth [m].
 std::vector<double> edgeLinks(const ClothParams& cloth);
 
+/// Lengths of the weft links that pleats are made of [m]: of the narrower edge, where top and hem differ by their
+/// rounding.
+std::vector<double> pleatLinks(const ClothParams& cloth);
+
 /// Columns that the top edge hangs by: of eyelets and tabs the nearest to each, and both ends; of others all.
 std::vector<int> headingColumns(const HangParams& hang, const std::vector<double>& links);
 

@@ -58,7 +58,7 @@ class RangeChecker {
   }
 
   template <typename T>
-  void list(Key key, const std::vector<T>& values) {
+  void list(Key key, const std::vector<T>& values, const T& = {}) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       RangeChecker checker(itemKey(keyOf(key), i), log_);
       visitFields(checker, values[i]);

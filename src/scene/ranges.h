@@ -12,8 +12,9 @@ namespace curtain {
 /// squares of derived values stay finite, so that every valid scene can be computed.
 constexpr double kSmallest = 1e-9;
 constexpr double kLargest = 1e9;
-/// Of typed lengths, relative: the solver corrects it at once.
-constexpr double kTypedRounding = 1e-9;
+/// Of lengths that must fit each other, relative: they are computed elsewhere and typed with some digits. The cloth
+/// starts as if they did fit, no link longer than it is.
+constexpr double kTypedRounding = 1e-4;
 constexpr double kLatest = 1e12;  // of ends [s]
 /// Forces may be extreme (the cloth stops while they act), but the squares of their effects must be finite.
 constexpr double kStrongest = 1e100;

@@ -4,6 +4,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 #include <locale>
 #include <sstream>
@@ -32,8 +33,8 @@ std::string takeSign(const std::string& text, std::size_t& at) {
   return "";
 }
 
-// Whether the text is a decimal number in any common spelling.
-bool splitNumber(const std::string& text, NumberParts& parts) {
+// Splits the decimal number that the text begins with; returns how long that is, 0: there is none.
+std::size_t splitFront(const std::string& text, NumberParts& parts) {
   std::size_t at = 0;
   parts.sign = takeSign(text, at);
   parts.whole = takeDigits(text, at);
@@ -41,18 +42,28 @@ bool splitNumber(const std::string& text, NumberParts& parts) {
     parts.dot = true;
     parts.fraction = takeDigits(text, ++at);
   }
-  if (parts.whole.empty() && parts.fraction.empty()) return false;
-  if (at < text.size() && (text[at] == 'e' || text[at] == 'E')) {
-    parts.exponent_sign = takeSign(text, ++at);
-    parts.exponent = takeDigits(text, at);
-    if (parts.exponent.empty()) return false;
-  }
-  return at == text.size();
+  if (parts.whole.empty() && parts.fraction.empty()) return 0;
+  if (at == text.size() || (text[at] != 'e' && text[at] != 'E')) return at;
+  std::size_t end = at + 1;
+  parts.exponent_sign = takeSign(text, end);
+  parts.exponent = takeDigits(text, end);
+  return parts.exponent.empty() ? at : end;
+}
+
+// Whether the text is a decimal number in any common spelling.
+bool splitNumber(const std::string& text, NumberParts& parts) {
+  return !text.empty() && splitFront(text, parts) == text.size();
 }
 
 bool isInteger(const NumberParts& parts) { return !parts.dot && parts.exponent.empty(); }
 
-// Whether YAML 1.1 takes it for a number. A leading zero would make an integer octal.
+// Whether YAML 1.1 takes it for an octal number.
+bool isOctal(const NumberParts& parts) {
+  return isInteger(parts) && parts.whole.size() > 1 && parts.whole[0] == '0' &&
+         parts.whole.find_first_of("89") == std::string::npos;
+}
+
+// Whether YAML 1.1 takes it for a decimal number.
 bool isYaml11Number(const NumberParts& parts) {
   if (isInteger(parts)) return parts.whole == "0" || parts.whole[0] != '0';
   const bool mantissa = parts.dot && (!parts.whole.empty() || parts.sign.empty());
@@ -132,13 +143,25 @@ std::string hintFor(const std::string& text, bool in_quotes) {
   const std::string word = lowerCase(text);
   if (word == "inf" || word == "+inf" || word == "infinity") return "write .inf" + how;
   NumberParts parts;
-  if (splitNumber(text, parts)) return "write " + yaml11Spelling(parts) + how;
-  // "20 mm", "30deg": what is in front of the unit's name.
-  const bool has_unit = splitNumber(text.substr(0, text.find_first_not_of("+-.0123456789")), parts);
+  const std::size_t front = splitFront(text, parts);
+  if (front == 0) return "";
+  if (front == text.size()) return !in_quotes && isOctal(parts) ? "octal in YAML, write " + yaml11Spelling(parts) : "";
+  // "20 mm", "30deg", but not "0x1F" and "1,5".
+  const std::size_t unit = text.find_first_not_of(' ', front);
+  const bool has_unit = unit != std::string::npos && std::strchr("xX,._:+-/*0123456789", text[unit]) == nullptr;
   return has_unit ? "write the number alone, in SI units" : "";
 }
 
 bool isNumberTag(const std::string& tag) { return tag == "tag:yaml.org,2002:float" || tag == "tag:yaml.org,2002:int"; }
+
+// In quotes, without a tag, or with that of text.
+bool isTextTag(const std::string& tag) { return tag == "!" || tag == "?" || tag == "tag:yaml.org,2002:str"; }
+
+void takeNumber(const NumberParts& parts, ScalarValue& value) {
+  value.kind = isInteger(parts) ? ScalarKind::kInteger : ScalarKind::kReal;
+  value.number = parseReal(parts);
+  if (value.kind == ScalarKind::kInteger) parseInteger(parts, value);
+}
 
 }  // namespace
 
@@ -159,12 +182,19 @@ ScalarValue scalarValue(const YAML::Node& node) {
   } else if (splitSpecial(text, value.number)) {
     value.kind = ScalarKind::kReal;
   } else if (splitNumber(text, parts) && (is_value || isYaml11Number(parts))) {
-    value.kind = isInteger(parts) ? ScalarKind::kInteger : ScalarKind::kReal;
-    value.number = parseReal(parts);
-    if (value.kind == ScalarKind::kInteger) parseInteger(parts, value);
+    takeNumber(parts, value);
   } else {
     value.hint = hintFor(text, false);
   }
+  return value;
+}
+
+ScalarValue numberValue(const YAML::Node& node) {
+  ScalarValue value = scalarValue(node);
+  NumberParts parts;
+  if (value.kind != ScalarKind::kText || !isTextTag(node.Tag()) || !splitNumber(node.Scalar(), parts)) return value;
+  if (node.Tag() == "?" && isOctal(parts)) return value;  // rosparam makes another number of it
+  takeNumber(parts, value);
   return value;
 }
 
@@ -184,8 +214,13 @@ std::string describeValue(const YAML::Node& node) {
   if (node.IsMap()) return "a map";
   const ScalarValue value = scalarValue(node);
   if (value.kind != ScalarKind::kText) return shortened(node.Scalar());
-  return "the text " + quoted(node.Scalar()) +
-         (value.hint.empty() ? "" : " (text in YAML: " + shortened(value.hint) + ")");
+  return "the text " + quoted(node.Scalar()) + (value.hint.empty() ? "" : " (" + shortened(value.hint) + ")");
+}
+
+std::string describeNumber(const YAML::Node& node) {
+  const ScalarKind kind = numberValue(node).kind;
+  const bool is_number = kind == ScalarKind::kInteger || kind == ScalarKind::kReal;
+  return is_number ? shortened(node.Scalar()) : describeValue(node);
 }
 
 }  // namespace curtain

@@ -96,6 +96,10 @@ void StrictReader::refuse(const std::string& key, const std::string& wanted, con
   log_.add(key, "must be " + wanted + ", is " + describeValue(node));
 }
 
+void StrictReader::refuseNumber(const std::string& key, const std::string& wanted, const YAML::Node& node) {
+  log_.add(key, "must be " + wanted + ", is " + describeNumber(node));
+}
+
 YAML::Node StrictReader::mapUnder(Key key) {
   const YAML::Node* found = find(key, "a map");
   if (found && found->IsMap()) return *found;
@@ -111,23 +115,23 @@ bool StrictReader::checkSequence(const YAML::Node& node, const std::string& key,
 }
 
 bool StrictReader::readNumber(const YAML::Node& node, const std::string& key, Range range, double& value) {
-  const ScalarValue scalar = scalarValue(node);
+  const ScalarValue scalar = numberValue(node);
   const bool is_number = scalar.kind == ScalarKind::kInteger || scalar.kind == ScalarKind::kReal;
   if (is_number)
     value = scalar.number;
   else
-    refuse(key, range.text(), node);
+    refuseNumber(key, range.text(), node);
   return is_number;
 }
 
 bool StrictReader::readInteger(const YAML::Node& node, const std::string& key, const std::string& wanted, int& value) {
-  const ScalarValue scalar = scalarValue(node);
+  const ScalarValue scalar = numberValue(node);
   const bool fits = !scalar.overflow && scalar.magnitude <= std::uint64_t{std::numeric_limits<int>::max()};
   const bool is_int = scalar.kind == ScalarKind::kInteger && fits;
   if (is_int)
     value = (scalar.negative ? -1 : 1) * static_cast<int>(scalar.magnitude);
   else
-    refuse(key, wanted, node);
+    refuseNumber(key, wanted, node);
   return is_int;
 }
 
@@ -183,19 +187,19 @@ void StrictReader::integerOr(Key key, int& value, IntRange range, const char* wo
   if (range.contains(read))
     value = read;
   else
-    refuse(keyOf(key), wanted, *found);
+    refuseNumber(keyOf(key), wanted, *found);
 }
 
 void StrictReader::seed(Key key, std::uint64_t& value) {
   const std::string wanted = "an integer in [0, " + std::to_string(std::numeric_limits<std::uint64_t>::max()) + "]";
   const YAML::Node* found = find(key, wanted);
   if (!found) return;
-  const ScalarValue scalar = scalarValue(*found);
+  const ScalarValue scalar = numberValue(*found);
   const bool fits = !scalar.overflow && (!scalar.negative || scalar.magnitude == 0);
   if (scalar.kind == ScalarKind::kInteger && fits)
     value = scalar.magnitude;
   else
-    refuse(keyOf(key), wanted, *found);
+    refuseNumber(keyOf(key), wanted, *found);
 }
 
 void StrictReader::number(Key key, double& value, Range range) {
@@ -214,7 +218,7 @@ void StrictReader::numberOrUnset(Key key, double& value, Range range) {
   if (!found || !readNumber(*found, keyOf(key), range, read)) return;
   // NaN encodes "not given" in the struct; in a file it is a mistake.
   if (std::isnan(read))
-    refuse(keyOf(key), range.text(), *found);
+    refuseNumber(keyOf(key), range.text(), *found);
   else
     value = read;
 }
@@ -274,7 +278,7 @@ void StrictReader::scale(Key key, Vec3& value, Range range) {
   if (range.contains(read))
     value = Vec3::Constant(read);
   else
-    refuse(keyOf(key), range.text(), *found);
+    refuseNumber(keyOf(key), range.text(), *found);
 }
 
 void StrictReader::rotation(Key key, Rotation& value) {

@@ -57,12 +57,12 @@ class StrictReader {
   }
 
   template <typename T>
-  void list(Key key, std::vector<T>& values) {
+  void list(Key key, std::vector<T>& values, const T& unsaid = {}) {
     const YAML::Node* found = find(key, "a list");
     if (!found || !checkSequence(*found, keyOf(key), "a list")) return;
     for (std::size_t i = 0; i < found->size(); ++i) {
       // Unreadable items keep their place, so that later ones keep their index.
-      values.emplace_back();
+      values.push_back(unsaid);
       const std::string item_key = itemKey(keyOf(key), i);
       const YAML::Node item = (*found)[i];
       if (item.IsMap()) {
@@ -94,6 +94,7 @@ class StrictReader {
   bool checkSequence(const YAML::Node& node, const std::string& key, const std::string& wanted,
                      std::optional<std::size_t> size = std::nullopt);
   void refuse(const std::string& key, const std::string& wanted, const YAML::Node& node);
+  void refuseNumber(const std::string& key, const std::string& wanted, const YAML::Node& node);
   bool readNumber(const YAML::Node& node, const std::string& key, Range range, double& value);
   void readText(const YAML::Node& node, const std::string& key, std::string& value);
   bool readInteger(const YAML::Node& node, const std::string& key, const std::string& wanted, int& value);

@@ -100,7 +100,7 @@ class SceneWriter {
   }
 
   template <typename T>
-  void list(Key key, const std::vector<T>& values) {
+  void list(Key key, const std::vector<T>& values, const T& = {}) {
     out_ << YAML::Key << key.name << YAML::Value;
     if (values.empty()) out_ << YAML::Flow;
     out_ << YAML::BeginSeq;

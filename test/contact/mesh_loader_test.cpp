@@ -204,6 +204,12 @@ TEST(MeshUrl, FilesAndPlainPathsAreTakenAsTheyAre) {
   EXPECT_EQ(resolveMeshUrl("b.stl"), "b.stl");
   EXPECT_EQ(resolveMeshUrl("file:///a/b%20c.stl"), "/a/b c.stl");
   EXPECT_EQ(resolveMeshUrl("file:///a/100%.stl"), "/a/100%.stl");
+  EXPECT_EQ(resolveMeshUrl("file://localhost/a/b%20c.stl"), "/a/b c.stl");  // RFC 8089
+  EXPECT_EQ(resolveMeshUrl("file://LOCALHOST/a.stl"), "/a.stl");
+  EXPECT_EQ(resolveMeshUrl("file://localhost"), "");
+  EXPECT_EQ(resolveMeshUrl("file://localhosts/a.stl"), "") << "another computer";
+  EXPECT_EQ(resolveMeshUrl("file://meshes/a.stl"), "") << "another computer, called meshes";
+  EXPECT_EQ(resolveMeshUrl("file://"), "");
   EXPECT_EQ(resolveMeshUrl("http://a/b.stl"), "");
   EXPECT_EQ(resolveMeshUrl("package://"), "");
   EXPECT_EQ(resolveMeshUrl("package://nameonly"), "");

@@ -25,7 +25,7 @@ class Breaker {
   void integer(Key key, const int&, IntRange range) {
     if (range.low > std::numeric_limits<int>::min()) add(key, std::to_string(range.low - 1));
     if (range.high < std::numeric_limits<int>::max()) add(key, std::to_string(range.high + 1));
-    add(key, {"2.5", "1e2", "five", "'5'", "0x10", "99999999999999999999", ".nan", "true", "[5]", "{}", "~"});
+    add(key, {"2.5", "1e2", "five", "'5.0'", "0x10", "99999999999999999999", ".nan", "true", "[5]", "{}", "~"});
     takeAway(key);
   }
   void integerOr(Key key, const int& value, IntRange range, const char*, int word_value) {
@@ -77,7 +77,7 @@ class Breaker {
     for (const std::string& value : badNumbers(range)) add(key, "[" + value + "]");
   }
   void integers(Key key, const std::vector<int>&, IntRange range) {
-    add(key, {"1", "{}", "all", "~", "[1.5]", "[a]", "['1']", "[[1]]", "[" + std::to_string(range.low - 1) + "]",
+    add(key, {"1", "{}", "all", "~", "[1.5]", "[a]", "['1.0']", "[[1]]", "[" + std::to_string(range.low - 1) + "]",
               "[" + std::to_string(range.high + 1) + "]"});
   }
   void path(Key key, const std::vector<curtain::RailPiece>&, Range range) {
@@ -111,7 +111,7 @@ class Breaker {
   }
 
   template <typename T>
-  void list(Key key, const std::vector<T>& values) {
+  void list(Key key, const std::vector<T>& values, const T& = {}) {
     add(key, {"1", "{}", "text", "~"});
     for (std::size_t i = 0; i < values.size(); ++i) {
       Breaker under(curtain::itemKey(keyOf(key), i), all_);
@@ -137,7 +137,8 @@ class Breaker {
   }
 
   static std::vector<std::string> badNumbers(const Range& range) {
-    std::vector<std::string> values = {".nan", "-.inf", "1e-6", "'1.0'", "1.0.0", "many", "false", "[[]]", "{}"};
+    std::vector<std::string> values = {".nan", "-.inf", "1e-6m", "'1,0'", "''",   "'.5 '", "0x1",
+                                       "inf",  "1.0.0", "many",  "false", "[[]]", "{}"};
     const double infinity = std::numeric_limits<double>::infinity();
     if (!range.contains(infinity)) values.insert(values.end(), {".inf", "1.0e+999"});
     if (!range.contains(0.0)) values.insert(values.end(), {"0", "-0.0"});

@@ -64,7 +64,7 @@ class WordCollector {
   }
 
   template <typename T>
-  void list(Key key, const std::vector<T>&) {
+  void list(Key key, const std::vector<T>&, const T& = {}) {
     note(key);
     const T item;
     curtain::visitFields(*this, item);
@@ -94,10 +94,10 @@ int main() {
   const curtain::Scene scene;
   curtain::visitFields(collector, scene);
   for (const char* sign :
-       {"true", ".inf",  "-.inf",      ".nan",        "1.0e-300", "1.0e+308", "4294967296", "0x1F",  "010",
-        "&a ",  "*a",    "<<: ",       "!!float ",    "!!int ",   "!!str ",   "! ",         "---\n", "...\n",
-        "- ",   "[",     "]",          "{",           "}",        ", ",       "? ",         "|\n ",  ">-\n ",
-        "# ",   "\"\\x", "\"\\U0001F", "%YAML 1.2\n", "~",        "\n  "}) {
+       {"true",  ".inf", "-.inf", ".nan",       "1.0e-300",    "1.0e+308", "4294967296", "0x1F", "010",
+        "3e-06", "&a ",  "*a",    "<<: ",       "!!float ",    "!!int ",   "!!str ",     "! ",   "---\n",
+        "...\n", "- ",   "[",     "]",          "{",           "}",        ", ",         "? ",   "|\n ",
+        ">-\n ", "# ",   "\"\\x", "\"\\U0001F", "%YAML 1.2\n", "~",        "\n  "}) {
     collector.words.insert(sign);
   }
   for (const std::string& word : collector.words) write(word);

@@ -84,7 +84,7 @@ class SceneBits {
   }
 
   template <typename T>
-  void list(Key, const std::vector<T>& values) {
+  void list(Key, const std::vector<T>& values, const T& = {}) {
     add(values.size());
     for (const T& value : values) curtain::visitFields(*this, value);
   }

@@ -69,7 +69,7 @@ class SceneMaker {
   }
 
   template <typename T>
-  void list(Key, std::vector<T>& values) {
+  void list(Key, std::vector<T>& values, const T& = {}) {
     for (std::uint64_t left = choices_.below(4); left > 1; --left) {  // most lists are empty
       values.emplace_back();
       curtain::visitFields(*this, values.back());

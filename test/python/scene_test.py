@@ -50,9 +50,23 @@ class Scenes(unittest.TestCase):
         self.assertEqual((values["solver"]["seed"], values["solver"]["frame_rate"], values["solver"]["substeps"]), (2**64 - 1, 50.0, 3))
         self.assertNotEqual(curtain_engine.Scene(scene), curtain_engine.Scene(testing.scene()))
 
+    def test_text_that_is_wholly_a_number_is_that_number(self):
+        scene = curtain_engine.Scene(testing.scene(solver={"stretch_tolerance": str(3e-06), "substeps": "3"}))
+        self.assertEqual(scene.to_dict()["solver"]["stretch_tolerance"], 3e-06)
+        self.assertEqual(scene.to_dict()["solver"]["substeps"], 3)
+        self.assertIn('is the text "3e-06 m"', error(curtain_engine.Scene, testing.scene(solver={"stretch_tolerance": "3e-06 m"})))
+
+    def test_a_motion_keeps_the_pose_that_it_does_not_say(self):
+        lying = [0.0, 0.6, 0.0, 0.8]
+        bar = {"name": "bar", "shape": "capsule", "radius": 0.1, "length": 1.0, "position": [1, 2, 3], "orientation": lying,
+               "motion": [{"time": 0.0, "position": [0, 0, 0]}, {"time": 1.0}]}
+        poses = curtain_engine.Scene(testing.scene(obstacles=[bar])).to_dict()["obstacles"][0]["motion"]
+        self.assertEqual([pose["orientation"] for pose in poses], [lying, lying])
+        self.assertEqual([pose["position"] for pose in poses], [[0.0, 0.0, 0.0], [1.0, 2.0, 3.0]])
+
     def test_problems_have_the_texts_that_curtain_batch_prints(self):
-        text = "cloth: {rows: 1, colums: 3, width: \"2\"}\nwind: [{id: a, radius: -1}]\npins: 7\n"
-        values = {"cloth": {"rows": 1, "colums": 3, "width": "2"}, "wind": [{"id": "a", "radius": -1}], "pins": 7}
+        text = "cloth: {rows: 1, colums: 3, width: \"2 m\"}\nwind: [{id: a, radius: -1}]\npins: 7\n"
+        values = {"cloth": {"rows": 1, "colums": 3, "width": "2 m"}, "wind": [{"id": "a", "radius": -1}], "pins": 7}
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "scene.yaml")
             with open(path, "w", encoding="utf-8") as file:

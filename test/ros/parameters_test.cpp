@@ -50,17 +50,66 @@ ParameterReading readScene(const XmlRpcValue& scene) { return readWith("scene", 
   return result;
 }
 
-// Types and bits come through: text is no number, a number with a fraction no integer.
+// Types and bits come through: a number with a fraction is no integer, and text no number that is not wholly one.
 TEST(Parameters, KeepTheirTypesAndBits) {
   for (const double number : {0.1 + 0.2, 1.0, 1e-9}) {
     EXPECT_EQ(readWith("obstacle_timeout", value(number)).node.obstacle_timeout, number);
   }
-  EXPECT_TRUE(names(readWith("obstacle_timeout", value("1.0")).problems, "must be a number in"));
+  EXPECT_EQ(readWith("obstacle_timeout", value("1.0")).node.obstacle_timeout, 1.0);
+  EXPECT_TRUE(names(readWith("obstacle_timeout", value("1.0 s")).problems, "must be a number in"));
   EXPECT_TRUE(
       names(readWith("max_catch_up", value(4.0)).problems, "max_catch_up: must be an integer in [1, 1000], is 4.0"));
   EXPECT_TRUE(names(readWith("obstacle_timeout", value(std::numeric_limits<double>::infinity())).problems, "is .inf"));
   EXPECT_TRUE(readWith("state_folds", flag(true)).node.state_folds);
   EXPECT_EQ(readWith("world_frame", value("true")).node.world_frame, "true");
+  EXPECT_EQ(readWith("world_frame", value("1e3")).node.world_frame, "1e3");
+}
+
+// rosparam takes 3e-06, as Python prints it, for text.
+TEST(Parameters, TextThatIsWhollyANumberIsThatNumber) {
+  EXPECT_EQ(readWith("obstacle_timeout", value("3e-06")).node.obstacle_timeout, 3e-6);
+  EXPECT_EQ(readWith("max_catch_up", value("7")).node.max_catch_up, 7);
+  for (const char* text : {"7.6", "7.0", "1e1", "7 ", ""})
+    EXPECT_TRUE(names(readWith("max_catch_up", value(text)).problems, "max_catch_up: must be an integer in [1, 1000]"));
+  for (const char* text : {"1e-6 m", "0x10", "1,5", "", "nan", "inf", ".inf", " 1"})
+    EXPECT_TRUE(names(readWith("obstacle_timeout", value(text)).problems, std::string("is the text \"") + text + '"'));
+  XmlRpcValue scene = smallScene();
+  scene["cloth"]["rows"] = value("4");
+  scene["cloth"]["bending_warp"] = value("3e-06");
+  scene["gravity"][0] = value("0");
+  scene["gravity"][1] = value(0);
+  scene["gravity"][2] = value("-.5");
+  scene["wind"][0]["id"] = value("12");
+  const ParameterReading reading = readScene(scene);
+  ASSERT_TRUE(reading.problems.empty()) << reading.problems.front();
+  EXPECT_EQ(reading.scene.cloth.rows, 4);
+  EXPECT_EQ(reading.scene.cloth.bending_warp, 3e-6);
+  EXPECT_EQ(reading.scene.gravity.z(), -0.5);
+  EXPECT_EQ(reading.scene.wind.at(0).id, "12");
+  XmlRpcValue robot, points;
+  robot["padding"] = value("2e-3");
+  points["rate"] = value("1e1");
+  points["seed"] = value("7");
+  EXPECT_EQ(readWith("robot", robot).robot->padding, 2e-3);
+  EXPECT_EQ(readWith("points", points).points.rate, 10.0);
+  EXPECT_EQ(readWith("points", points).points.seed, 7U);
+}
+
+// Parameters have no folder that a path could be relative to.
+TEST(Parameters, MeshesOfTheSceneNeedAWholePath) {
+  XmlRpcValue scene = smallScene();
+  XmlRpcValue& statue = scene["obstacles"][0];
+  statue["name"] = value("statue");
+  statue["shape"] = value("mesh");
+  statue["mesh"] = value("meshes/statue.stl");
+  const std::vector<std::string> problems = readScene(scene).problems;
+  EXPECT_EQ(problems.size(), 1U);
+  EXPECT_TRUE(names(problems, "/stage/curtain/scene: obstacles[0].mesh: must be package://"));
+  EXPECT_TRUE(names(problems, "is \"meshes/statue.stl\""));
+  for (const char* good : {"/a/statue.stl", "file:///a/statue.stl", "file://localhost/a.stl", "package://p/a.stl"}) {
+    statue["mesh"] = value(good);
+    EXPECT_TRUE(readScene(scene).problems.empty()) << good;
+  }
 }
 
 // Every key that a scene file can hold goes through the parameter tree unchanged.
@@ -99,7 +148,7 @@ TEST(Parameters, MissingSceneIsAProblem) {
 }
 
 TEST(Parameters, WrongTypesAndRangesOfTheNodesOwnAreNamed) {
-  EXPECT_TRUE(names(readWith("mesh_rate", value("1e-6")).problems, "/stage/curtain/mesh_rate: must be a number"));
+  EXPECT_TRUE(names(readWith("mesh_rate", value("1e1 Hz")).problems, "/stage/curtain/mesh_rate: must be a number"));
   EXPECT_TRUE(names(readWith("mesh_rate", value(0.0)).problems, "mesh_rate"));
   EXPECT_TRUE(names(readWith("mesh_rate", value(std::nan(""))).problems, "mesh_rate"));
   EXPECT_TRUE(names(readWith("state_rate", value(-1.0)).problems, "state_rate: must be a number in [0, 10000]"));
@@ -138,7 +187,7 @@ TEST(Parameters, SceneProblemsAreAllNamed) {
   XmlRpcValue scene = smallScene();
   scene["cloth"]["rows"] = value(1);
   scene["cloth"]["columns"] = value(8.0);
-  scene["cloth"]["width"] = value("1e-6");
+  scene["cloth"]["width"] = value("1e-6 m");
   scene["cloth"]["heigth"] = value(1.0);
   scene["gravity"] = value(std::nan(""));
   const std::vector<std::string> problems = readScene(scene).problems;
@@ -251,7 +300,7 @@ TEST(Parameters, PointsAreReadStrictly) {
   points["lidar"]["lowest"] = value(0.5);
   points["noise"] = value("salt");
   points["min_range"] = value(30.0);
-  points["rate"] = value("1e1");
+  points["rate"] = value("1e1 Hz");
   const std::vector<std::string> problems = readWith("points", points).problems;
   const std::string space = "/stage/curtain/points/";
   EXPECT_TRUE(names(problems, space + "camera.fx: must be a number in [0.001, 1000000], is 0"));

@@ -54,16 +54,16 @@ class ProcessTest(unittest.TestCase):
 
     def test_wrong_parameters_of_the_node(self):
         """Everything wrong is named at once: text for a number, a fraction for a count, a number for a switch."""
-        self.refuses(parameters(obstacle_timeout="1e-6", max_catch_up=7.6, handles=1, mesh_rate=-1.0),
-                     "/stage/curtain/obstacle_timeout", 'the text "1e-6"', "/stage/curtain/max_catch_up", "7.6",
+        self.refuses(parameters(obstacle_timeout="1e-6 s", max_catch_up=7.6, handles=1, mesh_rate=-1.0),
+                     "/stage/curtain/obstacle_timeout", 'the text "1e-6 s"', "/stage/curtain/max_catch_up", "7.6",
                      "/stage/curtain/handles", "/stage/curtain/mesh_rate")
 
     def test_no_scene(self):
         self.refuses({"world_frame": "world"}, "/stage/curtain/scene: missing")
 
     def test_scene_with_text_for_a_number(self):
-        self.refuses(with_scene("solver.stretch_tolerance", "1e-6"), "/stage/curtain/scene", "solver.stretch_tolerance",
-                     "1e-6")
+        self.refuses(with_scene("solver.stretch_tolerance", "1e-6 m"), "/stage/curtain/scene", "solver.stretch_tolerance",
+                     "1e-6 m")
 
     def test_scene_with_unknown_key(self):
         self.refuses(with_scene("cloth.colums", 8), "cloth.colums")

@@ -142,11 +142,69 @@ TEST(Robot, ADescriptionThatIsNoneSaysWhy) {
             "no link of 'r' has collision geometry");
 }
 
+// Many robots have capsules, which URDF has not: one message names the links and says what to do.
+TEST(Robot, GeometryThatUrdfHasNotIsNamedOnceWithItsLinks) {
+  const auto part = [](const std::string& name, const std::string& kind, const std::string& geometry) {
+    return "<link name=\"" + name + "\"><" + kind + "><geometry>" + geometry + "</geometry></" + kind + "></link>";
+  };
+  const std::string capsule = "<capsule radius=\"0.1\" length=\"0.5\"/>";
+  const std::string joints =
+      "<joint name=\"j\" type=\"fixed\"><parent link=\"hip\"/><child link=\"knee\"/></joint>"
+      "<joint name=\"k\" type=\"fixed\"><parent link=\"hip\"/><child link=\"toe\"/></joint>"
+      "<joint name=\"l\" type=\"fixed\"><parent link=\"hip\"/><child link=\"eye\"/></joint>";
+  EXPECT_EQ(
+      onlyProblem(robotWith(part("hip", "collision", capsule) + part("knee", "collision", capsule) +
+                            part("toe", "collision", "<sphere radius=\"1\"/>") + part("eye", "visual", capsule) +
+                            joints)),
+      "is not a valid URDF: Unknown geometry type 'capsule' of the links 'hip', 'knee', 'eye': URDF has box, cylinder, "
+      "sphere and mesh; a capsule is a cylinder and two spheres, each a <collision> of its own, or a mesh");
+  EXPECT_EQ(
+      onlyProblem(link("<cone/>")),
+      "is not a valid URDF: Unknown geometry type 'cone' of the link 'arm': URDF has box, cylinder, sphere and mesh");
+  const std::string both =
+      onlyProblem(robotWith(part("hip", "collision", capsule) + part("knee", "collision", "<cone/>") +
+                            part("toe", "collision", "<sphere/>") + joints));
+  for (const char* what : {"'capsule' of the link 'hip'", "'cone' of the link 'knee'", "for Link [toe]"})
+    EXPECT_NE(both.find(what), std::string::npos) << both;
+}
+
 TEST(Robot, SizesThatNoObstacleCanHaveAreProblems) {
   EXPECT_EQ(onlyProblem(link("<sphere radius=\"-1\"/>")).rfind("collision geometry 'arm': radius: must be", 0), 0U);
   EXPECT_EQ(onlyProblem(link("<box size=\"1 0 1\"/>")).rfind("collision geometry 'arm': size[1]: must be", 0), 0U);
   EXPECT_EQ(onlyProblem(link("<mesh filename=\"m.stl\" scale=\"1 0 1\"/>")).rfind("collision geometry 'arm': scale", 0),
             0U);
+}
+
+// A mesh that can't be had is told of with its link; relative paths, which many robots have, are one message.
+TEST(Robot, MeshesThatCantBeHadAreNamedWithTheirLinks) {
+  const auto mesh = [](const std::string& name, const std::string& url) {
+    return "<link name=\"" + name + "\"><collision><geometry><mesh filename=\"" + url +
+           "\"/></geometry></collision></link>";
+  };
+  const auto joint = [](const std::string& child) {
+    return "<joint name=\"to_" + child + "\" type=\"fixed\"><parent link=\"base\"/><child link=\"" + child +
+           "\"/></joint>";
+  };
+  const std::string cube = std::string(CURTAIN_SOURCE_DIR) + "/test/meshes/cube_binary.stl";
+  const RobotReading robot =
+      readRobot({}, robotWith(mesh("base", "meshes/base.stl") + mesh("arm", "../arm.stl") +
+                              mesh("hand", "file://localhost" + cube) + mesh("thumb", "file:///nowhere/thumb.stl") +
+                              mesh("nail", "http://a/nail.stl") + mesh("ring", cube) + joint("arm") + joint("hand") +
+                              joint("thumb") + joint("nail") + joint("ring")));
+  ASSERT_TRUE(robot.problems.empty()) << curtain::describe(robot.problems);
+  EXPECT_EQ(robot.links, (Names{"arm", "base", "hand", "nail", "ring", "thumb"}));
+  const std::vector<std::string> problems = meshProblems(robot);
+  ASSERT_EQ(problems.size(), 3U);
+  EXPECT_EQ(problems[0].rfind("the link 'nail': obstacle 'nail': mesh 'http://a/nail.stl' cannot be resolved", 0), 0U)
+      << problems[0];
+  EXPECT_EQ(problems[1], "the link 'thumb': obstacle 'thumb': mesh '/nowhere/thumb.stl' does not exist");
+  EXPECT_EQ(
+      problems[2],
+      "meshes of the links 'arm', 'base' must be package://PACKAGE/PATH, file:///PATH or a whole path, are relative "
+      "paths, as '../arm.stl': a URDF on the parameter server has no folder");
+  const RobotReading flat = readRobot({}, link("<mesh filename=\"/nowhere/m.stl\" scale=\"1 0 1\"/>"));
+  EXPECT_EQ(flat.problems.size(), 1U);
+  EXPECT_TRUE(meshProblems(flat).empty()) << "told already";
 }
 
 // Only while it reads a URDF errors go elsewhere than to the log.

@@ -250,7 +250,10 @@ class RobotTest(DrivenCurtain):
                      "/stage/curtain/robot/padding: must be", "/stage/curtain/robot/links: 'arm' names no link of 'bad'",
                      "/stage/curtain/robot/link: is not a known key, did you mean links?", "obstacle 'm'", "none.stl",
                      padding=-0.01, links=["m", "arm"], link="x")
-        self.refuses(urdf(mesh % "file:///nowhere/a.stl"), "obstacle 'm'", "/nowhere/a.stl", padding=0.01)
+        self.refuses(urdf(mesh % "file:///nowhere/a.stl"), "/bad_description: the link 'm': obstacle 'm'", "/nowhere/a.stl",
+                     padding=0.01)
+        self.refuses(urdf(mesh % "meshes/a.stl"), "/bad_description: meshes of the link 'm' must be package://",
+                     "are relative paths, as 'meshes/a.stl'")
         self.refuses(urdf(mesh % "package://no_such_package/a.stl"), "package://no_such_package/a.stl", "cannot be resolved")
 
 

@@ -44,6 +44,9 @@ TEST(RailInput, BadPathsAreNamed) {
   expectProblem(withRail("path: [[0, 0, 2], {to: [1, 0, 2], centre: [0.5, 0, 2]}]"), "rail.path[1]", {"180 degrees"});
   expectProblem(withRail("path: [[0, 0, 2], [0.1, 0, 3]]"), "rail.path[1]", {"60 degrees"});
   expectProblem(withRail("path: [[0, 0, 2], [1, 0, 2], [0.1, 0.1, 2]]"), "rail.path[2]", {"120 degrees"});
+  // 120 degrees to six digits are 120 degrees.
+  expectScene(withRail("path: [[0, 0, 2], [1, 0, 2], [0.499993, 0.866029, 2]]"));
+  expectProblem(withRail("path: [[0, 0, 2], [1, 0, 2], [0.4995, 0.866, 2]]"), "rail.path[2]", {"120 degrees"});
   expectProblem(withRail("path: straight"), "rail.path", {"a list of points"});
 }
 
@@ -65,6 +68,8 @@ TEST(RailInput, WhatARailDoesNotGoWithIsNamed) {
   expectProblem(withRail(kStraight) + "solver: {method: paper}\n", "solver.method", {"rail"});
   expectProblem(withRail(kStraight, ", closed: true"), "cloth.closed", {"rail"});
   expectProblem(withRail(kStraight, ", hem_width: 0.9"), "cloth.hem_width", {"rail"});
+  expectProblem(withRail(kStraight, ", hem_width: 0.9998"), "cloth.hem_width", {"is 0.9998"});
+  expectScene(withRail(kStraight, ", hem_width: 0.99992"));
   expectScene(withRail(kStraight, ", hem_width: 1.1"));
 }
 

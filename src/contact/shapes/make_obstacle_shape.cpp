@@ -20,18 +20,6 @@ double positive(const ObstacleParams& obstacle, const std::string& key, double v
   return value;
 }
 
-std::unique_ptr<const ContactShape> makeMesh(const ObstacleParams& obstacle, const MeshResolver& resolve) {
-  const std::string who = "obstacle '" + obstacle.name + "': ";
-  if (!(obstacle.scale.allFinite() && (obstacle.scale.array() != 0.0).all()))
-    throw std::invalid_argument(who + "scale must be finite and not 0");
-  const std::string path = resolve(obstacle.mesh);
-  if (path.empty()) {
-    throw std::invalid_argument(who + "mesh '" + obstacle.mesh +
-                                "' cannot be resolved (package:// needs the package on ROS_PACKAGE_PATH)");
-  }
-  return std::make_unique<const TriangleMeshShape>(loadMesh(path, obstacle.scale, obstacle.name));
-}
-
 }  // namespace
 
 std::unique_ptr<const ContactShape> makeContactShape(const ObstacleParams& obstacle, const MeshResolver& resolve) {
@@ -50,7 +38,7 @@ std::unique_ptr<const ContactShape> makeContactShape(const ObstacleParams& obsta
     case ShapeKind::kPlane:
       return std::make_unique<const PlaneShape>();
     case ShapeKind::kMesh:
-      return makeMesh(obstacle, resolve);
+      return std::make_unique<const TriangleMeshShape>(loadMesh(obstacle, resolve));
   }
   throw std::invalid_argument("obstacle '" + obstacle.name + "': unknown shape");
 }

@@ -203,4 +203,19 @@ ShapeTriangles loadMesh(const std::string& path, const Vec3& scale, const std::s
   return mesh;
 }
 
+ShapeTriangles loadMesh(const ObstacleParams& obstacle, const MeshResolver& resolve) {
+  const std::string who = "obstacle '" + obstacle.name + "': ";
+  for (int axis = 0; axis < 3; ++axis) {
+    const double factor = obstacle.scale[axis];
+    if (!(std::isfinite(factor) && factor != 0.0)) throw std::invalid_argument(who + "scale must be finite and not 0");
+  }
+  const std::string path = resolve(obstacle.mesh);
+  if (path.empty()) {
+    throw std::invalid_argument(who + "mesh '" + obstacle.mesh +
+                                "' cannot be resolved (package://PACKAGE/PATH needs the package on ROS_PACKAGE_PATH, "
+                                "file:///PATH is a whole path on this computer, and nothing else is fetched)");
+  }
+  return loadMesh(path, obstacle.scale, obstacle.name);
+}
+
 }  // namespace curtain

@@ -20,6 +20,9 @@ namespace curtain {
 /// without area, not finite.
 ShapeTriangles loadMesh(const std::string& path, const Vec3& scale, const std::string& obstacle);
 
+/// The same of an obstacle of shape mesh, with its URL and scale. Throws the same for a URL that can't be resolved.
+ShapeTriangles loadMesh(const ObstacleParams& obstacle, const MeshResolver& resolve = resolveMeshUrl);
+
 /// Nodes that a DAE file may expand to, each instance counted with all that it stands for.
 constexpr double kMostColladaNodes = 100000.0;
 

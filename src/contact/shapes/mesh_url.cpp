@@ -102,12 +102,22 @@ std::string decodePercent(const std::string& text) {
   return decoded;
 }
 
+/// Path of a file:// URL by RFC 8089: its host is none or localhost. "" otherwise; text: what is behind "file://".
+std::string filePath(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  if (slash == std::string::npos) return "";
+  std::string host = text.substr(0, slash);
+  std::transform(host.begin(), host.end(), host.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return host.empty() || host == "localhost" ? decodePercent(text.substr(slash)) : "";
+}
+
 }  // namespace
 
 std::string resolveMeshUrl(const std::string& url) {
   const std::string file_scheme = "file://";
   const std::string package_scheme = "package://";
-  if (startsWith(url, file_scheme)) return decodePercent(url.substr(file_scheme.size()));
+  if (startsWith(url, file_scheme)) return filePath(url.substr(file_scheme.size()));
   if (!startsWith(url, package_scheme)) {
     return url.find("://") == std::string::npos ? url : "";  // http:// and the like are not fetched
   }

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "ros/health/warn_period.h"
 #include "ros/inputs/read_messages.h"
+#include "ros/time/warn_period.h"
 
 namespace curtain_ros {
 

@@ -3,9 +3,9 @@
 
 #include <ros/console.h>
 
-#include "ros/health/warn_period.h"
 #include "ros/inputs/mailbox.h"
 #include "ros/inputs/read_messages.h"
+#include "ros/time/warn_period.h"
 #include "scene/find_by_id.h"
 
 namespace curtain_ros {

@@ -4,7 +4,7 @@
 #include <ros/console.h>
 
 #include "ros/frames/geometry.h"
-#include "ros/health/warn_period.h"
+#include "ros/time/warn_period.h"
 #include "scene/ranges.h"
 
 namespace curtain_ros {

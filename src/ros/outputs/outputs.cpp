@@ -7,7 +7,7 @@
 #include <cctype>
 #include <map>
 
-#include "ros/health/warn_period.h"
+#include "ros/time/warn_period.h"
 
 namespace curtain_ros {
 

@@ -163,6 +163,12 @@ void readSceneTree(const YAML::Node& yaml, const std::string& name, ParameterRea
   if (yaml.IsMap()) fillObstacleFrames(yaml, reading.node.world_frame);
   curtain::SceneReading scene = curtain::readScene(yaml);
   for (const curtain::Problem& problem : scene.problems) reading.problems.push_back(curtain::describe({problem}, name));
+  for (std::size_t i = 0; i < scene.scene.obstacles.size(); ++i) {
+    const curtain::ObstacleParams& obstacle = scene.scene.obstacles[i];
+    if (isRelativeMesh(obstacle))
+      reading.problems.push_back(name + ": " + curtain::itemKey("obstacles", i) + ".mesh: must be " + kMeshPlaces +
+                                 ", is " + curtain::quoted(obstacle.mesh) + ": parameters have no folder");
+  }
   // Motions are for offline runs. An obstacle on a frame of its own has tf2 instead; one in the world frame would stand
   // still without a word.
   for (curtain::ObstacleParams& obstacle : scene.scene.obstacles) {
@@ -205,6 +211,7 @@ void addRobot(const ros::NodeHandle& node, ParameterReading& reading) {
   RobotReading robot = readRobot(*reading.robot, *urdf);
   for (const curtain::Problem& problem : robot.problems)
     reading.problems.push_back((problem.key.empty() ? name : asked + problem.key) + ": " + problem.text);
+  for (const std::string& problem : meshProblems(robot)) reading.problems.push_back(name + ": " + problem);
   for (curtain::ObstacleParams& obstacle : robot.obstacles) {
     const auto has_its_name = [&](const curtain::ObstacleParams& other) { return other.name == obstacle.name; };
     if (std::any_of(reading.scene.obstacles.begin(), reading.scene.obstacles.end(), has_its_name))
@@ -213,14 +220,15 @@ void addRobot(const ros::NodeHandle& node, ParameterReading& reading) {
   }
 }
 
-// The simulator, which would tell of them, is not going to be made.
-void tryMeshes(ParameterReading& reading) {
-  for (const curtain::ObstacleParams& obstacle : reading.scene.obstacles) {
-    if (obstacle.shape != curtain::ShapeKind::kMesh || obstacle.mesh.empty()) continue;
+// Those of the scene's own. The simulator, which would tell of them, is not going to be made.
+void tryMeshes(const std::vector<curtain::ObstacleParams>& obstacles, const std::string& name,
+               std::vector<std::string>& problems) {
+  for (const curtain::ObstacleParams& obstacle : obstacles) {
+    if (obstacle.shape != curtain::ShapeKind::kMesh || obstacle.mesh.empty() || isRelativeMesh(obstacle)) continue;
     try {
       curtain::makeObstacleShape(obstacle);
     } catch (const std::invalid_argument& error) {
-      reading.problems.push_back(error.what());
+      problems.push_back(name + ": " + error.what());
     }
   }
 }
@@ -275,6 +283,7 @@ ParameterReading readParameters(const ros::NodeHandle& private_node) {
   XmlRpcValue tree;
   ros::param::get(private_node.getNamespace(), tree);
   ParameterReading reading = readParameters(tree, private_node.getNamespace());
+  const std::vector<curtain::ObstacleParams> own = reading.scene.obstacles;
   if (reading.robot) addRobot(private_node, reading);
   for (const std::string& warning : reading.warnings) ROS_WARN_STREAM(warning);
   if (reading.node.publish_clock && !ros::Time::isSimTime()) {
@@ -284,7 +293,7 @@ ParameterReading readParameters(const ros::NodeHandle& private_node) {
         "follows /clock");
   }
   if (reading.problems.empty()) return reading;
-  tryMeshes(reading);
+  tryMeshes(own, private_node.getNamespace() + "/" + kScene, reading.problems);
   std::string list = "can't start, " + std::to_string(reading.problems.size()) + " problem(s) with the parameters:";
   for (const std::string& problem : reading.problems) list += "\n  " + problem;
   throw ParameterError(list);

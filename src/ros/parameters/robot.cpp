@@ -4,8 +4,12 @@
 #include <console_bridge/console.h>
 #include <urdf/model.h>
 
+#include <map>
 #include <regex>
 #include <set>
+#include <stdexcept>
+
+#include "contact/shapes/mesh_loader.h"
 
 namespace curtain_ros {
 
@@ -24,16 +28,50 @@ class ParserErrors : public console_bridge::OutputHandler {
 
   void log(const std::string& text, console_bridge::LogLevel level, const char* file, int line) override {
     if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR)
-      text_ += (text_.empty() ? "" : "; ") + text;
+      errors_.push_back(text);
     else if (log_ != nullptr)
       log_->log(text, level, file, line);
   }
-  const std::string& text() const { return text_; }
+  const std::vector<std::string>& errors() const { return errors_; }
 
  private:
   console_bridge::OutputHandler* log_;
-  std::string text_;
+  std::vector<std::string> errors_;
 };
+
+// "the link 'a'", "the links 'a', 'b'"
+std::string linksInWords(const std::vector<std::string>& links) {
+  std::string text = links.size() == 1 ? "the link " : "the links ";
+  for (std::size_t i = 0; i < links.size(); ++i) text += (i == 0 ? "'" : ", '") + links[i] + "'";
+  return text;
+}
+
+// The parser's errors. It tells of geometry that it does not know link by link: here that is one message a kind, with
+// what to do.
+std::string inWords(const std::vector<std::string>& errors) {
+  const std::regex unknown("Unknown geometry type '(.*)'"), whose("Could not parse \\w+ element for Link \\[(.*)\\]");
+  std::map<std::string, std::vector<std::string>> links_of;  // by kind of geometry
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    std::smatch kind, link;
+    if (i + 1 < errors.size() && std::regex_match(errors[i], kind, unknown) &&
+        std::regex_match(errors[i + 1], link, whose)) {
+      links_of[kind[1]].push_back(link[1]);
+      ++i;
+    } else {
+      texts.push_back(errors[i]);
+    }
+  }
+  for (const auto& [kind, links] : links_of) {
+    texts.push_back("Unknown geometry type '" + kind + "' of " + linksInWords(links) +
+                    ": URDF has box, cylinder, sphere and mesh");
+    if (kind == "capsule")
+      texts.back() += "; a capsule is a cylinder and two spheres, each a <collision> of its own, or a mesh";
+  }
+  std::string text;
+  for (const std::string& one : texts) text += (text.empty() ? "" : "; ") + one;
+  return text;
+}
 
 std::vector<urdf::CollisionSharedPtr> geometriesOf(const urdf::Link& link) {
   if (!link.collision_array.empty()) return link.collision_array;
@@ -131,8 +169,8 @@ RobotReading readRobot(const RobotParams& params, const std::string& urdf) {
   {
     ParserErrors errors;
     const bool whole = model.initString(urdf);
-    if (!whole || !errors.text().empty()) {  // with some errors it only leaves out what it can't read
-      reading.problems.push_back({"", "is not a valid URDF: " + errors.text()});
+    if (!whole || !errors.errors().empty()) {  // with some errors it only leaves out what it can't read
+      reading.problems.push_back({"", "is not a valid URDF: " + inWords(errors.errors())});
       return reading;
     }
   }
@@ -141,15 +179,48 @@ RobotReading readRobot(const RobotParams& params, const std::string& urdf) {
     for (std::size_t k = 0; k < geometries.size(); ++k) {
       ObstacleParams obstacle = obstacleOf(params, link, *geometries[k]);
       obstacle.name = geometries.size() == 1 ? link : link + "/" + std::to_string(k);
-      for (const curtain::Problem& problem : validate(obstacle, ""))
+      const std::vector<curtain::Problem> problems = validate(obstacle, "");
+      for (const curtain::Problem& problem : problems)
         reading.problems.push_back({"", "collision geometry '" + obstacle.name + "': " + curtain::describe({problem})});
+      if (!problems.empty()) continue;
       obstacle.padding = params.padding;
       obstacle.friction = params.friction;
       obstacle.visible = params.visible;
       reading.obstacles.push_back(obstacle);
+      reading.links.push_back(link);
     }
   }
   return reading;
+}
+
+const char* const kMeshPlaces = "package://PACKAGE/PATH, file:///PATH or a whole path";
+
+bool isRelativeMesh(const ObstacleParams& obstacle) {
+  return obstacle.shape == ShapeKind::kMesh && !obstacle.mesh.empty() &&
+         obstacle.mesh.find("://") == std::string::npos && obstacle.mesh[0] != '/';
+}
+
+std::vector<std::string> meshProblems(const RobotReading& robot) {
+  std::vector<std::string> problems, links;
+  std::string path;
+  for (std::size_t i = 0; i < robot.obstacles.size(); ++i) {
+    const ObstacleParams& obstacle = robot.obstacles[i];
+    if (obstacle.shape != ShapeKind::kMesh) continue;
+    if (isRelativeMesh(obstacle)) {
+      if (path.empty()) path = obstacle.mesh;
+      if (links.empty() || links.back() != robot.links[i]) links.push_back(robot.links[i]);
+      continue;
+    }
+    try {
+      curtain::loadMesh(obstacle);
+    } catch (const std::invalid_argument& error) {
+      problems.push_back("the link '" + robot.links[i] + "': " + error.what());
+    }
+  }
+  if (!links.empty())
+    problems.push_back("meshes of " + linksInWords(links) + " must be " + kMeshPlaces + ", are relative paths, as '" +
+                       path + "': a URDF on the parameter server has no folder");
+  return problems;
 }
 
 }  // namespace curtain_ros

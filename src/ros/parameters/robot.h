@@ -25,14 +25,24 @@ struct RobotParams {
 
 /// What reading gave: usable only when problems is empty.
 struct RobotReading {
-  std::vector<curtain::ObstacleParams> obstacles;
-  std::vector<curtain::Problem> problems;  ///< key "links", or empty for those of the URDF
+  std::vector<curtain::ObstacleParams> obstacles;  ///< without those that problems tell of
+  std::vector<std::string> links;                  ///< that the obstacles are geometry of, one each
+  std::vector<curtain::Problem> problems;          ///< key "links", or empty for those of the URDF
 };
 
 /// Obstacles of a robot, by the names of its links: LINK, or LINK/0, LINK/1, … where it has several geometries, on the
 /// frame TF_PREFIX/LINK. Boxes, cylinders and spheres stay what they are, meshes keep URL and scale; no file is opened.
 ///   urdf  its XML text
 RobotReading readRobot(const RobotParams& params, const std::string& urdf);
+
+/// What is wrong with the mesh files of a robot, which it reads: those that can't be had, with their links.
+std::vector<std::string> meshProblems(const RobotReading& robot);
+
+/// A mesh whose path is relative: neither a URL nor a whole path.
+bool isRelativeMesh(const curtain::ObstacleParams& obstacle);
+
+/// What a mesh must be where nobody knows of a folder, for messages.
+extern const char* const kMeshPlaces;
 
 }  // namespace curtain_ros
 

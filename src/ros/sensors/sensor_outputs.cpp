@@ -6,9 +6,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "ros/health/warn_period.h"
 #include "ros/sensors/read_camera_info.h"
 #include "ros/sensors/sensor_messages.h"
+#include "ros/time/warn_period.h"
 #include "scene/ranges.h"
 
 namespace curtain_ros {

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "curtain_sim/snapshot_file.h"
-#include "ros/health/warn_period.h"
+#include "ros/time/warn_period.h"
 
 namespace curtain_ros {
 

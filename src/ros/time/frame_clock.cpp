@@ -7,7 +7,7 @@
 #include <cmath>
 #include <ctime>
 
-#include "ros/health/warn_period.h"
+#include "ros/time/warn_period.h"
 
 namespace curtain_ros {
 

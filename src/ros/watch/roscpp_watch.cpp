@@ -13,7 +13,7 @@
 
 #include <utility>
 
-#include "ros/health/warn_period.h"
+#include "ros/time/warn_period.h"
 
 namespace curtain_ros {
 

@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/pi.h"
+#include "rviz/surface/pi.h"
 
 namespace curtain_rviz {
-
-using curtain::kPi;
 
 namespace {
 

@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/pi.h"
+#include "rviz/surface/pi.h"
 
 namespace curtain_rviz {
 
-using curtain::kPi;
 using curtain::Vec3;
 
 namespace {
