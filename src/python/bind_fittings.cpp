@@ -31,7 +31,7 @@ py::object driveOf(const Simulator& simulator) {
   py::dict values;
   values["speed"] = simulator.drive().speed;
   values["force"] = simulator.drive().force;
-  return std::move(values);
+  return py::object(values);
 }
 
 void setDrive(Self& self, double speed, double force) {

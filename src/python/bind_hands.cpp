@@ -69,7 +69,7 @@ py::object graspState(const Self& self, const std::string& id) {
   values["slipped"] = state->slipped;
   values["holds"] = state->end == GraspEnd::kNone;
   values["end"] = state->end == GraspEnd::kNone ? "" : state->end == GraspEnd::kBroken ? "broken" : "slipped_out";
-  return std::move(values);
+  return py::object(values);
 }
 
 void movePin(Self& self, const py::object& node, const py::object& target) {

@@ -119,12 +119,12 @@ py::object fromYaml(const YAML::Node& node) {
   if (node.IsMap()) {
     py::dict values;
     for (const auto& entry : node) values[py::str(entry.first.Scalar())] = fromYaml(entry.second);
-    return std::move(values);
+    return py::object(values);
   }
   if (node.IsSequence()) {
     py::list values;
     for (const auto& entry : node) values.append(fromYaml(entry));
-    return std::move(values);
+    return py::object(values);
   }
   const std::string& text = node.Scalar();
   if (node.Tag() == "!") return py::str(text);

@@ -63,7 +63,7 @@ class Designs(unittest.TestCase):
 
     def test_what_is_wrong_is_named(self):
         friction = {"contact.friction": [0.1]}
-        for given, text in (({"parameters": {"a": {"min": "1e-3", "max": 1.0, "steps": 3}}}, "a.min: must be a number, is the text '1e-3'"),
+        for given, text in (({"parameters": {"a": {"min": "1e-3 m", "max": 1.0, "steps": 3}}}, "a.min: must be a number, is the text '1e-3 m'"),
                             ({"parameters": {"a": {"min": 0.0, "max": 1.0, "steps": 3, "scale": "log"}}}, "a.min: must be > 0"),
                             ({"parameters": {"a": {"min": 0.0, "max": 1.0}}}, "a.steps: is missing"),
                             ({"parameters": {"a": {"min": 0.0}}, "design": "random", "count": 2}, "a.max: is missing"),

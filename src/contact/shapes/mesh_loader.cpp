@@ -205,10 +205,8 @@ ShapeTriangles loadMesh(const std::string& path, const Vec3& scale, const std::s
 
 ShapeTriangles loadMesh(const ObstacleParams& obstacle, const MeshResolver& resolve) {
   const std::string who = "obstacle '" + obstacle.name + "': ";
-  for (int axis = 0; axis < 3; ++axis) {
-    const double factor = obstacle.scale[axis];
-    if (!(std::isfinite(factor) && factor != 0.0)) throw std::invalid_argument(who + "scale must be finite and not 0");
-  }
+  if (!(obstacle.scale.allFinite() && (obstacle.scale.array() != 0.0).all()))
+    throw std::invalid_argument(who + "scale must be finite and not 0");
   const std::string path = resolve(obstacle.mesh);
   if (path.empty()) {
     throw std::invalid_argument(who + "mesh '" + obstacle.mesh +

@@ -46,7 +46,8 @@ int main(int count, char** words) {
   try {
     for (const FeatureState state : {FeatureState::kOff, FeatureState::kIdle, FeatureState::kActive}) {
       if (count != 3 || curtain_bench::stateName(state) != std::string(words[2])) continue;
-      const Feature& feature = curtain_bench::featureOf(words[1]);
+      const std::string name = words[1];
+      const Feature& feature = curtain_bench::featureOf(name);
       if (!feature.has(state)) break;
       runFrames(feature, state);
       return 0;
