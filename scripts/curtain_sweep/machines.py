@@ -94,7 +94,7 @@ class Machines:
                 self.hosts.append(line)
                 continue
             why = [text[len(name) + 1:].strip() for text in answer.stderr.splitlines() if text.startswith(name + "\t")]
-            why = (why[0].removesuffix(name).strip() if why else "") or "no answer"
+            why = (re.sub(re.escape(name) + "$", "", why[0]).strip() if why else "") or "no answer"
             if said:
                 troubles.append("host %s has %s, this machine %s" % (name, said[0], version))
             elif "not found" in why:

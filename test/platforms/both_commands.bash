@@ -12,7 +12,7 @@ installed=$begin shown=
 until [ -n "$shown" ] || ! kill -0 $demo 2>/dev/null; do
   sleep 1
   if [ "$installed" = "$begin" ] && [ -e "$root/root/curtain_sim/build/CMakeCache.txt" ]; then installed=$(date +%s); fi
-  if inside "xdotool search --onlyvisible --name '^curtain.*RViz'" >/dev/null 2>&1; then shown=$(date +%s); fi
+  if inside "xdotool search --onlyvisible --name 'RViz$'" >/dev/null 2>&1; then shown=$(date +%s); fi
 done
 sleep 10
 inside "import -window root demo.png" || true
