@@ -87,7 +87,10 @@ void bindHands(SimulatorClass& simulator) {
   simulator
       .def("move_pin", &movePin, py::arg("node"), py::arg("target"),
            "Moves a pinned node to a point [m], evenly over the next frame; there it stays. node: (row, column).")
-      .def("set_grasp", &setGrasp, py::arg("id"), py::arg("position"), py::arg("orientation") = unturned, py::kw_only(),
+      .def("set_grasp", &setGrasp, py::arg("id"), py::arg("position"), py::arg("orientation") = unturned,
+#if PYBIND11_VERSION_MAJOR > 2 || PYBIND11_VERSION_MINOR >= 6  // before, these can be given by position, too
+           py::kw_only(),
+#endif
            py::arg("radius") = py::none(), py::arg("size") = py::none(), py::arg("nodes") = py::none(),
            py::arg("stiffness") = kNone, py::arg("break_force") = kNone, py::arg("pinch_force") = kNone,
            py::arg("friction") = 0.5,

@@ -14,7 +14,7 @@ Scene usable(SceneReading reading, const std::string& source) {
 }
 
 Scene readFile(const py::object& path) {
-  const auto name = py::module_::import("os").attr("fspath")(path).cast<std::string>();
+  const auto name = py::module::import("os").attr("fspath")(path).cast<std::string>();
   return usable(readSceneFile(name), name);
 }
 
@@ -22,7 +22,7 @@ Scene readText(const std::string& text) { return usable(readSceneText(text), "")
 
 }  // namespace
 
-void bindScene(py::module_& module) {
+void bindScene(py::module& module) {
   py::class_<Scene>(module, "Scene",
                     "What a simulator starts from: cloth, pins or rail, winds, obstacles, solver. It does not change; "
                     "to change one, change its to_dict() and make another. Can be pickled and compared.")

@@ -11,7 +11,7 @@ namespace curtain::python {
 
 using SimulatorClass = pybind11::class_<PythonSimulator>;
 
-void bindScene(pybind11::module_& module);
+void bindScene(pybind11::module& module);
 void bindState(SimulatorClass& simulator);      ///< time, nodes, arrays, snapshots
 void bindForces(SimulatorClass& simulator);     ///< winds, drags, what of the scene may change
 void bindHands(SimulatorClass& simulator);      ///< pins and grasps

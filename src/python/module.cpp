@@ -14,7 +14,7 @@ namespace {
 curtain::Scene sceneOf(const py::object& given) {
   if (py::isinstance<curtain::Scene>(given)) return given.cast<curtain::Scene>();
   if (py::isinstance<py::dict>(given)) return curtain::python::readSceneValues(given);
-  const std::string type = py::str(py::type::handle_of(given).attr("__name__"));
+  const std::string type = py::str(given.get_type().attr("__name__"));
   throw py::type_error("scene: must be a Scene or a dict, is a " + type);
 }
 

@@ -75,7 +75,7 @@ YAML::Node convert(const py::handle& value, const std::string& name, int depth) 
   if (py::isinstance<py::dict>(value)) return convertDict(value, name, depth);
   if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) return convertSequence(value, name, depth);
   if (py::hasattr(value, "tolist")) return convert(value.attr("tolist")(), name, depth + 1);  // NumPy's
-  const std::string type = py::str(py::type::handle_of(value).attr("__name__"));
+  const std::string type = py::str(value.get_type().attr("__name__"));
   refuse({{name, "must be a number, text, a list or a dict, is a " + type}});
   return {};
 }
