@@ -48,8 +48,8 @@ target_compile_definitions(curtain_python PRIVATE CURTAIN_VERSION="${PROJECT_VER
 target_include_directories(curtain_python SYSTEM PRIVATE ${curtain_python_headers} ${CURTAIN_pybind11_HEADERS})
 target_link_libraries(curtain_python PRIVATE curtain_engine curtain_warnings)
 configure_file(src/python/__init__.pyi ${curtain_python_built}/curtain_engine/__init__.pyi COPYONLY)
-file(TOUCH ${curtain_python_built}/curtain_engine/py.typed)  # type checkers ask for it
-install(FILES src/python/__init__.pyi ${curtain_python_built}/curtain_engine/py.typed DESTINATION ${curtain_python}/curtain_engine)
+configure_file(src/python/py.typed ${curtain_python_built}/curtain_engine/py.typed COPYONLY)  # type checkers ask for it
+install(FILES src/python/__init__.pyi src/python/py.typed DESTINATION ${curtain_python}/curtain_engine)
 install(TARGETS curtain_python LIBRARY DESTINATION ${curtain_python}/curtain_engine)
 file(RELATIVE_PATH from_python_to_lib /${curtain_python}/curtain_engine /${curtain_lib})
 set_target_properties(curtain_python PROPERTIES INSTALL_RPATH "$ORIGIN/${from_python_to_lib}")

@@ -1,22 +1,22 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """An environment with the interface of gymnasium: a hand that holds the free edge of a curtain is to draw it open."""
-from typing import Any, Dict, Optional, Tuple
+from __future__ import annotations
+from typing import TYPE_CHECKING, Any, Dict, Optional, Tuple
 
 import curtain_engine
 import numpy as np
-from numpy.typing import NDArray
+if TYPE_CHECKING:  # NumPy's types came with 1.21
+    from numpy.typing import NDArray
+    Vector = NDArray[np.float32]
 
 SCENE = {
     "cloth": {"rows": 16, "columns": 25, "height": 2.0, "width": 2.4, "surface_density": 0.2},
     "rail": {"path": [[0.0, 0.0, 2.2], [2.2, 0.0, 2.2]], "carriers": {"every": 4, "friction": 0.1}},
     "air": {"inside": 0.4, "border": 0.4, "corner": 0.4},
 }
-FRAMES = 3  # 1/60 s each, a step
-STEPS = 200  # an episode, 10 s
+FRAMES, STEPS = 3, 200  # 1/60 s each, a step; an episode, 10 s
 OPEN = 0.8  # of the way that the carriers have
-Array = NDArray[np.float32]
-Info = Dict[str, Any]
 
 
 class OpenCurtain:
@@ -31,7 +31,7 @@ class OpenCurtain:
         self.random = np.random.default_rng()
         self.reset()
 
-    def reset(self, *, seed: Optional[int] = None, options: Optional[Info] = None) -> Tuple[Array, Info]:
+    def reset(self, *, seed: Optional[int] = None, options: Optional[Dict[str, Any]] = None) -> Tuple[Vector, Dict[str, Any]]:
         """The curtain hangs in a draught, nearly shut; the hand has its edge a third to two thirds of the way down."""
         if seed is not None:
             self.random = np.random.default_rng(seed)
@@ -44,7 +44,7 @@ class OpenCurtain:
         self.steps = 0
         return self.observation(), {}
 
-    def step(self, action: Array) -> Tuple[Array, float, bool, bool, Info]:
+    def step(self, action: Vector) -> Tuple[Vector, float, bool, bool, Dict[str, Any]]:
         """Moves the hand for 1/20 s. The reward is the way that the curtain has opened, less 1 if the hand loses it."""
         before = self.opening()
         for _ in range(FRAMES):
@@ -66,10 +66,10 @@ class OpenCurtain:
         """0 where it is drawn shut, 1 where it is gathered as far as it goes."""
         return float(self.simulator.statistics["opening"])
 
-    def observation(self) -> Array:
+    def observation(self) -> Vector:
         """A copy: what the simulator shows changes with the next step."""
         parts = [self.hand, [self.opening()], self.positions[::4, ::4].ravel()]
-        observation: Array = np.concatenate(parts).astype(np.float32)
+        observation: Vector = np.concatenate(parts).astype(np.float32)
         return observation
 
 

@@ -44,7 +44,8 @@ def plot(path, results, design):
             if parameter.scale == "log":
                 axis.set_xscale("log")
             if ticks:
-                axis.set_xticks(range(len(ticks)), ticks, rotation=30, ha="right")
+                axis.set_xticks(range(len(ticks)))
+                axis.set_xticklabels(ticks, rotation=30, ha="right")
             if column == 0:
                 axis.set_ylabel(name)
             if row == len(metrics) - 1:

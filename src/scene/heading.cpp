@@ -20,7 +20,7 @@ double turn(Heading heading, double t) {
 
 struct Chord {
   double along = 0.0, across = 0.0;
-  double length() const { return std::hypot(along, across); }
+  double length() const { return std::sqrt(along * along + across * across); }  // hypot differs between C libraries
 };
 
 Chord chordOf(const std::vector<double>& links, const std::vector<double>& turns, double size) {

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <sstream>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,35 @@ std::string placed(const YAML::Mark& mark, const std::string& text) {
 struct Refusal {
   std::string text;
 };
+
+// Bytes of the UTF-8 character that text begins with; 0: there is none (RFC 3629, Sect. 4).
+std::size_t characterLength(std::string_view text) {
+  const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
+  const unsigned first = byte(0), second = byte(1);
+  const auto follows = [&](std::size_t k) { return byte(k) >= 0x80 && byte(k) <= 0xBF; };
+  if (first <= 0x7F) return 1;
+  if (first >= 0xC2 && first <= 0xDF) return follows(1) ? 2 : 0;
+  if (first >= 0xE0 && first <= 0xEF) {
+    const bool fits = !(first == 0xE0 && second < 0xA0) && !(first == 0xED && second > 0x9F);
+    return fits && follows(1) && follows(2) ? 3 : 0;
+  }
+  if (first >= 0xF0 && first <= 0xF4) {
+    const bool fits = !(first == 0xF0 && second < 0x90) && !(first == 0xF4 && second > 0x8F);
+    return fits && follows(1) && follows(2) && follows(3) ? 4 : 0;
+  }
+  return 0;
+}
+
+// yaml-cpp takes any bytes; 0.6 allocates without end on some that are no characters.
+void requireUtf8(const std::string& text) {
+  YAML::Mark mark;
+  for (std::size_t at = 0, length = 0; at < text.size(); at += length) {
+    length = characterLength(std::string_view(text).substr(at));
+    if (length == 0) throw Refusal{placed(mark, "not UTF-8 text")};
+    ++mark.column;
+    if (text[at] == '\n') ++mark.line, mark.column = 0;
+  }
+}
 
 // Counts documents and values without building a tree.
 class Inspector final : public YAML::EventHandler {
@@ -86,6 +116,7 @@ class Inspector final : public YAML::EventHandler {
 bool loadYaml(const std::string& text, YAML::Node& root, std::string& problem) {
   try {
     if (text.size() > kLongestYaml) throw Refusal{"is longer than 16 MiB, which no scene needs"};
+    requireUtf8(text);
     Inspector inspector;
     std::istringstream stream(text);
     YAML::Parser parser(stream);

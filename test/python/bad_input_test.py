@@ -33,10 +33,11 @@ class BadInput(unittest.TestCase):
         far = good.copy()
         far[7, 5, 2] = 1e300
         wanted = "must be an array of real numbers of shape (8, 6, 3), is "
+        ragged = "none: " if numpy.lib.NumpyVersion(numpy.__version__) >= "1.24.0" else "of dtype object"
         for bad, text in [(good[:3], wanted + "of shape (3, 6, 3)"), (good.reshape(-1, 3), wanted + "of shape (48, 3)"),
                           (good.astype(complex), wanted + "of dtype complex128"), (good.astype(str), wanted + "of dtype <U32"),
                           (good > 0, wanted + "of dtype bool"), (good.astype(object), wanted + "of dtype object"),
-                          ([[1.0, 2.0], [3.0]], wanted + "none: "), (None, wanted + "of dtype object"), (7.0, wanted + "of shape ()"),
+                          ([[1.0, 2.0], [3.0]], wanted + ragged), (None, wanted + "of dtype object"), (7.0, wanted + "of shape ()"),
                           (holed, "[22]: must be finite and within [-1e9, 1e9]"), (far, "[47]: must be finite")]:
             with self.subTest(text):
                 self.refused(lambda sim, bad=bad: sim.set_state(bad, good), "positions", text)

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Types and docstrings of the module are those of its code, and it has what the engine's Simulator has."""
 import ast
+import importlib.util
 import os
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -37,6 +39,7 @@ def arguments(function):
     return [one.arg for one in parameters.args], defaults, [one.arg for one in parameters.kwonlyargs], only
 
 
+@unittest.skipIf(sys.version_info < (3, 9), "ast.unparse came with Python 3.9")
 class Stub(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -90,6 +93,7 @@ class Stub(unittest.TestCase):
             self.assertTrue(hasattr(curtain_engine.Simulator, name), "no %s for %s()" % (name, method))
 
     @unittest.skipUnless(shutil.which("mypy"), "mypy is not installed (Debian: mypy)")
+    @unittest.skipUnless(importlib.util.find_spec("numpy.typing"), "this NumPy has no types, as those before 1.21")
     def test_mypy_takes_the_example_and_sees_mistakes(self):
         with tempfile.TemporaryDirectory() as folder:
             wrong = os.path.join(folder, "wrong.py")

@@ -7,6 +7,7 @@ import threading
 import time
 import unittest
 
+import rosgraph
 import roslib.packages
 import rospy
 import rostest
@@ -63,7 +64,12 @@ class NodeletTest(unittest.TestCase):
         self.assertLess(time.monotonic() - start, 1.5, "less than a second, and the start of the tool")
         caller.join(20.0)
         self.assertEqual([answer.message.split(":")[0] for answer in answers], ["the node stops"])
-        wait_until(lambda: self.curtain._subscriber.get_num_connections() == 0, "its topics are gone")
+        wait_until(lambda: not self.published("/curtain/state"), "its topics are gone")
+
+    @staticmethod
+    def published(topic):
+        """Whether the master knows somebody who publishes it."""
+        return any(name == topic for name, _ in rosgraph.Master("/nodelet_test").getSystemState()[0])
 
     @staticmethod
     def nodelet(*arguments):

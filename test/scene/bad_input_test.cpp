@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Every mistake one can make in a scene file is reported under its key, with what was given and what is allowed.
+#include <yaml-cpp/yaml.h>
+
 #include <algorithm>
 
 #include "scene/scene_testing.h"
@@ -328,9 +330,21 @@ TEST(BadInput, EndsMustComeAfterStarts) {
 
 // It could not be written again, and no topic would take it.
 TEST(BadInput, TextThatIsNoUtf8IsNamed) {
-  for (const std::string bad : {"a\xFF", "\xC0\xAF", "\xE2\x82", "\xED\xA0\x80"}) {
-    expectProblem(smallScene() + std::string("wind: [{id: ") + bad + "}]\n", "wind[0].id", {"UTF-8"});
+  for (const std::string bad : {"a\xFF", "\xC0\xAF", "\xE2\x82", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\x80"}) {
+    const std::string place = "line 2, column " + std::to_string(bad[0] == 'a' ? 14 : 13);
+    expectProblem("cloth: {rows: 4, columns: 3}\nwind: [{id: " + bad + "}]\n", "", {place, "UTF-8"});
+    YAML::Node root = YAML::Load(smallScene());  // of parameters
+    root["wind"][0]["id"] = bad;
+    const SceneReading reading = readScene(root);
+    ASSERT_EQ(reading.problems.size(), 1U);
+    EXPECT_EQ(reading.problems[0].key, "wind[0].id");
+    EXPECT_NE(reading.problems[0].text.find("UTF-8"), std::string::npos) << reading.problems[0].text;
   }
+}
+
+TEST(BadInput, CharactersOfUtf8AreTaken) {
+  for (const std::string good : {"\xC2\x80", "\xE0\xA0\x80", "\xED\x9F\xBF", "\xF0\x90\x80\x80", "\xF4\x8F\xBF\xBD"})
+    EXPECT_EQ(readSceneText(smallScene() + std::string("wind: [{id: \"") + good + "\"}]\n").scene.wind.at(0).id, good);
 }
 
 TEST(BadInput, BadWindsAreNamed) {
