@@ -21,7 +21,7 @@ curtain_packages() {
       count = split(release == "noetic" ? $4 : $3, names, " ")
       for (i = 1; i <= count; ++i) {
         split(names[i], name, "@")
-        if (name[1] != "-" && (name[2] == "" || name[2] == release)) print name[1]
+        if (name[1] != "-" && (name[2] == "" || name[2] == release) && !named[name[1]]++) print name[1]
       }
     }' "$curtain_root/scripts/packages.txt"
 }
