@@ -6,8 +6,8 @@ curtain_build=${CURTAIN_BUILD:-$curtain_root/build}
 curtain_system=$(
   source /etc/os-release 2>/dev/null || true
   case "$ID $VERSION_ID" in
-    'debian 11' | 'debian 12' | 'debian 13') echo "$VERSION_ID" ;;
-    'ubuntu 20.04') [ ! -f /opt/ros/noetic/setup.bash ] || echo noetic ;;
+    ('debian 11' | 'debian 12' | 'debian 13') echo "$VERSION_ID" ;;
+    ('ubuntu 20.04') [ ! -f /opt/ros/noetic/setup.bash ] || echo noetic ;;
   esac
 )
 # A python3 from elsewhere in front breaks catkin, roslaunch and rospy.
