@@ -141,7 +141,7 @@ TEST_F(BadInput, SceneValuesOutOfRangeAreRefused) {
   expectSceneRefused("cloth: {rows: 1, columns: 4}\n", {"cloth.rows", "[2, 4096]", "1"});
   expectSceneRefused("cloth: {rows: 5, columns: 1}\n", {"cloth.columns"});
   expectSceneRefused("cloth: {rows: 5, columns: 4, height: 1e3 m}\n", {"cloth.height", "1e3 m"});
-  expectSceneRefused("cloth: {rows: 5, columns: 4, height: 1e99}\n", {"cloth.height", "1e99"});
+  expectSceneRefused("cloth: {rows: 5, columns: 4, height: 1e99}\n", {"cloth.height", "1e+99"});
   expectSceneRefused("cloth: {rows: five, columns: 4}\n", {"cloth.rows", "five"});
   expectSceneRefused("cloth: {rows: 5, columns: 4, height: .nan}\n", {"cloth.height"});
   expectSceneRefused(std::string(kCloth) + "gravity: [0, 0, .inf]\n", {"gravity"});

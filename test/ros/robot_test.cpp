@@ -132,7 +132,10 @@ std::string onlyProblem(const std::string& urdf) {
 
 TEST(Robot, ADescriptionThatIsNoneSaysWhy) {
   EXPECT_EQ(onlyProblem("").rfind("is not a valid URDF: ", 0), 0U);
-  EXPECT_NE(onlyProblem("<robot name=\"r\"><link").find("Failed to read"), std::string::npos);
+  const std::string cut =
+      onlyProblem("<robot name=\"r\"><link");  // in the words of TinyXML, or from urdfdom 4 on TinyXML 2
+  EXPECT_TRUE(cut.find("Failed to read") != std::string::npos || cut.find("XML_ERROR_PARSING") != std::string::npos)
+      << cut;
   EXPECT_NE(onlyProblem("<sdf/>").find("Could not find the 'robot' element"), std::string::npos);
   EXPECT_NE(onlyProblem(robotWith("")).find("No link elements"), std::string::npos);
   EXPECT_NE(onlyProblem(link("<cone/>")).find("Unknown geometry type 'cone'"), std::string::npos);
