@@ -19,10 +19,11 @@ constexpr std::size_t kSquare = kInterleave * kInterleave;  // of as many of the
 CURTAIN_INTO_WIDE void transpose(const float* from, std::size_t from_stride, float* to,
                                  std::size_t to_stride) noexcept {
   // Read and written as vectors, not by memcpy, which g++ makes single moves of for wide registers only.
-  typedef float Lanes __attribute__((vector_size(32), aligned(4), may_alias));
+  typedef float Lanes __attribute__((vector_size(32)));
+  typedef float Unaligned __attribute__((vector_size(32), aligned(4), may_alias));
   static_assert(sizeof(Lanes) == kInterleave * sizeof(float), "a row of the block");
   Lanes a[kInterleave], b[kInterleave];
-  for (std::size_t l = 0; l < kInterleave; ++l) a[l] = *reinterpret_cast<const Lanes*>(from + l * from_stride);
+  for (std::size_t l = 0; l < kInterleave; ++l) a[l] = *reinterpret_cast<const Unaligned*>(from + l * from_stride);
   for (std::size_t l = 0; l < kInterleave; l += 2) {
     shuffle<0, 8, 1, 9, 4, 12, 5, 13>(a[l], a[l + 1], b[l]);
     shuffle<2, 10, 3, 11, 6, 14, 7, 15>(a[l], a[l + 1], b[l + 1]);
@@ -37,7 +38,7 @@ CURTAIN_INTO_WIDE void transpose(const float* from, std::size_t from_stride, flo
     shuffle<0, 1, 2, 3, 8, 9, 10, 11>(a[l], a[l + 4], b[l]);
     shuffle<4, 5, 6, 7, 12, 13, 14, 15>(a[l], a[l + 4], b[l + 4]);
   }
-  for (std::size_t l = 0; l < kInterleave; ++l) *reinterpret_cast<Lanes*>(to + l * to_stride) = b[l];
+  for (std::size_t l = 0; l < kInterleave; ++l) *reinterpret_cast<Unaligned*>(to + l * to_stride) = b[l];
 }
 
 // Fixed number of partial sums, so the bits do not depend on the register width. count is a multiple of it.
