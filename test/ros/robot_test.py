@@ -230,7 +230,7 @@ class RobotTest(DrivenCurtain):
         output = self.node.output()
         self.assertEqual(code, 1, output)
         self.assertEqual(output.count("FATAL"), 1, output)
-        self.assertEqual(output.count("ERROR"), 0, output)
+        self.assertEqual(output.count("[ERROR]"), 0, output)
         for name in names:
             self.assertIn(name, output)
 
