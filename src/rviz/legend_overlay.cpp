@@ -12,6 +12,7 @@
 #include <QImage>
 #include <QLinearGradient>
 #include <QPainter>
+#include <cmath>
 
 #include "rviz/surface/fabric.h"
 #include "rviz/surface/layers.h"
@@ -31,8 +32,8 @@ QLinearGradient gradient() {
   for (int stop = 0; stop <= kStops; ++stop) {
     const double share = static_cast<double>(stop) / kStops;
     const Colour colour = scaleColour(share);
-    colours.setColorAt(share, QColor::fromRgbF(static_cast<double>(colour[0]), static_cast<double>(colour[1]),
-                                               static_cast<double>(colour[2])));
+    const auto level = [&](std::size_t part) { return static_cast<int>(std::lround(255.0F * colour[part])); };
+    colours.setColorAt(share, QColor(level(0), level(1), level(2)));
   }
   return colours;
 }
