@@ -23,6 +23,8 @@ kill $screen 2>/dev/null || true
 if [ -z "$shown" ]; then
   tail -30 "$root.demo.log" >&2
   built="no window"
+elif [ -n "$again" ]; then
+  built="shown, not timed"
 else
   built="$(minutes $((installed - begin))) + $(minutes $((shown - installed)))"
 fi
@@ -33,6 +35,6 @@ failed=0
 inside "curtain_sim/scripts/test" >"$root.test.log" 2>&1 || failed=1
 counts=$(tail -n 1 "$root.test.log")
 skipped=$(grep -c 'Not Run\|Skipped' "$root/root/curtain_sim/build/ctest.log" || true)
-tests="$counts, $skipped skipped; $(minutes $(($(date +%s) - begin)))"
+tests="$counts, $skipped skipped; $([ -n "$again" ] && echo "not timed" || minutes $(($(date +%s) - begin)))"
 states=$(inside "curtain_sim/test/golden/check curtain_sim/build/*/lib/curtain_sim/curtain_batch" | tail -n 1 | sed 's/ states are the golden ones//') || failed=1
 [ -n "$shown" ] || failed=1
