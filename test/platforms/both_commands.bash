@@ -2,9 +2,8 @@
 inside "apt-get install -y -qq --no-install-recommends xvfb xdotool imagemagick ${compiler[*]}" >>"$root.log" 2>&1
 system="$(. "$root/etc/os-release"; echo "$NAME" | cut -d ' ' -f 1) $(cat "$root/etc/debian_version"), $(inside "${compiler[0]} -dumpfullversion" | sed 's/^/g++ /')"
 
-display=:97
-inside "exec Xvfb :97 -screen 0 1280x900x24 -nolisten tcp" >/dev/null 2>&1 &
-screen=$!
+display=:$((90 + $(printf %s "$name" | cksum | cut -c 1-3) % 1000))  # systems may be tried side by side
+inside "Xvfb $display -screen 0 1280x900x24 -nolisten tcp" >/dev/null 2>&1 &
 begin=$(date +%s)
 inside "curtain_sim/scripts/demo" >"$root.demo.log" 2>&1 &
 demo=$!
@@ -17,9 +16,9 @@ done
 sleep 10
 inside "import -window root demo.png" || true
 mv "$root/root/demo.png" "$root.demo.png" || true
-inside "pkill -INT -f bin/roslaunch" || true
+interrupt_inside bin/roslaunch
 wait $demo || true
-kill $screen 2>/dev/null || true
+interrupt_inside "Xvfb $display"
 if [ -z "$shown" ]; then
   tail -30 "$root.demo.log" >&2
   built="no window"
