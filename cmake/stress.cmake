@@ -8,7 +8,7 @@ foreach(program curtain_stress curtain_soak)
   target_link_libraries(${program} PRIVATE curtain_engine curtain_warnings)
 endforeach()
 # The default, and the two that do not share its steps; the others differ little, or keep nothing.
-foreach(method auto leapfrog4 bdf2)
+foreach(method auto leapfrog4 implicit)
   add_test(NAME stress_${method} COMMAND curtain_stress --method ${method})
   set_tests_properties(stress_${method} PROPERTIES LABELS stress)
 endforeach()

@@ -339,8 +339,7 @@ enum class Method {
   kLeapfrog,   ///< constraint forces along the links' directions at the start of the step; order 2, symplectic
   kLeapfrog4,  ///< five leapfrog steps to a substep, composed to order 4 (with damping: 2); as auto where a string is
                ///< taut or contact is near
-  kBdf2,       ///< along the directions at the end of the step, from two steps; order 2, stable at any step
-  kImplicit,   ///< the same from one step; order 1, stable at any step, damps
+  kImplicit,   ///< along the directions at the end of the step; order 1, stable at any step, damps
   kPaper       ///< Cheng 2000, Sect. 3: one explicit pass, rods rebuilt to their length; order 1, wefts give way
 };
 

@@ -44,8 +44,8 @@ inline DampedStep dampedStep(double coefficient, double inverse_mass, double dt)
   return {1.0 / denominator, (1.0 + 0.5 * z) / denominator};
 }
 
-/// The same with damping at the end of the step, v' = v + dt w (F - c v'), as backward Euler and bdf2 need for their
-/// order; also positive and with the exact terminal velocity.
+/// The same with damping at the end of the step, v' = v + dt w (F - c v'), as backward Euler needs for its order;
+/// also positive and with the exact terminal velocity.
 inline DampedStep implicitlyDampedStep(double coefficient, double inverse_mass, double dt) {
   const double share = 1.0 / (1.0 + coefficient * inverse_mass * dt);
   return {share, share};

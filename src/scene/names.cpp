@@ -50,7 +50,7 @@ const std::vector<std::string>& shapeNames() {
 }
 
 const std::vector<std::string>& methodNames() {
-  static const std::vector<std::string> kNames = {"auto", "leapfrog", "leapfrog4", "bdf2", "implicit", "paper"};
+  static const std::vector<std::string> kNames = {"auto", "leapfrog", "leapfrog4", "implicit", "paper"};
   return kNames;
 }
 

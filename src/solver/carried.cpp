@@ -22,14 +22,6 @@ void NodeInertia::Tensions::carry(Archive& archive) {
   archive.number("scale", scale);
 }
 
-void Bdf2::Memory::carry(Archive& archive) {
-  archive.numbers("position", position);
-  archive.numbers("velocity", velocity);
-  archive.numbers("place", place);
-  archive.number("h", h);
-  archive.integer("single_steps", single_steps, 0, kCount);
-}
-
 void Constraints::Memory::carry(Archive& archive) {
   archive.numbers("warp", warp);
   archive.numbers("weft", weft);
@@ -46,7 +38,6 @@ void CordLinks::carry(Archive& archive) {
 
 void ExactSolver::Memory::carry(Archive& archive) {
   archive.part("constraints", constraints);
-  archive.part("bdf2", bdf2);
   archive.part("tensions", tensions);
   archive.part("carriers", carriers);
 }
@@ -67,7 +58,6 @@ void Constraints::carry(Archive& archive) {
 
 void ExactSolver::carry(Archive& archive) {
   archive.part("constraints", constraints_);
-  archive.part("bdf2", bdf2_.memory());
   archive.part("tensions", inertia_.tensions());
   archive.part("carriers", constraints_.carriers().memory());
   archive.part("held", held_);

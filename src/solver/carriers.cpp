@@ -113,15 +113,6 @@ void Carriers::followDirections() noexcept {
   for (Carrier& carrier : all_) carrier.along = carrier.now;
 }
 
-bool Carriers::strikes() const noexcept {
-  bool strikes = false;
-  for (std::size_t k = 0; k < all_.size(); ++k) strikes = strikes || (rows_[k].stays && memory_.stays[k] == 0);
-  law_.forEachRun([&](std::size_t first, std::size_t end) {
-    for (std::size_t k = first; k + 1 < end; ++k) strikes = strikes || memory_.joins[k] == 0;
-  });
-  return strikes;
-}
-
 void Carriers::commit(ClothState& state) noexcept {
   forget();
   for (std::size_t k = 0; k < all_.size(); ++k) {

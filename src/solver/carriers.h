@@ -83,8 +83,6 @@ class Carriers {
   }
   /// Directions follow the present positions.
   void followDirections() noexcept;
-  /// A carrier stays, or touches its neighbour, that did not in the last accepted substep.
-  bool strikes() const noexcept;
 
   /// Accepts the substep: sets places and velocities.
   void commit(ClothState& state) noexcept;

@@ -74,9 +74,6 @@ constexpr double kMostDamping = 1e3;
 // Change of the damping after a sweep that made things worse, and after one that improved them.
 constexpr double kDampingGrowth = 8.0;
 constexpr double kDampingShrink = 2.0;
-// Variable-step bdf2 is stable while steps grow by less than 1 + sqrt(2) at once (Grigorieff 1983); after a larger
-// growth it restarts from one step.
-constexpr double kMostGrowth = 2.0;
 
 // ---- Substeps: verification and energy
 
@@ -84,14 +81,10 @@ constexpr double kMostGrowth = 2.0;
 // bring links to their lengths.
 constexpr double kMostSurfaceMotion = 0.2;
 // Ratio of kinetic energies, with and without the work of links, above which the links are assumed to have jumped to
-// another configuration. Otherwise links only take energy out; leapfrog's energy wavers, and bdf2's base is off the
-// links, by the square of the angle that links turn by: 0.03 at 0.17 rad. An excess that a shorter step would not
-// reduce is taken out of the velocities instead.
+// another configuration. Otherwise links only take energy out, but leapfrog's energy wavers by the square of the angle
+// that links turn by: 0.03 at 0.17 rad. An excess that a shorter step would not reduce is taken out of the velocities
+// instead.
 constexpr double kMostAdded = 1.03;
-// Substeps that bdf2 makes from one previous step after an impact. Its history would return part of the stopped
-// velocity as a rebound (two thirds for a string that snapped taut). Three: the substep of the impact, the next, in
-// which the rest of the velocity is stopped, and one more, so that the last two steps know nothing of it.
-constexpr int kStepsAfterImpact = 3;
 // Share of the tolerance that LastResort::bound() fills: the rest is for rounding of lengths.
 constexpr double kBoundShare = 1.0 - 1e-6;
 // Positions beyond this [m] count as diverged: damping takes the cube of a speed and energy the square times a mass,
@@ -157,7 +150,7 @@ constexpr double kWorthLooking = 0.25;
 // After kGoodToGrow accepted substeps the limit from rejections grows by this factor.
 constexpr double kLimitGrowth = 1.4;
 constexpr int kGoodToGrow = 8;
-// Substeps of bdf2 and implicit with `substeps: auto`: only accuracy limits their step.
+// Substeps of implicit with `substeps: auto`: only accuracy limits its step.
 constexpr int kImplicitSubsteps = 8;
 // The same of the paper's scheme. First order: 27 mm after a second of a swing of 43 rods. Its weft overlength falls
 // with the number of passes: 0.5 at most for a flag in the wind, 1.8 at 4 substeps. Its energy is bounded at any

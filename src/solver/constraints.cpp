@@ -136,13 +136,6 @@ CURTAIN_WIDE double Constraints::loadStrings(Field& loads) noexcept {
   return worst;
 }
 
-bool Constraints::snapsTaut() const noexcept {
-  for (std::size_t n = 0; directions_set_ && n < pattern_.grid.size(); ++n) {
-    if (weft_.multiplier[n] > 0.0 && !(weft_pulls_ && last_weft_[n] > 0.0)) return true;
-  }
-  return directions_set_ && cords_.snapsTaut();
-}
-
 double Constraints::bent() const noexcept {
   double sum = 0.0;
   for (const WarpMotion& block : block_motion_) sum += block.bent;

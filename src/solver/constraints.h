@@ -48,8 +48,6 @@ class Constraints {
   /// A string pulls now, or directions were set because one was too long.
   bool stringsAct() const noexcept { return directions_set_; }
   const LinkSet& strings() const noexcept { return weft_; }
-  /// A string pulls that did not in the last substep.
-  bool snapsTaut() const noexcept;
   /// Sum over the rods of their relative change of velocity in the last substep [1/s^2] (WarpMotion::bent).
   double bent() const noexcept;
   /// Tensions in the last substep [N] of the rod above a node and of the link to its left; a rod that pushes has a

@@ -29,7 +29,6 @@ void beginContacts(const Field& inverse_inertia, double scale, double ratio, std
       const auto at = static_cast<std::size_t>(k);
       contact.mobility += contact.weight[at] * contact.weight[at] * inverse_inertia[contact.node[at]];
     }
-    contact.pressed = contact.pushes();
     contact.push *= ratio;
     contact.hold = scale * contact.friction * contact.press;
     contact.slide = bounded(ratio * across(contact.normal, contact.slide), contact.mostSlide());

@@ -42,7 +42,6 @@ struct Contact {
   double push = 0.0;                     ///< normal multiplier [kg m], >= 0 unless pinched
   Vec3 slide = Vec3::Zero();             ///< tangential multiplier [kg m]
   double mobility = 0.0;                 ///< sum of weight^2 w, inverse effective mass of the point [1/kg]
-  bool pressed = false;                  ///< it pushed when the substep began
   bool sticks = false;                   ///< solved for as sticking, until the friction bound is reached
   std::uint32_t source = 0;              ///< for the finder
 

@@ -159,11 +159,6 @@ double CordLinks::squares() const noexcept {
   return sum;
 }
 
-bool CordLinks::snapsTaut() const noexcept {
-  return std::any_of(all_.begin(), all_.end(),
-                     [](const CordLink& link) { return link.multiplier > 0.0 && !(link.last > 0.0); });
-}
-
 void CordLinks::saveIterate() noexcept {
   for (std::size_t c = 0; c < all_.size(); ++c) best_[c] = all_[c].multiplier;
 }

@@ -79,7 +79,6 @@ class CordLinks {
   void takeUp(std::size_t cord, double change) noexcept {
     all_[cord].multiplier = std::max(0.0, all_[cord].multiplier + change);
   }
-  bool snapsTaut() const noexcept;
   /// Speed of the fastest loop that shrinks in this substep [m/s]; 0: none.
   double closingSpeed() const noexcept { return closing_speed_; }
   void saveIterate() noexcept;

@@ -38,7 +38,6 @@ ExactSolver::ExactSolver(const ClothPattern& pattern, double stretch_tolerance, 
       constraints_(pattern, kInnerTolerance * stretch_tolerance, inertia_, held_, workers),
       sweeps_(constraints_, inertia_, stretch_tolerance, stretch_tolerance * smallest_rest_, max_sweeps),
       guard_(pattern, inertia_, stretch_tolerance, constraints_.middleRest()),
-      bdf2_(pattern),
       last_resort_(pattern, constraints_.cords()) {}
 
 void ExactSolver::takeStretchTolerance(double tolerance) noexcept {
@@ -52,7 +51,6 @@ void ExactSolver::reset() noexcept {
   gained_ = {};
   constraints_.reset();
   inertia_.forget();
-  bdf2_.memory().forget();
 }
 
 void ExactSolver::takePins() noexcept {
@@ -67,7 +65,6 @@ void ExactSolver::takePins() noexcept {
 void ExactSolver::repinned() noexcept {
   constraints_.slackenBetweenPins();
   inertia_.tensions().heaviest = inertia_.heaviest();
-  bdf2_.memory().forget();
   gained_ = {};
 }
 
@@ -75,8 +72,6 @@ Scheme& ExactSolver::schemeOf(SchemeKind kind) noexcept {
   switch (kind) {
     case SchemeKind::kLeapfrog:
       break;
-    case SchemeKind::kBdf2:
-      return bdf2_;
     case SchemeKind::kImplicit:
       return implicit_;
     case SchemeKind::kLastResort:
@@ -90,12 +85,6 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   SubstepOutcome outcome;
   const Attempt attempt = predict(plan, forces, finder, state, clock, outcome);
   Progress progress = solveAndVerify(attempt);
-  if (attempt.scheme.rules().remembers && struck(progress) && attempt.scheme.struck()) {
-    constraints_.end(false);
-    outcome = substep(plan, forces, finder, state, clock);
-    outcome.sweeps += progress.sweeps;
-    return outcome;
-  }
   judge(attempt, progress, outcome);
   if (plan.isLastResort() && !progress.settled) boundPath(attempt, progress, outcome);
   outcome.accepted = !outcome.disturbed && (progress.settled || plan.isLastResort());
@@ -111,18 +100,16 @@ ExactSolver::Attempt ExactSolver::predict(const SubstepPlan& plan, const NodeFor
                                           ClothState& state, StageClock& clock, SubstepOutcome& outcome) noexcept {
   Scheme& scheme = schemeOf(plan.scheme);
   const Scheme::Rules& rules = scheme.rules();
-  const double step = scheme.stepFor(plan.h);
-  const double kick = state.velocity_age + (1.0 - rules.age) * step;
-  const double scale = step * kick;
+  const double kick = state.velocity_age + (1.0 - rules.age) * plan.h;
+  const double scale = plan.h * kick;
   inertia_.letSlide(!plan.isLastResort());
   inertia_.set(forces, kick, scale, plan.most_phase, rules.backward);
   bending_.begin(inertia_, inertia_.inverse(), scale, !rules.follows);
   // Warm start only along fixed directions: with present directions old tensions diverge where rods have turned much.
   const double before = inertia_.tensions().scale;
   const double ratio = !rules.follows && before != 0.0 ? scale / before : 0.0;
-  const Scheme::Task task{plan, step, kick, forces, inertia_, bending_};
-  const Attempt attempt{plan,   forces, finder, state, clock,
-                        scheme, step,   kick,   ratio, scheme.start(task, state, outcome)};
+  const Scheme::Task task{plan, kick, forces, inertia_, bending_};
+  const Attempt attempt{plan, forces, finder, state, clock, scheme, kick, ratio, scheme.start(task, state, outcome)};
   constraints_.begin(attempt.start, state, plan.h, ratio, !plan.isLastResort());
   clock.lap(Stage::kPredict);
   return attempt;
@@ -159,8 +146,7 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const Attempt& attempt) noexce
   all.contacts = contacts;
   while (true) {
     if (contacts != nullptr) {
-      beginContacts(inertia_.inverse(), std::abs(attempt.step * attempt.kick), attempt.ratio, known, *contacts,
-                    constraints_.next);
+      beginContacts(inertia_.inverse(), std::abs(attempt.scale()), attempt.ratio, known, *contacts, constraints_.next);
       constraints_.settleCarriers();
       known = contacts->size();
       if (known > 0 && task.path == 0.0) task.path = plan.h * std::sqrt(meanSquare(attempt.state.velocity));
@@ -186,14 +172,6 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const Attempt& attempt) noexce
     attempt.clock.lap(Stage::kContact);
     return all;
   }
-}
-
-// A string has snapped taut in this substep, or a new contact pushes.
-bool ExactSolver::struck(const Progress& progress) const noexcept {
-  if (constraints_.snapsTaut() || constraints_.carriers().strikes()) return true;
-  return progress.contacts != nullptr &&
-         std::any_of(progress.contacts->begin(), progress.contacts->end(),
-                     [](const Contact& contact) { return contact.pushes() && !contact.pressed; });
 }
 
 // Rods alone do no work in steady motion if they pull along their directions half way between the velocities.
@@ -259,16 +237,9 @@ void ExactSolver::take(const Attempt& attempt, const Progress& progress, Substep
   ClothState& state = attempt.state;
   NodeInertia::Tensions& tensions = inertia_.tensions();
   outcome.scale = tensions.scale = attempt.scale();
-  outcome.kick = attempt.kick + (plan.h - attempt.step);  // the rest of the forces' impulse is in bdf2's base
-  for (Scheme* scheme : {static_cast<Scheme*>(&leapfrog_), static_cast<Scheme*>(&bdf2_),
-                         static_cast<Scheme*>(&implicit_), static_cast<Scheme*>(&last_resort_)}) {
-    if (scheme == &attempt.scheme)
-      scheme->taken(state, plan.h);
-    else
-      scheme->passedOver();
-  }
+  outcome.kick = attempt.kick;
   tensions.heaviest = constraints_.commit(attempt.start, plan.tells_turning, state, tensions.load);
-  state.velocity_age = attempt.scheme.rules().age * attempt.step;
+  state.velocity_age = attempt.scheme.rules().age * plan.h;
   if (std::isfinite(progress.most_kinetic)) guard_.bound(progress.most_kinetic, state.velocity);
   gained_ = {};
   outcome.omega_squared = inertia_.omegaSquared();
@@ -384,14 +355,12 @@ void ExactSolver::hold(const ColumnSet& columns, ClothState& state) noexcept {
 
 void ExactSolver::save(Memory& memory) const {
   constraints_.save(memory.constraints);
-  memory.bdf2 = bdf2_.memory();
   memory.tensions = inertia_.tensions();
   memory.carriers = constraints_.carriers().memory();
 }
 
 void ExactSolver::restore(const Memory& memory) {
   constraints_.restore(memory.constraints);
-  bdf2_.memory() = memory.bdf2;
   inertia_.tensions() = memory.tensions;
   constraints_.carriers().memory() = memory.carriers;
   gained_ = {};

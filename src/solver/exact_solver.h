@@ -10,7 +10,6 @@
 #include "solver/bending.h"
 #include "solver/constraints.h"
 #include "solver/kinetic_guard.h"
-#include "solver/schemes/bdf2.h"
 #include "solver/schemes/implicit.h"
 #include "solver/schemes/last_resort.h"
 #include "solver/schemes/leapfrog.h"
@@ -80,8 +79,7 @@ class ExactSolver {
   void currentVelocities(const ClothState& state, const NodeForces& forces, const Contacts* contacts,
                          Field3& out) noexcept;
 
-  /// Time that the forces of a planned substep act for [s], and whether they are wanted at its end. For bdf2, whose
-  /// step starts from two, the substep itself: its end is what counts.
+  /// Time that the forces of a planned substep act for [s], and whether they are wanted at its end.
   double kickOf(const SubstepPlan& plan, const ClothState& state) noexcept {
     return state.velocity_age + (1.0 - schemeOf(plan.scheme).rules().age) * plan.h;
   }
@@ -106,7 +104,6 @@ class ExactSolver {
   /// What a substep leaves to the next; restored when substeps are repeated.
   struct Memory {
     Constraints::Memory constraints;
-    Bdf2::Memory bdf2;
     NodeInertia::Tensions tensions;
     Carriers::Memory carriers;
 
@@ -128,11 +125,11 @@ class ExactSolver {
     ClothState& state;
     StageClock& clock;
     Scheme& scheme;
-    double step, kick;  // [s]
-    double ratio;       // multipliers now over those of the last substep
+    double kick;   // [s]
+    double ratio;  // multipliers now over those of the last substep
     SubstepStart start;
 
-    double scale() const noexcept { return step * kick; }
+    double scale() const noexcept { return plan.h * kick; }
   };
   // Result of the solves of a substep.
   struct Progress {
@@ -155,7 +152,6 @@ class ExactSolver {
   void boundPath(const Attempt& attempt, const Progress& progress, SubstepOutcome& outcome) noexcept;
   void take(const Attempt& attempt, const Progress& progress, SubstepOutcome& outcome) noexcept;
   double meanSquare(const Field3& velocity) const noexcept;
-  bool struck(const Progress& progress) const noexcept;
   bool needsEnergyCheck(const Attempt& attempt, const Progress& progress) const noexcept;
   void keepMomentum(const SubstepStart& start) noexcept;
   void projectVelocity(const Field3& position, const Contacts* contacts, double share, Field3& out) noexcept;
@@ -177,7 +173,6 @@ class ExactSolver {
   };
   Gained gained_;  // by the last attempt at the present substep
   Leapfrog leapfrog_;
-  Bdf2 bdf2_;
   Implicit implicit_;
   LastResort last_resort_;
 };

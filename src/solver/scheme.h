@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What distinguishes the exact schemes: where a substep starts, how long forces act in it, along which directions links
-// pull, and what it leaves to the next one. The solve is the same for all. One file a scheme in schemes/.
+// What distinguishes the exact schemes: where a substep starts, how long forces act in it, and along which directions
+// links pull. The solve is the same for all. One file a scheme in schemes/.
 //
 // Bending acts at the positions that a substep starts from, or, where the links follow, at those it would lead to
 // without links and bending.
@@ -17,10 +17,9 @@ namespace curtain {
 class Scheme {
  public:
   struct Rules {
-    bool follows;    ///< links pull along their directions at the end of the step, not at its start
-    bool backward;   ///< damping acts on the velocities at the end
-    double age;      ///< velocities lag behind the positions by this share of a step
-    bool remembers;  ///< uses steps before the last one, so it must be told of impacts
+    bool follows;   ///< links pull along their directions at the end of the step, not at its start
+    bool backward;  ///< damping acts on the velocities at the end
+    double age;     ///< velocities lag behind the positions by this share of a step
   };
 
   explicit Scheme(const Rules& rules) noexcept : rules_(rules) {}
@@ -28,13 +27,10 @@ class Scheme {
 
   const Rules& rules() const noexcept { return rules_; }
 
-  /// Length of the step from start() when the substep is h long [s].
-  virtual double stepFor(double h) const noexcept { return h; }
-
   /// A substep about to be made.
   struct Task {
     const SubstepPlan& plan;
-    double step, kick;  ///< [s]
+    double kick;  ///< [s]
     const NodeForces& forces;
     const NodeInertia& inertia;  ///< set for it
     Bending& bending;            ///< begun for it
@@ -45,18 +41,11 @@ class Scheme {
     return startFrom(state, task);
   }
 
-  /// A string has snapped taut in the substep, or a new contact pushes. True: make the substep again.
-  virtual bool struck() noexcept { return false; }
-  /// The substep was accepted; before: the state at its start.
-  virtual void taken(const ClothState& before, double h) noexcept { (void)before, (void)h; }
-  /// A substep of another scheme was accepted.
-  virtual void passedOver() noexcept {}
-
  protected:
   SubstepStart startFrom(const ClothState& base, const Task& task) const noexcept {
     const bool falls = task.forces.weight_only && task.inertia.massesAlone() && !task.bending.any();
-    return {base,     forceFrom(base, task), falls ? &task.forces.gravity : nullptr, task.inertia.keep(), task.kick,
-            task.step};
+    return {base,       forceFrom(base, task), falls ? &task.forces.gravity : nullptr, task.inertia.keep(), task.kick,
+            task.plan.h};
   }
 
   /// All forces but those of links and damping, of a substep from here.
@@ -64,7 +53,7 @@ class Scheme {
     const Field3& outer = *task.forces.force;
     if (!task.bending.any()) return outer;
     if (!rules_.follows) return task.bending.addTo(outer, base.position);
-    return task.bending.addAhead({base, outer, nullptr, task.inertia.keep(), task.kick, task.step},
+    return task.bending.addAhead({base, outer, nullptr, task.inertia.keep(), task.kick, task.plan.h},
                                  task.inertia.inverse());
   }
 

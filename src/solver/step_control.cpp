@@ -14,7 +14,7 @@ namespace {
 int fixedSubsteps(const SolverParams& params) {
   if (params.substeps > 0) return params.substeps;
   if (params.method == Method::kPaper) return kPaperSubsteps;
-  return params.method == Method::kImplicit || params.method == Method::kBdf2 ? kImplicitSubsteps : 0;
+  return params.method == Method::kImplicit ? kImplicitSubsteps : 0;
 }
 
 // Hanging free, the uppermost rod carries the column: tension T gives omega^2 = 4 T / (m l), largest of all columns.
@@ -88,7 +88,7 @@ double StepControl::stepFromTensions(bool frame_begins, const ExactSolver& solve
 // or what moving contacts allow.
 double StepControl::stretch(double wanted, double remaining) noexcept {
   stretched_ = false;
-  if (method_ != Method::kAuto && method_ != Method::kBdf2 && method_ != Method::kImplicit) return wanted;
+  if (method_ != Method::kAuto && method_ != Method::kImplicit) return wanted;
   const double not_rejected = std::max(limit_, frame_ / max_substeps_);
   const double longest = std::min({kMostStretch * wanted, remaining / allowed_, not_rejected, surface_step_});
   stretched_ = longest > wanted;
@@ -105,7 +105,6 @@ SubstepPlan StepControl::next(double remaining, const ExactSolver& solver) noexc
   const double most = fixed_substeps_ > 0 ? frame_ / fixed_substeps_ : frame_;
   double wanted = most;
   if (method_ == Method::kImplicit) plan.scheme = SchemeKind::kImplicit;
-  if (method_ == Method::kBdf2) plan.scheme = SchemeKind::kBdf2;
   const bool leapfrog = plan.scheme == SchemeKind::kLeapfrog;
   if (leapfrog && method_ == Method::kAuto) plan.most_phase = phase_share_ * kStablePhase;
   if (leapfrog && fixed_substeps_ == 0) {

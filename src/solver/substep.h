@@ -13,7 +13,6 @@ namespace curtain {
 
 enum class SchemeKind {
   kLeapfrog,
-  kBdf2,
   kImplicit,
   kLastResort  ///< the smallest step, bounded so that its links hold (schemes/last_resort.h)
 };

@@ -139,7 +139,7 @@ TEST(BudgetedSimulator, WhatFallsBehindIsNoBlow) {
 
 // The implicit scheme takes whatever it has come to, but not because its time is over.
 TEST(BudgetedSimulator, NoMethodTakesWhatItHasNotSolved) {
-  for (const Method method : {Method::kAuto, Method::kLeapfrog, Method::kLeapfrog4, Method::kBdf2, Method::kImplicit}) {
+  for (const Method method : {Method::kAuto, Method::kLeapfrog, Method::kLeapfrog4, Method::kImplicit}) {
     Scene scene = blownCurtain();
     scene.solver.method = method;
     scene.solver.max_substeps = 64;

@@ -24,7 +24,7 @@ const char* const kScenes[] = {
     "wind: [{id: fan, position: [0.2, -1, 0.8], direction: [0, 1, 0], radius: 0.5, pressure: 5, unsteadiness: 1}]\n",
     "cloth: {rows: 6, columns: 5, height: 0.5, width: 0.4}\n"
     "hang: {from: [0, 0, 1], to: [0.4, 0, 1]}\n"
-    "solver: {method: bdf2, position_tolerance: 0.001}\n"
+    "solver: {method: implicit, position_tolerance: 0.001}\n"
     "drag: [{id: hand, force: [0, 2, 0], node: [5, 2]}]\n",
     "cloth: {rows: 6, columns: 5, height: 0.5, width: 0.4}\n"
     "hang: {from: [0, 0, 1], to: [0.4, 0, 1]}\n"

@@ -359,7 +359,8 @@ Drawn draw(Kind kind, std::uint64_t seed) {
   scene.contact.friction = dice.between(0.0, 0.6);
   scene.contact.self = dice.chance(0.35);
   if (wild && dice.chance(0.3)) {
-    const Method methods[] = {Method::kLeapfrog, Method::kLeapfrog4, Method::kBdf2, Method::kImplicit};
+    // Implicit twice, in place of a scheme that is gone: seeds keep their scenes.
+    const Method methods[] = {Method::kLeapfrog, Method::kLeapfrog4, Method::kImplicit, Method::kImplicit};
     scene.solver.method = methods[dice.integer(0, 3)];
   }
   if (wild && dice.chance(0.1)) scene.solver.substeps = dice.integer(1, 8);

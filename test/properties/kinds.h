@@ -51,7 +51,7 @@ inline Kind selfContact() {
 
 inline const auto kEveryMethod =
     ::testing::Values(curtain::Method::kAuto, curtain::Method::kLeapfrog, curtain::Method::kLeapfrog4,
-                      curtain::Method::kBdf2, curtain::Method::kImplicit, curtain::Method::kPaper);
+                      curtain::Method::kImplicit, curtain::Method::kPaper);
 
 inline std::string nameOfMethod(const ::testing::TestParamInfo<curtain::Method>& test) { return toString(test.param); }
 inline std::string nameOfKind(const ::testing::TestParamInfo<std::tuple<Kind, curtain::Method>>& test) {

@@ -137,7 +137,9 @@ TEST(BadInput, UnknownWordsAreNamedWithTheKnownOnes) {
   expectProblem(cloth("closed: maybe"), "cloth.closed", {"true or false, is the text \"maybe\""});
   expectProblem(with("air: {law: 3}"), "air.law", {"continuous, printed or relative, is 3"});
   expectProblem(with("solver: {method: magic}"), "solver.method",
-                {"auto, leapfrog, leapfrog4, bdf2, implicit or paper", "\"magic\""});
+                {"auto, leapfrog, leapfrog4, implicit or paper", "\"magic\""});
+  expectProblem(with("solver: {method: bdf2}"), "solver.method",  // a method of earlier versions
+                {"auto, leapfrog, leapfrog4, implicit or paper", "\"bdf2\""});
   expectProblem(with("contact: {self: 0}"), "contact.self", {"true or false, is 0"});
   expectProblem(with("wind: [{id: 5}]"), "wind[0].id", {"must be text, is 5", "quotes"});
   expectProblem(with("wind: [{id: on}]"), "wind[0].id", {"must be text, is on", "quotes"});

@@ -100,7 +100,7 @@ TEST(GoodInput, EveryWordHasItsMeaning) {
 }
 
 TEST(GoodInput, MethodNamesReadBack) {
-  const std::vector<std::string> expected = {"auto", "leapfrog", "leapfrog4", "bdf2", "implicit", "paper"};
+  const std::vector<std::string> expected = {"auto", "leapfrog", "leapfrog4", "implicit", "paper"};
   EXPECT_EQ(methodNames(), expected);
   EXPECT_EQ(toString(Method::kAuto), "auto");
   EXPECT_EQ(toString(Method::kPaper), "paper");

@@ -116,7 +116,6 @@ INSTANTIATE_TEST_SUITE_P(ContactWrench, Blows,
                          ::testing::Values(Blow{"from below", Vec3(0.0, 0.0, 1.0), 0.0},
                                            Blow{"aslant", Vec3(0.8, 0.3, 0.5), 0.0},
                                            Blow{"spinning", Vec3(0.0, 0.0, 0.3), 3.0},
-                                           Blow{"bdf2", Vec3(0.8, 0.3, 0.5), 2.0, Method::kBdf2},
                                            Blow{"leapfrog4", Vec3(0.8, 0.3, 0.5), 2.0, Method::kLeapfrog4},
                                            Blow{"implicit", Vec3(0.8, 0.3, 0.5), 2.0, Method::kImplicit}));
 

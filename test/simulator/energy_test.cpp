@@ -72,7 +72,7 @@ TEST(SwingEnergy, OfLeapfrog4HasNoTrend) {
 class WhipEnergy : public ::testing::TestWithParam<std::tuple<Method, int>> {};
 
 // Never above the start by more than what is let be (kTooMuch in keep_energy.cpp), at the end of a frame; and not at
-// the cost of the motion: bdf2, which damps, loses a quarter of m g H in half of this time, this may be a fifth of
+// the cost of the motion: a scheme that damps loses a quarter of m g H in half of this time, this may be a fifth of
 // that.
 TEST_P(WhipEnergy, IsNotCollected) {
   const auto& [method, substeps] = GetParam();

@@ -55,7 +55,7 @@ Scene pinnedThere(Scene scene, const std::vector<NodeIndex>& nodes) {
 
 std::vector<Scene> scenesOfAllKinds() {
   std::vector<Scene> scenes;
-  for (const Method method : {Method::kAuto, Method::kLeapfrog, Method::kBdf2, Method::kImplicit, Method::kPaper}) {
+  for (const Method method : {Method::kAuto, Method::kLeapfrog, Method::kImplicit, Method::kPaper}) {
     Scene scene = busy();
     scene.solver.method = method;
     if (method == Method::kPaper) scene.cloth.bending_warp = scene.cloth.bending_weft = 0.0;

@@ -131,7 +131,7 @@ TEST(HospitalRail, OpensAndShuts) {
 
 // Drawn by another drive than the scene's, let go, and drawn again.
 TEST(HospitalRail, GoesOnFromASnapshotWithTheSameBits) {
-  for (const char* method : {"auto", "bdf2"}) {
+  for (const char* method : {"auto", "implicit"}) {
     SCOPED_TRACE(method);
     Scene scene = hospital();
     scene.cloth.rows = 12;
@@ -178,7 +178,7 @@ TEST(HospitalRail, MovesAlikeWithAnyNumberOfThreads) {
 
 // Every scheme that knows carriers gets the curtain open, on the rail.
 TEST(HospitalRail, OpensByEveryMethod) {
-  for (const char* method : {"leapfrog", "leapfrog4", "bdf2", "implicit"}) {
+  for (const char* method : {"leapfrog", "leapfrog4", "implicit"}) {
     SCOPED_TRACE(method);
     Scene scene = hospital();
     scene.cloth.rows = 12;

@@ -57,7 +57,7 @@ TEST(Slits, LeaveEachStripTheMassAndAreaThatItHasAlone) {
 // difference is carried along through all 240 substeps without growing.
 TEST(Slits, LetEachStripMoveAsIfItWereAlone) {
   const auto wanted = [](Scene scene) {
-    scene.solver.method = Method::kBdf2;
+    scene.solver.method = Method::kImplicit;
     scene.solver.substeps = 4;
     scene.solver.stretch_tolerance = 1e-9;
     scene.wind = {draught()};

@@ -206,11 +206,11 @@ TEST(Snapshot, HasAVersionForEveryLayout) {
   SnapshotParts parts;
   const std::string snapshot = Simulator(all).snapshot();
   ASSERT_FALSE(unpackSnapshot(snapshot, parts).has_value());
-  EXPECT_EQ(kSnapshotVersion, 8U);
-  EXPECT_EQ(parts.layout, 1504179232U);
+  EXPECT_EQ(kSnapshotVersion, 9U);
+  EXPECT_EQ(parts.layout, 2282053982U);
   const std::string plain = Simulator(flatScene(4, 5)).snapshot();
   ASSERT_FALSE(unpackSnapshot(plain, parts).has_value());
-  EXPECT_EQ(parts.layout, 359222848U);
+  EXPECT_EQ(parts.layout, 909104272U);
 }
 
 }  // namespace

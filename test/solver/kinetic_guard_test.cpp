@@ -16,7 +16,7 @@ namespace {
 using namespace curtain_test;
 
 constexpr double kStep = 0.01;
-constexpr Scheme::Rules kRules = {false, false, 0.5, false};  // leapfrog's
+constexpr Scheme::Rules kRules = {false, false, 0.5};  // leapfrog's
 
 // Cloth that moves at 1 m/s along x, with no forces.
 struct Moving {

@@ -9,7 +9,7 @@ namespace curtain {
 
 class Implicit final : public Scheme {
  public:
-  Implicit() noexcept : Scheme({true, true, 0.0, false}) {}
+  Implicit() noexcept : Scheme({true, true, 0.0}) {}
 };
 
 }  // namespace curtain

@@ -9,7 +9,7 @@
 namespace curtain {
 
 LastResort::LastResort(const ClothPattern& pattern, const CordLinks& cords)
-    : Scheme({true, false, 0.5, false}), pattern_(pattern), cords_(cords) {
+    : Scheme({true, false, 0.5}), pattern_(pattern), cords_(cords) {
   const Grid& grid = pattern.grid;
   for (Field3* field : {&base_.position, &base_.velocity, &no_force_}) field->assign(grid.size(), 0.0);
   shortest_.assign(grid.size(), std::numeric_limits<double>::infinity());
@@ -50,7 +50,7 @@ SubstepStart LastResort::start(const Task& task, const ClothState& state, Subste
   for (const int column : pattern_.rail.columns)  // they stand still
     base_.velocity.set(static_cast<std::size_t>(column), Vec3::Zero());
   outcome.momentum_cut += cut(base_.position, w, task.plan.h, task.plan.reach, base_.velocity);
-  return {base_, no_force_, nullptr, nullptr, task.kick, task.step};
+  return {base_, no_force_, nullptr, nullptr, task.kick, task.plan.h};
 }
 
 // Least-squares rigid motion of the nodes with prescribed velocity; false: there are none.

@@ -11,7 +11,7 @@ namespace curtain {
 
 class Leapfrog final : public Scheme {
  public:
-  Leapfrog() noexcept : Scheme({false, false, 0.5, false}) {}
+  Leapfrog() noexcept : Scheme({false, false, 0.5}) {}
 };
 
 }  // namespace curtain
