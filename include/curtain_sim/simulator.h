@@ -94,8 +94,8 @@ class Simulator {
   std::vector<Problem> setAir(const AirParams& air);  ///< as setGravity()
 
   /// Changes the length of frames from the next step on, also after reset(): 1 / rate seconds, rate in [1, 10000] per
-  /// second. May change before every frame. Sleeping columns stay asleep, but with frames longer than 1/20 s none falls
-  /// asleep. Returns what is wrong with it; then nothing changed.
+  /// second. May change before every frame. Sleeping cloth stays asleep, but with frames longer than 1/20 s it does not
+  /// fall asleep. Returns what is wrong with it; then nothing changed.
   std::vector<Problem> setFrameRate(double rate);
 
   /// Change a key of the scene from the next step on, also after reset(); cloth that sleeps wakes where the change may

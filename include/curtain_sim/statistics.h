@@ -27,9 +27,9 @@ struct Statistics {
   std::int64_t rejected = 0;              ///< substeps repeated with half the step
   std::int64_t last_resort_substeps = 0;  ///< substeps made by the last resort (docs/method.md)
   std::int64_t unsettled = 0;             ///< substeps that ended above stretch_tolerance
-  std::int64_t asleep_frames = 0;         ///< frames in which all of the cloth slept
-  std::int64_t wakes = 0;                 ///< times that columns woke
-  int asleep = 0;                         ///< columns that sleep now
+  std::int64_t asleep_frames = 0;         ///< frames in which the cloth slept
+  std::int64_t wakes = 0;                 ///< times that it woke
+  bool asleep = false;                    ///< it sleeps now
   // What solver.budget_ms has cost, in the order in which it is given up.
   std::int64_t estimates_skipped = 0;    ///< frames without the reference run of position_tolerance
   std::int64_t longer_substeps = 0;      ///< substeps longer than the tensions ask for

@@ -154,17 +154,6 @@ void Archive::flag(const char* name, bool& value) {
 
 void Archive::flags(const char* name, std::vector<std::uint8_t>& values) { many(name, "flags", values, isFlag); }
 
-void Archive::columns(const char* name, ColumnSet& columns) {
-  std::vector<std::uint8_t> in(static_cast<std::size_t>(columns.columns()));
-  for (int j = 0; j < columns.columns(); ++j) in[static_cast<std::size_t>(j)] = columns.has(j) ? 1 : 0;
-  atOnce([&] { flags(name, in); });
-  ColumnSet taken(columns.columns());
-  for (int j = 0; j < columns.columns(); ++j) {
-    if (in[static_cast<std::size_t>(j)] != 0) taken.add(j);
-  }
-  put(columns, std::move(taken));
-}
-
 void Archive::text(const char* name, std::string& value) {
   const Naming naming(*this, name);
   if (way_ == Way::kDescribe) {

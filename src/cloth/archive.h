@@ -21,7 +21,6 @@
 #include <vector>
 
 #include "cloth/cloth.h"
-#include "cloth/column_set.h"
 
 namespace curtain {
 
@@ -71,7 +70,6 @@ class Archive {
   void flag(const char* name, bool& value);
   /// 0 or 1 each.
   void flags(const char* name, std::vector<std::uint8_t>& values);
-  void columns(const char* name, ColumnSet& columns);
   void text(const char* name, std::string& value);
 
   /// Index of a node of the grid, not of padding.

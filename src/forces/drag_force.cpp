@@ -35,11 +35,6 @@ DragForce::DragForce(const DragParams& drag, const ClothPattern& pattern) : drag
   if (drag.node) grasp(*drag.node, pattern);
 }
 
-void DragForce::markColumns(const Grid& grid, ColumnSet& out) const noexcept {
-  if (!node_) out.addAll();
-  for (const Share& share : shares_) out.add(static_cast<int>(share.node % static_cast<std::size_t>(grid.stride)));
-}
-
 void DragForce::grasp(NodeIndex node, const ClothPattern& pattern) noexcept {
   node_ = node;
   shares_.clear();

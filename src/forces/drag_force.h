@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "cloth/cloth.h"
-#include "cloth/column_set.h"
 #include "curtain_sim/scene.h"
 
 namespace curtain {
@@ -24,9 +23,6 @@ class DragForce {
 
   /// Grasps a node: for a drag by point, or one that replaces another with its id.
   void grasp(NodeIndex node, const ClothPattern& pattern) noexcept;
-
-  /// Marks the columns with a grasped node; all before the node is known.
-  void markColumns(const Grid& grid, ColumnSet& out) const noexcept;
 
   /// True for a spring, which has a damper.
   bool damps() const { return drag_.target.has_value(); }

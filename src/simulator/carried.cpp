@@ -35,7 +35,7 @@ void carryStatistics(Archive& archive, Statistics& s) {
   archive.integer("unsettled", s.unsettled, 0, kMostCount);
   archive.integer("asleep_frames", s.asleep_frames, 0, kMostCount);
   archive.integer("wakes", s.wakes, 0, kMostCount);
-  archive.integer("asleep", s.asleep, 0, kCount);
+  archive.flag("asleep", s.asleep);
   archive.integer("estimates_skipped", s.estimates_skipped, 0, kMostCount);
   archive.integer("longer_substeps", s.longer_substeps, 0, kMostCount);
   archive.integer("unfinished_substeps", s.unfinished_substeps, 0, kMostCount);
@@ -113,18 +113,14 @@ void Rest::carry(Archive& archive) {
   archive.within("frame_length", frame_length_, 1e-6, 1e3);
   archive.integer("due_in", due_in_, 1, kCount);
   archive.integer("turn", turn_, 0, 3);
-  archive.columns("asleep", asleep_);
-  archive.columns("disturbed", disturbed_);
-  archive.flag("pressed", pressed_);
-  archive.numbers("since", since_);
-  archive.numbers("alone_from", alone_from_);
-  archive.numbers("alone_pause", alone_pause_);
+  archive.flag("asleep", asleep_);
+  archive.flag("disturbed", disturbed_);
+  archive.number("since", since_);
   archive.numbers("place", place_);
   const std::size_t boxes = archive.list("box", box_, [&](Eigen::AlignedBox3d& box) { archive.numbers("of", box); });
   archive.require(boxes == 0 || boxes == box_.size(), "must have a box for each column");
   archive.numbers("all", all_);
   archive.numbers("swept", swept_);
-  archive.flag("watches", watches_);
   archive.integer("wakes", wakes_, 0, kMostCount);
 }
 
@@ -300,7 +296,7 @@ void Simulator::Impl::resume() noexcept {
   takeFrame();
   takePositionTolerance();
   opening.resume();
-  motion.exact.resume(sleep.rest().asleep(), motion.state);
+  motion.exact.resume(motion.state);
   motion.contact.skipSubstep();
   motion.contact.clearCaches();
   ++revision;

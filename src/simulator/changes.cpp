@@ -103,7 +103,7 @@ std::vector<Problem> Simulator::setFriction(double friction) {
   if (!problems.empty() || friction == im.scene.contact.friction) return problems;
   im.scene.contact.friction = friction;
   im.takeFriction();
-  im.sleep.rest().disturbAll();
+  im.sleep.rest().disturb();
   return problems;
 }
 
@@ -116,7 +116,7 @@ std::vector<Problem> Simulator::setStretchTolerance(double tolerance) {
   im.scene.solver.stretch_tolerance = tolerance;
   im.takeStretchTolerance();
   im.motion.contact.invalidateStart();
-  im.sleep.rest().disturbAll();
+  im.sleep.rest().disturb();
   return problems;
 }
 
@@ -153,7 +153,7 @@ std::vector<Problem> Simulator::setState(const std::vector<Vec3>& positions, con
   check(positions, grid.nodeCount(), "positions", problems);
   check(velocities, grid.nodeCount(), "velocities", problems);
   if (!problems.empty()) return problems;
-  im.sleep.wakeAll();
+  im.sleep.wake();
   Motion& motion = im.motion;
   const ClothState before = motion.state;
   std::size_t from = 0;

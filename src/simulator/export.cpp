@@ -160,7 +160,7 @@ std::string statisticsJson(const Simulator& simulator, const Energy& initial,
         {"torque", {wrench.torque.x(), wrench.torque.y(), wrench.torque.z()}}};
   }
   json["wrenches"] = wrenches;
-  json["rest"] = {{"columns_asleep", s.asleep}, {"frames_asleep", s.asleep_frames}, {"wakes", s.wakes}};
+  json["rest"] = {{"asleep", s.asleep}, {"frames_asleep", s.asleep_frames}, {"wakes", s.wakes}};
   json["budget"] = {{"ms", simulator.scene().solver.budget_ms},
                     {"estimates_skipped", s.estimates_skipped},
                     {"longer_substeps", s.longer_substeps},

@@ -163,34 +163,37 @@ bool sameWhileItActs(const DragParams& a, const DragParams& b) {
          a.radius == b.radius;
 }
 
-void ForceField::markReached(const WindSource& wind, const Field3& position, ColumnSet& out) const noexcept {
+bool ForceField::isReachedBy(const WindSource& wind, const Field3& position) const noexcept {
   const Grid& grid = pattern_.grid;
-  for (int j = 0; j < grid.columns; ++j) {
-    for (int i = 0; i < grid.rows && !out.has(j); ++i) {
-      if (wind.reachesPoint(position.at(grid.index(i, j)))) out.add(j);
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) {
+      if (wind.reachesPoint(position.at(grid.index(i, j)))) return true;
     }
   }
+  return false;
 }
 
-void ForceField::markChanges(double from, double to, const Field3& position, ColumnSet& out) const noexcept {
-  for (const WindSource& wind : winds_.list) {
-    if (within(wind.params().start, from, to) || within(wind.params().end, from, to)) markReached(wind, position, out);
-  }
+bool ForceField::changesWithin(double from, double to, const Field3& position) const noexcept {
+  const auto changes = [=](const auto& source) {
+    return within(source.params().start, from, to) || within(source.params().end, from, to);
+  };
   for (const DragForce& drag : drags_.list) {
-    if (within(drag.params().start, from, to) || within(drag.params().end, from, to))
-      drag.markColumns(pattern_.grid, out);
+    if (changes(drag)) return true;
   }
-}
-
-void ForceField::markGusts(double time, const Field3& position, ColumnSet& out) const noexcept {
-  if (relative_air_.active() && ambient_.gusty()) out.addAll();
   for (const WindSource& wind : winds_.list) {
-    if (wind.params().unsteadiness > 0.0 && wind.blowsAt(time)) markReached(wind, position, out);
+    if (changes(wind) && isReachedBy(wind, position)) return true;
   }
+  return false;
 }
 
-void ForceField::markShadows(const ObstacleSet& obstacles, double time, const Field3& position,
-                             ColumnSet& out) const noexcept {
+bool ForceField::gustsAt(double time, const Field3& position) const noexcept {
+  if (relative_air_.active() && ambient_.gusty()) return true;
+  return std::any_of(winds_.list.begin(), winds_.list.end(), [&](const WindSource& wind) {
+    return wind.params().unsteadiness > 0.0 && wind.blowsAt(time) && isReachedBy(wind, position);
+  });
+}
+
+bool ForceField::shadowsMove(const ObstacleSet& obstacles, double time, const Field3& position) const noexcept {
   for (const WindSource& wind : winds_.list) {
     if (!wind.params().shadow || !wind.blowsAt(time)) continue;
     // One that has left the cone, or is gone, still has its shade there.
@@ -198,28 +201,20 @@ void ForceField::markShadows(const ObstacleSet& obstacles, double time, const Fi
     for (int index = 0; index < obstacles.count() && !changes; ++index) {
       changes = obstacles.moved(index) && mayShade(obstacles, index, wind);
     }
-    if (changes) markReached(wind, position, out);
+    if (changes && isReachedBy(wind, position)) return true;
   }
+  return false;
 }
 
-void ForceField::markWind(const std::string& id, const Field3& position, ColumnSet& out) const noexcept {
-  for (const WindSource& wind : winds_.list) {
-    if (wind.params().id == id) markReached(wind, position, out);
-  }
-}
-
-void ForceField::markDrag(const std::string& id, ColumnSet& out) const noexcept {
-  for (const DragForce& drag : drags_.list) {
-    if (drag.params().id == id) drag.markColumns(pattern_.grid, out);
-  }
+bool ForceField::windReaches(const std::string& id, const Field3& position) const noexcept {
+  return std::any_of(winds_.list.begin(), winds_.list.end(),
+                     [&](const WindSource& wind) { return wind.params().id == id && isReachedBy(wind, position); });
 }
 
 bool ForceField::reaches(const std::string& id, double time, const Field3& position) const {
-  ColumnSet columns(pattern_.grid.columns);
-  for (const WindSource& wind : winds_.list) {
-    if (wind.params().id == id && wind.blowsAt(time)) markReached(wind, position, columns);
-  }
-  return !columns.empty();
+  return std::any_of(winds_.list.begin(), winds_.list.end(), [&](const WindSource& wind) {
+    return wind.params().id == id && wind.blowsAt(time) && isReachedBy(wind, position);
+  });
 }
 
 }  // namespace curtain

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "cloth/column_set.h"
 #include "cloth/link_ways.h"
 #include "forces/air_damping.h"
 #include "forces/ambient_wind.h"
@@ -106,21 +105,22 @@ class ForceField {
   /// Largest air damping of a node at rest, over its mass [1/s].
   double dampingPerMass() const noexcept;
 
-  /// Marks the columns that are reached now: by sources that begin or end within [from, to]; by gusts; by the wind or
-  /// drag of this id, active or not.
-  void markChanges(double from, double to, const Field3& position, ColumnSet& out) const noexcept;
-  void markGusts(double time, const Field3& position, ColumnSet& out) const noexcept;
-  void markWind(const std::string& id, const Field3& position, ColumnSet& out) const noexcept;
-  void markDrag(const std::string& id, ColumnSet& out) const noexcept;
+  // Whether the cloth is reached now:
+  /// by a source that begins or ends within [from, to];
+  bool changesWithin(double from, double to, const Field3& position) const noexcept;
+  /// by gusts;
+  bool gustsAt(double time, const Field3& position) const noexcept;
+  /// by the wind of this id, whether it blows or not;
+  bool windReaches(const std::string& id, const Field3& position) const noexcept;
+  /// by a wind in which an obstacle moves that may shade the cloth.
+  bool shadowsMove(const ObstacleSet& obstacles, double time, const Field3& position) const noexcept;
   /// The wind everywhere, and whether it acts.
   const AmbientWind& ambient() const noexcept { return ambient_; }
-  /// Columns in whose wind an obstacle moves that may shade them.
-  void markShadows(const ObstacleSet& obstacles, double time, const Field3& position, ColumnSet& out) const noexcept;
   /// The wind of this id blows at this time and reaches the cloth.
   bool reaches(const std::string& id, double time, const Field3& position) const;
 
  private:
-  void markReached(const WindSource& wind, const Field3& position, ColumnSet& out) const noexcept;
+  bool isReachedBy(const WindSource& wind, const Field3& position) const noexcept;
   bool findWinds(const Field3& position, double time) noexcept;
   void addWinds(const Field3& position, double time) noexcept;
   void addRelativeAir(const ClothState& state, double time, bool windy, const SubstepAhead& ahead) noexcept;

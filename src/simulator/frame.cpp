@@ -19,7 +19,7 @@ void Simulator::Impl::step() {
   motion.obstacles.beginFrame(times.end());
   grasps.movePins(pins);
   sleep.wakeForFrame(pins.any() || grasps.anyMoves());
-  if (sleep.all()) {
+  if (sleep.asleep()) {
     sleepThrough();
     countTime(begin);
     return;
@@ -82,8 +82,8 @@ void Simulator::Impl::endFrame(double share) {
   opening.measure(motion.state, s);
   s.drive_force = motion.drive_impulse / times.length();
   if (grasps.any()) endGrasps(share);
-  if (!opening.isUnderWay(motion.state) && !motion.exact.cords().closing(motion.state)) sleep.fallAsleep(grasps.any());
-  if (errors && sleep.all()) errors->lose();
+  if (!opening.isUnderWay(motion.state) && !motion.exact.cords().closing(motion.state)) sleep.fallAsleep();
+  if (errors && sleep.asleep()) errors->lose();
   s.stage_seconds = motion.clock.seconds();
 }
 

@@ -11,8 +11,8 @@ constexpr double kStopped = 1e-3;
 
 }  // namespace
 
-FrameLoop::FrameLoop(Motion& motion, StepControls& controls, Sleep& sleep, Budget& budget)
-    : motion_(motion), controls_(controls), sleep_(sleep), budget_(budget) {
+FrameLoop::FrameLoop(Motion& motion, StepControls& controls, Budget& budget)
+    : motion_(motion), controls_(controls), budget_(budget) {
   motion_.save(before_);
 }
 
@@ -54,10 +54,7 @@ double FrameLoop::makeSubstep(double done) {
     accept(*steps, planned, outcome);
     return planned.h;
   }
-  if (outcome.disturbed)
-    sleep_.wakePulled();
-  else
-    reject(*steps, planned, outcome.late);
+  reject(*steps, planned, outcome.late);
   return 0.0;
 }
 

@@ -5,7 +5,8 @@
 #pragma once
 
 #include "simulator/budget.h"
-#include "simulator/sleep.h"
+#include "simulator/motion.h"
+#include "simulator/step_controls.h"
 
 namespace curtain {
 
@@ -18,7 +19,7 @@ struct StepTally {
 class FrameLoop {
  public:
   /// All arguments must outlive this.
-  FrameLoop(Motion& motion, StepControls& controls, Sleep& sleep, Budget& budget);
+  FrameLoop(Motion& motion, StepControls& controls, Budget& budget);
 
   /// Makes a frame. Returns the share of it that was made: less than 1 when the computing time was over.
   double make();
@@ -41,7 +42,6 @@ class FrameLoop {
 
   Motion& motion_;
   StepControls& controls_;
-  Sleep& sleep_;
   Budget& budget_;
   Motion::Checkpoint before_;  // start of a substep of stages
   StepTally tally_;

@@ -147,18 +147,17 @@ void planSolver(const Motion& motion, const Budget& budget, Plan& plan) {
 Plan Simulator::plan() const {
   const Impl& im = *impl_;
   Plan plan;
-  const int asleep = im.sleep.rest().asleep().count();
-  const bool sleeps = im.sleep.all();
+  const bool sleeps = im.sleep.asleep();
   if (im.scene.solver.rest_speed <= 0.0) {
-    plan.push_back({"rest", false, "rest_speed is 0: nothing falls asleep"});
+    plan.push_back({"rest", false, "rest_speed is 0: the cloth never sleeps"});
   } else if (im.scene.gravity.isZero()) {
-    plan.push_back({"rest", false, "no gravity: nothing falls asleep"});
+    plan.push_back({"rest", false, "no gravity: the cloth never sleeps"});
   } else if (!im.sleep.rest().can()) {
-    plan.push_back({"rest", false, "fewer than 20 frames a second: nothing falls asleep"});
+    plan.push_back({"rest", false, "fewer than 20 frames a second: the cloth never sleeps"});
   } else {
     plan.push_back({"rest", true,
-                    std::to_string(asleep) + " of " + std::to_string(columns()) + " columns sleep" +
-                        (sleeps ? ": nothing below runs until something wakes them" : "")});
+                    sleeps ? "the cloth sleeps: nothing below runs until something wakes it"
+                           : "the cloth falls asleep when it has stayed in place for half a second"});
   }
   planForces(im.motion, plan);
   planSolver(im.motion, im.budget, plan);

@@ -4,31 +4,27 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "cloth/wide.h"
 
 namespace curtain {
 namespace {
 
-// A column that stays in place this long rests [s]. A pendulum of 2 m stays as slow at its turning point within 0.13 of
+// Cloth that stays in place this long rests [s]. A pendulum of 2 m stays as slow at its turning point within 0.13 of
 // its amplitude.
 constexpr double kWindow = 0.5;
 // Pauses between looks at the cloth [kPauseUnit]: unequal, since a motion in step with them would seem to rest.
 constexpr std::array<int, 4> kPauses = {7, 9, 5, 11};
 constexpr double kPauseUnit = 1.0 / 60.0;
 constexpr double kLongestFrame = 1.0 / 20.0;
-// A column is measured only if its sampled nodes are slower than this many times rest_speed: far from 1, since contact
-// jitters without moving the cloth.
+// The cloth is measured only if its sampled nodes are slower than this many times rest_speed: far from 1, since contact
+// jitters without moving it.
 constexpr double kMeasureSpeed = 50.0;
 // Jitter of cloth in contact, in link tolerances: the solve may leave nodes anywhere within them. Up to 5 were seen in
 // half a second (a sheet on a ball).
 constexpr double kJitter = 8.0;
-// After its neighbours have woken it, a column does not sleep alone for this long [s], and twice as long each time.
-constexpr double kAloneAgain = 2.0, kLongestPause = 64.0;
 // Lowest frequency of a hanging chain of length L: 1.2024 sqrt(g / L) (half the first zero of the Bessel function J0).
 constexpr double kLowestFrequency = 1.2024;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -37,15 +33,6 @@ Rest::Rest(const ClothPattern& pattern, double frame_length, double thickness, d
       frame_length_(frame_length),
       margin_(2.0 * thickness),
       jitter_(kJitter * stretch_tolerance * shortestLink(pattern)),
-      asleep_(pattern.grid.columns),
-      disturbed_(pattern.grid.columns),
-      quiet_(pattern.grid.columns),
-      touching_(pattern.grid.columns),
-      still_(static_cast<std::size_t>(pattern.grid.columns), 0),
-      since_(static_cast<std::size_t>(pattern.grid.columns), kNone),
-      alone_from_(static_cast<std::size_t>(pattern.grid.columns), 0.0),
-      alone_pause_(static_cast<std::size_t>(pattern.grid.columns), kAloneAgain),
-      farthest_(static_cast<std::size_t>(pattern.grid.stride), 0.0),
       box_(static_cast<std::size_t>(pattern.grid.columns)) {
   place_.assign(pattern.grid.size(), 0.0);
 }
@@ -62,16 +49,11 @@ void Rest::setLimits(double speed, double gravity, double damping_per_mass, doub
 }
 
 void Rest::forget() noexcept {
-  asleep_.clear();
-  disturbed_.clear();
-  std::fill(since_.begin(), since_.end(), kNone);
-  std::fill(alone_from_.begin(), alone_from_.end(), 0.0);
-  std::fill(alone_pause_.begin(), alone_pause_.end(), kAloneAgain);
+  asleep_ = disturbed_ = false;
+  since_ = kNone;
   due_in_ = 1;
   turn_ = 0;
   wakes_ = 0;
-  pressed_ = false;
-  watches_ = false;
   swept_.setEmpty();
 }
 
@@ -84,98 +66,58 @@ bool Rest::due() noexcept {
 }
 
 // Samples three nodes a column; mostly that is all there is to do.
-bool Rest::anyStill(const Field3& velocity) noexcept {
+bool Rest::isSlow(const Field3& velocity) const noexcept {
   const Grid& grid = pattern_.grid;
   const double limit = kMeasureSpeed * radius_ / kWindow;
-  bool any = false;
-  for (int j = 0; j < grid.columns; ++j) {
-    bool still = !asleep_.has(j);
-    for (const int i : {grid.rows - 1, grid.rows / 2, grid.rows / 4}) {
-      still = still && velocity.at(grid.index(i, j)).squaredNorm() <= limit * limit;
+  for (const int i : {grid.rows - 1, grid.rows / 2, grid.rows / 4}) {
+    for (int j = 0; j < grid.columns; ++j) {
+      if (!(velocity.at(grid.index(i, j)).squaredNorm() <= limit * limit)) return false;
     }
-    still_[static_cast<std::size_t>(j)] = still ? 1 : 0;
-    if (!still) since_[static_cast<std::size_t>(j)] = kNone;
-    any = any || still;
   }
-  return any;
+  return true;
 }
 
-// Measures how far the nodes of every column are from their place. A cord's end, which may be a load that swings,
-// counts as a node of the column that it is stored in.
-CURTAIN_WIDE void Rest::measure(const Field3& position) noexcept {
+// No node, and no end of a cord, which may be a load that swings, is further from its place than allowed.
+CURTAIN_WIDE bool Rest::isInPlace(const Field3& position) const noexcept {
   const Grid& grid = pattern_.grid;
-  double* const farthest = farthest_.data();
-  std::fill(farthest_.begin(), farthest_.end(), 0.0);
+  double farthest = 0.0;  // squared
   for (int i = 0; i < grid.allRows(); ++i) {
     const std::size_t row = grid.row(i);
     const ConstFieldView p(position, row), place(place_, row);
-#pragma omp simd
+#pragma omp simd reduction(max : farthest)
     for (int j = 0; j < grid.columns; ++j) {
       const double dx = p.x[j] - place.x[j], dy = p.y[j] - place.y[j], dz = p.z[j] - place.z[j];
       const double square = dx * dx + dy * dy + dz * dz;
-      farthest[j] = farthest[j] > square ? farthest[j] : square;
+      farthest = farthest > square ? farthest : square;
     }
   }
+  return farthest <= allowed_ * allowed_;
 }
 
-void Rest::takePlace(int column, const Field3& position, double time) noexcept {
-  for (int i = 0; i < pattern_.grid.allRows(); ++i) {
-    const std::size_t n = pattern_.grid.index(i, column);
-    place_.set(n, position.at(n));
-  }
-  since_[static_cast<std::size_t>(column)] = time;
-}
-
-bool Rest::quiet(int column, const Field3& position, double time) noexcept {
-  const auto at = static_cast<std::size_t>(column);
-  if (still_[at] == 0) return false;
-  if (std::isnan(since_[at]) || !(farthest_[at] <= allowed_ * allowed_)) {
-    takePlace(column, position, time);
+bool Rest::rests(const ClothState& state, double time) noexcept {
+  if (!isSlow(state.velocity)) {
+    since_ = kNone;
     return false;
   }
-  if (time - since_[at] < kWindow) return false;
-  if (swept_.isEmpty() || !swept_.intersects(boxOf(column, position))) return true;
-  since_[at] = kNone;
+  if (std::isnan(since_) || !isInPlace(state.position)) {
+    place_ = state.position;
+    since_ = time;
+    return false;
+  }
+  if (time - since_ < kWindow) return false;
+  setBoxes(state.position);
+  if (swept_.isEmpty() || !isNear(swept_)) return true;
+  since_ = kNone;
   return false;
 }
 
-void Rest::markTouching(const Contacts* contacts) noexcept {
-  touching_.clear();
-  if (contacts == nullptr) return;
-  const auto stride = static_cast<std::uint32_t>(pattern_.grid.stride);
-  for (const Contact& contact : *contacts) {
-    if (!contact.pushes()) continue;
-    for (int k = 0; k < contact.nodes; ++k) {
-      touching_.add(static_cast<int>(contact.node[static_cast<std::size_t>(k)] % stride));
-    }
-  }
-}
-
-bool Rest::look(const ClothState& state, double time, const ColumnSet& kept_awake, const Contacts* contacts,
-                bool by_column) noexcept {
-  const int columns = pattern_.grid.columns;
-  markTouching(contacts);
-  allowed_ = touching_.empty() ? radius_ : std::max(radius_, jitter_);
-  quiet_.clear();
-  if (anyStill(state.velocity)) {
-    measure(state.position);
-    for (int j = 0; j < columns; ++j) {
-      if (quiet(j, state.position, time) && !kept_awake.has(j)) quiet_.add(j);
-    }
-  }
+bool Rest::look(const ClothState& state, double time, bool kept_awake, bool touches) noexcept {
+  allowed_ = touches ? std::max(radius_, jitter_) : radius_;
+  const bool rest = rests(state, time);
   swept_.setEmpty();
-  watches_ = std::any_of(since_.begin(), since_.end(), [](double since) { return !std::isnan(since); });
-  if (quiet_.empty()) return false;
-  const bool all = quiet_.count() + asleep_.count() == columns;
-  const int before = asleep_.count();
-  for (int j = 0; j < columns && (all || by_column); ++j) {
-    // A column that presses on something sleeps only with the whole cloth: others still need its push.
-    const bool alone = !touching_.has(j) && time >= alone_from_[static_cast<std::size_t>(j)];
-    if (quiet_.has(j) && (all || alone)) asleep_.add(j);
-  }
-  if (asleep_.count() == before) return false;
-  pressed_ = all && !touching_.empty();
-  fallAsleep(state.position);
+  if (!rest || kept_awake) return false;
+  asleep_ = true;
+  disturbed_ = false;
   return true;
 }
 
@@ -191,14 +133,17 @@ Eigen::AlignedBox3d Rest::boxOf(int column, const Field3& position) const noexce
   return box;
 }
 
-void Rest::fallAsleep(const Field3& position) noexcept {
+void Rest::setBoxes(const Field3& position) noexcept {
   all_.setEmpty();
-  disturbed_.clear();
   for (int j = 0; j < pattern_.grid.columns; ++j) {
-    if (!asleep_.has(j)) continue;
     box_[static_cast<std::size_t>(j)] = boxOf(j, position);
     all_.extend(box_[static_cast<std::size_t>(j)]);
   }
+}
+
+bool Rest::isNear(const Eigen::AlignedBox3d& box) const noexcept {
+  return box.intersects(all_) && std::any_of(box_.begin(), box_.end(),
+                                             [&](const Eigen::AlignedBox3d& column) { return box.intersects(column); });
 }
 
 void Rest::approachedBy(ObstacleSet& obstacles) noexcept {
@@ -209,57 +154,17 @@ void Rest::approachedBy(ObstacleSet& obstacles) noexcept {
     Eigen::AlignedBox3d box = obstacles.leftBox(index);  // where it jumped away from
     if (obstacles.present(index)) box.extend(obstacles.sweptBounds(index));
     swept_.extend(box);
-    if (asleep_.empty() || !box.intersects(all_)) continue;
-    for (int j = 0; j < pattern_.grid.columns; ++j) {
-      if (asleep_.has(j) && box.intersects(box_[static_cast<std::size_t>(j)])) disturbed_.add(j);
-    }
+    if (asleep_ && isNear(box)) disturb();
   }
-}
-
-// Wakes the marked columns and the sleeping runs that they belong to; calls woken(column) for each.
-template <typename Woken>
-bool Rest::wakeRuns(const ColumnSet& marked, const Woken& woken) noexcept {
-  const int columns = pattern_.grid.columns;
-  const int before = asleep_.count();
-  const auto wakeOne = [&](int j) {
-    asleep_.remove(j);
-    woken(j);
-  };
-  for (int j = 0; j < columns; ++j) {
-    if (!(pressed_ || marked.has(j)) || !asleep_.has(j)) continue;
-    wakeOne(j);
-    for (const int way : {-1, 1}) {
-      for (int k = j + way;; k += way) {
-        if (pattern_.grid.closed) k = (k + columns) % columns;
-        if (k < 0 || k >= columns || !asleep_.has(k)) break;
-        wakeOne(k);
-      }
-    }
-  }
-  if (asleep_.count() == before) return false;
-  pressed_ = false;
-  ++wakes_;
-  return true;
 }
 
 bool Rest::wake() noexcept {
-  if (disturbed_.empty()) return false;
-  for (int j = 0; j < pattern_.grid.columns; ++j) {
-    if (!disturbed_.has(j)) continue;
-    since_[static_cast<std::size_t>(j)] = kNone;
-    alone_pause_[static_cast<std::size_t>(j)] = kAloneAgain;
-  }
-  const bool woke = wakeRuns(disturbed_, [&](int j) { since_[static_cast<std::size_t>(j)] = kNone; });
-  disturbed_.clear();
-  return woke;
-}
-
-bool Rest::wakeFor(const ColumnSet& pulled, double time) noexcept {
-  return wakeRuns(pulled, [&](int j) {
-    double& pause = alone_pause_[static_cast<std::size_t>(j)];
-    alone_from_[static_cast<std::size_t>(j)] = time + pause;
-    pause = std::min(2.0 * pause, kLongestPause);
-  });
+  const bool wakes = asleep_ && disturbed_;
+  disturbed_ = false;
+  if (!wakes) return false;
+  asleep_ = false;
+  ++wakes_;
+  return true;
 }
 
 }  // namespace curtain

@@ -29,14 +29,6 @@ const Scene& judged(const Scene& scene) {
   return scene;
 }
 
-// Carriers push each other along the rail, and cords pull at several columns, so cloth with them sleeps as a whole.
-bool sleepsByColumn(const Scene& scene) {
-  const Method method = scene.solver.method;
-  const bool leapfrogs = method == Method::kAuto || method == Method::kLeapfrog;
-  return leapfrogs && !ErrorControl::wanted(scene.solver) && scene.rail.path.empty() && scene.lines.empty() &&
-         scene.tie_back.empty();
-}
-
 ClothPattern patternOf(const Scene& scene) {
   ClothPattern pattern = makePattern(scene);
   const std::vector<Problem> problems = problemsOfCords(scene, pattern);
@@ -53,9 +45,9 @@ Simulator::Impl::Impl(const Scene& given, const MeshResolver& resolve)
       motion(scene, pattern, times, resolve),
       opening(scene, pattern, motion.exact),
       controls(scene.solver, pattern, scene.gravity),
-      sleep(motion, controls, sleepsByColumn(scene)),
+      sleep(motion),
       budget(scene.solver.budget_ms),
-      loop(motion, controls, sleep, budget),
+      loop(motion, controls, budget),
       guard(motion, controls, !ErrorControl::wanted(scene.solver)),
       grasps(motion.grasps),
       pins(pattern),
@@ -95,7 +87,7 @@ void Simulator::Impl::takePins() {
 // The drive, or a tie-back, does something else from now on.
 void Simulator::Impl::driven() noexcept {
   guard.forget();
-  sleep.rest().disturbAll();
+  sleep.rest().disturb();
 }
 
 void Simulator::Impl::takeFrame() noexcept {
@@ -221,24 +213,20 @@ std::vector<Problem> Simulator::setWind(const WindParams& wind) {
     im.motion.forces.setWind(asItGoesOn(wind, *old));
     return problems;
   }
-  if (im.sleep.rest().watches())
-    im.motion.forces.markWind(wind.id, im.motion.state.position, im.sleep.rest().disturbed());
+  im.sleep.disturbByWind(wind.id);
   im.motion.forces.setWind(wind);
   if (im.motion.forces.readsPulls()) im.sleep.takeLimits();  // the wind's speed damps
-  if (im.sleep.rest().watches())
-    im.motion.forces.markWind(wind.id, im.motion.state.position, im.sleep.rest().disturbed());
+  im.sleep.disturbByWind(wind.id);
   return problems;
 }
 
 bool Simulator::removeWind(const std::string& id) {
-  Motion& motion = impl_->motion;
-  Rest& rest = impl_->sleep.rest();
-  if (rest.watches()) motion.forces.markWind(id, motion.state.position, rest.disturbed());
-  return motion.forces.removeWind(id);
+  impl_->sleep.disturbByWind(id);
+  return impl_->motion.forces.removeWind(id);
 }
 
 void Simulator::clearWinds() {
-  if (!impl_->motion.forces.winds().empty()) impl_->sleep.rest().disturbAll();
+  if (!impl_->motion.forces.winds().empty()) impl_->sleep.rest().disturb();
   impl_->motion.forces.clearWinds();
 }
 
@@ -254,20 +242,20 @@ std::vector<Problem> Simulator::setDrag(const DragParams& drag) {
     im.motion.forces.setDrag(asItGoesOn(drag, *old));
     return problems;
   }
-  im.motion.forces.markDrag(drag.id, im.sleep.rest().disturbed());
   im.motion.forces.setDrag(drag);
-  im.motion.forces.markDrag(drag.id, im.sleep.rest().disturbed());
+  im.sleep.rest().disturb();
   return problems;
 }
 
 bool Simulator::removeDrag(const std::string& id) {
-  impl_->motion.forces.markDrag(id, impl_->sleep.rest().disturbed());
-  return impl_->motion.forces.removeDrag(id);
+  const bool removed = impl_->motion.forces.removeDrag(id);
+  if (removed) impl_->sleep.rest().disturb();
+  return removed;
 }
 
 void Simulator::clearDrags() {
   ForceField& forces = impl_->motion.forces;
-  for (const DragParams& drag : forces.drags()) forces.markDrag(drag.id, impl_->sleep.rest().disturbed());
+  if (!forces.drags().empty()) impl_->sleep.rest().disturb();
   forces.clearDrags();
 }
 
@@ -282,7 +270,7 @@ std::vector<Problem> Simulator::setGravity(const Vec3& gravity) {
   im.takeGravity();
   im.guard.forget();
   im.sleep.takeLimits();
-  im.sleep.rest().disturbAll();
+  im.sleep.rest().disturb();
   return {};
 }
 
@@ -295,7 +283,7 @@ std::vector<Problem> Simulator::setAir(const AirParams& air) {
   impl_->scene.air = air;
   impl_->motion.forces.takeAir();
   impl_->sleep.takeLimits();
-  impl_->sleep.rest().disturbAll();
+  impl_->sleep.rest().disturb();
   return problems;
 }
 const std::vector<DragParams>& Simulator::drags() const { return impl_->motion.forces.drags(); }

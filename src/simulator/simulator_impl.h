@@ -68,12 +68,12 @@ struct Simulator::Impl {
 // Between substeps: what hands hold changes by change(). Nodes that were pinned keep the velocity they moved with.
 template <typename Change>
 void Simulator::Impl::repin(const Change& change) {
-  sleep.wakeAll();
+  sleep.wake();
   motion.synchronise();
   change();
   takePins();
   motion.repinned();
-  controls.wake(motion.exact);
+  controls.repinned(motion.exact);
   guard.forget();
   if (errors) errors->lose();
   ++revision;

@@ -1,34 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Puts columns to sleep and wakes them: tells Rest of all disturbances, and the solver and step control which columns
-// move.
+// Puts the cloth to sleep and wakes it: tells Rest of all disturbances, and stops what falls asleep.
 #pragma once
 
 #include "simulator/motion.h"
 #include "simulator/rest.h"
-#include "simulator/step_controls.h"
 
 namespace curtain {
 
 class Sleep {
  public:
-  /// by_column: columns may sleep while others move. motion and controls must outlive this.
-  Sleep(Motion& motion, StepControls& controls, bool by_column);
+  /// motion must outlive this.
+  explicit Sleep(Motion& motion);
 
   Rest& rest() noexcept { return rest_; }
   const Rest& rest() const noexcept { return rest_; }
-  /// All of the cloth sleeps.
-  bool all() const noexcept { return rest_.asleep().full(); }
+  bool asleep() const noexcept { return rest_.asleep(); }
 
-  /// Before a frame: wakes the columns that something in it may move.
+  /// The wind of this id is about to change, or has changed.
+  void disturbByWind(const std::string& id) noexcept;
+  /// Before a frame: wakes the cloth if something in it may move it.
   void wakeForFrame(bool pins_move);
-  /// Wakes the columns that the last attempt at a substep would have moved.
-  void wakePulled();
-  void wakeAll();
-  /// After a frame with motion. as_a_whole: no column alone.
-  void fallAsleep(bool as_a_whole);
+  void wake();
+  /// After a frame with motion.
+  void fallAsleep();
 
-  void reset();
+  void reset() noexcept { rest_.forget(); }
   /// Gravity, air or the frames' length have changed.
   void takeLimits() noexcept;
 
@@ -36,10 +33,7 @@ class Sleep {
   void takeOver();
 
   Motion& motion_;
-  StepControls& controls_;
-  const bool by_column_;
   Rest rest_;
-  ColumnSet kept_awake_;  // scratch
 };
 
 }  // namespace curtain

@@ -30,8 +30,8 @@ struct StepControls {
   void takeFrame(double length) noexcept {
     for (StepControl* control : {&main, &plain}) control->takeFrame(length);
   }
-  void wake(const ExactSolver& solver) noexcept {
-    for (StepControl* control : {&main, &plain}) control->wake(solver);
+  void repinned(const ExactSolver& solver) noexcept {
+    for (StepControl* control : {&main, &plain}) control->repinned(solver);
   }
   /// Makes no stages for a second: strings that pull now and then would change the scheme all the time, and every
   /// change shakes them.

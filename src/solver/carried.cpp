@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Serialization of the solver for snapshots. Left out is what every substep writes before it reads it (prediction,
-// directions, multipliers being solved for, all of NetSolver) and what follows from the scene and the sleeping columns.
+// directions, multipliers being solved for, all of NetSolver) and what follows from the scene.
 #include <limits>
 
 #include "cloth/archive.h"
@@ -42,17 +42,10 @@ void ExactSolver::Memory::carry(Archive& archive) {
   archive.part("carriers", carriers);
 }
 
-// Which columns are held comes from Rest: see resume().
-void HeldColumns::carry(Archive& archive) {
-  archive.numbers("pull", pull_);
-  archive.numbers("bent", bent_);
-}
-
 void Constraints::carry(Archive& archive) {
   archive.numbers("last_warp", last_warp_);
   archive.numbers("last_weft", last_weft_);
   archive.flag("weft_pulls", weft_pulls_);
-  archive.numbers("laid_down", frozen_scale_);
   archive.part("cords", cords_);
 }
 
@@ -60,12 +53,9 @@ void ExactSolver::carry(Archive& archive) {
   archive.part("constraints", constraints_);
   archive.part("tensions", inertia_.tensions());
   archive.part("carriers", constraints_.carriers().memory());
-  archive.part("held", held_);
 }
 
-void ExactSolver::resume(const ColumnSet& held, const ClothState& state) noexcept {
-  held_.resume(held);
-  inertia_.hold(held);
+void ExactSolver::resume(const ClothState& state) noexcept {
   constraints_.resume(state);
   gained_ = {};
 }

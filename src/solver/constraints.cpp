@@ -15,10 +15,9 @@ double middleRestOf(const ClothPattern& pattern) {
 }  // namespace
 
 Constraints::Constraints(const ClothPattern& pattern, double tolerance, const NodeInertia& inertia,
-                         const HeldColumns& held, const Workers& workers)
+                         const Workers& workers)
     : pattern_(pattern),
       inertia_(inertia),
-      held_(held),
       workers_(workers),
       net_(pattern, workers),
       carriers_(pattern),
@@ -38,7 +37,6 @@ Constraints::Constraints(const ClothPattern& pattern, double tolerance, const No
   best_.position.assign(size, 0.0);
   block_motion_.resize(blocks);
   block_progress_.resize(blocks);
-  frozen_scale_.assign(blocks, 0.0);
   if (carriers_.any()) top_force_.assign(static_cast<std::size_t>(pattern.grid.stride), 0.0);
   if (cords_.any()) {
     rod_change_.assign(size, 0.0);
@@ -80,7 +78,7 @@ void Constraints::begin(const SubstepStart& start, const ClothState& state, doub
   }
   if (directions_set_) {
     worstOfRows([&](int i) {
-      setWeftDirections(pattern_.grid, i, held_.movingSpan(), start.state.position, weft_.direction);
+      setWeftDirections(pattern_.grid, i, start.state.position, weft_.direction);
       pullWeft(weft, i, weft_.multiplier);
       return 0.0;
     });
@@ -105,7 +103,7 @@ double Constraints::commit(const SubstepStart& start, bool bends, ClothState& st
     last_weft_ = weft_.multiplier;
   }
   if (cords_.any()) heaviest = std::max(heaviest, cords_.commit(start, next, state, load));
-  std::swap(state.position, next);  // equal in held columns
+  std::swap(state.position, next);
   std::swap(last_warp_, warp_.multiplier);
   return carriers_.any() ? std::max(heaviest, commitCarriers(state, load)) : heaviest;
 }
@@ -155,16 +153,25 @@ Vec3 Constraints::pullAt(int row, int column, const Field& warp, const Field& we
   return pull;
 }
 
-// Links are as long as at rest within the stretch tolerance. Rods of blocks that are left out have the multipliers of
-// the substep after which they were.
+// Links are as long as at rest within the stretch tolerance.
 Constraints::LinkTensions Constraints::tensionsAt(int row, int column, double scale) const noexcept {
   const std::size_t n = pattern_.grid.index(row, column);
-  const int block = column / kLane;
-  const double rod_scale = held_.skips(block) ? frozen_scale_[static_cast<std::size_t>(block)] : scale;
   LinkTensions tensions;
-  if (rod_scale != 0.0 && row > 0) tensions.warp = last_warp_[n] * pattern_.warp_rest[n] / rod_scale;
+  if (scale != 0.0 && row > 0) tensions.warp = last_warp_[n] * pattern_.warp_rest[n] / scale;
   if (scale != 0.0 && weft_pulls_) tensions.weft = last_weft_[n] * pattern_.weft_rest[n] / scale;
   return tensions;
+}
+
+void Constraints::takePins() noexcept {
+  freeWeft(pattern_, inertia_.masses(), free_per_square_);
+  net_.reset();
+}
+
+void Constraints::slackenBetweenPins() noexcept {
+  const Field& w = inertia_.masses();
+  forEachLink(pattern_, [&](std::size_t n, std::size_t other, double, bool rod) {
+    if (w[n] + w[other] == 0.0) (rod ? last_warp_ : last_weft_)[n] = 0.0;
+  });
 }
 
 void Constraints::save(Memory& memory) const {
@@ -180,6 +187,16 @@ void Constraints::restore(const Memory& memory) {
   weft_pulls_ = memory.weft_pulls;
   cords_.restore(memory.cords);
   if (!weft_pulls_) std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0);  // as begin() relies on
+}
+
+// Restores what reset() guarantees: strings have no multipliers but those of the last substep.
+void Constraints::resume(const ClothState& state) noexcept {
+  freeWeft(pattern_, inertia_.masses(), free_per_square_);
+  for (Field* field : {&weft_.multiplier, &violation_, &active_, &change_})
+    std::fill(field->begin(), field->end(), 0.0);
+  cords_.resume(state);
+  scratch_.assign(pattern_.grid);
+  net_.reset();
 }
 
 }  // namespace curtain

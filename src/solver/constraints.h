@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "solver/cord_links.h"
-#include "solver/held_columns.h"
 #include "solver/net_solver.h"
 #include "solver/node_inertia.h"
 #include "solver/substep.h"
@@ -23,8 +22,7 @@ namespace curtain {
 class Constraints {
  public:
   /// tolerance  relative overlength that the links' compliance may reach. All arguments must outlive this.
-  Constraints(const ClothPattern& pattern, double tolerance, const NodeInertia& inertia, const HeldColumns& held,
-              const Workers& workers);
+  Constraints(const ClothPattern& pattern, double tolerance, const NodeInertia& inertia, const Workers& workers);
   void expectContacts(std::size_t count);
   /// Forgets the tensions of the last substep.
   void reset() noexcept;
@@ -47,7 +45,6 @@ class Constraints {
   bool stringsPull() const noexcept { return weft_pulls_ || cords_.pulls(); }
   /// A string pulls now, or directions were set because one was too long.
   bool stringsAct() const noexcept { return directions_set_; }
-  const LinkSet& strings() const noexcept { return weft_; }
   /// Sum over the rods of their relative change of velocity in the last substep [1/s^2] (WarpMotion::bent).
   double bent() const noexcept;
   /// Tensions in the last substep [N] of the rod above a node and of the link to its left; a rod that pushes has a
@@ -134,13 +131,7 @@ class Constraints {
   /// and over the nodes' masses. Between substeps only.
   void addPulls(const Field3& position, const Contacts* contacts, double share, Field3& velocity) noexcept;
 
-  // ---- Columns that fall asleep and wake (constraints_hold.cpp)
-
-  /// To be read before `held` changes: the strings' multipliers of the last substep.
-  const Field& lastStrings() const noexcept { return last_weft_; }
-  /// After `held` has changed. skipped_before: blocks that were left out until now; tensions: of the last substep.
-  void hold(const std::vector<std::uint8_t>& skipped_before, const ClothState& state,
-            NodeInertia::Tensions& tensions) noexcept;
+  // ---- Changes of pins
 
   /// The pattern's pins have changed, and inertia has taken them.
   void takePins() noexcept;
@@ -159,7 +150,7 @@ class Constraints {
   void save(Memory& memory) const;
   void restore(const Memory& memory);
   void carry(Archive& archive);
-  /// After carry() has loaded, with held and inertia as they were saved.
+  /// After carry() has loaded, with inertia as it was saved.
   void resume(const ClothState& state) noexcept;
 
  private:
@@ -173,12 +164,9 @@ class Constraints {
   double measureStrings() noexcept;
   double loadStrings(Field& load) noexcept;
   void spreadForces(const LineSolve& warp, const LineSolve& weft, const Contacts* contacts, double share) noexcept;
-  void freeze(int block, const ClothState& state, NodeInertia::Tensions& tensions) noexcept;
-  void thaw(int block, NodeInertia::Tensions& tensions) noexcept;
-  double heaviestOf(int block, const Field& load) const noexcept;
   Carriers* sliding() noexcept { return carriers_.slide() ? &carriers_ : nullptr; }
-  LineSolve rods() noexcept { return {pattern_, inertia_.inverse(), warp_, next, held_.movingSpan(), sliding()}; }
-  LineSolve wefts() noexcept { return {pattern_, inertia_.inverse(), weft_, next, held_.movingSpan(), sliding()}; }
+  LineSolve rods() noexcept { return {pattern_, inertia_.inverse(), warp_, next, sliding()}; }
+  LineSolve wefts() noexcept { return {pattern_, inertia_.inverse(), weft_, next, sliding()}; }
   double takeUpStrings(double residual) noexcept;
   double takeUpTogether() noexcept;
   CordLinks* tied() noexcept { return cords_.any() ? &cords_ : nullptr; }
@@ -194,7 +182,6 @@ class Constraints {
 
   const ClothPattern& pattern_;
   const NodeInertia& inertia_;
-  const HeldColumns& held_;
   const Workers& workers_;
   NetSolver net_;
   Carriers carriers_;
@@ -217,16 +204,13 @@ class Constraints {
   std::vector<WarpMotion> block_motion_;
   std::vector<RodsProgress> block_progress_;
   std::vector<double> row_worst_;
-  std::vector<double> frozen_scale_;  // by block: scale of the multipliers when it was left out [s^2]
   Iterate best_;
 };
 
-// Calls run(block) for the blocks of columns with a moving node.
+// Calls run(block) for all blocks of columns.
 template <typename Block>
 void Constraints::forEachBlock(const Block& run) const {
-  workers_.run(warpBlockCount(pattern_.grid), [&](int block) {
-    if (!held_.skips(block)) run(block);
-  });
+  workers_.run(warpBlockCount(pattern_.grid), [&](int block) { run(block); });
 }
 
 // Calls look(row) for all rows; returns the largest result.

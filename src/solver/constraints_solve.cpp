@@ -43,7 +43,7 @@ double Constraints::rodsResidual() noexcept {
   const LineSolve warp = rods();
   double worst = 0.0;
   for (int block = 0; block < warpBlockCount(pattern_.grid); ++block) {
-    if (!held_.skips(block)) worst = std::max(worst, warpResidual(warp, block));
+    worst = std::max(worst, warpResidual(warp, block));
   }
   return worst;
 }
@@ -51,8 +51,7 @@ double Constraints::rodsResidual() noexcept {
 double Constraints::lookAtStrings(bool closely) noexcept {
   measured_ = false;
   if (closely) return measureStrings();
-  const double longest =
-      worstOfRows([&](int i) { return weftSquare(pattern_.grid, i, held_.movingSpan(), next, free_per_square_); });
+  const double longest = worstOfRows([&](int i) { return weftSquare(pattern_.grid, i, next, free_per_square_); });
   return std::max(longest > 1.0 ? 0.5 * (longest - 1.0) : 0.0, cords_.measure(inertia_.inverse(), next));
 }
 
@@ -70,7 +69,7 @@ double Constraints::stringsResidual() noexcept {
 
 void Constraints::setWeftDirectionsAt(const Field3& position) noexcept {
   worstOfRows([&](int i) {
-    setWeftDirections(pattern_.grid, i, held_.movingSpan(), position, weft_.direction);
+    setWeftDirections(pattern_.grid, i, position, weft_.direction);
     return 0.0;
   });
   cords_.setDirections(position);
@@ -80,14 +79,14 @@ void Constraints::followDirections() noexcept {
   forEachBlock([&](int block) { setWarpDirections(pattern_.grid, block, next, warp_.direction); });
   setWeftDirectionsAt(next);
   carriers_.followDirections();
-  net_.begin(next, inertia_.inverse(), held_.movingSpan(), sliding(), tied());
+  net_.begin(next, inertia_.inverse(), sliding(), tied());
   directions_set_ = net_ready_ = true;
 }
 
 void Constraints::takeDirections(const Field3& start) noexcept {
   if (net_ready_) return;
   if (!directions_set_) setWeftDirectionsAt(start);
-  net_.begin(start, inertia_.inverse(), held_.movingSpan(), sliding(), tied());
+  net_.begin(start, inertia_.inverse(), sliding(), tied());
   directions_set_ = net_ready_ = true;
 }
 

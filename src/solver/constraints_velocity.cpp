@@ -9,7 +9,6 @@ namespace curtain {
 // Applies a share of the last substep's forces between nodes to the velocities, and leaves it in the multipliers.
 void Constraints::spreadForces(const LineSolve& warp, const LineSolve& weft, const Contacts* contacts,
                                double share) noexcept {
-  // Skipped blocks keep their multipliers: both buffers must agree (constraints_hold.cpp).
   forEachBlock([&](int block) {
     for (int i = 0; i < pattern_.grid.rows; ++i) {
       const std::size_t first = pattern_.grid.row(i) + static_cast<std::size_t>(block) * kLane;
@@ -32,15 +31,15 @@ void Constraints::spreadForces(const LineSolve& warp, const LineSolve& weft, con
 void Constraints::addPulls(const Field3& position, const Contacts* contacts, double share, Field3& velocity) noexcept {
   setWarpDirections(pattern_.grid, position, warp_.direction);
   if (stringsPull()) setWeftDirectionsAt(position);
-  spreadForces({pattern_, inertia_.masses(), warp_, velocity, held_.movingSpan()},
-               {pattern_, inertia_.masses(), weft_, velocity, held_.movingSpan()}, contacts, share);
+  spreadForces({pattern_, inertia_.masses(), warp_, velocity}, {pattern_, inertia_.masses(), weft_, velocity}, contacts,
+               share);
 }
 
 void Constraints::project(const Field3& position, const Contacts* contacts, double share, Field3& velocity) noexcept {
   setWarpDirections(pattern_.grid, position, warp_.direction);
   Carriers* const sliding = carriers_.any() ? &carriers_ : nullptr;
-  const LineSolve warp{pattern_, inertia_.masses(), warp_, velocity, held_.movingSpan(), sliding};
-  const LineSolve weft{pattern_, inertia_.masses(), weft_, velocity, held_.movingSpan(), sliding};
+  const LineSolve warp{pattern_, inertia_.masses(), warp_, velocity, sliding};
+  const LineSolve weft{pattern_, inertia_.masses(), weft_, velocity, sliding};
   const bool presses = contacts != nullptr && anyPushes(*contacts);
   const bool alone = !stringsPull() && !presses;
   const auto settle = [&] {
@@ -56,7 +55,7 @@ void Constraints::project(const Field3& position, const Contacts* contacts, doub
   settle();
   solveRods();
   if (alone) return;
-  net_.begin(position, inertia_.masses(), held_.movingSpan(), sliding, tied());
+  net_.begin(position, inertia_.masses(), sliding, tied());
   double first_rate = 0.0;
   for (int round = 0; round < (presses ? kContactRounds : kVelocityRounds); ++round) {
     double rate = worstOfRows([&](int i) { return measureWeftRates(weft, i, violation_, active_); });

@@ -178,18 +178,13 @@ double CordLinks::commit(const SubstepStart& start, const Field3& next, ClothSta
     load[link.end] += link.last;
     pulls_ = pulls_ || link.last != 0.0;
   }
-  double heaviest = addLoads(load);
+  double heaviest = 0.0;
+  for (const CordLink& link : all_) load[link.node] += link.last;
+  for (const CordLink& link : all_) heaviest = std::max(heaviest, load[link.node] * pattern_.inverse_mass[link.node]);
   for (const CordEnd& end : pattern_.cords.ends)
     heaviest = std::max(heaviest, load[end.node] * pattern_.inverse_mass[end.node]);
   std::copy(reach_.begin(), reach_.end(), state.reach.begin());
   takeLengths(state);
-  return heaviest;
-}
-
-double CordLinks::addLoads(Field& load) const noexcept {
-  for (const CordLink& link : all_) load[link.node] += link.last;
-  double heaviest = 0.0;
-  for (const CordLink& link : all_) heaviest = std::max(heaviest, load[link.node] * pattern_.inverse_mass[link.node]);
   return heaviest;
 }
 

@@ -101,8 +101,6 @@ class CordLinks {
   Vec3 presentPullAt(std::size_t node) const noexcept;
   /// Adds the pulls of the last substep times share to nodal values along the present directions.
   void spread(double share, const Field& inverse, Field3& value) const noexcept;
-  /// Adds the last multipliers to the loads of nodes, but not of ends; returns the largest load over its mass.
-  double addLoads(Field& load) const noexcept;
   /// Largest relative overlength of any that ties.
   double stretch(const Field3& position) const noexcept;
 

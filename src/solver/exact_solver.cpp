@@ -32,10 +32,8 @@ ExactSolver::ExactSolver(const ClothPattern& pattern, double stretch_tolerance, 
       stretch_tolerance_(stretch_tolerance),
       smallest_rest_(shortestLink(pattern)),
       inertia_(pattern),
-      held_(pattern),
-      skipped_before_(static_cast<std::size_t>(warpBlockCount(pattern.grid)), 0),
       bending_(pattern, workers),
-      constraints_(pattern, kInnerTolerance * stretch_tolerance, inertia_, held_, workers),
+      constraints_(pattern, kInnerTolerance * stretch_tolerance, inertia_, workers),
       sweeps_(constraints_, inertia_, stretch_tolerance, stretch_tolerance * smallest_rest_, max_sweeps),
       guard_(pattern, inertia_, stretch_tolerance, constraints_.middleRest()),
       last_resort_(pattern, constraints_.cords()) {}
@@ -55,8 +53,7 @@ void ExactSolver::reset() noexcept {
 
 void ExactSolver::takePins() noexcept {
   free_ = isFree(pattern_);
-  inertia_.takePins(held_.columns());
-  held_.takePins();
+  inertia_.takePins();
   bending_.takePins();
   constraints_.takePins();
   guard_.takePins();
@@ -87,7 +84,7 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   Progress progress = solveAndVerify(attempt);
   judge(attempt, progress, outcome);
   if (plan.isLastResort() && !progress.settled) boundPath(attempt, progress, outcome);
-  outcome.accepted = !outcome.disturbed && (progress.settled || plan.isLastResort());
+  outcome.accepted = progress.settled || plan.isLastResort();
   if (outcome.accepted) take(attempt, progress, outcome);
   constraints_.end(outcome.accepted);
   if (!outcome.accepted) constraints_.cords().takeLengths(state);
@@ -158,7 +155,7 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const Attempt& attempt) noexce
     all.settled = solved.within;
     all.late = all.late || (solved.end == SweepEnd::kOutOfTime && !solved.within);
     if (contacts == nullptr) return all;
-    if (free_ && !last_resort && !held_.any() && attempt.start.keep == nullptr && !pressesOnObstacle(*contacts))
+    if (free_ && !last_resort && attempt.start.keep == nullptr && !pressesOnObstacle(*contacts))
       keepMomentum(attempt.start);
     if (!solved.within && (!last_resort || all.late || solved.end == SweepEnd::kDiverged)) return all;
     const ContactFinder::Verdict verdict = finder->verify(from, next, solved.within);
@@ -168,7 +165,7 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const Attempt& attempt) noexce
     if (!all.late && verdict == ContactFinder::Verdict::kMore && solved.within) continue;
     all.crossed = true;
     all.settled = false;
-    if (last_resort && !all.late && !held_.any()) finder->hold(from, constraints_.next);
+    if (last_resort && !all.late) finder->hold(from, constraints_.next);
     attempt.clock.lap(Stage::kContact);
     return all;
   }
@@ -180,7 +177,7 @@ bool ExactSolver::needsEnergyCheck(const Attempt& attempt, const Progress& progr
   return !rods_alone || attempt.scheme.rules().follows || !KineticGuard::isSmall(progress.predicted_violation);
 }
 
-// Decides whether the substep may be accepted: it gains no energy and disturbs no sleeping column.
+// Decides whether the substep may be accepted: it gains no energy.
 void ExactSolver::judge(const Attempt& attempt, Progress& progress, SubstepOutcome& outcome) noexcept {
   const bool last_resort = attempt.plan.isLastResort();
   const double touched =
@@ -197,12 +194,6 @@ void ExactSolver::judge(const Attempt& attempt, Progress& progress, SubstepOutco
     const bool again = std::abs(attempt.plan.h) < std::abs(gained_.h);
     if (finding.jumps && !(again && finding.gain >= gained_.gain)) progress.settled = false;
     gained_ = {attempt.plan.h, finding.gain};
-  }
-  if (held_.any()) {
-    const bool stuck = progress.crossed || (last_resort && !progress.settled);
-    const LinkSet* const strings = constraints_.stringsAct() ? &constraints_.strings() : nullptr;
-    outcome.disturbed = held_.disturbedBy(strings, constraints_.next, progress.contacts, 1.0 / attempt.scale(),
-                                          attempt.forces.gravity.norm(), stuck);
   }
   outcome.sweeps = progress.sweeps;
   outcome.touches = !progress.alone();
@@ -325,7 +316,7 @@ void ExactSolver::copyPulls(const ClothState& state, const Contacts* contacts, F
 // Keeps the momentum of cloth without pins.
 void ExactSolver::projectVelocity(const Field3& position, const Contacts* contacts, double share,
                                   Field3& out) noexcept {
-  const bool keeps = free_ && !held_.any() && (contacts == nullptr || !pressesOnObstacle(*contacts));
+  const bool keeps = free_ && (contacts == nullptr || !pressesOnObstacle(*contacts));
   const Momentum before = keeps ? momentumOf(pattern_, position, out) : Momentum();
   constraints_.project(position, contacts, share, out);
   if (!keeps) return;
@@ -335,22 +326,6 @@ void ExactSolver::projectVelocity(const Field3& position, const Contacts* contac
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     if (pattern_.mass[n] > 0.0) out.add(n, motion.at(position.at(n)));
   }
-}
-
-void ExactSolver::hold(const ColumnSet& columns, ClothState& state) noexcept {
-  const Grid& grid = pattern_.grid;
-  NodeInertia::Tensions& tensions = inertia_.tensions();
-  const double per_scale = tensions.scale != 0.0 ? 1.0 / tensions.scale : 0.0;
-  for (int j = 0; j < grid.columns; ++j) {
-    if (!columns.has(j) || held_.has(j)) continue;
-    for (int i = 0; i < grid.allRows(); ++i) state.velocity.set(grid.index(i, j), Vec3::Zero());
-  }
-  for (int block = 0; block < warpBlockCount(grid); ++block) {
-    skipped_before_[static_cast<std::size_t>(block)] = held_.skips(block) ? 1 : 0;
-  }
-  held_.set(columns, state.position, constraints_.lastStrings(), per_scale);
-  inertia_.hold(columns);
-  constraints_.hold(skipped_before_, state, tensions);
 }
 
 void ExactSolver::save(Memory& memory) const {

@@ -34,14 +34,8 @@ class ExactSolver {
 
   /// Takes what follows from the pattern's pins. Allocates nothing.
   void takePins() noexcept;
-  /// After it, when the pins have changed, with no column held: what the last substep left is that of other pins.
+  /// After it, when the pins have changed: what the last substep left is that of other pins.
   void repinned() noexcept;
-
-  /// Freezes these columns at rest, wakes all others. Waking columns start with the tensions they fell asleep with. For
-  /// leapfrog and the last resort.
-  void hold(const ColumnSet& columns, ClothState& state) noexcept;
-  /// What is held, and which of it the last substep would have moved (SubstepOutcome::disturbed).
-  const HeldColumns& held() const noexcept { return held_; }
 
   /// One substep. finder may be null: nothing to touch. Allocates nothing.
   SubstepOutcome substep(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder, ClothState& state,
@@ -113,8 +107,8 @@ class ExactSolver {
   void restore(const Memory& memory);
 
   void carry(Archive& archive);
-  /// After carry() has loaded: these columns are held; restores what is not serialized.
-  void resume(const ColumnSet& held, const ClothState& state) noexcept;
+  /// After carry() has loaded: restores what is not serialized.
+  void resume(const ClothState& state) noexcept;
 
  private:
   // A substep being made.
@@ -162,8 +156,6 @@ class ExactSolver {
   double stretch_tolerance_;  // the user's, relative
   double smallest_rest_;      // of a link [m]
   NodeInertia inertia_;
-  HeldColumns held_;
-  std::vector<std::uint8_t> skipped_before_;  // scratch of hold()
   Bending bending_;
   Constraints constraints_;
   Sweeps sweeps_;

@@ -13,7 +13,6 @@
 #include <limits>
 
 #include "cloth/cloth.h"
-#include "cloth/column_set.h"
 #include "solver/carriers.h"
 
 namespace curtain {
@@ -36,7 +35,6 @@ struct LineSolve {
   const Field& inverse_inertia;  ///< of the nodes in this substep [1/kg]
   LinkSet& links;
   Field3& value;                 ///< positions [m], or velocities [m/s]
-  ColumnSpan span;               ///< outside it nothing moves
   Carriers* carriers = nullptr;  ///< null: none slides
 };
 

@@ -26,6 +26,7 @@ NetSolver::NetSolver(const ClothPattern& pattern, const Workers& workers)
       workers_(workers),
       stride_((static_cast<std::size_t>((pattern.grid.columns + kColumns) / kColumns) | 1U) * kColumns),
       row_blocks_((pattern.grid.rows + kRows - 1) / kRows),
+      column_blocks_((pattern.grid.columns + kColumns - 1) / kColumns),
       cords_(pattern.cords.cords.size()) {
   // Whole row blocks, and a row of zeros below the last one; of the ends' rows nothing but nodal values is used.
   const std::size_t size = (static_cast<std::size_t>(row_blocks_ * kRows + 1 + pattern.grid.end_rows)) * stride_;
@@ -65,15 +66,13 @@ double NetSolver::sumOverRowBlocks(const Block& block) noexcept {
   return sum;
 }
 
-CURTAIN_WIDE void NetSolver::takeRow(const Field3& position, const Field& inverse_inertia, const ColumnSpan& span,
-                                     int i) noexcept {
+CURTAIN_WIDE void NetSolver::takeRow(const Field3& position, const Field& inverse_inertia, int i) noexcept {
   const Grid& grid = pattern_.grid;
   const auto columns = static_cast<std::size_t>(grid.columns);
   const std::size_t from = grid.row(i), to = row(i);
   const auto grid_stride = static_cast<std::size_t>(grid.stride);
   const double per_scale = 1.0 / inertia_scale_;
-  const std::size_t first = span.first, end = span.end, first_link = span.firstLink(), end_link = span.endLink(columns);
-  for (std::size_t j = first; j < end; ++j) weight_[to + j] = static_cast<float>(inverse_inertia[from + j] * per_scale);
+  for (std::size_t j = 0; j < columns; ++j) weight_[to + j] = static_cast<float>(inverse_inertia[from + j] * per_scale);
   const auto difference = [&](const Field& values, Values& warp, Values& weft) {
     const double* const p = values.data() + from;
     const double* const per_warp = per_warp_rest_.data() + from;
@@ -82,10 +81,9 @@ CURTAIN_WIDE void NetSolver::takeRow(const Field3& position, const Field& invers
     if (i > 0) {
       const double* const above = p - grid_stride;
       float* const warp_out = warp.data() + to;
-      for (std::size_t j = first; j < end; ++j) warp_out[j] = static_cast<float>((p[j] - above[j]) * per_warp[j]);
+      for (std::size_t j = 0; j < columns; ++j) warp_out[j] = static_cast<float>((p[j] - above[j]) * per_warp[j]);
     }
-    for (std::size_t j = first_link; j < end_link; ++j)
-      weft_out[j] = static_cast<float>((p[j] - p[j - 1]) * per_weft[j]);
+    for (std::size_t j = 1; j < columns; ++j) weft_out[j] = static_cast<float>((p[j] - p[j - 1]) * per_weft[j]);
     if (grid.closed) weft_out[columns] = weft_out[0] = static_cast<float>((p[0] - p[columns - 1]) * per_weft[0]);
   };
   difference(position.x, warp_.x, weft_.x);
@@ -96,7 +94,7 @@ CURTAIN_WIDE void NetSolver::takeRow(const Field3& position, const Field& invers
   const float *const x = &weft_.x[to], *const y = &weft_.y[to], *const z = &weft_.z[to];
   float *const diagonal = &weft_diagonal_[to], *const off = &weft_off_[to];
   const auto square = [=](std::size_t j) { return x[j] * x[j] + y[j] * y[j] + z[j] * z[j]; };
-  for (std::size_t j = first_link; j < end_link; ++j) {
+  for (std::size_t j = 1; j < columns; ++j) {
     diagonal[j] = (w[j] + w[j - 1]) * (x[j] * x[j] + y[j] * y[j] + z[j] * z[j]);
     off[j] = -w[j] * (x[j] * x[j + 1] + y[j] * y[j + 1] + z[j] * z[j + 1]);
   }
@@ -106,23 +104,21 @@ CURTAIN_WIDE void NetSolver::takeRow(const Field3& position, const Field& invers
   off[0] = grid.closed ? -w[0] * (x[0] * x[1] + y[0] * y[1] + z[0] * z[1]) : 0.0F;
 }
 
-void NetSolver::begin(const Field3& position, const Field& inverse_inertia, const ColumnSpan& span,
-                      const Carriers* carriers, const CordLinks* cords) noexcept {
+void NetSolver::begin(const Field3& position, const Field& inverse_inertia, const Carriers* carriers,
+                      const CordLinks* cords) noexcept {
   carriers_ = carriers;
   cord_links_ = cords;
-  first_block_ = static_cast<int>(span.first) / kColumns;
-  moving_blocks_ = (static_cast<int>(span.end) + kColumns - 1) / kColumns - first_block_;
   inertia_scale_ = largestOf(inverse_inertia);
   if (!(inertia_scale_ > 0.0)) inertia_scale_ = 1.0;
   workers_.run(row_blocks_, [&](int b) {
     const int end = std::min((b + 1) * kRows, pattern_.grid.rows);
-    for (int i = b * kRows; i < end; ++i) takeRow(position, inverse_inertia, span, i);
+    for (int i = b * kRows; i < end; ++i) takeRow(position, inverse_inertia, i);
   });
   if (cord_links_ != nullptr) takeEnds(inverse_inertia);
   if (carriers_ != nullptr) takeCarriers();
-  workers_.run(moving_blocks_, [&](int b) {
-    factorWarp(first_block_ + b);
-    couple(first_block_ + b);
+  workers_.run(column_blocks_, [&](int b) {
+    factorWarp(b);
+    couple(b);
   });
 }
 
@@ -241,12 +237,12 @@ void NetSolver::closeRows(Values& links) noexcept {
 // product_ = S pull_, and the part of contacts and cords; returns pull_ . product_.
 double NetSolver::applySchur() noexcept {
   closeRows(pull_);
-  workers_.run(moving_blocks_, [&](int b) { answerOfRods(first_block_ + b); });
+  workers_.run(column_blocks_, [&](int b) { answerOfRods(b); });
   const double sum = sumOverRowBlocks([&](int b) { return schurProduct(b); });
   if (!anyPushes()) return sum;
-  workers_.run(moving_blocks_, [&](int b) {
-    moveNodes(first_block_ + b);
-    if (carriers_ != nullptr) keepOnRail(move_, (first_block_ + b) * kColumns, (first_block_ + b + 1) * kColumns);
+  workers_.run(column_blocks_, [&](int b) {
+    moveNodes(b);
+    if (carriers_ != nullptr) keepOnRail(move_, b * kColumns, (b + 1) * kColumns);
   });
   const NetNodes move{move_.x.data(), move_.y.data(), move_.z.data()}, push = pushes();
   moveEnds();

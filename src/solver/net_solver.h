@@ -22,7 +22,6 @@
 #include <vector>
 
 #include "cloth/cloth.h"
-#include "cloth/column_set.h"
 #include "solver/carriers.h"
 #include "solver/net_contacts.h"
 #include "solver/net_cords.h"
@@ -38,11 +37,10 @@ class NetSolver {
   /// Reserves room for so many contacts.
   void expectContacts(std::size_t count) { contacts_.reserve(count); }
 
-  /// Sets the links' directions from these positions, and the nodes' inverse inertia [1/kg]. Nothing moves outside the
-  /// span; call reset() before the span changes. carriers: those that slide, with their directions of these positions;
-  /// cords: with theirs, which solve() looks at again; or null.
-  void begin(const Field3& position, const Field& inverse_inertia, const ColumnSpan& span,
-             const Carriers* carriers = nullptr, const CordLinks* cords = nullptr) noexcept;
+  /// Sets the links' directions from these positions, and the nodes' inverse inertia [1/kg]. carriers: those that
+  /// slide, with their directions of these positions; cords: with theirs, which solve() looks at again; or null.
+  void begin(const Field3& position, const Field& inverse_inertia, const Carriers* carriers = nullptr,
+             const CordLinks* cords = nullptr) noexcept;
 
   /// Zeroes all vectors, e.g. after a solve with non-finite numbers.
   void reset() noexcept;
@@ -95,7 +93,7 @@ class NetSolver {
     Values x, y, z;
   };
 
-  void takeRow(const Field3& position, const Field& inverse_inertia, const ColumnSpan& span, int row) noexcept;
+  void takeRow(const Field3& position, const Field& inverse_inertia, int row) noexcept;
   void factorWarp(int block) noexcept;
   void factorWeft(int row_block) noexcept;
   void load(const Field& violation, const Field& active, const Field* multiplier, int row_block) noexcept;
@@ -145,9 +143,8 @@ class NetSolver {
 
   const ClothPattern& pattern_;
   const Workers& workers_;
-  std::size_t stride_;                       // a row's nodes, the link that closes a ring, padding
-  int first_block_ = 0, moving_blocks_ = 0;  // of columns
-  int row_blocks_;
+  std::size_t stride_;  // a row's nodes, the link that closes a ring, padding
+  int row_blocks_, column_blocks_;
   double inertia_scale_ = 1.0;  // the largest inverse inertia [1/kg]
   double violation_scale_ = 1.0;
   Real damping_ = 0.0F;

@@ -33,7 +33,7 @@ void NetSolver::answerSolution(Field& out) noexcept {
   cords_.conclude(pushes());
   if (carriers_ != nullptr) keepOnRail(push_, 0, pattern_.grid.columns);
   closeRows(pull_);
-  workers_.run(moving_blocks_, [&](int b) { answerOfRods(first_block_ + b); });
+  workers_.run(column_blocks_, [&](int b) { answerOfRods(b); });
   cords_.forEachNode([this](std::uint32_t n) { push_.x[n] = push_.y[n] = push_.z[n] = 0.0F; });
   const double scale = -multiplierScale();
   for (int i = 1; i < pattern_.grid.rows; ++i) {

@@ -38,32 +38,18 @@ Field withCarriers(const ClothPattern& pattern) {
 NodeInertia::NodeInertia(const ClothPattern& pattern)
     : pattern_(pattern),
       sliding_(withCarriers(pattern)),
-      all_(sliding_.empty() ? &pattern.inverse_mass : &sliding_),
-      free_mass_(freeMass(pattern, *all_)),
-      changed_(*all_),
+      masses_(sliding_.empty() ? &pattern.inverse_mass : &sliding_),
+      free_mass_(freeMass(pattern, *masses_)),
+      changed_(*masses_),
       keep_(pattern.grid.size(), 1.0),
-      held_(*all_),
-      masses_(all_),
-      inverse_(all_) {
+      inverse_(masses_) {
   tensions_.load.assign(pattern.grid.size(), 0.0);
 }
 
-void NodeInertia::hold(const ColumnSet& columns) noexcept {
-  const Grid& grid = pattern_.grid;
-  masses_ = columns.empty() ? all_ : &held_;
-  for (int i = 0; i < grid.rows && !columns.empty(); ++i) {
-    for (int j = 0; j < grid.columns; ++j) {
-      const std::size_t n = grid.index(i, j);
-      held_[n] = columns.has(j) ? 0.0 : (*all_)[n];
-    }
-  }
+void NodeInertia::takePins() noexcept {
+  if (!sliding_.empty()) fillWithCarriers(pattern_, sliding_);
   inverse_ = masses_;
   free_mass_ = freeMass(pattern_, *masses_);
-}
-
-void NodeInertia::takePins(const ColumnSet& columns) noexcept {
-  if (!sliding_.empty()) fillWithCarriers(pattern_, sliding_);
-  hold(columns);
 }
 
 double NodeInertia::heaviest() const noexcept {
@@ -74,8 +60,7 @@ double NodeInertia::heaviest() const noexcept {
 
 void NodeInertia::letSlide(bool slide) noexcept {
   if (sliding_.empty()) return;
-  all_ = slide ? &sliding_ : &pattern_.inverse_mass;
-  if (masses_ != &held_) inverse_ = masses_ = all_;
+  inverse_ = masses_ = slide ? &sliding_ : &pattern_.inverse_mass;
 }
 
 void NodeInertia::forget() noexcept {

@@ -5,7 +5,6 @@
 // the transverse oscillations of the taut net, omega^2 <= max 2 w sum |s| / (h kick).
 #pragma once
 
-#include "cloth/column_set.h"
 #include "solver/substep.h"
 
 namespace curtain {
@@ -18,14 +17,11 @@ class NodeInertia {
   /// are mass-scaled; 0: never. implicit: damping acts on the velocities at the end.
   void set(const NodeForces& forces, double kick, double scale, double most_phase, bool implicit) noexcept;
 
-  /// From now on these columns have no inverse inertia, as if pinned.
-  void hold(const ColumnSet& columns) noexcept;
-  /// The pattern's pins have changed; these columns are held.
-  void takePins(const ColumnSet& columns) noexcept;
+  /// The pattern's pins have changed.
+  void takePins() noexcept;
   /// Largest of the last substep's loads over its mass, by the present pins.
   double heaviest() const noexcept;
-  /// Whether carriers slide from now on, or have no inverse inertia either. No columns are held with a rail while
-  /// others move.
+  /// Whether carriers slide from now on, or have no inverse inertia either.
   void letSlide(bool slide) noexcept;
 
   const Field& inverse() const noexcept { return *inverse_; }  ///< [1/kg]
@@ -55,11 +51,10 @@ class NodeInertia {
   double addedMass(double per_load) const noexcept;
 
   const ClothPattern& pattern_;
-  Field sliding_;     // the pattern's inverse masses, and those of its carriers [1/kg]; empty: no rail
-  const Field* all_;  // when no column is held: the pattern's, or sliding_
-  double free_mass_;  // [kg]
-  Field changed_, keep_, held_;
-  const Field* masses_;  // all_, or held_
+  Field sliding_;        // the pattern's inverse masses, and those of its carriers [1/kg]; empty: no rail
+  const Field* masses_;  // the pattern's, or sliding_
+  double free_mass_;     // [kg]
+  Field changed_, keep_;
   const Field* inverse_;
   bool damped_ = false;
   Tensions tensions_;

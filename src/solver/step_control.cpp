@@ -70,7 +70,7 @@ void StepControl::takeFrame(double length) noexcept {
   frame_ = length;
 }
 
-void StepControl::wake(const ExactSolver& solver) noexcept {
+void StepControl::repinned(const ExactSolver& solver) noexcept {
   if (solver.inertia().tensions().scale != 0.0) omega_ = std::sqrt(solver.inertia().omegaSquared());
 }
 

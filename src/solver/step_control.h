@@ -36,8 +36,8 @@ class StepControl {
   bool askFor(int substeps) noexcept;
   /// Takes note of the tensions of a substep that another control planned.
   void watch(const SubstepOutcome& outcome) noexcept;
-  /// Takes the tensions of the columns that move now.
-  void wake(const ExactSolver& solver) noexcept;
+  /// The pins have changed: takes note of what the tensions of the last substep mean with these.
+  void repinned(const ExactSolver& solver) noexcept;
   void accepted(const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept;
   void rejected(const SubstepPlan& plan) noexcept;
   /// The substep did not finish within a frame's computing time. Makes shorter ones, but not so short that the last

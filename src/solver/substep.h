@@ -62,11 +62,10 @@ class ContactFinder {
 
 /// How a substep went.
 struct SubstepOutcome {
-  bool accepted = false;   ///< false: nothing was changed, try again with a smaller step
-  bool settled = false;    ///< every link is within the tolerance
-  bool disturbed = false;  ///< held columns would move: wake them and make the substep again
-  bool late = false;       ///< out of computing time before it had settled
-  bool touches = false;    ///< a contact pushes
+  bool accepted = false;  ///< false: nothing was changed, try again with a smaller step
+  bool settled = false;   ///< every link is within the tolerance
+  bool late = false;      ///< out of computing time before it had settled
+  bool touches = false;   ///< a contact pushes
   int sweeps = 0;
   double scale = 0.0;                                             ///< h * kick [s^2]
   double kick = 0.0;                                              ///< time that the forces acted for [s]

@@ -10,7 +10,7 @@
 namespace curtain {
 
 /// Blocks of kLane columns that a row holds, padding included.
-inline int warpBlockCount(const Grid& grid) { return grid.stride / kLane; }
+inline int warpBlockCount(const Grid& grid) { return (grid.columns + kLane - 1) / kLane; }
 
 /// Sets the directions of the rods from the positions: of all, or of one block of columns.
 void setWarpDirections(const Grid& grid, const Field3& position, Field3& direction) noexcept;

@@ -47,68 +47,40 @@ CURTAIN_INTO_WIDE Link look(const LinkRow& row, std::size_t left, std::size_t ri
   return {both > 0.0 ? c : 0.0, active, 0.0 * c};  // 0 * x is NaN for NaN and infinity alike
 }
 
-// Calls loop(first, end) for the part of [0, columns) in the span. Usually nothing sleeps, and a loop with a
-// compile-time start is an eighth shorter.
-template <typename Loop>
-CURTAIN_INTO_WIDE void overColumns(const ColumnSpan& span, std::size_t columns, const Loop& loop) {
-  if (span.first == 0 && span.end >= columns) {
-    loop(0, columns);
-  } else {
-    loop(span.first, std::min(span.end, columns));
-  }
-}
-
-// The same for the links [1, columns) of a row.
-template <typename Loop>
-CURTAIN_INTO_WIDE void overLinks(const ColumnSpan& span, std::size_t columns, const Loop& loop) {
-  if (span.first == 0 && span.end >= columns) {
-    loop(1, columns);
-  } else {
-    loop(span.firstLink(), span.endLink(columns));
-  }
-}
-
 // Largest sizeOf(left, right) of a row's links, called once for each; infinite when a position is not finite.
 template <typename SizeOf>
-CURTAIN_INTO_WIDE double largestOf(const Grid& grid, const ColumnSpan& span, const SizeOf& sizeOf) {
+CURTAIN_INTO_WIDE double largestOf(const Grid& grid, const SizeOf& sizeOf) {
   const auto columns = static_cast<std::size_t>(grid.columns);
   double worst = 0.0, finite = 0.0;
-  overLinks(span, columns, [&](std::size_t first, std::size_t end) {
-    double largest = 0.0, sum = 0.0;
-#pragma omp simd reduction(max : largest) reduction(+ : sum)
-    for (std::size_t j = first; j < end; ++j) {
-      const Size link = sizeOf(j - 1, j);
-      largest = largest > link.size ? largest : link.size;
-      sum += link.not_finite;
-    }
-    worst = largest;
-    finite = sum;
-  });
+#pragma omp simd reduction(max : worst) reduction(+ : finite)
+  for (std::size_t j = 1; j < columns; ++j) {
+    const Size link = sizeOf(j - 1, j);
+    worst = worst > link.size ? worst : link.size;
+    finite += link.not_finite;
+  }
   if (grid.closed) worst = std::max(worst, sizeOf(columns - 1, 0).size);
   return finite == 0.0 ? worst : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
 
-CURTAIN_WIDE void setWeftDirections(const Grid& grid, int row, const ColumnSpan& span, const Field3& position,
-                                    Field3& direction) noexcept {
-  const auto difference = [&grid, row](std::size_t first, std::size_t end, const Field& from, Field& to) {
+CURTAIN_WIDE void setWeftDirections(const Grid& grid, int row, const Field3& position, Field3& direction) noexcept {
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  const auto difference = [&grid, row, columns](const Field& from, Field& to) {
     const double* const p = from.data() + grid.row(row);
     double* const out = to.data() + grid.row(row);
 #pragma omp simd
-    for (std::size_t j = first; j < end; ++j) out[j] = p[j] - p[j - 1];
-    if (grid.closed) out[0] = p[0] - p[grid.columns - 1];
+    for (std::size_t j = 1; j < columns; ++j) out[j] = p[j] - p[j - 1];
+    if (grid.closed) out[0] = p[0] - p[columns - 1];
   };
-  overLinks(span, static_cast<std::size_t>(grid.columns), [&](std::size_t first, std::size_t end) {
-    difference(first, end, position.x, direction.x);
-    difference(first, end, position.y, direction.y);
-    difference(first, end, position.z, direction.z);
-  });
+  difference(position.x, direction.x);
+  difference(position.y, direction.y);
+  difference(position.z, direction.z);
 }
 
 CURTAIN_WIDE double weftResidual(const LineSolve& line, int i) noexcept {
   const LinkRow row(line, i);
-  return largestOf(line.pattern.grid, line.span, [=](std::size_t left, std::size_t right) -> Size {
+  return largestOf(line.pattern.grid, [=](std::size_t left, std::size_t right) -> Size {
     const Link link = look(row, left, right);
     return {link.active * std::abs(link.violation), link.not_finite};
   });
@@ -125,11 +97,10 @@ void freeWeft(const ClothPattern& pattern, const Field& inverse_mass, Field& out
   }
 }
 
-CURTAIN_WIDE double weftSquare(const Grid& grid, int i, const ColumnSpan& span, const Field3& position,
-                               const Field& free_per_square) noexcept {
+CURTAIN_WIDE double weftSquare(const Grid& grid, int i, const Field3& position, const Field& free_per_square) noexcept {
   const ConstFieldView p(position, grid.row(i));
   const double* const per_square = free_per_square.data() + grid.row(i);
-  return largestOf(grid, span, [=](std::size_t left, std::size_t right) -> Size {
+  return largestOf(grid, [=](std::size_t left, std::size_t right) -> Size {
     const double rx = p.x[right] - p.x[left], ry = p.y[right] - p.y[left], rz = p.z[right] - p.z[left];
     const double square = (rx * rx + ry * ry + rz * rz) * per_square[right];
     return {square, 0.0 * square};
@@ -142,7 +113,7 @@ CURTAIN_WIDE double measureWeft(const LineSolve& line, int i, Field& violation, 
   const double* const rest = line.pattern.weft_rest.data() + grid.row(i);
   double* const c_out = violation.data() + grid.row(i);
   double* const active_out = active.data() + grid.row(i);
-  return largestOf(grid, line.span, [=](std::size_t left, std::size_t right) -> Size {
+  return largestOf(grid, [=](std::size_t left, std::size_t right) -> Size {
     const Link link = look(row, left, right);
     active_out[right] = link.active;
     c_out[right] = link.violation * rest[right] * rest[right];
@@ -182,18 +153,16 @@ CURTAIN_WIDE void pullWeft(const LineSolve& line, int i, const Field& multiplier
   const auto last = static_cast<std::size_t>(grid.columns) - 1;
   const double* const w = line.inverse_inertia.data() + row;
   const double* const s = multiplier.data() + row;
-  const auto pull = [=, &grid](std::size_t first, std::size_t end, const Field& direction, Field& value) {
+  const auto pull = [=, &grid](const Field& direction, Field& value) {
     const double* const d = direction.data() + row;
     double* const v = value.data() + row;
 #pragma omp simd
-    for (std::size_t j = first; j < end; ++j) v[j] += w[j] * (s[j + 1] * d[j + 1] - s[j] * d[j]);
+    for (std::size_t j = 0; j < last; ++j) v[j] += w[j] * (s[j + 1] * d[j + 1] - s[j] * d[j]);
     v[last] += w[last] * ((grid.closed ? s[0] * d[0] : 0.0) - s[last] * d[last]);
   };
-  overColumns(line.span, last, [&](std::size_t first, std::size_t end) {
-    pull(first, end, line.links.direction.x, line.value.x);
-    pull(first, end, line.links.direction.y, line.value.y);
-    pull(first, end, line.links.direction.z, line.value.z);
-  });
+  pull(line.links.direction.x, line.value.x);
+  pull(line.links.direction.y, line.value.y);
+  pull(line.links.direction.z, line.value.z);
 }
 
 CURTAIN_WIDE double weftMoveSquared(const LineSolve& line, int i, const Field& multiplier) noexcept {
@@ -205,18 +174,14 @@ CURTAIN_WIDE double weftMoveSquared(const LineSolve& line, int i, const Field& m
   const ConstFieldView d(line.links.direction, row);
   const double* const per_square = line.pattern.weft_per_square.data() + row;
   double worst = 0.0;
-  overColumns(line.span, last, [&](std::size_t first, std::size_t end) {
-    double largest = 0.0;
-#pragma omp simd reduction(max : largest)
-    for (std::size_t j = first; j < end; ++j) {
-      const double x = w[j] * (s[j + 1] * d.x[j + 1] - s[j] * d.x[j]);
-      const double y = w[j] * (s[j + 1] * d.y[j + 1] - s[j] * d.y[j]);
-      const double z = w[j] * (s[j + 1] * d.z[j + 1] - s[j] * d.z[j]);
-      const double size = (x * x + y * y + z * z) * per_square[j + 1];
-      largest = largest > size ? largest : size;
-    }
-    worst = largest;
-  });
+#pragma omp simd reduction(max : worst)
+  for (std::size_t j = 0; j < last; ++j) {
+    const double x = w[j] * (s[j + 1] * d.x[j + 1] - s[j] * d.x[j]);
+    const double y = w[j] * (s[j + 1] * d.y[j + 1] - s[j] * d.y[j]);
+    const double z = w[j] * (s[j + 1] * d.z[j + 1] - s[j] * d.z[j]);
+    const double size = (x * x + y * y + z * z) * per_square[j + 1];
+    worst = worst > size ? worst : size;
+  }
   const auto wrapped = [&](const double* along) {
     return w[last] * ((grid.closed ? s[0] * along[0] : 0.0) - s[last] * along[last]);
   };

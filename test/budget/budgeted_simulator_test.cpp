@@ -166,7 +166,7 @@ TEST(BudgetedSimulator, SlowMotionIsNotRest) {
   Simulator simulator(scene);
   for (int frame = 0; frame < 300; ++frame) simulator.step();
   EXPECT_GT(simulator.statistics().lost_time, 1.0);
-  EXPECT_EQ(simulator.statistics().asleep, 0);
+  EXPECT_FALSE(simulator.statistics().asleep);
 }
 
 // A pin that is led on while there is no time for it arrives all the same.

@@ -90,7 +90,7 @@ TEST_P(ScalingOfRest, OfLengthsAndMassesChangesNoBit) {
     scene.solver.rest_speed = 3e-3;
     scene.air.inside = scene.air.border = scene.air.corner = 4.0 * scene.cloth.surface_density;
     const Motion motion = record(scene, 300);
-    asleep += motion.statistics.asleep;
+    asleep += motion.statistics.asleep ? 1 : 0;
     for (const Similarity& s : {units(0x1p-8, 1.0, 1.0), units(0x1p8, 1.0, 0x1p16)}) {
       const Motion other = seenBack(s, record(seen(s, scene), 300));
       EXPECT_EQ(firstDifference(motion, other), -1) << describe(s) << "; " << repeat(seed);

@@ -61,7 +61,7 @@ class JammedTest(unittest.TestCase):
         self.curtain.wait_for(lambda s: s.statistics.absent_obstacles == 1, "the ball is left out")
         self.ball.put(INSIDE)
         self.ball.start()
-        state = self.curtain.wait_for(lambda s: s.statistics.asleep == s.columns and s.statistics.absent_obstacles == 0
+        state = self.curtain.wait_for(lambda s: s.statistics.asleep and s.statistics.absent_obstacles == 0
                                       and s.statistics.stops_last > 0, "it sleeps")
         stops = state.statistics.stops
         self.diagnostics.wait_for("simulation", WARN, "sleeps where it was stopped")

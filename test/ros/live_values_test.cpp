@@ -213,11 +213,11 @@ TEST(LiveValues, ThatAreWrongAreLeftAlone) {
 TEST(LiveValues, ThatAreTheSameChangeNothing) {
   curtain::Simulator simulator = makeSimulator("air: {inside: 1.0, border: 1.0, corner: 1.0}\n");
   NodeParams params;
-  while (simulator.statistics().asleep < 5 && simulator.time() < 20.0) simulator.step();
-  ASSERT_EQ(simulator.statistics().asleep, 5);
+  while (!simulator.statistics().asleep && simulator.time() < 20.0) simulator.step();
+  ASSERT_TRUE(simulator.statistics().asleep);
   EXPECT_TRUE(takeLiveValues(presentOf(simulator, params), simulator, params).empty());
   for (int frame = 0; frame < 3; ++frame) simulator.step();
-  EXPECT_EQ(simulator.statistics().asleep, 5);
+  EXPECT_TRUE(simulator.statistics().asleep);
 }
 
 // They are there when a node is started again, and nobody is told that they are unknown.

@@ -7,10 +7,12 @@
 
 #include "count_allocations.h"
 #include "simulator/scenes.h"
+#include "testing.h"
 
 namespace curtain {
 namespace {
 
+using curtain_test::flatScene;
 using curtain_test::run;
 using curtain_test::sceneOf;
 using curtain_test::shippedScene;
@@ -30,8 +32,8 @@ TEST(Allocations, NoneInAStep) {
   }
 }
 
-TEST(Allocations, NoneWhileColumnsFallAsleepAndWakeInLimitedFrames) {
-  Scene scene = sceneOf(12, 16);
+TEST(Allocations, NoneWhileTheClothFallsAsleepAndWakesInLimitedFrames) {
+  Scene scene = flatScene(12, 16);
   scene.hang.to.x() = 0.8;
   scene.air.inside = scene.air.border = scene.air.corner = 1.0;
   scene.contact.self = true;

@@ -180,12 +180,12 @@ TEST(Grasp, WakesSleepingCloth) {
   ASSERT_TRUE(sleepsWithin(simulator, 1200));
   const GraspParams grasp = ballGrasp("hand", simulator.position({15, 10}), 0.1);
   ASSERT_EQ(refusal(simulator, grasp), "");
-  EXPECT_EQ(simulator.statistics().asleep, 0);
+  EXPECT_FALSE(simulator.statistics().asleep);
   ASSERT_TRUE(sleepsWithin(simulator, 1200)) << "held cloth sleeps too";
   const GraspState asleep = *simulator.graspState("hand");
   simulator.moveGrasp("hand", grasp.frame);
   run(simulator, 3);
-  EXPECT_EQ(simulator.statistics().asleep, simulator.columns()) << "nothing has moved";
+  EXPECT_TRUE(simulator.statistics().asleep) << "nothing has moved";
   EXPECT_EQ(simulator.graspState("hand")->force, asleep.force);
   std::vector<Vec3> before;
   simulator.copyPositions(before);

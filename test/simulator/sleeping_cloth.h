@@ -42,7 +42,7 @@ inline void run(Simulator& simulator, int frames) {
 inline bool sleepsWithin(Simulator& simulator, int frames) {
   for (int frame = 0; frame < frames; ++frame) {
     simulator.step();
-    if (simulator.statistics().asleep == simulator.columns()) return true;
+    if (simulator.statistics().asleep) return true;
   }
   return false;
 }

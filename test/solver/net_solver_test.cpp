@@ -42,14 +42,12 @@ struct Net {
   }
   void setDirections() {
     setWarpDirections(pattern.grid, state.position, warp.direction);
-    for (int i = 0; i < pattern.grid.rows; ++i)
-      setWeftDirections(pattern.grid, i, span(), state.position, weft.direction);
+    for (int i = 0; i < pattern.grid.rows; ++i) setWeftDirections(pattern.grid, i, state.position, weft.direction);
     if (carriers.any()) carriers.begin(state, state, inertia.masses(), 1.0, 1.0, 1.0);
-    solver.begin(state.position, inertia.masses(), span(), carriers.any() ? &carriers : nullptr);
+    solver.begin(state.position, inertia.masses(), carriers.any() ? &carriers : nullptr);
   }
   void shake(double size, unsigned seed) { curtain_test::shake(pattern, size, seed, state.position); }
-  ColumnSpan span() const { return {0, static_cast<std::size_t>(pattern.grid.columns)}; }
-  LineSolve line() { return {pattern, inertia.masses(), weft, state.position, span()}; }
+  LineSolve line() { return {pattern, inertia.masses(), weft, state.position}; }
   // a^T W b at a node.
   double through(std::size_t n, const Vec3& a, const Vec3& b) const {
     const Carrier* const carrier = n < pattern.weft_coordinate.size() ? carriers.at(static_cast<int>(n)) : nullptr;
@@ -220,7 +218,7 @@ TEST_P(NetSolverOf, ShortensLongLinksAndOnlyPulls) {
   LineScratch scratch;
   scratch.assign(net.pattern.grid);
   const Field3 before = net.state.position;
-  const LineSolve rods{net.pattern, net.pattern.inverse_mass, net.warp, net.state.position, net.span()};
+  const LineSolve rods{net.pattern, net.pattern.inverse_mass, net.warp, net.state.position};
   for (int sweep = 0; sweep < 40; ++sweep) {
     net.setDirections();
     for (int block = 0; block < warpBlockCount(net.pattern.grid); ++block) warpNewton(rods, scratch, block);

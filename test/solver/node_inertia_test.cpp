@@ -84,19 +84,6 @@ TEST(NodeInertia, NoNodeIsHeavierThanAllOfTheCloth) {
   EXPECT_DOUBLE_EQ(nodes.inertia->inverse()[nodes.node], 1.0 / (9.0 * nodes.mass));
 }
 
-TEST(NodeInertia, HeldColumnsAnswerNothing) {
-  Nodes nodes;
-  ColumnSet held(3);
-  held.add(1);
-  nodes.inertia->hold(held);
-  nodes.set(0.0);
-  EXPECT_EQ(nodes.inertia->inverse()[nodes.node], 0.0);
-  EXPECT_EQ(nodes.inertia->inverse()[nodes.pattern.grid.index(2, 0)], 1.0 / nodes.mass);
-  held.clear();
-  nodes.inertia->hold(held);
-  EXPECT_EQ(nodes.inertia->inverse()[nodes.node], 1.0 / nodes.mass);
-}
-
 TEST(NodeInertia, AStepForAPhaseIsLongerWhereFewNodesMayBeHeavier) {
   Nodes nodes;
   EXPECT_TRUE(std::isinf(nodes.inertia->stepForPhase(1.0, 0.0)));

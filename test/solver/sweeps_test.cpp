@@ -24,8 +24,7 @@ struct Solve {
         state(makeInitialState(scene, pattern)),
         workers(1),
         inertia(pattern),
-        held(pattern),
-        constraints(pattern, 0.5 * kTolerance, inertia, held, workers),
+        constraints(pattern, 0.5 * kTolerance, inertia, workers),
         sweeps(constraints, inertia, kTolerance, kTolerance * shortestLink(pattern), most_sweeps) {
     force.assign(pattern.grid.size(), 0.0);
     forces.force = &force;
@@ -48,7 +47,6 @@ struct Solve {
   NodeForces forces;
   Workers workers;
   NodeInertia inertia;
-  HeldColumns held;
   Constraints constraints;
   Sweeps sweeps;
   StageClock clock;

@@ -28,7 +28,7 @@ struct Bench {
     setWarpDirections(pattern.grid, state.position, warp.direction);
   }
   void shake(double size, unsigned seed) { curtain_test::shake(pattern, size, seed, state.position); }
-  LineSolve warpLine() { return {pattern, pattern.inverse_mass, warp, state.position, {}}; }
+  LineSolve warpLine() { return {pattern, pattern.inverse_mass, warp, state.position}; }
   // One Newton iteration on all columns.
   LineOutcome newton() {
     LineOutcome all;
@@ -107,7 +107,7 @@ TEST(WarpSolver, ProjectedVelocitiesKeepTheRodsLengths) {
   for (std::size_t n = 0; n < bench.pattern.grid.size(); ++n) {
     if (bench.pattern.inverse_mass[n] > 0.0) velocity.set(n, Vec3(speed(random), speed(random), speed(random)));
   }
-  const LineSolve line{bench.pattern, bench.pattern.inverse_mass, bench.warp, velocity, {}};
+  const LineSolve line{bench.pattern, bench.pattern.inverse_mass, bench.warp, velocity};
   warpProjectVelocity(line, bench.scratch, 0);
   // A second solve finds nothing left but rounding: 1e-16 / rest, times the column's condition.
   EXPECT_LT(warpProjectVelocity(line, bench.scratch, 0).residual, 1e-11);

@@ -99,7 +99,7 @@ void checkSimulation(const Health& health, const Pulse& pulse, Rises& rises, Dia
   report.value("step ms max", s.step_ms_max);
   report.value("largest stretch", stretch);
   report.value("stretch tolerance", health.stretch_tolerance);
-  report.value("columns asleep", s.asleep);
+  report.value("asleep", s.asleep ? "yes" : "no");
   report.value("stops in the last frame awake", s.stops_last);
   report.value("restarts", s.restarts);
   report.otherwise(health.paused ? "paused" : "runs");

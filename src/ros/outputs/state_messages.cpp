@@ -80,7 +80,7 @@ void toMessage(const curtain::Statistics& statistics, curtain_sim::Statistics& m
   message.shortened_frames = static_cast<std::uint64_t>(statistics.shortened_frames);
   message.lost_time = statistics.lost_time;
   message.late_frames = static_cast<std::uint64_t>(statistics.late_frames);
-  message.asleep = static_cast<std::uint32_t>(statistics.asleep);
+  message.asleep = statistics.asleep ? 1 : 0;
   message.wakes = static_cast<std::uint64_t>(statistics.wakes);
   message.warp_stretch = statistics.warp_stretch;
   message.weft_stretch = statistics.weft_stretch;

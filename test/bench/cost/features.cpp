@@ -50,20 +50,6 @@ Play hanging() {
   return play;
 }
 
-// The same, led to and fro by a corner of its hem.
-Play ledByACorner() {
-  Play play = hanging();
-  play.each_frame = [frame = 0](curtain::Simulator& simulator) mutable {
-    curtain::DragParams hand;
-    hand.id = "hand";
-    hand.node = curtain::NodeIndex{43, 1};
-    hand.target = Vec3(0.03, 0.15 * std::sin(0.03 * frame++), -1.97);
-    hand.stiffness = 5.0;
-    simulator.setDrag(hand);
-  };
-  return play;
-}
-
 curtain::WindParams fanAt(const Vec3& position, double gusts, const std::string& id = "fan") {
   curtain::WindParams fan;
   fan.id = id;
@@ -253,7 +239,6 @@ std::vector<Feature> makeFeatures() {
   const auto rests = [](Play& p) { p.scene.solver.rest_speed = curtain::SolverParams().rest_speed; };
   add("rest", swing(), "nothing rests", rests, "", nullptr);
   add("rest: all sleeps", hanging(), "", nullptr, "asleep", rests).warm_up = 90;
-  add("rest: a corner moves", ledByACorner(), "", nullptr, "the rest sleeps", rests).warm_up = 90;
   add(
       "budget", swing(), "never reached", [](Play& p) { p.scene.solver.budget_ms = 1e5; }, "", nullptr);
   add(
