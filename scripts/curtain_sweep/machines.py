@@ -69,6 +69,10 @@ class Machines:
         self.ssh = "%s %s" % (ssh, SSH)
         self.hosts = None  # none: this machine alone
 
+    def environment(self, **more):
+        """parallel's. It takes ssh's name from there: of 2016, Debian 11's, it forgets its option --ssh with --nonall."""
+        return dict(os.environ, PARALLEL_SSH=self.ssh, **more)
+
     def ask(self, path, version):
         """Keeps the hosts of a file that answer and have the same curtain_batch; returns what is wrong with the others."""
         try:
@@ -83,9 +87,9 @@ class Machines:
             raise Problem("rsync is needed for other machines (Debian's package rsync), on them, too")
         names = {line: re.sub(r"^\d+/", "", line) for line in lines}
         question = FIND % shlex.quote(self.batch) + '"$batch" --version'
-        answer = subprocess.run(["parallel", "--nonall", "--tag", "--timeout", "30", "-j0", "--ssh", self.ssh, "-S", ",".join(names.values()),
+        answer = subprocess.run(["parallel", "--nonall", "--tag", "--timeout", "30", "-j0", "-S", ",".join(names.values()),
                                  "sh -c %s" % shlex.quote(question)], text=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                stderr=subprocess.PIPE, check=False)
+                                stderr=subprocess.PIPE, check=False, env=self.environment())
         troubles = []
         self.hosts = []
         for line, name in names.items():
@@ -117,7 +121,7 @@ class Machines:
         if bar:
             command.append("--bar")
         if self.hosts:
-            command += ["--ssh", self.ssh, "--sshloginfile", os.path.abspath(folder.of("hosts")), "--retries", str(TRIES),
+            command += ["--sshloginfile", os.path.abspath(folder.of("hosts")), "--retries", str(TRIES),
                         "--env", "SWEEP_JOB"]  # here it is there already, and asking for it would double what parallel takes
         if self.hosts and self.hosts != [":"]:
             command += ["--workdir", "...", "--cleanup", "--transferfile", "{}.yaml", "--return", "{}.result"]
@@ -127,7 +131,7 @@ class Machines:
                 command += ["--return", "{}.csv"]
         command += ['sh -c "$SWEEP_JOB" sh', "{}"]
         process = subprocess.Popen(command, cwd=runs, stdin=subprocess.DEVNULL, stderr=None if bar else subprocess.PIPE, text=True,
-                                   pass_fds=[folder.lock], env=dict(os.environ, PARALLEL_SHELL="/bin/sh", SWEEP_JOB=job))
+                                   pass_fds=[folder.lock], env=self.environment(PARALLEL_SHELL="/bin/sh", SWEEP_JOB=job))
         try:
             return process.communicate()[1] or ""
         except KeyboardInterrupt:
