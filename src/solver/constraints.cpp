@@ -42,11 +42,14 @@ Constraints::Constraints(const ClothPattern& pattern, double tolerance, const No
     rod_change_.assign(size, 0.0);
     moved_.assign(size, 0.0);
   }
+  expectContacts(0);
   row_worst_.resize(static_cast<std::size_t>((pattern.grid.rows + kRowsAtOnce - 1) / kRowsAtOnce));
 }
 
 void Constraints::expectContacts(std::size_t count) {
-  net_.expectContacts(count);
+  const std::size_t rows = 3 * count + cords_.all().size();
+  net_.expectRows(rows);
+  rows_.reserve(rows);
   best_.contacts.reserve(count);
 }
 

@@ -169,10 +169,11 @@ class Constraints {
   LineSolve wefts() noexcept { return {pattern_, inertia_.inverse(), weft_, next, sliding()}; }
   double takeUpStrings(double residual) noexcept;
   double takeUpTogether() noexcept;
-  CordLinks* tied() noexcept { return cords_.any() ? &cords_ : nullptr; }
   void beginCarriers(const SubstepStart& start, const ClothState& state, double h) noexcept;
   double commitCarriers(ClothState& state, const Field& load) noexcept;
   Vec3 pullAt(int row, int column, const Field& warp, const Field& weft, bool strings) const noexcept;
+  RowRange contactRows() const noexcept { return {rows_.data(), rows_.data() + contact_rows_}; }
+  RowRange cordRows() const noexcept { return {rows_.data() + contact_rows_, rows_.data() + rows_.size()}; }
   template <typename Look>
   double worstOfRows(const Look& look) noexcept;
   template <typename Block>
@@ -187,11 +188,13 @@ class Constraints {
   Carriers carriers_;
   double middle_rest_;
   CordLinks cords_;
-  Field rod_change_;      // of the rods' multipliers, with those of strings and cords; with cords only
-  Field3 moved_;          // by all of them [m]
-  Field3 top_force_;      // on the nodes of the top row but the links' [N]; with a rail only
-  double per_scale_ = 0;  // 1 / (h kick) [1/s^2]
-  int presses_ = 0;       // times that the rail's friction has been set in this substep
+  Rows rows_;                     // of contacts, then of cords
+  std::size_t contact_rows_ = 0;  // how many of them are of contacts
+  Field rod_change_;              // of the rods' multipliers, with those of strings and cords; with cords only
+  Field3 moved_;                  // by all of them [m]
+  Field3 top_force_;              // on the nodes of the top row but the links' [N]; with a rail only
+  double per_scale_ = 0;          // 1 / (h kick) [1/s^2]
+  int presses_ = 0;               // times that the rail's friction has been set in this substep
   LineScratch scratch_;
   LinkSet warp_, weft_;
   Field last_warp_, last_weft_;  // multipliers of the last accepted substep

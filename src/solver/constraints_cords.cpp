@@ -17,8 +17,8 @@ double Constraints::takeUpTogether() noexcept {
   for (std::size_t n = 0; n < grid.size(); ++n) change_[n] = std::max(change_[n], -weft_.multiplier[n]);
   const LineSolve weft{pattern_, inverse, weft_, moved_, sliding()};
   for (int i = 0; i < grid.rows; ++i) pullWeft(weft, i, change_);
-  net_.answerSolution(rod_change_);
-  net_.forEachCordChange([&](std::size_t cord, double change) { cords_.push(cord, change, inverse, moved_); });
+  net_.rodsAnswer(rows_, rod_change_);
+  cords_.moveByRows(cordRows(), inverse, moved_);
   const auto stride = static_cast<std::size_t>(grid.stride);
   double most = 0.0;
   for (std::size_t n = 0; n < grid.size(); ++n) {
@@ -36,7 +36,7 @@ double Constraints::takeUpTogether() noexcept {
     weft_.multiplier[n] += share * change_[n];
     warp_.multiplier[n] += share * rod_change_[n];
   }
-  net_.forEachCordChange([&](std::size_t cord, double change) { cords_.takeUp(cord, share * change); });
+  cords_.takeUp(cordRows(), share);
   return share;
 }
 

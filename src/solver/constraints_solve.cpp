@@ -79,14 +79,14 @@ void Constraints::followDirections() noexcept {
   forEachBlock([&](int block) { setWarpDirections(pattern_.grid, block, next, warp_.direction); });
   setWeftDirectionsAt(next);
   carriers_.followDirections();
-  net_.begin(next, inertia_.inverse(), sliding(), tied());
+  net_.begin(next, inertia_.inverse(), sliding());
   directions_set_ = net_ready_ = true;
 }
 
 void Constraints::takeDirections(const Field3& start) noexcept {
   if (net_ready_) return;
   if (!directions_set_) setWeftDirectionsAt(start);
-  net_.begin(start, inertia_.inverse(), sliding(), tied());
+  net_.begin(start, inertia_.inverse(), sliding());
   directions_set_ = net_ready_ = true;
 }
 
@@ -94,14 +94,14 @@ void Constraints::solveNet(const NetAim& aim, Contacts* contacts) noexcept {
   if (!measured_) measureStrings();
   measured_ = false;
   const Field* const multiplier = aim.newton ? &weft_.multiplier : nullptr;
-  net_.solve(violation_, active_, {contacts, &next, false},
+  rows_.clear();
+  if (contacts != nullptr) addContactRows(*contacts, next, rows_);
+  contact_rows_ = rows_.size();
+  cords_.addRows(rows_);
+  net_.solve(violation_, active_, rows_,
              {aim.residual * middle_rest_, aim.damping, aim.enough, kGradientIterations, multiplier}, change_);
   const double share = cords_.any() ? takeUpTogether() : takeUpStrings(aim.residual);
-  if (contacts != nullptr) {
-    net_.forEachContactChange([&](std::uint32_t index, double push, const Vec3& slide) {
-      takeUpContact(inertia_.inverse(), share * push, share * slide, (*contacts)[index], next);
-    });
-  }
+  if (contacts != nullptr) takeUpContacts(inertia_.inverse(), contactRows(), share, *contacts, next);
   settleCarriers();
 }
 

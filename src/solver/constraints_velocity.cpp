@@ -55,7 +55,7 @@ void Constraints::project(const Field3& position, const Contacts* contacts, doub
   settle();
   solveRods();
   if (alone) return;
-  net_.begin(position, inertia_.masses(), sliding, tied());
+  net_.begin(position, inertia_.masses(), sliding);
   double first_rate = 0.0;
   for (int round = 0; round < (presses ? kContactRounds : kVelocityRounds); ++round) {
     double rate = worstOfRows([&](int i) { return measureWeftRates(weft, i, violation_, active_); });
@@ -63,17 +63,15 @@ void Constraints::project(const Field3& position, const Contacts* contacts, doub
     if (presses) rate = std::max(rate, contactRate(*contacts, velocity) / middle_rest_);
     if (round == 0) first_rate = rate;
     if (rate == 0.0 || (round > 0 && rate <= kVelocityReduction * first_rate)) break;
-    net_.solve(violation_, active_, {presses ? contacts : nullptr, &velocity, true},
+    rows_.clear();
+    if (presses) addContactRateRows(*contacts, velocity, rows_);
+    contact_rows_ = rows_.size();
+    cords_.addRows(rows_);
+    net_.solve(violation_, active_, rows_,
                {rate * middle_rest_, kVelocityDamping, kVelocityReduction, kVelocityIterations}, change_);
     for (int i = 0; i < pattern_.grid.rows; ++i) pullWeft(weft, i, change_);
-    net_.forEachCordChange(
-        [&](std::size_t cord, double change) { cords_.push(cord, change, inertia_.masses(), velocity); });
-    if (presses) {
-      net_.forEachContactChange([&](std::uint32_t index, double push, const Vec3& slide) {
-        const Contact& contact = (*contacts)[index];
-        contact.move(inertia_.masses(), push * contact.normal + slide, velocity);
-      });
-    }
+    cords_.moveByRows(cordRows(), inertia_.masses(), velocity);
+    if (presses) moveByContacts(inertia_.masses(), contactRows(), *contacts, velocity);
     settle();
     solveRods();
   }

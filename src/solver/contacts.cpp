@@ -18,6 +18,62 @@ Vec3 bounded(const Vec3& slide, double most) {
   return size > most ? Vec3(slide * (most / size)) : slide;
 }
 
+// Any orthonormal pair across the normal will do, but always the same for the same normal.
+void tangents(const Vec3& normal, Vec3& first, Vec3& second) {
+  int smallest = 0;
+  normal.cwiseAbs().minCoeff(&smallest);
+  first = normal.cross(Vec3::Unit(smallest)).normalized();
+  second = normal.cross(first);
+}
+
+// The normal's row comes first. lacks: what the point is to move by, along the normal and, where it sticks, across.
+void addRowsOf(const Contact& contact, std::uint32_t index, double along, const Vec3& lacks, Rows& rows) {
+  Row row;
+  row.node = contact.node;
+  row.weight = contact.weight;
+  row.nodes = contact.nodes;
+  row.least_damping = kLeastDamping;
+  row.key = index;
+  row.direction = contact.normal;
+  row.violation = along;
+  rows.push_back(row);
+  if (!contact.sticks) return;
+  Vec3 first, second;
+  tangents(contact.normal, first, second);
+  for (const Vec3& tangent : {first, second}) {
+    row.direction = tangent;
+    row.violation = tangent.dot(lacks);
+    rows.push_back(row);
+  }
+}
+
+// Calls take(contact's index, change of push, change of slide) for all contacts with rows.
+template <typename Take>
+void forEachChange(RowRange rows, const Take& take) {
+  for (const Row* row = rows.first; row != rows.last;) {
+    const std::uint32_t index = row->key;
+    const double push = row->change;
+    Vec3 slide = Vec3::Zero();
+    for (++row; row != rows.last && row->key == index; ++row) slide += row->change * row->direction;
+    take(index, push, slide);
+  }
+}
+
+// Adds changes to a contact's multipliers.
+void takeUp(const Field& inverse_inertia, double push, const Vec3& slide, Contact& contact, Field3& position) {
+  const double push_change = contact.boundedChange(push);
+  contact.push += push_change;
+  Vec3 slide_change = slide;
+  const double most = contact.mostSlide();
+  const Vec3 wanted = contact.slide + slide;
+  if (contact.sticks && wanted.squaredNorm() > most * most) {
+    slide_change = bounded(wanted, most) - contact.slide;
+    contact.sticks = false;
+  }
+  contact.slide += slide_change;
+  contact.move(inverse_inertia, push_change * contact.normal + slide_change, position);
+}
+
 }  // namespace
 
 void beginContacts(const Field& inverse_inertia, double scale, double ratio, std::size_t first, Contacts& contacts,
@@ -100,19 +156,35 @@ void projectFriction(const Field& inverse_inertia, Contacts& contacts, Field3& p
   }
 }
 
-void takeUpContact(const Field& inverse_inertia, double push, const Vec3& slide, Contact& contact,
-                   Field3& position) noexcept {
-  const double push_change = contact.boundedChange(push);
-  contact.push += push_change;
-  Vec3 slide_change = slide;
-  const double most = contact.mostSlide();
-  const Vec3 wanted = contact.slide + slide;
-  if (contact.sticks && wanted.squaredNorm() > most * most) {
-    slide_change = bounded(wanted, most) - contact.slide;
-    contact.sticks = false;
+void addContactRows(const Contacts& contacts, const Field3& position, Rows& rows) {
+  for (std::uint32_t index = 0; index < contacts.size(); ++index) {
+    const Contact& contact = contacts[index];
+    const Vec3 point = contact.point(position);
+    const double entered = contact.offset - contact.normal.dot(point);
+    if (contact.pushes() || entered > 0.0) addRowsOf(contact, index, entered, contact.carried - point, rows);
   }
-  contact.slide += slide_change;
-  contact.move(inverse_inertia, push_change * contact.normal + slide_change, position);
+}
+
+void addContactRateRows(const Contacts& contacts, const Field3& velocity, Rows& rows) {
+  for (std::uint32_t index = 0; index < contacts.size(); ++index) {
+    const Contact& contact = contacts[index];
+    if (!contact.pushes()) continue;
+    const Vec3 lacks = contact.surface_velocity - contact.point(velocity);
+    addRowsOf(contact, index, contact.normal.dot(lacks), lacks, rows);
+  }
+}
+
+void takeUpContacts(const Field& inverse_inertia, RowRange rows, double share, Contacts& contacts,
+                    Field3& position) noexcept {
+  forEachChange(rows, [&](std::uint32_t index, double push, const Vec3& slide) {
+    takeUp(inverse_inertia, share * push, share * slide, contacts[index], position);
+  });
+}
+
+void moveByContacts(const Field& inverse_inertia, RowRange rows, const Contacts& contacts, Field3& velocity) noexcept {
+  forEachChange(rows, [&](std::uint32_t index, double push, const Vec3& slide) {
+    contacts[index].move(inverse_inertia, push * contacts[index].normal + slide, velocity);
+  });
 }
 
 void projectContacts(const Field& inverse_inertia, Contacts& contacts, Field3& position) noexcept {

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "cloth/cloth.h"
+#include "solver/row.h"
 
 namespace curtain {
 
@@ -101,9 +102,17 @@ bool pressesOnObstacle(const Contacts& contacts) noexcept;
 /// Friction of the contacts that are not solved for as sticking, one after the other. Moves nodes.
 void projectFriction(const Field& inverse_inertia, Contacts& contacts, Field3& position) noexcept;
 
-/// Adds changes to a contact's multipliers, bounded to push >= 0 and Coulomb's disc. Moves nodes.
-void takeUpContact(const Field& inverse_inertia, double push, const Vec3& slide, Contact& contact,
-                   Field3& position) noexcept;
+/// Adds a row along the normal of every contact that pushes or penetrates, and two tangential ones where it sticks.
+void addContactRows(const Contacts& contacts, const Field3& position, Rows& rows);
+/// The same of velocities, for the contacts that push.
+void addContactRateRows(const Contacts& contacts, const Field3& velocity, Rows& rows);
+
+/// Adds a share of what was found for the contacts' rows to their multipliers, bounded to push >= 0 and Coulomb's disc.
+/// Moves nodes.
+void takeUpContacts(const Field& inverse_inertia, RowRange rows, double share, Contacts& contacts,
+                    Field3& position) noexcept;
+/// Moves velocities by what was found for the contacts' rate rows.
+void moveByContacts(const Field& inverse_inertia, RowRange rows, const Contacts& contacts, Field3& velocity) noexcept;
 
 /// Solves each contact by itself, one after the other, for schemes without a joint solve. Moves nodes.
 void projectContacts(const Field& inverse_inertia, Contacts& contacts, Field3& position) noexcept;

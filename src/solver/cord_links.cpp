@@ -159,6 +159,36 @@ double CordLinks::squares() const noexcept {
   return sum;
 }
 
+// A row's multiplier is the cord's times its length: the direction is a unit vector, as a contact's.
+void CordLinks::addRows(Rows& rows) const {
+  for (std::size_t c = 0; c < all_.size(); ++c) {
+    const CordLink& link = all_[c];
+    if (!link.ties) continue;
+    Row row;
+    row.node = {static_cast<std::uint32_t>(link.node), static_cast<std::uint32_t>(link.end)};
+    row.weight = {1.0, -1.0};
+    row.nodes = 2;
+    row.direction = link.direction / link.length;
+    row.violation = link.violation / link.length;
+    row.least = -link.multiplier * link.length;
+    row.active = link.active;
+    row.with_rods = true;
+    row.key = static_cast<std::uint32_t>(c);
+    rows.push_back(row);
+  }
+}
+
+void CordLinks::moveByRows(RowRange rows, const Field& inverse, Field3& value) const noexcept {
+  for (const Row& row : rows) move(all_[row.key], row.change / all_[row.key].length, inverse, value);
+}
+
+void CordLinks::takeUp(RowRange rows, double share) noexcept {
+  for (const Row& row : rows) {
+    CordLink& link = all_[row.key];
+    link.multiplier = std::max(0.0, link.multiplier + share * row.change / link.length);
+  }
+}
+
 void CordLinks::saveIterate() noexcept {
   for (std::size_t c = 0; c < all_.size(); ++c) best_[c] = all_[c].multiplier;
 }

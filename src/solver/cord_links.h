@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Cords in the solve: one-sided constraints |x_end - x_node| <= length like the weft's strings, between any node and an
-// end. They are few, so each is looked at by itself; those that take part are rows of the same solve (NetCords).
+// end. They are few, so each is looked at by itself; those that take part are rows of the same solve (Row).
 //
 // Loads and fixed ends move here, since no rod or string ends at them. Lengths of closing loops shrink by their speed
 // in every substep that holds; in the last resort they wait.
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cloth/cloth.h"
+#include "solver/row.h"
 #include "solver/warp_solver.h"
 
 namespace curtain {
@@ -71,14 +72,12 @@ class CordLinks {
   double residual(const Field& inverse, const Field3& position) const noexcept;
   /// Sum of the squares of what measure() has found.
   double squares() const noexcept;
-  /// Moves node and end of a cord by a change of its multiplier, of any sign.
-  void push(std::size_t cord, double change, const Field& inverse, Field3& value) const noexcept {
-    move(all_[cord], change, inverse, value);
-  }
-  /// Adds a change to the multiplier, which stays >= 0.
-  void takeUp(std::size_t cord, double change) noexcept {
-    all_[cord].multiplier = std::max(0.0, all_[cord].multiplier + change);
-  }
+  /// Adds a row for each that ties, of what measure() or measureRates() has found.
+  void addRows(Rows& rows) const;
+  /// Moves nodes and ends by what was found for these rows.
+  void moveByRows(RowRange rows, const Field& inverse, Field3& value) const noexcept;
+  /// Adds a share of what was found to the multipliers, which stay >= 0.
+  void takeUp(RowRange rows, double share) noexcept;
   /// Speed of the fastest loop that shrinks in this substep [m/s]; 0: none.
   double closingSpeed() const noexcept { return closing_speed_; }
   void saveIterate() noexcept;

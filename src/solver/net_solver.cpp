@@ -26,8 +26,7 @@ NetSolver::NetSolver(const ClothPattern& pattern, const Workers& workers)
       workers_(workers),
       stride_((static_cast<std::size_t>((pattern.grid.columns + kColumns) / kColumns) | 1U) * kColumns),
       row_blocks_((pattern.grid.rows + kRows - 1) / kRows),
-      column_blocks_((pattern.grid.columns + kColumns - 1) / kColumns),
-      cords_(pattern.cords.cords.size()) {
+      column_blocks_((pattern.grid.columns + kColumns - 1) / kColumns) {
   // Whole row blocks, and a row of zeros below the last one; of the ends' rows nothing but nodal values is used.
   const std::size_t size = (static_cast<std::size_t>(row_blocks_ * kRows + 1 + pattern.grid.end_rows)) * stride_;
   for (Values* values : allVectors()) values->assign(size, 0.0F);
@@ -104,17 +103,19 @@ CURTAIN_WIDE void NetSolver::takeRow(const Field3& position, const Field& invers
   off[0] = grid.closed ? -w[0] * (x[0] * x[1] + y[0] * y[1] + z[0] * z[1]) : 0.0F;
 }
 
-void NetSolver::begin(const Field3& position, const Field& inverse_inertia, const Carriers* carriers,
-                      const CordLinks* cords) noexcept {
+void NetSolver::begin(const Field3& position, const Field& inverse_inertia, const Carriers* carriers) noexcept {
   carriers_ = carriers;
-  cord_links_ = cords;
   inertia_scale_ = largestOf(inverse_inertia);
   if (!(inertia_scale_ > 0.0)) inertia_scale_ = 1.0;
   workers_.run(row_blocks_, [&](int b) {
     const int end = std::min((b + 1) * kRows, pattern_.grid.rows);
     for (int i = b * kRows; i < end; ++i) takeRow(position, inverse_inertia, i);
   });
-  if (cord_links_ != nullptr) takeEnds(inverse_inertia);
+  const Grid& grid = pattern_.grid;
+  for (int i = grid.rows; i < grid.allRows(); ++i) {  // at which no rod or string ends
+    for (std::size_t j = 0; j < static_cast<std::size_t>(grid.columns); ++j)
+      weight_[row(i) + j] = static_cast<float>(inverse_inertia[grid.row(i) + j] / inertia_scale_);
+  }
   if (carriers_ != nullptr) takeCarriers();
   workers_.run(column_blocks_, [&](int b) {
     factorWarp(b);
@@ -234,66 +235,90 @@ void NetSolver::closeRows(Values& links) noexcept {
   for (int i = 0; i < pattern_.grid.rows; ++i) links[row(i) + columns] = links[row(i)];
 }
 
-// product_ = S pull_, and the part of contacts and cords; returns pull_ . product_.
+// product_ = S pull_, and the part of rows_; returns pull_ . product_.
 double NetSolver::applySchur() noexcept {
   closeRows(pull_);
   workers_.run(column_blocks_, [&](int b) { answerOfRods(b); });
   const double sum = sumOverRowBlocks([&](int b) { return schurProduct(b); });
-  if (!anyPushes()) return sum;
+  if (!rows_.any()) return sum;
   workers_.run(column_blocks_, [&](int b) {
     moveNodes(b);
     if (carriers_ != nullptr) keepOnRail(move_, b * kColumns, (b + 1) * kColumns);
   });
-  const NetNodes move{move_.x.data(), move_.y.data(), move_.z.data()}, push = pushes();
-  moveEnds();
-  const double of_contacts = sum + contacts_.product(move, push);
-  return cords_.any() ? of_contacts + cords_.product(move, push) : of_contacts;
+  return sum + rows_.product({move_.x.data(), move_.y.data(), move_.z.data()}, pushes());
 }
 
 double NetSolver::step(Real alpha) noexcept {
   sumOverRowBlocks([&](int b) { return advance(b, alpha); });
-  const double left = std::max(*std::max_element(partial_.begin(), partial_.end()), contacts_.advance(alpha));
-  return cords_.any() ? std::max(left, cords_.advance(alpha)) : left;
+  return std::max(*std::max_element(partial_.begin(), partial_.end()), rows_.advance(alpha));
 }
 
 // Updates the active set of strings; false: no change.
 bool NetSolver::changeStrings(Real goal) noexcept {
   const double of_strings = sumOverRowBlocks([&](int b) { return countChanges(b, goal); });
-  const int of_cords = cords_.any() ? cords_.countChanges(goal) : 0;
-  if (of_strings == 0.0 && of_cords == 0) return false;
+  if (of_strings == 0.0 && rows_.countChanges(goal) == 0) return false;
   changed_ = partial_;
   double leave = sumOverRowBlocks([&](int b) { return changeSet(b, goal); });
-  if (cords_.any()) leave += cords_.changeSet(goal, pushes());
+  leave += rows_.changeSet(goal, pushes());
   // In a second loop: factorWeft() reads whole vectors, with the first link of the block below.
   sumOverRowBlocks([&](int b) {
     if (changed_[static_cast<std::size_t>(b)] > 0.0) factorWeft(b);
     return 0.0;
   });
   if (leave == 0.0) return true;
-  if (carriers_ != nullptr && cords_.any()) keepOnRail(push_, 0, pattern_.grid.columns);
+  if (carriers_ != nullptr) keepOnRail(push_, 0, pattern_.grid.columns);
   applySchur();
   step(1.0F);
   return true;
 }
 
-void NetSolver::findPushed() noexcept {
-  std::fill(pushed_.begin(), pushed_.end(), std::uint8_t{0});
-  const auto push = [this](std::uint32_t node) { pushed_[node / kColumns] = 1; };
-  contacts_.forEachNode(push);
-  if (cords_.any()) cords_.forEachNode(push);
+// A row's diagonal is its nodes' own mobility or, with_rods, what the rods leave of it: that of the Schur complement
+// itself. Where a row continues a taut column this is the other end's mobility alone, a small part of the node's.
+void NetSolver::loadRows(const Rows& rows, bool set_may_change) noexcept {
+  const NetRows::Frame frame{static_cast<std::size_t>(pattern_.grid.stride), stride_, inertia_scale_, violation_scale_,
+                             damping_};
+  const std::size_t ends = row(pattern_.grid.rows);
+  rows_.load(frame, rows, set_may_change, [&](const Row& one, std::uint32_t node) {
+    if (one.with_rods && node < ends) return static_cast<float>(mobilityOf(node, one.direction));
+    return weight_[node] * static_cast<float>(one.direction.squaredNorm());
+  });
 }
 
-// The loop ends before non-finite numbers reach the vectors. With contacts the active set stays fixed: their rows are
-// damped too much to find it.
-NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active, const ContactValues& contacts,
-                                    const Aim& aim, Field& change) noexcept {
+// direction^T (W - W N^T A_ww^-1 N W) direction at a node: by how much an impulse moves it along itself when the rods
+// keep their lengths. A plumb column does not let its hem down at all. With A_ww = L D L^T the rods' part is the sum of
+// y^2 / D, y = L^-1 N W direction, and y is 0 above the node.
+double NetSolver::mobilityOf(std::uint32_t node, const Vec3& along) const noexcept {
+  const auto rows = static_cast<std::size_t>(pattern_.grid.rows);
+  const double w = static_cast<double>(weight_[node]);
+  const auto through = [&](std::size_t k) {
+    return w * (static_cast<double>(warp_.x[k]) * along.x() + static_cast<double>(warp_.y[k]) * along.y() +
+                static_cast<double>(warp_.z[k]) * along.z());
+  };
+  double y = 0.0, held = 0.0;
+  for (std::size_t i = std::max<std::size_t>(node / stride_, 1), k = i * stride_ + node % stride_; i < rows;
+       ++i, k += stride_) {
+    y = -static_cast<double>(warp_lower_[k - stride_]) * y;
+    if (k == node) y += through(k);
+    if (k == node + stride_) y -= through(k);
+    held += y * y * static_cast<double>(warp_inverse_[k]);
+  }
+  return std::max(0.0, w * along.squaredNorm() - held);
+}
+
+void NetSolver::findPushed() noexcept {
+  std::fill(pushed_.begin(), pushed_.end(), std::uint8_t{0});
+  rows_.forEachNode([this](std::uint32_t node) { pushed_[node / kColumns] = 1; });
+}
+
+// The loop ends before non-finite numbers reach the vectors.
+NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active, Rows& rows, const Aim& aim,
+                                    Field& change) noexcept {
   Outcome outcome;
   damping_ = static_cast<float>(aim.damping);
   violation_scale_ = aim.largest;
-  const NetContacts::Frame frame{pattern_.grid, stride_, weight_.data(), inertia_scale_, violation_scale_, damping_};
-  contacts_.load(frame, contacts);
-  const bool changes = aim.multiplier != nullptr && !contacts_.any();
-  loadCords(frame, changes);
+  const bool changes = aim.multiplier != nullptr &&
+                       std::all_of(rows.begin(), rows.end(), [](const Row& one) { return one.least_damping == 0.0; });
+  loadRows(rows, changes);
   findPushed();
   workers_.run(row_blocks_, [&](int b) { load(violation, active, aim.multiplier, b); });
   if (carriers_ != nullptr) leaveOutFixedLinks();
@@ -305,8 +330,7 @@ NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active,
   bool anew = true;
   outcome.reduction = 1.0;
   while (true) {
-    const double next =
-        sumOverRowBlocks([&](int b) { return precondition(b); }) + contacts_.aligned() + cords_.aligned();
+    const double next = sumOverRowBlocks([&](int b) { return precondition(b); }) + rows_.aligned();
     const float beta = anew ? 0.0F : static_cast<float>(next / aligned);
     aligned = next;
     anew = false;
@@ -316,8 +340,7 @@ NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active,
       conjugate(b, beta);
       return 0.0;
     });
-    contacts_.turn(beta, pushes());
-    if (cords_.any()) cords_.turn(beta, pushes());
+    rows_.turn(beta, pushes());
     if (carriers_ != nullptr) keepOnRail(push_, 0, pattern_.grid.columns);
     const double curvature = applySchur();
     const auto alpha = static_cast<float>(aligned / curvature);
@@ -328,7 +351,25 @@ NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active,
     if (!anew) break;
   }
   workers_.run(row_blocks_, [&](int b) { unload(b, aim.multiplier, change); });
+  rows_.unload(multiplierScale(), rows);
   return outcome;
+}
+
+void NetSolver::rodsAnswer(Rows& rows, Field& out) noexcept {
+  pull_ = solution_;
+  rows_.conclude(rows, pushes());
+  rows_.unload(multiplierScale(), rows);
+  if (carriers_ != nullptr) keepOnRail(push_, 0, pattern_.grid.columns);
+  closeRows(pull_);
+  workers_.run(column_blocks_, [&](int b) { answerOfRods(b); });
+  rows_.forEachNode([this](std::uint32_t n) { push_.x[n] = push_.y[n] = push_.z[n] = 0.0F; });
+  const double scale = -multiplierScale();
+  const Grid& grid = pattern_.grid;
+  for (int i = 1; i < grid.rows; ++i) {
+    const std::size_t from = row(i), to = grid.row(i);
+    for (std::size_t j = 0; j < static_cast<std::size_t>(grid.columns); ++j)
+      out[to + j] = scale * static_cast<double>(rods_[from + j]) * per_warp_rest_[to + j];
+  }
 }
 
 }  // namespace curtain

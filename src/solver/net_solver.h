@@ -3,10 +3,10 @@
 // All taut links at once, linearised. With the rods eliminated (a tridiagonal system a column) the taut strings'
 // multipliers t solve the Schur complement
 //     S t = g,   S = A_ff - A_fw A_ww^-1 A_wf,   A = N W N^T   (f: weft, w: warp; N: directions, W: inverse inertia)
-// by conjugate gradients, preconditioned with the rows' own tridiagonal systems A_ff. Pushing contacts are further rows
-// of f, with their normals (and two tangents where they stick) for directions. An iteration is one warp and one weft
-// sweep. Alternating the two without conjugation converges as cos^2 of the angle between warp and weft; with sheared
-// cloth this takes about the square root of that number of sweeps.
+// by conjugate gradients, preconditioned with the rows' own tridiagonal systems A_ff. What else constrains the cloth is
+// further rows of f (Row). An iteration is one warp and one weft sweep. Alternating the two without conjugation
+// converges as cos^2 of the angle between warp and weft; with sheared cloth this takes about the square root of that
+// number of sweeps.
 //
 // Strings only pull: which of them take part is found during the solve, by a primal-dual active set method
 // (Hintermueller, Ito, Kunisch 2002). Where the residual is reduced far enough, strings that would push leave, strings
@@ -23,8 +23,7 @@
 
 #include "cloth/cloth.h"
 #include "solver/carriers.h"
-#include "solver/net_contacts.h"
-#include "solver/net_cords.h"
+#include "solver/net_rows.h"
 #include "solver/workers.h"
 
 namespace curtain {
@@ -34,13 +33,12 @@ class NetSolver {
   /// pattern and workers must outlive this.
   NetSolver(const ClothPattern& pattern, const Workers& workers);
 
-  /// Reserves room for so many contacts.
-  void expectContacts(std::size_t count) { contacts_.reserve(count); }
+  /// Reserves room for so many rows.
+  void expectRows(std::size_t count) { rows_.reserve(count); }
 
   /// Sets the links' directions from these positions, and the nodes' inverse inertia [1/kg]. carriers: those that
-  /// slide, with their directions of these positions; cords: with theirs, which solve() looks at again; or null.
-  void begin(const Field3& position, const Field& inverse_inertia, const Carriers* carriers = nullptr,
-             const CordLinks* cords = nullptr) noexcept;
+  /// slide, with their directions of these positions, or null.
+  void begin(const Field3& position, const Field& inverse_inertia, const Carriers* carriers = nullptr) noexcept;
 
   /// Zeroes all vectors, e.g. after a solve with non-finite numbers.
   void reset() noexcept;
@@ -61,26 +59,17 @@ class NetSolver {
   };
   /// violation  C = (|r|^2 - l^2) / 2 [m^2] (or its rate) of the links; shape of the grid, stored at the right node
   /// active     1 for the links that take part, 0 for the others; with Aim::multiplier, at the start
-  /// contacts   those that push or penetrate take part
+  /// rows       the further rows; their changes are set. Rows that are not active may join with Aim::multiplier, if
+  /// none
+  ///            of the rows has a least damping: such rows are damped too much to find the active set
   /// change     out: change of the strings' multipliers [kg] (or its rate) that removes the violations while the rods
   /// keep theirs
-  Outcome solve(const Field& violation, const Field& active, const ContactValues& contacts, const Aim& aim,
-                Field& change) noexcept;
+  Outcome solve(const Field& violation, const Field& active, Rows& rows, const Aim& aim, Field& change) noexcept;
 
-  /// The contacts' part of the last solve(): take(index, change of push, change of slide).
-  template <typename Take>
-  void forEachContactChange(const Take& take) const {
-    contacts_.forEachChange(multiplierScale(), take);
-  }
-  /// Where cords take part: the change of the rods' multipliers [kg] that keeps their lengths under the last solve()'s
-  /// changes of strings and cords, which must have been of positions. out: shape of the grid. What cords with a heavy
+  /// The change of the rods' multipliers [kg] that keeps their lengths under the last solve()'s changes of strings and
+  /// of the rows with_rods, which are brought within their bounds first. out: shape of the grid. What rows with a heavy
   /// load pull by, and the rods pull back, is far larger than what both leave: nodes are to be moved by all together.
-  void answerSolution(Field& out) noexcept;
-  /// The cords' part: take(index, change of the multiplier). Of positions: after answerSolution().
-  template <typename Take>
-  void forEachCordChange(const Take& take) const {
-    if (cord_links_ != nullptr) cords_.forEachChange(multiplierScale(), take);
-  }
+  void rodsAnswer(Rows& rows, Field& out) noexcept;
 
  private:
   using Real = float;
@@ -113,13 +102,9 @@ class NetSolver {
   void leaveOutFixedLinks() noexcept;
   void keepOnRail(Values3& vectors, int first, int end) noexcept;
   void findPushed() noexcept;
-  void loadCords(const NetContacts::Frame& frame, bool bounded) noexcept;
-  void takeEnds(const Field& inverse_inertia) noexcept;
-  void moveEnds() noexcept;
+  void loadRows(const Rows& rows, bool set_may_change) noexcept;
   double mobilityOf(std::uint32_t node, const Vec3& along) const noexcept;
   NetNodes pushes() noexcept { return {push_.x.data(), push_.y.data(), push_.z.data()}; }
-  /// Contacts or cords take part, which act on nodes.
-  bool anyPushes() const noexcept { return contacts_.any() || cords_.any(); }
   bool isPushed(int row, int block) const noexcept {
     return pushed_[static_cast<std::size_t>(row * (static_cast<int>(stride_) / kColumns) + block)] != 0;
   }
@@ -135,11 +120,6 @@ class NetSolver {
   std::array<Values*, 32> allVectors() noexcept;
   double multiplierScale() const noexcept { return violation_scale_ / inertia_scale_; }
   std::size_t row(int i) const { return static_cast<std::size_t>(i) * stride_; }
-  /// Of a node of the fields.
-  std::size_t placeOf(std::size_t node) const {
-    const auto grid_stride = static_cast<std::size_t>(pattern_.grid.stride);
-    return node / grid_stride * stride_ + node % grid_stride;
-  }
 
   const ClothPattern& pattern_;
   const Workers& workers_;
@@ -157,13 +137,11 @@ class NetSolver {
   Values above_left_, above_right_;      // A_wf at a node: the rod above with the link on the left, on the right
   Values below_left_, below_right_;      // the same for the rod below
   Values rods_;                          // A_ww^-1 A_wf pull_: minus the change of the rods' multipliers
-  Values3 move_;                         // of the nodes of contacts and cords
+  Values3 move_;                         // of the nodes of rows_
   Values3 push_;                         // nodal impulses of their search direction; zero outside a product
-  NetContacts contacts_;
-  NetCords cords_;
-  const CordLinks* cord_links_ = nullptr;
+  NetRows rows_;
   const Carriers* carriers_ = nullptr;
-  std::vector<std::uint8_t> pushed_;  // by row and block of columns: it has a node of a contact or cord
+  std::vector<std::uint8_t> pushed_;  // by row and block of columns: it has a node of rows_
   Values mask_, residual_, preconditioned_, pull_, product_, solution_;
   Values least_;                    // lower bound of the solution: minus the multipliers
   Values interleaved_;              // scratch of precondition()

@@ -106,7 +106,7 @@ CURTAIN_WIDE void NetSolver::answerOfRods(int block) noexcept {
       s[j] = above_left[j] * p[j] + above_right[j] * p[j + 1] + below_left[j] * p_above[j] +
              below_right[j] * p_above[j + 1] - lower_above[j] * s_above[j];
     }
-    if (!anyPushes() || !(isPushed(i, block) || isPushed(i - 1, block))) continue;
+    if (!rows_.any() || !(isPushed(i, block) || isPushed(i - 1, block))) continue;
     const float *const w = &weight_[k], *const w_above = &weight_[above];
     const float *const nx = &warp_.x[k], *const ny = &warp_.y[k], *const nz = &warp_.z[k];
     const float *const px = &push_.x[k], *const py = &push_.y[k], *const pz = &push_.z[k];
@@ -128,7 +128,7 @@ CURTAIN_WIDE void NetSolver::answerOfRods(int block) noexcept {
   }
 }
 
-// move_ = displacement of a block's nodes, where contacts and cords are.
+// move_ = displacement of a block's nodes, where rows_ are.
 CURTAIN_WIDE void NetSolver::moveNodes(int block) noexcept {
   const std::size_t first = static_cast<std::size_t>(block) * kColumns;
   const auto move = [&](std::size_t k, const Values& warp, const Values& weft, const Values& push, Values& out) {
@@ -146,6 +146,14 @@ CURTAIN_WIDE void NetSolver::moveNodes(int block) noexcept {
     move(k, warp_.x, weft_.x, push_.x, move_.x);
     move(k, warp_.y, weft_.y, push_.y, move_.y);
     move(k, warp_.z, weft_.z, push_.z, move_.z);
+  }
+  for (int i = pattern_.grid.rows; i < pattern_.grid.allRows(); ++i) {  // at which no rod or string ends
+    if (!isPushed(i, block)) continue;
+    for (std::size_t k = row(i) + first; k < row(i) + first + kColumns; ++k) {
+      move_.x[k] = weight_[k] * push_.x[k];
+      move_.y[k] = weight_[k] * push_.y[k];
+      move_.z[k] = weight_[k] * push_.z[k];
+    }
   }
 }
 
@@ -174,12 +182,12 @@ CURTAIN_WIDE double NetSolver::schurProduct(int b) noexcept {
       q[row(i)] = product(row(i) + last, row(i));
       q[row(i) + last + 1] = 0.0F;
     }
-    if (anyPushes()) addPushes(i);
+    if (rows_.any()) addPushes(i);
   }
   return dot(q + first, p + first, count);
 }
 
-// Adds the part of contacts and cords of a row of product_.
+// Adds the part of rows_ to a row of product_.
 CURTAIN_INTO_WIDE void NetSolver::addPushes(int i) noexcept {
   const auto columns = static_cast<std::size_t>(pattern_.grid.columns);
   const std::size_t k = row(i);

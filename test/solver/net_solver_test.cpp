@@ -8,6 +8,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <random>
 
 #include "solver/node_inertia.h"
 #include "solver/warp_solver.h"
@@ -75,6 +76,7 @@ struct Net {
   NetSolver solver;
   LinkSet warp, weft;
   Field violation, active, change;
+  Rows rows;  // beside rods and strings
 };
 
 // A t = g of all links that take part by a dense matrix: strings first, then the rods.
@@ -85,45 +87,55 @@ struct Dense {
 };
 
 Dense denseSystem(const Net& net) {
-  struct Link {
-    std::size_t a, b;
-    Vec3 d;
-    double c;
-  };
-  std::vector<Link> links;
+  std::vector<Row> all;
   Dense dense;
   const Grid& grid = net.pattern.grid;
+  const auto addLink = [&](std::size_t a, std::size_t b, const Vec3& direction, double violation) {
+    Row link;
+    link.node = {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)};
+    link.weight = {1.0, -1.0};
+    link.nodes = 2;
+    link.direction = direction;
+    link.violation = violation;
+    all.push_back(link);
+  };
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = grid.closed ? 0 : 1; j < grid.columns; ++j) {
       const std::size_t n = grid.index(i, j);
       if (net.active[n] == 0.0) continue;
-      links.push_back({net.left(i, j), n, net.weft.direction.at(n), net.violation[n]});
+      addLink(net.left(i, j), n, net.weft.direction.at(n), net.violation[n]);
       dense.strings.push_back(n);
     }
   }
+  all.insert(all.end(), net.rows.begin(), net.rows.end());
   for (int i = 1; i < grid.rows; ++i) {
     for (int j = 0; j < grid.columns; ++j) {
       const std::size_t n = grid.index(i, j);
-      links.push_back({n - static_cast<std::size_t>(grid.stride), n, net.warp.direction.at(n), 0.0});
+      addLink(n - static_cast<std::size_t>(grid.stride), n, net.warp.direction.at(n), 0.0);
     }
   }
-  const auto count = static_cast<Eigen::Index>(links.size());
-  dense.matrix.resize(count, count);
+  const auto count = static_cast<Eigen::Index>(all.size());
+  dense.matrix.setZero(count, count);
   dense.rhs.resize(count);
   for (Eigen::Index p = 0; p < count; ++p) {
-    const Link& k = links[static_cast<std::size_t>(p)];
-    dense.rhs[p] = k.c;
+    const Row& one = all[static_cast<std::size_t>(p)];
+    dense.rhs[p] = one.violation;
     for (Eigen::Index q = 0; q < count; ++q) {
-      const Link& l = links[static_cast<std::size_t>(q)];
-      const auto shared = [&](std::size_t m, std::size_t n) { return m == n ? net.through(m, k.d, l.d) : 0.0; };
-      dense.matrix(p, q) = shared(k.a, l.a) + shared(k.b, l.b) - shared(k.a, l.b) - shared(k.b, l.a);
+      const Row& other = all[static_cast<std::size_t>(q)];
+      for (std::size_t k = 0; k < static_cast<std::size_t>(one.nodes); ++k) {
+        for (std::size_t l = 0; l < static_cast<std::size_t>(other.nodes); ++l) {
+          if (one.node[k] != other.node[l]) continue;
+          dense.matrix(p, q) +=
+              one.weight[k] * other.weight[l] * net.through(one.node[k], one.direction, other.direction);
+        }
+      }
     }
   }
   return dense;
 }
 
 // Single precision, 1e-7, times the matrix's condition number, some 1e3 on this crumpled cloth.
-void expectWhatADenseSolveGives(Net net) {
+void expectWhatADenseSolveGives(Net& net) {
   net.shake(0.02, 8);
   net.setDirections();
   const double worst = net.measure();
@@ -135,18 +147,43 @@ void expectWhatADenseSolveGives(Net net) {
   ASSERT_LT(strings.size(), net.pattern.grid.nodeCount() - 7);
   const double rest = net.pattern.weft_rest[1];
   const NetSolver::Outcome outcome =
-      net.solver.solve(net.violation, net.active, {}, {worst * rest, 0.0, 1e-7, 200}, net.change);
+      net.solver.solve(net.violation, net.active, net.rows, {worst * rest, 0.0, 1e-7, 200}, net.change);
   EXPECT_LT(outcome.reduction, 1e-5);
   const double size = expected.head(static_cast<Eigen::Index>(strings.size())).cwiseAbs().maxCoeff();
   for (std::size_t p = 0; p < strings.size(); ++p) {
     EXPECT_NEAR(net.change[strings[p]], expected[static_cast<Eigen::Index>(p)], 1e-3 * size) << "string " << p;
+  }
+  for (std::size_t r = 0; r < net.rows.size(); ++r) {
+    const double row = expected[static_cast<Eigen::Index>(strings.size() + r)];
+    EXPECT_NEAR(net.rows[r].change, row, 1e-3 * std::max(size * rest, std::abs(row))) << "row " << r;
   }
 }
 
 class NetSolverOf : public ::testing::TestWithParam<bool> {};
 
 TEST_P(NetSolverOf, GivesWhatADenseSolveGives) {
-  expectWhatADenseSolveGives(Net(sceneOf(7, 9, PinKind::kTop, GetParam())));
+  Net net(sceneOf(7, 9, PinKind::kTop, GetParam()));
+  expectWhatADenseSolveGives(net);
+}
+
+// Rows of one to four nodes, with_rods or not: what is asked of them is met together with the links.
+TEST_P(NetSolverOf, SolvesForFurtherRowsToo) {
+  Net net(sceneOf(7, 9, PinKind::kTop, GetParam()));
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  for (int count = 1; count <= 4; ++count) {
+    Row row;
+    row.nodes = count;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+      row.node[k] = static_cast<std::uint32_t>(net.pattern.grid.index(1 + count, static_cast<int>(2 * k) + 1));
+      row.weight[k] = any(random);
+    }
+    row.direction = Vec3(any(random), any(random), any(random)).normalized();
+    row.violation = 1e-3 * any(random);
+    row.with_rods = count % 2 == 0;
+    net.rows.push_back(row);
+  }
+  expectWhatADenseSolveGives(net);
 }
 
 // Around a corner and down a slope: neighbours slide in different directions, some of them in adjacent columns.
@@ -154,7 +191,8 @@ TEST(NetSolverOnARail, GivesWhatADenseSolveGives) {
   Scene scene = sceneOf(7, 9, PinKind::kTop, false);
   scene.rail.path = {{{0.0, 0.0, 2.2}, {}}, {{0.4, 0.0, 2.1}, {}}, {{0.6, 0.4, 2.2}, {}}, {{0.6, 0.9, 2.2}, {}}};
   scene.rail.carriers.columns = {0, 3, 4, 8};
-  expectWhatADenseSolveGives(Net(scene));
+  Net net(scene);
+  expectWhatADenseSolveGives(net);
 }
 
 // The linear complementarity problem that one-sided strings pose: none ends pushing, none too long, and those that are
@@ -167,7 +205,7 @@ TEST_P(NetSolverOf, FindsWhichStringsPull) {
   const double reduction = 1e-4;
   const double rest = net.pattern.weft_rest[1];
   const NetSolver::Outcome outcome = net.solver.solve(
-      net.violation, net.active, {}, {worst * rest, 0.0, reduction, 400, &net.weft.multiplier}, net.change);
+      net.violation, net.active, net.rows, {worst * rest, 0.0, reduction, 400, &net.weft.multiplier}, net.change);
   ASSERT_LE(outcome.reduction, reduction);
   // What is left of all violations when the rods answer, by the dense matrix.
   std::fill(net.active.begin(), net.active.end(), 1.0);
@@ -202,7 +240,8 @@ TEST_P(NetSolverOf, GivesTheSameBitsWithAnyNumberOfThreads) {
     net.shake(0.004, 9);
     net.setDirections();
     const double worst = net.measure();
-    net.solver.solve(net.violation, net.active, {}, {worst * net.pattern.weft_rest[1], 1e-3, 1e-3, 20}, net.change);
+    net.solver.solve(net.violation, net.active, net.rows, {worst * net.pattern.weft_rest[1], 1e-3, 1e-3, 20},
+                     net.change);
     if (first.empty()) first = net.change;
     EXPECT_EQ(net.change, first) << threads << " threads";
   }
@@ -224,7 +263,7 @@ TEST_P(NetSolverOf, ShortensLongLinksAndOnlyPulls) {
     for (int block = 0; block < warpBlockCount(net.pattern.grid); ++block) warpNewton(rods, scratch, block);
     const double worst = net.measure();
     if (worst < 1e-9) break;
-    net.solver.solve(net.violation, net.active, {}, {worst * net.pattern.weft_rest[1], 0.05 * worst, 0.1, 20},
+    net.solver.solve(net.violation, net.active, net.rows, {worst * net.pattern.weft_rest[1], 0.05 * worst, 0.1, 20},
                      net.change);
     net.take();
   }
@@ -270,7 +309,8 @@ TEST(WeftLinks, TakeBackAPullThatIsNotNeeded) {
   for (int sweep = 0; sweep < 20; ++sweep) {
     const double worst = net.measure();
     if (worst == 0.0) break;
-    net.solver.solve(net.violation, net.active, {}, {worst * net.pattern.weft_rest[1], 0.0, 1e-6, 20}, net.change);
+    net.solver.solve(net.violation, net.active, net.rows, {worst * net.pattern.weft_rest[1], 0.0, 1e-6, 20},
+                     net.change);
     net.take();
   }
   EXPECT_NEAR(net.weft.multiplier[net.pattern.grid.index(0, 2)], 0.0, 1e-9);
