@@ -8,15 +8,22 @@
 #include "scene/infinity.h"
 
 namespace curtain {
+namespace {
+
+// The top row's.
+std::vector<std::size_t> nodesOf(const RailPattern& rail) { return {rail.columns.begin(), rail.columns.end()}; }
+
+}  // namespace
+
 Carriers::Carriers(const ClothPattern& pattern)
-    : pattern_(pattern), law_(pattern.rail.size(), pattern.rail.gap, pattern.rail.path.length()) {
+    : GuidedNodes(pattern.grid, nodesOf(pattern.rail)),
+      pattern_(pattern),
+      law_(pattern.rail.size(), pattern.rail.gap, pattern.rail.path.length()) {
   const RailPattern& rail = pattern.rail;
-  index_.assign(static_cast<std::size_t>(pattern.grid.columns), -1);
   all_.resize(rail.size());
   for (std::size_t k = 0; k < rail.size(); ++k) {
     const int column = rail.columns[k];
     all_[k].column = column;
-    index_[static_cast<std::size_t>(column)] = static_cast<int>(k);
     const bool left = k > 0 && rail.columns[k - 1] + 1 == column;
     const bool right = k + 1 < rail.size() && rail.columns[k + 1] == column + 1;
     adjacent_.push_back(left || right ? 1 : 0);
@@ -54,6 +61,7 @@ void Carriers::begin(const ClothState& state, const ClothState& start, const Fie
     row.mass = 1.0 / carrier.inverse;
     row.wish = row.place = start.place[k];
     row.friction = {state.place[k], pattern_.rail.fastened[k] != 0 ? kInfinity : 0.0};
+    setFreedom(k);
   }
   if (!drive_.draws) return;
   const std::vector<std::size_t>& masters = pattern_.rail.layout.masters();
@@ -74,6 +82,14 @@ void Carriers::press(std::size_t k, const Vec3& force) noexcept {
   rows_[k].friction.bound = std::isfinite(bound) ? bound : 0.0;
 }
 
+// Links pull along their directions, and what they pull by moves it along the rail from where it is.
+void Carriers::setFreedom(std::size_t k) noexcept {
+  const Carrier& carrier = all_[k];
+  const double moves = carrier.mobility > 0.0 ? 1.0 : 0.0;
+  guided(k).freedom = moves * carrier.along * carrier.along.transpose();
+  guided(k).newton = moves * carrier.now * carrier.along.transpose();
+}
+
 void Carriers::put(std::size_t k, double place, Field3& position) noexcept {
   Carrier& carrier = all_[k];
   const RailPath::Place at = pattern_.rail.path.at(place);
@@ -82,12 +98,13 @@ void Carriers::put(std::size_t k, double place, Field3& position) noexcept {
   position.set(node(carrier), at.point);
 }
 
-void Carriers::settle(int first, int end, Field3& position) noexcept {
+void Carriers::settlePositions(int first, int end, Field3& position) noexcept {
   for (auto k = static_cast<std::size_t>(from(first) - all_.data()); k < all_.size() && all_[k].column < end; ++k) {
     const double change = all_[k].along.dot(position.at(node(all_[k])) - all_[k].point);
     rows_[k].wish += change;
     if (all_[k].mobility > 0.0) rows_[k].place += change;
     put(k, rows_[k].place, position);
+    setFreedom(k);
   }
 }
 
@@ -105,12 +122,16 @@ bool Carriers::settle(Field3& position) noexcept {
     const double mobility = rows_[k].stays && may_stay ? 0.0 : carrier.inverse;
     changed = changed || mobility != carrier.mobility;
     carrier.mobility = mobility;
+    setFreedom(k);
   }
   return changed;
 }
 
 void Carriers::followDirections() noexcept {
-  for (Carrier& carrier : all_) carrier.along = carrier.now;
+  for (std::size_t k = 0; k < all_.size(); ++k) {
+    all_[k].along = all_[k].now;
+    setFreedom(k);
+  }
 }
 
 void Carriers::commit(ClothState& state) noexcept {
@@ -155,10 +176,11 @@ void Carriers::beginRates(const ClothState& state, double age, Field3& velocity)
     const Vec3 v = memory_.stays[k] != 0 ? state.velocity.at(n) : velocity.at(n);
     carrier.speed = v.dot(carrier.now) + age * carrier.mobility * memory_.force[k];
     velocity.set(n, carrier.speed * carrier.now);
+    setFreedom(k);
   }
 }
 
-void Carriers::settleRates(int first, int end, Field3& velocity) noexcept {
+void Carriers::settleVelocities(int first, int end, Field3& velocity) noexcept {
   for (auto k = static_cast<std::size_t>(from(first) - all_.data()); k < all_.size() && all_[k].column < end; ++k) {
     Carrier& carrier = all_[k];
     if (carrier.mobility > 0.0) carrier.speed = velocity.at(node(carrier)).dot(carrier.now);
@@ -168,7 +190,7 @@ void Carriers::settleRates(int first, int end, Field3& velocity) noexcept {
 
 // Those of a run move as one.
 void Carriers::settleRates(Field3& velocity) noexcept {
-  settleRates(0, pattern_.grid.columns, velocity);
+  settleVelocities(0, pattern_.grid.columns, velocity);
   for (std::size_t first = 0, end = 0; first < all_.size(); first = end) {
     double mass = 0.0, moment = 0.0;
     bool more = true;

@@ -2,18 +2,17 @@
 //
 // Carriers on a rail, in the solve. A carrier is a node of the top row with one freedom, its place s along the rail:
 // x = gamma(s), and since |gamma'| = 1, the mass that belongs to s is that of node and carrier, on arcs too. A force f
-// moves it by w (f . tangent): its inverse inertia is the matrix w tangent tangent^T.
+// moves it by w (f . tangent): its inverse inertia is the matrix w tangent tangent^T (GuidedNodes).
 //
-// Loops over nodes move it as if it were free, by w f. After each of them the carriers come here: what the loop moved
-// them by counts along the tangent only, as a change of the wished place, where a carrier would be without the rail's
-// forces, and RailLaw says where it is. So it is on the rail whatever happens. Where a system of equations is set up
-// the matrix itself is needed: see mobility.
+// What a loop over nodes moved it by counts along the tangent only, as a change of the wished place, where a carrier
+// would be without the rail's forces, and RailLaw says where it is. So it is on the rail whatever happens.
 #pragma once
 
 #include <algorithm>
 #include <vector>
 
 #include "cloth/cloth.h"
+#include "solver/guided_nodes.h"
 #include "solver/rail_law.h"
 
 namespace curtain {
@@ -41,7 +40,7 @@ struct Carrier {
 };
 
 /// Not thread-safe; blocks of columns may settle() in parallel. Allocates only in the constructor.
-class Carriers {
+class Carriers : public GuidedNodes {
  public:
   /// pattern must outlive this.
   explicit Carriers(const ClothPattern& pattern);
@@ -51,17 +50,6 @@ class Carriers {
   bool slide() const noexcept { return any() && !stands_; }
   const std::vector<Carrier>& all() const noexcept { return all_; }
   std::size_t node(const Carrier& carrier) const noexcept { return static_cast<std::size_t>(carrier.column); }
-  /// The carrier of this column; null: it has none.
-  const Carrier* at(int column) const noexcept {
-    const int index = index_[static_cast<std::size_t>(column)];
-    return index < 0 ? nullptr : &all_[static_cast<std::size_t>(index)];
-  }
-  /// Calls act(carrier) for those of columns [first, end).
-  template <typename Act>
-  void forEach(int first, int end, const Act& act) const {
-    for (const Carrier* carrier = from(first); carrier != all_.data() + all_.size() && carrier->column < end; ++carrier)
-      act(*carrier);
-  }
 
   // ---- A substep
 
@@ -72,8 +60,8 @@ class Carriers {
   /// end. inverse: inertia; scale: step times kick [s^2].
   void begin(const ClothState& state, const ClothState& start, const Field& inverse, double h, double step,
              double scale) noexcept;
-  /// After a loop over columns [first, end) has moved them: each by itself, without the law.
-  void settle(int first, int end, Field3& position) noexcept;
+  /// Each by itself, without the law.
+  void settlePositions(int first, int end, Field3& position) noexcept override;
   /// After loops over all nodes: all together. True: a mobility has changed.
   bool settle(Field3& position) noexcept;
   /// Sets the bound of friction from what acts on each carrier now: force(column), of links and all else [N].
@@ -95,7 +83,8 @@ class Carriers {
 
   /// Velocities [m/s] that forces have changed for `age` [s]: as the rail lets them; before: without the change.
   void beginRates(const ClothState& state, double age, Field3& velocity) noexcept;
-  void settleRates(int first, int end, Field3& velocity) noexcept;
+  void settleVelocities(int first, int end, Field3& velocity) noexcept override;
+  /// Those that push each other move as one.
   void settleRates(Field3& velocity) noexcept;
 
   /// What a substep leaves to the next.
@@ -117,11 +106,11 @@ class Carriers {
                             [](const Carrier& carrier, int at) { return carrier.column < at; });
   }
   void put(std::size_t k, double place, Field3& position) noexcept;
+  void setFreedom(std::size_t k) noexcept;
   void press(std::size_t k, const Vec3& force) noexcept;
 
   const ClothPattern& pattern_;
   std::vector<Carrier> all_;
-  std::vector<int> index_;              // by column; -1: no carrier
   std::vector<std::uint8_t> adjacent_;  // a neighbouring column has one too
   std::vector<RailRow> rows_;           // wishes and places
   RailLaw law_;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "solver/carriers.h"
 #include "solver/cord_links.h"
 #include "solver/net_solver.h"
 #include "solver/node_inertia.h"

@@ -11,9 +11,8 @@ void Constraints::beginCarriers(const SubstepStart& start, const ClothState& sta
   carriers_.begin(state, start.state, inertia_.inverse(), h, start.h, scale);
   per_scale_ = 1.0 / scale;
   presses_ = 0;
-  carriers_.forEach(0, pattern_.grid.columns, [&](const Carrier& carrier) {
+  for (const Carrier& carrier : carriers_.all())
     top_force_.set(carriers_.node(carrier), start.force.at(carriers_.node(carrier)));
-  });
 }
 
 // Friction follows what the links press with for as many sweeps as in contact; then it is fixed, so that sweeps end.
@@ -34,10 +33,10 @@ void Constraints::settleCarriers() noexcept {
 double Constraints::commitCarriers(ClothState& state, const Field& load) noexcept {
   carriers_.commit(state);
   double heaviest = 0.0;
-  carriers_.forEach(0, pattern_.grid.columns, [&](const Carrier& carrier) {
+  for (const Carrier& carrier : carriers_.all()) {
     const std::size_t n = carriers_.node(carrier);
     heaviest = std::max(heaviest, load[n] * inertia_.masses()[n]);
-  });
+  }
   return heaviest;
 }
 

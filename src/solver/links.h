@@ -13,7 +13,7 @@
 #include <limits>
 
 #include "cloth/cloth.h"
-#include "solver/carriers.h"
+#include "solver/guided_nodes.h"
 
 namespace curtain {
 
@@ -34,8 +34,8 @@ struct LineSolve {
   const ClothPattern& pattern;
   const Field& inverse_inertia;  ///< of the nodes in this substep [1/kg]
   LinkSet& links;
-  Field3& value;                 ///< positions [m], or velocities [m/s]
-  Carriers* carriers = nullptr;  ///< null: none slides
+  Field3& value;                  ///< positions [m], or velocities [m/s]
+  GuidedNodes* guided = nullptr;  ///< null: all nodes are free or pinned
 };
 
 /// Scratch of a line solver.

@@ -103,8 +103,8 @@ CURTAIN_WIDE void NetSolver::takeRow(const Field3& position, const Field& invers
   off[0] = grid.closed ? -w[0] * (x[0] * x[1] + y[0] * y[1] + z[0] * z[1]) : 0.0F;
 }
 
-void NetSolver::begin(const Field3& position, const Field& inverse_inertia, const Carriers* carriers) noexcept {
-  carriers_ = carriers;
+void NetSolver::begin(const Field3& position, const Field& inverse_inertia, const GuidedNodes* guided) noexcept {
+  guided_ = guided;
   inertia_scale_ = largestOf(inverse_inertia);
   if (!(inertia_scale_ > 0.0)) inertia_scale_ = 1.0;
   workers_.run(row_blocks_, [&](int b) {
@@ -116,7 +116,7 @@ void NetSolver::begin(const Field3& position, const Field& inverse_inertia, cons
     for (std::size_t j = 0; j < static_cast<std::size_t>(grid.columns); ++j)
       weight_[row(i) + j] = static_cast<float>(inverse_inertia[grid.row(i) + j] / inertia_scale_);
   }
-  if (carriers_ != nullptr) takeCarriers();
+  if (guided_ != nullptr) takeGuided();
   workers_.run(column_blocks_, [&](int b) {
     factorWarp(b);
     couple(b);
@@ -145,7 +145,7 @@ CURTAIN_WIDE void NetSolver::couple(int block) noexcept {
       below_right[j] = bx[j] * hx + by[j] * hy + bz[j] * hz;
     }
   }
-  if (carriers_ != nullptr) coupleCarriers(block);
+  if (guided_ != nullptr) coupleGuided(block);
 }
 
 // A rod between two fixed nodes has no inertia: its inverse is 0 and it takes no part.
@@ -174,7 +174,7 @@ CURTAIN_WIDE void NetSolver::factorWarp(int block) noexcept {
       off_above[j] = off;
       lower_above[j] = off * inverted;
     }
-    if (i == 1 && carriers_ != nullptr) factorCarriers(block, lower_above);
+    if (guided_ != nullptr) factorGuided(block, i, off_above, lower_above);
   }
 }
 
@@ -243,7 +243,7 @@ double NetSolver::applySchur() noexcept {
   if (!rows_.any()) return sum;
   workers_.run(column_blocks_, [&](int b) {
     moveNodes(b);
-    if (carriers_ != nullptr) keepOnRail(move_, b * kColumns, (b + 1) * kColumns);
+    if (guided_ != nullptr) keepFreedom(move_, b * kColumns, (b + 1) * kColumns);
   });
   return sum + rows_.product({move_.x.data(), move_.y.data(), move_.z.data()}, pushes());
 }
@@ -266,7 +266,7 @@ bool NetSolver::changeStrings(Real goal) noexcept {
     return 0.0;
   });
   if (leave == 0.0) return true;
-  if (carriers_ != nullptr) keepOnRail(push_, 0, pattern_.grid.columns);
+  if (guided_ != nullptr) keepFreedom(push_, 0, pattern_.grid.columns);
   applySchur();
   step(1.0F);
   return true;
@@ -321,7 +321,7 @@ NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active,
   loadRows(rows, changes);
   findPushed();
   workers_.run(row_blocks_, [&](int b) { load(violation, active, aim.multiplier, b); });
-  if (carriers_ != nullptr) leaveOutFixedLinks();
+  if (guided_ != nullptr) leaveOutFixedLinks();
   sumOverRowBlocks([&](int b) {
     factorWeft(b);
     return 0.0;
@@ -341,7 +341,7 @@ NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active,
       return 0.0;
     });
     rows_.turn(beta, pushes());
-    if (carriers_ != nullptr) keepOnRail(push_, 0, pattern_.grid.columns);
+    if (guided_ != nullptr) keepFreedom(push_, 0, pattern_.grid.columns);
     const double curvature = applySchur();
     const auto alpha = static_cast<float>(aligned / curvature);
     if (!(curvature > 0.0) || !std::isfinite(alpha)) break;
@@ -359,7 +359,7 @@ void NetSolver::rodsAnswer(Rows& rows, Field& out) noexcept {
   pull_ = solution_;
   rows_.conclude(rows, pushes());
   rows_.unload(multiplierScale(), rows);
-  if (carriers_ != nullptr) keepOnRail(push_, 0, pattern_.grid.columns);
+  if (guided_ != nullptr) keepFreedom(push_, 0, pattern_.grid.columns);
   closeRows(pull_);
   workers_.run(column_blocks_, [&](int b) { answerOfRods(b); });
   rows_.forEachNode([this](std::uint32_t n) { push_.x[n] = push_.y[n] = push_.z[n] = 0.0F; });

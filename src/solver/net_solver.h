@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "cloth/cloth.h"
-#include "solver/carriers.h"
+#include "solver/guided_nodes.h"
 #include "solver/net_rows.h"
 #include "solver/workers.h"
 
@@ -36,9 +36,9 @@ class NetSolver {
   /// Reserves room for so many rows.
   void expectRows(std::size_t count) { rows_.reserve(count); }
 
-  /// Sets the links' directions from these positions, and the nodes' inverse inertia [1/kg]. carriers: those that
-  /// slide, with their directions of these positions, or null.
-  void begin(const Field3& position, const Field& inverse_inertia, const Carriers* carriers = nullptr) noexcept;
+  /// Sets the links' directions from these positions, and the nodes' inverse inertia [1/kg]. guided: those that do not
+  /// move freely, with their freedom at these positions, or null.
+  void begin(const Field3& position, const Field& inverse_inertia, const GuidedNodes* guided = nullptr) noexcept;
 
   /// Zeroes all vectors, e.g. after a solve with non-finite numbers.
   void reset() noexcept;
@@ -95,12 +95,12 @@ class NetSolver {
   double precondition(int row_block) noexcept;
   void conjugate(int row_block, Real beta) noexcept;
   void addPushes(int row) noexcept;
-  float throughTop(int column, const Vec3& a, const Vec3& b) const noexcept;
-  void takeCarriers() noexcept;
-  void factorCarriers(int block, float* lower_above) noexcept;
-  void coupleCarriers(int block) noexcept;
+  float through(int i, std::size_t j, const Vec3& a, const Vec3& b) const noexcept;
+  void takeGuided() noexcept;
+  void factorGuided(int block, int i, float* off, float* lower) noexcept;
+  void coupleGuided(int block) noexcept;
   void leaveOutFixedLinks() noexcept;
-  void keepOnRail(Values3& vectors, int first, int end) noexcept;
+  void keepFreedom(Values3& vectors, int first, int end) noexcept;
   void findPushed() noexcept;
   void loadRows(const Rows& rows, bool set_may_change) noexcept;
   double mobilityOf(std::uint32_t node, const Vec3& along) const noexcept;
@@ -140,7 +140,7 @@ class NetSolver {
   Values3 move_;                         // of the nodes of rows_
   Values3 push_;                         // nodal impulses of their search direction; zero outside a product
   NetRows rows_;
-  const Carriers* carriers_ = nullptr;
+  const GuidedNodes* guided_ = nullptr;
   std::vector<std::uint8_t> pushed_;  // by row and block of columns: it has a node of rows_
   Values mask_, residual_, preconditioned_, pull_, product_, solution_;
   Values least_;                    // lower bound of the solution: minus the multipliers

@@ -22,7 +22,9 @@ struct PositionLevel {
     return 0.5 * (rx * rx + ry * ry + rz * rz - rest_squared);
   }
   static double gradient(double r, double) { return r; }
-  static void settle(Carriers& carriers, int first, int end, Field3& value) { carriers.settle(first, end, value); }
+  static void settle(GuidedNodes& guided, int first, int end, Field3& value) {
+    guided.settlePositions(first, end, value);
+  }
 };
 struct VelocityLevel {
   // dC/dt = d . (v_b - v_a), its gradient d.
@@ -30,7 +32,9 @@ struct VelocityLevel {
     return rx * dx + ry * dy + rz * dz;
   }
   static double gradient(double, double d) { return d; }
-  static void settle(Carriers& carriers, int first, int end, Field3& value) { carriers.settleRates(first, end, value); }
+  static void settle(GuidedNodes& guided, int first, int end, Field3& value) {
+    guided.settleVelocities(first, end, value);
+  }
 };
 
 // Largest residual by column of a block, reduced once a block.
@@ -83,25 +87,34 @@ CURTAIN_INTO_WIDE void eliminateRow(const LineSolve& line, LineScratch& scratch,
   }
 }
 
-// The same for the top rods that hang from carriers, whose inertia is not that of free nodes.
+// The same for the rods of row i that end at guided nodes.
 template <typename Level>
-void eliminateCarriers(const LineSolve& line, LineScratch& scratch, int block, Worst& worst) {
-  const Grid& grid = line.pattern.grid;
-  const auto stride = static_cast<std::size_t>(grid.stride);
-  line.carriers->forEach(block * kLane, (block + 1) * kLane, [&](const Carrier& carrier) {
-    const std::size_t n = grid.index(1, carrier.column);
-    const Vec3 r = line.value.at(n) - line.value.at(n - stride), d = line.links.direction.at(n);
+void eliminateGuided(const LineSolve& line, LineScratch& scratch, int block, int i, Worst& worst) {
+  const auto stride = static_cast<std::size_t>(line.pattern.grid.stride);
+  // b^T W a at a node: what an impulse along a moves it by along b.
+  const auto through = [&](std::size_t n, const Vec3& b, const Vec3& a) {
+    const GuidedNode* const guided = line.guided->at(n);
+    return line.inverse_inertia[n] * (guided == nullptr ? b.dot(a) : b.dot(guided->newton * a));
+  };
+  const auto eliminate = [&](const GuidedNode&, int column) {
+    const std::size_t n = line.pattern.grid.index(i, column), above = n - stride;
+    const Vec3 r = line.value.at(n) - line.value.at(above), d = line.links.direction.at(n);
     const double rest_squared = line.pattern.warp_rest[n] * line.pattern.warp_rest[n];
     const double c = Level::violation(r.x(), r.y(), r.z(), d.x(), d.y(), d.z(), rest_squared);
     const Vec3 g(Level::gradient(r.x(), d.x()), Level::gradient(r.y(), d.y()), Level::gradient(r.z(), d.z()));
-    const double below = line.inverse_inertia[n], w = below + carrier.mobility;
-    const double pivot = below * g.dot(d) + carrier.mobility * g.dot(carrier.now) * d.dot(carrier.along);
+    const double diagonal = through(above, g, d) + through(n, g, d);
+    const double lower = -through(above, g, line.links.direction.at(above));
+    const double pivot = diagonal - lower * scratch.elimination[above];
+    const double w = line.inverse_inertia[n] + line.inverse_inertia[above];
     const bool sound = pivot > kSmallestPivot * w * rest_squared;
     const double inverse = sound ? 1.0 / pivot : 0.0;
-    scratch.elimination[n] = -below * g.dot(line.links.direction.at(n + stride)) * inverse;
-    scratch.solution[n] = c * inverse;
-    if (!sound && w > 0.0) worst.of[carrier.column % kLane] = kUnsound;
-  });
+    scratch.elimination[n] = -through(n, g, line.links.direction.at(n + stride)) * inverse;
+    scratch.solution[n] = (c - lower * scratch.solution[above]) * inverse;
+    if (!sound && w > 0.0) worst.of[column % kLane] = kUnsound;
+  };
+  const int first = block * kLane, end = std::min(first + kLane, line.pattern.grid.columns);
+  line.guided->forEach(i - 1, first, end, eliminate);
+  line.guided->forEach(i, first, end, eliminate);
 }
 
 // Back substitution of the same row; moves its nodes.
@@ -137,12 +150,13 @@ CURTAIN_INTO_WIDE LineOutcome newton(const LineSolve& line, LineScratch& scratch
   const Grid& grid = line.pattern.grid;
   const auto offset = static_cast<std::size_t>(block) * kLane;
   Worst worst;
-  eliminateRow<Level>(line, scratch, grid.row(1) + offset, worst);
-  if (line.carriers != nullptr) eliminateCarriers<Level>(line, scratch, block, worst);
-  for (int i = 2; i < grid.rows; ++i) eliminateRow<Level>(line, scratch, grid.row(i) + offset, worst);
+  for (int i = 1; i < grid.rows; ++i) {
+    eliminateRow<Level>(line, scratch, grid.row(i) + offset, worst);
+    if (line.guided != nullptr) eliminateGuided<Level>(line, scratch, block, i, worst);
+  }
   for (int i = grid.rows - 1; i >= 0; --i) substituteRow(line, scratch, grid.row(i) + offset);
   forgetTop(line, scratch, offset);
-  if (line.carriers != nullptr) Level::settle(*line.carriers, block * kLane, (block + 1) * kLane, line.value);
+  if (line.guided != nullptr) Level::settle(*line.guided, block * kLane, (block + 1) * kLane, line.value);
   return worst.outcome();
 }
 

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <random>
 
+#include "solver/carriers.h"
 #include "solver/node_inertia.h"
 #include "solver/warp_solver.h"
 #include "solver/weft_links.h"
@@ -34,6 +35,7 @@ struct Net {
         workers(threads),
         inertia(pattern),
         carriers(pattern),
+        guided(carriers.any() ? &carriers : nullptr),
         solver(pattern, workers) {
     warp.assign(pattern.grid);
     weft.assign(pattern.grid);
@@ -45,15 +47,14 @@ struct Net {
     setWarpDirections(pattern.grid, state.position, warp.direction);
     for (int i = 0; i < pattern.grid.rows; ++i) setWeftDirections(pattern.grid, i, state.position, weft.direction);
     if (carriers.any()) carriers.begin(state, state, inertia.masses(), 1.0, 1.0, 1.0);
-    solver.begin(state.position, inertia.masses(), carriers.any() ? &carriers : nullptr);
+    solver.begin(state.position, inertia.masses(), guided);
   }
   void shake(double size, unsigned seed) { curtain_test::shake(pattern, size, seed, state.position); }
   LineSolve line() { return {pattern, inertia.masses(), weft, state.position}; }
   // a^T W b at a node.
   double through(std::size_t n, const Vec3& a, const Vec3& b) const {
-    const Carrier* const carrier = n < pattern.weft_coordinate.size() ? carriers.at(static_cast<int>(n)) : nullptr;
-    const double w = inertia.masses()[n];
-    return carrier == nullptr ? w * a.dot(b) : w * a.dot(carrier->along) * b.dot(carrier->along);
+    const GuidedNode* const node = guided == nullptr ? nullptr : guided->at(n);
+    return inertia.masses()[n] * (node == nullptr ? a.dot(b) : a.dot(node->freedom * b));
   }
   double measure() {
     double worst = 0.0;
@@ -73,6 +74,7 @@ struct Net {
   Workers workers;
   NodeInertia inertia;
   Carriers carriers;
+  const GuidedNodes* guided;
   NetSolver solver;
   LinkSet warp, weft;
   Field violation, active, change;
@@ -163,6 +165,31 @@ class NetSolverOf : public ::testing::TestWithParam<bool> {};
 
 TEST_P(NetSolverOf, GivesWhatADenseSolveGives) {
   Net net(sceneOf(7, 9, PinKind::kTop, GetParam()));
+  expectWhatADenseSolveGives(net);
+}
+
+// Nodes that slide on lines and on surfaces, anywhere, side by side and one below the other; one that stays.
+class Sliding : public GuidedNodes {
+ public:
+  Sliding(const Grid& grid, const std::vector<std::size_t>& nodes) : GuidedNodes(grid, nodes) {
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> any(-1.0, 1.0);
+    for (std::size_t k = 1; k < nodes.size(); ++k) {
+      const Vec3 along = Vec3(any(random), any(random), any(random)).normalized();
+      const Eigen::Matrix3d line = along * along.transpose();
+      guided(k).freedom = k % 2 == 0 ? line : Eigen::Matrix3d(Eigen::Matrix3d::Identity() - line);
+    }
+  }
+  void settlePositions(int, int, Field3&) noexcept override {}
+  void settleVelocities(int, int, Field3&) noexcept override {}
+};
+
+TEST_P(NetSolverOf, SolvesForGuidedNodes) {
+  Net net(sceneOf(7, 9, PinKind::kTop, GetParam()));
+  const Grid& grid = net.pattern.grid;
+  const Sliding sliding(grid, {grid.index(2, 4), grid.index(3, 0), grid.index(3, 1), grid.index(4, 1), grid.index(4, 2),
+                               grid.index(4, 8), grid.index(6, 5)});
+  net.guided = &sliding;
   expectWhatADenseSolveGives(net);
 }
 
