@@ -42,7 +42,7 @@ void putOnRail(const ClothPattern& pattern, ClothState& state) {
 }
 
 // A load goes along with the mean of its lines' nodes; tie-backs close from where their nodes are.
-void carryCords(const ClothPattern& pattern, const ClothState& before, CordLinks& links, ClothState& state) {
+void carryCords(const ClothPattern& pattern, const ClothState& before, Cords& parts, ClothState& state) {
   const CordsPattern& cords = pattern.cords;
   for (const CordEnd& end : cords.ends) {
     if (!end.load) continue;
@@ -56,7 +56,7 @@ void carryCords(const ClothPattern& pattern, const ClothState& before, CordLinks
     state.position.add(end.node, moved);
     state.velocity.set(end.node, velocity);
   }
-  for (std::size_t k = 0; k < cords.loops.size(); ++k) links.close(k, links.closed(k), state);
+  for (std::size_t k = 0; k < cords.loops.size(); ++k) parts.close(k, parts.closed(k), state);
 }
 
 }  // namespace
@@ -168,7 +168,7 @@ std::vector<Problem> Simulator::setState(const std::vector<Vec3>& positions, con
   motion.state.velocity_age = 0.0;
   motion.exact.reset();
   im.grasps.holdWhereTheyAre(motion.state);
-  carryCords(im.pattern, before, motion.exact.cords(), motion.state);
+  carryCords(im.pattern, before, motion.cords, motion.state);
   motion.contact.forget();
   motion.forgetVelocities();
   motion.measureStretch();

@@ -37,18 +37,18 @@ void EnergyLedger::addPins(const Field3& velocity, const ExactSolver& links, dou
     }
   }
   for (const CordEnd& end : pattern_.cords.ends) {
-    if (!end.load) work_.pins -= per_h * links.cords().pullAt(end.node).dot(velocity.at(end.node));
+    if (!end.load) work_.pins -= per_h * links.distances().pullAt(end.node).dot(velocity.at(end.node));
   }
 }
 
 // A cord of constant length does no work; those of a loop that closes do.
-void EnergyLedger::addLoops(const Field3& velocity, const CordLinks& cords, double per_h) noexcept {
+void EnergyLedger::addLoops(const Field3& velocity, const DistanceRows& distances, double per_h) noexcept {
   for (const LoopPattern& loop : pattern_.cords.loops) {
     const CordEnd& end = pattern_.cords.ends[loop.end];
     for (std::size_t c = end.first; c < end.last; ++c) {
-      const CordLink& cord = cords.all()[c];
-      const Vec3 before = before_.at(cord.node) - before_.at(cord.end);
-      const Vec3 after = velocity.at(cord.node) - velocity.at(cord.end);
+      const DistanceRow& cord = distances.all()[c];
+      const Vec3 before = before_.at(cord.node) - before_.at(cord.other);
+      const Vec3 after = velocity.at(cord.node) - velocity.at(cord.other);
       work_.drive += per_h * cord.last * cord.direction.dot(0.5 * (before + after));
     }
   }
@@ -67,7 +67,7 @@ void EnergyLedger::end(const ClothState& state, const NodeForces& forces, const 
   addForces(state.velocity, forces, links != nullptr ? links->forcesWithBending() : nullptr, outcome.kick);
   const double per_h = outcome.scale != 0.0 ? outcome.kick / outcome.scale : 1.0 / h;
   if (links != nullptr) addPins(state.velocity, *links, per_h);
-  if (links != nullptr) addLoops(state.velocity, links->cords(), per_h);
+  if (links != nullptr) addLoops(state.velocity, links->distances(), per_h);
   if (links != nullptr) addDrive(state.velocity, links->carriers(), outcome.kick);
   for (std::size_t k = 0; contacts != nullptr && k < contacts->size(); ++k) {
     const Contact& contact = (*contacts)[k];

@@ -67,7 +67,7 @@ std::vector<Problem> Simulator::setTieBack(const std::string& id, bool closed) {
     return {{"tie_back",
              "has no entry of id " + quoted(id) + (known.empty() ? ", nor any other" : ", known are " + known)}};
   }
-  CordLinks& cords = im.motion.exact.cords();
+  Cords& cords = im.motion.cords;
   if (cords.closed(*loop) == closed) return {};
   im.motion.velocities();  // caches them while the pulls that made them are known
   cords.close(*loop, closed, im.motion.state);
@@ -77,7 +77,7 @@ std::vector<Problem> Simulator::setTieBack(const std::string& id, bool closed) {
 
 bool Simulator::tieBackClosed(const std::string& id) const {
   const std::optional<std::size_t> loop = placeOf(impl_->scene.tie_back, id);
-  return loop && impl_->motion.exact.cords().closed(*loop);
+  return loop && impl_->motion.cords.closed(*loop);
 }
 
 std::optional<Vec3> Simulator::lineEnd(const std::string& id) const {
@@ -105,7 +105,8 @@ void Simulator::copyLineTensions(const std::string& id, std::vector<double>& out
   const std::optional<std::size_t> line = placeOf(impl_->scene.lines, id);
   if (!line) return;
   const CordEnd& end = impl_->pattern.cords.ends[*line];
-  for (std::size_t c = end.first; c < end.last; ++c) out.push_back(impl_->motion.exact.cordTension(c));
+  for (std::size_t c = end.first; c < end.last; ++c)
+    out.push_back(impl_->motion.exact.tensionOf(impl_->motion.cords.row(c)));
 }
 
 bool Simulator::setLineEnd(const std::string& id, const Vec3& target) {

@@ -82,7 +82,7 @@ void Simulator::Impl::endFrame(double share) {
   opening.measure(motion.state, s);
   s.drive_force = motion.drive_impulse / times.length();
   if (grasps.any()) endGrasps(share);
-  if (!opening.isUnderWay(motion.state) && !motion.exact.cords().closing(motion.state)) sleep.fallAsleep();
+  if (!opening.isUnderWay(motion.state) && !motion.cords.closing(motion.state)) sleep.fallAsleep();
   if (errors && sleep.asleep()) errors->lose();
   s.stage_seconds = motion.clock.seconds();
 }

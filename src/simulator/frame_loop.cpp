@@ -65,7 +65,7 @@ SubstepPlan FrameLoop::plan(StepControl& steps, double done) {
 
 bool FrameLoop::makeStages(const SubstepPlan& plan, double done) {
   if (controls_.plain_frames > 0 || motion_.exact.stringsPull() || motion_.exact.carriers().any() ||
-      motion_.exact.cords().any() || motion_.grasps.any()) {
+      motion_.exact.distances().any() || motion_.grasps.any()) {
     return false;
   }
   motion_.save(before_);

@@ -18,7 +18,8 @@ Motion::Motion(const Scene& scene_, const ClothPattern& pattern_, const FrameTim
       workers(threadsFor(scene.solver.threads, pattern.grid.nodeCount())),
       contact(pattern, scene.contact, obstacles, scene.solver.stretch_tolerance, workers),
       lag(pattern, times, obstacles, contact),
-      exact(pattern, scene.solver.stretch_tolerance, scene.solver.max_sweeps, workers),
+      cords(pattern),
+      exact(pattern, {&cords}, scene.solver.stretch_tolerance, scene.solver.max_sweeps, workers),
       paper(pattern),
       ledger(pattern) {
   exact.expectContacts(contact.capacity());
@@ -32,7 +33,7 @@ void Motion::reset() {
   obstacles.reset();
   contact.forget();
   exact.reset();
-  exact.cords().resetLoops(state);
+  cords.resetLoops(state);
   clock.reset();
   statistics = Statistics();
   ledger.restore({});
@@ -138,7 +139,7 @@ void Motion::measureStretch() noexcept {
   const Stretch warp = warpStretch(pattern, state.position);
   statistics.warp_stretch = warp.longer;
   statistics.warp_compression = warp.shorter;
-  statistics.weft_stretch = std::max(weftStretch(pattern, state.position), exact.cords().stretch(state.position));
+  statistics.weft_stretch = std::max(weftStretch(pattern, state.position), exact.distances().stretch(state.position));
 }
 
 void Motion::measure() noexcept {

@@ -5,6 +5,7 @@
 
 #include "contact/cloth_contact.h"
 #include "curtain_sim/statistics.h"
+#include "parts/cords/cords.h"
 #include "simulator/energy_ledger.h"
 #include "simulator/force_field.h"
 #include "simulator/grasps.h"
@@ -66,6 +67,7 @@ struct Motion {
   Workers workers;
   ClothContact contact;
   ObstacleLag lag;
+  Cords cords;
   ExactSolver exact;
   PaperSolver paper;
   EnergyLedger ledger;

@@ -26,14 +26,13 @@ void Constraints::Memory::carry(Archive& archive) {
   archive.numbers("warp", warp);
   archive.numbers("weft", weft);
   archive.flag("weft_pulls", weft_pulls);
-  archive.part("cords", cords);
+  archive.part("distances", distances);
 }
 
-void CordLinks::Memory::carry(Archive& archive) { archive.numbers("last", last); }
+void DistanceRows::Memory::carry(Archive& archive) { archive.numbers("last", last); }
 
-void CordLinks::carry(Archive& archive) {
-  archive.flags("closed", closed_);
-  for (CordLink& link : all_) archive.number("last", link.last);
+void DistanceRows::carry(Archive& archive) {
+  for (DistanceRow& row : all_) archive.number("last", row.last);
 }
 
 void ExactSolver::Memory::carry(Archive& archive) {
@@ -46,7 +45,7 @@ void Constraints::carry(Archive& archive) {
   archive.numbers("last_warp", last_warp_);
   archive.numbers("last_weft", last_weft_);
   archive.flag("weft_pulls", weft_pulls_);
-  archive.part("cords", cords_);
+  archive.part("distances", distances_);
 }
 
 void ExactSolver::carry(Archive& archive) {

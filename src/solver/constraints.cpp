@@ -14,15 +14,15 @@ double middleRestOf(const ClothPattern& pattern) {
 
 }  // namespace
 
-Constraints::Constraints(const ClothPattern& pattern, double tolerance, const NodeInertia& inertia,
-                         const Workers& workers)
+Constraints::Constraints(const ClothPattern& pattern, std::vector<RowPart*> parts, double tolerance,
+                         const NodeInertia& inertia, const Workers& workers)
     : pattern_(pattern),
       inertia_(inertia),
       workers_(workers),
       net_(pattern, workers),
       carriers_(pattern),
       middle_rest_(middleRestOf(pattern)),
-      cords_(pattern, tolerance, middle_rest_) {
+      distances_(pattern, std::move(parts), tolerance, middle_rest_) {
   const std::size_t size = pattern.grid.size();
   const std::size_t links = size + static_cast<std::size_t>(pattern.grid.stride);
   const auto blocks = static_cast<std::size_t>(warpBlockCount(pattern.grid));
@@ -38,7 +38,7 @@ Constraints::Constraints(const ClothPattern& pattern, double tolerance, const No
   block_motion_.resize(blocks);
   block_progress_.resize(blocks);
   if (carriers_.any()) top_force_.assign(static_cast<std::size_t>(pattern.grid.stride), 0.0);
-  if (cords_.any()) {
+  if (distances_.any()) {
     rod_change_.assign(size, 0.0);
     moved_.assign(size, 0.0);
   }
@@ -47,7 +47,7 @@ Constraints::Constraints(const ClothPattern& pattern, double tolerance, const No
 }
 
 void Constraints::expectContacts(std::size_t count) {
-  const std::size_t rows = 3 * count + cords_.all().size();
+  const std::size_t rows = 3 * count + distances_.all().size();
   net_.expectRows(rows);
   rows_.reserve(rows);
   best_.contacts.reserve(count);
@@ -57,7 +57,7 @@ void Constraints::reset() noexcept {
   for (Field* field : {&last_warp_, &last_weft_, &weft_.multiplier}) std::fill(field->begin(), field->end(), 0.0);
   weft_pulls_ = false;
   carriers_.forget();
-  cords_.forget();
+  distances_.forget();
   net_.reset();
   scratch_.assign(pattern_.grid);
 }
@@ -65,7 +65,7 @@ void Constraints::reset() noexcept {
 // ---- Begin and end of a substep
 
 void Constraints::begin(const SubstepStart& start, const ClothState& state, double h, double ratio,
-                        bool shrinks) noexcept {
+                        bool drives) noexcept {
   if (carriers_.any()) beginCarriers(start, state, h);
   const LineSolve warp = rods(), weft = wefts();
   directions_set_ = measured_ = false;
@@ -74,10 +74,9 @@ void Constraints::begin(const SubstepStart& start, const ClothState& state, doub
     for (std::size_t n = 0; n < pattern_.grid.size(); ++n) weft_.multiplier[n] = ratio * last_weft_[n];
     directions_set_ = ratio != 0.0;
   }
-  if (cords_.any()) {
-    cords_.begin(state, inertia_.inverse(), h, shrinks);
-    cords_.predict(start, inertia_.inverse(), next);
-    directions_set_ = cords_.warmStart(ratio) || directions_set_;
+  if (distances_.any()) {
+    distances_.begin(start, state, inertia_.inverse(), drives, next);
+    directions_set_ = distances_.warmStart(ratio) || directions_set_;
   }
   if (directions_set_) {
     worstOfRows([&](int i) {
@@ -85,8 +84,8 @@ void Constraints::begin(const SubstepStart& start, const ClothState& state, doub
       pullWeft(weft, i, weft_.multiplier);
       return 0.0;
     });
-    cords_.setDirections(start.state.position);
-    cords_.pull(inertia_.inverse(), next);
+    distances_.setDirections(start.state.position);
+    distances_.pull(inertia_.inverse(), next);
   }
   settleCarriers();
 }
@@ -105,7 +104,7 @@ double Constraints::commit(const SubstepStart& start, bool bends, ClothState& st
     heaviest = loadStrings(load);
     last_weft_ = weft_.multiplier;
   }
-  if (cords_.any()) heaviest = std::max(heaviest, cords_.commit(start, next, state, load));
+  if (distances_.any()) heaviest = std::max(heaviest, distances_.commit(start, next, state, load));
   std::swap(state.position, next);
   std::swap(last_warp_, warp_.multiplier);
   return carriers_.any() ? std::max(heaviest, commitCarriers(state, load)) : heaviest;
@@ -181,14 +180,14 @@ void Constraints::save(Memory& memory) const {
   memory.warp = last_warp_;
   memory.weft = last_weft_;
   memory.weft_pulls = weft_pulls_;
-  cords_.save(memory.cords);
+  distances_.save(memory.distances);
 }
 
 void Constraints::restore(const Memory& memory) {
   last_warp_ = memory.warp;
   last_weft_ = memory.weft;
   weft_pulls_ = memory.weft_pulls;
-  cords_.restore(memory.cords);
+  distances_.restore(memory.distances);
   if (!weft_pulls_) std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0);  // as begin() relies on
 }
 
@@ -197,7 +196,7 @@ void Constraints::resume(const ClothState& state) noexcept {
   freeWeft(pattern_, inertia_.masses(), free_per_square_);
   for (Field* field : {&weft_.multiplier, &violation_, &active_, &change_})
     std::fill(field->begin(), field->end(), 0.0);
-  cords_.resume(state);
+  distances_.resume(state);
   scratch_.assign(pattern_.grid);
   net_.reset();
 }

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The constraints of a substep: two-sided warp rods, one-sided weft strings, cords and contacts, with the positions
-// being solved for and the links' directions and multipliers. Rods: Newton, one tridiagonal system a column. Taut
-// strings and cords and pushing contacts: all at once, with the rods eliminated (NetSolver). Sweeps decides what is
-// solved when. Where functions speak of strings, cords are among them.
+// The constraints of a substep: two-sided warp rods, one-sided weft strings, distances that parts bound, and contacts,
+// with the positions being solved for and the links' directions and multipliers. Rods: Newton, one tridiagonal system a
+// column. Taut strings, and rows of distances and contacts: all at once, with the rods eliminated (NetSolver). Sweeps
+// decides what is solved when. Where functions speak of strings, distances are among them.
 #pragma once
 
 #include <algorithm>
 #include <vector>
 
 #include "solver/carriers.h"
-#include "solver/cord_links.h"
+#include "solver/distance_rows.h"
 #include "solver/net_solver.h"
 #include "solver/node_inertia.h"
 #include "solver/substep.h"
@@ -23,7 +23,8 @@ namespace curtain {
 class Constraints {
  public:
   /// tolerance  relative overlength that the links' compliance may reach. All arguments must outlive this.
-  Constraints(const ClothPattern& pattern, double tolerance, const NodeInertia& inertia, const Workers& workers);
+  Constraints(const ClothPattern& pattern, std::vector<RowPart*> parts, double tolerance, const NodeInertia& inertia,
+              const Workers& workers);
   void expectContacts(std::size_t count);
   /// Forgets the tensions of the last substep.
   void reset() noexcept;
@@ -34,8 +35,8 @@ class Constraints {
   // ---- Begin and end of a substep
 
   /// Predicts, and warm-starts with the last substep's multipliers times ratio. state: at the start of the substep, of
-  /// h [s]. shrinks: closing loops do.
-  void begin(const SubstepStart& start, const ClothState& state, double h, double ratio, bool shrinks) noexcept;
+  /// h [s]. drives: parts do.
+  void begin(const SubstepStart& start, const ClothState& state, double h, double ratio, bool drives) noexcept;
   /// Accepts the substep: sets velocities and loads (returns the largest load over its mass) and keeps the multipliers.
   /// bends: compute WarpMotion::bent.
   double commit(const SubstepStart& start, bool bends, ClothState& state, Field& load) noexcept;
@@ -43,7 +44,7 @@ class Constraints {
   void end(bool taken) noexcept;
 
   /// A string pulled in the last accepted substep.
-  bool stringsPull() const noexcept { return weft_pulls_ || cords_.pulls(); }
+  bool stringsPull() const noexcept { return weft_pulls_ || distances_.pulls(); }
   /// A string pulls now, or directions were set because one was too long.
   bool stringsAct() const noexcept { return directions_set_; }
   /// Sum over the rods of their relative change of velocity in the last substep [1/s^2] (WarpMotion::bent).
@@ -57,19 +58,19 @@ class Constraints {
   /// Sum of multiplier times direction over a node's links, of the last substep [kg m].
   Vec3 pullAt(int row, int column) const noexcept {
     const Vec3 pull = pullAt(row, column, last_warp_, last_weft_, weft_pulls_);
-    return cords_.any() ? Vec3(pull + cords_.pullAt(pattern_.grid.index(row, column))) : pull;
+    return distances_.any() ? Vec3(pull + distances_.pullAt(pattern_.grid.index(row, column))) : pull;
   }
 
   /// Sets the relative overlength that the links' compliance may reach.
   void takeTolerance(double tolerance) noexcept {
     weft_.most_give = tolerance;
-    cords_.takeMostGive(tolerance);
+    distances_.takeMostGive(tolerance);
   }
 
   Carriers& carriers() noexcept { return carriers_; }
   const Carriers& carriers() const noexcept { return carriers_; }
-  CordLinks& cords() noexcept { return cords_; }
-  const CordLinks& cords() const noexcept { return cords_; }
+  DistanceRows& distances() noexcept { return distances_; }
+  const DistanceRows& distances() const noexcept { return distances_; }
 
   // ---- Parts of a solve
 
@@ -144,7 +145,7 @@ class Constraints {
   struct Memory {
     Field warp, weft;
     bool weft_pulls = false;
-    CordLinks::Memory cords;
+    DistanceRows::Memory distances;
 
     void carry(Archive& archive);
   };
@@ -174,7 +175,7 @@ class Constraints {
   double commitCarriers(ClothState& state, const Field& load) noexcept;
   Vec3 pullAt(int row, int column, const Field& warp, const Field& weft, bool strings) const noexcept;
   RowRange contactRows() const noexcept { return {rows_.data(), rows_.data() + contact_rows_}; }
-  RowRange cordRows() const noexcept { return {rows_.data() + contact_rows_, rows_.data() + rows_.size()}; }
+  RowRange distanceRows() const noexcept { return {rows_.data() + contact_rows_, rows_.data() + rows_.size()}; }
   template <typename Look>
   double worstOfRows(const Look& look) noexcept;
   template <typename Block>
@@ -188,10 +189,10 @@ class Constraints {
   NetSolver net_;
   Carriers carriers_;
   double middle_rest_;
-  CordLinks cords_;
-  Rows rows_;                     // of contacts, then of cords
+  DistanceRows distances_;
+  Rows rows_;                     // of contacts, then of distances_
   std::size_t contact_rows_ = 0;  // how many of them are of contacts
-  Field rod_change_;              // of the rods' multipliers, with those of strings and cords; with cords only
+  Field rod_change_;              // of the rods' multipliers, with those of strings and distances_; with these only
   Field3 moved_;                  // by all of them [m]
   Field3 top_force_;              // on the nodes of the top row but the links' [N]; with a rail only
   double per_scale_ = 0;          // 1 / (h kick) [1/s^2]

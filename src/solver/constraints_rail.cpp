@@ -23,7 +23,7 @@ void Constraints::settleCarriers() noexcept {
     carriers_.press([&](int column) -> Vec3 {
       const auto n = static_cast<std::size_t>(column);
       const Vec3 pull = pullAt(0, column, warp_.multiplier, weft_.multiplier, directions_set_);
-      return per_scale_ * (cords_.any() ? Vec3(pull + cords_.presentPullAt(n)) : pull) + top_force_.at(n);
+      return per_scale_ * (distances_.any() ? Vec3(pull + distances_.presentPullAt(n)) : pull) + top_force_.at(n);
     });
   }
   if (carriers_.settle(next)) net_ready_ = false;

@@ -52,19 +52,20 @@ double Constraints::lookAtStrings(bool closely) noexcept {
   measured_ = false;
   if (closely) return measureStrings();
   const double longest = worstOfRows([&](int i) { return weftSquare(pattern_.grid, i, next, free_per_square_); });
-  return std::max(longest > 1.0 ? 0.5 * (longest - 1.0) : 0.0, cords_.measure(inertia_.inverse(), next));
+  return std::max(longest > 1.0 ? 0.5 * (longest - 1.0) : 0.0, distances_.measure(inertia_.inverse(), next));
 }
 
 double Constraints::measureStrings() noexcept {
   const LineSolve weft = wefts();
   const double worst = worstOfRows([&](int i) { return measureWeft(weft, i, violation_, active_); });
   measured_ = true;
-  return std::max(worst, cords_.measure(inertia_.inverse(), next));
+  return std::max(worst, distances_.measure(inertia_.inverse(), next));
 }
 
 double Constraints::stringsResidual() noexcept {
   const LineSolve weft = wefts();
-  return std::max(worstOfRows([&](int i) { return weftResidual(weft, i); }), cords_.residual(inertia_.inverse(), next));
+  return std::max(worstOfRows([&](int i) { return weftResidual(weft, i); }),
+                  distances_.residual(inertia_.inverse(), next));
 }
 
 void Constraints::setWeftDirectionsAt(const Field3& position) noexcept {
@@ -72,7 +73,7 @@ void Constraints::setWeftDirectionsAt(const Field3& position) noexcept {
     setWeftDirections(pattern_.grid, i, position, weft_.direction);
     return 0.0;
   });
-  cords_.setDirections(position);
+  distances_.setDirections(position);
 }
 
 void Constraints::followDirections() noexcept {
@@ -97,10 +98,10 @@ void Constraints::solveNet(const NetAim& aim, Contacts* contacts) noexcept {
   rows_.clear();
   if (contacts != nullptr) addContactRows(*contacts, next, rows_);
   contact_rows_ = rows_.size();
-  cords_.addRows(rows_);
+  distances_.addRows(rows_);
   net_.solve(violation_, active_, rows_,
              {aim.residual * middle_rest_, aim.damping, aim.enough, kGradientIterations, multiplier}, change_);
-  const double share = cords_.any() ? takeUpTogether() : takeUpStrings(aim.residual);
+  const double share = distances_.any() ? takeUpTogether() : takeUpStrings(aim.residual);
   if (contacts != nullptr) takeUpContacts(inertia_.inverse(), contactRows(), share, *contacts, next);
   settleCarriers();
 }
@@ -129,7 +130,7 @@ double Constraints::merit(const Contacts* contacts, double rods_lack) noexcept {
     const double relative = active_[n] * violation_[n] * pattern_.weft_per_square[n];
     sum += relative * relative;
   }
-  sum += cords_.squares();
+  sum += distances_.squares();
   for (std::size_t k = 0; contacts != nullptr && k < contacts->size(); ++k) {
     const double relative = contactViolation((*contacts)[k], next) / middle_rest_;
     sum += relative * relative;
@@ -141,7 +142,7 @@ void Constraints::saveIterate(const Contacts* contacts) {
   best_.position = next;
   best_.warp = warp_.multiplier;
   best_.weft = weft_.multiplier;
-  cords_.saveIterate();
+  distances_.saveIterate();
   if (contacts != nullptr) best_.contacts = *contacts;
 }
 
@@ -149,7 +150,7 @@ void Constraints::restoreIterate(Contacts* contacts) noexcept {
   next = best_.position;
   warp_.multiplier = best_.warp;
   weft_.multiplier = best_.weft;
-  cords_.restoreIterate();
+  distances_.restoreIterate();
   if (contacts != nullptr) *contacts = best_.contacts;
   measured_ = false;
 }

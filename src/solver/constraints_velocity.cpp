@@ -20,7 +20,7 @@ void Constraints::spreadForces(const LineSolve& warp, const LineSolve& weft, con
     for (std::size_t n = 0; n < pattern_.grid.size(); ++n) change_[n] = share * last_weft_[n];
     for (int i = 0; i < pattern_.grid.rows; ++i) pullWeft(weft, i, change_);
   }
-  cords_.spread(share, inertia_.masses(), warp.value);
+  distances_.spread(share, inertia_.masses(), warp.value);
   for (std::size_t n = 0; contacts != nullptr && n < contacts->size(); ++n) {
     const Contact& contact = (*contacts)[n];
     if (contact.pushes())
@@ -59,18 +59,18 @@ void Constraints::project(const Field3& position, const Contacts* contacts, doub
   double first_rate = 0.0;
   for (int round = 0; round < (presses ? kContactRounds : kVelocityRounds); ++round) {
     double rate = worstOfRows([&](int i) { return measureWeftRates(weft, i, violation_, active_); });
-    if (cords_.any()) rate = std::max(rate, cords_.measureRates(velocity));
+    if (distances_.any()) rate = std::max(rate, distances_.measureRates(velocity));
     if (presses) rate = std::max(rate, contactRate(*contacts, velocity) / middle_rest_);
     if (round == 0) first_rate = rate;
     if (rate == 0.0 || (round > 0 && rate <= kVelocityReduction * first_rate)) break;
     rows_.clear();
     if (presses) addContactRateRows(*contacts, velocity, rows_);
     contact_rows_ = rows_.size();
-    cords_.addRows(rows_);
+    distances_.addRows(rows_);
     net_.solve(violation_, active_, rows_,
                {rate * middle_rest_, kVelocityDamping, kVelocityReduction, kVelocityIterations}, change_);
     for (int i = 0; i < pattern_.grid.rows; ++i) pullWeft(weft, i, change_);
-    cords_.moveByRows(cordRows(), inertia_.masses(), velocity);
+    distances_.moveByRows(distanceRows(), inertia_.masses(), velocity);
     if (presses) moveByContacts(inertia_.masses(), contactRows(), *contacts, velocity);
     settle();
     solveRods();

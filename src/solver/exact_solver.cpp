@@ -26,17 +26,18 @@ bool isFree(const ClothPattern& pattern) noexcept {
 
 }  // namespace
 
-ExactSolver::ExactSolver(const ClothPattern& pattern, double stretch_tolerance, int max_sweeps, const Workers& workers)
+ExactSolver::ExactSolver(const ClothPattern& pattern, std::vector<RowPart*> parts, double stretch_tolerance,
+                         int max_sweeps, const Workers& workers)
     : pattern_(pattern),
       free_(isFree(pattern)),
       stretch_tolerance_(stretch_tolerance),
       smallest_rest_(shortestLink(pattern)),
       inertia_(pattern),
       bending_(pattern, workers),
-      constraints_(pattern, kInnerTolerance * stretch_tolerance, inertia_, workers),
+      constraints_(pattern, std::move(parts), kInnerTolerance * stretch_tolerance, inertia_, workers),
       sweeps_(constraints_, inertia_, stretch_tolerance, stretch_tolerance * smallest_rest_, max_sweeps),
       guard_(pattern, inertia_, stretch_tolerance, constraints_.middleRest()),
-      last_resort_(pattern, constraints_.cords()) {}
+      last_resort_(pattern, constraints_.distances()) {}
 
 void ExactSolver::takeStretchTolerance(double tolerance) noexcept {
   stretch_tolerance_ = tolerance;
@@ -87,7 +88,7 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   outcome.accepted = progress.settled || plan.isLastResort();
   if (outcome.accepted) take(attempt, progress, outcome);
   constraints_.end(outcome.accepted);
-  if (!outcome.accepted) constraints_.cords().takeLengths(state);
+  if (!outcome.accepted) constraints_.distances().resume(state);
   clock.lap(Stage::kFinish);
   return outcome;
 }
@@ -182,7 +183,7 @@ void ExactSolver::judge(const Attempt& attempt, Progress& progress, SubstepOutco
   const bool last_resort = attempt.plan.isLastResort();
   const double touched =
       progress.contacts != nullptr ? fastestDrive(*progress.contacts, attempt.state.position, attempt.plan.h) : 0.0;
-  const double surface = std::max(touched, constraints_.cords().closingSpeed());
+  const double surface = std::max(touched, constraints_.distances().speed());
   const double drawn = constraints_.carriers().driveEnergy();
   if (progress.late || (last_resort && progress.alone())) {
     progress.most_kinetic = guard_.most(attempt.scheme.rules(), attempt.start, constraints_.next, surface, drawn);

@@ -19,9 +19,11 @@ namespace curtain {
 
 class ExactSolver {
  public:
+  /// parts              in the order of their rows; must outlive this
   /// stretch_tolerance  relative overlength allowed to a link
   /// max_sweeps         bound of the sweeps in a substep
-  ExactSolver(const ClothPattern& pattern, double stretch_tolerance, int max_sweeps, const Workers& workers);
+  ExactSolver(const ClothPattern& pattern, std::vector<RowPart*> parts, double stretch_tolerance, int max_sweeps,
+              const Workers& workers);
 
   /// Reserves room for so many contacts; more make a substep allocate.
   void expectContacts(std::size_t count) { constraints_.expectContacts(count); }
@@ -50,10 +52,10 @@ class ExactSolver {
     return constraints_.tensionsAt(row, column, inertia_.tensions().scale);
   }
 
-  /// Tension of a cord in the last substep [N].
-  double cordTension(std::size_t cord) const noexcept {
+  /// Tension of a distance that a part bounds, in the last substep [N].
+  double tensionOf(const DistanceRow& row) const noexcept {
     const double scale = inertia_.tensions().scale;
-    return scale != 0.0 ? cords().last(cord) * cords().all()[cord].length / scale : 0.0;
+    return scale != 0.0 ? row.last * row.length / scale : 0.0;
   }
 
   /// As the last substep, or question, saw it.
@@ -89,10 +91,10 @@ class ExactSolver {
   Carriers& carriers() noexcept { return constraints_.carriers(); }
   const Carriers& carriers() const noexcept { return constraints_.carriers(); }
 
-  CordLinks& cords() noexcept { return constraints_.cords(); }
-  const CordLinks& cords() const noexcept { return constraints_.cords(); }
+  /// What parts bound.
+  const DistanceRows& distances() const noexcept { return constraints_.distances(); }
 
-  /// A string, or a cord, pulled in the last substep.
+  /// A string, or a distance, pulled in the last substep.
   bool stringsPull() const noexcept { return constraints_.stringsPull(); }
 
   /// What a substep leaves to the next; restored when substeps are repeated.

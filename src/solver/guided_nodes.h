@@ -30,8 +30,10 @@ class GuidedNodes {
   bool inRow(int row) const noexcept {
     return first_[static_cast<std::size_t>(row)] != first_[static_cast<std::size_t>(row) + 1];
   }
-  /// The guided node with this number; null: it is none.
-  const GuidedNode* at(std::size_t node) const noexcept {
+  /// The guided node of a row and a column; null: it is none.
+  const GuidedNode* at(int row, int column) const noexcept {
+    if (!inRow(row)) return nullptr;
+    const std::size_t node = static_cast<std::size_t>(row) * stride_ + static_cast<std::size_t>(column);
     const auto found = from(node);
     return found != nodes_.end() && found->node == node ? &*found : nullptr;
   }
@@ -47,7 +49,7 @@ class GuidedNodes {
   /// The same of all rows.
   template <typename Act>
   void forEach(int first, int end, const Act& act) const {
-    for (int row = 0; row + 1 < static_cast<int>(first_.size()); ++row)
+    for (const int row : rows_)
       forEach(row, first, end, [&](const GuidedNode& guided, int column) { act(guided, row, column); });
   }
 
@@ -63,6 +65,9 @@ class GuidedNodes {
     for (std::size_t k = 0; k < nodes.size(); ++k) nodes_[k].node = nodes[k];
     for (int row = 0; row <= grid.rows; ++row)
       first_.push_back(static_cast<std::size_t>(from(grid.row(row)) - nodes_.begin()));
+    for (int row = 0; row < grid.rows; ++row) {
+      if (inRow(row)) rows_.push_back(row);
+    }
   }
   /// In the order of the constructor's nodes.
   GuidedNode& guided(std::size_t k) noexcept { return nodes_[k]; }
@@ -76,6 +81,7 @@ class GuidedNodes {
   std::size_t stride_;
   std::vector<GuidedNode> nodes_;
   std::vector<std::size_t> first_;  // of each row, and the end
+  std::vector<int> rows_;           // that have some
 };
 
 }  // namespace curtain

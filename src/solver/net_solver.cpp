@@ -174,7 +174,8 @@ CURTAIN_WIDE void NetSolver::factorWarp(int block) noexcept {
       off_above[j] = off;
       lower_above[j] = off * inverted;
     }
-    if (guided_ != nullptr) factorGuided(block, i, off_above, lower_above);
+    if (guided_ != nullptr && (guided_->inRow(i - 1) || guided_->inRow(i)))
+      factorGuided(block, i, off_above, lower_above);
   }
 }
 

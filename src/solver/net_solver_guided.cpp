@@ -18,7 +18,7 @@ Vec3 vectorAt(const Values3& values, std::size_t k) {
 
 // a^T W b at a node.
 float NetSolver::through(int i, std::size_t j, const Vec3& a, const Vec3& b) const noexcept {
-  const GuidedNode* const guided = guided_->at(pattern_.grid.row(i) + j);
+  const GuidedNode* const guided = guided_->at(i, static_cast<int>(j));
   return weight_[row(i) + j] * static_cast<float>(guided == nullptr ? a.dot(b) : a.dot(guided->freedom * b));
 }
 

@@ -92,9 +92,10 @@ template <typename Level>
 void eliminateGuided(const LineSolve& line, LineScratch& scratch, int block, int i, Worst& worst) {
   const auto stride = static_cast<std::size_t>(line.pattern.grid.stride);
   // b^T W a at a node: what an impulse along a moves it by along b.
-  const auto through = [&](std::size_t n, const Vec3& b, const Vec3& a) {
-    const GuidedNode* const guided = line.guided->at(n);
-    return line.inverse_inertia[n] * (guided == nullptr ? b.dot(a) : b.dot(guided->newton * a));
+  const auto through = [&](int row, int column, const Vec3& b, const Vec3& a) {
+    const GuidedNode* const guided = line.guided->at(row, column);
+    return line.inverse_inertia[line.pattern.grid.index(row, column)] *
+           (guided == nullptr ? b.dot(a) : b.dot(guided->newton * a));
   };
   const auto eliminate = [&](const GuidedNode&, int column) {
     const std::size_t n = line.pattern.grid.index(i, column), above = n - stride;
@@ -102,13 +103,13 @@ void eliminateGuided(const LineSolve& line, LineScratch& scratch, int block, int
     const double rest_squared = line.pattern.warp_rest[n] * line.pattern.warp_rest[n];
     const double c = Level::violation(r.x(), r.y(), r.z(), d.x(), d.y(), d.z(), rest_squared);
     const Vec3 g(Level::gradient(r.x(), d.x()), Level::gradient(r.y(), d.y()), Level::gradient(r.z(), d.z()));
-    const double diagonal = through(above, g, d) + through(n, g, d);
-    const double lower = -through(above, g, line.links.direction.at(above));
+    const double diagonal = through(i - 1, column, g, d) + through(i, column, g, d);
+    const double lower = -through(i - 1, column, g, line.links.direction.at(above));
     const double pivot = diagonal - lower * scratch.elimination[above];
     const double w = line.inverse_inertia[n] + line.inverse_inertia[above];
     const bool sound = pivot > kSmallestPivot * w * rest_squared;
     const double inverse = sound ? 1.0 / pivot : 0.0;
-    scratch.elimination[n] = -through(n, g, line.links.direction.at(n + stride)) * inverse;
+    scratch.elimination[n] = -through(i, column, g, line.links.direction.at(n + stride)) * inverse;
     scratch.solution[n] = (c - lower * scratch.solution[above]) * inverse;
     if (!sound && w > 0.0) worst.of[column % kLane] = kUnsound;
   };
@@ -152,7 +153,8 @@ CURTAIN_INTO_WIDE LineOutcome newton(const LineSolve& line, LineScratch& scratch
   Worst worst;
   for (int i = 1; i < grid.rows; ++i) {
     eliminateRow<Level>(line, scratch, grid.row(i) + offset, worst);
-    if (line.guided != nullptr) eliminateGuided<Level>(line, scratch, block, i, worst);
+    if (line.guided != nullptr && (line.guided->inRow(i - 1) || line.guided->inRow(i)))
+      eliminateGuided<Level>(line, scratch, block, i, worst);
   }
   for (int i = grid.rows - 1; i >= 0; --i) substituteRow(line, scratch, grid.row(i) + offset);
   forgetTop(line, scratch, offset);

@@ -29,7 +29,7 @@ class Swing {
   Swing(const Scene& scene, std::uint64_t seed, bool precise)
       : pattern_(makePattern(scene)),
         workers_(1),
-        exact_(pattern_, scene.solver.stretch_tolerance, scene.solver.max_sweeps, workers_),
+        exact_(pattern_, {}, scene.solver.stretch_tolerance, scene.solver.max_sweeps, workers_),
         state_(makeInitialState(scene, pattern_)),
         start_(state_.position) {
     Random random(seed);

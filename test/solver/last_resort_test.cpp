@@ -25,8 +25,8 @@ struct Cloth {
       : scene(std::move(given)),
         pattern(makePattern(scene)),
         state(makeInitialState(scene, pattern)),
-        cords(pattern, 1e-3, 1.0),
-        resort(pattern, cords) {}
+        distances(pattern, {}, 1e-3, 1.0),
+        resort(pattern, distances) {}
 
   double stretchOf(const Field3& position) const {
     const Stretch warp = warpStretch(pattern, position);
@@ -36,7 +36,7 @@ struct Cloth {
   Scene scene;
   ClothPattern pattern;
   ClothState state;
-  CordLinks cords;
+  DistanceRows distances;
   LastResort resort;
 };
 

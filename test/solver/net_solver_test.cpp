@@ -53,7 +53,9 @@ struct Net {
   LineSolve line() { return {pattern, inertia.masses(), weft, state.position}; }
   // a^T W b at a node.
   double through(std::size_t n, const Vec3& a, const Vec3& b) const {
-    const GuidedNode* const node = guided == nullptr ? nullptr : guided->at(n);
+    const auto stride = static_cast<std::size_t>(pattern.grid.stride);
+    const GuidedNode* const node =
+        guided == nullptr ? nullptr : guided->at(static_cast<int>(n / stride), static_cast<int>(n % stride));
     return inertia.masses()[n] * (node == nullptr ? a.dot(b) : a.dot(node->freedom * b));
   }
   double measure() {

@@ -24,7 +24,7 @@ struct Solve {
         state(makeInitialState(scene, pattern)),
         workers(1),
         inertia(pattern),
-        constraints(pattern, 0.5 * kTolerance, inertia, workers),
+        constraints(pattern, {}, 0.5 * kTolerance, inertia, workers),
         sweeps(constraints, inertia, kTolerance, kTolerance * shortestLink(pattern), most_sweeps) {
     force.assign(pattern.grid.size(), 0.0);
     forces.force = &force;

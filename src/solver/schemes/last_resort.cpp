@@ -8,8 +8,8 @@
 
 namespace curtain {
 
-LastResort::LastResort(const ClothPattern& pattern, const CordLinks& cords)
-    : Scheme({true, false, 0.5}), pattern_(pattern), cords_(cords) {
+LastResort::LastResort(const ClothPattern& pattern, const DistanceRows& distances)
+    : Scheme({true, false, 0.5}), pattern_(pattern), distances_(distances) {
   const Grid& grid = pattern.grid;
   for (Field3* field : {&base_.position, &base_.velocity, &no_force_}) field->assign(grid.size(), 0.0);
   shortest_.assign(grid.size(), std::numeric_limits<double>::infinity());
@@ -18,21 +18,19 @@ LastResort::LastResort(const ClothPattern& pattern, const CordLinks& cords)
     shortest_[n] = std::min(shortest_[n], rest);
     shortest_[other] = std::min(shortest_[other], rest);
   });
-  for (const Cord& cord : pattern.cords.cords) {
-    const std::size_t end = pattern.cords.ends[cord.end].node;
-    shortest_[cord.node] = std::min(shortest_[cord.node], cord.length);
-    shortest_[end] = std::min(shortest_[end], cord.length);
+  for (const DistanceRow& row : distances.all()) {
+    for (const std::size_t n : {row.node, row.other}) shortest_[n] = std::min(shortest_[n], row.length);
   }
 }
 
-// Calls look(node, other, rest length, is a rod) for every link and cord with a movable end.
+// Calls look(node, other, rest length, is a rod) for every link and row with a movable end.
 template <typename Look>
 void LastResort::forEachBound(const Field& inverse, const Look& look) const {
   forEachLink(pattern_, [&](std::size_t n, std::size_t other, double rest, bool rod) {
     if (inverse[n] + inverse[other] > 0.0) look(n, other, rest, rod);
   });
-  for (const CordLink& cord : cords_.all()) {
-    if (cord.ties) look(cord.node, cord.end, cord.length, false);
+  for (const DistanceRow& row : distances_.all()) {
+    if (row.holds) look(row.node, row.other, row.length, false);
   }
 }
 

@@ -12,7 +12,7 @@
 #pragma once
 
 #include "cloth/free_body.h"
-#include "solver/cord_links.h"
+#include "solver/distance_rows.h"
 #include "solver/scheme.h"
 
 namespace curtain {
@@ -20,8 +20,8 @@ namespace curtain {
 /// Not thread-safe. Allocates only in the constructor.
 class LastResort final : public Scheme {
  public:
-  /// pattern and cords must outlive this.
-  LastResort(const ClothPattern& pattern, const CordLinks& cords);
+  /// pattern and distances must outlive this.
+  LastResort(const ClothPattern& pattern, const DistanceRows& distances);
 
   SubstepStart start(const Task& task, const ClothState& state, SubstepOutcome& outcome) noexcept override;
 
@@ -57,7 +57,7 @@ class LastResort final : public Scheme {
                  const Field3& end) const noexcept;
 
   const ClothPattern& pattern_;
-  const CordLinks& cords_;
+  const DistanceRows& distances_;
   bool pins_move_ = false;
   ClothState base_;  // positions, and velocities after the forces and the cut
   Field3 no_force_;

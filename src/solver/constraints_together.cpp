@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Cords among the constraints: their changes are taken up together with those of the strings, and of the rods.
+// Distances that parts bound: their changes are taken up together with those of the strings, and of the rods.
 #include <cmath>
 
 #include "solver/constants.h"
@@ -18,7 +18,7 @@ double Constraints::takeUpTogether() noexcept {
   const LineSolve weft{pattern_, inverse, weft_, moved_, sliding()};
   for (int i = 0; i < grid.rows; ++i) pullWeft(weft, i, change_);
   net_.rodsAnswer(rows_, rod_change_);
-  cords_.moveByRows(cordRows(), inverse, moved_);
+  distances_.moveByRows(distanceRows(), inverse, moved_);
   const auto stride = static_cast<std::size_t>(grid.stride);
   double most = 0.0;
   for (std::size_t n = 0; n < grid.size(); ++n) {
@@ -36,7 +36,7 @@ double Constraints::takeUpTogether() noexcept {
     weft_.multiplier[n] += share * change_[n];
     warp_.multiplier[n] += share * rod_change_[n];
   }
-  cords_.takeUp(cordRows(), share);
+  distances_.takeUp(distanceRows(), share);
   return share;
 }
 

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Lines and tie-backs in the solve: cords, one-sided links between any node and an end beside the cloth.
+//
+// Loads and fixed ends move here, since no rod or string ends at them. Lengths of closing loops shrink by their speed
+// in every substep in which parts drive; in the last resort they wait.
+#pragma once
+
+#include <vector>
+
+#include "solver/row_part.h"
+
+namespace curtain {
+
+class Cords final : public RowPart {
+ public:
+  /// pattern must outlive this.
+  explicit Cords(const ClothPattern& pattern);
+
+  const DistanceRow& row(std::size_t cord) const noexcept { return rows_[cord]; }
+
+  // ---- Tie-backs
+
+  /// Closes a loop from where its nodes are, or opens it. Between substeps.
+  void close(std::size_t loop, bool closed, ClothState& state) noexcept;
+  bool closed(std::size_t loop) const noexcept { return closed_[loop] != 0; }
+  /// As the scene has them at the start.
+  void resetLoops(ClothState& state) noexcept;
+  /// A closed loop has not yet shrunk to its radius.
+  bool closing(const ClothState& state) const noexcept;
+
+  std::size_t count() const noexcept override { return pattern_.cords.cords.size(); }
+  void attach(DistanceRow* rows) noexcept override;
+  void begin(const SubstepStart& start, const ClothState& state, const Field& inverse, bool drives,
+             Field3& next) noexcept override;
+  void commit(const SubstepStart& start, const Field3& next, ClothState& state) noexcept override;
+  void resume(const ClothState& state) noexcept override;
+  double speed() const noexcept override { return closing_speed_; }
+
+  /// Which loops are closed.
+  void carry(Archive& archive);
+
+ private:
+  void predict(const SubstepStart& start, const Field& inverse, Field3& next) const noexcept;
+  void setLengths(const ClothState& state) noexcept;
+  void setHolds(const Field& inverse) noexcept;
+
+  const ClothPattern& pattern_;
+  DistanceRow* rows_ = nullptr;       // in the order of the pattern's cords
+  std::vector<std::uint8_t> closed_;  // by loop
+  std::vector<double> reach_;         // of the loops at the end of the substep [m]
+  double closing_speed_ = 0.0;        // of the fastest loop that shrinks in this substep [m/s]; 0: none
+};
+
+}  // namespace curtain
