@@ -266,6 +266,7 @@ void Simulator::Impl::carry(Archive& archive) {
   archive.group("forces", [&] { motion.forces.carry(archive, scene.air); });
   archive.part("obstacles", motion.obstacles);
   archive.part("contact", motion.contact);
+  archive.part("carriers", motion.carriers.memory());
   archive.part("cords", motion.cords);
   archive.part("exact", motion.exact);
   controls.carry(archive);

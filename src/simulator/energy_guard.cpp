@@ -37,7 +37,7 @@ bool EnergyGuard::isClosed(bool pins_move) const noexcept {
   const NodeForces& last = motion_.forces.last();
   const bool chooses = motion_.scene.solver.substeps == 0 || motion_.statistics.rejected > 0;
   return wanted_ && chooses && !pins_move && last.weight_only && !last.has_damping && motion_.pushing() == nullptr &&
-         !motion_.exact.carriers().drive().draws && !motion_.cords.closing(motion_.state);
+         !motion_.carriers.drive().draws && !motion_.cords.closing(motion_.state);
 }
 
 // Energy before the velocity projection, which bounds it from above (Motion::velocities()): nearly free, while the

@@ -41,34 +41,14 @@ void EnergyLedger::addPins(const Field3& velocity, const ExactSolver& links, dou
   }
 }
 
-// A cord of constant length does no work; those of a loop that closes do.
-void EnergyLedger::addLoops(const Field3& velocity, const DistanceRows& distances, double per_h) noexcept {
-  for (const LoopPattern& loop : pattern_.cords.loops) {
-    const CordEnd& end = pattern_.cords.ends[loop.end];
-    for (std::size_t c = end.first; c < end.last; ++c) {
-      const DistanceRow& cord = distances.all()[c];
-      const Vec3 before = before_.at(cord.node) - before_.at(cord.other);
-      const Vec3 after = velocity.at(cord.node) - velocity.at(cord.other);
-      work_.drive += per_h * cord.last * cord.direction.dot(0.5 * (before + after));
-    }
-  }
-}
-
-void EnergyLedger::addDrive(const Field3& velocity, const Carriers& carriers, double kick) noexcept {
-  for (std::size_t k = 0; k < carriers.all().size(); ++k) {
-    const Carrier& carrier = carriers.all()[k];
-    const Vec3 mean = 0.5 * (before_.at(carriers.node(carrier)) + velocity.at(carriers.node(carrier)));
-    work_.drive += kick * carriers.memory().drawn[k] * mean.dot(carrier.now);
-  }
-}
-
 void EnergyLedger::end(const ClothState& state, const NodeForces& forces, const Contacts* contacts,
                        const ExactSolver* links, double h, const SubstepOutcome& outcome) noexcept {
   addForces(state.velocity, forces, links != nullptr ? links->forcesWithBending() : nullptr, outcome.kick);
   const double per_h = outcome.scale != 0.0 ? outcome.kick / outcome.scale : 1.0 / h;
   if (links != nullptr) addPins(state.velocity, *links, per_h);
-  if (links != nullptr) addLoops(state.velocity, links->distances(), per_h);
-  if (links != nullptr) addDrive(state.velocity, links->carriers(), outcome.kick);
+  if (links != nullptr) work_.drive += links->distances().work(before_, state.velocity, per_h);
+  if (links != nullptr && links->guide() != nullptr)
+    work_.drive += links->guide()->work(before_, state.velocity, outcome.kick);
   for (std::size_t k = 0; contacts != nullptr && k < contacts->size(); ++k) {
     const Contact& contact = (*contacts)[k];
     if (contact.obstacle == Contact::kCloth || !contact.pushes()) continue;

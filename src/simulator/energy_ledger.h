@@ -39,8 +39,6 @@ class EnergyLedger {
  private:
   void addForces(const Field3& velocity, const NodeForces& forces, const Field3* with_bending, double kick) noexcept;
   void addPins(const Field3& velocity, const ExactSolver& links, double per_h) noexcept;
-  void addLoops(const Field3& velocity, const DistanceRows& distances, double per_h) noexcept;
-  void addDrive(const Field3& velocity, const Carriers& carriers, double kick) noexcept;
 
   const ClothPattern& pattern_;
   Field3 before_;

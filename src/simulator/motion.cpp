@@ -18,8 +18,10 @@ Motion::Motion(const Scene& scene_, const ClothPattern& pattern_, const FrameTim
       workers(threadsFor(scene.solver.threads, pattern.grid.nodeCount())),
       contact(pattern, scene.contact, obstacles, scene.solver.stretch_tolerance, workers),
       lag(pattern, times, obstacles, contact),
+      carriers(pattern),
       cords(pattern),
-      exact(pattern, {&cords}, scene.solver.stretch_tolerance, scene.solver.max_sweeps, workers),
+      exact(pattern, {carriers.any() ? &carriers : nullptr, {&cords}}, scene.solver.stretch_tolerance,
+            scene.solver.max_sweeps, workers),
       paper(pattern),
       ledger(pattern) {
   exact.expectContacts(contact.capacity());

@@ -6,6 +6,7 @@
 #include "contact/cloth_contact.h"
 #include "curtain_sim/statistics.h"
 #include "parts/cords/cords.h"
+#include "parts/rail/carriers.h"
 #include "simulator/energy_ledger.h"
 #include "simulator/force_field.h"
 #include "simulator/grasps.h"
@@ -67,7 +68,9 @@ struct Motion {
   Workers workers;
   ClothContact contact;
   ObstacleLag lag;
+  Carriers carriers;
   Cords cords;
+
   ExactSolver exact;
   PaperSolver paper;
   EnergyLedger ledger;

@@ -5,8 +5,8 @@
 
 namespace curtain {
 
-Opening::Opening(const Scene& scene, const ClothPattern& pattern, ExactSolver& solver)
-    : scene_(scene), pattern_(pattern), solver_(solver), drive_(scene.rail.drive) {}
+Opening::Opening(const Scene& scene, const ClothPattern& pattern, Carriers& carriers)
+    : scene_(scene), pattern_(pattern), carriers_(carriers), drive_(scene.rail.drive) {}
 
 void Opening::reset() {
   draws_ = false;
@@ -36,14 +36,14 @@ void Opening::take() {
   RailDrive drive{draws_, drive_.speed, drive_.force, {}};
   const std::vector<double> places = pattern_.rail.layout.placesFor(goal_);
   for (const std::size_t master : pattern_.rail.layout.masters()) drive.goal.push_back(places[master]);
-  solver_.carriers().setDrive(drive);
+  carriers_.setDrive(drive);
 }
 
 bool Opening::isUnderWay(const ClothState& state) const noexcept {
   if (!draws_ || pattern_.rail.empty()) return false;
   const std::vector<std::size_t>& masters = pattern_.rail.layout.masters();
   for (std::size_t m = 0; m < masters.size(); ++m) {
-    if (state.place[masters[m]] != solver_.carriers().drive().goal[m]) return true;
+    if (state.place[masters[m]] != carriers_.drive().goal[m]) return true;
   }
   return false;
 }

@@ -7,7 +7,7 @@
 #include "cloth/archive.h"
 #include "curtain_sim/scene.h"
 #include "curtain_sim/statistics.h"
-#include "solver/exact_solver.h"
+#include "parts/rail/carriers.h"
 
 namespace curtain {
 
@@ -15,7 +15,7 @@ namespace curtain {
 class Opening {
  public:
   /// All arguments must outlive this.
-  Opening(const Scene& scene, const ClothPattern& pattern, ExactSolver& solver);
+  Opening(const Scene& scene, const ClothPattern& pattern, Carriers& carriers);
 
   /// Lets go, and draws as the scene says from now on.
   void reset();
@@ -42,7 +42,7 @@ class Opening {
 
   const Scene& scene_;
   const ClothPattern& pattern_;
-  ExactSolver& solver_;
+  Carriers& carriers_;
   bool draws_ = false;
   double goal_ = 0.0;
   DriveParams drive_;

@@ -115,8 +115,8 @@ void planSolver(const Motion& motion, const Budget& budget, Plan& plan) {
   plan.push_back({"weft", true,
                   pulls ? "strings pull: all taut ones are solved for at once"
                         : "no string pulls: looked at, and nothing more unless one gets taut"});
-  const std::size_t carriers = motion.exact.carriers().all().size();
-  const bool draws = motion.exact.carriers().drive().draws;
+  const std::size_t carriers = motion.carriers.all().size();
+  const bool draws = motion.carriers.drive().draws;
   plan.push_back({"rail", carriers > 0,
                   carriers == 0 ? "there is none"
                                 : std::to_string(carriers) + " carriers slide" +

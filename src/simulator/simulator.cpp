@@ -43,7 +43,7 @@ Simulator::Impl::Impl(const Scene& given, const MeshResolver& resolve)
       pattern(patternOf(scene)),
       times(scene.solver.frame_rate),
       motion(scene, pattern, times, resolve),
-      opening(scene, pattern, motion.exact),
+      opening(scene, pattern, motion.carriers),
       controls(scene.solver, pattern, scene.gravity),
       sleep(motion),
       budget(scene.solver.budget_ms),

@@ -38,7 +38,7 @@ void DistanceRows::carry(Archive& archive) {
 void ExactSolver::Memory::carry(Archive& archive) {
   archive.part("constraints", constraints);
   archive.part("tensions", tensions);
-  archive.part("carriers", carriers);
+  archive.numbers("guide", guide);
 }
 
 void Constraints::carry(Archive& archive) {
@@ -51,7 +51,6 @@ void Constraints::carry(Archive& archive) {
 void ExactSolver::carry(Archive& archive) {
   archive.part("constraints", constraints_);
   archive.part("tensions", inertia_.tensions());
-  archive.part("carriers", constraints_.carriers().memory());
 }
 
 void ExactSolver::resume(const ClothState& state) noexcept {

@@ -14,15 +14,15 @@ double middleRestOf(const ClothPattern& pattern) {
 
 }  // namespace
 
-Constraints::Constraints(const ClothPattern& pattern, std::vector<RowPart*> parts, double tolerance,
+Constraints::Constraints(const ClothPattern& pattern, const SolverParts& parts, double tolerance,
                          const NodeInertia& inertia, const Workers& workers)
     : pattern_(pattern),
       inertia_(inertia),
       workers_(workers),
       net_(pattern, workers),
-      carriers_(pattern),
+      guide_(parts.guide),
       middle_rest_(middleRestOf(pattern)),
-      distances_(pattern, std::move(parts), tolerance, middle_rest_) {
+      distances_(pattern, parts.rows, tolerance, middle_rest_) {
   const std::size_t size = pattern.grid.size();
   const std::size_t links = size + static_cast<std::size_t>(pattern.grid.stride);
   const auto blocks = static_cast<std::size_t>(warpBlockCount(pattern.grid));
@@ -37,7 +37,7 @@ Constraints::Constraints(const ClothPattern& pattern, std::vector<RowPart*> part
   best_.position.assign(size, 0.0);
   block_motion_.resize(blocks);
   block_progress_.resize(blocks);
-  if (carriers_.any()) top_force_.assign(static_cast<std::size_t>(pattern.grid.stride), 0.0);
+
   if (distances_.any()) {
     rod_change_.assign(size, 0.0);
     moved_.assign(size, 0.0);
@@ -56,7 +56,7 @@ void Constraints::expectContacts(std::size_t count) {
 void Constraints::reset() noexcept {
   for (Field* field : {&last_warp_, &last_weft_, &weft_.multiplier}) std::fill(field->begin(), field->end(), 0.0);
   weft_pulls_ = false;
-  carriers_.forget();
+  if (guide_ != nullptr) guide_->forget();
   distances_.forget();
   net_.reset();
   scratch_.assign(pattern_.grid);
@@ -64,9 +64,8 @@ void Constraints::reset() noexcept {
 
 // ---- Begin and end of a substep
 
-void Constraints::begin(const SubstepStart& start, const ClothState& state, double h, double ratio,
-                        bool drives) noexcept {
-  if (carriers_.any()) beginCarriers(start, state, h);
+void Constraints::begin(const SubstepStart& start, const ClothState& state, double ratio, bool drives) noexcept {
+  if (guide_ != nullptr) beginGuide(start, state);
   const LineSolve warp = rods(), weft = wefts();
   directions_set_ = measured_ = false;
   forEachBlock([&](int block) { warpBegin(start, warp, last_warp_, ratio, block); });
@@ -87,7 +86,7 @@ void Constraints::begin(const SubstepStart& start, const ClothState& state, doub
     distances_.setDirections(start.state.position);
     distances_.pull(inertia_.inverse(), next);
   }
-  settleCarriers();
+  settleGuide();
 }
 
 double Constraints::commit(const SubstepStart& start, bool bends, ClothState& state, Field& load) noexcept {
@@ -107,7 +106,7 @@ double Constraints::commit(const SubstepStart& start, bool bends, ClothState& st
   if (distances_.any()) heaviest = std::max(heaviest, distances_.commit(start, next, state, load));
   std::swap(state.position, next);
   std::swap(last_warp_, warp_.multiplier);
-  return carriers_.any() ? std::max(heaviest, commitCarriers(state, load)) : heaviest;
+  return guide_ != nullptr ? std::max(heaviest, commitGuide(state, load)) : heaviest;
 }
 
 void Constraints::end(bool taken) noexcept {

@@ -9,10 +9,10 @@
 #include <algorithm>
 #include <vector>
 
-#include "solver/carriers.h"
 #include "solver/distance_rows.h"
 #include "solver/net_solver.h"
 #include "solver/node_inertia.h"
+#include "solver/solver_parts.h"
 #include "solver/substep.h"
 #include "solver/warp_solver.h"
 #include "solver/weft_links.h"
@@ -23,7 +23,7 @@ namespace curtain {
 class Constraints {
  public:
   /// tolerance  relative overlength that the links' compliance may reach. All arguments must outlive this.
-  Constraints(const ClothPattern& pattern, std::vector<RowPart*> parts, double tolerance, const NodeInertia& inertia,
+  Constraints(const ClothPattern& pattern, const SolverParts& parts, double tolerance, const NodeInertia& inertia,
               const Workers& workers);
   void expectContacts(std::size_t count);
   /// Forgets the tensions of the last substep.
@@ -34,9 +34,9 @@ class Constraints {
 
   // ---- Begin and end of a substep
 
-  /// Predicts, and warm-starts with the last substep's multipliers times ratio. state: at the start of the substep, of
-  /// h [s]. drives: parts do.
-  void begin(const SubstepStart& start, const ClothState& state, double h, double ratio, bool drives) noexcept;
+  /// Predicts, and warm-starts with the last substep's multipliers times ratio. state: at the start of the substep;
+  /// drives: parts do.
+  void begin(const SubstepStart& start, const ClothState& state, double ratio, bool drives) noexcept;
   /// Accepts the substep: sets velocities and loads (returns the largest load over its mass) and keeps the multipliers.
   /// bends: compute WarpMotion::bent.
   double commit(const SubstepStart& start, bool bends, ClothState& state, Field& load) noexcept;
@@ -67,8 +67,9 @@ class Constraints {
     distances_.takeMostGive(tolerance);
   }
 
-  Carriers& carriers() noexcept { return carriers_; }
-  const Carriers& carriers() const noexcept { return carriers_; }
+  /// null: all nodes are free or pinned.
+  GuidePart* guide() noexcept { return guide_; }
+  const GuidePart* guide() const noexcept { return guide_; }
   DistanceRows& distances() noexcept { return distances_; }
   const DistanceRows& distances() const noexcept { return distances_; }
 
@@ -109,8 +110,8 @@ class Constraints {
   /// One step of all taut strings and contacts. Moves the nodes; the rods are solved for next.
   void solveNet(const NetAim& aim, Contacts* contacts) noexcept;
 
-  /// After nodes were moved by others: carriers are where the rail lets them be.
-  void settleCarriers() noexcept;
+  /// After nodes were moved by others: guided ones are where their part lets them be.
+  void settleGuide() noexcept;
 
   /// Sum of the squared violations of links and contacts, in lengths of a link; rods_lack: violation assumed of every
   /// rod, where their solve has not converged. A damped step reduces it if it is short enough, while the largest
@@ -127,7 +128,7 @@ class Constraints {
 
   /// Projects the velocities on the constraints: no rod or pulling string changes its length, no pushing contact
   /// penetrates. Starts from `share` of the last substep's forces between nodes, so friction goes on and cloth at rest
-  /// is a fixed point. Carriers: after Carriers::beginRates().
+  /// is a fixed point. Guided nodes: after GuidePart::beginRates().
   void project(const Field3& position, const Contacts* contacts, double share, Field3& velocity) noexcept;
   /// Adds what links and contacts pulled by in the last substep, along their directions at these positions, times share
   /// and over the nodes' masses. Between substeps only.
@@ -156,6 +157,15 @@ class Constraints {
   void resume(const ClothState& state) noexcept;
 
  private:
+  // What acts on a node with the multipliers being solved for.
+  class ForceNow final : public NodeForce {
+   public:
+    explicit ForceNow(const Constraints& of) : of_(of) {}
+    Vec3 at(int row, int column) const noexcept override;
+
+   private:
+    const Constraints& of_;
+  };
   struct Iterate {
     Field3 position;
     Field warp, weft;
@@ -166,13 +176,14 @@ class Constraints {
   double measureStrings() noexcept;
   double loadStrings(Field& load) noexcept;
   void spreadForces(const LineSolve& warp, const LineSolve& weft, const Contacts* contacts, double share) noexcept;
-  Carriers* sliding() noexcept { return carriers_.slide() ? &carriers_ : nullptr; }
-  LineSolve rods() noexcept { return {pattern_, inertia_.inverse(), warp_, next, sliding()}; }
-  LineSolve wefts() noexcept { return {pattern_, inertia_.inverse(), weft_, next, sliding()}; }
+  // Nodes that are guided in this substep; null: none.
+  GuidedNodes* guided() noexcept { return guide_ != nullptr && guide_->moves() ? guide_ : nullptr; }
+  LineSolve rods() noexcept { return {pattern_, inertia_.inverse(), warp_, next, guided()}; }
+  LineSolve wefts() noexcept { return {pattern_, inertia_.inverse(), weft_, next, guided()}; }
   double takeUpStrings(double residual) noexcept;
   double takeUpTogether() noexcept;
-  void beginCarriers(const SubstepStart& start, const ClothState& state, double h) noexcept;
-  double commitCarriers(ClothState& state, const Field& load) noexcept;
+  void beginGuide(const SubstepStart& start, const ClothState& state) noexcept;
+  double commitGuide(ClothState& state, const Field& load) noexcept;
   Vec3 pullAt(int row, int column, const Field& warp, const Field& weft, bool strings) const noexcept;
   RowRange contactRows() const noexcept { return {rows_.data(), rows_.data() + contact_rows_}; }
   RowRange distanceRows() const noexcept { return {rows_.data() + contact_rows_, rows_.data() + rows_.size()}; }
@@ -187,16 +198,16 @@ class Constraints {
   const NodeInertia& inertia_;
   const Workers& workers_;
   NetSolver net_;
-  Carriers carriers_;
+  GuidePart* guide_;
   double middle_rest_;
   DistanceRows distances_;
   Rows rows_;                     // of contacts, then of distances_
   std::size_t contact_rows_ = 0;  // how many of them are of contacts
   Field rod_change_;              // of the rods' multipliers, with those of strings and distances_; with these only
   Field3 moved_;                  // by all of them [m]
-  Field3 top_force_;              // on the nodes of the top row but the links' [N]; with a rail only
-  double per_scale_ = 0;          // 1 / (h kick) [1/s^2]
-  int presses_ = 0;               // times that the rail's friction has been set in this substep
+  const Field3* other_force_ = nullptr;  // all but the links', in the substep being made [N]
+  double per_scale_ = 0;                 // 1 / (h kick) [1/s^2]
+  int presses_ = 0;                      // times that the guide was pressed in this substep
   LineScratch scratch_;
   LinkSet warp_, weft_;
   Field last_warp_, last_weft_;  // multipliers of the last accepted substep

@@ -35,7 +35,7 @@ Constraints::RodsProgress Constraints::solveRods(const RodsAim& aim) noexcept {
     all.converged = all.converged && block.converged;
     all.first_residual = std::max(all.first_residual, block.first_residual);
   }
-  settleCarriers();
+  settleGuide();
   return all;
 }
 
@@ -79,15 +79,15 @@ void Constraints::setWeftDirectionsAt(const Field3& position) noexcept {
 void Constraints::followDirections() noexcept {
   forEachBlock([&](int block) { setWarpDirections(pattern_.grid, block, next, warp_.direction); });
   setWeftDirectionsAt(next);
-  carriers_.followDirections();
-  net_.begin(next, inertia_.inverse(), sliding());
+  if (guide_ != nullptr) guide_->followDirections();
+  net_.begin(next, inertia_.inverse(), guided());
   directions_set_ = net_ready_ = true;
 }
 
 void Constraints::takeDirections(const Field3& start) noexcept {
   if (net_ready_) return;
   if (!directions_set_) setWeftDirectionsAt(start);
-  net_.begin(start, inertia_.inverse(), sliding());
+  net_.begin(start, inertia_.inverse(), guided());
   directions_set_ = net_ready_ = true;
 }
 
@@ -103,7 +103,7 @@ void Constraints::solveNet(const NetAim& aim, Contacts* contacts) noexcept {
              {aim.residual * middle_rest_, aim.damping, aim.enough, kGradientIterations, multiplier}, change_);
   const double share = distances_.any() ? takeUpTogether() : takeUpStrings(aim.residual);
   if (contacts != nullptr) takeUpContacts(inertia_.inverse(), contactRows(), share, *contacts, next);
-  settleCarriers();
+  settleGuide();
 }
 
 // Moves nodes by the changes of the strings, or by a share of them if they are large. Returns the share.

@@ -15,7 +15,7 @@ double Constraints::takeUpTogether() noexcept {
   const Field& inverse = inertia_.inverse();
   for (Field* axis : {&moved_.x, &moved_.y, &moved_.z}) std::fill(axis->begin(), axis->end(), 0.0);
   for (std::size_t n = 0; n < grid.size(); ++n) change_[n] = std::max(change_[n], -weft_.multiplier[n]);
-  const LineSolve weft{pattern_, inverse, weft_, moved_, sliding()};
+  const LineSolve weft{pattern_, inverse, weft_, moved_, guided()};
   for (int i = 0; i < grid.rows; ++i) pullWeft(weft, i, change_);
   net_.rodsAnswer(rows_, rod_change_);
   distances_.moveByRows(distanceRows(), inverse, moved_);

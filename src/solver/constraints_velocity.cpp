@@ -37,13 +37,13 @@ void Constraints::addPulls(const Field3& position, const Contacts* contacts, dou
 
 void Constraints::project(const Field3& position, const Contacts* contacts, double share, Field3& velocity) noexcept {
   setWarpDirections(pattern_.grid, position, warp_.direction);
-  Carriers* const sliding = carriers_.any() ? &carriers_ : nullptr;
-  const LineSolve warp{pattern_, inertia_.masses(), warp_, velocity, sliding};
-  const LineSolve weft{pattern_, inertia_.masses(), weft_, velocity, sliding};
+
+  const LineSolve warp{pattern_, inertia_.masses(), warp_, velocity, guide_};
+  const LineSolve weft{pattern_, inertia_.masses(), weft_, velocity, guide_};
   const bool presses = contacts != nullptr && anyPushes(*contacts);
   const bool alone = !stringsPull() && !presses;
   const auto settle = [&] {
-    if (sliding != nullptr) carriers_.settleRates(velocity);
+    if (guide_ != nullptr) guide_->settleRates(velocity);
   };
   const auto solveRods = [&] {
     forEachBlock([&](int block) { warpProjectVelocity(warp, scratch_, block); });
@@ -55,7 +55,7 @@ void Constraints::project(const Field3& position, const Contacts* contacts, doub
   settle();
   solveRods();
   if (alone) return;
-  net_.begin(position, inertia_.masses(), sliding);
+  net_.begin(position, inertia_.masses(), guide_);
   double first_rate = 0.0;
   for (int round = 0; round < (presses ? kContactRounds : kVelocityRounds); ++round) {
     double rate = worstOfRows([&](int i) { return measureWeftRates(weft, i, violation_, active_); });

@@ -174,6 +174,12 @@ void DistanceRows::spread(double share, const Field& inverse, Field3& value) con
   for (const DistanceRow& row : all_) move(row, share * row.last, inverse, value);
 }
 
+double DistanceRows::work(const Field3& before, const Field3& after, double per_h) const noexcept {
+  double sum = 0.0;
+  for (const RowPart* part : parts_) sum += part->work(before, after, per_h);
+  return sum;
+}
+
 double DistanceRows::stretch(const Field3& position) const noexcept {
   double longest = 0.0;
   for (const DistanceRow& row : all_) {

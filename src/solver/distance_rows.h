@@ -64,6 +64,8 @@ class DistanceRows {
   Vec3 presentPullAt(std::size_t node) const noexcept { return sumAt(node, &DistanceRow::multiplier); }
   /// Adds the pulls of the last substep times share to nodal values along the present directions.
   void spread(double share, const Field& inverse, Field3& value) const noexcept;
+  /// RowPart::work() of all parts [J].
+  double work(const Field3& before, const Field3& after, double per_h) const noexcept;
   /// Largest relative overlength of any that holds.
   double stretch(const Field3& position) const noexcept;
 

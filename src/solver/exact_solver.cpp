@@ -26,7 +26,7 @@ bool isFree(const ClothPattern& pattern) noexcept {
 
 }  // namespace
 
-ExactSolver::ExactSolver(const ClothPattern& pattern, std::vector<RowPart*> parts, double stretch_tolerance,
+ExactSolver::ExactSolver(const ClothPattern& pattern, const SolverParts& parts, double stretch_tolerance,
                          int max_sweeps, const Workers& workers)
     : pattern_(pattern),
       free_(isFree(pattern)),
@@ -34,7 +34,7 @@ ExactSolver::ExactSolver(const ClothPattern& pattern, std::vector<RowPart*> part
       smallest_rest_(shortestLink(pattern)),
       inertia_(pattern),
       bending_(pattern, workers),
-      constraints_(pattern, std::move(parts), kInnerTolerance * stretch_tolerance, inertia_, workers),
+      constraints_(pattern, parts, kInnerTolerance * stretch_tolerance, inertia_, workers),
       sweeps_(constraints_, inertia_, stretch_tolerance, stretch_tolerance * smallest_rest_, max_sweeps),
       guard_(pattern, inertia_, stretch_tolerance, constraints_.middleRest()),
       last_resort_(pattern, constraints_.distances()) {}
@@ -108,7 +108,7 @@ ExactSolver::Attempt ExactSolver::predict(const SubstepPlan& plan, const NodeFor
   const double ratio = !rules.follows && before != 0.0 ? scale / before : 0.0;
   const Scheme::Task task{plan, kick, forces, inertia_, bending_};
   const Attempt attempt{plan, forces, finder, state, clock, scheme, kick, ratio, scheme.start(task, state, outcome)};
-  constraints_.begin(attempt.start, state, plan.h, ratio, !plan.isLastResort());
+  constraints_.begin(attempt.start, state, ratio, !plan.isLastResort());
   clock.lap(Stage::kPredict);
   return attempt;
 }
@@ -145,7 +145,7 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const Attempt& attempt) noexce
   while (true) {
     if (contacts != nullptr) {
       beginContacts(inertia_.inverse(), std::abs(attempt.scale()), attempt.ratio, known, *contacts, constraints_.next);
-      constraints_.settleCarriers();
+      constraints_.settleGuide();
       known = contacts->size();
       if (known > 0 && task.path == 0.0) task.path = plan.h * std::sqrt(meanSquare(attempt.state.velocity));
     }
@@ -184,7 +184,7 @@ void ExactSolver::judge(const Attempt& attempt, Progress& progress, SubstepOutco
   const double touched =
       progress.contacts != nullptr ? fastestDrive(*progress.contacts, attempt.state.position, attempt.plan.h) : 0.0;
   const double surface = std::max(touched, constraints_.distances().speed());
-  const double drawn = constraints_.carriers().driveEnergy();
+  const double drawn = constraints_.guide() != nullptr ? constraints_.guide()->energy() : 0.0;
   if (progress.late || (last_resort && progress.alone())) {
     progress.most_kinetic = guard_.most(attempt.scheme.rules(), attempt.start, constraints_.next, surface, drawn);
   } else if (!last_resort && progress.settled && needsEnergyCheck(attempt, progress)) {
@@ -240,7 +240,7 @@ void ExactSolver::take(const Attempt& attempt, const Progress& progress, Substep
   if (fastest > 0.0) outcome.longest_step = kMostSurfaceMotion * smallest_rest_ / fastest;
   // Such a substep also moved links to their lengths, which is no motion: project the velocities.
   if ((progress.end != SweepEnd::kConverged || plan.isLastResort()) && !progress.late) {
-    constraints_.carriers().beginRates(state, 0.0, state.velocity);
+    if (constraints_.guide() != nullptr) constraints_.guide()->beginRates(state, 0.0, state.velocity);
     projectVelocity(state.position, progress.contacts, 0.0, state.velocity);
   }
 }
@@ -289,7 +289,7 @@ void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& f
     out.set(n, step.keep * state.velocity.at(n) + age * step.gain * w * force);
   }
   if (age == 0.0) return;
-  constraints_.carriers().beginRates(state, age, out);
+  if (constraints_.guide() != nullptr) constraints_.guide()->beginRates(state, age, out);
   const double most = guard_.most(out, contacts != nullptr ? fastestSurface(*contacts) : 0.0);
   projectVelocity(state.position, contacts, age / inertia_.tensions().scale, out);
   guard_.bound(most, out);
@@ -332,13 +332,13 @@ void ExactSolver::projectVelocity(const Field3& position, const Contacts* contac
 void ExactSolver::save(Memory& memory) const {
   constraints_.save(memory.constraints);
   memory.tensions = inertia_.tensions();
-  memory.carriers = constraints_.carriers().memory();
+  if (constraints_.guide() != nullptr) constraints_.guide()->save(memory.guide);
 }
 
 void ExactSolver::restore(const Memory& memory) {
   constraints_.restore(memory.constraints);
   inertia_.tensions() = memory.tensions;
-  constraints_.carriers().memory() = memory.carriers;
+  if (constraints_.guide() != nullptr) constraints_.guide()->restore(memory.guide);
   gained_ = {};
 }
 

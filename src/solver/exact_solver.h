@@ -19,10 +19,10 @@ namespace curtain {
 
 class ExactSolver {
  public:
-  /// parts              in the order of their rows; must outlive this
+  /// parts              must outlive this
   /// stretch_tolerance  relative overlength allowed to a link
   /// max_sweeps         bound of the sweeps in a substep
-  ExactSolver(const ClothPattern& pattern, std::vector<RowPart*> parts, double stretch_tolerance, int max_sweeps,
+  ExactSolver(const ClothPattern& pattern, const SolverParts& parts, double stretch_tolerance, int max_sweeps,
               const Workers& workers);
 
   /// Reserves room for so many contacts; more make a substep allocate.
@@ -87,9 +87,8 @@ class ExactSolver {
   /// The last substep's tensions and inertia.
   const NodeInertia& inertia() const noexcept { return inertia_; }
 
-  /// What slides on the rail.
-  Carriers& carriers() noexcept { return constraints_.carriers(); }
-  const Carriers& carriers() const noexcept { return constraints_.carriers(); }
+  /// The part of nodes that do not move freely; null: none.
+  const GuidePart* guide() const noexcept { return constraints_.guide(); }
 
   /// What parts bound.
   const DistanceRows& distances() const noexcept { return constraints_.distances(); }
@@ -101,7 +100,7 @@ class ExactSolver {
   struct Memory {
     Constraints::Memory constraints;
     NodeInertia::Tensions tensions;
-    Carriers::Memory carriers;
+    std::vector<double> guide;
 
     void carry(Archive& archive);
   };

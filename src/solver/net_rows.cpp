@@ -6,40 +6,16 @@
 
 namespace curtain {
 
-NetRows::Packed NetRows::pack(const Frame& frame, const Row& row) noexcept {
-  Packed packed{};
-  packed.nodes = row.nodes;
-  for (int k = 0; k < row.nodes; ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    packed.node[at] =
-        static_cast<std::uint32_t>(row.node[at] / frame.grid_stride * frame.stride + row.node[at] % frame.grid_stride);
-    packed.weight[at] = static_cast<float>(row.weight[at]);
-  }
+void NetRows::scale(const Frame& frame, const Row& row, Packed& packed) noexcept {
   packed.dx = static_cast<float>(row.direction.x());
   packed.dy = static_cast<float>(row.direction.y());
   packed.dz = static_cast<float>(row.direction.z());
   packed.on = row.active ? 1.0F : 0.0F;
   packed.damping = std::max(frame.damping, static_cast<float>(row.least_damping));
+  packed.per_diagonal = 1.0F / (packed.diagonal * (1.0F + packed.damping));
   packed.residual = static_cast<float>(row.violation / frame.violation_scale);
   packed.least = static_cast<float>(row.least * (frame.inertia_scale / frame.violation_scale));
-  return packed;
-}
-
-void NetRows::add(Packed row) {
-  if (!(row.diagonal > 0.0F)) return;  // no node of it can move
-  row.per_diagonal = 1.0F / (row.diagonal * (1.0F + row.damping));
-  aligned_ += row.aligned();
-  rows_.push_back(row);
-}
-
-void NetRows::Packed::push(float multiplier, NetNodes push) const noexcept {
-  for (int k = 0; k < nodes; ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    const float share = multiplier * weight[at];
-    push.x[node[at]] += share * dx;
-    push.y[node[at]] += share * dy;
-    push.z[node[at]] += share * dz;
-  }
+  aligned_ += packed.aligned();
 }
 
 void NetRows::turn(float beta, NetNodes push) noexcept {

@@ -20,8 +20,8 @@ class NetRows {
  public:
   /// Scaling and layout of NetSolver.
   struct Frame {
-    std::size_t grid_stride;
-    std::size_t stride;      ///< of NetSolver's rows
+    std::uint32_t grid_stride;
+    std::uint32_t stride;    ///< of NetSolver's rows
     double inertia_scale;    ///< [1/kg]
     double violation_scale;  ///< [m]
     float damping;           ///< Levenberg-Marquardt, over the diagonal
@@ -29,21 +29,27 @@ class NetRows {
 
   void reserve(std::size_t rows) { rows_.reserve(rows); }
 
-  /// Takes the rows that are active, and if the active set may change all others. mobility(row, node, direction): by
-  /// how much an impulse along it moves a node of this number in NetSolver along it, over the inertia scale.
-  template <typename Mobility>
-  void load(const Frame& frame, const Rows& rows, bool set_may_change, const Mobility& mobility) {
+  /// Takes the rows that are active, and if the active set may change all others. diagonal(row, nodes): by how much its
+  /// multiplier moves a row along itself, over the inertia scale; nodes: in NetSolver's numbering.
+  template <typename Diagonal>
+  void load(const Frame& frame, const Rows& rows, bool set_may_change, const Diagonal& diagonal) {
     rows_.clear();
     aligned_ = 0.0;
     for (std::uint32_t index = 0; index < rows.size(); ++index) {
-      if (!rows[index].active && !set_may_change) continue;
-      Packed packed = pack(frame, rows[index]);
+      const Row& row = rows[index];
+      if (!row.active && !set_may_change) continue;
+      Packed& packed = rows_.emplace_back();
       packed.index = index;
-      for (int k = 0; k < packed.nodes; ++k) {
-        const auto at = static_cast<std::size_t>(k);
-        packed.diagonal += packed.weight[at] * packed.weight[at] * mobility(rows[index], packed.node[at]);
+      packed.nodes = row.nodes;
+      for (std::size_t k = 0; k < static_cast<std::size_t>(row.nodes); ++k) {
+        packed.node[k] = row.node[k] / frame.grid_stride * frame.stride + row.node[k] % frame.grid_stride;
+        packed.weight[k] = static_cast<float>(row.weight[k]);
       }
-      add(packed);
+      packed.diagonal = diagonal(row, packed.node);
+      if (packed.diagonal > 0.0F)
+        scale(frame, row, packed);
+      else
+        rows_.pop_back();  // no node of it can move
     }
   }
   bool any() const noexcept { return !rows_.empty(); }
@@ -86,12 +92,18 @@ class NetRows {
     float residual, pull, product, solution;
     float least;  // lower bound of the solution
 
-    void push(float multiplier, NetNodes push) const noexcept;
+    void push(float multiplier, NetNodes push) const noexcept {
+      for (std::size_t k = 0; k < static_cast<std::size_t>(nodes); ++k) {
+        const float share = multiplier * weight[k];
+        push.x[node[k]] += share * dx;
+        push.y[node[k]] += share * dy;
+        push.z[node[k]] += share * dz;
+      }
+    }
     double aligned() const noexcept { return static_cast<double>(on * residual * residual * per_diagonal); }
   };
 
-  static Packed pack(const Frame& frame, const Row& row) noexcept;
-  void add(Packed row);
+  void scale(const Frame& frame, const Row& row, Packed& packed) noexcept;
 
   std::vector<Packed> rows_;
   double aligned_ = 0.0;

@@ -276,12 +276,19 @@ bool NetSolver::changeStrings(Real goal) noexcept {
 // A row's diagonal is its nodes' own mobility or, with_rods, what the rods leave of it: that of the Schur complement
 // itself. Where a row continues a taut column this is the other end's mobility alone, a small part of the node's.
 void NetSolver::loadRows(const Rows& rows, bool set_may_change) noexcept {
-  const NetRows::Frame frame{static_cast<std::size_t>(pattern_.grid.stride), stride_, inertia_scale_, violation_scale_,
-                             damping_};
+  const NetRows::Frame frame{static_cast<std::uint32_t>(pattern_.grid.stride), static_cast<std::uint32_t>(stride_),
+                             inertia_scale_, violation_scale_, damping_};
   const std::size_t ends = row(pattern_.grid.rows);
-  rows_.load(frame, rows, set_may_change, [&](const Row& one, std::uint32_t node) {
-    if (one.with_rods && node < ends) return static_cast<float>(mobilityOf(node, one.direction));
-    return weight_[node] * static_cast<float>(one.direction.squaredNorm());
+  rows_.load(frame, rows, set_may_change, [&](const Row& one, const std::array<std::uint32_t, 4>& node) {
+    const auto square = static_cast<float>(one.direction.squaredNorm());
+    float sum = 0.0F;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(one.nodes); ++k) {
+      const auto weight = static_cast<float>(one.weight[k]);
+      const bool held = one.with_rods && node[k] < ends;
+      const float mobility = held ? static_cast<float>(mobilityOf(node[k], one.direction)) : weight_[node[k]] * square;
+      sum += weight * weight * mobility;
+    }
+    return sum;
   });
 }
 

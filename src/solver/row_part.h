@@ -47,6 +47,9 @@ class RowPart {
   virtual void resume(const ClothState& state) noexcept = 0;
   /// How fast it drives nodes in this substep [m/s]; 0: it does not.
   virtual double speed() const noexcept { return 0.0; }
+  /// Work of what drives in the last substep, which took the velocities from `before` to `after` [J]; per_h: force over
+  /// multiplier, times the time that it acted for [1/s]. Rows of constant length do none.
+  virtual double work(const Field3& before, const Field3& after, double per_h) const noexcept = 0;
 };
 
 }  // namespace curtain

@@ -50,7 +50,7 @@ Sweeps::Residual Sweeps::look(Contacts* contacts, const Constraints::RodsProgres
   const bool touches = contacts != nullptr && !contacts->empty();
   if (touches && sweeps <= kFrictionSweeps) {
     projectFriction(inertia_.inverse(), *contacts, constraints_.next);
-    constraints_.settleCarriers();
+    constraints_.settleGuide();
   }
   if (touches) residual.touch = contactResidual(*contacts, constraints_.next);
   clock.lap(Stage::kContact);

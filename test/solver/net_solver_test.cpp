@@ -10,7 +10,7 @@
 #include <cmath>
 #include <random>
 
-#include "solver/carriers.h"
+#include "parts/rail/carriers.h"
 #include "solver/node_inertia.h"
 #include "solver/warp_solver.h"
 #include "solver/weft_links.h"
@@ -37,6 +37,7 @@ struct Net {
         carriers(pattern),
         guided(carriers.any() ? &carriers : nullptr),
         solver(pattern, workers) {
+    force.assign(pattern.grid.size(), 0.0);
     warp.assign(pattern.grid);
     weft.assign(pattern.grid);
     violation.assign(pattern.grid.size(), 0.0);
@@ -46,7 +47,7 @@ struct Net {
   void setDirections() {
     setWarpDirections(pattern.grid, state.position, warp.direction);
     for (int i = 0; i < pattern.grid.rows; ++i) setWeftDirections(pattern.grid, i, state.position, weft.direction);
-    if (carriers.any()) carriers.begin(state, state, inertia.masses(), 1.0, 1.0, 1.0);
+    if (carriers.any()) carriers.begin({state, force, nullptr, nullptr, 1.0, 1.0}, state, inertia.masses());
     solver.begin(state.position, inertia.masses(), guided);
   }
   void shake(double size, unsigned seed) { curtain_test::shake(pattern, size, seed, state.position); }
@@ -76,6 +77,7 @@ struct Net {
   Workers workers;
   NodeInertia inertia;
   Carriers carriers;
+  Field3 force;
   const GuidedNodes* guided;
   NetSolver solver;
   LinkSet warp, weft;

@@ -2,7 +2,7 @@
 //
 // What a rail does to its carriers: the convex problem of rail_law.h is solved exactly, and its parts are what they are
 // in mechanics.
-#include "solver/rail_law.h"
+#include "parts/rail/rail_law.h"
 
 #include <gtest/gtest.h>
 

@@ -109,6 +109,20 @@ void Cords::resume(const ClothState& state) noexcept {
   setHolds(pattern_.inverse_mass);
 }
 
+// Of loops that close.
+double Cords::work(const Field3& before, const Field3& after, double per_h) const noexcept {
+  double sum = 0.0;
+  for (const LoopPattern& loop : pattern_.cords.loops) {
+    const CordEnd& end = pattern_.cords.ends[loop.end];
+    for (std::size_t c = end.first; c < end.last; ++c) {
+      const DistanceRow& row = rows_[c];
+      const Vec3 first = before.at(row.node) - before.at(row.other), last = after.at(row.node) - after.at(row.other);
+      sum += per_h * row.last * row.direction.dot(0.5 * (first + last));
+    }
+  }
+  return sum;
+}
+
 void Cords::carry(Archive& archive) { archive.flags("closed", closed_); }
 
 }  // namespace curtain

@@ -36,6 +36,7 @@ class Cords final : public RowPart {
   void commit(const SubstepStart& start, const Field3& next, ClothState& state) noexcept override;
   void resume(const ClothState& state) noexcept override;
   double speed() const noexcept override { return closing_speed_; }
+  double work(const Field3& before, const Field3& after, double per_h) const noexcept override;
 
   /// Which loops are closed.
   void carry(Archive& archive);

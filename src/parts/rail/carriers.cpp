@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/carriers.h"
+#include "parts/rail/carriers.h"
 
 #include <cmath>
 #include <limits>
@@ -16,7 +16,7 @@ std::vector<std::size_t> nodesOf(const RailPattern& rail) { return {rail.columns
 }  // namespace
 
 Carriers::Carriers(const ClothPattern& pattern)
-    : GuidedNodes(pattern.grid, nodesOf(pattern.rail)),
+    : GuidePart(pattern.grid, nodesOf(pattern.rail)),
       pattern_(pattern),
       law_(pattern.rail.size(), pattern.rail.gap, pattern.rail.path.length()) {
   const RailPattern& rail = pattern.rail;
@@ -42,10 +42,10 @@ void Carriers::forget() noexcept {
   std::fill(memory_.drawn.begin(), memory_.drawn.end(), 0.0);
 }
 
-void Carriers::begin(const ClothState& state, const ClothState& start, const Field& inverse, double h, double step,
-                     double scale) noexcept {
-  step_ = step;
-  scale_ = scale;
+void Carriers::begin(const SubstepStart& substep, const ClothState& state, const Field& inverse) noexcept {
+  const ClothState& start = substep.state;
+  step_ = substep.h;
+  scale_ = substep.h * substep.kick;
   stands_ = false;
   for (std::size_t k = 0; k < all_.size(); ++k) {
     Carrier& carrier = all_[k];
@@ -66,13 +66,13 @@ void Carriers::begin(const ClothState& state, const ClothState& start, const Fie
   if (!drive_.draws) return;
   const std::vector<std::size_t>& masters = pattern_.rail.layout.masters();
   for (std::size_t m = 0; m < masters.size(); ++m) {
-    const double from = state.place[masters[m]], most = std::abs(drive_.speed * h);
-    rows_[masters[m]].drive = {from + std::clamp(drive_.goal[m] - from, -most, most), scale * drive_.force};
+    const double from = state.place[masters[m]], most = std::abs(drive_.speed * step_);
+    rows_[masters[m]].drive = {from + std::clamp(drive_.goal[m] - from, -most, most), scale_ * drive_.force};
   }
 }
 
 // The rail's reaction across itself carries what acts there and turns the carrier in its arc.
-void Carriers::press(std::size_t k, const Vec3& force) noexcept {
+void Carriers::bindFriction(std::size_t k, const Vec3& force) noexcept {
   if (pattern_.rail.fastened[k] != 0) return;
   const RailPath::Place at = pattern_.rail.path.at(rows_[k].place);
   const double speed = (rows_[k].place - all_[k].began) / step_;
@@ -88,6 +88,10 @@ void Carriers::setFreedom(std::size_t k) noexcept {
   const double moves = carrier.mobility > 0.0 ? 1.0 : 0.0;
   guided(k).freedom = moves * carrier.along * carrier.along.transpose();
   guided(k).newton = moves * carrier.now * carrier.along.transpose();
+}
+
+void Carriers::press(const NodeForce& force) noexcept {
+  for (std::size_t k = 0; k < all_.size(); ++k) bindFriction(k, force.at(0, all_[k].column));
 }
 
 void Carriers::put(std::size_t k, double place, Field3& position) noexcept {
@@ -158,11 +162,20 @@ double Carriers::driveForce() const noexcept {
 }
 
 // An impulse puts in itself times the mean speed; that of the drive is its multiplier over the step.
-double Carriers::driveEnergy() const noexcept {
+double Carriers::energy() const noexcept {
   double sum = 0.0;
   for (std::size_t k = 0; k < all_.size(); ++k) {
     const double made = (rows_[k].place - all_[k].began) / step_;
     sum += rows_[k].drawn / step_ * (all_[k].entered + made);
+  }
+  return sum;
+}
+
+double Carriers::work(const Field3& before, const Field3& after, double kick) const noexcept {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < all_.size(); ++k) {
+    const Vec3 mean = 0.5 * (before.at(node(all_[k])) + after.at(node(all_[k])));
+    sum += kick * memory_.drawn[k] * mean.dot(all_[k].now);
   }
   return sum;
 }
@@ -204,6 +217,23 @@ void Carriers::settleRates(Field3& velocity) noexcept {
       all_[k].speed = moment / mass;
       velocity.set(node(all_[k]), all_[k].speed * all_[k].now);
     }
+  }
+}
+
+void Carriers::save(std::vector<double>& memory) const {
+  memory.clear();
+  for (std::size_t k = 0; k < all_.size(); ++k) {
+    memory.insert(memory.end(), {memory_.stays[k] != 0 ? 1.0 : 0.0, memory_.joins[k] != 0 ? 1.0 : 0.0, memory_.force[k],
+                                 memory_.drawn[k]});
+  }
+}
+
+void Carriers::restore(const std::vector<double>& memory) noexcept {
+  for (std::size_t k = 0; k < all_.size(); ++k) {
+    memory_.stays[k] = memory[4 * k] != 0.0 ? 1 : 0;
+    memory_.joins[k] = memory[4 * k + 1] != 0.0 ? 1 : 0;
+    memory_.force[k] = memory[4 * k + 2];
+    memory_.drawn[k] = memory[4 * k + 3];
   }
 }
 

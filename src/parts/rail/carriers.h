@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "cloth/cloth.h"
-#include "solver/guided_nodes.h"
-#include "solver/rail_law.h"
+#include "parts/rail/rail_law.h"
+#include "solver/guide_part.h"
 
 namespace curtain {
 
@@ -40,14 +40,12 @@ struct Carrier {
 };
 
 /// Not thread-safe; blocks of columns may settle() in parallel. Allocates only in the constructor.
-class Carriers : public GuidedNodes {
+class Carriers final : public GuidePart {
  public:
   /// pattern must outlive this.
   explicit Carriers(const ClothPattern& pattern);
 
   bool any() const noexcept { return !pattern_.rail.empty(); }
-  /// In this substep they may move.
-  bool slide() const noexcept { return any() && !stands_; }
   const std::vector<Carrier>& all() const noexcept { return all_; }
   std::size_t node(const Carrier& carrier) const noexcept { return static_cast<std::size_t>(carrier.column); }
 
@@ -56,36 +54,28 @@ class Carriers : public GuidedNodes {
   void setDrive(const RailDrive& drive) { drive_ = drive; }
   const RailDrive& drive() const noexcept { return drive_; }
 
-  /// Begins a substep of h [s] from `start`: as `state` is, or a scheme's combination of states, `step` [s] before the
-  /// end. inverse: inertia; scale: step times kick [s^2].
-  void begin(const ClothState& state, const ClothState& start, const Field& inverse, double h, double step,
-             double scale) noexcept;
+  void begin(const SubstepStart& start, const ClothState& state, const Field& inverse) noexcept override;
+  bool moves() const noexcept override { return any() && !stands_; }
   /// Each by itself, without the law.
   void settlePositions(int first, int end, Field3& position) noexcept override;
   /// After loops over all nodes: all together. True: a mobility has changed.
-  bool settle(Field3& position) noexcept;
-  /// Sets the bound of friction from what acts on each carrier now: force(column), of links and all else [N].
-  template <typename Force>
-  void press(const Force& force) noexcept {
-    for (std::size_t k = 0; k < all_.size(); ++k) press(k, force(all_[k].column));
-  }
-  /// Directions follow the present positions.
-  void followDirections() noexcept;
-
-  /// Accepts the substep: sets places and velocities.
-  void commit(ClothState& state) noexcept;
+  bool settle(Field3& position) noexcept override;
+  /// Sets the bound of friction.
+  void press(const NodeForce& force) noexcept override;
+  void followDirections() noexcept override;
+  void commit(ClothState& state) noexcept override;
   /// Force of the drive on all masters in the last substep [N]; 0: none draws.
   double driveForce() const noexcept;
-  /// Twice the work of the drive in the substep being made [J].
-  double driveEnergy() const noexcept;
+  double energy() const noexcept override;
+  double work(const Field3& before, const Field3& after, double kick) const noexcept override;
 
   // ---- Velocities at the places of the last accepted substep
 
   /// Velocities [m/s] that forces have changed for `age` [s]: as the rail lets them; before: without the change.
-  void beginRates(const ClothState& state, double age, Field3& velocity) noexcept;
+  void beginRates(const ClothState& state, double age, Field3& velocity) noexcept override;
   void settleVelocities(int first, int end, Field3& velocity) noexcept override;
   /// Those that push each other move as one.
-  void settleRates(Field3& velocity) noexcept;
+  void settleRates(Field3& velocity) noexcept override;
 
   /// What a substep leaves to the next.
   struct Memory {
@@ -98,7 +88,9 @@ class Carriers : public GuidedNodes {
   };
   Memory& memory() noexcept { return memory_; }
   const Memory& memory() const noexcept { return memory_; }
-  void forget() noexcept;
+  void save(std::vector<double>& memory) const override;
+  void restore(const std::vector<double>& memory) noexcept override;
+  void forget() noexcept override;
 
  private:
   const Carrier* from(int column) const noexcept {
@@ -107,7 +99,7 @@ class Carriers : public GuidedNodes {
   }
   void put(std::size_t k, double place, Field3& position) noexcept;
   void setFreedom(std::size_t k) noexcept;
-  void press(std::size_t k, const Vec3& force) noexcept;
+  void bindFriction(std::size_t k, const Vec3& force) noexcept;
 
   const ClothPattern& pattern_;
   std::vector<Carrier> all_;

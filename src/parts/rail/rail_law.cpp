@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/rail_law.h"
+#include "parts/rail/rail_law.h"
 
 #include <algorithm>
 #include <cmath>

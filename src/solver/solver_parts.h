@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "solver/guide_part.h"
+#include "solver/row_part.h"
+
+namespace curtain {
+
+/// What constrains the cloth beside rods, strings and contacts. They must outlive the solver.
+struct SolverParts {
+  GuidePart* guide = nullptr;  ///< null: all nodes are free or pinned
+  std::vector<RowPart*> rows;  ///< in the order of their rows
+};
+
+}  // namespace curtain
