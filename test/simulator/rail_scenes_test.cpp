@@ -176,7 +176,9 @@ TEST(HospitalRail, MovesAlikeWithAnyNumberOfThreads) {
   }
 }
 
-// Every scheme that knows carriers gets the curtain open, on the rail.
+// Every scheme that knows carriers gets the curtain open, on the rail. With twice the scene's drive: 20 N are so little
+// for what implicit's cloth of so few columns resists with that masses changed by 1e-9 decide whether it arrives (27 of
+// 60 did not).
 TEST(HospitalRail, OpensByEveryMethod) {
   for (const char* method : {"leapfrog", "leapfrog4", "implicit"}) {
     SCOPED_TRACE(method);
@@ -184,6 +186,7 @@ TEST(HospitalRail, OpensByEveryMethod) {
     scene.cloth.rows = 12;
     scene.cloth.columns = 25;
     scene.solver.method = *methodFromName(method);
+    scene.rail.drive.force = 40.0;
     Simulator simulator(scene);
     ASSERT_TRUE(simulator.setOpening(1.0).empty());
     for (int frame = 0; frame < 800; ++frame) simulator.step();
