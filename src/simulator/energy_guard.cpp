@@ -51,7 +51,7 @@ double EnergyGuard::energyWithoutLinks() const noexcept {
     if (motion_.pattern.pinned[n] != kPinned) kinetic += 0.5 * m * (state.velocity.at(n) + fall).squaredNorm();
     potential -= m * motion_.scene.gravity.dot(state.position.at(n));
   }
-  potential += motion_.exact.bendingEnergy(*motion_.forces.last().force, state.position);
+  potential += motion_.exact.elasticEnergy(*motion_.forces.last().force, state.position);
   return kinetic + potential;
 }
 

@@ -43,7 +43,7 @@ void EnergyLedger::addPins(const Field3& velocity, const ExactSolver& links, dou
 
 void EnergyLedger::end(const ClothState& state, const NodeForces& forces, const Contacts* contacts,
                        const ExactSolver* links, double h, const SubstepOutcome& outcome) noexcept {
-  addForces(state.velocity, forces, links != nullptr ? links->forcesWithBending() : nullptr, outcome.kick);
+  addForces(state.velocity, forces, links != nullptr ? links->forcesWithElastic() : nullptr, outcome.kick);
   const double per_h = outcome.scale != 0.0 ? outcome.kick / outcome.scale : 1.0 / h;
   if (links != nullptr) addPins(state.velocity, *links, per_h);
   if (links != nullptr) work_.drive += links->distances().work(before_, state.velocity, per_h);

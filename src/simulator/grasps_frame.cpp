@@ -96,7 +96,7 @@ void Grasps::count(const ClothState& state, const NodeForces& forces, const Exac
 void Grasps::countPinned(Grasp& grasp, const ClothState& state, const NodeForces& forces, const ExactSolver& links,
                          double scale) noexcept {
   const auto stride = static_cast<std::size_t>(pattern_.grid.stride);
-  const Field3& others = links.forcesWithBending() != nullptr ? *links.forcesWithBending() : *forces.force;
+  const Field3& others = links.forcesWithElastic() != nullptr ? *links.forcesWithElastic() : *forces.force;
   const Vec3 origin = grasp.origin(part_.end);
   for (const HeldNode& held : grasp.held) {
     const std::size_t n = held.node;

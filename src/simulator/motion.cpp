@@ -18,10 +18,11 @@ Motion::Motion(const Scene& scene_, const ClothPattern& pattern_, const FrameTim
       workers(threadsFor(scene.solver.threads, pattern.grid.nodeCount())),
       contact(pattern, scene.contact, obstacles, scene.solver.stretch_tolerance, workers),
       lag(pattern, times, obstacles, contact),
+      bending(pattern, workers),
       carriers(pattern),
       cords(pattern),
-      exact(pattern, {carriers.any() ? &carriers : nullptr, {&cords}}, scene.solver.stretch_tolerance,
-            scene.solver.max_sweeps, workers),
+      exact(pattern, {bending.any() ? &bending : nullptr, carriers.any() ? &carriers : nullptr, {&cords}},
+            scene.solver.stretch_tolerance, scene.solver.max_sweeps, workers),
       paper(pattern),
       ledger(pattern) {
   exact.expectContacts(contact.capacity());
@@ -132,7 +133,7 @@ Energy Motion::energy() {
     energy.potential -= pattern.mass[n] * scene.gravity.dot(state.position.at(n));
   }
   double elastic = 0.0;
-  exact.bendingAt(state.position, elastic);
+  exact.elasticAt(state.position, elastic);
   energy.potential += elastic;
   return energy;
 }

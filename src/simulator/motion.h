@@ -5,6 +5,7 @@
 
 #include "contact/cloth_contact.h"
 #include "curtain_sim/statistics.h"
+#include "parts/bending/bending.h"
 #include "parts/cords/cords.h"
 #include "parts/rail/carriers.h"
 #include "simulator/energy_ledger.h"
@@ -68,7 +69,9 @@ struct Motion {
   Workers workers;
   ClothContact contact;
   ObstacleLag lag;
+  Bending bending;
   Carriers carriers;
+
   Cords cords;
 
   ExactSolver exact;

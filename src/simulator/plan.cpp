@@ -107,7 +107,7 @@ void planSolver(const Motion& motion, const Budget& budget, Plan& plan) {
   const std::string substeps =
       solver.substeps > 0 ? std::to_string(solver.substeps) + " substeps a frame" : "substeps from the tensions";
   plan.push_back({"warp", true, toString(solver.method) + ", " + substeps});
-  const Bending& bending = motion.exact.bending();
+  const Bending& bending = motion.bending;
   const char* const bends = bending.gives() ? "where lines are stiffer than the substeps bear, nodes give way"
                                             : "explicit: substeps bear all of its stiffness";
   plan.push_back({"bending", bending.any(), bending.any() ? bends : "bending_warp and bending_weft are 0"});

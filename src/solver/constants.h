@@ -134,11 +134,6 @@ constexpr double kStablePhase = 1.9;
 // bound, and they are steep in energy: where it has to be bounded, velocities are lost, and what is left to a substep,
 // x' = (1 - (h omega)^2) x, is stable below sqrt(2) only. With 1 a load of 25 times the cloth's mass shook.
 constexpr double kShareWithCords = 0.73;
-// What bending may take of h^2 omega^2 where tensions take all that they may: up to leapfrog's limit of 4.
-constexpr double kLeastForBending = 4.0 - kStablePhase * kStablePhase;
-// The same where links follow, which then take none. There bending acts where the step leads to, which is stable below
-// 4 / 3; at 1 a line that gives way takes backward Euler's step.
-constexpr double kBackwardLimit = 1.0;
 // h * turning rate that substeps are chosen for where only rods act and the motion is smooth. Leapfrog's error is about
 // (h * turning)^2 / 24 of the displacement: 1 mm in 5 m at 0.07. Chains of 2 m then end a second's fall with 0.2 to 0.9
 // mm (RMS) for any number of rods. The cost of smooth motion is inversely proportional to it.

@@ -33,7 +33,7 @@ ExactSolver::ExactSolver(const ClothPattern& pattern, const SolverParts& parts, 
       stretch_tolerance_(stretch_tolerance),
       smallest_rest_(shortestLink(pattern)),
       inertia_(pattern),
-      bending_(pattern, workers),
+      elastic_(parts.elastic),
       constraints_(pattern, parts, kInnerTolerance * stretch_tolerance, inertia_, workers),
       sweeps_(constraints_, inertia_, stretch_tolerance, stretch_tolerance * smallest_rest_, max_sweeps),
       guard_(pattern, inertia_, stretch_tolerance, constraints_.middleRest()),
@@ -55,7 +55,7 @@ void ExactSolver::reset() noexcept {
 void ExactSolver::takePins() noexcept {
   free_ = isFree(pattern_);
   inertia_.takePins();
-  bending_.takePins();
+  if (elastic_ != nullptr) elastic_->takePins();
   constraints_.takePins();
   guard_.takePins();
 }
@@ -102,11 +102,11 @@ ExactSolver::Attempt ExactSolver::predict(const SubstepPlan& plan, const NodeFor
   const double scale = plan.h * kick;
   inertia_.letSlide(!plan.isLastResort());
   inertia_.set(forces, kick, scale, plan.most_phase, rules.backward);
-  bending_.begin(inertia_, inertia_.inverse(), scale, !rules.follows);
+  if (elastic_ != nullptr) elastic_->begin(inertia_, inertia_.inverse(), scale, !rules.follows);
   // Warm start only along fixed directions: with present directions old tensions diverge where rods have turned much.
   const double before = inertia_.tensions().scale;
   const double ratio = !rules.follows && before != 0.0 ? scale / before : 0.0;
-  const Scheme::Task task{plan, kick, forces, inertia_, bending_};
+  const Scheme::Task task{plan, kick, forces, inertia_, elastic_};
   const Attempt attempt{plan, forces, finder, state, clock, scheme, kick, ratio, scheme.start(task, state, outcome)};
   constraints_.begin(attempt.start, state, ratio, !plan.isLastResort());
   clock.lap(Stage::kPredict);
@@ -281,11 +281,11 @@ void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& f
                                     Field3& out) noexcept {
   const double age = state.velocity_age;
   double elastic = 0.0;
-  const Field3* const bending = bendingAt(state.position, elastic);
+  const Field3* const stiff = elasticAt(state.position, elastic);
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     const double w = inertia_.masses()[n];
     const DampedStep step = forces.has_damping ? dampedStep(forces.damping[n], w, age) : DampedStep{1.0, 1.0};
-    const Vec3 force = bending != nullptr ? Vec3(forces.force->at(n) + bending->at(n)) : forces.force->at(n);
+    const Vec3 force = stiff != nullptr ? Vec3(forces.force->at(n) + stiff->at(n)) : forces.force->at(n);
     out.set(n, step.keep * state.velocity.at(n) + age * step.gain * w * force);
   }
   if (age == 0.0) return;
@@ -296,11 +296,11 @@ void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& f
 }
 
 // From what a snapshot holds, so that it is the same after it.
-const Field3* ExactSolver::bendingAt(const Field3& position, double& energy) noexcept {
+const Field3* ExactSolver::elasticAt(const Field3& position, double& energy) noexcept {
   energy = 0.0;
-  if (!bending_.any()) return nullptr;
-  bending_.begin(inertia_, inertia_.masses(), inertia_.tensions().scale, true);
-  return &bending_.forceAt(position, energy);
+  if (elastic_ == nullptr) return nullptr;
+  elastic_->begin(inertia_, inertia_.masses(), inertia_.tensions().scale, true);
+  return &elastic_->forceAt(position, energy);
 }
 
 void ExactSolver::copyPulls(const ClothState& state, const Contacts* contacts, Field3& out) noexcept {
@@ -308,9 +308,9 @@ void ExactSolver::copyPulls(const ClothState& state, const Contacts* contacts, F
   const double scale = inertia_.tensions().scale;
   if (scale != 0.0) constraints_.addPulls(state.position, contacts, 1.0 / scale, out);
   double elastic = 0.0;
-  const Field3* const bending = bendingAt(state.position, elastic);
-  for (std::size_t n = 0; bending != nullptr && n < pattern_.grid.size(); ++n) {
-    out.add(n, inertia_.masses()[n] * bending->at(n));
+  const Field3* const stiff = elasticAt(state.position, elastic);
+  for (std::size_t n = 0; stiff != nullptr && n < pattern_.grid.size(); ++n) {
+    out.add(n, inertia_.masses()[n] * stiff->at(n));
   }
 }
 

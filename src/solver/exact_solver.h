@@ -7,7 +7,6 @@
 
 #include <limits>
 
-#include "solver/bending.h"
 #include "solver/constraints.h"
 #include "solver/kinetic_guard.h"
 #include "solver/schemes/implicit.h"
@@ -58,17 +57,15 @@ class ExactSolver {
     return scale != 0.0 ? row.last * row.length / scale : 0.0;
   }
 
-  /// As the last substep, or question, saw it.
-  const Bending& bending() const noexcept { return bending_; }
-  /// Forces of the last substep with those of bending [N]; null: limp cloth.
-  const Field3* forcesWithBending() const noexcept { return bending_.any() ? &bending_.sum() : nullptr; }
+  /// Forces of the last substep with elastic ones [N]; null: limp cloth.
+  const Field3* forcesWithElastic() const noexcept { return elastic_ != nullptr ? &elastic_->sum() : nullptr; }
   /// Elastic energy after a substep with these forces, as leapfrog keeps it with that of motion [J].
-  double bendingEnergy(const Field3& outer, const Field3& position) const noexcept {
-    return bending_.any() ? bending_.energyAfter(outer, position) : 0.0;
+  double elasticEnergy(const Field3& outer, const Field3& position) const noexcept {
+    return elastic_ != nullptr ? elastic_->energyAfter(outer, position) : 0.0;
   }
-  /// Force of bending at these positions [N], and its elastic energy [J], as a substep like the last one sees them;
+  /// Elastic force at these positions [N], and its energy [J], as a substep like the last one sees them;
   /// null and 0: limp cloth.
-  const Field3* bendingAt(const Field3& position, double& energy) noexcept;
+  const Field3* elasticAt(const Field3& position, double& energy) noexcept;
 
   /// Velocities at the time of the positions (leapfrog keeps them half a substep behind): advanced by the forces and
   /// projected on the constraints. contacts: of the last substep, or null.
@@ -157,7 +154,7 @@ class ExactSolver {
   double stretch_tolerance_;  // the user's, relative
   double smallest_rest_;      // of a link [m]
   NodeInertia inertia_;
-  Bending bending_;
+  ElasticPart* elastic_;  // null: limp cloth
   Constraints constraints_;
   Sweeps sweeps_;
   KineticGuard guard_;

@@ -3,11 +3,11 @@
 // What distinguishes the exact schemes: where a substep starts, how long forces act in it, and along which directions
 // links pull. The solve is the same for all. One file a scheme in schemes/.
 //
-// Bending acts at the positions that a substep starts from, or, where the links follow, at those it would lead to
-// without links and bending.
+// Elastic forces act at the positions that a substep starts from, or, where the links follow, at those it would lead to
+// without links and them.
 #pragma once
 
-#include "solver/bending.h"
+#include "solver/elastic_part.h"
 #include "solver/node_inertia.h"
 #include "solver/substep.h"
 #include "solver/warp_solver.h"
@@ -33,7 +33,7 @@ class Scheme {
     double kick;  ///< [s]
     const NodeForces& forces;
     const NodeInertia& inertia;  ///< set for it
-    Bending& bending;            ///< begun for it
+    ElasticPart* elastic;        ///< begun for it; null: limp cloth
   };
   /// Start of the substep. Momentum that is not taken along is added to the outcome.
   virtual SubstepStart start(const Task& task, const ClothState& state, SubstepOutcome& outcome) noexcept {
@@ -43,7 +43,7 @@ class Scheme {
 
  protected:
   SubstepStart startFrom(const ClothState& base, const Task& task) const noexcept {
-    const bool falls = task.forces.weight_only && task.inertia.massesAlone() && !task.bending.any();
+    const bool falls = task.forces.weight_only && task.inertia.massesAlone() && task.elastic == nullptr;
     return {base,       forceFrom(base, task), falls ? &task.forces.gravity : nullptr, task.inertia.keep(), task.kick,
             task.plan.h};
   }
@@ -51,10 +51,10 @@ class Scheme {
   /// All forces but those of links and damping, of a substep from here.
   const Field3& forceFrom(const ClothState& base, const Task& task) const noexcept {
     const Field3& outer = *task.forces.force;
-    if (!task.bending.any()) return outer;
-    if (!rules_.follows) return task.bending.addTo(outer, base.position);
-    return task.bending.addAhead({base, outer, nullptr, task.inertia.keep(), task.kick, task.plan.h},
-                                 task.inertia.inverse());
+    if (task.elastic == nullptr) return outer;
+    if (!rules_.follows) return task.elastic->addTo(outer, base.position);
+    return task.elastic->addAhead({base, outer, nullptr, task.inertia.keep(), task.kick, task.plan.h},
+                                  task.inertia.inverse());
   }
 
  private:

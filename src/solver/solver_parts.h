@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "solver/elastic_part.h"
 #include "solver/guide_part.h"
 #include "solver/row_part.h"
 
@@ -10,8 +11,9 @@ namespace curtain {
 
 /// What constrains the cloth beside rods, strings and contacts. They must outlive the solver.
 struct SolverParts {
-  GuidePart* guide = nullptr;  ///< null: all nodes are free or pinned
-  std::vector<RowPart*> rows;  ///< in the order of their rows
+  ElasticPart* elastic = nullptr;  ///< null: limp cloth
+  GuidePart* guide = nullptr;      ///< null: all nodes are free or pinned
+  std::vector<RowPart*> rows;      ///< in the order of their rows
 };
 
 }  // namespace curtain

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Lines that resist bending against the same written out with dense matrices: A = K (1 + D K)^-1, K = C^T k C.
-#include "solver/bending.h"
+#include "parts/bending/bending.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/bending_lines.h"
+#include "parts/bending/bending_lines.h"
 #include "testing.h"
 
 namespace curtain {

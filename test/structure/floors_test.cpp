@@ -44,7 +44,7 @@ const Rooms kContactRooms = {{"shapes", 0}, {"narrow_phase", 1}, {"oracle", 1}, 
 const Rooms kRosRooms = {{"parameters", 0}, {"time", 0},      {"frames", 0},   {"inputs", 1},  {"obstacles", 1},
                          {"outputs", 1},    {"snapshots", 1}, {"watch", 1},    {"opening", 2}, {"hands", 2},
                          {"sensors", 2},    {"health", 2},    {"services", 2}, {"tuning", 3}};
-const Rooms kPartsRooms = {{"cords", 0}, {"rail", 0}};
+const Rooms kPartsRooms = {{"bending", 0}, {"cords", 0}, {"rail", 0}};
 constexpr int kAboveRooms = 4;
 constexpr int kRos = 7;
 constexpr int kPrograms = 8;

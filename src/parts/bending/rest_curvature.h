@@ -9,7 +9,7 @@
 // what it exerts across leave no net force and no net torque.
 #pragma once
 
-#include "solver/bending_lines.h"
+#include "parts/bending/bending_lines.h"
 
 namespace curtain {
 

@@ -12,44 +12,33 @@
 // unfiltered: at rest, lines that are stiffer than the step bears are softer over lengths of (B scale / density)^(1/4).
 #pragma once
 
-#include "solver/bending_lines.h"
-#include "solver/node_inertia.h"
-#include "solver/rest_curvature.h"
-#include "solver/warp_solver.h"
+#include "parts/bending/bending_lines.h"
+#include "parts/bending/rest_curvature.h"
+#include "solver/elastic_part.h"
 #include "solver/workers.h"
 
 namespace curtain {
 
 /// Not thread-safe. Allocates only in the constructor, and nothing for limp cloth.
-class Bending {
+class Bending final : public ElasticPart {
  public:
   /// All arguments must outlive this.
   Bending(const ClothPattern& pattern, const Workers& workers);
 
   bool any() const noexcept { return warp_.bend() || weft_.bend(); }
-  /// The pattern's pins have changed.
-  void takePins() noexcept;
+  void takePins() noexcept override;
 
   /// After begin(): lines are stiffer than the step bears.
   bool gives() const noexcept { return gives_; }
 
-  /// What a substep bears: |scale| = h * kick [s^2], inverse inertia [1/kg]. explicit_links: links pull along their
-  /// directions at the start of the step, and their tensions take a part.
-  void begin(const NodeInertia& inertia, const Field& inverse, double scale, bool explicit_links) noexcept;
-
-  /// The force and that of bending at these positions [N]; valid until the next call of one of these.
-  const Field3& addTo(const Field3& force, const Field3& position) noexcept;
-  /// The same where a substep leads to with this force and without links. inverse: inertia of the substep [1/kg].
-  const Field3& addAhead(const SubstepStart& start, const Field& inverse) noexcept;
-  /// That of bending alone. energy: elastic energy, as the steps after begin() see it [J].
-  const Field3& forceAt(const Field3& position, double& energy) noexcept;
-  /// What the last of them returned.
-  const Field3& sum() const noexcept { return sum_; }
+  void begin(const NodeInertia& inertia, const Field& inverse, double scale, bool explicit_links) noexcept override;
+  const Field3& addTo(const Field3& force, const Field3& position) noexcept override;
+  const Field3& addAhead(const SubstepStart& start, const Field& inverse) noexcept override;
+  const Field3& forceAt(const Field3& position, double& energy) noexcept override;
+  const Field3& sum() const noexcept override { return sum_; }
   /// What it spared of the links on the left of the nodes [N], see addShears().
   const Field3& spared() const noexcept { return shears_.spared; }
-  /// Elastic energy that leapfrog keeps with that of motion [J]: after addTo(outer, ...) moved the cloth to `position`,
-  /// x_n A x_(n-1) / 2 beside the velocities between them.
-  double energyAfter(const Field3& outer, const Field3& position) const noexcept;
+  double energyAfter(const Field3& outer, const Field3& position) const noexcept override;
 
  private:
   void setGive(const NodeInertia& inertia, const Field& inverse, double scale, double per_load, double limit) noexcept;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What is constant of the lines, and their forces where no node gives way.
-#include "solver/bending_lines.h"
+#include "parts/bending/bending_lines.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 // 1/k + C D C^T (L D L^T without pivoting, which positive definite matrices do not need). It couples a joint with the
 // next two. Of a closed line the last two joints are a border that is eliminated last.
 #include "cloth/wide.h"
-#include "solver/bending_lines.h"
+#include "parts/bending/bending_lines.h"
 
 namespace curtain {
 namespace {

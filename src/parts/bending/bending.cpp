@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/bending.h"
+#include "parts/bending/bending.h"
 
 #include <algorithm>
 #include <array>
@@ -11,6 +11,12 @@
 
 namespace curtain {
 namespace {
+
+// What bending may take of h^2 omega^2 where tensions take all that they may: up to leapfrog's limit of 4.
+constexpr double kLeastForBending = 4.0 - kStablePhase * kStablePhase;
+// The same where links follow, which then take none. There bending acts where the step leads to, which is stable below
+// 4 / 3; at 1 a line that gives way takes backward Euler's step.
+constexpr double kBackwardLimit = 1.0;
 
 double stiffestOf(const ClothPattern& pattern, const BendingLines& warp, const BendingLines& weft) {
   double stiffest = 0.0;

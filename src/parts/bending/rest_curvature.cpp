@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/rest_curvature.h"
+#include "parts/bending/rest_curvature.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "cloth/wide.h"
-#include "solver/bending_lines.h"
+#include "parts/bending/bending_lines.h"
 
 namespace curtain {
 namespace {
