@@ -46,8 +46,8 @@ void writeCheckpoint(const std::string& path, const RunIdentity& run, const curt
 /// another run or build; then nothing changed.
 bool readCheckpoint(const std::string& path, const RunIdentity& run, curtain::Simulator& simulator, Progress& progress);
 
-/// Removes what a run that was killed between naming a new checkpoint and renaming it has left beside the file. Only
-/// one run at a time may keep its checkpoints there.
+/// Removes what a run that was killed between naming a new file and renaming it has left beside the file. Only one run
+/// at a time may write it.
 void removeLeftovers(const std::string& path);
 
 }  // namespace curtain_batch

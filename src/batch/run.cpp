@@ -20,7 +20,9 @@ class Run {
     if (keepsCheckpoints()) {
       identity_ = identityOf(options, simulator);
       resumed_ = readCheckpoint(options.checkpoint, identity_, simulator, progress_);
-      removeLeftovers(options.checkpoint);
+      for (const std::string& file : {options.checkpoint, options.mesh, options.stats, options.save}) {
+        if (!file.empty()) removeLeftovers(file);
+      }
     }
     progress_.frame_seconds.reserve(std::min<std::size_t>(framesIn(options.duration), 1000000));
     if (options.out.empty()) return;

@@ -137,12 +137,14 @@ TEST_F(Checkpoints, OfARestoredRunAreItsOwn) {
 }
 
 TEST_F(Checkpoints, TakeAwayWhatAKilledRunHasLeftAndNothingElse) {
-  std::ofstream(path("kept.ck.tmp-123-0")) << "half";
+  for (const char* half : {"kept.ck.tmp-123-0", "kept.ply.tmp-123-6", "kept.json.tmp-123-7"})
+    std::ofstream(path(half)) << "half";
   std::ofstream(path("kept.ck.tmp-notes")) << "somebody's";
   std::filesystem::create_directories(path("kept.ck.tmp-1-2/full"));
   const Outcome run = batch(kept("kept"));
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_FALSE(std::filesystem::exists(path("kept.ck.tmp-123-0")));
+  for (const char* half : {"kept.ck.tmp-123-0", "kept.ply.tmp-123-6", "kept.json.tmp-123-7"})
+    EXPECT_FALSE(std::filesystem::exists(path(half))) << half;
   EXPECT_TRUE(std::filesystem::exists(path("kept.ck.tmp-notes")));
   EXPECT_TRUE(std::filesystem::exists(path("kept.ck.tmp-1-2/full")));
 }
