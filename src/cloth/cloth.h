@@ -20,8 +20,8 @@ class Archive;
 /// What a node of ClothPattern::pinned is.
 enum : std::uint8_t {
   kFree = 0,
-  kPinned = 1,   ///< its position is prescribed
-  kCarrier = 2,  ///< it slides on the rail: a pin that moves, for all but the solver
+  kPinned = 1,  ///< its position is prescribed
+  kGuided = 2,  ///< a part of the solver says where it may be: a pin that moves, for all others
 };
 
 /// Carriers of the cloth, which are nodes of the top row, in their order on the rail; none: there is no rail.
@@ -48,6 +48,7 @@ struct ClothPattern {
   Field mass;             ///< [kg], with its carrier's; padding: 0
   Field inverse_mass;     ///< [1/kg]; pinned, carriers and padding: 0
   std::vector<std::uint8_t> pinned;
+  std::vector<std::size_t> guided;  ///< nodes that are kGuided, in order
   RailPattern rail;
   CordsPattern cords;
   /// Bending stiffness of the warp line through the node, and of the weft line [N m]: E = k (1 - cos(turn)) for the

@@ -141,7 +141,8 @@ void fillRail(const Scene& scene, ClothPattern& pattern) {
   for (const int column : rail.columns) {
     const std::size_t node = pattern.grid.index(0, column);
     rail.fastened.push_back(pattern.pinned[node]);
-    pattern.pinned[node] = kCarrier;
+    pattern.pinned[node] = kGuided;
+    pattern.guided.push_back(node);
     pattern.mass[node] += scene.rail.carriers.mass;
     pattern.inverse_mass[node] = 0.0;
   }

@@ -27,14 +27,14 @@ struct Drag {
 };
 
 // A row of nodes.
-struct Row {
+struct NodeRow {
   const double *inverse_mass, *area;
   ConstFieldView area_vector, wind, velocity, pull;
   FieldView force;
 };
 
 template <bool kBackward>
-CURTAIN_INTO_WIDE void addRow(int columns, const Row row, const Drag drag) {
+CURTAIN_INTO_WIDE void addRow(int columns, const NodeRow row, const Drag drag) {
   const auto& [inverse_mass, areas, area_vector, wind, velocity, pull, force] = row;
   const double kick = drag.kick, pulled = drag.kick * drag.pulls;
 #pragma omp simd
@@ -66,10 +66,12 @@ CURTAIN_INTO_WIDE void addRow(int columns, const Row row, const Drag drag) {
   }
 }
 
-CURTAIN_WIDE void addMiddle(int columns, const Row& row, const Drag& drag) noexcept {
+CURTAIN_WIDE void addMiddle(int columns, const NodeRow& row, const Drag& drag) noexcept {
   addRow<false>(columns, row, drag);
 }
-CURTAIN_WIDE void addEnd(int columns, const Row& row, const Drag& drag) noexcept { addRow<true>(columns, row, drag); }
+CURTAIN_WIDE void addEnd(int columns, const NodeRow& row, const Drag& drag) noexcept {
+  addRow<true>(columns, row, drag);
+}
 
 }  // namespace
 
@@ -98,13 +100,13 @@ void RelativeAir::addForces(const ClothPattern& pattern, const Field3& area_vect
   for (int i = 0; i < grid.rows; ++i) {
     const std::size_t row = grid.row(i);
     const ConstFieldView pull(ahead.pull != nullptr ? *ahead.pull : wind, row);  // read unconditionally
-    const Row nodes{pattern.inverse_mass.data() + row,
-                    pattern.area.data() + row,
-                    {area_vectors, row},
-                    {wind, row},
-                    {velocity, row},
-                    pull,
-                    {force, row}};
+    const NodeRow nodes{pattern.inverse_mass.data() + row,
+                        pattern.area.data() + row,
+                        {area_vectors, row},
+                        {wind, row},
+                        {velocity, row},
+                        pull,
+                        {force, row}};
     (ahead.backward ? addEnd : addMiddle)(grid.columns, nodes, drag);
   }
 }

@@ -12,7 +12,7 @@ void EnergyLedger::addForces(const Field3& velocity, const NodeForces& forces, c
                              double kick) noexcept {
   double kinetic = 0.0, weight = 0.0, others = 0.0, bending = 0.0;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    if (pattern_.inverse_mass[n] <= 0.0 && pattern_.pinned[n] != kCarrier) continue;
+    if (pattern_.inverse_mass[n] <= 0.0 && pattern_.pinned[n] != kGuided) continue;
     const Vec3 mean = 0.5 * (before_.at(n) + velocity.at(n));
     kinetic += pattern_.mass[n] * mean.dot(velocity.at(n) - before_.at(n));
     const Vec3 own = pattern_.mass[n] * forces.gravity;

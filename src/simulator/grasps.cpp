@@ -75,7 +75,7 @@ void Grasps::listNodes(const GraspParams& grasp, std::vector<std::size_t>& nodes
           {key, node + " is held already, by '" + list_[static_cast<std::size_t>(hand_[n])].params.id + "'"});
     else if (scene_pins_[n] == kPinned)
       problems.push_back({key, node + " is pinned by the scene"});
-    else if (scene_pins_[n] == kCarrier)
+    else if (scene_pins_[n] == kGuided)
       problems.push_back({key, node + " hangs on the rail"});
     nodes.push_back(n);
   }

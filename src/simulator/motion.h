@@ -5,6 +5,7 @@
 
 #include "contact/cloth_contact.h"
 #include "curtain_sim/statistics.h"
+#include "methods/paper/paper_solver.h"
 #include "parts/bending/bending.h"
 #include "parts/cords/cords.h"
 #include "parts/rail/carriers.h"
@@ -13,7 +14,6 @@
 #include "simulator/grasps.h"
 #include "simulator/obstacle_lag.h"
 #include "solver/exact_solver.h"
-#include "solver/schemes/paper_solver.h"
 
 namespace curtain {
 

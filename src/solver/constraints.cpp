@@ -89,11 +89,11 @@ void Constraints::begin(const SubstepStart& start, const ClothState& state, doub
   settleGuide();
 }
 
-double Constraints::commit(const SubstepStart& start, bool bends, ClothState& state, Field& load) noexcept {
+double Constraints::commit(const SubstepStart& start, bool tells_turning, ClothState& state, Field& load) noexcept {
   const LineSolve warp = rods();
   forEachBlock([&](int block) {
     block_motion_[static_cast<std::size_t>(block)] =
-        warpFinish(warp, start.state.position, 1.0 / start.h, bends, state.velocity, load, block);
+        warpFinish(warp, start.state.position, 1.0 / start.h, tells_turning, state.velocity, load, block);
   });
   double heaviest = 0.0;
   for (const WarpMotion& block : block_motion_) heaviest = std::max(heaviest, block.heaviest);
@@ -135,9 +135,9 @@ CURTAIN_WIDE double Constraints::loadStrings(Field& loads) noexcept {
   return worst;
 }
 
-double Constraints::bent() const noexcept {
+double Constraints::turning() const noexcept {
   double sum = 0.0;
-  for (const WarpMotion& block : block_motion_) sum += block.bent;
+  for (const WarpMotion& block : block_motion_) sum += block.turning;
   return sum;
 }
 

@@ -38,8 +38,8 @@ class Constraints {
   /// drives: parts do.
   void begin(const SubstepStart& start, const ClothState& state, double ratio, bool drives) noexcept;
   /// Accepts the substep: sets velocities and loads (returns the largest load over its mass) and keeps the multipliers.
-  /// bends: compute WarpMotion::bent.
-  double commit(const SubstepStart& start, bool bends, ClothState& state, Field& load) noexcept;
+  /// tells_turning: compute WarpMotion::turning.
+  double commit(const SubstepStart& start, bool tells_turning, ClothState& state, Field& load) noexcept;
   /// Ends the substep, accepted or not.
   void end(bool taken) noexcept;
 
@@ -47,8 +47,8 @@ class Constraints {
   bool stringsPull() const noexcept { return weft_pulls_ || distances_.pulls(); }
   /// A string pulls now, or directions were set because one was too long.
   bool stringsAct() const noexcept { return directions_set_; }
-  /// Sum over the rods of their relative change of velocity in the last substep [1/s^2] (WarpMotion::bent).
-  double bent() const noexcept;
+  /// Sum over the rods of their relative change of velocity in the last substep [1/s^2] (WarpMotion::turning).
+  double turning() const noexcept;
   /// Tensions in the last substep [N] of the rod above a node and of the link to its left; a rod that pushes has a
   /// negative one. scale: of that substep, h * kick [s^2]; 0: there was none.
   struct LinkTensions {

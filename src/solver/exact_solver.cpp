@@ -100,7 +100,7 @@ ExactSolver::Attempt ExactSolver::predict(const SubstepPlan& plan, const NodeFor
   const Scheme::Rules& rules = scheme.rules();
   const double kick = state.velocity_age + (1.0 - rules.age) * plan.h;
   const double scale = plan.h * kick;
-  inertia_.letSlide(!plan.isLastResort());
+  inertia_.setGuided(!plan.isLastResort());
   inertia_.set(forces, kick, scale, plan.most_phase, rules.backward);
   if (elastic_ != nullptr) elastic_->begin(inertia_, inertia_.inverse(), scale, !rules.follows);
   // Warm start only along fixed directions: with present directions old tensions diverge where rods have turned much.
@@ -248,7 +248,7 @@ void ExactSolver::take(const Attempt& attempt, const Progress& progress, Substep
 // How fast the rods change their motion [1/s]: sqrt(|a_b - a_a| / l), RMS over all rods, which is the rate of turn
 // where that is steady. The forces acted for `kick` [s] in the last substep.
 double ExactSolver::turning(double kick) const noexcept {
-  return std::sqrt(std::sqrt(constraints_.bent() / ((pattern_.grid.rows - 1) * pattern_.grid.columns)) /
+  return std::sqrt(std::sqrt(constraints_.turning() / ((pattern_.grid.rows - 1) * pattern_.grid.columns)) /
                    std::abs(kick));
 }
 

@@ -35,7 +35,7 @@ class KineticGuard {
   /// after the prediction with the last substep's multipliers.
   static bool isSmall(double predicted_violation) noexcept;
   /// Checks a solved substep. surface: largest speed that contacts drive points with [m/s]; 0: no contact, or at rest.
-  /// drawn: twice what a rail's drive put in [J].
+  /// drawn: twice what a guide's drive put in [J].
   Finding look(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end, double surface,
                double drawn = 0.0) const noexcept;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The rows of contacts and cords in NetSolver's conjugate gradients. Those with a lower bound only pull, like the
+// The further rows of NetSolver's conjugate gradients. Those with a lower bound only pull, like the
 // weft's strings, and which of them take part is found during the solve. Preconditioned, and damped, by the diagonal;
 // what couples them is left to the gradients. Single precision, like all of NetSolver.
 #pragma once

@@ -19,17 +19,14 @@ double freeMass(const ClothPattern& pattern, const Field& inverse_mass) {
   return sum;
 }
 
-void fillWithCarriers(const ClothPattern& pattern, Field& inverse) {
+void fillWithGuided(const ClothPattern& pattern, Field& inverse) {
   inverse = pattern.inverse_mass;
-  for (const int column : pattern.rail.columns) {
-    const std::size_t n = pattern.grid.index(0, column);
-    inverse[n] = 1.0 / pattern.mass[n];
-  }
+  for (const std::size_t n : pattern.guided) inverse[n] = 1.0 / pattern.mass[n];
 }
 
-Field withCarriers(const ClothPattern& pattern) {
+Field withGuided(const ClothPattern& pattern) {
   Field inverse;
-  if (!pattern.rail.empty()) fillWithCarriers(pattern, inverse);
+  if (!pattern.guided.empty()) fillWithGuided(pattern, inverse);
   return inverse;
 }
 
@@ -37,8 +34,8 @@ Field withCarriers(const ClothPattern& pattern) {
 
 NodeInertia::NodeInertia(const ClothPattern& pattern)
     : pattern_(pattern),
-      sliding_(withCarriers(pattern)),
-      masses_(sliding_.empty() ? &pattern.inverse_mass : &sliding_),
+      guided_(withGuided(pattern)),
+      masses_(guided_.empty() ? &pattern.inverse_mass : &guided_),
       free_mass_(freeMass(pattern, *masses_)),
       changed_(*masses_),
       keep_(pattern.grid.size(), 1.0),
@@ -47,7 +44,7 @@ NodeInertia::NodeInertia(const ClothPattern& pattern)
 }
 
 void NodeInertia::takePins() noexcept {
-  if (!sliding_.empty()) fillWithCarriers(pattern_, sliding_);
+  if (!guided_.empty()) fillWithGuided(pattern_, guided_);
   inverse_ = masses_;
   free_mass_ = freeMass(pattern_, *masses_);
 }
@@ -58,9 +55,9 @@ double NodeInertia::heaviest() const noexcept {
   return worst;
 }
 
-void NodeInertia::letSlide(bool slide) noexcept {
-  if (sliding_.empty()) return;
-  inverse_ = masses_ = slide ? &sliding_ : &pattern_.inverse_mass;
+void NodeInertia::setGuided(bool move) noexcept {
+  if (guided_.empty()) return;
+  inverse_ = masses_ = move ? &guided_ : &pattern_.inverse_mass;
 }
 
 void NodeInertia::forget() noexcept {

@@ -21,8 +21,8 @@ class NodeInertia {
   void takePins() noexcept;
   /// Largest of the last substep's loads over its mass, by the present pins.
   double heaviest() const noexcept;
-  /// Whether carriers slide from now on, or have no inverse inertia either.
-  void letSlide(bool slide) noexcept;
+  /// Guided nodes move from now on; false: they have no inverse inertia either.
+  void setGuided(bool move) noexcept;
 
   const Field& inverse() const noexcept { return *inverse_; }  ///< [1/kg]
   const Field& masses() const noexcept { return *masses_; }    ///< without damping and mass scaling [1/kg]
@@ -51,8 +51,8 @@ class NodeInertia {
   double addedMass(double per_load) const noexcept;
 
   const ClothPattern& pattern_;
-  Field sliding_;        // the pattern's inverse masses, and those of its carriers [1/kg]; empty: no rail
-  const Field* masses_;  // the pattern's, or sliding_
+  Field guided_;         // the pattern's inverse masses, and those of guided nodes [1/kg]; empty: there are none
+  const Field* masses_;  // the pattern's, or guided_
   double free_mass_;     // [kg]
   Field changed_, keep_;
   const Field* inverse_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What constrains the cloth beside its rods and strings: a few nodes, along a direction. Contacts and cords make rows
-// for NetSolver, which knows of neither, and take up what it has found.
+// What constrains the cloth beside its rods and strings: a few nodes, along a direction. Contacts and bounded
+// distances make rows for NetSolver, which knows of neither, and take up what it has found.
 #pragma once
 
 #include <array>

@@ -46,7 +46,7 @@ StepControl::StepControl(const SolverParams& params, const ClothPattern& pattern
 }
 
 double StepControl::phaseShare(const ClothPattern& pattern) noexcept {
-  return pattern.cords.empty() ? 1.0 : kShareWithCords;
+  return pattern.grid.end_rows == 0 ? 1.0 : kShareWithEnds;
 }
 
 void StepControl::reset() noexcept {

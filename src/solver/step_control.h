@@ -18,7 +18,7 @@ class StepControl {
 
   void reset() noexcept;
 
-  /// Share of the h * omega of cloth without cords that steps are chosen for.
+  /// Share of the h * omega of cloth without ends beside it that steps are chosen for.
   static double phaseShare(const ClothPattern& pattern) noexcept;
   void takeGravity(const ClothPattern& pattern, const Vec3& gravity) noexcept;
   /// Sets the length of the next frames [s]. To be called between two frames.

@@ -268,13 +268,13 @@ CURTAIN_WIDE void warpBegin(const SubstepStart& start, const LineSolve& line, co
   hangHem(line, grid.row(grid.rows - 1) + offset);
 }
 
-template <bool kBends>
+template <bool kTurning>
 CURTAIN_INTO_WIDE WarpMotion finishBlock(const LineSolve& line, const Field3& from, double per_step, Field3& velocity,
                                          Field& load, int block) {
   const Grid& grid = line.pattern.grid;
   const auto stride = static_cast<std::size_t>(grid.stride);
   Worst worst;
-  double bent[kLane] = {};                                               // by column
+  double turning[kLane] = {};                                            // by column
   double above_x[kLane] = {}, above_y[kLane] = {}, above_z[kLane] = {};  // change of velocity in the row above
   for (int i = 0; i < grid.rows; ++i) {
     const std::size_t first = grid.row(i) + static_cast<std::size_t>(block) * kLane;
@@ -290,10 +290,10 @@ CURTAIN_INTO_WIDE WarpMotion finishBlock(const LineSolve& line, const Field3& fr
     for (int j = 0; j < kLane; ++j) {
       const double vx = (to.x[j] - at.x[j]) * per_step, vy = (to.y[j] - at.y[j]) * per_step,
                    vz = (to.z[j] - at.z[j]) * per_step;
-      if (kBends) {
+      if (kTurning) {
         const double ax = vx - v.x[j], ay = vy - v.y[j], az = vz - v.z[j];
         const double rx = ax - above_x[j], ry = ay - above_y[j], rz = az - above_z[j];
-        bent[j] += rods * per_square[j] * (rx * rx + ry * ry + rz * rz);
+        turning[j] += rods * per_square[j] * (rx * rx + ry * ry + rz * rz);
         above_x[j] = ax;
         above_y[j] = ay;
         above_z[j] = az;
@@ -307,14 +307,14 @@ CURTAIN_INTO_WIDE WarpMotion finishBlock(const LineSolve& line, const Field3& fr
     }
   }
   WarpMotion motion{worst.outcome().residual, 0.0};
-  for (const double column : bent) motion.bent += column;
+  for (const double column : turning) motion.turning += column;
   return motion;
 }
 
-CURTAIN_WIDE WarpMotion warpFinish(const LineSolve& line, const Field3& from, double per_step, bool bends,
+CURTAIN_WIDE WarpMotion warpFinish(const LineSolve& line, const Field3& from, double per_step, bool tells_turning,
                                    Field3& velocity, Field& load, int block) noexcept {
-  return bends ? finishBlock<true>(line, from, per_step, velocity, load, block)
-               : finishBlock<false>(line, from, per_step, velocity, load, block);
+  return tells_turning ? finishBlock<true>(line, from, per_step, velocity, load, block)
+                       : finishBlock<false>(line, from, per_step, velocity, load, block);
 }
 
 CURTAIN_WIDE void applyWarpMultipliers(const LineSolve& line, int block) noexcept {

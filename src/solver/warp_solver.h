@@ -33,12 +33,12 @@ void warpBegin(const SubstepStart& start, const LineSolve& line, const Field& la
 /// Motion of a block in a substep.
 struct WarpMotion {
   double heaviest = 0.0;  ///< the largest load of a node over its mass [1]
-  double bent = 0.0;      ///< sum over the rods of |change of (v_b - v_a)|^2 / l^2 [1/s^2]
+  double turning = 0.0;   ///< sum over the rods of |change of (v_b - v_a)|^2 / l^2 [1/s^2]
 };
 
 /// Sets the velocities of a block's nodes, from `from` to line.value, and their loads: sum of |multiplier| of their
-/// rods [kg]. bends: compute WarpMotion::bent.
-WarpMotion warpFinish(const LineSolve& line, const Field3& from, double per_step, bool bends, Field3& velocity,
+/// rods [kg]. tells_turning: compute WarpMotion::turning.
+WarpMotion warpFinish(const LineSolve& line, const Field3& from, double per_step, bool tells_turning, Field3& velocity,
                       Field& load, int block) noexcept;
 
 /// Moves a block's nodes by the present multipliers.

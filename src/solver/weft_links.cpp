@@ -208,11 +208,11 @@ CURTAIN_WIDE double weftStretch(const ClothPattern& pattern, const Field3& posit
     }
     if (grid.closed) longest = std::max(longest, square(columns - 1, 0));
   }
-  for (std::size_t k = 1; k < pattern.rail.size(); ++k) {  // carriers at both ends
-    const auto left = static_cast<std::size_t>(pattern.rail.columns[k - 1]), right = left + 1;
-    if (pattern.rail.columns[k] != pattern.rail.columns[k - 1] + 1) continue;
-    const double square = (position.at(right) - position.at(left)).squaredNorm() * pattern.weft_per_square[right];
-    longest = std::max(longest, square);
+  for (std::size_t k = 1; k < pattern.guided.size(); ++k) {  // guided at both ends
+    const std::size_t left = pattern.guided[k - 1], right = left + 1;
+    if (pattern.guided[k] != right) continue;
+    longest =
+        std::max(longest, (position.at(right) - position.at(left)).squaredNorm() * pattern.weft_per_square[right]);
   }
   return std::sqrt(longest) - 1.0;
 }

@@ -2,7 +2,7 @@
 //
 // What the paper's scheme promises, whatever it is given: rods that keep their length, momentum, energy that is bounded
 // at any step, and pins that move evenly. Whole scenes: test/simulator/paper_test.cpp.
-#include "solver/schemes/paper_solver.h"
+#include "methods/paper/paper_solver.h"
 
 #include <gtest/gtest.h>
 

@@ -45,8 +45,7 @@ SubstepStart LastResort::start(const Task& task, const ClothState& state, Subste
     base_.velocity.set(
         n, w[n] > 0.0 ? Vec3((keep != nullptr ? (*keep)[n] : 1.0) * v + task.kick * w[n] * force.at(n)) : v);
   }
-  for (const int column : pattern_.rail.columns)  // they stand still
-    base_.velocity.set(static_cast<std::size_t>(column), Vec3::Zero());
+  for (const std::size_t n : pattern_.guided) base_.velocity.set(n, Vec3::Zero());  // they stand still
   outcome.momentum_cut += cut(base_.position, w, task.plan.h, task.plan.reach, base_.velocity);
   return {base_, no_force_, nullptr, nullptr, task.kick, task.plan.h};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/schemes/paper_solver.h"
+#include "methods/paper/paper_solver.h"
 
 #include <algorithm>
 #include <cmath>
