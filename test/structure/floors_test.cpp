@@ -213,9 +213,10 @@ TEST(Floors, RoomsHaveAnOrder) {
   EXPECT_GT(checkRooms("parts", kPartsRooms, true), 0);
 }
 
-// Words of its identifiers: mostScaled_limit has most, scaled and limit.
-std::set<std::string> wordsOf(const std::string& line) {
+// Words of its identifiers: mostScaled_limit has most, scaled and limit. Those of a comment do not count.
+std::set<std::string> wordsOf(const std::string& whole) {
   std::set<std::string> words;
+  const std::string line = whole.substr(0, whole.find("//"));
   const std::regex word("[A-Z]?[a-z]+");
   for (auto at = std::sregex_iterator(line.begin(), line.end(), word); at != std::sregex_iterator(); ++at) {
     std::string one = at->str();
@@ -227,7 +228,7 @@ std::set<std::string> wordsOf(const std::string& line) {
 
 // A part is added without a change to the solver, so the solver can't speak of it.
 TEST(Floors, TheSolverNamesNoPart) {
-  EXPECT_EQ(wordsOf("kMost scaled_limit"), (std::set<std::string>{"k", "limit", "most", "scaled"}));
+  EXPECT_EQ(wordsOf("kMost scaled_limit  // by hand"), (std::set<std::string>{"k", "limit", "most", "scaled"}));
   const std::set<std::string> parts = {"bend",  "bends", "bending", "carrier", "carriers", "cord",
                                        "cords", "grasp", "grasps",  "hand",    "hands",    "pad",
                                        "pads",  "rail",  "slit",    "slits",   "tie",      "ties"};
