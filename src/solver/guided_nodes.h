@@ -32,10 +32,8 @@ class GuidedNodes {
   }
   /// The guided node of a row and a column; null: it is none.
   const GuidedNode* at(int row, int column) const noexcept {
-    if (!inRow(row)) return nullptr;
-    const std::size_t node = static_cast<std::size_t>(row) * stride_ + static_cast<std::size_t>(column);
-    const auto found = from(node);
-    return found != nodes_.end() && found->node == node ? &*found : nullptr;
+    const int index = index_[static_cast<std::size_t>(row) * stride_ + static_cast<std::size_t>(column)];
+    return index < 0 ? nullptr : &nodes_[static_cast<std::size_t>(index)];
   }
   /// Calls act(guided node, column) for those of a row in columns [first, end).
   template <typename Act>
@@ -61,8 +59,13 @@ class GuidedNodes {
  protected:
   /// nodes: sorted.
   GuidedNodes(const Grid& grid, const std::vector<std::size_t>& nodes)
-      : stride_(static_cast<std::size_t>(grid.stride)), nodes_(nodes.size()) {
-    for (std::size_t k = 0; k < nodes.size(); ++k) nodes_[k].node = nodes[k];
+      : stride_(static_cast<std::size_t>(grid.stride)),
+        nodes_(nodes.size()),
+        index_(nodes.empty() ? 0 : grid.size(), -1) {
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      nodes_[k].node = nodes[k];
+      index_[nodes[k]] = static_cast<int>(k);
+    }
     for (int row = 0; row <= grid.rows; ++row)
       first_.push_back(static_cast<std::size_t>(from(grid.row(row)) - nodes_.begin()));
     for (int row = 0; row < grid.rows; ++row) {
@@ -80,6 +83,7 @@ class GuidedNodes {
 
   std::size_t stride_;
   std::vector<GuidedNode> nodes_;
+  std::vector<int> index_;          // by node of the fields; -1: it is free, or pinned
   std::vector<std::size_t> first_;  // of each row, and the end
   std::vector<int> rows_;           // that have some
 };
