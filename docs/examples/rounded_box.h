@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "contact/shapes/box.h"
+#include "obstacles/box.h"
 
 namespace curtain {
 

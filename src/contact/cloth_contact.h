@@ -15,8 +15,8 @@
 #include "contact/response/impact_zones.h"
 #include "contact/response/obstacle_contacts.h"
 #include "contact/response/self_contacts.h"
-#include "contact/shapes/obstacle_set.h"
-#include "solver/substep.h"
+#include "obstacles/obstacle_set.h"
+#include "step/substep.h"
 
 namespace curtain {
 

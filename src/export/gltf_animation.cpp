@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "contact/shapes/corner_normals.h"
+#include "obstacles/corner_normals.h"
 
 namespace curtain {
 namespace {

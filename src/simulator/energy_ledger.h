@@ -13,8 +13,8 @@
 #include "cloth/cloth.h"
 #include "contact/cloth_contact.h"
 #include "curtain_sim/statistics.h"
-#include "solver/exact_solver.h"
-#include "solver/substep.h"
+#include "step/exact_solver.h"
+#include "step/substep.h"
 
 namespace curtain {
 

@@ -16,7 +16,7 @@
 #include "scene/find_by_id.h"
 #include "simulator/grasps.h"
 #include "simulator/wind_shadow.h"
-#include "solver/substep.h"
+#include "step/substep.h"
 
 namespace curtain {
 

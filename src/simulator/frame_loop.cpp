@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulator/frame_loop.h"
 
-#include "solver/schemes/composition.h"
+#include "step/schemes/composition.h"
 
 namespace curtain {
 namespace {

@@ -17,7 +17,7 @@
 #include "curtain_sim/grasp.h"
 #include "forces/hold_springs.h"
 #include "simulator/pin_moves.h"
-#include "solver/exact_solver.h"
+#include "step/exact_solver.h"
 
 namespace curtain {
 

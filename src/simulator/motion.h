@@ -13,7 +13,7 @@
 #include "simulator/force_field.h"
 #include "simulator/grasps.h"
 #include "simulator/obstacle_lag.h"
-#include "solver/exact_solver.h"
+#include "step/exact_solver.h"
 
 namespace curtain {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Moves of pinned nodes, evenly over a frame. One that did not arrive follows in the next frames, no faster than
-// followingSpeed() (contact/shapes/obstacle_set.h). Between two frames a node that is held has the velocity that it
+// followingSpeed() (obstacles/obstacle_set.h). Between two frames a node that is held has the velocity that it
 // moved with, the others none.
 #pragma once
 

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "cloth/cloth.h"
-#include "contact/shapes/obstacle_set.h"
+#include "obstacles/obstacle_set.h"
 
 namespace curtain {
 

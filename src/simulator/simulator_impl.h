@@ -8,15 +8,15 @@
 #include <optional>
 
 #include "curtain_sim/simulator.h"
+#include "simulator/accuracy/error_control.h"
 #include "simulator/energy_guard.h"
-#include "simulator/error_control.h"
-#include "simulator/fine_surface.h"
 #include "simulator/frame_loop.h"
 #include "simulator/frame_times.h"
 #include "simulator/motion.h"
 #include "simulator/opening.h"
 #include "simulator/pin_moves.h"
 #include "simulator/sleep.h"
+#include "surface/fine_surface.h"
 
 namespace curtain {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/step_control.h"
+#include "step/step_control.h"
 
 namespace curtain {
 

@@ -13,8 +13,8 @@
 
 #include <vector>
 
-#include "contact/shapes/obstacle_set.h"
 #include "forces/wind_source.h"
+#include "obstacles/obstacle_set.h"
 
 namespace curtain {
 

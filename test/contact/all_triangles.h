@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "contact/shapes/triangle_mesh.h"
+#include "obstacles/triangle_mesh.h"
 #include "testing.h"
 
 namespace curtain_test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Normals for drawing: boxes keep their edges, round shapes look round.
-#include "contact/shapes/corner_normals.h"
+#include "obstacles/corner_normals.h"
 
 #include <gtest/gtest.h>
 

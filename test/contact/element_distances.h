@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/shapes/triangle_mesh_tree.h"
+#include "obstacles/triangle_mesh_tree.h"
 
 namespace curtain_test {
 

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "contact/shapes/obstacle_set.h"
 #include "curtain_sim/simulator.h"
+#include "obstacles/obstacle_set.h"
 #include "testing.h"
 
 namespace curtain {

@@ -11,7 +11,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "contact/shapes/mesh_loader.h"
+#include "obstacles/mesh_loader.h"
 
 namespace {
 

@@ -13,7 +13,7 @@
 
 #include "contact/bumpy_sphere.h"
 #include "contact/narrow_phase/closest_points.h"
-#include "contact/shapes/triangle_mesh.h"
+#include "obstacles/triangle_mesh.h"
 #include "testing.h"
 
 namespace curtain {

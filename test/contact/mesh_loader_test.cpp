@@ -3,7 +3,7 @@
 // Mesh files become shapes in metres, whatever their format, unit and winding; a file that cannot is refused with one
 // sentence naming obstacle, file and reason. The files in test/meshes are cubes of edge 1 around the origin unless
 // their name says otherwise.
-#include "contact/shapes/mesh_loader.h"
+#include "obstacles/mesh_loader.h"
 
 #include <gtest/gtest.h>
 
@@ -15,8 +15,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "contact/shapes/shapes.h"
-#include "contact/shapes/triangle_mesh.h"
+#include "obstacles/shapes.h"
+#include "obstacles/triangle_mesh.h"
 
 namespace curtain {
 namespace {

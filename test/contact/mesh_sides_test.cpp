@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "contact/all_triangles.h"
-#include "contact/shapes/shapes.h"
+#include "obstacles/shapes.h"
 
 namespace curtain {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "contact/all_triangles.h"
 #include "contact/bumpy_sphere.h"
-#include "contact/shapes/shapes.h"
-#include "contact/shapes/triangle_mesh.h"
+#include "obstacles/shapes.h"
+#include "obstacles/triangle_mesh.h"
 #include "testing.h"
 
 namespace curtain {

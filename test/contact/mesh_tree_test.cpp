@@ -8,7 +8,7 @@
 
 #include "contact/all_triangles.h"
 #include "contact/bumpy_sphere.h"
-#include "contact/shapes/triangle_mesh_tree.h"
+#include "obstacles/triangle_mesh_tree.h"
 
 namespace curtain {
 namespace {

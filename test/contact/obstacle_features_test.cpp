@@ -2,7 +2,7 @@
 //
 // Corners, edges and triangles of boxes and meshes: all of them, once, with the right bend and the right outside; and
 // found in a box as a search through all of them finds them.
-#include "contact/shapes/obstacle_features.h"
+#include "obstacles/obstacle_features.h"
 
 #include <gtest/gtest.h>
 
@@ -14,9 +14,9 @@
 #include <utility>
 
 #include "contact/bumpy_sphere.h"
-#include "contact/shapes/mesh_loader.h"
-#include "contact/shapes/shapes.h"
-#include "contact/shapes/triangle_mesh.h"
+#include "obstacles/mesh_loader.h"
+#include "obstacles/shapes.h"
+#include "obstacles/triangle_mesh.h"
 #include "testing.h"
 
 namespace curtain {

@@ -2,7 +2,7 @@
 //
 // The box around all obstacles holds every one that is present in the substep, whatever became of them before:
 // obstacles at rest are not looked at anew, and one that is touched from outside must be.
-#include "contact/shapes/obstacle_set.h"
+#include "obstacles/obstacle_set.h"
 
 #include <gtest/gtest.h>
 

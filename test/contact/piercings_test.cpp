@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "contact/shapes/shapes.h"
-#include "contact/shapes/triangle_mesh.h"
 #include "curtain_sim/simulator.h"
+#include "obstacles/shapes.h"
+#include "obstacles/triangle_mesh.h"
 #include "testing.h"
 
 namespace curtain {

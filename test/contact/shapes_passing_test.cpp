@@ -3,8 +3,8 @@
 // The analytic obstacles give a node back to the side it came from, however deep it got.
 #include <gtest/gtest.h>
 
-#include "contact/shapes/shapes.h"
 #include "contact/solids.h"
+#include "obstacles/shapes.h"
 #include "testing.h"
 
 namespace curtain {

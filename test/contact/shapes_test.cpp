@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The analytic obstacles give the exact signed distance with its gradient everywhere.
-#include "contact/shapes/shapes.h"
+#include "obstacles/shapes.h"
 
 #include <gtest/gtest.h>
 

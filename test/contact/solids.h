@@ -9,7 +9,7 @@
 #include <string>
 
 #include "../../docs/examples/rounded_box.h"
-#include "contact/shapes/shapes.h"
+#include "obstacles/shapes.h"
 
 namespace curtain_test {
 

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "contact/shapes/obstacle_features.h"
 #include "curtain_sim/obstacle_shape.h"
 #include "fuzz/checks.h"
+#include "obstacles/obstacle_features.h"
 
 namespace curtain_test {
 namespace {

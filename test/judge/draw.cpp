@@ -8,7 +8,7 @@
 
 #include "cloth/cloth.h"
 #include "judge/dice.h"
-#include "solver/weft_links.h"
+#include "step/weft_links.h"
 
 namespace curtain_test {
 namespace {

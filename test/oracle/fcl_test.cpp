@@ -10,7 +10,7 @@
 #include <memory>
 #include <string>
 
-#include "contact/shapes/shapes.h"
+#include "obstacles/shapes.h"
 #include "testing.h"
 
 namespace curtain {

@@ -14,9 +14,9 @@
 
 #include "properties/random_scenes.h"
 #include "properties/seeds.h"
-#include "solver/exact_solver.h"
-#include "solver/schemes/composition.h"
-#include "solver/workers.h"
+#include "step/exact_solver.h"
+#include "step/schemes/composition.h"
+#include "step/workers.h"
 
 namespace curtain {
 namespace {

@@ -20,9 +20,9 @@
 
 #include "cloth/cloth.h"
 #include "contact/oracle/piercings.h"
-#include "contact/shapes/obstacle_set.h"
 #include "curtain_sim/Contacts.h"
 #include "curtain_sim/CurtainState.h"
+#include "obstacles/obstacle_set.h"
 #include "ros/parameters/parameters.h"
 #include "simulator/self_crossings.h"
 

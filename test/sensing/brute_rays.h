@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-#include "contact/shapes/contact_shape.h"
+#include "obstacles/contact_shape.h"
 #include "sensing/moment.h"
 
 namespace curtain_test {

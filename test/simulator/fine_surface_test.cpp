@@ -2,7 +2,7 @@
 //
 // The mesh that the eye sees and obstacles: judged by brute force, nothing of it is in an obstacle that the first layer
 // itself is not in, on the move and at rest, and all but few folds keep their rods' lengths.
-#include "simulator/fine_surface.h"
+#include "surface/fine_surface.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "contact/oracle/piercings.h"
-#include "contact/shapes/contact_shape.h"
 #include "curtain_sim/simulator.h"
+#include "obstacles/contact_shape.h"
 #include "testing.h"
 
 namespace curtain {

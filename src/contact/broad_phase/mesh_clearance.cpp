@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "cloth/wide.h"
-#include "contact/shapes/obstacle_features.h"
+#include "obstacles/obstacle_features.h"
 
 namespace curtain {
 namespace {

@@ -18,8 +18,8 @@
 
 #include "cloth/coarse_mesh.h"
 #include "cloth/field.h"
-#include "contact/shapes/contact_shape.h"
-#include "contact/shapes/obstacle_features.h"
+#include "obstacles/contact_shape.h"
+#include "obstacles/obstacle_features.h"
 
 namespace curtain {
 

@@ -7,7 +7,7 @@
 
 #include "cloth/wide.h"
 #include "contact/broad_phase/worker_share.h"
-#include "contact/shapes/convex_shape.h"
+#include "obstacles/convex_shape.h"
 
 namespace curtain {
 namespace {

@@ -19,9 +19,9 @@
 #include "cloth/coarse_mesh.h"
 #include "contact/broad_phase/mesh_clearance.h"
 #include "contact/narrow_phase/element_pairs.h"
-#include "contact/shapes/obstacle_set.h"
-#include "contact/shapes/triangle_mesh.h"
-#include "solver/workers.h"
+#include "obstacles/obstacle_set.h"
+#include "obstacles/triangle_mesh.h"
+#include "step/workers.h"
 
 namespace curtain {
 

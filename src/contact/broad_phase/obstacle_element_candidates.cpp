@@ -9,7 +9,7 @@
 
 #include "contact/broad_phase/obstacle_candidates.h"
 #include "contact/narrow_phase/closest_points.h"
-#include "contact/shapes/convex_shape.h"
+#include "obstacles/convex_shape.h"
 
 namespace curtain {
 

@@ -17,7 +17,7 @@
 #include "contact/broad_phase/hierarchy_pairs.h"
 #include "contact/broad_phase/neighbour_windows.h"
 #include "contact/narrow_phase/element_pairs.h"
-#include "solver/workers.h"
+#include "step/workers.h"
 
 namespace curtain {
 

@@ -5,8 +5,8 @@
 #include <array>
 
 #include "contact/narrow_phase/closest_points.h"
-#include "contact/shapes/convex_shape.h"
-#include "contact/shapes/obstacle_features.h"
+#include "obstacles/convex_shape.h"
+#include "obstacles/obstacle_features.h"
 
 namespace curtain {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cloth/coarse_mesh.h"
-#include "contact/shapes/obstacle_set.h"
+#include "obstacles/obstacle_set.h"
 
 namespace curtain {
 

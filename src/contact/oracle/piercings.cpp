@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cloth/coarse_mesh.h"
-#include "contact/shapes/convex_shape.h"
-#include "contact/shapes/obstacle_features.h"
+#include "obstacles/convex_shape.h"
+#include "obstacles/obstacle_features.h"
 
 namespace curtain {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "cloth/cloth.h"
 #include "cloth/coarse_mesh.h"
-#include "contact/shapes/obstacle_set.h"
 #include "curtain_sim/statistics.h"
+#include "obstacles/obstacle_set.h"
 
 namespace curtain {
 

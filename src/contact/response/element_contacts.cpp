@@ -12,8 +12,8 @@
 
 #include "contact/narrow_phase/closest_points.h"
 #include "contact/narrow_phase/element_pairs.h"
-#include "contact/shapes/convex_shape.h"
 #include "curtain_sim/ccd.h"
+#include "obstacles/convex_shape.h"
 
 namespace curtain {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "contact/broad_phase/obstacle_candidates.h"
 #include "contact/response/exit_direction.h"
-#include "contact/shapes/obstacle_set.h"
-#include "solver/contacts.h"
+#include "obstacles/obstacle_set.h"
+#include "step/contacts.h"
 
 namespace curtain {
 

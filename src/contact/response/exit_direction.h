@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "contact/broad_phase/obstacle_candidates.h"
-#include "contact/shapes/convex_shape.h"
+#include "obstacles/convex_shape.h"
 
 namespace curtain {
 

@@ -17,10 +17,10 @@
 #include "contact/broad_phase/obstacle_candidates.h"
 #include "contact/response/element_contacts.h"
 #include "contact/response/pads.h"
-#include "contact/shapes/obstacle_set.h"
 #include "curtain_sim/statistics.h"
-#include "solver/contacts.h"
-#include "solver/substep.h"
+#include "obstacles/obstacle_set.h"
+#include "step/contacts.h"
+#include "step/substep.h"
 
 namespace curtain {
 

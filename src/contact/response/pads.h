@@ -6,8 +6,8 @@
 
 #include <vector>
 
-#include "contact/shapes/obstacle_set.h"
-#include "solver/contacts.h"
+#include "obstacles/obstacle_set.h"
+#include "step/contacts.h"
 
 namespace curtain {
 

@@ -12,7 +12,7 @@
 
 #include "cloth/cloth.h"
 #include "contact/narrow_phase/element_pairs.h"
-#include "solver/contacts.h"
+#include "step/contacts.h"
 
 namespace curtain {
 

@@ -27,7 +27,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "solver/substep.h"
+#include "step/substep.h"
 
 namespace curtain {
 

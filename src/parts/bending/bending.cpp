@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "cloth/wide.h"
-#include "solver/constants.h"
+#include "step/constants.h"
 
 namespace curtain {
 namespace {

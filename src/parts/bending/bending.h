@@ -14,8 +14,8 @@
 
 #include "parts/bending/bending_lines.h"
 #include "parts/bending/rest_curvature.h"
-#include "solver/elastic_part.h"
-#include "solver/workers.h"
+#include "step/elastic_part.h"
+#include "step/workers.h"
 
 namespace curtain {
 

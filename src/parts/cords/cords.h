@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "solver/row_part.h"
+#include "step/row_part.h"
 
 namespace curtain {
 

@@ -13,7 +13,7 @@
 
 #include "cloth/cloth.h"
 #include "parts/rail/rail_law.h"
-#include "solver/guide_part.h"
+#include "step/guide_part.h"
 
 namespace curtain {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "contact/shapes/corner_normals.h"
+#include "obstacles/corner_normals.h"
 #include "ros/frames/geometry.h"
 #include "ros/outputs/shape_light.h"
 #include "scene/pi.h"

@@ -9,7 +9,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "contact/shapes/mesh_loader.h"
+#include "obstacles/mesh_loader.h"
 
 namespace curtain_ros {
 

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "obstacles/obstacle_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+namespace curtain {
+namespace {
+
+// Obstacles are looked for this much around the cloth, over its size: it moves by less in a frame, mostly. What is
+// found does not depend on it.
+constexpr double kLookFurther = 0.1;
+
+// Interpolates between two poses of a frame. For small angles normalised linear interpolation suffices (error angle^3
+// / 100).
+Pose between(const Pose& a, const Pose& b, double share) {
+  Pose pose;
+  pose.position = a.position + share * (b.position - a.position);
+  const double sign = a.orientation.dot(b.orientation) < 0.0 ? -1.0 : 1.0;
+  pose.orientation.coeffs() = (1.0 - share) * a.orientation.coeffs() + (sign * share) * b.orientation.coeffs();
+  pose.orientation.normalize();
+  return pose;
+}
+
+bool samePlace(const Pose& a, const Pose& b) {
+  return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs();
+}
+
+Eigen::AlignedBox3d boxAround(const Eigen::AlignedBox3d& box, const Transform& transform) {
+  if (!std::isfinite(box.min().sum()) || !std::isfinite(box.max().sum())) {  // a plane is unbounded
+    return {Vec3::Constant(-std::numeric_limits<double>::infinity()),
+            Vec3::Constant(std::numeric_limits<double>::infinity())};
+  }
+  const Vec3 middle = transform.toWorld(box.center());
+  const Vec3 half = transform.rotation.cwiseAbs() * (0.5 * box.sizes());
+  return {middle - half, middle + half};
+}
+
+Eigen::AlignedBox3d grownBy(double margin, Eigen::AlignedBox3d box) {
+  box.min().array() -= margin;
+  box.max().array() += margin;
+  return box;
+}
+
+// How far points leave the boxes at both ends of a rotation: the sagitta of the farthest point's arc [m].
+double arcBulge(double farthest, const Eigen::Matrix3d& before, const Eigen::Matrix3d& after) {
+  if (!std::isfinite(farthest)) return 0.0;
+  const double cosine = 0.5 * ((before.transpose() * after).trace() - 1.0);
+  const double half_angle = 0.5 * std::acos(std::clamp(cosine, -1.0, 1.0));
+  return farthest * (1.0 - std::cos(half_angle));
+}
+
+}  // namespace
+
+Pose poseAt(const std::vector<PoseKey>& motion, double time) noexcept {
+  if (time <= motion.front().time) return motion.front().pose;
+  for (std::size_t k = 1; k < motion.size(); ++k) {
+    const PoseKey& a = motion[k - 1];
+    const PoseKey& b = motion[k];
+    if (time > b.time) continue;
+    const double share = (time - a.time) / (b.time - a.time);
+    return {a.pose.position + share * (b.pose.position - a.pose.position),
+            a.pose.orientation.slerp(share, b.pose.orientation)};
+  }
+  return motion.back().pose;
+}
+
+void MovingObstacle::move(const Transform& from, const Transform& to) noexcept {
+  before = from;
+  after = to;
+  swept_ = boxAround(bounds, before).merged(boxAround(bounds, after));
+}
+
+double followingSpeed(const Scene& scene) noexcept {
+  const double gravity = scene.gravity.norm();
+  return gravity > 0.0 ? std::sqrt(2.0 * gravity * scene.cloth.height) : std::numeric_limits<double>::infinity();
+}
+
+ObstacleSet::ObstacleSet(const Scene& scene, const MeshResolver& resolve)
+    : frame_length_(1.0 / scene.solver.frame_rate), following_speed_(followingSpeed(scene)) {
+  std::string unusable;
+  for (const ObstacleParams& params : scene.obstacles) {
+    Item item;
+    try {
+      item.shape = makeContactShape(params, resolve);
+    } catch (const std::invalid_argument& error) {
+      unusable += (unusable.empty() ? "" : "\n") + std::string(error.what());
+      continue;
+    }
+    item.motion = params.motion;
+    item.initial = params.motion.empty() ? params.pose : poseAt(params.motion, 0.0);
+    MovingObstacle moving;
+    moving.shape = item.shape.get();
+    moving.padding = params.padding;
+    moving.press = params.press;
+    moving.bounds = grownBy(params.padding, item.shape->bounds());
+    item.radius = moving.bounds.min().cwiseAbs().cwiseMax(moving.bounds.max().cwiseAbs()).norm();
+    item.own_friction = !std::isnan(params.friction);
+    moving.friction = item.own_friction ? params.friction : scene.contact.friction;
+    items_.push_back(std::move(item));
+    moving_.push_back(moving);
+  }
+  if (!unusable.empty()) throw std::invalid_argument(unusable);
+  near_.reserve(items_.size());
+  by_name_.resize(items_.size());
+  std::iota(by_name_.begin(), by_name_.end(), 0);
+  std::sort(by_name_.begin(), by_name_.end(),
+            [&scene](int a, int b) { return scene.obstacles[at(a)].name < scene.obstacles[at(b)].name; });
+  rank_.resize(items_.size());
+  for (std::size_t n = 0; n < by_name_.size(); ++n) rank_[at(by_name_[n])] = static_cast<int>(n);
+  reset();
+}
+
+void ObstacleSet::takeFriction(double friction) noexcept {
+  for (std::size_t n = 0; n < items_.size(); ++n) {
+    if (!items_[n].own_friction) moving_[n].friction = friction;
+  }
+}
+
+bool ObstacleSet::anyPresent() const noexcept {
+  return std::any_of(moving_.begin(), moving_.end(), [](const MovingObstacle& m) { return m.present; });
+}
+
+void ObstacleSet::reset() noexcept {
+  for (std::size_t n = 0; n < items_.size(); ++n) {
+    items_[n].left = items_[n].begin = items_[n].end = items_[n].initial;
+    items_[n].scripted = !items_[n].motion.empty();
+    items_[n].moved = items_[n].behind = items_[n].boxed = false;
+    items_[n].own_path = 0.0;
+    items_[n].share = 1.0;
+    moving_[n].present = true;
+  }
+  any_moved_ = boxed_ = false;
+  setSubstep(0.0, 0.0);
+}
+
+void ObstacleSet::setPresent(int index, bool present) noexcept {
+  if (present == moving_[at(index)].present) return;
+  moving_[at(index)].present = present;
+  items_[at(index)].moved = true;
+  touch(items_[at(index)]);  // its motion continued without it
+}
+
+Eigen::AlignedBox3d ObstacleSet::leftBox(int index) const noexcept {
+  return boxAround(moving_[at(index)].bounds, Transform(items_[at(index)].left));
+}
+
+void ObstacleSet::setPose(int index, const Pose& pose, bool jump) noexcept {
+  Item& item = items_[at(index)];
+  item.scripted = false;
+  const bool moves = !samePlace(pose, item.end);
+  if (!moves && !jump) return;
+  moveOn(at(index), pose);
+  if (jump) {
+    item.begin = pose;
+    item.behind = false;
+  }
+  item.moved = item.moved || moves;
+  touch(item);
+}
+
+void ObstacleSet::beginFrame(double end_time) noexcept {
+  for (std::size_t n = 0; n < items_.size(); ++n) {
+    Item& item = items_[n];
+    if (item.scripted) {
+      moveOn(n, poseAt(item.motion, end_time));
+      item.moved = item.moved || !samePlace(item.begin, item.end);
+      if (item.moved) touch(item);
+    }
+    item.share = 1.0;
+    if (!item.behind) continue;
+    const double rest = pathBetween(item.begin, item.end, n);
+    const double allowed = std::max(item.own_path, following_speed_ * frame_length_);
+    if (rest > allowed) item.share = allowed / rest;
+  }
+}
+
+// Bound of the largest displacement of its points [m].
+double ObstacleSet::pathBetween(const Pose& a, const Pose& b, std::size_t index) const noexcept {
+  const double radius = items_[index].radius;
+  const double turned = a.orientation.angularDistance(b.orientation);
+  return (b.position - a.position).norm() + (std::isfinite(radius) ? radius * turned : 0.0);
+}
+
+void ObstacleSet::moveOn(std::size_t index, const Pose& pose) noexcept {
+  Item& item = items_[index];
+  if (item.behind) item.own_path = pathBetween(item.end, pose, index);
+  item.end = pose;
+}
+
+double ObstacleSet::path(int index) const noexcept {
+  const Item& item = items_[at(index)];
+  return item.share * pathBetween(item.begin, item.end, at(index));
+}
+
+// Its place and box are to be worked out anew.
+void ObstacleSet::touch(Item& item) noexcept {
+  any_moved_ = any_moved_ || item.moved;
+  item.placed = 0;
+  item.boxed = boxed_ = false;
+}
+
+void ObstacleSet::setSubstep(double from, double to) noexcept {
+  if (boxed_ && at_rest_) return;
+  from_ = from;
+  to_ = to;
+  ++substep_;
+  if (!boxed_) takeBoxes();
+}
+
+void ObstacleSet::takeBoxes() noexcept {
+  boxed_ = at_rest_ = true;
+  swept_.setEmpty();
+  looked_.setEmpty();
+  for (std::size_t n = 0; n < items_.size(); ++n) {
+    Item& item = items_[n];
+    if (!moving_[n].present) continue;
+    if (!item.boxed) {
+      const bool rests = samePlace(item.begin, item.end);
+      item.boxed = rests;
+      at_rest_ = at_rest_ && rests;
+      item.exact = false;
+      if (rests) {
+        takeExactBox(n);
+      } else {
+        const Vec3 low = item.begin.position.cwiseMin(item.end.position);
+        const Vec3 high = item.begin.position.cwiseMax(item.end.position);
+        item.swept = {low.array() - item.radius, high.array() + item.radius};
+      }
+    }
+    swept_.extend(item.swept);
+  }
+}
+
+void ObstacleSet::takeExactBox(std::size_t index) noexcept {
+  Item& item = items_[index];
+  const Eigen::AlignedBox3d& box = moving_[index].bounds;
+  const Transform begin(item.begin);
+  item.exact = true;
+  item.swept = boxAround(box, begin);
+  if (samePlace(item.begin, item.end)) return;
+  const Transform end(between(item.begin, item.end, item.share));
+  item.swept = grownBy(arcBulge(item.radius, begin.rotation, end.rotation), item.swept.merged(boxAround(box, end)));
+}
+
+void ObstacleSet::lookAround(const Eigen::AlignedBox3d& box) noexcept {
+  looked_ = grownBy(kLookFurther * box.sizes().maxCoeff(), box);
+  near_.clear();
+  for (std::size_t n = 0; n < items_.size(); ++n) {
+    if (moving_[n].present && items_[n].swept.intersects(looked_)) near_.push_back(static_cast<int>(n));
+  }
+}
+
+void ObstacleSet::place(std::size_t index) noexcept {
+  Item& item = items_[index];
+  item.placed = substep_;
+  if (samePlace(item.begin, item.end)) {
+    moving_[index].move(Transform(item.end), Transform(item.end));
+  } else {
+    moving_[index].move(Transform(between(item.begin, item.end, from_ * item.share)),
+                        Transform(between(item.begin, item.end, to_ * item.share)));
+  }
+}
+
+void ObstacleSet::endFrame(double share) noexcept {
+  from_ = to_ = 0.0;
+  if (!any_moved_) return;
+  any_moved_ = false;
+  for (Item& item : items_) {
+    if (!item.moved) continue;
+    const double made = share * item.share;
+    item.begin = made >= 1.0 ? item.end : between(item.begin, item.end, made);
+    item.moved = item.behind = !samePlace(item.begin, item.end);
+    item.own_path = 0.0;
+    item.left = item.begin;
+    item.placed = 0;
+    item.boxed = boxed_ = false;
+    any_moved_ = any_moved_ || item.moved;
+  }
+}
+
+}  // namespace curtain

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The obstacles of a scene and their poses: at the start and the end of the frame, interpolated in between.
+//
+// Where an obstacle moves in a substep is worked out for those alone that somebody asks for (moving()). Whether it may
+// be near is told by a box around its whole motion in the frame, at first around the ball that it can turn in: a robot
+// out of reach costs such a box a moving link and frame, and none where it stands still. What is near is looked for in
+// a box somewhat larger than asked for, and again when the cloth leaves that.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "curtain_sim/scene.h"
+#include "obstacles/contact_shape.h"
+
+namespace curtain {
+
+class Archive;
+
+/// Speed limit of an obstacle that fell behind its pose, because a frame ended early or the cloth could not give way
+/// [m/s]; its own speed if that is higher. It is that of a free fall through the cloth's height, at which cloth
+/// commonly moves by itself. Infinite without gravity.
+double followingSpeed(const Scene& scene) noexcept;
+
+/// A rigid transform as a matrix, for many points.
+struct Transform {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Vec3 translation = Vec3::Zero();
+
+  Transform() = default;
+  explicit Transform(const Pose& pose) : rotation(pose.orientation.toRotationMatrix()), translation(pose.position) {}
+  Vec3 toWorld(const Vec3& local) const { return rotation * local + translation; }
+  Vec3 toLocal(const Vec3& world) const { return rotation.transpose() * (world - translation); }
+};
+
+/// An obstacle as it is during one substep.
+struct MovingObstacle {
+  const ContactShape* shape = nullptr;
+  double friction = 0.0;
+  double press = 0.0;    ///< on what another one presses from the other side [N]
+  double padding = 0.0;  ///< kept beyond the thickness [m]
+  bool present = true;
+  Eigen::AlignedBox3d bounds;  ///< of the shape with its padding, in its frame
+  Transform before;            ///< at the substep's start
+  Transform after;             ///< at its end
+
+  /// Box around the obstacle during the substep, world frame.
+  const Eigen::AlignedBox3d& sweptBounds() const noexcept { return swept_; }
+  void move(const Transform& from, const Transform& to) noexcept;
+  void carry(Archive& archive);
+
+ private:
+  Eigen::AlignedBox3d swept_;
+};
+
+class ObstacleSet {
+ public:
+  /// Throws std::invalid_argument for a mesh that cannot be used.
+  ObstacleSet(const Scene& scene, const MeshResolver& resolve);
+
+  int count() const { return static_cast<int>(items_.size()); }
+  bool anyPresent() const noexcept;
+  /// Where it is going: its pose as set last, or of its motion.
+  const Pose& target(int index) const { return items_[at(index)].end; }
+  /// Where it is between two frames: not at its target while it waits for the cloth, or where a frame ended early.
+  const Pose& reached(int index) const { return items_[at(index)].begin; }
+  /// Bound of how far a point of it is from where it will be at its target [m]; plane: its origin.
+  double lag(int index) const noexcept {
+    return pathBetween(items_[at(index)].begin, items_[at(index)].end, at(index));
+  }
+  const ContactShape& shape(int index) const { return *items_[at(index)].shape; }
+  bool present(int index) const { return moving_[at(index)].present; }
+  void setPresent(int index, bool present) noexcept;
+
+  void reset() noexcept;
+  /// Sets the length of a frame [s].
+  void takeFrame(double length) noexcept { frame_length_ = length; }
+  /// Sets the friction of those that have none of their own.
+  void takeFriction(double friction) noexcept;
+  /// Sets the pose at the end of the coming frame, or (jump) from now on.
+  void setPose(int index, const Pose& pose, bool jump) noexcept;
+
+  /// Starts a frame that ends at this time [s]: scripted obstacles take their pose from their motion. One that fell
+  /// behind catches up at a limited speed: anything faster would be a blow to the cloth.
+  void beginFrame(double end_time) noexcept;
+  /// Sets the substep, as shares of the frame in [0, 1].
+  void setSubstep(double from, double to) noexcept;
+  /// Ends the frame; obstacles rest until moved again. share [0..1]: part of the frame that was simulated; the rest
+  /// of the motion moves to the next frame.
+  void endFrame(double share = 1.0) noexcept;
+
+  /// It moves in this frame, or was placed, added or removed since the last one.
+  bool moved(int index) const noexcept { return items_[at(index)].moved; }
+  bool anyMoved() const noexcept { return any_moved_; }
+  /// Box around its pose at the end of the last frame, world frame.
+  Eigen::AlignedBox3d leftBox(int index) const noexcept;
+
+  /// The obstacle during the substep; between frames where it has got to. Valid until the next call that moves it.
+  const MovingObstacle& moving(int index) noexcept {
+    if (items_[at(index)].placed != substep_) place(at(index));
+    return moving_[at(index)];
+  }
+  double padding(int index) const { return moving_[at(index)].padding; }
+  double press(int index) const { return moving_[at(index)].press; }
+  /// Box around all present obstacles during the frame or more, world frame, as of the last setSubstep(); empty: none.
+  const Eigen::AlignedBox3d& sweptBounds() const noexcept { return swept_; }
+  /// Box around one of them during the frame, with the arcs of its rotation.
+  const Eigen::AlignedBox3d& sweptBounds(int index) noexcept {
+    if (!items_[at(index)].exact) takeExactBox(at(index));
+    return items_[at(index)].swept;
+  }
+  /// Present obstacles whose box of the frame may meet this one, and all that do. Valid until the next call.
+  const std::vector<int>& near(const Eigen::AlignedBox3d& box) noexcept {
+    if (!looked_.contains(box)) lookAround(box);
+    return near_;
+  }
+  /// It is present and its box of the frame meets this one.
+  bool mayMeet(int index, const Eigen::AlignedBox3d& box) noexcept {
+    return moving_[at(index)].present && items_[at(index)].swept.intersects(box) && sweptBounds(index).intersects(box);
+  }
+  /// Bound of how far a point of its surface moves in the frame [m]; plane: its origin.
+  double path(int index) const noexcept;
+  /// Indices sorted by name: results depend on names, not on the order in the scene.
+  const std::vector<int>& byName() const noexcept { return by_name_; }
+  /// Position of an obstacle in byName().
+  int rank(int index) const { return rank_[at(index)]; }
+
+  void carry(Archive& archive);
+
+ private:
+  struct Item {
+    std::unique_ptr<const ContactShape> shape;
+    std::vector<PoseKey> motion;
+    Pose initial;
+    Pose left;  // at the end of the last frame
+    Pose begin;
+    Pose end;
+    bool scripted = false;  // follows its motion
+    bool moved = false;
+    double radius = 0.0;        // of its points about its origin, with the padding [m]
+    double own_path = 0.0;      // displacement of its target since the last frame [m]
+    double share = 1.0;         // part of the remaining path covered in this frame
+    bool behind = false;        // the last frame ended short of the target
+    std::uint64_t placed = 0;   // substep that its MovingObstacle is of
+    Eigen::AlignedBox3d swept;  // around its motion in the frame, world frame
+    bool exact = false;         // that box is no larger than need be
+    bool boxed = false;         // and holds until it moves
+    bool own_friction = false;  // the scene names its friction
+
+    void carry(Archive& archive);
+  };
+  static std::size_t at(int index) { return static_cast<std::size_t>(index); }
+  double pathBetween(const Pose& a, const Pose& b, std::size_t index) const noexcept;
+  void moveOn(std::size_t index, const Pose& pose) noexcept;
+  void touch(Item& item) noexcept;
+  void place(std::size_t index) noexcept;
+  void takeBoxes() noexcept;
+  void takeExactBox(std::size_t index) noexcept;
+  void lookAround(const Eigen::AlignedBox3d& box) noexcept;
+
+  double frame_length_;     // [s]
+  double following_speed_;  // [m/s]
+
+  std::vector<Item> items_;
+  std::vector<MovingObstacle> moving_;
+  Eigen::AlignedBox3d swept_;
+  double from_ = 0.0, to_ = 0.0;  // the substep, as shares of the frame
+  std::uint64_t substep_ = 1;     // counts what obstacles are placed anew for
+  bool any_moved_ = false;
+  bool boxed_ = false;          // the boxes are those of the frame
+  bool at_rest_ = false;        // and no obstacle moves in it
+  Eigen::AlignedBox3d looked_;  // that near_ holds for
+  std::vector<int> near_;
+  std::vector<int> by_name_, rank_;
+};
+
+/// Pose of a motion at a time: linear in position, slerp in orientation, clamped at both ends.
+Pose poseAt(const std::vector<PoseKey>& motion, double time) noexcept;
+
+}  // namespace curtain

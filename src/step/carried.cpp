@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Serialization of the solver for snapshots. Left out is what every substep writes before it reads it (prediction,
+// directions, multipliers being solved for, all of NetSolver) and what follows from the scene.
+#include <limits>
+
+#include "cloth/archive.h"
+#include "step/exact_solver.h"
+#include "step/stage_clock.h"
+#include "step/step_control.h"
+
+namespace curtain {
+namespace {
+
+constexpr int kCount = 1 << 30;  // bound of counters that are read back: adding to them can't overflow an int
+
+}  // namespace
+
+void NodeInertia::Tensions::carry(Archive& archive) {
+  archive.numbers("load", load);
+  archive.number("heaviest", heaviest);
+  archive.number("scale", scale);
+}
+
+void Constraints::Memory::carry(Archive& archive) {
+  archive.numbers("warp", warp);
+  archive.numbers("weft", weft);
+  archive.flag("weft_pulls", weft_pulls);
+  archive.part("distances", distances);
+}
+
+void DistanceRows::Memory::carry(Archive& archive) { archive.numbers("last", last); }
+
+void DistanceRows::carry(Archive& archive) {
+  for (DistanceRow& row : all_) archive.number("last", row.last);
+}
+
+void ExactSolver::Memory::carry(Archive& archive) {
+  archive.part("constraints", constraints);
+  archive.part("tensions", tensions);
+  archive.finite("guide", guide);
+}
+
+void Constraints::carry(Archive& archive) {
+  archive.numbers("last_warp", last_warp_);
+  archive.numbers("last_weft", last_weft_);
+  archive.flag("weft_pulls", weft_pulls_);
+  archive.part("distances", distances_);
+}
+
+void ExactSolver::carry(Archive& archive) {
+  archive.part("constraints", constraints_);
+  archive.part("tensions", inertia_.tensions());
+}
+
+void ExactSolver::resume(const ClothState& state) noexcept {
+  constraints_.resume(state);
+  gained_ = {};
+}
+
+// The ranges bound the number of substeps in a frame; next() clamps the other numbers itself.
+void StepControl::carry(Archive& archive) {
+  double frame = frame_;
+  archive.atOnce([&] { archive.within("frame", frame, 1e-6, 1e3); });
+  archive.put(frame_, frame);
+  archive.number("omega", omega_);
+  archive.number("turning", turning_);
+  archive.number("heavier_step", scaled_step_);
+  archive.number("surface_step", surface_step_);
+  archive.number("limit", limit_);
+  archive.integer("allowed", allowed_, 1, std::numeric_limits<int>::max());
+  archive.flag("stretched", stretched_);
+  archive.integer("asked", asked_, 1, max_substeps_);
+  archive.part("trust", trust_);
+  archive.integer("good", good_, 0, kCount);
+}
+
+void StageClock::carry(Archive& archive) {
+  for (double& seconds : seconds_) archive.number("seconds", seconds);
+}
+
+}  // namespace curtain

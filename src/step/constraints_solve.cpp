@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The parts of a solve: rods, strings, contacts.
+#include <cmath>
+
+#include "step/constants.h"
+#include "step/constraints.h"
+
+namespace curtain {
+
+// Newton on one block of columns; skipped when its rods are within leave_alone.
+Constraints::RodsProgress Constraints::solveBlock(const LineSolve& warp, const RodsAim& aim, int block) noexcept {
+  RodsProgress progress;
+  if (aim.leave_alone > 0.0) {
+    const double residual = warpResidual(warp, block);
+    progress.first_residual = residual;
+    if (residual <= aim.leave_alone) return progress;
+  }
+  for (int iteration = 0; iteration < kNewtonIterations; ++iteration) {
+    if (aim.follow) setWarpDirections(pattern_.grid, block, next, warp_.direction);
+    const LineOutcome outcome = warpNewton(warp, scratch_, block);
+    if (iteration == 0) progress.first_residual = std::max(progress.first_residual, outcome.residual);
+    if (!outcome.sound || !(outcome.residual < aim.most_residual)) break;
+    if (outcome.residual <= aim.stop) return progress;
+  }
+  progress.converged = false;
+  return progress;
+}
+
+Constraints::RodsProgress Constraints::solveRods(const RodsAim& aim) noexcept {
+  const LineSolve warp = rods();
+  forEachBlock([&](int block) { block_progress_[static_cast<std::size_t>(block)] = solveBlock(warp, aim, block); });
+  RodsProgress all;
+  for (const RodsProgress& block : block_progress_) {
+    all.converged = all.converged && block.converged;
+    all.first_residual = std::max(all.first_residual, block.first_residual);
+  }
+  settleGuide();
+  return all;
+}
+
+double Constraints::rodsResidual() noexcept {
+  const LineSolve warp = rods();
+  double worst = 0.0;
+  for (int block = 0; block < warpBlockCount(pattern_.grid); ++block) {
+    worst = std::max(worst, warpResidual(warp, block));
+  }
+  return worst;
+}
+
+double Constraints::lookAtStrings(bool closely) noexcept {
+  measured_ = false;
+  if (closely) return measureStrings();
+  const double longest = worstOfRows([&](int i) { return weftSquare(pattern_.grid, i, next, free_per_square_); });
+  return std::max(longest > 1.0 ? 0.5 * (longest - 1.0) : 0.0, distances_.measure(inertia_.inverse(), next));
+}
+
+double Constraints::measureStrings() noexcept {
+  const LineSolve weft = wefts();
+  const double worst = worstOfRows([&](int i) { return measureWeft(weft, i, violation_, active_); });
+  measured_ = true;
+  return std::max(worst, distances_.measure(inertia_.inverse(), next));
+}
+
+double Constraints::stringsResidual() noexcept {
+  const LineSolve weft = wefts();
+  return std::max(worstOfRows([&](int i) { return weftResidual(weft, i); }),
+                  distances_.residual(inertia_.inverse(), next));
+}
+
+void Constraints::setWeftDirectionsAt(const Field3& position) noexcept {
+  worstOfRows([&](int i) {
+    setWeftDirections(pattern_.grid, i, position, weft_.direction);
+    return 0.0;
+  });
+  distances_.setDirections(position);
+}
+
+void Constraints::followDirections() noexcept {
+  forEachBlock([&](int block) { setWarpDirections(pattern_.grid, block, next, warp_.direction); });
+  setWeftDirectionsAt(next);
+  if (guide_ != nullptr) guide_->followDirections();
+  net_.begin(next, inertia_.inverse(), guided());
+  directions_set_ = net_ready_ = true;
+}
+
+void Constraints::takeDirections(const Field3& start) noexcept {
+  if (net_ready_) return;
+  if (!directions_set_) setWeftDirectionsAt(start);
+  net_.begin(start, inertia_.inverse(), guided());
+  directions_set_ = net_ready_ = true;
+}
+
+void Constraints::solveNet(const NetAim& aim, Contacts* contacts) noexcept {
+  if (!measured_) measureStrings();
+  measured_ = false;
+  const Field* const multiplier = aim.newton ? &weft_.multiplier : nullptr;
+  rows_.clear();
+  if (contacts != nullptr) addContactRows(*contacts, next, rows_);
+  contact_rows_ = rows_.size();
+  distances_.addRows(rows_);
+  net_.solve(violation_, active_, rows_,
+             {aim.residual * middle_rest_, aim.damping, aim.enough, kGradientIterations, multiplier}, change_);
+  const double share = distances_.any() ? takeUpTogether() : takeUpStrings(aim.residual);
+  if (contacts != nullptr) takeUpContacts(inertia_.inverse(), contactRows(), share, *contacts, next);
+  settleGuide();
+}
+
+// Moves nodes by the changes of the strings, or by a share of them if they are large. Returns the share.
+double Constraints::takeUpStrings(double residual) noexcept {
+  const LineSolve weft = wefts();
+  const double move =
+      residual > kWatchMoves ? std::sqrt(worstOfRows([&](int i) { return weftMoveSquared(weft, i, change_); })) : 0.0;
+  const double share = move > kLargestMove ? kLargestMove / move : 1.0;
+  if (share != 1.0) {
+    for (double& change : change_) change *= share;
+  }
+  worstOfRows([&](int i) {
+    takeUpWeft(weft_, pattern_.grid, i, change_);
+    pullWeft(weft, i, change_);
+    return 0.0;
+  });
+  return share;
+}
+
+double Constraints::merit(const Contacts* contacts, double rods_lack) noexcept {
+  if (!measured_) measureStrings();
+  double sum = static_cast<double>(pattern_.grid.nodeCount()) * rods_lack * rods_lack;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    const double relative = active_[n] * violation_[n] * pattern_.weft_per_square[n];
+    sum += relative * relative;
+  }
+  sum += distances_.squares();
+  for (std::size_t k = 0; contacts != nullptr && k < contacts->size(); ++k) {
+    const double relative = contactViolation((*contacts)[k], next) / middle_rest_;
+    sum += relative * relative;
+  }
+  return sum;
+}
+
+void Constraints::saveIterate(const Contacts* contacts) {
+  best_.position = next;
+  best_.warp = warp_.multiplier;
+  best_.weft = weft_.multiplier;
+  distances_.saveIterate();
+  if (contacts != nullptr) best_.contacts = *contacts;
+}
+
+void Constraints::restoreIterate(Contacts* contacts) noexcept {
+  next = best_.position;
+  warp_.multiplier = best_.warp;
+  weft_.multiplier = best_.weft;
+  distances_.restoreIterate();
+  if (contacts != nullptr) *contacts = best_.contacts;
+  measured_ = false;
+}
+
+}  // namespace curtain

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// All distances that parts bound, in the solve: one-sided constraints like the weft's strings, between any two nodes.
+// They are few, so each is looked at by itself; those that take part are rows of the same solve (Row).
+#pragma once
+
+#include <vector>
+
+#include "step/row.h"
+#include "step/row_part.h"
+
+namespace curtain {
+
+/// Not thread-safe. Allocates only in the constructor.
+class DistanceRows {
+ public:
+  /// most_give: bound of the relative overlength by compliance; links: a typical link's length [m]. All arguments must
+  /// outlive this.
+  DistanceRows(const ClothPattern& pattern, std::vector<RowPart*> parts, double most_give, double links);
+
+  void takeMostGive(double most_give) noexcept { most_give_ = most_give; }
+  bool any() const noexcept { return !all_.empty(); }
+  const std::vector<DistanceRow>& all() const noexcept { return all_; }
+
+  // ---- A substep
+
+  /// drives: parts do.
+  void begin(const SubstepStart& start, const ClothState& state, const Field& inverse, bool drives,
+             Field3& next) noexcept;
+  /// Starts with the last substep's multipliers times ratio; true: one is not zero.
+  bool warmStart(double ratio) noexcept;
+  void setDirections(const Field3& position) noexcept;
+  /// Moves nodes by the present multipliers.
+  void pull(const Field& inverse, Field3& value) const noexcept;
+  /// Sets violation and active of each; returns the largest violation over a unit of those that take part, infinite
+  /// when a position is not finite.
+  double measure(const Field& inverse, const Field3& position) noexcept;
+  double residual(const Field& inverse, const Field3& position) const noexcept;
+  /// Sum of the squares of what measure() has found.
+  double squares() const noexcept;
+  /// Adds a row for each that holds, of what measure() or measureRates() has found.
+  void addRows(Rows& rows) const;
+  /// Moves nodes by what was found for these rows.
+  void moveByRows(RowRange rows, const Field& inverse, Field3& value) const noexcept;
+  /// Adds a share of what was found to the multipliers, which stay >= 0.
+  void takeUp(RowRange rows, double share) noexcept;
+  /// Speed of the fastest part that drives in this substep [m/s]; 0: none.
+  double speed() const noexcept;
+  void saveIterate() noexcept;
+  void restoreIterate() noexcept;
+
+  /// Accepts: parts set their state; adds to the loads of nodes. Returns the largest load over its mass.
+  double commit(const SubstepStart& start, const Field3& next, ClothState& state, Field& load) noexcept;
+  /// Between substeps: lengths are those of `state`.
+  void resume(const ClothState& state) noexcept;
+
+  // ---- The last accepted substep
+
+  /// A row pulled.
+  bool pulls() const noexcept;
+  /// Sum of multiplier times direction over the rows of a node [kg m].
+  Vec3 pullAt(std::size_t node) const noexcept { return sumAt(node, &DistanceRow::last); }
+  /// The same of the multipliers being solved for.
+  Vec3 presentPullAt(std::size_t node) const noexcept { return sumAt(node, &DistanceRow::multiplier); }
+  /// Adds the pulls of the last substep times share to nodal values along the present directions.
+  void spread(double share, const Field& inverse, Field3& value) const noexcept;
+  /// RowPart::work() of all parts [J].
+  double work(const Field3& before, const Field3& after, double per_h) const noexcept;
+  /// Largest relative overlength of any that holds.
+  double stretch(const Field3& position) const noexcept;
+
+  // ---- Velocities
+
+  /// Those that pulled take part, with dC/dt = d . (v_other - v_node) - length * rate [m^2/s]. Returns the largest over
+  /// length times unit.
+  double measureRates(const Field3& velocity) noexcept;
+
+  struct Memory {
+    std::vector<double> last;
+
+    void carry(Archive& archive);
+  };
+  void save(Memory& memory) const;
+  void restore(const Memory& memory) noexcept;
+  void forget() noexcept;
+  void carry(Archive& archive);
+
+ private:
+  double unitOf(const DistanceRow& row) const noexcept;
+  double violationOf(const DistanceRow& row, const Field& inverse, const Field3& position, bool& active) const noexcept;
+  void move(const DistanceRow& row, double multiplier, const Field& inverse, Field3& value) const noexcept;
+  Vec3 sumAt(std::size_t node, double DistanceRow::*multiplier) const noexcept;
+
+  const ClothPattern& pattern_;
+  std::vector<RowPart*> parts_;
+  double most_give_;
+  const double links_;
+  std::vector<DistanceRow> all_;  // part by part
+  std::vector<double> best_;      // multipliers of the iterate to return to
+};
+
+}  // namespace curtain

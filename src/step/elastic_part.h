@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A part whose forces have a potential of the positions alone, and what the solver asks of it. Its forces are added to
+// all others before the links are solved for. It says how stiff it may be in a step, and is no stiffer.
+#pragma once
+
+#include "step/node_inertia.h"
+#include "step/warp_solver.h"
+
+namespace curtain {
+
+/// Not thread-safe. Allocates only in its constructor.
+class ElasticPart {
+ public:
+  virtual ~ElasticPart() = default;
+
+  /// The pattern's pins have changed.
+  virtual void takePins() noexcept = 0;
+
+  /// What a substep bears: |scale| = h * kick [s^2], inverse inertia [1/kg]. explicit_links: links pull along their
+  /// directions at the start of the step, and their tensions take a part.
+  virtual void begin(const NodeInertia& inertia, const Field& inverse, double scale, bool explicit_links) noexcept = 0;
+
+  /// The force and its own at these positions [N]; valid until the next call of one of these.
+  virtual const Field3& addTo(const Field3& force, const Field3& position) noexcept = 0;
+  /// The same where a substep leads to with this force and without links. inverse: inertia of the substep [1/kg].
+  virtual const Field3& addAhead(const SubstepStart& start, const Field& inverse) noexcept = 0;
+  /// Its own alone. energy: elastic energy, as the steps after begin() see it [J].
+  virtual const Field3& forceAt(const Field3& position, double& energy) noexcept = 0;
+  /// What the last of them returned.
+  virtual const Field3& sum() const noexcept = 0;
+  /// Elastic energy that leapfrog keeps with that of motion [J]: after addTo(outer, ...) moved the cloth to `position`,
+  /// x_n A x_(n-1) / 2 beside the velocities between them.
+  virtual double energyAfter(const Field3& outer, const Field3& position) const noexcept = 0;
+};
+
+}  // namespace curtain

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "step/net_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace curtain {
+
+void NetRows::scale(const Frame& frame, const Row& row, Packed& packed) noexcept {
+  packed.dx = static_cast<float>(row.direction.x());
+  packed.dy = static_cast<float>(row.direction.y());
+  packed.dz = static_cast<float>(row.direction.z());
+  packed.on = row.active ? 1.0F : 0.0F;
+  packed.damping = std::max(frame.damping, static_cast<float>(row.least_damping));
+  packed.per_diagonal = 1.0F / (packed.diagonal * (1.0F + packed.damping));
+  packed.residual = static_cast<float>(row.violation / frame.violation_scale);
+  packed.least = static_cast<float>(row.least * (frame.inertia_scale / frame.violation_scale));
+  aligned_ += packed.aligned();
+}
+
+void NetRows::turn(float beta, NetNodes push) noexcept {
+  for (Packed& row : rows_) {
+    row.pull = row.on * row.residual * row.per_diagonal + beta * row.pull;
+    row.push(row.pull, push);
+  }
+}
+
+double NetRows::product(NetNodes move, NetNodes push) noexcept {
+  double sum = 0.0;
+  for (Packed& row : rows_) {
+    float along = row.damping * row.diagonal * row.pull;
+    for (int k = 0; k < row.nodes; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      const std::uint32_t node = row.node[at];
+      along += row.weight[at] * (row.dx * move.x[node] + row.dy * move.y[node] + row.dz * move.z[node]);
+      push.x[node] = push.y[node] = push.z[node] = 0.0F;
+    }
+    row.product = along;
+    sum += static_cast<double>(along * row.pull);
+  }
+  return sum;
+}
+
+double NetRows::advance(float alpha) noexcept {
+  float largest = 0.0F;
+  aligned_ = 0.0;
+  for (Packed& row : rows_) {
+    row.solution += alpha * row.pull;
+    row.residual -= alpha * row.product;
+    largest = std::max(largest, row.on * std::abs(row.residual));
+    aligned_ += row.aligned();
+  }
+  return static_cast<double>(largest);
+}
+
+int NetRows::countChanges(float goal) const noexcept {
+  return static_cast<int>(std::count_if(rows_.begin(), rows_.end(), [goal](const Packed& row) {
+    return row.on > 0.0F ? row.solution < row.least : row.residual > goal;
+  }));
+}
+
+int NetRows::changeSet(float goal, NetNodes push) noexcept {
+  int leave = 0;
+  aligned_ = 0.0;
+  for (Packed& row : rows_) {
+    row.pull = 0.0F;
+    if (row.on > 0.0F && row.solution < row.least) {
+      row.pull = row.least - row.solution;
+      row.on = 0.0F;
+      ++leave;
+      row.push(row.pull, push);
+    } else if (!(row.on > 0.0F) && row.residual > goal) {
+      row.on = 1.0F;
+    }
+    aligned_ += row.aligned();
+  }
+  return leave;
+}
+
+void NetRows::conclude(const Rows& rows, NetNodes push) noexcept {
+  for (Packed& row : rows_) {
+    if (!rows[row.index].with_rods) continue;
+    row.solution = std::max(row.solution, row.least);
+    row.push(row.solution, push);
+  }
+}
+
+void NetRows::unload(double scale, Rows& rows) const noexcept {
+  for (const Packed& row : rows_) rows[row.index].change = scale * static_cast<double>(row.solution);
+}
+
+}  // namespace curtain

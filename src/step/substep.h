@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Input and output of a substep, and the interface of contact finders.
+#pragma once
+
+#include <limits>
+
+#include "cloth/cloth.h"
+#include "step/contacts.h"
+#include "step/stage_clock.h"
+
+namespace curtain {
+
+enum class SchemeKind {
+  kLeapfrog,
+  kImplicit,
+  kLastResort  ///< the smallest step, bounded so that its links hold (schemes/last_resort.h)
+};
+
+/// A substep to be made.
+struct SubstepPlan {
+  SchemeKind scheme = SchemeKind::kLeapfrog;
+  double h = 0.0;                                          ///< [s], != 0; negative only for leapfrog
+  double reach = std::numeric_limits<double>::infinity();  ///< last resort: trust radius of a node, in links
+  bool tells_turning = true;                               ///< compute SubstepOutcome::turning
+  bool precise = false;                                    ///< solve rods to rounding
+  double most_phase = 0.0;  ///< mass scaling: nodes with a larger h * omega get the inertia that makes it this; 0:
+                            ///< none. The effect vanishes with the step.
+
+  bool isLastResort() const noexcept { return scheme == SchemeKind::kLastResort; }
+};
+
+/// Forces at the start of a substep.
+struct NodeForces {
+  const Field3* force = nullptr;  ///< [N], all but damping
+  bool weight_only = true;        ///< force is mass times gravity
+  Vec3 gravity = Vec3::Zero();    ///< [m/s^2]
+  Field damping;                  ///< force = -damping * velocity [kg/s]; only read when has_damping
+  bool has_damping = false;
+};
+
+/// Finds contacts, and verifies the result of a substep.
+class ContactFinder {
+ public:
+  virtual ~ContactFinder() = default;
+
+  /// Contacts expected between start and predicted, over a substep of h [s], with their multipliers of the last
+  /// substep. Incomplete: verify() decides. Allocates nothing.
+  virtual Contacts& begin(const Field3& start, const Field3& predicted, double h) noexcept = 0;
+
+  enum class Verdict {
+    kClear,   ///< nothing has crossed anything
+    kMore,    ///< something would: contacts were added, solve again
+    kCrossed  ///< something would, and solving again has not helped
+  };
+  /// Checks the path from start to end. settled: at its end every link is within the tolerance.
+  virtual Verdict verify(const Field3& start, const Field3& end, bool settled) noexcept = 0;
+
+  /// Last resort: changes `end` so that nothing crosses anything, whatever that does to the links.
+  virtual void hold(const Field3& start, Field3& end) noexcept = 0;
+};
+
+/// How a substep went.
+struct SubstepOutcome {
+  bool accepted = false;  ///< false: nothing was changed, try again with a smaller step
+  bool settled = false;   ///< every link is within the tolerance
+  bool late = false;      ///< out of computing time before it had settled
+  bool touches = false;   ///< a contact pushes
+  int sweeps = 0;
+  double scale = 0.0;                                             ///< h * kick [s^2]
+  double kick = 0.0;                                              ///< time that the forces acted for [s]
+  double share = 1.0;                                             ///< of the path that the last resort leaves, [0..1]
+  double momentum_cut = 0.0;                                      ///< by the last resort [N s]
+  bool pins_wait = false;                                         ///< moved pins stayed where they were
+  double longest_step = std::numeric_limits<double>::infinity();  ///< limit for the next step from moving contacts [s]
+  double turning = 0.0;        ///< ExactSolver::turning() [1/s]; 0 with pulling strings or contacts: jumps are no turns
+  double omega_squared = 0.0;  ///< bound of the highest frequency squared, from the links' tensions [1/s^2]
+};
+
+}  // namespace curtain

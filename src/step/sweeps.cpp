@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "step/sweeps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/infinity.h"
+#include "step/constants.h"
+
+namespace curtain {
+bool StallWatch::stalls(int sweeps, double residual) noexcept {
+  if (sweeps % kStallWindow != 0) return false;
+  const bool improves = residual < kStallFactor * before_;
+  before_ = residual;
+  return !improves;
+}
+
+Sweeps::Sweeps(Constraints& constraints, const NodeInertia& inertia, double tolerance, double contact_tolerance,
+               int most_sweeps)
+    : constraints_(constraints),
+      inertia_(inertia),
+      tolerance_(kInnerTolerance * tolerance),
+      contact_tolerance_(kInnerTolerance * contact_tolerance),
+      most_sweeps_(most_sweeps) {}
+
+Sweeps::Aim Sweeps::aimOf(const SweepTask& task, bool first, bool touches, int sweeps) const noexcept {
+  double strict = 1.0, contact = contact_tolerance_;
+  if (touches) {
+    const double share = kShareOfPath * task.path / contact_tolerance_;
+    contact *= std::clamp(share, sweeps < kStrictSweeps ? kStrictShare : 1.0, task.last_resort ? 1.0 : kMostTouch);
+    if (sweeps < kStrictSweeps) strict = std::clamp(share, kStrictShare, 1.0);
+  }
+  if (sweeps < kStrictSweeps && !touches && (constraints_.stringsPull() || constraints_.stringsAct())) {
+    // The last resort leaves no more than its far shorter successors can correct without a jump.
+    strict =
+        task.last_resort ? kLastResortShare
+        : task.weight_path > 0.0
+            ? std::clamp(kShareOfWeight * task.weight_path / (constraints_.middleRest() * tolerance_), kLeastShare, 1.0)
+            : 1.0;
+  }
+  const bool cautious = first && !task.last_resort;
+  return {strict * tolerance_, contact, cautious ? kFirstSweepShare : 1.0, cautious ? kFirstSweepShare : kLeaveAlone};
+}
+
+// Friction is projected before contacts are measured.
+Sweeps::Residual Sweeps::look(Contacts* contacts, const Constraints::RodsProgress& rods, bool first, int sweeps,
+                              StageClock& clock) noexcept {
+  Residual residual;
+  residual.rods = rods;
+  const bool touches = contacts != nullptr && !contacts->empty();
+  if (touches && sweeps <= kFrictionSweeps) {
+    projectFriction(inertia_.inverse(), *contacts, constraints_.next);
+    constraints_.settleGuide();
+  }
+  if (touches) residual.touch = contactResidual(*contacts, constraints_.next);
+  clock.lap(Stage::kContact);
+  residual.strings = constraints_.lookAtStrings(constraints_.stringsPull() || !first);
+  return residual;
+}
+
+bool Sweeps::reached(const Aim& aim, const Residual& r) noexcept {
+  return r.rods.converged && r.strings <= aim.share * aim.links && r.touch <= aim.share * aim.contact &&
+         constraints_.rodsResidual() <= aim.links;
+}
+
+// Accepts the sweep if it reduces the merit; else undoes it and increases the damping. True: it was undone.
+bool Sweeps::keepOrUndo(double& residual, const Residual& now, Contacts* contacts, SweepDamping& damping) noexcept {
+  const double merit = constraints_.merit(contacts, now.rods.converged ? 0.0 : constraints_.rodsResidual());
+  if (merit < best_.merit) {
+    best_ = {merit, residual};
+    constraints_.saveIterate(contacts);
+    damping.better();
+    return false;
+  }
+  if (!std::isfinite(best_.merit)) return false;
+  constraints_.restoreIterate(contacts);
+  residual = best_.residual;
+  damping.worse();
+  return true;
+}
+
+bool Sweeps::isWithin(double touch) noexcept {
+  const double allowed = tolerance_ / kInnerTolerance;
+  return touch <= most_touch_ && constraints_.rodsResidual() <= allowed && constraints_.stringsResidual() <= allowed;
+}
+
+SweepOutcome Sweeps::run(const SweepTask& task, Contacts* contacts, StageClock& clock) noexcept {
+  const bool touches = contacts != nullptr && !contacts->empty();
+  SweepOutcome outcome;
+  SweepDamping damping(task.last_resort ? kMostDamping : kLargestDamping);
+  StallWatch watch;
+  bool follow = task.follows;
+  double before = kInfinity, touch = 0.0;
+  best_ = Best();
+  most_touch_ = aimOf(task, false, touches, kStrictSweeps).contact;
+  constraints_.beginSolve();
+  while (outcome.sweeps < most_sweeps_) {
+    const bool first = outcome.sweeps == 0;
+    const Aim aim = aimOf(task, first, touches, outcome.sweeps);
+    const Constraints::RodsProgress rods =
+        constraints_.solveRods({follow,
+                                task.precise                           ? kPreciseStop
+                                : first && !constraints_.stringsPull() ? kNewtonStop
+                                                                       : kNewtonStopLater,
+                                first ? 0.0 : kLeaveAlone * aim.links, task.last_resort ? kInfinity : kMostViolation});
+    clock.lap(Stage::kWarp);
+    if (first) outcome.predicted_violation = rods.first_residual;
+    if (!rods.converged && !task.last_resort) return {SweepEnd::kDiverged, false, outcome.sweeps};
+    ++outcome.sweeps;
+    const Residual now = look(contacts, rods, first, outcome.sweeps, clock);
+    touch = now.touch;
+    if (reached(aim, now)) {
+      clock.lap(Stage::kWeft);
+      return {SweepEnd::kConverged, true, outcome.sweeps, outcome.predicted_violation};
+    }
+    double residual = std::max(now.strings, touch / constraints_.middleRest());
+    if (!std::isfinite(residual)) {
+      outcome.end = SweepEnd::kDiverged;
+      break;
+    }
+    bool undone = false;
+    if (task.last_resort) {
+      undone = keepOrUndo(residual, now, contacts, damping);
+      if (undone && damping.exhausted(residual)) break;
+    } else if (residual > before) {
+      damping.worse();  // too far along directions that hardly anything constrains
+    } else {
+      damping.better();
+    }
+    before = residual;
+    if (undone || now.strings > aim.alone * aim.links || touch > aim.alone * aim.contact) {
+      // Contact converges better along fixed directions.
+      follow = follow || !touches;
+      if (follow)
+        constraints_.followDirections();
+      else
+        constraints_.takeDirections(task.start);
+      const bool newton = !touches && !task.last_resort;
+      const double worth = newton ? residual : follow ? kReduction : kContactReduction;
+      const double enough = std::min(kReduction, std::max(kReduction * aim.links / residual, worth));
+      constraints_.solveNet({residual, enough, damping.at(residual), newton}, contacts);
+    }
+    clock.lap(Stage::kWeft);
+    if (clock.late()) {
+      outcome.end = SweepEnd::kOutOfTime;
+      break;
+    }
+    if (!task.last_resort && watch.stalls(outcome.sweeps, std::max(rods.first_residual, residual))) break;
+  }
+  return conclude(outcome, touch, contacts);
+}
+
+// The solve did not converge; it may still be within the user's tolerance.
+SweepOutcome Sweeps::conclude(SweepOutcome outcome, double touch, Contacts* contacts) noexcept {
+  if (std::isfinite(best_.merit)) {
+    if (outcome.end == SweepEnd::kDiverged) outcome.end = SweepEnd::kStalled;
+    constraints_.restoreIterate(contacts);
+    if (contacts != nullptr && !contacts->empty()) touch = contactResidual(*contacts, constraints_.next, false);
+  }
+  outcome.within = outcome.end != SweepEnd::kDiverged && isWithin(touch);
+  return outcome;
+}
+
+}  // namespace curtain

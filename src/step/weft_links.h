@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The weft, row by row: one-sided constraints |x_ij - x_i(j-1)| <= l. A link that is too long, or has a multiplier,
+// takes part in the solve (NetSolver); slack links cost a comparison each. In closed cloth the link of column 0 joins
+// the last column to the first.
+#pragma once
+
+#include "step/links.h"
+
+namespace curtain {
+
+/// Relative overlength of a weft link per unit of multiplier * (w_a + w_b), at most LinkSet::most_give. It keeps a
+/// straight row between two pins (a singular system) solvable, and vanishes with the square of the substep.
+constexpr double kWeftCompliance = 1e-7;
+
+/// Sets the directions of a row's links from the positions.
+void setWeftDirections(const Grid& grid, int row, const Field3& position, Field3& direction) noexcept;
+
+/// Largest relative violation of the links of a row that take part; infinite when a position is not finite.
+double weftResidual(const LineSolve& line, int row) noexcept;
+
+/// 1 / rest length^2 of the links with a movable end, 0 of the others [1/m^2]. out has the grid's size.
+void freeWeft(const ClothPattern& pattern, const Field& inverse_mass, Field& out) noexcept;
+
+/// Largest (length / rest length)^2 of a row's links with a movable end; infinite when a position is not finite.
+double weftSquare(const Grid& grid, int row, const Field3& position, const Field& free_per_square) noexcept;
+
+/// Returns the residual, and sets for every link of the row whether it takes part (1 or 0) and its violation C = (|r|^2
+/// - l^2) / 2 less the compliance [m^2], negative where it is slack.
+double measureWeft(const LineSolve& line, int row, Field& violation, Field& active) noexcept;
+
+/// The same for velocities: links that pull take part, with dC/dt = d . (v_b - v_a) [m^2/s]; returns the largest over
+/// l^2.
+double measureWeftRates(const LineSolve& line, int row, Field& violation, Field& active) noexcept;
+
+/// Bounds a row's changes so that multipliers stay >= 0, and adds them.
+void takeUpWeft(LinkSet& links, const Grid& grid, int row, Field& change) noexcept;
+
+/// Moves a row's nodes by multipliers (all, or a change) along the links' directions.
+void pullWeft(const LineSolve& line, int row, const Field& multiplier) noexcept;
+
+/// Largest displacement that pullWeft would cause in the row, over the rest length of a link, squared.
+double weftMoveSquared(const LineSolve& line, int row, const Field& multiplier) noexcept;
+
+/// Largest relative overlength of any weft link with a free end.
+double weftStretch(const ClothPattern& pattern, const Field3& position) noexcept;
+
+}  // namespace curtain
