@@ -27,7 +27,7 @@ endfunction()
 
 add_compile_definitions($<$<CONFIG:Debug>:CURTAIN_FLOAT_TRAPS>)  # test/float_traps.h
 
-foreach(floor scene cloth forces step contact simulator budget properties batch fuzz)
+foreach(floor scene cloth step contact parts simulator budget properties batch fuzz)
   curtain_add_tests(${floor})
 endforeach()
 
@@ -126,7 +126,7 @@ include(cmake/packaging_tests.cmake)
 
 # What scripts/test --fast builds and runs.
 if(NOT catkin_FOUND)
-  set(fast scene cloth forces step contact budget batch structure)
+  set(fast scene cloth step contact parts budget batch structure)
   list(TRANSFORM fast PREPEND test_)
   add_custom_target(fast_tests DEPENDS curtain_batch ${fast})
   set(second_shards ${fast})

@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "cloth/link_ways.h"
-#include "forces/air_damping.h"
-#include "forces/ambient_wind.h"
-#include "forces/drag_force.h"
-#include "forces/relative_air.h"
-#include "forces/wind_source.h"
+#include "parts/air/air_damping.h"
+#include "parts/air/relative_air.h"
+#include "parts/drag/drag_force.h"
+#include "parts/hands/grasps.h"
+#include "parts/wind/ambient_wind.h"
+#include "parts/wind/wind_shadow.h"
+#include "parts/wind/wind_source.h"
 #include "scene/find_by_id.h"
-#include "simulator/grasps.h"
-#include "simulator/wind_shadow.h"
 #include "step/substep.h"
 
 namespace curtain {

@@ -8,10 +8,10 @@
 #include "methods/paper/paper_solver.h"
 #include "parts/bending/bending.h"
 #include "parts/cords/cords.h"
+#include "parts/hands/grasps.h"
 #include "parts/rail/carriers.h"
 #include "simulator/energy_ledger.h"
 #include "simulator/force_field.h"
-#include "simulator/grasps.h"
 #include "simulator/obstacle_lag.h"
 #include "step/exact_solver.h"
 

@@ -7,14 +7,14 @@
 #include <cstdint>
 #include <optional>
 
+#include "cloth/pin_moves.h"
 #include "curtain_sim/simulator.h"
+#include "parts/rail/opening.h"
 #include "simulator/accuracy/error_control.h"
 #include "simulator/energy_guard.h"
 #include "simulator/frame_loop.h"
 #include "simulator/frame_times.h"
 #include "simulator/motion.h"
-#include "simulator/opening.h"
-#include "simulator/pin_moves.h"
 #include "simulator/sleep.h"
 #include "surface/fine_surface.h"
 

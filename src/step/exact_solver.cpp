@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "cloth/free_body.h"
-#include "forces/air_damping.h"
 #include "step/constants.h"
+#include "step/damped_step.h"
 
 namespace curtain {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "forces/air_damping.h"
+#include "step/damped_step.h"
 
 namespace curtain {
 namespace {

@@ -39,6 +39,13 @@ struct NodeForces {
   bool has_damping = false;
 };
 
+/// The coming substep, for a force that depends on the velocities it leads to.
+struct SubstepAhead {
+  double kick = 0.0;             ///< time that forces act for [s]
+  bool backward = false;         ///< they are wanted at its end; else in its middle
+  const Field3* pull = nullptr;  ///< acceleration by what the links pull with [m/s^2]; null: nothing
+};
+
 /// Finds contacts, and verifies the result of a substep.
 class ContactFinder {
  public:

@@ -7,7 +7,7 @@ if [ "${1:-}" = quick ]; then
   not=null,alignment,pointer-overflow,object-size  # half of the time to build; where such pointers lead AddressSanitizer sees
 else
   not=
-  tests+=(scene cloth forces step contact simulator budget)
+  tests+=(scene cloth step contact parts simulator budget)
 fi
 configure Debug "-O1 -fno-omit-frame-pointer" -DCMAKE_CXX_FLAGS_DEBUG=-g1 -DCURTAIN_SANITIZE=address,undefined,float-cast-overflow \
   -DCURTAIN_SANITIZE_NOT="$not" -DCURTAIN_UNITY=ON -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON

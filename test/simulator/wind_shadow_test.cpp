@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Obstacles in a source's cone keep its wind from the nodes behind them, if the source says so.
-#include "simulator/wind_shadow.h"
+#include "parts/wind/wind_shadow.h"
 
 #include <gtest/gtest.h>
 

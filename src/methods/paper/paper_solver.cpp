@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "forces/air_damping.h"
+#include "step/damped_step.h"
 
 namespace curtain {
 namespace {

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The air's force by its velocity u relative to the cloth, of a node with the area vector S = S n and the area A:
+//
+//   F = 1/2 rho |u| (c_n S (u . n) n + c_t A (u - (u . n) n))
+//
+// The normal part is |u| u_n, the sine of the angle of attack, and not |u_n| u_n, its square: the load of plates is
+// linear in small angles (Rayleigh 1876, pi sin / (4 + pi sin); Duchemin 1842, 2 sin / (1 + sin^2), which Langley 1891
+// measured), while Newton's square gives a tenth of it at 6 degrees. c_n = 1.2 is that of square plates across the
+// wind, 1.17 (Hoerner 1965, Ch. 3); c_t = 0.02 that of both sides of a plate in turbulent flow at a Reynolds number of
+// 1e5, 2 x 0.0074 (Prandtl's 0.074 Re^-1/5; Hoerner 1965, Ch. 2), and a third for the roughness of cloth.
+//
+// The force grows with the speed, so it must not depend on the velocity at the start of a long step; but its matrix B
+// differs from node to node and along the normal and across, which the solver's scalar inertia can't take up. So it is
+// evaluated at the velocity that the node would have without new pulls: with the forces, with what the links pulled by
+// in the last substep, and with the air itself, implicitly. With the solve of the links that follows this is the
+// splitting of Douglas and Rachford (1956; Lions and Mercier 1979), of which two properties matter here:
+//   - the error does not grow at any length of step, since the resolvents of B >= 0 and of the links are firmly
+//     nonexpansive;
+//   - where forces, links and air are in balance nothing changes: terminal speeds and rest are exact.
+#pragma once
+
+#include "cloth/cloth.h"
+#include "curtain_sim/scene.h"
+#include "step/substep.h"
+
+namespace curtain {
+
+class RelativeAir {
+ public:
+  /// porosity: of the cloth; it lowers c_n by this share.
+  RelativeAir(const AirParams& air, double porosity, const ClothPattern& pattern);
+
+  /// False: another law is asked for, or no coefficient is above zero.
+  bool active() const noexcept { return normal_ > 0.0 || tangential_ > 0.0; }
+  double density() const noexcept { return density_; }
+
+  /// The pattern's pins have changed.
+  void takePins(const ClothPattern& pattern) noexcept;
+
+  /// Largest coefficient of a node at rest, over its mass, in wind of this speed [m/s].
+  double strongestPerMass(double speed) const noexcept;
+
+  /// Adds the air's force to `force`, which has all other forces on the nodes [N].
+  ///   area_vectors  of nodeAreaVectors()
+  ///   wind          velocity of the air at the nodes [m/s]
+  ///   velocity      of the nodes, at the start of the kick [m/s]
+  void addForces(const ClothPattern& pattern, const Field3& area_vectors, const Field3& wind, const Field3& velocity,
+                 const SubstepAhead& ahead, Field3& force) const noexcept;
+
+ private:
+  double density_;
+  double normal_, tangential_;  // 1/2 rho c [kg/m^3]
+  double area_per_mass_ = 0.0;  // of the lightest node [m^2/kg]
+};
+
+}  // namespace curtain

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parts/hands/grasps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "parts/hands/hand_pose.h"
+#include "scene/ranges.h"
+
+namespace curtain {
+namespace {
+
+// How far cloth moves in a hand before it slides, or is lost [m]: half of the 1e-4 m that a held node may be off.
+constexpr double kPresliding = 5e-5;
+// Pulls of more than so many times the cloth's weight may move it further: pads that are stiffer by far than all that
+// pulls at them are hard to solve for.
+constexpr double kMostWeights = 10.0, kStandardGravity = 9.81;
+// Share of the cloth's mass that a hand which gives way moves with it, as drag_force.cpp has it.
+constexpr double kHeldShare = 0.25;
+
+// It neither gives way nor loses the cloth. Else it needs some elasticity: between two pins, what straight links pull
+// with has no one answer.
+bool isRigid(const GraspParams& grasp) noexcept {
+  return !(grasp.stiffness <= kLargest || grasp.pinch_force <= kLargest || grasp.break_force <= kLargest);
+}
+
+std::string textOf(const NodeIndex& node) {
+  return "[" + std::to_string(node.row) + ", " + std::to_string(node.column) + "]";
+}
+
+}  // namespace
+
+Grasps::Grasps(const Scene& scene, const ClothPattern& pattern)
+    : scene_(scene),
+      pattern_(pattern),
+      scene_pins_(pattern.pinned),
+      total_mass_(std::accumulate(pattern.mass.begin(), pattern.mass.end(), 0.0)),
+      pinned_(pattern.grid.size(), 0),
+      loaded_(pattern.grid.size(), 0),
+      hand_(pattern.grid.size(), -1) {}
+
+bool Grasps::Grasp::moves() const noexcept {
+  return holds() && !(from.position == to.position && from.orientation.coeffs() == to.orientation.coeffs());
+}
+
+std::size_t Grasps::indexOf(const std::string& id) const noexcept {
+  const auto found =
+      std::find_if(list_.begin(), list_.end(), [&](const Grasp& grasp) { return grasp.params.id == id; });
+  return static_cast<std::size_t>(found - list_.begin());
+}
+
+// After the list has changed, or who is held.
+void Grasps::note() noexcept {
+  std::fill(pinned_.begin(), pinned_.end(), std::uint8_t{0});
+  std::fill(hand_.begin(), hand_.end(), -1);
+  holding_ = 0;
+  for (std::size_t g = 0; g < list_.size(); ++g) {
+    holding_ += list_[g].holds() ? 1 : 0;
+    for (const HeldNode& held : list_[g].held) {
+      hand_[held.node] = static_cast<int>(g);
+      pinned_[held.node] = list_[g].pins ? 1 : 0;
+    }
+  }
+}
+
+void Grasps::listNodes(const GraspParams& grasp, std::vector<std::size_t>& nodes,
+                       std::vector<Problem>& problems) const {
+  for (std::size_t k = 0; k < grasp.nodes.size(); ++k) {
+    const std::size_t n = pattern_.grid.index(grasp.nodes[k]);
+    const std::string key = "grasp.nodes[" + std::to_string(k) + "]", node = "node " + textOf(grasp.nodes[k]);
+    if (hand_[n] >= 0)
+      problems.push_back(
+          {key, node + " is held already, by '" + list_[static_cast<std::size_t>(hand_[n])].params.id + "'"});
+    else if (scene_pins_[n] == kPinned)
+      problems.push_back({key, node + " is pinned by the scene"});
+    else if (scene_pins_[n] == kGuided)
+      problems.push_back({key, node + " hangs on the rail"});
+    nodes.push_back(n);
+  }
+  std::sort(nodes.begin(), nodes.end());
+}
+
+std::vector<Problem> Grasps::find(const GraspParams& grasp, const Field3& position,
+                                  std::vector<std::size_t>& nodes) const {
+  std::vector<Problem> problems;
+  if (holds(grasp.id)) return {{"grasp.id", "'" + grasp.id + "' holds the cloth already: release it first"}};
+  if (scene_.solver.method == Method::kPaper && !isRigid(grasp)) {
+    return {{"grasp",
+             "can have a stiffness, break_force or pinch_force only where pulls are known: not with method paper"}};
+  }
+  if (grasp.region == GraspRegion::kNodes) {
+    listNodes(grasp, nodes, problems);
+    return problems;
+  }
+  const Grid& grid = pattern_.grid;
+  const Pose frame = normalised(grasp.frame);
+  const Vec3 centre = toWorld(frame, grasp.place.position);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) {
+      const std::size_t n = grid.index(i, j);
+      if (!isFree(n)) continue;
+      const Vec3 at = position.at(n);
+      nearest = std::min(nearest, (at - centre).norm());
+      if (isInRegion(grasp, toLocal(frame, at))) nodes.push_back(n);
+    }
+  }
+  if (!nodes.empty()) return problems;
+  const std::string where = std::isfinite(nearest) ? "the nearest is " + formatNumber(nearest) + " m from its centre"
+                                                   : "all of the cloth's are pinned or held";
+  return {{"grasp.region", "holds no free node: " + where}};
+}
+
+// What follows from its parameters.
+void Grasps::prepare(Grasp& grasp) const {
+  const GraspParams& params = grasp.params;
+  grasp.pins = isRigid(params);
+  if (grasp.pins) return;
+  double most = std::numeric_limits<double>::infinity();
+  if (params.pinch_force <= kLargest) {
+    most = 2.0 * params.friction * params.pinch_force;
+    grasp.held.reserve(pattern_.grid.nodeCount());  // for what slides in
+  }
+  // Without a stiffness of the hand, that of the cloth between the pads; it needs no damper, since its implicit part
+  // damps it far beyond the critical.
+  if (params.stiffness <= kLargest) {
+    const double share = 1.0 / static_cast<double>(grasp.taken);
+    const double damping = 2.0 * std::sqrt(params.stiffness * kHeldShare * total_mass_);
+    grasp.springs = {share * params.stiffness, share * damping, most, total_mass_};
+  } else {
+    const double bears = std::min({most, params.break_force, kMostWeights * kStandardGravity * total_mass_});
+    grasp.springs = {bears / kPresliding, 0.0, most, total_mass_};
+  }
+}
+
+void Grasps::add(const GraspParams& params, const std::vector<std::size_t>& nodes, ClothState& state) {
+  Grasp grasp;
+  grasp.params = params;
+  grasp.params.frame = grasp.from = grasp.to = normalised(params.frame);
+  grasp.params.place = normalised(params.place);
+  grasp.taken = nodes.size();
+  prepare(grasp);
+  for (const std::size_t n : nodes) {
+    HeldNode held;
+    held.node = n;
+    held.place = toLocal(grasp.from, state.position.at(n));
+    held.begin = held.end = state.position.at(n);
+    held.velocity = state.velocity.at(n);
+    if (grasp.pins) state.velocity.set(n, Vec3::Zero());
+    grasp.held.push_back(held);
+  }
+  const std::size_t known = indexOf(params.id);
+  if (known < list_.size())
+    list_[known] = std::move(grasp);
+  else
+    list_.push_back(std::move(grasp));
+  note();
+}
+
+void Grasps::release(Grasp& grasp, PinMoves& pins) noexcept {
+  for (const HeldNode& held : grasp.held) pins.letGo(held.node);
+  grasp.held.clear();
+}
+
+bool Grasps::remove(const std::string& id, PinMoves& pins) {
+  const std::size_t known = indexOf(id);
+  if (known == list_.size()) return false;
+  release(list_[known], pins);
+  list_.erase(list_.begin() + static_cast<std::ptrdiff_t>(known));
+  note();
+  return true;
+}
+
+bool Grasps::clear(PinMoves& pins) {
+  if (list_.empty()) return false;
+  for (Grasp& grasp : list_) release(grasp, pins);
+  list_.clear();
+  note();
+  return true;
+}
+
+void Grasps::letGoOfEnded(PinMoves& pins) noexcept {
+  for (Grasp& grasp : list_) {
+    if (grasp.end != GraspEnd::kNone) release(grasp, pins);
+  }
+  note();
+}
+
+bool Grasps::move(const std::string& id, const Pose& pose) {
+  if (!holds(id)) return false;
+  list_[indexOf(id)].to = normalised(pose);
+  return true;
+}
+
+void Grasps::holdWhereTheyAre(const ClothState& state) noexcept {
+  for (Grasp& grasp : list_) {
+    for (HeldNode& held : grasp.held) {
+      held.place = toLocal(grasp.from, state.position.at(held.node));
+      held.velocity = Vec3::Zero();
+    }
+  }
+}
+
+GraspState Grasps::stateOf(const std::string& id) const {
+  const Grasp& grasp = list_[indexOf(id)];
+  GraspState state;
+  const auto stride = static_cast<std::size_t>(pattern_.grid.stride);
+  for (const HeldNode& held : grasp.held)
+    state.nodes.push_back({static_cast<int>(held.node / stride), static_cast<int>(held.node % stride)});
+  state.force = grasp.force;
+  state.torque = grasp.torque;
+  state.slipped = grasp.slipped;
+  state.end = grasp.end;
+  return state;
+}
+
+std::vector<std::string> Grasps::ids() const {
+  std::vector<std::string> ids;
+  for (const Grasp& grasp : list_) ids.push_back(grasp.params.id);
+  return ids;
+}
+
+}  // namespace curtain

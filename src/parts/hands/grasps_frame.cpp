@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Hands in a frame: they move, are pulled at, and lose what they hold.
+#include <algorithm>
+
+#include "parts/hands/grasps.h"
+#include "parts/hands/hand_pose.h"
+#include "scene/ranges.h"
+
+namespace curtain {
+namespace {
+
+// Links that are pulled apart may pull with anything.
+Vec3 withinNumbers(const Vec3& pull) noexcept {
+  if (!pull.allFinite()) return Vec3::Zero();
+  const double size = pull.stableNorm();
+  return size > kLargest ? Vec3(kLargest / size * pull) : pull;
+}
+
+}  // namespace
+
+bool Grasps::anyMoves() const noexcept {
+  return std::any_of(list_.begin(), list_.end(), [](const Grasp& grasp) { return grasp.moves(); });
+}
+
+bool Grasps::anySprings() const noexcept {
+  return any() &&
+         std::any_of(list_.begin(), list_.end(), [](const Grasp& grasp) { return grasp.holds() && !grasp.pins; });
+}
+
+void Grasps::movePins(PinMoves& pins) const noexcept {
+  for (const Grasp& grasp : list_) {
+    if (!grasp.pins || !grasp.moves()) continue;
+    for (const HeldNode& held : grasp.held) pins.move(held.node, toWorld(grasp.to, held.place), true);
+  }
+}
+
+// The nodes that a hand pins change their velocity here; what that takes, the hand has to give.
+void Grasps::begin(const ClothState& state, double frame_rate) noexcept {
+  part_.frame_rate = frame_rate;
+  for (Grasp& grasp : list_) {
+    grasp.impulse = grasp.angular = Vec3::Zero();
+    grasp.counted = 0.0;
+    grasp.slid = false;
+    for (HeldNode& held : grasp.held) {
+      held.begin = toWorld(grasp.from, held.place);
+      held.end = toWorld(grasp.to, held.place);
+      if (!grasp.pins) continue;
+      const Vec3 velocity = state.velocity.at(held.node);
+      grasp.push(state.position.at(held.node), grasp.from.position,
+                 pattern_.mass[held.node] * (held.velocity - velocity));
+      held.velocity = velocity;
+    }
+  }
+}
+
+void Grasps::setSubstep(double done, double h) noexcept {
+  part_.h = h;
+  part_.end = (done + h) * part_.frame_rate;
+}
+
+void Grasps::addForces(const ClothState& state, Field3& force, Field& damping) noexcept {
+  for (Grasp& grasp : list_) {
+    if (grasp.holds() && !grasp.pins) grasp.springs.addForces(grasp.held, state, part_, force, damping);
+  }
+}
+
+void Grasps::keepForces(const Field3& force) noexcept {
+  for (Grasp& grasp : list_) {
+    for (HeldNode& held : grasp.held) held.others = force.at(held.node);
+  }
+}
+
+void Grasps::restoreForces(Field3& force) const noexcept {
+  for (const Grasp& grasp : list_) {
+    for (const HeldNode& held : grasp.held) {
+      if (!grasp.pins) force.set(held.node, held.others);
+    }
+  }
+}
+
+void Grasps::count(const ClothState& state, const NodeForces& forces, const ExactSolver* links,
+                   const Contacts* contacts, double scale) noexcept {
+  for (Grasp& grasp : list_) {
+    if (!grasp.holds()) continue;
+    grasp.counted += part_.h;
+    if (!grasp.pins)
+      countSprings(grasp, state);
+    else if (links != nullptr)
+      countPinned(grasp, state, forces, *links, scale);
+  }
+  if (links != nullptr && contacts != nullptr) countContacts(state, *contacts, scale);
+}
+
+// All that acts on a pinned node acts on the hand.
+void Grasps::countPinned(Grasp& grasp, const ClothState& state, const NodeForces& forces, const ExactSolver& links,
+                         double scale) noexcept {
+  const auto stride = static_cast<std::size_t>(pattern_.grid.stride);
+  const Field3& others = links.forcesWithElastic() != nullptr ? *links.forcesWithElastic() : *forces.force;
+  const Vec3 origin = grasp.origin(part_.end);
+  for (const HeldNode& held : grasp.held) {
+    const std::size_t n = held.node;
+    Vec3 sum = others.at(n);
+    if (scale != 0.0) sum += links.pullAt(static_cast<int>(n / stride), static_cast<int>(n % stride)) / scale;
+    if (forces.has_damping) sum -= forces.damping[n] * state.velocity.at(n);
+    grasp.push(state.position.at(n), origin, part_.h * sum);
+  }
+}
+
+void Grasps::countContacts(const ClothState& state, const Contacts& contacts, double scale) noexcept {
+  for (const Contact& contact : contacts) {
+    if (!contact.pushes()) continue;
+    for (int k = 0; k < contact.nodes; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      const std::size_t n = contact.node[at];
+      if (pinned_[n] == 0) continue;
+      Grasp& grasp = list_[static_cast<std::size_t>(hand_[n])];
+      grasp.push(state.position.at(n), grasp.origin(part_.end),
+                 (part_.h / scale * contact.weight[at]) * (contact.push * contact.normal + contact.slide));
+    }
+  }
+}
+
+void Grasps::countSprings(Grasp& grasp, const ClothState& state) noexcept {
+  const Vec3 origin = grasp.origin(part_.end);
+  Vec3 sum = Vec3::Zero();
+  for (const HeldNode& held : grasp.held) {
+    const Vec3 force = grasp.springs.forceAt(held, state, part_);
+    grasp.push(state.position.at(held.node), origin, -part_.h * force);
+    sum += force;
+  }
+  grasp.springs.taken(grasp.held, sum.norm());
+  slide(grasp, state);
+}
+
+// Places slide after the nodes, until the springs pull with what the pads can hold.
+void Grasps::slide(Grasp& grasp, const ClothState& state) noexcept {
+  const double kept = grasp.springs.kept(grasp.held, state.position, part_);
+  if (kept == 1.0) return;
+  grasp.slid = true;
+  const Pose now = between(grasp.from, grasp.to, part_.end);
+  double way = 0.0;
+  for (HeldNode& held : grasp.held) {
+    const Vec3 shift = (1.0 - kept) * (state.position.at(held.node) - HoldSprings::targetOf(held, part_.end));
+    const Vec3 local = now.orientation.conjugate() * shift;
+    held.place += local;
+    held.begin += grasp.from.orientation * local;
+    held.end += grasp.to.orientation * local;
+    way += shift.norm();
+  }
+  grasp.slipped += way / static_cast<double>(grasp.held.size());
+}
+
+// Cloth has slid: what has left the region is free, what has come into it is held.
+void Grasps::changeHeld(Grasp& grasp, const ClothState& state) noexcept {
+  const auto isInside = [&](std::size_t n) {
+    return isInRegion(grasp.params, toLocal(grasp.from, state.position.at(n)));
+  };
+  std::size_t left = 0;
+  for (const HeldNode& held : grasp.held) {
+    if (isInside(held.node)) grasp.held[left++] = held;
+  }
+  grasp.held.resize(left);
+  const Grid& grid = pattern_.grid;
+  for (int i = 0; i < grid.rows; ++i) {
+    for (std::size_t n = grid.index(i, 0); n < grid.index(i, grid.columns); ++n) {
+      if (!isFree(n) || !isInside(n)) continue;
+      HeldNode held;
+      held.node = n;
+      held.place = toLocal(grasp.from, state.position.at(n));
+      held.begin = held.end = state.position.at(n);
+      held.velocity = state.velocity.at(n);
+      grasp.held.push_back(held);
+    }
+  }
+  std::sort(grasp.held.begin(), grasp.held.end(), [](const HeldNode& a, const HeldNode& b) { return a.node < b.node; });
+}
+
+bool Grasps::end(double share, const ClothState& state) noexcept {
+  bool ends = false;
+  for (Grasp& grasp : list_) {
+    if (!grasp.holds()) continue;
+    const Vec3 pull = grasp.counted > 0.0 ? Vec3(grasp.impulse / grasp.counted) : grasp.force;
+    if (grasp.counted > 0.0) {
+      grasp.force = withinNumbers(pull);
+      grasp.torque = withinNumbers(grasp.angular / grasp.counted);
+    }
+    grasp.from = share < 1.0 ? between(grasp.from, grasp.to, share) : grasp.to;
+    // Written so that pulls beyond numbers break it.
+    if (grasp.params.break_force <= kLargest && !(pull.stableNorm() < grasp.params.break_force)) {
+      grasp.end = GraspEnd::kBroken;
+    } else if (grasp.slid) {
+      changeHeld(grasp, state);
+      note();  // before another hand takes what comes into its region
+      if (!grasp.holds()) grasp.end = GraspEnd::kSlippedOut;
+    }
+    ends = ends || grasp.end != GraspEnd::kNone;
+  }
+  return ends;
+}
+
+}  // namespace curtain
