@@ -34,23 +34,26 @@ void judge(const Archive& archive, const std::vector<Problem>& problems) {
   if (archive.loads() && !problems.empty()) archive.fail(describe(problems));
 }
 
+template <typename Params>
+void carryFields(Archive& archive, Params& params, const Grid& grid = {}) {
+  ParamCarrier carrier(archive, grid);
+  archive.atOnce([&] { visitFields(carrier, params); });
+}
+
 }  // namespace
 
 void carryParams(Archive& archive, WindParams& wind) {
-  ParamCarrier carrier(archive);
-  archive.atOnce([&] { visitFields(carrier, wind); });
+  carryFields(archive, wind);
   judge(archive, validate(wind, "wind"));
 }
 
 void carryParams(Archive& archive, DragParams& drag, const ClothParams& cloth) {
-  ParamCarrier carrier(archive, Grid(cloth.rows, cloth.columns, cloth.closed));
-  archive.atOnce([&] { visitFields(carrier, drag); });
+  carryFields(archive, drag, Grid(cloth.rows, cloth.columns, cloth.closed));
   judge(archive, validate(drag, cloth, "drag"));
 }
 
 void carryParams(Archive& archive, AirParams& air) {
-  ParamCarrier carrier(archive);
-  archive.atOnce([&] { visitFields(carrier, air); });
+  carryFields(archive, air);
   judge(archive, validate(air, "air"));
 }
 

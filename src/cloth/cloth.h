@@ -48,7 +48,8 @@ struct ClothPattern {
   Field mass;             ///< [kg], with its carrier's; padding: 0
   Field inverse_mass;     ///< [1/kg]; pinned, carriers and padding: 0
   std::vector<std::uint8_t> pinned;
-  std::vector<std::size_t> guided;  ///< nodes that are kGuided, in order
+  std::vector<std::uint8_t> scene_pins;  ///< the same without what parts pin beside it; constant
+  std::vector<std::size_t> guided;       ///< nodes that are kGuided, in order
   RailPattern rail;
   CordsPattern cords;
   /// Bending stiffness of the warp line through the node, and of the weft line [N m]: E = k (1 - cos(turn)) for the
@@ -81,10 +82,8 @@ void fillBending(const ClothParams& cloth, ClothPattern& pattern);
 
 /// Pins these nodes beside those of the scene, and frees all others; inverse masses and bending follow. Whoever keeps
 /// something that follows from them must take it again: Simulator::Impl::takePins() tells all of them.
-///   scene_pins  ClothPattern::pinned of the scene's own pattern
-///   held        by node, 1 or 0; read where scene_pins has kFree
-void pinBeside(const std::vector<std::uint8_t>& scene_pins, const std::vector<std::uint8_t>& held,
-               const ClothParams& cloth, ClothPattern& pattern) noexcept;
+///   held  by node, 1 or 0; read where scene_pins has kFree
+void pinBeside(const std::vector<std::uint8_t>& held, const ClothParams& cloth, ClothPattern& pattern) noexcept;
 
 /// Rest lengths, masses, pins and bending of a validated scene.
 ClothPattern makePattern(const Scene& scene);

@@ -120,10 +120,6 @@ Field3 startOf(const Scene& scene, const ClothPattern& pattern) {
 
 }  // namespace
 
-bool CordsPattern::anyLoad() const {
-  return std::any_of(ends.begin(), ends.end(), [](const CordEnd& end) { return end.load; });
-}
-
 void addEndRows(const Scene& scene, Grid& grid) {
   const auto ends = static_cast<int>(scene.lines.size() + scene.tie_back.size());
   grid.end_rows = (ends + grid.columns - 1) / grid.columns;
@@ -144,7 +140,7 @@ double reachOf(const CordsPattern& cords, std::size_t loop, const Field3& positi
   return reach;
 }
 
-std::vector<Problem> problemsOfCords(const Scene& scene, const ClothPattern& pattern) {
+std::vector<Problem> problemsAtStart(const Scene& scene, const ClothPattern& pattern) {
   std::vector<Problem> problems;
   const CordsPattern& cords = pattern.cords;
   if (cords.empty()) return problems;

@@ -41,7 +41,6 @@ struct CordsPattern {
   std::vector<LoopPattern> loops;  ///< the tie-backs
 
   bool empty() const { return cords.empty(); }
-  bool anyLoad() const;
 };
 
 /// Makes room for the ends of a validated scene.
@@ -53,6 +52,6 @@ void fillCords(const Scene& scene, ClothPattern& pattern);
 double reachOf(const CordsPattern& cords, std::size_t loop, const Field3& position);
 
 /// What of the lengths of lines and the places of tie-backs does not fit where the cloth starts.
-std::vector<Problem> problemsOfCords(const Scene& scene, const ClothPattern& pattern);
+std::vector<Problem> problemsAtStart(const Scene& scene, const ClothPattern& pattern);
 
 }  // namespace curtain

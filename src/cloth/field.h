@@ -44,6 +44,9 @@ using Field = std::vector<double, CacheAligned<double>>;
 /// Doubles in a cache line; rows are padded to a multiple of it.
 constexpr int kLane = 8;
 
+/// Added to a squared length, it avoids a division by a zero length, and changes no other value [m^2].
+constexpr double kTinySquared = 1e-300;
+
 /// Shape of the grid, and index of node (row, column) in a Field.
 struct Grid {
   int rows = 0;

@@ -200,15 +200,15 @@ ClothPattern makePattern(const Scene& scene) {
   fillBending(scene.cloth, pattern);
   pressPleats(scene, pattern);
   fillCords(scene, pattern);
+  pattern.scene_pins = pattern.pinned;
   return pattern;
 }
 
-void pinBeside(const std::vector<std::uint8_t>& scene_pins, const std::vector<std::uint8_t>& held,
-               const ClothParams& cloth, ClothPattern& pattern) noexcept {
+void pinBeside(const std::vector<std::uint8_t>& held, const ClothParams& cloth, ClothPattern& pattern) noexcept {
   const Grid& grid = pattern.grid;
   for (int i = 0; i < grid.rows; ++i) {
     for (std::size_t n = grid.index(i, 0); n < grid.index(i, grid.columns); ++n) {
-      if (scene_pins[n] != kFree) continue;
+      if (pattern.scene_pins[n] != kFree) continue;
       pattern.pinned[n] = held[n] != 0 ? kPinned : kFree;
       pattern.inverse_mass[n] = held[n] != 0 ? 0.0 : 1.0 / pattern.mass[n];
     }

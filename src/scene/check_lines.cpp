@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Checks that lines and tie-backs belong to nodes of the cloth and have an end. Whether their lengths fit is known when
-// the cloth is in its place: problemsOfCords() (cloth/cords.h).
+// the cloth is in its place: problemsAtStart() (cloth/cords.h).
 #include <algorithm>
 
 #include "scene/checks.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Serialization of the simulator's own parts; those of lower floors are in src/*/carried.cpp.
-#include <algorithm>
-#include <cmath>
+// Serialization of what a simulator is made of; that of lower floors is in src/*/carried.cpp, of parts in their own.
 #include <limits>
 
 #include "cloth/archive_params.h"
@@ -17,100 +15,37 @@ constexpr double kLeastNumber = std::numeric_limits<double>::min();
 constexpr std::int64_t kCount = 1 << 30;  // bound of counters: adding to them can't overflow an int
 constexpr std::int64_t kMostCount = std::int64_t{1} << 53;
 
-// A drag with the node that it pulls at.
-struct HeldDrag {
-  DragParams drag;
-  std::optional<NodeIndex> node;
-};
-
 void carryStatistics(Archive& archive, Statistics& s) {
-  archive.integer("frames", s.frames, 0, kMostCount);
-  archive.number("time", s.time);
-  archive.integer("substeps", s.substeps, 0, kMostCount);
-  archive.integer("substeps_last", s.substeps_last, 0, kCount);
-  archive.integer("sweeps", s.sweeps, 0, kMostCount);
-  archive.integer("sweeps_last", s.sweeps_last, 0, kCount);
-  archive.integer("rejected", s.rejected, 0, kMostCount);
-  archive.integer("last_resort_substeps", s.last_resort_substeps, 0, kMostCount);
-  archive.integer("unsettled", s.unsettled, 0, kMostCount);
-  archive.integer("asleep_frames", s.asleep_frames, 0, kMostCount);
-  archive.integer("wakes", s.wakes, 0, kMostCount);
-  archive.flag("asleep", s.asleep);
-  archive.integer("estimates_skipped", s.estimates_skipped, 0, kMostCount);
-  archive.integer("longer_substeps", s.longer_substeps, 0, kMostCount);
-  archive.integer("unfinished_substeps", s.unfinished_substeps, 0, kMostCount);
-  archive.integer("shortened_frames", s.shortened_frames, 0, kMostCount);
-  archive.number("lost_time", s.lost_time);
-  archive.integer("late_frames", s.late_frames, 0, kMostCount);
-  archive.integer("stops", s.stops, 0, kMostCount);
-  archive.integer("stops_last", s.stops_last, 0, kCount);
-  archive.number("momentum_cut", s.momentum_cut);
-  archive.number("obstacles_waited", s.obstacles_waited);
-  archive.number("warp_stretch", s.warp_stretch);
-  archive.number("weft_stretch", s.weft_stretch);
-  archive.number("warp_compression", s.warp_compression);
-  archive.number("warp_stretch_max", s.warp_stretch_max);
-  archive.number("weft_stretch_max", s.weft_stretch_max);
-  archive.number("warp_compression_max", s.warp_compression_max);
-  archive.integer("contacts", s.contacts, 0, kCount);
-  archive.integer("contacts_max", s.contacts_max, 0, kCount);
-  archive.number("penetration_max", s.penetration_max);
-  archive.number("step_seconds", s.step_seconds);
-  archive.number("step_seconds_max", s.step_seconds_max);
-  archive.number("step_seconds_sum", s.step_seconds_sum);
+  for (std::int64_t* const count : {&s.frames, &s.substeps, &s.sweeps, &s.rejected, &s.last_resort_substeps,
+                                    &s.unsettled, &s.asleep_frames, &s.wakes, &s.estimates_skipped, &s.longer_substeps,
+                                    &s.unfinished_substeps, &s.shortened_frames, &s.late_frames, &s.stops})
+    archive.integer("count", *count, 0, kMostCount);
+  for (int* const count : {&s.substeps_last, &s.sweeps_last, &s.stops_last, &s.contacts, &s.contacts_max})
+    archive.integer("count_last", *count, 0, kCount);
+  for (double* const number :
+       {&s.time, &s.lost_time, &s.momentum_cut, &s.obstacles_waited, &s.warp_stretch, &s.weft_stretch,
+        &s.warp_compression, &s.warp_stretch_max, &s.weft_stretch_max, &s.warp_compression_max, &s.penetration_max,
+        &s.step_seconds, &s.step_seconds_max, &s.step_seconds_sum, &s.position_error, &s.opening, &s.drive_force})
+    archive.number("number", *number);
+  for (bool* const flag : {&s.asleep, &s.finite}) archive.flag("flag", *flag);
   for (double& seconds : s.stage_seconds) archive.number("stage_seconds", seconds);
-  archive.number("position_error", s.position_error);
-  archive.number("opening", s.opening);
-  archive.number("drive_force", s.drive_force);
-  archive.flag("finite", s.finite);
 }
 
 }  // namespace
 
-// Winds follow from their parameters and the time, drags from theirs and the grasped node. The last forces are needed
-// for velocities that lag behind the positions.
-void ForceField::carry(Archive& archive, AirParams& air) {
-  std::vector<WindParams> winds = winds_.params;
-  std::vector<HeldDrag> held_drags;
-  for (const DragForce& drag : drags_.list) held_drags.push_back({drag.params(), drag.node()});
-  AirParams of_then = air;
-  archive.atOnce([&] {
-    archive.list("winds", winds, [&](WindParams& wind) { carryParams(archive, wind); });
-    archive.list("drags", held_drags, [&](HeldDrag& grasp) {
-      carryParams(archive, grasp.drag, scene_.cloth);
-      archive.optional("holds", grasp.node, NodeIndex(),
-                       [&](NodeIndex& node) { archive.node("node", node, pattern_.grid); });
-    });
-    archive.group("air", [&] { carryParams(archive, of_then); });
-  });
-  bool more_than_weight = forces_.force == &sum_;
+// The last forces are needed for velocities that lag behind the positions.
+void ForceField::carry(Archive& archive) {
+  bool more_than_weight = forces_.force == &sum_.force;
   archive.atOnce([&] { archive.flag("more_than_weight", more_than_weight); });
-  archive.numbers("sum", sum_);
+  archive.numbers("sum", sum_.force);
   archive.flag("weight_only", forces_.weight_only);
   archive.numbers("gravity", forces_.gravity);
   archive.numbers("damping", forces_.damping);
   archive.flag("has_damping", forces_.has_damping);
-  if (!archive.loads()) return;
-  Sources<WindSource, WindParams> loaded_winds;
-  for (const WindParams& wind : winds)
-    loaded_winds.put(WindSource(wind, pattern_, scene_.cloth.porosity, scene_.solver.seed));
-  Sources<DragForce, DragParams> loaded_drags;
-  for (const HeldDrag& grasp : held_drags) {
-    DragForce drag(grasp.drag, pattern_);
-    if (grasp.node) drag.grasp(*grasp.node, pattern_);
-    loaded_drags.put(std::move(drag));
-  }
-  archive.put(winds_, std::move(loaded_winds));
-  archive.put(drags_, std::move(loaded_drags));
-  archive.put(air, of_then);
-  archive.put(air_damping_, AirDamping(of_then, pattern_));
-  archive.put(relative_air_, RelativeAir(of_then, scene_.cloth.porosity, pattern_));
-  archive.put(forces_.force, static_cast<const Field3*>(more_than_weight ? &sum_ : &weight_));
+  archive.put(forces_.force, static_cast<const Field3*>(more_than_weight ? &sum_.force : &weight_));
 }
 
-// Limits follow from scene, gravity and air; other members are scratch of a look.
 void Rest::carry(Archive& archive) {
-  archive.within("frame_length", frame_length_, 1e-6, 1e3);
   archive.integer("due_in", due_in_, 1, kCount);
   archive.integer("turn", turn_, 0, 3);
   archive.flag("asleep", asleep_);
@@ -168,65 +103,6 @@ void StepControls::carry(Archive& archive) {
   archive.part("plain_control", plain);
 }
 
-// Ends of lines are no nodes of the cloth, but pins that move as they do.
-void PinMoves::carry(Archive& archive, const Grid& grid, const std::function<bool(std::size_t)>& is_pinned) {
-  std::vector<std::uint8_t> seen(archive.loads() ? slot_.size() : 0, 0);
-  archive.list("pin_moves", moves_, [&](Move& move) {
-    archive.node("node", move.node, grid);
-    if (archive.loads()) {
-      archive.require(is_pinned(move.node), "must be a pinned node");
-      archive.require(seen[move.node] == 0, "must name a node once");
-      seen[move.node] = 1;
-    }
-    archive.finite("target", move.target);
-    archive.flag("behind", move.behind);
-    archive.flag("arrived", move.arrived);
-    archive.flag("held", move.held);
-  });
-}
-
-void Grasps::carryGrasp(Archive& archive, Grasp& grasp) {
-  carryParams(archive, grasp.params, scene_.cloth);
-  const auto carryPose = [&](const char* name, Pose& pose) {
-    archive.finite(name, pose);
-    archive.require(std::abs(pose.orientation.norm() - 1.0) <= 1e-3, "must have a unit quaternion");
-  };
-  carryPose("from", grasp.from);
-  carryPose("to", grasp.to);
-  archive.integer("taken", grasp.taken, 1, kCount);
-  double pull = grasp.springs.pull();
-  archive.atOnce([&] { archive.number("pull", pull); });
-  archive.list("held", grasp.held, [&](HeldNode& held) {
-    archive.node("node", held.node, pattern_.grid);
-    archive.require(scene_pins_[held.node] == kFree, "must be a node that nothing else holds");
-    archive.finite("place", held.place);
-    archive.finite("velocity", held.velocity);
-  });
-  archive.finite("force", grasp.force);
-  archive.finite("torque", grasp.torque);
-  archive.within("slipped", grasp.slipped, 0.0, kLargestNumber);
-  archive.integer("end", grasp.end, 0, 2);
-  archive.require(grasp.holds() == (grasp.end == GraspEnd::kNone), "must hold nodes unless it has ended");
-  if (!archive.loads()) return;
-  prepare(grasp);
-  grasp.springs.setPull(pull);
-  for (const HeldNode& held : grasp.held) {
-    archive.require(loaded_[held.node] == 0, "must hold nodes that no other holds");
-    loaded_[held.node] = grasp.pins ? 2 : 1;
-  }
-}
-
-void Grasps::carry(Archive& archive) {
-  std::vector<std::string> known;
-  std::fill(loaded_.begin(), loaded_.end(), std::uint8_t{0});
-  archive.list("grasps", list_, [&](Grasp& grasp) {
-    carryGrasp(archive, grasp);
-    archive.require(std::find(known.begin(), known.end(), grasp.params.id) == known.end(),
-                    "must have ids of their own");
-    known.push_back(grasp.params.id);
-  });
-}
-
 void FrameTimes::carry(Archive& archive) {
   archive.integer("frame", frame_, 0, kMostCount);
   archive.within("frame_rate", rate_, 1.0, 10000.0);
@@ -245,38 +121,34 @@ void Motion::carryVelocities(Archive& archive) {
 }
 
 void EnergyLedger::carry(Archive& archive) {
-  archive.finite("gravity", work_.gravity);
-  archive.finite("bending", work_.bending);
-  archive.finite("forces", work_.forces);
-  archive.finite("drive", work_.drive);
-  archive.finite("pins", work_.pins);
-  archive.finite("obstacles", work_.obstacles);
-  archive.finite("kinetic", work_.kinetic);
+  for (double* const work :
+       {&work_.gravity, &work_.bending, &work_.forces, &work_.drive, &work_.pins, &work_.obstacles, &work_.kinetic})
+    archive.finite("work", *work);
 }
 
 // Not serialized: checkpoints, which are written before they are read; the fine mesh, which has no memory; the
 // revision, which belongs to this simulator's users.
 void Simulator::Impl::carry(Archive& archive) {
   archive.finite("gravity", scene.gravity);
+  AirParams air = scene.air;
+  archive.group("air", [&] { carryParams(archive, air); });
+  archive.put(scene.air, air);
   archive.within("friction", scene.contact.friction, 0.0, 10.0);
   archive.within("stretch_tolerance", scene.solver.stretch_tolerance, 1e-12, 0.1);
   if (errors) archive.within("position_tolerance", scene.solver.position_tolerance, kLeastNumber, 1.0);
   archive.within("budget_ms", scene.solver.budget_ms, 0.0, 1e6);
   archive.part("state", motion.state);
-  archive.group("forces", [&] { motion.forces.carry(archive, scene.air); });
+  archive.group("parts", [&] {
+    for (Part* const part : motion.parts.all) part->carry(archive);
+  });
+  archive.part("forces", motion.forces);
   archive.part("obstacles", motion.obstacles);
   archive.part("contact", motion.contact);
-  archive.part("carriers", motion.carriers.memory());
-  archive.part("cords", motion.cords);
   archive.part("exact", motion.exact);
   controls.carry(archive);
   archive.part("rest", sleep.rest());
   archive.part("budget", budget);
   if (errors) errors->carry(archive);
-  archive.group("hands", [&] { grasps.carry(archive); });
-  pins.carry(archive, pattern.grid,
-             [this](std::size_t node) { return grasps.scenePins()[node] == kPinned || grasps.willPin(node); });
-  archive.part("opening", opening);
   archive.group("statistics", [&] { carryStatistics(archive, motion.statistics); });
   archive.part("clock", motion.clock);
   archive.part("ledger", motion.ledger);
@@ -288,16 +160,8 @@ void Simulator::Impl::carry(Archive& archive) {
 
 // After carry() has loaded: restores what follows from it.
 void Simulator::Impl::resume() noexcept {
-  grasps.resume();
-  pins.resume();
+  takeKeys();
   takePins();
-  takeGravity();
-  takeFriction();
-  takeStretchTolerance();
-  takeBudget();
-  takeFrame();
-  takePositionTolerance();
-  opening.resume();
   motion.exact.resume(motion.state);
   motion.contact.skipSubstep();
   motion.contact.clearCaches();

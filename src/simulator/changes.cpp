@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Changes by the user between frames: keys of the scene that may change, and the state of the cloth. Gravity and air:
-// simulator.cpp.
+// Changes by the user between frames: keys of the scene that may change, and the state of the cloth.
 #include <algorithm>
 #include <string>
 
+#include "scene/ranges.h"
 #include "simulator/simulator_impl.h"
 
 namespace curtain {
@@ -26,95 +26,44 @@ void check(const std::vector<Vec3>& values, std::size_t count, const std::string
   }
 }
 
-// Carriers to the nearest places that the gaps between them leave.
-void putOnRail(const ClothPattern& pattern, ClothState& state) {
-  const RailPattern& rail = pattern.rail;
-  double least = 0.0;
-  for (std::size_t k = 0; k < rail.size(); ++k, least += rail.gap) {
-    const auto n = static_cast<std::size_t>(rail.columns[k]);
-    const double most = rail.path.length() - rail.gap * static_cast<double>(rail.size() - 1 - k);
-    const double after = k > 0 ? state.place[k - 1] + rail.gap : 0.0;
-    state.place[k] = std::min(most, std::max(after, rail.path.nearest(state.position.at(n))));
-    const RailPath::Place at = rail.path.at(state.place[k]);
-    state.position.set(n, at.point);
-    state.velocity.set(n, state.velocity.at(n).dot(at.tangent) * at.tangent);
-  }
-}
-
-// A load goes along with the mean of its lines' nodes; tie-backs close from where their nodes are.
-void carryCords(const ClothPattern& pattern, const ClothState& before, Cords& parts, ClothState& state) {
-  const CordsPattern& cords = pattern.cords;
-  for (const CordEnd& end : cords.ends) {
-    if (!end.load) continue;
-    const double share = 1.0 / static_cast<double>(end.last - end.first);
-    Vec3 moved = Vec3::Zero(), velocity = Vec3::Zero();
-    for (std::size_t c = end.first; c < end.last; ++c) {
-      const std::size_t n = cords.cords[c].node;
-      moved += share * (state.position.at(n) - before.position.at(n));
-      velocity += share * state.velocity.at(n);
-    }
-    state.position.add(end.node, moved);
-    state.velocity.set(end.node, velocity);
-  }
-  for (std::size_t k = 0; k < cords.loops.size(); ++k) parts.close(k, parts.closed(k), state);
+// Sets a value of the scene. False: it has it already, or can't have it.
+template <typename Params>
+bool change(Params& params, double Params::*key, double value, const char* name, std::vector<Problem>& problems) {
+  Params changed = params;
+  changed.*key = value;
+  problems = validate(changed, name);
+  if (!problems.empty() || value == params.*key) return false;
+  params = changed;
+  return true;
 }
 
 }  // namespace
 
 std::vector<Problem> Simulator::setFrameRate(double rate) {
   Impl& im = *impl_;
-  SolverParams params = im.scene.solver;
-  params.frame_rate = rate;
-  std::vector<Problem> problems = validate(params, "solver");
-  if (!problems.empty() || rate == im.scene.solver.frame_rate) return problems;
+  SolverParams solver = im.scene.solver;
+  std::vector<Problem> problems;
+  if (!change(solver, &SolverParams::frame_rate, rate, "solver", problems)) return problems;
   im.times.setRate(rate);
-  im.takeFrame();
+  im.takeKeys();
   if (im.errors) im.errors->takeFrame();
   return problems;
 }
 
-void Simulator::Impl::takeFriction() noexcept {
-  motion.obstacles.takeFriction(scene.contact.friction);
-  motion.contact.takeFriction(scene.contact.friction);
-}
-
-void Simulator::Impl::takeStretchTolerance() noexcept {
-  const double tolerance = scene.solver.stretch_tolerance;
-  motion.exact.takeStretchTolerance(tolerance);
-  motion.contact.takeStretchTolerance(tolerance);
-  sleep.rest().takeStretchTolerance(tolerance);
-}
-
-void Simulator::Impl::takePositionTolerance() noexcept {
-  if (errors) errors->takeTolerance(scene.solver.position_tolerance);
-  sleep.takeLimits();
-}
-
-void Simulator::Impl::takeBudget() noexcept {
-  budget.take(scene.solver.budget_ms);
-  if (!budget.any()) controls.allowAll();
-}
-
 std::vector<Problem> Simulator::setFriction(double friction) {
   Impl& im = *impl_;
-  ContactParams params = im.scene.contact;
-  params.friction = friction;
-  std::vector<Problem> problems = validate(params, "contact");
-  if (!problems.empty() || friction == im.scene.contact.friction) return problems;
-  im.scene.contact.friction = friction;
-  im.takeFriction();
+  std::vector<Problem> problems;
+  if (!change(im.scene.contact, &ContactParams::friction, friction, "contact", problems)) return problems;
+  im.takeKeys();
   im.sleep.rest().disturb();
   return problems;
 }
 
 std::vector<Problem> Simulator::setStretchTolerance(double tolerance) {
   Impl& im = *impl_;
-  SolverParams params = im.scene.solver;
-  params.stretch_tolerance = tolerance;
-  std::vector<Problem> problems = validate(params, "solver");
-  if (!problems.empty() || tolerance == im.scene.solver.stretch_tolerance) return problems;
-  im.scene.solver.stretch_tolerance = tolerance;
-  im.takeStretchTolerance();
+  std::vector<Problem> problems;
+  if (!change(im.scene.solver, &SolverParams::stretch_tolerance, tolerance, "solver", problems)) return problems;
+  im.takeKeys();
   im.motion.contact.invalidateStart();
   im.sleep.rest().disturb();
   return problems;
@@ -122,28 +71,35 @@ std::vector<Problem> Simulator::setStretchTolerance(double tolerance) {
 
 std::vector<Problem> Simulator::setPositionTolerance(double tolerance) {
   Impl& im = *impl_;
-  SolverParams params = im.scene.solver;
-  params.position_tolerance = tolerance;
-  std::vector<Problem> problems = validate(params, "solver");
-  if (!problems.empty() || tolerance == im.scene.solver.position_tolerance) return problems;
+  SolverParams solver = im.scene.solver;
+  std::vector<Problem> problems;
+  if (!change(solver, &SolverParams::position_tolerance, tolerance, "solver", problems)) return problems;
   // The reference run has memory of its own, and is a part of snapshots.
   const bool asked = im.scene.solver.position_tolerance > 0.0;
   if (asked && tolerance == 0.0) return {{"solver.position_tolerance", "must stay above 0: the scene asks for one"}};
   if (!asked) return {{"solver.position_tolerance", "must stay 0: the scene asks for none"}};
   im.scene.solver.position_tolerance = tolerance;
-  im.takePositionTolerance();
+  im.takeKeys();
   return problems;
 }
 
 std::vector<Problem> Simulator::setBudget(double ms) {
-  Impl& im = *impl_;
-  SolverParams params = im.scene.solver;
-  params.budget_ms = ms;
-  std::vector<Problem> problems = validate(params, "solver");
-  if (!problems.empty() || ms == im.scene.solver.budget_ms) return problems;
-  im.scene.solver.budget_ms = ms;
-  im.takeBudget();
+  std::vector<Problem> problems;
+  if (change(impl_->scene.solver, &SolverParams::budget_ms, ms, "solver", problems)) impl_->takeKeys();
   return problems;
+}
+
+std::vector<Problem> Simulator::setGravity(const Vec3& gravity) {
+  const Range range = anywhere();
+  const bool good = range.contains(gravity.x()) && range.contains(gravity.y()) && range.contains(gravity.z());
+  if (!good) return {{"gravity", "must be 3 times " + range.text()}};
+  Impl& im = *impl_;
+  if (gravity == im.scene.gravity) return {};
+  im.motion.velocities();  // caches them while the forces that made them are known
+  im.scene.gravity = gravity;
+  im.takeKeys();
+  im.driven();
+  return {};
 }
 
 std::vector<Problem> Simulator::setState(const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities) {
@@ -164,15 +120,12 @@ std::vector<Problem> Simulator::setState(const std::vector<Vec3>& positions, con
       motion.state.velocity.set(n, im.pattern.pinned[n] == kPinned ? Vec3::Zero() : velocities[from]);
     }
   }
-  putOnRail(im.pattern, motion.state);
   motion.state.velocity_age = 0.0;
   motion.exact.reset();
-  im.grasps.holdWhereTheyAre(motion.state);
-  carryCords(im.pattern, before, motion.cords, motion.state);
+  for (Part* const part : motion.parts.all) part->placed(before, motion.state);
   motion.contact.forget();
   motion.forgetVelocities();
-  motion.measureStretch();
-  im.opening.measure(motion.state, motion.statistics);
+  motion.measureState();
   im.guard.forget();
   if (im.errors) im.errors->lose();
   ++im.revision;

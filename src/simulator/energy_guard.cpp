@@ -33,11 +33,10 @@ EnergyGuard::EnergyGuard(Motion& motion, StepControls& controls, bool chooses)
 void EnergyGuard::takePins() noexcept { wanted_ = chooses_ && canGuard(motion_); }
 
 // Nothing adds or removes energy but the scheme, and the engine chooses the steps.
-bool EnergyGuard::isClosed(bool pins_move) const noexcept {
+bool EnergyGuard::isClosed(bool driven) const noexcept {
   const NodeForces& last = motion_.forces.last();
   const bool chooses = motion_.scene.solver.substeps == 0 || motion_.statistics.rejected > 0;
-  return wanted_ && chooses && !pins_move && last.weight_only && !last.has_damping && motion_.pushing() == nullptr &&
-         !motion_.carriers.drive().draws && !motion_.cords.closing(motion_.state);
+  return wanted_ && chooses && !driven && last.weight_only && !last.has_damping && motion_.pushing() == nullptr;
 }
 
 // Energy before the velocity projection, which bounds it from above (Motion::velocities()): nearly free, while the
@@ -55,8 +54,8 @@ double EnergyGuard::energyWithoutLinks() const noexcept {
   return kinetic + potential;
 }
 
-void EnergyGuard::endFrame(bool pins_move) {
-  if (!isClosed(pins_move)) {
+void EnergyGuard::endFrame(bool driven) {
+  if (!isClosed(driven)) {
     if (most_) controls_.main.askFor(1);
     most_.reset();
     return;

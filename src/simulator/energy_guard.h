@@ -19,10 +19,10 @@ class EnergyGuard {
   EnergyGuard(Motion& motion, StepControls& controls, bool chooses);
 
   /// Before a frame: takes the energy at the start.
-  void beginFrame(bool pins_move) {
-    if (!most_) endFrame(pins_move);
+  void beginFrame(bool driven) {
+    if (!most_) endFrame(driven);
   }
-  void endFrame(bool pins_move);
+  void endFrame(bool driven);
   /// The pattern's pins have changed.
   void takePins() noexcept;
   /// Something has changed the energy.
@@ -30,7 +30,7 @@ class EnergyGuard {
   void carry(Archive& archive);
 
  private:
-  bool isClosed(bool pins_move) const noexcept;
+  bool isClosed(bool driven) const noexcept;
   double energyWithoutLinks() const noexcept;
 
   Motion& motion_;

@@ -7,10 +7,10 @@ EnergyLedger::EnergyLedger(const ClothPattern& pattern) : pattern_(pattern) {
   before_.assign(pattern.grid.size(), 0.0);
 }
 
-// Weight, bending, and all forces but damping, which only takes energy out.
-void EnergyLedger::addForces(const Field3& velocity, const NodeForces& forces, const Field3* with_bending,
+// Weight, elastic forces, and all others but damping, which only takes energy out.
+void EnergyLedger::addForces(const Field3& velocity, const NodeForces& forces, const Field3* elastic,
                              double kick) noexcept {
-  double kinetic = 0.0, weight = 0.0, others = 0.0, bending = 0.0;
+  double kinetic = 0.0, weight = 0.0, others = 0.0, stored = 0.0;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     if (pattern_.inverse_mass[n] <= 0.0 && pattern_.pinned[n] != kGuided) continue;
     const Vec3 mean = 0.5 * (before_.at(n) + velocity.at(n));
@@ -18,12 +18,12 @@ void EnergyLedger::addForces(const Field3& velocity, const NodeForces& forces, c
     const Vec3 own = pattern_.mass[n] * forces.gravity;
     weight += kick * own.dot(mean);
     others += kick * (forces.force->at(n) - own).dot(mean);
-    if (with_bending != nullptr) bending += kick * (with_bending->at(n) - forces.force->at(n)).dot(mean);
+    if (elastic != nullptr) stored += kick * (elastic->at(n) - forces.force->at(n)).dot(mean);
   }
   work_.kinetic += kinetic;
   work_.gravity += weight;
   work_.forces += others;
-  work_.bending += bending;
+  work_.bending += stored;
 }
 
 void EnergyLedger::addPins(const Field3& velocity, const ExactSolver& links, double per_h) noexcept {
@@ -36,8 +36,8 @@ void EnergyLedger::addPins(const Field3& velocity, const ExactSolver& links, dou
       if (!v.isZero(0.0)) work_.pins -= per_h * links.pullAt(i, j).dot(v);
     }
   }
-  for (const CordEnd& end : pattern_.cords.ends) {
-    if (!end.load) work_.pins -= per_h * links.distances().pullAt(end.node).dot(velocity.at(end.node));
+  for (std::size_t n = grid.row(grid.rows); n < grid.size(); ++n) {  // those beside the cloth
+    if (pattern_.pinned[n] == kPinned) work_.pins -= per_h * links.distances().pullAt(n).dot(velocity.at(n));
   }
 }
 

@@ -37,7 +37,7 @@ class EnergyLedger {
   void restore(const Work& work) noexcept { work_ = work; }
 
  private:
-  void addForces(const Field3& velocity, const NodeForces& forces, const Field3* with_bending, double kick) noexcept;
+  void addForces(const Field3& velocity, const NodeForces& forces, const Field3* elastic, double kick) noexcept;
   void addPins(const Field3& velocity, const ExactSolver& links, double per_h) noexcept;
 
   const ClothPattern& pattern_;

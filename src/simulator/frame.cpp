@@ -17,8 +17,7 @@ void Simulator::Impl::step() {
   const Budget::Clock::time_point begin = Budget::Clock::now();
   motion.statistics.time = times.begin();
   motion.obstacles.beginFrame(times.end());
-  grasps.movePins(pins);
-  sleep.wakeForFrame(pins.any() || grasps.anyMoves());
+  sleep.wakeForFrame();
   if (sleep.asleep()) {
     sleepThrough();
     countTime(begin);
@@ -50,26 +49,29 @@ void Simulator::Impl::sleepThrough() {
 // Returns the share of the frame that was made.
 double Simulator::Impl::moveThrough(Budget::Clock::time_point begin) {
   const Statistics& s = motion.statistics;
-  motion.drive_impulse = 0.0;
-  if (pins.settle(motion.state)) motion.forgetVelocities();
-  guard.beginFrame(pins.any());
-  const bool links_hold = !pins.any() && !grasps.any() && std::max(s.warp_stretch, s.weft_stretch) < kHold;
-  motion.contact.beginFrame(links_hold);
-  motion.forces.setLinksHold(links_hold);
-  motion.forces.castShadows(motion.obstacles, motion.state.position, times.begin(), times.end());
+  const PartList& parts = motion.parts.all;
+  const bool strained = parts.any([](const Part& part) { return part.strains(); });
+  const FrameBegin frame{times.begin(), times.end(), times.rate(),
+                         !strained && std::max(s.warp_stretch, s.weft_stretch) < kHold};
+  for (Part* const part : parts) {
+    if (part->prepareFrame(frame, motion.state)) motion.forgetVelocities();
+  }
+  guard.beginFrame(motion.driven());
+  motion.contact.beginFrame(frame.links_hold);
   const bool first = times.frame() == 0;
   if (errors && first) errors->makePilotRuns();  // not limited by the budget
   budget.beginFrame(first ? Budget::Clock::now() : begin);
-  pins.start(times.rate(), followingSpeed(scene), motion.state);
-  if (grasps.any()) grasps.begin(motion.state, times.rate());
+  for (Part* const part : parts) part->beginFrame(frame, motion.state);
   if (errors) errors->beginFrame();
   return loop.make();
 }
 
 void Simulator::Impl::endFrame(double share) {
   Statistics& s = motion.statistics;
-  guard.endFrame(pins.any());
-  pins.stop(share == 1.0 && !loop.pinsWaited(), motion.state);
+  guard.endFrame(motion.driven());
+  const FrameEnd frame{share, times.length(), share == 1.0 && !loop.pinsWaited(), s};
+  bool repins = false;
+  for (Part* const part : motion.parts.all) repins = part->endFrame(frame, motion.state) || repins;
   if (share < 1.0) {
     ++s.shortened_frames;
     s.lost_time += (1.0 - share) * times.length();
@@ -79,16 +81,10 @@ void Simulator::Impl::endFrame(double share) {
   nextFrame(share);
   ++revision;
   motion.measure();
-  opening.measure(motion.state, s);
-  s.drive_force = motion.drive_impulse / times.length();
-  if (grasps.any()) endGrasps(share);
-  if (!opening.isUnderWay(motion.state) && !motion.cords.closing(motion.state)) sleep.fallAsleep();
+  if (repins) repin([] {});
+  sleep.fallAsleep();
   if (errors && sleep.asleep()) errors->lose();
   s.stage_seconds = motion.clock.seconds();
-}
-
-void Simulator::Impl::endGrasps(double share) {
-  if (grasps.end(share, motion.state)) repin([this] { grasps.letGoOfEnded(pins); });
 }
 
 void Simulator::Impl::nextFrame(double share) noexcept {

@@ -64,10 +64,8 @@ SubstepPlan FrameLoop::plan(StepControl& steps, double done) {
 }
 
 bool FrameLoop::makeStages(const SubstepPlan& plan, double done) {
-  if (controls_.plain_frames > 0 || motion_.exact.stringsPull() || motion_.carriers.any() ||
-      motion_.exact.distances().any() || motion_.grasps.any()) {
-    return false;
-  }
+  const auto oneWay = [](const Part& part) { return !part.reversible(); };
+  if (controls_.plain_frames > 0 || motion_.exact.stringsPull() || motion_.parts.all.any(oneWay)) return false;
   motion_.save(before_);
   double at = done;
   for (const double gamma : kStages) {
@@ -115,7 +113,6 @@ void FrameLoop::accept(StepControl& steps, const SubstepPlan& plan, const Subste
   if (outcome.share < kStopped) ++s.stops, ++s.stops_last;
   if (plan.isLastResort()) ++s.last_resort_substeps;
   s.momentum_cut += outcome.momentum_cut;
-  motion_.drive_impulse += plan.h * motion_.carriers.driveForce();
   s.obstacles_waited += motion_.lag.substepMade(outcome.share, plan.h);
   steps.accepted(plan, outcome);
   if (&steps != &controls_.main) {

@@ -29,7 +29,7 @@ class FrameLoop {
   bool pinsWaited() const noexcept { return pins_waited_; }
 
   /// Makes a substep of five stages. False, and nothing changed: stages are paused, or a string pulls, something
-  /// touches, or there are carriers, cords or hands, which can't be reversed in time.
+  /// touches, or there is a part that can't be reversed in time.
   bool makeStages(const SubstepPlan& plan, double done);
 
  private:

@@ -12,19 +12,16 @@ Motion::Motion(const Scene& scene_, const ClothPattern& pattern_, const FrameTim
       times(times_),
       initial(makeInitialState(scene, pattern)),
       state(initial),
-      grasps(scene, pattern),
-      forces(scene, pattern, &grasps),
       obstacles(scene, resolve),
       workers(threadsFor(scene.solver.threads, pattern.grid.nodeCount())),
+      parts{scene, pattern, obstacles, workers},
+      forces(scene, pattern, parts.all),
       contact(pattern, scene.contact, obstacles, scene.solver.stretch_tolerance, workers),
       lag(pattern, times, obstacles, contact),
-      bending(pattern, workers),
-      carriers(pattern),
-      cords(pattern),
-      exact(pattern, {bending.any() ? &bending : nullptr, carriers.any() ? &carriers : nullptr, {&cords}},
-            scene.solver.stretch_tolerance, scene.solver.max_sweeps, workers),
+      exact(pattern, parts.forSolver(), scene.solver.stretch_tolerance, scene.solver.max_sweeps, workers),
       paper(pattern),
       ledger(pattern) {
+  measureParts();
   exact.expectContacts(contact.capacity());
   velocities_.assign(pattern.grid.size(), 0.0);
   pulls_.assign(pattern.grid.size(), 0.0);
@@ -36,18 +33,12 @@ void Motion::reset() {
   obstacles.reset();
   contact.forget();
   exact.reset();
-  cords.resetLoops(state);
+  for (Part* const part : parts.all) part->reset(state);
   clock.reset();
   statistics = Statistics();
   ledger.restore({});
+  measureParts();
   velocities_fresh_ = false;
-}
-
-// What the air's force must know of the substep, where it depends on it.
-SubstepAhead Motion::ahead(const SubstepPlan& plan) noexcept {
-  if (!forces.readsPulls()) return {};
-  exact.copyPulls(state, pushing(), pulls_);
-  return {exact.kickOf(plan, state), exact.isBackward(plan), &pulls_};
 }
 
 SubstepOutcome Motion::attempt(const SubstepPlan& plan, double done) {
@@ -58,8 +49,12 @@ SubstepOutcome Motion::attempt(const SubstepPlan& plan, double done) {
     contact.skipSubstep();
   else
     lag.setSubstep(plan, done, state.position);
-  if (grasps.any()) grasps.setSubstep(done, plan.h);
-  const NodeForces& now = forces.evaluate(state, statistics.time + done, plan.h, ahead(plan));
+  SubstepAhead ahead;
+  if (forces.begin(state, statistics.time + done, done, plan.h)) {
+    exact.copyPulls(state, pushing(), pulls_);
+    ahead = {exact.kickOf(plan, state), exact.isBackward(plan), &pulls_};
+  }
+  const NodeForces& now = forces.evaluate(state, ahead);
   clock.lap(Stage::kForces);
   if (counts_work) ledger.begin(state);
   const SubstepOutcome outcome =
@@ -73,13 +68,16 @@ SubstepOutcome Motion::attempt(const SubstepPlan& plan, double done) {
 
 void Motion::taken(double h, const SubstepOutcome& outcome) noexcept {
   contact.afterSubstep(outcome.settled, h, outcome, state.position);
-  if (!grasps.any()) return;
-  const bool by_paper = scene.solver.method == Method::kPaper;
-  grasps.count(state, forces.last(), by_paper ? nullptr : &exact, pushing(), outcome.scale);
+  const ExactSolver* const links = scene.solver.method == Method::kPaper ? nullptr : &exact;
+  const SubstepMade made{h, state, forces.last(), links, pushing(), outcome.scale};
+  for (Part* const part : parts.all) part->substepTaken(made);
+}
+
+bool Motion::driven() const {
+  return parts.all.any([this](const Part& part) { return part.drives(state); });
 }
 
 void Motion::takePins() {
-  forces.takePins();
   contact.takePins();
   exact.takePins();
   if (scene.solver.method == Method::kPaper) paper.takePins();
@@ -138,7 +136,12 @@ Energy Motion::energy() {
   return energy;
 }
 
-void Motion::measureStretch() noexcept {
+void Motion::measureParts() noexcept {
+  for (const Part* const part : parts.all) part->measure(state, statistics);
+}
+
+void Motion::measureState() noexcept {
+  measureParts();
   const Stretch warp = warpStretch(pattern, state.position);
   statistics.warp_stretch = warp.longer;
   statistics.warp_compression = warp.shorter;
@@ -147,7 +150,7 @@ void Motion::measureStretch() noexcept {
 
 void Motion::measure() noexcept {
   clock.start();
-  measureStretch();
+  measureState();
   Statistics& s = statistics;
   s.warp_stretch_max = std::max(s.warp_stretch_max, s.warp_stretch);
   s.weft_stretch_max = std::max(s.weft_stretch_max, s.weft_stretch);

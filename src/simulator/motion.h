@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The cloth in motion: state, forces, obstacles, the solvers that make a substep, and statistics.
+// The cloth in motion: state, parts, obstacles, the solvers that make a substep, and statistics.
 #pragma once
 
 #include "contact/cloth_contact.h"
 #include "curtain_sim/statistics.h"
 #include "methods/paper/paper_solver.h"
-#include "parts/bending/bending.h"
-#include "parts/cords/cords.h"
-#include "parts/hands/grasps.h"
-#include "parts/rail/carriers.h"
+#include "simulator/composition.h"
 #include "simulator/energy_ledger.h"
 #include "simulator/force_field.h"
 #include "simulator/obstacle_lag.h"
@@ -35,6 +32,9 @@ struct Motion {
   void save(Checkpoint& checkpoint) const;
   void restore(const Checkpoint& checkpoint);
 
+  /// Something but links, gravity and obstacles may put energy in.
+  bool driven() const;
+
   /// A substep of h [s] that was planned, was accepted.
   void taken(double h, const SubstepOutcome& outcome) noexcept;
   /// Takes what follows from the pattern's pins. Allocates nothing but for Method::kPaper.
@@ -52,8 +52,9 @@ struct Motion {
   void synchronise();
   Energy energy();
 
-  /// Writes the links' present stretch to the statistics; measure(): and the rest, after a frame.
-  void measureStretch() noexcept;
+  /// Writes what the parts say and the links' present stretch to the statistics; measure(): and the rest, after a
+  /// frame.
+  void measureState() noexcept;
   void measure() noexcept;
 
   void carryVelocities(Archive& archive);
@@ -63,31 +64,25 @@ struct Motion {
   const FrameTimes& times;
   const ClothState initial;
   ClothState state;
-  Grasps grasps;
-  ForceField forces;
   ObstacleSet obstacles;
   Workers workers;
+  Composition parts;
+  ForceField forces;
   ClothContact contact;
   ObstacleLag lag;
-  Bending bending;
-  Carriers carriers;
-
-  Cords cords;
-
   ExactSolver exact;
   PaperSolver paper;
   EnergyLedger ledger;
   bool counts_work = false;
-  double drive_impulse = 0.0;  ///< of the rail's drive in this frame [N s]
   Statistics statistics;
   StageClock clock;
 
  private:
+  void measureParts() noexcept;
   void computeVelocities() noexcept;
-  SubstepAhead ahead(const SubstepPlan& plan) noexcept;
 
   Field3 velocities_;
-  Field3 pulls_;  // scratch of ahead()
+  Field3 pulls_;  // scratch of attempt()
   bool velocities_fresh_ = false;
 };
 

@@ -28,23 +28,24 @@ constexpr double kLowestFrequency = 1.2024;
 
 }  // namespace
 
-Rest::Rest(const ClothPattern& pattern, double frame_length, double thickness, double stretch_tolerance)
-    : pattern_(pattern),
-      frame_length_(frame_length),
-      margin_(2.0 * thickness),
-      jitter_(kJitter * stretch_tolerance * shortestLink(pattern)),
+Rest::Rest(const Scene& scene, const ClothPattern& pattern)
+    : scene_(scene),
+      pattern_(pattern),
+      margin_(2.0 * scene.contact.thickness),
       box_(static_cast<std::size_t>(pattern.grid.columns)) {
   place_.assign(pattern.grid.size(), 0.0);
 }
 
-void Rest::takeStretchTolerance(double tolerance) noexcept { jitter_ = kJitter * tolerance * shortestLink(pattern_); }
-
 // A swing of this speed has an amplitude of speed / omega. Overdamped cloth as far from rest is slower, by omega m / c.
-void Rest::setLimits(double speed, double gravity, double damping_per_mass, double height) noexcept {
-  const double omega = kLowestFrequency * std::sqrt(gravity / height);
+void Rest::takeLimits(double damping_per_mass) noexcept {
+  const SolverParams& solver = scene_.solver;
+  jitter_ = kJitter * solver.stretch_tolerance * shortestLink(pattern_);
+  const bool asks = solver.position_tolerance > 0.0;
+  const double speed = asks ? std::min(solver.rest_speed, solver.position_tolerance) : solver.rest_speed;
+  const double gravity = scene_.gravity.norm(), omega = kLowestFrequency * std::sqrt(gravity / scene_.cloth.height);
   const double slower = damping_per_mass > omega ? omega / damping_per_mass : 1.0;
   // Longer frames say too little of the motion between them.
-  const bool can_rest = gravity > 0.0 && frame_length_ <= kLongestFrame;
+  const bool can_rest = gravity > 0.0 && 1.0 / solver.frame_rate <= kLongestFrame;
   radius_ = can_rest ? speed * slower * kWindow : 0.0;
 }
 
@@ -60,7 +61,7 @@ void Rest::forget() noexcept {
 // Whether a look is due.
 bool Rest::due() noexcept {
   if (radius_ <= 0.0 || --due_in_ > 0) return false;
-  due_in_ = std::max(1, static_cast<int>(std::lround(kPauses[turn_] * kPauseUnit / frame_length_)));
+  due_in_ = std::max(1, static_cast<int>(std::lround(kPauses[turn_] * kPauseUnit / (1.0 / scene_.solver.frame_rate))));
   turn_ = (turn_ + 1) % kPauses.size();
   return true;
 }

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Whether the cloth sleeps. It falls asleep when all of it has stayed in one place for a while, and wakes before
-// anything could move it:
-//
-//   a wind that reaches it, or a drag, begins, ends, changes      ForceField says so
-//   an obstacle moves, comes or goes near it                      approachedBy()
-//   a pin is moved; gravity or air change                         disturb()
-//
-// Gusts that reach it keep it awake. Without gravity it does not sleep, since nothing brings it to rest.
+// anything could move it: a part (Part::wakes()), an obstacle on its way (approachedBy()), a change by the user. Parts
+// may keep it awake. Without gravity it does not sleep, since nothing brings it to rest.
 // Times are those of the motion, which may be slower than the clock (solver.budget_ms).
 #pragma once
 
@@ -23,18 +18,12 @@ namespace curtain {
 
 class Rest {
  public:
-  /// frame_length [s]; thickness: of contact [m]; stretch_tolerance: of links. pattern must outlive this.
-  Rest(const ClothPattern& pattern, double frame_length, double thickness, double stretch_tolerance);
+  /// Both must outlive this.
+  Rest(const Scene& scene, const ClothPattern& pattern);
 
-  /// speed             below which cloth rests [m/s], >= 0; 0: it never does
-  /// gravity           its magnitude [m/s^2]
-  /// damping_per_mass  the largest of any node [1/s]: overdamped cloth creeps back to rest, so it must be slower
-  void setLimits(double speed, double gravity, double damping_per_mass, double height) noexcept;
-
-  void takeStretchTolerance(double tolerance) noexcept;
-
-  /// Sets the length of the next frames [s]. setLimits() must follow.
-  void takeFrame(double length) noexcept { frame_length_ = length; }
+  /// Takes what follows from the scene. damping_per_mass: the largest of any node [1/s]: overdamped cloth creeps back
+  /// to rest, so it must be slower.
+  void takeLimits(double damping_per_mass) noexcept;
 
   /// Whether the cloth may rest at all.
   bool can() const noexcept { return radius_ > 0.0; }
@@ -56,7 +45,7 @@ class Rest {
 
   /// To be called after each frame with motion; true: it is time to look().
   bool due() noexcept;
-  /// Puts cloth at rest to sleep. kept_awake: gusts reach it; touches: a contact pushed in the last substep. True: it
+  /// Puts cloth at rest to sleep. kept_awake: by a part; touches: a contact pushed in the last substep. True: it
   /// fell asleep.
   bool look(const ClothState& state, double time, bool kept_awake, bool touches) noexcept;
 
@@ -76,11 +65,11 @@ class Rest {
   void setBoxes(const Field3& position) noexcept;
   bool isNear(const Eigen::AlignedBox3d& box) const noexcept;
 
+  const Scene& scene_;
   const ClothPattern& pattern_;
-  double frame_length_;
   double margin_;         // around the cloth, for obstacles [m]
   double radius_ = 0.0;   // that nodes of resting cloth stay within [m]; 0: it never rests
-  double jitter_;         // the same for cloth in contact [m]
+  double jitter_ = 0.0;   // the same for cloth in contact [m]
   double allowed_ = 0.0;  // the radius used in this look [m]
   int due_in_ = 1;        // frames
   std::size_t turn_ = 0;

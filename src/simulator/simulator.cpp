@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "contact/oracle/piercings.h"
-#include "scene/find_by_id.h"
 #include "scene/fnv1a.h"
 #include "scene/ranges.h"
 #include "simulator/self_crossings.h"
@@ -31,7 +31,7 @@ const Scene& judged(const Scene& scene) {
 
 ClothPattern patternOf(const Scene& scene) {
   ClothPattern pattern = makePattern(scene);
-  const std::vector<Problem> problems = problemsOfCords(scene, pattern);
+  const std::vector<Problem> problems = problemsAtStart(scene, pattern);
   if (!problems.empty()) throw std::invalid_argument(describe(problems));
   return pattern;
 }
@@ -43,57 +43,60 @@ Simulator::Impl::Impl(const Scene& given, const MeshResolver& resolve)
       pattern(patternOf(scene)),
       times(scene.solver.frame_rate),
       motion(scene, pattern, times, resolve),
-      opening(scene, pattern, motion.carriers),
       controls(scene.solver, pattern, scene.gravity),
       sleep(motion),
       budget(scene.solver.budget_ms),
       loop(motion, controls, budget),
       guard(motion, controls, !ErrorControl::wanted(scene.solver)),
-      grasps(motion.grasps),
-      pins(pattern),
-      surface(scene.cloth, pattern) {
+      surface(scene.cloth, pattern),
+      pinned_by_parts(pattern.grid.size(), 0) {
   if (ErrorControl::wanted(scene.solver)) errors.emplace(motion, controls, loop, budget);
-  opening.measure(motion.state, motion.statistics);
 }
 
 void Simulator::Impl::reset() {
   times.reset();
-  if (grasps.clear(pins)) takePins();
   motion.reset();
+  takePins();
   controls.reset();
   sleep.reset();
   budget.forget();
   if (errors) errors->reset();
   guard.forget();
-  pins.clear();
-  opening.reset();
-  opening.measure(motion.state, motion.statistics);
   ++revision;
 }
 
-void Simulator::Impl::takeGravity() noexcept {
+// Takes what follows from the keys of the scene that may change.
+void Simulator::Impl::takeKeys() {
+  for (Part* const part : motion.parts.all) part->resume();
   motion.forces.takeGravity();
-  controls.takeGravity(pattern, scene.gravity);
+  motion.obstacles.takeFriction(scene.contact.friction);
+  motion.contact.takeFriction(scene.contact.friction);
+  motion.obstacles.takeFrame(times.length());
+  motion.contact.takeStretchTolerance(scene.solver.stretch_tolerance);
+  motion.exact.takeStretchTolerance(scene.solver.stretch_tolerance);
+  budget.take(scene.solver.budget_ms);
+  controls.both([this](StepControl& control) {
+    control.takeGravity(pattern, scene.gravity);
+    control.takeFrame(times.length());
+    if (!budget.any()) control.allow(std::numeric_limits<int>::max());
+  });
+  sleep.takeLimits();
 }
 
 // Takes what follows from the pins. Allocates nothing but for Method::kPaper.
 void Simulator::Impl::takePins() {
-  pinBeside(grasps.scenePins(), grasps.pinned(), scene.cloth, pattern);
+  std::fill(pinned_by_parts.begin(), pinned_by_parts.end(), std::uint8_t{0});
+  for (const Part* const part : motion.parts.all) part->pin(pinned_by_parts);
+  pinBeside(pinned_by_parts, scene.cloth, pattern);
   motion.takePins();
   guard.takePins();
   sleep.takeLimits();
 }
 
-// The drive, or a tie-back, does something else from now on.
+// Something that puts energy in does something else from now on.
 void Simulator::Impl::driven() noexcept {
   guard.forget();
   sleep.rest().disturb();
-}
-
-void Simulator::Impl::takeFrame() noexcept {
-  controls.takeFrame(times.length());
-  motion.obstacles.takeFrame(times.length());
-  sleep.takeLimits();
 }
 
 Simulator::Simulator(const Scene& scene, const MeshResolver& resolve) : impl_(std::make_unique<Impl>(scene, resolve)) {}
@@ -183,126 +186,6 @@ Vec3 Simulator::position(NodeIndex node) const {
 }
 double Simulator::mass(NodeIndex node) const { return impl_->pattern.mass[impl_->pattern.grid.index(node)]; }
 bool Simulator::pinned(NodeIndex node) const { return impl_->pattern.isPinned(node); }
-NodeIndex Simulator::nearestNode(const Vec3& point) const {
-  return curtain::nearestNode(impl_->pattern.grid, impl_->motion.state.position, point);
-}
-
-namespace {
-
-template <typename Params>
-bool actsAt(const Params& source, double time) {
-  return source.start <= time && time < source.end;
-}
-
-// An unchanged source that is given again continues: it keeps its start, so that nothing wakes.
-template <typename Params>
-Params asItGoesOn(Params source, const Params& old) {
-  source.start = old.start;
-  return source;
-}
-
-}  // namespace
-
-std::vector<Problem> Simulator::setWind(const WindParams& wind) {
-  std::vector<Problem> problems = validate(wind, "wind");
-  if (!problems.empty()) return problems;
-  Impl& im = *impl_;
-  const WindParams* const old = findById(im.motion.forces.winds(), wind.id);
-  const double now = im.motion.statistics.time;
-  if (old != nullptr && actsAt(*old, now) && actsAt(wind, now) && sameWhileItBlows(*old, wind)) {
-    im.motion.forces.setWind(asItGoesOn(wind, *old));
-    return problems;
-  }
-  im.sleep.disturbByWind(wind.id);
-  im.motion.forces.setWind(wind);
-  if (im.motion.forces.readsPulls()) im.sleep.takeLimits();  // the wind's speed damps
-  im.sleep.disturbByWind(wind.id);
-  return problems;
-}
-
-bool Simulator::removeWind(const std::string& id) {
-  impl_->sleep.disturbByWind(id);
-  return impl_->motion.forces.removeWind(id);
-}
-
-void Simulator::clearWinds() {
-  if (!impl_->motion.forces.winds().empty()) impl_->sleep.rest().disturb();
-  impl_->motion.forces.clearWinds();
-}
-
-const std::vector<WindParams>& Simulator::winds() const { return impl_->motion.forces.winds(); }
-
-std::vector<Problem> Simulator::setDrag(const DragParams& drag) {
-  Impl& im = *impl_;
-  std::vector<Problem> problems = validate(drag, im.scene.cloth, "drag");
-  if (!problems.empty()) return problems;
-  const DragParams* const old = findById(im.motion.forces.drags(), drag.id);
-  const double now = im.motion.statistics.time;
-  if (old != nullptr && actsAt(*old, now) && actsAt(drag, now) && sameWhileItActs(*old, drag)) {
-    im.motion.forces.setDrag(asItGoesOn(drag, *old));
-    return problems;
-  }
-  im.motion.forces.setDrag(drag);
-  im.sleep.rest().disturb();
-  return problems;
-}
-
-bool Simulator::removeDrag(const std::string& id) {
-  const bool removed = impl_->motion.forces.removeDrag(id);
-  if (removed) impl_->sleep.rest().disturb();
-  return removed;
-}
-
-void Simulator::clearDrags() {
-  ForceField& forces = impl_->motion.forces;
-  if (!forces.drags().empty()) impl_->sleep.rest().disturb();
-  forces.clearDrags();
-}
-
-std::vector<Problem> Simulator::setGravity(const Vec3& gravity) {
-  const Range range = anywhere();
-  const bool good = range.contains(gravity.x()) && range.contains(gravity.y()) && range.contains(gravity.z());
-  if (!good) return {{"gravity", "must be 3 times " + range.text()}};
-  Impl& im = *impl_;
-  if (gravity == im.scene.gravity) return {};
-  im.motion.velocities();  // caches them while the forces that made them are known
-  im.scene.gravity = gravity;
-  im.takeGravity();
-  im.guard.forget();
-  im.sleep.takeLimits();
-  im.sleep.rest().disturb();
-  return {};
-}
-
-std::vector<Problem> Simulator::setAir(const AirParams& air) {
-  Scene with_air = impl_->scene;
-  with_air.air = air;
-  std::vector<Problem> problems = validate(with_air);  // not every method and wind goes with every law
-  if (!problems.empty()) return problems;
-  impl_->motion.velocities();  // as in setGravity()
-  impl_->scene.air = air;
-  impl_->motion.forces.takeAir();
-  impl_->sleep.takeLimits();
-  impl_->sleep.rest().disturb();
-  return problems;
-}
-const std::vector<DragParams>& Simulator::drags() const { return impl_->motion.forces.drags(); }
-
-std::vector<NodeIndex> Simulator::carriers() const {
-  std::vector<NodeIndex> nodes;
-  for (const int column : impl_->pattern.rail.columns) nodes.push_back({0, column});
-  return nodes;
-}
-
-std::vector<Vec3> Simulator::railPoints(double spacing) const {
-  const RailPattern& rail = impl_->pattern.rail;
-  if (rail.empty()) return {};
-  constexpr double kMostParts = 1e6;
-  const int parts = static_cast<int>(std::clamp(std::ceil(rail.path.length() / spacing), 1.0, kMostParts));
-  std::vector<Vec3> points;
-  for (int k = 0; k <= parts; ++k) points.push_back(rail.path.at(rail.path.length() * k / parts).point);
-  return points;
-}
 
 int Simulator::obstacleCount() const { return impl_->motion.obstacles.count(); }
 void Simulator::setObstaclePose(int index, const Pose& pose, bool jump) {
@@ -363,18 +246,14 @@ std::uint64_t Simulator::revision() const { return impl_->revision; }
 std::uint64_t Simulator::stateHash() const {
   const Grid& grid = impl_->pattern.grid;
   Fnv1a bits;
-  for (int i = 0; i < grid.rows; ++i) {
+  for (int i = 0; i < grid.allRows(); ++i) {
     for (int j = 0; j < grid.columns; ++j) {
       const std::size_t n = grid.index(i, j);
+      if (!impl_->pattern.isThere(n)) continue;
       for (const Field3* field : {&impl_->motion.state.position, &impl_->motion.state.velocity}) {
-        for (const Field* axis : {&field->x, &field->y, &field->z}) bits.addBytes(&(*axis)[n], sizeof(double));
+        const Vec3 value = field->at(n);
+        bits.addBytes(value.data(), 3 * sizeof(double));
       }
-    }
-  }
-  for (const CordEnd& end : impl_->pattern.cords.ends) {
-    for (const Field3* field : {&impl_->motion.state.position, &impl_->motion.state.velocity}) {
-      const Vec3 value = field->at(end.node);
-      bits.addBytes(value.data(), 3 * sizeof(double));
     }
   }
   return bits.hash;

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The parts of a simulator. simulator.cpp: the public interface; frame.cpp: the order of the parts in a frame;
-// snapshot.cpp: saving and restoring them.
+// What a simulator is made of. simulator.cpp, changes.cpp and api: the public interface; frame.cpp: the order of a
+// frame; snapshot.cpp: saving and restoring.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 
-#include "cloth/pin_moves.h"
 #include "curtain_sim/simulator.h"
-#include "parts/rail/opening.h"
 #include "simulator/accuracy/error_control.h"
 #include "simulator/energy_guard.h"
 #include "simulator/frame_loop.h"
@@ -25,12 +23,7 @@ struct Simulator::Impl {
 
   void reset();
   void step();
-  void takeGravity() noexcept;
-  void takeFrame() noexcept;
-  void takeFriction() noexcept;
-  void takeStretchTolerance() noexcept;
-  void takePositionTolerance() noexcept;
-  void takeBudget() noexcept;
+  void takeKeys();
   void takePins();
   void driven() noexcept;
   template <typename Change>
@@ -43,21 +36,18 @@ struct Simulator::Impl {
   ClothPattern pattern;  // its pins may change (repin())
   FrameTimes times;
   Motion motion;
-  Opening opening;
   StepControls controls;
   Sleep sleep;
   Budget budget;
   FrameLoop loop;
   std::optional<ErrorControl> errors;  // where a position tolerance is asked for
   EnergyGuard guard;
-  Grasps& grasps;  // of motion
-  PinMoves pins;
   FineSurface surface;
-  std::uint64_t revision = 0;  // of the positions of cloth and obstacles
-  Field3 total_force;          // scratch of copyForces()
+  std::uint64_t revision = 0;                 // of the positions of cloth and obstacles
+  Field3 total_force;                         // scratch of copyForces()
+  std::vector<std::uint8_t> pinned_by_parts;  // scratch of takePins()
 
  private:
-  void endGrasps(double share);
   void sleepThrough();
   double moveThrough(Budget::Clock::time_point begin);
   void endFrame(double share);
@@ -65,7 +55,7 @@ struct Simulator::Impl {
   void countTime(Budget::Clock::time_point begin);
 };
 
-// Between substeps: what hands hold changes by change(). Nodes that were pinned keep the velocity they moved with.
+// Between substeps: what parts pin changes by change(). Nodes that were pinned keep the velocity they moved with.
 template <typename Change>
 void Simulator::Impl::repin(const Change& change) {
   sleep.wake();
@@ -73,7 +63,7 @@ void Simulator::Impl::repin(const Change& change) {
   change();
   takePins();
   motion.repinned();
-  controls.repinned(motion.exact);
+  controls.both([this](StepControl& control) { control.repinned(motion.exact); });
   guard.forget();
   if (errors) errors->lose();
   ++revision;

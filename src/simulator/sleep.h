@@ -17,16 +17,14 @@ class Sleep {
   const Rest& rest() const noexcept { return rest_; }
   bool asleep() const noexcept { return rest_.asleep(); }
 
-  /// The wind of this id is about to change, or has changed.
-  void disturbByWind(const std::string& id) noexcept;
   /// Before a frame: wakes the cloth if something in it may move it.
-  void wakeForFrame(bool pins_move);
+  void wakeForFrame();
   void wake();
   /// After a frame with motion.
   void fallAsleep();
 
   void reset() noexcept { rest_.forget(); }
-  /// Gravity, air or the frames' length have changed.
+  /// What it follows from has changed: keys of the scene, pins, what damps.
   void takeLimits() noexcept;
 
  private:

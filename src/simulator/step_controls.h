@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 
 #include "step/step_control.h"
 
@@ -16,22 +15,13 @@ struct StepControls {
       : main(params, pattern, gravity), plain(asAuto(params), pattern, gravity) {}
 
   void reset() noexcept {
-    main.reset();
-    plain.reset();
+    both([](StepControl& control) { control.reset(); });
     plain_frames = 0;
   }
-  void takeGravity(const ClothPattern& pattern, const Vec3& gravity) noexcept {
-    for (StepControl* control : {&main, &plain}) control->takeGravity(pattern, gravity);
-  }
-  /// The budget no longer limits the substeps of a frame.
-  void allowAll() noexcept {
-    for (StepControl* control : {&main, &plain}) control->allow(std::numeric_limits<int>::max());
-  }
-  void takeFrame(double length) noexcept {
-    for (StepControl* control : {&main, &plain}) control->takeFrame(length);
-  }
-  void repinned(const ExactSolver& solver) noexcept {
-    for (StepControl* control : {&main, &plain}) control->repinned(solver);
+  /// Calls change(control) for both.
+  template <typename Change>
+  void both(const Change& change) {
+    for (StepControl* control : {&main, &plain}) change(*control);
   }
   /// Makes no stages for a second: strings that pull now and then would change the scheme all the time, and every
   /// change shakes them.

@@ -6,7 +6,6 @@
 
 #include "cloth/free_body.h"
 #include "step/constants.h"
-#include "step/damped_step.h"
 
 namespace curtain {
 namespace {

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "step/damped_step.h"
-
 namespace curtain {
 namespace {
 

@@ -35,7 +35,7 @@ using Keys = std::vector<std::string>;
 Keys problemKeys(const std::string& yaml) {
   const SceneReading reading = readSceneText(yaml);
   if (!reading.problems.empty()) return keysOf(reading.problems);
-  return keysOf(problemsOfCords(reading.scene, makePattern(reading.scene)));
+  return keysOf(problemsAtStart(reading.scene, makePattern(reading.scene)));
 }
 
 // The largest length of a link over its own, less 1.

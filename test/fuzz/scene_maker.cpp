@@ -245,7 +245,7 @@ std::optional<Scene> makeScene(Choices& choices) {
   if (!curtain::validate(scene).empty()) scene.hang.pressed = 0.0;
   if (!curtain::validate(scene).empty()) scene.cloth.bending_warp = scene.cloth.bending_weft = 0.0;
   if (!curtain::validate(scene).empty()) return std::nullopt;
-  if (!curtain::problemsOfCords(scene, curtain::makePattern(scene)).empty()) {
+  if (!curtain::problemsAtStart(scene, curtain::makePattern(scene)).empty()) {
     scene.lines.clear();
     scene.tie_back.clear();
   }

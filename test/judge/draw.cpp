@@ -299,7 +299,7 @@ void drawLines(Drawn& drawn) {
     if (dice.chance(0.6)) drawn.happenings.tie_back = dice.chance(0.5) ? 0 : 1;
     scene.tie_back[0].closed = drawn.happenings.tie_back != 1;
   }
-  if (validate(scene).empty() && problemsOfCords(scene, makePattern(scene)).empty()) return;
+  if (validate(scene).empty() && problemsAtStart(scene, makePattern(scene)).empty()) return;
   scene.lines.clear();
   scene.tie_back.clear();
 }

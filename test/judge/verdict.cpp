@@ -372,7 +372,7 @@ Verdict judge(const Drawn& drawn, const Rigour& rigour) {
 Drawn shrink(Drawn drawn, const Rigour& rigour) {
   const auto fails = [&](const Drawn& candidate) {
     return validate(candidate.scene).empty() &&
-           problemsOfCords(candidate.scene, makePattern(candidate.scene)).empty() && !judge(candidate, rigour).holds();
+           problemsAtStart(candidate.scene, makePattern(candidate.scene)).empty() && !judge(candidate, rigour).holds();
   };
   std::vector<std::function<bool(Drawn&)>> cuts;
   const auto cut = [&cuts](std::function<bool(Drawn&)> one) { cuts.push_back(std::move(one)); };

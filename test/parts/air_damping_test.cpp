@@ -9,7 +9,7 @@
 #include <cmath>
 #include <map>
 
-#include "step/damped_step.h"
+#include "step/substep.h"
 #include "testing.h"
 #include "truth_table.h"
 
@@ -28,7 +28,7 @@ Field coefficients(const AirParams& air, const Scene& scene, double speed) {
   const Vec3 v = speed * Vec3(2.0, -3.0, 6.0) / 7.0;
   for (std::size_t n = 0; n < pattern.grid.size(); ++n) velocity.set(n, v);
   Field out(pattern.grid.size(), 0.0);
-  damping.addCoefficients(pattern.grid, velocity, out);
+  damping.addCoefficients(velocity, out);
   return out;
 }
 
@@ -98,8 +98,8 @@ TEST(AirDamping, AddsToWhatIsThereAndLeavesPaddingAlone) {
   Field3 velocity;
   velocity.assign(pattern.grid.size(), 0.0);
   Field once(pattern.grid.size(), 0.0), on_top(pattern.grid.size(), 4.0);
-  damping.addCoefficients(pattern.grid, velocity, once);
-  damping.addCoefficients(pattern.grid, velocity, on_top);
+  damping.addCoefficients(velocity, once);
+  damping.addCoefficients(velocity, on_top);
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < pattern.grid.stride; ++j) {
       const std::size_t n = pattern.grid.index(i, j);
@@ -122,7 +122,8 @@ TEST(AirDamping, TotalDoesNotDependOnTheGrid) {
 TEST(AirDamping, IsActiveWhenAnyPlaceHasACoefficient) {
   const ClothPattern pattern = makePattern(flatScene(4, 4));
   const ClothPattern ring = makePattern(ringScene(4, 4));
-  EXPECT_FALSE(AirDamping(AirParams(), pattern).active());
+  const AirParams none;
+  EXPECT_FALSE(AirDamping(none, pattern).active());
   for (double AirParams::*place : {&AirParams::inside, &AirParams::border, &AirParams::corner}) {
     AirParams air;
     air.*place = 0.1;

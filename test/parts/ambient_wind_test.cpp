@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Gusts have the spectra that MIL-F-8785C prints, and travel with the wind.
-#include "parts/wind/ambient_wind.h"
+#include "parts/air/ambient_wind.h"
 
 #include <gtest/gtest.h>
 

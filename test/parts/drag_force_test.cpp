@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "step/damped_step.h"
+#include "step/substep.h"
 #include "testing.h"
 
 namespace curtain {

@@ -30,22 +30,26 @@ AirParams relativeLaw() {
 }
 
 struct Cloth {
-  explicit Cloth(double porosity = 0.0)
-      : pattern(makePattern(flatScene(6, 5, 1.5, 0.8))), air(relativeLaw(), porosity, pattern) {
+  explicit Cloth(double porosity = 0.0) : pattern(makePattern(flatScene(6, 5, 1.5, 0.8))), air(law, porosity, pattern) {
     const std::size_t size = pattern.grid.size();
     for (Field3* field : {&area_vectors, &wind, &velocity, &others, &pull}) field->assign(size, 0.0);
     position = makeInitialState(flatScene(6, 5, 1.5, 0.8), pattern).position;
     renew();
   }
   void renew() { nodeAreaVectors(pattern.grid, position, area_vectors); }
-  Field3 force(const SubstepAhead& ahead = {}) const {
-    Field3 sum = others;
-    air.addForces(pattern, area_vectors, wind, velocity, ahead, sum);
-    for (std::size_t n = 0; n < pattern.grid.size(); ++n) sum.add(n, -others.at(n));
-    return sum;
+  Field3 force(const SubstepAhead& ahead = {}) {
+    Field damping;
+    ForceSum sum(damping);
+    sum.ahead = ahead;
+    sum.force = others;
+    sum.air = wind;
+    air.addForces({position, velocity, 0.0, {}, {}}, sum);
+    for (std::size_t n = 0; n < pattern.grid.size(); ++n) sum.force.add(n, -others.at(n));
+    return sum.force;
   }
   std::size_t middle() const { return pattern.grid.index(3, 2); }
 
+  const AirParams law = relativeLaw();
   ClothPattern pattern;
   RelativeAir air;
   Field3 position, area_vectors, wind, velocity, others, pull;
@@ -147,11 +151,12 @@ TEST(RelativeAir, IsOfSecondOrderInTheFall) {
 
 TEST(RelativeAir, IsInactiveUnderOtherLawsAndWithoutDrag) {
   const ClothPattern pattern = makePattern(flatScene(4, 3));
-  EXPECT_FALSE(RelativeAir(AirParams(), 0.0, pattern).active());
-  AirParams none = relativeLaw();
+  const AirParams other, relative = relativeLaw();
+  EXPECT_FALSE(RelativeAir(other, 0.0, pattern).active());
+  AirParams none = relative;
   none.normal_drag = none.tangential_drag = 0.0;
   EXPECT_FALSE(RelativeAir(none, 0.0, pattern).active());
-  EXPECT_TRUE(RelativeAir(relativeLaw(), 1.0, pattern).active()) << "all pores: friction is left";
+  EXPECT_TRUE(RelativeAir(relative, 1.0, pattern).active()) << "all pores: friction is left";
 }
 
 }  // namespace

@@ -16,9 +16,17 @@ constexpr double kWindow = 0.5;                // s; as long must the cloth keep
 constexpr double kSpeed = 1e-3;                // m/s
 constexpr double kAllowed = kSpeed * kWindow;  // m, from its place
 
+Scene restingScene() {
+  Scene scene = curtain_test::flatScene(4, 7);
+  scene.solver.frame_rate = 60.0;
+  scene.solver.rest_speed = kSpeed;
+  scene.solver.stretch_tolerance = 1e-3;
+  return scene;
+}
+
 // Seven columns at rest; one that is told to drifts on by so much a frame.
 struct Cloth {
-  Cloth() { rest.setLimits(kSpeed, 9.81, 0.0, 1.0); }
+  Cloth() { rest.takeLimits(0.0); }
   // So many seconds from now on.
   void wait(double seconds) {
     for (const double end = time + seconds - 1e-9; time < end;) {
@@ -28,10 +36,10 @@ struct Cloth {
     }
   }
 
-  Scene scene = curtain_test::flatScene(4, 7);
+  Scene scene = restingScene();
   ClothPattern pattern = makePattern(scene);
   ClothState state = makeInitialState(scene, pattern);
-  Rest rest{pattern, kFrame, 0.004, 1e-3};
+  Rest rest{scene, pattern};
   double drift = 0.0;
   bool gusts = false, touches = false;
   double time = 0.0;
@@ -112,16 +120,22 @@ TEST(FallingAsleep, BeginsAgainWhenDisturbed) {
 
 TEST(FallingAsleep, NeedsGravityAndSpeedAndShortFrames) {
   Cloth cloth;
-  cloth.rest.setLimits(kSpeed, 0.0, 0.0, 1.0);
-  EXPECT_FALSE(cloth.rest.can());
-  cloth.rest.setLimits(0.0, 9.81, 0.0, 1.0);
-  EXPECT_FALSE(cloth.rest.can());
-  cloth.rest.takeFrame(0.06);
-  cloth.rest.setLimits(kSpeed, 9.81, 0.0, 1.0);
-  EXPECT_FALSE(cloth.rest.can());
-  cloth.rest.takeFrame(kFrame);
-  cloth.rest.setLimits(kSpeed, 9.81, 0.0, 1.0);
-  EXPECT_TRUE(cloth.rest.can());
+  const Scene good = cloth.scene;
+  const auto canWith = [&cloth](const Scene& scene) {
+    cloth.scene = scene;
+    cloth.rest.takeLimits(0.0);
+    return cloth.rest.can();
+  };
+  Scene bad = good;
+  bad.gravity = Vec3::Zero();
+  EXPECT_FALSE(canWith(bad));
+  bad = good;
+  bad.solver.rest_speed = 0.0;
+  EXPECT_FALSE(canWith(bad));
+  bad = good;
+  bad.solver.frame_rate = 1.0 / 0.06;
+  EXPECT_FALSE(canWith(bad));
+  EXPECT_TRUE(canWith(good));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "curtain_sim/simulator.h"
+#include "simulator/composition.h"
 #include "simulator/force_field.h"
 #include "testing.h"
 
@@ -39,8 +40,13 @@ WindParams windAt(const Vec3& position, const Vec3& direction, double radius) {
 // The solver has a shorter way for weight alone.
 bool actsAtStart(const Scene& scene) {
   const ClothPattern pattern = makePattern(scene);
-  ForceField forces(scene, pattern);
-  return !forces.evaluate(makeInitialState(scene, pattern), 0.0, 0.01).weight_only;
+  const ObstacleSet obstacles(scene, {});
+  const Workers workers(1);
+  const Composition parts{scene, pattern, obstacles, workers};
+  ForceField forces(scene, pattern, parts.all);
+  const ClothState state = makeInitialState(scene, pattern);
+  forces.begin(state, 0.0, 0.0, 0.01);
+  return !forces.evaluate(state, {}).weight_only;
 }
 
 void expectNothingFrom(const WindParams& wind, const std::string& what) {

@@ -177,11 +177,11 @@ TEST(Snapshot, HasAVersionForEveryLayout) {
   SnapshotParts parts;
   const std::string snapshot = Simulator(all).snapshot();
   ASSERT_FALSE(unpackSnapshot(snapshot, parts).has_value());
-  EXPECT_EQ(kSnapshotVersion, 11U);
-  EXPECT_EQ(parts.layout, 1297194915U);
+  EXPECT_EQ(kSnapshotVersion, 12U);
+  EXPECT_EQ(parts.layout, 1833466191U);
   const std::string plain = Simulator(flatScene(4, 5)).snapshot();
   ASSERT_FALSE(unpackSnapshot(plain, parts).has_value());
-  EXPECT_EQ(parts.layout, 385443731U);
+  EXPECT_EQ(parts.layout, 673202344U);
 }
 
 }  // namespace

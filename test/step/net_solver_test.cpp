@@ -10,7 +10,7 @@
 #include <cmath>
 #include <random>
 
-#include "parts/rail/carriers.h"
+#include "parts/rail/rail.h"
 #include "step/node_inertia.h"
 #include "step/warp_solver.h"
 #include "step/weft_links.h"
@@ -34,8 +34,8 @@ struct Net {
         state(makeInitialState(scene, pattern)),
         workers(threads),
         inertia(pattern),
-        carriers(pattern),
-        guided(carriers.any() ? &carriers : nullptr),
+        rail(scene, pattern),
+        guided(rail.any() ? &rail : nullptr),
         solver(pattern, workers) {
     force.assign(pattern.grid.size(), 0.0);
     warp.assign(pattern.grid);
@@ -47,7 +47,7 @@ struct Net {
   void setDirections() {
     setWarpDirections(pattern.grid, state.position, warp.direction);
     for (int i = 0; i < pattern.grid.rows; ++i) setWeftDirections(pattern.grid, i, state.position, weft.direction);
-    if (carriers.any()) carriers.begin({state, force, nullptr, nullptr, 1.0, 1.0}, state, inertia.masses());
+    if (rail.any()) rail.begin({state, force, nullptr, nullptr, 1.0, 1.0}, state, inertia.masses());
     solver.begin(state.position, inertia.masses(), guided);
   }
   void shake(double size, unsigned seed) { curtain_test::shake(pattern, size, seed, state.position); }
@@ -76,7 +76,7 @@ struct Net {
   ClothState state;
   Workers workers;
   NodeInertia inertia;
-  Carriers carriers;
+  Rail rail;
   Field3 force;
   const GuidedNodes* guided;
   NetSolver solver;

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "step/damped_step.h"
-
 namespace curtain {
 namespace {
 

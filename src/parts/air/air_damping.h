@@ -4,26 +4,33 @@
 #pragma once
 
 #include "cloth/cloth.h"
-#include "curtain_sim/scene.h"
+#include "step/part.h"
 
 namespace curtain {
 
 /// Damping coefficients of the nodes [kg/s]: force = -coefficient * velocity.
-class AirDamping {
+class AirDamping final : public Part {
  public:
+  /// All arguments must outlive this.
   AirDamping(const AirParams& air, const ClothPattern& pattern);
 
   /// False: no coefficient is above zero and there is nothing to do.
   bool active() const { return active_; }
 
-  /// The largest coefficient of a node at rest, over its mass [1/s].
-  double strongestPerMass(const ClothPattern& pattern) const noexcept;
-
   /// Adds the coefficients at the nodes' present speeds to out, shape [grid.size()].
-  void addCoefficients(const Grid& grid, const Field3& velocity, Field& out) const noexcept;
+  void addCoefficients(const Field3& velocity, Field& out) const noexcept;
+
+  void resume() override;
+  bool explain(const ClothState& state, double time, Plan& plan) const override;
+  double dampingPerMass(double& air_speed) const noexcept override;
+  void announce(const ClothState&, ForceSum& sum) noexcept override { sum.damps = sum.damps || active_; }
+  void addForces(const ClothState& state, ForceSum& sum) noexcept override {
+    if (active_) addCoefficients(state.velocity, sum.damping);
+  }
 
  private:
-  AirParams air_;
+  const AirParams& air_;
+  const ClothPattern& pattern_;
   Field linear_;  // rho * c_r * area of every node [kg/s]
   bool active_ = false;
 };

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cloth/tiny_squared.h"
 #include "cloth/wide.h"
 
 namespace curtain {
@@ -75,40 +74,69 @@ CURTAIN_WIDE void addEnd(int columns, const NodeRow& row, const Drag& drag) noex
 
 }  // namespace
 
-RelativeAir::RelativeAir(const AirParams& air, double porosity, const ClothPattern& pattern)
-    : density_(air.density),
-      normal_(air.law == AirLaw::kRelative ? 0.5 * air.density * air.normal_drag * (1.0 - porosity) : 0.0),
-      tangential_(air.law == AirLaw::kRelative ? 0.5 * air.density * air.tangential_drag : 0.0) {
-  takePins(pattern);
+RelativeAir::RelativeAir(const AirParams& air, double porosity, const ClothPattern& pattern,
+                         const AmbientParams& ambient)
+    : air_(air), porosity_(porosity), pattern_(pattern), ambient_(ambient) {
+  area_vectors_.assign(pattern.grid.size(), 0.0);
+  kept_.reserve(pattern.grid.nodeCount());
+  resume();
 }
 
-void RelativeAir::takePins(const ClothPattern& pattern) noexcept {
-  area_per_mass_ = 0.0;
-  for (std::size_t n = 0; n < pattern.grid.size(); ++n) {
-    area_per_mass_ = std::max(area_per_mass_, pattern.area[n] * pattern.inverse_mass[n]);
+void RelativeAir::resume() {
+  const bool asked = air_.law == AirLaw::kRelative;
+  normal_ = asked ? 0.5 * air_.density * air_.normal_drag * (1.0 - porosity_) : 0.0;
+  tangential_ = asked ? 0.5 * air_.density * air_.tangential_drag : 0.0;
+}
+
+double RelativeAir::dampingPerMass(double& air_speed) const noexcept {
+  if (!active()) return 0.0;
+  double area_per_mass = 0.0;  // of the lightest node [m^2/kg]
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    area_per_mass = std::max(area_per_mass, pattern_.area[n] * pattern_.inverse_mass[n]);
   }
+  air_speed += ambient_.meanSpeed();
+  return std::max(normal_, tangential_) * air_speed * area_per_mass;
 }
 
-double RelativeAir::strongestPerMass(double speed) const noexcept {
-  return std::max(normal_, tangential_) * speed * area_per_mass_;
+void RelativeAir::announce(const ClothState& state, ForceSum& sum) noexcept {
+  if (!active()) return;
+  sum.acts = sum.reads_air = true;
+  ambient_.setVelocities(pattern_.grid, state.position, sum.time, sum.air);
 }
 
-void RelativeAir::addForces(const ClothPattern& pattern, const Field3& area_vectors, const Field3& wind,
-                            const Field3& velocity, const SubstepAhead& ahead, Field3& force) const noexcept {
-  const Grid& grid = pattern.grid;
+void RelativeAir::addForces(const ClothState& state, ForceSum& sum) noexcept {
+  if (!active()) return;
+  kept_.clear();
+  for (const std::size_t n : sum.led) kept_.push_back(sum.force.at(n));
+  const Grid& grid = pattern_.grid;
+  nodeAreaVectors(grid, state.position, area_vectors_);
+  const SubstepAhead& ahead = sum.ahead;
   const Drag drag{normal_, tangential_, ahead.kick, ahead.pull != nullptr ? 1.0 : 0.0};
   for (int i = 0; i < grid.rows; ++i) {
     const std::size_t row = grid.row(i);
-    const ConstFieldView pull(ahead.pull != nullptr ? *ahead.pull : wind, row);  // read unconditionally
-    const NodeRow nodes{pattern.inverse_mass.data() + row,
-                        pattern.area.data() + row,
-                        {area_vectors, row},
-                        {wind, row},
-                        {velocity, row},
+    const ConstFieldView pull(ahead.pull != nullptr ? *ahead.pull : sum.air, row);  // read unconditionally
+    const NodeRow nodes{pattern_.inverse_mass.data() + row,
+                        pattern_.area.data() + row,
+                        {area_vectors_, row},
+                        {sum.air, row},
+                        {state.velocity, row},
                         pull,
-                        {force, row}};
+                        {sum.force, row}};
     (ahead.backward ? addEnd : addMiddle)(grid.columns, nodes, drag);
   }
+  for (std::size_t k = 0; k < kept_.size(); ++k) sum.force.set(sum.led[k], kept_[k]);
+}
+
+bool RelativeAir::explain(const ClothState&, double, Plan& plan) const {
+  const bool blows = active() && !ambient_.still();
+  plan.push_back({"ambient wind", blows,
+                  !blows             ? "the air around is still"
+                  : ambient_.gusty() ? "blows everywhere, with gusts"
+                                     : "blows everywhere; no gusts, so no table of them"});
+  plan.push_back({"relative air", active(),
+                  active() ? "the force of the air's velocity relative to the cloth, with normals of all rows"
+                           : "another law is asked for (air.law), or no drag"});
+  return active();
 }
 
 }  // namespace curtain

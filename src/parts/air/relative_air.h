@@ -21,37 +21,37 @@
 #pragma once
 
 #include "cloth/cloth.h"
-#include "curtain_sim/scene.h"
-#include "step/substep.h"
+#include "parts/air/ambient_wind.h"
+#include "step/part.h"
 
 namespace curtain {
 
-class RelativeAir {
+class RelativeAir final : public Part {
  public:
-  /// porosity: of the cloth; it lowers c_n by this share.
-  RelativeAir(const AirParams& air, double porosity, const ClothPattern& pattern);
+  /// porosity: of the cloth; it lowers c_n by this share. air and pattern must outlive this.
+  RelativeAir(const AirParams& air, double porosity, const ClothPattern& pattern, const AmbientParams& ambient = {});
 
   /// False: another law is asked for, or no coefficient is above zero.
   bool active() const noexcept { return normal_ > 0.0 || tangential_ > 0.0; }
-  double density() const noexcept { return density_; }
 
-  /// The pattern's pins have changed.
-  void takePins(const ClothPattern& pattern) noexcept;
-
-  /// Largest coefficient of a node at rest, over its mass, in wind of this speed [m/s].
-  double strongestPerMass(double speed) const noexcept;
-
-  /// Adds the air's force to `force`, which has all other forces on the nodes [N].
-  ///   area_vectors  of nodeAreaVectors()
-  ///   wind          velocity of the air at the nodes [m/s]
-  ///   velocity      of the nodes, at the start of the kick [m/s]
-  void addForces(const ClothPattern& pattern, const Field3& area_vectors, const Field3& wind, const Field3& velocity,
-                 const SubstepAhead& ahead, Field3& force) const noexcept;
+  void resume() override;
+  bool explain(const ClothState& state, double time, Plan& plan) const override;
+  bool keepsAwake(const ClothState&, double) const noexcept override { return active() && ambient_.gusty(); }
+  double dampingPerMass(double& air_speed) const noexcept override;
+  /// The air moves as the ambient wind does, until others add to it.
+  void announce(const ClothState& state, ForceSum& sum) noexcept override;
+  /// To be asked after the parts whose forces it reads. It leaves out nodes that are led: it would take what pulls at
+  /// them for what moves them.
+  void addForces(const ClothState& state, ForceSum& sum) noexcept override;
 
  private:
-  double density_;
-  double normal_, tangential_;  // 1/2 rho c [kg/m^3]
-  double area_per_mass_ = 0.0;  // of the lightest node [m^2/kg]
+  const AirParams& air_;
+  const double porosity_;
+  const ClothPattern& pattern_;
+  const AmbientWind ambient_;
+  double normal_ = 0.0, tangential_ = 0.0;  // 1/2 rho c [kg/m^3]
+  Field3 area_vectors_;
+  std::vector<Vec3> kept_;  // forces on the nodes that are led [N]
 };
 
 }  // namespace curtain

@@ -214,4 +214,12 @@ CURTAIN_WIDE double workOf(const Field3& with, const Field3& without, const Fiel
   return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
+bool Bending::explain(const ClothState&, double, Plan& plan) const {
+  plan.push_back({"bending", any(),
+                  !any()   ? "bending_warp and bending_weft are 0"
+                  : gives_ ? "where lines are stiffer than the substeps bear, nodes give way"
+                           : "explicit: substeps bear all of its stiffness"});
+  return false;
+}
+
 }  // namespace curtain

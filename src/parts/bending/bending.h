@@ -15,12 +15,13 @@
 #include "parts/bending/bending_lines.h"
 #include "parts/bending/rest_curvature.h"
 #include "step/elastic_part.h"
+#include "step/part.h"
 #include "step/workers.h"
 
 namespace curtain {
 
 /// Not thread-safe. Allocates only in the constructor, and nothing for limp cloth.
-class Bending final : public ElasticPart {
+class Bending final : public ElasticPart, public Part {
  public:
   /// All arguments must outlive this.
   Bending(const ClothPattern& pattern, const Workers& workers);
@@ -30,6 +31,7 @@ class Bending final : public ElasticPart {
 
   /// After begin(): lines are stiffer than the step bears.
   bool gives() const noexcept { return gives_; }
+  bool explain(const ClothState& state, double time, Plan& plan) const override;
 
   void begin(const NodeInertia& inertia, const Field& inverse, double scale, bool explicit_links) noexcept override;
   const Field3& addTo(const Field3& force, const Field3& position) noexcept override;
@@ -55,8 +57,8 @@ class Bending final : public ElasticPart {
   const Workers& workers_;
   BendingLines warp_, weft_;
   RestCurvature warp_rest_, weft_rest_;
-  double stiffest_;  // largest bound of K over mass [1/s^2]
-  bool gives_ = false;
+  double stiffest_;              // largest bound of K over mass [1/s^2]
+  bool gives_ = false;           // after begin(): lines are stiffer than the step bears
   Field warp_give_, weft_give_;  // [m/N]
   Field3 sum_, ahead_, no_force_;
   Field3 couples_, moved_;  // scratch of addCouples()

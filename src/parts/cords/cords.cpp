@@ -32,11 +32,37 @@ void Cords::close(std::size_t loop, bool closed, ClothState& state) noexcept {
   resume(state);
 }
 
-void Cords::resetLoops(ClothState& state) noexcept {
+void Cords::reset(ClothState& state) {
   for (std::size_t k = 0; k < closed_.size(); ++k) close(k, pattern_.cords.loops[k].closed, state);
 }
 
-bool Cords::closing(const ClothState& state) const noexcept {
+void Cords::placed(const ClothState& before, ClothState& state) noexcept {
+  for (const CordEnd& end : pattern_.cords.ends) {
+    if (!end.load) continue;
+    const double share = 1.0 / static_cast<double>(end.last - end.first);
+    Vec3 moved = Vec3::Zero(), velocity = Vec3::Zero();
+    for (std::size_t c = end.first; c < end.last; ++c) {
+      const std::size_t n = pattern_.cords.cords[c].node;
+      moved += share * (state.position.at(n) - before.position.at(n));
+      velocity += share * state.velocity.at(n);
+    }
+    state.position.add(end.node, moved);
+    state.velocity.set(end.node, velocity);
+  }
+  for (std::size_t k = 0; k < closed_.size(); ++k) close(k, closed(k), state);
+}
+
+bool Cords::explain(const ClothState&, double, Plan& plan) const {
+  const CordsPattern& cords = pattern_.cords;
+  plan.push_back({"lines", !cords.empty(),
+                  cords.empty() ? "there are none"
+                                : std::to_string(cords.cords.size()) + " cords of " +
+                                      std::to_string(cords.ends.size() - cords.loops.size()) + " lines and " +
+                                      std::to_string(cords.loops.size()) + " tie-backs"});
+  return false;
+}
+
+bool Cords::isUnderWay(const ClothState& state) const noexcept {
   for (std::size_t k = 0; k < closed_.size(); ++k) {
     if (closed_[k] != 0 && state.reach[k] > pattern_.cords.loops[k].radius) return true;
   }

@@ -8,11 +8,12 @@
 
 #include <vector>
 
+#include "step/part.h"
 #include "step/row_part.h"
 
 namespace curtain {
 
-class Cords final : public RowPart {
+class Cords final : public RowPart, public Part {
  public:
   /// pattern must outlive this.
   explicit Cords(const ClothPattern& pattern);
@@ -25,21 +26,28 @@ class Cords final : public RowPart {
   void close(std::size_t loop, bool closed, ClothState& state) noexcept;
   bool closed(std::size_t loop) const noexcept { return closed_[loop] != 0; }
   /// As the scene has them at the start.
-  void resetLoops(ClothState& state) noexcept;
+  void reset(ClothState& state) override;
+  /// A load goes along with the mean of its lines' nodes; tie-backs close from where their nodes are.
+  void placed(const ClothState& before, ClothState& state) noexcept override;
+  /// Which loops are closed.
+  void carry(Archive& archive) override;
+  bool explain(const ClothState& state, double time, Plan& plan) const override;
   /// A closed loop has not yet shrunk to its radius.
-  bool closing(const ClothState& state) const noexcept;
+  bool isUnderWay(const ClothState& state) const noexcept override;
+  bool drives(const ClothState& state) const noexcept override { return isUnderWay(state); }
+  bool reversible() const noexcept override { return count() == 0; }
+
+  // ---- A substep
 
   std::size_t count() const noexcept override { return pattern_.cords.cords.size(); }
   void attach(DistanceRow* rows) noexcept override;
   void begin(const SubstepStart& start, const ClothState& state, const Field& inverse, bool drives,
              Field3& next) noexcept override;
   void commit(const SubstepStart& start, const Field3& next, ClothState& state) noexcept override;
+  using Part::resume;
   void resume(const ClothState& state) noexcept override;
   double speed() const noexcept override { return closing_speed_; }
   double work(const Field3& before, const Field3& after, double per_h) const noexcept override;
-
-  /// Which loops are closed.
-  void carry(Archive& archive);
 
  private:
   void predict(const SubstepStart& start, const Field& inverse, Field3& next) const noexcept;

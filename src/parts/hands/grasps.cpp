@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "parts/hands/hand_pose.h"
+#include "cloth/archive_params.h"
 #include "scene/ranges.h"
 
 namespace curtain {
@@ -33,11 +33,8 @@ std::string textOf(const NodeIndex& node) {
 }  // namespace
 
 Grasps::Grasps(const Scene& scene, const ClothPattern& pattern)
-    : scene_(scene),
-      pattern_(pattern),
-      scene_pins_(pattern.pinned),
+    : PinMoves(scene, pattern, true),
       total_mass_(std::accumulate(pattern.mass.begin(), pattern.mass.end(), 0.0)),
-      pinned_(pattern.grid.size(), 0),
       loaded_(pattern.grid.size(), 0),
       hand_(pattern.grid.size(), -1) {}
 
@@ -53,15 +50,11 @@ std::size_t Grasps::indexOf(const std::string& id) const noexcept {
 
 // After the list has changed, or who is held.
 void Grasps::note() noexcept {
-  std::fill(pinned_.begin(), pinned_.end(), std::uint8_t{0});
   std::fill(hand_.begin(), hand_.end(), -1);
   holding_ = 0;
   for (std::size_t g = 0; g < list_.size(); ++g) {
     holding_ += list_[g].holds() ? 1 : 0;
-    for (const HeldNode& held : list_[g].held) {
-      hand_[held.node] = static_cast<int>(g);
-      pinned_[held.node] = list_[g].pins ? 1 : 0;
-    }
+    for (const HeldNode& held : list_[g].held) hand_[held.node] = static_cast<int>(g);
   }
 }
 
@@ -73,9 +66,9 @@ void Grasps::listNodes(const GraspParams& grasp, std::vector<std::size_t>& nodes
     if (hand_[n] >= 0)
       problems.push_back(
           {key, node + " is held already, by '" + list_[static_cast<std::size_t>(hand_[n])].params.id + "'"});
-    else if (scene_pins_[n] == kPinned)
+    else if (pattern_.scene_pins[n] == kPinned)
       problems.push_back({key, node + " is pinned by the scene"});
-    else if (scene_pins_[n] == kGuided)
+    else if (pattern_.scene_pins[n] == kGuided)
       problems.push_back({key, node + " hangs on the rail"});
     nodes.push_back(n);
   }
@@ -159,47 +152,42 @@ void Grasps::add(const GraspParams& params, const std::vector<std::size_t>& node
   note();
 }
 
-void Grasps::release(Grasp& grasp, PinMoves& pins) noexcept {
-  for (const HeldNode& held : grasp.held) pins.letGo(held.node);
+void Grasps::release(Grasp& grasp) noexcept {
+  for (const HeldNode& held : grasp.held) letGo(held.node);
   grasp.held.clear();
 }
 
-bool Grasps::remove(const std::string& id, PinMoves& pins) {
+void Grasps::remove(const std::string& id) {
   const std::size_t known = indexOf(id);
-  if (known == list_.size()) return false;
-  release(list_[known], pins);
+  release(list_[known]);
   list_.erase(list_.begin() + static_cast<std::ptrdiff_t>(known));
   note();
-  return true;
 }
 
-bool Grasps::clear(PinMoves& pins) {
-  if (list_.empty()) return false;
-  for (Grasp& grasp : list_) release(grasp, pins);
+void Grasps::removeAll() noexcept {
   list_.clear();
-  note();
-  return true;
-}
-
-void Grasps::letGoOfEnded(PinMoves& pins) noexcept {
-  for (Grasp& grasp : list_) {
-    if (grasp.end != GraspEnd::kNone) release(grasp, pins);
-  }
+  clear();
   note();
 }
 
-bool Grasps::move(const std::string& id, const Pose& pose) {
+bool Grasps::moveTo(const std::string& id, const Pose& pose) {
   if (!holds(id)) return false;
   list_[indexOf(id)].to = normalised(pose);
   return true;
 }
 
-void Grasps::holdWhereTheyAre(const ClothState& state) noexcept {
+void Grasps::placed(const ClothState&, ClothState& state) noexcept {
   for (Grasp& grasp : list_) {
     for (HeldNode& held : grasp.held) {
       held.place = toLocal(grasp.from, state.position.at(held.node));
       held.velocity = Vec3::Zero();
     }
+  }
+}
+
+void Grasps::pin(std::vector<std::uint8_t>& pinned) const noexcept {
+  for (const Grasp& grasp : list_) {
+    for (const HeldNode& held : grasp.held) pinned[held.node] = grasp.pins ? 1 : 0;
   }
 }
 
@@ -220,6 +208,56 @@ std::vector<std::string> Grasps::ids() const {
   std::vector<std::string> ids;
   for (const Grasp& grasp : list_) ids.push_back(grasp.params.id);
   return ids;
+}
+
+// ---- Serialization
+
+void Grasps::carryGrasp(Archive& archive, Grasp& grasp) {
+  carryParams(archive, grasp.params, scene_.cloth);
+  const auto carryPose = [&](const char* name, Pose& pose) {
+    archive.finite(name, pose);
+    archive.require(std::abs(pose.orientation.norm() - 1.0) <= 1e-3, "must have a unit quaternion");
+  };
+  carryPose("from", grasp.from);
+  carryPose("to", grasp.to);
+  archive.integer("taken", grasp.taken, 1, 1 << 30);
+  double pull = grasp.springs.pull();
+  archive.atOnce([&] { archive.number("pull", pull); });
+  archive.list("held", grasp.held, [&](HeldNode& held) {
+    archive.node("node", held.node, pattern_.grid);
+    archive.require(pattern_.scene_pins[held.node] == kFree, "must be a node that nothing else holds");
+    archive.finite("place", held.place);
+    archive.finite("velocity", held.velocity);
+  });
+  archive.finite("force", grasp.force);
+  archive.finite("torque", grasp.torque);
+  archive.within("slipped", grasp.slipped, 0.0, std::numeric_limits<double>::max());
+  archive.integer("end", grasp.end, 0, 2);
+  archive.require(grasp.holds() == (grasp.end == GraspEnd::kNone), "must hold nodes unless it has ended");
+  if (!archive.loads()) return;
+  prepare(grasp);
+  grasp.springs.setPull(pull);
+  for (const HeldNode& held : grasp.held) {
+    archive.require(loaded_[held.node] == 0, "must hold nodes that no other holds");
+    loaded_[held.node] = grasp.pins ? 2 : 1;
+  }
+}
+
+void Grasps::carry(Archive& archive) {
+  std::vector<std::string> known;
+  std::fill(loaded_.begin(), loaded_.end(), std::uint8_t{0});
+  archive.list("grasps", list_, [&](Grasp& grasp) {
+    carryGrasp(archive, grasp);
+    archive.require(std::find(known.begin(), known.end(), grasp.params.id) == known.end(),
+                    "must have ids of their own");
+    known.push_back(grasp.params.id);
+  });
+  PinMoves::carry(archive);
+}
+
+void Grasps::resume() {
+  note();
+  PinMoves::resume();
 }
 
 }  // namespace curtain

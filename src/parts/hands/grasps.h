@@ -1,87 +1,78 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Hands that hold the cloth. A node in a hand that does not give is pinned, and its moves are those of pins
-// (pin_moves.h); others hang on springs (parts/hands/hold_springs.h). What changes who is pinned goes through
+// (step/pin_moves.h); others hang on springs (hold_springs.h). Changes by the user of who is pinned go through
 // Simulator::Impl::repin().
-//
-//   grasps.cpp            who is held: setGrasp() finds the nodes and adds the grasp
-//   grasps_frame.cpp      before a frame: movePins(), begin(), where the hands will be at its end;
-//                         a substep: setSubstep(), addForces() of the springs; if it is accepted, count();
-//                         after a frame: end(), pulls, who has slid out or in, which hands are torn
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "cloth/pin_moves.h"
 #include "curtain_sim/grasp.h"
 #include "parts/hands/hold_springs.h"
 #include "step/exact_solver.h"
+#include "step/pin_moves.h"
 
 namespace curtain {
 
+// ---- Poses of a gripper's frame
+inline Vec3 toWorld(const Pose& pose, const Vec3& local) noexcept { return pose.position + pose.orientation * local; }
+inline Vec3 toLocal(const Pose& pose, const Vec3& world) noexcept {
+  return pose.orientation.conjugate() * (world - pose.position);
+}
+
+inline Pose normalised(const Pose& pose) noexcept { return {pose.position, pose.orientation.normalized()}; }
+
+inline Pose between(const Pose& from, const Pose& to, double share) noexcept {
+  return {from.position + share * (to.position - from.position), from.orientation.slerp(share, to.orientation)};
+}
+
+/// at: in the gripper's frame [m].
+inline bool isInRegion(const GraspParams& grasp, const Vec3& at) noexcept {
+  const Vec3 local = toLocal(grasp.place, at);
+  if (grasp.region == GraspRegion::kSphere) return local.norm() <= grasp.radius;
+  return (2.0 * local.cwiseAbs() - grasp.size).maxCoeff() <= 0.0;
+}
+
 /// Not thread-safe. Allocates in the constructor, add() and carry().
-class Grasps {
+class Grasps final : public PinMoves {
  public:
   /// scene and pattern must outlive this.
   Grasps(const Scene& scene, const ClothPattern& pattern);
-
-  /// A hand holds something.
-  bool any() const noexcept { return holding_ > 0; }
-  /// A hand is to move in the coming frame.
-  bool anyMoves() const noexcept;
-  /// By node: a hand pins it.
-  const std::vector<std::uint8_t>& pinned() const noexcept { return pinned_; }
-  /// ClothPattern::pinned without hands.
-  const std::vector<std::uint8_t>& scenePins() const noexcept { return scene_pins_; }
 
   /// Nodes that a valid grasp would take, or what keeps it from it.
   std::vector<Problem> find(const GraspParams& grasp, const Field3& position, std::vector<std::size_t>& nodes) const;
   /// Takes hold of these nodes, which are at rest from now on where the hand pins them.
   void add(const GraspParams& grasp, const std::vector<std::size_t>& nodes, ClothState& state);
-  /// Lets go of a grasp's nodes, and forgets it. False: there is none of this id.
-  bool remove(const std::string& id, PinMoves& pins);
-  /// The same of all. False: there were none.
-  bool clear(PinMoves& pins);
+  /// Lets go of the nodes of a grasp that there is, and forgets it.
+  void remove(const std::string& id);
+  /// The same of all.
+  void removeAll() noexcept;
   /// The hand's pose at the next frame's end. False: none of this id holds.
-  bool move(const std::string& id, const Pose& pose);
-  /// Nodes were put elsewhere: they are held there.
-  void holdWhereTheyAre(const ClothState& state) noexcept;
+  bool moveTo(const std::string& id, const Pose& pose);
   /// The grasp of this id, holding or ended; none: there is none.
   bool has(const std::string& id) const { return indexOf(id) < list_.size(); }
   bool holds(const std::string& id) const { return has(id) && list_[indexOf(id)].holds(); }
-  bool holdsNode(std::size_t node) const noexcept { return hand_[node] >= 0; }
   /// Of a grasp that there is.
   GraspState stateOf(const std::string& id) const;
   std::vector<std::string> ids() const;
 
-  /// Before a frame: moves of the nodes that hands pin.
-  void movePins(PinMoves& pins) const noexcept;
-  /// After PinMoves::start(): begins to count.
-  void begin(const ClothState& state, double frame_rate) noexcept;
-  /// The coming substep: h [s], from `done` [s] into the frame.
-  void setSubstep(double done, double h) noexcept;
-  /// Springs act: substeps have damping.
-  bool anySprings() const noexcept;
-  void addForces(const ClothState& state, Field3& force, Field& damping) noexcept;
-  /// Air that the relative law adds between the two does not act on nodes that springs hold: it would take what pulls
-  /// at them for what moves them.
-  void keepForces(const Field3& force) noexcept;
-  void restoreForces(Field3& force) const noexcept;
-  /// The substep was accepted. links: null for Method::kPaper, which does not know its pulls; scale: of the multipliers
-  /// [s^2].
-  void count(const ClothState& state, const NodeForces& forces, const ExactSolver* links, const Contacts* contacts,
-             double scale) noexcept;
-  /// After a frame, of which this share was made. True: a hand has to let go.
-  bool end(double share, const ClothState& state) noexcept;
-  void letGoOfEnded(PinMoves& pins) noexcept;
-
-  void carry(Archive& archive);
-  /// Whether a hand pins a node; while carry() loads, as it will be.
-  bool willPin(std::size_t node) const noexcept { return loaded_[node] == 2; }
-  /// After carry() has loaded.
-  void resume() noexcept { note(); }
+  void reset(ClothState&) override { removeAll(); }
+  /// Nodes were put elsewhere: they are held there.
+  void placed(const ClothState& before, ClothState& state) noexcept override;
+  void carry(Archive& archive) override;
+  void resume() override;
+  void pin(std::vector<std::uint8_t>& pinned) const noexcept override;
+  bool wakes(const FrameBegin& begin, const ClothState& state) const noexcept override;
+  bool strains() const noexcept override { return any(); }
+  bool reversible() const noexcept override { return !any(); }
+  bool prepareFrame(const FrameBegin& begin, ClothState& state) noexcept override;
+  void beginFrame(const FrameBegin& begin, ClothState& state) noexcept override;
+  void announce(const ClothState& state, ForceSum& sum) noexcept override;
+  void addForces(const ClothState& state, ForceSum& sum) noexcept override;
+  void substepTaken(const SubstepMade& made) noexcept override;
+  bool endFrame(const FrameEnd& end, ClothState& state) noexcept override;
 
  private:
   struct Grasp {
@@ -100,6 +91,7 @@ class Grasps {
 
     bool holds() const noexcept { return !held.empty(); }
     bool moves() const noexcept;
+    bool hasSprings() const noexcept { return holds() && !pins; }
     Vec3 origin(double share) const noexcept { return from.position + share * (to.position - from.position); }
     void push(const Vec3& at, const Vec3& origin, const Vec3& given) noexcept {
       impulse += given;
@@ -107,27 +99,25 @@ class Grasps {
     }
   };
 
+  bool any() const noexcept { return holding_ > 0; }  // a hand holds something
   std::size_t indexOf(const std::string& id) const noexcept;
   void prepare(Grasp& grasp) const;
   void listNodes(const GraspParams& grasp, std::vector<std::size_t>& nodes, std::vector<Problem>& problems) const;
-  bool isFree(std::size_t node) const noexcept { return scene_pins_[node] == kFree && hand_[node] < 0; }
+  bool isFree(std::size_t node) const noexcept { return pattern_.scene_pins[node] == kFree && hand_[node] < 0; }
   void note() noexcept;
-  void release(Grasp& grasp, PinMoves& pins) noexcept;
-  void countPinned(Grasp& grasp, const ClothState& state, const NodeForces& forces, const ExactSolver& links,
-                   double scale) noexcept;
-  void countContacts(const ClothState& state, const Contacts& contacts, double scale) noexcept;
+  void release(Grasp& grasp) noexcept;
+  void countPinned(Grasp& grasp, const SubstepMade& made) noexcept;
+  void countContacts(const SubstepMade& made) noexcept;
   void countSprings(Grasp& grasp, const ClothState& state) noexcept;
   void slide(Grasp& grasp, const ClothState& state) noexcept;
   void changeHeld(Grasp& grasp, const ClothState& state) noexcept;
   void carryGrasp(Archive& archive, Grasp& grasp);
 
-  const Scene& scene_;
-  const ClothPattern& pattern_;
-  const std::vector<std::uint8_t> scene_pins_;
+  bool willPin(std::size_t node) const noexcept override { return loaded_[node] == 2; }
+
   double total_mass_;  // [kg]
   std::vector<Grasp> list_;
   int holding_ = 0;
-  std::vector<std::uint8_t> pinned_;  // by node
   std::vector<std::uint8_t> loaded_;  // by node, of what carry() loads: 2: pinned, 1: held by a spring
   std::vector<int> hand_;             // by node: index of the grasp that holds it, or -1
   FramePart part_;

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "parts/hands/grasps.h"
-#include "parts/hands/hand_pose.h"
 #include "scene/ranges.h"
 
 namespace curtain {
@@ -19,25 +18,24 @@ Vec3 withinNumbers(const Vec3& pull) noexcept {
 
 }  // namespace
 
-bool Grasps::anyMoves() const noexcept {
-  return std::any_of(list_.begin(), list_.end(), [](const Grasp& grasp) { return grasp.moves(); });
+bool Grasps::wakes(const FrameBegin& begin, const ClothState& state) const noexcept {
+  const auto moves = [](const Grasp& grasp) { return grasp.moves(); };
+  return any() && (PinMoves::wakes(begin, state) || std::any_of(list_.begin(), list_.end(), moves));
 }
 
-bool Grasps::anySprings() const noexcept {
-  return any() &&
-         std::any_of(list_.begin(), list_.end(), [](const Grasp& grasp) { return grasp.holds() && !grasp.pins; });
-}
-
-void Grasps::movePins(PinMoves& pins) const noexcept {
+bool Grasps::prepareFrame(const FrameBegin& begin, ClothState& state) noexcept {
   for (const Grasp& grasp : list_) {
     if (!grasp.pins || !grasp.moves()) continue;
-    for (const HeldNode& held : grasp.held) pins.move(held.node, toWorld(grasp.to, held.place), true);
+    for (const HeldNode& held : grasp.held) move(held.node, toWorld(grasp.to, held.place));
   }
+  return PinMoves::prepareFrame(begin, state);
 }
 
 // The nodes that a hand pins change their velocity here; what that takes, the hand has to give.
-void Grasps::begin(const ClothState& state, double frame_rate) noexcept {
-  part_.frame_rate = frame_rate;
+void Grasps::beginFrame(const FrameBegin& begin, ClothState& state) noexcept {
+  PinMoves::beginFrame(begin, state);
+  if (!any()) return;
+  part_.frame_rate = begin.rate;
   for (Grasp& grasp : list_) {
     grasp.impulse = grasp.angular = Vec3::Zero();
     grasp.counted = 0.0;
@@ -54,69 +52,63 @@ void Grasps::begin(const ClothState& state, double frame_rate) noexcept {
   }
 }
 
-void Grasps::setSubstep(double done, double h) noexcept {
-  part_.h = h;
-  part_.end = (done + h) * part_.frame_rate;
-}
-
-void Grasps::addForces(const ClothState& state, Field3& force, Field& damping) noexcept {
-  for (Grasp& grasp : list_) {
-    if (grasp.holds() && !grasp.pins) grasp.springs.addForces(grasp.held, state, part_, force, damping);
-  }
-}
-
-void Grasps::keepForces(const Field3& force) noexcept {
-  for (Grasp& grasp : list_) {
-    for (HeldNode& held : grasp.held) held.others = force.at(held.node);
-  }
-}
-
-void Grasps::restoreForces(Field3& force) const noexcept {
+void Grasps::announce(const ClothState&, ForceSum& sum) noexcept {
+  part_.h = sum.h;
+  part_.end = (sum.done + sum.h) * part_.frame_rate;
   for (const Grasp& grasp : list_) {
-    for (const HeldNode& held : grasp.held) {
-      if (!grasp.pins) force.set(held.node, held.others);
-    }
+    if (!grasp.hasSprings()) continue;
+    sum.acts = sum.damps = true;
+    for (const HeldNode& held : grasp.held) sum.led.push_back(held.node);
   }
 }
 
-void Grasps::count(const ClothState& state, const NodeForces& forces, const ExactSolver* links,
-                   const Contacts* contacts, double scale) noexcept {
+void Grasps::addForces(const ClothState& state, ForceSum& sum) noexcept {
+  for (Grasp& grasp : list_) {
+    if (grasp.hasSprings()) grasp.springs.addForces(grasp.held, state, part_, sum.force, sum.damping);
+  }
+}
+
+void Grasps::substepTaken(const SubstepMade& made) noexcept {
+  if (!any()) return;
   for (Grasp& grasp : list_) {
     if (!grasp.holds()) continue;
-    grasp.counted += part_.h;
+    grasp.counted += made.h;
     if (!grasp.pins)
-      countSprings(grasp, state);
-    else if (links != nullptr)
-      countPinned(grasp, state, forces, *links, scale);
+      countSprings(grasp, made.state);
+    else if (made.links != nullptr)
+      countPinned(grasp, made);
   }
-  if (links != nullptr && contacts != nullptr) countContacts(state, *contacts, scale);
+  if (made.links != nullptr && made.contacts != nullptr) countContacts(made);
 }
 
 // All that acts on a pinned node acts on the hand.
-void Grasps::countPinned(Grasp& grasp, const ClothState& state, const NodeForces& forces, const ExactSolver& links,
-                         double scale) noexcept {
+void Grasps::countPinned(Grasp& grasp, const SubstepMade& made) noexcept {
   const auto stride = static_cast<std::size_t>(pattern_.grid.stride);
-  const Field3& others = links.forcesWithElastic() != nullptr ? *links.forcesWithElastic() : *forces.force;
+  const NodeForces& forces = made.forces;
+  const Field3* const elastic = made.links->forcesWithElastic();
+  const Field3& others = elastic != nullptr ? *elastic : *forces.force;
   const Vec3 origin = grasp.origin(part_.end);
   for (const HeldNode& held : grasp.held) {
     const std::size_t n = held.node;
     Vec3 sum = others.at(n);
-    if (scale != 0.0) sum += links.pullAt(static_cast<int>(n / stride), static_cast<int>(n % stride)) / scale;
-    if (forces.has_damping) sum -= forces.damping[n] * state.velocity.at(n);
-    grasp.push(state.position.at(n), origin, part_.h * sum);
+    if (made.scale != 0.0)
+      sum += made.links->pullAt(static_cast<int>(n / stride), static_cast<int>(n % stride)) / made.scale;
+    if (forces.has_damping) sum -= forces.damping[n] * made.state.velocity.at(n);
+    grasp.push(made.state.position.at(n), origin, made.h * sum);
   }
 }
 
-void Grasps::countContacts(const ClothState& state, const Contacts& contacts, double scale) noexcept {
-  for (const Contact& contact : contacts) {
+void Grasps::countContacts(const SubstepMade& made) noexcept {
+  for (const Contact& contact : *made.contacts) {
     if (!contact.pushes()) continue;
     for (int k = 0; k < contact.nodes; ++k) {
       const auto at = static_cast<std::size_t>(k);
       const std::size_t n = contact.node[at];
-      if (pinned_[n] == 0) continue;
+      if (hand_[n] < 0) continue;
       Grasp& grasp = list_[static_cast<std::size_t>(hand_[n])];
-      grasp.push(state.position.at(n), grasp.origin(part_.end),
-                 (part_.h / scale * contact.weight[at]) * (contact.push * contact.normal + contact.slide));
+      if (!grasp.pins) continue;
+      grasp.push(made.state.position.at(n), grasp.origin(part_.end),
+                 (made.h / made.scale * contact.weight[at]) * (contact.push * contact.normal + contact.slide));
     }
   }
 }
@@ -176,7 +168,8 @@ void Grasps::changeHeld(Grasp& grasp, const ClothState& state) noexcept {
   std::sort(grasp.held.begin(), grasp.held.end(), [](const HeldNode& a, const HeldNode& b) { return a.node < b.node; });
 }
 
-bool Grasps::end(double share, const ClothState& state) noexcept {
+bool Grasps::endFrame(const FrameEnd& frame, ClothState& state) noexcept {
+  PinMoves::endFrame(frame, state);
   bool ends = false;
   for (Grasp& grasp : list_) {
     if (!grasp.holds()) continue;
@@ -185,7 +178,7 @@ bool Grasps::end(double share, const ClothState& state) noexcept {
       grasp.force = withinNumbers(pull);
       grasp.torque = withinNumbers(grasp.angular / grasp.counted);
     }
-    grasp.from = share < 1.0 ? between(grasp.from, grasp.to, share) : grasp.to;
+    grasp.from = frame.share < 1.0 ? between(grasp.from, grasp.to, frame.share) : grasp.to;
     // Written so that pulls beyond numbers break it.
     if (grasp.params.break_force <= kLargest && !(pull.stableNorm() < grasp.params.break_force)) {
       grasp.end = GraspEnd::kBroken;
@@ -196,6 +189,10 @@ bool Grasps::end(double share, const ClothState& state) noexcept {
     }
     ends = ends || grasp.end != GraspEnd::kNone;
   }
+  for (Grasp& grasp : list_) {
+    if (ends && grasp.end != GraspEnd::kNone) release(grasp);
+  }
+  if (ends) note();
   return ends;
 }
 

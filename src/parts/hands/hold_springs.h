@@ -25,7 +25,6 @@ struct HeldNode {
   Vec3 end = Vec3::Zero();       ///< and at its end; it moves there evenly
   Vec3 velocity = Vec3::Zero();  ///< of a pinned node in the last frame, of another before the last substep [m/s]
   Vec3 started = Vec3::Zero();   ///< scratch: velocity before the present substep [m/s]
-  Vec3 others = Vec3::Zero();    ///< scratch: other forces on the node [N]
 };
 
 /// The part of a frame that a substep makes.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "parts/rail/carriers.h"
-
+//
+// Carriers in a substep.
 #include <cmath>
 #include <limits>
 
-#include "cloth/archive.h"
+#include "parts/rail/rail.h"
 #include "scene/infinity.h"
 
 namespace curtain {
@@ -15,8 +15,9 @@ std::vector<std::size_t> nodesOf(const RailPattern& rail) { return {rail.columns
 
 }  // namespace
 
-Carriers::Carriers(const ClothPattern& pattern)
+Rail::Rail(const Scene& scene, const ClothPattern& pattern)
     : GuidePart(pattern.grid, nodesOf(pattern.rail)),
+      scene_(scene),
       pattern_(pattern),
       law_(pattern.rail.size(), pattern.rail.gap, pattern.rail.path.length()) {
   const RailPattern& rail = pattern.rail;
@@ -29,20 +30,19 @@ Carriers::Carriers(const ClothPattern& pattern)
     adjacent_.push_back(left || right ? 1 : 0);
   }
   rows_.resize(rail.size());
-  drive_.goal.assign(rail.layout.masters().size(), 0.0);
-  for (std::vector<double>* values : {&memory_.force, &memory_.drawn}) values->resize(rail.size());
-  for (std::vector<std::uint8_t>* flags : {&memory_.stays, &memory_.joins}) flags->resize(rail.size());
-  forget();
+  asked_.drive = scene.rail.drive;
+  goal_.assign(rail.layout.masters().size(), 0.0);
 }
 
-void Carriers::forget() noexcept {
-  std::fill(memory_.stays.begin(), memory_.stays.end(), std::uint8_t{1});
-  std::fill(memory_.joins.begin(), memory_.joins.end(), std::uint8_t{0});
-  std::fill(memory_.force.begin(), memory_.force.end(), 0.0);
-  std::fill(memory_.drawn.begin(), memory_.drawn.end(), 0.0);
+void Rail::forget() noexcept {
+  for (Carrier& carrier : all_) {
+    carrier.stays = true;
+    carrier.joins = false;
+    carrier.force = carrier.drawn = 0.0;
+  }
 }
 
-void Carriers::begin(const SubstepStart& substep, const ClothState& state, const Field& inverse) noexcept {
+void Rail::begin(const SubstepStart& substep, const ClothState& state, const Field& inverse) noexcept {
   const ClothState& start = substep.state;
   step_ = substep.h;
   scale_ = substep.h * substep.kick;
@@ -63,16 +63,16 @@ void Carriers::begin(const SubstepStart& substep, const ClothState& state, const
     row.friction = {state.place[k], pattern_.rail.fastened[k] != 0 ? kInfinity : 0.0};
     setFreedom(k);
   }
-  if (!drive_.draws) return;
+  if (!asked_.draws) return;
   const std::vector<std::size_t>& masters = pattern_.rail.layout.masters();
   for (std::size_t m = 0; m < masters.size(); ++m) {
-    const double from = state.place[masters[m]], most = std::abs(drive_.speed * step_);
-    rows_[masters[m]].drive = {from + std::clamp(drive_.goal[m] - from, -most, most), scale_ * drive_.force};
+    const double from = state.place[masters[m]], most = std::abs(asked_.drive.speed * step_);
+    rows_[masters[m]].drive = {from + std::clamp(goal_[m] - from, -most, most), scale_ * asked_.drive.force};
   }
 }
 
 // The rail's reaction across itself carries what acts there and turns the carrier in its arc.
-void Carriers::bindFriction(std::size_t k, const Vec3& force) noexcept {
+void Rail::bindFriction(std::size_t k, const Vec3& force) noexcept {
   if (pattern_.rail.fastened[k] != 0) return;
   const RailPath::Place at = pattern_.rail.path.at(rows_[k].place);
   const double speed = (rows_[k].place - all_[k].began) / step_;
@@ -83,18 +83,18 @@ void Carriers::bindFriction(std::size_t k, const Vec3& force) noexcept {
 }
 
 // Links pull along their directions, and what they pull by moves it along the rail from where it is.
-void Carriers::setFreedom(std::size_t k) noexcept {
+void Rail::setFreedom(std::size_t k) noexcept {
   const Carrier& carrier = all_[k];
   const double moves = carrier.mobility > 0.0 ? 1.0 : 0.0;
   guided(k).freedom = moves * carrier.along * carrier.along.transpose();
   guided(k).newton = moves * carrier.now * carrier.along.transpose();
 }
 
-void Carriers::press(const NodeForce& force) noexcept {
+void Rail::press(const NodeForce& force) noexcept {
   for (std::size_t k = 0; k < all_.size(); ++k) bindFriction(k, force.at(0, all_[k].column));
 }
 
-void Carriers::put(std::size_t k, double place, Field3& position) noexcept {
+void Rail::put(std::size_t k, double place, Field3& position) noexcept {
   Carrier& carrier = all_[k];
   const RailPath::Place at = pattern_.rail.path.at(place);
   carrier.now = at.tangent;
@@ -102,7 +102,7 @@ void Carriers::put(std::size_t k, double place, Field3& position) noexcept {
   position.set(node(carrier), at.point);
 }
 
-void Carriers::settlePositions(int first, int end, Field3& position) noexcept {
+void Rail::settlePositions(int first, int end, Field3& position) noexcept {
   for (auto k = static_cast<std::size_t>(from(first) - all_.data()); k < all_.size() && all_[k].column < end; ++k) {
     const double change = all_[k].along.dot(position.at(node(all_[k])) - all_[k].point);
     rows_[k].wish += change;
@@ -112,7 +112,7 @@ void Carriers::settlePositions(int first, int end, Field3& position) noexcept {
   }
 }
 
-bool Carriers::settle(Field3& position) noexcept {
+bool Rail::settle(Field3& position) noexcept {
   for (std::size_t k = 0; k < all_.size(); ++k)
     rows_[k].wish += all_[k].along.dot(position.at(node(all_[k])) - all_[k].point);
   law_.solve(rows_);
@@ -131,38 +131,38 @@ bool Carriers::settle(Field3& position) noexcept {
   return changed;
 }
 
-void Carriers::followDirections() noexcept {
+void Rail::followDirections() noexcept {
   for (std::size_t k = 0; k < all_.size(); ++k) {
     all_[k].along = all_[k].now;
     setFreedom(k);
   }
 }
 
-void Carriers::commit(ClothState& state) noexcept {
+void Rail::commit(ClothState& state) noexcept {
   forget();
   for (std::size_t k = 0; k < all_.size(); ++k) {
     const RailRow& row = rows_[k];
     state.place[k] = row.place;
     state.velocity.set(node(all_[k]), (row.place - all_[k].began) / step_ * all_[k].now);
     if (stands_) continue;
-    memory_.stays[k] = row.stays ? 1 : 0;
-    memory_.force[k] = row.mass * (row.place - row.wish) / scale_;
-    memory_.drawn[k] = row.drawn / scale_;
+    all_[k].stays = row.stays;
+    all_[k].force = row.mass * (row.place - row.wish) / scale_;
+    all_[k].drawn = row.drawn / scale_;
   }
   if (stands_) return;
   law_.forEachRun([&](std::size_t first, std::size_t end) {
-    for (std::size_t k = first; k + 1 < end; ++k) memory_.joins[k] = 1;
+    for (std::size_t k = first; k + 1 < end; ++k) all_[k].joins = true;
   });
 }
 
-double Carriers::driveForce() const noexcept {
+void Rail::substepTaken(const SubstepMade& made) noexcept {
   double sum = 0.0;
-  for (const double force : memory_.drawn) sum += std::abs(force);
-  return sum;
+  for (const Carrier& carrier : all_) sum += std::abs(carrier.drawn);
+  impulse_ += made.h * sum;
 }
 
 // An impulse puts in itself times the mean speed; that of the drive is its multiplier over the step.
-double Carriers::energy() const noexcept {
+double Rail::energy() const noexcept {
   double sum = 0.0;
   for (std::size_t k = 0; k < all_.size(); ++k) {
     const double made = (rows_[k].place - all_[k].began) / step_;
@@ -171,29 +171,29 @@ double Carriers::energy() const noexcept {
   return sum;
 }
 
-double Carriers::work(const Field3& before, const Field3& after, double kick) const noexcept {
+double Rail::work(const Field3& before, const Field3& after, double kick) const noexcept {
   double sum = 0.0;
   for (std::size_t k = 0; k < all_.size(); ++k) {
     const Vec3 mean = 0.5 * (before.at(node(all_[k])) + after.at(node(all_[k])));
-    sum += kick * memory_.drawn[k] * mean.dot(all_[k].now);
+    sum += kick * all_[k].drawn * mean.dot(all_[k].now);
   }
   return sum;
 }
 
-void Carriers::beginRates(const ClothState& state, double age, Field3& velocity) noexcept {
+void Rail::beginRates(const ClothState& state, double age, Field3& velocity) noexcept {
   for (std::size_t k = 0; k < all_.size(); ++k) {
     Carrier& carrier = all_[k];
     const std::size_t n = node(carrier);
     carrier.now = carrier.along = pattern_.rail.path.at(state.place[k]).tangent;
-    carrier.mobility = memory_.stays[k] != 0 ? 0.0 : 1.0 / pattern_.mass[n];
-    const Vec3 v = memory_.stays[k] != 0 ? state.velocity.at(n) : velocity.at(n);
-    carrier.speed = v.dot(carrier.now) + age * carrier.mobility * memory_.force[k];
+    carrier.mobility = all_[k].stays ? 0.0 : 1.0 / pattern_.mass[n];
+    const Vec3 v = all_[k].stays ? state.velocity.at(n) : velocity.at(n);
+    carrier.speed = v.dot(carrier.now) + age * carrier.mobility * all_[k].force;
     velocity.set(n, carrier.speed * carrier.now);
     setFreedom(k);
   }
 }
 
-void Carriers::settleVelocities(int first, int end, Field3& velocity) noexcept {
+void Rail::settleVelocities(int first, int end, Field3& velocity) noexcept {
   for (auto k = static_cast<std::size_t>(from(first) - all_.data()); k < all_.size() && all_[k].column < end; ++k) {
     Carrier& carrier = all_[k];
     if (carrier.mobility > 0.0) carrier.speed = velocity.at(node(carrier)).dot(carrier.now);
@@ -202,7 +202,7 @@ void Carriers::settleVelocities(int first, int end, Field3& velocity) noexcept {
 }
 
 // Those of a run move as one.
-void Carriers::settleRates(Field3& velocity) noexcept {
+void Rail::settleRates(Field3& velocity) noexcept {
   settleVelocities(0, pattern_.grid.columns, velocity);
   for (std::size_t first = 0, end = 0; first < all_.size(); first = end) {
     double mass = 0.0, moment = 0.0;
@@ -210,7 +210,7 @@ void Carriers::settleRates(Field3& velocity) noexcept {
     for (end = first; end < all_.size() && more; ++end) {
       mass += pattern_.mass[node(all_[end])];
       moment += pattern_.mass[node(all_[end])] * all_[end].speed;
-      more = memory_.joins[end] != 0;
+      more = all_[end].joins;
     }
     for (std::size_t k = first; k < end && end - first > 1; ++k) {
       if (all_[k].mobility == 0.0) continue;
@@ -220,28 +220,19 @@ void Carriers::settleRates(Field3& velocity) noexcept {
   }
 }
 
-void Carriers::save(std::vector<double>& memory) const {
+void Rail::save(std::vector<double>& memory) const {
   memory.clear();
-  for (std::size_t k = 0; k < all_.size(); ++k) {
-    memory.insert(memory.end(), {memory_.stays[k] != 0 ? 1.0 : 0.0, memory_.joins[k] != 0 ? 1.0 : 0.0, memory_.force[k],
-                                 memory_.drawn[k]});
-  }
+  for (const Carrier& carrier : all_)
+    memory.insert(memory.end(), {carrier.stays ? 1.0 : 0.0, carrier.joins ? 1.0 : 0.0, carrier.force, carrier.drawn});
 }
 
-void Carriers::restore(const std::vector<double>& memory) noexcept {
+void Rail::restore(const std::vector<double>& memory) noexcept {
   for (std::size_t k = 0; k < all_.size(); ++k) {
-    memory_.stays[k] = memory[4 * k] != 0.0 ? 1 : 0;
-    memory_.joins[k] = memory[4 * k + 1] != 0.0 ? 1 : 0;
-    memory_.force[k] = memory[4 * k + 2];
-    memory_.drawn[k] = memory[4 * k + 3];
+    all_[k].stays = memory[4 * k] != 0.0;
+    all_[k].joins = memory[4 * k + 1] != 0.0;
+    all_[k].force = memory[4 * k + 2];
+    all_[k].drawn = memory[4 * k + 3];
   }
-}
-
-void Carriers::Memory::carry(Archive& archive) {
-  archive.flags("stays", stays);
-  archive.flags("joins", joins);
-  archive.finite("force", force);
-  archive.finite("drawn", drawn);
 }
 
 }  // namespace curtain

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "cloth/tiny_squared.h"
 #include "cloth/wide.h"
 #include "scene/fnv1a.h"
 

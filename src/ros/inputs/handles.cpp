@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "ros/frames/geometry.h"
-#include "scene/find_by_id.h"
+#include "scene/sources.h"
 
 namespace curtain_ros {
 

@@ -6,7 +6,7 @@
 #include "ros/inputs/mailbox.h"
 #include "ros/inputs/read_messages.h"
 #include "ros/time/warn_period.h"
-#include "scene/find_by_id.h"
+#include "scene/sources.h"
 
 namespace curtain_ros {
 

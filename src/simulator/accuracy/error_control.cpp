@@ -151,9 +151,4 @@ void ErrorControl::endFrame(double share) {
   motion_.clock.lap(Stage::kEstimate);
 }
 
-void ErrorControl::takeFrame() noexcept {
-  estimate_.takeFrame(motion_.times.length());
-  lose();
-}
-
 }  // namespace curtain

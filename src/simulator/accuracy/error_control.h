@@ -30,9 +30,11 @@ class ErrorControl {
   void lose() noexcept { reference_.lost = true; }
 
   void reset() noexcept { estimate_.reset(); }
-  void takeTolerance(double tolerance) noexcept { estimate_.takeTolerance(tolerance); }
   /// The frames' length has changed.
-  void takeFrame() noexcept;
+  void takeFrame() noexcept {
+    estimate_.takeFrame(motion_.times.length());
+    lose();
+  }
   void carry(Archive& archive);
 
  private:

@@ -17,7 +17,7 @@ namespace curtain {
 
 class ErrorEstimate {
  public:
-  /// params: with a position_tolerance, and a method that it knows(). pattern must outlive this.
+  /// params: with a position_tolerance, and a method that it knows(). They must outlive this.
   ErrorEstimate(const SolverParams& params, const ClothPattern& pattern);
 
   /// Methods whose error can be estimated: those made of leapfrog steps.
@@ -31,7 +31,6 @@ class ErrorEstimate {
   }
 
   void reset() noexcept;
-  void takeTolerance(double tolerance) noexcept { tolerance_ = tolerance; }
   /// Sets the length of the next frames [s]; the next comparison starts at once.
   void takeFrame(double length) noexcept;
 
@@ -71,12 +70,13 @@ class ErrorEstimate {
   void aimAt(double error_per_second, double substeps) noexcept;
 
   const ClothPattern& pattern_;
-  double frame_length_, tolerance_;
-  int order_;              // of the scheme; a window in which stages could not be made counts as order 2
-  int steps_per_substep_;  // leapfrog steps
-  bool of_stages_ = true;  // in the present window
-  int window_;             // frames a second
-  int fewest_, most_;      // substeps a frame; equal where they are fixed
+  double frame_length_;
+  const double& tolerance_;  // which may change
+  int order_;                // of the scheme; a window in which stages could not be made counts as order 2
+  int steps_per_substep_;    // leapfrog steps
+  bool of_stages_ = true;    // in the present window
+  int window_;               // frames a second
+  int fewest_, most_;        // substeps a frame; equal where they are fixed
   int substeps_;
   long frames_ = 0;
   int compared_ = 0;  // frames of the present window with a reference

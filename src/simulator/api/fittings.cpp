@@ -1,60 +1,51 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The public interface of what cloth hangs by: pins, rail, lines and tie-backs.
+#include <algorithm>
 #include <cmath>
 
-#include "scene/find_by_id.h"
 #include "scene/problem_log.h"
 #include "scene/ranges.h"
 #include "scene/scalar.h"
+#include "scene/sources.h"
 #include "simulator/simulator_impl.h"
 
 namespace curtain {
-namespace {
-
-// Where an entry of this id is in the list; none: there is none.
-template <typename Params>
-std::optional<std::size_t> placeOf(const std::vector<Params>& list, const std::string& id) {
-  const Params* const found = findById(list, id);
-  return found == nullptr ? std::nullopt : std::optional<std::size_t>(found - list.data());
-}
-
-}  // namespace
 
 std::vector<Problem> Simulator::setOpening(double opening) {
   Impl& im = *impl_;
   if (im.pattern.rail.empty()) return {{"opening", "is for cloth on a rail: this scene has no rail.path"}};
   const Range range = between(0.0, 1.0);
   if (!range.contains(opening)) return {{"opening", "must be " + range.text() + ", is " + formatNumber(opening)}};
-  if (im.opening.draws() && opening == im.opening.goal()) return {};
-  im.opening.draw(opening);
+  if (drives() && opening == im.motion.parts.rail.asked().opening) return {};
+  im.motion.parts.rail.ask({true, opening, drive()});
   im.driven();
   return {};
 }
 
 void Simulator::releaseDrive() {
-  if (!impl_->opening.draws()) return;
-  impl_->opening.letGo();
+  if (!drives()) return;
+  impl_->motion.parts.rail.ask({false, impl_->motion.parts.rail.asked().opening, drive()});
   impl_->driven();
 }
 
 std::vector<Problem> Simulator::setDrive(const DriveParams& drive) {
   std::vector<Problem> problems = validate(drive, "drive");
   if (!problems.empty()) return problems;
-  impl_->opening.setDrive(drive);
+  impl_->motion.parts.rail.ask({drives(), impl_->motion.parts.rail.asked().opening, drive});
   impl_->driven();
   return problems;
 }
 
-bool Simulator::drives() const { return impl_->opening.draws(); }
-const DriveParams& Simulator::drive() const { return impl_->opening.drive(); }
+bool Simulator::drives() const { return impl_->motion.parts.rail.asked().draws; }
+const DriveParams& Simulator::drive() const { return impl_->motion.parts.rail.asked().drive; }
 
 bool Simulator::movePin(NodeIndex node, const Vec3& target) {
   const Grid& grid = impl_->pattern.grid;
   const bool inside = node.row >= 0 && node.row < grid.rows && node.column >= 0 && node.column < grid.columns;
-  if (!inside || !impl_->pattern.isPinned(node) || !isPlace(target)) return false;
-  if (impl_->grasps.holdsNode(grid.index(node))) return false;  // its hand moves it
-  impl_->pins.move(grid.index(node), target);
+  // Not a node that a hand pins, which moves it.
+  if (!inside || impl_->pattern.scene_pins[grid.index(node)] != kPinned || !isPlace(target)) return false;
+  impl_->motion.parts.pins.move(grid.index(node), target);
   return true;
 }
 
@@ -67,7 +58,7 @@ std::vector<Problem> Simulator::setTieBack(const std::string& id, bool closed) {
     return {{"tie_back",
              "has no entry of id " + quoted(id) + (known.empty() ? ", nor any other" : ", known are " + known)}};
   }
-  Cords& cords = im.motion.cords;
+  Cords& cords = im.motion.parts.cords;
   if (cords.closed(*loop) == closed) return {};
   im.motion.velocities();  // caches them while the pulls that made them are known
   cords.close(*loop, closed, im.motion.state);
@@ -77,7 +68,7 @@ std::vector<Problem> Simulator::setTieBack(const std::string& id, bool closed) {
 
 bool Simulator::tieBackClosed(const std::string& id) const {
   const std::optional<std::size_t> loop = placeOf(impl_->scene.tie_back, id);
-  return loop && impl_->motion.cords.closed(*loop);
+  return loop && impl_->motion.parts.cords.closed(*loop);
 }
 
 std::optional<Vec3> Simulator::lineEnd(const std::string& id) const {
@@ -106,14 +97,30 @@ void Simulator::copyLineTensions(const std::string& id, std::vector<double>& out
   if (!line) return;
   const CordEnd& end = impl_->pattern.cords.ends[*line];
   for (std::size_t c = end.first; c < end.last; ++c)
-    out.push_back(impl_->motion.exact.tensionOf(impl_->motion.cords.row(c)));
+    out.push_back(impl_->motion.exact.tensionOf(impl_->motion.parts.cords.row(c)));
 }
 
 bool Simulator::setLineEnd(const std::string& id, const Vec3& target) {
   const std::optional<std::size_t> line = placeOf(impl_->scene.lines, id);
   if (!line || impl_->pattern.cords.ends[*line].load || !isPlace(target)) return false;
-  impl_->pins.move(impl_->pattern.cords.ends[*line].node, target);
+  impl_->motion.parts.pins.move(impl_->pattern.cords.ends[*line].node, target);
   return true;
+}
+
+std::vector<NodeIndex> Simulator::carriers() const {
+  std::vector<NodeIndex> nodes;
+  for (const int column : impl_->pattern.rail.columns) nodes.push_back({0, column});
+  return nodes;
+}
+
+std::vector<Vec3> Simulator::railPoints(double spacing) const {
+  const RailPattern& rail = impl_->pattern.rail;
+  if (rail.empty()) return {};
+  constexpr double kMostParts = 1e6;
+  const int parts = static_cast<int>(std::clamp(std::ceil(rail.path.length() / spacing), 1.0, kMostParts));
+  std::vector<Vec3> points;
+  for (int k = 0; k <= parts; ++k) points.push_back(rail.path.at(rail.path.length() * k / parts).point);
+  return points;
 }
 
 }  // namespace curtain

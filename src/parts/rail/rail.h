@@ -1,29 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Carriers on a rail, in the solve. A carrier is a node of the top row with one freedom, its place s along the rail:
-// x = gamma(s), and since |gamma'| = 1, the mass that belongs to s is that of node and carrier, on arcs too. A force f
-// moves it by w (f . tangent): its inverse inertia is the matrix w tangent tangent^T (GuidedNodes).
+// The rail of a curtain: its carriers, in the solve, and what is asked of their drive. A carrier is a node of the top
+// row with one freedom, its place s along the rail: x = gamma(s), and since |gamma'| = 1, the mass that belongs to s is
+// that of node and carrier, on arcs too. A force f moves it by w (f . tangent): its inverse inertia is the matrix
+// w tangent tangent^T (GuidedNodes).
 //
 // What a loop over nodes moved it by counts along the tangent only, as a change of the wished place, where a carrier
 // would be without the rail's forces, and RailLaw says where it is. So it is on the rail whatever happens.
+//
+// Once asked, the drive draws the masters to their places and keeps them there, with its force at most, until it lets
+// go. In a substep they move towards their goals by its speed at most.
 #pragma once
 
 #include <algorithm>
 #include <vector>
 
-#include "cloth/cloth.h"
+#include "curtain_sim/scene.h"
 #include "parts/rail/rail_law.h"
 #include "step/guide_part.h"
+#include "step/part.h"
 
 namespace curtain {
-
-/// Where the masters are to be drawn. In a substep they move towards their goals by their speed at most.
-struct RailDrive {
-  bool draws = false;
-  double speed = 0.0;        ///< [m/s], > 0
-  double force = 0.0;        ///< on each master, at most [N], >= 0
-  std::vector<double> goal;  ///< of the masters [m]
-};
 
 /// A carrier during a solve.
 struct Carrier {
@@ -37,22 +34,48 @@ struct Carrier {
   double began = 0.0;    ///< place that the substep starts from [m]
   double entered = 0.0;  ///< speed along the rail that it starts with [m/s]
   double speed = 0.0;    ///< along the rail, while velocities are projected [m/s]
+  // Of the last accepted substep.
+  bool stays = true;   ///< it stayed
+  bool joins = false;  ///< it pushed the next one
+  double force = 0.0;  ///< of the rail, along it [N]
+  double drawn = 0.0;  ///< of the drive [N]
 };
 
-/// Not thread-safe; blocks of columns may settle() in parallel. Allocates only in the constructor.
-class Carriers final : public GuidePart {
+/// Does nothing where the pattern has no rail. Not thread-safe, but for settlePositions() and settleVelocities().
+/// Allocates in the constructor and in what users ask.
+class Rail final : public GuidePart, public Part {
  public:
-  /// pattern must outlive this.
-  explicit Carriers(const ClothPattern& pattern);
+  /// scene and pattern must outlive this.
+  Rail(const Scene& scene, const ClothPattern& pattern);
 
   bool any() const noexcept { return !pattern_.rail.empty(); }
-  const std::vector<Carrier>& all() const noexcept { return all_; }
-  std::size_t node(const Carrier& carrier) const noexcept { return static_cast<std::size_t>(carrier.column); }
 
-  // ---- A substep
+  /// What is asked of the drive.
+  struct Asked {
+    bool draws = false;
+    double opening = 0.0;  ///< to draw the masters to [0..1]
+    DriveParams drive;
+  };
+  void ask(const Asked& asked);
+  const Asked& asked() const noexcept { return asked_; }
 
-  void setDrive(const RailDrive& drive) { drive_ = drive; }
-  const RailDrive& drive() const noexcept { return drive_; }
+  /// Lets go, and draws as the scene says from now on.
+  void reset(ClothState& state) override;
+  void placed(const ClothState& before, ClothState& state) noexcept override;
+  void carry(Archive& archive) override;
+  void resume() override;
+  /// Writes the present opening.
+  void measure(const ClothState& state, Statistics& statistics) const noexcept override;
+  bool explain(const ClothState& state, double time, Plan& plan) const override;
+  /// It draws a master that has not arrived.
+  bool isUnderWay(const ClothState& state) const noexcept override;
+  bool drives(const ClothState&) const noexcept override { return asked_.draws && any(); }
+  bool reversible() const noexcept override { return !any(); }
+  void beginFrame(const FrameBegin&, ClothState&) noexcept override { impulse_ = 0.0; }
+  void substepTaken(const SubstepMade& made) noexcept override;
+  bool endFrame(const FrameEnd& end, ClothState& state) noexcept override;
+
+  // ---- A substep, of the carriers
 
   void begin(const SubstepStart& start, const ClothState& state, const Field& inverse) noexcept override;
   bool moves() const noexcept override { return any() && !stands_; }
@@ -64,8 +87,6 @@ class Carriers final : public GuidePart {
   void press(const NodeForce& force) noexcept override;
   void followDirections() noexcept override;
   void commit(ClothState& state) noexcept override;
-  /// Force of the drive on all masters in the last substep [N]; 0: none draws.
-  double driveForce() const noexcept;
   double energy() const noexcept override;
   double work(const Field3& before, const Field3& after, double kick) const noexcept override;
 
@@ -77,17 +98,8 @@ class Carriers final : public GuidePart {
   /// Those that push each other move as one.
   void settleRates(Field3& velocity) noexcept override;
 
-  /// What a substep leaves to the next.
-  struct Memory {
-    std::vector<std::uint8_t> stays;  ///< it stayed
-    std::vector<std::uint8_t> joins;  ///< it pushed the next one
-    std::vector<double> force;        ///< of the rail, along it [N]
-    std::vector<double> drawn;        ///< of the drive [N]
+  // ---- What a substep leaves to the next
 
-    void carry(Archive& archive);
-  };
-  Memory& memory() noexcept { return memory_; }
-  const Memory& memory() const noexcept { return memory_; }
   void save(std::vector<double>& memory) const override;
   void restore(const std::vector<double>& memory) noexcept override;
   void forget() noexcept override;
@@ -101,16 +113,20 @@ class Carriers final : public GuidePart {
   void setFreedom(std::size_t k) noexcept;
   void bindFriction(std::size_t k, const Vec3& force) noexcept;
 
+  std::size_t node(const Carrier& carrier) const noexcept { return static_cast<std::size_t>(carrier.column); }
+
+  const Scene& scene_;
   const ClothPattern& pattern_;
   std::vector<Carrier> all_;
   std::vector<std::uint8_t> adjacent_;  // a neighbouring column has one too
   std::vector<RailRow> rows_;           // wishes and places
   RailLaw law_;
-  RailDrive drive_;
-  double step_ = 0.0;    // of the substep [s]
-  double scale_ = 0.0;   // step times kick [s^2]
-  bool stands_ = false;  // nothing moves a carrier in this substep
-  Memory memory_;
+  Asked asked_;
+  std::vector<double> goal_;  // places that the masters are drawn to [m]
+  double impulse_ = 0.0;      // of the drive in this frame [N s]
+  double step_ = 0.0;         // of the substep [s]
+  double scale_ = 0.0;        // step times kick [s^2]
+  bool stands_ = false;       // nothing moves a carrier in this substep
 };
 
 }  // namespace curtain

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "parts/wind/ambient_wind.h"
+#include "parts/air/ambient_wind.h"
 
 #include <algorithm>
 #include <cmath>

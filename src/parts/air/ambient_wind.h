@@ -8,7 +8,7 @@
 
 #include "cloth/cloth.h"
 #include "curtain_sim/scene.h"
-#include "parts/wind/gust_spectrum.h"
+#include "parts/air/gust_spectrum.h"
 
 namespace curtain {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "parts/wind/gust_spectrum.h"
+#include "parts/air/gust_spectrum.h"
 
 #include <cmath>
 #include <complex>

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// All parts of a simulator. Whoever adds one adds it here; the simulator's public functions that are of one part ask it
+// by name (simulator/api), all else asks the list.
+#pragma once
+
+#include "parts/air/air_damping.h"
+#include "parts/air/relative_air.h"
+#include "parts/bending/bending.h"
+#include "parts/cords/cords.h"
+#include "parts/drag/drags.h"
+#include "parts/hands/grasps.h"
+#include "parts/rail/rail.h"
+#include "parts/wind/winds.h"
+#include "step/pin_moves.h"
+#include "step/solver_parts.h"
+
+namespace curtain {
+
+struct Composition {
+  // Must outlive this.
+  const Scene& scene;
+  const ClothPattern& pattern;
+  const ObstacleSet& obstacles;
+  const Workers& workers;
+
+  PinMoves pins{scene, pattern};
+  Winds winds{scene, pattern, obstacles};
+  AirDamping air_damping{scene.air, pattern};
+  Drags drags{scene, pattern};
+  RelativeAir relative_air{scene.air, scene.cloth.porosity, pattern, scene.ambient};
+  Grasps hands{scene, pattern};
+  Bending bending{pattern, workers};
+  Rail rail{scene, pattern};
+  Cords cords{pattern};
+
+  /// In the order in which they add their forces: relative_air reads those before it.
+  const PartList all{&pins, &winds, &air_damping, &drags, &relative_air, &hands, &bending, &rail, &cords};
+
+  SolverParts forSolver() noexcept {
+    return {bending.any() ? &bending : nullptr, rail.any() ? &rail : nullptr, {&cords}};
+  }
+};
+
+}  // namespace curtain
