@@ -29,7 +29,7 @@ inline double weightScale(const curtain::Simulator& simulator) {
 }
 
 /// What the scheme itself may add, in the measure of EnergyBooks: leapfrog's energy wavers, and
-/// src/simulator/energy_guard.cpp steps in beyond that.
+/// src/simulator/closed_frames.cpp steps in beyond that.
 constexpr double kSchemeGain = 1e-2;
 
 /// What links may hide that lack a share e of their lengths: a straight row between pins sags by sqrt(3 e / 8) of its
@@ -73,7 +73,7 @@ class EnergyBooks {
     const double put_in = forces + pins + obstacles, kinetic = simulator.energy().kinetic,
                  energy = freeEnergy(simulator);
     const double own = own_.add(
-        work.kinetic - last_.kinetic - (work.gravity - last_.gravity) - (work.bending - last_.bending) - put_in,
+        work.kinetic - last_.kinetic - (work.gravity - last_.gravity) - (work.elastic - last_.elastic) - put_in,
         kinetic, moves);
     const double synchronised = synchronised_.add(energy - last_energy_ - put_in, kinetic, moves);
     worst_ = std::max(worst_, gravity_changes ? own : std::min(own, synchronised));

@@ -84,12 +84,12 @@ struct ContactForce {
 };
 
 /// Work on the cloth since Simulator::countWork(), all in J. The sum
-///     kinetic - (gravity + bending + forces + drive + pins + obstacles)
+///     kinetic - (gravity + elastic + forces + drive + pins + obstacles)
 /// is minus what damping, friction, carriers that stop and links that snap taut have dissipated, so but for the
 /// scheme's error it never rises.
 struct Work {
   double gravity = 0.0;  ///< decrease of the gravitational potential energy
-  double bending = 0.0;  ///< decrease of the elastic energy
+  double elastic = 0.0;  ///< decrease of the elastic energy
   double forces = 0.0;   ///< work of winds and drags
   double drive = 0.0;    ///< work of the drive on a rail's carriers, and of tie-backs that close
   double pins = 0.0;     ///< work of moved pins; unknown to Method::kPaper, and where links are drawn straight between

@@ -111,19 +111,9 @@ void FrameTimes::carry(Archive& archive) {
   archive.finite("made_time", made_time_);
 }
 
-void EnergyGuard::carry(Archive& archive) {
-  archive.optional("most_energy", most_, 0.0, [&](double& energy) { archive.finite("energy", energy); });
-}
-
 void Motion::carryVelocities(Archive& archive) {
   archive.numbers("velocities", velocities_);
   archive.flag("velocities_fresh", velocities_fresh_);
-}
-
-void EnergyLedger::carry(Archive& archive) {
-  for (double* const work :
-       {&work_.gravity, &work_.bending, &work_.forces, &work_.drive, &work_.pins, &work_.obstacles, &work_.kinetic})
-    archive.finite("work", *work);
 }
 
 // Not serialized: checkpoints, which are written before they are read; the fine mesh, which has no memory; the
@@ -151,10 +141,8 @@ void Simulator::Impl::carry(Archive& archive) {
   if (errors) errors->carry(archive);
   archive.group("statistics", [&] { carryStatistics(archive, motion.statistics); });
   archive.part("clock", motion.clock);
-  archive.part("ledger", motion.ledger);
   archive.flag("counts_work", motion.counts_work);
   times.carry(archive);
-  guard.carry(archive);
   motion.carryVelocities(archive);
 }
 

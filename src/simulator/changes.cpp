@@ -126,7 +126,7 @@ std::vector<Problem> Simulator::setState(const std::vector<Vec3>& positions, con
   motion.contact.forget();
   motion.forgetVelocities();
   motion.measureState();
-  im.guard.forget();
+  im.motion.exact.account().leaveOpen();
   if (im.errors) im.errors->lose();
   ++im.revision;
   return problems;

@@ -56,7 +56,7 @@ double Simulator::Impl::moveThrough(Budget::Clock::time_point begin) {
   for (Part* const part : parts) {
     if (part->prepareFrame(frame, motion.state)) motion.forgetVelocities();
   }
-  guard.beginFrame(motion.driven());
+  closed.beginFrame();
   motion.contact.beginFrame(frame.links_hold);
   const bool first = times.frame() == 0;
   if (errors && first) errors->makePilotRuns();  // not limited by the budget
@@ -68,7 +68,7 @@ double Simulator::Impl::moveThrough(Budget::Clock::time_point begin) {
 
 void Simulator::Impl::endFrame(double share) {
   Statistics& s = motion.statistics;
-  guard.endFrame(motion.driven());
+  closed.endFrame();
   const FrameEnd frame{share, times.length(), share == 1.0 && !loop.pinsWaited(), s};
   bool repins = false;
   for (Part* const part : motion.parts.all) repins = part->endFrame(frame, motion.state) || repins;

@@ -19,8 +19,7 @@ Motion::Motion(const Scene& scene_, const ClothPattern& pattern_, const FrameTim
       contact(pattern, scene.contact, obstacles, scene.solver.stretch_tolerance, workers),
       lag(pattern, times, obstacles, contact),
       exact(pattern, parts.forSolver(), scene.solver.stretch_tolerance, scene.solver.max_sweeps, workers),
-      paper(pattern),
-      ledger(pattern) {
+      paper(pattern) {
   measureParts();
   exact.expectContacts(contact.capacity());
   velocities_.assign(pattern.grid.size(), 0.0);
@@ -36,7 +35,7 @@ void Motion::reset() {
   for (Part* const part : parts.all) part->reset(state);
   clock.reset();
   statistics = Statistics();
-  ledger.restore({});
+  exact.account().restore({});
   measureParts();
   velocities_fresh_ = false;
 }
@@ -56,14 +55,23 @@ SubstepOutcome Motion::attempt(const SubstepPlan& plan, double done) {
   }
   const NodeForces& now = forces.evaluate(state, ahead);
   clock.lap(Stage::kForces);
-  if (counts_work) ledger.begin(state);
+  if (counts_work) exact.account().open(state);
   const SubstepOutcome outcome =
       by_paper ? paper.substep(now, plan.h, finder, state, clock) : exact.substep(plan, now, finder, state, clock);
   statistics.sweeps += outcome.sweeps;
   statistics.sweeps_last += outcome.sweeps;
-  if (counts_work && outcome.accepted)
-    ledger.end(state, now, &contact.contacts(), by_paper ? nullptr : &exact, plan.h, outcome);
+  if (counts_work && outcome.accepted) book(now, plan.h, outcome);
   return outcome;
+}
+
+void Motion::book(const NodeForces& acting, double h, const SubstepOutcome& outcome) noexcept {
+  EnergyAccount& account = exact.account();
+  const bool by_paper = scene.solver.method == Method::kPaper;
+  if (by_paper)
+    account.bookForces(state.velocity, acting, nullptr, outcome.kick);
+  else
+    exact.book(state, acting, outcome);
+  account.bookContacts(contact.contacts(), outcome.scale != 0.0 ? outcome.kick / outcome.scale : 1.0 / h);
 }
 
 void Motion::taken(double h, const SubstepOutcome& outcome) noexcept {
@@ -92,13 +100,13 @@ void Motion::repinned() noexcept {
 void Motion::save(Checkpoint& checkpoint) const {
   checkpoint.state = state;
   exact.save(checkpoint.memory);
-  checkpoint.work = ledger.work();
+  checkpoint.work = exact.account().work();
 }
 
 void Motion::restore(const Checkpoint& checkpoint) {
   state = checkpoint.state;
   exact.restore(checkpoint.memory);
-  ledger.restore(checkpoint.work);
+  exact.account().restore(checkpoint.work);
   contact.invalidateStart();
   velocities_fresh_ = false;
 }

@@ -7,7 +7,6 @@
 #include "curtain_sim/statistics.h"
 #include "methods/paper/paper_solver.h"
 #include "simulator/composition.h"
-#include "simulator/energy_ledger.h"
 #include "simulator/force_field.h"
 #include "simulator/obstacle_lag.h"
 #include "step/exact_solver.h"
@@ -72,13 +71,13 @@ struct Motion {
   ObstacleLag lag;
   ExactSolver exact;
   PaperSolver paper;
-  EnergyLedger ledger;
   bool counts_work = false;
   Statistics statistics;
   StageClock clock;
 
  private:
   void measureParts() noexcept;
+  void book(const NodeForces& acting, double h, const SubstepOutcome& outcome) noexcept;
   void computeVelocities() noexcept;
 
   Field3 velocities_;

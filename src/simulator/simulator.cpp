@@ -47,7 +47,7 @@ Simulator::Impl::Impl(const Scene& given, const MeshResolver& resolve)
       sleep(motion),
       budget(scene.solver.budget_ms),
       loop(motion, controls, budget),
-      guard(motion, controls, !ErrorControl::wanted(scene.solver)),
+      closed(motion, controls, !ErrorControl::wanted(scene.solver)),
       surface(scene.cloth, pattern),
       pinned_by_parts(pattern.grid.size(), 0) {
   if (ErrorControl::wanted(scene.solver)) errors.emplace(motion, controls, loop, budget);
@@ -61,7 +61,7 @@ void Simulator::Impl::reset() {
   sleep.reset();
   budget.forget();
   if (errors) errors->reset();
-  guard.forget();
+  motion.exact.account().leaveOpen();
   ++revision;
 }
 
@@ -89,13 +89,13 @@ void Simulator::Impl::takePins() {
   for (const Part* const part : motion.parts.all) part->pin(pinned_by_parts);
   pinBeside(pinned_by_parts, scene.cloth, pattern);
   motion.takePins();
-  guard.takePins();
+  closed.takePins();
   sleep.takeLimits();
 }
 
 // Something that puts energy in does something else from now on.
 void Simulator::Impl::driven() noexcept {
-  guard.forget();
+  motion.exact.account().leaveOpen();
   sleep.rest().disturb();
 }
 
@@ -214,10 +214,10 @@ Energy Simulator::energy() const { return impl_->motion.energy(); }
 
 void Simulator::countWork(bool counted) {
   impl_->motion.counts_work = counted;
-  impl_->motion.ledger.restore({});
+  impl_->motion.exact.account().restore({});
 }
 
-Work Simulator::work() const { return impl_->motion.ledger.work(); }
+Work Simulator::work() const { return impl_->motion.exact.account().work(); }
 
 std::int64_t Simulator::selfCrossings() const {
   return countSelfCrossings(impl_->pattern.grid, impl_->motion.state.position);

@@ -9,7 +9,7 @@
 
 #include "curtain_sim/simulator.h"
 #include "simulator/accuracy/error_control.h"
-#include "simulator/energy_guard.h"
+#include "simulator/closed_frames.h"
 #include "simulator/frame_loop.h"
 #include "simulator/frame_times.h"
 #include "simulator/motion.h"
@@ -41,7 +41,7 @@ struct Simulator::Impl {
   Budget budget;
   FrameLoop loop;
   std::optional<ErrorControl> errors;  // where a position tolerance is asked for
-  EnergyGuard guard;
+  ClosedFrames closed;
   FineSurface surface;
   std::uint64_t revision = 0;                 // of the positions of cloth and obstacles
   Field3 total_force;                         // scratch of copyForces()
@@ -64,7 +64,7 @@ void Simulator::Impl::repin(const Change& change) {
   takePins();
   motion.repinned();
   controls.both([this](StepControl& control) { control.repinned(motion.exact); });
-  guard.forget();
+  motion.exact.account().leaveOpen();
   if (errors) errors->lose();
   ++revision;
 }

@@ -38,6 +38,7 @@ void DistanceRows::carry(Archive& archive) {
 void ExactSolver::Memory::carry(Archive& archive) {
   archive.part("constraints", constraints);
   archive.part("tensions", tensions);
+  archive.number("held", held);
   archive.finite("guide", guide);
 }
 
@@ -51,12 +52,10 @@ void Constraints::carry(Archive& archive) {
 void ExactSolver::carry(Archive& archive) {
   archive.part("constraints", constraints_);
   archive.part("tensions", inertia_.tensions());
+  archive.part("account", account_);
 }
 
-void ExactSolver::resume(const ClothState& state) noexcept {
-  constraints_.resume(state);
-  gained_ = {};
-}
+void ExactSolver::resume(const ClothState& state) noexcept { constraints_.resume(state); }
 
 // The ranges bound the number of substeps in a frame; next() clamps the other numbers itself.
 void StepControl::carry(Archive& archive) {

@@ -121,6 +121,11 @@ class Constraints {
   void saveIterate(const Contacts* contacts);
   void restoreIterate(Contacts* contacts) noexcept;
 
+  /// Energy that links and contacts can hold in a substep of h [s] by being off one way and then the other as far as
+  /// the tolerance lets them [J]: a pull of T that is off by e holds T e. tolerance: relative, of links;
+  /// contact_tolerance: [m].
+  double canHold(double h, const Contacts* contacts, double tolerance, double contact_tolerance) const noexcept;
+
   /// Mean of the shortest and the longest weft link of the top row, the length scale [m].
   double middleRest() const noexcept { return middle_rest_; }
 

@@ -1,12 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The parts of a solve: rods, strings, contacts.
+#include <array>
 #include <cmath>
 
+#include "cloth/wide.h"
 #include "step/constants.h"
 #include "step/constraints.h"
 
 namespace curtain {
+namespace {
+
+// Sum of |multiplier| length^2. Summed by lanes: the order does not depend on the register width.
+CURTAIN_WIDE double pullsTimesLengths(const Field& multiplier, const Field& length) noexcept {
+  std::array<double, kLane> sums{};
+  for (std::size_t n = 0; n < length.size(); n += kLane) {
+#pragma omp simd
+    for (std::size_t l = 0; l < kLane; ++l) sums[l] += std::abs(multiplier[n + l]) * length[n + l] * length[n + l];
+  }
+  double sum = 0.0;
+  for (const double lane : sums) sum += lane;
+  return sum;
+}
+
+}  // namespace
 
 // Newton on one block of columns; skipped when its rods are within leave_alone.
 Constraints::RodsProgress Constraints::solveBlock(const LineSolve& warp, const RodsAim& aim, int block) noexcept {
@@ -136,6 +153,15 @@ double Constraints::merit(const Contacts* contacts, double rods_lack) noexcept {
     sum += relative * relative;
   }
   return sum;
+}
+
+double Constraints::canHold(double h, const Contacts* contacts, double tolerance,
+                            double contact_tolerance) const noexcept {
+  double links = pullsTimesLengths(warp_.multiplier, pattern_.warp_rest), touch = 0.0;
+  if (directions_set_) links += pullsTimesLengths(weft_.multiplier, pattern_.weft_rest);
+  for (const DistanceRow& row : distances_.all()) links += row.multiplier * row.length * row.length;
+  for (std::size_t k = 0; contacts != nullptr && k < contacts->size(); ++k) touch += std::abs((*contacts)[k].push);
+  return 2.0 * (links * tolerance + touch * contact_tolerance) / (h * h);
 }
 
 void Constraints::saveIterate(const Contacts* contacts) {

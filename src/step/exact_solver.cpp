@@ -35,18 +35,18 @@ ExactSolver::ExactSolver(const ClothPattern& pattern, const SolverParts& parts, 
       elastic_(parts.elastic),
       constraints_(pattern, parts, kInnerTolerance * stretch_tolerance, inertia_, workers),
       sweeps_(constraints_, inertia_, stretch_tolerance, stretch_tolerance * smallest_rest_, max_sweeps),
-      guard_(pattern, inertia_, stretch_tolerance, constraints_.middleRest()),
+      account_(pattern, inertia_, stretch_tolerance, constraints_.middleRest()),
       last_resort_(pattern, constraints_.distances()) {}
 
 void ExactSolver::takeStretchTolerance(double tolerance) noexcept {
   stretch_tolerance_ = tolerance;
   constraints_.takeTolerance(kInnerTolerance * tolerance);
   sweeps_.takeTolerances(tolerance, tolerance * smallest_rest_);
-  guard_.takeStretchTolerance(tolerance);
+  account_.takeStretchTolerance(tolerance);
 }
 
 void ExactSolver::reset() noexcept {
-  gained_ = {};
+  account_.setHeld(0.0);
   constraints_.reset();
   inertia_.forget();
 }
@@ -56,13 +56,13 @@ void ExactSolver::takePins() noexcept {
   inertia_.takePins();
   if (elastic_ != nullptr) elastic_->takePins();
   constraints_.takePins();
-  guard_.takePins();
+  account_.takePins();
 }
 
 void ExactSolver::repinned() noexcept {
   constraints_.slackenBetweenPins();
   inertia_.tensions().heaviest = inertia_.heaviest();
-  gained_ = {};
+  account_.setHeld(0.0);
 }
 
 Scheme& ExactSolver::schemeOf(SchemeKind kind) noexcept {
@@ -174,26 +174,25 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const Attempt& attempt) noexce
 // Rods alone do no work in steady motion if they pull along their directions half way between the velocities.
 bool ExactSolver::needsEnergyCheck(const Attempt& attempt, const Progress& progress) const noexcept {
   const bool rods_alone = progress.alone() && !constraints_.stringsAct();
-  return !rods_alone || attempt.scheme.rules().follows || !KineticGuard::isSmall(progress.predicted_violation);
+  return !rods_alone || attempt.scheme.rules().follows || !EnergyAccount::isSmall(progress.predicted_violation);
 }
 
 // Decides whether the substep may be accepted: it gains no energy.
 void ExactSolver::judge(const Attempt& attempt, Progress& progress, SubstepOutcome& outcome) noexcept {
   const bool last_resort = attempt.plan.isLastResort();
-  const double touched =
-      progress.contacts != nullptr ? fastestDrive(*progress.contacts, attempt.state.position, attempt.plan.h) : 0.0;
-  const double surface = std::max(touched, constraints_.distances().speed());
-  const double drawn = constraints_.guide() != nullptr ? constraints_.guide()->energy() : 0.0;
+  const Contacts none;
+  const Contacts& contacts = progress.contacts != nullptr ? *progress.contacts : none;
+  const double parts = constraints_.distances().speed();
+  const EnergyAccount::Drive drive{std::max(parts, fastestSurface(contacts)),
+                                   std::max(parts, fastestDrive(contacts, attempt.state.position, attempt.plan.h)),
+                                   constraints_.guide() != nullptr ? constraints_.guide()->energy() : 0.0};
   if (progress.late || (last_resort && progress.alone())) {
-    progress.most_kinetic = guard_.most(attempt.scheme.rules(), attempt.start, constraints_.next, surface, drawn);
+    progress.energy.most = account_.most(attempt.scheme.rules(), attempt.start, constraints_.next, drive);
   } else if (!last_resort && progress.settled && needsEnergyCheck(attempt, progress)) {
-    const KineticGuard::Finding finding =
-        guard_.look(attempt.scheme.rules(), attempt.start, constraints_.next, surface, drawn);
-    progress.most_kinetic = finding.most;
-    // If half the step gains no less, the excess stems from the positions before: it is taken out of the velocities.
-    const bool again = std::abs(attempt.plan.h) < std::abs(gained_.h);
-    if (finding.jumps && !(again && finding.gain >= gained_.gain)) progress.settled = false;
-    gained_ = {attempt.plan.h, finding.gain};
+    const double can_hold = 2.0 * constraints_.canHold(attempt.plan.h, progress.contacts, stretch_tolerance_,
+                                                       stretch_tolerance_ * smallest_rest_);
+    progress.energy = account_.entryOf(attempt.scheme.rules(), attempt.start, constraints_.next, drive, can_hold);
+    if (progress.energy.jumps) progress.settled = false;
   }
   outcome.sweeps = progress.sweeps;
   outcome.touches = !progress.alone();
@@ -231,8 +230,8 @@ void ExactSolver::take(const Attempt& attempt, const Progress& progress, Substep
   outcome.kick = attempt.kick;
   tensions.heaviest = constraints_.commit(attempt.start, plan.tells_turning, state, tensions.load);
   state.velocity_age = attempt.scheme.rules().age * plan.h;
-  if (std::isfinite(progress.most_kinetic)) guard_.bound(progress.most_kinetic, state.velocity);
-  gained_ = {};
+  if (std::isfinite(progress.energy.most)) account_.bound(progress.energy.most, state.velocity);
+  account_.setHeld(progress.energy.held);
   outcome.omega_squared = inertia_.omegaSquared();
   if (progress.alone() && !constraints_.stringsPull()) outcome.turning = turning(outcome.kick);
   const double fastest = progress.contacts != nullptr ? fastestSurface(*progress.contacts) : 0.0;
@@ -289,9 +288,9 @@ void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& f
   }
   if (age == 0.0) return;
   if (constraints_.guide() != nullptr) constraints_.guide()->beginRates(state, age, out);
-  const double most = guard_.most(out, contacts != nullptr ? fastestSurface(*contacts) : 0.0);
+  const double most = account_.most(out, contacts != nullptr ? fastestSurface(*contacts) : 0.0);
   projectVelocity(state.position, contacts, age / inertia_.tensions().scale, out);
-  guard_.bound(most, out);
+  account_.bound(most, out);
 }
 
 // From what a snapshot holds, so that it is the same after it.
@@ -328,17 +327,36 @@ void ExactSolver::projectVelocity(const Field3& position, const Contacts* contac
   }
 }
 
+void ExactSolver::book(const ClothState& state, const NodeForces& forces, const SubstepOutcome& outcome) noexcept {
+  account_.bookForces(state.velocity, forces, elastic_ != nullptr ? &elastic_->sum() : nullptr, outcome.kick);
+  const double per_h = outcome.scale != 0.0 ? outcome.kick / outcome.scale : 0.0;
+  const Grid& grid = pattern_.grid;
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) {
+      const std::size_t n = grid.index(i, j);
+      if (pattern_.pinned[n] == kPinned && !state.velocity.at(n).isZero(0.0))
+        account_.bookPin(per_h * pullAt(i, j), state.velocity.at(n));
+    }
+  }
+  for (std::size_t n = grid.row(grid.rows); n < grid.size(); ++n) {
+    if (pattern_.pinned[n] == kPinned) account_.bookPin(per_h * distances().pullAt(n), state.velocity.at(n));
+  }
+  account_.bookDrive(distances().work(account_.before(), state.velocity, per_h));
+  if (guide() != nullptr) account_.bookDrive(guide()->work(account_.before(), state.velocity, outcome.kick));
+}
+
 void ExactSolver::save(Memory& memory) const {
   constraints_.save(memory.constraints);
   memory.tensions = inertia_.tensions();
+  memory.held = account_.held();
   if (constraints_.guide() != nullptr) constraints_.guide()->save(memory.guide);
 }
 
 void ExactSolver::restore(const Memory& memory) {
   constraints_.restore(memory.constraints);
   inertia_.tensions() = memory.tensions;
+  account_.setHeld(memory.held);
   if (constraints_.guide() != nullptr) constraints_.guide()->restore(memory.guide);
-  gained_ = {};
 }
 
 }  // namespace curtain

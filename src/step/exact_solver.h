@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "step/constraints.h"
-#include "step/kinetic_guard.h"
+#include "step/energy_account.h"
 #include "step/schemes/implicit.h"
 #include "step/schemes/last_resort.h"
 #include "step/schemes/leapfrog.h"
@@ -81,6 +81,11 @@ class ExactSolver {
   /// [m/s^2]. Between substeps only.
   void copyPulls(const ClothState& state, const Contacts* contacts, Field3& out) noexcept;
 
+  /// Books the work of all but contacts in an accepted substep, before which the account was opened.
+  void book(const ClothState& state, const NodeForces& forces, const SubstepOutcome& outcome) noexcept;
+  EnergyAccount& account() noexcept { return account_; }
+  const EnergyAccount& account() const noexcept { return account_; }
+
   /// The last substep's tensions and inertia.
   const NodeInertia& inertia() const noexcept { return inertia_; }
 
@@ -97,6 +102,7 @@ class ExactSolver {
   struct Memory {
     Constraints::Memory constraints;
     NodeInertia::Tensions tensions;
+    double held = 0.0;  // EnergyAccount::held()
     std::vector<double> guide;
 
     void carry(Archive& archive);
@@ -126,11 +132,11 @@ class ExactSolver {
   // Result of the solves of a substep.
   struct Progress {
     SweepEnd end = SweepEnd::kStalled;
-    bool settled = false;                                           // every link is within the user's tolerance
-    bool crossed = false;                                           // verification found a crossing
-    bool late = false;                                              // out of computing time before convergence
-    double predicted_violation = 0.0;                               // of SweepOutcome
-    double most_kinetic = std::numeric_limits<double>::infinity();  // twice the allowed kinetic energy [J]
+    bool settled = false;              // every link is within the user's tolerance
+    bool crossed = false;              // verification found a crossing
+    bool late = false;                 // out of computing time before convergence
+    double predicted_violation = 0.0;  // of SweepOutcome
+    EnergyAccount::Entry energy;
     int sweeps = 0;
     const Contacts* contacts = nullptr;  // null: nothing can touch
 
@@ -157,11 +163,7 @@ class ExactSolver {
   ElasticPart* elastic_;  // null: limp cloth
   Constraints constraints_;
   Sweeps sweeps_;
-  KineticGuard guard_;
-  struct Gained {
-    double h = 0.0, gain = 0.0;  // [s], twice the energy [J]
-  };
-  Gained gained_;  // by the last attempt at the present substep
+  EnergyAccount account_;
   Leapfrog leapfrog_;
   Implicit implicit_;
   LastResort last_resort_;

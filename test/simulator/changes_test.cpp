@@ -33,7 +33,7 @@ double energyOf(const Simulator& simulator) {
 }
 
 double balance(const Work& work) {
-  return work.kinetic - (work.gravity + work.bending + work.forces + work.pins + work.obstacles);
+  return work.kinetic - (work.gravity + work.elastic + work.forces + work.pins + work.obstacles);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulator/energy_guard.h"
+#include "simulator/closed_frames.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ constexpr double kTooMuch = 1e-2;
 constexpr int kEnoughSubsteps = 8;
 
 // Not for cloth without pins: scaling velocities would change its momentum.
-bool canGuard(const Motion& motion) {
+bool canClose(const Motion& motion) {
   const Method method = motion.scene.solver.method;
   const auto& pinned = motion.pattern.pinned;
   return (method == Method::kAuto || method == Method::kLeapfrog || method == Method::kLeapfrog4) &&
@@ -23,25 +23,26 @@ bool canGuard(const Motion& motion) {
 
 }  // namespace
 
-EnergyGuard::EnergyGuard(Motion& motion, StepControls& controls, bool chooses)
+ClosedFrames::ClosedFrames(Motion& motion, StepControls& controls, bool chooses)
     : motion_(motion),
       controls_(controls),
       chooses_(chooses),
-      wanted_(chooses && canGuard(motion)),
+      wanted_(chooses && canClose(motion)),
       total_mass_(std::accumulate(motion.pattern.mass.begin(), motion.pattern.mass.end(), 0.0)) {}
 
-void EnergyGuard::takePins() noexcept { wanted_ = chooses_ && canGuard(motion_); }
+void ClosedFrames::takePins() noexcept { wanted_ = chooses_ && canClose(motion_); }
 
 // Nothing adds or removes energy but the scheme, and the engine chooses the steps.
-bool EnergyGuard::isClosed(bool driven) const noexcept {
+bool ClosedFrames::isClosed() const noexcept {
   const NodeForces& last = motion_.forces.last();
   const bool chooses = motion_.scene.solver.substeps == 0 || motion_.statistics.rejected > 0;
-  return wanted_ && chooses && !driven && last.weight_only && !last.has_damping && motion_.pushing() == nullptr;
+  return wanted_ && chooses && !motion_.driven() && last.weight_only && !last.has_damping &&
+         motion_.pushing() == nullptr;
 }
 
 // Energy before the velocity projection, which bounds it from above (Motion::velocities()): nearly free, while the
 // projection costs as much as a substep.
-double EnergyGuard::energyWithoutLinks() const noexcept {
+double ClosedFrames::energyWithoutLinks() const noexcept {
   const ClothState& state = motion_.state;
   const Vec3 fall = state.velocity_age * motion_.scene.gravity;
   double kinetic = 0.0, potential = 0.0;
@@ -54,24 +55,19 @@ double EnergyGuard::energyWithoutLinks() const noexcept {
   return kinetic + potential;
 }
 
-void EnergyGuard::endFrame(bool driven) {
-  if (!isClosed(driven)) {
-    if (most_) controls_.main.askFor(1);
-    most_.reset();
+void ClosedFrames::endFrame() {
+  EnergyAccount& account = motion_.exact.account();
+  if (!isClosed()) {
+    if (account.isClosed()) controls_.main.askFor(1);
+    account.leaveOpen();
     return;
   }
   const double too_much = kTooMuch * total_mass_ * motion_.scene.gravity.norm() * motion_.scene.cloth.height;
-  if (most_ && energyWithoutLinks() <= *most_ + too_much) return;
+  if (account.isClosed() && account.excess(energyWithoutLinks()) <= too_much) return;
   const Energy now = motion_.energy();
-  if (!most_) most_ = now.kinetic + now.potential;
-  if (!(now.kinetic + now.potential - *most_ > too_much)) return;
+  if (!(account.excess(now.kinetic + now.potential) > too_much)) return;
   controls_.main.askFor(std::min(kEnoughSubsteps, 2 * std::max(1, motion_.statistics.substeps_last)));
-  const double share = std::sqrt(std::max(0.0, (*most_ - now.potential) / now.kinetic));
-  if (!std::isfinite(share)) return;
-  Field3& velocity = motion_.state.velocity;
-  for (std::size_t n = 0; n < motion_.pattern.grid.size(); ++n) {
-    if (motion_.pattern.pinned[n] != kPinned) velocity.set(n, share * velocity.at(n));
-  }
+  account.takeOut(now, motion_.state.velocity);
   motion_.forgetVelocities();
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "step/kinetic_guard.h"
+#include "step/energy_account.h"
 
 #include <algorithm>
 #include <array>
@@ -21,14 +21,15 @@ double mostOf(double put_in, double driven) noexcept {
 
 }  // namespace
 
-KineticGuard::KineticGuard(const ClothPattern& pattern, const NodeInertia& inertia, double stretch_tolerance,
-                           double links)
+EnergyAccount::EnergyAccount(const ClothPattern& pattern, const NodeInertia& inertia, double stretch_tolerance,
+                             double links)
     : pattern_(pattern), inertia_(inertia), stretch_tolerance_(stretch_tolerance), links_(links) {
   pins_.reserve(pattern.grid.size());
+  before_.assign(pattern.grid.size(), 0.0);
   takePins();
 }
 
-void KineticGuard::takePins() noexcept {
+void EnergyAccount::takePins() noexcept {
   pins_.clear();
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     if (pattern_.pinned[n] == kPinned) pins_.push_back(n);
@@ -36,40 +37,43 @@ void KineticGuard::takePins() noexcept {
 }
 
 // A rod that is predicted longer by a share e, from rest, has turned by sqrt(2 e) and gains e / 2 of its energy.
-bool KineticGuard::isSmall(double predicted_violation) noexcept {
+bool EnergyAccount::isSmall(double predicted_violation) noexcept {
   return predicted_violation <= 2.0 * (kMostAdded - 1.0);
 }
 
-KineticGuard::Finding KineticGuard::look(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end,
-                                         double surface, double drawn) const noexcept {
+// Pins and obstacles that move may take what links seem to, so nothing more is held then.
+EnergyAccount::Entry EnergyAccount::entryOf(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end,
+                                            const Drive& drive, double can_hold) const noexcept {
   const Vec3 frame = frameOf(start.state.velocity);
   Sums sums = sumsOf(start, end, frame, rules.follows);
-  sums.put_in += drawn;
-  if (!(sums.stepped > kMostAdded * sums.put_in)) return {};
-  const double driven = drivenBy(start.state.velocity, frame, surface);
-  Finding finding;
-  const double most = mostOf(sums.put_in, driven);
-  if (!(sums.stepped > mostOf(kMostAdded * sums.put_in, driven))) return finding;
-  finding.most = most;
-  finding.gain = sums.stepped - most;
+  sums.put_in += drive.put_in;
+  const double driven = drivenBy(start.state.velocity, frame, drive.pushed);
+  const bool moved = drivenBy(start.state.velocity, frame, drive.moving) > 0.0;
+  const double held = std::min(held_, can_hold), taken = moved ? 0.0 : sums.put_in - sums.stepped;
+  Entry entry;
+  entry.held = std::clamp(held + taken, 0.0, can_hold);
+  if (!(sums.stepped > mostOf(kMostAdded * sums.put_in, driven))) return entry;
+  const double most = mostOf(sums.put_in, driven) + held;
+  if (!(sums.stepped > most)) return entry;
+  entry.most = most;
   // What links lack of their lengths would turn into more speed in a shorter step: not a reason to halve it.
-  finding.jumps = sums.stepped > most + fromTolerance(start.h);
-  return finding;
+  entry.jumps = sums.stepped > most + fromTolerance(start.h);
+  return entry;
 }
 
-double KineticGuard::most(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end, double surface,
-                          double drawn) const noexcept {
+double EnergyAccount::most(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end,
+                           const Drive& drive) const noexcept {
   const Vec3 frame = frameOf(start.state.velocity);
-  return mostOf(sumsOf(start, end, frame, rules.follows).put_in + drawn,
-                drivenBy(start.state.velocity, frame, surface));
+  return mostOf(sumsOf(start, end, frame, rules.follows).put_in + drive.put_in,
+                drivenBy(start.state.velocity, frame, drive.pushed));
 }
 
-double KineticGuard::most(const Field3& velocity, double surface) const noexcept {
+double EnergyAccount::most(const Field3& velocity, double surface) const noexcept {
   const Vec3 frame = frameOf(velocity);
   return mostOf(kineticOf(velocity, frame), drivenBy(velocity, frame, surface));
 }
 
-void KineticGuard::bound(double most, Field3& velocity) const noexcept {
+void EnergyAccount::bound(double most, Field3& velocity) const noexcept {
   const Vec3 frame = frameOf(velocity);
   const double seen = kineticOf(velocity, frame);
   if (!(seen > most)) return;
@@ -84,8 +88,8 @@ void KineticGuard::bound(double most, Field3& velocity) const noexcept {
 }
 
 // Summed by lanes: the order does not depend on the register width.
-CURTAIN_WIDE KineticGuard::Sums KineticGuard::sumsOf(const SubstepStart& start, const Field3& end, const Vec3& frame,
-                                                     bool backward) const noexcept {
+CURTAIN_WIDE EnergyAccount::Sums EnergyAccount::sumsOf(const SubstepStart& start, const Field3& end, const Vec3& frame,
+                                                       bool backward) const noexcept {
   const std::size_t size = pattern_.grid.size();
   const Field3 &from = start.state.position, &velocity = start.state.velocity;
   const double* const mass = pattern_.mass.data();
@@ -123,7 +127,7 @@ CURTAIN_WIDE KineticGuard::Sums KineticGuard::sumsOf(const SubstepStart& start, 
   return sums;
 }
 
-double KineticGuard::kineticOf(const Field3& velocity, const Vec3& frame) const noexcept {
+double EnergyAccount::kineticOf(const Field3& velocity, const Vec3& frame) const noexcept {
   double sum = 0.0;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     if (inertia_.masses()[n] > 0.0) sum += pattern_.mass[n] * (velocity.at(n) - frame).squaredNorm();
@@ -131,14 +135,14 @@ double KineticGuard::kineticOf(const Field3& velocity, const Vec3& frame) const 
   return sum;
 }
 
-Vec3 KineticGuard::frameOf(const Field3& velocity) const noexcept {
+Vec3 EnergyAccount::frameOf(const Field3& velocity) const noexcept {
   Vec3 sum = Vec3::Zero();
   for (const std::size_t pin : pins_) sum += velocity.at(pin);
   return pins_.empty() ? sum : sum / static_cast<double>(pins_.size());
 }
 
 // Twice the energy of all the cloth at the speed of its fastest pin, or of what it touches.
-double KineticGuard::drivenBy(const Field3& velocity, const Vec3& frame, double surface) const noexcept {
+double EnergyAccount::drivenBy(const Field3& velocity, const Vec3& frame, double surface) const noexcept {
   const double passes = surface > 0.0 ? surface + frame.norm() : 0.0;
   double mass = 0.0, fastest = passes * passes;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
@@ -151,8 +155,21 @@ double KineticGuard::drivenBy(const Field3& velocity, const Vec3& frame, double 
   return mass * fastest;
 }
 
+double EnergyAccount::excess(double energy) noexcept {
+  if (!at_start_) at_start_ = energy;
+  return energy - *at_start_;
+}
+
+void EnergyAccount::takeOut(const Energy& now, Field3& velocity) const noexcept {
+  const double share = std::sqrt(std::max(0.0, (*at_start_ - now.potential) / now.kinetic));
+  if (!std::isfinite(share)) return;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    if (pattern_.pinned[n] != kPinned) velocity.set(n, share * velocity.at(n));
+  }
+}
+
 // Twice the energy from links that are off by the tolerance at both ends of the substep.
-double KineticGuard::fromTolerance(double h) const noexcept {
+double EnergyAccount::fromTolerance(double h) const noexcept {
   const double speed = 2.0 * stretch_tolerance_ * links_ / h;
   double mass = 0.0;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) mass += inertia_.masses()[n] > 0.0 ? pattern_.mass[n] : 0.0;
