@@ -140,7 +140,7 @@ Energy Motion::energy() {
   }
   double elastic = 0.0;
   exact.elasticAt(state.position, elastic);
-  energy.potential += elastic;
+  energy.potential += elastic + exact.distances().energy(state.position);
   return energy;
 }
 

@@ -126,6 +126,10 @@ class Constraints {
   /// contact_tolerance: [m].
   double canHold(double h, const Contacts* contacts, double tolerance, double contact_tolerance) const noexcept;
 
+  /// Energy that links hold at the start of a substep of h [s] by being off further than the tolerance [J]. They were
+  /// put there, or left so by the last resort.
+  double heldBeyond(const Field3& start, double h, double tolerance) const noexcept;
+
   /// Mean of the shortest and the longest weft link of the top row, the length scale [m].
   double middleRest() const noexcept { return middle_rest_; }
 

@@ -164,6 +164,19 @@ double Constraints::canHold(double h, const Contacts* contacts, double tolerance
   return 2.0 * (links * tolerance + touch * contact_tolerance) / (h * h);
 }
 
+double Constraints::heldBeyond(const Field3& start, double h, double tolerance) const noexcept {
+  double sum = 0.0;
+  const auto add = [&](std::size_t a, std::size_t b, double length, double multiplier) {
+    const double off = 0.5 * std::abs((start.at(a) - start.at(b)).squaredNorm() / (length * length) - 1.0);
+    if (off > tolerance) sum += std::abs(multiplier) * off * length * length;
+  };
+  forEachLink(pattern_, [&](std::size_t n, std::size_t other, double rest, bool rod) {
+    add(n, other, rest, (rod ? warp_ : weft_).multiplier[n]);
+  });
+  for (const DistanceRow& row : distances_.all()) add(row.node, row.other, row.length, row.multiplier);
+  return sum / (h * h);
+}
+
 void Constraints::saveIterate(const Contacts* contacts) {
   best_.position = next;
   best_.warp = warp_.multiplier;

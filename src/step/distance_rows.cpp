@@ -30,6 +30,7 @@ double DistanceRows::unitOf(const DistanceRow& row) const noexcept { return std:
 
 void DistanceRows::begin(const SubstepStart& start, const ClothState& state, const Field& inverse, bool drives,
                          Field3& next) noexcept {
+  scale_ = start.h * start.kick;
   for (RowPart* part : parts_) part->begin(start, state, inverse, drives, next);
 }
 
@@ -51,13 +52,20 @@ void DistanceRows::pull(const Field& inverse, Field3& value) const noexcept {
   for (const DistanceRow& row : all_) move(row, row.multiplier, inverse, value);
 }
 
+// How much less the row's violation [m] grows for each unit of its multiplier [1/kg]: the pull is multiplier * |d| /
+// scale, and what it gives counts by the mean of |r| and the length, as C = (|r|^2 - length^2) / 2 does.
+double DistanceRows::givesPerMultiplier(const DistanceRow& row, double distance) const noexcept {
+  return 0.5 * row.compliance * row.direction.norm() * (distance + row.length) / scale_;
+}
+
 // [m^2]; the same compliance as the weft's, for rows that are taut against each other.
 double DistanceRows::violationOf(const DistanceRow& row, const Field& inverse, const Field3& position,
                                  bool& active) const noexcept {
   const double square = (position.at(row.other) - position.at(row.node)).squaredNorm();
   const double load = kWeftCompliance * (inverse[row.node] + inverse[row.other]) * row.multiplier;
   const double give = std::min(load, most_give_) * row.length * row.length;
-  const double violation = row.holds ? 0.5 * (square - row.length * row.length) - give : 0.0;
+  double violation = row.holds ? 0.5 * (square - row.length * row.length) - give : 0.0;
+  if (row.compliance > 0.0 && row.holds) violation -= givesPerMultiplier(row, std::sqrt(square)) * row.multiplier;
   active = row.holds && (violation > 0.0 || row.multiplier > 0.0);
   return std::isfinite(square) ? violation : std::numeric_limits<double>::infinity();
 }
@@ -104,6 +112,8 @@ void DistanceRows::addRows(Rows& rows) const {
     row.violation = distance.violation / distance.length;
     row.least = -distance.multiplier * distance.length;
     row.active = distance.active;
+    if (distance.compliance > 0.0)
+      row.compliance = givesPerMultiplier(distance, distance.direction.norm()) / (distance.length * distance.length);
     row.with_rods = true;
     row.key = static_cast<std::uint32_t>(r);
     rows.push_back(row);
@@ -119,6 +129,16 @@ void DistanceRows::takeUp(RowRange rows, double share) noexcept {
     DistanceRow& distance = all_[row.key];
     distance.multiplier = std::max(0.0, distance.multiplier + share * row.change / distance.length);
   }
+}
+
+double DistanceRows::energy(const Field3& position) const noexcept {
+  double sum = 0.0;
+  for (const DistanceRow& row : all_) {
+    if (!row.holds || !(row.compliance > 0.0)) continue;
+    const double longer = std::max(0.0, (position.at(row.other) - position.at(row.node)).norm() - row.length);
+    sum += 0.5 * longer * longer / row.compliance;
+  }
+  return sum;
 }
 
 double DistanceRows::speed() const noexcept {
@@ -138,6 +158,7 @@ void DistanceRows::restoreIterate() noexcept {
 double DistanceRows::commit(const SubstepStart& start, const Field3& next, ClothState& state, Field& load) noexcept {
   const Grid& grid = pattern_.grid;
   std::fill(load.begin() + static_cast<std::ptrdiff_t>(grid.row(grid.rows)), load.end(), 0.0);
+  elastic_work_ = elasticWork(start, next);
   for (DistanceRow& row : all_) {
     row.last = row.multiplier;
     load[row.node] += row.last;
@@ -180,10 +201,22 @@ double DistanceRows::work(const Field3& before, const Field3& after, double per_
   return sum;
 }
 
+double DistanceRows::elasticWork(const SubstepStart& start, const Field3& next) const noexcept {
+  const Field3 &from = start.state.position, &before = start.state.velocity;
+  double sum = 0.0;
+  for (const DistanceRow& row : all_) {
+    if (!(row.compliance > 0.0)) continue;
+    const Vec3 moved = next.at(row.node) - from.at(row.node) - next.at(row.other) + from.at(row.other);
+    const Vec3 apart = before.at(row.node) - before.at(row.other) + moved / start.h;
+    sum += 0.5 * row.multiplier / start.h * row.direction.dot(apart);
+  }
+  return sum;
+}
+
 double DistanceRows::stretch(const Field3& position) const noexcept {
   double longest = 0.0;
   for (const DistanceRow& row : all_) {
-    if (!row.holds) continue;
+    if (!row.holds || row.compliance > 0.0) continue;
     longest = std::max(longest, (position.at(row.other) - position.at(row.node)).norm() / row.length - 1.0);
   }
   return longest;
@@ -192,7 +225,7 @@ double DistanceRows::stretch(const Field3& position) const noexcept {
 double DistanceRows::measureRates(const Field3& velocity) noexcept {
   double worst = 0.0;
   for (DistanceRow& row : all_) {
-    row.active = row.last > 0.0;
+    row.active = row.last > 0.0 && row.compliance == 0.0;  // what gives is a force, no constraint of velocities
     const Vec3 apart = velocity.at(row.other) - velocity.at(row.node);
     row.violation = row.active ? row.direction.dot(apart) - row.length * row.rate : 0.0;
     worst = std::max(worst, std::abs(row.violation) / (row.length * unitOf(row)));

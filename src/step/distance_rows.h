@@ -44,6 +44,8 @@ class DistanceRows {
   void moveByRows(RowRange rows, const Field& inverse, Field3& value) const noexcept;
   /// Adds a share of what was found to the multipliers, which stay >= 0.
   void takeUp(RowRange rows, double share) noexcept;
+  /// Work of the rows that give in a substep to `next` [J], by their present multipliers.
+  double elasticWork(const SubstepStart& start, const Field3& next) const noexcept;
   /// Speed of the fastest part that drives in this substep [m/s]; 0: none.
   double speed() const noexcept;
   void saveIterate() noexcept;
@@ -64,9 +66,13 @@ class DistanceRows {
   Vec3 presentPullAt(std::size_t node) const noexcept { return sumAt(node, &DistanceRow::multiplier); }
   /// Adds the pulls of the last substep times share to nodal values along the present directions.
   void spread(double share, const Field& inverse, Field3& value) const noexcept;
+  /// Elastic energy of the rows that give [J].
+  double energy(const Field3& position) const noexcept;
   /// RowPart::work() of all parts [J].
   double work(const Field3& before, const Field3& after, double per_h) const noexcept;
-  /// Largest relative overlength of any that holds.
+  /// Work of the rows that give in that substep [J].
+  double elasticWork() const noexcept { return elastic_work_; }
+  /// Largest relative overlength of any that holds and does not give.
   double stretch(const Field3& position) const noexcept;
 
   // ---- Velocities
@@ -87,6 +93,7 @@ class DistanceRows {
 
  private:
   double unitOf(const DistanceRow& row) const noexcept;
+  double givesPerMultiplier(const DistanceRow& row, double distance) const noexcept;
   double violationOf(const DistanceRow& row, const Field& inverse, const Field3& position, bool& active) const noexcept;
   void move(const DistanceRow& row, double multiplier, const Field& inverse, Field3& value) const noexcept;
   Vec3 sumAt(std::size_t node, double DistanceRow::*multiplier) const noexcept;
@@ -97,6 +104,8 @@ class DistanceRows {
   const double links_;
   std::vector<DistanceRow> all_;  // part by part
   std::vector<double> best_;      // multipliers of the iterate to return to
+  double scale_ = 1.0;            // of multipliers in this substep, h * kick [s^2]
+  double elastic_work_ = 0.0;     // of the last accepted substep [J]
 };
 
 }  // namespace curtain

@@ -56,8 +56,7 @@ EnergyAccount::Entry EnergyAccount::entryOf(const Scheme::Rules& rules, const Su
   const double most = mostOf(sums.put_in, driven) + held;
   if (!(sums.stepped > most)) return entry;
   entry.most = most;
-  // What links lack of their lengths would turn into more speed in a shorter step: not a reason to halve it.
-  entry.jumps = sums.stepped > most + fromTolerance(start.h);
+  entry.made = sums.stepped - most;
   return entry;
 }
 
@@ -168,7 +167,6 @@ void EnergyAccount::takeOut(const Energy& now, Field3& velocity) const noexcept 
   }
 }
 
-// Twice the energy from links that are off by the tolerance at both ends of the substep.
 double EnergyAccount::fromTolerance(double h) const noexcept {
   const double speed = 2.0 * stretch_tolerance_ * links_ / h;
   double mass = 0.0;

@@ -47,12 +47,12 @@ class EnergyAccount {
   struct Drive {
     double moving = 0.0;  ///< fastest that obstacles and parts move points [m/s]
     double pushed = 0.0;  ///< the same, or that points come out of what they are too deep in [m/s]
-    double put_in = 0.0;  ///< twice what a guide's drive did [J]
+    double put_in = 0.0;  ///< twice what guides and rows that give did [J]
   };
   struct Entry {
     double most = std::numeric_limits<double>::infinity();  ///< to bound the velocities by; infinite: no need
     double held = 0.0;                                      ///< by links and contacts after the substep
-    bool jumps = false;  ///< the links have jumped to another configuration: the substep has failed
+    double made = 0.0;                                      ///< from nothing
   };
   /// Whether a substep of rods alone needs no entry: predicted_violation is the largest relative violation of a rod
   /// after the prediction with the last substep's multipliers.
@@ -60,6 +60,9 @@ class EnergyAccount {
   /// Of a solved substep. can_hold: what links and contacts can hold by their tolerance.
   Entry entryOf(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end, const Drive& drive,
                 double can_hold) const noexcept;
+  /// What links that are off by the tolerance at both ends of a substep of h [s] turn into speed: the more, the shorter
+  /// it is.
+  double fromTolerance(double h) const noexcept;
   /// The largest allowed kinetic energy of a substep: free nodes without links, and the pins' share.
   double most(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end,
               const Drive& drive) const noexcept;
@@ -84,6 +87,7 @@ class EnergyAccount {
   void bookContacts(const Contacts& contacts, double per_h) noexcept;
   /// What a moved pin did, by the impulse of the links on it [N s].
   void bookPin(const Vec3& impulse, const Vec3& velocity) noexcept { work_.pins -= impulse.dot(velocity); }
+  void bookElastic(double work) noexcept { work_.elastic += work; }
   void bookDrive(double work) noexcept { work_.drive += work; }
 
   const Work& work() const noexcept { return work_; }
@@ -112,7 +116,6 @@ class EnergyAccount {
   Vec3 frameOf(const Field3& velocity) const noexcept;
   double kineticOf(const Field3& velocity, const Vec3& frame) const noexcept;
   double drivenBy(const Field3& velocity, const Vec3& frame, double surface) const noexcept;
-  double fromTolerance(double h) const noexcept;
 
   const ClothPattern& pattern_;
   const NodeInertia& inertia_;

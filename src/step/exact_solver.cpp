@@ -185,14 +185,18 @@ void ExactSolver::judge(const Attempt& attempt, Progress& progress, SubstepOutco
   const double parts = constraints_.distances().speed();
   const EnergyAccount::Drive drive{std::max(parts, fastestSurface(contacts)),
                                    std::max(parts, fastestDrive(contacts, attempt.state.position, attempt.plan.h)),
-                                   constraints_.guide() != nullptr ? constraints_.guide()->energy() : 0.0};
+                                   2.0 * constraints_.distances().elasticWork(attempt.start, constraints_.next) +
+                                       (constraints_.guide() != nullptr ? constraints_.guide()->energy() : 0.0)};
   if (progress.late || (last_resort && progress.alone())) {
     progress.energy.most = account_.most(attempt.scheme.rules(), attempt.start, constraints_.next, drive);
   } else if (!last_resort && progress.settled && needsEnergyCheck(attempt, progress)) {
     const double can_hold = 2.0 * constraints_.canHold(attempt.plan.h, progress.contacts, stretch_tolerance_,
                                                        stretch_tolerance_ * smallest_rest_);
     progress.energy = account_.entryOf(attempt.scheme.rules(), attempt.start, constraints_.next, drive, can_hold);
-    if (progress.energy.jumps) progress.settled = false;
+    const double made = progress.energy.made;
+    if (made > account_.fromTolerance(attempt.plan.h) &&
+        made > 2.0 * constraints_.heldBeyond(attempt.state.position, attempt.plan.h, stretch_tolerance_))
+      progress.settled = false;
   }
   outcome.sweeps = progress.sweeps;
   outcome.touches = !progress.alone();
@@ -341,6 +345,7 @@ void ExactSolver::book(const ClothState& state, const NodeForces& forces, const 
   for (std::size_t n = grid.row(grid.rows); n < grid.size(); ++n) {
     if (pattern_.pinned[n] == kPinned) account_.bookPin(per_h * distances().pullAt(n), state.velocity.at(n));
   }
+  account_.bookElastic(distances().elasticWork());
   account_.bookDrive(distances().work(account_.before(), state.velocity, per_h));
   if (guide() != nullptr) account_.bookDrive(guide()->work(account_.before(), state.velocity, outcome.kick));
 }

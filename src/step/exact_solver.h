@@ -61,7 +61,7 @@ class ExactSolver {
   const Field3* forcesWithElastic() const noexcept { return elastic_ != nullptr ? &elastic_->sum() : nullptr; }
   /// Elastic energy after a substep with these forces, as leapfrog keeps it with that of motion [J].
   double elasticEnergy(const Field3& outer, const Field3& position) const noexcept {
-    return elastic_ != nullptr ? elastic_->energyAfter(outer, position) : 0.0;
+    return distances().energy(position) + (elastic_ != nullptr ? elastic_->energyAfter(outer, position) : 0.0);
   }
   /// Elastic force at these positions [N], and its energy [J], as a substep like the last one sees them;
   /// null and 0: limp cloth.

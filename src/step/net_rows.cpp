@@ -12,7 +12,8 @@ void NetRows::scale(const Frame& frame, const Row& row, Packed& packed) noexcept
   packed.dz = static_cast<float>(row.direction.z());
   packed.on = row.active ? 1.0F : 0.0F;
   packed.damping = std::max(frame.damping, static_cast<float>(row.least_damping));
-  packed.per_diagonal = 1.0F / (packed.diagonal * (1.0F + packed.damping));
+  packed.compliance = static_cast<float>(row.compliance / frame.inertia_scale);
+  packed.per_diagonal = 1.0F / (packed.diagonal * (1.0F + packed.damping) + packed.compliance);
   packed.residual = static_cast<float>(row.violation / frame.violation_scale);
   packed.least = static_cast<float>(row.least * (frame.inertia_scale / frame.violation_scale));
   aligned_ += packed.aligned();
@@ -28,7 +29,7 @@ void NetRows::turn(float beta, NetNodes push) noexcept {
 double NetRows::product(NetNodes move, NetNodes push) noexcept {
   double sum = 0.0;
   for (Packed& row : rows_) {
-    float along = row.damping * row.diagonal * row.pull;
+    float along = (row.damping * row.diagonal + row.compliance) * row.pull;
     for (int k = 0; k < row.nodes; ++k) {
       const auto at = static_cast<std::size_t>(k);
       const std::uint32_t node = row.node[at];

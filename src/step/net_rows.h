@@ -88,6 +88,7 @@ class NetRows {
     std::array<float, 4> weight;
     float dx, dy, dz;
     float on;                               // 1: takes part
+    float compliance;                       // over the inertia scale
     float damping, diagonal, per_diagonal;  // the last: inverse, with damping
     float residual, pull, product, solution;
     float least;  // lower bound of the solution

@@ -24,6 +24,7 @@ struct Row {
   double least = -std::numeric_limits<double>::infinity();  ///< lower bound of the change [kg m]
   bool active = true;          ///< takes part from the start; one that does not may join, where the solve allows it
   bool with_rods = false;      ///< what the rods pull back by is taken up together with it: see NetSolver::rodsAnswer()
+  double compliance = 0.0;     ///< by how much less it is to grow for each unit of the multiplier [1/kg], >= 0
   double least_damping = 0.0;  ///< Levenberg-Marquardt term over the diagonal, if that is larger than the solve's
   std::uint32_t key = 0;       ///< for its maker
   double change = 0.0;         ///< out: of the multiplier [kg m], or its rate

@@ -2,7 +2,7 @@
 //
 // A part that bounds distances between nodes, and what the solver asks of it. The solver keeps the rows: their
 // directions, their multipliers, who of them takes part. The part says between which nodes they are, how long they may
-// be, and moves the nodes that are its own. It may drive: shorten its rows as time goes on.
+// be or how far they give, and moves the nodes that are its own. It may drive: shorten its rows as time goes on.
 #pragma once
 
 #include "cloth/cloth.h"
@@ -12,9 +12,12 @@ namespace curtain {
 
 class Archive;
 
-/// One-sided: |x_other - x_node| <= length. With the conventions of LinkSet, from the node (a) to the other (b).
+/// One-sided: |x_other - x_node| <= length + compliance * pull. With the conventions of LinkSet, from the node (a) to
+/// the other (b).
 struct DistanceRow {
-  std::size_t node = 0, other = 0;  ///< in the fields; set once, by its part
+  // Set once, by its part.
+  std::size_t node = 0, other = 0;  ///< in the fields
+  double compliance = 0.0;          ///< [m/N], >= 0; 0: it does not give, and is a constraint
   // Set by its part before every substep.
   double length = 1.0;  ///< at the end of the substep [m]
   double rate = 0.0;    ///< at which it changes [m/s]
@@ -42,14 +45,16 @@ class RowPart {
   virtual void begin(const SubstepStart& start, const ClothState& state, const Field& inverse, bool drives,
                      Field3& next) noexcept = 0;
   /// The substep is accepted: sets what of the state is its own.
-  virtual void commit(const SubstepStart& start, const Field3& next, ClothState& state) noexcept = 0;
+  virtual void commit(const SubstepStart& /*start*/, const Field3& /*next*/, ClothState& /*state*/) noexcept {}
   /// Between substeps, after one that was not accepted or when `state` comes from elsewhere: sets its rows.
-  virtual void resume(const ClothState& state) noexcept = 0;
+  virtual void resume(const ClothState& /*state*/) noexcept {}
   /// How fast it drives nodes in this substep [m/s]; 0: it does not.
   virtual double speed() const noexcept { return 0.0; }
   /// Work of what drives in the last substep, which took the velocities from `before` to `after` [J]; per_h: force over
   /// multiplier, times the time that it acted for [1/s]. Rows of constant length do none.
-  virtual double work(const Field3& before, const Field3& after, double per_h) const noexcept = 0;
+  virtual double work(const Field3& /*before*/, const Field3& /*after*/, double /*per_h*/) const noexcept {
+    return 0.0;
+  }
 };
 
 }  // namespace curtain

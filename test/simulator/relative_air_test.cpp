@@ -267,12 +267,15 @@ Scene flagAt(double speed) {
   return scene;
 }
 
+// Links that may be off by more keep it trembling by 3 mm.
 TEST(RelativeAirScene, FlagHangsStillBelowACriticalSpeed) {
-  Simulator simulator(flagAt(0.8));
+  Scene scene = flagAt(0.8);
+  scene.solver.stretch_tolerance = 1e-5;
+  Simulator simulator(scene);
   run(simulator, 8.0);
   const Flutter begun = flutterOf(simulator, 4.0);
   run(simulator, 20.0);
-  EXPECT_LT(flutterOf(simulator, 4.0).size, 0.2 * begun.size);
+  EXPECT_LT(flutterOf(simulator, 4.0).size, 0.05 * begun.size);
 }
 
 TEST(RelativeAirScene, FlagFluttersAboveItAndFasterInFasterWind) {

@@ -126,6 +126,7 @@ Dense denseSystem(const Net& net) {
   for (Eigen::Index p = 0; p < count; ++p) {
     const Row& one = all[static_cast<std::size_t>(p)];
     dense.rhs[p] = one.violation;
+    dense.matrix(p, p) += one.compliance;
     for (Eigen::Index q = 0; q < count; ++q) {
       const Row& other = all[static_cast<std::size_t>(q)];
       for (std::size_t k = 0; k < static_cast<std::size_t>(one.nodes); ++k) {
@@ -197,7 +198,7 @@ TEST_P(NetSolverOf, SolvesForGuidedNodes) {
   expectWhatADenseSolveGives(net);
 }
 
-// Rows of one to four nodes, with_rods or not: what is asked of them is met together with the links.
+// Rows of one to four nodes, with_rods or not, some of which give: what is asked of them is met together with the links.
 TEST_P(NetSolverOf, SolvesForFurtherRowsToo) {
   Net net(sceneOf(7, 9, PinKind::kTop, GetParam()));
   std::mt19937 random(3);
@@ -212,6 +213,7 @@ TEST_P(NetSolverOf, SolvesForFurtherRowsToo) {
     row.direction = Vec3(any(random), any(random), any(random)).normalized();
     row.violation = 1e-3 * any(random);
     row.with_rods = count % 2 == 0;
+    if (count > 2) row.compliance = 0.5 * net.pattern.inverse_mass[row.node[0]];
     net.rows.push_back(row);
   }
   expectWhatADenseSolveGives(net);

@@ -19,7 +19,9 @@ LastResort::LastResort(const ClothPattern& pattern, const DistanceRows& distance
     shortest_[other] = std::min(shortest_[other], rest);
   });
   for (const DistanceRow& row : distances.all()) {
-    for (const std::size_t n : {row.node, row.other}) shortest_[n] = std::min(shortest_[n], row.length);
+    for (const std::size_t n : {row.node, row.other}) {
+      if (row.compliance == 0.0) shortest_[n] = std::min(shortest_[n], row.length);
+    }
   }
 }
 
@@ -30,7 +32,7 @@ void LastResort::forEachBound(const Field& inverse, const Look& look) const {
     if (inverse[n] + inverse[other] > 0.0) look(n, other, rest, rod);
   });
   for (const DistanceRow& row : distances_.all()) {
-    if (row.holds) look(row.node, row.other, row.length, false);
+    if (row.holds && row.compliance == 0.0) look(row.node, row.other, row.length, false);
   }
 }
 
