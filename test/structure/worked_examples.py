@@ -21,7 +21,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 COPIED = ("CMakeLists.txt", "cmake", "config", "docs/make_pages.py", "docs/keys.md", "include", "msg", "src", "test/float_traps.h",
           "test/known_keys.h", "test/scene", "package.xml")
 # In this order; and how many files a page may change, beside those that are new.
-PAGES = {"docs/add_a_force.md": 4, "docs/add_a_scheme.md": 6, "docs/add_a_scene.md": 0}
+PAGES = {"docs/add_a_force.md": 4, "docs/add_a_scheme.md": 6, "docs/add_a_scene.md": 0, "docs/add_a_constraint.md": 5}
 BLOCK = re.compile(r"^```(?P<kind>\w+)(?: (?P<path>\S+))?\n(?P<text>.*?)^```$", re.M | re.S)
 OUTER = """cmake_minimum_required(VERSION 3.16)
 project(worked_examples CXX)
