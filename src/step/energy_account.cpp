@@ -24,15 +24,21 @@ double mostOf(double put_in, double driven) noexcept {
 EnergyAccount::EnergyAccount(const ClothPattern& pattern, const NodeInertia& inertia, double stretch_tolerance,
                              double links)
     : pattern_(pattern), inertia_(inertia), stretch_tolerance_(stretch_tolerance), links_(links) {
-  pins_.reserve(pattern.grid.size());
+  for (std::vector<std::size_t>* const nodes : {&pins_, &held_nodes_}) nodes->reserve(pattern.grid.size());
   before_.assign(pattern.grid.size(), 0.0);
   takePins();
 }
 
 void EnergyAccount::takePins() noexcept {
   pins_.clear();
+  held_nodes_.clear();
+  free_mass_ = 0.0;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     if (pattern_.pinned[n] == kPinned) pins_.push_back(n);
+    if (inertia_.masses()[n] > 0.0)
+      free_mass_ += pattern_.mass[n];
+    else if (pattern_.isThere(n))
+      held_nodes_.push_back(n);
   }
 }
 
@@ -48,7 +54,7 @@ EnergyAccount::Entry EnergyAccount::entryOf(const Scheme::Rules& rules, const Su
   Sums sums = sumsOf(start, end, frame, rules.follows);
   sums.put_in += drive.put_in;
   const double driven = drivenBy(start.state.velocity, frame, drive.pushed);
-  const bool moved = drivenBy(start.state.velocity, frame, drive.moving) > 0.0;
+  const bool moved = fastest(start.state.velocity, frame, drive.moving) > 0.0;
   const double held = std::min(held_, can_hold), taken = moved ? 0.0 : sums.put_in - sums.stepped;
   Entry entry;
   entry.held = std::clamp(held + taken, 0.0, can_hold);
@@ -140,18 +146,12 @@ Vec3 EnergyAccount::frameOf(const Field3& velocity) const noexcept {
   return pins_.empty() ? sum : sum / static_cast<double>(pins_.size());
 }
 
-// Twice the energy of all the cloth at the speed of its fastest pin, or of what it touches.
-double EnergyAccount::drivenBy(const Field3& velocity, const Vec3& frame, double surface) const noexcept {
+// Square of the largest speed of a pin, or of what is touched.
+double EnergyAccount::fastest(const Field3& velocity, const Vec3& frame, double surface) const noexcept {
   const double passes = surface > 0.0 ? surface + frame.norm() : 0.0;
-  double mass = 0.0, fastest = passes * passes;
-  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    if (inertia_.masses()[n] > 0.0) {
-      mass += pattern_.mass[n];
-    } else if (pattern_.isThere(n)) {
-      fastest = std::max(fastest, (velocity.at(n) - frame).squaredNorm());
-    }
-  }
-  return mass * fastest;
+  double square = passes * passes;
+  for (const std::size_t n : held_nodes_) square = std::max(square, (velocity.at(n) - frame).squaredNorm());
+  return square;
 }
 
 double EnergyAccount::excess(double energy) noexcept {
@@ -169,9 +169,7 @@ void EnergyAccount::takeOut(const Energy& now, Field3& velocity) const noexcept 
 
 double EnergyAccount::fromTolerance(double h) const noexcept {
   const double speed = 2.0 * stretch_tolerance_ * links_ / h;
-  double mass = 0.0;
-  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) mass += inertia_.masses()[n] > 0.0 ? pattern_.mass[n] : 0.0;
-  return mass * speed * speed;
+  return free_mass_ * speed * speed;
 }
 
 }  // namespace curtain

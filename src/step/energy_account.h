@@ -115,13 +115,17 @@ class EnergyAccount {
   Sums sumsOf(const SubstepStart& start, const Field3& end, const Vec3& frame, bool backward) const noexcept;
   Vec3 frameOf(const Field3& velocity) const noexcept;
   double kineticOf(const Field3& velocity, const Vec3& frame) const noexcept;
-  double drivenBy(const Field3& velocity, const Vec3& frame, double surface) const noexcept;
+  double fastest(const Field3& velocity, const Vec3& frame, double surface) const noexcept;
+  double drivenBy(const Field3& velocity, const Vec3& frame, double surface) const noexcept {
+    return free_mass_ * fastest(velocity, frame, surface);
+  }
 
   const ClothPattern& pattern_;
   const NodeInertia& inertia_;
   double stretch_tolerance_;
   const double links_;
-  std::vector<std::size_t> pins_;  // with room for every node
+  std::vector<std::size_t> pins_, held_nodes_;  // the latter: no link moves them; both with room for every node
+  double free_mass_ = 0.0;                      // of the others [kg]
   double held_ = 0.0;
   Field3 before_;
   Work work_;
