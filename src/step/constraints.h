@@ -94,7 +94,6 @@ class Constraints {
   /// Largest relative violation of a string. closely: keep the violation of each for solveNet(); otherwise none may
   /// pull.
   double lookAtStrings(bool closely) noexcept;
-  double stringsResidual() noexcept;
 
   /// Sets the directions of all links from the present positions.
   void followDirections() noexcept;

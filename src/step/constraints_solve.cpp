@@ -79,12 +79,6 @@ double Constraints::measureStrings() noexcept {
   return std::max(worst, distances_.measure(inertia_.inverse(), next));
 }
 
-double Constraints::stringsResidual() noexcept {
-  const LineSolve weft = wefts();
-  return std::max(worstOfRows([&](int i) { return weftResidual(weft, i); }),
-                  distances_.residual(inertia_.inverse(), next));
-}
-
 void Constraints::setWeftDirectionsAt(const Field3& position) noexcept {
   worstOfRows([&](int i) {
     setWeftDirections(pattern_.grid, i, position, weft_.direction);

@@ -58,34 +58,18 @@ double DistanceRows::givesPerMultiplier(const DistanceRow& row, double distance)
   return 0.5 * row.compliance * row.direction.norm() * (distance + row.length) / scale_;
 }
 
-// [m^2]; the same compliance as the weft's, for rows that are taut against each other.
-double DistanceRows::violationOf(const DistanceRow& row, const Field& inverse, const Field3& position,
-                                 bool& active) const noexcept {
-  const double square = (position.at(row.other) - position.at(row.node)).squaredNorm();
-  const double load = kWeftCompliance * (inverse[row.node] + inverse[row.other]) * row.multiplier;
-  const double give = std::min(load, most_give_) * row.length * row.length;
-  double violation = row.holds ? 0.5 * (square - row.length * row.length) - give : 0.0;
-  if (row.compliance > 0.0 && row.holds) violation -= givesPerMultiplier(row, std::sqrt(square)) * row.multiplier;
-  active = row.holds && (violation > 0.0 || row.multiplier > 0.0);
-  return std::isfinite(square) ? violation : std::numeric_limits<double>::infinity();
-}
-
+// The same compliance as the weft's, for rows that are taut against each other.
 double DistanceRows::measure(const Field& inverse, const Field3& position) noexcept {
   double worst = 0.0;
   for (DistanceRow& row : all_) {
-    row.violation = violationOf(row, inverse, position, row.active);
-    if (!std::isfinite(row.violation)) return std::numeric_limits<double>::infinity();
+    const double square = (position.at(row.other) - position.at(row.node)).squaredNorm();
+    const double load = kWeftCompliance * (inverse[row.node] + inverse[row.other]) * row.multiplier;
+    const double give = std::min(load, most_give_) * row.length * row.length;
+    row.violation = row.holds ? 0.5 * (square - row.length * row.length) - give : 0.0;
+    if (row.compliance > 0.0 && row.holds) row.violation -= givesPerMultiplier(row, std::sqrt(square)) * row.multiplier;
+    row.active = row.holds && (row.violation > 0.0 || row.multiplier > 0.0);
+    if (!std::isfinite(square + row.violation)) return std::numeric_limits<double>::infinity();
     if (row.active) worst = std::max(worst, std::abs(row.violation) / (row.length * unitOf(row)));
-  }
-  return worst;
-}
-
-double DistanceRows::residual(const Field& inverse, const Field3& position) const noexcept {
-  double worst = 0.0;
-  for (const DistanceRow& row : all_) {
-    bool active = false;
-    const double violation = violationOf(row, inverse, position, active);
-    if (active || !std::isfinite(violation)) worst = std::max(worst, std::abs(violation) / (row.length * unitOf(row)));
   }
   return worst;
 }

@@ -35,7 +35,6 @@ class DistanceRows {
   /// Sets violation and active of each; returns the largest violation over a unit of those that take part, infinite
   /// when a position is not finite.
   double measure(const Field& inverse, const Field3& position) noexcept;
-  double residual(const Field& inverse, const Field3& position) const noexcept;
   /// Sum of the squares of what measure() has found.
   double squares() const noexcept;
   /// Adds a row for each that holds, of what measure() or measureRates() has found.
@@ -94,7 +93,6 @@ class DistanceRows {
  private:
   double unitOf(const DistanceRow& row) const noexcept;
   double givesPerMultiplier(const DistanceRow& row, double distance) const noexcept;
-  double violationOf(const DistanceRow& row, const Field& inverse, const Field3& position, bool& active) const noexcept;
   void move(const DistanceRow& row, double multiplier, const Field& inverse, Field3& value) const noexcept;
   Vec3 sumAt(std::size_t node, double DistanceRow::*multiplier) const noexcept;
 

@@ -81,7 +81,7 @@ bool Sweeps::keepOrUndo(double& residual, const Residual& now, Contacts* contact
 
 bool Sweeps::isWithin(double touch) noexcept {
   const double allowed = tolerance_ / kInnerTolerance;
-  return touch <= most_touch_ && constraints_.rodsResidual() <= allowed && constraints_.stringsResidual() <= allowed;
+  return touch <= most_touch_ && constraints_.rodsResidual() <= allowed && constraints_.lookAtStrings(true) <= allowed;
 }
 
 SweepOutcome Sweeps::run(const SweepTask& task, Contacts* contacts, StageClock& clock) noexcept {

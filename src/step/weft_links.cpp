@@ -78,14 +78,6 @@ CURTAIN_WIDE void setWeftDirections(const Grid& grid, int row, const Field3& pos
   difference(position.z, direction.z);
 }
 
-CURTAIN_WIDE double weftResidual(const LineSolve& line, int i) noexcept {
-  const LinkRow row(line, i);
-  return largestOf(line.pattern.grid, [=](std::size_t left, std::size_t right) -> Size {
-    const Link link = look(row, left, right);
-    return {link.active * std::abs(link.violation), link.not_finite};
-  });
-}
-
 void freeWeft(const ClothPattern& pattern, const Field& inverse_mass, Field& out) noexcept {
   const Grid& grid = pattern.grid;
   for (int i = 0; i < grid.rows; ++i) {

@@ -16,17 +16,15 @@ constexpr double kWeftCompliance = 1e-7;
 /// Sets the directions of a row's links from the positions.
 void setWeftDirections(const Grid& grid, int row, const Field3& position, Field3& direction) noexcept;
 
-/// Largest relative violation of the links of a row that take part; infinite when a position is not finite.
-double weftResidual(const LineSolve& line, int row) noexcept;
-
 /// 1 / rest length^2 of the links with a movable end, 0 of the others [1/m^2]. out has the grid's size.
 void freeWeft(const ClothPattern& pattern, const Field& inverse_mass, Field& out) noexcept;
 
 /// Largest (length / rest length)^2 of a row's links with a movable end; infinite when a position is not finite.
 double weftSquare(const Grid& grid, int row, const Field3& position, const Field& free_per_square) noexcept;
 
-/// Returns the residual, and sets for every link of the row whether it takes part (1 or 0) and its violation C = (|r|^2
-/// - l^2) / 2 less the compliance [m^2], negative where it is slack.
+/// Returns the largest relative violation of the links of a row that take part, infinite when a position is not finite,
+/// and sets for every link whether it takes part (1 or 0) and its violation C = (|r|^2 - l^2) / 2 less the compliance
+/// [m^2], negative where it is slack.
 double measureWeft(const LineSolve& line, int row, Field& violation, Field& active) noexcept;
 
 /// The same for velocities: links that pull take part, with dC/dt = d . (v_b - v_a) [m^2/s]; returns the largest over
