@@ -22,7 +22,8 @@ Constraints::Constraints(const ClothPattern& pattern, const SolverParts& parts, 
       net_(pattern, workers),
       guide_(parts.guide),
       middle_rest_(middleRestOf(pattern)),
-      distances_(pattern, parts.rows, tolerance, middle_rest_) {
+      distances_(pattern, parts.rows, tolerance, middle_rest_),
+      contacts_(middle_rest_) {
   const std::size_t size = pattern.grid.size();
   const std::size_t links = size + static_cast<std::size_t>(pattern.grid.stride);
   const auto blocks = static_cast<std::size_t>(warpBlockCount(pattern.grid));
@@ -49,7 +50,7 @@ void Constraints::expectContacts(std::size_t count) {
   const std::size_t rows = 3 * count + distances_.all().size();
   net_.expectRows(rows);
   rows_.reserve(rows);
-  best_.contacts.reserve(count);
+  contacts_.expect(count);
 }
 
 void Constraints::reset() noexcept {
@@ -72,10 +73,7 @@ void Constraints::begin(const SubstepStart& start, const ClothState& state, doub
     for (std::size_t n = 0; n < pattern_.grid.size(); ++n) weft_.multiplier[n] = ratio * last_weft_[n];
     directions_set_ = ratio != 0.0;
   }
-  if (distances_.any()) {
-    distances_.begin(start, state, inertia_.inverse(), drives, next);
-    directions_set_ = distances_.warmStart(ratio) || directions_set_;
-  }
+  directions_set_ = distances_.begin(start, state, inertia_.inverse(), drives, ratio, next) || directions_set_;
   if (directions_set_) {
     worstOfRows([&](int i) {
       setWeftDirections(pattern_.grid, i, start.state.position, weft_.direction);
@@ -102,7 +100,7 @@ double Constraints::commit(const SubstepStart& start, bool tells_turning, ClothS
     heaviest = loadStrings(load);
     last_weft_ = weft_.multiplier;
   }
-  if (distances_.any()) heaviest = std::max(heaviest, distances_.commit(start, next, state, load));
+  heaviest = std::max(heaviest, distances_.commit(start, next, state, load));
   std::swap(state.position, next);
   std::swap(last_warp_, warp_.multiplier);
   return guide_ != nullptr ? std::max(heaviest, commitGuide(state, load)) : heaviest;

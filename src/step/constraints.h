@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The constraints of a substep: two-sided warp rods, one-sided weft strings, distances that parts bound, and contacts,
+// The constraints of a substep: two-sided warp rods, one-sided weft strings, and who makes further rows (RowMaker),
 // with the positions being solved for and the links' directions and multipliers. Rods: Newton, one tridiagonal system a
-// column. Taut strings, and rows of distances and contacts: all at once, with the rods eliminated (NetSolver). Sweeps
-// decides what is solved when. Where functions speak of strings, distances are among them.
+// column. Taut strings and rows: all at once, with the rods eliminated (NetSolver). Sweeps decides what is solved when.
+// Where functions speak of strings, distances that parts bound are among them.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "step/distance_rows.h"
@@ -72,6 +73,8 @@ class Constraints {
   const GuidePart* guide() const noexcept { return guide_; }
   DistanceRows& distances() noexcept { return distances_; }
   const DistanceRows& distances() const noexcept { return distances_; }
+  ContactRows& contacts() noexcept { return contacts_; }
+  const ContactRows& contacts() const noexcept { return contacts_; }
 
   // ---- Parts of a solve
 
@@ -106,24 +109,24 @@ class Constraints {
     double damping;   ///< Levenberg-Marquardt term, relative to the diagonal
     bool newton;      ///< the active set of strings changes within the solve
   };
-  /// One step of all taut strings and contacts. Moves the nodes; the rods are solved for next.
-  void solveNet(const NetAim& aim, Contacts* contacts) noexcept;
+  /// One step of all taut strings and rows. Moves the nodes; the rods are solved for next.
+  void solveNet(const NetAim& aim) noexcept;
 
   /// After nodes were moved by others: guided ones are where their part lets them be.
   void settleGuide() noexcept;
 
-  /// Sum of the squared violations of links and contacts, in lengths of a link; rods_lack: violation assumed of every
+  /// Sum of the squared violations of links and rows, in lengths of a link; rods_lack: violation assumed of every
   /// rod, where their solve has not converged. A damped step reduces it if it is short enough, while the largest
   /// violation may stay the same.
-  double merit(const Contacts* contacts, double rods_lack) noexcept;
+  double merit(double rods_lack) noexcept;
   /// The iterate to return to when a sweep made things worse.
-  void saveIterate(const Contacts* contacts);
-  void restoreIterate(Contacts* contacts) noexcept;
+  void saveIterate();
+  void restoreIterate() noexcept;
 
   /// Energy that links and contacts can hold in a substep of h [s] by being off one way and then the other as far as
   /// the tolerance lets them [J]: a pull of T that is off by e holds T e. tolerance: relative, of links;
   /// contact_tolerance: [m].
-  double canHold(double h, const Contacts* contacts, double tolerance, double contact_tolerance) const noexcept;
+  double canHold(double h, double tolerance, double contact_tolerance) const noexcept;
 
   /// Energy that links hold at the start of a substep of h [s] by being off further than the tolerance [J]. They were
   /// put there, or left so by the last resort.
@@ -137,10 +140,10 @@ class Constraints {
   /// Projects the velocities on the constraints: no rod or pulling string changes its length, no pushing contact
   /// penetrates. Starts from `share` of the last substep's forces between nodes, so friction goes on and cloth at rest
   /// is a fixed point. Guided nodes: after GuidePart::beginRates().
-  void project(const Field3& position, const Contacts* contacts, double share, Field3& velocity) noexcept;
-  /// Adds what links and contacts pulled by in the last substep, along their directions at these positions, times share
-  /// and over the nodes' masses. Between substeps only.
-  void addPulls(const Field3& position, const Contacts* contacts, double share, Field3& velocity) noexcept;
+  void project(const Field3& position, double share, Field3& velocity) noexcept;
+  /// Adds what links and rows acted by in the last substep, along their directions at these positions, times share and
+  /// over the nodes' masses. Between substeps only.
+  void addPulls(const Field3& position, double share, Field3& velocity) noexcept;
 
   // ---- Changes of pins
 
@@ -177,13 +180,12 @@ class Constraints {
   struct Iterate {
     Field3 position;
     Field warp, weft;
-    Contacts contacts;
   };
   RodsProgress solveBlock(const LineSolve& warp, const RodsAim& aim, int block) noexcept;
   void setWeftDirectionsAt(const Field3& position) noexcept;
   double measureStrings() noexcept;
   double loadStrings(Field& load) noexcept;
-  void spreadForces(const LineSolve& warp, const LineSolve& weft, const Contacts* contacts, double share) noexcept;
+  void spreadForces(const LineSolve& warp, const LineSolve& weft, double share) noexcept;
   // Nodes that are guided in this substep; null: none.
   GuidedNodes* guided() noexcept { return guide_ != nullptr && guide_->moves() ? guide_ : nullptr; }
   LineSolve rods() noexcept { return {pattern_, inertia_.inverse(), warp_, next, guided()}; }
@@ -193,8 +195,7 @@ class Constraints {
   void beginGuide(const SubstepStart& start, const ClothState& state) noexcept;
   double commitGuide(ClothState& state, const Field& load) noexcept;
   Vec3 pullAt(int row, int column, const Field& warp, const Field& weft, bool strings) const noexcept;
-  RowRange contactRows() const noexcept { return {rows_.data(), rows_.data() + contact_rows_}; }
-  RowRange distanceRows() const noexcept { return {rows_.data() + contact_rows_, rows_.data() + rows_.size()}; }
+  void makeRows(const Field3& value, bool rates) noexcept;
   template <typename Look>
   double worstOfRows(const Look& look) noexcept;
   template <typename Block>
@@ -209,10 +210,11 @@ class Constraints {
   GuidePart* guide_;
   double middle_rest_;
   DistanceRows distances_;
-  Rows rows_;                     // of contacts, then of distances_
-  std::size_t contact_rows_ = 0;  // how many of them are of contacts
-  Field rod_change_;              // of the rods' multipliers, with those of strings and distances_; with these only
-  Field3 moved_;                  // by all of them [m]
+  ContactRows contacts_;
+  std::array<RowMaker*, 2> makers_{&distances_, &contacts_};
+  Rows rows_;         // of all makers
+  Field rod_change_;  // of the rods' multipliers, with those of strings and distances_; with these only
+  Field3 moved_;      // by all of them [m]
   const Field3* other_force_ = nullptr;  // all but the links', in the substep being made [N]
   double per_scale_ = 0;                 // 1 / (h kick) [1/s^2]
   int presses_ = 0;                      // times that the guide was pressed in this substep

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The parts of a solve: rods, strings, contacts.
+// The parts of a solve: rods, strings, rows.
 #include <array>
 #include <cmath>
 
@@ -102,18 +102,25 @@ void Constraints::takeDirections(const Field3& start) noexcept {
   directions_set_ = net_ready_ = true;
 }
 
-void Constraints::solveNet(const NetAim& aim, Contacts* contacts) noexcept {
+// The order of the rows is that of all sums over them: contacts come first.
+void Constraints::makeRows(const Field3& value, bool rates) noexcept {
+  rows_.clear();
+  for (auto maker = makers_.rbegin(); maker != makers_.rend(); ++maker) {
+    (*maker)->first_row = rows_.size();
+    (*maker)->addRows(value, rates, rows_);
+    (*maker)->end_row = rows_.size();
+  }
+}
+
+void Constraints::solveNet(const NetAim& aim) noexcept {
   if (!measured_) measureStrings();
   measured_ = false;
   const Field* const multiplier = aim.newton ? &weft_.multiplier : nullptr;
-  rows_.clear();
-  if (contacts != nullptr) addContactRows(*contacts, next, rows_);
-  contact_rows_ = rows_.size();
-  distances_.addRows(rows_);
+  makeRows(next, false);
   net_.solve(violation_, active_, rows_,
              {aim.residual * middle_rest_, aim.damping, aim.enough, kGradientIterations, multiplier}, change_);
   const double share = distances_.any() ? takeUpTogether() : takeUpStrings(aim.residual);
-  if (contacts != nullptr) takeUpContacts(inertia_.inverse(), contactRows(), share, *contacts, next);
+  for (RowMaker* maker : makers_) maker->takeUp(rows_, share, inertia_.inverse(), next);
   settleGuide();
 }
 
@@ -134,27 +141,22 @@ double Constraints::takeUpStrings(double residual) noexcept {
   return share;
 }
 
-double Constraints::merit(const Contacts* contacts, double rods_lack) noexcept {
+double Constraints::merit(double rods_lack) noexcept {
   if (!measured_) measureStrings();
   double sum = static_cast<double>(pattern_.grid.nodeCount()) * rods_lack * rods_lack;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     const double relative = active_[n] * violation_[n] * pattern_.weft_per_square[n];
     sum += relative * relative;
   }
-  sum += distances_.squares();
-  for (std::size_t k = 0; contacts != nullptr && k < contacts->size(); ++k) {
-    const double relative = contactViolation((*contacts)[k], next) / middle_rest_;
-    sum += relative * relative;
-  }
+  for (RowMaker* maker : makers_) maker->addSquares(next, sum);
   return sum;
 }
 
-double Constraints::canHold(double h, const Contacts* contacts, double tolerance,
-                            double contact_tolerance) const noexcept {
+double Constraints::canHold(double h, double tolerance, double contact_tolerance) const noexcept {
   double links = pullsTimesLengths(warp_.multiplier, pattern_.warp_rest), touch = 0.0;
   if (directions_set_) links += pullsTimesLengths(weft_.multiplier, pattern_.weft_rest);
   for (const DistanceRow& row : distances_.all()) links += row.multiplier * row.length * row.length;
-  for (std::size_t k = 0; contacts != nullptr && k < contacts->size(); ++k) touch += std::abs((*contacts)[k].push);
+  for (const Contact& contact : contacts_.all()) touch += std::abs(contact.push);
   return 2.0 * (links * tolerance + touch * contact_tolerance) / (h * h);
 }
 
@@ -171,20 +173,18 @@ double Constraints::heldBeyond(const Field3& start, double h, double tolerance) 
   return sum / (h * h);
 }
 
-void Constraints::saveIterate(const Contacts* contacts) {
+void Constraints::saveIterate() {
   best_.position = next;
   best_.warp = warp_.multiplier;
   best_.weft = weft_.multiplier;
-  distances_.saveIterate();
-  if (contacts != nullptr) best_.contacts = *contacts;
+  for (RowMaker* maker : makers_) maker->saveIterate();
 }
 
-void Constraints::restoreIterate(Contacts* contacts) noexcept {
+void Constraints::restoreIterate() noexcept {
   next = best_.position;
   warp_.multiplier = best_.warp;
   weft_.multiplier = best_.weft;
-  distances_.restoreIterate();
-  if (contacts != nullptr) *contacts = best_.contacts;
+  for (RowMaker* maker : makers_) maker->restoreIterate();
   measured_ = false;
 }
 

@@ -18,7 +18,7 @@ double Constraints::takeUpTogether() noexcept {
   const LineSolve weft{pattern_, inverse, weft_, moved_, guided()};
   for (int i = 0; i < grid.rows; ++i) pullWeft(weft, i, change_);
   net_.rodsAnswer(rows_, rod_change_);
-  distances_.moveByRows(distanceRows(), inverse, moved_);
+  distances_.moveBy(rows_, inverse, moved_);
   const auto stride = static_cast<std::size_t>(grid.stride);
   double most = 0.0;
   for (std::size_t n = 0; n < grid.size(); ++n) {
@@ -36,7 +36,6 @@ double Constraints::takeUpTogether() noexcept {
     weft_.multiplier[n] += share * change_[n];
     warp_.multiplier[n] += share * rod_change_[n];
   }
-  distances_.takeUp(distanceRows(), share);
   return share;
 }
 

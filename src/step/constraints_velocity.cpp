@@ -7,8 +7,7 @@
 namespace curtain {
 
 // Applies a share of the last substep's forces between nodes to the velocities, and leaves it in the multipliers.
-void Constraints::spreadForces(const LineSolve& warp, const LineSolve& weft, const Contacts* contacts,
-                               double share) noexcept {
+void Constraints::spreadForces(const LineSolve& warp, const LineSolve& weft, double share) noexcept {
   forEachBlock([&](int block) {
     for (int i = 0; i < pattern_.grid.rows; ++i) {
       const std::size_t first = pattern_.grid.row(i) + static_cast<std::size_t>(block) * kLane;
@@ -20,27 +19,21 @@ void Constraints::spreadForces(const LineSolve& warp, const LineSolve& weft, con
     for (std::size_t n = 0; n < pattern_.grid.size(); ++n) change_[n] = share * last_weft_[n];
     for (int i = 0; i < pattern_.grid.rows; ++i) pullWeft(weft, i, change_);
   }
-  distances_.spread(share, inertia_.masses(), warp.value);
-  for (std::size_t n = 0; contacts != nullptr && n < contacts->size(); ++n) {
-    const Contact& contact = (*contacts)[n];
-    if (contact.pushes())
-      contact.move(inertia_.masses(), share * (contact.push * contact.normal + contact.slide), warp.value);
-  }
+  for (RowMaker* maker : makers_) maker->spread(share, inertia_.masses(), warp.value);
 }
 
-void Constraints::addPulls(const Field3& position, const Contacts* contacts, double share, Field3& velocity) noexcept {
+void Constraints::addPulls(const Field3& position, double share, Field3& velocity) noexcept {
   setWarpDirections(pattern_.grid, position, warp_.direction);
   if (stringsPull()) setWeftDirectionsAt(position);
-  spreadForces({pattern_, inertia_.masses(), warp_, velocity}, {pattern_, inertia_.masses(), weft_, velocity}, contacts,
-               share);
+  spreadForces({pattern_, inertia_.masses(), warp_, velocity}, {pattern_, inertia_.masses(), weft_, velocity}, share);
 }
 
-void Constraints::project(const Field3& position, const Contacts* contacts, double share, Field3& velocity) noexcept {
+void Constraints::project(const Field3& position, double share, Field3& velocity) noexcept {
   setWarpDirections(pattern_.grid, position, warp_.direction);
 
   const LineSolve warp{pattern_, inertia_.masses(), warp_, velocity, guide_};
   const LineSolve weft{pattern_, inertia_.masses(), weft_, velocity, guide_};
-  const bool presses = contacts != nullptr && anyPushes(*contacts);
+  const bool presses = anyPushes(contacts_.all());
   const bool alone = !stringsPull() && !presses;
   const auto settle = [&] {
     if (guide_ != nullptr) guide_->settleRates(velocity);
@@ -51,7 +44,7 @@ void Constraints::project(const Field3& position, const Contacts* contacts, doub
   };
   if (weft_pulls_) std::copy(last_weft_.begin(), last_weft_.end(), weft_.multiplier.begin());  // which links pull
   if (!alone) setWeftDirectionsAt(position);
-  if (share > 0.0) spreadForces(warp, weft, contacts, share);
+  if (share > 0.0) spreadForces(warp, weft, share);
   settle();
   solveRods();
   if (alone) return;
@@ -59,19 +52,14 @@ void Constraints::project(const Field3& position, const Contacts* contacts, doub
   double first_rate = 0.0;
   for (int round = 0; round < (presses ? kContactRounds : kVelocityRounds); ++round) {
     double rate = worstOfRows([&](int i) { return measureWeftRates(weft, i, violation_, active_); });
-    if (distances_.any()) rate = std::max(rate, distances_.measureRates(velocity));
-    if (presses) rate = std::max(rate, contactRate(*contacts, velocity) / middle_rest_);
+    for (RowMaker* maker : makers_) rate = std::max(rate, maker->measureRates(velocity));
     if (round == 0) first_rate = rate;
     if (rate == 0.0 || (round > 0 && rate <= kVelocityReduction * first_rate)) break;
-    rows_.clear();
-    if (presses) addContactRateRows(*contacts, velocity, rows_);
-    contact_rows_ = rows_.size();
-    distances_.addRows(rows_);
+    makeRows(velocity, true);
     net_.solve(violation_, active_, rows_,
                {rate * middle_rest_, kVelocityDamping, kVelocityReduction, kVelocityIterations}, change_);
     for (int i = 0; i < pattern_.grid.rows; ++i) pullWeft(weft, i, change_);
-    distances_.moveByRows(distanceRows(), inertia_.masses(), velocity);
-    if (presses) moveByContacts(inertia_.masses(), contactRows(), *contacts, velocity);
+    for (RowMaker* maker : makers_) maker->moveBy(rows_, inertia_.masses(), velocity);
     settle();
     solveRods();
   }

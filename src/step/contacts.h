@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Contacts as the solvers see them: one-sided constraints on up to four nodes, with Coulomb friction. They are rows of
-// the same system as the links; src/contact finds them.
+// Contacts as the solvers see them: one-sided constraints on up to four nodes, with Coulomb friction. src/contact finds
+// them.
 //
 // A contact point is a fixed combination of nodes, p = sum weight_k x_k (against an obstacle: a point of the cloth; in
 // self-contact: the difference of two points, so the weights add up to 0). The constraint is normal . p >= offset. Its
@@ -61,8 +61,14 @@ struct Contact {
     }
   }
   bool pushes() const noexcept { return push > 0.0 || press > 0.0; }
+  Vec3 across(const Vec3& v) const { return v - normal.dot(v) * normal; }
   /// Bound of slide [kg m].
   double mostSlide() const noexcept { return press > 0.0 ? hold : friction * push; }
+  /// Projection on Coulomb's disc.
+  Vec3 boundedSlide(const Vec3& wanted) const {
+    const double size = wanted.norm(), most = mostSlide();
+    return size > most ? Vec3(wanted * (most / size)) : wanted;
+  }
   /// A change of push within its bound.
   double boundedChange(double change) const noexcept { return press > 0.0 ? change : std::max(change, -push); }
 };
@@ -73,19 +79,6 @@ using Contacts = std::vector<Contact>;
 /// times `ratio`, which moves the nodes. scale: h * kick [s^2].
 void beginContacts(const Field& inverse_inertia, double scale, double ratio, std::size_t first, Contacts& contacts,
                    Field3& position) noexcept;
-
-/// Penetration [m], or (negative) separation of a contact that pushes; 0: the constraint is satisfied.
-inline double contactViolation(const Contact& contact, const Field3& position) noexcept {
-  const double entered = contact.offset - contact.normal.dot(contact.point(position));
-  return entered > 0.0 || contact.pushes() ? entered : 0.0;
-}
-
-/// Largest of these, and of the slip of sticking contacts [m]; infinite when a position is not finite. recovers: count
-/// penetration that `recovery` should take out; false: only deeper penetration.
-double contactResidual(const Contacts& contacts, const Field3& position, bool recovers = true) noexcept;
-
-/// Largest normal speed of a pushing contact, or (sticking) slip speed [m/s].
-double contactRate(const Contacts& contacts, const Field3& velocity) noexcept;
 
 /// Largest speed of an obstacle's point that is pushed on [m/s].
 double fastestSurface(const Contacts& contacts) noexcept;
@@ -102,19 +95,43 @@ bool pressesOnObstacle(const Contacts& contacts) noexcept;
 /// Friction of the contacts that are not solved for as sticking, one after the other. Moves nodes.
 void projectFriction(const Field& inverse_inertia, Contacts& contacts, Field3& position) noexcept;
 
-/// Adds a row along the normal of every contact that pushes or penetrates, and two tangential ones where it sticks.
-void addContactRows(const Contacts& contacts, const Field3& position, Rows& rows);
-/// The same of velocities, for the contacts that push.
-void addContactRateRows(const Contacts& contacts, const Field3& velocity, Rows& rows);
-
-/// Adds a share of what was found for the contacts' rows to their multipliers, bounded to push >= 0 and Coulomb's disc.
-/// Moves nodes.
-void takeUpContacts(const Field& inverse_inertia, RowRange rows, double share, Contacts& contacts,
-                    Field3& position) noexcept;
-/// Moves velocities by what was found for the contacts' rate rows.
-void moveByContacts(const Field& inverse_inertia, RowRange rows, const Contacts& contacts, Field3& velocity) noexcept;
-
 /// Solves each contact by itself, one after the other, for schemes without a joint solve. Moves nodes.
 void projectContacts(const Field& inverse_inertia, Contacts& contacts, Field3& position) noexcept;
+
+/// Contacts in the solve: a row along the normal of each that pushes or penetrates, and two across it where it sticks.
+class ContactRows final : public RowMaker {
+ public:
+  /// links: a typical link's length [m].
+  explicit ContactRows(double links) : links_(links) {}
+  /// Reserves room for so many contacts.
+  void expect(std::size_t count) { best_.reserve(count); }
+
+  /// Those of the substep being made; null: nothing can touch.
+  void set(Contacts* contacts) noexcept { all_ = solved_ = contacts != nullptr ? contacts : &none_; }
+  /// Those of the last substep, for velocities; null: none pushed.
+  void show(const Contacts* contacts) noexcept { all_ = contacts != nullptr ? contacts : &none_; }
+  const Contacts& all() const noexcept { return *all_; }
+
+  /// Largest penetration, separation of a contact that pushes, or slip of one that sticks [m]; infinite when a position
+  /// is not finite. recovers: count penetration that Contact::recovery should take out; false: only deeper penetration.
+  double residual(const Field3& position, bool recovers) const noexcept;
+  /// Friction of those that are not solved for as sticking. Moves nodes.
+  void slide(const Field& inverse, Field3& position) noexcept { projectFriction(inverse, *solved_, position); }
+
+  void addRows(const Field3& value, bool rates, Rows& rows) const override;
+  void takeUp(const Rows& rows, double share, const Field& inverse, Field3& position) noexcept override;
+  void addSquares(const Field3& position, double& sum) const noexcept override;
+  void saveIterate() override { best_ = *solved_; }
+  void restoreIterate() noexcept override { *solved_ = best_; }
+  double measureRates(const Field3& velocity) noexcept override;
+  void moveBy(const Rows& rows, const Field& inverse, Field3& velocity) const noexcept override;
+  void spread(double share, const Field& inverse, Field3& velocity) const noexcept override;
+
+ private:
+  const double links_;
+  Contacts none_, best_;
+  const Contacts* all_ = &none_;
+  Contacts* solved_ = &none_;
+};
 
 }  // namespace curtain

@@ -28,13 +28,10 @@ double DistanceRows::unitOf(const DistanceRow& row) const noexcept { return std:
 
 // ---- A substep
 
-void DistanceRows::begin(const SubstepStart& start, const ClothState& state, const Field& inverse, bool drives,
-                         Field3& next) noexcept {
+bool DistanceRows::begin(const SubstepStart& start, const ClothState& state, const Field& inverse, bool drives,
+                         double ratio, Field3& next) noexcept {
   scale_ = start.h * start.kick;
   for (RowPart* part : parts_) part->begin(start, state, inverse, drives, next);
-}
-
-bool DistanceRows::warmStart(double ratio) noexcept {
   for (DistanceRow& row : all_) row.multiplier = row.holds ? ratio * row.last : 0.0;
   return ratio != 0.0 && pulls();
 }
@@ -74,17 +71,17 @@ double DistanceRows::measure(const Field& inverse, const Field3& position) noexc
   return worst;
 }
 
-double DistanceRows::squares() const noexcept {
-  double sum = 0.0;
+void DistanceRows::addSquares(const Field3& /*position*/, double& sum) const noexcept {
+  double own = 0.0;
   for (const DistanceRow& row : all_) {
     const double relative = row.active ? row.violation / (row.length * unitOf(row)) : 0.0;
-    sum += relative * relative;
+    own += relative * relative;
   }
-  return sum;
+  sum += own;
 }
 
 // A row's multiplier is the distance's times its length: the direction is a unit vector, as a contact's.
-void DistanceRows::addRows(Rows& rows) const {
+void DistanceRows::addRows(const Field3& /*value*/, bool /*rates*/, Rows& rows) const {
   for (std::size_t r = 0; r < all_.size(); ++r) {
     const DistanceRow& distance = all_[r];
     if (!distance.holds) continue;
@@ -104,14 +101,17 @@ void DistanceRows::addRows(Rows& rows) const {
   }
 }
 
-void DistanceRows::moveByRows(RowRange rows, const Field& inverse, Field3& value) const noexcept {
-  for (const Row& row : rows) move(all_[row.key], row.change / all_[row.key].length, inverse, value);
+void DistanceRows::moveBy(const Rows& rows, const Field& inverse, Field3& value) const noexcept {
+  for (std::size_t r = first_row; r < end_row; ++r) {
+    const DistanceRow& distance = all_[rows[r].key];
+    move(distance, rows[r].change / distance.length, inverse, value);
+  }
 }
 
-void DistanceRows::takeUp(RowRange rows, double share) noexcept {
-  for (const Row& row : rows) {
-    DistanceRow& distance = all_[row.key];
-    distance.multiplier = std::max(0.0, distance.multiplier + share * row.change / distance.length);
+void DistanceRows::takeUp(const Rows& rows, double share, const Field& /*inverse*/, Field3& /*position*/) noexcept {
+  for (std::size_t r = first_row; r < end_row; ++r) {
+    DistanceRow& distance = all_[rows[r].key];
+    distance.multiplier = std::max(0.0, distance.multiplier + share * rows[r].change / distance.length);
   }
 }
 

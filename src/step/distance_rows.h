@@ -11,8 +11,7 @@
 
 namespace curtain {
 
-/// Not thread-safe. Allocates only in the constructor.
-class DistanceRows {
+class DistanceRows final : public RowMaker {
  public:
   /// most_give: bound of the relative overlength by compliance; links: a typical link's length [m]. All arguments must
   /// outlive this.
@@ -24,31 +23,25 @@ class DistanceRows {
 
   // ---- A substep
 
-  /// drives: parts do.
-  void begin(const SubstepStart& start, const ClothState& state, const Field& inverse, bool drives,
+  /// Starts with the last substep's multipliers times ratio; true: one is not zero. drives: parts do.
+  bool begin(const SubstepStart& start, const ClothState& state, const Field& inverse, bool drives, double ratio,
              Field3& next) noexcept;
-  /// Starts with the last substep's multipliers times ratio; true: one is not zero.
-  bool warmStart(double ratio) noexcept;
   void setDirections(const Field3& position) noexcept;
   /// Moves nodes by the present multipliers.
   void pull(const Field& inverse, Field3& value) const noexcept;
   /// Sets violation and active of each; returns the largest violation over a unit of those that take part, infinite
   /// when a position is not finite.
   double measure(const Field& inverse, const Field3& position) noexcept;
-  /// Sum of the squares of what measure() has found.
-  double squares() const noexcept;
-  /// Adds a row for each that holds, of what measure() or measureRates() has found.
-  void addRows(Rows& rows) const;
-  /// Moves nodes by what was found for these rows.
-  void moveByRows(RowRange rows, const Field& inverse, Field3& value) const noexcept;
-  /// Adds a share of what was found to the multipliers, which stay >= 0.
-  void takeUp(RowRange rows, double share) noexcept;
+  /// A row for each that holds, of what measure() or measureRates() has found.
+  void addRows(const Field3& value, bool rates, Rows& rows) const override;
+  void takeUp(const Rows& rows, double share, const Field& inverse, Field3& position) noexcept override;
+  void addSquares(const Field3& position, double& sum) const noexcept override;
+  void saveIterate() noexcept override;
+  void restoreIterate() noexcept override;
   /// Work of the rows that give in a substep to `next` [J], by their present multipliers.
   double elasticWork(const SubstepStart& start, const Field3& next) const noexcept;
   /// Speed of the fastest part that drives in this substep [m/s]; 0: none.
   double speed() const noexcept;
-  void saveIterate() noexcept;
-  void restoreIterate() noexcept;
 
   /// Accepts: parts set their state; adds to the loads of nodes. Returns the largest load over its mass.
   double commit(const SubstepStart& start, const Field3& next, ClothState& state, Field& load) noexcept;
@@ -63,8 +56,6 @@ class DistanceRows {
   Vec3 pullAt(std::size_t node) const noexcept { return sumAt(node, &DistanceRow::last); }
   /// The same of the multipliers being solved for.
   Vec3 presentPullAt(std::size_t node) const noexcept { return sumAt(node, &DistanceRow::multiplier); }
-  /// Adds the pulls of the last substep times share to nodal values along the present directions.
-  void spread(double share, const Field& inverse, Field3& value) const noexcept;
   /// Elastic energy of the rows that give [J].
   double energy(const Field3& position) const noexcept;
   /// RowPart::work() of all parts [J].
@@ -76,9 +67,10 @@ class DistanceRows {
 
   // ---- Velocities
 
-  /// Those that pulled take part, with dC/dt = d . (v_other - v_node) - length * rate [m^2/s]. Returns the largest over
-  /// length times unit.
-  double measureRates(const Field3& velocity) noexcept;
+  /// Those that pulled take part, with dC/dt = d . (v_other - v_node) - length * rate [m^2/s].
+  double measureRates(const Field3& velocity) noexcept override;
+  void moveBy(const Rows& rows, const Field& inverse, Field3& value) const noexcept override;
+  void spread(double share, const Field& inverse, Field3& value) const noexcept override;
 
   struct Memory {
     std::vector<double> last;

@@ -138,9 +138,9 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const Attempt& attempt) noexce
   ContactFinder* const finder = attempt.finder;
   Contacts* const contacts = finder != nullptr ? &finder->begin(from, next, plan.h) : nullptr;
   if (finder != nullptr) attempt.clock.lap(Stage::kContact);
+  constraints_.contacts().set(contacts);
   std::size_t known = 0;
   Progress all;
-  all.contacts = contacts;
   while (true) {
     if (contacts != nullptr) {
       beginContacts(inertia_.inverse(), std::abs(attempt.scale()), attempt.ratio, known, *contacts, constraints_.next);
@@ -148,7 +148,7 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const Attempt& attempt) noexce
       known = contacts->size();
       if (known > 0 && task.path == 0.0) task.path = plan.h * std::sqrt(meanSquare(attempt.state.velocity));
     }
-    const SweepOutcome solved = sweeps_.run(task, contacts, attempt.clock);
+    const SweepOutcome solved = sweeps_.run(task, attempt.clock);
     all.sweeps += solved.sweeps;
     all.end = solved.end;
     all.predicted_violation = std::max(all.predicted_violation, solved.predicted_violation);
@@ -173,25 +173,24 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const Attempt& attempt) noexce
 
 // Rods alone do no work in steady motion if they pull along their directions half way between the velocities.
 bool ExactSolver::needsEnergyCheck(const Attempt& attempt, const Progress& progress) const noexcept {
-  const bool rods_alone = progress.alone() && !constraints_.stringsAct();
+  const bool rods_alone = !anyPushes(contacts()) && !constraints_.stringsAct();
   return !rods_alone || attempt.scheme.rules().follows || !EnergyAccount::isSmall(progress.predicted_violation);
 }
 
 // Decides whether the substep may be accepted: it gains no energy.
 void ExactSolver::judge(const Attempt& attempt, Progress& progress, SubstepOutcome& outcome) noexcept {
   const bool last_resort = attempt.plan.isLastResort();
-  const Contacts none;
-  const Contacts& contacts = progress.contacts != nullptr ? *progress.contacts : none;
+  const bool touches = anyPushes(contacts());
   const double parts = constraints_.distances().speed();
-  const EnergyAccount::Drive drive{std::max(parts, fastestSurface(contacts)),
-                                   std::max(parts, fastestDrive(contacts, attempt.state.position, attempt.plan.h)),
+  const EnergyAccount::Drive drive{std::max(parts, fastestSurface(contacts())),
+                                   std::max(parts, fastestDrive(contacts(), attempt.state.position, attempt.plan.h)),
                                    2.0 * constraints_.distances().elasticWork(attempt.start, constraints_.next) +
                                        (constraints_.guide() != nullptr ? constraints_.guide()->energy() : 0.0)};
-  if (progress.late || (last_resort && progress.alone())) {
+  if (progress.late || (last_resort && !touches)) {
     progress.energy.most = account_.most(attempt.scheme.rules(), attempt.start, constraints_.next, drive);
   } else if (!last_resort && progress.settled && needsEnergyCheck(attempt, progress)) {
-    const double can_hold = 2.0 * constraints_.canHold(attempt.plan.h, progress.contacts, stretch_tolerance_,
-                                                       stretch_tolerance_ * smallest_rest_);
+    const double can_hold =
+        2.0 * constraints_.canHold(attempt.plan.h, stretch_tolerance_, stretch_tolerance_ * smallest_rest_);
     progress.energy = account_.entryOf(attempt.scheme.rules(), attempt.start, constraints_.next, drive, can_hold);
     const double made = progress.energy.made;
     if (made > account_.fromTolerance(attempt.plan.h) &&
@@ -199,7 +198,7 @@ void ExactSolver::judge(const Attempt& attempt, Progress& progress, SubstepOutco
       progress.settled = false;
   }
   outcome.sweeps = progress.sweeps;
-  outcome.touches = !progress.alone();
+  outcome.touches = touches;
   outcome.settled = progress.settled;
   outcome.late = progress.late;
 }
@@ -207,7 +206,7 @@ void ExactSolver::judge(const Attempt& attempt, Progress& progress, SubstepOutco
 // End of the last resort: moves along the path as far as the links allow.
 void ExactSolver::boundPath(const Attempt& attempt, const Progress& progress, SubstepOutcome& outcome) noexcept {
   Field3& next = constraints_.next;
-  const bool verified = progress.contacts == nullptr || !progress.late;
+  const bool verified = attempt.finder == nullptr || !progress.late;
   if (progress.end == SweepEnd::kDiverged || !verified || !isWithinNumbers(next)) {
     next = last_resort_.follows();
     outcome.share = 0.0;
@@ -237,13 +236,13 @@ void ExactSolver::take(const Attempt& attempt, const Progress& progress, Substep
   if (std::isfinite(progress.energy.most)) account_.bound(progress.energy.most, state.velocity);
   account_.setHeld(progress.energy.held);
   outcome.omega_squared = inertia_.omegaSquared();
-  if (progress.alone() && !constraints_.stringsPull()) outcome.turning = turning(outcome.kick);
-  const double fastest = progress.contacts != nullptr ? fastestSurface(*progress.contacts) : 0.0;
+  if (!anyPushes(contacts()) && !constraints_.stringsPull()) outcome.turning = turning(outcome.kick);
+  const double fastest = fastestSurface(contacts());
   if (fastest > 0.0) outcome.longest_step = kMostSurfaceMotion * smallest_rest_ / fastest;
   // Such a substep also moved links to their lengths, which is no motion: project the velocities.
   if ((progress.end != SweepEnd::kConverged || plan.isLastResort()) && !progress.late) {
     if (constraints_.guide() != nullptr) constraints_.guide()->beginRates(state, 0.0, state.velocity);
-    projectVelocity(state.position, progress.contacts, 0.0, state.velocity);
+    projectVelocity(state.position, 0.0, state.velocity);
   }
 }
 
@@ -292,8 +291,9 @@ void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& f
   }
   if (age == 0.0) return;
   if (constraints_.guide() != nullptr) constraints_.guide()->beginRates(state, age, out);
-  const double most = account_.most(out, contacts != nullptr ? fastestSurface(*contacts) : 0.0);
-  projectVelocity(state.position, contacts, age / inertia_.tensions().scale, out);
+  constraints_.contacts().show(contacts);
+  const double most = account_.most(out, fastestSurface(constraints_.contacts().all()));
+  projectVelocity(state.position, age / inertia_.tensions().scale, out);
   account_.bound(most, out);
 }
 
@@ -308,7 +308,8 @@ const Field3* ExactSolver::elasticAt(const Field3& position, double& energy) noe
 void ExactSolver::copyPulls(const ClothState& state, const Contacts* contacts, Field3& out) noexcept {
   out.assign(pattern_.grid.size(), 0.0);
   const double scale = inertia_.tensions().scale;
-  if (scale != 0.0) constraints_.addPulls(state.position, contacts, 1.0 / scale, out);
+  constraints_.contacts().show(contacts);
+  if (scale != 0.0) constraints_.addPulls(state.position, 1.0 / scale, out);
   double elastic = 0.0;
   const Field3* const stiff = elasticAt(state.position, elastic);
   for (std::size_t n = 0; stiff != nullptr && n < pattern_.grid.size(); ++n) {
@@ -317,11 +318,10 @@ void ExactSolver::copyPulls(const ClothState& state, const Contacts* contacts, F
 }
 
 // Keeps the momentum of cloth without pins.
-void ExactSolver::projectVelocity(const Field3& position, const Contacts* contacts, double share,
-                                  Field3& out) noexcept {
-  const bool keeps = free_ && (contacts == nullptr || !pressesOnObstacle(*contacts));
+void ExactSolver::projectVelocity(const Field3& position, double share, Field3& out) noexcept {
+  const bool keeps = free_ && !pressesOnObstacle(contacts());
   const Momentum before = keeps ? momentumOf(pattern_, position, out) : Momentum();
-  constraints_.project(position, contacts, share, out);
+  constraints_.project(position, share, out);
   if (!keeps) return;
   const Momentum after = momentumOf(pattern_, position, out);
   const RigidMotion motion =

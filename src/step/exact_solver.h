@@ -138,9 +138,6 @@ class ExactSolver {
     double predicted_violation = 0.0;  // of SweepOutcome
     EnergyAccount::Entry energy;
     int sweeps = 0;
-    const Contacts* contacts = nullptr;  // null: nothing can touch
-
-    bool alone() const noexcept { return contacts == nullptr || !anyPushes(*contacts); }
   };
   Scheme& schemeOf(SchemeKind kind) noexcept;
   Attempt predict(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder, ClothState& state,
@@ -152,8 +149,9 @@ class ExactSolver {
   double meanSquare(const Field3& velocity) const noexcept;
   bool needsEnergyCheck(const Attempt& attempt, const Progress& progress) const noexcept;
   void keepMomentum(const SubstepStart& start) noexcept;
-  void projectVelocity(const Field3& position, const Contacts* contacts, double share, Field3& out) noexcept;
+  void projectVelocity(const Field3& position, double share, Field3& out) noexcept;
   double turning(double kick) const noexcept;
+  const Contacts& contacts() const noexcept { return constraints_.contacts().all(); }
 
   const ClothPattern& pattern_;
   bool free_;                 // no node is pinned

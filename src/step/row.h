@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What constrains the cloth beside its rods and strings: a few nodes, along a direction. Contacts and bounded
-// distances make rows for NetSolver, which knows of neither, and take up what it has found.
+// What constrains the cloth beside its rods and strings: a few nodes, along a direction. NetSolver knows
+// the rows alone, Constraints who makes them: bounded distances and contacts.
 #pragma once
 
 #include <array>
@@ -32,13 +32,31 @@ struct Row {
 
 using Rows = std::vector<Row>;
 
-/// One maker's part of all rows.
-struct RowRange {
-  const Row* first = nullptr;
-  const Row* last = nullptr;
+/// Who constrains the cloth so. Keeps the multipliers, for whose changes Constraints solves, of all makers at once. Not
+/// thread-safe. Allocates in addRows() and saveIterate() alone, for more rows than were expected.
+class RowMaker {
+ public:
+  virtual ~RowMaker() = default;
 
-  const Row* begin() const noexcept { return first; }
-  const Row* end() const noexcept { return last; }
+  /// Adds a row for each constraint that takes part, or may join, at these positions; rates: that acted in the last
+  /// substep, for these velocities.
+  virtual void addRows(const Field3& value, bool rates, Rows& rows) const = 0;
+  /// Adds a share of what was found for its rows to the multipliers, within their bounds, and moves nodes. Where the
+  /// rows are with_rods, nodes have been moved.
+  virtual void takeUp(const Rows& rows, double share, const Field& inverse, Field3& position) noexcept = 0;
+  /// Moves velocities by what was found for its rows.
+  virtual void moveBy(const Rows& rows, const Field& inverse, Field3& velocity) const noexcept = 0;
+  /// Adds the squares of its violations, over a typical link's length.
+  virtual void addSquares(const Field3& position, double& sum) const noexcept = 0;
+  /// Largest rate of a violation, over a typical link's length [1/s].
+  virtual double measureRates(const Field3& velocity) noexcept = 0;
+  /// Moves velocities by what its constraints acted with in the last substep, times share.
+  virtual void spread(double share, const Field& inverse, Field3& velocity) const noexcept = 0;
+  /// The multipliers to return to when a sweep made things worse.
+  virtual void saveIterate() = 0;
+  virtual void restoreIterate() noexcept = 0;
+
+  std::size_t first_row = 0, end_row = 0;  ///< its own among all, as they were added
 };
 
 }  // namespace curtain

@@ -43,16 +43,16 @@ Sweeps::Aim Sweeps::aimOf(const SweepTask& task, bool first, bool touches, int s
 }
 
 // Friction is projected before contacts are measured.
-Sweeps::Residual Sweeps::look(Contacts* contacts, const Constraints::RodsProgress& rods, bool first, int sweeps,
+Sweeps::Residual Sweeps::look(const Constraints::RodsProgress& rods, bool first, int sweeps,
                               StageClock& clock) noexcept {
   Residual residual;
   residual.rods = rods;
-  const bool touches = contacts != nullptr && !contacts->empty();
-  if (touches && sweeps <= kFrictionSweeps) {
-    projectFriction(inertia_.inverse(), *contacts, constraints_.next);
+  ContactRows& contacts = constraints_.contacts();
+  if (!contacts.all().empty() && sweeps <= kFrictionSweeps) {
+    contacts.slide(inertia_.inverse(), constraints_.next);
     constraints_.settleGuide();
   }
-  if (touches) residual.touch = contactResidual(*contacts, constraints_.next);
+  residual.touch = contacts.residual(constraints_.next, true);
   clock.lap(Stage::kContact);
   residual.strings = constraints_.lookAtStrings(constraints_.stringsPull() || !first);
   return residual;
@@ -64,16 +64,16 @@ bool Sweeps::reached(const Aim& aim, const Residual& r) noexcept {
 }
 
 // Accepts the sweep if it reduces the merit; else undoes it and increases the damping. True: it was undone.
-bool Sweeps::keepOrUndo(double& residual, const Residual& now, Contacts* contacts, SweepDamping& damping) noexcept {
-  const double merit = constraints_.merit(contacts, now.rods.converged ? 0.0 : constraints_.rodsResidual());
+bool Sweeps::keepOrUndo(double& residual, const Residual& now, SweepDamping& damping) noexcept {
+  const double merit = constraints_.merit(now.rods.converged ? 0.0 : constraints_.rodsResidual());
   if (merit < best_.merit) {
     best_ = {merit, residual};
-    constraints_.saveIterate(contacts);
+    constraints_.saveIterate();
     damping.better();
     return false;
   }
   if (!std::isfinite(best_.merit)) return false;
-  constraints_.restoreIterate(contacts);
+  constraints_.restoreIterate();
   residual = best_.residual;
   damping.worse();
   return true;
@@ -84,8 +84,8 @@ bool Sweeps::isWithin(double touch) noexcept {
   return touch <= most_touch_ && constraints_.rodsResidual() <= allowed && constraints_.lookAtStrings(true) <= allowed;
 }
 
-SweepOutcome Sweeps::run(const SweepTask& task, Contacts* contacts, StageClock& clock) noexcept {
-  const bool touches = contacts != nullptr && !contacts->empty();
+SweepOutcome Sweeps::run(const SweepTask& task, StageClock& clock) noexcept {
+  const bool touches = !constraints_.contacts().all().empty();
   SweepOutcome outcome;
   SweepDamping damping(task.last_resort ? kMostDamping : kLargestDamping);
   StallWatch watch;
@@ -107,7 +107,7 @@ SweepOutcome Sweeps::run(const SweepTask& task, Contacts* contacts, StageClock& 
     if (first) outcome.predicted_violation = rods.first_residual;
     if (!rods.converged && !task.last_resort) return {SweepEnd::kDiverged, false, outcome.sweeps};
     ++outcome.sweeps;
-    const Residual now = look(contacts, rods, first, outcome.sweeps, clock);
+    const Residual now = look(rods, first, outcome.sweeps, clock);
     touch = now.touch;
     if (reached(aim, now)) {
       clock.lap(Stage::kWeft);
@@ -120,7 +120,7 @@ SweepOutcome Sweeps::run(const SweepTask& task, Contacts* contacts, StageClock& 
     }
     bool undone = false;
     if (task.last_resort) {
-      undone = keepOrUndo(residual, now, contacts, damping);
+      undone = keepOrUndo(residual, now, damping);
       if (undone && damping.exhausted(residual)) break;
     } else if (residual > before) {
       damping.worse();  // too far along directions that hardly anything constrains
@@ -138,7 +138,7 @@ SweepOutcome Sweeps::run(const SweepTask& task, Contacts* contacts, StageClock& 
       const bool newton = !touches && !task.last_resort;
       const double worth = newton ? residual : follow ? kReduction : kContactReduction;
       const double enough = std::min(kReduction, std::max(kReduction * aim.links / residual, worth));
-      constraints_.solveNet({residual, enough, damping.at(residual), newton}, contacts);
+      constraints_.solveNet({residual, enough, damping.at(residual), newton});
     }
     clock.lap(Stage::kWeft);
     if (clock.late()) {
@@ -147,15 +147,15 @@ SweepOutcome Sweeps::run(const SweepTask& task, Contacts* contacts, StageClock& 
     }
     if (!task.last_resort && watch.stalls(outcome.sweeps, std::max(rods.first_residual, residual))) break;
   }
-  return conclude(outcome, touch, contacts);
+  return conclude(outcome, touch);
 }
 
 // The solve did not converge; it may still be within the user's tolerance.
-SweepOutcome Sweeps::conclude(SweepOutcome outcome, double touch, Contacts* contacts) noexcept {
+SweepOutcome Sweeps::conclude(SweepOutcome outcome, double touch) noexcept {
   if (std::isfinite(best_.merit)) {
     if (outcome.end == SweepEnd::kDiverged) outcome.end = SweepEnd::kStalled;
-    constraints_.restoreIterate(contacts);
-    if (contacts != nullptr && !contacts->empty()) touch = contactResidual(*contacts, constraints_.next, false);
+    constraints_.restoreIterate();
+    touch = constraints_.contacts().residual(constraints_.next, false);
   }
   outcome.within = outcome.end != SweepEnd::kDiverged && isWithin(touch);
   return outcome;

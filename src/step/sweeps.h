@@ -82,8 +82,8 @@ class Sweeps {
     contact_tolerance_ = kInnerTolerance * contact_tolerance;
   }
 
-  /// Moves constraints.next to satisfy links and contacts; contacts: null where nothing can touch.
-  SweepOutcome run(const SweepTask& task, Contacts* contacts, StageClock& clock) noexcept;
+  /// Moves constraints.next to satisfy links and contacts.
+  SweepOutcome run(const SweepTask& task, StageClock& clock) noexcept;
 
  private:
   // What one sweep aims at, and what it does not correct.
@@ -97,14 +97,13 @@ class Sweeps {
     double strings = 0.0, touch = 0.0;  // relative, [m]
   };
   Aim aimOf(const SweepTask& task, bool first, bool touches, int sweeps) const noexcept;
-  Residual look(Contacts* contacts, const Constraints::RodsProgress& rods, bool first, int sweeps,
-                StageClock& clock) noexcept;
+  Residual look(const Constraints::RodsProgress& rods, bool first, int sweeps, StageClock& clock) noexcept;
   bool reached(const Aim& aim, const Residual& residual) noexcept;
   struct Best {
     double merit = std::numeric_limits<double>::infinity(), residual = 0.0;
   };
-  bool keepOrUndo(double& residual, const Residual& now, Contacts* contacts, SweepDamping& damping) noexcept;
-  SweepOutcome conclude(SweepOutcome outcome, double touch, Contacts* contacts) noexcept;
+  bool keepOrUndo(double& residual, const Residual& now, SweepDamping& damping) noexcept;
+  SweepOutcome conclude(SweepOutcome outcome, double touch) noexcept;
   bool isWithin(double touch) noexcept;
 
   Constraints& constraints_;

@@ -33,7 +33,7 @@ struct Solve {
   }
   SweepOutcome run(bool last_resort = false) {
     const SweepTask task{state.position, last_resort, last_resort, false, 0.0, 0.0};
-    return sweeps.run(task, nullptr, clock);
+    return sweeps.run(task, clock);
   }
   double stretch() const {
     const Stretch warp = warpStretch(pattern, constraints.next);
@@ -134,10 +134,10 @@ TEST(Sweeps, TheLastResortMakesTheSumOfSquaresSmaller) {
     Solve solve(cloth(PinKind::kTopCorners), 4);
     shake(solve.pattern, 0.3, seed, solve.constraints.next);
     solve.constraints.lookAtStrings(true);
-    const double before = solve.constraints.merit(nullptr, solve.constraints.rodsResidual());
+    const double before = solve.constraints.merit(solve.constraints.rodsResidual());
     solve.run(true);
     solve.constraints.lookAtStrings(true);
-    EXPECT_LT(solve.constraints.merit(nullptr, solve.constraints.rodsResidual()), before) << seed;
+    EXPECT_LT(solve.constraints.merit(solve.constraints.rodsResidual()), before) << seed;
   }
 }
 
