@@ -2,6 +2,7 @@
 //
 // Serialization of this floor. The pattern follows from the scene.
 #include "cloth/archive.h"
+#include "cloth/stage_clock.h"
 
 namespace curtain {
 
@@ -12,6 +13,10 @@ void ClothState::carry(Archive& archive) {
   archive.finite("velocity_age", velocity_age);
   archive.finite("place", place);
   archive.finite("reach", reach);
+}
+
+void StageClock::carry(Archive& archive) {
+  for (double& seconds : seconds_) archive.number("seconds", seconds);
 }
 
 }  // namespace curtain

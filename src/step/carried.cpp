@@ -6,7 +6,6 @@
 
 #include "cloth/archive.h"
 #include "step/exact_solver.h"
-#include "step/stage_clock.h"
 #include "step/step_control.h"
 
 namespace curtain {
@@ -72,10 +71,6 @@ void StepControl::carry(Archive& archive) {
   archive.integer("asked", asked_, 1, max_substeps_);
   archive.part("trust", trust_);
   archive.integer("good", good_, 0, kCount);
-}
-
-void StageClock::carry(Archive& archive) {
-  for (double& seconds : seconds_) archive.number("seconds", seconds);
 }
 
 }  // namespace curtain

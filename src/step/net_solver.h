@@ -22,9 +22,9 @@
 #include <vector>
 
 #include "cloth/cloth.h"
+#include "cloth/workers.h"
 #include "step/guided_nodes.h"
 #include "step/net_rows.h"
-#include "step/workers.h"
 
 namespace curtain {
 

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "cloth/cloth.h"
+#include "cloth/stage_clock.h"
 #include "step/contacts.h"
-#include "step/stage_clock.h"
 
 namespace curtain {
 

@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
+#include "cloth/workers.h"
 #include "properties/random_scenes.h"
 #include "properties/seeds.h"
 #include "step/exact_solver.h"
 #include "step/schemes/composition.h"
-#include "step/workers.h"
 
 namespace curtain {
 namespace {

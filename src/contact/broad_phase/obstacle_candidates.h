@@ -17,11 +17,11 @@
 
 #include "cloth/cloth.h"
 #include "cloth/coarse_mesh.h"
+#include "cloth/workers.h"
 #include "contact/broad_phase/mesh_clearance.h"
 #include "contact/narrow_phase/element_pairs.h"
 #include "obstacles/obstacle_set.h"
 #include "obstacles/triangle_mesh.h"
-#include "step/workers.h"
 
 namespace curtain {
 

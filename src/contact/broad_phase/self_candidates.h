@@ -12,12 +12,12 @@
 #include <mutex>
 #include <vector>
 
+#include "cloth/workers.h"
 #include "contact/broad_phase/box_hierarchy.h"
 #include "contact/broad_phase/flat_blocks.h"
 #include "contact/broad_phase/hierarchy_pairs.h"
 #include "contact/broad_phase/neighbour_windows.h"
 #include "contact/narrow_phase/element_pairs.h"
-#include "step/workers.h"
 
 namespace curtain {
 

@@ -12,11 +12,11 @@
 // unfiltered: at rest, lines that are stiffer than the step bears are softer over lengths of (B scale / density)^(1/4).
 #pragma once
 
+#include "cloth/workers.h"
 #include "parts/bending/bending_lines.h"
 #include "parts/bending/rest_curvature.h"
 #include "step/elastic_part.h"
 #include "step/part.h"
-#include "step/workers.h"
 
 namespace curtain {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Loops that threads share: every block once, whoever comes to help and however often shifts begin and end.
-#include "step/workers.h"
+#include "cloth/workers.h"
 
 #include <gtest/gtest.h>
 

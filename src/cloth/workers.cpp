@@ -3,7 +3,7 @@
 // Blocks of a loop are taken from both ends: the caller takes the first one left, the helpers the last. So each thread
 // gets much the same blocks in every loop and finds them in its cache. Nobody waits for a thread that has not come: the
 // caller takes what is left.
-#include "step/workers.h"
+#include "cloth/workers.h"
 
 #include <tbb/task_arena.h>
 
