@@ -134,7 +134,7 @@ void Simulator::Impl::carry(Archive& archive) {
   archive.part("forces", motion.forces);
   archive.part("obstacles", motion.obstacles);
   archive.part("contact", motion.contact);
-  archive.part("exact", motion.exact);
+  archive.part("exact", motion.step);
   controls.carry(archive);
   archive.part("rest", sleep.rest());
   archive.part("budget", budget);
@@ -150,7 +150,7 @@ void Simulator::Impl::carry(Archive& archive) {
 void Simulator::Impl::resume() noexcept {
   takeKeys();
   takePins();
-  motion.exact.resume(motion.state);
+  motion.step.resume(motion.state);
   motion.contact.skipSubstep();
   motion.contact.clearCaches();
   ++revision;

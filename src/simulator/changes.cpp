@@ -121,12 +121,12 @@ std::vector<Problem> Simulator::setState(const std::vector<Vec3>& positions, con
     }
   }
   motion.state.velocity_age = 0.0;
-  motion.exact.reset();
+  motion.step.reset();
   for (Part* const part : motion.parts.all) part->placed(before, motion.state);
   motion.contact.forget();
   motion.forgetVelocities();
   motion.measureState();
-  im.motion.exact.account().leaveOpen();
+  im.motion.step.account().leaveOpen();
   if (im.errors) im.errors->lose();
   ++im.revision;
   return problems;

@@ -51,12 +51,12 @@ double ClosedFrames::energyWithoutLinks() const noexcept {
     if (motion_.pattern.pinned[n] != kPinned) kinetic += 0.5 * m * (state.velocity.at(n) + fall).squaredNorm();
     potential -= m * motion_.scene.gravity.dot(state.position.at(n));
   }
-  potential += motion_.exact.elasticEnergy(*motion_.forces.last().force, state.position);
+  potential += motion_.step.elasticEnergy(*motion_.forces.last().force, state.position);
   return kinetic + potential;
 }
 
 void ClosedFrames::endFrame() {
-  EnergyAccount& account = motion_.exact.account();
+  EnergyAccount& account = motion_.step.account();
   if (!isClosed()) {
     if (account.isClosed()) controls_.main.askFor(1);
     account.leaveOpen();

@@ -18,7 +18,7 @@ class ClosedFrames {
 
   /// Takes the energy at the start.
   void beginFrame() {
-    if (!motion_.exact.account().isClosed()) endFrame();
+    if (!motion_.step.account().isClosed()) endFrame();
   }
   void endFrame();
   /// The pattern's pins have changed.

@@ -60,19 +60,19 @@ double FrameLoop::makeSubstep(double done) {
 
 SubstepPlan FrameLoop::plan(StepControl& steps, double done) {
   if (budget_.any()) steps.allow(budget_.affordable(Budget::Clock::now()));
-  return steps.next(motion_.times.length() - done, motion_.exact);
+  return steps.next(motion_.times.length() - done, motion_.step);
 }
 
 bool FrameLoop::makeStages(const SubstepPlan& plan, double done) {
   const auto oneWay = [](const Part& part) { return !part.reversible(); };
-  if (controls_.plain_frames > 0 || motion_.exact.stringsPull() || motion_.parts.all.any(oneWay)) return false;
+  if (controls_.plain_frames > 0 || motion_.step.stringsPull() || motion_.parts.all.any(oneWay)) return false;
   motion_.save(before_);
   double at = done;
   for (const double gamma : kStages) {
     SubstepPlan stage = plan;
     stage.h = gamma * plan.h;
     const SubstepOutcome outcome = motion_.attempt(stage, at);
-    if (!outcome.accepted || motion_.exact.stringsPull() || (motion_.contact.wanted() && motion_.contact.any())) {
+    if (!outcome.accepted || motion_.step.stringsPull() || (motion_.contact.wanted() && motion_.contact.any())) {
       motion_.restore(before_);
       motion_.contact.takeBack(at - done);
       return false;

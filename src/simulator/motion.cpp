@@ -18,10 +18,10 @@ Motion::Motion(const Scene& scene_, const ClothPattern& pattern_, const FrameTim
       forces(scene, pattern, parts.all),
       contact(pattern, scene.contact, obstacles, scene.solver.stretch_tolerance, workers),
       lag(pattern, times, obstacles, contact),
-      exact(pattern, parts.forSolver(), scene.solver.stretch_tolerance, scene.solver.max_sweeps, workers),
+      step(pattern, parts.forSolver(), scene.solver.stretch_tolerance, scene.solver.max_sweeps, workers),
       paper(pattern) {
   measureParts();
-  exact.expectContacts(contact.capacity());
+  step.expectContacts(contact.capacity());
   velocities_.assign(pattern.grid.size(), 0.0);
   pulls_.assign(pattern.grid.size(), 0.0);
 }
@@ -31,11 +31,11 @@ void Motion::reset() {
   forces.reset();
   obstacles.reset();
   contact.forget();
-  exact.reset();
+  step.reset();
   for (Part* const part : parts.all) part->reset(state);
   clock.reset();
   statistics = Statistics();
-  exact.account().restore({});
+  step.account().restore({});
   measureParts();
   velocities_fresh_ = false;
 }
@@ -50,14 +50,14 @@ SubstepOutcome Motion::attempt(const SubstepPlan& plan, double done) {
     lag.setSubstep(plan, done, state.position);
   SubstepAhead ahead;
   if (forces.begin(state, statistics.time + done, done, plan.h)) {
-    exact.copyPulls(state, pushing(), pulls_);
-    ahead = {exact.kickOf(plan, state), exact.isBackward(plan), &pulls_};
+    step.copyPulls(state, pushing(), pulls_);
+    ahead = {step.kickOf(plan, state), step.isBackward(plan), &pulls_};
   }
   const NodeForces& now = forces.evaluate(state, ahead);
   clock.lap(Stage::kForces);
-  if (counts_work) exact.account().open(state);
+  if (counts_work) step.account().open(state);
   const SubstepOutcome outcome =
-      by_paper ? paper.substep(now, plan.h, finder, state, clock) : exact.substep(plan, now, finder, state, clock);
+      by_paper ? paper.substep(now, plan.h, finder, state, clock) : step.substep(plan, now, finder, state, clock);
   statistics.sweeps += outcome.sweeps;
   statistics.sweeps_last += outcome.sweeps;
   if (counts_work && outcome.accepted) book(now, plan.h, outcome);
@@ -65,18 +65,18 @@ SubstepOutcome Motion::attempt(const SubstepPlan& plan, double done) {
 }
 
 void Motion::book(const NodeForces& acting, double h, const SubstepOutcome& outcome) noexcept {
-  EnergyAccount& account = exact.account();
+  EnergyAccount& account = step.account();
   const bool by_paper = scene.solver.method == Method::kPaper;
   if (by_paper)
     account.bookForces(state.velocity, acting, nullptr, outcome.kick);
   else
-    exact.book(state, acting, outcome);
+    step.book(state, acting, outcome);
   account.bookContacts(contact.contacts(), outcome.scale != 0.0 ? outcome.kick / outcome.scale : 1.0 / h);
 }
 
 void Motion::taken(double h, const SubstepOutcome& outcome) noexcept {
   contact.afterSubstep(outcome.settled, h, outcome, state.position);
-  const ExactSolver* const links = scene.solver.method == Method::kPaper ? nullptr : &exact;
+  const Step* const links = scene.solver.method == Method::kPaper ? nullptr : &step;
   const SubstepMade made{h, state, forces.last(), links, pushing(), outcome.scale};
   for (Part* const part : parts.all) part->substepTaken(made);
 }
@@ -87,31 +87,31 @@ bool Motion::driven() const {
 
 void Motion::takePins() {
   contact.takePins();
-  exact.takePins();
+  step.takePins();
   if (scene.solver.method == Method::kPaper) paper.takePins();
 }
 
 void Motion::repinned() noexcept {
   contact.invalidateStart();
-  exact.repinned();
+  step.repinned();
   velocities_fresh_ = false;
 }
 
 void Motion::save(Checkpoint& checkpoint) const {
   checkpoint.state = state;
-  exact.save(checkpoint.memory);
-  checkpoint.work = exact.account().work();
+  step.save(checkpoint.memory);
+  checkpoint.work = step.account().work();
 }
 
 void Motion::restore(const Checkpoint& checkpoint) {
   state = checkpoint.state;
-  exact.restore(checkpoint.memory);
-  exact.account().restore(checkpoint.work);
+  step.restore(checkpoint.memory);
+  step.account().restore(checkpoint.work);
   contact.invalidateStart();
   velocities_fresh_ = false;
 }
 
-void Motion::computeVelocities() noexcept { exact.currentVelocities(state, forces.last(), pushing(), velocities_); }
+void Motion::computeVelocities() noexcept { step.currentVelocities(state, forces.last(), pushing(), velocities_); }
 
 const Field3& Motion::velocities() {
   if (velocities_fresh_) return velocities_;
@@ -139,8 +139,8 @@ Energy Motion::energy() {
     energy.potential -= pattern.mass[n] * scene.gravity.dot(state.position.at(n));
   }
   double elastic = 0.0;
-  exact.elasticAt(state.position, elastic);
-  energy.potential += elastic + exact.distances().energy(state.position);
+  step.elasticAt(state.position, elastic);
+  energy.potential += elastic + step.distances().energy(state.position);
   return energy;
 }
 
@@ -153,7 +153,7 @@ void Motion::measureState() noexcept {
   const Stretch warp = warpStretch(pattern, state.position);
   statistics.warp_stretch = warp.longer;
   statistics.warp_compression = warp.shorter;
-  statistics.weft_stretch = std::max(weftStretch(pattern, state.position), exact.distances().stretch(state.position));
+  statistics.weft_stretch = std::max(weftStretch(pattern, state.position), step.distances().stretch(state.position));
 }
 
 void Motion::measure() noexcept {

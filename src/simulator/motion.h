@@ -9,7 +9,7 @@
 #include "simulator/composition.h"
 #include "simulator/force_field.h"
 #include "simulator/obstacle_lag.h"
-#include "step/exact_solver.h"
+#include "step/step.h"
 
 namespace curtain {
 
@@ -18,7 +18,7 @@ struct Motion {
   /// Start of a trial run or of a substep of stages. Of the statistics only the work is restored.
   struct Checkpoint {
     ClothState state;
-    ExactSolver::Memory memory;
+    Step::Memory memory;
     Work work;
   };
 
@@ -69,7 +69,7 @@ struct Motion {
   ForceField forces;
   ClothContact contact;
   ObstacleLag lag;
-  ExactSolver exact;
+  Step step;
   PaperSolver paper;
   bool counts_work = false;
   Statistics statistics;

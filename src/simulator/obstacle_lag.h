@@ -7,7 +7,7 @@
 
 #include "contact/cloth_contact.h"
 #include "simulator/frame_times.h"
-#include "step/exact_solver.h"
+#include "step/step.h"
 
 namespace curtain {
 

@@ -32,7 +32,7 @@ void planSolver(const Motion& motion, const Budget& budget, Plan& plan) {
   const std::string substeps =
       solver.substeps > 0 ? std::to_string(solver.substeps) + " substeps a frame" : "substeps from the tensions";
   plan.push_back({"warp", true, toString(solver.method) + ", " + substeps});
-  const bool pulls = motion.exact.stringsPull();
+  const bool pulls = motion.step.stringsPull();
   plan.push_back({"weft", true,
                   pulls ? "strings pull: all taut ones are solved for at once"
                         : "no string pulls: looked at, and nothing more unless one gets taut"});

@@ -61,7 +61,7 @@ void Simulator::Impl::reset() {
   sleep.reset();
   budget.forget();
   if (errors) errors->reset();
-  motion.exact.account().leaveOpen();
+  motion.step.account().leaveOpen();
   ++revision;
 }
 
@@ -73,7 +73,7 @@ void Simulator::Impl::takeKeys() {
   motion.contact.takeFriction(scene.contact.friction);
   motion.obstacles.takeFrame(times.length());
   motion.contact.takeStretchTolerance(scene.solver.stretch_tolerance);
-  motion.exact.takeStretchTolerance(scene.solver.stretch_tolerance);
+  motion.step.takeStretchTolerance(scene.solver.stretch_tolerance);
   budget.take(scene.solver.budget_ms);
   controls.both([this](StepControl& control) {
     control.takeGravity(pattern, scene.gravity);
@@ -95,7 +95,7 @@ void Simulator::Impl::takePins() {
 
 // Something that puts energy in does something else from now on.
 void Simulator::Impl::driven() noexcept {
-  motion.exact.account().leaveOpen();
+  motion.step.account().leaveOpen();
   sleep.rest().disturb();
 }
 
@@ -161,7 +161,7 @@ void Simulator::copyTensions(std::vector<double>& warp, std::vector<double>& wef
   weft.clear();
   for (int i = 0; i < rows(); ++i) {
     for (int j = 0; j < columns(); ++j) {
-      const Constraints::LinkTensions tensions = impl_->motion.exact.tensionsAt(i, j);
+      const Constraints::LinkTensions tensions = impl_->motion.step.tensionsAt(i, j);
       warp.push_back(tensions.warp);
       weft.push_back(tensions.weft);
     }
@@ -214,10 +214,10 @@ Energy Simulator::energy() const { return impl_->motion.energy(); }
 
 void Simulator::countWork(bool counted) {
   impl_->motion.counts_work = counted;
-  impl_->motion.exact.account().restore({});
+  impl_->motion.step.account().restore({});
 }
 
-Work Simulator::work() const { return impl_->motion.exact.account().work(); }
+Work Simulator::work() const { return impl_->motion.step.account().work(); }
 
 std::int64_t Simulator::selfCrossings() const {
   return countSelfCrossings(impl_->pattern.grid, impl_->motion.state.position);

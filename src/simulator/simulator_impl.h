@@ -63,8 +63,8 @@ void Simulator::Impl::repin(const Change& change) {
   change();
   takePins();
   motion.repinned();
-  controls.both([this](StepControl& control) { control.repinned(motion.exact); });
-  motion.exact.account().leaveOpen();
+  controls.both([this](StepControl& control) { control.repinned(motion.step); });
+  motion.step.account().leaveOpen();
   if (errors) errors->lose();
   ++revision;
 }

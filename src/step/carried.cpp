@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "cloth/archive.h"
-#include "step/exact_solver.h"
+#include "step/step.h"
 #include "step/step_control.h"
 
 namespace curtain {
@@ -34,7 +34,7 @@ void DistanceRows::carry(Archive& archive) {
   for (DistanceRow& row : all_) archive.number("last", row.last);
 }
 
-void ExactSolver::Memory::carry(Archive& archive) {
+void Step::Memory::carry(Archive& archive) {
   archive.part("constraints", constraints);
   archive.part("tensions", tensions);
   archive.number("held", held);
@@ -48,13 +48,13 @@ void Constraints::carry(Archive& archive) {
   archive.part("distances", distances_);
 }
 
-void ExactSolver::carry(Archive& archive) {
+void Step::carry(Archive& archive) {
   archive.part("constraints", constraints_);
   archive.part("tensions", inertia_.tensions());
   archive.part("account", account_);
 }
 
-void ExactSolver::resume(const ClothState& state) noexcept { constraints_.resume(state); }
+void Step::resume(const ClothState& state) noexcept { constraints_.resume(state); }
 
 // The ranges bound the number of substeps in a frame; next() clamps the other numbers itself.
 void StepControl::carry(Archive& archive) {

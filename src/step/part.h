@@ -13,7 +13,7 @@
 namespace curtain {
 
 class Archive;
-class ExactSolver;
+class Step;
 
 /// The forces of a substep, which parts add up in their order.
 struct ForceSum {
@@ -50,7 +50,7 @@ struct SubstepMade {
   double h = 0.0;           ///< [s]
   const ClothState& state;  ///< after it
   const NodeForces& forces;
-  const ExactSolver* links;            ///< null: the method does not know its pulls
+  const Step* links;                   ///< null: the method does not know its pulls
   const Contacts* contacts = nullptr;  ///< null: none pushed
   double scale = 0.0;                  ///< of the multipliers [s^2]
 };

@@ -70,11 +70,11 @@ void StepControl::takeFrame(double length) noexcept {
   frame_ = length;
 }
 
-void StepControl::repinned(const ExactSolver& solver) noexcept {
+void StepControl::repinned(const Step& solver) noexcept {
   if (solver.inertia().tensions().scale != 0.0) omega_ = std::sqrt(solver.inertia().omegaSquared());
 }
 
-double StepControl::stepFromTensions(bool frame_begins, const ExactSolver& solver) noexcept {
+double StepControl::stepFromTensions(bool frame_begins, const Step& solver) noexcept {
   const double longest_stage = composed_ ? kLongestStage : 1.0;
   const double for_phase = omega_ > 0.0 ? phase_share_ * kPhasePerStep / (longest_stage * omega_) : frame_;
   if (method_ != Method::kAuto || for_phase > kWorthLooking * frame_) return for_phase;
@@ -95,7 +95,7 @@ double StepControl::stretch(double wanted, double remaining) noexcept {
   return std::max(wanted, longest);
 }
 
-SubstepPlan StepControl::next(double remaining, const ExactSolver& solver) noexcept {
+SubstepPlan StepControl::next(double remaining, const Step& solver) noexcept {
   const bool frame_begins = remaining > (1.0 - 1e-6) * frame_;
   if (frame_begins) scaled_step_ = 0.0;
   SubstepPlan plan;

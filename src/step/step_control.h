@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "curtain_sim/scene.h"
-#include "step/exact_solver.h"
+#include "step/step.h"
 #include "step/trust_region.h"
 
 namespace curtain {
@@ -25,7 +25,7 @@ class StepControl {
   void takeFrame(double length) noexcept;
 
   /// The next substep; remaining: rest of the frame [s], > 0. h divides it into equal parts.
-  SubstepPlan next(double remaining, const ExactSolver& solver) noexcept;
+  SubstepPlan next(double remaining, const Step& solver) noexcept;
   /// Limits the substeps for the rest of the frame, >= 1; they may then be longer than the tensions ask for.
   void allow(int substeps) noexcept { allowed_ = substeps; }
   /// The last plan was longer because of allow().
@@ -37,7 +37,7 @@ class StepControl {
   /// Takes note of the tensions of a substep that another control planned.
   void watch(const SubstepOutcome& outcome) noexcept;
   /// The pins have changed: takes note of what the tensions of the last substep mean with these.
-  void repinned(const ExactSolver& solver) noexcept;
+  void repinned(const Step& solver) noexcept;
   void accepted(const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept;
   void rejected(const SubstepPlan& plan) noexcept;
   /// The substep did not finish within a frame's computing time. Makes shorter ones, but not so short that the last
@@ -48,7 +48,7 @@ class StepControl {
 
  private:
   double stretch(double wanted, double remaining) noexcept;
-  double stepFromTensions(bool frame_begins, const ExactSolver& solver) noexcept;
+  double stepFromTensions(bool frame_begins, const Step& solver) noexcept;
 
   double frame_;
   int fixed_substeps_;

@@ -102,7 +102,7 @@ struct SubstepOutcome {
   double momentum_cut = 0.0;                                      ///< by the last resort [N s]
   bool pins_wait = false;                                         ///< moved pins stayed where they were
   double longest_step = std::numeric_limits<double>::infinity();  ///< limit for the next step from moving contacts [s]
-  double turning = 0.0;        ///< ExactSolver::turning() [1/s]; 0 with pulling strings or contacts: jumps are no turns
+  double turning = 0.0;        ///< Step::turning() [1/s]; 0 with pulling strings or contacts: jumps are no turns
   double omega_squared = 0.0;  ///< bound of the highest frequency squared, from the links' tensions [1/s^2]
 };
 

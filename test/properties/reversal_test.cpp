@@ -15,8 +15,8 @@
 #include "cloth/workers.h"
 #include "properties/random_scenes.h"
 #include "properties/seeds.h"
-#include "step/exact_solver.h"
 #include "step/schemes/composition.h"
+#include "step/step.h"
 
 namespace curtain {
 namespace {
@@ -74,7 +74,7 @@ class Swing {
  private:
   ClothPattern pattern_;
   Workers workers_;
-  ExactSolver exact_;
+  Step exact_;
   ClothState state_;
   Field3 start_;
   Field3 force_;

@@ -36,7 +36,7 @@ struct Control {
 
   ClothPattern pattern = makePattern(curtain_test::flatScene(3, 2));
   Workers workers{1};
-  ExactSolver solver{pattern, {}, 1e-3, 60, workers};
+  Step solver{pattern, {}, 1e-3, 60, workers};
   SolverParams params;
   std::optional<StepControl> steps;
 };

@@ -11,8 +11,8 @@
 
 #include "curtain_sim/grasp.h"
 #include "parts/hands/hold_springs.h"
-#include "step/exact_solver.h"
 #include "step/pin_moves.h"
+#include "step/step.h"
 
 namespace curtain {
 

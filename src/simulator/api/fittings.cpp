@@ -97,7 +97,7 @@ void Simulator::copyLineTensions(const std::string& id, std::vector<double>& out
   if (!line) return;
   const CordEnd& end = impl_->pattern.cords.ends[*line];
   for (std::size_t c = end.first; c < end.last; ++c)
-    out.push_back(impl_->motion.exact.tensionOf(impl_->motion.parts.cords.row(c)));
+    out.push_back(impl_->motion.step.tensionOf(impl_->motion.parts.cords.row(c)));
 }
 
 bool Simulator::setLineEnd(const std::string& id, const Vec3& target) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "step/exact_solver.h"
+#include "step/step.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,8 +25,8 @@ bool isFree(const ClothPattern& pattern) noexcept {
 
 }  // namespace
 
-ExactSolver::ExactSolver(const ClothPattern& pattern, const SolverParts& parts, double stretch_tolerance,
-                         int max_sweeps, const Workers& workers)
+Step::Step(const ClothPattern& pattern, const SolverParts& parts, double stretch_tolerance, int max_sweeps,
+           const Workers& workers)
     : pattern_(pattern),
       free_(isFree(pattern)),
       stretch_tolerance_(stretch_tolerance),
@@ -38,20 +38,20 @@ ExactSolver::ExactSolver(const ClothPattern& pattern, const SolverParts& parts, 
       account_(pattern, inertia_, stretch_tolerance, constraints_.middleRest()),
       last_resort_(pattern, constraints_.distances()) {}
 
-void ExactSolver::takeStretchTolerance(double tolerance) noexcept {
+void Step::takeStretchTolerance(double tolerance) noexcept {
   stretch_tolerance_ = tolerance;
   constraints_.takeTolerance(kInnerTolerance * tolerance);
   sweeps_.takeTolerances(tolerance, tolerance * smallest_rest_);
   account_.takeStretchTolerance(tolerance);
 }
 
-void ExactSolver::reset() noexcept {
+void Step::reset() noexcept {
   account_.setHeld(0.0);
   constraints_.reset();
   inertia_.forget();
 }
 
-void ExactSolver::takePins() noexcept {
+void Step::takePins() noexcept {
   free_ = isFree(pattern_);
   inertia_.takePins();
   if (elastic_ != nullptr) elastic_->takePins();
@@ -59,13 +59,13 @@ void ExactSolver::takePins() noexcept {
   account_.takePins();
 }
 
-void ExactSolver::repinned() noexcept {
+void Step::repinned() noexcept {
   constraints_.slackenBetweenPins();
   inertia_.tensions().heaviest = inertia_.heaviest();
   account_.setHeld(0.0);
 }
 
-Scheme& ExactSolver::schemeOf(SchemeKind kind) noexcept {
+Scheme& Step::schemeOf(SchemeKind kind) noexcept {
   switch (kind) {
     case SchemeKind::kLeapfrog:
       break;
@@ -77,8 +77,8 @@ Scheme& ExactSolver::schemeOf(SchemeKind kind) noexcept {
   return leapfrog_;
 }
 
-SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder,
-                                    ClothState& state, StageClock& clock) noexcept {
+SubstepOutcome Step::substep(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder,
+                             ClothState& state, StageClock& clock) noexcept {
   SubstepOutcome outcome;
   const Attempt attempt = predict(plan, forces, finder, state, clock, outcome);
   Progress progress = solveAndVerify(attempt);
@@ -92,9 +92,10 @@ SubstepOutcome ExactSolver::substep(const SubstepPlan& plan, const NodeForces& f
   return outcome;
 }
 
-// Schemes with velocities at the end of the step use forces that act until then; leapfrog's act for half a step less.
-ExactSolver::Attempt ExactSolver::predict(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder,
-                                          ClothState& state, StageClock& clock, SubstepOutcome& outcome) noexcept {
+// Eqs. (1) and (2). Schemes with velocities at the end of the step use forces that act until then; leapfrog's act for
+// half a step less.
+Step::Attempt Step::predict(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder, ClothState& state,
+                            StageClock& clock, SubstepOutcome& outcome) noexcept {
   Scheme& scheme = schemeOf(plan.scheme);
   const Scheme::Rules& rules = scheme.rules();
   const double kick = state.velocity_age + (1.0 - rules.age) * plan.h;
@@ -112,20 +113,9 @@ ExactSolver::Attempt ExactSolver::predict(const SubstepPlan& plan, const NodeFor
   return attempt;
 }
 
-// Mean square of the nodes' velocities relative to their mean [m^2/s^2].
-double ExactSolver::meanSquare(const Field3& velocity) const noexcept {
-  const auto nodes = static_cast<double>(pattern_.grid.nodeCount());
-  Vec3 sum = Vec3::Zero();
-  double squares = 0.0;
-  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    sum += velocity.at(n);
-    squares += velocity.at(n).squaredNorm();
-  }
-  return std::max(0.0, squares / nodes - (sum / nodes).squaredNorm());
-}
-
-// Solves, and solves again with the contacts that verification adds, until nothing is crossed or that does not help.
-ExactSolver::Progress ExactSolver::solveAndVerify(const Attempt& attempt) noexcept {
+// Eqs. (3) and (4). Solves, and solves again with the contacts that verification adds, until nothing is crossed or that
+// does not help.
+Step::Progress Step::solveAndVerify(const Attempt& attempt) noexcept {
   const SubstepPlan& plan = attempt.plan;
   const bool last_resort = plan.isLastResort();
   const Field3 &from = attempt.state.position, &next = constraints_.next;
@@ -172,13 +162,13 @@ ExactSolver::Progress ExactSolver::solveAndVerify(const Attempt& attempt) noexce
 }
 
 // Rods alone do no work in steady motion if they pull along their directions half way between the velocities.
-bool ExactSolver::needsEnergyCheck(const Attempt& attempt, const Progress& progress) const noexcept {
+bool Step::needsEnergyCheck(const Attempt& attempt, const Progress& progress) const noexcept {
   const bool rods_alone = !anyPushes(contacts()) && !constraints_.stringsAct();
   return !rods_alone || attempt.scheme.rules().follows || !EnergyAccount::isSmall(progress.predicted_violation);
 }
 
-// Decides whether the substep may be accepted: it gains no energy.
-void ExactSolver::judge(const Attempt& attempt, Progress& progress, SubstepOutcome& outcome) noexcept {
+// Eq. (5). Decides whether the substep may be accepted: it makes no energy.
+void Step::judge(const Attempt& attempt, Progress& progress, SubstepOutcome& outcome) noexcept {
   const bool last_resort = attempt.plan.isLastResort();
   const bool touches = anyPushes(contacts());
   const double parts = constraints_.distances().speed();
@@ -204,7 +194,7 @@ void ExactSolver::judge(const Attempt& attempt, Progress& progress, SubstepOutco
 }
 
 // End of the last resort: moves along the path as far as the links allow.
-void ExactSolver::boundPath(const Attempt& attempt, const Progress& progress, SubstepOutcome& outcome) noexcept {
+void Step::boundPath(const Attempt& attempt, const Progress& progress, SubstepOutcome& outcome) noexcept {
   Field3& next = constraints_.next;
   const bool verified = attempt.finder == nullptr || !progress.late;
   if (progress.end == SweepEnd::kDiverged || !verified || !isWithinNumbers(next)) {
@@ -225,7 +215,8 @@ void ExactSolver::boundPath(const Attempt& attempt, const Progress& progress, Su
   }
 }
 
-void ExactSolver::take(const Attempt& attempt, const Progress& progress, SubstepOutcome& outcome) noexcept {
+// Eq. (6).
+void Step::take(const Attempt& attempt, const Progress& progress, SubstepOutcome& outcome) noexcept {
   const SubstepPlan& plan = attempt.plan;
   ClothState& state = attempt.state;
   NodeInertia::Tensions& tensions = inertia_.tensions();
@@ -246,15 +237,29 @@ void ExactSolver::take(const Attempt& attempt, const Progress& progress, Substep
   }
 }
 
+// ---- Sums over the cloth
+
+// Mean square of the nodes' velocities relative to their mean [m^2/s^2].
+double Step::meanSquare(const Field3& velocity) const noexcept {
+  const auto nodes = static_cast<double>(pattern_.grid.nodeCount());
+  Vec3 sum = Vec3::Zero();
+  double squares = 0.0;
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+    sum += velocity.at(n);
+    squares += velocity.at(n).squaredNorm();
+  }
+  return std::max(0.0, squares / nodes - (sum / nodes).squaredNorm());
+}
+
 // How fast the rods change their motion [1/s]: sqrt(|a_b - a_a| / l), RMS over all rods, which is the rate of turn
 // where that is steady. The forces acted for `kick` [s] in the last substep.
-double ExactSolver::turning(double kick) const noexcept {
+double Step::turning(double kick) const noexcept {
   return std::sqrt(std::sqrt(constraints_.turning() / ((pattern_.grid.rows - 1) * pattern_.grid.columns)) /
                    std::abs(kick));
 }
 
 // For cloth without pins: takes what the solve has added to the momentum out again, by a rigid motion.
-void ExactSolver::keepMomentum(const SubstepStart& start) noexcept {
+void Step::keepMomentum(const SubstepStart& start) noexcept {
   const Field3& from = start.state.position;
   Field3& next = constraints_.next;
   const auto missing = [&] {
@@ -276,92 +281,6 @@ void ExactSolver::keepMomentum(const SubstepStart& start) noexcept {
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     if (pattern_.mass[n] > 0.0) next.add(n, start.h * rest.at(from.at(n)));
   }
-}
-
-void ExactSolver::currentVelocities(const ClothState& state, const NodeForces& forces, const Contacts* contacts,
-                                    Field3& out) noexcept {
-  const double age = state.velocity_age;
-  double elastic = 0.0;
-  const Field3* const stiff = elasticAt(state.position, elastic);
-  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    const double w = inertia_.masses()[n];
-    const DampedStep step = forces.has_damping ? dampedStep(forces.damping[n], w, age) : DampedStep{1.0, 1.0};
-    const Vec3 force = stiff != nullptr ? Vec3(forces.force->at(n) + stiff->at(n)) : forces.force->at(n);
-    out.set(n, step.keep * state.velocity.at(n) + age * step.gain * w * force);
-  }
-  if (age == 0.0) return;
-  if (constraints_.guide() != nullptr) constraints_.guide()->beginRates(state, age, out);
-  constraints_.contacts().show(contacts);
-  const double most = account_.most(out, fastestSurface(constraints_.contacts().all()));
-  projectVelocity(state.position, age / inertia_.tensions().scale, out);
-  account_.bound(most, out);
-}
-
-// From what a snapshot holds, so that it is the same after it.
-const Field3* ExactSolver::elasticAt(const Field3& position, double& energy) noexcept {
-  energy = 0.0;
-  if (elastic_ == nullptr) return nullptr;
-  elastic_->begin(inertia_, inertia_.masses(), inertia_.tensions().scale, true);
-  return &elastic_->forceAt(position, energy);
-}
-
-void ExactSolver::copyPulls(const ClothState& state, const Contacts* contacts, Field3& out) noexcept {
-  out.assign(pattern_.grid.size(), 0.0);
-  const double scale = inertia_.tensions().scale;
-  constraints_.contacts().show(contacts);
-  if (scale != 0.0) constraints_.addPulls(state.position, 1.0 / scale, out);
-  double elastic = 0.0;
-  const Field3* const stiff = elasticAt(state.position, elastic);
-  for (std::size_t n = 0; stiff != nullptr && n < pattern_.grid.size(); ++n) {
-    out.add(n, inertia_.masses()[n] * stiff->at(n));
-  }
-}
-
-// Keeps the momentum of cloth without pins.
-void ExactSolver::projectVelocity(const Field3& position, double share, Field3& out) noexcept {
-  const bool keeps = free_ && !pressesOnObstacle(contacts());
-  const Momentum before = keeps ? momentumOf(pattern_, position, out) : Momentum();
-  constraints_.project(position, share, out);
-  if (!keeps) return;
-  const Momentum after = momentumOf(pattern_, position, out);
-  const RigidMotion motion =
-      rigidMotion(pattern_, position, {before.linear - after.linear, before.angular - after.angular});
-  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    if (pattern_.mass[n] > 0.0) out.add(n, motion.at(position.at(n)));
-  }
-}
-
-void ExactSolver::book(const ClothState& state, const NodeForces& forces, const SubstepOutcome& outcome) noexcept {
-  account_.bookForces(state.velocity, forces, elastic_ != nullptr ? &elastic_->sum() : nullptr, outcome.kick);
-  const double per_h = outcome.scale != 0.0 ? outcome.kick / outcome.scale : 0.0;
-  const Grid& grid = pattern_.grid;
-  for (int i = 0; i < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j) {
-      const std::size_t n = grid.index(i, j);
-      if (pattern_.pinned[n] == kPinned && !state.velocity.at(n).isZero(0.0))
-        account_.bookPin(per_h * pullAt(i, j), state.velocity.at(n));
-    }
-  }
-  for (std::size_t n = grid.row(grid.rows); n < grid.size(); ++n) {
-    if (pattern_.pinned[n] == kPinned) account_.bookPin(per_h * distances().pullAt(n), state.velocity.at(n));
-  }
-  account_.bookElastic(distances().elasticWork());
-  account_.bookDrive(distances().work(account_.before(), state.velocity, per_h));
-  if (guide() != nullptr) account_.bookDrive(guide()->work(account_.before(), state.velocity, outcome.kick));
-}
-
-void ExactSolver::save(Memory& memory) const {
-  constraints_.save(memory.constraints);
-  memory.tensions = inertia_.tensions();
-  memory.held = account_.held();
-  if (constraints_.guide() != nullptr) constraints_.guide()->save(memory.guide);
-}
-
-void ExactSolver::restore(const Memory& memory) {
-  constraints_.restore(memory.constraints);
-  inertia_.tensions() = memory.tensions;
-  account_.setHeld(memory.held);
-  if (constraints_.guide() != nullptr) constraints_.guide()->restore(memory.guide);
 }
 
 }  // namespace curtain

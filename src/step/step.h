@@ -2,7 +2,10 @@
 //
 // The exact schemes: one substep of point masses, two-sided warp rods and one-sided weft strings, whose constraint
 // forces are solved for. What the schemes share is here: a substep is predicted, solved and verified, judged, and
-// taken.
+// taken. Equations are those of docs/method.md, "A substep".
+//
+//   step.cpp          a substep
+//   step_between.cpp  velocities, pulls and works between two substeps
 #pragma once
 
 #include <limits>
@@ -16,13 +19,13 @@
 
 namespace curtain {
 
-class ExactSolver {
+class Step {
  public:
   /// parts              must outlive this
   /// stretch_tolerance  relative overlength allowed to a link
   /// max_sweeps         bound of the sweeps in a substep
-  ExactSolver(const ClothPattern& pattern, const SolverParts& parts, double stretch_tolerance, int max_sweeps,
-              const Workers& workers);
+  Step(const ClothPattern& pattern, const SolverParts& parts, double stretch_tolerance, int max_sweeps,
+       const Workers& workers);
 
   /// Reserves room for so many contacts; more make a substep allocate.
   void expectContacts(std::size_t count) { constraints_.expectContacts(count); }
