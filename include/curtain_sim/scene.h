@@ -86,6 +86,8 @@ struct ClothParams {
   double porosity = 0.0;                ///< share of the air that passes through [0..1]
   double bending_warp = 0.0;      ///< bending rigidity along the warp [N m], [0..1000]: moment per width and curvature
   double bending_weft = 0.0;      ///< the same along the weft; 0: limp
+  double shear = 0.0;             ///< shear rigidity [N/m], [0..1e6]: force per width and angle; 0: none. With it wefts
+                                  ///< that bend resist shortening until they buckle
   std::vector<SlitParams> slits;  ///< cuts along the warp, each elsewhere; strips have at least two columns
   /// Relative lengths of the rows-1 warp rods, top first, each > 0; scaled to height. Empty: all equal.
   std::vector<double> row_spacing;

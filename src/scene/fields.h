@@ -53,6 +53,7 @@ struct Fields<ClothParams> {
     v.number("porosity", cloth.porosity, between(0.0, 1.0));
     v.number("bending_warp", cloth.bending_warp, between(0.0, 1e3));
     v.number("bending_weft", cloth.bending_weft, between(0.0, 1e3));
+    v.number("shear", cloth.shear, between(0.0, 1e6));
     v.slits("slits", cloth.slits);
     v.numbers("row_spacing", cloth.row_spacing, positive());
     v.numbers("column_spacing", cloth.column_spacing, positive());

@@ -82,6 +82,8 @@ void checkSlits(const ClothParams& cloth, ProblemLog& log) {
 // Springs of a joint are as stiff as its links' lengths are small, to the third power.
 void checkBending(const Scene& scene, ProblemLog& log) {
   const ClothParams& cloth = scene.cloth;
+  if (scene.solver.method == Method::kPaper && cloth.shear > 0.0)
+    log.add("solver.method", "can't be paper for cloth that resists shear (cloth.shear > 0)");
   if (!(cloth.bending_warp > 0.0 || cloth.bending_weft > 0.0)) return;
   if (scene.solver.method == Method::kPaper)
     log.add("solver.method",

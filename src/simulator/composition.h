@@ -11,7 +11,10 @@
 #include "parts/drag/drags.h"
 #include "parts/hands/grasps.h"
 #include "parts/rail/rail.h"
+#include "parts/shear/shear.h"
+#include "parts/weft_push/weft_push.h"
 #include "parts/wind/winds.h"
+#include "step/elastic_chain.h"
 #include "step/pin_moves.h"
 #include "step/solver_parts.h"
 
@@ -31,6 +34,8 @@ struct Composition {
   RelativeAir relative_air{scene.air, scene.cloth.porosity, pattern, scene.ambient};
   Grasps hands{scene, pattern};
   Bending bending{pattern, workers};
+  Shear shear{scene.cloth, pattern, workers};
+  WeftPush weft_push{scene.cloth, pattern};
   Rail rail{scene, pattern};
   Cords cords{pattern};
 
@@ -44,14 +49,16 @@ struct Composition {
       &relative_air,
       &hands,
       &bending,
+      &shear,
+      &weft_push,
       &rail,
       &cords,
   };
   // clang-format on
 
-  SolverParts forSolver() noexcept {
-    return {bending.any() ? &bending : nullptr, rail.any() ? &rail : nullptr, {&cords}};
-  }
+  ElasticChain elastic{{&bending, &shear, &weft_push}};
+
+  SolverParts forSolver() noexcept { return {elastic.part(), rail.any() ? &rail : nullptr, {&cords}}; }
 };
 
 }  // namespace curtain

@@ -14,6 +14,12 @@ class ElasticPart {
  public:
   virtual ~ElasticPart() = default;
 
+  /// It has a force; false: nothing below is asked.
+  virtual bool any() const noexcept = 0;
+  /// Bound of the squares of its frequencies, by its nodes' masses, that steps are to follow [1/s^2]. 0: it is as
+  /// implicit as they need.
+  virtual double omegaSquared() const noexcept { return 0.0; }
+
   /// The pattern's pins have changed.
   virtual void takePins() noexcept = 0;
 
@@ -33,5 +39,15 @@ class ElasticPart {
   /// x_n A x_(n-1) / 2 beside the velocities between them.
   virtual double energyAfter(const Field3& outer, const Field3& position) const noexcept = 0;
 };
+
+/// Where a substep leads to with its force and without links [m].
+inline void setAhead(const SubstepStart& start, const Field& inverse, Field3& ahead) noexcept {
+  const ClothState& from = start.state;
+  for (std::size_t n = 0; n < inverse.size(); ++n) {
+    const double keep = start.keep != nullptr ? (*start.keep)[n] : 1.0;
+    const Vec3 velocity = keep * from.velocity.at(n) + (start.kick * inverse[n]) * start.force.at(n);
+    ahead.set(n, from.position.at(n) + start.h * velocity);
+  }
+}
 
 }  // namespace curtain

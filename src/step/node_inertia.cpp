@@ -63,7 +63,9 @@ void NodeInertia::forget() noexcept {
   tensions_.heaviest = tensions_.scale = 0.0;
 }
 
-double NodeInertia::omegaSquared() const noexcept { return 2.0 * tensions_.heaviest / std::abs(tensions_.scale); }
+double NodeInertia::omegaSquared() const noexcept {
+  return 2.0 * tensions_.heaviest / std::abs(tensions_.scale) + elastic_;
+}
 
 void NodeInertia::set(const NodeForces& forces, double kick, double scale, double most_phase, bool implicit) noexcept {
   inverse_ = masses_;
@@ -80,7 +82,9 @@ void NodeInertia::set(const NodeForces& forces, double kick, double scale, doubl
     }
   }
   if (most_phase <= 0.0 || tensions_.scale == 0.0) return;
-  const double per_load = 2.0 * std::abs(scale / tensions_.scale) / (most_phase * most_phase);
+  const double left = most_phase * most_phase - std::abs(scale) * elastic_;
+  if (!(left > 0.0)) return;
+  const double per_load = 2.0 * std::abs(scale / tensions_.scale) / left;
   if (!(per_load * tensions_.heaviest > 1.0)) return;
   // Not more than all of the cloth: where links can't keep their lengths their tensions are as large as the inertia
   // that they move, and inertia after them would grow without bound.
@@ -115,7 +119,8 @@ double NodeInertia::stepForPhase(double most_phase, double scaling_share) const 
     }
     factor = std::sqrt(factor);
   }
-  return most_phase * std::sqrt(0.5 * std::abs(tensions_.scale) * per_load);
+  const double per_omega = 0.5 * std::abs(tensions_.scale) * per_load;  // of the tensions, [s^2]
+  return most_phase * std::sqrt(per_omega / (1.0 + elastic_ * per_omega));
 }
 
 }  // namespace curtain

@@ -17,6 +17,10 @@ class NodeInertia {
   /// are mass-scaled; 0: never. implicit: damping acts on the velocities at the end.
   void set(const NodeForces& forces, double kick, double scale, double most_phase, bool implicit) noexcept;
 
+  /// Bound of the squares of the frequencies of explicit elastic forces [1/s^2], beside which tensions act.
+  void setElastic(double omega_squared) noexcept { elastic_ = omega_squared; }
+  double elastic() const noexcept { return elastic_; }
+
   /// The pattern's pins have changed.
   void takePins() noexcept;
   /// Largest of the last substep's loads over its mass, by the present pins.
@@ -41,7 +45,7 @@ class NodeInertia {
   const Tensions& tensions() const noexcept { return tensions_; }
   Tensions& tensions() noexcept { return tensions_; }
   void forget() noexcept;
-  double omegaSquared() const noexcept;  ///< [1/s^2]
+  double omegaSquared() const noexcept;  ///< of both [1/s^2]
 
   /// Largest step with h * omega <= most_phase when mass scaling may add this share of the cloth's mass [s]; infinite
   /// without tensions.
@@ -57,6 +61,7 @@ class NodeInertia {
   Field changed_, keep_;
   const Field* inverse_;
   bool damped_ = false;
+  double elastic_ = 0.0;  // [1/s^2]
   Tensions tensions_;
 };
 

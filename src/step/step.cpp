@@ -36,7 +36,9 @@ Step::Step(const ClothPattern& pattern, const SolverParts& parts, double stretch
       constraints_(pattern, parts, kInnerTolerance * stretch_tolerance, inertia_, workers),
       sweeps_(constraints_, inertia_, stretch_tolerance, stretch_tolerance * smallest_rest_, max_sweeps),
       account_(pattern, inertia_, stretch_tolerance, constraints_.middleRest()),
-      last_resort_(pattern, constraints_.distances()) {}
+      last_resort_(pattern, constraints_.distances()) {
+  if (elastic_ != nullptr) inertia_.setElastic(elastic_->omegaSquared());
+}
 
 void Step::takeStretchTolerance(double tolerance) noexcept {
   stretch_tolerance_ = tolerance;

@@ -37,6 +37,7 @@ double hangingOmega(const ClothPattern& pattern, const Vec3& gravity) {
 StepControl::StepControl(const SolverParams& params, const ClothPattern& pattern, const Vec3& gravity)
     : frame_(1.0 / params.frame_rate),
       fixed_substeps_(fixedSubsteps(params)),
+      asked_for_(params.substeps > 0),
       max_substeps_(std::max(params.max_substeps, kRoomBelowFixed * params.substeps)),
       method_(params.method),
       phase_share_(phaseShare(pattern)),
@@ -76,7 +77,8 @@ void StepControl::repinned(const Step& solver) noexcept {
 
 double StepControl::stepFromTensions(bool frame_begins, const Step& solver) noexcept {
   const double longest_stage = composed_ ? kLongestStage : 1.0;
-  const double for_phase = omega_ > 0.0 ? phase_share_ * kPhasePerStep / (longest_stage * omega_) : frame_;
+  const double omega = std::max(omega_, std::sqrt(solver.inertia().elastic()));  // no tension may be known yet
+  const double for_phase = omega > 0.0 ? phase_share_ * kPhasePerStep / (longest_stage * omega) : frame_;
   if (method_ != Method::kAuto || for_phase > kWorthLooking * frame_) return for_phase;
   // Once a frame: an impact within it is no reason for longer steps. But at its beginning no tensions may be known.
   if (frame_begins || std::isinf(scaled_step_))
@@ -105,6 +107,9 @@ SubstepPlan StepControl::next(double remaining, const Step& solver) noexcept {
   const double most = fixed_substeps_ > 0 ? frame_ / fixed_substeps_ : frame_;
   double wanted = most;
   if (method_ == Method::kImplicit) plan.scheme = SchemeKind::kImplicit;
+  const double elastic = solver.inertia().elastic();
+  if (plan.scheme == SchemeKind::kImplicit && !asked_for_ && elastic > 0.0)
+    wanted = std::max(smallest, std::min(wanted, kElasticPhase / std::sqrt(elastic)));
   const bool leapfrog = plan.scheme == SchemeKind::kLeapfrog;
   if (leapfrog && method_ == Method::kAuto) plan.most_phase = phase_share_ * kStablePhase;
   if (leapfrog && fixed_substeps_ == 0) {

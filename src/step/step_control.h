@@ -52,6 +52,7 @@ class StepControl {
 
   double frame_;
   int fixed_substeps_;
+  const bool asked_for_;  // the user did ask for so many
   int max_substeps_;
   Method method_;
   double phase_share_;    // of the constants for h omega

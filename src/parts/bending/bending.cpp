@@ -72,7 +72,9 @@ void Bending::takePins() noexcept {
 void Bending::begin(const NodeInertia& inertia, const Field& inverse, double scale, bool explicit_links) noexcept {
   if (!any()) return;
   const NodeInertia::Tensions& tensions = inertia.tensions();
-  const double size = std::abs(scale), limit = explicit_links ? kStablePhase * kStablePhase : kBackwardLimit;
+  const double size = std::abs(scale);
+  const double all = explicit_links ? kStablePhase * kStablePhase : kBackwardLimit;
+  const double limit = std::max(all - size * inertia.elastic(), std::min(all, kLeastForBending));
   const double per_load = explicit_links && tensions.scale != 0.0 ? 2.0 * size / std::abs(tensions.scale) : 0.0;
   gives_ = size * stiffest_ + per_load * tensions.heaviest > limit;
   if (gives_) setGive(inertia, inverse, size, per_load, limit);
@@ -170,12 +172,7 @@ const Field3& Bending::addTo(const Field3& force, const Field3& position) noexce
 }
 
 const Field3& Bending::addAhead(const SubstepStart& start, const Field& inverse) noexcept {
-  const ClothState& from = start.state;
-  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    const double keep = start.keep != nullptr ? (*start.keep)[n] : 1.0;
-    const Vec3 velocity = keep * from.velocity.at(n) + (start.kick * inverse[n]) * start.force.at(n);
-    ahead_.set(n, from.position.at(n) + start.h * velocity);
-  }
+  setAhead(start, inverse, ahead_);
   return addTo(start.force, ahead_);
 }
 

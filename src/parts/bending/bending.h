@@ -26,7 +26,7 @@ class Bending final : public ElasticPart, public Part {
   /// All arguments must outlive this.
   Bending(const ClothPattern& pattern, const Workers& workers);
 
-  bool any() const noexcept { return warp_.bend() || weft_.bend(); }
+  bool any() const noexcept override { return warp_.bend() || weft_.bend(); }
   void takePins() noexcept override;
 
   /// After begin(): lines are stiffer than the step bears.

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parts/shear/shear.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "cloth/wide.h"
+#include "step/constants.h"
+
+namespace curtain {
+namespace {
+
+constexpr int kRowsAtOnce = 8;  // of a task for the workers
+// What shear may take of h^2 omega^2 at least, where tensions take all that they may; as bending does.
+constexpr double kLeastForShear = 4.0 - kStablePhase * kStablePhase;
+// The same where links follow: there it acts where the step leads to, which is stable below 4 / 3.
+constexpr double kBackwardLimit = 1.0;
+
+Field inverseOf(const Field& lengths) {
+  Field out(lengths.size());
+  std::transform(lengths.begin(), lengths.end(), out.begin(), [](double length) { return 1.0 / length; });
+  return out;
+}
+
+// Calls look(row, column on the right, column on the left) for all cells.
+template <typename Look>
+void forEachCell(const Grid& grid, const Look& look) {
+  for (int i = 0; i + 1 < grid.rows; ++i) {
+    for (int j = grid.closed ? 0 : 1; j < grid.columns; ++j) {
+      if (grid.hasQuad(i, j)) look(i, j, j > 0 ? j - 1 : grid.columns - 1);
+    }
+  }
+}
+
+// A cell's own largest frequency, with the share of its nodes' masses that belongs to it; that of all cells together
+// is no larger (Irons, Treharne 1971).
+double fastestCell(const ClothPattern& pattern) {
+  const Grid& grid = pattern.grid;
+  double fastest = 0.0;
+  forEachCell(grid, [&](int i, int j, int left) {
+    const double weft = pattern.weft_rest[grid.index(i, j)], warp = pattern.warp_rest[grid.index(i + 1, j)];
+    double lightest = pattern.mass[grid.index(i, j)] / pattern.area[grid.index(i, j)];
+    for (const std::size_t n : {grid.index(i, left), grid.index(i + 1, left), grid.index(i + 1, j)})
+      lightest = std::min(lightest, pattern.mass[n] / pattern.area[n]);
+    fastest = std::max(fastest, 4.0 * (warp / weft + weft / warp) / (lightest * warp * weft));
+  });
+  return fastest;
+}
+
+using Vec2 = Eigen::Vector2d;
+
+// Nodes of open cloth laid flat: along their rows from the middle, and down their columns [m].
+std::vector<Vec2> layFlat(const ClothPattern& pattern) {
+  const Grid& grid = pattern.grid;
+  std::vector<Vec2> at(grid.size(), Vec2::Zero());
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 1; j < grid.columns; ++j)
+      at[grid.index(i, j)].x() = at[grid.index(i, j - 1)].x() + pattern.weft_rest[grid.index(i, j)];
+    const double middle = 0.5 * at[grid.index(i, grid.columns - 1)].x();
+    for (int j = 0; j < grid.columns; ++j) {
+      Vec2& node = at[grid.index(i, j)];
+      node.x() -= middle;
+      if (i == 0) continue;
+      const Vec2 above = at[grid.index(i - 1, j)];
+      const double rest = pattern.warp_rest[grid.index(i, j)], along = node.x() - above.x();
+      node.y() = above.y() + std::sqrt(std::max(0.0, rest * rest - along * along));
+    }
+  }
+  return at;
+}
+
+// The corners of a flat cell: top left, top right, bottom left, bottom right. A ring's are trapezoids side by side.
+std::array<Vec2, 4> flatCell(const ClothPattern& pattern, const std::vector<Vec2>& flat, int row, int right, int left) {
+  const Grid& grid = pattern.grid;
+  const std::size_t n = grid.index(row, right), below = grid.index(row + 1, right);
+  if (!grid.closed) return {flat[grid.index(row, left)], flat[n], flat[grid.index(row + 1, left)], flat[below]};
+  const double top = 0.5 * pattern.weft_rest[n], bottom = 0.5 * pattern.weft_rest[below],
+               rest = pattern.warp_rest[below];
+  const double height = std::sqrt(std::max(0.0, rest * rest - (bottom - top) * (bottom - top)));
+  return {Vec2(-top, 0.0), Vec2(top, 0.0), Vec2(-bottom, height), Vec2(bottom, height)};
+}
+
+}  // namespace
+
+Shear::Shear(const ClothParams& cloth, const ClothPattern& pattern, const Workers& workers)
+    : pattern_(pattern), workers_(workers), rigidity_(cloth.shear) {
+  if (!any()) return;
+  const Grid& grid = pattern.grid;
+  omega_squared_ = rigidity_ * fastestCell(pattern);
+  per_warp_ = inverseOf(pattern.warp_rest);
+  per_weft_ = inverseOf(pattern.weft_rest);
+  is_cell_.assign(grid.size(), 0.0);
+  for (Field& sines : flat_) sines.assign(grid.size(), 0.0);
+  const std::vector<Vec2> flat = layFlat(pattern);
+  forEachCell(grid, [&](int i, int j, int left) {
+    const std::size_t n = grid.index(i, j), below = grid.index(i + 1, j);
+    is_cell_[n] = 1.0;
+    const std::array<Vec2, 4> at = flatCell(pattern, flat, i, j, left);
+    const Vec2 top = at[1] - at[0], bottom = at[3] - at[2], on_left = at[2] - at[0], on_right = at[3] - at[1];
+    const double per_left = per_warp_[grid.index(i + 1, left)], per_right = per_warp_[below];
+    flat_[0][n] = top.dot(on_left) * per_weft_[n] * per_left;
+    flat_[1][n] = top.dot(on_right) * per_weft_[n] * per_right;
+    flat_[2][n] = bottom.dot(on_left) * per_weft_[below] * per_left;
+    flat_[3][n] = bottom.dot(on_right) * per_weft_[below] * per_right;
+  });
+  for (Field3* const field : {&sum_, &ahead_}) field->assign(grid.size(), 0.0);
+  corners_.resize(static_cast<std::size_t>((grid.rows + kRowsAtOnce - 1) / kRowsAtOnce));
+  for (Corners& block : corners_) {
+    for (Field3* const field : {&block.top_left, &block.top_right, &block.bottom_left, &block.bottom_right})
+      field->assign(static_cast<std::size_t>(grid.stride) + 1, 0.0);
+  }
+}
+
+void Shear::begin(const NodeInertia& inertia, const Field&, double scale, bool explicit_links) noexcept {
+  const NodeInertia::Tensions& tensions = inertia.tensions();
+  const double size = std::abs(scale);
+  const double taken =
+      explicit_links && tensions.scale != 0.0 ? 2.0 * size / std::abs(tensions.scale) * tensions.heaviest : 0.0;
+  const double left = explicit_links ? std::max(kLeastForShear, kStablePhase * kStablePhase - taken) : kBackwardLimit;
+  share_ = std::min(1.0, left / (size * omega_squared_));
+}
+
+// The cells between a row and the next but that at the seam.
+CURTAIN_WIDE void Shear::shearCells(const Field3& position, int row, Corners& corners) const noexcept {
+  const auto columns = static_cast<std::size_t>(pattern_.grid.columns);
+  const std::size_t first = pattern_.grid.row(row), second = pattern_.grid.row(row + 1);
+  const ConstFieldView a(position, first), b(position, second);
+  const double *const per_top = per_weft_.data() + first, *const per_bottom = per_weft_.data() + second,
+                      *const per_warp = per_warp_.data() + second, *const cell = is_cell_.data() + first,
+                      *const flat_ef = flat_[0].data() + first, *const flat_eg = flat_[1].data() + first,
+                      *const flat_df = flat_[2].data() + first, *const flat_dg = flat_[3].data() + first;
+  const FieldView tl(corners.top_left, 0), tr(corners.top_right, 0), bl(corners.bottom_left, 0),
+      br(corners.bottom_right, 0);
+  const double quarter = 0.25 * share_ * rigidity_;
+#pragma omp simd
+  for (std::size_t j = 1; j < columns; ++j) {
+    const double ex = a.x[j] - a.x[j - 1], ey = a.y[j] - a.y[j - 1], ez = a.z[j] - a.z[j - 1];              // top
+    const double dx = b.x[j] - b.x[j - 1], dy = b.y[j] - b.y[j - 1], dz = b.z[j] - b.z[j - 1];              // bottom
+    const double fx = b.x[j - 1] - a.x[j - 1], fy = b.y[j - 1] - a.y[j - 1], fz = b.z[j - 1] - a.z[j - 1];  // left
+    const double gx = b.x[j] - a.x[j], gy = b.y[j] - a.y[j], gz = b.z[j] - a.z[j];                          // right
+    const double k = quarter * cell[j];
+    const double ef = k * ((ex * fx + ey * fy + ez * fz) * per_top[j] * per_warp[j - 1] - flat_ef[j]);
+    const double eg = k * ((ex * gx + ey * gy + ez * gz) * per_top[j] * per_warp[j] - flat_eg[j]);
+    const double df = k * ((dx * fx + dy * fy + dz * fz) * per_bottom[j] * per_warp[j - 1] - flat_df[j]);
+    const double dg = k * ((dx * gx + dy * gy + dz * gz) * per_bottom[j] * per_warp[j] - flat_dg[j]);
+    // Gradients by the edges: of the top ef f + eg g, of the bottom df f + dg g, of the left ef e + df d, of the right.
+    tl.x[j] = ef * fx + eg * gx + ef * ex + df * dx;
+    tl.y[j] = ef * fy + eg * gy + ef * ey + df * dy;
+    tl.z[j] = ef * fz + eg * gz + ef * ez + df * dz;
+    tr.x[j] = eg * ex + dg * dx - (ef * fx + eg * gx);
+    tr.y[j] = eg * ey + dg * dy - (ef * fy + eg * gy);
+    tr.z[j] = eg * ez + dg * dz - (ef * fz + eg * gz);
+    bl.x[j] = df * fx + dg * gx - (ef * ex + df * dx);
+    bl.y[j] = df * fy + dg * gy - (ef * ey + df * dy);
+    bl.z[j] = df * fz + dg * gz - (ef * ez + df * dz);
+    br.x[j] = -(df * fx + dg * gx) - (eg * ex + dg * dx);
+    br.y[j] = -(df * fy + dg * gy) - (eg * ey + dg * dy);
+    br.z[j] = -(df * fz + dg * gz) - (eg * ez + dg * dz);
+  }
+}
+
+// The cell that closes a ring, between its last column and its first.
+void Shear::shearSeam(const Field3& position, int row, Corners& corners) const noexcept {
+  const Grid& grid = pattern_.grid;
+  const std::size_t n = grid.index(row, 0), below = grid.index(row + 1, 0), last = grid.index(row, grid.columns - 1),
+                    last_below = grid.index(row + 1, grid.columns - 1);
+  const Vec3 top = position.at(n) - position.at(last), bottom = position.at(below) - position.at(last_below);
+  const Vec3 left = position.at(last_below) - position.at(last), right = position.at(below) - position.at(n);
+  const double k = 0.25 * share_ * rigidity_ * is_cell_[n];
+  const double ef = k * (top.dot(left) * per_weft_[n] * per_warp_[last_below] - flat_[0][n]);
+  const double eg = k * (top.dot(right) * per_weft_[n] * per_warp_[below] - flat_[1][n]);
+  const double df = k * (bottom.dot(left) * per_weft_[below] * per_warp_[last_below] - flat_[2][n]);
+  const double dg = k * (bottom.dot(right) * per_weft_[below] * per_warp_[below] - flat_[3][n]);
+  const Vec3 of_top = ef * left + eg * right, of_bottom = df * left + dg * right;
+  const Vec3 of_left = ef * top + df * bottom, of_right = eg * top + dg * bottom;
+  corners.top_left.set(0, of_top + of_left);
+  corners.top_right.set(0, of_right - of_top);
+  corners.bottom_left.set(0, of_bottom - of_left);
+  corners.bottom_right.set(0, -of_bottom - of_right);
+}
+
+namespace {
+
+// Adds what cells on either side of the nodes of a row do to them. left, right: of the cell on the right of a node, at
+// whose left corner it is, and on its left.
+CURTAIN_INTO_WIDE void addCorners(const Field& left, const Field& right, std::size_t columns, bool closed,
+                                  double* sum) noexcept {
+  const double *const l = left.data(), *const r = right.data();
+  const std::size_t last = columns - 1;
+#pragma omp simd
+  for (std::size_t j = 0; j < last; ++j) sum[j] += r[j] + l[j + 1];
+  sum[last] += closed ? r[last] + l[0] : r[last];
+}
+
+CURTAIN_WIDE void addCorners(const Field3& left, const Field3& right, const Grid& grid, int row, Field3& sum) noexcept {
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  const std::size_t first = grid.row(row);
+  addCorners(left.x, right.x, columns, grid.closed, sum.x.data() + first);
+  addCorners(left.y, right.y, columns, grid.closed, sum.y.data() + first);
+  addCorners(left.z, right.z, columns, grid.closed, sum.z.data() + first);
+}
+
+}  // namespace
+
+// Adds to a block of rows what the cells above and below each do, row by row. The cells between two blocks are computed
+// in both.
+void Shear::addRows(const Field3& position, int block) noexcept {
+  const Grid& grid = pattern_.grid;
+  Corners& corners = corners_[static_cast<std::size_t>(block)];
+  const int begin = block * kRowsAtOnce, end = std::min(begin + kRowsAtOnce, grid.rows);
+  for (int i = std::max(0, begin - 1); i < std::min(end, grid.rows - 1); ++i) {
+    shearCells(position, i, corners);
+    if (grid.closed) shearSeam(position, i, corners);
+    if (i >= begin) addCorners(corners.top_left, corners.top_right, grid, i, sum_);
+    if (i + 1 < end) addCorners(corners.bottom_left, corners.bottom_right, grid, i + 1, sum_);
+  }
+}
+
+const Field3& Shear::addTo(const Field3& force, const Field3& position) noexcept {
+  sum_ = force;
+  workers_.run(static_cast<int>(corners_.size()), [&](int block) { addRows(position, block); });
+  return sum_;
+}
+
+const Field3& Shear::addAhead(const SubstepStart& start, const Field& inverse) noexcept {
+  setAhead(start, inverse, ahead_);
+  return addTo(start.force, ahead_);
+}
+
+const Field3& Shear::forceAt(const Field3& position, double& energy) noexcept {
+  for (Field* const axis : {&ahead_.x, &ahead_.y, &ahead_.z}) std::fill(axis->begin(), axis->end(), 0.0);
+  energy = energyAfter(ahead_, position);
+  return addTo(ahead_, position);
+}
+
+double Shear::energyAfter(const Field3&, const Field3& position) const noexcept {
+  const Grid& grid = pattern_.grid;
+  double sum = 0.0;
+  forEachCell(grid, [&](int i, int j, int left) {
+    const std::size_t n = grid.index(i, j);
+    const auto corner = [&](int row, int column, double flat) {
+      const std::size_t weft = grid.index(row, j), warp = grid.index(i + 1, column);
+      const Vec3 e = position.at(weft) - position.at(grid.index(row, left));
+      const Vec3 f = position.at(warp) - position.at(grid.index(i, column));
+      const double per = per_weft_[weft] * per_warp_[warp], s = e.dot(f) * per - flat;
+      sum += 0.125 * share_ * rigidity_ * s * s / per;
+    };
+    corner(i, left, flat_[0][n]);
+    corner(i, j, flat_[1][n]);
+    corner(i + 1, left, flat_[2][n]);
+    corner(i + 1, j, flat_[3][n]);
+  });
+  return sum;
+}
+
+bool Shear::explain(const ClothState&, double, Plan& plan) const {
+  std::ostringstream text;
+  if (any()) text << rigidity_ << " N/m" << (share_ < 1.0 ? ", of which the substeps bear a part" : "");
+  plan.push_back({"shear", any(), any() ? text.str() : "cloth.shear is 0"});
+  return false;
+}
+
+}  // namespace curtain

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Shear of the cloth in its plane: what a weave resists where warp and weft are not square any more.
+//
+// Each corner of a cell, between a weft edge e and a warp edge f, has the energy
+//     E = G l_e l_f / 8 (s - s_0)^2,   s = e . f / (l_e l_f),
+// with the rest lengths l: a quarter of G A s^2 / 2 of the cell's area A. s is the sine of the shear angle where links
+// keep their lengths, s_0 that of the cloth laid flat, which is 0 but for tapered cloth. One point a cell instead of
+// four would leave its hourglass mode free. G is the shear rigidity [N/m], force per width and angle, as textile
+// laboratories measure it (Kawabata 1980).
+//
+// It is explicit: a cell between nodes of mass m oscillates by omega^2 <= 4 G (l_e / l_f + l_f / l_e) / m, and steps
+// follow that. Where they can't it is as stiff as the step bears.
+#pragma once
+
+#include <array>
+
+#include "cloth/workers.h"
+#include "curtain_sim/scene.h"
+#include "step/elastic_part.h"
+#include "step/part.h"
+
+namespace curtain {
+
+/// Not thread-safe. Allocates only in the constructor, and nothing for cloth without shear rigidity.
+class Shear final : public ElasticPart, public Part {
+ public:
+  /// All arguments must outlive this.
+  Shear(const ClothParams& cloth, const ClothPattern& pattern, const Workers& workers);
+
+  bool any() const noexcept override { return rigidity_ > 0.0; }
+  bool explain(const ClothState& state, double time, Plan& plan) const override;
+
+  void takePins() noexcept override {}
+  void begin(const NodeInertia& inertia, const Field& inverse, double scale, bool explicit_links) noexcept override;
+  const Field3& addTo(const Field3& force, const Field3& position) noexcept override;
+  const Field3& addAhead(const SubstepStart& start, const Field& inverse) noexcept override;
+  const Field3& forceAt(const Field3& position, double& energy) noexcept override;
+  const Field3& sum() const noexcept override { return sum_; }
+  double energyAfter(const Field3& outer, const Field3& position) const noexcept override;
+  double omegaSquared() const noexcept override { return omega_squared_; }
+
+ private:
+  // Forces of a row of cells on its corners, by the column on the right of each cell; one for every block of rows.
+  struct Corners {
+    Field3 top_left, top_right, bottom_left, bottom_right;
+  };
+  void shearCells(const Field3& position, int row, Corners& corners) const noexcept;
+  void shearSeam(const Field3& position, int row, Corners& corners) const noexcept;
+  void addRows(const Field3& position, int block) noexcept;
+
+  const ClothPattern& pattern_;
+  const Workers& workers_;
+  const double rigidity_;       // [N/m]
+  double omega_squared_ = 0.0;  // bound [1/s^2]
+  double share_ = 1.0;          // of the rigidity that the step bears
+  Field per_warp_, per_weft_;   // 1 / rest length [1/m]
+  Field is_cell_;               // 1: the cell below this node, and on its left, is cloth
+  std::array<Field, 4> flat_;   // s_0 of its corners: top left, top right, bottom left, bottom right
+  Field3 sum_, ahead_;
+  std::vector<Corners> corners_;
+};
+
+}  // namespace curtain

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What keeps wefts from shortening within the cloth's plane: a weft link that is pressed together is straight until it
+// buckles, and then folds below what the grid resolves. So every link pushes its ends apart with the Euler load of its
+// own length, pi^2 B / l^2 for each metre of width, B being the bending rigidity along the weft; its string takes up
+// what is too much. It needs no stiffness, and bounds no step.
+//
+// By itself it does nothing for folds, nor does shear: cloth collapses by either way that is left to it. So it comes
+// with cloth.shear.
+#pragma once
+
+#include "curtain_sim/scene.h"
+#include "step/elastic_part.h"
+#include "step/part.h"
+
+namespace curtain {
+
+/// Not thread-safe. Allocates only in the constructor, and nothing for cloth that does not shear or bend.
+class WeftPush final : public ElasticPart, public Part {
+ public:
+  /// pattern must outlive this.
+  WeftPush(const ClothParams& cloth, const ClothPattern& pattern);
+
+  bool any() const noexcept override { return !load_.empty(); }
+  bool explain(const ClothState& state, double time, Plan& plan) const override;
+
+  void takePins() noexcept override {}
+  void begin(const NodeInertia&, const Field&, double, bool) noexcept override {}
+  const Field3& addTo(const Field3& force, const Field3& position) noexcept override;
+  const Field3& addAhead(const SubstepStart& start, const Field& inverse) noexcept override;
+  const Field3& forceAt(const Field3& position, double& energy) noexcept override;
+  const Field3& sum() const noexcept override { return sum_; }
+  double energyAfter(const Field3& outer, const Field3& position) const noexcept override;
+
+ private:
+  void addRow(const Field3& position, int row) noexcept;
+
+  const ClothPattern& pattern_;
+  Field load_;  // of the link on the left of each node [N]; 0: there is none
+  Field3 sum_, ahead_;
+  Field3 push_;  // of the links of a row [N], shape [stride]
+};
+
+}  // namespace curtain
