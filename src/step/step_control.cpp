@@ -37,7 +37,6 @@ double hangingOmega(const ClothPattern& pattern, const Vec3& gravity) {
 StepControl::StepControl(const SolverParams& params, const ClothPattern& pattern, const Vec3& gravity)
     : frame_(1.0 / params.frame_rate),
       fixed_substeps_(fixedSubsteps(params)),
-      asked_for_(params.substeps > 0),
       max_substeps_(std::max(params.max_substeps, kRoomBelowFixed * params.substeps)),
       method_(params.method),
       phase_share_(phaseShare(pattern)),
@@ -86,13 +85,21 @@ double StepControl::stepFromTensions(bool frame_begins, const Step& solver) noex
   return std::isfinite(scaled_step_) ? std::max(for_phase, scaled_step_) : for_phase;
 }
 
+// What explicit elastic forces bear, which do not get stiffer or softer with the step.
+double StepControl::stepOfElastic(bool leapfrog, const Step& solver) const noexcept {
+  const double elastic = solver.inertia().elastic();
+  if (!(elastic > 0.0)) return std::numeric_limits<double>::infinity();
+  const double phase = leapfrog ? phase_share_ * kPhasePerStep / (composed_ ? kLongestStage : 1.0) : kElasticPhase;
+  return phase / std::sqrt(elastic);
+}
+
 // Lengthens the step when computing time is short: only for methods that stay stable, and not beyond what was rejected
 // or what moving contacts allow.
-double StepControl::stretch(double wanted, double remaining) noexcept {
+double StepControl::stretch(double wanted, double remaining, double bears) noexcept {
   stretched_ = false;
   if (method_ != Method::kAuto && method_ != Method::kImplicit) return wanted;
   const double not_rejected = std::max(limit_, frame_ / max_substeps_);
-  const double longest = std::min({kMostStretch * wanted, remaining / allowed_, not_rejected, surface_step_});
+  const double longest = std::min({kMostStretch * wanted, remaining / allowed_, not_rejected, surface_step_, bears});
   stretched_ = longest > wanted;
   return std::max(wanted, longest);
 }
@@ -107,9 +114,6 @@ SubstepPlan StepControl::next(double remaining, const Step& solver) noexcept {
   const double most = fixed_substeps_ > 0 ? frame_ / fixed_substeps_ : frame_;
   double wanted = most;
   if (method_ == Method::kImplicit) plan.scheme = SchemeKind::kImplicit;
-  const double elastic = solver.inertia().elastic();
-  if (plan.scheme == SchemeKind::kImplicit && !asked_for_ && elastic > 0.0)
-    wanted = std::max(smallest, std::min(wanted, kElasticPhase / std::sqrt(elastic)));
   const bool leapfrog = plan.scheme == SchemeKind::kLeapfrog;
   if (leapfrog && method_ == Method::kAuto) plan.most_phase = phase_share_ * kStablePhase;
   if (leapfrog && fixed_substeps_ == 0) {
@@ -117,6 +121,8 @@ SubstepPlan StepControl::next(double remaining, const Step& solver) noexcept {
     const double for_turn = turning_ > 0.0 && !composed_ ? kTurnPerStep / turning_ : frame_;
     wanted = std::max(smallest, std::min({for_phase, for_turn, frame_ / asked_, surface_step_}));
   }
+  const double bears = stepOfElastic(leapfrog, solver);
+  wanted = std::max(smallest, std::min(wanted, bears));
   double step = std::min(wanted, std::max(limit_, smallest));
   if (trust_.rules(frame_begins) && method_ != Method::kPaper) {
     plan.scheme = SchemeKind::kLastResort;
@@ -125,7 +131,7 @@ SubstepPlan StepControl::next(double remaining, const Step& solver) noexcept {
     plan.most_phase = phase_share_ * kStablePhase;
     step = std::max(smallest, frame_ / kLastResortSubsteps);
   }
-  if (!plan.isLastResort()) step = stretch(step, remaining);
+  if (!plan.isLastResort()) step = stretch(step, remaining, std::max(smallest, bears));
   // Equal shares of the rest of the frame; the slack keeps rounding from adding a substep.
   plan.h = remaining / std::max(1.0, std::ceil(remaining / step - 1e-6));
   return plan;

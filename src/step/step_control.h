@@ -47,12 +47,12 @@ class StepControl {
   void carry(Archive& archive);
 
  private:
-  double stretch(double wanted, double remaining) noexcept;
+  double stretch(double wanted, double remaining, double bears) noexcept;
+  double stepOfElastic(bool leapfrog, const Step& solver) const noexcept;
   double stepFromTensions(bool frame_begins, const Step& solver) noexcept;
 
   double frame_;
   int fixed_substeps_;
-  const bool asked_for_;  // the user did ask for so many
   int max_substeps_;
   Method method_;
   double phase_share_;    // of the constants for h omega

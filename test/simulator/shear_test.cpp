@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Cloth that resists shear: it hangs in folds where limp cloth collapses, keeps its energy, and no step is too long.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "curtain_sim/plan.h"
+#include "curtain_sim/simulator.h"
+#include "testing.h"
+
+namespace curtain {
+namespace {
+
+// 1.5 m of cloth gathered to 0.9 m, hung by every third node, blown for 1.5 s.
+Scene gatheredScene(double shear) {
+  Scene scene = curtain_test::flatScene(20, 31, 1.2, 1.5);
+  scene.cloth.surface_density = 0.2;
+  scene.cloth.bending_warp = scene.cloth.bending_weft = 1e-5;
+  scene.cloth.shear = shear;
+  scene.hang.from = Vec3(0.0, 0.0, 2.2);
+  scene.hang.to = Vec3(0.9, 0.0, 2.2);
+  scene.pins.kind = PinKind::kList;
+  for (int j = 0; j < 31; j += 3) scene.pins.nodes.push_back({0, j});
+  scene.air.inside = scene.air.border = scene.air.corner = 0.3;
+  scene.contact.self = true;
+  WindParams fan = curtain_test::fanAt({0.45, -1.5, 1.6}, 1.5);
+  fan.half_angle = 0.2;
+  fan.pressure = 5.0;
+  fan.unsteadiness = 3.0;
+  fan.end = 1.5;
+  scene.wind = {fan};
+  return scene;
+}
+
+// Depth of folds: what nodes are off the vertical plane through the ends of the hung edge, RMS, below the first folds.
+double depthOf(const Simulator& simulator) {
+  double squares = 0.0;
+  int count = 0;
+  for (int i = 5; i < simulator.rows(); ++i) {
+    double mean = 0.0;
+    for (int j = 0; j < simulator.columns(); ++j) mean += simulator.position({i, j}).y() / simulator.columns();
+    for (int j = 0; j < simulator.columns(); ++j, ++count)
+      squares += std::pow(simulator.position({i, j}).y() - mean, 2);
+  }
+  return std::sqrt(squares / count);
+}
+
+// Mean length of the weft links, over that at rest.
+double weftsOf(const Simulator& simulator) {
+  const double rest = simulator.scene().cloth.width / (simulator.columns() - 1);
+  double sum = 0.0;
+  for (int i = 0; i < simulator.rows(); ++i) {
+    for (int j = 1; j < simulator.columns(); ++j)
+      sum += (simulator.position({i, j}) - simulator.position({i, j - 1})).norm() / rest;
+  }
+  return sum / (simulator.rows() * (simulator.columns() - 1));
+}
+
+TEST(Shear, GatheredClothHangsInFolds) {
+  for (const Method method : {Method::kAuto, Method::kImplicit}) {
+    Scene scene = gatheredScene(10.0);
+    scene.solver.method = method;
+    Simulator simulator(scene);
+    for (int frame = 0; frame < 240; ++frame) simulator.step();
+    EXPECT_GT(depthOf(simulator), 0.02) << toString(method);  // 2 mm without, some 30 mm with
+    EXPECT_GT(weftsOf(simulator), 0.98) << toString(method);
+    EXPECT_EQ(simulator.selfCrossings(), 0) << toString(method);
+    EXPECT_EQ(simulator.statistics().last_resort_substeps, 0) << toString(method);
+  }
+  Simulator limp(gatheredScene(0.0));
+  for (int frame = 0; frame < 240; ++frame) limp.step();
+  EXPECT_LT(depthOf(limp), 0.01);
+}
+
+// A sheet that is let go, hung by its upper corners: weight, shear and bending alone.
+Scene swingScene() {
+  Scene scene = curtain_test::flatScene(16, 17, 1.0, 1.0);
+  scene.cloth.bending_warp = scene.cloth.bending_weft = 1e-5;
+  scene.cloth.shear = 30.0;
+  scene.hang.to.x() = 0.9;  // a straight row between two pins is another matter
+  scene.hang.tilt = 1.0;
+  scene.pins.kind = PinKind::kTopCorners;
+  return scene;
+}
+
+// Leapfrog's energy wavers, by 1e-2 m g H at most before what is above the start is taken out.
+TEST(Shear, MakesNoEnergy) {
+  Simulator simulator(swingScene());
+  double mass = 0.0;
+  for (int i = 0; i < 16; ++i) {
+    for (int j = 0; j < 17; ++j) mass += simulator.mass({i, j});
+  }
+  const auto energy = [&] { return simulator.energy().kinetic + simulator.energy().potential; };
+  const double start = energy(), allowed = 1e-2 * mass * 9.81;
+  for (int frame = 0; frame < 300; ++frame) {
+    simulator.step();
+    ASSERT_LT(energy(), start + allowed) << "frame " << frame;
+  }
+  EXPECT_EQ(simulator.statistics().last_resort_substeps, 0);
+}
+
+// Its works close: what is left over is what links that snap taut take, which is never negative.
+TEST(Shear, IsInTheBooks) {
+  Simulator simulator(swingScene());
+  simulator.countWork(true);
+  for (int frame = 0; frame < 20; ++frame) simulator.step();
+  const Work work = simulator.work();
+  EXPECT_NE(work.elastic, 0.0);
+  EXPECT_EQ(work.forces, 0.0);
+  EXPECT_LE(work.kinetic - work.gravity - work.elastic, 1e-2 * std::abs(work.gravity));
+}
+
+// Fixed substeps that are too long for it are divided; where even the most are, it is no stiffer than they bear.
+TEST(Shear, IsStableInAnyStep) {
+  for (const double rigidity : {100.0, 1e5}) {
+    for (const Method method : {Method::kLeapfrog, Method::kImplicit, Method::kAuto}) {
+      Scene scene = swingScene();
+      scene.cloth.shear = rigidity;
+      scene.solver.method = method;
+      scene.solver.substeps = 2;
+      Simulator simulator(scene);
+      const auto energy = [&] { return simulator.energy().kinetic + simulator.energy().potential; };
+      const double start = energy();
+      for (int frame = 0; frame < 60; ++frame) {
+        simulator.step();
+        ASSERT_LT(energy(), start + 1e-2 * 0.2 * 9.81) << toString(method) << ", frame " << frame;
+      }
+      EXPECT_EQ(simulator.statistics().last_resort_substeps, 0) << toString(method);
+      const std::string plan = describe(simulator.plan());
+      EXPECT_EQ(plan.find("of which the substeps bear a part") != std::string::npos, rigidity > 1e3) << plan;
+    }
+  }
+}
+
+TEST(Shear, HasTheSameBitsWithAnyThreads) {
+  std::vector<std::uint64_t> hashes;
+  for (const int threads : {1, 2, 3}) {
+    Scene scene = gatheredScene(10.0);
+    scene.solver.threads = threads;
+    Simulator simulator(scene);
+    for (int frame = 0; frame < 30; ++frame) simulator.step();
+    hashes.push_back(simulator.stateHash());
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+  EXPECT_EQ(hashes[0], hashes[2]);
+}
+
+}  // namespace
+}  // namespace curtain
