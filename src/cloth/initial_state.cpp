@@ -8,6 +8,7 @@
 #include "scene/pi.h"
 #include "scene/ring_start.h"
 #include "scene/shares.h"
+#include "scene/splitmix.h"
 #include "scene/strips.h"
 
 namespace curtain {
@@ -124,6 +125,33 @@ void placeCloth(const Scene& scene, const ClothPattern& pattern, Field3& positio
   }
 }
 
+namespace {
+
+// Share of the shortest link that nodes are off where the cloth starts flat and pressed together.
+constexpr double kUnevenness = 1e-6;
+
+// No cloth is exactly flat. Wefts that push are in balance while it is, so it would stay there, and sleep: what is off
+// by far less than a link's tolerance folds within a second. The same for the same seed.
+void unsettle(const Scene& scene, const ClothPattern& pattern, Field3& position) {
+  if (!(scene.cloth.shear > 0.0 && scene.cloth.bending_weft > 0.0)) return;
+  const Grid& grid = pattern.grid;
+  Field3 normals;
+  normals.assign(grid.size(), 0.0);
+  nodeAreaVectors(grid, position, normals);
+  const double most = kUnevenness * shortestLink(pattern);
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) {
+      const std::size_t n = grid.index(i, j);
+      if (pattern.pinned[n] != kFree || normals.at(n).isZero(0.0)) continue;
+      const std::uint64_t drawn = splitmix(splitmix(static_cast<std::uint64_t>(scene.solver.seed)) + n);
+      const double off = 2.0 * static_cast<double>(drawn >> 11) * 0x1p-53 - 1.0;  // [-1, 1)
+      position.add(n, (most * off) * normals.at(n).normalized());
+    }
+  }
+}
+
+}  // namespace
+
 ClothState makeInitialState(const Scene& scene, const ClothPattern& pattern) {
   const Grid& grid = pattern.grid;
   ClothState state;
@@ -131,6 +159,7 @@ ClothState makeInitialState(const Scene& scene, const ClothPattern& pattern) {
   state.velocity.assign(grid.size(), 0.0);
   if (!pattern.rail.empty()) state.place = pattern.rail.layout.placesFor(scene.rail.opening);
   placeCloth(scene, pattern, state.position);
+  unsettle(scene, pattern, state.position);
   for (const CordEnd& end : pattern.cords.ends) state.position.set(end.node, end.start);
   for (std::size_t k = 0; k < pattern.cords.loops.size(); ++k)
     state.reach.push_back(reachOf(pattern.cords, k, state.position));

@@ -27,10 +27,12 @@ struct Fabric {
   explicit Fabric(const Scene& given)
       : scene(given),
         pattern(makePattern(scene)),
-        position(makeInitialState(scene, pattern).position),
         workers(1),
         shear(scene.cloth, pattern, workers),
-        push(scene.cloth, pattern) {}
+        push(scene.cloth, pattern) {
+    position.assign(pattern.grid.size(), 0.0);
+    placeCloth(scene, pattern, position);
+  }
 
   Scene scene;
   ClothPattern pattern;

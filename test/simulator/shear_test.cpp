@@ -75,6 +75,17 @@ TEST(Shear, GatheredClothHangsInFolds) {
   EXPECT_LT(depthOf(limp), 0.01);
 }
 
+// Also where nothing but its own push moves it: it starts flat, where that is in balance.
+TEST(Shear, FlatClothThatIsGatheredFoldsByItself) {
+  Scene scene = gatheredScene(10.0);
+  scene.wind.clear();
+  Simulator simulator(scene);
+  EXPECT_LT(depthOf(simulator), 1e-7);
+  for (int frame = 0; frame < 360; ++frame) simulator.step();
+  EXPECT_GT(depthOf(simulator), 0.02);
+  EXPECT_GT(weftsOf(simulator), 0.98);
+}
+
 // A sheet that is let go, hung by its upper corners: weight, shear and bending alone.
 Scene swingScene() {
   Scene scene = curtain_test::flatScene(16, 17, 1.0, 1.0);
