@@ -51,7 +51,11 @@ class RestTest(unittest.TestCase):
         self.curtain.close()
         try:
             time.sleep(1.0)  # until the node has noticed that nobody listens
-            share = min(self.share_of_a_core(5.0) for _ in range(3))  # what else the machine does only adds to it
+            share = 1.0
+            for _ in range(8):  # what else the machine does only adds to it
+                share = min(share, self.share_of_a_core(5.0))
+                if share <= 0.01:
+                    break
         finally:
             type(self).curtain = Curtain("/stage/curtain")
         print("a sleeping curtain's node takes %.2f %% of a core" % (100.0 * share))
