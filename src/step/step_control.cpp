@@ -89,7 +89,8 @@ double StepControl::stepFromTensions(bool frame_begins, const Step& solver) noex
 double StepControl::stepOfElastic(bool leapfrog, const Step& solver) const noexcept {
   const double elastic = solver.inertia().elastic();
   if (!(elastic > 0.0)) return std::numeric_limits<double>::infinity();
-  const double phase = leapfrog ? phase_share_ * kPhasePerStep / (composed_ ? kLongestStage : 1.0) : kElasticPhase;
+  const double phase =
+      leapfrog ? phase_share_ * kPhasePerStep / (composed_ ? kLongestStage : 1.0) : std::sqrt(kElasticBackward);
   return phase / std::sqrt(elastic);
 }
 

@@ -12,12 +12,6 @@
 namespace curtain {
 namespace {
 
-// What bending may take of h^2 omega^2 where tensions take all that they may: up to leapfrog's limit of 4.
-constexpr double kLeastForBending = 4.0 - kStablePhase * kStablePhase;
-// The same where links follow, which then take none. There bending acts where the step leads to, which is stable below
-// 4 / 3; at 1 a line that gives way takes backward Euler's step.
-constexpr double kBackwardLimit = 1.0;
-
 double stiffestOf(const ClothPattern& pattern, const BendingLines& warp, const BendingLines& weft) {
   double stiffest = 0.0;
   for (std::size_t n = 0; n < pattern.grid.size(); ++n) {
@@ -73,8 +67,8 @@ void Bending::begin(const NodeInertia& inertia, const Field& inverse, double sca
   if (!any()) return;
   const NodeInertia::Tensions& tensions = inertia.tensions();
   const double size = std::abs(scale);
-  const double all = explicit_links ? kStablePhase * kStablePhase : kBackwardLimit;
-  const double limit = std::max(all - size * inertia.elastic(), std::min(all, kLeastForBending));
+  const double all = explicit_links ? kStablePhase * kStablePhase : kElasticBackward;
+  const double limit = std::max(all - size * inertia.elastic(), std::min(all, kLeastForElastic));
   const double per_load = explicit_links && tensions.scale != 0.0 ? 2.0 * size / std::abs(tensions.scale) : 0.0;
   gives_ = size * stiffest_ + per_load * tensions.heaviest > limit;
   if (gives_) setGive(inertia, inverse, size, per_load, limit);
@@ -85,7 +79,7 @@ CURTAIN_WIDE void Bending::setGive(const NodeInertia& inertia, const Field& inve
                                    double limit) noexcept {
   const double* const w = inverse.data();
   const double* const load = inertia.tensions().load.data();
-  const double least = per_load > 0.0 ? kLeastForBending : limit;
+  const double least = per_load > 0.0 ? kLeastForElastic : limit;
   const auto give = [&](const BendingLines& lines, const BendingLines& other, Field& out) {
     const double* const own = lines.bound.data();
     const double* const others = other.bend() ? other.bound.data() : own;

@@ -12,10 +12,6 @@ namespace curtain {
 namespace {
 
 constexpr int kRowsAtOnce = 8;  // of a task for the workers
-// What shear may take of h^2 omega^2 at least, where tensions take all that they may; as bending does.
-constexpr double kLeastForShear = 4.0 - kStablePhase * kStablePhase;
-// The same where links follow: there it acts where the step leads to, which is stable below 4 / 3.
-constexpr double kBackwardLimit = 1.0;
 
 Field inverseOf(const Field& lengths) {
   Field out(lengths.size());
@@ -117,7 +113,8 @@ void Shear::begin(const NodeInertia& inertia, const Field&, double scale, bool e
   const double size = std::abs(scale);
   const double taken =
       explicit_links && tensions.scale != 0.0 ? 2.0 * size / std::abs(tensions.scale) * tensions.heaviest : 0.0;
-  const double left = explicit_links ? std::max(kLeastForShear, kStablePhase * kStablePhase - taken) : kBackwardLimit;
+  const double left =
+      explicit_links ? std::max(kLeastForElastic, kStablePhase * kStablePhase - taken) : kElasticBackward;
   share_ = std::min(1.0, left / (size * omega_squared_));
 }
 
