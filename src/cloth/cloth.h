@@ -44,6 +44,7 @@ struct ClothPattern {
   Field weft_rest;  ///< rest length of the link from node (i, j-1) to (i, j) [m]; closed: column 0 closes the ring
   Field warp_per_square;  ///< 1 / warp_rest^2 [1/m^2]
   Field weft_per_square;  ///< 1 / weft_rest^2 [1/m^2]; cut links: 0, so that they are never too long
+  Field cell;             ///< share of the cell below a node, on its left, that is cloth: 1; 0: there is no cell
   Field area;             ///< the node's share of the cloth [m^2]
   Field mass;             ///< [kg], with its carrier's; padding: 0
   Field inverse_mass;     ///< [1/kg]; pinned, carriers and padding: 0
@@ -114,6 +115,16 @@ void forEachLink(const ClothPattern& pattern, const Look& look) {
 
 /// Rest length of the shortest rod or weft link [m].
 double shortestLink(const ClothPattern& pattern);
+
+/// Calls look(row, column on the right, column on the left) for all cells.
+template <typename Look>
+void forEachCell(const Grid& grid, const Look& look) {
+  for (int i = 0; i + 1 < grid.rows; ++i) {
+    for (int j = grid.closed ? 0 : 1; j < grid.columns; ++j) {
+      if (grid.hasQuad(i, j)) look(i, j, j > 0 ? j - 1 : grid.columns - 1);
+    }
+  }
+}
 
 /// Area-weighted normals of the nodes: the sum, over the faces at a node, of the corner triangles' area vectors
 /// [m^2], not normalised; out has the grid's size. Cheng 2000, Sect. 2.2.2 (mean of the normals of the faces).

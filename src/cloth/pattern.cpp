@@ -184,6 +184,8 @@ ClothPattern makePattern(const Scene& scene) {
   pattern.weft_rest.assign(size, 1.0);
   pattern.warp_per_square.assign(size, 1.0);
   pattern.weft_per_square.assign(size, 1.0);
+  pattern.cell.assign(size, 0.0);
+  forEachCell(pattern.grid, [&](int i, int j, int) { pattern.cell[pattern.grid.index(i, j)] = 1.0; });
   pattern.area.assign(size, 0.0);
   pattern.mass.assign(size, 0.0);
   pattern.inverse_mass.assign(size, 0.0);

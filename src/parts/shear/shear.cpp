@@ -19,16 +19,6 @@ Field inverseOf(const Field& lengths) {
   return out;
 }
 
-// Calls look(row, column on the right, column on the left) for all cells.
-template <typename Look>
-void forEachCell(const Grid& grid, const Look& look) {
-  for (int i = 0; i + 1 < grid.rows; ++i) {
-    for (int j = grid.closed ? 0 : 1; j < grid.columns; ++j) {
-      if (grid.hasQuad(i, j)) look(i, j, j > 0 ? j - 1 : grid.columns - 1);
-    }
-  }
-}
-
 // A cell's own largest frequency, with the share of its nodes' masses that belongs to it; that of all cells together
 // is no larger (Irons, Treharne 1971).
 double fastestCell(const ClothPattern& pattern) {
@@ -86,12 +76,10 @@ Shear::Shear(const ClothParams& cloth, const ClothPattern& pattern, const Worker
   omega_squared_ = rigidity_ * fastestCell(pattern);
   per_warp_ = inverseOf(pattern.warp_rest);
   per_weft_ = inverseOf(pattern.weft_rest);
-  is_cell_.assign(grid.size(), 0.0);
   for (Field& sines : flat_) sines.assign(grid.size(), 0.0);
   const std::vector<Vec2> flat = layFlat(pattern);
   forEachCell(grid, [&](int i, int j, int left) {
     const std::size_t n = grid.index(i, j), below = grid.index(i + 1, j);
-    is_cell_[n] = 1.0;
     const std::array<Vec2, 4> at = flatCell(pattern, flat, i, j, left);
     const Vec2 top = at[1] - at[0], bottom = at[3] - at[2], on_left = at[2] - at[0], on_right = at[3] - at[1];
     const double per_left = per_warp_[grid.index(i + 1, left)], per_right = per_warp_[below];
@@ -124,7 +112,7 @@ CURTAIN_WIDE void Shear::shearCells(const Field3& position, int row, Corners& co
   const std::size_t first = pattern_.grid.row(row), second = pattern_.grid.row(row + 1);
   const ConstFieldView a(position, first), b(position, second);
   const double *const per_top = per_weft_.data() + first, *const per_bottom = per_weft_.data() + second,
-                      *const per_warp = per_warp_.data() + second, *const cell = is_cell_.data() + first,
+                      *const per_warp = per_warp_.data() + second, *const cell = pattern_.cell.data() + first,
                       *const flat_ef = flat_[0].data() + first, *const flat_eg = flat_[1].data() + first,
                       *const flat_df = flat_[2].data() + first, *const flat_dg = flat_[3].data() + first;
   const FieldView tl(corners.top_left, 0), tr(corners.top_right, 0), bl(corners.bottom_left, 0),
@@ -164,7 +152,7 @@ void Shear::shearSeam(const Field3& position, int row, Corners& corners) const n
                     last_below = grid.index(row + 1, grid.columns - 1);
   const Vec3 top = position.at(n) - position.at(last), bottom = position.at(below) - position.at(last_below);
   const Vec3 left = position.at(last_below) - position.at(last), right = position.at(below) - position.at(n);
-  const double k = 0.25 * share_ * rigidity_ * is_cell_[n];
+  const double k = 0.25 * share_ * rigidity_ * pattern_.cell[n];
   const double ef = k * (top.dot(left) * per_weft_[n] * per_warp_[last_below] - flat_[0][n]);
   const double eg = k * (top.dot(right) * per_weft_[n] * per_warp_[below] - flat_[1][n]);
   const double df = k * (bottom.dot(left) * per_weft_[below] * per_warp_[last_below] - flat_[2][n]);
@@ -241,7 +229,7 @@ double Shear::energyAfter(const Field3&, const Field3& position) const noexcept 
       const Vec3 e = position.at(weft) - position.at(grid.index(row, left));
       const Vec3 f = position.at(warp) - position.at(grid.index(i, column));
       const double per = per_weft_[weft] * per_warp_[warp], s = e.dot(f) * per - flat;
-      sum += 0.125 * share_ * rigidity_ * s * s / per;
+      sum += 0.125 * share_ * rigidity_ * pattern_.cell[n] * s * s / per;
     };
     corner(i, left, flat_[0][n]);
     corner(i, j, flat_[1][n]);

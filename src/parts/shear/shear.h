@@ -55,7 +55,6 @@ class Shear final : public ElasticPart, public Part {
   double omega_squared_ = 0.0;  // bound [1/s^2]
   double share_ = 1.0;          // of the rigidity that the step bears
   Field per_warp_, per_weft_;   // 1 / rest length [1/m]
-  Field is_cell_;               // 1: the cell below this node, and on its left, is cloth
   std::array<Field, 4> flat_;   // s_0 of its corners: top left, top right, bottom left, bottom right
   Field3 sum_, ahead_;
   std::vector<Corners> corners_;

@@ -30,8 +30,9 @@ WeftPush::WeftPush(const ClothParams& cloth, const ClothPattern& pattern) : patt
   load_.assign(grid.size(), 0.0);
   const auto stride = static_cast<std::size_t>(grid.stride);
   forEachWeft(grid, [&](std::size_t n, std::size_t) {
-    const double above = n >= stride ? pattern.warp_rest[n] : 0.0;  // half the cloth to the next row belongs to this
-    const double below = n + stride < grid.row(grid.rows) ? pattern.warp_rest[n + stride] : 0.0;
+    // Half the cloth to the next row belongs to this.
+    const double above = n >= stride ? pattern.cell[n - stride] * pattern.warp_rest[n] : 0.0;
+    const double below = n + stride < grid.row(grid.rows) ? pattern.cell[n] * pattern.warp_rest[n + stride] : 0.0;
     const double rest = pattern.weft_rest[n];
     load_[n] = kPi * kPi * cloth.bending_weft / (rest * rest) * 0.5 * (above + below);
   });
