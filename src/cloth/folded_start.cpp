@@ -12,13 +12,15 @@ namespace {
 
 constexpr double kSteepest = 0.9;  // sine of the steepest rod, as of cloth without folds (scene/check_start.cpp)
 constexpr int kHalvings = 40;      // of an interval of angles: to 1e-11 of it
+constexpr int kNewtonSteps = 8;
 
 using Vec2 = Eigen::Vector2d;
 
 // Half a wave between two columns, which lie on the course. Columns are counted on beyond a ring's last one.
 struct Fold {
   int first, last;
-  bool holds_pins;  // columns between them are hung, too, so that the top row is straight
+  bool holds_pins;    // columns between them are hung, too, so that the top row is straight
+  double size = 0.0;  // of its curve in the row above
 };
 
 struct Stretch {
@@ -107,7 +109,7 @@ class FoldedStart {
       int to = from + 1;
       while (to < last && along(to) + 0.5 * rest(0, to + 1) < begin + length * k / count) ++to;
       if (k == count) to = last;
-      folds_.push_back({from, to, holds_pins});
+      folds_.push_back({from, to, holds_pins, 0.0});
       if (to == last) return;
       from = to;
     }
@@ -191,7 +193,7 @@ class FoldedStart {
     for (const Fold& fold : folds_) reaches = hang(row, fold.first, course(row, fold.first)) && reaches;
     reaches = hang(row, folds_.back().last, course(row, folds_.back().last)) && reaches;
     double side = 1.0;
-    for (const Fold& fold : folds_) {
+    for (Fold& fold : folds_) {
       reaches = reaches && placeFold(row, fold, side);
       side = -side;
     }
@@ -246,19 +248,21 @@ class FoldedStart {
     return least;
   }
 
-  bool placeFold(int row, const Fold& fold, double side) {
+  bool placeFold(int row, Fold& fold, double side) {
     prepare(row, fold, side);
     const double sharpest = kPi * static_cast<double>(links_.size());
-    double most = sharpest;
+    double deepest = std::numeric_limits<double>::infinity();
     if (fold.holds_pins) {
-      const double full = largest(sharpest, [&](double size) { return bend(size) <= 1.0; });
-      most = full * shareAt(row, full);
+      bend(largest(sharpest, [&](double size) { return bend(size) <= 1.0; }));
+      deepest = deepestPoint();
+      deepest *= shareOfDepth(row, deepest);
     }
-    const double size = largest(most, [&](double trial) {
-      const double ratio = bend(trial);
-      return placeCurve(row, fold) && ratio <= 1.0 && noneIsOverlong(row, fold);
+    fold.size = largest(sharpest, [&](double trial) {
+      if (bend(trial) > 1.0 || deepestPoint() > deepest) return false;
+      // What rods do not reach is too deep, or not as deep as the row above.
+      return placeCurve(row, fold) ? noneIsOverlong(row, fold) : trial < fold.size;
     });
-    bend(size);
+    bend(fold.size);
     return placeCurve(row, fold);
   }
 
@@ -279,20 +283,29 @@ class FoldedStart {
     return true;
   }
 
-  // How deep a fold is, over its full depth a, where the top row is straight: it grows evenly over a height h, which
-  // has the least energy. The cloth that hangs below, T for each metre of its width, is lifted by a^2 / 2 h, a being
-  // the RMS; wefts pressed from their length by their share 1 - r down to none push with p over 2/3 of h.
-  double shareAt(int row, double full) {
-    const double pressed = 1.0 - bend(0.0);
-    bend(full);
-    double squares = 0.0;
-    for (const Vec2& point : curve_) squares += point.y() * point.y();
-    const double link = links_.front();
-    const double push = kPi * kPi * scene_.cloth.bending_weft / (link * link);
-    const double hanging = weightOf(scene_.cloth.surface_density) * scene_.cloth.height;
-    const double height =
-        std::sqrt(squares / static_cast<double>(curve_.size()) * 0.75 * std::max(0.0, hanging) / (push * pressed));
-    return height > depth(row) ? depth(row) / height : 1.0;
+  double deepestPoint() const {
+    double deepest = 0.0;
+    for (const Vec2& point : curve_) deepest = std::max(deepest, point.y());
+    return deepest;
+  }
+
+  // Of a fold's depth where the top row is straight: a quarter of a sine down to a height h, which has the least energy
+  // for each metre of width. Rods at the crest of depth Y lead aside, so that it is higher by D / h, D = pi^2 Y^2 / 16:
+  // that lifts what hangs, T D / 2h, and shears all below it, G k^2 H D^2 / 4h^2 for waves of k. Against it wefts push
+  // that are pressed to a share r, with p (1 - r) h / 2.
+  double shareOfDepth(int row, double deepest) const {
+    const ClothParams& cloth = scene_.cloth;
+    double arc = 0.0;
+    for (const double link : links_) arc += link;
+    const double link = arc / static_cast<double>(links_.size()), k = kPi / arc;
+    const double push = kPi * kPi * cloth.bending_weft / (link * link) * (1.0 - chord_ / arc);
+    const double higher = kPi * kPi / 16.0 * deepest * deepest;
+    const double lift = higher * std::max(0.0, weightOf(cloth.surface_density) * cloth.height) / push;
+    const double shear = cloth.shear * k * k * cloth.height * higher * higher / push;
+    double height = std::sqrt(lift) + std::cbrt(shear);  // no less than it is: Newton's steps lead down to it
+    for (int step = 0; step < kNewtonSteps; ++step)
+      height -= (height * (height * height - lift) - shear) / (3.0 * height * height - lift);
+    return depth(row) < height ? std::sin(0.5 * kPi * depth(row) / height) : 1.0;
   }
 
   const Scene& scene_;
