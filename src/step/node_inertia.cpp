@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "step/constants.h"
+
 namespace curtain {
 namespace {
 
@@ -81,6 +83,8 @@ void NodeInertia::set(const NodeForces& forces, double kick, double scale, doubl
       keep_[n] = step.keep;
     }
   }
+  const double taken = tensions_.scale != 0.0 ? 2.0 * std::abs(scale / tensions_.scale) * tensions_.heaviest : 0.0;
+  left_ = std::max(kLeastForElastic, kStablePhase * kStablePhase - taken);
   if (most_phase <= 0.0 || tensions_.scale == 0.0) return;
   const double left = most_phase * most_phase - std::abs(scale) * elastic_;
   if (!(left > 0.0)) return;
@@ -94,6 +98,7 @@ void NodeInertia::set(const NodeForces& forces, double kick, double scale, doubl
     changed_[n] = needed * w[n] > 1.0 ? 1.0 / needed : w[n];
   }
   inverse_ = &changed_;
+  left_ = std::max(left_, std::abs(scale) * elastic_);
 }
 
 // Mass that scaling adds when each node must weigh so much per load [kg].

@@ -20,6 +20,9 @@ class NodeInertia {
   /// Bound of the squares of the frequencies of explicit elastic forces [1/s^2], beside which tensions act.
   void setElastic(double omega_squared) noexcept { elastic_ = omega_squared; }
   double elastic() const noexcept { return elastic_; }
+  /// What a substep of explicit links leaves such forces of (h * omega)^2. Where nodes are mass-scaled that is all that
+  /// they ask for, since the scaled inertia is so large.
+  double leftForElastic() const noexcept { return left_; }
 
   /// The pattern's pins have changed.
   void takePins() noexcept;
@@ -62,6 +65,7 @@ class NodeInertia {
   const Field* inverse_;
   bool damped_ = false;
   double elastic_ = 0.0;  // [1/s^2]
+  double left_ = 0.0;
   Tensions tensions_;
 };
 

@@ -97,12 +97,8 @@ Shear::Shear(const ClothParams& cloth, const ClothPattern& pattern, const Worker
 }
 
 void Shear::begin(const NodeInertia& inertia, const Field&, double scale, bool explicit_links) noexcept {
-  const NodeInertia::Tensions& tensions = inertia.tensions();
   const double size = std::abs(scale);
-  const double taken =
-      explicit_links && tensions.scale != 0.0 ? 2.0 * size / std::abs(tensions.scale) * tensions.heaviest : 0.0;
-  const double left =
-      explicit_links ? std::max(kLeastForElastic, kStablePhase * kStablePhase - taken) : kElasticBackward;
+  const double left = explicit_links ? inertia.leftForElastic() : kElasticBackward;
   share_ = std::min(1.0, left / (size * omega_squared_));
 }
 
