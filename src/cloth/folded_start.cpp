@@ -13,6 +13,8 @@ namespace {
 constexpr double kSteepest = 0.9;  // sine of the steepest rod, as of cloth without folds (scene/check_start.cpp)
 constexpr int kHalvings = 40;      // of an interval of angles: to 1e-11 of it
 constexpr int kNewtonSteps = 8;
+constexpr double kLeastShare = 1e-2;  // of their depth that folds are tried with
+constexpr double kRounding = 1e-12;   // relative, of lengths
 
 using Vec2 = Eigen::Vector2d;
 
@@ -32,17 +34,19 @@ class FoldedStart {
   FoldedStart(const Scene& scene, const ClothPattern& pattern, const Vec3& down, const Field3& position)
       : scene_(scene), pattern_(pattern), grid_(pattern.grid), down_(down), plain_(position) {}
 
-  // False: rods are too short.
+  // Folds as deep as links allow, or half, a quarter of it and so on. False: none are possible.
   bool fold(Field3& position) {
     findSupports();
     divide();
     sag();
-    position_ = plain_;
-    for (int i = 0; i < grid_.rows; ++i) {
-      if (!placeRow(i)) return false;
+    for (share_ = 1.0; share_ > kLeastShare; share_ *= 0.5) {
+      position_ = plain_;
+      for (Fold& each : folds_) each.size = 0.0;
+      if (!placeRows()) continue;
+      position = position_;
+      return true;
     }
-    position = position_;
-    return true;
+    return false;
   }
 
  private:
@@ -101,18 +105,19 @@ class FoldedStart {
     }
   }
 
+  // One link makes no fold.
   void addFolds(int first, int last, double arc, bool holds_pins) {
     const double begin = along(first), length = along(last) - begin;
-    const int count = holds_pins ? 1 : std::max(1, static_cast<int>(std::lround(length / arc)));
+    const int most = holds_pins ? 1 : std::max(1, (last - first) / 2);
+    const int count = std::clamp(static_cast<int>(std::lround(length / arc)), 1, most);
     int from = first;
-    for (int k = 1; k <= count; ++k) {
-      int to = from + 1;
-      while (to < last && along(to) + 0.5 * rest(0, to + 1) < begin + length * k / count) ++to;
-      if (k == count) to = last;
+    for (int k = 1; k < count; ++k) {
+      int to = from + 2;
+      while (to < last - 2 * (count - k) && along(to) + 0.5 * rest(0, to + 1) < begin + length * k / count) ++to;
       folds_.push_back({from, to, holds_pins, 0.0});
-      if (to == last) return;
       from = to;
     }
+    folds_.push_back({from, last, holds_pins, 0.0});
   }
 
   // How far shear lets whole columns down between those that are hung [m]: across a link it carries G height slope.
@@ -188,14 +193,21 @@ class FoldedStart {
     return aside <= kSteepest * rod;
   }
 
+  bool placeRows() {
+    for (int i = 0; i < grid_.rows; ++i) {
+      if (!placeRow(i)) return false;
+    }
+    return true;
+  }
+
   bool placeRow(int row) {
     bool reaches = true;
     for (const Fold& fold : folds_) reaches = hang(row, fold.first, course(row, fold.first)) && reaches;
     reaches = hang(row, folds_.back().last, course(row, folds_.back().last)) && reaches;
-    double side = 1.0;
+    double side = -1.0;  // of a ring's course, outside
     for (Fold& fold : folds_) {
       reaches = reaches && placeFold(row, fold, side);
-      side = -side;
+      if (!grid_.closed) side = -side;
     }
     return reaches;
   }
@@ -215,7 +227,8 @@ class FoldedStart {
     for (int j = fold.first + 1; j <= fold.last; ++j) {
       const Vec3 link = course(row, j) - course(row, j - 1);
       links_.push_back(rest(row, j));
-      turns_.push_back(std::cos(kPi * (passed + 0.5 * rest(row, j)) / length));
+      const double share = (passed + 0.5 * rest(row, j)) / length;
+      turns_.push_back(grid_.closed ? std::sin(2.0 * kPi * share) : std::cos(kPi * share));
       courses_.push_back(std::atan2(link.dot(across_), link.dot(axis_)));
       passed += rest(row, j);
     }
@@ -233,7 +246,7 @@ class FoldedStart {
     const double ratio = chord_ / sum.norm();
     const Vec2 aim = sum / sum.norm();
     for (Vec2& point : curve_) point = ratio * Vec2(aim.dot(point), aim.x() * point.y() - aim.y() * point.x());
-    return ratio;
+    return aim.x() > 0.0 ? ratio : std::numeric_limits<double>::infinity();  // too sharp: it leads back
   }
 
   // The largest size, up to `most`, with which all is as it should.
@@ -252,18 +265,28 @@ class FoldedStart {
     prepare(row, fold, side);
     const double sharpest = kPi * static_cast<double>(links_.size());
     double deepest = std::numeric_limits<double>::infinity();
-    if (fold.holds_pins) {
+    if (fold.holds_pins || share_ < 1.0) {
       bend(largest(sharpest, [&](double size) { return bend(size) <= 1.0; }));
-      deepest = deepestPoint();
-      deepest *= shareOfDepth(row, deepest);
+      deepest = share_ * deepestPoint();
+      if (fold.holds_pins) deepest *= shareOfDepth(row, deepest);
     }
     fold.size = largest(sharpest, [&](double trial) {
-      if (bend(trial) > 1.0 || deepestPoint() > deepest) return false;
+      if (bend(trial) > 1.0 || deepestPoint() > deepest || turnsBack()) return false;
       // What rods do not reach is too deep, or not as deep as the row above.
       return placeCurve(row, fold) ? noneIsOverlong(row, fold) : trial < fold.size;
     });
     bend(fold.size);
-    return placeCurve(row, fold);
+    return placeCurve(row, fold) && noneIsOverlong(row, fold);
+  }
+
+  // Somewhere against the chord, where it could meet the next one.
+  bool turnsBack() const {
+    double before = 0.0;
+    for (const Vec2& point : curve_) {
+      if (point.x() < before - kRounding * chord_) return true;
+      before = point.x();
+    }
+    return false;
   }
 
   bool placeCurve(int row, const Fold& fold) {
@@ -275,9 +298,12 @@ class FoldedStart {
     return true;
   }
 
+  // None is longer than it is, or than it was without folds.
   bool noneIsOverlong(int row, const Fold& fold) const {
     for (int j = fold.first + 1; j <= fold.last; ++j) {
-      if ((position_.at(at(row, j)) - position_.at(at(row, j - 1))).squaredNorm() > rest(row, j) * rest(row, j))
+      const std::size_t n = at(row, j), left = at(row, j - 1);
+      const double plain = (plain_.at(n) - plain_.at(left)).norm();
+      if ((position_.at(n) - position_.at(left)).norm() > (1.0 + kRounding) * std::max(plain, rest(row, j)))
         return false;
     }
     return true;
@@ -317,6 +343,7 @@ class FoldedStart {
   std::vector<int> supports_;
   std::vector<Fold> folds_;
   std::vector<double> sag_;  // of columns [m]
+  double share_ = 1.0;       // of the depth that folds could have
   // Of the fold at hand: rest lengths, turns and directions of the course by link; where links end, along and across.
   std::vector<double> links_, turns_, courses_;
   std::vector<Vec2> curve_;
