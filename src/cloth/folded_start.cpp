@@ -212,6 +212,13 @@ class FoldedStart {
     return reaches;
   }
 
+  // What a link's fall from end to end leaves of its length. Rows alike fall alike, so it is taken from the row above.
+  double lengthInPlan(int row, int right) {
+    const double fall = row == 0 ? sagOf(right) - sagOf(right - 1)
+                                 : (position_.at(at(row - 1, right)) - position_.at(at(row - 1, right - 1))).dot(down_);
+    return std::sqrt(std::max(0.0, rest(row, right) * rest(row, right) - fall * fall));
+  }
+
   // Turns of the links out of their course, in the ratio of a line's that is pressed from end to end and bends to one
   // side: close to the elastica, as a sine-generated curve (Langbein, Leopold 1966). None is more than a right angle.
   void prepare(int row, const Fold& fold, double side) {
@@ -226,7 +233,7 @@ class FoldedStart {
     for (int j = fold.first + 1; j <= fold.last; ++j) length += rest(row, j);
     for (int j = fold.first + 1; j <= fold.last; ++j) {
       const Vec3 link = course(row, j) - course(row, j - 1);
-      links_.push_back(rest(row, j));
+      links_.push_back(lengthInPlan(row, j));
       const double share = (passed + 0.5 * rest(row, j)) / length;
       turns_.push_back(grid_.closed ? std::sin(2.0 * kPi * share) : std::cos(kPi * share));
       courses_.push_back(std::atan2(link.dot(across_), link.dot(axis_)));
@@ -262,8 +269,13 @@ class FoldedStart {
   }
 
   bool placeFold(int row, Fold& fold, double side) {
+    if (row == 0 && fold.holds_pins) {
+      for (int j = fold.first + 1; j < fold.last; ++j) hang(row, j, course(row, j));
+      return true;
+    }
     prepare(row, fold, side);
-    const double sharpest = kPi * static_cast<double>(links_.size());
+    const double slack = 1.0 - bend(0.0);
+    const double sharpest = slack > kRounding ? kPi * static_cast<double>(links_.size()) : 0.0;
     double deepest = std::numeric_limits<double>::infinity();
     if (fold.holds_pins || share_ < 1.0) {
       bend(largest(sharpest, [&](double size) { return bend(size) <= 1.0; }));
