@@ -10,11 +10,11 @@
 namespace curtain {
 namespace {
 
-constexpr double kSteepest = 0.9;  // sine of the steepest rod, as of cloth without folds (scene/check_start.cpp)
-constexpr int kHalvings = 40;      // of an interval of angles: to 1e-11 of it
+constexpr double kSteepestRod = 0.9;  // sine of the steepest rod, as of cloth without folds (scene/check_start.cpp)
+constexpr int kSizeHalvings = 40;     // of an interval of angles: to 1e-11 of it
 constexpr int kNewtonSteps = 8;
-constexpr double kLeastShare = 1e-2;  // of their depth that folds are tried with
-constexpr double kRounding = 1e-12;   // relative, of lengths
+constexpr double kLeastDepth = 1e-2;    // of their depth that folds are tried with
+constexpr double kLengthSlack = 1e-12;  // relative, of lengths
 
 using Vec2 = Eigen::Vector2d;
 
@@ -23,10 +23,6 @@ struct Fold {
   int first, last;
   bool holds_pins;    // columns between them are hung, too, so that the top row is straight
   double size = 0.0;  // of its curve in the row above
-};
-
-struct Stretch {
-  int first, last;
 };
 
 class FoldedStart {
@@ -39,7 +35,7 @@ class FoldedStart {
     findSupports();
     divide();
     sag();
-    for (share_ = 1.0; share_ > kLeastShare; share_ *= 0.5) {
+    for (share_ = 1.0; share_ > kLeastDepth; share_ *= 0.5) {
       position_ = plain_;
       for (Fold& each : folds_) each.size = 0.0;
       if (!placeRows()) continue;
@@ -126,10 +122,10 @@ class FoldedStart {
     sag_.assign(static_cast<std::size_t>(grid_.columns), 0.0);
     const int end = supports_.back();
     for (int first = supports_.front(); first < end;) {
-      int last = first + 1;
-      while (last < end && !isHung(last) && stiffness(last) > 0.0) ++last;
-      if (stiffness(last) > 0.0) sagBetween({first, last});
-      first = last;
+      int last = first;
+      while (last < end && stiffness(last + 1) > 0.0 && (last == first || !isHung(last))) ++last;
+      if (last > first) sagBetween(first, last);
+      first = std::max(last, first + 1);
     }
     double share = 1.0;
     for (int j = supports_.front() + 1; j <= end; ++j) {
@@ -156,26 +152,26 @@ class FoldedStart {
     return weightOf(mass);
   }
 
-  void sagBetween(const Stretch& stretch) {
-    const bool left = isHung(stretch.first), right = isHung(stretch.last);
+  void sagBetween(int first, int last) {
+    const bool left = isHung(first), right = isHung(last);
     if (!left && !right) return;
     // What the first link carries: all if the other end is free; else so much that both ends are at the same height.
-    double carried = left ? 0.0 : -columnWeight(stretch.first), moment = 0.0, give = 0.0, beyond = 0.0;
-    for (int j = stretch.first + 1; j <= stretch.last; ++j) {
+    double carried = left ? 0.0 : -columnWeight(first), moment = 0.0, give = 0.0, beyond = 0.0;
+    for (int j = first + 1; j <= last; ++j) {
       const double gives = rest(0, j) / stiffness(j);
       give += gives;
       moment += gives * beyond;
-      if (j < stretch.last || !right) beyond += columnWeight(j);
+      if (j < last || !right) beyond += columnWeight(j);
     }
     if (left) carried = right ? moment / give : beyond;
     double down = 0.0;
-    for (int j = stretch.first + 1; j <= stretch.last; ++j) {
+    for (int j = first + 1; j <= last; ++j) {
       down += carried * rest(0, j) / stiffness(j);
-      if (j < stretch.last || !right) sagOf(j) = down;
+      if (j < last || !right) sagOf(j) = down;
       carried -= columnWeight(j);
     }
     if (left) return;
-    for (int j = stretch.first; j < stretch.last; ++j) sagOf(j) -= down;
+    for (int j = first; j < last; ++j) sagOf(j) -= down;
   }
 
   // Places a node below the one above it. False: its rod can't reach so far.
@@ -190,7 +186,7 @@ class FoldedStart {
     const double rod = pattern_.warp_rest[n], aside = (plan - inPlan(above)).norm();
     if (!(aside < rod)) return false;
     position_.set(n, plan + (above.dot(down_) + std::sqrt(rod * rod - aside * aside)) * down_);
-    return aside <= kSteepest * rod;
+    return aside <= kSteepestRod * rod;
   }
 
   bool placeRows() {
@@ -261,7 +257,7 @@ class FoldedStart {
   static double largest(double most, const Fits& fits) {
     if (fits(most)) return most;
     double least = 0.0;
-    for (int k = 0; k < kHalvings; ++k) {
+    for (int k = 0; k < kSizeHalvings; ++k) {
       const double size = 0.5 * (least + most);
       (fits(size) ? least : most) = size;
     }
@@ -275,7 +271,7 @@ class FoldedStart {
     }
     prepare(row, fold, side);
     const double slack = 1.0 - bend(0.0);
-    const double sharpest = slack > kRounding ? kPi * static_cast<double>(links_.size()) : 0.0;
+    const double sharpest = slack > kLengthSlack ? kPi * static_cast<double>(links_.size()) : 0.0;
     double deepest = std::numeric_limits<double>::infinity();
     if (fold.holds_pins || share_ < 1.0) {
       bend(largest(sharpest, [&](double size) { return bend(size) <= 1.0; }));
@@ -295,7 +291,7 @@ class FoldedStart {
   bool turnsBack() const {
     double before = 0.0;
     for (const Vec2& point : curve_) {
-      if (point.x() < before - kRounding * chord_) return true;
+      if (point.x() < before - kLengthSlack * chord_) return true;
       before = point.x();
     }
     return false;
@@ -315,7 +311,7 @@ class FoldedStart {
     for (int j = fold.first + 1; j <= fold.last; ++j) {
       const std::size_t n = at(row, j), left = at(row, j - 1);
       const double plain = (plain_.at(n) - plain_.at(left)).norm();
-      if ((position_.at(n) - position_.at(left)).norm() > (1.0 + kRounding) * std::max(plain, rest(row, j)))
+      if ((position_.at(n) - position_.at(left)).norm() > (1.0 + kLengthSlack) * std::max(plain, rest(row, j)))
         return false;
     }
     return true;
