@@ -18,7 +18,8 @@ constexpr double kLengthSlack = 1e-12;  // relative, of lengths
 
 using Vec2 = Eigen::Vector2d;
 
-// Half a wave between two columns, which lie on the course. Columns are counted on beyond a ring's last one.
+// Half a wave between two columns, which lie on the course; of a ring a whole one, to its outside. Columns are counted
+// on beyond a ring's last one.
 struct Fold {
   int first, last;
   bool holds_pins;    // columns between them are hung, too, so that the top row is straight
@@ -71,14 +72,16 @@ class FoldedStart {
     }
   }
 
-  // Half of the wave that a sheet of rigidity B wrinkles with under tension T over a length H, sqrt(pi) (B / T)^(1/4)
-  // H^(1/2) (Cerda, Mahadevan 2003), T being the mean of its own weight. Folds as narrow as cloth is thick can't be.
+  // Of a fold. Half of the wave that a sheet of rigidity B wrinkles with under tension T over a length H, sqrt(pi) (B /
+  // T)^(1/4) H^(1/2) (Cerda, Mahadevan 2003), T being the mean of its own weight. Folds as narrow as cloth is thick
+  // can't be.
   double naturalArc() const {
     const ClothParams& cloth = scene_.cloth;
     const double tension = 0.5 * weightOf(cloth.surface_density) * cloth.height;
     const double widest = cloth.width / (grid_.closed ? 4.0 : 1.0);
     if (!(tension > 0.0)) return widest;
-    const double arc = std::sqrt(kPi * cloth.height * std::sqrt(cloth.bending_weft / tension));
+    const double half = std::sqrt(kPi * cloth.height * std::sqrt(cloth.bending_weft / tension));
+    const double arc = grid_.closed ? 2.0 * half : half;
     const Vec3 there = course(0, supports_[1]) - course(0, supports_[0]);
     const double fullness = (along(supports_[1]) - along(supports_[0])) / std::max(there.norm(), 1e-12);
     return std::min(widest, std::max(arc, 2.0 * scene_.contact.thickness * fullness));
