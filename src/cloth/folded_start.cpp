@@ -73,15 +73,15 @@ class FoldedStart {
   }
 
   // Of a fold. Half of the wave that a sheet of rigidity B wrinkles with under tension T over a length H, sqrt(pi) (B /
-  // T)^(1/4) H^(1/2) (Cerda, Mahadevan 2003), T being the mean of its own weight. Folds as narrow as cloth is thick
-  // can't be.
+  // T)^(1/4) H^(1/2) (Cerda, Mahadevan 2003), T being the mean of its own weight. None is of less than two links, or
+  // as narrow as cloth is thick.
   double naturalArc() const {
     const ClothParams& cloth = scene_.cloth;
     const double tension = 0.5 * weightOf(cloth.surface_density) * cloth.height;
     const double widest = cloth.width / (grid_.closed ? 4.0 : 1.0);
     if (!(tension > 0.0)) return widest;
     const double half = std::sqrt(kPi * cloth.height * std::sqrt(cloth.bending_weft / tension));
-    const double arc = grid_.closed ? 2.0 * half : half;
+    const double arc = (grid_.closed ? 2.0 : 1.0) * std::max(half, 2.0 * cloth.width / grid_.linkCount());
     const Vec3 there = course(0, supports_[1]) - course(0, supports_[0]);
     const double fullness = (along(supports_[1]) - along(supports_[0])) / std::max(there.norm(), 1e-12);
     return std::min(widest, std::max(arc, 2.0 * scene_.contact.thickness * fullness));
