@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Start of cloth that is gathered and whose wefts push (parts/weft_push): its rows lie in folds, where wefts are as long
-// as they are. Of cloth that is placed without folds each row's course in plan is kept, and bent to one side and the
-// other by turns; columns meet the course where they are hung.
+// Start of cloth that is gathered and whose wefts push (parts/weft_push): its rows lie in folds, where wefts are as
+// long as they are. Of cloth that is placed without folds each row's course in plan is kept, and bent to one side and
+// the other by turns; columns meet the course where they are hung.
 //
 //     from above      __        __
 //                    /  \      /  \              .  hung columns; the course goes straight from one to the next
