@@ -84,8 +84,11 @@ struct ClothParams {
   bool closed = false;                  ///< the weft closes to a ring (skirt, canopy)
   int folds = 6;                        ///< rods per weft link [1..64]; 1 = no second-layer nodes
   double porosity = 0.0;                ///< share of the air that passes through [0..1]
-  double bending_warp = 0.0;      ///< bending rigidity along the warp [N m], [0..1000]: moment per width and curvature
-  double bending_weft = 0.0;      ///< the same along the weft; 0: limp
+  double bending_warp = 0.0;  ///< bending rigidity along the warp [N m], [0..1000]: moment per width and curvature
+  double bending_weft = 0.0;  ///< the same along the weft; 0: limp
+  double bending_bias = 0.0;  ///< the same along the bias, of wide cloth, [0..1000]; up to the quarter of the others'
+                              ///< sum that warp and weft give: no more than that
+  double bending_hysteresis = 0.0;  ///< twice the friction's moment per width [N], [0..1e6]: KES 2HB; 0: none
   double shear = 0.0;             ///< shear rigidity [N/m], [0..1e6]: force per width and angle; 0: none. With it wefts
                                   ///< that bend resist shortening until they buckle
   std::vector<SlitParams> slits;  ///< cuts along the warp, each elsewhere; strips have at least two columns

@@ -9,6 +9,7 @@
 
 #include "fit/sample.h"
 #include "fit/shadow.h"
+#include "scene/pi.h"
 #include "scene/splitmix.h"
 #include "simulator/frame_loop.h"
 
@@ -22,20 +23,40 @@ using curtain::Motion;
 using curtain::Scene;
 using curtain::Vec3;
 
-constexpr double kUneven = 1e-4;  // a start's heights lie within so much of the plane [m]: about a cloth's thickness
+// A start's heights: so many waves over the sample, each so high at the rim [m], as long as folds may be [m]. The same
+// on every grid, and links keep their lengths.
+constexpr int kWaves = 8;
+constexpr double kWaveHeight = 1e-4, kShortest = 0.06, kLongest = 0.3;
 
 // Share of the energy that the overhang could lose, below which motion is over: speeds of 0.3 mm/s.
 constexpr double kStill = 1e-7;
 
-// Heights at random, but where it is held.
+// Numbers in [0, 1), by splitmix64.
+class Randoms {
+ public:
+  explicit Randoms(std::uint64_t seed) : seed_(curtain::splitmix(seed)) {}
+  double next() { return std::ldexp(static_cast<double>(curtain::splitmix(seed_ + count_++) >> 11), -53); }
+
+ private:
+  std::uint64_t seed_, count_ = 0;
+};
+
+// Makes what is not held uneven.
 void makeUneven(const ClothPattern& pattern, std::uint64_t seed, Field3& position) {
   const Grid& grid = pattern.grid;
-  for (int i = 0; i < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j) {
-      const std::size_t n = grid.index(i, j);
-      if (pattern.pinned[n] != curtain::kFree) continue;
-      const std::uint64_t bits = curtain::splitmix(curtain::splitmix(seed) + n);
-      position.z[n] += kUneven * (std::ldexp(static_cast<double>(bits >> 11), -52) - 1.0);
+  Randoms random(seed);
+  for (int wave = 0; wave < kWaves; ++wave) {
+    const double direction = 2.0 * curtain::kPi * random.next(), phase = 2.0 * curtain::kPi * random.next();
+    const double length = kShortest * std::pow(kLongest / kShortest, random.next());
+    const Vec3 along = 2.0 * curtain::kPi / length * Vec3(std::cos(direction), std::sin(direction), 0.0);
+    for (int i = 0; i < grid.rows; ++i) {
+      for (int j = 0; j < grid.columns; ++j) {
+        const std::size_t n = grid.index(i, j);
+        if (pattern.pinned[n] != curtain::kFree) continue;
+        const Vec3 place = flatPlace(grid, i, j);
+        const double out = (place.norm() - kDiscRadius) / (kSampleRadius - kDiscRadius);
+        position.z[n] += kWaveHeight * out * std::sin(along.dot(place) + phase);
+      }
     }
   }
 }
@@ -99,7 +120,9 @@ class Sinking {
 }  // namespace
 
 std::vector<DrapeReading> drape(const curtain::ClothParams& cloth, const DrapeTest& test) {
-  Scene scene = sheetOf(cloth, test.nodes, test.substeps);
+  Scene scene = sheetOf(cloth, test.nodes);
+  scene.solver.method = test.method;
+  scene.solver.substeps = test.substeps;
   scene.solver.threads = 1;
   const std::vector<curtain::Problem> problems = validate(scene);
   if (!problems.empty()) throw std::invalid_argument(describe(problems));

@@ -17,11 +17,12 @@ constexpr double kSampleRadius = 0.15, kDiscRadius = 0.09;
 
 /// How the test is made.
 struct DrapeTest {
-  int nodes = 48;          ///< along a side of the grid [8..4096]
-  int starts = 5;          ///< how often it is made, each time from another start, >= 1
-  int substeps = 0;        ///< a frame of 1/60 s [0..10000]; 0: as many as the cloth needs
-  double longest = 10.0;   ///< simulated time after which it ends in any case [s], > 0
-  std::uint64_t seed = 1;  ///< of the first start; each next one has the next
+  int nodes = 48;                                   ///< along a side of the grid [8..4096]
+  int starts = 5;                                   ///< how often it is made, each time from another start, >= 1
+  int substeps = 0;                                 ///< a frame of 1/60 s [0..10000]; 0: as many as the cloth needs
+  curtain::Method method = curtain::Method::kAuto;  ///< how motion is computed
+  double longest = 10.0;                            ///< simulated time after which it ends in any case [s], > 0
+  std::uint64_t seed = 1;                           ///< of the first start; each next one has the next
 };
 
 /// What one start came to.

@@ -43,7 +43,7 @@ Vec3 flatPlace(const Grid& grid, int row, int column) {
   return {column * spacing - kSampleRadius, kSampleRadius - row * spacing, 0.0};
 }
 
-Scene sheetOf(const curtain::ClothParams& cloth, int nodes, int substeps) {
+Scene sheetOf(const curtain::ClothParams& cloth, int nodes) {
   Scene scene;
   scene.cloth = cloth;
   scene.cloth.rows = scene.cloth.columns = nodes;
@@ -60,7 +60,6 @@ Scene sheetOf(const curtain::ClothParams& cloth, int nodes, int substeps) {
     }
   }
   scene.air.inside = scene.air.border = scene.air.corner = kAir;
-  scene.solver.substeps = substeps;
   scene.solver.max_substeps = 10000;  // what stiff cloth needs
   return scene;
 }

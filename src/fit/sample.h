@@ -9,7 +9,7 @@ namespace curtain_fit {
 
 /// A scene of a square sheet with these properties that lies flat at z = 0 around the origin, pinned where the disc is.
 /// It sinks in still air. Row 0 is at the largest y.
-curtain::Scene sheetOf(const curtain::ClothParams& cloth, int nodes, int substeps);
+curtain::Scene sheetOf(const curtain::ClothParams& cloth, int nodes);
 
 /// Its pattern, of which the circle is left.
 curtain::ClothPattern roundSample(const curtain::Scene& sheet);

@@ -19,6 +19,8 @@ using curtain::Vec3;
 // The plane of the shadow, in squares that count when their middle is in it.
 class Paper {
  public:
+  static constexpr double kSquare = 0.5e-3;  // [m]
+
   /// Everything that is seen from above through a triangle.
   void shade(const Vec3& a, const Vec3& b, const Vec3& c) {
     const double area = cross(b - a, c - a);
@@ -44,8 +46,7 @@ class Paper {
   double darkArea() const { return kSquare * kSquare * static_cast<double>(std::count(dark_.begin(), dark_.end(), 1)); }
 
  private:
-  static constexpr double kSquare = 0.5e-3;  // [m]
-  static constexpr double kHalf = 0.16;      // [m]; the sample fits in
+  static constexpr double kHalf = 0.16;  // [m]; the sample fits in
   static constexpr int kSide = static_cast<int>(2.0 * kHalf / kSquare);
   static constexpr double kEdge = 1e-9;  // two triangles leave no square of their common edge out
 
@@ -71,13 +72,14 @@ Vec3 pointOfCell(const Grid& grid, const Field3& position, int row, int column, 
 }  // namespace
 
 double drapeCoefficient(const ClothPattern& pattern, const Field3& position) {
-  constexpr int kPieces = 8;  // along each side of a cell that the circle cuts
   const Grid& grid = pattern.grid;
+  // A cell that the circle cuts counts piece by piece, each as small as a square of the paper.
+  const int small = static_cast<int>(std::ceil(pattern.weft_rest[grid.index(0, 1)] / Paper::kSquare));
   Paper paper;
   paper.shadeDisc(kDiscRadius);
   forEachCell(grid, [&](int i, int j, int) {
     const double share = pattern.cell[grid.index(i, j)];
-    const int pieces = share < 1.0 ? kPieces : 1;
+    const int pieces = share < 1.0 ? small : 1;
     const Vec3 corner = flatPlace(grid, i, j - 1), across = flatPlace(grid, i + 1, j) - corner;
     for (int u = 0; share > 0.0 && u < pieces; ++u) {
       for (int v = 0; v < pieces; ++v) {

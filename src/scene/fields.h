@@ -53,6 +53,8 @@ struct Fields<ClothParams> {
     v.number("porosity", cloth.porosity, between(0.0, 1.0));
     v.number("bending_warp", cloth.bending_warp, between(0.0, 1e3));
     v.number("bending_weft", cloth.bending_weft, between(0.0, 1e3));
+    v.number("bending_bias", cloth.bending_bias, between(0.0, 1e3));
+    v.number("bending_hysteresis", cloth.bending_hysteresis, between(0.0, 1e6));
     v.number("shear", cloth.shear, between(0.0, 1e6));
     v.slits("slits", cloth.slits);
     v.numbers("row_spacing", cloth.row_spacing, positive());
