@@ -88,12 +88,13 @@ struct ContactForce {
 /// is minus what damping, friction, carriers that stop and links that snap taut have dissipated, so but for the
 /// scheme's error it never rises.
 struct Work {
-  double gravity = 0.0;  ///< decrease of the gravitational potential energy
-  double elastic = 0.0;  ///< decrease of the elastic energy
-  double forces = 0.0;   ///< work of winds and drags
-  double drive = 0.0;    ///< work of the drive on a rail's carriers, and of tie-backs that close
-  double pins = 0.0;     ///< work of moved pins; unknown to Method::kPaper, and where links are drawn straight between
-                         ///< two pins, since their tensions are not unique then
+  double gravity = 0.0;     ///< decrease of the gravitational potential energy
+  double elastic = 0.0;     ///< work of elastic forces: decrease of their energy, with what is dissipated
+  double dissipated = 0.0;  ///< of that, by friction within the fabric
+  double forces = 0.0;      ///< work of winds and drags
+  double drive = 0.0;       ///< work of the drive on a rail's carriers, and of tie-backs that close
+  double pins = 0.0;  ///< work of moved pins; unknown to Method::kPaper, and where links are drawn straight between
+                      ///< two pins, since their tensions are not unique then
   double obstacles = 0.0;  ///< work of moving obstacles
   double kinetic = 0.0;    ///< increase of the kinetic energy
 };

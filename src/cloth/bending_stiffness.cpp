@@ -16,8 +16,10 @@ struct Joint {
   double width;          // [m]
 };
 
+double lengthOf(const Joint& joint) { return 0.5 * (joint.before + joint.after); }
+
 double stiffnessOf(const Joint& joint, double rigidity) {
-  const double length = 0.5 * (joint.before + joint.after);
+  const double length = lengthOf(joint);
   return joint.between && length > 0.0 ? rigidity * joint.width / length : 0.0;
 }
 
@@ -65,6 +67,18 @@ void fillBending(const ClothParams& cloth, ClothPattern& pattern) {
         pattern.warp_bending[n] = stiffnessOf(neighbours.alongWarp(i, j), cloth.bending_warp);
       if (cloth.bending_weft > 0.0)
         pattern.weft_bending[n] = stiffnessOf(neighbours.alongWeft(i, j), cloth.bending_weft);
+    }
+  }
+}
+
+void fillTurningLengths(const ClothPattern& pattern, Field& warp, Field& weft) noexcept {
+  const Grid& grid = pattern.grid;
+  const Neighbours neighbours(pattern);
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) {
+      const std::size_t n = grid.index(i, j);
+      warp[n] = lengthOf(neighbours.alongWarp(i, j));
+      weft[n] = lengthOf(neighbours.alongWeft(i, j));
     }
   }
 }

@@ -81,6 +81,10 @@ struct ClothState {
 /// The stiffness of either direction's lines from the bending rigidities [N m] (ClothPattern::warp_bending).
 void fillBending(const ClothParams& cloth, ClothPattern& pattern);
 
+/// Lengths that a joint's turn stands for, of either direction's lines [m], shapes [grid.size()]; its stiffness is
+/// rigidity width / length.
+void fillTurningLengths(const ClothPattern& pattern, Field& warp, Field& weft) noexcept;
+
 /// Pins these nodes beside those of the scene, and frees all others; inverse masses and bending follow. Whoever keeps
 /// something that follows from them must take it again: Simulator::Impl::takePins() tells all of them.
 ///   held  by node, 1 or 0; read where scene_pins has kFree

@@ -18,7 +18,8 @@ class _Energy(TypedDict):
 
 class _Work(TypedDict):
     gravity: float
-    bending: float
+    elastic: float
+    dissipated: float
     forces: float
     drive: float
     pins: float

@@ -39,9 +39,9 @@ py::dict statisticsOf(const Simulator& simulator) {
 py::dict workOf(const Simulator& simulator) {
   const Work work = simulator.work();
   using namespace py::literals;
-  return py::dict("gravity"_a = work.gravity, "elastic"_a = work.elastic, "forces"_a = work.forces,
-                  "drive"_a = work.drive, "pins"_a = work.pins, "obstacles"_a = work.obstacles,
-                  "kinetic"_a = work.kinetic);
+  return py::dict("gravity"_a = work.gravity, "elastic"_a = work.elastic, "dissipated"_a = work.dissipated,
+                  "forces"_a = work.forces, "drive"_a = work.drive, "pins"_a = work.pins,
+                  "obstacles"_a = work.obstacles, "kinetic"_a = work.kinetic);
 }
 
 py::dict energyOf(const Simulator& simulator) {
@@ -66,7 +66,7 @@ void bindMeasures(SimulatorClass& simulator) {
           py::arg("counted"), "Starts (from zero) or stops counting work; counting costs about 5 % of a step.")
       .def_property_readonly(
           "work", [](const Self& self) { return workOf(self.look()); },
-          "Work on the cloth counted so far [J], a new dict: gravity, elastic, forces, drive, pins, "
+          "Work on the cloth counted so far [J], a new dict: gravity, elastic, dissipated, forces, drive, pins, "
           "obstacles; and kinetic, the increase of the kinetic energy.")
       .def(
           "plan", [](const Self& self) { return describe(self.look().plan()); },

@@ -82,8 +82,10 @@ void checkSlits(const ClothParams& cloth, ProblemLog& log) {
 // Springs of a joint are as stiff as its links' lengths are small, to the third power.
 void checkBending(const Scene& scene, ProblemLog& log) {
   const ClothParams& cloth = scene.cloth;
-  if (scene.solver.method == Method::kPaper && cloth.shear > 0.0)
-    log.add("solver.method", "can't be paper for cloth that resists shear (cloth.shear > 0)");
+  if (scene.solver.method == Method::kPaper && (cloth.shear > 0.0 || cloth.bending_bias > 0.0))
+    log.add("solver.method", "can't be paper for cloth that resists shear or twist (cloth.shear, bending_bias > 0)");
+  if (cloth.bending_hysteresis > 0.0 && !(cloth.bending_warp > 0.0 || cloth.bending_weft > 0.0))
+    log.add("cloth.bending_hysteresis", "must be 0 where bending_warp and bending_weft are 0");
   if (!(cloth.bending_warp > 0.0 || cloth.bending_weft > 0.0)) return;
   if (scene.solver.method == Method::kPaper)
     log.add("solver.method",

@@ -10,8 +10,10 @@
 #include "parts/cords/cords.h"
 #include "parts/drag/drags.h"
 #include "parts/hands/grasps.h"
+#include "parts/hysteresis/hysteresis.h"
 #include "parts/rail/rail.h"
 #include "parts/shear/shear.h"
+#include "parts/twist/twist.h"
 #include "parts/weft_push/weft_push.h"
 #include "parts/wind/winds.h"
 #include "step/elastic_chain.h"
@@ -34,7 +36,9 @@ struct Composition {
   RelativeAir relative_air{scene.air, scene.cloth.porosity, pattern, scene.ambient};
   Grasps hands{scene, pattern};
   Bending bending{pattern, workers};
+  Hysteresis hysteresis{scene.cloth, pattern};
   Shear shear{scene.cloth, pattern, workers};
+  Twist twist{scene.cloth, pattern, workers};
   WeftPush weft_push{scene.cloth, pattern};
   Rail rail{scene, pattern};
   Cords cords{pattern};
@@ -49,14 +53,16 @@ struct Composition {
       &relative_air,
       &hands,
       &bending,
+      &hysteresis,
       &shear,
+      &twist,
       &weft_push,
       &rail,
       &cords,
   };
   // clang-format on
 
-  ElasticChain elastic{{&bending, &shear, &weft_push}};
+  ElasticChain elastic{{&bending, &hysteresis, &shear, &twist, &weft_push}};
 
   SolverParts forSolver() noexcept { return {elastic.part(), rail.any() ? &rail : nullptr, {&cords}}; }
 };

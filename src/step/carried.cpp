@@ -39,6 +39,7 @@ void Step::Memory::carry(Archive& archive) {
   archive.part("tensions", tensions);
   archive.number("held", held);
   archive.finite("guide", guide);
+  archive.finite("elastic", elastic);
 }
 
 void Constraints::carry(Archive& archive) {

@@ -58,6 +58,18 @@ class ElasticChain final : public ElasticPart {
     }
     return energy;
   }
+  double commit(const Field3& position) noexcept override {
+    double taken = 0.0;
+    for (ElasticPart* const part : parts_) taken += part->commit(position);
+    return taken;
+  }
+  void save(std::vector<double>& memory) const override {
+    for (const ElasticPart* const part : parts_) part->save(memory);
+  }
+  const double* restore(const double* memory) noexcept override {
+    for (ElasticPart* const part : parts_) memory = part->restore(memory);
+    return memory;
+  }
   double omegaSquared() const noexcept override {
     double sum = 0.0;
     for (const ElasticPart* const part : parts_) sum += part->omegaSquared();

@@ -4,6 +4,8 @@
 // all others before the links are solved for. It says how stiff it may be in a step, and is no stiffer.
 #pragma once
 
+#include <vector>
+
 #include "step/node_inertia.h"
 #include "step/warp_solver.h"
 
@@ -38,6 +40,12 @@ class ElasticPart {
   /// Elastic energy that leapfrog keeps with that of motion [J]: after addTo(outer, ...) moved the cloth to `position`,
   /// x_n A x_(n-1) / 2 beside the velocities between them.
   virtual double energyAfter(const Field3& outer, const Field3& position) const noexcept = 0;
+
+  /// A substep has led to these positions: what depends on the path follows. Returns what friction within took [J].
+  virtual double commit(const Field3& /*position*/) noexcept { return 0.0; }
+  /// Appends what depends on the path; takes it back from there, and returns what comes after it.
+  virtual void save(std::vector<double>& /*memory*/) const {}
+  virtual const double* restore(const double* memory) noexcept { return memory; }
 };
 
 /// Where a substep leads to with its force and without links [m].

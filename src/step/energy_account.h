@@ -87,6 +87,7 @@ class EnergyAccount {
   void bookContacts(const Contacts& contacts, double per_h) noexcept;
   /// What a moved pin did, by the impulse of the links on it [N s].
   void bookPin(const Vec3& impulse, const Vec3& velocity) noexcept { work_.pins -= impulse.dot(velocity); }
+  void bookDissipated(double work) noexcept { work_.dissipated += work; }
   void bookElastic(double work) noexcept { work_.elastic += work; }
   void bookDrive(double work) noexcept { work_.drive += work; }
 

@@ -38,6 +38,7 @@ void EnergyAccount::carry(Archive& archive) {
   archive.optional("at_start", at_start_, 0.0, [&](double& energy) { archive.finite("energy", energy); });
   archive.finite("gravity", work_.gravity);
   archive.finite("elastic", work_.elastic);
+  archive.finite("dissipated", work_.dissipated);
   archive.finite("forces", work_.forces);
   archive.finite("drive", work_.drive);
   archive.finite("pins", work_.pins);

@@ -56,7 +56,10 @@ void Step::reset() noexcept {
 void Step::takePins() noexcept {
   free_ = isFree(pattern_);
   inertia_.takePins();
-  if (elastic_ != nullptr) elastic_->takePins();
+  if (elastic_ != nullptr) {
+    elastic_->takePins();
+    inertia_.setElastic(elastic_->omegaSquared());
+  }
   constraints_.takePins();
   account_.takePins();
 }
@@ -228,6 +231,7 @@ void Step::take(const Attempt& attempt, const Progress& progress, SubstepOutcome
   state.velocity_age = attempt.scheme.rules().age * plan.h;
   if (std::isfinite(progress.energy.most)) account_.bound(progress.energy.most, state.velocity);
   account_.setHeld(progress.energy.held);
+  if (elastic_ != nullptr) outcome.dissipated = elastic_->commit(state.position);
   outcome.omega_squared = inertia_.omegaSquared();
   if (!anyPushes(contacts()) && !constraints_.stringsPull()) outcome.turning = turning(outcome.kick);
   const double fastest = fastestSurface(contacts());

@@ -106,7 +106,7 @@ class Step {
     Constraints::Memory constraints;
     NodeInertia::Tensions tensions;
     double held = 0.0;  // EnergyAccount::held()
-    std::vector<double> guide;
+    std::vector<double> guide, elastic;
 
     void carry(Archive& archive);
   };

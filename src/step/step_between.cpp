@@ -78,6 +78,7 @@ void Step::book(const ClothState& state, const NodeForces& forces, const Substep
     if (pattern_.pinned[n] == kPinned) account_.bookPin(per_h * distances().pullAt(n), state.velocity.at(n));
   }
   account_.bookElastic(distances().elasticWork());
+  account_.bookDissipated(outcome.dissipated);
   account_.bookDrive(distances().work(account_.before(), state.velocity, per_h));
   if (guide() != nullptr) account_.bookDrive(guide()->work(account_.before(), state.velocity, outcome.kick));
 }
@@ -87,6 +88,8 @@ void Step::save(Memory& memory) const {
   memory.tensions = inertia_.tensions();
   memory.held = account_.held();
   if (constraints_.guide() != nullptr) constraints_.guide()->save(memory.guide);
+  memory.elastic.clear();
+  if (elastic_ != nullptr) elastic_->save(memory.elastic);
 }
 
 void Step::restore(const Memory& memory) {
@@ -94,6 +97,7 @@ void Step::restore(const Memory& memory) {
   inertia_.tensions() = memory.tensions;
   account_.setHeld(memory.held);
   if (constraints_.guide() != nullptr) constraints_.guide()->restore(memory.guide);
+  if (elastic_ != nullptr) elastic_->restore(memory.elastic.data());
 }
 
 }  // namespace curtain

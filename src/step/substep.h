@@ -100,6 +100,7 @@ struct SubstepOutcome {
   double kick = 0.0;                                              ///< time that the forces acted for [s]
   double share = 1.0;                                             ///< of the path that the last resort leaves, [0..1]
   double momentum_cut = 0.0;                                      ///< by the last resort [N s]
+  double dissipated = 0.0;                                        ///< by friction within elastic parts [J]
   bool pins_wait = false;                                         ///< moved pins stayed where they were
   double longest_step = std::numeric_limits<double>::infinity();  ///< limit for the next step from moving contacts [s]
   double turning = 0.0;        ///< Step::turning() [1/s]; 0 with pulling strings or contacts: jumps are no turns

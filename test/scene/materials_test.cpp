@@ -30,7 +30,7 @@ TEST(Materials, AreWhatTheirPageSays) {
     std::vector<std::string> cells;
     std::stringstream row(line);
     for (std::string cell; std::getline(row, cell, '|');) cells.push_back(cell);
-    if (cells.size() != 8) continue;
+    if (cells.size() != 10) continue;
     const std::string name = cells[1].substr(1, cells[1].size() - 2);
     if (materialOf(name) == Material::kNone || materialOf(name) > Material::kParachuteNylon) continue;
     described.insert(name);
@@ -38,9 +38,11 @@ TEST(Materials, AreWhatTheirPageSays) {
     EXPECT_EQ(scene.cloth.surface_density, std::stod(cells[2])) << name;
     EXPECT_EQ(scene.cloth.bending_warp, std::stod(cells[3])) << name;
     EXPECT_EQ(scene.cloth.bending_weft, std::stod(cells[4])) << name;
-    EXPECT_EQ(scene.cloth.porosity, std::stod(cells[5])) << name;
-    EXPECT_EQ(scene.contact.friction, std::stod(cells[6])) << name;
-    EXPECT_EQ(scene.contact.thickness, std::stod(cells[7])) << name;
+    EXPECT_EQ(scene.cloth.bending_bias, std::stod(cells[5])) << name;
+    EXPECT_EQ(scene.cloth.shear, std::stod(cells[6])) << name;
+    EXPECT_EQ(scene.cloth.porosity, std::stod(cells[7])) << name;
+    EXPECT_EQ(scene.contact.friction, std::stod(cells[8])) << name;
+    EXPECT_EQ(scene.contact.thickness, std::stod(cells[9])) << name;
     EXPECT_DOUBLE_EQ(scene.air.inside, 0.585 * (1.0 - scene.cloth.porosity)) << name;
     EXPECT_TRUE(validate(scene).empty()) << describe(validate(scene));
   }

@@ -4,11 +4,10 @@
 //     k (1 - cos(theta - theta_0)) = k cos(theta_0) (1 - cos(theta)) + k (1 - cos(theta_0)) - k sin(theta_0)
 //     sin(theta).
 // The first term is that of a straight line (bending_lines.h) of stiffness k cos(theta_0), the second a constant, the
-// third a couple on the two links. With their directions t and t' (in rest lengths) sin(theta) = n . (t x t'), and n is
-// the direction of the line across, between the node's neighbours on it: it follows the cloth, so that the couple and
-// what it exerts across leave no net force and no net torque.
+// third a couple on the two links (turning_joint.h).
 #pragma once
 
+#include "cloth/turning_joint.h"
 #include "parts/bending/bending_lines.h"
 
 namespace curtain {
@@ -29,12 +28,9 @@ class RestCurvature {
 
  private:
   struct Couple {
-    std::size_t before, node, after;  // along the line
-    std::size_t left, right;          // across
-    double moment;                    // k sin(theta_0) [N m]
-    double constant;                  // k (1 - cos(theta_0)) [J]
-    double per_before, per_after;     // 1 / rest length [1/m]
-    double shortest;                  // line across that has a direction [m]
+    TurningJoint joint;
+    double moment;    // k sin(theta_0) [N m]
+    double constant;  // k (1 - cos(theta_0)) [J]
   };
   void fill() noexcept;
 

@@ -6,12 +6,9 @@
 #include <sstream>
 
 #include "cloth/wide.h"
-#include "step/constants.h"
 
 namespace curtain {
 namespace {
-
-constexpr int kRowsAtOnce = 8;  // of a task for the workers
 
 Field inverseOf(const Field& lengths) {
   Field out(lengths.size());
@@ -88,26 +85,12 @@ Shear::Shear(const ClothParams& cloth, const ClothPattern& pattern, const Worker
     flat_[2][n] = bottom.dot(on_left) * per_weft_[below] * per_left;
     flat_[3][n] = bottom.dot(on_right) * per_weft_[below] * per_right;
   });
-  for (Field3* const field : {&sum_, &ahead_}) field->assign(grid.size(), 0.0);
-  corners_.resize(static_cast<std::size_t>((grid.rows + kRowsAtOnce - 1) / kRowsAtOnce));
-  for (Corners& block : corners_) {
-    for (Field3* const field : {&block.top_left, &block.top_right, &block.bottom_left, &block.bottom_right})
-      field->assign(static_cast<std::size_t>(grid.stride) + 1, 0.0);
-  }
-}
-
-void Shear::begin(const NodeInertia& inertia, const Field&, double scale, bool explicit_links) noexcept {
-  const NodeInertia::Tensions& tensions = inertia.tensions();
-  const double size = std::abs(scale);
-  const double taken =
-      explicit_links && tensions.scale != 0.0 ? 2.0 * size / std::abs(tensions.scale) * tensions.heaviest : 0.0;
-  const double left =
-      explicit_links ? std::max(kLeastForElastic, kStablePhase * kStablePhase - taken) : kElasticBackward;
-  share_ = std::min(1.0, left / (size * omega_squared_));
+  assign(grid.size());
+  cells_.emplace(grid);
 }
 
 // The cells between a row and the next but that at the seam.
-CURTAIN_WIDE void Shear::shearCells(const Field3& position, int row, Corners& corners) const noexcept {
+CURTAIN_WIDE void Shear::shearCells(const Field3& position, int row, CellCorners& corners) const noexcept {
   const auto columns = static_cast<std::size_t>(pattern_.grid.columns);
   const std::size_t first = pattern_.grid.row(row), second = pattern_.grid.row(row + 1);
   const ConstFieldView a(position, first), b(position, second);
@@ -117,7 +100,7 @@ CURTAIN_WIDE void Shear::shearCells(const Field3& position, int row, Corners& co
                       *const flat_df = flat_[2].data() + first, *const flat_dg = flat_[3].data() + first;
   const FieldView tl(corners.top_left, 0), tr(corners.top_right, 0), bl(corners.bottom_left, 0),
       br(corners.bottom_right, 0);
-  const double quarter = 0.25 * share_ * rigidity_;
+  const double quarter = 0.25 * share() * rigidity_;
 #pragma omp simd
   for (std::size_t j = 1; j < columns; ++j) {
     const double ex = a.x[j] - a.x[j - 1], ey = a.y[j] - a.y[j - 1], ez = a.z[j] - a.z[j - 1];              // top
@@ -146,13 +129,13 @@ CURTAIN_WIDE void Shear::shearCells(const Field3& position, int row, Corners& co
 }
 
 // The cell that closes a ring, between its last column and its first.
-void Shear::shearSeam(const Field3& position, int row, Corners& corners) const noexcept {
+void Shear::shearSeam(const Field3& position, int row, CellCorners& corners) const noexcept {
   const Grid& grid = pattern_.grid;
   const std::size_t n = grid.index(row, 0), below = grid.index(row + 1, 0), last = grid.index(row, grid.columns - 1),
                     last_below = grid.index(row + 1, grid.columns - 1);
   const Vec3 top = position.at(n) - position.at(last), bottom = position.at(below) - position.at(last_below);
   const Vec3 left = position.at(last_below) - position.at(last), right = position.at(below) - position.at(n);
-  const double k = 0.25 * share_ * rigidity_ * pattern_.cell[n];
+  const double k = 0.25 * share() * rigidity_ * pattern_.cell[n];
   const double ef = k * (top.dot(left) * per_weft_[n] * per_warp_[last_below] - flat_[0][n]);
   const double eg = k * (top.dot(right) * per_weft_[n] * per_warp_[below] - flat_[1][n]);
   const double df = k * (bottom.dot(left) * per_weft_[below] * per_warp_[last_below] - flat_[2][n]);
@@ -165,61 +148,15 @@ void Shear::shearSeam(const Field3& position, int row, Corners& corners) const n
   corners.bottom_right.set(0, -of_bottom - of_right);
 }
 
-namespace {
-
-// Adds what cells on either side of the nodes of a row do to them. left, right: of the cell on the right of a node, at
-// whose left corner it is, and on its left.
-CURTAIN_INTO_WIDE void addCorners(const Field& left, const Field& right, std::size_t columns, bool closed,
-                                  double* sum) noexcept {
-  const double *const l = left.data(), *const r = right.data();
-  const std::size_t last = columns - 1;
-#pragma omp simd
-  for (std::size_t j = 0; j < last; ++j) sum[j] += r[j] + l[j + 1];
-  sum[last] += closed ? r[last] + l[0] : r[last];
+void Shear::addOwn(const Field3& position, Field3& sum) noexcept {
+  const auto fill = [&](int row, CellCorners& corners) {
+    shearCells(position, row, corners);
+    if (pattern_.grid.closed) shearSeam(position, row, corners);
+  };
+  cells_->add(pattern_.grid, workers_, fill, sum);
 }
 
-CURTAIN_WIDE void addCorners(const Field3& left, const Field3& right, const Grid& grid, int row, Field3& sum) noexcept {
-  const auto columns = static_cast<std::size_t>(grid.columns);
-  const std::size_t first = grid.row(row);
-  addCorners(left.x, right.x, columns, grid.closed, sum.x.data() + first);
-  addCorners(left.y, right.y, columns, grid.closed, sum.y.data() + first);
-  addCorners(left.z, right.z, columns, grid.closed, sum.z.data() + first);
-}
-
-}  // namespace
-
-// Adds to a block of rows what the cells above and below each do, row by row. The cells between two blocks are computed
-// in both.
-void Shear::addRows(const Field3& position, int block) noexcept {
-  const Grid& grid = pattern_.grid;
-  Corners& corners = corners_[static_cast<std::size_t>(block)];
-  const int begin = block * kRowsAtOnce, end = std::min(begin + kRowsAtOnce, grid.rows);
-  for (int i = std::max(0, begin - 1); i < std::min(end, grid.rows - 1); ++i) {
-    shearCells(position, i, corners);
-    if (grid.closed) shearSeam(position, i, corners);
-    if (i >= begin) addCorners(corners.top_left, corners.top_right, grid, i, sum_);
-    if (i + 1 < end) addCorners(corners.bottom_left, corners.bottom_right, grid, i + 1, sum_);
-  }
-}
-
-const Field3& Shear::addTo(const Field3& force, const Field3& position) noexcept {
-  sum_ = force;
-  workers_.run(static_cast<int>(corners_.size()), [&](int block) { addRows(position, block); });
-  return sum_;
-}
-
-const Field3& Shear::addAhead(const SubstepStart& start, const Field& inverse) noexcept {
-  setAhead(start, inverse, ahead_);
-  return addTo(start.force, ahead_);
-}
-
-const Field3& Shear::forceAt(const Field3& position, double& energy) noexcept {
-  for (Field* const axis : {&ahead_.x, &ahead_.y, &ahead_.z}) std::fill(axis->begin(), axis->end(), 0.0);
-  energy = energyAfter(ahead_, position);
-  return addTo(ahead_, position);
-}
-
-double Shear::energyAfter(const Field3&, const Field3& position) const noexcept {
+double Shear::energyAt(const Field3& position) const noexcept {
   const Grid& grid = pattern_.grid;
   double sum = 0.0;
   forEachCell(grid, [&](int i, int j, int left) {
@@ -229,7 +166,7 @@ double Shear::energyAfter(const Field3&, const Field3& position) const noexcept 
       const Vec3 e = position.at(weft) - position.at(grid.index(row, left));
       const Vec3 f = position.at(warp) - position.at(grid.index(i, column));
       const double per = per_weft_[weft] * per_warp_[warp], s = e.dot(f) * per - flat;
-      sum += 0.125 * share_ * rigidity_ * pattern_.cell[n] * s * s / per;
+      sum += 0.125 * share() * rigidity_ * pattern_.cell[n] * s * s / per;
     };
     corner(i, left, flat_[0][n]);
     corner(i, j, flat_[1][n]);
@@ -241,7 +178,7 @@ double Shear::energyAfter(const Field3&, const Field3& position) const noexcept 
 
 bool Shear::explain(const ClothState&, double, Plan& plan) const {
   std::ostringstream text;
-  if (any()) text << rigidity_ << " N/m" << (share_ < 1.0 ? ", of which the substeps bear a part" : "");
+  if (any()) text << rigidity_ << " N/m" << (share() < 1.0 ? ", of which the substeps bear a part" : "");
   plan.push_back({"shear", any(), any() ? text.str() : "cloth.shear is 0"});
   return false;
 }

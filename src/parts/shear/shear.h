@@ -14,16 +14,18 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
+#include "cloth/cell_sum.h"
 #include "cloth/workers.h"
 #include "curtain_sim/scene.h"
-#include "step/elastic_part.h"
+#include "step/explicit_part.h"
 #include "step/part.h"
 
 namespace curtain {
 
 /// Not thread-safe. Allocates only in the constructor, and nothing for cloth without shear rigidity.
-class Shear final : public ElasticPart, public Part {
+class Shear final : public ExplicitPart, public Part {
  public:
   /// All arguments must outlive this.
   Shear(const ClothParams& cloth, const ClothPattern& pattern, const Workers& workers);
@@ -31,33 +33,23 @@ class Shear final : public ElasticPart, public Part {
   bool any() const noexcept override { return rigidity_ > 0.0; }
   bool explain(const ClothState& state, double time, Plan& plan) const override;
 
-  void takePins() noexcept override {}
-  void begin(const NodeInertia& inertia, const Field& inverse, double scale, bool explicit_links) noexcept override;
-  const Field3& addTo(const Field3& force, const Field3& position) noexcept override;
-  const Field3& addAhead(const SubstepStart& start, const Field& inverse) noexcept override;
-  const Field3& forceAt(const Field3& position, double& energy) noexcept override;
-  const Field3& sum() const noexcept override { return sum_; }
-  double energyAfter(const Field3& outer, const Field3& position) const noexcept override;
   double omegaSquared() const noexcept override { return omega_squared_; }
 
+ protected:
+  void addOwn(const Field3& position, Field3& sum) noexcept override;
+  double energyAt(const Field3& position) const noexcept override;
+
  private:
-  // Forces of a row of cells on its corners, by the column on the right of each cell; one for every block of rows.
-  struct Corners {
-    Field3 top_left, top_right, bottom_left, bottom_right;
-  };
-  void shearCells(const Field3& position, int row, Corners& corners) const noexcept;
-  void shearSeam(const Field3& position, int row, Corners& corners) const noexcept;
-  void addRows(const Field3& position, int block) noexcept;
+  void shearCells(const Field3& position, int row, CellCorners& corners) const noexcept;
+  void shearSeam(const Field3& position, int row, CellCorners& corners) const noexcept;
 
   const ClothPattern& pattern_;
   const Workers& workers_;
   const double rigidity_;       // [N/m]
   double omega_squared_ = 0.0;  // bound [1/s^2]
-  double share_ = 1.0;          // of the rigidity that the step bears
   Field per_warp_, per_weft_;   // 1 / rest length [1/m]
   std::array<Field, 4> flat_;   // s_0 of its corners: top left, top right, bottom left, bottom right
-  Field3 sum_, ahead_;
-  std::vector<Corners> corners_;
+  std::optional<CellSum> cells_;
 };
 
 }  // namespace curtain

@@ -36,16 +36,16 @@ WeftPush::WeftPush(const ClothParams& cloth, const ClothPattern& pattern) : patt
     const double rest = pattern.weft_rest[n];
     load_[n] = kPi * kPi * cloth.bending_weft / (rest * rest) * 0.5 * (above + below);
   });
-  for (Field3* const field : {&sum_, &ahead_}) field->assign(grid.size(), 0.0);
+  assign(grid.size());
   push_.assign(stride + 1, 0.0);
 }
 
-CURTAIN_WIDE void WeftPush::addRow(const Field3& position, int row) noexcept {
+CURTAIN_WIDE void WeftPush::addRow(const Field3& position, int row, Field3& sum) noexcept {
   const Grid& grid = pattern_.grid;
   const auto columns = static_cast<std::size_t>(grid.columns);
   const std::size_t first = grid.row(row);
   const ConstFieldView x(position, first);
-  const FieldView push(push_, 0), sum(sum_, first);
+  const FieldView push(push_, 0), total(sum, first);
   const double* const load = load_.data() + first;
 #pragma omp simd
   for (std::size_t j = 1; j < columns; ++j) {
@@ -67,30 +67,17 @@ CURTAIN_WIDE void WeftPush::addRow(const Field3& position, int row) noexcept {
     for (std::size_t j = 0; j < last; ++j) to[j] += of[j] - of[j + 1];
     to[last] += closed ? of[last] - of[0] : of[last];
   };
-  add(push.x, sum.x);
-  add(push.y, sum.y);
-  add(push.z, sum.z);
+  add(push.x, total.x);
+  add(push.y, total.y);
+  add(push.z, total.z);
 }
 
-const Field3& WeftPush::addTo(const Field3& force, const Field3& position) noexcept {
-  sum_ = force;
-  for (int i = 0; i < pattern_.grid.rows; ++i) addRow(position, i);
-  return sum_;
-}
-
-const Field3& WeftPush::addAhead(const SubstepStart& start, const Field& inverse) noexcept {
-  setAhead(start, inverse, ahead_);
-  return addTo(start.force, ahead_);
-}
-
-const Field3& WeftPush::forceAt(const Field3& position, double& energy) noexcept {
-  for (Field* const axis : {&ahead_.x, &ahead_.y, &ahead_.z}) std::fill(axis->begin(), axis->end(), 0.0);
-  energy = energyAfter(ahead_, position);
-  return addTo(ahead_, position);
+void WeftPush::addOwn(const Field3& position, Field3& sum) noexcept {
+  for (int i = 0; i < pattern_.grid.rows; ++i) addRow(position, i, sum);
 }
 
 // Of its links at their lengths it has none.
-double WeftPush::energyAfter(const Field3&, const Field3& position) const noexcept {
+double WeftPush::energyAt(const Field3& position) const noexcept {
   double sum = 0.0;
   forEachWeft(pattern_.grid, [&](std::size_t n, std::size_t left) {
     sum += load_[n] * (pattern_.weft_rest[n] - (position.at(n) - position.at(left)).norm());

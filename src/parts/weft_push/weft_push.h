@@ -10,13 +10,13 @@
 #pragma once
 
 #include "curtain_sim/scene.h"
-#include "step/elastic_part.h"
+#include "step/explicit_part.h"
 #include "step/part.h"
 
 namespace curtain {
 
 /// Not thread-safe. Allocates only in the constructor, and nothing for cloth that does not shear or bend.
-class WeftPush final : public ElasticPart, public Part {
+class WeftPush final : public ExplicitPart, public Part {
  public:
   /// pattern must outlive this.
   WeftPush(const ClothParams& cloth, const ClothPattern& pattern);
@@ -24,20 +24,15 @@ class WeftPush final : public ElasticPart, public Part {
   bool any() const noexcept override { return !load_.empty(); }
   bool explain(const ClothState& state, double time, Plan& plan) const override;
 
-  void takePins() noexcept override {}
-  void begin(const NodeInertia&, const Field&, double, bool) noexcept override {}
-  const Field3& addTo(const Field3& force, const Field3& position) noexcept override;
-  const Field3& addAhead(const SubstepStart& start, const Field& inverse) noexcept override;
-  const Field3& forceAt(const Field3& position, double& energy) noexcept override;
-  const Field3& sum() const noexcept override { return sum_; }
-  double energyAfter(const Field3& outer, const Field3& position) const noexcept override;
+ protected:
+  void addOwn(const Field3& position, Field3& sum) noexcept override;
+  double energyAt(const Field3& position) const noexcept override;
 
  private:
-  void addRow(const Field3& position, int row) noexcept;
+  void addRow(const Field3& position, int row, Field3& sum) noexcept;
 
   const ClothPattern& pattern_;
-  Field load_;  // of the link on the left of each node [N]; 0: there is none
-  Field3 sum_, ahead_;
+  Field load_;   // of the link on the left of each node [N]; 0: there is none
   Field3 push_;  // of the links of a row [N], shape [stride]
 };
 
