@@ -77,6 +77,7 @@ double drapeCoefficient(const ClothPattern& pattern, const Field3& position) {
   const int small = static_cast<int>(std::ceil(pattern.weft_rest[grid.index(0, 1)] / Paper::kSquare));
   Paper paper;
   paper.shadeDisc(kDiscRadius);
+  const double disc = paper.darkArea();
   forEachCell(grid, [&](int i, int j, int) {
     const double share = pattern.cell[grid.index(i, j)];
     const int pieces = share < 1.0 ? small : 1;
@@ -95,8 +96,7 @@ double drapeCoefficient(const ClothPattern& pattern, const Field3& position) {
       }
     }
   });
-  const double disc = curtain::kPi * kDiscRadius * kDiscRadius;
-  return (paper.darkArea() - disc) / (curtain::kPi * kSampleRadius * kSampleRadius - disc);
+  return (paper.darkArea() - disc) / (curtain::kPi * (kSampleRadius * kSampleRadius - kDiscRadius * kDiscRadius));
 }
 
 std::vector<Vec3> rimOf(const Grid& grid, const Field3& position, int points) {

@@ -82,7 +82,7 @@ TEST(Drape, CountsFolds) {
   for (int k = 0; k < 720; ++k) {
     const double angle = 2.0 * kPi * k / 720;
     // Five folds, with waves on them that a tenth of the range hides.
-    const double radius = 0.12 + 0.01 * std::cos(5.0 * angle + 1.0) + 0.0005 * std::cos(40.0 * angle);
+    const double radius = 0.12 + 0.01 * std::cos(5.0 * angle + 1.0) + 0.0015 * std::cos(40.0 * angle);
     rim.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.0);
   }
   EXPECT_EQ(curtain_fit::countFolds(rim), 5);
@@ -146,8 +146,28 @@ TEST(Drape, DoesNotDependOnTheStep) {
   few.method = many.method = curtain::Method::kImplicit;
   few.substeps = 8;
   many.substeps = 80;
-  EXPECT_NEAR(curtain_fit::summaryOf(curtain_fit::drape(cotton(), few)).mean,
-              curtain_fit::summaryOf(curtain_fit::drape(cotton(), many)).mean, 0.03);
+  const double coarse = curtain_fit::summaryOf(curtain_fit::drape(cotton(), few)).mean;
+  EXPECT_LT(coarse, 0.9);
+  EXPECT_NEAR(coarse, curtain_fit::summaryOf(curtain_fit::drape(cotton(), many)).mean, 0.03);
+}
+
+// Cotton broadcloth with the bending and the friction that KES measured of it: 82.9 % (Matsudaira, Masuda, Wada, Yokura
+// 2015), within what starts and grid do to it. Linen and canvas in the bands of such fabrics (docs/accuracy.md).
+TEST(Drape, MeasuredFabrics) {
+  ClothParams broadcloth = cotton();
+  broadcloth.bending_bias = 1.0413e-5;  // twist 0.4 of the bending
+  broadcloth.bending_hysteresis = 1.216e-3;
+  EXPECT_NEAR(curtain_fit::summaryOf(curtain_fit::drape(broadcloth, quick())).mean, 0.829, 0.06);
+  const auto ofMaterial = [](curtain::Material material) {
+    curtain::Scene scene;
+    applyMaterial(material, scene);
+    return curtain_fit::summaryOf(curtain_fit::drape(scene.cloth, quick())).mean;
+  };
+  const double linen = ofMaterial(curtain::Material::kLinen), canvas = ofMaterial(curtain::Material::kCanvas);
+  EXPECT_GE(linen, 0.60);
+  EXPECT_LE(linen, 0.76);
+  EXPECT_GE(canvas, 0.70);
+  EXPECT_LE(canvas, 0.90);
 }
 
 TEST(Drape, RefusesWhatNoSceneMayHave) {
