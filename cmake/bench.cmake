@@ -44,3 +44,8 @@ target_include_directories(curtain_bench PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/tes
 target_compile_definitions(curtain_bench PRIVATE CURTAIN_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}")
 target_compile_options(curtain_bench PRIVATE $<$<CONFIG:Release>:-O2>)
 target_link_libraries(curtain_bench PRIVATE curtain_rivals curtain_weigh curtain_sensing curtain_engine curtain_warnings)
+
+# An oracle of drape (test/bench/drape), with nothing of the engine in it.
+add_executable(curtain_shell test/bench/shell/main.cpp)
+target_link_libraries(curtain_shell PRIVATE Eigen3::Eigen curtain_warnings)
+target_compile_options(curtain_shell PRIVATE -O3 -march=native -fno-math-errno)

@@ -1,5 +1,5 @@
-# What `cmake --install` copies: the engine with its headers, CMake package and scenes, curtain_batch; with catkin the
-# node, too.
+# What `cmake --install` copies: the engine with its headers, CMake package and scenes, curtain_batch and curtain_fit; with
+# catkin the node, too.
 if(NOT catkin_FOUND)
   include(GNUInstallDirs)
   set(curtain_bin ${CMAKE_INSTALL_BINDIR})
@@ -20,9 +20,9 @@ install(TARGETS curtain_engine EXPORT curtain_sim-targets
   LIBRARY DESTINATION ${curtain_lib})
 install(DIRECTORY include/curtain_sim DESTINATION ${curtain_include})
 install(DIRECTORY config DESTINATION ${curtain_share})
-install(TARGETS curtain_batch RUNTIME DESTINATION ${curtain_bin})
+install(TARGETS curtain_batch curtain_fit RUNTIME DESTINATION ${curtain_bin})
 file(RELATIVE_PATH from_bin_to_lib /${curtain_bin} /${curtain_lib})
-set_target_properties(curtain_batch PROPERTIES INSTALL_RPATH "$ORIGIN/${from_bin_to_lib}")
+set_target_properties(curtain_batch curtain_fit PROPERTIES INSTALL_RPATH "$ORIGIN/${from_bin_to_lib}")
 if(TARGET curtain_export)
   install(TARGETS curtain_export RUNTIME DESTINATION ${curtain_bin})
   set_target_properties(curtain_export PROPERTIES INSTALL_RPATH "$ORIGIN/${from_bin_to_lib}")

@@ -30,6 +30,7 @@ add_compile_definitions($<$<CONFIG:Debug>:CURTAIN_FLOAT_TRAPS>)  # test/float_tr
 foreach(floor scene cloth step contact parts simulator budget properties batch fuzz)
   curtain_add_tests(${floor})
 endforeach()
+curtain_add_tests(fit curtain_fabric)
 
 # Against another library's answers.
 find_package(fcl QUIET)
@@ -51,6 +52,11 @@ foreach(target test_batch test_fuzz)
     target_link_libraries(${target} nlohmann_json::nlohmann_json)
   endif()
 endforeach()
+if(TARGET test_fit)
+  add_dependencies(test_fit curtain_fit)
+  target_link_libraries(test_fit nlohmann_json::nlohmann_json)
+  target_compile_definitions(test_fit PRIVATE CURTAIN_FIT="$<TARGET_FILE:curtain_fit>")
+endif()
 if(TARGET test_fuzz)
   target_sources(test_fuzz PRIVATE test/fuzz/scene_yaml.cpp test/fuzz/mesh.cpp test/fuzz/step.cpp test/fuzz/snapshot.cpp test/fuzz/scene_maker.cpp
     test/fuzz/breakages.cpp)
@@ -126,9 +132,9 @@ include(cmake/packaging_tests.cmake)
 
 # What scripts/test --fast builds and runs.
 if(NOT catkin_FOUND)
-  set(fast scene cloth step contact parts budget batch structure)
+  set(fast scene cloth step contact parts budget batch fit structure)
   list(TRANSFORM fast PREPEND test_)
-  add_custom_target(fast_tests DEPENDS curtain_batch ${fast})
+  add_custom_target(fast_tests DEPENDS curtain_batch curtain_fit ${fast})
   set(second_shards ${fast})
   list(TRANSFORM fast APPEND _0)
   list(TRANSFORM second_shards APPEND _1)

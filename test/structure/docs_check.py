@@ -21,7 +21,7 @@ PATH = re.compile(r"(?<![\w/.~-])(?:%s)/[\w./*-]*[\w*/]" % FOLDERS)
 FOREIGN = {"cd", "cp", "source", "echo", "cmake", "catkin_make", "doxygen", "rostopic", "rosrun", "roslaunch", "rosparam", "roscore",
            "export", "python3", "rosbag", "rosdep", "blender"}
 
-USAGE = {"curtain_batch": "src/batch/options.cpp", "curtain_export": "src/curtain_export.cpp"}  # where a program's options are listed
+USAGE = {"curtain_batch": "src/batch/options.cpp", "curtain_fit": "src/fit/options.cpp", "curtain_export": "src/curtain_export.cpp"}  # where a program's options are listed
 
 
 def read(path):
@@ -166,7 +166,7 @@ class Commands(unittest.TestCase):
         program, arguments = words[0], words[1:]
         if program == "rosrun" and arguments[:2] == ["curtain_sim", "curtain_export"]:
             program, arguments = "curtain_export", arguments[2:]
-        if os.path.basename(program) in ("curtain_batch", "curtain_export"):
+        if os.path.basename(program) in USAGE:
             self.check_batch(os.path.basename(program), arguments, page)
         elif program.startswith("build/"):
             self.assertTrue(new_files(page), "nothing on this page makes it")
@@ -325,7 +325,7 @@ class Described(unittest.TestCase):
             self.assertRegex(table, r"(?m)^\| %s \|" % stage)
 
     def test_options_of_programs(self):
-        for program, page, least in (("curtain_batch", "docs/batch.md", 10), ("curtain_export", "docs/bags.md", 5)):
+        for program, page, least in (("curtain_batch", "docs/batch.md", 10), ("curtain_fit", "docs/fit.md", 10), ("curtain_export", "docs/bags.md", 5)):
             options = set(re.findall(r"\"  (--[\w-]+)", read(USAGE[program])))
             text = read(page)
             self.assertGreater(len(options), least)

@@ -38,7 +38,7 @@ using curtain_test::sourceFiles;
 const std::map<std::string, int> kFolders = {{"scene", 0},     {"cloth", 1},   {"obstacles", 2}, {"step", 3},
                                              {"contact", 4},   {"parts", 5},   {"methods", 5},   {"surface", 5},
                                              {"simulator", 6}, {"sensing", 6}, {"ros", 7},       {"rviz", 7},
-                                             {"python", 7},    {"export", 7},  {"batch", 8}};
+                                             {"python", 7},    {"export", 7},  {"batch", 8},     {"fit", 8}};
 using Rooms = std::map<std::string, int>;
 // Of export alone this file knows ROS: what an animation is made of and written by needs none.
 constexpr char kPlaysBags[] = "src/export/play_bag.cpp";
