@@ -101,8 +101,9 @@ ClothState makeInitialState(const Scene& scene, const ClothPattern& pattern);
 /// Places the nodes of the cloth at the start, but not the ends of its cords.
 void placeCloth(const Scene& scene, const ClothPattern& pattern, Field3& position);
 
-/// Positions of cloth on a rail, with its carriers at these places [m].
-void placeOnRail(const ClothPattern& pattern, const std::vector<double>& places, Field3& position);
+/// Positions of cloth on a rail, with its carriers at these places [m]. hangs_through: between carriers the top row
+/// stands out and hangs through, by the length that it has; else it is straight there, its links shorter.
+void placeOnRail(const ClothPattern& pattern, const std::vector<double>& places, bool hangs_through, Field3& position);
 
 /// Calls look(node, other, rest length [m], is a rod) for every link, row by row; it is stored at `node`.
 template <typename Look>

@@ -4,11 +4,11 @@
 #include <numeric>
 
 #include "cloth/cloth.h"
+#include "cloth/folded_start.h"
 #include "scene/heading.h"
 #include "scene/pi.h"
 #include "scene/ring_start.h"
 #include "scene/shares.h"
-#include "scene/splitmix.h"
 #include "scene/strips.h"
 
 namespace curtain {
@@ -114,8 +114,9 @@ void placeRing(const Scene& scene, const ClothPattern& pattern, Field3& position
 }  // namespace
 
 void placeCloth(const Scene& scene, const ClothPattern& pattern, Field3& position) {
-  if (!pattern.rail.empty()) {
-    placeOnRail(pattern, pattern.rail.layout.placesFor(scene.rail.opening), position);
+  const bool on_rail = !pattern.rail.empty(), folds = weftsPush(scene.cloth);
+  if (on_rail) {
+    placeOnRail(pattern, pattern.rail.layout.placesFor(scene.rail.opening), !folds, position);
   } else if (scene.cloth.closed) {
     placeRing(scene, pattern, position);
   } else if (isPleated(scene.hang)) {
@@ -123,34 +124,11 @@ void placeCloth(const Scene& scene, const ClothPattern& pattern, Field3& positio
   } else {
     placeFlat(scene, pattern, position);
   }
+  // Pleats are folds already, and overlapping strips leave each other no room for any.
+  if (!folds || isPleated(scene.hang) || scene.hang.overlap) return;
+  foldStart(scene, pattern, on_rail || scene.cloth.closed ? Vec3(-Vec3::UnitZ()) : hangFrame(scene.hang).down,
+            position);
 }
-
-namespace {
-
-// Share of the shortest link that nodes are off where the cloth starts flat and pressed together.
-constexpr double kUnevenness = 1e-6;
-
-// No cloth is exactly flat. Wefts that push are in balance while it is, so it would stay there, and sleep: what is off
-// by far less than a link's tolerance folds within a second. The same for the same seed.
-void unsettle(const Scene& scene, const ClothPattern& pattern, Field3& position) {
-  if (!(scene.cloth.shear > 0.0 && scene.cloth.bending_weft > 0.0)) return;
-  const Grid& grid = pattern.grid;
-  Field3 normals;
-  normals.assign(grid.size(), 0.0);
-  nodeAreaVectors(grid, position, normals);
-  const double most = kUnevenness * shortestLink(pattern);
-  for (int i = 0; i < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j) {
-      const std::size_t n = grid.index(i, j);
-      if (pattern.pinned[n] != kFree || normals.at(n).isZero(0.0)) continue;
-      const std::uint64_t drawn = splitmix(splitmix(static_cast<std::uint64_t>(scene.solver.seed)) + n);
-      const double off = 2.0 * static_cast<double>(drawn >> 11) * 0x1p-53 - 1.0;  // [-1, 1)
-      position.add(n, (most * off) * normals.at(n).normalized());
-    }
-  }
-}
-
-}  // namespace
 
 ClothState makeInitialState(const Scene& scene, const ClothPattern& pattern) {
   const Grid& grid = pattern.grid;
@@ -159,7 +137,6 @@ ClothState makeInitialState(const Scene& scene, const ClothPattern& pattern) {
   state.velocity.assign(grid.size(), 0.0);
   if (!pattern.rail.empty()) state.place = pattern.rail.layout.placesFor(scene.rail.opening);
   placeCloth(scene, pattern, state.position);
-  unsettle(scene, pattern, state.position);
   for (const CordEnd& end : pattern.cords.ends) state.position.set(end.node, end.start);
   for (std::size_t k = 0; k < pattern.cords.loops.size(); ++k)
     state.reach.push_back(reachOf(pattern.cords, k, state.position));

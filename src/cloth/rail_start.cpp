@@ -21,7 +21,7 @@ const Vec3 kDown = -Vec3::UnitZ();        // where cloth starts to hang towards,
 
 }  // namespace
 
-void placeOnRail(const ClothPattern& pattern, const std::vector<double>& places, Field3& position) {
+void placeOnRail(const ClothPattern& pattern, const std::vector<double>& places, bool hangs_through, Field3& position) {
   const Grid& grid = pattern.grid;
   const RailPattern& rail = pattern.rail;
   // All rows are as wide as the top edge, and the hem may be narrower by its rounding.
@@ -34,7 +34,7 @@ void placeOnRail(const ClothPattern& pattern, const std::vector<double>& places,
     const double cloth = pattern.weft_coordinate[static_cast<std::size_t>(last)] - from;
     const double apart = (b - a).norm(), reach = (1.0 - kLengthRounding) * narrowest * cloth;
     // Half of the V: (apart / 2, out, through) is as long as half of the cloth.
-    const double free_square = std::max(0.0, 0.25 * (reach * reach - apart * apart));
+    const double free_square = hangs_through ? std::max(0.0, 0.25 * (reach * reach - apart * apart)) : 0.0;
     const double out = std::min(kOut * apart, std::sqrt(free_square));
     const double through = std::sqrt(std::max(0.0, free_square - out * out));
     const Vec3 normal = (k % 2 == 0 ? 1.0 : -1.0) * (b - a).cross(Vec3::UnitZ()).normalized();

@@ -150,8 +150,11 @@ constexpr int kGoodToGrow = 8;
 constexpr int kImplicitSubsteps = 8;
 // What elastic forces may take of h^2 omega^2 at least, where tensions take all that they may: up to leapfrog's limit.
 constexpr double kLeastForElastic = 4.0 - kStablePhase * kStablePhase;
-// The same where links follow, which then take none. There they act where the step leads to, which is stable below
-// 4 / 3; at 1 a line that gives way takes backward Euler's step.
+// What tensions may take of it at least, where steps can't follow explicit elastic forces. 1: a node whose links and
+// cells are at their bounds alike.
+constexpr double kLeastForTensions = 1.0;
+// The same as kLeastForElastic where links follow, which then take none. There they act where the step leads to, which
+// is stable below 4 / 3; at 1 a line that gives way takes backward Euler's step.
 constexpr double kElasticBackward = 1.0;
 // The same of the paper's scheme. First order: 27 mm after a second of a swing of 43 rods. Its weft overlength falls
 // with the number of passes: 0.5 at most for a flag in the wind, 1.8 at 4 substeps. Its energy is bounded at any

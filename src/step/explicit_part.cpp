@@ -2,9 +2,6 @@
 #include "step/explicit_part.h"
 
 #include <algorithm>
-#include <cmath>
-
-#include "step/constants.h"
 
 namespace curtain {
 
@@ -13,14 +10,7 @@ void ExplicitPart::assign(std::size_t size) {
 }
 
 void ExplicitPart::begin(const NodeInertia& inertia, const Field&, double scale, bool explicit_links) noexcept {
-  if (!(inertia.elastic() > 0.0)) return;
-  const NodeInertia::Tensions& tensions = inertia.tensions();
-  const double size = std::abs(scale);
-  const double taken =
-      explicit_links && tensions.scale != 0.0 ? 2.0 * size / std::abs(tensions.scale) * tensions.heaviest : 0.0;
-  const double left =
-      explicit_links ? std::max(kLeastForElastic, kStablePhase * kStablePhase - taken) : kElasticBackward;
-  share_ = std::min(1.0, left / (size * inertia.elastic()));
+  share_ = inertia.elasticShare(scale, explicit_links);
 }
 
 const Field3& ExplicitPart::addTo(const Field3& force, const Field3& position) noexcept {

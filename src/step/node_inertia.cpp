@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "step/constants.h"
+
 namespace curtain {
 namespace {
 
@@ -67,6 +69,13 @@ double NodeInertia::omegaSquared() const noexcept {
   return 2.0 * tensions_.heaviest / std::abs(tensions_.scale) + elastic_;
 }
 
+double NodeInertia::elasticShare(double scale, bool explicit_links) const noexcept {
+  const double asked = std::abs(scale) * elastic_,
+               most = explicit_links ? kStablePhase * kStablePhase : kElasticBackward;
+  if (!(asked > most)) return 1.0;
+  return (explicit_links ? most - kLeastForTensions : most) / asked;
+}
+
 void NodeInertia::set(const NodeForces& forces, double kick, double scale, double most_phase, bool implicit) noexcept {
   inverse_ = masses_;
   damped_ = forces.has_damping;
@@ -82,8 +91,8 @@ void NodeInertia::set(const NodeForces& forces, double kick, double scale, doubl
     }
   }
   if (most_phase <= 0.0 || tensions_.scale == 0.0) return;
-  const double left = most_phase * most_phase - std::abs(scale) * elastic_;
-  if (!(left > 0.0)) return;
+  const double borne = std::abs(scale) * elastic_ * elasticShare(scale, true);
+  const double left = std::max(kLeastForTensions, most_phase * most_phase - borne);
   const double per_load = 2.0 * std::abs(scale / tensions_.scale) / left;
   if (!(per_load * tensions_.heaviest > 1.0)) return;
   // Not more than all of the cloth: where links can't keep their lengths their tensions are as large as the inertia

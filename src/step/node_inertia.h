@@ -20,6 +20,10 @@ class NodeInertia {
   /// Bound of the squares of the frequencies of explicit elastic forces [1/s^2], beside which tensions act.
   void setElastic(double omega_squared) noexcept { elastic_ = omega_squared; }
   double elastic() const noexcept { return elastic_; }
+  /// Share of their stiffness that a step of this scale [s^2] bears; 1 but where steps could not follow them. It does
+  /// not depend on the tensions, which would make it another stiffness, and energy, in every substep. explicit_links:
+  /// as ElasticPart::begin() has it.
+  double elasticShare(double scale, bool explicit_links) const noexcept;
 
   /// The pattern's pins have changed.
   void takePins() noexcept;

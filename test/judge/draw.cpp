@@ -210,6 +210,17 @@ void drawBending(Drawn& drawn) {
   if (dice.chance(0.8)) drawn.scene.cloth.bending_weft = dice.magnitude(1e-7, most);
 }
 
+// Fabric that resists shear and twist, and rubs within itself.
+void drawFabric(Drawn& drawn) {
+  Dice dice(3 * drawn.seed + static_cast<std::uint64_t>(drawn.kind) + (15ULL << 59));
+  ClothParams& cloth = drawn.scene.cloth;
+  if (drawn.scene.solver.method == Method::kPaper || !dice.chance(0.2)) return;
+  const bool wild = drawn.kind == Kind::kWild, bends = cloth.bending_warp > 0.0 || cloth.bending_weft > 0.0;
+  if (dice.chance(0.8)) cloth.shear = dice.magnitude(0.3, wild ? 1e5 : 300.0);
+  if (dice.chance(0.5)) cloth.bending_bias = dice.magnitude(1e-7, wild ? 1.0 : 1e-2);
+  if (dice.chance(0.3) && bends) cloth.bending_hysteresis = dice.magnitude(1e-5, wild ? 10.0 : 0.1);
+}
+
 // Pleats, some of them pressed in.
 void drawHeading(Drawn& drawn) {
   Dice dice(3 * drawn.seed + static_cast<std::uint64_t>(drawn.kind) + (9ULL << 59));
@@ -373,6 +384,7 @@ Drawn draw(Kind kind, std::uint64_t seed) {
   drawSlits(drawn);
   if (kind != Kind::kSudden) drawAir(drawn);
   if (kind != Kind::kSudden) drawBending(drawn);
+  if (kind != Kind::kSudden) drawFabric(drawn);
   if (kind != Kind::kSudden) drawHeading(drawn);
   if (kind != Kind::kSudden) putOnRail(drawn);
   if (!validate(scene).empty()) scene.cloth.hem_width.reset();  // tapered more than its rods can slant

@@ -41,6 +41,12 @@ inline Kind mesh() {
   kind.wanted.mesh = true;
   return kind;
 }
+/// Of cloth that bends, shears, twists and rubs; any method but the paper's.
+inline Kind fabric() {
+  Kind kind{"Fabric", wantedFor(true, false), false};
+  kind.wanted.fabric = true;
+  return kind;
+}
 /// Gathered and blown together.
 inline Kind selfContact() {
   Kind kind{"SelfContact", wantedFor(false, false), true};
@@ -52,6 +58,9 @@ inline Kind selfContact() {
 inline const auto kEveryMethod =
     ::testing::Values(curtain::Method::kAuto, curtain::Method::kLeapfrog, curtain::Method::kLeapfrog4,
                       curtain::Method::kImplicit, curtain::Method::kPaper);
+
+inline const auto kMethodsThatBend = ::testing::Values(curtain::Method::kAuto, curtain::Method::kLeapfrog,
+                                                       curtain::Method::kLeapfrog4, curtain::Method::kImplicit);
 
 inline std::string nameOfMethod(const ::testing::TestParamInfo<curtain::Method>& test) { return toString(test.param); }
 inline std::string nameOfKind(const ::testing::TestParamInfo<std::tuple<Kind, curtain::Method>>& test) {

@@ -61,6 +61,13 @@ void RandomScenes::makeCloth(const Wanted& wanted, curtain::Scene& scene) {
   cloth.surface_density = between(0.1, 0.4);
   cloth.lumping = chance(0.5) ? curtain::Lumping::kArea : curtain::Lumping::kUniform;
   cloth.porosity = between(0.0, 0.3);
+  if (wanted.fabric) {
+    cloth.bending_warp = between(1e-5, 1e-3);
+    cloth.bending_weft = between(1e-5, 1e-3);
+    cloth.bending_bias = between(1e-4, 1.5e-3);
+    cloth.bending_hysteresis = between(1e-4, 1e-2);
+    cloth.shear = between(1.0, 50.0);
+  }
   cloth.row_spacing = factors(cloth.rows - 1, 0.8, 1.25);
   cloth.column_spacing = factors(cloth.columns - 1, 0.8, 1.25);
   cloth.row_mass = factors(cloth.rows, 0.7, 1.4);

@@ -22,6 +22,7 @@ struct Wanted {
   bool obstacles = false;  ///< one of each analytic shape in the way, some of them moving
   bool mesh = false;       ///< and a mesh
   bool self = false;       ///< gathered, blown together: contact of the cloth with itself
+  bool fabric = false;     ///< bends, resists shear and twist, rubs within itself
   int most_nodes = 9;      ///< along either side
 };
 

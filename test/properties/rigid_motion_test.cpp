@@ -124,6 +124,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, RigidMotion,
                          ::testing::Combine(::testing::Values(slack(), taut(), obstacles(), mesh(), selfContact()),
                                             kEveryMethod),
                          nameOfKind);
+INSTANTIATE_TEST_SUITE_P(Fabric, RigidMotion, ::testing::Combine(::testing::Values(fabric()), kMethodsThatBend),
+                         nameOfKind);
 
 }  // namespace
 }  // namespace curtain

@@ -99,6 +99,11 @@ Scene seen(const Similarity& s, Scene scene) {
   scene.cloth.width *= s.length;
   if (scene.cloth.hem_width) *scene.cloth.hem_width *= s.length;
   scene.cloth.surface_density *= s.mass / (s.length * s.length);
+  const double energy = s.force() * s.length;
+  for (double* const rigidity : {&scene.cloth.bending_warp, &scene.cloth.bending_weft, &scene.cloth.bending_bias})
+    *rigidity *= energy;
+  scene.cloth.bending_hysteresis *= s.force();
+  scene.cloth.shear *= s.force() / s.length;
   scene.gravity = (s.length / (s.time * s.time)) * s.direction(scene.gravity);
   scene.air.density *= s.mass / (s.length * s.length * s.length);
   for (double* const speed : {&scene.air.threshold, &scene.air.inside, &scene.air.border, &scene.air.corner})
