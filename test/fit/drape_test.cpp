@@ -82,7 +82,7 @@ TEST(Drape, CountsFolds) {
   for (int k = 0; k < 720; ++k) {
     const double angle = 2.0 * kPi * k / 720;
     // Five folds, with waves on them that a tenth of the range hides.
-    const double radius = 0.12 + 0.01 * std::cos(5.0 * angle + 1.0) + 0.0015 * std::cos(40.0 * angle);
+    const double radius = 0.12 + 0.01 * std::cos(5.0 * angle + 1.0) + 0.002 * std::cos(60.0 * angle);
     rim.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.0);
   }
   EXPECT_EQ(curtain_fit::countFolds(rim), 5);
