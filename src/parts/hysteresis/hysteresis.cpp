@@ -72,7 +72,9 @@ void Hysteresis::takePins() noexcept {
   if (any()) fill();
 }
 
-void Hysteresis::reset(ClothState&) { startSlips(); }
+void Hysteresis::reset(ClothState&) {
+  if (any()) startSlips();
+}
 
 void Hysteresis::placed(const ClothState&, ClothState& state) noexcept { commit(state.position); }
 
