@@ -8,10 +8,10 @@
 #include <thread>
 
 #include "fit/sample.h"
+#include "fit/settling.h"
 #include "fit/shadow.h"
 #include "scene/pi.h"
 #include "scene/splitmix.h"
-#include "simulator/frame_loop.h"
 
 namespace curtain_fit {
 namespace {
@@ -19,7 +19,6 @@ namespace {
 using curtain::ClothPattern;
 using curtain::Field3;
 using curtain::Grid;
-using curtain::Motion;
 using curtain::Scene;
 using curtain::Vec3;
 
@@ -61,61 +60,28 @@ void makeUneven(const ClothPattern& pattern, std::uint64_t seed, Field3& positio
   }
 }
 
-// The engine's own frames, without contact and sleep, of a pattern that no scene describes.
-class Sinking {
- public:
-  Sinking(const Scene& scene, std::uint64_t seed)
-      : scene_(scene),
-        pattern_(roundSample(scene_)),
-        times_(scene_.solver.frame_rate),
-        motion_(scene_, pattern_, times_, {}),
-        controls_(scene_.solver, pattern_, scene_.gravity),
-        loop_(motion_, controls_, budget_) {
-    makeUneven(pattern_, seed, motion_.state.position);
-    double mass = 0.0;
-    for (const double m : pattern_.mass) mass += m;
-    still_ = kStill * mass * scene_.gravity.norm() * (kSampleRadius - kDiscRadius);
+DrapeReading sink(const Scene& scene, std::uint64_t seed, double longest) {
+  const ClothPattern pattern = roundSample(scene);
+  Settling sample(scene, pattern);
+  makeUneven(pattern, seed, sample.position());
+  double mass = 0.0;
+  for (const double m : pattern.mass) mass += m;
+  const double still = kStill * mass * scene.gravity.norm() * (kSampleRadius - kDiscRadius);
+  DrapeReading reading;
+  while (!reading.at_rest && sample.time() < longest) {
+    sample.step();
+    reading.at_rest = sample.kinetic() < still;
   }
-
-  DrapeReading sink(double longest) {
-    DrapeReading reading;
-    while (!reading.at_rest && times_.begin() < longest) {
-      makeFrame();
-      reading.at_rest = motion_.energy().kinetic < still_;
-    }
-    reading.seconds = times_.begin();
-    const Field3& position = motion_.state.position;
-    reading.coefficient = drapeCoefficient(pattern_, position);
-    constexpr int kPoints = 720;
-    const std::vector<Vec3> rim = rimOf(pattern_.grid, position, kPoints);
-    reading.folds = countFolds(rim);
-    const auto height = [&](int degrees) { return rim[static_cast<std::size_t>(kPoints / 360 * degrees)].z(); };
-    reading.weft_height = 0.5 * (height(0) + height(180));
-    reading.warp_height = 0.5 * (height(90) + height(270));
-    return reading;
-  }
-
- private:
-  void makeFrame() {
-    motion_.statistics.time = times_.begin();
-    const curtain::FrameBegin begin{times_.begin(), times_.end(), times_.rate(), true};
-    for (curtain::Part* const part : motion_.parts.all) part->prepareFrame(begin, motion_.state);
-    for (curtain::Part* const part : motion_.parts.all) part->beginFrame(begin, motion_.state);
-    loop_.make();
-    const curtain::FrameEnd end{1.0, times_.length(), true, motion_.statistics};
-    for (curtain::Part* const part : motion_.parts.all) part->endFrame(end, motion_.state);
-    times_.next(1.0);
-  }
-
-  Scene scene_;
-  ClothPattern pattern_;
-  curtain::FrameTimes times_;
-  Motion motion_;
-  curtain::StepControls controls_;
-  curtain::Budget budget_{0.0};
-  curtain::FrameLoop loop_;
-  double still_ = 0.0;  // [J]
-};
+  reading.seconds = sample.time();
+  reading.coefficient = drapeCoefficient(pattern, sample.position());
+  constexpr int kPoints = 720;
+  const std::vector<Vec3> rim = rimOf(pattern.grid, sample.position(), kPoints);
+  reading.folds = countFolds(rim);
+  const auto height = [&](int degrees) { return rim[static_cast<std::size_t>(kPoints / 360 * degrees)].z(); };
+  reading.weft_height = 0.5 * (height(0) + height(180));
+  reading.warp_height = 0.5 * (height(90) + height(270));
+  return reading;
+}
 
 }  // namespace
 
@@ -132,7 +98,7 @@ std::vector<DrapeReading> drape(const curtain::ClothParams& cloth, const DrapeTe
   for (std::size_t core = 0; core < std::min(cores, readings.size()); ++core) {
     runs.push_back(std::async(std::launch::async, [&, core] {
       for (std::size_t k = core; k < readings.size(); k += cores)
-        readings[k] = Sinking(scene, test.seed + k).sink(test.longest);
+        readings[k] = sink(scene, test.seed + k, test.longest);
     }));
   }
   for (std::future<void>& run : runs) run.get();
