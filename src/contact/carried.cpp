@@ -75,7 +75,7 @@ void ObstacleContacts::Load::carry(Archive& archive) {
 
 void ObstacleContacts::carry(Archive& archive) {
   for (Load& load : loads_) archive.part("load", load);
-  archive.number("loaded_for", loaded_for_);
+  archive.number("acted", acted_);
 }
 
 // The multipliers and directions of a contact: they warm-start the next substep, and with the last forces advance

@@ -173,9 +173,11 @@ double ContactRows::measureRates(const Field3& velocity) noexcept {
   return worst / links_;
 }
 
-void ContactRows::moveBy(const Rows& rows, const Field& inverse, Field3& velocity) const noexcept {
+void ContactRows::moveBy(const Rows& rows, const Field& inverse, Field3& velocity) noexcept {
   forEachChange(rows, first_row, end_row, [&](std::uint32_t index, double push, const Vec3& slide) {
-    (*all_)[index].move(inverse, push * (*all_)[index].normal + slide, velocity);
+    const Vec3 impulse = push * (*all_)[index].normal + slide;
+    (*all_)[index].move(inverse, impulse, velocity);
+    if (all_ == solved_) (*solved_)[index].settled += impulse;  // else velocities are only looked at
   });
 }
 

@@ -42,6 +42,7 @@ struct Contact {
   double hold = 0.0;                     ///< friction * press as a multiplier [kg m]
   double push = 0.0;                     ///< normal multiplier [kg m], >= 0 unless pinched
   Vec3 slide = Vec3::Zero();             ///< tangential multiplier [kg m]
+  Vec3 settled = Vec3::Zero();           ///< impulse that projected velocities took up beside the multipliers [N s]
   double mobility = 0.0;                 ///< sum of weight^2 w, inverse effective mass of the point [1/kg]
   bool sticks = false;                   ///< solved for as sticking, until the friction bound is reached
   std::uint32_t source = 0;              ///< for the finder
@@ -124,7 +125,7 @@ class ContactRows final : public RowMaker {
   void saveIterate() override { best_ = *solved_; }
   void restoreIterate() noexcept override { *solved_ = best_; }
   double measureRates(const Field3& velocity) noexcept override;
-  void moveBy(const Rows& rows, const Field& inverse, Field3& velocity) const noexcept override;
+  void moveBy(const Rows& rows, const Field& inverse, Field3& velocity) noexcept override;
   void spread(double share, const Field& inverse, Field3& velocity) const noexcept override;
 
  private:
