@@ -36,7 +36,8 @@ struct Contact {
   double offset = 0.0;          ///< [m]
   double recovery = 0.0;        ///< part of the offset that takes out penetration [m]; the last resort may skip it
   Vec3 carried = Vec3::Zero();  ///< point at the end of the substep without slip [m]; only its tangential part is read
-  Vec3 surface_velocity = Vec3::Zero();  ///< of what the point touches [m/s]
+  Vec3 surface_velocity = Vec3::Zero();  ///< of what the point touches, mean over the substep [m/s]
+  Vec3 end_velocity = Vec3::Zero();      ///< the same at the substep's end [m/s]
   double friction = 0.0;                 ///< Coulomb coefficient, >= 0; pinched: the sum of both sides'
   double press = 0.0;                    ///< pinched: what either side presses with [N]; 0: not pinched
   double hold = 0.0;                     ///< friction * press as a multiplier [kg m]
