@@ -171,8 +171,7 @@ double PoseCurve::fastest(double radius) const noexcept {
 }
 
 ScriptedMotion::ScriptedMotion(const ObstacleParams& params, double radius)
-    : radius_(radius),
-      steady_(params.motion.empty() &&
+    : steady_(params.motion.empty() &&
               !(params.velocity.isZero(0.0) && params.spin.isZero(0.0) && params.acceleration.isZero(0.0))),
       start_(params.pose),
       speed_{params.velocity, params.spin},
@@ -221,12 +220,12 @@ PoseChange ScriptedMotion::rateAt(double time) const noexcept {
   return (1.0 / durationOf(piece)) * pieces_[piece].rateAt((time - times_[piece]) / durationOf(piece));
 }
 
-double ScriptedMotion::fastest(double from, double to) const noexcept {
-  if (steady_) return std::max(rateAt(from).reach(radius_), rateAt(to).reach(radius_));
+double ScriptedMotion::fastest(double from, double to, double radius) const noexcept {
+  if (steady_) return std::max(rateAt(from).reach(radius), rateAt(to).reach(radius));
   double most = 0.0;
   if (to < times_.front() || from > times_.back() || pieces_.empty()) return most;
   for (std::size_t k = pieceAt(from); k < pieces_.size() && times_[k] < to; ++k)
-    most = std::max(most, pieces_[k].fastest(radius_) / durationOf(k));
+    most = std::max(most, pieces_[k].fastest(radius) / durationOf(k));
   return most;
 }
 
@@ -274,7 +273,7 @@ PoseChange FrameCurve::rateAt(double share) const noexcept {
 }
 
 double FrameCurve::way(double radius) const noexcept {
-  return script_ != nullptr ? length_ * script_->fastest(timeAt(0.0), end_time_) : curve_.fastest(radius);
+  return script_ != nullptr ? length_ * script_->fastest(timeAt(0.0), end_time_, radius) : curve_.fastest(radius);
 }
 
 // Between two frames: what the next one starts with.

@@ -75,14 +75,13 @@ class ScriptedMotion {
   Pose at(double time) const noexcept;
   /// Speed [m/s, rad/s].
   PoseChange rateAt(double time) const noexcept;
-  /// Bound of the speed of its points between two times [m/s].
-  double fastest(double from, double to) const noexcept;
+  /// Bound of the speed, between two times, of points within `radius` [m] of the origin [m/s].
+  double fastest(double from, double to, double radius) const noexcept;
 
  private:
   std::size_t pieceAt(double time) const noexcept;
   double durationOf(std::size_t piece) const noexcept { return times_[piece + 1] - times_[piece]; }
 
-  double radius_ = 0.0;
   bool steady_ = false;  // moves by the constants below
   Pose start_;
   PoseChange speed_;
@@ -110,7 +109,7 @@ class FrameCurve {
   Pose at(double share) const noexcept;
   /// Speed there, per frame.
   PoseChange rateAt(double share) const noexcept;
-  /// Bound of the way of its points in the frame [m].
+  /// Bound of the way in the frame of points within `radius` [m] of the origin [m].
   double way(double radius) const noexcept;
 
   void carry(Archive& archive);

@@ -156,8 +156,8 @@ TEST(ScriptedMotion, BoundsItsSpeed) {
   for (double from = 0.0; from < 0.8; from += 0.1) {
     double most = 0.0;
     for (double t = from; t <= from + 0.2; t += 1e-3) most = std::max(most, script.rateAt(t).reach(kArm));
-    EXPECT_LE(most, script.fastest(from, from + 0.2) * (1.0 + 1e-12));
-    EXPECT_GT(most, 0.2 * script.fastest(from, from + 0.2));
+    EXPECT_LE(most, script.fastest(from, from + 0.2, kArm) * (1.0 + 1e-12));
+    EXPECT_GT(most, 0.2 * script.fastest(from, from + 0.2, kArm));
   }
 }
 
