@@ -47,14 +47,16 @@ int simulate(Options options) {
   if (options.sample_rate > 0.0) options.samples = samplesFrom(simulator.time(), options);
   if (options.explain) explain(simulator);
   const curtain_batch::Progress progress = makeRun(options, simulator);
-  if (options.explain && !progress.frame_seconds.empty()) explain(simulator);
+  if (options.explain && !progress.sums.frame_seconds.empty()) explain(simulator);
   save(simulator, options);
   if (!options.mesh.empty()) curtain::writeMesh(simulator, options.mesh);
   if (!options.stats.empty()) {
-    const std::string text = curtain::statisticsJson(simulator, progress.initial, progress.frame_seconds);
+    const std::string text = curtain::statisticsJson(simulator, progress.sums);
     const std::vector<curtain::Problem> problems = curtain::writeWholeFile(options.stats, text);
     if (!problems.empty()) throw std::runtime_error(curtain::describe(problems, "--stats"));
   }
+  const std::string jammed = curtain::describeLastResort(simulator.statistics());
+  if (!jammed.empty()) std::cerr << "curtain_batch: " << jammed << '\n';
   if (simulator.statistics().finite) return EXIT_SUCCESS;
   std::cerr << "curtain_batch: the state became non-finite at t = " << simulator.time() << " s\n";
   return kNotFinite;

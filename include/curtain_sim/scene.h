@@ -324,7 +324,11 @@ struct ObstacleParams {
   double padding = 0.0;  ///< kept between cloth and surface beyond contact.thickness [m], >= 0
   Vec3 color = Vec3(0.45, 0.50, 0.58);  ///< red, green, blue [0..1]; drawn by the node, nothing else
   bool visible = true;                  ///< the same; false: it is there, and not drawn
-  std::vector<PoseKey> motion;          ///< offline only: linear in position, slerp in orientation, held at both ends
+  /// Offline only: a smooth curve through these poses, held at both ends; see docs/method.md, "Obstacles that move".
+  std::vector<PoseKey> motion;
+  Vec3 velocity = Vec3::Zero();      ///< at the start [m/s]; this and the next two: offline only, not with `motion`
+  Vec3 acceleration = Vec3::Zero();  ///< [m/s^2]
+  Vec3 spin = Vec3::Zero();          ///< about its origin, in world axes [rad/s]
 };
 
 /// Contact of the cloth with obstacles and with itself.

@@ -172,7 +172,7 @@ class Simulator {
 
   /// Obstacles are numbered in the scene's order.
   int obstacleCount() const;
-  /// Pose of the obstacle at the end of the next step; it moves there evenly, in place of the scene's motion. `jump`:
+  /// Pose of the obstacle at the end of the next step; it moves there smoothly, in place of the scene's motion. `jump`:
   /// it is there at once, without a velocity (first pose, teleport). Where the cloth is jammed in its way it waits, and
   /// where a frame ends early (solver.budget_ms) it is cut short: the rest of the motion follows in the next frames.
   void setObstaclePose(int index, const Pose& pose, bool jump = false);

@@ -72,6 +72,10 @@ struct ContactWrench {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N]
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< about the origin of the obstacle's moving frame [N m]
   int contacts = 0;                                  ///< that pushed at the frame's end
+  /// Time that the frame's forces acted for [s]: force times it is the momentum given to the obstacle. Near a frame's
+  /// length, and not equal to it where substeps change their length: forces act from the middle of one to that of the
+  /// next.
+  double time = 0.0;
 };
 
 /// A place where the cloth presses on an obstacle, in world axes.

@@ -25,7 +25,7 @@ using curtain::Archive;
 
 constexpr std::string_view kMagic = "curtain checkpoint\n";
 /// To be raised with every change of what carry() lists, or of its meaning.
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kHeader = kMagic.size() + sizeof(std::uint32_t) + sizeof(std::uint64_t);
 constexpr std::size_t kChecksum = sizeof(std::uint32_t);
 
@@ -41,9 +41,15 @@ void carry(Archive& archive, RunIdentity& run, Progress& progress, std::string& 
     archive.text("value", option.second);
   });
   archive.text("scene", run.scene);
-  archive.number("kinetic", progress.initial.kinetic);
-  archive.number("potential", progress.initial.potential);
-  archive.list("frame_seconds", progress.frame_seconds, [&](double& seconds) { archive.number("seconds", seconds); });
+  curtain::RunSums& sums = progress.sums;
+  archive.number("kinetic", sums.initial.kinetic);
+  archive.number("potential", sums.initial.potential);
+  archive.list("frame_seconds", sums.frame_seconds, [&](double& seconds) { archive.number("seconds", seconds); });
+  archive.list("loads", sums.loads, [&](curtain::ContactWrench& load) {
+    archive.numbers("force", load.force);
+    archive.numbers("torque", load.torque);
+    archive.number("time", load.time);
+  });
   archive.integer("bytes", progress.states.bytes, 0, kHighest);
   archive.integer("hash", progress.states.hash, kLowest, kHighest);
   archive.text("snapshot", snapshot);

@@ -18,14 +18,14 @@
 #include "batch/options.h"
 #include "batch/states_file.h"
 #include "curtain_sim/simulator.h"
+#include "simulator/export.h"
 
 namespace curtain_batch {
 
 /// What a run has beside its simulator.
 struct Progress {
-  curtain::Energy initial;            ///< where the run began
-  std::vector<double> frame_seconds;  ///< computing time of every frame so far [s]
-  StatesMark states;                  ///< of --out
+  curtain::RunSums sums;  ///< of its frames so far
+  StatesMark states;      ///< of --out
 };
 
 /// What must be the same for a checkpoint to be this run's: options and their values, and the scene as text.

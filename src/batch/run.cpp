@@ -16,7 +16,7 @@ class Run {
         simulator_(simulator),
         rate_(simulator.scene().solver.frame_rate),
         every_(std::max<std::size_t>(framesIn(options.every), 1)) {
-    progress_.initial = simulator.energy();
+    progress_.sums.initial = simulator.energy();
     if (keepsCheckpoints()) {
       identity_ = identityOf(options, simulator);
       resumed_ = readCheckpoint(options.checkpoint, identity_, simulator, progress_);
@@ -24,7 +24,7 @@ class Run {
         if (!file.empty()) removeLeftovers(file);
       }
     }
-    progress_.frame_seconds.reserve(std::min<std::size_t>(framesIn(options.duration), 1000000));
+    progress_.sums.frame_seconds.reserve(std::min<std::size_t>(framesIn(options.duration), 1000000));
     if (options.out.empty()) return;
     if (resumed_)
       states_.emplace(options.out, progress_.states);
@@ -42,7 +42,7 @@ class Run {
     }
     while (!isOver()) {
       simulator_.step();
-      progress_.frame_seconds.push_back(simulator_.statistics().step_seconds);
+      progress_.sums.add(simulator_);
       write();
       if (options_.progress && frames() % static_cast<std::size_t>(std::max(1.0, rate_)) == 0) {
         std::cerr << "t = " << simulator_.time() << " s, " << simulator_.statistics().substeps_last << " substeps\n";
@@ -57,7 +57,7 @@ class Run {
   std::size_t framesIn(double seconds) const { return static_cast<std::size_t>(std::ceil(seconds * rate_ - 1e-6)); }
   bool keepsCheckpoints() const { return !options_.checkpoint.empty(); }
 
-  std::size_t frames() const { return progress_.frame_seconds.size(); }
+  std::size_t frames() const { return progress_.sums.frame_seconds.size(); }
   bool isOver() const { return frames() >= framesIn(options_.duration) || !simulator_.statistics().finite; }
 
   // What is due after a frame, or at the start.

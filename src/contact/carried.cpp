@@ -46,12 +46,12 @@ void ObstacleSet::Item::carry(Archive& archive) {
   archive.finite("end", end);
   bool follows = scripted;
   archive.atOnce([&] { archive.flag("scripted", follows); });
-  archive.require(!follows || !motion.empty(), "there is no motion to follow");
+  archive.require(!follows || script.any(), "there is no motion to follow");
   archive.put(scripted, follows);
   archive.flag("moved", moved);
   archive.within("own_way", own_path, 0.0, std::numeric_limits<double>::infinity());
-  archive.within("share", share, 0.0, 1.0);
   archive.flag("behind", behind);
+  archive.part("curve", curve);
 }
 
 void ObstacleSet::carry(Archive& archive) {
@@ -63,6 +63,7 @@ void ObstacleSet::carry(Archive& archive) {
   for (Item& item : items_) {
     archive.put(item.placed, substep_);
     archive.put(item.boxed, false);
+    archive.put(item.moves, false);
   }
   archive.put(boxed_, false);
 }
@@ -75,7 +76,7 @@ void ObstacleContacts::Load::carry(Archive& archive) {
 
 void ObstacleContacts::carry(Archive& archive) {
   for (Load& load : loads_) archive.part("load", load);
-  archive.number("loaded_for", loaded_for_);
+  archive.number("acted", acted_);
 }
 
 // The multipliers and directions of a contact: they warm-start the next substep, and with the last forces advance
@@ -89,6 +90,7 @@ void ClothContact::carryPushing(Archive& archive, Contact& contact) const {
   archive.integer("source", contact.source, 0, std::numeric_limits<std::uint32_t>::max());
   archive.numbers("normal", contact.normal);
   archive.numbers("surface_velocity", contact.surface_velocity);
+  archive.numbers("end_velocity", contact.end_velocity);
   archive.number("friction", contact.friction);
   archive.number("press", contact.press);
   archive.number("hold", contact.hold);

@@ -173,8 +173,7 @@ int ClothContact::joinCrossings(const Field3& start, const Field3& end) noexcept
   return count;
 }
 
-void ClothContact::afterSubstep(bool settled, double h, const SubstepOutcome& outcome,
-                                const Field3& position) noexcept {
+void ClothContact::afterSubstep(bool settled, const SubstepOutcome& outcome, const Field3& position) noexcept {
   taut_ = settled;
   if (flat_)
     flatness_.advance();
@@ -192,7 +191,7 @@ void ClothContact::afterSubstep(bool settled, double h, const SubstepOutcome& ou
   const auto in_order = [this](const Contact& a, const Contact& b) { return before(a, b); };
   if (!std::is_sorted(last_.begin(), last_.end(), in_order)) std::sort(last_.begin(), last_.end(), in_order);
   last_scale_ = outcome.scale;
-  obstacle_contacts_.remember(contacts_, position, h, outcome);
+  obstacle_contacts_.remember(contacts_, position, outcome);
 }
 
 void ClothContact::addForces(Field3& force) const noexcept {

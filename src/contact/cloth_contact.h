@@ -51,8 +51,8 @@ class ClothContact : public ContactFinder {
   void clearCaches() noexcept;
   /// For tests: clears the caches in about every other call from now on, drawn from seed; 0: stop.
   void clearCachesAtRandom(std::uint64_t seed) noexcept { clearing_ = seed; }
-  /// After every accepted substep of h [s] that ended at position. settled: all links are within tolerance.
-  void afterSubstep(bool settled, double h, const SubstepOutcome& outcome, const Field3& position) noexcept;
+  /// After every accepted substep that ended at position. settled: all links are within tolerance.
+  void afterSubstep(bool settled, const SubstepOutcome& outcome, const Field3& position) noexcept;
   /// Before the first substep of every frame. links_hold: no link is overlong, no pin moves.
   void beginFrame(bool links_hold) noexcept { obstacle_contacts_.beginFrame(links_hold); }
 
@@ -84,7 +84,7 @@ class ClothContact : public ContactFinder {
     taut_ = false;
     flatness_.invalidate();
   }
-  /// Accepted substeps without contact are undone, `time` [s] in all.
+  /// Accepted substeps without contact are undone, whose forces acted for `time` [s] in all.
   void takeBack(double time) noexcept { obstacle_contacts_.takeBack(time); }
   void carry(Archive& archive);
 

@@ -14,17 +14,6 @@ namespace {
 // found does not depend on it.
 constexpr double kLookFurther = 0.1;
 
-// Interpolates between two poses of a frame. For small angles normalised linear interpolation suffices (error angle^3
-// / 100).
-Pose between(const Pose& a, const Pose& b, double share) {
-  Pose pose;
-  pose.position = a.position + share * (b.position - a.position);
-  const double sign = a.orientation.dot(b.orientation) < 0.0 ? -1.0 : 1.0;
-  pose.orientation.coeffs() = (1.0 - share) * a.orientation.coeffs() + (sign * share) * b.orientation.coeffs();
-  pose.orientation.normalize();
-  return pose;
-}
-
 bool samePlace(const Pose& a, const Pose& b) {
   return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs();
 }
@@ -45,32 +34,12 @@ Eigen::AlignedBox3d grownBy(double margin, Eigen::AlignedBox3d box) {
   return box;
 }
 
-// How far points leave the boxes at both ends of a rotation: the sagitta of the farthest point's arc [m].
-double arcBulge(double farthest, const Eigen::Matrix3d& before, const Eigen::Matrix3d& after) {
-  if (!std::isfinite(farthest)) return 0.0;
-  const double cosine = 0.5 * ((before.transpose() * after).trace() - 1.0);
-  const double half_angle = 0.5 * std::acos(std::clamp(cosine, -1.0, 1.0));
-  return farthest * (1.0 - std::cos(half_angle));
-}
-
 }  // namespace
 
-Pose poseAt(const std::vector<PoseKey>& motion, double time) noexcept {
-  if (time <= motion.front().time) return motion.front().pose;
-  for (std::size_t k = 1; k < motion.size(); ++k) {
-    const PoseKey& a = motion[k - 1];
-    const PoseKey& b = motion[k];
-    if (time > b.time) continue;
-    const double share = (time - a.time) / (b.time - a.time);
-    return {a.pose.position + share * (b.pose.position - a.pose.position),
-            a.pose.orientation.slerp(share, b.pose.orientation)};
-  }
-  return motion.back().pose;
-}
-
-void MovingObstacle::move(const Transform& from, const Transform& to) noexcept {
+void MovingObstacle::move(const Transform& from, const Transform& to, const PoseChange& last) noexcept {
   before = from;
   after = to;
+  speed = last;
   swept_ = boxAround(bounds, before).merged(boxAround(bounds, after));
 }
 
@@ -90,14 +59,14 @@ ObstacleSet::ObstacleSet(const Scene& scene, const MeshResolver& resolve)
       unusable += (unusable.empty() ? "" : "\n") + std::string(error.what());
       continue;
     }
-    item.motion = params.motion;
-    item.initial = params.motion.empty() ? params.pose : poseAt(params.motion, 0.0);
     MovingObstacle moving;
     moving.shape = item.shape.get();
     moving.padding = params.padding;
     moving.press = params.press;
     moving.bounds = grownBy(params.padding, item.shape->bounds());
     item.radius = moving.bounds.min().cwiseAbs().cwiseMax(moving.bounds.max().cwiseAbs()).norm();
+    item.script = ScriptedMotion(params, item.arm());
+    item.initial = item.script.any() ? item.script.at(0.0) : params.pose;
     item.own_friction = !std::isnan(params.friction);
     moving.friction = item.own_friction ? params.friction : scene.contact.friction;
     items_.push_back(std::move(item));
@@ -127,10 +96,10 @@ bool ObstacleSet::anyPresent() const noexcept {
 void ObstacleSet::reset() noexcept {
   for (std::size_t n = 0; n < items_.size(); ++n) {
     items_[n].left = items_[n].begin = items_[n].end = items_[n].initial;
-    items_[n].scripted = !items_[n].motion.empty();
-    items_[n].moved = items_[n].behind = items_[n].boxed = false;
+    items_[n].curve.put(items_[n].initial);
+    items_[n].scripted = items_[n].script.any();
+    items_[n].moves = items_[n].moved = items_[n].behind = items_[n].boxed = false;
     items_[n].own_path = 0.0;
-    items_[n].share = 1.0;
     moving_[n].present = true;
   }
   any_moved_ = boxed_ = false;
@@ -156,6 +125,7 @@ void ObstacleSet::setPose(int index, const Pose& pose, bool jump) noexcept {
   moveOn(at(index), pose);
   if (jump) {
     item.begin = pose;
+    item.curve.put(pose);
     item.behind = false;
   }
   item.moved = item.moved || moves;
@@ -165,35 +135,34 @@ void ObstacleSet::setPose(int index, const Pose& pose, bool jump) noexcept {
 void ObstacleSet::beginFrame(double end_time) noexcept {
   for (std::size_t n = 0; n < items_.size(); ++n) {
     Item& item = items_[n];
-    if (item.scripted) {
-      moveOn(n, poseAt(item.motion, end_time));
-      item.moved = item.moved || !samePlace(item.begin, item.end);
-      if (item.moved) touch(item);
+    if (item.scripted) moveOn(n, item.script.at(end_time));
+    if (item.behind) {
+      const double rest = pathBetween(item.begin, item.end, n);
+      const double allowed = std::max(item.own_path, following_speed_ * frame_length_);
+      item.curve.leadEvenly(item.begin, item.end, rest > allowed ? allowed / rest : 1.0, frame_length_);
+    } else if (item.scripted) {
+      item.curve.follow(item.script, end_time, frame_length_);
+    } else {
+      item.curve.lead(item.begin, item.end, frame_length_, item.arm());
     }
-    item.share = 1.0;
-    if (!item.behind) continue;
-    const double rest = pathBetween(item.begin, item.end, n);
-    const double allowed = std::max(item.own_path, following_speed_ * frame_length_);
-    if (rest > allowed) item.share = allowed / rest;
+    item.moves = item.curve.way(1.0) > 0.0;  // a plane turns, though its points have no bound
+    item.moved = item.moved || item.moves;
+    if (item.moves) touch(item);
   }
 }
 
+// What a rotation moves its points by is bounded by this times the angle; a plane has no bound [m].
+double ObstacleSet::Item::arm() const noexcept { return std::isfinite(radius) ? radius : 0.0; }
+
 // Bound of the largest displacement of its points [m].
 double ObstacleSet::pathBetween(const Pose& a, const Pose& b, std::size_t index) const noexcept {
-  const double radius = items_[index].radius;
-  const double turned = a.orientation.angularDistance(b.orientation);
-  return (b.position - a.position).norm() + (std::isfinite(radius) ? radius * turned : 0.0);
+  return changeBetween(a, b).reach(items_[index].arm());
 }
 
 void ObstacleSet::moveOn(std::size_t index, const Pose& pose) noexcept {
   Item& item = items_[index];
   if (item.behind) item.own_path = pathBetween(item.end, pose, index);
   item.end = pose;
-}
-
-double ObstacleSet::path(int index) const noexcept {
-  const Item& item = items_[at(index)];
-  return item.share * pathBetween(item.begin, item.end, at(index));
 }
 
 // Its place and box are to be worked out anew.
@@ -219,31 +188,30 @@ void ObstacleSet::takeBoxes() noexcept {
     Item& item = items_[n];
     if (!moving_[n].present) continue;
     if (!item.boxed) {
-      const bool rests = samePlace(item.begin, item.end);
-      item.boxed = rests;
-      at_rest_ = at_rest_ && rests;
+      item.boxed = !item.moves;
+      at_rest_ = at_rest_ && !item.moves;
       item.exact = false;
-      if (rests) {
-        takeExactBox(n);
-      } else {
+      if (item.moves) {
         const Vec3 low = item.begin.position.cwiseMin(item.end.position);
         const Vec3 high = item.begin.position.cwiseMax(item.end.position);
-        item.swept = {low.array() - item.radius, high.array() + item.radius};
+        item.swept = grownBy(item.radius + 0.5 * item.path(), {low, high});
+      } else {
+        takeExactBox(n);
       }
     }
     swept_.extend(item.swept);
   }
 }
 
+// No point is further than half of its way from where that begins or ends.
 void ObstacleSet::takeExactBox(std::size_t index) noexcept {
   Item& item = items_[index];
   const Eigen::AlignedBox3d& box = moving_[index].bounds;
-  const Transform begin(item.begin);
   item.exact = true;
-  item.swept = boxAround(box, begin);
-  if (samePlace(item.begin, item.end)) return;
-  const Transform end(between(item.begin, item.end, item.share));
-  item.swept = grownBy(arcBulge(item.radius, begin.rotation, end.rotation), item.swept.merged(boxAround(box, end)));
+  item.swept = boxAround(box, Transform(item.begin));
+  if (!item.moves) return;
+  item.swept.extend(boxAround(box, Transform(item.curve.at(1.0))));
+  item.swept = grownBy(0.5 * item.path(), item.swept);
 }
 
 void ObstacleSet::lookAround(const Eigen::AlignedBox3d& box) noexcept {
@@ -257,11 +225,11 @@ void ObstacleSet::lookAround(const Eigen::AlignedBox3d& box) noexcept {
 void ObstacleSet::place(std::size_t index) noexcept {
   Item& item = items_[index];
   item.placed = substep_;
-  if (samePlace(item.begin, item.end)) {
-    moving_[index].move(Transform(item.end), Transform(item.end));
+  if (item.moves) {
+    moving_[index].move(Transform(item.curve.at(from_)), Transform(item.curve.at(to_)),
+                        (to_ - from_) * item.curve.rateAt(to_));
   } else {
-    moving_[index].move(Transform(between(item.begin, item.end, from_ * item.share)),
-                        Transform(between(item.begin, item.end, to_ * item.share)));
+    moving_[index].move(Transform(item.begin), Transform(item.begin), {});
   }
 }
 
@@ -271,8 +239,9 @@ void ObstacleSet::endFrame(double share) noexcept {
   any_moved_ = false;
   for (Item& item : items_) {
     if (!item.moved) continue;
-    const double made = share * item.share;
-    item.begin = made >= 1.0 ? item.end : between(item.begin, item.end, made);
+    item.begin = item.curve.at(share);
+    item.curve.arrive(item.begin);
+    item.moves = false;
     item.moved = item.behind = !samePlace(item.begin, item.end);
     item.own_path = 0.0;
     item.left = item.begin;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The obstacles of a scene and their poses: at the start and the end of the frame, interpolated in between.
+// The obstacles of a scene and their poses: at the start and the end of the frame, and on a curve in between.
 //
 // Where an obstacle moves in a substep is worked out for those alone that somebody asks for (moving()). Whether it may
 // be near is told by a box around its whole motion in the frame, at first around the ball that it can turn in: a robot
@@ -14,6 +14,7 @@
 
 #include "curtain_sim/scene.h"
 #include "obstacles/contact_shape.h"
+#include "obstacles/pose_curve.h"
 
 namespace curtain {
 
@@ -45,10 +46,13 @@ struct MovingObstacle {
   Eigen::AlignedBox3d bounds;  ///< of the shape with its padding, in its frame
   Transform before;            ///< at the substep's start
   Transform after;             ///< at its end
+  PoseChange speed;            ///< there, per substep
 
   /// Box around the obstacle during the substep, world frame.
   const Eigen::AlignedBox3d& sweptBounds() const noexcept { return swept_; }
-  void move(const Transform& from, const Transform& to) noexcept;
+  void move(const Transform& from, const Transform& to, const PoseChange& last) noexcept;
+  /// What a point of it, at the substep's end, would move by in a substep at the speed that it has then [m].
+  Vec3 motionOf(const Vec3& world) const noexcept { return speed.move + speed.turn.cross(world - after.translation); }
   void carry(Archive& archive);
 
  private:
@@ -120,8 +124,9 @@ class ObstacleSet {
   bool mayMeet(int index, const Eigen::AlignedBox3d& box) noexcept {
     return moving_[at(index)].present && items_[at(index)].swept.intersects(box) && sweptBounds(index).intersects(box);
   }
-  /// Bound of how far a point of its surface moves in the frame [m]; plane: its origin.
-  double path(int index) const noexcept;
+  /// Bound of how far a point of its surface would move in a frame at the largest speed of this one [m]; plane: its
+  /// origin.
+  double path(int index) const noexcept { return items_[at(index)].path(); }
   /// Indices sorted by name: results depend on names, not on the order in the scene.
   const std::vector<int>& byName() const noexcept { return by_name_; }
   /// Position of an obstacle in byName().
@@ -132,16 +137,17 @@ class ObstacleSet {
  private:
   struct Item {
     std::unique_ptr<const ContactShape> shape;
-    std::vector<PoseKey> motion;
+    ScriptedMotion script;
+    FrameCurve curve;  // from begin, in the frame
     Pose initial;
     Pose left;  // at the end of the last frame
     Pose begin;
     Pose end;
-    bool scripted = false;  // follows its motion
+    bool scripted = false;  // follows its script
+    bool moves = false;     // in the frame
     bool moved = false;
     double radius = 0.0;        // of its points about its origin, with the padding [m]
     double own_path = 0.0;      // displacement of its target since the last frame [m]
-    double share = 1.0;         // part of the remaining path covered in this frame
     bool behind = false;        // the last frame ended short of the target
     std::uint64_t placed = 0;   // substep that its MovingObstacle is of
     Eigen::AlignedBox3d swept;  // around its motion in the frame, world frame
@@ -149,6 +155,8 @@ class ObstacleSet {
     bool boxed = false;         // and holds until it moves
     bool own_friction = false;  // the scene names its friction
 
+    double arm() const noexcept;
+    double path() const noexcept { return curve.way(arm()); }
     void carry(Archive& archive);
   };
   static std::size_t at(int index) { return static_cast<std::size_t>(index); }
@@ -175,8 +183,5 @@ class ObstacleSet {
   std::vector<int> near_;
   std::vector<int> by_name_, rank_;
 };
-
-/// Pose of a motion at a time: linear in position, slerp in orientation, clamped at both ends.
-Pose poseAt(const std::vector<PoseKey>& motion, double time) noexcept;
 
 }  // namespace curtain

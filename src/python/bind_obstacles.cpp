@@ -29,6 +29,7 @@ py::dict wrenchOn(const Self& self, const std::string& name) {
   values["force"] = toArray(wrench.force);
   values["torque"] = toArray(wrench.torque);
   values["contacts"] = wrench.contacts;
+  values["time"] = wrench.time;
   return values;
 }
 
@@ -82,12 +83,12 @@ void bindObstacles(SimulatorClass& simulator) {
             return names;
           },
           "Names of the obstacles, in the scene's order.")
-      .def(
-          "set_obstacle_pose", &setPose, py::arg("name"), py::arg("position"), py::arg("orientation") = py::none(),
-          py::arg("jump") = false,
-          "Pose of an obstacle at the end of the next frame: position [m], orientation (unit quaternion x, y, z, w; "
-          "None: that of its target). It moves there evenly, in place of the scene's motion, but waits where the cloth "
-          "is jammed in its way. jump: it is there at once, without a velocity.")
+      .def("set_obstacle_pose", &setPose, py::arg("name"), py::arg("position"), py::arg("orientation") = py::none(),
+           py::arg("jump") = false,
+           "Pose of an obstacle at the end of the next frame: position [m], orientation (unit quaternion x, y, z, w; "
+           "None: that of its target). It moves there smoothly, in place of the scene's motion, but waits where the "
+           "cloth "
+           "is jammed in its way. jump: it is there at once, without a velocity.")
       .def(
           "obstacle_pose",
           [](const Self& self, const std::string& name) {
@@ -123,7 +124,9 @@ void bindObstacles(SimulatorClass& simulator) {
           py::arg("name"), "As set; at the start: True.")
       .def("contact_wrench", &wrenchOn, py::arg("name"),
            "Force [N] and torque [N m] of the cloth on an obstacle, about the origin of its frame, along the world's "
-           "axes, mean over the last frame; contacts: that pushed at its end.")
+           "axes, mean over the last frame; contacts: that pushed at its end; time: that the forces acted for [s], "
+           "times "
+           "which they are the momentum given.")
       .def("contact_points", &contactPoints,
            "Where the cloth presses on obstacles, sorted by their names: a dict of arrays with one entry a place. "
            "obstacle: its number in obstacles, shape (n,); position of the cloth [m] and normal (unit, out of the "

@@ -243,6 +243,9 @@ struct Fields<ObstacleParams> {
     v.number("padding", obstacle.padding, notNegative());
     v.vector("color", obstacle.color, between(0.0, 1.0));
     v.flag("visible", obstacle.visible);
+    v.vector("velocity", obstacle.velocity, anywhere());
+    v.vector("acceleration", obstacle.acceleration, anywhere());
+    v.vector("spin", obstacle.spin, anywhere());
     v.list("motion", obstacle.motion, PoseKey{0.0, obstacle.pose});  // read before
   }
 

@@ -170,6 +170,12 @@ void checkDrag(const DragParams& drag, const ClothParams& cloth, const std::stri
 }
 
 void checkObstacle(const ObstacleParams& obstacle, const std::string& key, ProblemLog& log) {
+  const std::pair<const char*, const Vec3&> steady[] = {
+      {"velocity", obstacle.velocity}, {"acceleration", obstacle.acceleration}, {"spin", obstacle.spin}};
+  for (const auto& [name, value] : steady) {
+    if (!obstacle.motion.empty() && !value.isZero(0.0))
+      log.add(joinKey(key, name), "must not be given beside motion, which says where it is");
+  }
   for (std::size_t i = 1; i < obstacle.motion.size(); ++i) {
     const std::string time_key = joinKey(itemKey(joinKey(key, "motion"), i), "time");
     const std::string before_key = joinKey(itemKey(joinKey(key, "motion"), i - 1), "time");

@@ -68,6 +68,11 @@ double quantile(std::vector<double> samples, double share) {
   return samples[static_cast<std::size_t>(std::lround(share * static_cast<double>(samples.size() - 1)))];
 }
 
+nlohmann::ordered_json toJson(const ContactWrench& wrench) {
+  return {{"force", {wrench.force.x(), wrench.force.y(), wrench.force.z()}},
+          {"torque", {wrench.torque.x(), wrench.torque.y(), wrench.torque.z()}}};
+}
+
 }  // namespace
 
 void writeStateHeader(std::ostream& out) { out << "t,row,column,x,y,z,vx,vy,vz\n"; }
@@ -113,8 +118,29 @@ void writeMesh(const Simulator& simulator, const std::string& path) {
   if (!problems.empty()) throw std::runtime_error(describe(problems));
 }
 
-std::string statisticsJson(const Simulator& simulator, const Energy& initial,
-                           const std::vector<double>& frame_seconds) {
+void RunSums::add(const Simulator& simulator) {
+  frame_seconds.push_back(simulator.statistics().step_seconds);
+  loads.resize(static_cast<std::size_t>(simulator.obstacleCount()));
+  for (int obstacle = 0; obstacle < simulator.obstacleCount(); ++obstacle) {
+    ContactWrench& mean = loads[static_cast<std::size_t>(obstacle)];
+    const ContactWrench last = simulator.contactWrench(obstacle);
+    mean.time += last.time;
+    if (!(mean.time > 0.0)) continue;
+    mean.force += (last.time / mean.time) * (last.force - mean.force);
+    mean.torque += (last.time / mean.time) * (last.torque - mean.torque);
+  }
+}
+
+std::string describeLastResort(const Statistics& s) {
+  if (s.stops == 0 && s.momentum_cut == 0.0 && s.obstacles_waited == 0.0) return {};
+  std::ostringstream text;
+  text << "the cloth was jammed, or under a load too heavy for the shortest substeps: " << s.stops
+       << " substeps stopped, " << s.momentum_cut << " N s of momentum cut, obstacles waited " << s.obstacles_waited
+       << " s";
+  return text.str();
+}
+
+std::string statisticsJson(const Simulator& simulator, const RunSums& run) {
   const Statistics& s = simulator.statistics();
   const Energy energy = simulator.energy();
   nlohmann::ordered_json json;
@@ -122,9 +148,9 @@ std::string statisticsJson(const Simulator& simulator, const Energy& initial,
   json["frames"] = s.frames;
   json["simulated_s"] = s.time;
   json["wall_s"] = s.step_seconds_sum;
-  json["ms_per_frame"] = {{"median", 1e3 * quantile(frame_seconds, 0.5)},
-                          {"p99", 1e3 * quantile(frame_seconds, 0.99)},
-                          {"max", 1e3 * quantile(frame_seconds, 1.0)}};
+  json["ms_per_frame"] = {{"median", 1e3 * quantile(run.frame_seconds, 0.5)},
+                          {"p99", 1e3 * quantile(run.frame_seconds, 0.99)},
+                          {"max", 1e3 * quantile(run.frame_seconds, 1.0)}};
   json["substeps_mean"] = s.frames > 0 ? static_cast<double>(s.substeps) / static_cast<double>(s.frames) : 0.0;
   json["sweeps_mean"] = s.substeps > 0 ? static_cast<double>(s.sweeps) / static_cast<double>(s.substeps) : 0.0;
   json["position_error"] = s.position_error;
@@ -137,7 +163,7 @@ std::string statisticsJson(const Simulator& simulator, const Energy& initial,
   json["obstacles_waited"] = s.obstacles_waited;
   json["stretch_max"] = {{"warp", s.warp_stretch_max}, {"weft", s.weft_stretch_max}};
   json["compression_max"] = {{"warp", s.warp_compression_max}};
-  json["energy"] = {{"initial", initial.kinetic + initial.potential},
+  json["energy"] = {{"initial", run.initial.kinetic + run.initial.potential},
                     {"final", energy.kinetic + energy.potential},
                     {"kinetic", energy.kinetic},
                     {"potential", energy.potential}};
@@ -154,10 +180,10 @@ std::string statisticsJson(const Simulator& simulator, const Energy& initial,
   json["piercings"] = {{"nodes", piercings.nodes}, {"edges", piercings.edges}, {"faces", piercings.faces}};
   nlohmann::ordered_json wrenches = nlohmann::ordered_json::object();
   for (int obstacle = 0; obstacle < simulator.obstacleCount(); ++obstacle) {
-    const ContactWrench wrench = simulator.contactWrench(obstacle);
-    wrenches[simulator.scene().obstacles[static_cast<std::size_t>(obstacle)].name] = {
-        {"force", {wrench.force.x(), wrench.force.y(), wrench.force.z()}},
-        {"torque", {wrench.torque.x(), wrench.torque.y(), wrench.torque.z()}}};
+    const auto at = static_cast<std::size_t>(obstacle);
+    nlohmann::ordered_json& entry = wrenches[simulator.scene().obstacles[at].name];
+    entry = toJson(simulator.contactWrench(obstacle));
+    entry["mean"] = toJson(at < run.loads.size() ? run.loads[at] : ContactWrench());
   }
   json["wrenches"] = wrenches;
   json["rest"] = {{"asleep", s.asleep}, {"frames_asleep", s.asleep_frames}, {"wakes", s.wakes}};

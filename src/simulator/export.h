@@ -28,7 +28,20 @@ std::string meshFile(const FineMesh& mesh, const FineMeshTopology& topology, Mes
 /// The fine mesh as a file, whole or not at all; throws std::invalid_argument for another ending than kMeshEndings.
 void writeMesh(const Simulator& simulator, const std::string& path);
 
-/// What curtain_batch --stats writes. frame_seconds: computing time of every frame [s].
-std::string statisticsJson(const Simulator& simulator, const Energy& initial, const std::vector<double>& frame_seconds);
+/// What frames of a run add up to.
+struct RunSums {
+  Energy initial;                     ///< where the run began
+  std::vector<double> frame_seconds;  ///< computing time of every frame so far [s]
+  std::vector<ContactWrench> loads;   ///< by obstacle: means so far, over the time that the forces acted for
+
+  /// After a frame.
+  void add(const Simulator& simulator);
+};
+
+/// What curtain_batch --stats writes.
+std::string statisticsJson(const Simulator& simulator, const RunSums& run);
+
+/// What the last resort has done to a run, in words; empty: nothing.
+std::string describeLastResort(const Statistics& statistics);
 
 }  // namespace curtain

@@ -67,20 +67,21 @@ bool FrameLoop::makeStages(const SubstepPlan& plan, double done) {
   const auto oneWay = [](const Part& part) { return !part.reversible(); };
   if (controls_.plain_frames > 0 || motion_.step.stringsPull() || motion_.parts.all.any(oneWay)) return false;
   motion_.save(before_);
-  double at = done;
+  double at = done, acted = 0.0;
   for (const double gamma : kStages) {
     SubstepPlan stage = plan;
     stage.h = gamma * plan.h;
     const SubstepOutcome outcome = motion_.attempt(stage, at);
     if (!outcome.accepted || motion_.step.stringsPull() || (motion_.contact.wanted() && motion_.contact.any())) {
       motion_.restore(before_);
-      motion_.contact.takeBack(at - done);
+      motion_.contact.takeBack(acted);
       return false;
     }
     controls_.main.accepted(stage, outcome);
     controls_.plain.watch(outcome);
-    motion_.contact.afterSubstep(true, stage.h, outcome, motion_.state.position);
+    motion_.contact.afterSubstep(true, outcome, motion_.state.position);
     at += stage.h;
+    acted += outcome.kick;
   }
   return true;
 }

@@ -75,7 +75,7 @@ void Motion::book(const NodeForces& acting, double h, const SubstepOutcome& outc
 }
 
 void Motion::taken(double h, const SubstepOutcome& outcome) noexcept {
-  contact.afterSubstep(outcome.settled, h, outcome, state.position);
+  contact.afterSubstep(outcome.settled, outcome, state.position);
   const Step* const links = scene.solver.method == Method::kPaper ? nullptr : &step;
   const SubstepMade made{h, state, forces.last(), links, pushing(), outcome.scale};
   for (Part* const part : parts.all) part->substepTaken(made);

@@ -116,7 +116,7 @@ void ContactRows::addRows(const Field3& value, bool rates, Rows& rows) const {
   for (std::uint32_t index = 0; index < all_->size(); ++index) {
     const Contact& contact = (*all_)[index];
     const Vec3 point = contact.point(value);
-    const Vec3 lacks = (rates ? contact.surface_velocity : contact.carried) - point;  // what the point is to move by
+    const Vec3 lacks = (rates ? contact.end_velocity : contact.carried) - point;  // what the point is to move by
     const double along = rates ? contact.normal.dot(lacks) : contact.offset - contact.normal.dot(point);
     if (!contact.pushes() && (rates || !(along > 0.0))) continue;
     Row row;
@@ -167,15 +167,17 @@ double ContactRows::measureRates(const Field3& velocity) noexcept {
   double worst = 0.0;
   for (const Contact& contact : *all_) {
     if (!contact.pushes()) continue;
-    const Vec3 off = contact.point(velocity) - contact.surface_velocity;
+    const Vec3 off = contact.point(velocity) - contact.end_velocity;
     worst = std::max(worst, contact.sticks ? off.norm() : std::abs(contact.normal.dot(off)));
   }
   return worst / links_;
 }
 
-void ContactRows::moveBy(const Rows& rows, const Field& inverse, Field3& velocity) const noexcept {
+void ContactRows::moveBy(const Rows& rows, const Field& inverse, Field3& velocity) noexcept {
   forEachChange(rows, first_row, end_row, [&](std::uint32_t index, double push, const Vec3& slide) {
-    (*all_)[index].move(inverse, push * (*all_)[index].normal + slide, velocity);
+    const Vec3 impulse = push * (*all_)[index].normal + slide;
+    (*all_)[index].move(inverse, impulse, velocity);
+    if (all_ == solved_) (*solved_)[index].settled += impulse;  // else velocities are only looked at
   });
 }
 

@@ -36,12 +36,14 @@ struct Contact {
   double offset = 0.0;          ///< [m]
   double recovery = 0.0;        ///< part of the offset that takes out penetration [m]; the last resort may skip it
   Vec3 carried = Vec3::Zero();  ///< point at the end of the substep without slip [m]; only its tangential part is read
-  Vec3 surface_velocity = Vec3::Zero();  ///< of what the point touches [m/s]
+  Vec3 surface_velocity = Vec3::Zero();  ///< of what the point touches, mean over the substep [m/s]
+  Vec3 end_velocity = Vec3::Zero();      ///< the same at the substep's end [m/s]
   double friction = 0.0;                 ///< Coulomb coefficient, >= 0; pinched: the sum of both sides'
   double press = 0.0;                    ///< pinched: what either side presses with [N]; 0: not pinched
   double hold = 0.0;                     ///< friction * press as a multiplier [kg m]
   double push = 0.0;                     ///< normal multiplier [kg m], >= 0 unless pinched
   Vec3 slide = Vec3::Zero();             ///< tangential multiplier [kg m]
+  Vec3 settled = Vec3::Zero();           ///< impulse that projected velocities took up beside the multipliers [N s]
   double mobility = 0.0;                 ///< sum of weight^2 w, inverse effective mass of the point [1/kg]
   bool sticks = false;                   ///< solved for as sticking, until the friction bound is reached
   std::uint32_t source = 0;              ///< for the finder
@@ -124,7 +126,7 @@ class ContactRows final : public RowMaker {
   void saveIterate() override { best_ = *solved_; }
   void restoreIterate() noexcept override { *solved_ = best_; }
   double measureRates(const Field3& velocity) noexcept override;
-  void moveBy(const Rows& rows, const Field& inverse, Field3& velocity) const noexcept override;
+  void moveBy(const Rows& rows, const Field& inverse, Field3& velocity) noexcept override;
   void spread(double share, const Field& inverse, Field3& velocity) const noexcept override;
 
  private:

@@ -101,7 +101,7 @@ void DistanceRows::addRows(const Field3& /*value*/, bool /*rates*/, Rows& rows) 
   }
 }
 
-void DistanceRows::moveBy(const Rows& rows, const Field& inverse, Field3& value) const noexcept {
+void DistanceRows::moveBy(const Rows& rows, const Field& inverse, Field3& value) noexcept {
   for (std::size_t r = first_row; r < end_row; ++r) {
     const DistanceRow& distance = all_[rows[r].key];
     move(distance, rows[r].change / distance.length, inverse, value);

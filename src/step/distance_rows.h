@@ -69,7 +69,7 @@ class DistanceRows final : public RowMaker {
 
   /// Those that pulled take part, with dC/dt = d . (v_other - v_node) - length * rate [m^2/s].
   double measureRates(const Field3& velocity) noexcept override;
-  void moveBy(const Rows& rows, const Field& inverse, Field3& value) const noexcept override;
+  void moveBy(const Rows& rows, const Field& inverse, Field3& value) noexcept override;
   void spread(double share, const Field& inverse, Field3& value) const noexcept override;
 
   struct Memory {

@@ -45,7 +45,7 @@ class RowMaker {
   /// rows are with_rods, nodes have been moved.
   virtual void takeUp(const Rows& rows, double share, const Field& inverse, Field3& position) noexcept = 0;
   /// Moves velocities by what was found for its rows.
-  virtual void moveBy(const Rows& rows, const Field& inverse, Field3& velocity) const noexcept = 0;
+  virtual void moveBy(const Rows& rows, const Field& inverse, Field3& velocity) noexcept = 0;
   /// Adds the squares of its violations, over a typical link's length.
   virtual void addSquares(const Field3& position, double& sum) const noexcept = 0;
   /// Largest rate of a violation, over a typical link's length [1/s].

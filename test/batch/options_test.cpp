@@ -320,6 +320,34 @@ TEST_F(Options, ProgressIsALineASecondOnStderr) {
   EXPECT_EQ(run.out, "");
 }
 
+// A ball is pushed through the plane of a sheet that is pinned above and below: it has to wait.
+TEST_F(Options, AJamIsALineOnStderr) {
+  std::string pins;
+  for (int j = 0; j < 8; ++j) {
+    for (const int row : {0, 7})
+      pins += (pins.empty() ? "[" : ", [") + std::to_string(row) + ", " + std::to_string(j) + "]";
+  }
+  const std::string jam =
+      "cloth: {rows: 8, columns: 8, height: 0.8, width: 0.8}\nhang: {from: [0, 0, 0.8], to: [0.8, 0, 0.8]}\npins: [" +
+      pins + "]\nobstacles: [{name: ball, shape: sphere, radius: 0.15, position: [0.4, -0.16, 0.42], velocity: [0, ";
+  const Outcome waits = batch({scene(jam + "0.4, 0]}]\n"), "--duration", "0.5"});
+  EXPECT_EQ(waits.exit_code, 0);
+  ASSERT_EQ(lines(waits.err).size(), 1u) << waits.err;
+  EXPECT_NE(waits.err.find("obstacles waited 0."), std::string::npos) << waits.err;
+  EXPECT_EQ(batch({scene(jam + "-0.4, 0]}]\n"), "--duration", "0.5"}).err, "") << "it goes away";
+}
+
+// Of a sheet that falls on a box the mean force is the momentum that it gives up, over the time.
+TEST_F(Options, StatisticsHaveTheMeanForceOnAnObstacle) {
+  const std::string falls =
+      "cloth: {rows: 8, columns: 8, height: 0.3, width: 0.3}\nhang: {from: [-0.15, 0.15, 0.2], to: [0.15, 0.15, 0.2], "
+      "tilt: 1.570796}\npins: none\nobstacles: [{name: box, shape: box, size: [1, 1, 0.2], position: [0, 0, -0.1]}]\n";
+  const auto run = stats({scene(falls), "--duration", "1"});
+  const double weight = 0.3 * 0.3 * 0.2 * 9.81;
+  EXPECT_NEAR(run.at("wrenches").at("box").at("force")[2], -weight, 1e-3 * weight) << "in the last frame it lies";
+  EXPECT_NEAR(run.at("wrenches").at("box").at("mean").at("force")[2], -weight, 0.01 * weight);
+}
+
 TEST_F(Options, OutputsAreWrittenWhereTheyAreAskedAndNowhereElse) {
   const Outcome run = batch({smallScene(), "--out", "s.csv", "--mesh", "m.obj", "--stats", "t.json"});
   EXPECT_EQ(run.exit_code, 0) << run.err;

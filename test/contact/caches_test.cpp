@@ -150,7 +150,7 @@ TEST_P(ContactCaches, ChangeNoBit) {
       }
       // Some substeps are made again.
       if (k % 7 != 3) {
-        for (Finder* const finder : {&keeps, &forgets}) finder->contact.afterSubstep(true, kSubstep, kMade, end);
+        for (Finder* const finder : {&keeps, &forgets}) finder->contact.afterSubstep(true, kMade, end);
         start = end;
       }
       for (Finder* const finder : {&keeps, &forgets}) finder->obstacles.endFrame();
@@ -182,11 +182,11 @@ TEST(ContactCachesOfFlatCloth, AreOfWhereTheSubstepEnds) {
   for (Finder* const finder : {&keeps, &forgets}) {
     finder->contact.begin(flat, flat, kSubstep);
     finder->contact.verify(flat, flat, true);
-    finder->contact.afterSubstep(true, kSubstep, kMade, flat);
+    finder->contact.afterSubstep(true, kMade, flat);
     finder->contact.begin(flat, turned, kSubstep);
     finder->contact.verify(flat, turned, true);
     finder->contact.verify(flat, folded, true);
-    finder->contact.afterSubstep(true, kSubstep, kMade, folded);
+    finder->contact.afterSubstep(true, kMade, folded);
   }
   forgets.contact.clearCaches();
   const Contacts& found = forgets.contact.begin(folded, folded, kSubstep);

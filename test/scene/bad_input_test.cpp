@@ -423,6 +423,9 @@ TEST(BadInput, BadPosesAndMotionsOfObstaclesAreNamed) {
   expectProblem(ball("frame: ''"), "obstacles[0].frame", {"not empty"});
   expectProblem(ball("motion: [{time: 0.0}, {time: 1.0}, {time: 1.0}]"), "obstacles[0].motion[2].time",
                 {"> the time before it = 1, is 1"});
+  for (const char* name : {"velocity", "acceleration", "spin"})
+    expectProblem(ball(std::string("motion: [{time: 0.0}], ") + name + ": [0, 0, 1]"),
+                  std::string("obstacles[0].") + name, {"beside motion"});
   expectProblem(ball("motion: [{time: 0.0, orientation: [0, 0, 0, 2]}]"), "obstacles[0].motion[0].orientation",
                 {"unit quaternion"});
   expectProblem(with("obstacles: [{name: a, shape: plane}, {name: a, shape: plane}]"), "obstacles[1].name",

@@ -124,6 +124,9 @@ void compareObstacle(const ObstacleParams& a, const ObstacleParams& b) {
   c.number("padding", a.padding, b.padding);
   c.vector("color", a.color, b.color);
   c.same("visible", a.visible, b.visible);
+  c.vector("velocity", a.velocity, b.velocity);
+  c.vector("acceleration", a.acceleration, b.acceleration);
+  c.vector("spin", a.spin, b.spin);
   ASSERT_EQ(a.motion.size(), b.motion.size());
   for (std::size_t i = 0; i < a.motion.size(); ++i) {
     c.number("motion.time", a.motion[i].time, b.motion[i].time);
@@ -260,6 +263,12 @@ ObstacleParams oddObstacle(Numbers& numbers, ShapeKind shape, const std::string&
   obstacle.padding = numbers.between(0.0, 0.1);
   obstacle.color = Vec3(numbers.between(0.0, 1.0), 0.0, 1.0);
   obstacle.visible = shape != ShapeKind::kBox;
+  if (shape == ShapeKind::kCapsule) {
+    obstacle.velocity = numbers.pose().position;
+    obstacle.acceleration = numbers.pose().position;
+    obstacle.spin = numbers.pose().position;
+    return obstacle;
+  }
   for (int i = 0; i < 3; ++i) obstacle.motion.push_back({i + numbers.between(0.0, 0.5), numbers.pose()});
   return obstacle;
 }

@@ -101,7 +101,7 @@ TEST(WaitingObstacles, AreNotThereBeforeTheStep) {
 // one that was not accepted it has made none.
 TEST(ObstacleLag, TheMotionOfASubstepIsWhatWasMade) {
   Scene scene = jam();
-  double rate = 50.0;
+  double rate = scene.solver.frame_rate = 50.0;
   const FrameTimes times(rate);
   const ClothPattern pattern = makePattern(scene);
   const Workers alone(1);

@@ -48,6 +48,7 @@ bool makeContact(const ObstacleSubstep& substep, const ClothPattern& pattern, co
   contact.recovery = point.recovery;
   contact.carried = moving.after.toWorld(point.start);
   contact.surface_velocity = (contact.carried - moving.before.toWorld(point.start)) / substep.h;
+  contact.end_velocity = moving.motionOf(contact.carried) / substep.h;
   return moves;
 }
 

@@ -42,6 +42,7 @@ ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, const ContactPar
   penetrating_.reserve(2 * pattern.grid.nodeCount());
   advected_by_.assign(pattern.grid.size(), -1);
   advected_.reserve(pattern.grid.nodeCount());
+  held_.reserve(pattern.grid.nodeCount());
 }
 
 // The box grown by what may touch beyond it.
@@ -68,6 +69,7 @@ void ObstacleContacts::begin(const Field3& start, const Field3& predicted, doubl
                              Contacts& contacts) noexcept {
   h_ = h;
   frictionless_ = frictionless;
+  held_.clear();
   std::fill(active_.begin(), active_.end(), std::uint8_t{0});
   if (obstacles_.sweptBounds().isEmpty()) return;
   start_box_ = bounds_.around(start);
@@ -158,7 +160,9 @@ bool ObstacleContacts::advectNode(std::uint32_t node, int obstacle, const Field3
   const MovingObstacle& moving = obstacles_.moving(obstacle);
   advected_by_[node] = obstacle;
   advected_.push_back(node);
-  end.set(node, moving.after.toWorld(moving.before.toLocal(start.at(node))));
+  const Vec3 to = moving.after.toWorld(moving.before.toLocal(start.at(node)));
+  held_.push_back({node, obstacle, (pattern_.mass[node] / h_) * (end.at(node) - to)});
+  end.set(node, to);
   return true;
 }
 
@@ -179,14 +183,15 @@ void ObstacleContacts::endAdvection() noexcept {
   advected_.clear();
 }
 
-void ObstacleContacts::remember(const Contacts& contacts, const Field3& position, double h,
+void ObstacleContacts::remember(const Contacts& contacts, const Field3& position,
                                 const SubstepOutcome& outcome) noexcept {
-  loaded_for_ += h;
+  acted_ += outcome.kick;
   for (Load& load : loads_) load.contacts = 0;
   for (const Contact& contact : contacts) {
     if (contact.obstacle == Contact::kCloth || (!contact.pushes() && contact.slide.isZero(0.0))) continue;
     const Vec3 point = contact.point(position);
-    const Vec3 impulse = (-outcome.kick / outcome.scale) * (contact.push * contact.normal + contact.slide);
+    const Vec3 impulse =
+        (-outcome.kick / outcome.scale) * (contact.push * contact.normal + contact.slide) - contact.settled;
     if (contact.other == Contact::kCloth) {
       addLoad(contact.obstacle, point, impulse, contact.pushes());
     } else {
@@ -195,6 +200,12 @@ void ObstacleContacts::remember(const Contacts& contacts, const Field3& position
       addLoad(contact.other, point, 0.5 * impulse + pressed, true);
     }
   }
+  addHeld(position, outcome);
+}
+
+void ObstacleContacts::addHeld(const Field3& position, const SubstepOutcome& outcome) noexcept {
+  if (outcome.share == 0.0) return;  // the path on which they were taken along was given up
+  for (const Held& held : held_) addLoad(held.obstacle, position.at(held.node), held.impulse, false);
 }
 
 void ObstacleContacts::addLoad(int obstacle, const Vec3& point, const Vec3& impulse, bool pushes) noexcept {
@@ -211,13 +222,13 @@ void ObstacleContacts::clearCaches() noexcept {
 void ObstacleContacts::beginFrame(bool links_hold) noexcept {
   bounds_.setLinksHold(links_hold);
   std::fill(loads_.begin(), loads_.end(), Load());
-  loaded_for_ = 0.0;
+  acted_ = 0.0;
 }
 
 ContactWrench ObstacleContacts::wrench(int obstacle) const noexcept {
   const Load& load = loads_[static_cast<std::size_t>(obstacle)];
-  if (!(loaded_for_ > 0.0)) return {};
-  return {load.impulse / loaded_for_, load.angular / loaded_for_, load.contacts};
+  if (!(acted_ > 0.0)) return {};
+  return {load.impulse / acted_, load.angular / acted_, load.contacts, acted_};
 }
 
 double ObstacleContacts::deepest(const Contacts& contacts, const Field3& position) const noexcept {

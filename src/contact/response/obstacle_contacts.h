@@ -52,11 +52,11 @@ class ObstacleContacts {
   void freezeRest(const Field3& start, Field3& end) const noexcept;
   void endAdvection() noexcept;
 
-  /// After an accepted substep of h [s]: takes its contacts into the wrenches. What counts is the momentum
-  /// that the cloth has got from them: forces times the time that they acted for, which is not h where steps change.
-  void remember(const Contacts& contacts, const Field3& position, double h, const SubstepOutcome& outcome) noexcept;
-  /// Accepted substeps without contact are undone, `time` [s] in all.
-  void takeBack(double time) noexcept { loaded_for_ -= time; }
+  /// After an accepted substep: takes its contacts into the wrenches. What counts is the momentum that the cloth has
+  /// got from them, over the time that its forces acted for, which is not the substep's length where steps change.
+  void remember(const Contacts& contacts, const Field3& position, const SubstepOutcome& outcome) noexcept;
+  /// Accepted substeps without contact are undone, whose forces acted for `time` [s] in all.
+  void takeBack(double time) noexcept { acted_ -= time; }
   /// Results do not depend on it.
   void clearCaches() noexcept;
   void carry(Archive& archive);
@@ -85,6 +85,7 @@ class ObstacleContacts {
   ObstacleSubstep substepOf(std::size_t obstacle) const noexcept {
     return {moving(obstacle), static_cast<int>(obstacle), h_, frictionless_, recovery_speed_, most_recovery_};
   }
+  void addHeld(const Field3& position, const SubstepOutcome& outcome) noexcept;
   void addLoad(int obstacle, const Vec3& point, const Vec3& impulse, bool pushes) noexcept;
   bool anyWithin(const Eigen::AlignedBox3d& box) const noexcept;
   Eigen::AlignedBox3d reached(Eigen::AlignedBox3d box) const noexcept;
@@ -108,8 +109,15 @@ class ObstacleContacts {
   std::vector<PenetratingFace> penetrating_;
   std::vector<std::int32_t> advected_by_;  // by node: obstacle it moves with, or -1
   std::vector<std::uint32_t> advected_;
+  // What an obstacle gives to a node that it takes along.
+  struct Held {
+    std::uint32_t node;
+    int obstacle;
+    Vec3 impulse;  // on the obstacle [N s]
+  };
+  std::vector<Held> held_;   // in this substep
   std::vector<Load> loads_;  // by obstacle
-  double loaded_for_ = 0.0;  // [s]
+  double acted_ = 0.0;       // time that the forces of the frame acted for [s]
 };
 
 }  // namespace curtain

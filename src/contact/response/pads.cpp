@@ -59,6 +59,7 @@ void Pads::pinch(const Field3& start, double h, Contacts& contacts) noexcept {
     a.friction += b.friction;
     a.other = b.obstacle;
     a.surface_velocity = 0.5 * (a.surface_velocity + b.surface_velocity);
+    a.end_velocity = 0.5 * (a.end_velocity + b.end_velocity);
     a.carried = start.at(a.node[0]) + h * a.surface_velocity;
     // It stays where it is between them, as far as both leave it room, else in the middle.
     const double room_a = roomOf(a, a.carried), room_b = roomOf(b, a.carried);

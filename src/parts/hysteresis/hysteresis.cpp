@@ -31,7 +31,7 @@ Hysteresis::Hysteresis(const ClothParams& cloth, const ClothPattern& pattern) : 
 
 // As its cloth lay where nothing bends it.
 void Hysteresis::startSlips() noexcept {
-  const std::size_t size = pattern_.grid.size();
+  const std::size_t size = slips_.size() / 2;  // none where nothing rubs
   for (std::size_t n = 0; n < size; ++n) {
     slips_[n] = pattern_.warp_rest_turn.empty() ? 0.0 : std::sin(pattern_.warp_rest_turn[n]);
     slips_[size + n] = pattern_.weft_rest_turn.empty() ? 0.0 : std::sin(pattern_.weft_rest_turn[n]);

@@ -172,12 +172,15 @@ void readSceneTree(const YAML::Node& yaml, const std::string& name, ParameterRea
   // Motions are for offline runs. An obstacle on a frame of its own has tf2 instead; one in the world frame would stand
   // still without a word.
   for (curtain::ObstacleParams& obstacle : scene.scene.obstacles) {
-    if (!obstacle.motion.empty() && obstacle.frame == reading.node.world_frame) {
+    const bool steady =
+        !obstacle.velocity.isZero(0.0) || !obstacle.acceleration.isZero(0.0) || !obstacle.spin.isZero(0.0);
+    if ((!obstacle.motion.empty() || steady) && obstacle.frame == reading.node.world_frame) {
       reading.warnings.push_back(
           name + ": obstacle '" + obstacle.name +
-          "': motion is for curtain_batch and not used here; give the obstacle a frame to move it");
+          "': its motion is for curtain_batch and not used here; give the obstacle a frame to move it");
     }
     obstacle.motion.clear();
+    obstacle.velocity = obstacle.acceleration = obstacle.spin = curtain::Vec3::Zero();
   }
   reading.scene = std::move(scene.scene);
 }
