@@ -14,10 +14,6 @@ namespace {
 // found does not depend on it.
 constexpr double kLookFurther = 0.1;
 
-bool samePlace(const Pose& a, const Pose& b) {
-  return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs();
-}
-
 Eigen::AlignedBox3d boxAround(const Eigen::AlignedBox3d& box, const Transform& transform) {
   if (!std::isfinite(box.min().sum()) || !std::isfinite(box.max().sum())) {  // a plane is unbounded
     return {Vec3::Constant(-std::numeric_limits<double>::infinity()),

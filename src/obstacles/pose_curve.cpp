@@ -12,10 +12,6 @@ namespace {
 // Acceleration from which a change of speed is a blow [m/s^2]: 2 g.
 constexpr double kBlow = 2.0 * 9.81;
 
-bool samePlace(const Pose& a, const Pose& b) {
-  return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs();
-}
-
 // The rotation vector r changes at r' = J^-1 w where a body turned by r spins at w in world axes; J is SO(3)'s left
 // Jacobian (Sola, Deray and Atchuthan 2018, "A micro Lie theory", Eqs. (145) and (146)).
 Vec3 spinOf(const Vec3& turn, const Vec3& slope) {
@@ -106,6 +102,10 @@ void joinAll(std::vector<Piece>& pieces, double arm) {
 }
 
 }  // namespace
+
+bool samePlace(const Pose& a, const Pose& b) noexcept {
+  return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs();
+}
 
 PoseChange changeBetween(const Pose& from, const Pose& to) noexcept {
   PoseChange change;

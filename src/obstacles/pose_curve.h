@@ -33,6 +33,8 @@ inline PoseChange operator+(const PoseChange& a, const PoseChange& b) { return {
 inline PoseChange operator-(const PoseChange& a, const PoseChange& b) { return {a.move - b.move, a.turn - b.turn}; }
 inline PoseChange operator*(double factor, const PoseChange& a) { return {factor * a.move, factor * a.turn}; }
 
+/// To the last bit.
+bool samePlace(const Pose& a, const Pose& b) noexcept;
 /// The change that leads from one pose to another, by the shorter rotation.
 PoseChange changeBetween(const Pose& from, const Pose& to) noexcept;
 /// A pose after a change.
