@@ -52,6 +52,7 @@ void ObstacleSet::Item::carry(Archive& archive) {
   archive.within("own_way", own_path, 0.0, std::numeric_limits<double>::infinity());
   archive.flag("behind", behind);
   archive.part("curve", curve);
+  archive.put(stands, false);
 }
 
 void ObstacleSet::carry(Archive& archive) {

@@ -94,7 +94,7 @@ void ObstacleSet::reset() noexcept {
     items_[n].left = items_[n].begin = items_[n].end = items_[n].initial;
     items_[n].curve.put(items_[n].initial);
     items_[n].scripted = items_[n].script.any();
-    items_[n].moves = items_[n].moved = items_[n].behind = items_[n].boxed = false;
+    items_[n].stands = items_[n].moves = items_[n].moved = items_[n].behind = items_[n].boxed = false;
     items_[n].own_path = 0.0;
     moving_[n].present = true;
   }
@@ -131,6 +131,7 @@ void ObstacleSet::setPose(int index, const Pose& pose, bool jump) noexcept {
 void ObstacleSet::beginFrame(double end_time) noexcept {
   for (std::size_t n = 0; n < items_.size(); ++n) {
     Item& item = items_[n];
+    if (item.stands) continue;
     if (item.scripted) moveOn(n, item.script.at(end_time));
     if (item.behind) {
       const double rest = pathBetween(item.begin, item.end, n);
@@ -144,6 +145,7 @@ void ObstacleSet::beginFrame(double end_time) noexcept {
     item.moves = item.curve.way(1.0) > 0.0;  // a plane turns, though its points have no bound
     item.moved = item.moved || item.moves;
     if (item.moves) touch(item);
+    item.stands = !item.scripted && !item.behind && !item.moved;
   }
 }
 
@@ -157,6 +159,7 @@ double ObstacleSet::pathBetween(const Pose& a, const Pose& b, std::size_t index)
 
 void ObstacleSet::moveOn(std::size_t index, const Pose& pose) noexcept {
   Item& item = items_[index];
+  item.stands = false;
   if (item.behind) item.own_path = pathBetween(item.end, pose, index);
   item.end = pose;
 }

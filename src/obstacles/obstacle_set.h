@@ -146,6 +146,7 @@ class ObstacleSet {
     bool scripted = false;  // follows its script
     bool moves = false;     // in the frame
     bool moved = false;
+    bool stands = false;        // has stood for a frame, and nothing has moved it since
     double radius = 0.0;        // of its points about its origin, with the padding [m]
     double own_path = 0.0;      // displacement of its target since the last frame [m]
     bool behind = false;        // the last frame ended short of the target

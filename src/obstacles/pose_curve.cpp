@@ -5,29 +5,13 @@
 #include <cmath>
 
 #include "cloth/archive.h"
+#include "obstacles/rotation_vector.h"
 
 namespace curtain {
 namespace {
 
 // Acceleration from which a change of speed is a blow [m/s^2]: 2 g.
 constexpr double kBlow = 2.0 * 9.81;
-
-// The rotation vector r changes at r' = J^-1 w where a body turned by r spins at w in world axes; J is SO(3)'s left
-// Jacobian (Sola, Deray and Atchuthan 2018, "A micro Lie theory", Eqs. (145) and (146)).
-Vec3 spinOf(const Vec3& turn, const Vec3& slope) {
-  const double square = turn.squaredNorm(), angle = std::sqrt(square);
-  if (angle < 1e-4) return slope + 0.5 * turn.cross(slope);
-  const Vec3 once = turn.cross(slope);
-  return slope + ((1.0 - std::cos(angle)) / square) * once +
-         ((angle - std::sin(angle)) / (square * angle)) * turn.cross(once);
-}
-Vec3 slopeOf(const Vec3& turn, const Vec3& spin) {
-  const double square = turn.squaredNorm(), angle = std::sqrt(square);
-  if (angle < 1e-4) return spin - 0.5 * turn.cross(spin);
-  const Vec3 once = turn.cross(spin);
-  const double factor = (1.0 - 0.5 * angle / std::tan(0.5 * angle)) / square;
-  return spin - 0.5 * once + factor * turn.cross(once);
-}
 
 // Whether a cubic with these slopes at its ends never goes back along its change `whole` (Fritsch and Carlson 1980).
 bool advances(const Vec3& whole, const Vec3& first, const Vec3& last) {
@@ -110,35 +94,26 @@ bool samePlace(const Pose& a, const Pose& b) noexcept {
 PoseChange changeBetween(const Pose& from, const Pose& to) noexcept {
   PoseChange change;
   change.move = to.position - from.position;
-  if (from.orientation.coeffs() == to.orientation.coeffs()) return change;
-  Eigen::Quaterniond turn(to.orientation * from.orientation.conjugate());
-  if (turn.w() < 0.0) turn.coeffs() = -turn.coeffs();
-  const double sine = turn.vec().norm();
-  if (sine > 0.0) change.turn = (2.0 * std::atan2(sine, turn.w()) / sine) * turn.vec();
+  if (from.orientation.coeffs() != to.orientation.coeffs())
+    change.turn = rotationVectorOf(to.orientation * from.orientation.conjugate());
   return change;
 }
 
 Pose changed(const Pose& pose, const PoseChange& change) noexcept {
   Pose result = pose;
   result.position += change.move;
-  const double angle = change.turn.norm();
-  if (angle > 0.0) {
-    const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, change.turn / angle));
-    result.orientation = (turn * Eigen::Quaterniond(pose.orientation)).normalized();
-  }
+  if (!change.turn.isZero(0.0))
+    result.orientation = (rotationOf(change.turn) * Eigen::Quaterniond(pose.orientation)).normalized();
   return result;
 }
 
-PoseCurve::PoseCurve(const Pose& from, const Pose& to, const PoseChange& first, const PoseChange& last) noexcept
-    : from_(from),
-      to_(to),
-      whole_(changeBetween(from, to)),
-      first_(first),
-      last_{last.move, slopeOf(whole_.turn, last.turn)} {}
+PoseCurve::PoseCurve(const Pose& from, const Pose& to, const PoseChange& whole, const PoseChange& first,
+                     const PoseChange& last) noexcept
+    : from_(from), to_(to), whole_(whole), first_(first), last_{last.move, slopeOf(whole.turn, last.turn)} {}
 
 PoseCurve PoseCurve::even(const Pose& from, const Pose& to) noexcept {
   const PoseChange whole = changeBetween(from, to);
-  return {from, to, whole, whole};
+  return {from, to, whole, whole, whole};
 }
 
 // Cubic Hermite polynomials of the share s: value and slope.
@@ -194,6 +169,7 @@ ScriptedMotion::ScriptedMotion(const ObstacleParams& params, double radius)
   for (std::size_t k = 0; k < moves.size(); ++k) {
     const double time = moves[k].time;
     pieces_.emplace_back(params.motion[k].pose, params.motion[k + 1].pose,
+                         PoseChange{time * moves[k].mean, time * turns[k].mean},
                          PoseChange{time * moves[k].first, time * turns[k].first},
                          PoseChange{time * moves[k].last, time * turns[k].last});
   }
@@ -239,11 +215,11 @@ void FrameCurve::lead(const Pose& from, const Pose& to, double length, double ra
   const double length_before = length_ > 0.0 ? length_ : length;
   length_ = length;
   if (samePlace(from, to)) return put(to);
-  const PoseChange mean = (1.0 / length) * changeBetween(from, to);
+  const PoseChange whole = changeBetween(from, to), mean = (1.0 / length) * whole;
   PoseChange first, last;
   last.move = lastSpeed({mean_.move, last_.move}, mean.move, length_before, length, 1.0, first.move);
   last.turn = lastSpeed({mean_.turn, last_.turn}, mean.turn, length_before, length, radius, first.turn);
-  curve_ = PoseCurve(from, to, length * first, length * last);
+  curve_ = PoseCurve(from, to, whole, length * first, length * last);
   mean_ = mean;
   last_ = last;
 }

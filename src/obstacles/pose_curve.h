@@ -45,8 +45,9 @@ class PoseCurve {
   PoseCurve() = default;
   /// Stands.
   explicit PoseCurve(const Pose& pose) : from_(pose), to_(pose) {}
-  /// first, last: speeds at both ends, per duration of the curve.
-  PoseCurve(const Pose& from, const Pose& to, const PoseChange& first, const PoseChange& last) noexcept;
+  /// whole: the change between both; first, last: speeds at the ends, per duration of the curve.
+  PoseCurve(const Pose& from, const Pose& to, const PoseChange& whole, const PoseChange& first,
+            const PoseChange& last) noexcept;
   /// At an even speed.
   static PoseCurve even(const Pose& from, const Pose& to) noexcept;
 

@@ -129,6 +129,10 @@ void fitTogether(Scene& scene, Choices& choices) {
   fitRail(scene, choices);
   for (NodeIndex& pin : scene.pins.nodes) putOnGrid(pin, cloth);
   fitLines(scene);
+  for (curtain::ObstacleParams& obstacle : scene.obstacles) {
+    if (!obstacle.motion.empty()) obstacle.velocity = obstacle.spin = obstacle.acceleration = Vec3::Zero();
+  }
+  if (cloth.bending_warp == 0.0 && cloth.bending_weft == 0.0) cloth.bending_hysteresis = 0.0;
   if (scene.air.law == curtain::AirLaw::kRelative) {
     scene.air.density = std::max(scene.air.density, 1e-6);
     scene.air.inside = scene.air.border = scene.air.corner = 0.0;
@@ -243,7 +247,10 @@ std::optional<Scene> makeScene(Choices& choices) {
   if (!curtain::validate(scene).empty()) scene.hang.overlap.reset();
   // Pressed pleats ask for bending, which asks for links that have a length, and another method than the paper's.
   if (!curtain::validate(scene).empty()) scene.hang.pressed = 0.0;
-  if (!curtain::validate(scene).empty()) scene.cloth.bending_warp = scene.cloth.bending_weft = 0.0;
+  if (!curtain::validate(scene).empty()) {
+    scene.cloth.bending_warp = scene.cloth.bending_weft = scene.cloth.bending_hysteresis = 0.0;
+    if (scene.solver.method == curtain::Method::kPaper) scene.cloth.shear = scene.cloth.bending_bias = 0.0;
+  }
   if (!curtain::validate(scene).empty()) return std::nullopt;
   if (!curtain::problemsAtStart(scene, curtain::makePattern(scene)).empty()) {
     scene.lines.clear();

@@ -261,7 +261,7 @@ class Parts(unittest.TestCase):
         # The ledger's velocities are half a substep late, so its works lie between those of this frame and of the one before.
         self.assertTrue(start["potential"] - before["potential"] < work["gravity"] < start["potential"] - end["potential"])
         self.assertTrue(before["kinetic"] < work["kinetic"] + start["kinetic"] < end["kinetic"])
-        self.assertEqual(set(work), {"gravity", "elastic", "forces", "drive", "pins", "obstacles", "kinetic"})
+        self.assertEqual(set(work), {"gravity", "elastic", "dissipated", "forces", "drive", "pins", "obstacles", "kinetic"})
 
     def test_statistics_have_every_member_of_the_engines(self):
         with open(os.path.join(testing.ROOT, "include/curtain_sim/statistics.h"), encoding="utf-8") as file:
