@@ -142,7 +142,7 @@ void ObstacleSet::beginFrame(double end_time) noexcept {
     } else {
       item.curve.lead(item.begin, item.end, frame_length_, item.arm());
     }
-    item.moves = item.curve.way(1.0) > 0.0;  // a plane turns, though its points have no bound
+    item.moves = item.curve.moves();
     item.moved = item.moved || item.moves;
     if (item.moves) touch(item);
     item.stands = !item.scripted && !item.behind && !item.moved;

@@ -6,6 +6,7 @@
 
 #include "cloth/archive.h"
 #include "obstacles/rotation_vector.h"
+#include "scene/pi.h"
 
 namespace curtain {
 namespace {
@@ -109,7 +110,7 @@ Pose changed(const Pose& pose, const PoseChange& change) noexcept {
 
 PoseCurve::PoseCurve(const Pose& from, const Pose& to, const PoseChange& whole, const PoseChange& first,
                      const PoseChange& last) noexcept
-    : from_(from), to_(to), whole_(whole), first_(first), last_{last.move, slopeOf(whole.turn, last.turn)} {}
+    : from_(from), to_(to), whole_(whole), first_(first), last_(last) {}
 
 PoseCurve PoseCurve::even(const Pose& from, const Pose& to) noexcept {
   const PoseChange whole = changeBetween(from, to);
@@ -118,10 +119,11 @@ PoseCurve PoseCurve::even(const Pose& from, const Pose& to) noexcept {
 
 // Cubic Hermite polynomials of the share s: value and slope.
 PoseChange PoseCurve::changeAt(double s) const noexcept {
-  return (s * s * (3.0 - 2.0 * s)) * whole_ + (s * (1.0 - s) * (1.0 - s)) * first_ + (s * s * (s - 1.0)) * last_;
+  return (s * s * (3.0 - 2.0 * s)) * whole_ + (s * (1.0 - s) * (1.0 - s)) * first_ + (s * s * (s - 1.0)) * lastSlope();
 }
+PoseChange PoseCurve::lastSlope() const noexcept { return {last_.move, slopeOf(whole_.turn, last_.turn)}; }
 PoseChange PoseCurve::slopeAt(double s) const noexcept {
-  return (6.0 * s * (1.0 - s)) * whole_ + ((1.0 - s) * (1.0 - 3.0 * s)) * first_ + (s * (3.0 * s - 2.0)) * last_;
+  return (6.0 * s * (1.0 - s)) * whole_ + ((1.0 - s) * (1.0 - 3.0 * s)) * first_ + (s * (3.0 * s - 2.0)) * lastSlope();
 }
 
 Pose PoseCurve::at(double share) const noexcept {
@@ -136,13 +138,14 @@ PoseChange PoseCurve::rateAt(double share) const noexcept {
   return {slope.move, spinOf(changeAt(s).turn, slope.turn)};
 }
 
-// The slope is a parabola, with these Bezier points: it stays among them.
+// The slope is a parabola, with three Bezier points: it stays among them. The slope of the rotation vector r at the end
+// is off the spin w by no more than |r| |w| / 2 + |r|^2 |w| / pi^2, see slopeOf().
 double PoseCurve::fastest(double radius) const noexcept {
   const PoseChange middle = 3.0 * whole_ - first_ - last_;
-  const auto most = [&](Vec3 PoseChange::*part) {
-    return std::max({(first_.*part).norm(), (middle.*part).norm(), (last_.*part).norm()});
-  };
-  return most(&PoseChange::move) + radius * most(&PoseChange::turn);
+  const double move = std::max({first_.move.norm(), middle.move.norm(), last_.move.norm()});
+  if (radius == 0.0) return move;
+  const double turn = whole_.turn.norm(), spin = last_.turn.norm(), off = (0.5 + turn / (kPi * kPi)) * turn * spin;
+  return move + radius * std::max({first_.turn.norm(), middle.turn.norm() + off, spin + off});
 }
 
 ScriptedMotion::ScriptedMotion(const ObstacleParams& params, double radius)
@@ -207,6 +210,7 @@ double ScriptedMotion::fastest(double from, double to, double radius) const noex
 
 void FrameCurve::put(const Pose& pose) noexcept {
   arrive(pose);
+  moves_ = false;
   mean_ = last_ = {};
 }
 
@@ -222,6 +226,7 @@ void FrameCurve::lead(const Pose& from, const Pose& to, double length, double ra
   curve_ = PoseCurve(from, to, whole, length * first, length * last);
   mean_ = mean;
   last_ = last;
+  moves_ = true;
 }
 
 void FrameCurve::leadEvenly(const Pose& from, const Pose& to, double share, double length) noexcept {
@@ -230,6 +235,7 @@ void FrameCurve::leadEvenly(const Pose& from, const Pose& to, double share, doub
   curve_ = PoseCurve::even(from, end);
   mean_ = last_ = (1.0 / length) * changeBetween(from, end);
   length_ = length;
+  moves_ = !samePlace(from, end);
 }
 
 void FrameCurve::follow(const ScriptedMotion& script, double end, double length) noexcept {
@@ -238,6 +244,7 @@ void FrameCurve::follow(const ScriptedMotion& script, double end, double length)
   length_ = length;
   mean_ = (1.0 / length) * changeBetween(script.at(timeAt(0.0)), script.at(end));
   last_ = script.rateAt(end);
+  moves_ = way(1.0) > 0.0;  // a plane turns, though its points have no bound
 }
 
 Pose FrameCurve::at(double share) const noexcept {

@@ -61,9 +61,10 @@ class PoseCurve {
  private:
   PoseChange changeAt(double share) const noexcept;
   PoseChange slopeAt(double share) const noexcept;
+  PoseChange lastSlope() const noexcept;
 
   Pose from_, to_;
-  PoseChange whole_, first_, last_;  // change, and its slopes at both ends
+  PoseChange whole_, first_, last_;  // change, and speeds at both ends
 };
 
 class ScriptedMotion {
@@ -112,6 +113,7 @@ class FrameCurve {
   Pose at(double share) const noexcept;
   /// Speed there, per frame.
   PoseChange rateAt(double share) const noexcept;
+  bool moves() const noexcept { return moves_; }  ///< in the frame
   /// Bound of the way in the frame of points within `radius` [m] of the origin [m].
   double way(double radius) const noexcept;
 
@@ -124,7 +126,8 @@ class FrameCurve {
   const ScriptedMotion* script_ = nullptr;  // followed in this frame, or null
   double end_time_ = 0.0;                   // of that frame [s]
   double length_ = 0.0;                     // of the frame [s]
-  PoseChange mean_, last_;                  // speed in the frame, and at its end [m/s, rad/s]
+  bool moves_ = false;
+  PoseChange mean_, last_;  // speed in the frame, and at its end [m/s, rad/s]
 };
 
 }  // namespace curtain

@@ -215,11 +215,12 @@ std::vector<Feature> makeFeatures() {
       "robot: thirty links", swing(), "stand around it", [](Play& p) { addRobot(p, false); }, "", nullptr);
   add(
       "robot: thirty links move", gathered(), "move around it", [](Play& p) { addRobot(p, true); }, "", nullptr);
-  // The swing's frame is a tenth of a blown curtain's: thirty poses, each taken, boxed and left again, are 2.3 % of it,
-  // beside what the first obstacle costs. Measured 1.035.
+  // The swing's frame is a tenth of a blown curtain's: thirty poses, each taken, joined to the last one by a curve
+  // whether or not anything is near, boxed and left again, are 7.5 % of it (2.3 before there were curves), beside what
+  // the first obstacle costs. Measured 1.089.
   add(
       "robot: thirty links move, swing", swing(), "move around it", [](Play& p) { addRobot(p, true); }, "", nullptr)
-      .most_idle = 1.04;
+      .most_idle = 1.10;
   // That nothing touches must be proved anew of every substep, from nodes in every fourth row and every row's ends and
   // middle (taut_net.h, 5 % of the swing); where the swing bends too much for that proof, in every seventh substep, all
   // nodes are looked at (10 %). Measured 1.151.
