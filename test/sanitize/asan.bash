@@ -11,7 +11,7 @@ else
 fi
 configure Debug "-O1 -fno-omit-frame-pointer" -DCMAKE_CXX_FLAGS_DEBUG=-g1 -DCURTAIN_SANITIZE=address,undefined,float-cast-overflow \
   -DCURTAIN_SANITIZE_NOT="$not" -DCURTAIN_UNITY=ON -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON
-cmake --build "$build" --target curtain_batch "${tests[@]/#/test_}"
+cmake --build "$build" --target curtain_batch curtain_fit "${tests[@]/#/test_}"
 export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1
 export LSAN_OPTIONS=suppressions=$here/lsan.supp
 # Suites that take seconds without a sanitizer and minutes with it; what they run is also in the made-up scenes of test/fuzz.
