@@ -131,6 +131,9 @@ void forEachCell(const Grid& grid, const Look& look) {
   }
 }
 
+/// Least mass for each area of cloth at the corners of a cell [kg/m^2]; arguments as forEachCell() has them.
+double lightestCorner(const ClothPattern& pattern, int row, int right, int left);
+
 /// Area-weighted normals of the nodes: the sum, over the faces at a node, of the corner triangles' area vectors
 /// [m^2], not normalised; out has the grid's size. Cheng 2000, Sect. 2.2.2 (mean of the normals of the faces).
 void nodeAreaVectors(const Grid& grid, const Field3& position, Field3& out) noexcept;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -216,6 +217,15 @@ void pinBeside(const std::vector<std::uint8_t>& held, const ClothParams& cloth, 
     }
   }
   fillBending(cloth, pattern);
+}
+
+double lightestCorner(const ClothPattern& pattern, int row, int right, int left) {
+  const Grid& grid = pattern.grid;
+  double lightest = std::numeric_limits<double>::infinity();
+  for (const std::size_t n :
+       {grid.index(row, left), grid.index(row, right), grid.index(row + 1, left), grid.index(row + 1, right)})
+    lightest = std::min(lightest, pattern.mass[n] / pattern.area[n]);
+  return lightest;
 }
 
 double shortestLink(const ClothPattern& pattern) {

@@ -10,8 +10,8 @@
 namespace curtain {
 namespace {
 
-// Stiffness of a slider, before it slips, over that of its joint. Measured loops turn round within a tenth or so of
-// their width over B; stiffer ones only ask for shorter steps.
+// Stiffness of a slider, before it slips, over that of its joint: chosen. So a loop turns round within a tenth of
+// 2HB / B; stiffer ones ask for shorter steps.
 constexpr double kSlider = 10.0;
 // Joints that share a node: three of its warp line, and three of its weft line.
 constexpr double kJointsOfANode = 6.0;
@@ -72,9 +72,7 @@ void Hysteresis::takePins() noexcept {
   if (any()) fill();
 }
 
-void Hysteresis::reset(ClothState&) {
-  if (any()) startSlips();
-}
+void Hysteresis::reset(ClothState&) { startSlips(); }
 
 void Hysteresis::placed(const ClothState&, ClothState& state) noexcept { commit(state.position); }
 

@@ -23,10 +23,8 @@ double fastestCell(const ClothPattern& pattern) {
   double fastest = 0.0;
   forEachCell(grid, [&](int i, int j, int left) {
     const double weft = pattern.weft_rest[grid.index(i, j)], warp = pattern.warp_rest[grid.index(i + 1, j)];
-    double lightest = pattern.mass[grid.index(i, j)] / pattern.area[grid.index(i, j)];
-    for (const std::size_t n : {grid.index(i, left), grid.index(i + 1, left), grid.index(i + 1, j)})
-      lightest = std::min(lightest, pattern.mass[n] / pattern.area[n]);
-    fastest = std::max(fastest, 4.0 * (warp / weft + weft / warp) / (lightest * warp * weft));
+    const double per_node = lightestCorner(pattern, i, j, left) * warp * weft;
+    fastest = std::max(fastest, 4.0 * (warp / weft + weft / warp) / per_node);
   });
   return fastest;
 }

@@ -39,11 +39,9 @@ Twist::Twist(const ClothParams& cloth, const ClothPattern& pattern, const Worker
     stiffness_[n] = pattern.cell[n] * stiffness;
     // Its own frequency, with the share of its nodes' masses that belongs to it. The slope of V at a node is twice the
     // area of the others' triangle at most.
-    double lightest = pattern.mass[n] / pattern.area[n];
-    for (const std::size_t corner : {grid.index(i, left), grid.index(i + 1, left), below})
-      lightest = std::min(lightest, pattern.mass[corner] / pattern.area[corner]);
     const double slope = std::max(top, bottom) * std::max(on_left, on_right);
-    omega_squared_ = std::max(omega_squared_, 16.0 * stiffness * slope * slope / (lightest * area));
+    omega_squared_ =
+        std::max(omega_squared_, 16.0 * stiffness * slope * slope / (lightestCorner(pattern, i, j, left) * area));
   });
   assign(grid.size());
   cells_.emplace(grid);
