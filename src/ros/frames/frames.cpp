@@ -52,10 +52,12 @@ FrameLookup Frames::lookup(const std::string& frame, const ros::Time& time) {
     if (!result.known) result.error = "its transform is not finite, or further than 1.0e9 m away";
   } catch (const tf2::TransformException& e) {
     result.error = e.what();
-    result.may_come = ros::SteadyTime::now() - listening_since_ < kYouth;
+    result.may_come = young();
   }
   return result;
 }
+
+bool Frames::young() const { return listener_ && ros::SteadyTime::now() - listening_since_ < kYouth; }
 
 void Frames::clear() {
   if (buffer_) buffer_->clear();

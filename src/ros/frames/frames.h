@@ -45,6 +45,9 @@ class Frames {
   /// The frame at a time, interpolated; 0: the latest transform. The world frame is known without tf2.
   FrameLookup lookup(const std::string& frame, const ros::Time& time = ros::Time(0));
 
+  /// Whether it listens for so short a time that frames unknown by now may still arrive.
+  bool young() const;
+
   /// Drops all transforms but static ones: for a clock that jumped back.
   void clear();
 

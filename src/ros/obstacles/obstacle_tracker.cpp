@@ -56,6 +56,8 @@ void ObstacleTracker::resume(const curtain::Simulator& simulator) {
 }
 
 void ObstacleTracker::update(curtain::Simulator& simulator, const ros::Time& now) {
+  // Asked once, before the frames: a message that began while the listener was young would leave out those asked first.
+  const bool may_come = frames_.young();
   std::string left_out;
   for (Followed& frame : followed_) {
     const std::string why = follow(frame, simulator, now);
@@ -63,7 +65,7 @@ void ObstacleTracker::update(curtain::Simulator& simulator, const ros::Time& now
     left_out += (left_out.empty() ? "" : "; ") + frame.names + ": its frame '" + frame.health.frame + "' " + why;
   }
   // One message for all: throttled ones for each would show only the first.
-  if (!left_out.empty()) ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "obstacles left out: " << left_out);
+  if (!left_out.empty() && !may_come) ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "obstacles left out: " << left_out);
 }
 
 FrameLookup ObstacleTracker::lookUp(Followed& followed, const ros::Time& now) {
@@ -109,7 +111,6 @@ std::string ObstacleTracker::follow(Followed& followed, curtain::Simulator& simu
     followed.resumed = false;
     lost_ += static_cast<std::uint32_t>(followed.obstacles.size());
   }
-  if (frame.may_come) return {};  // the listener is young: too early to warn
   if (!frame.known) return "is not known in '" + frames_.world() + "': " + health.error;
   return "is " + curtain::formatNumber(health.age) + " s old (~obstacle_timeout is " + curtain::formatNumber(timeout_) +
          " s)";
