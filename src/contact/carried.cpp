@@ -90,6 +90,7 @@ void ClothContact::carryPushing(Archive& archive, Contact& contact) const {
   archive.integer("other", contact.other, Contact::kCloth, obstacles_.count() - 1);
   archive.integer("source", contact.source, 0, std::numeric_limits<std::uint32_t>::max());
   archive.numbers("normal", contact.normal);
+  archive.numbers("level", contact.level);
   archive.numbers("surface_velocity", contact.surface_velocity);
   archive.numbers("end_velocity", contact.end_velocity);
   archive.number("friction", contact.friction);

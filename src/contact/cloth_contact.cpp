@@ -64,7 +64,7 @@ void ClothContact::clearAtRandom() noexcept {
 }
 
 // Cloth that is proven flat at the start has no candidates.
-Contacts& ClothContact::begin(const Field3& start, const Field3& predicted, double h) noexcept {
+Contacts& ClothContact::begin(const Field3& start, const Field3& predicted, double h, ForcesAct act) noexcept {
   if (clearing_ != 0) clearAtRandom();
   contacts_.clear();
   h_ = h;
@@ -77,7 +77,7 @@ Contacts& ClothContact::begin(const Field3& start, const Field3& predicted, doub
       find(start, predicted, self_contacts_.gap());
     self_contacts_.collect(candidates_, last_, start, predicted, h, contacts_);
   }
-  obstacle_contacts_.begin(start, predicted, h, frictionless_substeps_ > 0, contacts_);
+  obstacle_contacts_.begin(start, predicted, {h, act, frictionless_substeps_ > 0}, contacts_);
   warmStart();
   return contacts_;
 }

@@ -41,7 +41,10 @@ class ClothContact : public ContactFinder {
   /// Sets the largest strain of a link in a settled substep. Where links are longer now, invalidateStart() must follow.
   void takeStretchTolerance(double tolerance) noexcept { flatness_.takeOverlong(tolerance); }
 
-  Contacts& begin(const Field3& start, const Field3& predicted, double h) noexcept override;
+  Contacts& begin(const Field3& start, const Field3& predicted, double h, ForcesAct act) noexcept override;
+  void relinearise(const Field3& position, Contacts& contacts) noexcept override {
+    obstacle_contacts_.relinearise(position, contacts);
+  }
   Verdict verify(const Field3& start, const Field3& end, bool settled) noexcept override;
   void hold(const Field3& start, Field3& end) noexcept override;
 

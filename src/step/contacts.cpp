@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "step/constants.h"
+#include "step/substep.h"
 
 namespace curtain {
 namespace {
@@ -58,15 +59,6 @@ double fastestSurface(const Contacts& contacts) noexcept {
   return std::sqrt(fastest);
 }
 
-double fastestDrive(const Contacts& contacts, const Field3& start, double h) noexcept {
-  double fastest = fastestSurface(contacts);
-  for (const Contact& contact : contacts) {
-    if (contact.pushes())
-      fastest = std::max(fastest, (contact.offset - contact.normal.dot(contact.point(start))) / std::abs(h));
-  }
-  return fastest;
-}
-
 bool anyPushes(const Contacts& contacts) noexcept {
   return std::any_of(contacts.begin(), contacts.end(), [](const Contact& contact) { return contact.pushes(); });
 }
@@ -90,8 +82,7 @@ void projectFriction(const Field& inverse_inertia, Contacts& contacts, Field3& p
 void projectContacts(const Field& inverse_inertia, Contacts& contacts, Field3& position) noexcept {
   for (Contact& contact : contacts) {
     if (contact.mobility <= 0.0) continue;
-    const double entered = contact.offset - contact.normal.dot(contact.point(position));
-    const double change = contact.boundedChange(entered / contact.mobility);
+    const double change = contact.boundedChange(contact.entered(position) / (contact.rise() * contact.mobility));
     contact.push += change;
     contact.sticks = false;
     contact.move(inverse_inertia, change * contact.normal, position);
@@ -99,15 +90,19 @@ void projectContacts(const Field& inverse_inertia, Contacts& contacts, Field3& p
   projectFriction(inverse_inertia, contacts, position);
 }
 
+void ContactRows::relinearise(const Field3& position) noexcept {
+  if (finder_ != nullptr) finder_->relinearise(position, *solved_);
+}
+
 double ContactRows::residual(const Field3& position, bool recovers) const noexcept {
   double worst = 0.0;
   for (const Contact& contact : *all_) {
-    const Vec3 point = contact.point(position);
-    const double entered = contact.offset - contact.normal.dot(point);
+    const double entered = contact.entered(position);
     if (!std::isfinite(entered)) return std::numeric_limits<double>::infinity();
     const double lacks = recovers || entered < 0.0 ? entered : std::max(0.0, entered - contact.recovery);
     worst = std::max(worst, contact.pushes() ? std::abs(lacks) : lacks);
-    if (contact.sticks) worst = std::max(worst, kStickShare * contact.across(point - contact.carried).norm());
+    if (contact.sticks)
+      worst = std::max(worst, kStickShare * contact.across(contact.point(position) - contact.carried).norm());
   }
   return worst;
 }
@@ -117,7 +112,7 @@ void ContactRows::addRows(const Field3& value, bool rates, Rows& rows) const {
     const Contact& contact = (*all_)[index];
     const Vec3 point = contact.point(value);
     const Vec3 lacks = (rates ? contact.end_velocity : contact.carried) - point;  // what the point is to move by
-    const double along = rates ? contact.normal.dot(lacks) : contact.offset - contact.normal.dot(point);
+    const double along = rates ? contact.level.dot(lacks) : contact.entered(value) / contact.rise();
     if (!contact.pushes() && (rates || !(along > 0.0))) continue;
     Row row;
     row.node = contact.node;
@@ -125,12 +120,12 @@ void ContactRows::addRows(const Field3& value, bool rates, Rows& rows) const {
     row.nodes = contact.nodes;
     row.least_damping = kLeastDamping;
     row.key = index;
-    row.direction = contact.normal;
+    row.direction = rates ? contact.level : contact.normal;
     row.violation = along;
     rows.push_back(row);
     if (!contact.sticks) continue;
     Vec3 first, second;
-    tangents(contact.normal, first, second);
+    tangents(row.direction, first, second);
     for (const Vec3& tangent : {first, second}) {
       row.direction = tangent;
       row.violation = tangent.dot(lacks);
@@ -157,7 +152,7 @@ void ContactRows::takeUp(const Rows& rows, double share, const Field& inverse, F
 
 void ContactRows::addSquares(const Field3& position, double& sum) const noexcept {
   for (const Contact& contact : *all_) {
-    const double entered = contact.offset - contact.normal.dot(contact.point(position));
+    const double entered = contact.entered(position);
     const double relative = (entered > 0.0 || contact.pushes() ? entered : 0.0) / links_;
     sum += relative * relative;
   }
@@ -168,14 +163,14 @@ double ContactRows::measureRates(const Field3& velocity) noexcept {
   for (const Contact& contact : *all_) {
     if (!contact.pushes()) continue;
     const Vec3 off = contact.point(velocity) - contact.end_velocity;
-    worst = std::max(worst, contact.sticks ? off.norm() : std::abs(contact.normal.dot(off)));
+    worst = std::max(worst, contact.sticks ? off.norm() : std::abs(contact.level.dot(off)));
   }
   return worst / links_;
 }
 
 void ContactRows::moveBy(const Rows& rows, const Field& inverse, Field3& velocity) noexcept {
   forEachChange(rows, first_row, end_row, [&](std::uint32_t index, double push, const Vec3& slide) {
-    const Vec3 impulse = push * (*all_)[index].normal + slide;
+    const Vec3 impulse = push * (*all_)[index].level + slide;
     (*all_)[index].move(inverse, impulse, velocity);
     if (all_ == solved_) (*solved_)[index].settled += impulse;  // else velocities are only looked at
   });
@@ -183,7 +178,7 @@ void ContactRows::moveBy(const Rows& rows, const Field& inverse, Field3& velocit
 
 void ContactRows::spread(double share, const Field& inverse, Field3& velocity) const noexcept {
   for (const Contact& contact : *all_) {
-    if (contact.pushes()) contact.move(inverse, share * (contact.push * contact.normal + contact.slide), velocity);
+    if (contact.pushes()) contact.move(inverse, share * (contact.push * contact.level + contact.slide), velocity);
   }
 }
 

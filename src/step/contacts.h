@@ -23,8 +23,11 @@
 
 namespace curtain {
 
+class ContactFinder;
+
 struct Contact {
   static constexpr int kCloth = -1;
+  static constexpr double kLeastRise = 0.5;  // of a point that turns further in a substep: the next sweeps see it
   static constexpr std::uint32_t kNowhere = ~std::uint32_t{0};
 
   std::array<std::uint32_t, 4> node{};  ///< in the grid's fields
@@ -32,9 +35,12 @@ struct Contact {
   int nodes = 1;                ///< how many of the four are used
   int obstacle = kCloth;        ///< index, or kCloth
   int other = kCloth;           ///< pinched: the obstacle on the other side, which the normal points to
-  Vec3 normal = Vec3::UnitZ();  ///< unit, towards the allowed side
-  double offset = 0.0;          ///< [m]
-  double recovery = 0.0;        ///< part of the offset that takes out penetration [m]; the last resort may skip it
+  Vec3 normal = Vec3::UnitZ();  ///< unit, along which it pushes, towards the allowed side
+  Vec3 level = Vec3::UnitZ();   ///< unit, normal of the plane that the point stays above
+  double offset = 0.0;          ///< of that plane: level . p >= offset [m]
+  bool curved = false;          ///< the plane is tangent to what is touched, and goes along with the point
+  double asked = 0.0;           ///< curved: distance that is asked for at the end [m]
+  double recovery = 0.0;        ///< way out of what it is too deep in [m], >= 0; the last resort may skip it
   Vec3 carried = Vec3::Zero();  ///< point at the end of the substep without slip [m]; only its tangential part is read
   Vec3 surface_velocity = Vec3::Zero();  ///< of what the point touches, mean over the substep [m/s]
   Vec3 end_velocity = Vec3::Zero();      ///< the same at the substep's end [m/s]
@@ -63,6 +69,10 @@ struct Contact {
     }
   }
   bool pushes() const noexcept { return push > 0.0 || press > 0.0; }
+  /// How far below the plane [m]; negative: above it.
+  double entered(const Field3& position) const noexcept { return offset - level.dot(point(position)); }
+  /// Share of a motion along the normal that goes across the plane.
+  double rise() const noexcept { return std::max(kLeastRise, level.dot(normal)); }
   Vec3 across(const Vec3& v) const { return v - normal.dot(v) * normal; }
   /// Bound of slide [kg m].
   double mostSlide() const noexcept { return press > 0.0 ? hold : friction * push; }
@@ -85,10 +95,6 @@ void beginContacts(const Field& inverse_inertia, double scale, double ratio, std
 /// Largest speed of an obstacle's point that is pushed on [m/s].
 double fastestSurface(const Contacts& contacts) noexcept;
 
-/// Largest speed that contacts drive points with [m/s]: that of the surface, or of depenetration from `start` [m] in a
-/// step of h [s].
-double fastestDrive(const Contacts& contacts, const Field3& start, double h) noexcept;
-
 bool anyPushes(const Contacts& contacts) noexcept;
 
 /// A contact with an obstacle pushes.
@@ -109,7 +115,12 @@ class ContactRows final : public RowMaker {
   void expect(std::size_t count) { best_.reserve(count); }
 
   /// Those of the substep being made; null: nothing can touch.
-  void set(Contacts* contacts) noexcept { all_ = solved_ = contacts != nullptr ? contacts : &none_; }
+  void set(Contacts* contacts, ContactFinder* finder) noexcept {
+    all_ = solved_ = contacts != nullptr ? contacts : &none_;
+    finder_ = finder;
+  }
+  /// Looks at the contacts where their points are now.
+  void relinearise(const Field3& position) noexcept;
   /// Those of the last substep, for velocities; null: none pushed.
   void show(const Contacts* contacts) noexcept { all_ = contacts != nullptr ? contacts : &none_; }
   const Contacts& all() const noexcept { return *all_; }
@@ -132,6 +143,7 @@ class ContactRows final : public RowMaker {
  private:
   const double links_;
   Contacts none_, best_;
+  ContactFinder* finder_ = nullptr;
   const Contacts* all_ = &none_;
   Contacts* solved_ = &none_;
 };

@@ -131,9 +131,11 @@ Step::Progress Step::solveAndVerify(const Attempt& attempt) noexcept {
                  attempt.forces.gravity.norm() * plan.h * plan.h,
                  0.0};
   ContactFinder* const finder = attempt.finder;
-  Contacts* const contacts = finder != nullptr ? &finder->begin(from, next, plan.h) : nullptr;
+  const auto act =
+      attempt.scheme.rules().follows ? ContactFinder::ForcesAct::kAtEnd : ContactFinder::ForcesAct::kAtStart;
+  Contacts* const contacts = finder != nullptr ? &finder->begin(from, next, plan.h, act) : nullptr;
   if (finder != nullptr) attempt.clock.lap(Stage::kContact);
-  constraints_.contacts().set(contacts);
+  constraints_.contacts().set(contacts, finder);
   std::size_t known = 0;
   Progress all;
   while (true) {
@@ -168,24 +170,22 @@ Step::Progress Step::solveAndVerify(const Attempt& attempt) noexcept {
 
 // Rods alone do no work in steady motion if they pull along their directions half way between the velocities.
 bool Step::needsEnergyCheck(const Attempt& attempt, const Progress& progress) const noexcept {
-  const bool rods_alone = !anyPushes(contacts()) && !constraints_.stringsAct();
-  return !rods_alone || attempt.scheme.rules().follows || !EnergyAccount::isSmall(progress.predicted_violation);
+  return constraints_.stringsAct() || attempt.scheme.rules().follows ||
+         !EnergyAccount::isSmall(progress.predicted_violation);
 }
 
-// Eq. (5). Decides whether the substep may be accepted: it makes no energy.
+// Eq. (5). Decides whether the substep may be accepted: it makes no energy. In contact nothing is left to decide: its
+// forces do no work but against motion.
 void Step::judge(const Attempt& attempt, Progress& progress, SubstepOutcome& outcome) noexcept {
   const bool last_resort = attempt.plan.isLastResort();
   const bool touches = anyPushes(contacts());
-  const double parts = constraints_.distances().speed();
-  const EnergyAccount::Drive drive{std::max(parts, fastestSurface(contacts())),
-                                   std::max(parts, fastestDrive(contacts(), attempt.state.position, attempt.plan.h)),
+  const EnergyAccount::Drive drive{std::max(constraints_.distances().speed(), fastestSurface(contacts())),
                                    2.0 * constraints_.distances().elasticWork(attempt.start, constraints_.next) +
                                        (constraints_.guide() != nullptr ? constraints_.guide()->energy() : 0.0)};
   if (progress.late || (last_resort && !touches)) {
     progress.energy.most = account_.most(attempt.scheme.rules(), attempt.start, constraints_.next, drive);
-  } else if (!last_resort && progress.settled && needsEnergyCheck(attempt, progress)) {
-    const double can_hold =
-        2.0 * constraints_.canHold(attempt.plan.h, stretch_tolerance_, stretch_tolerance_ * smallest_rest_);
+  } else if (!last_resort && progress.settled && !touches && needsEnergyCheck(attempt, progress)) {
+    const double can_hold = 2.0 * constraints_.canHold(attempt.plan.h, stretch_tolerance_);
     progress.energy = account_.entryOf(attempt.scheme.rules(), attempt.start, constraints_.next, drive, can_hold);
     const double made = progress.energy.made;
     if (made > account_.fromTolerance(attempt.plan.h) &&

@@ -73,9 +73,13 @@ class ContactFinder {
  public:
   virtual ~ContactFinder() = default;
 
+  /// Where the normals are those of the contacts' forces.
+  enum class ForcesAct { kAtStart, kAtEnd };
   /// Contacts expected between start and predicted, over a substep of h [s], with their multipliers of the last
   /// substep. Incomplete: verify() decides. Allocates nothing.
-  virtual Contacts& begin(const Field3& start, const Field3& predicted, double h) noexcept = 0;
+  virtual Contacts& begin(const Field3& start, const Field3& predicted, double h, ForcesAct act) noexcept = 0;
+  /// Sets the planes of contacts that are curved to those of where their points are now.
+  virtual void relinearise(const Field3& position, Contacts& contacts) noexcept = 0;
 
   enum class Verdict {
     kClear,   ///< nothing has crossed anything

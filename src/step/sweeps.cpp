@@ -52,6 +52,7 @@ Sweeps::Residual Sweeps::look(const Constraints::RodsProgress& rods, bool first,
     contacts.slide(inertia_.inverse(), constraints_.next);
     constraints_.settleGuide();
   }
+  contacts.relinearise(constraints_.next);
   residual.touch = contacts.residual(constraints_.next, true);
   clock.lap(Stage::kContact);
   residual.strings = constraints_.lookAtStrings(constraints_.stringsPull() || !first);

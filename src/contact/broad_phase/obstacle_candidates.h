@@ -92,6 +92,10 @@ class ObstacleCandidates {
   };
   /// Movable candidate nodes that end within reach [m] or went through the surface. Valid until the next call.
   std::vector<NodeEnd>& queryEnds(double reach) noexcept;
+  /// Surface nearest to a node that has come here from its start; false: further than nodeReach().
+  bool surfaceOf(std::size_t node, const Vec3& position, SurfacePoint& out) noexcept {
+    return query(node, start_.at(node), position, nodeReach(), out);
+  }
   CachedPlane& plane(std::size_t node) noexcept { return planes_[node]; }
   const CachedPlane& plane(std::size_t node) const noexcept { return planes_[node]; }
 
@@ -101,6 +105,10 @@ class ObstacleCandidates {
   /// Signed distance at the start of the substep, cut at what nodes keep [m].
   double distanceOf(std::size_t node) const noexcept {
     return queried_at_[node] == substep_ ? std::min(distance_[node], thickness()) : thickness();
+  }
+  /// The same, not cut; a lower bound where the surface is far [m].
+  double farOf(std::size_t node) const noexcept {
+    return queried_at_[node] == substep_ ? distance_[node] : thickness();
   }
   /// The node starts inside the obstacle. What has such a node is coming out and must not be stopped.
   bool isInside(std::size_t node) const noexcept { return distanceOf(node) < 0.0 && !isPinned(node); }

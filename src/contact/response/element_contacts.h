@@ -12,15 +12,16 @@
 #include "contact/broad_phase/obstacle_candidates.h"
 #include "contact/response/exit_direction.h"
 #include "obstacles/obstacle_set.h"
-#include "step/contacts.h"
+#include "step/substep.h"
 
 namespace curtain {
 
 /// One obstacle in one substep.
 struct ObstacleSubstep {
   const MovingObstacle& moving;
-  int obstacle;           ///< index in the set
-  double h;               ///< [s]
+  int obstacle;  ///< index in the set
+  double h;      ///< [s]
+  ContactFinder::ForcesAct act;
   bool frictionless;      ///< no friction
   double recovery_speed;  ///< depenetration speed within the gap [m/s]
   double most_recovery;   ///< largest depenetration in this substep [m]
@@ -73,15 +74,16 @@ struct ContactPoint {
   Vec3 normal = Vec3::UnitZ();  ///< unit
   double height = 0.0;          ///< normal . x >= height at the end [m]
   double distance = 0.0;        ///< signed, at the start [m]; negative: no friction
-  double recovery = 0.0;        ///< part of the height that takes out penetration [m]
+  double asked = 0.0;           ///< distance at the end [m]
+  double recovery = 0.0;        ///< how far the point is to come out [m]
 
   /// Requires `kept` from the surface at the end, or recovery towards it.
   void keep(double at_start, double kept, const ObstacleSubstep& substep) noexcept {
     const double padding = substep.moving.padding;
-    const double asked = padding + recoveredDistance(at_start - padding, kept - padding, substep.recoveryAt(at_start));
+    asked = padding + recoveredDistance(at_start - padding, kept - padding, substep.recoveryAt(at_start));
     distance = at_start;
     height += asked;
-    recovery = at_start < 0.0 ? asked - at_start : 0.0;
+    recovery = std::max(0.0, asked - at_start);
   }
 };
 /// Converts to world frame. Nodes of weight 0 are left out; false: none of the others can move.

@@ -39,8 +39,9 @@ bool makeContact(const ObstacleSubstep& substep, const ClothPattern& pattern, co
     moves = moves || pattern.inverse_mass[point.node[k]] > 0.0;
   }
   contact.obstacle = substep.obstacle;
-  contact.normal = moving.after.rotation * point.normal;
-  contact.offset = point.height + contact.normal.dot(moving.after.translation);
+  contact.normal = contact.level = moving.after.rotation * point.normal;
+  contact.offset = point.height + contact.level.dot(moving.after.translation);
+  contact.asked = point.asked;
   // No friction on the way out: it could lock cloth around an edge for good.
   // A pad's is bounded by what it presses with.
   const bool frictionless = (substep.frictionless && moving.press == 0.0) || point.distance < 0.0;
@@ -54,8 +55,11 @@ bool makeContact(const ObstacleSubstep& substep, const ClothPattern& pattern, co
 
 namespace {
 
+// Leapfrog's forces act along the gradient of the distance where the substep starts, or, for a node that comes from
+// afar, where it gets near. With the distance at the end, that is RATTLE's constraint (Andersen 1983): sliding makes no
+// energy.
 Contact nodeContact(const ObstacleSubstep& substep, const ClothPattern& pattern, std::uint32_t node,
-                    const ObstacleCandidates& candidates, const SurfacePoint& surface, double distance) {
+                    ObstacleCandidates& candidates, const SurfacePoint& surface, double distance, bool curved) {
   ContactPoint point;
   point.node[0] = node;
   point.weight[0] = 1.0;
@@ -65,6 +69,16 @@ Contact nodeContact(const ObstacleSubstep& substep, const ClothPattern& pattern,
   point.keep(distance, candidates.thickness(), substep);
   Contact contact;
   makeContact(substep, pattern, point, contact);
+  contact.curved = curved && substep.moving.press == 0.0;
+  if (contact.curved && substep.act == ContactFinder::ForcesAct::kAtStart) {
+    const Vec3 from = candidates.startOf(node), to = candidates.endOf(node);
+    const double room = candidates.farOf(node) - candidates.thickness(),
+                 way = candidates.farOf(node) - surface.distance;
+    const double share = room > 0.0 && way > room ? room / way : 0.0;
+    SurfacePoint there;
+    if (candidates.surfaceOf(node, from + share * (to - from), there))
+      contact.normal = substep.moving.before.rotation * there.normal;
+  }
   return contact;
 }
 
@@ -75,7 +89,7 @@ bool touchesAtStart(const ObstacleCandidates& candidates, std::uint32_t node, Su
 
 // Of nodes that a pad may hold, which end where they start: the planes are those of their start. At the end that is
 // predicted without friction a node may be past the pad's edge, where the plane would push it out.
-void collectHeldNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, const ObstacleCandidates& candidates,
+void collectHeldNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, ObstacleCandidates& candidates,
                       Contacts& contacts) noexcept {
   for (const std::uint32_t node : candidates.nodes()) {
     const Vec3 from = candidates.startOf(node);
@@ -83,7 +97,7 @@ void collectHeldNodes(const ObstacleSubstep& substep, const ClothPattern& patter
     if (candidates.isPinned(node) || !touchesAtStart(candidates, node, surface)) continue;
     const double distance = surface.distance;
     surface.distance += surface.normal.dot(candidates.endOf(node) - from);
-    addWithinRoom(nodeContact(substep, pattern, node, candidates, surface, distance), contacts);
+    addWithinRoom(nodeContact(substep, pattern, node, candidates, surface, distance, false), contacts);
   }
 }
 
@@ -102,14 +116,15 @@ void collectNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, O
     SurfacePoint& surface = end.surface;
     if (surface.distance >= 0.0) candidates.plane(node) = {to, surface, CachedPlane::Kind::kFound};
     double distance = candidates.distanceOf(node);
-    if (distance < 0.0) {
+    const bool curved = distance >= 0.0;
+    if (!curved) {
       const SurfacePoint led = exit.exitSurface(from, surface);
       if (led.normal != surface.normal) {
         distance = led.distance;
         surface = {led.distance + led.normal.dot(to - from), led.normal};
       }
     }
-    addWithinRoom(nodeContact(substep, pattern, node, candidates, surface, distance), contacts);
+    addWithinRoom(nodeContact(substep, pattern, node, candidates, surface, distance, curved), contacts);
   }
 }
 
@@ -121,7 +136,7 @@ void crossingNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, 
     if (distance <= 0.0 || end.surface.distance >= candidates.least(distance)) continue;
     Crossing crossing;
     crossing.node[0] = end.node;
-    crossing.contact = nodeContact(substep, pattern, end.node, candidates, end.surface, distance);
+    crossing.contact = nodeContact(substep, pattern, end.node, candidates, end.surface, distance, true);
     addWithinRoom(crossing, crossings);
   }
 }

@@ -65,10 +65,11 @@ bool ObstacleContacts::anyWithin(const Eigen::AlignedBox3d& box) const noexcept 
   return std::any_of(near.begin(), near.end(), [&](int n) { return obstacles_.mayMeet(n, box); });
 }
 
-void ObstacleContacts::begin(const Field3& start, const Field3& predicted, double h, bool frictionless,
+void ObstacleContacts::begin(const Field3& start, const Field3& predicted, const Begin& begin,
                              Contacts& contacts) noexcept {
-  h_ = h;
-  frictionless_ = frictionless;
+  h_ = begin.h;
+  act_ = begin.act;
+  frictionless_ = begin.frictionless;
   held_.clear();
   std::fill(active_.begin(), active_.end(), std::uint8_t{0});
   if (obstacles_.sweptBounds().isEmpty()) return;
@@ -88,7 +89,23 @@ void ObstacleContacts::begin(const Field3& start, const Field3& predicted, doubl
     std::sort(contacts.begin() + first, contacts.end(), firstOfOne);
     contacts.erase(std::unique(contacts.begin() + first, contacts.end(), alike), contacts.end());
   }
-  pads_.pinch(start, h, contacts);
+  pads_.pinch(start, h_, contacts);
+}
+
+// The distance at the end, not that to a plane of before: a node that slides around an edge follows it.
+void ObstacleContacts::relinearise(const Field3& position, Contacts& contacts) noexcept {
+  for (Contact& contact : contacts) {
+    if (!contact.curved) continue;
+    const auto obstacle = static_cast<std::size_t>(contact.obstacle);
+    const std::uint32_t node = contact.node[0];
+    const Transform& place = moving(obstacle).after;
+    SurfacePoint surface;
+    if (!candidates_[obstacle].surfaceOf(node, place.toLocal(position.at(node)), surface)) continue;
+    const Vec3 level = place.rotation * surface.normal;
+    if (!(level.dot(contact.normal) > 0.0)) continue;
+    contact.level = level;
+    contact.offset = level.dot(position.at(node)) + contact.asked - surface.distance;
+  }
 }
 
 // Finds candidates for the motion from start to end of every obstacle near it, which become active; false: none is

@@ -35,7 +35,14 @@ class ObstacleContacts {
 
   /// Begins a substep of h [s]: adds what may touch along the motion from start to predicted, sorted by the obstacles'
   /// names, the contacts' nodes and features. frictionless: all contacts without friction.
-  void begin(const Field3& start, const Field3& predicted, double h, bool frictionless, Contacts& contacts) noexcept;
+  struct Begin {
+    double h;
+    ContactFinder::ForcesAct act;
+    bool frictionless;
+  };
+  void begin(const Field3& start, const Field3& predicted, const Begin& begin, Contacts& contacts) noexcept;
+  /// ContactFinder::relinearise().
+  void relinearise(const Field3& position, Contacts& contacts) noexcept;
   void limitRecovery(double most) noexcept { most_recovery_ = most; }
 
   /// Adds contacts for parts that would cross an obstacle along the motion from start to end; returns how many.
@@ -83,7 +90,7 @@ class ObstacleContacts {
     return obstacles_.moving(static_cast<int>(obstacle));
   }
   ObstacleSubstep substepOf(std::size_t obstacle) const noexcept {
-    return {moving(obstacle), static_cast<int>(obstacle), h_, frictionless_, recovery_speed_, most_recovery_};
+    return {moving(obstacle), static_cast<int>(obstacle), h_, act_, frictionless_, recovery_speed_, most_recovery_};
   }
   void addHeld(const Field3& position, const SubstepOutcome& outcome) noexcept;
   void addLoad(int obstacle, const Vec3& point, const Vec3& impulse, bool pushes) noexcept;
@@ -104,6 +111,7 @@ class ObstacleContacts {
   std::vector<std::uint8_t> active_;            // by obstacle: near in this substep
   bool frictionless_ = false;                   // this substep
   double h_ = 0.0;                              // [s]
+  ContactFinder::ForcesAct act_ = ContactFinder::ForcesAct::kAtStart;
   bool full_ = false;
   std::vector<Crossing> crossings_;
   std::vector<PenetratingFace> penetrating_;

@@ -66,7 +66,7 @@ void Pads::pinch(const Field3& start, double h, Contacts& contacts) noexcept {
     const Vec3 across = (a.normal - b.normal).normalized();
     const double per_way = 1.0 / a.normal.dot(across), low = -room_a * per_way, high = room_b * per_way;
     const double way = low > high ? 0.5 * (low + high) : std::min(high, std::max(low, 0.0));
-    a.normal = across;
+    a.normal = a.level = across;
     a.offset = across.dot(a.carried) + way;
     a.recovery = 0.0;
     b.node[0] = Contact::kNowhere;

@@ -80,7 +80,7 @@ Contact SelfContacts::makeContact(const PairKey& key, const ClosestPoints& close
   contact.nodes = 4;
   contact.node = key.node;
   contact.weight = closest.weight;
-  contact.normal = closest.apart / closest.distance;
+  contact.normal = contact.level = closest.apart / closest.distance;
   contact.carried = closest.apart;
   contact.friction = friction_;
   contact.source = key.edges ? 1 : 0;

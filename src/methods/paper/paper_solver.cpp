@@ -295,7 +295,8 @@ SubstepOutcome PaperSolver::substep(const NodeForces& forces, double h, ContactF
   adjustBetweenPins(state.position);
   keepEnergies(state.velocity);
   clock.lap(Stage::kWeft);
-  Contacts* const contacts = finder != nullptr ? &finder->begin(start_, state.position, h) : nullptr;
+  Contacts* const contacts =
+      finder != nullptr ? &finder->begin(start_, state.position, h, ContactFinder::ForcesAct::kAtEnd) : nullptr;
   if (contacts != nullptr) project(h, *contacts, state.position);
   clock.lap(Stage::kContact);
   for (const Chain& chain : chains_) rebuild(chain, h, state);
