@@ -165,18 +165,5 @@ TEST(EnergyAccount, BoundsWhatIsBeyondMeasure) {
   EXPECT_EQ(resting.at(beside.pattern.grid.index(3, 2)), Vec3(Vec3::Zero()));
 }
 
-// What is inside its gap comes out of it within the step: that counts as what drives it, unless nothing pushes.
-TEST(Contacts, DrivePointsOutOfWhereTheyWere) {
-  const Moving cloth;
-  Contact contact;
-  contact.node[0] = static_cast<std::uint32_t>(cloth.pattern.grid.index(3, 2));
-  contact.weight[0] = 1.0;
-  contact.normal = Vec3::UnitZ();
-  contact.offset = cloth.state.position.at(contact.node[0]).z() + 2e-3;
-  EXPECT_EQ(fastestDrive({contact}, cloth.state.position, kStep), 0.0);
-  contact.push = 1.0;
-  EXPECT_NEAR(fastestDrive({contact}, cloth.state.position, kStep), 2e-3 / kStep, 1e3 * kEps);
-}
-
 }  // namespace
 }  // namespace curtain
