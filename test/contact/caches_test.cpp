@@ -133,8 +133,8 @@ TEST_P(ContactCaches, ChangeNoBit) {
         if (pauses.between(0.0, 1.0) < 0.7) forgets.contact.clearCaches();
       };
       forget();
-      Contacts& kept = keeps.contact.begin(start, predicted, kSubstep);
-      Contacts& found = forgets.contact.begin(start, predicted, kSubstep);
+      Contacts& kept = keeps.contact.begin(start, predicted, kSubstep, ContactFinder::ForcesAct::kAtStart);
+      Contacts& found = forgets.contact.begin(start, predicted, kSubstep, ContactFinder::ForcesAct::kAtStart);
       expectSame(kept, found, when + ", begun");
       contacts += kept.size();
       const std::size_t begun = kept.size();
@@ -180,18 +180,18 @@ TEST(ContactCachesOfFlatCloth, AreOfWhereTheSubstepEnds) {
   }
   Finder keeps(scene, pattern), forgets(scene, pattern);
   for (Finder* const finder : {&keeps, &forgets}) {
-    finder->contact.begin(flat, flat, kSubstep);
+    finder->contact.begin(flat, flat, kSubstep, ContactFinder::ForcesAct::kAtStart);
     finder->contact.verify(flat, flat, true);
     finder->contact.afterSubstep(true, kMade, flat);
-    finder->contact.begin(flat, turned, kSubstep);
+    finder->contact.begin(flat, turned, kSubstep, ContactFinder::ForcesAct::kAtStart);
     finder->contact.verify(flat, turned, true);
     finder->contact.verify(flat, folded, true);
     finder->contact.afterSubstep(true, kMade, folded);
   }
   forgets.contact.clearCaches();
-  const Contacts& found = forgets.contact.begin(folded, folded, kSubstep);
+  const Contacts& found = forgets.contact.begin(folded, folded, kSubstep, ContactFinder::ForcesAct::kAtStart);
   EXPECT_GT(found.size(), 10u);
-  expectSame(keeps.contact.begin(folded, folded, kSubstep), found, "folded");
+  expectSame(keeps.contact.begin(folded, folded, kSubstep, ContactFinder::ForcesAct::kAtStart), found, "folded");
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, ContactCaches,
