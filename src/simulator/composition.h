@@ -13,6 +13,7 @@
 #include "parts/hysteresis/hysteresis.h"
 #include "parts/rail/rail.h"
 #include "parts/shear/shear.h"
+#include "parts/taut_columns/taut_columns.h"
 #include "parts/twist/twist.h"
 #include "parts/weft_push/weft_push.h"
 #include "parts/wind/winds.h"
@@ -42,8 +43,9 @@ struct Composition {
   WeftPush weft_push{scene.cloth, pattern};
   Rail rail{scene, pattern};
   Cords cords{pattern};
+  TautColumns taut_columns{scene, pattern};
 
-  /// In the order in which they add their forces: relative_air reads those before it.
+  /// In the order in which they add their forces: relative_air reads those before it, taut_columns what they pin.
   // clang-format off
   const PartList all{
       &pins,
@@ -59,6 +61,7 @@ struct Composition {
       &weft_push,
       &rail,
       &cords,
+      &taut_columns,
   };
   // clang-format on
 

@@ -50,6 +50,7 @@ Simulator::Impl::Impl(const Scene& given, const MeshResolver& resolve)
       closed(motion, controls, !ErrorControl::wanted(scene.solver)),
       surface(scene.cloth, pattern),
       pinned_by_parts(pattern.grid.size(), 0) {
+  takePins();
   if (ErrorControl::wanted(scene.solver)) errors.emplace(motion, controls, loop, budget);
 }
 

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Columns that are straight between two pins. Rods keep their lengths, so a column whose pins are as far apart as it is
+// long can't move: to sag it would have to be longer. Its rods' equations are singular, and no load on it has a finite
+// tension. So its nodes are pins, too, and move with the line between the two, as long as it is straight.
+#pragma once
+
+#include <vector>
+
+#include "step/part.h"
+
+namespace curtain {
+
+/// Not thread-safe. Allocates only in its constructor. The last part: it asks what the others pin.
+class TautColumns final : public Part {
+ public:
+  /// scene and pattern must outlive this.
+  TautColumns(const Scene& scene, const ClothPattern& pattern);
+
+  void reset(ClothState& state) override;
+  void carry(Archive& archive) override;
+  void pin(std::vector<std::uint8_t>& pinned) const noexcept override;
+  void beginFrame(const FrameBegin& begin, ClothState& state) noexcept override;
+  bool endFrame(const FrameEnd& end, ClothState& state) noexcept override;
+
+ private:
+  bool isPin(std::size_t node) const noexcept;
+  bool isHeld(std::size_t node) const noexcept { return held_[node] != 0 && pattern_.pinned[node] == kPinned; }
+  bool find(const ClothState& state) noexcept;
+  bool isStraight(const Field3& position, int first, int last, int column) const noexcept;
+  template <typename Act>
+  void forEachSpan(const Act& act) const;
+
+  const Scene& scene_;
+  const ClothPattern& pattern_;
+  std::vector<std::uint8_t> held_;            // by node
+  mutable std::vector<std::uint8_t> others_;  // by node: a part before this one pins it
+};
+
+}  // namespace curtain
