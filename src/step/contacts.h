@@ -71,6 +71,12 @@ struct Contact {
   bool pushes() const noexcept { return push > 0.0 || press > 0.0; }
   /// How far below the plane [m]; negative: above it.
   double entered(const Field3& position) const noexcept { return offset - level.dot(point(position)); }
+  /// The point is this far from what it touches, whose normal is there `to`: that of a far side is not taken.
+  void turnTo(const Vec3& to, double distance, const Field3& position) noexcept {
+    if (!(to.dot(normal) > 0.0)) return;
+    level = to;
+    offset = level.dot(point(position)) + asked - distance;
+  }
   /// Share of a motion along the normal that goes across the plane.
   double rise() const noexcept { return std::max(kLeastRise, level.dot(normal)); }
   Vec3 across(const Vec3& v) const { return v - normal.dot(v) * normal; }

@@ -20,6 +20,11 @@ namespace {
 
 using Corners = std::array<Vec3, 3>;
 
+// Source of contacts whose planes go along with the shape's surface; those of features are others.
+constexpr std::uint32_t kCurved = 0;
+// A face's nearest point is its own where it is nearer than its edges' by this share of the core.
+constexpr double kNearer = 1e-3;
+
 Corners startOf(const ObstacleCandidates& candidates, const std::array<std::uint32_t, 3>& node) {
   return {candidates.startOf(node[0]), candidates.startOf(node[1]), candidates.startOf(node[2])};
 }
@@ -136,6 +141,7 @@ void add(const ObstacleSubstep& substep, const ClothPattern& pattern, ContactPoi
   point.keep(distance, kept, substep);
   Contact contact;
   contact.source = source;
+  point.curved = source == kCurved;
   // A contact of a single node is left to the node.
   if (makeContact(substep, pattern, point, contact) && contact.nodes > 1) addWithinRoom(contact, contacts);
 }
@@ -143,6 +149,7 @@ void add(const ObstacleSubstep& substep, const ClothPattern& pattern, ContactPoi
 void add(const ObstacleSubstep& substep, const ClothPattern& pattern, ContactPoint& point, double distance, double kept,
          std::uint32_t source, std::vector<Crossing>& crossings) {
   point.keep(distance, kept, substep);
+  point.curved = source == kCurved;
   Crossing crossing{point.node, point.nodes, {}};
   crossing.contact.source = source;
   if (makeContact(substep, pattern, point, crossing.contact)) addWithinRoom(crossing, crossings);
@@ -150,33 +157,94 @@ void add(const ObstacleSubstep& substep, const ClothPattern& pattern, ContactPoi
 
 }  // namespace
 
+namespace {
+
+// An element that touches, or will: its point, where it was then, and how far it was at the start.
+struct Touching {
+  ElementPoint nearest;
+  Corners at;
+  double distance;
+};
+
+// nearest(corners, reach, out) and impact(start, end): of the element. close: the start is within the thickness, at
+// `first`.
+template <typename Nearest, typename Impact>
+bool touches(const ObstacleCandidates& candidates, const Corners& start, const Corners& end, const ElementPoint* first,
+             const Nearest& nearest, const Impact& impact, Touching& out) {
+  const double listed = candidates.elementReach();
+  ElementPoint then;
+  if (first != nullptr && (first->surface.distance <= listed || nearest(end, listed, then))) {
+    const Vec3& normal = first->surface.normal;
+    const double height = normal.dot(mix(first->weights, end) - mix(first->weights, start)) + first->surface.distance;
+    out = {*first, start, first->surface.distance};
+    return height <= listed;
+  }
+  const std::optional<double> time = impact(start, end);
+  if (!time) return false;
+  out.at = between(start, end, *time);
+  out.distance = candidates.thickness();
+  return nearest(out.at, listed, out.nearest);
+}
+
+}  // namespace
+
+// Where an edge of the obstacle lies along a face, the face has no nearest point: one end of the line or the other is
+// nearer. Both are on edges of the face, whose nearest points are distinct. So edges have their own contacts, and a
+// face has one where it is nearer than they are: at a corner, or a small sphere.
 void collectFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, ObstacleCandidates& candidates,
                   std::vector<PenetratingFace>& penetrating, Contacts& contacts) noexcept {
   const ConvexShape& shape = *candidates.shape().convex();
-  const double listed = candidates.elementReach();
+  const double core = candidates.core();
+  const auto on_face = [&](const Corners& at, double reach, ElementPoint& out) {
+    return shape.nearestOnTriangle(at, reach, out);
+  };
+  const auto on_edge = [&](const Corners& at, double reach, ElementPoint& out) {
+    return shape.nearestOnEdge({at[0], at[1]}, reach, out);
+  };
   for (const ObstacleCandidates::Face& face : candidates.faces()) {
     if (startsInside(face.node, 3, candidates)) continue;
     const Corners start = startOf(candidates, face.node), end = endOf(candidates, face.node);
-    ElementPoint nearest, then;
+    ElementPoint nearest;
     const bool close = shape.nearestOnTriangle(start, candidates.thickness(), nearest);
     if (close) candidates.facePlane(face) = {mix(nearest.weights, start), nearest.surface, CachedPlane::Kind::kFound};
     if (close && nearest.surface.distance < 0.0) {
       addWithinRoom(PenetratingFace{face.node, nearest}, penetrating);
       continue;
     }
-    if (close && (nearest.surface.distance <= listed || shape.nearestOnTriangle(end, listed, then))) {
-      ContactPoint point = contactPoint(face.node, nearest, start, start);
-      if (point.normal.dot(mix(point.weight, end)) - point.height > listed) continue;
-      add(substep, pattern, point, nearest.surface.distance, candidates.core(), 0, contacts);
-      continue;
+    Touching of_face;
+    const auto impact = [&](const Corners& a, const Corners& b) { return shape.timeOfImpact(a, b, core); };
+    if (!touches(candidates, start, end, close ? &nearest : nullptr, on_face, impact, of_face)) continue;
+    double nearest_edge = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 3; ++k) {
+      // The same of both faces of an edge.
+      const auto [a, b] = std::minmax(face.node[k], face.node[(k + 1) % 3]);
+      const MeshTriangle edge{a, b, b};
+      const Corners from = startOf(candidates, edge), to = endOf(candidates, edge);
+      ElementPoint first;
+      const bool near = on_edge(from, candidates.thickness(), first);
+      const auto hits = [&](const Corners& p, const Corners& q) {
+        return shape.timeOfImpact(std::array<Vec3, 2>{p[0], p[1]}, std::array<Vec3, 2>{q[0], q[1]}, core);
+      };
+      Touching of_edge;
+      if (!touches(candidates, from, to, near ? &first : nullptr, on_edge, hits, of_edge)) continue;
+      nearest_edge = std::min(nearest_edge, of_edge.nearest.surface.distance);
+      ContactPoint point = contactPoint(edge, 2, of_edge.nearest.weights, of_edge.nearest.surface, of_edge.at, from);
+      add(substep, pattern, point, of_edge.distance, core, kCurved, contacts);
     }
-    const std::optional<double> time = shape.timeOfImpact(start, end, candidates.core());
-    if (!time) continue;
-    const Corners at = between(start, end, *time);
-    if (!shape.nearestOnTriangle(at, listed, nearest)) continue;
-    ContactPoint point = contactPoint(face.node, nearest, at, start);
-    add(substep, pattern, point, candidates.thickness(), candidates.core(), 0, contacts);
+    if (!(of_face.nearest.surface.distance < nearest_edge - kNearer * core)) continue;
+    ContactPoint point = contactPoint(face.node, of_face.nearest, of_face.at, start);
+    add(substep, pattern, point, of_face.distance, core, kCurved, contacts);
   }
+}
+
+void relinearise(const ConvexShape& shape, const Transform& place, const Field3& position, Contact& contact) noexcept {
+  const auto at = [&](std::size_t k) { return place.toLocal(position.at(contact.node[k])); };
+  ElementPoint nearest;
+  const bool found =
+      contact.nodes == 2
+          ? shape.nearestOnEdge({at(0), at(1)}, std::numeric_limits<double>::infinity(), nearest)
+          : shape.nearestOnTriangle({at(0), at(1), at(2)}, std::numeric_limits<double>::infinity(), nearest);
+  if (found) contact.turnTo(place.rotation * nearest.surface.normal, nearest.surface.distance, position);
 }
 
 void collectPenetratingFaces(const ObstacleSubstep& substep, const ClothPattern& pattern,
@@ -208,7 +276,7 @@ void crossingFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, 
     const Corners at = between(start, end, *time);
     if (!shape.nearestOnTriangle(at, std::numeric_limits<double>::infinity(), nearest)) continue;
     ContactPoint point = contactPoint(face.node, nearest, at, start);
-    add(substep, pattern, point, distance, candidates.core(), 0, crossings);
+    add(substep, pattern, point, distance, candidates.core(), kCurved, crossings);
   }
 }
 

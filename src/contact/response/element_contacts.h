@@ -57,6 +57,10 @@ void collectPenetratingFaces(const ObstacleSubstep& substep, const ClothPattern&
 void collectPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, const ObstacleCandidates& candidates,
                   Contacts& contacts) noexcept;
 
+/// Sets the plane of a contact of an edge or a face that is curved to that of where its nodes are now; place: of the
+/// shape.
+void relinearise(const ConvexShape& shape, const Transform& place, const Field3& position, Contact& contact) noexcept;
+
 /// Crossings along the motion that the candidates were found for. Parts that start inside are skipped.
 void crossingNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, ObstacleCandidates& candidates,
                    std::vector<Crossing>& crossings) noexcept;
@@ -75,6 +79,7 @@ struct ContactPoint {
   double height = 0.0;          ///< normal . x >= height at the end [m]
   double distance = 0.0;        ///< signed, at the start [m]; negative: no friction
   double asked = 0.0;           ///< distance at the end [m]
+  bool curved = false;          ///< Contact::curved
   double recovery = 0.0;        ///< how far the point is to come out [m]
 
   /// Requires `kept` from the surface at the end, or recovery towards it.

@@ -97,14 +97,15 @@ void ObstacleContacts::relinearise(const Field3& position, Contacts& contacts) n
   for (Contact& contact : contacts) {
     if (!contact.curved) continue;
     const auto obstacle = static_cast<std::size_t>(contact.obstacle);
-    const std::uint32_t node = contact.node[0];
     const Transform& place = moving(obstacle).after;
+    if (contact.nodes > 1) {
+      curtain::relinearise(*candidates_[obstacle].shape().convex(), place, position, contact);
+      continue;
+    }
+    const std::uint32_t node = contact.node[0];
     SurfacePoint surface;
-    if (!candidates_[obstacle].surfaceOf(node, place.toLocal(position.at(node)), surface)) continue;
-    const Vec3 level = place.rotation * surface.normal;
-    if (!(level.dot(contact.normal) > 0.0)) continue;
-    contact.level = level;
-    contact.offset = level.dot(position.at(node)) + contact.asked - surface.distance;
+    if (candidates_[obstacle].surfaceOf(node, place.toLocal(position.at(node)), surface))
+      contact.turnTo(place.rotation * surface.normal, surface.distance, position);
   }
 }
 
