@@ -20,8 +20,6 @@ namespace {
 
 using Corners = std::array<Vec3, 3>;
 
-// Source of contacts whose planes go along with the shape's surface; those of features are others.
-constexpr std::uint32_t kCurved = 0;
 // A face's nearest point is its own where it is nearer than its edges' by this share of the core.
 constexpr double kNearer = 1e-3;
 
@@ -141,7 +139,6 @@ void add(const ObstacleSubstep& substep, const ClothPattern& pattern, ContactPoi
   point.keep(distance, kept, substep);
   Contact contact;
   contact.source = source;
-  point.curved = source == kCurved;
   // A contact of a single node is left to the node.
   if (makeContact(substep, pattern, point, contact) && contact.nodes > 1) addWithinRoom(contact, contacts);
 }
@@ -149,7 +146,6 @@ void add(const ObstacleSubstep& substep, const ClothPattern& pattern, ContactPoi
 void add(const ObstacleSubstep& substep, const ClothPattern& pattern, ContactPoint& point, double distance, double kept,
          std::uint32_t source, std::vector<Crossing>& crossings) {
   point.keep(distance, kept, substep);
-  point.curved = source == kCurved;
   Crossing crossing{point.node, point.nodes, {}};
   crossing.contact.source = source;
   if (makeContact(substep, pattern, point, crossing.contact)) addWithinRoom(crossing, crossings);
@@ -229,11 +225,13 @@ void collectFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, O
       if (!touches(candidates, from, to, near ? &first : nullptr, on_edge, hits, of_edge)) continue;
       nearest_edge = std::min(nearest_edge, of_edge.nearest.surface.distance);
       ContactPoint point = contactPoint(edge, 2, of_edge.nearest.weights, of_edge.nearest.surface, of_edge.at, from);
-      add(substep, pattern, point, of_edge.distance, core, kCurved, contacts);
+      point.curved = true;
+      add(substep, pattern, point, of_edge.distance, core, 0, contacts);
     }
     if (!(of_face.nearest.surface.distance < nearest_edge - kNearer * core)) continue;
     ContactPoint point = contactPoint(face.node, of_face.nearest, of_face.at, start);
-    add(substep, pattern, point, of_face.distance, core, kCurved, contacts);
+    point.curved = true;
+    add(substep, pattern, point, of_face.distance, core, 0, contacts);
   }
 }
 
@@ -276,7 +274,8 @@ void crossingFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, 
     const Corners at = between(start, end, *time);
     if (!shape.nearestOnTriangle(at, std::numeric_limits<double>::infinity(), nearest)) continue;
     ContactPoint point = contactPoint(face.node, nearest, at, start);
-    add(substep, pattern, point, distance, candidates.core(), kCurved, crossings);
+    point.curved = true;
+    add(substep, pattern, point, distance, candidates.core(), 0, crossings);
   }
 }
 
