@@ -8,7 +8,9 @@
 namespace curtain {
 
 TautColumns::TautColumns(const Scene& scene, const ClothPattern& pattern)
-    : scene_(scene), pattern_(pattern), held_(pattern.grid.size(), 0), others_(pattern.grid.size(), 0) {}
+    : scene_(scene), pattern_(pattern), held_(pattern.grid.size(), 0), others_(pattern.grid.size(), 0) {
+  list_.reserve(pattern.grid.size());
+}
 
 bool TautColumns::isPin(std::size_t node) const noexcept {
   return pattern_.scene_pins[node] == kPinned || others_[node] != 0;
@@ -51,12 +53,18 @@ bool TautColumns::find(const ClothState& state) noexcept {
     const std::uint8_t held = isStraight(state.position, first, last, column) ? 1 : 0;
     for (int i = first + 1; i < last; ++i) set(pattern_.grid.index(i, column), held);
   });
-  return changed;
+  if (!changed) return false;
+  list_.clear();
+  for (std::size_t n = 0; n < held_.size(); ++n) {
+    if (held_[n] != 0) list_.push_back(n);
+  }
+  return true;
 }
 
 void TautColumns::reset(ClothState& state) {
   std::fill(others_.begin(), others_.end(), std::uint8_t{0});
   std::fill(held_.begin(), held_.end(), std::uint8_t{0});
+  list_.clear();
   find(state);
 }
 
@@ -94,14 +102,12 @@ bool TautColumns::endFrame(const FrameEnd&, ClothState& state) noexcept {
 }
 
 void TautColumns::carry(Archive& archive) {
-  std::vector<std::size_t> nodes;
-  for (std::size_t n = 0; n < held_.size(); ++n) {
-    if (held_[n] != 0) nodes.push_back(n);
-  }
-  archive.list("taut_columns", nodes, [&](std::size_t& node) { archive.node("node", node, pattern_.grid); });
-  if (!archive.loads()) return;
+  archive.list("taut_columns", list_, [&](std::size_t& node) { archive.node("node", node, pattern_.grid); });
+}
+
+void TautColumns::resume() {
   std::fill(held_.begin(), held_.end(), std::uint8_t{0});
-  for (const std::size_t node : nodes) held_[node] = 1;
+  for (const std::size_t node : list_) held_[node] = 1;
 }
 
 }  // namespace curtain

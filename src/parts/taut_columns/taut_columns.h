@@ -19,6 +19,7 @@ class TautColumns final : public Part {
 
   void reset(ClothState& state) override;
   void carry(Archive& archive) override;
+  void resume() override;
   void pin(std::vector<std::uint8_t>& pinned) const noexcept override;
   void beginFrame(const FrameBegin& begin, ClothState& state) noexcept override;
   bool endFrame(const FrameEnd& end, ClothState& state) noexcept override;
@@ -34,6 +35,7 @@ class TautColumns final : public Part {
   const Scene& scene_;
   const ClothPattern& pattern_;
   std::vector<std::uint8_t> held_;            // by node
+  std::vector<std::size_t> list_;             // of held nodes
   mutable std::vector<std::uint8_t> others_;  // by node: a part before this one pins it
 };
 
