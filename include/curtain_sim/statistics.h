@@ -38,7 +38,7 @@ struct Statistics {
   double lost_time = 0.0;                ///< motion that these left out [s]
   std::int64_t late_frames = 0;          ///< frames that took longer than the budget all the same
   std::int64_t stops = 0;                ///< last resort substeps in which the cloth stayed where it was
-  int stops_last = 0;                    ///< in the last frame not slept through: what then sleeps is not at rest
+  int stops_last = 0;                    ///< in the last frame: the cloth stands, but is not at rest
   double momentum_cut = 0.0;             ///< by the last resort, sum over nodes and substeps [N s]
   double obstacles_waited = 0.0;         ///< delay of obstacles where the cloth could not give way [s]
   double warp_stretch = 0.0;             ///< largest relative overlength of a warp rod at the last frame's end

@@ -123,22 +123,6 @@ TEST(HealthChecks, LinksAboveTheToleranceAreWarnedOf) {
   EXPECT_EQ(simulation(health, 0.0, rises, 0.0).level, DiagnosticStatus::WARN);
 }
 
-// Asleep the cloth makes no substeps, so no more are stopped: that it once was is told all the same, as long as it
-// sleeps.
-TEST(HealthChecks, ClothThatSleepsWhereItWasStoppedIsWarnedOf) {
-  Rises rises;
-  Health health = well();
-  health.statistics.substeps = 8;
-  health.statistics.stops = health.statistics.stops_last = 8;
-  EXPECT_EQ(simulation(health, 0.0, rises, 0.0).message, "substeps stopped");
-  health.statistics.substeps = 0;
-  const DiagnosticStatusWrapper asleep = simulation(health, 60.0, rises, 60.0);
-  EXPECT_EQ(asleep.level, DiagnosticStatus::WARN);
-  EXPECT_EQ(asleep.message, "sleeps where it was stopped, not at rest");
-  health.statistics.stops_last = 0;
-  EXPECT_EQ(simulation(health, 60.0, rises, 60.0).level, DiagnosticStatus::OK) << "another sleep, at rest";
-}
-
 TEST(HealthChecks, SlowerThanTheClockIsWarnedOf) {
   Rises rises;
   Health health = well();
