@@ -22,6 +22,7 @@ enum : std::uint8_t {
   kFree = 0,
   kPinned = 1,  ///< its position is prescribed
   kGuided = 2,  ///< a part of the solver says where it may be: a pin that moves, for all others
+  kHeld = 3,  ///< links keep it where a part moves it: it has no inertia in a solve, but is no pin for what touches it
 };
 
 /// Carriers of the cloth, which are nodes of the top row, in their order on the rail; none: there is no rail.
@@ -64,6 +65,8 @@ struct ClothPattern {
 
   /// Whether there is a node, or an end, at an index of a Field.
   bool isThere(std::size_t n) const { return mass[n] > 0.0 || pinned[n] != kFree; }
+  /// It moves by what acts on it.
+  bool canMove(std::size_t n) const { return inverse_mass[n] > 0.0 && pinned[n] != kHeld; }
   bool isPinned(NodeIndex node) const { return pinned[grid.index(node)] == kPinned; }
 };
 

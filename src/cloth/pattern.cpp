@@ -212,8 +212,8 @@ void pinBeside(const std::vector<std::uint8_t>& held, const ClothParams& cloth, 
   for (int i = 0; i < grid.rows; ++i) {
     for (std::size_t n = grid.index(i, 0); n < grid.index(i, grid.columns); ++n) {
       if (pattern.scene_pins[n] != kFree) continue;
-      pattern.pinned[n] = held[n] != 0 ? kPinned : kFree;
-      pattern.inverse_mass[n] = held[n] != 0 ? 0.0 : 1.0 / pattern.mass[n];
+      pattern.pinned[n] = held[n];
+      pattern.inverse_mass[n] = held[n] == kPinned ? 0.0 : 1.0 / pattern.mass[n];
     }
   }
   fillBending(cloth, pattern);

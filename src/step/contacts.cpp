@@ -97,6 +97,7 @@ void ContactRows::relinearise(const Field3& position) noexcept {
 double ContactRows::residual(const Field3& position, bool recovers) const noexcept {
   double worst = 0.0;
   for (const Contact& contact : *all_) {
+    if (contact.mobility <= 0.0) continue;  // what is held is watched on its way, by verification
     const double entered = contact.entered(position);
     if (!std::isfinite(entered)) return std::numeric_limits<double>::infinity();
     const double lacks = recovers || entered < 0.0 ? entered : std::max(0.0, entered - contact.recovery);

@@ -19,32 +19,33 @@ double freeMass(const ClothPattern& pattern, const Field& inverse_mass) {
   return sum;
 }
 
-void fillWithGuided(const ClothPattern& pattern, Field& inverse) {
+// Of the nodes that move by themselves.
+void fill(const ClothPattern& pattern, bool guided_move, Field& inverse) {
   inverse = pattern.inverse_mass;
+  for (std::size_t n = 0; n < inverse.size(); ++n) {
+    if (pattern.pinned[n] == kHeld) inverse[n] = 0.0;
+  }
+  if (!guided_move) return;
   for (const std::size_t n : pattern.guided) inverse[n] = 1.0 / pattern.mass[n];
-}
-
-Field withGuided(const ClothPattern& pattern) {
-  Field inverse;
-  if (!pattern.guided.empty()) fillWithGuided(pattern, inverse);
-  return inverse;
 }
 
 }  // namespace
 
 NodeInertia::NodeInertia(const ClothPattern& pattern)
     : pattern_(pattern),
-      guided_(withGuided(pattern)),
-      masses_(guided_.empty() ? &pattern.inverse_mass : &guided_),
-      free_mass_(freeMass(pattern, *masses_)),
+      guided_move_(pattern.inverse_mass),
+      guided_stand_(pattern.inverse_mass),
+      masses_(&guided_move_),
       changed_(*masses_),
       keep_(pattern.grid.size(), 1.0),
       inverse_(masses_) {
   tensions_.load.assign(pattern.grid.size(), 0.0);
+  takePins();
 }
 
 void NodeInertia::takePins() noexcept {
-  if (!guided_.empty()) fillWithGuided(pattern_, guided_);
+  fill(pattern_, true, guided_move_);
+  fill(pattern_, false, guided_stand_);
   inverse_ = masses_;
   free_mass_ = freeMass(pattern_, *masses_);
 }
@@ -55,10 +56,7 @@ double NodeInertia::heaviest() const noexcept {
   return worst;
 }
 
-void NodeInertia::setGuided(bool move) noexcept {
-  if (guided_.empty()) return;
-  inverse_ = masses_ = move ? &guided_ : &pattern_.inverse_mass;
-}
+void NodeInertia::setGuided(bool move) noexcept { inverse_ = masses_ = move ? &guided_move_ : &guided_stand_; }
 
 void NodeInertia::forget() noexcept {
   std::fill(tensions_.load.begin(), tensions_.load.end(), 0.0);

@@ -59,9 +59,9 @@ class NodeInertia {
   double addedMass(double per_load) const noexcept;
 
   const ClothPattern& pattern_;
-  Field guided_;         // the pattern's inverse masses, and those of guided nodes [1/kg]; empty: there are none
-  const Field* masses_;  // the pattern's, or guided_
-  double free_mass_;     // [kg]
+  Field guided_move_, guided_stand_;  // inverse masses, of guided nodes too, or not [1/kg]; of held nodes 0
+  const Field* masses_;               // one of these
+  double free_mass_;                  // [kg]
   Field changed_, keep_;
   const Field* inverse_;
   bool damped_ = false;

@@ -68,7 +68,7 @@ class Part {
   virtual void carry(Archive& /*archive*/) {}
   /// After carry() has loaded, or a key of the scene has changed: takes what follows.
   virtual void resume() {}
-  /// Marks the nodes that it pins.
+  /// Marks the nodes that it pins, or holds: kPinned, kHeld.
   virtual void pin(std::vector<std::uint8_t>& /*pinned*/) const noexcept {}
   virtual void measure(const ClothState& /*state*/, Statistics& /*statistics*/) const noexcept {}
   /// What it does now, or why it does nothing. True: it has forces.

@@ -24,7 +24,7 @@ class Dice {
  public:
   explicit Dice(unsigned seed) : random_(seed) {}
   // Not those of the standard library, which differ between libraries.
-  double share() { return random_() / 4294967296.0; }
+  double share() { return static_cast<double>(random_()) / 4294967296.0; }
   double within(double low, double high) { return low + (high - low) * share(); }
   template <std::size_t N>
   double of(const std::array<double, N>& values) {

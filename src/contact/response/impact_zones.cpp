@@ -51,7 +51,7 @@ void ImpactZones::makeRigid(const Field3& start, Field3& end) noexcept {
     body.mass += mass;
     body.centre += mass * start.at(node);
     body.move += mass * move;
-    if (pattern_.inverse_mass[node] > 0.0) continue;
+    if (pattern_.canMove(node)) continue;
     body.pins += 1.0;
     body.pin_move += move;
   }
@@ -68,7 +68,7 @@ void ImpactZones::makeRigid(const Field3& start, Field3& end) noexcept {
   }
   for (Body& body : bodies_) body.turn = body.pins > 0.0 ? Vec3(Vec3::Zero()) : turnOf(body.inertia, body.spin);
   for (const std::uint32_t node : members_) {
-    if (pattern_.inverse_mass[node] <= 0.0) continue;
+    if (!pattern_.canMove(node)) continue;
     const Body& body = bodyOf(node);
     const Vec3 from = start.at(node);
     end.set(node, from + body.move + body.turn.cross(from - body.centre));
@@ -77,7 +77,7 @@ void ImpactZones::makeRigid(const Field3& start, Field3& end) noexcept {
 
 void ImpactZones::stop(const Field3& start, Field3& end) const noexcept {
   for (const std::uint32_t node : members_) {
-    if (pattern_.inverse_mass[node] > 0.0) end.set(node, start.at(node));
+    if (pattern_.canMove(node)) end.set(node, start.at(node));
   }
 }
 

@@ -172,9 +172,9 @@ int ObstacleContacts::advect(const Field3& start, Field3& end) noexcept {
   return count;
 }
 
-// False: it moves with an obstacle already, or is pinned.
+// False: it moves with an obstacle already, is pinned, or held.
 bool ObstacleContacts::advectNode(std::uint32_t node, int obstacle, const Field3& start, Field3& end) noexcept {
-  if (advected_by_[node] >= 0 || pattern_.inverse_mass[node] <= 0.0) return false;
+  if (advected_by_[node] >= 0 || !pattern_.canMove(node)) return false;
   const MovingObstacle& moving = obstacles_.moving(obstacle);
   advected_by_[node] = obstacle;
   advected_.push_back(node);
@@ -192,7 +192,7 @@ bool ObstacleContacts::advectAlong(std::size_t a, std::size_t b, const Field3& s
 
 void ObstacleContacts::freezeRest(const Field3& start, Field3& end) const noexcept {
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    if (advected_by_[n] < 0 && pattern_.inverse_mass[n] > 0.0) end.set(n, start.at(n));
+    if (advected_by_[n] < 0 && pattern_.canMove(n)) end.set(n, start.at(n));
   }
 }
 

@@ -74,7 +74,7 @@ void TautColumns::pin(std::vector<std::uint8_t>& pinned) const noexcept {
   forEachSpan([&](int first, int last, int column) {
     for (int i = first + 1; i < last; ++i) {
       const std::size_t node = pattern_.grid.index(i, column);
-      if (held_[node] != 0) pinned[node] = 1;
+      if (held_[node] != 0) pinned[node] = kHeld;
     }
   });
 }

@@ -2,7 +2,7 @@
 //
 // Columns that are straight between two pins. Rods keep their lengths, so a column whose pins are as far apart as it is
 // long can't move: to sag it would have to be longer. Its rods' equations are singular, and no load on it has a finite
-// tension. So its nodes are pins, too, and move with the line between the two, as long as it is straight.
+// tension. So its nodes are held, and move with the line between the two, as long as it is straight.
 #pragma once
 
 #include <vector>
@@ -26,7 +26,7 @@ class TautColumns final : public Part {
 
  private:
   bool isPin(std::size_t node) const noexcept;
-  bool isHeld(std::size_t node) const noexcept { return held_[node] != 0 && pattern_.pinned[node] == kPinned; }
+  bool isHeld(std::size_t node) const noexcept { return held_[node] != 0 && pattern_.pinned[node] == kHeld; }
   bool find(const ClothState& state) noexcept;
   bool isStraight(const Field3& position, int first, int last, int column) const noexcept;
   template <typename Act>
