@@ -181,7 +181,7 @@ TEST(WaitingObstacles, PushAHeavyHemAside) {
   scene.hem.line_density = 50.0;
   scene.air.inside = scene.air.border = scene.air.corner = 5.0;
   const Rotation lying(Eigen::AngleAxisd(0.5 * kPi, Vec3::UnitY()));
-  ObstacleParams bar = ballAt({}, 0.05);
+  ObstacleParams bar = ballAt(Vec3::Zero(), 0.05);
   bar.shape = ShapeKind::kCylinder;
   bar.length = 1.0;
   bar.friction = 0.0;
