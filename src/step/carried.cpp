@@ -38,6 +38,7 @@ void Step::Memory::carry(Archive& archive) {
   archive.part("constraints", constraints);
   archive.part("tensions", tensions);
   archive.number("held", held);
+  archive.flag("left_off", left_off);
   archive.finite("guide", guide);
   archive.finite("elastic", elastic);
 }
@@ -53,6 +54,7 @@ void Step::carry(Archive& archive) {
   archive.part("constraints", constraints_);
   archive.part("tensions", inertia_.tensions());
   archive.part("account", account_);
+  archive.flag("left_off", left_off_);
 }
 
 void Step::resume(const ClothState& state) noexcept { constraints_.resume(state); }

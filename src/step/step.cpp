@@ -49,6 +49,7 @@ void Step::takeStretchTolerance(double tolerance) noexcept {
 
 void Step::reset() noexcept {
   account_.setHeld(0.0);
+  left_off_ = false;
   constraints_.reset();
   inertia_.forget();
 }
@@ -170,21 +171,22 @@ Step::Progress Step::solveAndVerify(const Attempt& attempt) noexcept {
 
 // Rods alone do no work in steady motion if they pull along their directions half way between the velocities.
 bool Step::needsEnergyCheck(const Attempt& attempt, const Progress& progress) const noexcept {
-  return constraints_.stringsAct() || attempt.scheme.rules().follows ||
+  return left_off_ || constraints_.stringsAct() || attempt.scheme.rules().follows ||
          !EnergyAccount::isSmall(progress.predicted_violation);
 }
 
 // Eq. (5). Decides whether the substep may be accepted: it makes no energy. In contact nothing is left to decide: its
-// forces do no work but against motion.
+// forces do no work but against motion; but what the last substep left off is corrected in this one, and that is no
+// motion.
 void Step::judge(const Attempt& attempt, Progress& progress, SubstepOutcome& outcome) noexcept {
   const bool last_resort = attempt.plan.isLastResort();
   const bool touches = anyPushes(contacts());
   const EnergyAccount::Drive drive{std::max(constraints_.distances().speed(), fastestSurface(contacts())),
                                    2.0 * constraints_.distances().elasticWork(attempt.start, constraints_.next) +
                                        (constraints_.guide() != nullptr ? constraints_.guide()->energy() : 0.0)};
-  if (progress.late || (last_resort && !touches)) {
+  if (progress.late || last_resort) {
     progress.energy.most = account_.most(attempt.scheme.rules(), attempt.start, constraints_.next, drive);
-  } else if (!last_resort && progress.settled && !touches && needsEnergyCheck(attempt, progress)) {
+  } else if (progress.settled && (!touches || left_off_) && needsEnergyCheck(attempt, progress)) {
     const double can_hold = 2.0 * constraints_.canHold(attempt.plan.h, stretch_tolerance_);
     progress.energy = account_.entryOf(attempt.scheme.rules(), attempt.start, constraints_.next, drive, can_hold);
     const double made = progress.energy.made;
@@ -231,6 +233,7 @@ void Step::take(const Attempt& attempt, const Progress& progress, SubstepOutcome
   state.velocity_age = attempt.scheme.rules().age * plan.h;
   if (std::isfinite(progress.energy.most)) account_.bound(progress.energy.most, state.velocity);
   account_.setHeld(progress.energy.held);
+  left_off_ = progress.end != SweepEnd::kConverged || plan.isLastResort();
   if (elastic_ != nullptr) outcome.dissipated = elastic_->commit(state.position);
   outcome.omega_squared = inertia_.omegaSquared();
   if (!anyPushes(contacts()) && !constraints_.stringsPull()) outcome.turning = turning(outcome.kick);

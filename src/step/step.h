@@ -106,6 +106,7 @@ class Step {
     Constraints::Memory constraints;
     NodeInertia::Tensions tensions;
     double held = 0.0;  // EnergyAccount::held()
+    bool left_off = false;
     std::vector<double> guide, elastic;
 
     void carry(Archive& archive);
@@ -158,6 +159,7 @@ class Step {
 
   const ClothPattern& pattern_;
   bool free_;                 // no node is pinned
+  bool left_off_ = false;     // the last substep has not brought links and contacts to where they are to be
   double stretch_tolerance_;  // the user's, relative
   double smallest_rest_;      // of a link [m]
   NodeInertia inertia_;

@@ -87,6 +87,7 @@ void Step::save(Memory& memory) const {
   constraints_.save(memory.constraints);
   memory.tensions = inertia_.tensions();
   memory.held = account_.held();
+  memory.left_off = left_off_;
   if (constraints_.guide() != nullptr) constraints_.guide()->save(memory.guide);
   memory.elastic.clear();
   if (elastic_ != nullptr) elastic_->save(memory.elastic);
@@ -96,6 +97,7 @@ void Step::restore(const Memory& memory) {
   constraints_.restore(memory.constraints);
   inertia_.tensions() = memory.tensions;
   account_.setHeld(memory.held);
+  left_off_ = memory.left_off;
   if (constraints_.guide() != nullptr) constraints_.guide()->restore(memory.guide);
   if (elastic_ != nullptr) elastic_->restore(memory.elastic.data());
 }

@@ -83,7 +83,9 @@ TEST(Strap, CarriesWhatHangsOnIt) {
     Strap strap;
     strap.pinned = true;
     strap.last_load = load;
-    Simulator simulator(strapScene(strap));
+    Scene scene = strapScene(strap);
+    scene.air.inside = scene.air.border = scene.air.corner = 1.0;
+    Simulator simulator(scene);
     const double lower = layOver(simulator, strap) - strap.left;
     double all = 0.0;
     for (int row = 0; row < strap.rows; ++row) all += massOfRow(simulator, row);
