@@ -363,7 +363,7 @@ struct SolverParams {
   double rest_speed = 1e-4;         ///< columns that stay slower for half a second sleep [m/s], [0..1]; 0: none does
   double budget_ms = 0.0;           ///< computing time that a frame may take [ms], [0..1e6]; 0: no limit
   int threads = 0;                  ///< for one cloth [1..256]; 0 = auto: one for every 4000 nodes, at most the cores
-  int max_substeps = 512;  ///< of auto per frame [1..10000]; a solve that fails there is left to the last resort
+  int max_substeps = 256;  ///< of auto per frame [1..10000]; a solve that fails there is left to the last resort
   int max_sweeps = 60;     ///< cap of warp/weft/contact sweeps per substep [1..10000]
   std::uint64_t seed = 1;  ///< of every random number
 };

