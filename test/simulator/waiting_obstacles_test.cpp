@@ -126,7 +126,7 @@ TEST(ObstacleLag, TheMotionOfASubstepIsWhatWasMade) {
   EXPECT_NEAR(obstacles.lag(0), 7.35e-3, 1e-12);
 }
 
-// A blade that turns five times a second into a curtain and has to wait: no node is in it by brute force, so none is by
+// A blade that turns five times a second in a curtain, which gives way: no node is in it by brute force, so none is by
 // the statistics.
 TEST(WaitingObstacles, SpinWhereTheClothHangsFree) {
   Scene scene = flatScene(24, 20, 1.2, 0.9);
