@@ -184,7 +184,9 @@ void Step::judge(const Attempt& attempt, Progress& progress, SubstepOutcome& out
   const EnergyAccount::Drive drive{std::max(constraints_.distances().speed(), fastestSurface(contacts())),
                                    2.0 * constraints_.distances().elasticWork(attempt.start, constraints_.next) +
                                        (constraints_.guide() != nullptr ? constraints_.guide()->energy() : 0.0)};
-  if (progress.late || last_resort) {
+  // What moving pins and obstacles put into jammed cloth by its contacts is more than the account knows of.
+  const bool driven = touches && (last_resort_.pinsMove() || drive.moving > 0.0);
+  if (progress.late || (last_resort && !driven)) {
     progress.energy.most = account_.most(attempt.scheme.rules(), attempt.start, constraints_.next, drive);
   } else if (progress.settled && (!touches || left_off_) && needsEnergyCheck(attempt, progress)) {
     const double can_hold = 2.0 * constraints_.canHold(attempt.plan.h, stretch_tolerance_);

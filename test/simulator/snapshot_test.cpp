@@ -177,11 +177,11 @@ TEST(Snapshot, HasAVersionForEveryLayout) {
   SnapshotParts parts;
   const std::string snapshot = Simulator(all).snapshot();
   ASSERT_FALSE(unpackSnapshot(snapshot, parts).has_value());
-  EXPECT_EQ(kSnapshotVersion, 14U);
-  EXPECT_EQ(parts.layout, 796268729U);
+  EXPECT_EQ(kSnapshotVersion, 15U);
+  EXPECT_EQ(parts.layout, 395993841U);
   const std::string plain = Simulator(flatScene(4, 5)).snapshot();
   ASSERT_FALSE(unpackSnapshot(plain, parts).has_value());
-  EXPECT_EQ(parts.layout, 4141248959U);
+  EXPECT_EQ(parts.layout, 2826718055U);
 }
 
 }  // namespace

@@ -228,7 +228,7 @@ void collectFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, O
       point.curved = true;
       add(substep, pattern, point, of_edge.distance, core, 0, contacts);
     }
-    if (!(of_face.nearest.surface.distance < nearest_edge - kNearer * core)) continue;
+    if (!(of_face.nearest.surface.distance < nearest_edge - kNearer * (core - substep.moving.padding))) continue;
     ContactPoint point = contactPoint(face.node, of_face.nearest, of_face.at, start);
     point.curved = true;
     add(substep, pattern, point, of_face.distance, core, 0, contacts);
