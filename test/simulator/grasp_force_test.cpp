@@ -57,7 +57,7 @@ TEST(Grasp, FeelsTheWeight) {
     if (kind == 1) grasp.stiffness = 40.0;
     if (kind == 2) grasp.pinch_force = 10.0;
     ASSERT_EQ(refusal(simulator, grasp), "");
-    for (int frame = 0; frame < 1500; ++frame) simulator.step();
+    for (int frame = 0; frame < 1800; ++frame) simulator.step();
     const GraspState state = *simulator.graspState("hand");
     EXPECT_LE((state.force - Vec3(0.0, 0.0, -kWeight)).norm(), 1e-3 * kWeight);
     Vec3 torque = Vec3::Zero();
