@@ -25,7 +25,7 @@ using curtain::Archive;
 
 constexpr std::string_view kMagic = "curtain checkpoint\n";
 /// To be raised with every change of what carry() lists, or of its meaning.
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 constexpr std::size_t kHeader = kMagic.size() + sizeof(std::uint32_t) + sizeof(std::uint64_t);
 constexpr std::size_t kChecksum = sizeof(std::uint32_t);
 
@@ -50,8 +50,10 @@ void carry(Archive& archive, RunIdentity& run, Progress& progress, std::string& 
     archive.numbers("torque", load.torque);
     archive.number("time", load.time);
   });
-  archive.integer("bytes", progress.states.bytes, 0, kHighest);
-  archive.integer("hash", progress.states.hash, kLowest, kHighest);
+  for (TableMark* const mark : {&progress.states, &progress.wrenches}) {
+    archive.integer("bytes", mark->bytes, 0, kHighest);
+    archive.integer("hash", mark->hash, kLowest, kHighest);
+  }
   archive.text("snapshot", snapshot);
 }
 
@@ -120,6 +122,7 @@ RunIdentity identityOf(const Options& options, const curtain::Simulator& simulat
   run.options = {{"--duration", text(options.duration)},
                  {"--sample", samples},
                  {"--out", options.out},
+                 {"--wrenches", options.wrenches},
                  {"--mesh", options.mesh},
                  {"--stats", options.stats},
                  {"--save", options.save},

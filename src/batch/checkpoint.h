@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "batch/options.h"
-#include "batch/states_file.h"
+#include "batch/table_file.h"
 #include "curtain_sim/simulator.h"
 #include "simulator/export.h"
 
@@ -25,7 +25,8 @@ namespace curtain_batch {
 /// What a run has beside its simulator.
 struct Progress {
   curtain::RunSums sums;  ///< of its frames so far
-  StatesMark states;      ///< of --out
+  TableMark states;       ///< of --out
+  TableMark wrenches;     ///< of --wrenches
 };
 
 /// What must be the same for a checkpoint to be this run's: options and their values, and the scene as text.

@@ -24,6 +24,7 @@ const char* const kUsage =
     "  --out FILE.csv     states t,row,column,x,y,z,vx,vy,vz of the first-layer nodes\n"
     "  --sample T,T,...   times of these states [s], each at the first frame not before it (default: the end)\n"
     "  --sample-rate HZ   so many states a second instead, from the start on\n"
+    "  --wrenches FILE    t,obstacle,fx,fy,fz,tx,ty,tz,contacts of every frame, as CSV: what obstacles feel\n"
     "  --mesh FILE        fine mesh at the end, .ply, .obj or .stl\n"
     "  --stats FILE.json  what it took and how well it went\n"
     "  --save FILE        snapshot at the end, for --restore\n"
@@ -104,8 +105,11 @@ void checkMeshName(const std::string& path) {
 
 // A checkpoint that another output overwrites, or that overwrites one, is none.
 void checkOutputs(const Options& options) {
-  const std::pair<const char*, const std::string&> outputs[] = {
-      {"--out", options.out}, {"--mesh", options.mesh}, {"--stats", options.stats}, {"--save", options.save}};
+  const std::pair<const char*, const std::string&> outputs[] = {{"--out", options.out},
+                                                                {"--wrenches", options.wrenches},
+                                                                {"--mesh", options.mesh},
+                                                                {"--stats", options.stats},
+                                                                {"--save", options.save}};
   const auto place = [](const std::string& path) {
     return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
   };
@@ -119,9 +123,10 @@ void checkOutputs(const Options& options) {
 }
 
 const std::map<std::string, std::string Options::*> kTexts = {
-    {"--method", &Options::method},        {"--out", &Options::out},   {"--mesh", &Options::mesh},
-    {"--stats", &Options::stats},          {"--save", &Options::save}, {"--restore", &Options::restore},
-    {"--checkpoint", &Options::checkpoint}};
+    {"--method", &Options::method},     {"--out", &Options::out},
+    {"--wrenches", &Options::wrenches}, {"--mesh", &Options::mesh},
+    {"--stats", &Options::stats},       {"--save", &Options::save},
+    {"--restore", &Options::restore},   {"--checkpoint", &Options::checkpoint}};
 const std::map<std::string, int Options::*> kCounts = {
     {"--substeps", &Options::substeps}, {"--rows", &Options::rows}, {"--columns", &Options::columns}};
 const std::map<std::string, bool Options::*> kFlags = {{"--progress", &Options::progress},

@@ -16,7 +16,7 @@ extern const char* const kUsage;
 struct Options {
   std::vector<std::string> scenes;  ///< paths; one, or any number with check
   double duration = 1.0;            ///< [s]
-  std::string method, out, mesh, stats, save, restore, checkpoint;
+  std::string method, out, wrenches, mesh, stats, save, restore, checkpoint;
   double every = 10.0;  ///< between two checkpoints, simulated [s]
   int substeps = 0, rows = 0, columns = 0;
   std::vector<double> samples;  ///< [s], not decreasing

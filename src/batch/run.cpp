@@ -6,6 +6,8 @@
 #include <iostream>
 #include <optional>
 
+#include "simulator/export.h"
+
 namespace curtain_batch {
 namespace {
 
@@ -25,11 +27,8 @@ class Run {
       }
     }
     progress_.sums.frame_seconds.reserve(std::min<std::size_t>(framesIn(options.duration), 1000000));
-    if (options.out.empty()) return;
-    if (resumed_)
-      states_.emplace(options.out, progress_.states);
-    else
-      states_.emplace(options.out);
+    open(options.out, progress_.states, &curtain::writeStateHeader, states_);
+    open(options.wrenches, progress_.wrenches, &curtain::writeWrenchHeader, wrenches_);
   }
 
   void make() {
@@ -43,17 +42,34 @@ class Run {
     while (!isOver()) {
       simulator_.step();
       progress_.sums.add(simulator_);
+      if (wrenches_) wrenches_->add([this](std::ostream& out) { curtain::writeWrenches(simulator_, out); });
       write();
       if (options_.progress && frames() % static_cast<std::size_t>(std::max(1.0, rate_)) == 0) {
         std::cerr << "t = " << simulator_.time() << " s, " << simulator_.statistics().substeps_last << " substeps\n";
       }
     }
-    if (states_) states_->flush();
+    for (std::optional<TableFile>* const table : {&states_, &wrenches_}) {
+      if (*table) (*table)->flush();
+    }
   }
 
   Progress takeProgress() { return std::move(progress_); }
 
  private:
+  void open(const std::string& path, const TableMark& mark, void (*header)(std::ostream&),
+            std::optional<TableFile>& table) const {
+    if (path.empty()) return;
+    if (resumed_) {
+      table.emplace(path, mark);
+    } else {
+      table.emplace(path);
+      table->add(header);
+    }
+  }
+  void addState() {
+    states_->add([this](std::ostream& out) { curtain::writeState(simulator_, out); });
+  }
+
   std::size_t framesIn(double seconds) const { return static_cast<std::size_t>(std::ceil(seconds * rate_ - 1e-6)); }
   bool keepsCheckpoints() const { return !options_.checkpoint.empty(); }
 
@@ -63,9 +79,9 @@ class Run {
   // What is due after a frame, or at the start.
   void write() {
     for (; sampleIsDue(); ++next_) {
-      if (states_) states_->add(simulator_);
+      if (states_) addState();
     }
-    if (states_ && options_.samples.empty() && isOver()) states_->add(simulator_);
+    if (states_ && options_.samples.empty() && isOver()) addState();
     if (keepsCheckpoints() && (isOver() || frames() % every_ == 0)) keep();
   }
 
@@ -80,7 +96,9 @@ class Run {
   // From what is not finite nothing goes on.
   void keep() {
     if (!simulator_.statistics().finite) return;
-    if (states_) progress_.states = states_->toDisk();  // before the checkpoint that counts on it
+    // Before the checkpoint that counts on them.
+    if (states_) progress_.states = states_->toDisk();
+    if (wrenches_) progress_.wrenches = wrenches_->toDisk();
     writeCheckpoint(options_.checkpoint, identity_, simulator_, progress_);
   }
 
@@ -90,7 +108,7 @@ class Run {
   std::size_t every_;  // frames between two checkpoints
   RunIdentity identity_;
   Progress progress_;
-  std::optional<StatesFile> states_;
+  std::optional<TableFile> states_, wrenches_;
   std::size_t next_ = 0;  // of the samples
   bool resumed_ = false;
 };

@@ -75,6 +75,18 @@ nlohmann::ordered_json toJson(const ContactWrench& wrench) {
 
 }  // namespace
 
+namespace {
+
+// A field of a CSV file (RFC 4180).
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char letter : text) quoted += letter == '"' ? std::string(2, letter) : std::string(1, letter);
+  return quoted + '"';
+}
+
+}  // namespace
+
 void writeStateHeader(std::ostream& out) { out << "t,row,column,x,y,z,vx,vy,vz\n"; }
 
 void writeState(const Simulator& simulator, std::ostream& out) {
@@ -90,6 +102,19 @@ void writeState(const Simulator& simulator, std::ostream& out) {
       out << simulator.time() << ',' << i << ',' << j << ',' << x.x() << ',' << x.y() << ',' << x.z() << ',' << v.x()
           << ',' << v.y() << ',' << v.z() << '\n';
     }
+  }
+}
+
+void writeWrenchHeader(std::ostream& out) { out << "t,obstacle,fx,fy,fz,tx,ty,tz,contacts\n"; }
+
+void writeWrenches(const Simulator& simulator, std::ostream& out) {
+  out << std::setprecision(17);
+  for (int obstacle = 0; obstacle < simulator.obstacleCount(); ++obstacle) {
+    const ContactWrench wrench = simulator.contactWrench(obstacle);
+    out << simulator.time() << ',' << field(simulator.scene().obstacles[static_cast<std::size_t>(obstacle)].name);
+    for (const Vec3* const vector : {&wrench.force, &wrench.torque})
+      out << ',' << vector->x() << ',' << vector->y() << ',' << vector->z();
+    out << ',' << wrench.contacts << '\n';
   }
 }
 

@@ -16,6 +16,11 @@ namespace curtain {
 void writeStateHeader(std::ostream& out);
 void writeState(const Simulator& simulator, std::ostream& out);
 
+/// Wrench of the cloth on each obstacle, mean over the last frame, about the obstacle's origin, world axes [N], [N m]:
+/// a CSV line an obstacle.
+void writeWrenchHeader(std::ostream& out);
+void writeWrenches(const Simulator& simulator, std::ostream& out);
+
 /// Kinds of mesh files, with the endings of their names, for messages.
 enum class MeshFormat { kPly, kObj, kStl };
 constexpr char kMeshEndings[] = ".ply, .obj or .stl";

@@ -33,8 +33,8 @@ class Checkpoints : public BatchTest {
     std::string times = "0,1";  // most are late: the first checkpoints come before them
     for (int tenth = 1; tenth < 100; tenth += 2)
       times += ",2." + std::string(tenth < 10 ? "0" : "") + std::to_string(tenth);
-    return {scene_,           "--duration", "3",           "--out",   name + ".csv", "--sample",
-            times + ",2.995", "--mesh",     name + ".ply", "--stats", name + ".json"};
+    return {scene_,   "--duration",  "3",       "--out",        name + ".csv", "--sample",     times + ",2.995",
+            "--mesh", name + ".ply", "--stats", name + ".json", "--wrenches",  name + ".w.csv"};
   }
   std::vector<std::string> kept(const std::string& name, const std::string& every = "0.1") const {
     std::vector<std::string> arguments = outputs(name);
@@ -63,6 +63,7 @@ class Checkpoints : public BatchTest {
 
   void expectWhole(const std::string& name) const {
     EXPECT_EQ(readFile(path(name + ".csv")), readFile(path("whole.csv")));
+    EXPECT_EQ(readFile(path(name + ".w.csv")), readFile(path("whole.w.csv")));
     EXPECT_EQ(readFile(path(name + ".ply")), readFile(path("whole.ply")));
     auto whole = nlohmann::json::parse(readFile(path("whole.json")));
     auto own = nlohmann::json::parse(readFile(path(name + ".json")));

@@ -348,6 +348,25 @@ TEST_F(Options, StatisticsHaveTheMeanForceOnAnObstacle) {
   EXPECT_NEAR(run.at("wrenches").at("box").at("mean").at("force")[2], -weight, 0.01 * weight);
 }
 
+TEST_F(Options, WrenchesAreALineAnObstacleAndFrame) {
+  const std::string scene = smallScene(
+      "hang: {tilt: 1.5707963, from: [-0.4, 0.5, 0.504], to: [0.4, 0.5, 0.504]}\npins: none\n"
+      "obstacles:\n  - {name: 'table, \"old\"', shape: box, size: [2, 2, 1]}\n"
+      "  - {name: ball, shape: sphere, radius: 0.1, position: [5, 0, 0]}\n");
+  ASSERT_EQ(batch({scene, "--duration", "0.5", "--wrenches", "w.csv", "--stats", "s.json"}).exit_code, 0);
+  const std::vector<std::string> rows = lines(readFile(path("w.csv")));
+  ASSERT_EQ(rows.size(), 1U + 2U * 30U);
+  EXPECT_EQ(rows.front(), "t,obstacle,fx,fy,fz,tx,ty,tz,contacts");
+  const std::string name = "\"table, \"\"old\"\"\"";
+  const std::string& last = rows[rows.size() - 2];
+  ASSERT_NE(last.find(name), std::string::npos) << last;
+  const auto stats = nlohmann::json::parse(readFile(path("s.json")));
+  const auto told = stats.at("wrenches").at("table, \"old\"");
+  EXPECT_EQ(std::stod(cells(last.substr(last.find(name) + name.size()))[3]), told.at("force").at(2).get<double>());
+  EXPECT_EQ(cells(rows.back())[1], "ball");
+  EXPECT_EQ(cells(rows.back())[4], "0");
+}
+
 TEST_F(Options, OutputsAreWrittenWhereTheyAreAskedAndNowhereElse) {
   const Outcome run = batch({smallScene(), "--out", "s.csv", "--mesh", "m.obj", "--stats", "t.json"});
   EXPECT_EQ(run.exit_code, 0) << run.err;

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "batch/states_file.h"
+#include "batch/table_file.h"
 
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <ostream>
 #include <stdexcept>
-
-#include "simulator/export.h"
 
 namespace curtain_batch {
 namespace {
@@ -19,9 +16,9 @@ namespace {
 }
 
 // The mark's hash, of the first bytes of the file; stops where the file ends.
-StatesMark markOf(int descriptor, std::uint64_t bytes) {
+TableMark markOf(int descriptor, std::uint64_t bytes) {
   std::array<char, 1 << 16> buffer{};
-  StatesMark mark;
+  TableMark mark;
   curtain::Fnv1a hash;
   while (mark.bytes < bytes) {
     const ssize_t count = ::read(descriptor, buffer.data(), std::min<std::uint64_t>(buffer.size(), bytes - mark.bytes));
@@ -36,18 +33,15 @@ StatesMark markOf(int descriptor, std::uint64_t bytes) {
 
 }  // namespace
 
-StatesFile::StatesFile(const std::string& path)
+TableFile::TableFile(const std::string& path)
     : path_(path), file_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
   if (!file_.isOpen()) fail(path_, "cannot be written");
   setp(buffer_.data(), buffer_.data() + buffer_.size());
-  std::ostream out(this);
-  out.exceptions(std::ios::badbit);  // lets the reason through
-  curtain::writeStateHeader(out);
 }
 
-StatesFile::StatesFile(const std::string& path, const StatesMark& mark)
+TableFile::TableFile(const std::string& path, const TableMark& mark)
     : path_(path), file_(::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC)), mark_(mark) {
-  const StatesMark there = file_.isOpen() ? markOf(file_.descriptor(), mark.bytes) : StatesMark{};
+  const TableMark there = file_.isOpen() ? markOf(file_.descriptor(), mark.bytes) : TableMark{};
   if (there.bytes != mark.bytes || there.hash != mark.hash) {
     throw std::invalid_argument(path + ": is not the file that the checkpoint goes on with");
   }
@@ -58,15 +52,9 @@ StatesFile::StatesFile(const std::string& path, const StatesMark& mark)
   setp(buffer_.data(), buffer_.data() + buffer_.size());
 }
 
-void StatesFile::add(const curtain::Simulator& simulator) {
-  std::ostream out(this);
-  out.exceptions(std::ios::badbit);
-  curtain::writeState(simulator, out);
-}
+void TableFile::flush() { writeBuffer(); }
 
-void StatesFile::flush() { writeBuffer(); }
-
-StatesMark StatesFile::toDisk() {
+TableMark TableFile::toDisk() {
   writeBuffer();
   // A pipe or a device can't wait for a disk.
   if (::fsync(file_.descriptor()) != 0 && errno != EINVAL && errno != ENOTSUP) fail(path_, "cannot be written");
@@ -75,13 +63,13 @@ StatesMark StatesFile::toDisk() {
   return mark_;
 }
 
-StatesFile::int_type StatesFile::overflow(int_type character) {
+TableFile::int_type TableFile::overflow(int_type character) {
   writeBuffer();
   if (!traits_type::eq_int_type(character, traits_type::eof())) sputc(traits_type::to_char_type(character));
   return traits_type::not_eof(character);
 }
 
-void StatesFile::writeBuffer() {
+void TableFile::writeBuffer() {
   while (pbase() < pptr()) {
     const ssize_t count = ::write(file_.descriptor(), pbase(), static_cast<std::size_t>(pptr() - pbase()));
     if (count < 0 && errno == EINTR) continue;
