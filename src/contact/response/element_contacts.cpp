@@ -7,13 +7,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "contact/narrow_phase/closest_points.h"
 #include "contact/narrow_phase/element_pairs.h"
 #include "curtain_sim/ccd.h"
 #include "obstacles/convex_shape.h"
+#include "scene/infinity.h"
 
 namespace curtain {
 namespace {
@@ -210,7 +210,7 @@ void collectFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, O
     Touching of_face;
     const auto impact = [&](const Corners& a, const Corners& b) { return shape.timeOfImpact(a, b, core); };
     if (!touches(candidates, start, end, close ? &nearest : nullptr, on_face, impact, of_face)) continue;
-    double nearest_edge = std::numeric_limits<double>::infinity();
+    double nearest_edge = kInfinity;
     for (std::size_t k = 0; k < 3; ++k) {
       // The same of both faces of an edge.
       const auto [a, b] = std::minmax(face.node[k], face.node[(k + 1) % 3]);
@@ -235,14 +235,20 @@ void collectFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, O
   }
 }
 
-void relinearise(const ConvexShape& shape, const Transform& place, const Field3& position, Contact& contact) noexcept {
-  const auto at = [&](std::size_t k) { return place.toLocal(position.at(contact.node[k])); };
-  ElementPoint nearest;
-  const bool found =
-      contact.nodes == 2
-          ? shape.nearestOnEdge({at(0), at(1)}, std::numeric_limits<double>::infinity(), nearest)
-          : shape.nearestOnTriangle({at(0), at(1), at(2)}, std::numeric_limits<double>::infinity(), nearest);
-  if (found) contact.turnTo(place.rotation * nearest.surface.normal, nearest.surface.distance, position);
+void relinearise(const ContactShape& shape, const Transform& place, const Field3& position, Contact& contact) noexcept {
+  Corners at;
+  for (std::size_t k = 0; k < 3; ++k)
+    at[k] = place.toLocal(position.at(contact.node[std::min(k, static_cast<std::size_t>(contact.nodes) - 1)]));
+  if (const ConvexShape* const convex = shape.convex()) {
+    ElementPoint nearest;
+    const bool found = contact.nodes == 2 ? convex->nearestOnEdge({at[0], at[1]}, kInfinity, nearest)
+                                          : convex->nearestOnTriangle(at, kInfinity, nearest);
+    if (found) contact.turnTo(place.rotation * nearest.surface.normal, nearest.surface.distance, position);
+    return;
+  }
+  const FeaturePair pair{{}, contact.source / 2, contact.source % 2 != 0};
+  const PairPoint point = closest(pair, *shape.features(), at);
+  if (point.distance > 0.0) contact.turnTo(place.rotation * (point.apart / point.distance), point.distance, position);
 }
 
 void collectPenetratingFaces(const ObstacleSubstep& substep, const ClothPattern& pattern,
@@ -272,7 +278,7 @@ void crossingFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, 
     const std::optional<double> time = shape.timeOfImpact(start, end, candidates.least(distance));
     if (!time) continue;
     const Corners at = between(start, end, *time);
-    if (!shape.nearestOnTriangle(at, std::numeric_limits<double>::infinity(), nearest)) continue;
+    if (!shape.nearestOnTriangle(at, kInfinity, nearest)) continue;
     ContactPoint point = contactPoint(face.node, nearest, at, start);
     point.curved = true;
     add(substep, pattern, point, distance, candidates.core(), 0, crossings);
@@ -298,11 +304,13 @@ void collectPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, c
       const PairPoint there = closest(pair, features, at);
       if (!there.inside || !(there.distance > 0.0) || there.distance > listed) continue;
       ContactPoint point = contactPoint(pair, there, at, start);
+      point.curved = true;
       add(substep, pattern, point, candidates.thickness(), candidates.core(), sourceOf(pair), contacts);
       continue;
     }
     if (!first.inside || !(first.distance > 0.0)) continue;
     ContactPoint point = contactPoint(pair, first, start, start);
+    point.curved = true;
     SurfacePoint surface;
     double distance = first.distance;
     if (isInside(pair, candidates, first, start, surface)) {
@@ -337,6 +345,7 @@ void crossingPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, 
       there = first;
     }
     ContactPoint point = contactPoint(pair, there, at, start);
+    point.curved = true;
     add(substep, pattern, point, first.distance, candidates.core(), sourceOf(pair), crossings);
   }
 }

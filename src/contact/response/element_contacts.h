@@ -59,7 +59,7 @@ void collectPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, c
 
 /// Sets the plane of a contact of an edge or a face that is curved to that of where its nodes are now; place: of the
 /// shape.
-void relinearise(const ConvexShape& shape, const Transform& place, const Field3& position, Contact& contact) noexcept;
+void relinearise(const ContactShape& shape, const Transform& place, const Field3& position, Contact& contact) noexcept;
 
 /// Crossings along the motion that the candidates were found for. Parts that start inside are skipped.
 void crossingNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, ObstacleCandidates& candidates,

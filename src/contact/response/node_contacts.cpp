@@ -42,7 +42,7 @@ bool makeContact(const ObstacleSubstep& substep, const ClothPattern& pattern, co
   contact.normal = contact.level = moving.after.rotation * point.normal;
   contact.offset = point.height + contact.level.dot(moving.after.translation);
   contact.asked = point.asked;
-  contact.curved = point.curved && point.distance >= 0.0;
+  contact.curved = point.curved && point.distance >= 0.0 && contact.nodes == point.nodes;
   if (contact.curved && substep.act == ContactFinder::ForcesAct::kAtStart)
     contact.normal = moving.before.rotation * point.normal;
   // No friction on the way out: it could lock cloth around an edge for good.

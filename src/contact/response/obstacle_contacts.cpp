@@ -99,7 +99,7 @@ void ObstacleContacts::relinearise(const Field3& position, Contacts& contacts) n
     const auto obstacle = static_cast<std::size_t>(contact.obstacle);
     const Transform& place = moving(obstacle).after;
     if (contact.nodes > 1) {
-      curtain::relinearise(*candidates_[obstacle].shape().convex(), place, position, contact);
+      curtain::relinearise(candidates_[obstacle].shape(), place, position, contact);
       continue;
     }
     const std::uint32_t node = contact.node[0];
