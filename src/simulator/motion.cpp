@@ -20,6 +20,7 @@ Motion::Motion(const Scene& scene_, const ClothPattern& pattern_, const FrameTim
       lag(pattern, times, obstacles, contact),
       step(pattern, parts.forSolver(), scene.solver.stretch_tolerance, scene.solver.max_sweeps, workers),
       paper(pattern) {
+  for (Part* const part : parts.all) part->reset(state);
   measureParts();
   step.expectContacts(contact.capacity());
   velocities_.assign(pattern.grid.size(), 0.0);
