@@ -19,16 +19,15 @@ void Sleep::wake() {
   if (rest_.wake()) takeOver();
 }
 
-// What keeps it awake matters only to cloth that may fall asleep soon, so not before rest_ watches. Cloth whose substeps
-// were stopped stands, but does not rest.
+// What keeps it awake matters only to cloth that may fall asleep soon, so not before rest_ watches. Cloth whose
+// substeps were stopped stands, but does not rest.
 void Sleep::fallAsleep() {
   const ClothState& state = motion_.state;
   const PartList& parts = motion_.parts.all;
   if (parts.any([&](const Part& part) { return part.isUnderWay(state); }) || !rest_.due()) return;
   const double now = motion_.statistics.time;
-  const bool kept =
-      motion_.statistics.stops_last > 0 ||
-      (rest_.watches() && parts.any([&](const Part& part) { return part.keepsAwake(state, now); }));
+  const bool kept = motion_.statistics.stops_last > 0 ||
+                    (rest_.watches() && parts.any([&](const Part& part) { return part.keepsAwake(state, now); }));
   const Contacts* const contacts = motion_.pushing();
   const bool touches = contacts != nullptr && anyPushes(*contacts);
   if (!rest_.look(state, motion_.times.madeTime(), kept, touches)) return;

@@ -4,8 +4,8 @@
 //
 //   simulation  ERROR  the state was not finite; no frame for 5 s although the clock runs and nobody paused the node
 //               WARN   no frame yet (a /clock that stops later is OK); links longer than the scene's tolerance;
-//                      slower than 0.95 of the clock; lately: substeps unsettled, of the last resort or stopped, frames dropped, late or shortened, /clock
-//                      jumped back, the computer's clock set back
+//                      slower than 0.95 of the clock; lately: substeps unsettled, of the last resort or stopped,
+//                      frames dropped, late or shortened, /clock jumped back, the computer's clock set back
 //   inputs      WARN   lately: messages refused, in unknown frames, too many for a frame, dropped in roscpp's queue
 //   obstacles   WARN   one left out, late (half of ~obstacle_timeout), ahead of the clock, or behind its frame; no
 //                      viewer's frame; a sensor that sees nothing; lately: one waited for jammed cloth
