@@ -123,9 +123,10 @@ class Constraints {
   void saveIterate();
   void restoreIterate() noexcept;
 
-  /// Energy that links can hold in a substep of h [s] by being off one way and then the other as far as the relative
-  /// tolerance lets them [J]: a pull of T that is off by e holds T e.
-  double canHold(double h, double tolerance) const noexcept;
+  /// Energy that links and contacts can hold in a substep of h [s] by being off one way and then the other as far as
+  /// the tolerance lets them [J]: a pull of T that is off by e holds T e. tolerance: relative, of links;
+  /// contact_tolerance: [m].
+  double canHold(double h, double tolerance, double contact_tolerance) const noexcept;
 
   /// Energy that links hold at the start of a substep of h [s] by being off further than the tolerance [J]. They were
   /// put there, or left so by the last resort.

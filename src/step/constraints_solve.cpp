@@ -152,11 +152,12 @@ double Constraints::merit(double rods_lack) noexcept {
   return sum;
 }
 
-double Constraints::canHold(double h, double tolerance) const noexcept {
-  double links = pullsTimesLengths(warp_.multiplier, pattern_.warp_rest);
+double Constraints::canHold(double h, double tolerance, double contact_tolerance) const noexcept {
+  double links = pullsTimesLengths(warp_.multiplier, pattern_.warp_rest), touch = 0.0;
   if (directions_set_) links += pullsTimesLengths(weft_.multiplier, pattern_.weft_rest);
   for (const DistanceRow& row : distances_.all()) links += row.multiplier * row.length * row.length;
-  return 2.0 * links * tolerance / (h * h);
+  for (const Contact& contact : contacts_.all()) touch += std::abs(contact.push);
+  return 2.0 * (links * tolerance + touch * contact_tolerance) / (h * h);
 }
 
 double Constraints::heldBeyond(const Field3& start, double h, double tolerance) const noexcept {

@@ -59,6 +59,19 @@ double fastestSurface(const Contacts& contacts) noexcept {
   return std::sqrt(fastest);
 }
 
+double fastestDrive(const Contacts& contacts, double h) noexcept {
+  double fastest = fastestSurface(contacts);
+  for (const Contact& contact : contacts) {
+    if (contact.pushes()) fastest = std::max(fastest, contact.recovery / std::abs(h));
+  }
+  return fastest;
+}
+
+bool pressesOnItself(const Contacts& contacts) noexcept {
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [](const Contact& contact) { return contact.obstacle == Contact::kCloth && contact.pushes(); });
+}
+
 bool anyPushes(const Contacts& contacts) noexcept {
   return std::any_of(contacts.begin(), contacts.end(), [](const Contact& contact) { return contact.pushes(); });
 }

@@ -101,7 +101,13 @@ void beginContacts(const Field& inverse_inertia, double scale, double ratio, std
 /// Largest speed of an obstacle's point that is pushed on [m/s].
 double fastestSurface(const Contacts& contacts) noexcept;
 
+/// Largest speed that contacts drive points with [m/s]: that of the surface, or of depenetration in a step of h [s].
+double fastestDrive(const Contacts& contacts, double h) noexcept;
+
 bool anyPushes(const Contacts& contacts) noexcept;
+
+/// A contact of the cloth with itself pushes.
+bool pressesOnItself(const Contacts& contacts) noexcept;
 
 /// A contact with an obstacle pushes.
 bool pressesOnObstacle(const Contacts& contacts) noexcept;

@@ -53,7 +53,7 @@ EnergyAccount::Entry EnergyAccount::entryOf(const Scheme::Rules& rules, const Su
   const Vec3 frame = frameOf(start.state.velocity);
   Sums sums = sumsOf(start, end, frame, rules.follows);
   sums.put_in += drive.put_in;
-  const double driven = drivenBy(start.state.velocity, frame, drive.moving);
+  const double driven = drivenBy(start.state.velocity, frame, drive.pushed);
   const bool moved = fastest(start.state.velocity, frame, drive.moving) > 0.0;
   const double held = std::min(held_, can_hold), taken = moved ? 0.0 : sums.put_in - sums.stepped;
   Entry entry;
@@ -70,7 +70,7 @@ double EnergyAccount::most(const Scheme::Rules& rules, const SubstepStart& start
                            const Drive& drive) const noexcept {
   const Vec3 frame = frameOf(start.state.velocity);
   return mostOf(sumsOf(start, end, frame, rules.follows).put_in + drive.put_in,
-                drivenBy(start.state.velocity, frame, drive.moving));
+                drivenBy(start.state.velocity, frame, drive.pushed));
 }
 
 double EnergyAccount::most(const Field3& velocity, double surface) const noexcept {

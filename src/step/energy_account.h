@@ -12,9 +12,9 @@
 // work is that without links. Past pins that move at u, sqrt(2 E) grows by 2 u sqrt(M) at most. Pins that draw a flat
 // string taut put in more, against its tension; that is not bounded here.
 //
-// Links need not hold exactly. One that pulls with T while it gives way by e takes T e, and gives it back when it is
-// corrected: what they take is held until then, as far as the tolerance lets them hold it. What they give beyond that
-// is made from nothing. Contacts make none: see docs/method.md, "Contact".
+// Links and contacts need not hold exactly. One that pulls with T while it gives way by e takes T e, and gives it back
+// when it is corrected: what they take is held until then, as far as the tolerance lets them hold it. What they give
+// beyond that is made from nothing.
 #pragma once
 
 #include <cstddef>
@@ -46,17 +46,18 @@ class EnergyAccount {
   /// What puts energy in beside forces and pins.
   struct Drive {
     double moving = 0.0;  ///< fastest that obstacles and parts move points [m/s]
+    double pushed = 0.0;  ///< the same, or that points come out of what they are too deep in [m/s]
     double put_in = 0.0;  ///< twice what guides and rows that give did [J]
   };
   struct Entry {
     double most = std::numeric_limits<double>::infinity();  ///< to bound the velocities by; infinite: no need
-    double held = 0.0;                                      ///< by links after the substep
+    double held = 0.0;                                      ///< by links and contacts after the substep
     double made = 0.0;                                      ///< from nothing
   };
   /// Whether a substep of rods alone needs no entry: predicted_violation is the largest relative violation of a rod
   /// after the prediction with the last substep's multipliers.
   static bool isSmall(double predicted_violation) noexcept;
-  /// Of a solved substep. can_hold: what links can hold by their tolerance.
+  /// Of a solved substep. can_hold: what links and contacts can hold by their tolerance.
   Entry entryOf(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end, const Drive& drive,
                 double can_hold) const noexcept;
   /// What links that are off by the tolerance at both ends of a substep of h [s] turn into speed: the more, the shorter
@@ -70,7 +71,7 @@ class EnergyAccount {
   /// Scales the free nodes' velocities in the world down until the excess over that is gone.
   void bound(double most, Field3& velocity) const noexcept;
 
-  /// What links hold.
+  /// What links and contacts hold.
   double held() const noexcept { return held_; }
   void setHeld(double held) noexcept { held_ = held; }
 

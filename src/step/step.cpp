@@ -171,25 +171,30 @@ Step::Progress Step::solveAndVerify(const Attempt& attempt) noexcept {
 
 // Rods alone do no work in steady motion if they pull along their directions half way between the velocities.
 bool Step::needsEnergyCheck(const Attempt& attempt, const Progress& progress) const noexcept {
-  return left_off_ || constraints_.stringsAct() || attempt.scheme.rules().follows ||
+  return left_off_ || anyPushes(contacts()) || constraints_.stringsAct() || attempt.scheme.rules().follows ||
          !EnergyAccount::isSmall(progress.predicted_violation);
 }
 
-// Eq. (5). Decides whether the substep may be accepted: it makes no energy. In contact nothing is left to decide: its
-// forces do no work but against motion; but what the last substep left off is corrected in this one, and that is no
-// motion.
+// Eq. (5). Decides whether the substep may be accepted: it makes no energy. Contacts with obstacles alone need no
+// check: they are asked for their distance at the end, and their forces do no work but against motion. Those of the
+// cloth with itself keep the plane of the start. And what the last substep left off is corrected in this one, which is
+// no motion.
 void Step::judge(const Attempt& attempt, Progress& progress, SubstepOutcome& outcome) noexcept {
   const bool last_resort = attempt.plan.isLastResort();
   const bool touches = anyPushes(contacts());
-  const EnergyAccount::Drive drive{std::max(constraints_.distances().speed(), fastestSurface(contacts())),
+  const double parts = constraints_.distances().speed();
+  const EnergyAccount::Drive drive{std::max(parts, fastestSurface(contacts())),
+                                   std::max(parts, fastestDrive(contacts(), attempt.plan.h)),
                                    2.0 * constraints_.distances().elasticWork(attempt.start, constraints_.next) +
                                        (constraints_.guide() != nullptr ? constraints_.guide()->energy() : 0.0)};
   // What moving pins and obstacles put into jammed cloth by its contacts is more than the account knows of.
   const bool driven = touches && (last_resort_.pinsMove() || drive.moving > 0.0);
   if (progress.late || (last_resort && !driven)) {
     progress.energy.most = account_.most(attempt.scheme.rules(), attempt.start, constraints_.next, drive);
-  } else if (progress.settled && (!touches || left_off_) && needsEnergyCheck(attempt, progress)) {
-    const double can_hold = 2.0 * constraints_.canHold(attempt.plan.h, stretch_tolerance_);
+  } else if (progress.settled && (!touches || left_off_ || pressesOnItself(contacts())) &&
+             needsEnergyCheck(attempt, progress)) {
+    const double can_hold =
+        2.0 * constraints_.canHold(attempt.plan.h, stretch_tolerance_, stretch_tolerance_ * smallest_rest_);
     progress.energy = account_.entryOf(attempt.scheme.rules(), attempt.start, constraints_.next, drive, can_hold);
     const double made = progress.energy.made;
     if (made > account_.fromTolerance(attempt.plan.h) &&

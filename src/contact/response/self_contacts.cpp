@@ -161,6 +161,7 @@ void SelfContacts::collect(const Candidates& candidates, const Contacts& last, c
     if (!closest.inside || closest.distance <= 0.0 || isRedundant(k)) continue;
     Contact contact = makeContact(key, closest);
     contact.offset = offsetAt(closest.distance, h);
+    contact.recovery = std::max(0.0, contact.offset - closest.distance);
     addWithinRoom(contact, contacts);
   }
 }
@@ -204,6 +205,7 @@ int SelfContacts::verify(const Candidates& candidates, const Field3& start, cons
     Contact contact = makeContact(key, closest);
     contact.carried = mix(closest.weight, from);
     contact.offset = offsetAt(distance, h);
+    contact.recovery = std::max(0.0, contact.offset - distance);
     addWithinRoom(contact, contacts);
   }
   return static_cast<int>(pairs_.size());
