@@ -61,7 +61,9 @@ double Simulator::Impl::moveThrough(Budget::Clock::time_point begin) {
   const bool first = times.frame() == 0;
   if (errors && first) errors->makePilotRuns();  // not limited by the budget
   budget.beginFrame(first ? Budget::Clock::now() : begin);
-  for (Part* const part : parts) part->beginFrame(frame, motion.state);
+  bool repins = false;
+  for (Part* const part : parts) repins = part->beginFrame(frame, motion.state) || repins;
+  if (repins) repin([] {});
   if (errors) errors->beginFrame();
   return loop.make();
 }

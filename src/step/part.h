@@ -94,8 +94,9 @@ class Part {
   // ---- A frame in which the cloth moves
   /// Before all else of it. True: a velocity has changed.
   virtual bool prepareFrame(const FrameBegin& /*begin*/, ClothState& /*state*/) noexcept { return false; }
-  /// Before its substeps, after trial runs of it: sets the velocities that it prescribes.
-  virtual void beginFrame(const FrameBegin& /*begin*/, ClothState& /*state*/) noexcept {}
+  /// Before its substeps, after trial runs of it: sets the velocities that it prescribes. True: it pins other nodes
+  /// from now on.
+  virtual bool beginFrame(const FrameBegin& /*begin*/, ClothState& /*state*/) noexcept { return false; }
   /// Before a substep from this state: says whether it acts, damps, reads the air, and what it leads.
   virtual void announce(const ClothState& /*state*/, ForceSum& /*sum*/) noexcept {}
   /// After all have: adds its forces and its damping.

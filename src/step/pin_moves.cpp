@@ -64,7 +64,7 @@ bool PinMoves::prepareFrame(const FrameBegin&, ClothState& state) noexcept {
 }
 
 // Pinned nodes move by their velocity alone.
-void PinMoves::beginFrame(const FrameBegin& begin, ClothState& state) noexcept {
+bool PinMoves::beginFrame(const FrameBegin& begin, ClothState& state) noexcept {
   const double following_speed = followingSpeed(scene_);
   for (Move& move : moves_) {
     const Vec3 velocity = (move.target - state.position.at(move.node)) * begin.rate;
@@ -72,6 +72,7 @@ void PinMoves::beginFrame(const FrameBegin& begin, ClothState& state) noexcept {
     state.velocity.set(move.node, share * velocity);
     move.behind = share < 1.0;
   }
+  return false;
 }
 
 bool PinMoves::endFrame(const FrameEnd& end, ClothState& state) noexcept {

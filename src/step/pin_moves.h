@@ -31,7 +31,7 @@ class PinMoves : public Part {
   bool strains() const noexcept override { return moves(); }
   /// Nodes that have arrived and are not moved on stop.
   bool prepareFrame(const FrameBegin& begin, ClothState& state) noexcept override;
-  void beginFrame(const FrameBegin& begin, ClothState& state) noexcept override;
+  bool beginFrame(const FrameBegin& begin, ClothState& state) noexcept override;
   bool endFrame(const FrameEnd& end, ClothState& state) noexcept override;
 
  protected:

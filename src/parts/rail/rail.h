@@ -71,7 +71,10 @@ class Rail final : public GuidePart, public Part {
   bool isUnderWay(const ClothState& state) const noexcept override;
   bool drives(const ClothState&) const noexcept override { return asked_.draws && any(); }
   bool reversible() const noexcept override { return !any(); }
-  void beginFrame(const FrameBegin&, ClothState&) noexcept override { impulse_ = 0.0; }
+  bool beginFrame(const FrameBegin&, ClothState&) noexcept override {
+    impulse_ = 0.0;
+    return false;
+  }
   void substepTaken(const SubstepMade& made) noexcept override;
   bool endFrame(const FrameEnd& end, ClothState& state) noexcept override;
 

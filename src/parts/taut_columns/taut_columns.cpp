@@ -53,12 +53,15 @@ bool TautColumns::find(const ClothState& state) noexcept {
     const std::uint8_t held = isStraight(state.position, first, last, column) ? 1 : 0;
     for (int i = first + 1; i < last; ++i) set(pattern_.grid.index(i, column), held);
   });
-  if (!changed) return false;
+  if (changed) list();
+  return changed;
+}
+
+void TautColumns::list() noexcept {
   list_.clear();
   for (std::size_t n = 0; n < held_.size(); ++n) {
     if (held_[n] != 0) list_.push_back(n);
   }
-  return true;
 }
 
 void TautColumns::reset(ClothState& state) {
@@ -79,19 +82,32 @@ void TautColumns::pin(std::vector<std::uint8_t>& pinned) const noexcept {
   });
 }
 
-// Its nodes keep their places along the line between the pins, whose velocities are set.
-void TautColumns::beginFrame(const FrameBegin&, ClothState& state) noexcept {
+// Its nodes keep their places along the line between the pins, whose velocities are set. Pins that come nearer in the
+// frame let them go.
+bool TautColumns::beginFrame(const FrameBegin& begin, ClothState& state) noexcept {
   const Grid& grid = pattern_.grid;
+  bool changed = false;
   forEachSpan([&](int first, int last, int column) {
     double length = 0.0, along = 0.0;
     for (int i = first + 1; i <= last; ++i) length += pattern_.warp_rest[grid.index(i, column)];
-    const Vec3 from = state.velocity.at(grid.index(first, column)), to = state.velocity.at(grid.index(last, column));
+    const std::size_t a = grid.index(first, column), b = grid.index(last, column);
+    const Vec3 from = state.velocity.at(a), to = state.velocity.at(b);
+    const Vec3 apart = state.position.at(b) - state.position.at(a) + (to - from) / begin.rate;
+    const bool straight = apart.norm() >= (1.0 - scene_.solver.stretch_tolerance) * length;
     for (int i = first + 1; i < last; ++i) {
       const std::size_t node = grid.index(i, column);
       along += pattern_.warp_rest[node];
-      if (isHeld(node)) state.velocity.set(node, from + along / length * (to - from));
+      if (!isHeld(node)) continue;
+      if (straight) {
+        state.velocity.set(node, from + along / length * (to - from));
+      } else {
+        held_[node] = 0;
+        changed = true;
+      }
     }
   });
+  if (changed) list();
+  return changed;
 }
 
 bool TautColumns::endFrame(const FrameEnd&, ClothState& state) noexcept {

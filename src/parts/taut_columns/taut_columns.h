@@ -21,13 +21,14 @@ class TautColumns final : public Part {
   void carry(Archive& archive) override;
   void resume() override;
   void pin(std::vector<std::uint8_t>& pinned) const noexcept override;
-  void beginFrame(const FrameBegin& begin, ClothState& state) noexcept override;
+  bool beginFrame(const FrameBegin& begin, ClothState& state) noexcept override;
   bool endFrame(const FrameEnd& end, ClothState& state) noexcept override;
 
  private:
   bool isPin(std::size_t node) const noexcept;
   bool isHeld(std::size_t node) const noexcept { return held_[node] != 0 && pattern_.pinned[node] == kHeld; }
   bool find(const ClothState& state) noexcept;
+  void list() noexcept;
   bool isStraight(const Field3& position, int first, int last, int column) const noexcept;
   template <typename Act>
   void forEachSpan(const Act& act) const;
