@@ -90,7 +90,7 @@ void fillTurningLengths(const ClothPattern& pattern, Field& warp, Field& weft) n
 
 /// Pins these nodes beside those of the scene, and frees all others; inverse masses and bending follow. Whoever keeps
 /// something that follows from them must take it again: Simulator::Impl::takePins() tells all of them.
-///   held  by node, 1 or 0; read where scene_pins has kFree
+///   held  by node, kFree or how it is held; read where scene_pins has kFree
 void pinBeside(const std::vector<std::uint8_t>& held, const ClothParams& cloth, ClothPattern& pattern) noexcept;
 
 /// Rest lengths, masses, pins and bending of a validated scene.

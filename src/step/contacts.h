@@ -4,8 +4,8 @@
 // them.
 //
 // A contact point is a fixed combination of nodes, p = sum weight_k x_k (against an obstacle: a point of the cloth; in
-// self-contact: the difference of two points, so the weights add up to 0). The constraint is normal . p >= offset. Its
-// normal multiplier `push` and tangential multiplier `slide` move the nodes by
+// self-contact: the difference of two points, so the weights add up to 0). The constraint is level . p >= offset. Its
+// normal multiplier `push`, along `normal`, and tangential multiplier `slide` move the nodes by
 //     x_k += w_k weight_k (push normal + slide),   push >= 0, |slide| <= friction push,
 // so over a substep of length h whose forces act for a time `kick` the forces are (push, slide) / (h kick) [N].
 //

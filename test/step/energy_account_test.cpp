@@ -165,5 +165,14 @@ TEST(EnergyAccount, BoundsWhatIsBeyondMeasure) {
   EXPECT_EQ(resting.at(beside.pattern.grid.index(3, 2)), Vec3(Vec3::Zero()));
 }
 
+// What is too deep comes out within the step: that counts as what drives it, unless nothing pushes.
+TEST(Contacts, DrivePointsOutOfWhereTheyWere) {
+  Contact contact;
+  contact.recovery = 2e-3;
+  EXPECT_EQ(fastestDrive({contact}, kStep), 0.0);
+  contact.push = 1.0;
+  EXPECT_EQ(fastestDrive({contact}, kStep), 2e-3 / kStep);
+}
+
 }  // namespace
 }  // namespace curtain

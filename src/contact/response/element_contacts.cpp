@@ -151,10 +151,6 @@ void add(const ObstacleSubstep& substep, const ClothPattern& pattern, ContactPoi
   if (makeContact(substep, pattern, point, crossing.contact)) addWithinRoom(crossing, crossings);
 }
 
-}  // namespace
-
-namespace {
-
 // An element that touches, or will: its point, where it was then, and how far it was at the start.
 struct Touching {
   ElementPoint nearest;
@@ -162,8 +158,8 @@ struct Touching {
   double distance;
 };
 
-// nearest(corners, reach, out) and impact(start, end): of the element. close: the start is within the thickness, at
-// `first`.
+// nearest(corners, reach, out) and impact(start, end): of the element. first: where it is nearest at the start; null:
+// not within the thickness then.
 template <typename Nearest, typename Impact>
 bool touches(const ObstacleCandidates& candidates, const Corners& start, const Corners& end, const ElementPoint* first,
              const Nearest& nearest, const Impact& impact, Touching& out) {

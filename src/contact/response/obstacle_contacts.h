@@ -33,13 +33,13 @@ class ObstacleContacts {
   ObstacleContacts(const ClothPattern& pattern, const ContactParams& params, ObstacleSet& obstacles,
                    const Workers& workers);
 
-  /// Begins a substep of h [s]: adds what may touch along the motion from start to predicted, sorted by the obstacles'
-  /// names, the contacts' nodes and features. frictionless: all contacts without friction.
   struct Begin {
-    double h;
-    ContactFinder::ForcesAct act;
-    bool frictionless;
+    double h;                      ///< of the substep [s]
+    ContactFinder::ForcesAct act;  ///< where its forces' normals are taken
+    bool frictionless;             ///< all contacts without friction
   };
+  /// Begins a substep: adds what may touch along the motion from start to predicted, sorted by the obstacles' names,
+  /// the contacts' nodes and features.
   void begin(const Field3& start, const Field3& predicted, const Begin& begin, Contacts& contacts) noexcept;
   /// ContactFinder::relinearise().
   void relinearise(const Field3& position, Contacts& contacts) noexcept;
