@@ -39,8 +39,8 @@ constexpr int kGradientIterations = 12;
 // of the linearisation.
 constexpr double kLargestMove = 0.1;
 constexpr double kWatchMoves = 1e-3;  // relative violation below which no solve can exceed kLargestMove
-// Sweeps of a substep that project friction. Sticking under load converges over the substeps, since multipliers carry
-// over.
+// Sweeps of a substep that turn the slides of contacts that may slip. In later ones a slide only goes with what pushes.
+// Without an end some would turn to and fro, and every turn disturbs the links.
 constexpr int kFrictionSweeps = 3;
 // The residual turns into motion, so the tolerance of contacts follows the motion: this share of the displacement of
 // nodes in the substep (RMS, relative to their mean), at most kMostTouch contact tolerances; more would save no sweeps.
@@ -171,7 +171,7 @@ constexpr int kLastResortSubsteps = 8;
 // ---- Friction
 
 // A contact that stuck in the last substep with less than this share of the friction bound is solved for as sticking.
-// Contacts nearer to the bound would switch from sweep to sweep; they are projected instead.
+// Those nearer to it may slip: their slide is turned against the slip, and goes with what pushes.
 constexpr double kSticksBelow = 0.5;
 // Slip of a sticking contact in a substep, as a share of its penetration tolerance; the next substep corrects it.
 constexpr double kStickShare = 0.25;

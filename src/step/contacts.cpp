@@ -31,6 +31,10 @@ void forEachChange(const Rows& rows, std::size_t first, std::size_t end, const T
   }
 }
 
+bool isFrictionless(const Contact& contact) noexcept {
+  return contact.friction == 0.0 || contact.mobility <= 0.0 || (!contact.pushes() && contact.slide.isZero(0.0));
+}
+
 }  // namespace
 
 void beginContacts(const Field& inverse_inertia, double scale, double ratio, std::size_t first, Contacts& contacts,
@@ -47,6 +51,7 @@ void beginContacts(const Field& inverse_inertia, double scale, double ratio, std
     contact.slide = contact.boundedSlide(ratio * contact.across(contact.slide));
     contact.sticks = contact.pushes() && contact.slide.norm() < kSticksBelow * contact.mostSlide();
     if (!contact.pushes()) continue;
+    if (!contact.sticks) contact.slip();
     contact.move(inverse_inertia, contact.push * contact.normal + contact.slide, position);
   }
 }
@@ -81,26 +86,29 @@ bool pressesOnObstacle(const Contacts& contacts) noexcept {
                      [](const Contact& contact) { return contact.obstacle != Contact::kCloth && contact.pushes(); });
 }
 
-void projectFriction(const Field& inverse_inertia, Contacts& contacts, Field3& position) noexcept {
-  for (Contact& contact : contacts) {
-    if (contact.sticks || contact.friction == 0.0 || contact.mobility <= 0.0) continue;
-    if (!contact.pushes() && contact.slide.squaredNorm() == 0.0) continue;
-    const Vec3 slip = contact.across(contact.point(position) - contact.carried);
-    const Vec3 change = contact.boundedSlide(contact.slide - slip / contact.mobility) - contact.slide;
-    contact.slide += change;
-    contact.move(inverse_inertia, change, position);
-  }
-}
-
 void projectContacts(const Field& inverse_inertia, Contacts& contacts, Field3& position) noexcept {
   for (Contact& contact : contacts) {
     if (contact.mobility <= 0.0) continue;
     const double change = contact.boundedChange(contact.entered(position) / (contact.rise() * contact.mobility));
     contact.push += change;
-    contact.sticks = false;
     contact.move(inverse_inertia, change * contact.normal, position);
   }
-  projectFriction(inverse_inertia, contacts, position);
+  for (Contact& contact : contacts) {
+    if (isFrictionless(contact)) continue;
+    const Vec3 change = contact.boundedSlide(contact.wantedSlide(position)) - contact.slide;
+    contact.slide += change;
+    contact.move(inverse_inertia, change, position);
+  }
+}
+
+void ContactRows::slide(const Field& inverse, Field3& position) noexcept {
+  for (Contact& contact : *solved_) {
+    if (contact.sticks || isFrictionless(contact)) continue;
+    const Vec3 change = contact.boundedSlide(contact.wantedSlide(position)) - contact.slide;
+    contact.slide += change;
+    contact.slip();
+    contact.move(inverse, change, position);
+  }
 }
 
 void ContactRows::relinearise(const Field3& position) noexcept {
@@ -134,7 +142,9 @@ void ContactRows::addRows(const Field3& value, bool rates, Rows& rows) const {
     row.nodes = contact.nodes;
     row.least_damping = kLeastDamping;
     row.key = index;
-    row.direction = rates ? contact.level : contact.normal;
+    // Of a slip: n + lean on both sides, where the exact matrix has n on one. So it stays symmetric; what the slip adds
+    // to the distance, or takes from it, is left to the next sweep (Acary, Cadoux, Lemarechal, Malick 2011).
+    row.direction = rates ? contact.level : contact.sticks ? contact.normal : Vec3(contact.normal + contact.lean);
     row.violation = along;
     rows.push_back(row);
     if (!contact.sticks) continue;
@@ -153,13 +163,12 @@ void ContactRows::takeUp(const Rows& rows, double share, const Field& inverse, F
     Contact& contact = (*solved_)[index];
     const double push_change = contact.boundedChange(share * push);
     contact.push += push_change;
-    Vec3 slide_change = share * slide;
+    Vec3 slide_change = contact.sticks ? Vec3(share * slide) : Vec3(push_change * contact.lean);
     const Vec3 wanted = contact.slide + slide_change;
-    if (contact.sticks && wanted.squaredNorm() > contact.mostSlide() * contact.mostSlide()) {
-      slide_change = contact.boundedSlide(wanted) - contact.slide;
-      contact.sticks = false;
-    }
+    const bool slips = contact.sticks && wanted.squaredNorm() > contact.mostSlide() * contact.mostSlide();
+    if (slips) slide_change = contact.boundedSlide(wanted) - contact.slide;
     contact.slide += slide_change;
+    if (slips) contact.slip();
     contact.move(inverse, push_change * contact.normal + slide_change, position);
   });
 }

@@ -9,6 +9,11 @@
 //     x_k += w_k weight_k (push normal + slide),   push >= 0, |slide| <= friction push,
 // so over a substep of length h whose forces act for a time `kick` the forces are (push, slide) / (h kick) [N].
 //
+// Friction is part of the same solve. A contact that sticks has three rows. One that may slip has a single row, along
+// normal + lean: while its push changes, its force keeps its direction, on Coulomb's cone. So the ends of a strap that
+// slips over a bar are at e^(friction angle) at once, where the slides of one contact after the other would take many
+// sweeps.
+//
 // A node that two obstacles pinch, which press on it from both sides by a given force, is one contact: two-sided, since
 // either obstacle pushes with press + or - half of `push`, and with a friction bound that does not depend on `push`.
 #pragma once
@@ -51,7 +56,8 @@ struct Contact {
   Vec3 slide = Vec3::Zero();             ///< tangential multiplier [kg m]
   Vec3 settled = Vec3::Zero();           ///< impulse that projected velocities took up beside the multipliers [N s]
   double mobility = 0.0;                 ///< sum of weight^2 w, inverse effective mass of the point [1/kg]
-  bool sticks = false;                   ///< solved for as sticking, until the friction bound is reached
+  bool sticks = false;                   ///< it has rows across the normal, until the bound is reached
+  Vec3 lean = Vec3::Zero();              ///< of its force where it may slip: slide over push
   std::uint32_t source = 0;              ///< for the finder
 
   Vec3 point(const Field3& value) const noexcept {
@@ -82,6 +88,13 @@ struct Contact {
   Vec3 across(const Vec3& v) const { return v - normal.dot(v) * normal; }
   /// Bound of slide [kg m].
   double mostSlide() const noexcept { return press > 0.0 ? hold : friction * push; }
+  /// The slide that would end the slip, if nothing else moved.
+  Vec3 wantedSlide(const Field3& position) const { return slide - across(point(position) - carried) / mobility; }
+  /// It may slip from now on.
+  void slip() noexcept {
+    sticks = false;
+    lean = press > 0.0 || push == 0.0 ? Vec3(Vec3::Zero()) : Vec3(slide / push);
+  }
   /// Projection on Coulomb's disc.
   Vec3 boundedSlide(const Vec3& wanted) const {
     const double size = wanted.norm(), most = mostSlide();
@@ -112,13 +125,10 @@ bool pressesOnItself(const Contacts& contacts) noexcept;
 /// A contact with an obstacle pushes.
 bool pressesOnObstacle(const Contacts& contacts) noexcept;
 
-/// Friction of the contacts that are not solved for as sticking, one after the other. Moves nodes.
-void projectFriction(const Field& inverse_inertia, Contacts& contacts, Field3& position) noexcept;
-
 /// Solves each contact by itself, one after the other, for schemes without a joint solve. Moves nodes.
 void projectContacts(const Field& inverse_inertia, Contacts& contacts, Field3& position) noexcept;
 
-/// Contacts in the solve: a row along the normal of each that pushes or penetrates, and two across it where it sticks.
+/// Contacts in the solve: a row along the force of each that pushes or penetrates, and two more where it sticks.
 class ContactRows final : public RowMaker {
  public:
   /// links: a typical link's length [m].
@@ -140,8 +150,8 @@ class ContactRows final : public RowMaker {
   /// Largest penetration, separation of a contact that pushes, or slip of one that sticks [m]; infinite when a position
   /// is not finite. recovers: count penetration that Contact::recovery should take out; false: only deeper penetration.
   double residual(const Field3& position, bool recovers) const noexcept;
-  /// Friction of those that are not solved for as sticking. Moves nodes.
-  void slide(const Field& inverse, Field3& position) noexcept { projectFriction(inverse, *solved_, position); }
+  /// Turns the slides of those that may slip against their slips. Moves nodes.
+  void slide(const Field& inverse, Field3& position) noexcept;
 
   void addRows(const Field3& value, bool rates, Rows& rows) const override;
   void takeUp(const Rows& rows, double share, const Field& inverse, Field3& position) noexcept override;

@@ -42,7 +42,7 @@ Sweeps::Aim Sweeps::aimOf(const SweepTask& task, bool first, bool touches, int s
   return {strict * tolerance_, contact, cautious ? kFirstSweepShare : 1.0, cautious ? kFirstSweepShare : kLeaveAlone};
 }
 
-// Friction is projected before contacts are measured.
+// Slides are turned before contacts are measured.
 Sweeps::Residual Sweeps::look(const Constraints::RodsProgress& rods, bool first, int sweeps,
                               StageClock& clock) noexcept {
   Residual residual;
