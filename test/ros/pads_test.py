@@ -45,7 +45,7 @@ class PadsTest(unittest.TestCase):
         self.assertLess(soft, 0.5 * LIFT)
         state = curtains[0].last()
         self.assertEqual(state.statistics.penetration_max, 0.0)
-        # Opened, they let go. What is slack above them may fall over one of them and lie there, so they leave sideways.
+        # Opened, they let go, and leave sideways, so that nothing lies on them.
         for side, pad in pads:
             pad.move_to((0.0, side * 0.03, 0.0), 0.1)
         gripper.move_to((0.57, 0.0, HEIGHT + LIFT), 0.3)
