@@ -235,16 +235,16 @@ void relinearise(const ContactShape& shape, const Transform& place, const Field3
   Corners at;
   for (std::size_t k = 0; k < 3; ++k)
     at[k] = place.toLocal(position.at(contact.node[std::min(k, static_cast<std::size_t>(contact.nodes) - 1)]));
-  if (const ConvexShape* const convex = shape.convex()) {
-    ElementPoint nearest;
-    const bool found = contact.nodes == 2 ? convex->nearestOnEdge({at[0], at[1]}, kInfinity, nearest)
-                                          : convex->nearestOnTriangle(at, kInfinity, nearest);
-    if (found) contact.turnTo(place.rotation * nearest.surface.normal, nearest.surface.distance, position);
+  if (shape.features() != nullptr) {
+    const FeaturePair pair{{}, contact.source / 2, contact.source % 2 != 0};
+    const PairPoint point = closest(pair, *shape.features(), at);
+    if (point.distance > 0.0) contact.turnTo(place.rotation * (point.apart / point.distance), point.distance, position);
     return;
   }
-  const FeaturePair pair{{}, contact.source / 2, contact.source % 2 != 0};
-  const PairPoint point = closest(pair, *shape.features(), at);
-  if (point.distance > 0.0) contact.turnTo(place.rotation * (point.apart / point.distance), point.distance, position);
+  ElementPoint nearest;
+  const bool found = contact.nodes == 2 ? shape.convex()->nearestOnEdge({at[0], at[1]}, kInfinity, nearest)
+                                        : shape.convex()->nearestOnTriangle(at, kInfinity, nearest);
+  if (found) contact.turnTo(place.rotation * nearest.surface.normal, nearest.surface.distance, position);
 }
 
 void collectPenetratingFaces(const ObstacleSubstep& substep, const ClothPattern& pattern,
