@@ -106,7 +106,7 @@ ContactFinder::Verdict ClothContact::verify(const Field3& start, const Field3& e
     if (flat_)
       find(start, end, self_contacts_.gap());
     else
-      self_candidates_.collectDeviating(start, end, kCrossingReach * self_contacts_.gap(), candidates_);
+      self_candidates_.collectDeviating(end, kCrossingReach * self_contacts_.gap(), candidates_);
     flat_ = false;
     added = self_contacts_.verify(candidates_, start, end, h_, contacts_);
     full = self_contacts_.full();

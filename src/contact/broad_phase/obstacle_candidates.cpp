@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "cloth/wide.h"
-#include "contact/broad_phase/worker_share.h"
 #include "obstacles/convex_shape.h"
 
 namespace curtain {
@@ -16,6 +15,8 @@ namespace {
 // one). When it runs out the cloth stops, and a mesh that moves on goes through it.
 constexpr std::size_t kPairsPerNode = 8;
 constexpr std::size_t kPairsPerFeature = 4;
+// Capacity of a worker's share of the pairs, over its fair part.
+constexpr std::size_t kRoomOverPart = 2;
 // Nodes that one worker takes at a time.
 constexpr std::size_t kNodesAtOnce = 64;
 

@@ -2,276 +2,330 @@
 #include "contact/broad_phase/self_candidates.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
-
-#include "cloth/wide.h"
-#include "contact/broad_phase/worker_share.h"
 
 namespace curtain {
 namespace {
 
-// Level of the blocks that are proven flat: 8 x 8 quads. Smaller ones cost more, larger ones are flat less often.
-constexpr std::size_t kFlatLevel = 3;
-// The mean motion is taken over every n-th row.
-constexpr int kSampledRows = 4;
-// Pairs of quads that are tested together.
-constexpr std::size_t kQuadsAtOnce = 1024;
-// Padding [floats] behind the arrays, so that vector loads stay inside.
-constexpr std::size_t kBeyond = 16;
-// Unit roundoff of single precision.
-constexpr float kUnit = 0.5f * std::numeric_limits<float>::epsilon();
+// Pairs of quads that are tested together, and found pairs of elements that a worker keeps to itself.
+constexpr std::size_t kQuadsAtOnce = 1024, kFoundAtOnce = 1024;
+// Gilbert's steps: few for all pairs of quads, more for the rest. Still more separate hardly any.
+constexpr int kFirstSteps = 2, kSteps = 4;
+// Room for the element pairs of a cluster.
+constexpr std::size_t kMostLocalPairs = 128;
 
-CURTAIN_WIDE void subtract(const double* __restrict from, double origin, std::size_t count, float* __restrict to) {
-#pragma omp simd
-  for (std::size_t j = 0; j < count; ++j) to[j] = static_cast<float>(from[j] - origin);
-}
-
-CURTAIN_WIDE double sumOfDifferences(const double* __restrict from, const double* __restrict to, std::size_t count) {
-  double sum = 0.0;
-#pragma omp simd reduction(+ : sum)
-  for (std::size_t j = 0; j < count; ++j) sum += to[j] - from[j];
-  return sum;
-}
-
-struct Floats3 {
-  const float *x, *y, *z;
+struct Place {
+  int row, column;
 };
 
-// Marks the nodes of a row that are further than the bound from where they were expected, and counts them (in floats,
-// so that all lanes have one width).
-CURTAIN_WIDE std::size_t markRow(const ConstFieldView& at, const Floats3& expected, const Vec3& origin,
-                                 float most_squared, std::size_t count, std::uint8_t* __restrict marks) {
-  const ConstFieldView p = at;
-  const Floats3 q = expected;
-  const double ox = origin.x(), oy = origin.y(), oz = origin.z();
-  float marked = 0.0f;
-#pragma omp simd reduction(+ : marked)
-  for (std::size_t j = 0; j < count; ++j) {
-    const float x = static_cast<float>(p.x[j] - ox) - q.x[j], y = static_cast<float>(p.y[j] - oy) - q.y[j],
-                z = static_cast<float>(p.z[j] - oz) - q.z[j];
-    const float apart = x * x + y * y + z * z > most_squared ? 1.0f : 0.0f;
-    marks[j] = apart > 0.0f ? 1 : 0;
-    marked += apart;
+// Which of two quads without a common node a pair of their edges names first. Any order would do, but a contact is
+// rounded by it. It is that of the largest blocks of 1, 2, 4, ... quads a side that are not next to each other: the
+// upper one first, or else the left one, on the shorter way around closed cloth.
+bool isFirst(const Grid& grid, Place p, Place q) {
+  int columns = grid.linkCount();
+  const auto across = [&](int from, int to, int around) {
+    const int apart = std::abs(to - from);
+    return grid.closed ? std::min(apart, around - apart) : apart;
+  };
+  while (std::max(std::abs(p.row / 2 - q.row / 2), across(p.column / 2, q.column / 2, (columns + 1) / 2)) > 1) {
+    p = {p.row / 2, p.column / 2};
+    q = {q.row / 2, q.column / 2};
+    columns = (columns + 1) / 2;
   }
-  return static_cast<std::size_t>(marked);
+  if (p.row != q.row) return p.row < q.row;
+  return (p.column < q.column) == (!grid.closed || 2 * std::abs(q.column - p.column) <= columns);
+}
+
+// Elements of a quad, by new numbers of its nodes.
+template <typename NumberOf>
+QuadElements renumbered(QuadElements quad, const NumberOf& number_of) {
+  const auto renumber = [&](auto& nodes) { std::transform(nodes.begin(), nodes.end(), nodes.begin(), number_of); };
+  renumber(quad.corners);
+  renumber(quad.vertices);
+  for (MeshTriangle& triangle : quad.triangles) renumber(triangle);
+  for (MeshEdge& edge : quad.edges) renumber(edge);
+  return quad;
 }
 
 }  // namespace
 
 SelfCandidates::SelfCandidates(const ClothPattern& pattern, const Workers* workers)
-    : grid_(pattern.grid),
-      elements_(pattern),
+    : nodes_(pattern.grid),
+      grid_(nodes_.grid()),
+      in_field_(grid_.row(grid_.rows), 0),
+      immovable_(in_field_.size(), 0),
       per_spacing_(pattern),
-      hierarchy_(pattern.grid),
-      flat_level_(std::min(kFlatLevel, hierarchy_.levels().size() - 1)),
-      flat_blocks_(pattern.grid, per_spacing_, hierarchy_.levels()[flat_level_], 1 << flat_level_),
-      pairs_(hierarchy_),
-      windows_(pattern.grid, per_spacing_, elements_),
+      flat_(grid_, per_spacing_),
+      patches_(grid_),
+      high_(std::min(2, grid_.rows - 1)),
+      wide_(std::min(2, grid_.linkCount())),
       workers_(workers),
       shares_(workers == nullptr ? 1 : static_cast<std::size_t>(workers->shares())) {
-  for (MovingNodes* const nodes : {&expected_.nodes, &deviating_.nodes}) {
-    nodes->stride = static_cast<std::size_t>(grid_.closed ? Grid::strideFor(grid_.columns + 2) : grid_.stride);
-    const std::size_t size = static_cast<std::size_t>(grid_.rows) * nodes->stride + kBeyond;
-    for (BoxHierarchy::Floats& component : nodes->start) component.assign(size, 0.0f);
-    for (BoxHierarchy::Floats& component : nodes->end) component.assign(size, 0.0f);
+  for (int i = 0; i < grid_.rows; ++i) {
+    for (int j = 0; j < grid_.stride; ++j)
+      in_field_[grid_.index(i, j)] = static_cast<std::uint32_t>(pattern.grid.index(i, j % grid_.columns));
   }
-  marked_.assign(grid_.size(), 0);
-  starts_.assign(grid_.size(), Eigen::Array4f::Zero());
-  ends_ = starts_;
+  takePins(pattern);
+  makeKinds();
   for (Share& share : shares_) {
     share.quads.reserve(kQuadsAtOnce);
-    for (Pairs* const pairs : {&share.vertices, &share.edges})
-      pairs->nodes.reserve(std::min(shares_.size(), kRoomOverPart) * kRoomPerNode * grid_.nodeCount() / shares_.size());
+    share.near.reserve(kFoundAtOnce);
+    share.count.fill(0);
+    for (std::size_t kind = 0; kind < kKinds; ++kind) share.clusters[kind].size = kind < kWhere ? 9 : 8;
   }
 }
 
-void SelfCandidates::setMotion(const Field3& start, const Field3& end, Motion& motion) noexcept {
-  const auto stride = static_cast<std::size_t>(grid_.stride), columns = static_cast<std::size_t>(grid_.columns);
-  MovingNodes& nodes = motion.nodes;
-  motion.start = start.at(0);
-  const auto copy = [&](const Field& from, double origin, BoxHierarchy::Floats& to) {
-    if (!grid_.closed) {
-      subtract(from.data(), origin, grid_.row(grid_.rows), to.data());
-      return;
-    }
-    for (std::size_t i = 0; i < static_cast<std::size_t>(grid_.rows); ++i) {
-      float* const row = &to[i * nodes.stride];
-      subtract(&from[i * stride], origin, columns, row);
-      std::copy(row, row + 2, row + columns);
-    }
-  };
-  const auto component = [&](const Field& from, const Field& to, Eigen::Index axis) {
-    double sum = 0.0, sampled = 0.0;
-    for (int i = 0; i < grid_.rows; i += kSampledRows) {
-      sum += sumOfDifferences(&from[grid_.row(i)], &to[grid_.row(i)], columns);
-      sampled += static_cast<double>(columns);
-    }
-    motion.end[axis] = motion.start[axis] + sum / sampled;
-    copy(from, motion.start[axis], nodes.start[static_cast<std::size_t>(axis)]);
-    copy(to, motion.end[axis], nodes.end[static_cast<std::size_t>(axis)]);
-  };
-  component(start.x, end.x, 0);
-  component(start.y, end.y, 1);
-  component(start.z, end.z, 2);
-  flat_blocks_.measure(nodes);
-  const auto low = [this](int i, int j, int axis) { return flat_blocks_.low(i, j, axis); };
-  const auto high = [this](int i, int j, int axis) { return flat_blocks_.high(i, j, axis); };
-  hierarchy_.refitFrom(flat_level_, low, high);
-  // Two coordinates are rounded once each, and so is their difference, which is at most twice as large; the shift to
-  // the origin rounds in double precision.
-  motion.rounding = 4.0f * kUnit * flat_blocks_.largest() +
-                    1e-15f * static_cast<float>(motion.start.cwiseAbs().cwiseMax(motion.end.cwiseAbs()).maxCoeff());
+void SelfCandidates::takePins(const ClothPattern& pattern) noexcept {
+  for (std::size_t n = 0; n < immovable_.size(); ++n) immovable_[n] = pattern.inverse_mass[in_field_[n]] == 0.0 ? 1 : 0;
 }
 
-void SelfCandidates::interleaveNodes(const MovingNodes& nodes) noexcept {
-  for (std::size_t i = 0; i < static_cast<std::size_t>(grid_.rows); ++i) {
-    for (std::size_t j = 0; j < static_cast<std::size_t>(grid_.columns); ++j) {
-      const std::size_t from = i * nodes.stride + j, to = i * static_cast<std::size_t>(grid_.stride) + j;
-      starts_[to] = {nodes.start[0][from], nodes.start[1][from], nodes.start[2][from], 0.0f};
-      ends_[to] = {nodes.end[0][from], nodes.end[1][from], nodes.end[2][from], 0.0f};
+// Nodes of a window are numbered row by row, three a row, those of two quads one after the other.
+void SelfCandidates::makeKinds() {
+  const auto adderTo = [](std::vector<LocalPair>& pairs) {
+    return [&pairs](const std::array<std::uint32_t, 4>& n) {
+      const auto number = [&](std::size_t k) { return static_cast<std::uint8_t>(n[k]); };
+      pairs.push_back({number(0), number(1), number(2), number(3)});
+    };
+  };
+  const auto quadOf = [](std::size_t where, int high, int wide, int row, int column, std::uint32_t a_row,
+                         std::uint32_t first) {
+    const Grid grid(high + (where < 2 ? 2 : 1), wide + (where % 2 == 0 ? 2 : 1), false);
+    const auto stride = static_cast<std::uint32_t>(grid.stride);
+    return renumbered(quadElements(grid, row, column),
+                      [&](std::uint32_t n) { return first + n / stride * a_row + n % stride; });
+  };
+  for (std::size_t where = 0; where < kWhere; ++where) {
+    Kind& kind = kinds_[where];
+    for (int p = 0; p < high_ * wide_; ++p) {
+      for (int q = p; q < high_ * wide_; ++q) {
+        // Pairs of quads shared by several windows belong to the first one.
+        if ((p / wide_ > 0 && where < 2) || (std::min(p % wide_, q % wide_) > 0 && where % 2 == 0)) continue;
+        forEachElementPair(quadOf(where, high_, wide_, p / wide_, p % wide_, 3, 0),
+                           quadOf(where, high_, wide_, q / wide_, q % wide_, 3, 0), adderTo(kind.vertices),
+                           adderTo(kind.edges));
+      }
     }
   }
+  for (std::size_t one = 0; one < kWhere; ++one) {
+    for (std::size_t other = 0; other < kWhere; ++other) {
+      Kind& kind = kinds_[kWhere + one * kWhere + other];
+      forEachElementPair(quadOf(one, 1, 1, 0, 0, 2, 0), quadOf(other, 1, 1, 0, 0, 2, 4), adderTo(kind.vertices),
+                         adderTo(kind.edges));
+    }
+  }
+}
+
+// Of a window of quads.
+std::size_t SelfCandidates::whereIs(int row, int column, int high, int wide) const noexcept {
+  return (row + high + 1 == grid_.rows ? 2U : 0U) + (!grid_.closed && column + wide + 1 == grid_.columns ? 1U : 0U);
 }
 
 void SelfCandidates::collect(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept {
+  nodes_.set(start, end);
   reach_ = reach;
-  setMotion(start, end, expected_);
-  collectOf(nullptr, expected_, reach, out);
+  collectOf(reach, 0.0, out);
 }
 
-// If no node of a pair deviates by more than half the difference of the reaches, the pair was a candidate already.
-void SelfCandidates::collectDeviating(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept {
-  if (markDeviating(end, 0.5 * (reach_ - reach)) == 0) return;
-  setMotion(start, end, deviating_);
-  collectOf(&marked_, deviating_, reach, out);
+// What ends so that no two nodes of it are further from where they were expected, seen from each other, than the
+// difference of the reaches, was a candidate already.
+void SelfCandidates::collectDeviating(const Field3& end, double reach, Candidates& out) noexcept {
+  nodes_.setEnd(end);
+  if (patches_.measureDeviations(nodes_) >= reach_ - reach) collectOf(reach, reach_ - reach, out);
 }
 
-// Marks the nodes that end further than `most` [m] from where collect() expected them; returns their number.
-std::size_t SelfCandidates::markDeviating(const Field3& end, double most) noexcept {
-  const float certain = static_cast<float>(most) - 2.0f * expected_.rounding;
-  const float most_squared = certain > 0.0f ? certain * certain * (1.0f - 1e-5f) : -1.0f;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(grid_.rows); ++i) {
-    const std::size_t n = i * static_cast<std::size_t>(grid_.stride), m = i * expected_.nodes.stride;
-    const Floats3 expected{&expected_.nodes.end[0][m], &expected_.nodes.end[1][m], &expected_.nodes.end[2][m]};
-    count +=
-        markRow({end, n}, expected, expected_.end, most_squared, static_cast<std::size_t>(grid_.columns), &marked_[n]);
-  }
-  return count;
-}
-
-void SelfCandidates::collectOf(const std::vector<std::uint8_t>* marked, const Motion& motion, double reach,
-                               Candidates& out) noexcept {
-  const float certain = static_cast<float>(reach) * (1.0f + 2.0f * std::numeric_limits<float>::epsilon()),
-              rounding = motion.rounding;
-  hierarchy_.select(marked);
-  const bool bent = flat_blocks_.find(certain, rounding);
-  if (!bent && !pairs_.any(certain + rounding, flat_level_)) return;
-  hierarchy_.refitBelow(flat_level_, motion.nodes);
-  hierarchy_.interleaveBoxes();
-  if (bent) {
-    hierarchy_.excludeFlat(flat_level_, [this](int i, int j) { return flat_blocks_.isBent(i, j); });
-    windows_.find(motion.nodes, hierarchy_, certain, rounding);
-  }
-  interleaveNodes(motion.nodes);
-  const Query query{certain, rounding, bent, &out};
-  const auto collect_one = [&](int s) { collectShare(query, s, shares_[static_cast<std::size_t>(s)]); };
-  const int count = static_cast<int>(shares_.size());
-  if (workers_ != nullptr)
-    workers_->run(count, collect_one);
-  else
-    for (int s = 0; s < count; ++s) collect_one(s);
+void SelfCandidates::collectOf(double reach, double deviation, Candidates& out) noexcept {
+  for (int row = 0; row < flat_.rows(); ++row) flat_.measureRow(nodes_, row);
+  nodes_.takeLargest(flat_.largest());
+  patches_.sort(flat_);
+  const float certain = static_cast<float>(reach) * (1.0f + 2.0f * std::numeric_limits<float>::epsilon());
+  const Query query{
+      {nodes_.nodes().data(), certain, nodes_.rounding()}, static_cast<float>(deviation) * (1.0f - 1e-6f), &out};
+  if (flat_.find(certain, nodes_.rounding()) && onlyNeighboursMeet(query)) return;
+  nodes_.interleave();
+  forEachBlock(flat_.rows(), [&](int row) { patches_.fitRow(nodes_, row); });
+  forEachBlock(static_cast<int>(shares_.size()), [&](int share) {
+    collectShare(query, static_cast<std::size_t>(share), shares_[static_cast<std::size_t>(share)]);
+  });
   for (Share& share : shares_) flush(query, share);
 }
 
-void SelfCandidates::collectShare(const Query& query, int index, Share& share) const noexcept {
-  const float around = query.reach + query.rounding;
-  if (query.bent) {
-    windows_.forEachPair(
-        swept(), around, static_cast<std::size_t>(index), shares_.size(),
-        [&](const FourNodes& nodes) { add(query, nodes, share.vertices, share); },
-        [&](const FourNodes& nodes) { add(query, nodes, share.edges, share); });
-  }
-  pairs_.find(around, query.bent ? 0 : flat_level_, {index, static_cast<int>(shares_.size())},
-              [&](std::size_t a, std::size_t b) {
-                if (share.quads.size() == share.quads.capacity()) addElements(query, share);
-                share.quads.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)});
-              });
-  addElements(query, share);
-  discardSeparated(query, share.vertices);
-  discardSeparated(query, share.edges);
+// Patches meet themselves and their neighbours, whose boxes have nodes in common: does none meet another?
+bool SelfCandidates::onlyNeighboursMeet(const Query& query) const noexcept {
+  const int rows = flat_.rows(), columns = flat_.columns();
+  const int across = grid_.closed && columns > 2 ? columns : columns - 1;  // pairs side by side in a row
+  int more = rows * (columns + across) + (rows - 1) * (columns + 2 * across);
+  patches_.forEachPair(query.motion.reach + query.motion.rounding, 0, 1, [&](int, int) { --more; });
+  return more == 0;
 }
 
-// Keeps the pairs of quads that the test does not separate.
-void SelfCandidates::keepUnseparatedQuads(decltype(&quadsSeparated) separated, const Query& query,
-                                          std::vector<QuadPair>& quads) const noexcept {
-  const BoxHierarchy::Level& level = hierarchy_.levels().front();
-  const auto corners = [&](std::size_t quad) {
-    const int i = level.rowOf(quad), j = level.columnOf(quad), right = j + 1 < grid_.columns ? j + 1 : 0;
-    const auto node = [&](int row, int column) { return static_cast<std::uint32_t>(grid_.index(row, column)); };
-    return FourNodes{node(i, j), node(i, right), node(i + 1, j), node(i + 1, right)};
+template <typename Block>
+void SelfCandidates::forEachBlock(int count, const Block& block) const {
+  if (workers_ != nullptr)
+    workers_->run(count, block);
+  else
+    for (int k = 0; k < count; ++k) block(k);
+}
+
+// Whether patches, or windows in them, may hold what was not found last.
+bool SelfCandidates::isWanted(const Query& query, int a, int b) const noexcept {
+  return query.most == 0.0f || patches_.deviate(a, b, query.most);
+}
+
+FlatNodes SelfCandidates::flatNodes(const Query& query, int row, int column) const noexcept {
+  const std::size_t node = grid_.index(row, column);
+  const auto& start = nodes_.start();
+  const auto& end = nodes_.end();
+  return {static_cast<std::size_t>(grid_.stride),
+          {{&start[0][node], &start[1][node], &start[2][node]}, {&end[0][node], &end[1][node], &end[2][node]}},
+          &per_spacing_.u[static_cast<std::size_t>(column)],
+          &per_spacing_.v[static_cast<std::size_t>(row)],
+          query.motion.reach,
+          query.motion.rounding};
+}
+
+void SelfCandidates::collectShare(const Query& query, std::size_t index, Share& share) const noexcept {
+  addWindows(query, index, share);
+  const float around = query.motion.reach + query.motion.rounding;
+  patches_.forEachPair(around, index, shares_.size(), [&](int a, int b) {
+    if (flat_.areFlat(a, b) || !isWanted(query, a, b)) return;
+    patches_.forEachQuadPair(a, b, around, [&](std::uint32_t p, std::uint32_t q) {
+      if (share.quads.size() == kQuadsAtOnce) testQuads(query, share);
+      share.quads.push_back({p, q});
+    });
+  });
+  testQuads(query, share);
+  for (std::size_t kind = 0; kind < kKinds; ++kind) testClusters(query, kind, share);
+}
+
+// Those that are not proven flat.
+void SelfCandidates::addWindows(const Query& query, std::size_t index, Share& share) const noexcept {
+  const int rows = grid_.rows - high_, columns = grid_.closed ? grid_.columns : grid_.columns - wide_;
+  const auto is_done = [&](int i, int j) {
+    const int patch = patches_.patchAt(i, std::min(j, columns - 1));
+    return flat_.isFlat(patch) || !isWanted(query, patch, patch);
   };
+  for (int i = static_cast<int>(index); i < rows; i += static_cast<int>(shares_.size())) {
+    for (int j = 0; j < columns; j += 2 * Patches::kAlong) {
+      if (is_done(i, j) && is_done(i, j + Patches::kAlong)) continue;
+      const std::uint32_t all = columns - j < 8 ? (1U << (columns - j)) - 1U : 0xFFU;
+      for (std::uint32_t bent = ~flatWindows(flatNodes(query, i, j), high_, wide_) & all; bent != 0; bent &= bent - 1) {
+        const int column = j + __builtin_ctz(bent);
+        const auto node_of = [&](std::uint32_t k) {
+          const auto n = static_cast<int>(k);
+          return static_cast<std::uint32_t>(grid_.index(i + std::min(n / 3, high_), column + std::min(n % 3, wide_)));
+        };
+        addCluster(query, whereIs(i, column, high_, wide_), node_of, share);
+      }
+    }
+  }
+}
+
+void SelfCandidates::testQuads(const Query& query, Share& share) const noexcept {
+  keepUnseparated(query, kFirstSteps, share.quads);
+  keepUnseparated(query, kSteps, share.quads);
+  for (const TwoQuads& pair : share.quads) addQuads(query, pair, share);
+  share.quads.clear();
+}
+
+void SelfCandidates::keepUnseparated(const Query& query, int steps, std::vector<TwoQuads>& quads) const noexcept {
   std::size_t kept = 0;
   for (std::size_t first = 0; first < quads.size(); first += kPairsAtOnce) {
     const std::size_t count = std::min(kPairsAtOnce, quads.size() - first);
     std::array<TwoQuads, kPairsAtOnce> some;
-    for (std::size_t k = 0; k < kPairsAtOnce; ++k) {
-      const QuadPair& pair = quads[first + std::min(k, count - 1)];
-      some[k] = {corners(pair.a), corners(pair.b)};
-    }
-    const std::uint32_t apart = separated(some, swept(), query.reach, query.rounding);
+    for (std::size_t k = 0; k < kPairsAtOnce; ++k) some[k] = quads[first + std::min(k, count - 1)];
+    const std::uint32_t apart = quadsSeparated(some, query.motion, static_cast<std::size_t>(grid_.stride), steps);
     for (std::size_t k = 0; k < count; ++k) {
-      if ((apart >> k & 1U) == 0) quads[kept++] = quads[first + k];
+      if ((apart >> k & 1U) == 0) quads[kept++] = some[k];
     }
   }
   quads.resize(kept);
 }
 
-// Tests the collected quads and adds the element pairs of those that remain.
-void SelfCandidates::addElements(const Query& query, Share& share) const noexcept {
-  keepUnseparatedQuads(quadsSeparated, query, share.quads);
-  keepUnseparatedQuads(quadsSeparatedByGilbert, query, share.quads);
-  const BoxHierarchy::Level& level = hierarchy_.levels().front();
-  for (const QuadPair& pair : share.quads) {
-    elements_.forEach(
-        level.rowOf(pair.a), level.columnOf(pair.a), level.rowOf(pair.b), level.columnOf(pair.b),
-        [&](const FourNodes& nodes) { add(query, nodes, share.vertices, share); },
-        [&](const FourNodes& nodes) { add(query, nodes, share.edges, share); });
+void SelfCandidates::addQuads(const Query& query, TwoQuads pair, Share& share) const noexcept {
+  const auto stride = static_cast<std::uint32_t>(grid_.stride);
+  const auto place_of = [&](std::uint32_t quad) {
+    return Place{static_cast<int>(quad / stride), static_cast<int>(quad % stride)};
+  };
+  Place one = place_of(pair.one), other = place_of(pair.other);
+  if (!isFirst(grid_, one, other)) {
+    std::swap(one, other);
+    std::swap(pair.one, pair.other);
   }
-  share.quads.clear();
+  const std::size_t kind =
+      kWhere + whereIs(one.row, one.column, 1, 1) * kWhere + whereIs(other.row, other.column, 1, 1);
+  const auto node_of = [&](std::uint32_t k) { return (k < 4 ? pair.one : pair.other) + k % 2 + k % 4 / 2 * stride; };
+  addCluster(query, kind, node_of, share);
 }
 
-// A full share tests what it has; if that makes no room, it is flushed to the output. Other workers may flush at the
-// same time.
-void SelfCandidates::makeRoom(const Query& query, Pairs& pairs, Share& share) const noexcept {
-  discardSeparated(query, pairs);
-  if (!pairs.isFull()) return;
-  discardSeparated(query, share.vertices);
-  discardSeparated(query, share.edges);
+template <typename NodeOf>
+void SelfCandidates::addCluster(const Query& query, std::size_t kind, const NodeOf& node_of,
+                                Share& share) const noexcept {
+  Clusters& clusters = share.clusters[kind];
+  const std::size_t at = share.count[kind]++;
+  for (std::size_t k = 0; k < clusters.size; ++k) clusters.nodes[k][at] = node_of(static_cast<std::uint32_t>(k));
+  if (at + 1 == kPairsAtOnce) testClusters(query, kind, share);
+}
+
+void SelfCandidates::testClusters(const Query& query, std::size_t kind, Share& share) const noexcept {
+  Clusters& clusters = share.clusters[kind];
+  const std::size_t count = share.count[kind];
+  if (count == 0) return;
+  for (auto& nodes : clusters.nodes)
+    std::fill(nodes.begin() + static_cast<std::ptrdiff_t>(count), nodes.end(), nodes[0]);
+  share.count[kind] = 0;
+  const auto& [vertices, edges] = kinds_[kind];
+  std::array<std::uint8_t, kMostLocalPairs> near;
+  findNear(clusters, query.motion, vertices, edges, near.data());
+  for (std::size_t l = 0; l < vertices.size() + edges.size(); ++l) {
+    const bool is_edge = l >= vertices.size();
+    const LocalPair& pair = is_edge ? edges[l - vertices.size()] : vertices[l];
+    for (std::uint32_t bits = near[l] & ((1U << count) - 1U); bits != 0; bits &= bits - 1) {
+      const auto k = static_cast<std::size_t>(__builtin_ctz(bits));
+      const auto node = [&](std::size_t n) { return clusters.nodes[pair[n]][k]; };
+      name(query, is_edge, {node(0), node(1), node(2), node(3)}, share);
+    }
+  }
+}
+
+void SelfCandidates::name(const Query& query, bool edges, const std::array<std::uint32_t, 4>& nodes,
+                          Share& share) const noexcept {
+  const auto is_immovable = [&](std::uint32_t node) { return immovable_[node] != 0; };
+  if (std::all_of(nodes.begin(), nodes.end(), is_immovable) || !isCloth(edges, nodes)) return;
+  if (std::max(share.near.vertex_triangles.size(), share.near.edge_edges.size()) == kFoundAtOnce)
+    makeRoom(query, share);
+  const auto field = [&](std::size_t n) { return in_field_[nodes[n]]; };
+  if (edges)
+    share.near.add(EdgeEdge{{field(0), field(1)}, {field(2), field(3)}});
+  else
+    share.near.add(VertexTriangle{field(0), {field(1), field(2), field(3)}});
+}
+
+// Whether no slit takes the elements away.
+bool SelfCandidates::isCloth(bool edges, const std::array<std::uint32_t, 4>& nodes) const noexcept {
+  if (grid_.slit_row.empty()) return true;
+  const auto row = [&](std::size_t n) { return static_cast<int>(nodes[n]) / grid_.stride; };
+  const auto column = [&](std::size_t n) { return static_cast<int>(nodes[n]) % grid_.stride; };
+  // The first node of a triangle is in its quad's upper row, that of a diagonal the quad's upper right one.
+  if (!edges) return grid_.hasQuad(row(1), std::max({column(1), column(2), column(3)}) % grid_.columns);
+  const auto is_edge = [&](std::size_t n) {
+    if (column(n) == column(n + 1)) return true;
+    if (row(n) == row(n + 1)) return grid_.hasLink(row(n), column(n + 1) % grid_.columns);
+    return grid_.hasQuad(row(n), column(n) % grid_.columns);
+  };
+  return is_edge(0) && is_edge(2);
+}
+
+// Other workers may flush at the same time.
+void SelfCandidates::makeRoom(const Query& query, Share& share) const noexcept {
   const std::lock_guard<std::mutex> alone(making_room_);
   flush(query, share);
 }
 
-// Moves the tested pairs to the output.
 void SelfCandidates::flush(const Query& query, Share& share) noexcept {
-  for (const FourNodes& n : share.vertices.nodes) query.out->add(VertexTriangle{n[0], {n[1], n[2], n[3]}});
-  for (const FourNodes& n : share.edges.nodes) query.out->add(EdgeEdge{{n[0], n[1]}, {n[2], n[3]}});
-  share.clear();
-}
-
-// Tests the pairs from `near` on and keeps those that are not separated.
-void SelfCandidates::discardSeparated(const Query& query, Pairs& pairs) const noexcept {
-  std::vector<FourNodes>& nodes = pairs.nodes;
-  for (std::size_t first = pairs.near; first < nodes.size(); first += kPairsAtOnce) {
-    const std::size_t count = std::min(kPairsAtOnce, nodes.size() - first);
-    std::array<FourNodes, kPairsAtOnce> some;
-    for (std::size_t k = 0; k < kPairsAtOnce; ++k) some[k] = nodes[first + std::min(k, count - 1)];
-    const std::uint32_t apart = pairs.separated(some, swept(), query.reach, query.rounding);
-    for (std::size_t k = 0; k < count; ++k) {
-      if ((apart >> k & 1U) == 0) nodes[pairs.near++] = some[k];
-    }
-  }
-  nodes.resize(pairs.near);
+  for (const VertexTriangle& pair : share.near.vertex_triangles) query.out->add(pair);
+  for (const EdgeEdge& pair : share.near.edge_edges) query.out->add(pair);
+  share.near.clear();
 }
 
 }  // namespace curtain

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Broad phase of self-contact: pairs of elements that may come near each other while the nodes move straight. Quads
-// with a common node go through neighbour_windows.h; all others through the box hierarchy (hierarchy_pairs.h), then
-// quads and then elements through separating axis tests (narrow_phase/separating_axis.h). Regions that are proven flat
-// are skipped (flat_blocks.h). Positions are taken relative to the mean motion of the cloth. Nothing is cached between
-// calls.
+// Broad phase of self-contact: pairs of elements that may come near each other while the nodes move straight.
+//
+//   quads with a common node   windows of 2 x 2 quads that are not proven flat              narrow_phase/flatness.h
+//   all others                 boxes of patches and of quads, then a plane between quads    patches.h
+//   elements of either         a plane between them                                         separating_axis.h
+//
+// Elements are tested for eight clusters of nodes at a time, of a window or of two quads, whose nodes are numbered
+// alike. Patches that are even as a whole, with those around them, are not looked into.
 #pragma once
 
 #include <array>
@@ -13,11 +16,12 @@
 #include <vector>
 
 #include "cloth/workers.h"
-#include "contact/broad_phase/box_hierarchy.h"
-#include "contact/broad_phase/flat_blocks.h"
-#include "contact/broad_phase/hierarchy_pairs.h"
-#include "contact/broad_phase/neighbour_windows.h"
+#include "contact/broad_phase/flat_patches.h"
+#include "contact/broad_phase/patches.h"
+#include "contact/broad_phase/swept_nodes.h"
 #include "contact/narrow_phase/element_pairs.h"
+#include "contact/narrow_phase/flatness.h"
+#include "contact/narrow_phase/separating_axis.h"
 
 namespace curtain {
 
@@ -32,7 +36,7 @@ class SelfCandidates {
   explicit SelfCandidates(const ClothPattern& pattern, const Workers* workers = nullptr);
 
   /// Which nodes can't move has changed.
-  void takePins(const ClothPattern& pattern) noexcept { elements_.takePins(pattern); }
+  void takePins(const ClothPattern& pattern) noexcept;
 
   /// Appends every pair (vertex, triangle) and (edge, edge) that has no common node, has a movable node, and comes
   /// within `reach` [m, >= 0] at some time while nodes move straight from start to end (finite, of the grid's size);
@@ -42,80 +46,67 @@ class SelfCandidates {
   void collect(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept;
 
   /// After collect() with the same start and a larger reach: completes its candidates to all pairs that come within
-  /// `reach` [m] while nodes move from start to this end. Searches only around nodes that end elsewhere than collect()
-  /// expected.
-  void collectDeviating(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept;
+  /// `reach` [m] while nodes move from start to this end. Looks only where nodes end elsewhere than collect() was told;
+  /// what it names may be named already.
+  void collectDeviating(const Field3& end, double reach, Candidates& out) noexcept;
 
   /// Gives `out` room for kRoomPerNode candidates of either kind per node.
   void reserve(Candidates& out) const { out.reserve(kRoomPerNode * grid_.nodeCount()); }
 
  private:
-  /// A motion of the nodes, and the origins it is relative to.
-  struct Motion {
-    MovingNodes nodes;
-    Vec3 start = Vec3::Zero(),
-         end =
-             Vec3::Zero();  // origin at either instant: the first node's start, and that plus the mean displacement [m]
-    float rounding = 0.0f;  // largest rounding error of a difference of two coordinates [m]
+  /// Where a quad or a window can be: at the lower and at the right border they own more elements.
+  static constexpr std::size_t kWhere = 4;
+  /// Element pairs of a cluster: of a window, by where it is, or of two quads, by where both are.
+  struct Kind {
+    std::vector<LocalPair> vertices, edges;
   };
-
-  void setMotion(const Field3& start, const Field3& end, Motion& motion) noexcept;
-  std::size_t markDeviating(const Field3& end, double most) noexcept;
-  void collectOf(const std::vector<std::uint8_t>* marked, const Motion& motion, double reach, Candidates& out) noexcept;
-  void interleaveNodes(const MovingNodes& nodes) noexcept;
-
-  struct QuadPair {
-    std::uint32_t a, b;  // indices in the hierarchy
-  };
-  /// Pairs of elements: the first `near` passed the separating axis test, the others are still to be tested.
-  struct Pairs {
-    decltype(&vertexSeparated) separated;
-    std::vector<FourNodes> nodes{};
-    std::size_t near = 0;
-    bool isFull() const noexcept { return nodes.size() == nodes.capacity(); }
-  };
-  /// Result of one worker's share of blocks and windows.
+  static constexpr std::size_t kKinds = kWhere + kWhere * kWhere;
+  /// What one worker has found so far.
   struct Share {
-    std::vector<QuadPair> quads;  // to be tested, many at once
-    Pairs vertices{vertexSeparated}, edges{edgesSeparated};
-    void clear() noexcept {
-      for (Pairs* const pairs : {&vertices, &edges}) {
-        pairs->nodes.clear();
-        pairs->near = 0;
-      }
-    }
+    std::vector<TwoQuads> quads;            // to be tested
+    std::array<Clusters, kKinds> clusters;  // by kind, to be tested
+    std::array<std::size_t, kKinds> count;  // of these
+    Candidates near;
   };
   /// Parameters of one search.
   struct Query {
-    float reach, rounding;
-    bool bent;  // some blocks are not proven flat
+    StraightMotion motion;
+    float most;  // patches that deviate from what was expected by no more are not looked into [m]; 0: all are
     Candidates* out;
   };
-  SweptNodes swept() const noexcept { return {starts_.data(), ends_.data()}; }
-  void collectShare(const Query& query, int index, Share& share) const noexcept;
-  void keepUnseparatedQuads(decltype(&quadsSeparated) separated, const Query& query,
-                            std::vector<QuadPair>& quads) const noexcept;
-  void addElements(const Query& query, Share& share) const noexcept;
-  void add(const Query& query, const FourNodes& nodes, Pairs& pairs, Share& share) const noexcept {
-    if (pairs.isFull()) makeRoom(query, pairs, share);
-    pairs.nodes.push_back(nodes);
-  }
-  void makeRoom(const Query& query, Pairs& pairs, Share& share) const noexcept;
-  static void flush(const Query& query, Share& share) noexcept;
-  void discardSeparated(const Query& query, Pairs& pairs) const noexcept;
 
-  Grid grid_;
-  ElementPairs elements_;
+  void makeKinds();
+  std::size_t whereIs(int row, int column, int high, int wide) const noexcept;
+  // deviation [m]: see Query::most
+  void collectOf(double reach, double deviation, Candidates& out) noexcept;
+  void collectShare(const Query& query, std::size_t index, Share& share) const noexcept;
+  void addWindows(const Query& query, std::size_t index, Share& share) const noexcept;
+  bool onlyNeighboursMeet(const Query& query) const noexcept;
+  FlatNodes flatNodes(const Query& query, int row, int column) const noexcept;
+  bool isWanted(const Query& query, int a, int b) const noexcept;
+  void testQuads(const Query& query, Share& share) const noexcept;
+  void keepUnseparated(const Query& query, int steps, std::vector<TwoQuads>& quads) const noexcept;
+  void addQuads(const Query& query, TwoQuads pair, Share& share) const noexcept;
+  template <typename Block>
+  void forEachBlock(int count, const Block& block) const;
+  template <typename NodeOf>
+  void addCluster(const Query& query, std::size_t kind, const NodeOf& node_of, Share& share) const noexcept;
+  void testClusters(const Query& query, std::size_t kind, Share& share) const noexcept;
+  void name(const Query& query, bool edges, const std::array<std::uint32_t, 4>& nodes, Share& share) const noexcept;
+  bool isCloth(bool edges, const std::array<std::uint32_t, 4>& nodes) const noexcept;
+  void makeRoom(const Query& query, Share& share) const noexcept;
+  static void flush(const Query& query, Share& share) noexcept;
+
+  SweptNodes nodes_;
+  Grid grid_;                            // of these: all nodes here are in it
+  std::vector<std::uint32_t> in_field_;  // and where they are in a Field
+  std::vector<std::uint8_t> immovable_;
   Spacings per_spacing_;
-  BoxHierarchy hierarchy_;
-  std::size_t flat_level_;
-  FlatBlocks flat_blocks_;  // of flat_level_
-  HierarchyPairs pairs_;
-  Windows windows_;
-  Motion expected_, deviating_;                // of the last collect(); of the last collectDeviating()
-  double reach_ = 0.0;                         // of the last collect() [m]
-  std::vector<std::uint8_t> marked_;           // by node: it ends elsewhere than collect() expected
-  std::vector<Eigen::Array4f> starts_, ends_;  // of the current motion, interleaved (x, y, z, 0), by node
+  double reach_ = 0.0;  // of the last collect() [m]
+  FlatPatches flat_;
+  Patches patches_;
+  int high_, wide_;  // quads along a window: two, or one where there are no more
+  std::array<Kind, kKinds> kinds_;
   const Workers* workers_;
   std::vector<Share> shares_;       // empty between searches
   mutable std::mutex making_room_;  // for shares that run full; rare

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Pairs of elements of the first layer's mesh, by the indices of their nodes in a Field. Every element belongs to one
-// quad (cloth/coarse_mesh.h), so the pairs of quads give each pair of elements once.
+// Pairs of elements of the first layer's mesh, by their nodes. Every element belongs to one quad (cloth/coarse_mesh.h),
+// so the pairs of quads give each pair of elements once.
 #pragma once
 
 #include <array>
@@ -10,7 +10,6 @@
 #include <limits>
 #include <vector>
 
-#include "cloth/cloth.h"
 #include "cloth/coarse_mesh.h"
 
 namespace curtain {
@@ -66,58 +65,29 @@ struct Candidates {
   }
 };
 
-/// Enumerates pairs of elements that have no common node and one that can move.
-class ElementPairs {
- public:
-  /// For cloth without pins.
-  explicit ElementPairs(const Grid& grid) : grid_(grid), immovable_(grid.size(), 0) {}
-  explicit ElementPairs(const ClothPattern& pattern) : grid_(pattern.grid), immovable_(pattern.grid.size()) {
-    takePins(pattern);
-  }
-
-  /// Which nodes can't move.
-  void takePins(const ClothPattern& pattern) noexcept {
-    for (std::size_t n = 0; n < immovable_.size(); ++n) immovable_[n] = pattern.inverse_mass[n] == 0.0 ? 1 : 0;
-  }
-
-  bool canMove(const std::array<std::uint32_t, 4>& nodes) const noexcept {
-    return (immovable_[nodes[0]] & immovable_[nodes[1]] & immovable_[nodes[2]] & immovable_[nodes[3]]) == 0;
-  }
-
-  /// Calls vertex(nodes) and edge(nodes) for the pairs of the quads at (row_p, column_p) and (row_q, column_q), which
-  /// may be the same.
-  template <typename Vertex, typename Edge>
-  void forEach(int row_p, int column_p, int row_q, int column_q, const Vertex& vertex, const Edge& edge) const {
-    const QuadElements p = quadElements(grid_, row_p, column_p), q = quadElements(grid_, row_q, column_q);
-    const bool one = row_p == row_q && column_p == column_q;
-    forEachOf(p, q, vertex);
-    if (!one) forEachOf(q, p, vertex);
-    for (int k = 0; k < p.edge_count; ++k) {
-      for (int l = one ? k + 1 : 0; l < q.edge_count; ++l) {
-        const MeshEdge &a = p.edges[static_cast<std::size_t>(k)], &b = q.edges[static_cast<std::size_t>(l)];
-        if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1]) continue;
-        const std::array<std::uint32_t, 4> nodes{a[0], a[1], b[0], b[1]};
-        if (canMove(nodes)) edge(nodes);
+/// Calls vertex(nodes) and edge(nodes) for the pairs of a vertex and a triangle, or of two edges, of two quads (or of
+/// one with itself) that have no common node.
+template <typename Vertex, typename Edge>
+void forEachElementPair(const QuadElements& p, const QuadElements& q, const Vertex& vertex, const Edge& edge) {
+  const auto vertices = [&](const QuadElements& one, const QuadElements& other) {
+    for (int k = 0; k < one.vertex_count; ++k) {
+      const std::uint32_t v = one.vertices[static_cast<std::size_t>(k)];
+      for (int l = 0; l < other.triangle_count; ++l) {
+        const MeshTriangle& t = other.triangles[static_cast<std::size_t>(l)];
+        if (v != t[0] && v != t[1] && v != t[2]) vertex(std::array<std::uint32_t, 4>{v, t[0], t[1], t[2]});
       }
     }
-  }
-
- private:
-  template <typename Vertex>
-  void forEachOf(const QuadElements& p, const QuadElements& q, const Vertex& vertex) const {
-    for (int k = 0; k < p.vertex_count; ++k) {
-      const std::uint32_t v = p.vertices[static_cast<std::size_t>(k)];
-      for (int l = 0; l < q.triangle_count; ++l) {
-        const MeshTriangle& t = q.triangles[static_cast<std::size_t>(l)];
-        if (v == t[0] || v == t[1] || v == t[2]) continue;
-        const std::array<std::uint32_t, 4> nodes{v, t[0], t[1], t[2]};
-        if (canMove(nodes)) vertex(nodes);
-      }
+  };
+  const bool one = p.corners == q.corners;
+  vertices(p, q);
+  if (!one) vertices(q, p);
+  for (int k = 0; k < p.edge_count; ++k) {
+    for (int l = one ? k + 1 : 0; l < q.edge_count; ++l) {
+      const MeshEdge &a = p.edges[static_cast<std::size_t>(k)], &b = q.edges[static_cast<std::size_t>(l)];
+      if (a[0] != b[0] && a[0] != b[1] && a[1] != b[0] && a[1] != b[1])
+        edge(std::array<std::uint32_t, 4>{a[0], a[1], b[0], b[1]});
     }
   }
-
-  Grid grid_;
-  std::vector<std::uint8_t> immovable_;  // by node
-};
+}
 
 }  // namespace curtain

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "contact/narrow_phase/flatness.h"
 
+#include <algorithm>
+
 #include "contact/narrow_phase/simd8.h"
 
 namespace curtain {
@@ -9,57 +11,24 @@ namespace {
 using Lanes = Simd8::Lanes;
 using Vectors = Simd8::Vectors;
 
-static_assert(FlatWindows::kCount == Simd8::kCount);
+constexpr float kLeastSine = 0.01f;      // of the angle between the mean slopes, squared
+constexpr float kLeastSlope = 1e-4f;     // of the mean slopes, squared
+constexpr float kRoundedSlopes = 2e-5f;  // rounding of U, V, a, b, on lambda
+constexpr float kTiny = 1e-20f;
 
-template <int high, int wide>
-CURTAIN_INTO_WIDE std::uint32_t findFlat(const FlatWindows& windows) {
-  constexpr float kLeastSine = 0.01f;      // of the angle between the mean slopes, squared
-  constexpr float kLeastSlope = 1e-4f;     // of the mean slopes, squared
-  constexpr float kRoundedSlopes = 2e-5f;  // rounding of U, V, a, b, on lambda
-  constexpr float kTiny = 1e-20f;
-  Vectors u[2][3][2], v[2][2][3];
-  Vectors mean_u{}, mean_v{};
-  Lanes most_u{};
-  float most_v = 0.0f;
-  for (int n = 0; n < 2; ++n) {
-    Vectors at[3][3];
-    for (int i = 0; i <= high; ++i) {
-      for (int j = 0; j <= wide; ++j) {
-        const std::size_t node = static_cast<std::size_t>(i) * windows.stride + static_cast<std::size_t>(j);
-        Simd8::load(windows.places[n][0] + node, at[i][j].x);
-        Simd8::load(windows.places[n][1] + node, at[i][j].y);
-        Simd8::load(windows.places[n][2] + node, at[i][j].z);
-      }
-    }
-    const auto slope = [](const Vectors& from, const Vectors& to, const Lanes& per, Vectors& out) {
-      out = {to.x - from.x, to.y - from.y, to.z - from.z};
-      out.scale(per);
-    };
-    for (int j = 0; j < wide; ++j) {
-      Lanes per;
-      Simd8::load(windows.per_spacing_u + j, per);
-      most_u = most_u > per ? most_u : per;
-      for (int i = 0; i <= high; ++i) {
-        slope(at[i][j], at[i][j + 1], per, u[n][i][j]);
-        mean_u.add(u[n][i][j]);
-      }
-    }
-    for (int i = 0; i < high; ++i) {
-      const Lanes per = Lanes{} + windows.per_spacing_v[i];
-      most_v = most_v > windows.per_spacing_v[i] ? most_v : windows.per_spacing_v[i];
-      for (int j = 0; j <= wide; ++j) {
-        slope(at[i][j], at[i + 1][j], per, v[n][i][j]);
-        mean_v.add(v[n][i][j]);
-      }
-    }
-  }
-  Lanes square_u, square_v, cosine, per_root;
+CURTAIN_INTO_WIDE void makeUnit(const Lanes& square, Vectors& vector) {
+  Lanes per_root;
+  Simd8::inverseRoot(square + kTiny, per_root);
+  vector.scale(per_root);
+}
+
+// The directions a and b from the mean slopes (of any scale); returns where there are some.
+CURTAIN_INTO_WIDE std::uint32_t findDirections(Vectors mean_u, Vectors mean_v, Vectors& a, Vectors& b) {
+  Lanes square_u, square_v, cosine;
   Simd8::dot(mean_u, mean_u, square_u);
   Simd8::dot(mean_v, mean_v, square_v);
-  Simd8::inverseRoot(square_u + kTiny, per_root);
-  mean_u.scale(per_root);
-  Simd8::inverseRoot(square_v + kTiny, per_root);
-  mean_v.scale(per_root);
+  makeUnit(square_u, mean_u);
+  makeUnit(square_v, mean_v);
   Simd8::dot(mean_u, mean_v, cosine);
   const Lanes plus = 1.0f + cosine, minus = 1.0f - cosine;
   Lanes per_plus, per_minus;
@@ -67,45 +36,102 @@ CURTAIN_INTO_WIDE std::uint32_t findFlat(const FlatWindows& windows) {
   Simd8::inverseRoot(minus > kTiny ? minus : Lanes{} + kTiny, per_minus);
   per_plus *= 0.5f;
   per_minus *= 0.5f;
-  Vectors a{(mean_u.x + mean_v.x) * per_plus, (mean_u.y + mean_v.y) * per_plus, (mean_u.z + mean_v.z) * per_plus};
+  a = {(mean_u.x + mean_v.x) * per_plus, (mean_u.y + mean_v.y) * per_plus, (mean_u.z + mean_v.z) * per_plus};
   const Vectors skew{(mean_u.x - mean_v.x) * per_minus, (mean_u.y - mean_v.y) * per_minus,
                      (mean_u.z - mean_v.z) * per_minus};
-  const Vectors b{a.x - skew.x, a.y - skew.y, a.z - skew.z};
+  b = {a.x - skew.x, a.y - skew.y, a.z - skew.z};
   a.add(skew);
-  // Bound for lambda: reach over the least altitude of a triangle, plus rounding of the slopes by a few ulps of the
-  // largest coordinate over the spacing.
-  Lanes limit;
+  return Simd8::bitsOf(((plus < minus ? plus : minus) > kLeastSine) &
+                       ((square_u < square_v ? square_u : square_v) > kLeastSlope));
+}
+
+// Bound for lambda: reach over the least altitude of a triangle, plus rounding of the slopes by a few ulps of the
+// largest coordinate over the spacing.
+CURTAIN_INTO_WIDE void findLimit(const FlatNodes& nodes, const Lanes& most_u, float most_v, Lanes& limit) {
   const Lanes squares = most_u * most_u + most_v * most_v;
   Simd8::inverseRoot(squares, limit);
-  limit = (1.0f + 1e-4f) * (windows.reach * (squares * limit) +
-                            (16.0f * windows.rounding) * (most_u > most_v ? most_u : Lanes{} + most_v)) +
+  limit = (1.0f + 1e-4f) * (nodes.reach * (squares * limit) +
+                            (16.0f * nodes.rounding) * (most_u > most_v ? most_u : Lanes{} + most_v)) +
           kRoundedSlopes;
-  auto flat =
-      ((plus < minus ? plus : minus) > kLeastSine) & ((square_u < square_v ? square_u : square_v) > kLeastSlope);
-  // Both eigenvalues of the symmetric part of J exceed the limit.
-  const auto narrow = [&](const Vectors& du, const Vectors& dv) {
-    Lanes along_u, along_v, across_u, across_v;
-    Simd8::dot(du, a, along_u);
-    Simd8::dot(dv, b, along_v);
-    Simd8::dot(du, b, across_u);
-    Simd8::dot(dv, a, across_v);
-    along_u -= limit;
-    along_v -= limit;
-    const Lanes across = 0.5f * (across_u + across_v);
-    flat &= (along_u > 0.0f) & (along_v > 0.0f) & (along_u * along_v > across * across);
-  };
-  for (int n = 0; n < 2; ++n) {
-    for (int i = 0; i < high; ++i) {
-      for (int j = 0; j < wide; ++j) {
-        narrow(u[n][i][j], v[n][i][j]);
-        narrow(u[n][i + 1][j], v[n][i][j + 1]);
+}
+
+// Lanes of `flat` stay where both eigenvalues of the symmetric part of J exceed the limit.
+template <typename Truth>
+CURTAIN_INTO_WIDE void narrow(const Lanes& along_u, const Lanes& across_u, const Lanes& along_v, const Lanes& across_v,
+                              const Lanes& limit, Truth& flat) {
+  const Lanes u = along_u - limit, v = along_v - limit, across = 0.5f * (across_u + across_v);
+  flat &= (u > 0.0f) & (v > 0.0f) & (u * v > across * across);
+}
+
+// Lanes of windows that keep `limit` along a and b.
+template <int wide>
+CURTAIN_INTO_WIDE std::uint32_t findFlat(const FlatNodes& nodes, int high, const Vectors& a, const Vectors& b,
+                                         const Lanes& limit) {
+  auto flat = limit > 0.0f;
+  for (const auto& places : nodes.places) {
+    // Components of a row of nodes, and of the one above.
+    Lanes row_a[wide + 1], row_b[wide + 1], above_a[wide + 1], above_b[wide + 1];
+    for (int i = 0; i <= high; ++i) {
+      for (int j = 0; j <= wide; ++j) {
+        const std::size_t node = static_cast<std::size_t>(i) * nodes.stride + static_cast<std::size_t>(j);
+        Vectors at;
+        Simd8::load(places[0] + node, at.x);
+        Simd8::load(places[1] + node, at.y);
+        Simd8::load(places[2] + node, at.z);
+        Simd8::dot(at, a, row_a[j]);
+        Simd8::dot(at, b, row_b[j]);
+      }
+      if (i > 0) {
+        const Lanes per_v = Lanes{} + nodes.per_spacing_v[i - 1];
+        for (int j = 0; j < wide; ++j) {
+          Lanes per_u;
+          Simd8::load(nodes.per_spacing_u + j, per_u);
+          narrow((above_a[j + 1] - above_a[j]) * per_u, (above_b[j + 1] - above_b[j]) * per_u,
+                 (row_b[j] - above_b[j]) * per_v, (row_a[j] - above_a[j]) * per_v, limit, flat);
+          narrow((row_a[j + 1] - row_a[j]) * per_u, (row_b[j + 1] - row_b[j]) * per_u,
+                 (row_b[j + 1] - above_b[j + 1]) * per_v, (row_a[j + 1] - above_a[j + 1]) * per_v, limit, flat);
+        }
+      }
+      for (int j = 0; j <= wide; ++j) {
+        above_a[j] = row_a[j];
+        above_b[j] = row_b[j];
       }
     }
   }
   return Simd8::bitsOf(flat);
 }
 
-CURTAIN_WIDE std::uint32_t findFlatSquares(const FlatWindows& windows) { return findFlat<2, 2>(windows); }
+// The slopes' directions are those between the corners.
+template <int wide>
+CURTAIN_INTO_WIDE std::uint32_t findFlatWindows(const FlatNodes& nodes, int high) {
+  Vectors mean_u{}, mean_v{}, a, b;
+  const std::size_t below = static_cast<std::size_t>(high) * nodes.stride;
+  for (const auto& places : nodes.places) {
+    const auto slopes = [&](const float* at, Lanes& u, Lanes& v) {
+      Lanes first, right, lower, last;
+      Simd8::load(at, first);
+      Simd8::load(at + wide, right);
+      Simd8::load(at + below, lower);
+      Simd8::load(at + below + wide, last);
+      const Lanes falling = last - first, rising = right - lower;
+      u += falling + rising;
+      v += falling - rising;
+    };
+    slopes(places[0], mean_u.x, mean_v.x);
+    slopes(places[1], mean_u.y, mean_v.y);
+    slopes(places[2], mean_u.z, mean_v.z);
+  }
+  Lanes most_u, limit;
+  Simd8::load(nodes.per_spacing_u, most_u);
+  if (wide == 2) {
+    Lanes other;
+    Simd8::load(nodes.per_spacing_u + 1, other);
+    Simd8::raise(most_u, other);
+  }
+  findLimit(nodes, most_u, *std::max_element(nodes.per_spacing_v, nodes.per_spacing_v + high), limit);
+  const std::uint32_t found = findDirections(mean_u, mean_v, a, b);
+  return found & findFlat<wide>(nodes, high, a, b, limit);
+}
 
 }  // namespace
 
@@ -126,10 +152,8 @@ Spacings::Spacings(const ClothPattern& pattern) {
   }
 }
 
-std::uint32_t FlatWindows::find() const noexcept {
-  if (high == 2 && wide == 2) return findFlatSquares(*this);
-  if (high == 2) return findFlat<2, 1>(*this);
-  return wide == 2 ? findFlat<1, 2>(*this) : findFlat<1, 1>(*this);
+CURTAIN_WIDE std::uint32_t flatWindows(const FlatNodes& nodes, int high, int wide) noexcept {
+  return wide == 2 ? findFlatWindows<2>(nodes, high) : findFlatWindows<1>(nodes, high);
 }
 
 }  // namespace curtain

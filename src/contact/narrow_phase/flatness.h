@@ -36,20 +36,18 @@ struct Spacings {
   Floats u, v;
 };
 
-/// Eight windows of one or two quads either way, whose first nodes are next to each other in memory.
-struct FlatWindows {
-  static constexpr std::size_t kCount = 8;
-
-  int high, wide;             ///< quads along a window
+/// Nodes of a regular grid during a motion, from the first of a window on.
+struct FlatNodes {
   std::size_t stride;         ///< between rows of nodes [floats]
   const float* places[2][3];  ///< of the first node at both instants, by component [m]
   const float *per_spacing_u,
       *per_spacing_v;     ///< from the first column and row on [1/m]
   float reach, rounding;  ///< distance to prove; largest rounding error of a difference of two coordinates [m]
-
-  /// Bit k: any two elements of window k without a common node are further apart than the reach throughout the motion.
-  /// Bits beyond the cloth are undefined.
-  std::uint32_t find() const noexcept;
 };
+
+/// Eight windows of one or two quads either way (`high`, `wide`) whose first nodes are next to each other in memory.
+/// Bit k: any two elements of window k without a common node are further apart than the reach throughout the motion.
+/// Bits beyond the cloth are undefined.
+std::uint32_t flatWindows(const FlatNodes& nodes, int high, int wide) noexcept;
 
 }  // namespace curtain

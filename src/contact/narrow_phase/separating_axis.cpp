@@ -11,37 +11,27 @@ using Vectors = Simd8::Vectors;
 
 static_assert(kPairsAtOnce == Simd8::kCount);
 
-// Of Gilbert's method; more separate hardly any more pairs.
-constexpr int kGilbertSteps = 6;
-
-/// Points of eight pairs at both instants, and their sum: the positions half way, times two. The first set of a pair
-/// comes first.
+/// Points of eight pairs at both instants, those of the first set of each pair first.
 template <std::size_t kPoints>
-struct Motion {
-  Vectors start[kPoints], end[kPoints], half[kPoints];
+struct Points {
+  Vectors start[kPoints], end[kPoints];
 
+  /// node_of(k): of the k-th pair.
   template <typename NodeOf>
-  CURTAIN_INTO_WIDE void gather(std::size_t point, const SweptNodes& swept, const NodeOf& node_of) {
-    Simd8::gather(swept.start, node_of, start[point]);
-    Simd8::gather(swept.end, node_of, end[point]);
-    half[point] = start[point];
-    half[point].add(end[point]);
+  CURTAIN_INTO_WIDE void gather(std::size_t point, const NodeOf& node_of) {
+    const SweptNode* nodes[kPairsAtOnce];
+    for (std::size_t k = 0; k < kPairsAtOnce; ++k) nodes[k] = node_of(k);
+    Simd8::gather([&](std::size_t k) { return nodes[k]->start.data(); }, start[point]);
+    Simd8::gather([&](std::size_t k) { return nodes[k]->end.data(); }, end[point]);
+  }
+  /// Half way, times two.
+  CURTAIN_INTO_WIDE void halfWay(Vectors (&half)[kPoints]) const {
+    for (std::size_t n = 0; n < kPoints; ++n) {
+      half[n] = start[n];
+      half[n].add(end[n]);
+    }
   }
 };
-
-CURTAIN_INTO_WIDE void gatherElements(const std::array<FourNodes, kPairsAtOnce>& pairs, const SweptNodes& swept,
-                                      Motion<4>& motion) {
-  for (std::size_t n = 0; n < 4; ++n) motion.gather(n, swept, [&](std::size_t k) { return pairs[k][n]; });
-}
-
-// The other quad first.
-CURTAIN_INTO_WIDE void gatherQuads(const std::array<TwoQuads, kPairsAtOnce>& pairs, const SweptNodes& swept,
-                                   Motion<8>& motion) {
-  for (std::size_t n = 0; n < 4; ++n) {
-    motion.gather(n, swept, [&](std::size_t k) { return pairs[k].other[n]; });
-    motion.gather(n + 4, swept, [&](std::size_t k) { return pairs[k].one[n]; });
-  }
-}
 
 // Gap along a direction: least projection of the first kFirst points less the largest of the others.
 template <std::size_t kFirst, std::size_t kPoints>
@@ -55,26 +45,26 @@ CURTAIN_INTO_WIDE void gapAlong(const Vectors& direction, const Vectors (&points
   Simd8::dot(direction, points[kFirst], most);
   for (std::size_t n = kFirst + 1; n < kPoints; ++n) {
     Simd8::dot(direction, points[n], height);
-    most = height > most ? height : most;
+    Simd8::raise(most, height);
   }
   gap -= most;
 }
 
 // Lanes where the gap along a direction exceeds `least` at both instants.
 template <std::size_t kFirst, std::size_t kPoints>
-CURTAIN_INTO_WIDE std::uint32_t separates(const Vectors& direction, const Motion<kPoints>& motion, float least) {
-  Lanes at_start, at_end, squared;
-  gapAlong<kFirst>(direction, motion.start, at_start);
-  gapAlong<kFirst>(direction, motion.end, at_end);
-  Simd8::lower(at_start, at_end);
+CURTAIN_INTO_WIDE std::uint32_t separates(const Vectors& direction, const Points<kPoints>& points, float least) {
+  Lanes gap, at_end, squared;
+  gapAlong<kFirst>(direction, points.start, gap);
+  gapAlong<kFirst>(direction, points.end, at_end);
+  Simd8::lower(gap, at_end);
   Simd8::dot(direction, direction, squared);
-  return Simd8::bitsOf((at_start > 0.0f) & (at_start * at_start > (least * least) * squared));
+  return Simd8::bitsOf((gap > 0.0f) & (gap * gap > (least * least) * squared));
 }
 
 // The reach plus rounding: coordinates are off by `rounding` each, and the dot product adds three roundings of the same
 // size; the factor covers all.
-CURTAIN_INTO_WIDE float withRounding(float reach, float rounding) {
-  return (reach + 16.0f * rounding) * (1.0f + 1e-5f);
+CURTAIN_INTO_WIDE float withRounding(const StraightMotion& motion) {
+  return (motion.reach + 16.0f * motion.rounding) * (1.0f + 1e-5f);
 }
 
 // A quotient that only chooses a direction. Where the divisor is 0, `other` has its dimension: a constant would make
@@ -83,8 +73,8 @@ CURTAIN_INTO_WIDE void divide(Lanes& value, const Lanes& divisor, const Lanes& o
   value /= divisor > 0.0f ? divisor : other;
 }
 
-// From the closest point of a segment to the point at `from`, seen from the segment's start.
-CURTAIN_INTO_WIDE void fromSegment(const Vectors& from, const Vectors& segment, Vectors& direction) {
+// From the closest point of a segment to the point at `from`, seen from the segment's start; and its squared length.
+CURTAIN_INTO_WIDE void fromSegment(const Vectors& from, const Vectors& segment, Vectors& direction, Lanes& square) {
   Lanes share, squared;
   Simd8::dot(from, segment, share);
   Simd8::dot(segment, segment, squared);
@@ -92,144 +82,134 @@ CURTAIN_INTO_WIDE void fromSegment(const Vectors& from, const Vectors& segment, 
   Simd8::cut(share);
   direction = from;
   direction.subtract(share, segment);
+  Simd8::dot(direction, direction, square);
 }
 
-// From the first quad's centre to the other's, times eight.
-CURTAIN_INTO_WIDE void betweenCentres(const Motion<8>& motion, Vectors& direction) {
-  direction = motion.half[0];
-  direction.subtract(motion.half[4]);
-  for (std::size_t n = 1; n < 4; ++n) {
-    direction.add(motion.half[n]);
-    direction.subtract(motion.half[n + 4]);
+struct Edges {
+  static constexpr std::size_t kFirst = 2;
+
+  // Between the closest points of two segments: Ericson, Real-Time Collision Detection, 5.1.9.
+  static CURTAIN_INTO_WIDE void direction(const Vectors (&at)[4], Vectors& to) {
+    Vectors ab, cd, ca;
+    Simd8::difference(at[1], at[0], ab);
+    Simd8::difference(at[3], at[2], cd);
+    Simd8::difference(at[0], at[2], ca);
+    Lanes ab_ab, cd_cd, ab_cd, ca_ab, ca_cd;
+    Simd8::dot(ab, ab, ab_ab);
+    Simd8::dot(cd, cd, cd_cd);
+    Simd8::dot(ab, cd, ab_cd);
+    Simd8::dot(ca, ab, ca_ab);
+    Simd8::dot(ca, cd, ca_cd);
+    const Lanes one = Lanes{} + 1.0f;
+    ab_ab = ab_ab > 0.0f ? ab_ab : one;
+    cd_cd = cd_cd > 0.0f ? cd_cd : one;
+    const Lanes squares = ab_ab * cd_cd;
+    Lanes s = ab_cd * ca_cd - ca_ab * cd_cd;
+    divide(s, squares - ab_cd * ab_cd, squares);
+    Simd8::cut(s);
+    Lanes t = (ab_cd * s + ca_cd) / cd_cd;
+    Simd8::cut(t);
+    s = (ab_cd * t - ca_ab) / ab_ab;
+    Simd8::cut(s);
+    to = ca;
+    to.subtract(-s, ab);
+    to.subtract(t, cd);
   }
-}
+};
 
-// Normal of a quad, on the side of `between`.
-CURTAIN_INTO_WIDE void quadNormal(const Vectors* corners, const Vectors& between, Vectors& normal) {
-  Vectors falling, rising;
-  Simd8::difference(corners[3], corners[0], falling);
-  Simd8::difference(corners[1], corners[2], rising);
-  Simd8::cross(falling, rising, normal);
-  Lanes side;
-  Simd8::dot(normal, between, side);
-  const Lanes one = Lanes{} + 1.0f;
-  normal.scale(side < 0.0f ? -one : one);
+struct VertexAndTriangle {
+  static constexpr std::size_t kFirst = 1;
+
+  // Over the face its normal, on the vertex's side; beside it from the closest point of its edges.
+  static CURTAIN_INTO_WIDE void direction(const Vectors (&at)[4], Vectors& to) {
+    Vectors ap, ab, ac, bp, bc, across;
+    Simd8::difference(at[0], at[1], ap);
+    Simd8::difference(at[2], at[1], ab);
+    Simd8::difference(at[3], at[1], ac);
+    Simd8::difference(at[0], at[2], bp);
+    Simd8::difference(at[3], at[2], bc);
+    Vectors normal, from_ab, from_ac, from_bc;
+    Simd8::cross(ab, ac, normal);
+    Lanes over_ab, over_ac, over_bc, height, to_ab, to_ac, to_bc;
+    Simd8::cross(ab, ap, across);
+    Simd8::dot(across, normal, over_ab);
+    Simd8::cross(ap, ac, across);
+    Simd8::dot(across, normal, over_ac);
+    Simd8::cross(bc, bp, across);
+    Simd8::dot(across, normal, over_bc);
+    Simd8::dot(normal, ap, height);
+    normal.scale(height < 0.0f ? Lanes{} - 1.0f : Lanes{} + 1.0f);
+    fromSegment(ap, ab, from_ab, to_ab);
+    fromSegment(ap, ac, from_ac, to_ac);
+    fromSegment(bp, bc, from_bc, to_bc);
+    to = from_ab;
+    Simd8::choose(to_ac < to_ab, from_ac, to);
+    Simd8::lower(to_ab, to_ac);
+    Simd8::choose(to_bc < to_ab, from_bc, to);
+    Simd8::choose((over_ab >= 0.0f) & (over_ac >= 0.0f) & (over_bc >= 0.0f), normal, to);
+  }
+};
+
+template <typename Elements>
+CURTAIN_INTO_WIDE void findNear(const Points<Clusters::kMost>& all, const std::vector<LocalPair>& pairs, float least,
+                                std::uint8_t* near) {
+  for (std::size_t l = 0; l < pairs.size(); ++l) {
+    Points<4> points;
+    for (std::size_t n = 0; n < 4; ++n) {
+      points.start[n] = all.start[pairs[l][n]];
+      points.end[n] = all.end[pairs[l][n]];
+    }
+    Vectors half[4], direction;
+    points.halfWay(half);
+    Elements::direction(half, direction);
+    near[l] = static_cast<std::uint8_t>(~separates<Elements::kFirst>(direction, points, least));
+  }
 }
 
 }  // namespace
 
-CURTAIN_WIDE std::uint32_t edgesSeparated(const std::array<FourNodes, kPairsAtOnce>& pairs, const SweptNodes& swept,
-                                          float reach, float rounding) noexcept {
-  Motion<4> motion;
-  gatherElements(pairs, swept, motion);
-  Vectors ab, cd, ca;
-  Simd8::difference(motion.half[1], motion.half[0], ab);
-  Simd8::difference(motion.half[3], motion.half[2], cd);
-  Simd8::difference(motion.half[0], motion.half[2], ca);
-  Lanes ab_ab, cd_cd, ab_cd, ca_ab, ca_cd;
-  Simd8::dot(ab, ab, ab_ab);
-  Simd8::dot(cd, cd, cd_cd);
-  Simd8::dot(ab, cd, ab_cd);
-  Simd8::dot(ca, ab, ca_ab);
-  Simd8::dot(ca, cd, ca_cd);
-  const Lanes one = Lanes{} + 1.0f;
-  ab_ab = ab_ab > 0.0f ? ab_ab : one;
-  cd_cd = cd_cd > 0.0f ? cd_cd : one;
-  // Closest points of two segments: Ericson, Real-Time Collision Detection, 5.1.9.
-  const Lanes squares = ab_ab * cd_cd;
-  Lanes s = ab_cd * ca_cd - ca_ab * cd_cd;
-  divide(s, squares - ab_cd * ab_cd, squares);
-  Simd8::cut(s);
-  Lanes t = (ab_cd * s + ca_cd) / cd_cd;
-  Simd8::cut(t);
-  s = (ab_cd * t - ca_ab) / ab_ab;
-  Simd8::cut(s);
-  Vectors direction = ca;
-  direction.subtract(-s, ab);
-  direction.subtract(t, cd);
-  return separates<2>(direction, motion, withRounding(reach, rounding));
+CURTAIN_WIDE void findNear(const Clusters& clusters, const StraightMotion& motion,
+                           const std::vector<LocalPair>& vertices, const std::vector<LocalPair>& edges,
+                           std::uint8_t* near) noexcept {
+  Points<Clusters::kMost> points;
+  for (std::size_t n = 0; n < clusters.size; ++n)
+    points.gather(n, [&](std::size_t k) { return motion.nodes + clusters.nodes[n][k]; });
+  const float least = withRounding(motion);
+  findNear<VertexAndTriangle>(points, vertices, least, near);
+  findNear<Edges>(points, edges, least, near + vertices.size());
 }
 
-CURTAIN_WIDE std::uint32_t vertexSeparated(const std::array<FourNodes, kPairsAtOnce>& pairs, const SweptNodes& swept,
-                                           float reach, float rounding) noexcept {
-  Motion<4> motion;
-  gatherElements(pairs, swept, motion);
-  const float least = withRounding(reach, rounding);
-  // Over the face its normal; beside it the direction from the closest point of its edges.
-  Vectors ap, ab, ac, up;
-  Simd8::difference(motion.half[0], motion.half[1], ap);
-  Simd8::difference(motion.half[2], motion.half[1], ab);
-  Simd8::difference(motion.half[3], motion.half[1], ac);
-  Simd8::cross(ab, ac, up);
-  Lanes height;
-  Simd8::dot(up, ap, height);
-  const Lanes one = Lanes{} + 1.0f;
-  up.scale(height < 0.0f ? -one : one);
-  const std::uint32_t above = separates<1>(up, motion, least);
-  if (above == 0xFFU) return above;
-  Vectors bp, bc, from_ab, from_ac, from_bc;
-  Simd8::difference(motion.half[0], motion.half[2], bp);
-  Simd8::difference(motion.half[3], motion.half[2], bc);
-  fromSegment(ap, ab, from_ab);
-  fromSegment(ap, ac, from_ac);
-  fromSegment(bp, bc, from_bc);
-  Lanes to_ab, to_ac, to_bc;
-  Simd8::dot(from_ab, from_ab, to_ab);
-  Simd8::dot(from_ac, from_ac, to_ac);
-  Simd8::dot(from_bc, from_bc, to_bc);
-  Vectors direction;
-  const auto ab_first = to_ab < to_ac;
-  const auto bc_first = to_bc < (ab_first ? to_ab : to_ac);
-  direction.x = bc_first ? from_bc.x : (ab_first ? from_ab.x : from_ac.x);
-  direction.y = bc_first ? from_bc.y : (ab_first ? from_ab.y : from_ac.y);
-  direction.z = bc_first ? from_bc.z : (ab_first ? from_ab.z : from_ac.z);
-  return above | separates<1>(direction, motion, least);
-}
-
-CURTAIN_WIDE std::uint32_t quadsSeparated(const std::array<TwoQuads, kPairsAtOnce>& pairs, const SweptNodes& swept,
-                                          float reach, float rounding) noexcept {
-  Motion<8> motion;
-  gatherQuads(pairs, swept, motion);
-  const float least = withRounding(reach, rounding);
-  Vectors between, normal;
-  betweenCentres(motion, between);
-  std::uint32_t separated = separates<4>(between, motion, least);
-  if (separated == 0xFFU) return separated;
-  quadNormal(motion.half + 4, between, normal);
-  separated |= separates<4>(normal, motion, least);
-  if (separated == 0xFFU) return separated;
-  quadNormal(motion.half, between, normal);
-  return separated | separates<4>(normal, motion, least);
-}
-
-CURTAIN_WIDE std::uint32_t quadsSeparatedByGilbert(const std::array<TwoQuads, kPairsAtOnce>& pairs,
-                                                   const SweptNodes& swept, float reach, float rounding) noexcept {
-  Motion<8> motion;
-  gatherQuads(pairs, swept, motion);
-  const float least = withRounding(reach, rounding);
-  Vectors direction;
-  betweenCentres(motion, direction);
+CURTAIN_WIDE std::uint32_t quadsSeparated(const std::array<TwoQuads, kPairsAtOnce>& pairs, const StraightMotion& motion,
+                                          std::size_t stride, int steps) noexcept {
+  Points<8> points;
+  for (std::size_t n = 0; n < 4; ++n) {
+    const SweptNode* const corner = motion.nodes + n % 2 + n / 2 * stride;
+    points.gather(n, [&](std::size_t k) { return corner + pairs[k].one; });
+    points.gather(n + 4, [&](std::size_t k) { return corner + pairs[k].other; });
+  }
+  const float least = withRounding(motion);
+  Vectors half[8], direction{};
+  points.halfWay(half);
+  for (std::size_t n = 0; n < 4; ++n) {
+    direction.add(half[n]);
+    direction.subtract(half[n + 4]);
+  }
   direction.scale(Lanes{} + 0.25f);
-  std::uint32_t separated = 0;
-  for (int step = 0; step < kGilbertSteps && separated != 0xFFU; ++step) {
-    // Support points: the corner of the first quad furthest along the direction, that of the other least far.
-    Vectors nearest = motion.half[0], furthest = motion.half[4];
+  std::uint32_t separated = separates<4>(direction, points, least);
+  for (int step = 0; step < steps && separated != 0xFFU; ++step) {
+    // Support points: the corner of the first quad least far along the direction, that of the other furthest.
+    Vectors nearest = half[0], furthest = half[4];
     Lanes lowest, most;
     Simd8::dot(direction, nearest, lowest);
     Simd8::dot(direction, furthest, most);
-    const auto choose = [](const Vectors& corner, const auto& better, Vectors& chosen) {
-      chosen.x = better ? corner.x : chosen.x;
-      chosen.y = better ? corner.y : chosen.y;
-      chosen.z = better ? corner.z : chosen.z;
-    };
     for (std::size_t n = 1; n < 4; ++n) {
       Lanes height;
-      Simd8::dot(direction, motion.half[n + 4], height);
-      choose(motion.half[n + 4], height > most, furthest);
-      most = height > most ? height : most;
-      Simd8::dot(direction, motion.half[n], height);
-      choose(motion.half[n], height < lowest, nearest);
-      lowest = height < lowest ? height : lowest;
+      Simd8::dot(direction, half[n], height);
+      Simd8::choose(height < lowest, half[n], nearest);
+      Simd8::lower(lowest, height);
+      Simd8::dot(direction, half[n + 4], height);
+      Simd8::choose(height > most, half[n + 4], furthest);
+      Simd8::raise(most, height);
     }
     Vectors towards;
     Simd8::difference(nearest, furthest, towards);
@@ -240,7 +220,7 @@ CURTAIN_WIDE std::uint32_t quadsSeparatedByGilbert(const std::array<TwoQuads, kP
     share = -share / (squared > 0.0f ? squared : Lanes{} + 1.0f);
     Simd8::cut(share);
     direction.subtract(-share, towards);
-    if (step > 0) separated |= separates<4>(direction, motion, least);
+    separated |= separates<4>(direction, points, least);
   }
   return separated;
 }

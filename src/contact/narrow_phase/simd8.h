@@ -4,7 +4,6 @@
 // written to references: the ABI for returning vectors wider than the baseline's registers is unsettled.
 #pragma once
 
-#include <Eigen/Core>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -60,7 +59,33 @@ struct Simd8 {
     to.y = a.y - b.y;
     to.z = a.z - b.z;
   }
+  static CURTAIN_INTO_WIDE void store(const Lanes& from, float* to) { std::memcpy(to, &from, sizeof from); }
   static CURTAIN_INTO_WIDE void lower(Lanes& least, const Lanes& value) { least = value < least ? value : least; }
+  static CURTAIN_INTO_WIDE void raise(Lanes& most, const Lanes& value) { most = value > most ? value : most; }
+  /// Where `truth`, `chosen` becomes `other`.
+  template <typename Truth>
+  static CURTAIN_INTO_WIDE void choose(const Truth& truth, const Vectors& other, Vectors& chosen) {
+    chosen.x = truth ? other.x : chosen.x;
+    chosen.y = truth ? other.y : chosen.y;
+    chosen.z = truth ? other.z : chosen.z;
+  }
+  /// Each of the first `count` values becomes the least (or most) of itself and the next three, of those there are.
+  /// There is room for sixteen more.
+  static CURTAIN_INTO_WIDE void reduceFours(float* values, std::size_t count, bool least) {
+    for (std::size_t j = count; j < count + 3; ++j) values[j] = values[count - 1];
+    for (const std::size_t ahead : {std::size_t{1}, std::size_t{2}}) {
+      for (std::size_t j = 0; j < count; j += kCount) {
+        Lanes value, other;
+        load(values + j, value);
+        load(values + j + ahead, other);
+        if (least)
+          lower(value, other);
+        else
+          raise(value, other);
+        store(value, values + j);
+      }
+    }
+  }
   static CURTAIN_INTO_WIDE void cut(Lanes& value) {
     value = value > 0.0f ? value : Lanes{};
     value = value < 1.0f ? value : Lanes{} + 1.0f;
@@ -72,12 +97,12 @@ struct Simd8 {
     for (std::size_t k = 0; k < kCount; ++k) values[k] = 1.0f / std::sqrt(values[k]);
     std::memcpy(&to, values, sizeof to);
   }
-  /// Places of eight nodes, by their indices; component by component.
-  template <typename NodeOf>
-  static CURTAIN_INTO_WIDE void gather(const Eigen::Array4f* places, const NodeOf& node_of, Vectors& to) {
+  /// Eight vectors, the k-th from the four floats at place_of(k); component by component.
+  template <typename PlaceOf>
+  static CURTAIN_INTO_WIDE void gather(const PlaceOf& place_of, Vectors& to) {
     using Quarter = float __attribute__((vector_size(16)));
     Quarter q[kCount];
-    for (std::size_t k = 0; k < kCount; ++k) std::memcpy(&q[k], places[node_of(k)].data(), sizeof q[k]);
+    for (std::size_t k = 0; k < kCount; ++k) std::memcpy(&q[k], place_of(k), sizeof q[k]);
     // Nodes k and k + 4 side by side, and then components across.
     Lanes a, b, c, d;
     join(q[0], q[4], a);

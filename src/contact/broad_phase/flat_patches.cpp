@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "contact/broad_phase/flat_blocks.h"
+#include "contact/broad_phase/flat_patches.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,12 +11,12 @@ namespace {
 
 using Lanes = Simd8::Lanes;
 
-/// One component of a strip of quads (a row of blocks): positions at both instants, and where the ranges go.
+/// One component of a strip of quads (a row of patches): positions at both instants, and where the ranges go.
 struct Strip {
   const float *start, *end;
-  std::size_t stride;   // of both
-  std::size_t columns;  // of nodes
-  int rows;             // of quads
+  std::size_t stride;  // of both
+  std::size_t links;   // of a row
+  int rows;            // of quads
   const float *per_spacing_u, *per_spacing_v;
   float *low, *high, *u_low, *u_high, *v_low, *v_high;
 };
@@ -26,12 +26,9 @@ CURTAIN_INTO_WIDE void widen(const Lanes& value, Lanes& low, Lanes& high) {
   high = value > high ? value : high;
 }
 
-CURTAIN_INTO_WIDE void store(const Lanes& value, float* to) { std::memcpy(to, &value, sizeof value); }
-
-// Ranges per column: of its nodes, of the weft links to the next column, of its warp links. u of the last column is
-// padding.
+// Ranges over four columns from each on: of their nodes, of the weft links on their right, of their warp links.
 CURTAIN_WIDE void columnRanges(const Strip& s) {
-  for (std::size_t j = 0; j < s.columns; j += Simd8::kCount) {
+  for (std::size_t j = 0; j <= s.links; j += Simd8::kCount) {
     const float *start = s.start + j, *end = s.end + j;
     Lanes p, q, next;
     Simd8::load(start, p);
@@ -62,32 +59,40 @@ CURTAIN_WIDE void columnRanges(const Strip& s) {
     }
     Lanes per_spacing_u;
     Simd8::load(s.per_spacing_u + j, per_spacing_u);
-    store(low, s.low + j);
-    store(high, s.high + j);
-    store(u_low * per_spacing_u, s.u_low + j);
-    store(u_high * per_spacing_u, s.u_high + j);
-    store(v_low, s.v_low + j);
-    store(v_high, s.v_high + j);
+    Simd8::store(low, s.low + j);
+    Simd8::store(high, s.high + j);
+    Simd8::store(u_low * per_spacing_u, s.u_low + j);
+    Simd8::store(u_high * per_spacing_u, s.u_high + j);
+    Simd8::store(v_low, s.v_low + j);
+    Simd8::store(v_high, s.v_high + j);
   }
+  Simd8::reduceFours(s.low, s.links + 1, true);
+  Simd8::reduceFours(s.high, s.links + 1, false);
+  Simd8::reduceFours(s.u_low, s.links, true);
+  Simd8::reduceFours(s.u_high, s.links, false);
+  Simd8::reduceFours(s.v_low, s.links + 1, true);
+  Simd8::reduceFours(s.v_high, s.links + 1, false);
 }
 
-float leastOf(const float* from, const float* to) { return *std::min_element(from, to); }
 float mostOf(const float* from, const float* to) { return *std::max_element(from, to); }
 
 }  // namespace
 
-FlatBlocks::FlatBlocks(const Grid& grid, const Spacings& per_spacing, const BoxHierarchy::Level& level, int quads_along)
-    : grid_(grid), rows_(level.rows), columns_(level.columns), along_(quads_along), per_spacing_(per_spacing) {
+FlatPatches::FlatPatches(const Grid& grid, const Spacings& per_spacing)
+    : grid_(grid),
+      rows_((grid.rows - 1 + kAlong - 1) / kAlong),
+      columns_((grid.linkCount() + kAlong - 1) / kAlong),
+      per_spacing_(per_spacing) {
   const auto padded = static_cast<std::size_t>(Grid::strideFor(grid_.columns + 2)) + 2 * Simd8::kCount;
-  for (MovingNodes::Floats& floats : ranges_) floats.assign(padded, 0.0f);
+  for (SweptNodes::Floats& floats : ranges_) floats.assign(padded, 0.0f);
   slopes_.resize(static_cast<std::size_t>(rows_ * columns_));
   boxes_.assign(slopes_.size(), {Eigen::Array4f::Zero(), Eigen::Array4f::Zero()});
-  bent_.assign(slopes_.size(), 1);
+  flat_.assign(slopes_.size(), 0);
   for (int i = 0; i < rows_; ++i) {
     for (int j = 0; j < columns_; ++j) {
       Slopes& slopes = slopes_[at(i, j)];
       const auto largest = [&](const Spacings::Floats& per, int at, int count) {
-        return mostOf(per.data() + at * along_, per.data() + std::min((at + 1) * along_, count));
+        return mostOf(per.data() + at * kAlong, per.data() + std::min((at + 1) * kAlong, count));
       };
       slopes.u.low = slopes.u.high = slopes.v.low = slopes.v.high = Eigen::Array4f::Zero();
       slopes.spacing_u = 1.0f / largest(per_spacing_.u, j, grid_.linkCount());
@@ -96,61 +101,60 @@ FlatBlocks::FlatBlocks(const Grid& grid, const Spacings& per_spacing, const BoxH
   }
 }
 
-void FlatBlocks::measureStrip(const MovingNodes& nodes, int strip) noexcept {
-  const int row = strip * along_, rows = std::min(along_, grid_.rows - 1 - row);
-  const auto columns = (static_cast<std::size_t>(grid_.linkCount()) + Simd8::kCount) / Simd8::kCount * Simd8::kCount;
+void FlatPatches::measureRow(const SweptNodes& nodes, int row) noexcept {
+  const int first_row = row * kAlong, rows = std::min(kAlong, grid_.rows - 1 - first_row);
+  const auto links = static_cast<std::size_t>(grid_.linkCount());
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t first = static_cast<std::size_t>(row) * nodes.stride;
+    const std::size_t first = grid_.row(first_row);
     const auto out = [&](std::size_t what) { return ranges_[6 * k + what].data(); };
-    columnRanges({&nodes.start[k][first], &nodes.end[k][first], nodes.stride, columns, rows, per_spacing_.u.data(),
-                  per_spacing_.v.data() + row, out(0), out(1), out(2), out(3), out(4), out(5)});
-    for (int b = 0; b < columns_; ++b) {
-      Slopes& slopes = slopes_[at(strip, b)];
-      const int from = b * along_, to = std::min(from + along_, grid_.linkCount());
+    columnRanges({&nodes.start()[k][first], &nodes.end()[k][first], static_cast<std::size_t>(grid_.stride), links, rows,
+                  per_spacing_.u.data(), per_spacing_.v.data() + first_row, out(0), out(1), out(2), out(3), out(4),
+                  out(5)});
+    for (int column = 0; column < columns_; ++column) {
+      Slopes& slopes = slopes_[at(row, column)];
+      MovingBox& box = boxes_[at(row, column)];
       const auto axis = static_cast<Eigen::Index>(k);
-      MovingBox& box = boxes_[at(strip, b)];
-      box.low[axis] = leastOf(out(0) + from, out(0) + to + 1);
-      box.high[axis] = mostOf(out(1) + from, out(1) + to + 1);
-      slopes.u.low[axis] = leastOf(out(2) + from, out(2) + to);
-      slopes.u.high[axis] = mostOf(out(3) + from, out(3) + to);
-      slopes.v.low[axis] = leastOf(out(4) + from, out(4) + to + 1);
-      slopes.v.high[axis] = mostOf(out(5) + from, out(5) + to + 1);
+      const auto from = static_cast<std::size_t>(column * kAlong);  // nodes: of five columns
+      box.low[axis] = std::min(out(0)[from], out(0)[from + 1]);
+      box.high[axis] = std::max(out(1)[from], out(1)[from + 1]);
+      slopes.u.low[axis] = out(2)[from];
+      slopes.u.high[axis] = out(3)[from];
+      slopes.v.low[axis] = std::min(out(4)[from], out(4)[from + 1]);
+      slopes.v.high[axis] = std::max(out(5)[from], out(5)[from + 1]);
     }
   }
 }
 
-void FlatBlocks::measure(const MovingNodes& nodes) noexcept {
-  for (int strip = 0; strip < rows_; ++strip) measureStrip(nodes, strip);
-}
-
-float FlatBlocks::largest() const noexcept {
+float FlatPatches::largest() const noexcept {
   Eigen::Array4f largest = Eigen::Array4f::Zero();
   for (const MovingBox& box : boxes_) largest = largest.max(box.low.abs()).max(box.high.abs());
   return largest.maxCoeff();
 }
 
-bool FlatBlocks::find(float reach, float rounding) noexcept {
-  std::fill(bent_.begin(), bent_.end(), std::uint8_t{0});
-  bool any = false;
-  const int last_row = std::max(rows_ - 1, 1), last_column = grid_.closed ? columns_ : std::max(columns_ - 1, 1);
-  for (int i = 0; i < last_row; ++i) {
-    for (int j = 0; j < last_column; ++j) {
-      const int below = std::min(i + 1, rows_ - 1),
-                right = grid_.closed ? (j + 1) % columns_ : std::min(j + 1, columns_ - 1);
+bool FlatPatches::find(float reach, float rounding) noexcept {
+  bool all = true;
+  for (int i = 0; i < rows_; ++i) {
+    for (int j = 0; j < columns_; ++j) {
+      const int below = std::min(i + 1, rows_ - 1), right = std::min(j + 1, columns_ - 1);
       Slopes window = slopes_[at(i, j)];
       window.merge(slopes_[at(i, right)]);
       window.merge(slopes_[at(below, j)]);
       window.merge(slopes_[at(below, right)]);
-      if (keepsApart(window, reach, rounding)) continue;
-      bent_[at(i, j)] = bent_[at(i, right)] = bent_[at(below, j)] = bent_[at(below, right)] = 1;
-      any = true;
+      // The neighbours on the right of closed cloth's last patches are the first.
+      if (grid_.closed && j == columns_ - 1) {
+        window.merge(slopes_[at(i, 0)]);
+        window.merge(slopes_[at(below, 0)]);
+      }
+      const bool flat = keepsApart(window, reach, rounding);
+      flat_[at(i, j)] = flat ? 1 : 0;
+      all = all && flat;
     }
   }
-  return any;
+  return all;
 }
 
 // Single precision: `rounding` and some ulps of every quotient, centre and half edge are added.
-bool FlatBlocks::keepsApart(const Slopes& patch, float reach, float rounding) noexcept {
+bool FlatPatches::keepsApart(const Slopes& patch, float reach, float rounding) noexcept {
   using Eigen::Array4f;
   constexpr float kUlps = 1e-6f;   // of a slope: rounding of the quotient and of the box's centre and half edges
   constexpr float kSlack = 2e-5f;  // of lambda: rounding of U, V, a, b, worst for c near 1
