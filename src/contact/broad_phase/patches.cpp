@@ -92,8 +92,15 @@ Patches::Patches(const Grid& grid)
     nowhere.most[axis] = -kNowhere;
   }
   const auto count = static_cast<std::size_t>(rows_ * columns_);
-  for (int patch = 0; patch < rows_ * columns_; ++patch)
-    first_.push_back(static_cast<std::uint32_t>(grid.index(patch / columns_ * kAlong, patch % columns_ * kAlong)));
+  for (int patch = 0; patch < rows_ * columns_; ++patch) {
+    const int row = patch / columns_ * kAlong, column = patch % columns_ * kAlong;
+    first_.push_back(static_cast<std::uint32_t>(grid.index(row, column)));
+    there_.push_back(0);
+    for (int k = 0; k < kQuads; ++k) {
+      const bool is_there = row + k / kAlong < grid.rows - 1 && column + k % kAlong < grid.linkCount();
+      there_.back() |= (is_there ? 1U : 0U) << k;
+    }
+  }
   for (int k = 0; k < kQuads; ++k)
     quad_[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(grid.index(k / kAlong, k % kAlong));
   boxes_.assign(count, nowhere);
@@ -190,7 +197,10 @@ void Patches::sort(const FlatPatches& boxes) noexcept {
   Eigen::Index widest = 0;
   (all.high - all.low).head<3>().maxCoeff(&widest);
   axis_ = static_cast<std::size_t>(widest);
-  for (std::size_t k = 0; k < order_.size(); ++k) order_[k] = {boxes_[k].least[axis_], static_cast<int>(k)};
+  for (std::size_t k = 0; k < order_.size(); ++k) {
+    const float low = boxes_[k].least[axis_];
+    order_[k] = {low > -kNowhere ? low : -kNowhere, static_cast<int>(k)};  // what is no number must not be sorted
+  }
   std::sort(order_.begin(), order_.end());
   for (std::size_t k = 0; k < order_.size(); ++k) {
     const Boxes& sorted = boxes_[static_cast<std::size_t>(order_[k].second)];
@@ -214,11 +224,13 @@ CURTAIN_WIDE std::uint32_t Patches::meeting(std::size_t k, std::size_t first, fl
 CURTAIN_WIDE std::uint32_t Patches::findNear(int a, int b, float reach, std::uint32_t (&near)[kQuads]) const noexcept {
   const Boxes &one = boxes_[static_cast<std::size_t>(a)], &other = boxes_[static_cast<std::size_t>(b)];
   std::uint32_t some = 0;
-  for (std::uint32_t rows = nearQuads(one.low, one.high, other.least, other.most, reach); rows != 0; rows &= rows - 1) {
+  const std::uint32_t mine = there_[static_cast<std::size_t>(a)], its = there_[static_cast<std::size_t>(b)];
+  std::uint32_t rows = nearQuads(one.low, one.high, other.least, other.most, reach) & mine;
+  for (; rows != 0; rows &= rows - 1) {
     const auto p = static_cast<std::uint32_t>(__builtin_ctz(rows));
     const float low[3] = {one.low[0][p], one.low[1][p], one.low[2][p]};
     const float high[3] = {one.high[0][p], one.high[1][p], one.high[2][p]};
-    near[p] = nearQuads(other.low, other.high, low, high, reach);
+    near[p] = nearQuads(other.low, other.high, low, high, reach) & its;
     some |= (near[p] != 0 ? 1U : 0U) << p;
   }
   return some;

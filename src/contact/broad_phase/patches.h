@@ -47,7 +47,8 @@ class Patches {
       take(a, a);
       const float end = sorted_[3 + axis_][k] + reach;
       for (std::size_t l = k + 1; l < order_.size() && sorted_[axis_][l] <= end; l += 8) {
-        for (std::uint32_t bits = meeting(k, l, reach); bits != 0; bits &= bits - 1)
+        const std::uint32_t all = order_.size() - l < 8 ? (1U << (order_.size() - l)) - 1U : 0xFFU;
+        for (std::uint32_t bits = meeting(k, l, reach) & all; bits != 0; bits &= bits - 1)
           take(a, order_[l + static_cast<std::size_t>(__builtin_ctz(bits))].second);
       }
     }
@@ -98,6 +99,7 @@ class Patches {
   int rows_, columns_;                      // of patches
   std::vector<std::uint32_t> first_;        // by patch: of its first quad
   std::array<std::uint32_t, kQuads> quad_;  // by quad of a patch: seen from the first
+  std::vector<std::uint32_t> there_;        // by patch: bits of the quads that it has, whatever the boxes of others
   std::vector<Boxes> boxes_;
   std::vector<Eigen::Array4f> deviations_;  // their centre, and how far they are from it at most [m]
   SweptNodes::Floats lows_, highs_;         // of deviations, by column [m]
