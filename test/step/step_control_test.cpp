@@ -85,7 +85,8 @@ TEST(StepControl, ARejectedStepIsHalvedAndGrowsAgainAfterEightGoodOnes) {
   EXPECT_EQ(control.next().h, kFrame);
 }
 
-// What arrives fast says how long a substep may be. That is no failure: the step grows again as soon as nothing touches.
+// What arrives fast says how long a substep may be. That is no failure: the step grows again as soon as nothing
+// touches.
 TEST(StepControl, AStepIsAsShortAsWhatArrivesAsks) {
   Control control(Method::kLeapfrog);
   SubstepOutcome arrives;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Faces and edges of the cloth against one obstacle: round shapes by the nearest point of a face; boxes and meshes by edges
-// against edges and faces against corners. The normal is the direction between the closest points at the start, or at
-// the time of impact for those that come from afar.
+// Faces and edges of the cloth against one obstacle: round shapes by the nearest point of a face; boxes and meshes by
+// edges against edges and faces against corners. The normal is the direction between the closest points at the start,
+// or at the time of impact for those that come from afar.
 #include "contact/response/element_contacts.h"
 
 #include <algorithm>
