@@ -49,17 +49,17 @@ std::uint32_t spread(std::uint32_t bits) {
   return (bits & 1U) | (bits & 2U) << 3 | (bits & 4U) << 6 | (bits & 8U) << 9;
 }
 
-struct Range {
+struct LaneRange {
   Lanes low, high;
 };
 
-CURTAIN_INTO_WIDE void merge(const Range& other, Range& range) {
+CURTAIN_INTO_WIDE void merge(const LaneRange& other, LaneRange& range) {
   Simd8::lower(range.low, other.low);
   Simd8::raise(range.high, other.high);
 }
 
 // Of eight weft links of a row during the motion; empty where `beyond` is positive.
-CURTAIN_INTO_WIDE void rangeOfLinks(const float* start, const float* end, const Lanes& beyond, Range& range) {
+CURTAIN_INTO_WIDE void rangeOfLinks(const float* start, const float* end, const Lanes& beyond, LaneRange& range) {
   Simd8::load(start, range.low);
   range.high = range.low;
   for (const float* const place : {start + 1, end, end + 1}) {
@@ -123,7 +123,7 @@ CURTAIN_WIDE void Patches::fitRow(const SweptNodes& nodes, int row) noexcept {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       std::size_t from = static_cast<std::size_t>(row * kAlong) * static_cast<std::size_t>(grid_.stride) +
                          static_cast<std::size_t>(first * kAlong);
-      Range above, below;
+      LaneRange above, below;
       rangeOfLinks(&nodes.start()[axis][from], &nodes.end()[axis][from], beyond, above);
       for (int i = 0; i < count; ++i) {
         from += static_cast<std::size_t>(grid_.stride);
@@ -142,7 +142,7 @@ CURTAIN_WIDE void Patches::fitRow(const SweptNodes& nodes, int row) noexcept {
 CURTAIN_WIDE void Patches::rangeOfColumns(const SweptNodes& nodes, std::size_t axis, int row) noexcept {
   const int first = row * kAlong, last = std::min(first + kAlong + 1, grid_.rows - 1);
   for (std::size_t j = 0; j < static_cast<std::size_t>(grid_.stride); j += Simd8::kCount) {
-    Range all{Lanes{} + kNowhere, Lanes{} - kNowhere};
+    LaneRange all{Lanes{} + kNowhere, Lanes{} - kNowhere};
     for (int i = first; i <= last; ++i) {
       Lanes end, expected;
       Simd8::load(&nodes.end()[axis][grid_.row(i) + j], end);

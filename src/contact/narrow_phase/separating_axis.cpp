@@ -13,7 +13,7 @@ static_assert(kPairsAtOnce == Simd8::kCount);
 
 /// Points of eight pairs at both instants, those of the first set of each pair first.
 template <std::size_t kPoints>
-struct Points {
+struct SweptPoints {
   Vectors start[kPoints], end[kPoints];
 
   /// node_of(k): of the k-th pair.
@@ -52,7 +52,7 @@ CURTAIN_INTO_WIDE void gapAlong(const Vectors& direction, const Vectors (&points
 
 // Lanes where the gap along a direction exceeds `least` at both instants.
 template <std::size_t kFirst, std::size_t kPoints>
-CURTAIN_INTO_WIDE std::uint32_t separates(const Vectors& direction, const Points<kPoints>& points, float least) {
+CURTAIN_INTO_WIDE std::uint32_t separates(const Vectors& direction, const SweptPoints<kPoints>& points, float least) {
   Lanes gap, at_end, squared;
   gapAlong<kFirst>(direction, points.start, gap);
   gapAlong<kFirst>(direction, points.end, at_end);
@@ -151,10 +151,10 @@ struct VertexAndTriangle {
 };
 
 template <typename Elements>
-CURTAIN_INTO_WIDE void findNear(const Points<Clusters::kMost>& all, const std::vector<LocalPair>& pairs, float least,
-                                std::uint8_t* near) {
+CURTAIN_INTO_WIDE void findNear(const SweptPoints<Clusters::kMost>& all, const std::vector<LocalPair>& pairs,
+                                float least, std::uint8_t* near) {
   for (std::size_t l = 0; l < pairs.size(); ++l) {
-    Points<4> points;
+    SweptPoints<4> points;
     for (std::size_t n = 0; n < 4; ++n) {
       points.start[n] = all.start[pairs[l][n]];
       points.end[n] = all.end[pairs[l][n]];
@@ -171,7 +171,7 @@ CURTAIN_INTO_WIDE void findNear(const Points<Clusters::kMost>& all, const std::v
 CURTAIN_WIDE void findNear(const Clusters& clusters, const StraightMotion& motion,
                            const std::vector<LocalPair>& vertices, const std::vector<LocalPair>& edges,
                            std::uint8_t* near) noexcept {
-  Points<Clusters::kMost> points;
+  SweptPoints<Clusters::kMost> points;
   for (std::size_t n = 0; n < clusters.size; ++n)
     points.gather(n, [&](std::size_t k) { return motion.nodes + clusters.nodes[n][k]; });
   const float least = withRounding(motion);
@@ -181,7 +181,7 @@ CURTAIN_WIDE void findNear(const Clusters& clusters, const StraightMotion& motio
 
 CURTAIN_WIDE std::uint32_t quadsSeparated(const std::array<TwoQuads, kPairsAtOnce>& pairs, const StraightMotion& motion,
                                           std::size_t stride, int steps) noexcept {
-  Points<8> points;
+  SweptPoints<8> points;
   for (std::size_t n = 0; n < 4; ++n) {
     const SweptNode* const corner = motion.nodes + n % 2 + n / 2 * stride;
     points.gather(n, [&](std::size_t k) { return corner + pairs[k].one; });
