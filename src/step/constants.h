@@ -47,9 +47,6 @@ constexpr int kFrictionSweeps = 3;
 // Not in the last resort: objects thrown at cloth at 50 m/s pierced it.
 constexpr double kShareOfPath = 0.01;
 constexpr double kMostTouch = 4.0;
-// The same of the cloth with itself, where both sides move, over that with obstacles. 3: a fifth fewer sweeps in
-// gathered cloth. With obstacles it makes strips that slide off a bar rise.
-constexpr double kClothShare = 3.0;
 // Cloth at rest on something moves little: the first sweeps aim at this share of the tolerance. It then moves at 0.3
 // mm/s instead of 0.8 (RMS), for a fifth more sweeps.
 constexpr double kStrictShare = 0.2;
@@ -83,10 +80,6 @@ constexpr double kDampingShrink = 2.0;
 // Largest motion of a touched obstacle's surface in a substep, over the shortest link: with more, the solve could not
 // bring links to their lengths.
 constexpr double kMostSurfaceMotion = 0.2;
-// Over that motion: of a substep that is rejected for it. Impulses act along the normals where it starts: a bar at 50
-// revolutions a second that met cloth within a substep of a third of a turn threw it away with up to half of m g H too
-// much. Of 24 bars 8 did.
-constexpr double kTooLong = 2.0;
 // Ratio of kinetic energies, with and without the work of links, above which the links are assumed to have jumped to
 // another configuration. Otherwise links only take energy out, but leapfrog's energy wavers by the square of the angle
 // that links turn by: 0.03 at 0.17 rad. An excess that a shorter step would not reduce is taken out of the velocities

@@ -135,7 +135,6 @@ SubstepPlan StepControl::next(double remaining, const Step& solver) noexcept {
   if (!plan.isLastResort()) step = stretch(step, remaining, std::max(smallest, bears));
   // Equal shares of the rest of the frame; the slack keeps rounding from adding a substep.
   plan.h = remaining / std::max(1.0, std::ceil(remaining / step - 1e-6));
-  plan.may_be_shorter = leapfrog && !plan.isLastResort() && fixed_substeps_ == 0 && plan.h > smallest;
   return plan;
 }
 
@@ -156,7 +155,7 @@ void StepControl::watch(const SubstepOutcome& outcome) noexcept {
 
 void StepControl::accepted(const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept {
   watch(outcome);
-  surface_step_ = std::min(outcome.longest_step, 2.0 * surface_step_);  // what left may be back
+  surface_step_ = outcome.longest_step;
   if (!plan.isLastResort())
     trust_.reset();
   else if (outcome.settled)
@@ -169,11 +168,7 @@ void StepControl::accepted(const SubstepPlan& plan, const SubstepOutcome& outcom
   }
 }
 
-void StepControl::rejected(const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept {
-  if (plan.may_be_shorter && plan.h > kTooLong * outcome.longest_step) {
-    surface_step_ = outcome.longest_step;
-    return;
-  }
+void StepControl::rejected(const SubstepPlan& plan) noexcept {
   good_ = 0;
   if (trust_.bounded()) return trust_.schemeFailed();
   limit_ = 0.5 * plan.h;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Faces and edges of the cloth against one obstacle: round shapes by the nearest point of a face; boxes and meshes by
-// edges against edges and faces against corners. The normal is the direction between the closest points at the start,
-// or at the time of impact for those that come from afar.
+// Faces and edges of the cloth against one obstacle: convex shapes by the nearest point of a face; meshes by edges
+// against edges and faces against corners. The normal is the direction between the closest points at the start, or at
+// the time of impact for those that come from afar.
 #include "contact/response/element_contacts.h"
 
 #include <algorithm>
@@ -235,16 +235,16 @@ void relinearise(const ContactShape& shape, const Transform& place, const Field3
   Corners at;
   for (std::size_t k = 0; k < 3; ++k)
     at[k] = place.toLocal(position.at(contact.node[std::min(k, static_cast<std::size_t>(contact.nodes) - 1)]));
-  if (shape.features() != nullptr) {
-    const FeaturePair pair{{}, contact.source / 2, contact.source % 2 != 0};
-    const PairPoint point = closest(pair, *shape.features(), at);
-    if (point.distance > 0.0) contact.turnTo(place.rotation * (point.apart / point.distance), point.distance, position);
+  if (const ConvexShape* const convex = shape.convex()) {
+    ElementPoint nearest;
+    const bool found = contact.nodes == 2 ? convex->nearestOnEdge({at[0], at[1]}, kInfinity, nearest)
+                                          : convex->nearestOnTriangle(at, kInfinity, nearest);
+    if (found) contact.turnTo(place.rotation * nearest.surface.normal, nearest.surface.distance, position);
     return;
   }
-  ElementPoint nearest;
-  const bool found = contact.nodes == 2 ? shape.convex()->nearestOnEdge({at[0], at[1]}, kInfinity, nearest)
-                                        : shape.convex()->nearestOnTriangle(at, kInfinity, nearest);
-  if (found) contact.turnTo(place.rotation * nearest.surface.normal, nearest.surface.distance, position);
+  const FeaturePair pair{{}, contact.source / 2, contact.source % 2 != 0};
+  const PairPoint point = closest(pair, *shape.features(), at);
+  if (point.distance > 0.0) contact.turnTo(place.rotation * (point.apart / point.distance), point.distance, position);
 }
 
 void collectPenetratingFaces(const ObstacleSubstep& substep, const ClothPattern& pattern,
