@@ -22,8 +22,8 @@ struct Strip {
 };
 
 CURTAIN_INTO_WIDE void widen(const Lanes& value, Lanes& low, Lanes& high) {
-  low = value < low ? value : low;
-  high = value > high ? value : high;
+  Simd8::lower(low, value);
+  Simd8::raise(high, value);
 }
 
 // Ranges over four columns from each on: of their nodes, of the weft links on their right, of their warp links.

@@ -58,8 +58,8 @@ CURTAIN_INTO_WIDE void merge(const LaneRange& other, LaneRange& range) {
   Simd8::raise(range.high, other.high);
 }
 
-// Of eight weft links of a row during the motion; empty where `beyond` is positive.
-CURTAIN_INTO_WIDE void rangeOfLinks(const float* start, const float* end, const Lanes& beyond, LaneRange& range) {
+// Of eight weft links of a row during the motion.
+CURTAIN_INTO_WIDE void rangeOfLinks(const float* start, const float* end, LaneRange& range) {
   Simd8::load(start, range.low);
   range.high = range.low;
   for (const float* const place : {start + 1, end, end + 1}) {
@@ -68,8 +68,6 @@ CURTAIN_INTO_WIDE void rangeOfLinks(const float* start, const float* end, const 
     Simd8::lower(range.low, value);
     Simd8::raise(range.high, value);
   }
-  Simd8::raise(range.low, beyond);
-  Simd8::lower(range.high, -beyond);
 }
 
 // Four lanes each; of a single patch the first four.
@@ -84,13 +82,6 @@ CURTAIN_INTO_WIDE void store(const Lanes& value, bool single, float* first, floa
 
 Patches::Patches(const Grid& grid)
     : grid_(grid), rows_((grid.rows - 1 + kAlong - 1) / kAlong), columns_((grid.linkCount() + kAlong - 1) / kAlong) {
-  Boxes nowhere;
-  for (int axis = 0; axis < 3; ++axis) {
-    std::fill(std::begin(nowhere.low[axis]), std::end(nowhere.low[axis]), kNowhere);
-    std::fill(std::begin(nowhere.high[axis]), std::end(nowhere.high[axis]), -kNowhere);
-    nowhere.least[axis] = kNowhere;
-    nowhere.most[axis] = -kNowhere;
-  }
   const auto count = static_cast<std::size_t>(rows_ * columns_);
   for (int patch = 0; patch < rows_ * columns_; ++patch) {
     const int row = patch / columns_ * kAlong, column = patch % columns_ * kAlong;
@@ -103,31 +94,28 @@ Patches::Patches(const Grid& grid)
   }
   for (int k = 0; k < kQuads; ++k)
     quad_[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(grid.index(k / kAlong, k % kAlong));
-  boxes_.assign(count, nowhere);
+  boxes_.assign(count, Boxes{});
   deviations_.assign(count, Eigen::Array4f::Zero());
   order_.resize(count);
   lows_.assign(static_cast<std::size_t>(grid.stride) + 2 * Simd8::kCount, 0.0f);
   highs_ = lows_;
-  for (std::size_t k = 0; k < sorted_.size(); ++k)
-    sorted_[k].assign(count + Simd8::kCount, k < 3 ? kNowhere : -kNowhere);
+  for (SweptNodes::Floats& ends : sorted_) ends.assign(count + Simd8::kCount, 0.0f);
 }
 
-// Eight columns of quads at a time, two patches.
+// Eight columns of quads at a time, two patches; what is beyond the grid is left out by there_.
 CURTAIN_WIDE void Patches::fitRow(const SweptNodes& nodes, int row) noexcept {
   const int count = std::min(kAlong, grid_.rows - 1 - row * kAlong);
   for (int first = 0; first < columns_; first += 2) {
-    Lanes beyond;  // where there is no quad
-    for (int k = 0; k < 8; ++k) beyond[k] = first * kAlong + k < grid_.linkCount() ? -kNowhere : kNowhere;
     Boxes* const boxes = &boxes_[static_cast<std::size_t>(row * columns_ + first)];
     const bool single = first + 1 == columns_;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       std::size_t from = static_cast<std::size_t>(row * kAlong) * static_cast<std::size_t>(grid_.stride) +
                          static_cast<std::size_t>(first * kAlong);
       LaneRange above, below;
-      rangeOfLinks(&nodes.start()[axis][from], &nodes.end()[axis][from], beyond, above);
+      rangeOfLinks(&nodes.start()[axis][from], &nodes.end()[axis][from], above);
       for (int i = 0; i < count; ++i) {
         from += static_cast<std::size_t>(grid_.stride);
-        rangeOfLinks(&nodes.start()[axis][from], &nodes.end()[axis][from], beyond, below);
+        rangeOfLinks(&nodes.start()[axis][from], &nodes.end()[axis][from], below);
         merge(below, above);
         const std::size_t to = static_cast<std::size_t>(kAlong * i);
         store(above.low, single, &boxes[0].low[axis][to], &boxes[single ? 0 : 1].low[axis][to]);
