@@ -42,12 +42,12 @@ ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& par
   self_candidates_.reserve(candidates_);
 }
 
-// Order of contacts: self-contact first, then obstacles by name.
+// Order of contacts: self-contact first, then obstacles by name; each by the parts of the cloth that touch.
 bool ClothContact::before(const Contact& a, const Contact& b) const noexcept {
   const auto rank = [this](const Contact& c) {
     return c.obstacle == Contact::kCloth ? -1 : obstacles_.rank(c.obstacle);
   };
-  return std::make_tuple(rank(a), a.nodes, a.node, a.source) < std::make_tuple(rank(b), b.nodes, b.node, b.source);
+  return std::make_tuple(rank(a), a.nodes, a.node) < std::make_tuple(rank(b), b.nodes, b.node);
 }
 
 void ClothContact::find(const Field3& start, const Field3& end, double reach) noexcept {
@@ -82,15 +82,16 @@ Contacts& ClothContact::begin(const Field3& start, const Field3& predicted, doub
   return contacts_;
 }
 
-// Both lists are sorted.
+// Both lists are sorted. A part of the cloth touches few features of one obstacle.
 void ClothContact::warmStart() noexcept {
-  auto old = last_.begin();
+  auto first = last_.begin();
   for (Contact& contact : contacts_) {
-    while (old != last_.end() && before(*old, contact)) ++old;
-    if (old == last_.end()) return;
-    if (before(contact, *old)) continue;
-    contact.push = contact.press > 0.0 ? old->push : std::max(0.0, old->push);
-    contact.slide = old->slide;
+    while (first != last_.end() && before(*first, contact)) ++first;
+    for (auto old = first; old != last_.end() && !before(contact, *old); ++old) {
+      if (old->source != contact.source) continue;
+      contact.push = contact.press > 0.0 ? old->push : std::max(0.0, old->push);
+      contact.slide = old->slide;
+    }
   }
 }
 

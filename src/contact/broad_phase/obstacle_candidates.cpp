@@ -89,13 +89,13 @@ ObstacleCandidates::ObstacleCandidates(const ClothPattern& pattern, const Contac
   found_.reserve(count);
   queried_at_.assign(size, 0);
   row_boxes_.resize(static_cast<std::size_t>(pattern.grid.rows));
-  if (mesh_ != nullptr) {
+  if (mesh_ != nullptr) triangles_.resize(size);
+  if (shape.features() != nullptr) {
     const std::size_t room = kPairsPerNode * count + kPairsPerFeature * (shape.features()->edges().size() +
                                                                          shape.features()->vertices().size());
     pairs_.reserve(room);
     shares_.resize(static_cast<std::size_t>(workers.shares()));
     for (Pairs& share : shares_) share.list.reserve(std::min(shares_.size(), kRoomOverPart) * room / shares_.size());
-    triangles_.resize(size);
     mesh_clearance_ = MeshClearance(pattern.grid, shape);
   } else if (elements_wanted_) {
     faces_.reserve(2 * count);
@@ -155,10 +155,10 @@ void ObstacleCandidates::list(const MovingObstacle& moving, const Field3& end, d
   }
   listNodes();
   if (!elements_wanted_) return;
-  if (shape_.convex() != nullptr)
-    listFaces(reach);
-  else
+  if (shape_.features() != nullptr)
     listPairs(reach);
+  else
+    listFaces(reach);
 }
 
 // Computes a node's distance and tangent plane at the start, unless they are known.

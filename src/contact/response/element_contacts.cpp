@@ -76,14 +76,22 @@ struct PairPoint {
   bool inside = true;  // not at an end of an edge, which other pairs cover
 };
 
+// The ends of the feature, the nearer one to the element's first node first: a mirror keeps that, and numbers them
+// otherwise.
+std::array<Vec3, 2> endsOf(const FeaturePair& pair, const ObstacleFeatures& features, const Corners& at) {
+  const auto& [c, d] = features.edges()[pair.feature].ends;
+  if ((d - at[0]).squaredNorm() < (c - at[0]).squaredNorm()) return {d, c};
+  return {c, d};
+}
+
 PairPoint closest(const FeaturePair& pair, const ObstacleFeatures& features, const Corners& at) {
   PairPoint point;
   if (pair.edges) {
-    const ObstacleEdge& edge = features.edges()[pair.feature];
-    const SegmentsClosest found = closestOnSegments(at[0], at[1], edge.ends[0], edge.ends[1]);
+    const auto [c, d] = endsOf(pair, features, at);
+    const SegmentsClosest found = closestOnSegments(at[0], at[1], c, d);
     point.weight = {1.0 - found.s, found.s, 0.0};
     point.inside = found.s > 0.0 && found.s < 1.0 && found.t > 0.0 && found.t < 1.0;
-    point.apart = mix(point.weight, at) - edge.ends[0] - found.t * (edge.ends[1] - edge.ends[0]);
+    point.apart = mix(point.weight, at) - c - found.t * (d - c);
   } else {
     const Vec3& corner = features.vertices()[pair.feature].position;
     const TriangleClosest found = closestOnTriangle(corner, at[0], at[1], at[2]);
@@ -98,7 +106,7 @@ PairPoint closest(const FeaturePair& pair, const ObstacleFeatures& features, con
 std::optional<double> impact(const FeaturePair& pair, const ObstacleFeatures& features, const Corners& a,
                              const Corners& b, double distance) {
   if (pair.edges) {
-    const auto& [c, d] = features.edges()[pair.feature].ends;
+    const auto [c, d] = endsOf(pair, features, a);
     return edgeEdgeTimeOfImpact(a[0], a[1], c, d, b[0], b[1], c, d, distance);
   }
   const Vec3& corner = features.vertices()[pair.feature].position;
@@ -235,16 +243,16 @@ void relinearise(const ContactShape& shape, const Transform& place, const Field3
   Corners at;
   for (std::size_t k = 0; k < 3; ++k)
     at[k] = place.toLocal(position.at(contact.node[std::min(k, static_cast<std::size_t>(contact.nodes) - 1)]));
-  if (const ConvexShape* const convex = shape.convex()) {
-    ElementPoint nearest;
-    const bool found = contact.nodes == 2 ? convex->nearestOnEdge({at[0], at[1]}, kInfinity, nearest)
-                                          : convex->nearestOnTriangle(at, kInfinity, nearest);
-    if (found) contact.turnTo(place.rotation * nearest.surface.normal, nearest.surface.distance, position);
+  if (shape.features() != nullptr) {
+    const FeaturePair pair{{}, contact.source / 2, contact.source % 2 != 0};
+    const PairPoint point = closest(pair, *shape.features(), at);
+    if (point.distance > 0.0) contact.turnTo(place.rotation * (point.apart / point.distance), point.distance, position);
     return;
   }
-  const FeaturePair pair{{}, contact.source / 2, contact.source % 2 != 0};
-  const PairPoint point = closest(pair, *shape.features(), at);
-  if (point.distance > 0.0) contact.turnTo(place.rotation * (point.apart / point.distance), point.distance, position);
+  ElementPoint nearest;
+  const bool found = contact.nodes == 2 ? shape.convex()->nearestOnEdge({at[0], at[1]}, kInfinity, nearest)
+                                        : shape.convex()->nearestOnTriangle(at, kInfinity, nearest);
+  if (found) contact.turnTo(place.rotation * nearest.surface.normal, nearest.surface.distance, position);
 }
 
 void collectPenetratingFaces(const ObstacleSubstep& substep, const ClothPattern& pattern,

@@ -42,8 +42,8 @@ bool makeContact(const ObstacleSubstep& substep, const ClothPattern& pattern, co
   contact.normal = contact.level = moving.after.rotation * point.normal;
   contact.offset = point.height + contact.level.dot(moving.after.translation);
   contact.asked = point.asked;
-  // Of a convex shape any element has a distance; a pair of features is not one of fewer nodes.
-  const bool whole = contact.nodes == point.nodes || moving.shape->convex() != nullptr;
+  // Of a smooth shape any element has a distance; a pair of features is not one of fewer nodes.
+  const bool whole = contact.nodes == point.nodes || moving.shape->features() == nullptr;
   contact.curved = point.curved && point.distance >= 0.0 && whole;
   if (contact.curved && substep.act == ContactFinder::ForcesAct::kAtStart)
     contact.normal = moving.before.rotation * point.normal;

@@ -12,13 +12,26 @@ namespace {
 
 // Gap of faces and edges, over the thickness: smaller than that of nodes, so that few of them need contacts.
 constexpr double kCore = 0.3;
-// Contacts of one obstacle are sorted by parts; of duplicates the one with the smallest offset is kept.
-auto orderOf(const Contact& c) { return std::tie(c.nodes, c.node, c.source); }
-bool firstOfOne(const Contact& a, const Contact& b) {
-  if (orderOf(a) != orderOf(b)) return orderOf(a) < orderOf(b);
-  return std::tie(a.offset, a.weight) < std::tie(b.offset, b.weight);
+// Contacts of one obstacle go by the parts of the cloth that touch, then by what a mirror keeps: it would number the
+// features of a box otherwise.
+bool before(const Contact& a, const Contact& b) {
+  return std::tie(a.nodes, a.node, a.offset, a.weight, a.source) <
+         std::tie(b.nodes, b.node, b.offset, b.weight, b.source);
 }
-bool alike(const Contact& a, const Contact& b) { return orderOf(a) == orderOf(b); }
+
+// Both faces of an edge find what touches it: of each the first is kept.
+void dropDuplicates(Contacts& contacts, std::size_t first) noexcept {
+  std::size_t kept = first, group = first;
+  for (std::size_t n = first; n < contacts.size(); ++n) {
+    const Contact& contact = contacts[n];
+    if (kept > group && std::tie(contact.nodes, contact.node) != std::tie(contacts[group].nodes, contacts[group].node))
+      group = kept;
+    bool known = false;
+    for (std::size_t k = group; k < kept; ++k) known = known || contacts[k].source == contact.source;
+    if (!known) contacts[kept++] = contact;
+  }
+  contacts.erase(contacts.begin() + static_cast<std::ptrdiff_t>(kept), contacts.end());
+}
 
 }  // namespace
 
@@ -79,15 +92,15 @@ void ObstacleContacts::begin(const Field3& start, const Field3& predicted, const
     const auto n = static_cast<std::size_t>(index);
     if (active_[n] == 0) continue;
     const ObstacleSubstep substep = substepOf(n);
-    const auto first = static_cast<std::ptrdiff_t>(contacts.size());
+    const std::size_t first = contacts.size();
     penetrating_.clear();
     if (!candidates_[n].faces().empty()) collectFaces(substep, pattern_, candidates_[n], penetrating_, contacts);
     if (!candidates_[n].pairs().empty()) collectPairs(substep, pattern_, candidates_[n], contacts);
     const ExitDirection exit(pattern_.grid, candidates_[n], penetrating_);
     collectPenetratingFaces(substep, pattern_, candidates_[n], exit, penetrating_, contacts);
     collectNodes(substep, pattern_, candidates_[n], exit, contacts);
-    std::sort(contacts.begin() + first, contacts.end(), firstOfOne);
-    contacts.erase(std::unique(contacts.begin() + first, contacts.end(), alike), contacts.end());
+    std::sort(contacts.begin() + static_cast<std::ptrdiff_t>(first), contacts.end(), before);
+    dropDuplicates(contacts, first);
   }
   pads_.pinch(start, h_, contacts);
 }
@@ -147,7 +160,7 @@ void ObstacleContacts::findCrossings(const Field3& start, const Field3& end, boo
     if (!candidates_[n].faces().empty()) crossingFaces(substep, pattern_, candidates_[n], crossings_);
     if (!candidates_[n].pairs().empty()) crossingPairs(substep, pattern_, candidates_[n], crossings_);
     std::sort(crossings_.begin() + elements, crossings_.end(), [](const Crossing& a, const Crossing& b) {
-      return std::tie(a.node, a.contact.source) < std::tie(b.node, b.contact.source);
+      return a.node != b.node ? a.node < b.node : before(a.contact, b.contact);
     });
     full_ = full_ || candidates_[n].full();
   }
