@@ -2,7 +2,6 @@
 #include "contact/broad_phase/self_candidates.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <limits>
 
 namespace curtain {
@@ -14,28 +13,6 @@ constexpr std::size_t kQuadsAtOnce = 1024, kFoundAtOnce = 1024;
 constexpr int kFirstSteps = 2, kSteps = 4;
 // Room for the element pairs of a cluster.
 constexpr std::size_t kMostLocalPairs = 128;
-
-struct Place {
-  int row, column;
-};
-
-// Which of two quads without a common node a pair of their edges names first. Any order would do, but a contact is
-// rounded by it. It is that of the largest blocks of 1, 2, 4, ... quads a side that are not next to each other: the
-// upper one first, or else the left one, on the shorter way around closed cloth.
-bool isFirst(const Grid& grid, Place p, Place q) {
-  int columns = grid.linkCount();
-  const auto across = [&](int from, int to, int around) {
-    const int apart = std::abs(to - from);
-    return grid.closed ? std::min(apart, around - apart) : apart;
-  };
-  while (std::max(std::abs(p.row / 2 - q.row / 2), across(p.column / 2, q.column / 2, (columns + 1) / 2)) > 1) {
-    p = {p.row / 2, p.column / 2};
-    q = {q.row / 2, q.column / 2};
-    columns = (columns + 1) / 2;
-  }
-  if (p.row != q.row) return p.row < q.row;
-  return (p.column < q.column) == (!grid.closed || 2 * std::abs(q.column - p.column) <= columns);
-}
 
 // Elements of a quad, by new numbers of its nodes.
 template <typename NumberOf>
@@ -244,16 +221,11 @@ void SelfCandidates::keepUnseparated(const Query& query, int steps, std::vector<
 
 void SelfCandidates::addQuads(const Query& query, TwoQuads pair, Share& share) const noexcept {
   const auto stride = static_cast<std::uint32_t>(grid_.stride);
-  const auto place_of = [&](std::uint32_t quad) {
-    return Place{static_cast<int>(quad / stride), static_cast<int>(quad % stride)};
+  if (pair.other < pair.one) std::swap(pair.one, pair.other);  // contacts are rounded by which is first
+  const auto where = [&](std::uint32_t quad) {
+    return whereIs(static_cast<int>(quad / stride), static_cast<int>(quad % stride), 1, 1);
   };
-  Place one = place_of(pair.one), other = place_of(pair.other);
-  if (!isFirst(grid_, one, other)) {
-    std::swap(one, other);
-    std::swap(pair.one, pair.other);
-  }
-  const std::size_t kind =
-      kWhere + whereIs(one.row, one.column, 1, 1) * kWhere + whereIs(other.row, other.column, 1, 1);
+  const std::size_t kind = kWhere + where(pair.one) * kWhere + where(pair.other);
   const auto node_of = [&](std::uint32_t k) { return (k < 4 ? pair.one : pair.other) + k % 2 + k % 4 / 2 * stride; };
   addCluster(query, kind, node_of, share);
 }
