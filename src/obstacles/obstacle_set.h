@@ -51,8 +51,18 @@ struct MovingObstacle {
   /// Box around the obstacle during the substep, world frame.
   const Eigen::AlignedBox3d& sweptBounds() const noexcept { return swept_; }
   void move(const Transform& from, const Transform& to, const PoseChange& last) noexcept;
-  /// What a point of it, at the substep's end, would move by in a substep at the speed that it has then [m].
-  Vec3 motionOf(const Vec3& world) const noexcept { return speed.move + speed.turn.cross(world - after.translation); }
+  /// What a point of it would move by in a substep at the speed that it has after `share` of this one [m]: the mean of
+  /// the speeds at both ends is what it moves by.
+  Vec3 motionAt(double share, const Vec3& local) const noexcept {
+    const Vec3 from = before.toWorld(local), to = after.toWorld(local);
+    const Vec3 last = speed.move + speed.turn.cross(to - after.translation);
+    return last + 2.0 * (1.0 - share) * (to - from - last);
+  }
+  /// A direction of it after `share` of the substep, in the world; unit.
+  Vec3 directionAt(double share, const Vec3& local) const noexcept {
+    const Vec3 from = before.rotation * local;
+    return share == 0.0 ? from : Vec3(((1.0 - share) * from + share * (after.rotation * local)).normalized());
+  }
   void carry(Archive& archive);
 
  private:

@@ -54,7 +54,7 @@ double FrameLoop::makeSubstep(double done) {
     accept(*steps, planned, outcome);
     return planned.h;
   }
-  reject(*steps, planned, outcome.late);
+  reject(*steps, planned, outcome);
   return 0.0;
 }
 
@@ -98,10 +98,10 @@ SubstepOutcome FrameLoop::attemptInTime(const SubstepPlan& plan, double done) {
 }
 
 // Running out of time says nothing of the step's length, unless it had a whole frame's time.
-void FrameLoop::reject(StepControl& steps, const SubstepPlan& plan, bool late) noexcept {
+void FrameLoop::reject(StepControl& steps, const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept {
   ++motion_.statistics.rejected;
-  if (!late)
-    steps.rejected(plan);
+  if (!outcome.late)
+    steps.rejected(plan, outcome);
   else if (budget_.fresh())
     steps.tookTooLong(plan);
 }

@@ -36,7 +36,7 @@ class FrameLoop {
   double makeSubstep(double done);
   SubstepPlan plan(StepControl& steps, double done);
   SubstepOutcome attemptInTime(const SubstepPlan& plan, double done);
-  void reject(StepControl& steps, const SubstepPlan& plan, bool late) noexcept;
+  void reject(StepControl& steps, const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept;
   void accept(StepControl& steps, const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept;
   void countSubstep(int steps) noexcept;
 

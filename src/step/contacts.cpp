@@ -65,6 +65,17 @@ double fastestSurface(const Contacts& contacts) noexcept {
   return std::sqrt(fastest);
 }
 
+double longestStep(const Contacts& contacts, double h, double link) noexcept {
+  double most = 0.0;  // of what is allowed in a substep
+  for (const Contact& contact : contacts) {
+    if (contact.obstacle == Contact::kCloth || !contact.pushes()) continue;
+    const double motion = std::abs(h) * contact.surface_velocity.norm();
+    most = std::max({most, motion / (kMostSurfaceMotion * link), (contact.level - contact.normal).norm() / kMostTurn});
+    if (contact.curved && !contact.leans) most = std::max(most, motion / contact.asked);
+  }
+  return most > 0.0 ? std::abs(h) / most : std::numeric_limits<double>::infinity();
+}
+
 double fastestDrive(const Contacts& contacts, double h) noexcept {
   double fastest = fastestSurface(contacts);
   for (const Contact& contact : contacts) {
@@ -116,14 +127,15 @@ void ContactRows::relinearise(const Field3& position) noexcept {
   if (finder_ != nullptr) finder_->relinearise(position, *solved_);
 }
 
-double ContactRows::residual(const Field3& position, bool recovers) const noexcept {
+double ContactRows::residual(const Field3& position, bool recovers, double cloth) const noexcept {
   double worst = 0.0;
   for (const Contact& contact : *all_) {
     if (contact.mobility <= 0.0) continue;  // what is held is watched on its way, by verification
     const double entered = contact.entered(position);
     if (!std::isfinite(entered)) return std::numeric_limits<double>::infinity();
+    const double share = contact.obstacle == Contact::kCloth ? 1.0 / cloth : 1.0;
     const double lacks = recovers || entered < 0.0 ? entered : std::max(0.0, entered - contact.recovery);
-    worst = std::max(worst, contact.pushes() ? std::abs(lacks) : lacks);
+    worst = std::max(worst, share * (contact.pushes() ? std::abs(lacks) : lacks));
     if (contact.sticks)
       worst = std::max(worst, kStickShare * contact.across(contact.point(position) - contact.carried).norm());
   }

@@ -49,7 +49,7 @@ struct Contact {
   double asked = 0.0;           ///< curved: distance that is asked for at the end [m]
   double recovery = 0.0;        ///< way out of what it is too deep in [m], >= 0; the last resort may skip it
   Vec3 carried = Vec3::Zero();  ///< point at the end of the substep without slip [m]; only its tangential part is read
-  Vec3 surface_velocity = Vec3::Zero();  ///< of what the point touches, mean over the substep [m/s]
+  Vec3 surface_velocity = Vec3::Zero();  ///< of what the point touches, when the force acts [m/s]
   Vec3 end_velocity = Vec3::Zero();      ///< the same at the substep's end [m/s]
   double friction = 0.0;                 ///< Coulomb coefficient, >= 0; pinched: the sum of both sides'
   double press = 0.0;                    ///< pinched: what either side presses with [N]; 0: not pinched
@@ -117,6 +117,11 @@ void beginContacts(const Field& inverse_inertia, double scale, double ratio, std
 /// Largest speed of an obstacle's point that is pushed on [m/s].
 double fastestSurface(const Contacts& contacts) noexcept;
 
+/// The longest step that resolves what is touched [s]: how far its surface moves, compared with the shortest link [m]
+/// and, where it arrives, with the distance that is kept from it; and the angle by which normals turn. h: of this
+/// substep [s].
+double longestStep(const Contacts& contacts, double h, double link) noexcept;
+
 /// Largest speed that contacts drive points with [m/s]: that of the surface, or of depenetration in a step of h [s].
 double fastestDrive(const Contacts& contacts, double h) noexcept;
 
@@ -152,7 +157,8 @@ class ContactRows final : public RowMaker {
 
   /// Largest penetration, separation of a contact that pushes, or slip of one that sticks [m]; infinite when a position
   /// is not finite. recovers: count penetration that Contact::recovery should take out; false: only deeper penetration.
-  double residual(const Field3& position, bool recovers) const noexcept;
+  /// cloth: how many times as much counts as one of the cloth with itself, > 0.
+  double residual(const Field3& position, bool recovers, double cloth) const noexcept;
   /// Turns the slides of those that may slip against their slips. Moves nodes.
   void slide(const Field& inverse, Field3& position) noexcept;
 

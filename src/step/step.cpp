@@ -201,6 +201,9 @@ void Step::judge(const Attempt& attempt, Progress& progress, SubstepOutcome& out
         made > 2.0 * constraints_.heldBeyond(attempt.state.position, attempt.plan.h, stretch_tolerance_))
       progress.settled = false;
   }
+  // Where an obstacle arrives fast, only the substep that touches it tells how short it should have been.
+  outcome.longest_step = longestStep(contacts(), attempt.plan.h, smallest_rest_);
+  if (attempt.plan.may_be_shorter && attempt.plan.h > kTooLong * outcome.longest_step) progress.settled = false;
   outcome.sweeps = progress.sweeps;
   outcome.touches = touches;
   outcome.settled = progress.settled;
@@ -244,8 +247,6 @@ void Step::take(const Attempt& attempt, const Progress& progress, SubstepOutcome
   if (elastic_ != nullptr) outcome.dissipated = elastic_->commit(state.position);
   outcome.omega_squared = inertia_.omegaSquared();
   if (!anyPushes(contacts()) && !constraints_.stringsPull()) outcome.turning = turning(outcome.kick);
-  const double fastest = fastestSurface(contacts());
-  if (fastest > 0.0) outcome.longest_step = kMostSurfaceMotion * smallest_rest_ / fastest;
   // Such a substep also moved links to their lengths, which is no motion: project the velocities.
   if ((progress.end != SweepEnd::kConverged || plan.isLastResort()) && !progress.late) {
     if (constraints_.guide() != nullptr) constraints_.guide()->beginRates(state, 0.0, state.velocity);

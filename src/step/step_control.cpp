@@ -41,7 +41,8 @@ StepControl::StepControl(const SolverParams& params, const ClothPattern& pattern
       method_(params.method),
       phase_share_(phaseShare(pattern)),
       initial_omega_(hangingOmega(pattern, gravity)),
-      composed_(params.method == Method::kLeapfrog4) {
+      composed_(params.method == Method::kLeapfrog4),
+      shortens_(params.substeps == 0 && params.method != Method::kPaper) {
   reset();
 }
 
@@ -120,8 +121,9 @@ SubstepPlan StepControl::next(double remaining, const Step& solver) noexcept {
   if (leapfrog && fixed_substeps_ == 0) {
     const double for_phase = stepFromTensions(frame_begins, solver);
     const double for_turn = turning_ > 0.0 && !composed_ ? kTurnPerStep / turning_ : frame_;
-    wanted = std::max(smallest, std::min({for_phase, for_turn, frame_ / asked_, surface_step_}));
+    wanted = std::min({for_phase, for_turn, frame_ / asked_});
   }
+  if (shortens_) wanted = std::min(wanted, surface_step_);
   const double bears = stepOfElastic(leapfrog, solver);
   wanted = std::max(smallest, std::min(wanted, bears));
   double step = std::min(wanted, std::max(limit_, smallest));
@@ -135,6 +137,7 @@ SubstepPlan StepControl::next(double remaining, const Step& solver) noexcept {
   if (!plan.isLastResort()) step = stretch(step, remaining, std::max(smallest, bears));
   // Equal shares of the rest of the frame; the slack keeps rounding from adding a substep.
   plan.h = remaining / std::max(1.0, std::ceil(remaining / step - 1e-6));
+  plan.may_be_shorter = shortens_ && !plan.isLastResort() && step > smallest;
   return plan;
 }
 
@@ -155,7 +158,7 @@ void StepControl::watch(const SubstepOutcome& outcome) noexcept {
 
 void StepControl::accepted(const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept {
   watch(outcome);
-  surface_step_ = outcome.longest_step;
+  surface_step_ = std::min(outcome.longest_step, 2.0 * surface_step_);  // what left may be back
   if (!plan.isLastResort())
     trust_.reset();
   else if (outcome.settled)
@@ -168,7 +171,11 @@ void StepControl::accepted(const SubstepPlan& plan, const SubstepOutcome& outcom
   }
 }
 
-void StepControl::rejected(const SubstepPlan& plan) noexcept {
+void StepControl::rejected(const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept {
+  if (plan.may_be_shorter && plan.h > kTooLong * outcome.longest_step) {
+    surface_step_ = outcome.longest_step;
+    return;
+  }
   good_ = 0;
   if (trust_.bounded()) return trust_.schemeFailed();
   limit_ = 0.5 * plan.h;

@@ -39,7 +39,7 @@ class StepControl {
   /// The pins have changed: takes note of what the tensions of the last substep mean with these.
   void repinned(const Step& solver) noexcept;
   void accepted(const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept;
-  void rejected(const SubstepPlan& plan) noexcept;
+  void rejected(const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept;
   /// The substep did not finish within a frame's computing time. Makes shorter ones, but not so short that the last
   /// resort takes over; if it was the scheme's retry, the last resort goes on.
   void tookTooLong(const SubstepPlan& plan) noexcept;
@@ -67,6 +67,7 @@ class StepControl {
   int asked_ = 1;      // substeps a frame, at least
   TrustRegion trust_;  // of the last resort
   bool composed_;      // substeps are made of stages (composition.h)
+  bool shortens_;      // substeps as what is touched asks
   int good_ = 0;       // accepted substeps since the limit last changed
 };
 

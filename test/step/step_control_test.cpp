@@ -77,7 +77,7 @@ TEST(StepControl, BeforeTheFirstSubstepTheClothHangsByItsWeight) {
 
 TEST(StepControl, ARejectedStepIsHalvedAndGrowsAgainAfterEightGoodOnes) {
   Control control(Method::kLeapfrog);
-  control.steps->rejected(control.next());
+  control.steps->rejected(control.next(), SubstepOutcome());
   EXPECT_EQ(control.next().h, kFrame / 2);
   control.accept(3 * kGoodToGrow - 1);  // 0.5 times 1.4 times 1.4 is still less than a frame
   EXPECT_EQ(control.next().h, kFrame / 2);
@@ -85,12 +85,37 @@ TEST(StepControl, ARejectedStepIsHalvedAndGrowsAgainAfterEightGoodOnes) {
   EXPECT_EQ(control.next().h, kFrame);
 }
 
+// What arrives fast says how long a substep may be. That is no failure: the step grows again as soon as nothing
+// touches.
+TEST(StepControl, AStepIsAsShortAsWhatArrivesAsks) {
+  Control control(Method::kLeapfrog);
+  SubstepOutcome arrives;
+  arrives.longest_step = kFrame / 16;
+  EXPECT_TRUE(control.next().may_be_shorter);
+  control.steps->rejected(control.next(), arrives);
+  EXPECT_EQ(control.next().h, kFrame / 16);
+  control.accept(1);
+  EXPECT_EQ(control.next().h, kFrame / 8);
+  control.accept(3);
+  EXPECT_EQ(control.next().h, kFrame);
+}
+
+TEST(StepControl, NoFixedOrSmallestStepIsMadeShorter) {
+  EXPECT_FALSE(Control(Method::kLeapfrog, 4).next().may_be_shorter);
+  Control control(Method::kLeapfrog, 0, 8);
+  SubstepOutcome arrives;
+  arrives.longest_step = kFrame / 100;
+  control.steps->rejected(control.next(), arrives);
+  EXPECT_EQ(control.next().h, kFrame / 8);
+  EXPECT_FALSE(control.next().may_be_shorter);
+}
+
 TEST(StepControl, WhatFailsAtTheSmallestStepIsLeftToTheLastResort) {
   Control control(Method::kLeapfrog, 0, 8);
   for (int failure = 0; failure < 4; ++failure) {
     EXPECT_FALSE(control.next().isLastResort()) << failure;
     EXPECT_EQ(control.next().h, kFrame / (1 << failure));
-    control.steps->rejected(control.next());
+    control.steps->rejected(control.next(), SubstepOutcome());
   }
   EXPECT_TRUE(control.next().isLastResort());
   EXPECT_EQ(control.next().reach, kFirstReach);
@@ -99,14 +124,14 @@ TEST(StepControl, WhatFailsAtTheSmallestStepIsLeftToTheLastResort) {
 
 TEST(StepControl, ALastResortThatFailsInContactLetsTheSchemeTryOnceAFrame) {
   Control control(Method::kLeapfrog, 0, 8);
-  for (int failure = 0; failure < 4; ++failure) control.steps->rejected(control.next());
+  for (int failure = 0; failure < 4; ++failure) control.steps->rejected(control.next(), SubstepOutcome());
   SubstepOutcome unsettled;
   unsettled.accepted = unsettled.touches = true;
   const auto fail = [&] { control.steps->accepted(control.next(kFrame / 2), unsettled); };
   fail();
   EXPECT_TRUE(control.next(kFrame / 2).isLastResort());
   EXPECT_FALSE(control.next().isLastResort());
-  control.steps->rejected(control.next());
+  control.steps->rejected(control.next(), SubstepOutcome());
   EXPECT_TRUE(control.next().isLastResort()) << "until it fails again";
   fail();
   EXPECT_FALSE(control.next().isLastResort());

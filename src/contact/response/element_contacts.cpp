@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Faces and edges of the cloth against one obstacle: convex shapes by the nearest point of a face; meshes by edges
-// against edges and faces against corners. The normal is the direction between the closest points at the start, or at
-// the time of impact for those that come from afar.
+// Faces and edges of the cloth against one obstacle: round shapes by the nearest point of a face; boxes and meshes by
+// edges against edges and faces against corners. The normal is the direction between the closest points at the start,
+// or at the time of impact for those that come from afar.
 #include "contact/response/element_contacts.h"
 
 #include <algorithm>
@@ -50,22 +50,24 @@ bool startsInside(const std::array<std::uint32_t, 3>& node, std::size_t nodes, c
 // Key of the feature, for the order of contacts.
 std::uint32_t sourceOf(const FeaturePair& pair) { return 2 * pair.feature + (pair.edges ? 1 : 0); }
 
-// A point of an element that was at `at` when it was `surface` from the obstacle.
+// A point of an element that was at `at`, after `share` of the substep, when it was `surface` from the obstacle.
 ContactPoint contactPoint(const MeshTriangle& node, int nodes, const std::array<double, 3>& weight,
-                          const SurfacePoint& surface, const Corners& at, const Corners& start) {
+                          const SurfacePoint& surface, const Corners& start, const Corners& at, double share) {
   ContactPoint point;
   point.node = node;
   point.weight = weight;
   point.nodes = nodes;
+  point.share = share;
   point.start = mix(weight, start);
+  point.touch = mix(weight, at);
   point.normal = surface.normal;
-  point.height = point.normal.dot(mix(weight, at)) - surface.distance;
+  point.height = point.normal.dot(point.touch) - surface.distance;
   return point;
 }
 
-ContactPoint contactPoint(const MeshTriangle& face, const ElementPoint& nearest, const Corners& at,
-                          const Corners& start) {
-  return contactPoint(face, 3, nearest.weights, nearest.surface, at, start);
+ContactPoint contactPoint(const MeshTriangle& face, const ElementPoint& nearest, const Corners& start,
+                          const Corners& at, double share) {
+  return contactPoint(face, 3, nearest.weights, nearest.surface, start, at, share);
 }
 
 // Closest points of an edge or a face of the cloth and a feature of the mesh.
@@ -137,9 +139,10 @@ bool isInside(const FeaturePair& pair, const ObstacleCandidates& candidates, con
   return candidates.shape().query(p, p, 0.0, surface) && surface.distance < 0.0;
 }
 
-ContactPoint contactPoint(const FeaturePair& pair, const PairPoint& closest, const Corners& at, const Corners& start) {
+ContactPoint contactPoint(const FeaturePair& pair, const PairPoint& closest, const Corners& start, const Corners& at,
+                          double share) {
   const SurfacePoint surface{closest.distance, closest.apart / closest.distance};
-  return contactPoint(pair.node, pair.edges ? 2 : 3, closest.weight, surface, at, start);
+  return contactPoint(pair.node, pair.edges ? 2 : 3, closest.weight, surface, start, at, share);
 }
 
 void add(const ObstacleSubstep& substep, const ClothPattern& pattern, ContactPoint& point, double distance, double kept,
@@ -159,10 +162,11 @@ void add(const ObstacleSubstep& substep, const ClothPattern& pattern, ContactPoi
   if (makeContact(substep, pattern, point, crossing.contact)) addWithinRoom(crossing, crossings);
 }
 
-// An element that touches, or will: its point, where it was then, and how far it was at the start.
+// An element that touches, or will: its point, where it was then, when, and how far it was at the start.
 struct Touching {
   ElementPoint nearest;
   Corners at;
+  double share;
   double distance;
 };
 
@@ -176,12 +180,13 @@ bool touches(const ObstacleCandidates& candidates, const Corners& start, const C
   if (first != nullptr && (first->surface.distance <= listed || nearest(end, listed, then))) {
     const Vec3& normal = first->surface.normal;
     const double height = normal.dot(mix(first->weights, end) - mix(first->weights, start)) + first->surface.distance;
-    out = {*first, start, first->surface.distance};
+    out = {*first, start, 0.0, first->surface.distance};
     return height <= listed;
   }
   const std::optional<double> time = impact(start, end);
   if (!time) return false;
   out.at = between(start, end, *time);
+  out.share = *time;
   out.distance = candidates.thickness();
   return nearest(out.at, listed, out.nearest);
 }
@@ -228,12 +233,13 @@ void collectFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, O
       Touching of_edge;
       if (!touches(candidates, from, to, near ? &first : nullptr, on_edge, hits, of_edge)) continue;
       nearest_edge = std::min(nearest_edge, of_edge.nearest.surface.distance);
-      ContactPoint point = contactPoint(edge, 2, of_edge.nearest.weights, of_edge.nearest.surface, of_edge.at, from);
+      ContactPoint point =
+          contactPoint(edge, 2, of_edge.nearest.weights, of_edge.nearest.surface, from, of_edge.at, of_edge.share);
       point.curved = true;
       add(substep, pattern, point, of_edge.distance, core, 0, contacts);
     }
     if (!(of_face.nearest.surface.distance < nearest_edge - kNearer * (core - substep.moving.padding))) continue;
-    ContactPoint point = contactPoint(face.node, of_face.nearest, of_face.at, start);
+    ContactPoint point = contactPoint(face.node, of_face.nearest, start, of_face.at, of_face.share);
     point.curved = true;
     add(substep, pattern, point, of_face.distance, core, 0, contacts);
   }
@@ -263,7 +269,7 @@ void collectPenetratingFaces(const ObstacleSubstep& substep, const ClothPattern&
     const Corners start = startOf(candidates, face.node), end = endOf(candidates, face.node);
     ElementPoint point_inside = face.deepest;
     point_inside.surface = exit.exitSurface(mix(face.deepest.weights, start), face.deepest.surface);
-    ContactPoint point = contactPoint(face.node, point_inside, start, start);
+    ContactPoint point = contactPoint(face.node, point_inside, start, start, 0.0);
     if (point.normal.dot(mix(point.weight, end)) - point.height > listed) continue;
     add(substep, pattern, point, point_inside.surface.distance, candidates.core(), 0, contacts);
   }
@@ -283,7 +289,7 @@ void crossingFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, 
     if (!time) continue;
     const Corners at = between(start, end, *time);
     if (!shape.nearestOnTriangle(at, kInfinity, nearest)) continue;
-    ContactPoint point = contactPoint(face.node, nearest, at, start);
+    ContactPoint point = contactPoint(face.node, nearest, start, at, *time);
     point.curved = true;
     add(substep, pattern, point, distance, candidates.core(), 0, crossings);
   }
@@ -307,20 +313,20 @@ void collectPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, c
       const Corners at = between(start, end, *time);
       const PairPoint there = closest(pair, features, at);
       if (!there.inside || !(there.distance > 0.0) || there.distance > listed) continue;
-      ContactPoint point = contactPoint(pair, there, at, start);
+      ContactPoint point = contactPoint(pair, there, start, at, *time);
       point.curved = true;
       add(substep, pattern, point, candidates.thickness(), candidates.core(), sourceOf(pair), contacts);
       continue;
     }
     if (!first.inside || !(first.distance > 0.0)) continue;
-    ContactPoint point = contactPoint(pair, first, start, start);
+    ContactPoint point = contactPoint(pair, first, start, start, 0.0);
     point.curved = true;
     SurfacePoint surface;
     double distance = first.distance;
     if (isInside(pair, candidates, first, start, surface)) {
       distance = surface.distance;
       point.normal = surface.normal;
-      point.height = surface.normal.dot(point.start) - distance;
+      point.height = surface.normal.dot(point.touch) - distance;
     } else if (point.normal.dot(mix(point.weight, end)) - point.height > listed) {
       continue;
     }
@@ -342,13 +348,10 @@ void crossingPairs(const ObstacleSubstep& substep, const ClothPattern& pattern, 
     const std::optional<double> time = impact(pair, features, start, end, least);
     SurfacePoint surface;
     if (!time || isInside(pair, candidates, first, start, surface)) continue;
-    Corners at = between(start, end, *time);
-    PairPoint there = closest(pair, features, at);
-    if (!(there.distance > 0.0)) {
-      at = start;
-      there = first;
-    }
-    ContactPoint point = contactPoint(pair, there, at, start);
+    const Corners at = between(start, end, *time);
+    const PairPoint there = closest(pair, features, at);
+    ContactPoint point = there.distance > 0.0 ? contactPoint(pair, there, start, at, *time)
+                                              : contactPoint(pair, first, start, start, 0.0);
     point.curved = true;
     add(substep, pattern, point, first.distance, candidates.core(), sourceOf(pair), crossings);
   }

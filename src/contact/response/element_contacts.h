@@ -74,7 +74,9 @@ struct ContactPoint {
   std::array<std::uint32_t, 3> node{};
   std::array<double, 3> weight{};
   int nodes = 1;
+  double share = 0.0;           ///< of the substep that has passed when it touches, [0, 1)
   Vec3 start = Vec3::Zero();    ///< position at the start of the substep [m]
+  Vec3 touch = Vec3::Zero();    ///< and when it touches [m]
   Vec3 normal = Vec3::UnitZ();  ///< unit
   double height = 0.0;          ///< normal . x >= height at the end [m]
   double distance = 0.0;        ///< signed, at the start [m]; negative: no friction

@@ -46,15 +46,17 @@ bool makeContact(const ObstacleSubstep& substep, const ClothPattern& pattern, co
   const bool whole = contact.nodes == point.nodes || moving.shape->features() == nullptr;
   contact.curved = point.curved && point.distance >= 0.0 && whole;
   if (contact.curved && substep.act == ContactFinder::ForcesAct::kAtStart)
-    contact.normal = moving.before.rotation * point.normal;
+    contact.normal = moving.directionAt(point.share, point.normal);
   // No friction on the way out: it could lock cloth around an edge for good.
   // A pad's is bounded by what it presses with.
   const bool frictionless = (substep.frictionless && moving.press == 0.0) || point.distance < 0.0;
   contact.friction = frictionless ? 0.0 : moving.friction;
   contact.recovery = point.recovery;
-  contact.carried = moving.after.toWorld(point.start);
-  contact.surface_velocity = (contact.carried - moving.before.toWorld(point.start)) / substep.h;
-  contact.end_velocity = moving.motionOf(contact.carried) / substep.h;
+  contact.carried = moving.after.toWorld(getenv("CT") ? point.touch : point.start);
+  contact.end_velocity = moving.motionAt(1.0, point.start) / substep.h;
+  contact.surface_velocity = substep.act == ContactFinder::ForcesAct::kAtStart
+                                 ? Vec3(moving.motionAt(point.share, point.touch) / substep.h)
+                                 : Vec3((contact.carried - moving.before.toWorld(point.start)) / substep.h);
   return moves;
 }
 
@@ -68,21 +70,21 @@ Contact nodeContact(const ObstacleSubstep& substep, const ClothPattern& pattern,
   ContactPoint point;
   point.node[0] = node;
   point.weight[0] = 1.0;
-  point.start = candidates.startOf(node);
+  const Vec3 from = candidates.startOf(node), to = candidates.endOf(node);
+  const double room = candidates.farOf(node) - candidates.thickness(), way = candidates.farOf(node) - surface.distance;
+  if (room > 0.0 && way > room) point.share = room / way;
+  point.start = from;
+  point.touch = from + point.share * (to - from);
   point.normal = surface.normal;
-  point.height = surface.normal.dot(candidates.endOf(node)) - surface.distance;
+  point.height = surface.normal.dot(to) - surface.distance;
   point.keep(distance, candidates.thickness(), substep);
   Contact contact;
   makeContact(substep, pattern, point, contact);
   contact.curved = curved && substep.moving.press == 0.0;
   if (contact.curved && substep.act == ContactFinder::ForcesAct::kAtStart) {
-    const Vec3 from = candidates.startOf(node), to = candidates.endOf(node);
-    const double room = candidates.farOf(node) - candidates.thickness(),
-                 way = candidates.farOf(node) - surface.distance;
-    const double share = room > 0.0 && way > room ? room / way : 0.0;
     SurfacePoint there;
-    if (candidates.surfaceOf(node, from + share * (to - from), there))
-      contact.normal = substep.moving.before.rotation * there.normal;
+    if (candidates.surfaceOf(node, point.touch, there))
+      contact.normal = substep.moving.directionAt(point.share, there.normal);
   }
   return contact;
 }

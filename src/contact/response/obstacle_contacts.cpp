@@ -102,7 +102,7 @@ void ObstacleContacts::begin(const Field3& start, const Field3& predicted, const
     std::sort(contacts.begin() + static_cast<std::ptrdiff_t>(first), contacts.end(), before);
     dropDuplicates(contacts, first);
   }
-  pads_.pinch(start, h_, contacts);
+  pads_.pinch(contacts);
 }
 
 // The distance at the end, not that to a plane of before: a node that slides around an edge follows it.

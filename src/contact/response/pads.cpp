@@ -31,7 +31,7 @@ bool Pads::closes(const Contact& a, const Contact& b) const noexcept {
   return roomOf(a, a.carried) + roomOf(b, a.carried) <= most_play_;
 }
 
-void Pads::pinch(const Field3& start, double h, Contacts& contacts) noexcept {
+void Pads::pinch(Contacts& contacts) noexcept {
   if (pinched_.empty()) return;
   touches_.clear();
   for (std::size_t n = 0; n < contacts.size(); ++n) {
@@ -60,7 +60,7 @@ void Pads::pinch(const Field3& start, double h, Contacts& contacts) noexcept {
     a.other = b.obstacle;
     a.surface_velocity = 0.5 * (a.surface_velocity + b.surface_velocity);
     a.end_velocity = 0.5 * (a.end_velocity + b.end_velocity);
-    a.carried = start.at(a.node[0]) + h * a.surface_velocity;
+    a.carried = 0.5 * (a.carried + b.carried);
     // It stays where it is between them, as far as both leave it room, else in the middle.
     const double room_a = roomOf(a, a.carried), room_b = roomOf(b, a.carried);
     const Vec3 across = (a.normal - b.normal).normalized();

@@ -19,8 +19,8 @@ class Pads {
 
   /// Joins contacts of nodes that two pads pinch: they face each other so that friction alone keeps a force between
   /// them (both contacts have it in their friction cones: force closure, Nguyen 1988), and leave the node no more play
-  /// than a node at rest may have in a contact. contacts: sorted by obstacle. h: of the substep [s].
-  void pinch(const Field3& start, double h, Contacts& contacts) noexcept;
+  /// than a node at rest may have in a contact. contacts: sorted by obstacle.
+  void pinch(Contacts& contacts) noexcept;
 
  private:
   struct Touch {
