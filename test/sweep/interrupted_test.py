@@ -70,6 +70,7 @@ class Interrupted(SweepTest):
         return found
 
     def test_killed_at_any_moment_it_loses_and_doubles_no_run(self):
+        self.params("design: latin_hypercube\ncount: 20\nduration: 20.0\nparameters:\n  wind[0].pressure: {min: 1.0, max: 9.0}\n  solver.seed: [1, 2]\n")
         self.sweep("--out", "whole")
         dice = random.Random(20)
         kills, kept = 0, set()
