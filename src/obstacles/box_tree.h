@@ -27,17 +27,37 @@ class BoxTree {
   /// Around all items; there must be one.
   Eigen::AlignedBox3d bounds() const { return {nodes_[0].low, nodes_[0].high}; }
 
+  std::size_t nodeCount() const { return nodes_.size(); }
+  /// Calls leaf(node, first, last) for the places [first, last) of a leaf and inner(node, child, other), children
+  /// before those above them.
+  template <typename Leaf, typename Inner>
+  void forEachNodeUp(const Leaf& leaf, const Inner& inner) const {
+    for (std::size_t n = nodes_.size(); n-- > 0;) {
+      const Node& node = nodes_[n];
+      if (node.count > 0)
+        leaf(n, node.first, node.first + node.count);
+      else
+        inner(n, node.first, node.first + 1);
+    }
+  }
+
   /// Calls visit(first, last) for the places [first, last) of leaves whose boxes, and those above them, satisfy
-  /// enters(low, high). Each place comes at most once. Allocates nothing.
+  /// enters(low, high); forEachLeafOf: enters(node, low, high). Each place comes at most once. Allocates nothing.
   template <typename Enters, typename Visit>
   void forEachLeaf(const Enters& enters, const Visit& visit) const {
+    const auto any = [&](std::uint32_t, const Vec3& low, const Vec3& high) { return enters(low, high); };
+    forEachLeafOf(any, visit);
+  }
+  template <typename Enters, typename Visit>
+  void forEachLeafOf(const Enters& enters, const Visit& visit) const {
     if (nodes_.empty()) return;
     std::array<std::uint32_t, kStackSize> stack;
     std::size_t size = 0;
     stack[size++] = 0;
     while (size > 0) {
-      const Node& node = nodes_[stack[--size]];
-      if (!enters(node.low, node.high)) continue;
+      const std::uint32_t index = stack[--size];
+      const Node& node = nodes_[index];
+      if (!enters(index, node.low, node.high)) continue;
       if (node.count > 0) {
         visit(node.first, node.first + node.count);
         continue;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace curtain {
@@ -52,6 +53,8 @@ ObstacleFeatures::ObstacleFeatures(const MeshTopology& topology, FlatEdges flat_
   addVertices(topology);
   addTriangles(topology);
   addEdges(topology, flat_edges);
+  addDirections();
+  addCones();
   vertex_of_corner_ = {};
   face_of_triangle_ = {};
 }
@@ -114,6 +117,7 @@ void ObstacleFeatures::addEdges(const MeshTopology& topology, FlatEdges flat_edg
       across =
           agree ? topology.face_normals[sides[first + 1].triangle] : -topology.face_normals[sides[first + 1].triangle];
       flat_angle += normalError(triangles_[edge.faces[1]]);
+      if (count == 2) edge.normals = {normal, across};
     } else if (closed_) {
       // The neighbour was degenerate and is dropped. The pseudonormal is half way to the normal of the face behind it.
       const Vec3& half_way = topology.edge_normals[side.triangle][side.slot];
@@ -134,6 +138,49 @@ void ObstacleFeatures::addEdges(const MeshTopology& topology, FlatEdges flat_edg
     first = next;
   }
   plant(edges_, edge_tree_);
+}
+
+// Of a rim or a branch any direction counts.
+void ObstacleFeatures::addCones() {
+  std::vector<NormalCone> of_vertices(vertices_.size());
+  for (std::size_t n = 0; n < vertices_.size(); ++n) of_vertices[n] = {vertices_[n].outward, 0.0};
+  std::vector<NormalCone> of_edges;
+  of_edges.reserve(edges_.size());
+  for (const ObstacleEdge& edge : edges_) {
+    NormalCone& cone = of_edges.emplace_back(NormalCone{edge.outward, 0.0});
+    for (const Vec3& normal : edge.normals) {
+      cone.hold(normal);
+      for (const std::uint32_t vertex : edge.vertices) of_vertices[vertex].hold(normal);
+    }
+  }
+  const auto gather = [](const BoxTree& tree, const std::vector<NormalCone>& of, std::vector<NormalCone>& cones) {
+    cones.resize(tree.nodeCount());
+    tree.forEachNodeUp(
+        [&](std::size_t node, std::uint32_t first, std::uint32_t last) {
+          cones[node] = of[first];
+          for (std::uint32_t n = first + 1; n < last; ++n) cones[node] = around(cones[node], of[n]);
+        },
+        [&](std::size_t node, std::uint32_t child, std::uint32_t other) {
+          cones[node] = around(cones[child], cones[other]);
+        });
+  };
+  gather(vertex_tree_, of_vertices, vertex_cones_);
+  gather(edge_tree_, of_edges, edge_cones_);
+}
+
+void ObstacleFeatures::addDirections() {
+  first_edge_.assign(vertices_.size() + 1, 0);
+  for (const ObstacleEdge& edge : edges_) {
+    for (const std::uint32_t vertex : edge.vertices) ++first_edge_[vertex + 1];
+  }
+  std::partial_sum(first_edge_.begin(), first_edge_.end(), first_edge_.begin());
+  edge_directions_.resize(2 * edges_.size());
+  std::vector<std::uint32_t> next(first_edge_.begin(), first_edge_.end() - 1);
+  for (const ObstacleEdge& edge : edges_) {
+    const Vec3 along = (edge.ends[1] - edge.ends[0]).normalized();
+    edge_directions_[next[edge.vertices[0]]++] = along;
+    edge_directions_[next[edge.vertices[1]]++] = -along;
+  }
 }
 
 }  // namespace curtain

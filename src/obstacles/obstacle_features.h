@@ -9,12 +9,14 @@
 //           /    \      concave \/
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
 #include "obstacles/box_tree.h"
+#include "obstacles/normal_cone.h"
 #include "obstacles/triangle_mesh_topology.h"
 
 namespace curtain {
@@ -40,10 +42,11 @@ struct ObstacleVertex {
 };
 
 struct ObstacleEdge {
-  std::array<Vec3, 2> ends;                              ///< [m]
-  std::array<std::uint32_t, 2> vertices{};               ///< of `ends`
-  std::array<std::uint32_t, 2> faces{kNoFace, kNoFace};  ///< adjacent faces (of a branch: two of them)
-  Vec3 outward = Vec3::UnitZ();                          ///< unit mean of the faces' normals; rim: the face's normal
+  std::array<Vec3, 2> ends;                                 ///< [m]
+  std::array<std::uint32_t, 2> vertices{};                  ///< of `ends`
+  std::array<std::uint32_t, 2> faces{kNoFace, kNoFace};     ///< adjacent faces (of a branch: two of them)
+  std::array<Vec3, 2> normals{Vec3::Zero(), Vec3::Zero()};  ///< unit, of the faces; zero: it has not just two
+  Vec3 outward = Vec3::UnitZ();                             ///< unit mean of the faces' normals; rim: the face's normal
   EdgeBend bend = EdgeBend::kFlat;
   /// An edge of the cloth may touch it. Solid: convex edges. Shell: all but flat ones. A flat edge is never touched
   /// first: the cloth meets the plane of its faces with a node, or at an edge that is not flat.
@@ -85,6 +88,23 @@ class ObstacleFeatures {
   void forEachTriangleIn(const Eigen::AlignedBox3d& box, F&& f) const {
     visit(triangle_tree_, triangles_, box, f);
   }
+  /// The same without those in boxes to whose cone of the faces' normals wanted(cone) says no.
+  template <typename Wanted, typename F>
+  void forEachVertexIn(const Eigen::AlignedBox3d& box, const Wanted& wanted, F&& f) const {
+    visit(vertex_tree_, vertices_, vertex_cones_, box, wanted, f);
+  }
+  template <typename Wanted, typename F>
+  void forEachEdgeIn(const Eigen::AlignedBox3d& box, const Wanted& wanted, F&& f) const {
+    visit(edge_tree_, edges_, edge_cones_, box, wanted, f);
+  }
+  /// Whether f(unit direction) is true of an edge that leaves the vertex. Those between coplanar faces may be missing.
+  template <typename F>
+  bool anyEdgeOf(std::uint32_t vertex, F&& f) const {
+    for (std::uint32_t k = first_edge_[vertex]; k < first_edge_[vertex + 1]; ++k) {
+      if (f(edge_directions_[k])) return true;
+    }
+    return false;
+  }
   /// The same for one feature.
   template <typename F>
   void ifVertexIn(const Eigen::AlignedBox3d& box, std::uint32_t n, F&& f) const {
@@ -116,19 +136,38 @@ class ObstacleFeatures {
     });
   }
 
+  template <typename Feature, typename Wanted, typename F>
+  static void visit(const BoxTree& tree, const std::vector<Feature>& features, const std::vector<NormalCone>& cones,
+                    const Eigen::AlignedBox3d& box, const Wanted& wanted, F& f) {
+    const auto enters = [&](std::uint32_t node, const Vec3& low, const Vec3& high) {
+      return (low.array() <= box.max().array()).all() && (high.array() >= box.min().array()).all() &&
+             wanted(cones[node]);
+    };
+    tree.forEachLeafOf(enters, [&](std::uint32_t first, std::uint32_t last) {
+      for (std::uint32_t n = first; n < last; ++n) {
+        if (touches(features[n], box)) f(n, features[n]);
+      }
+    });
+  }
+
   /// Builds the tree over the features and sorts them by its leaves; returns the new index of each.
   template <typename Feature>
   static std::vector<std::uint32_t> plant(std::vector<Feature>& features, BoxTree& tree);
   void addVertices(const MeshTopology& topology);
   void addTriangles(const MeshTopology& topology);
   void addEdges(const MeshTopology& topology, FlatEdges flat_edges);
+  void addDirections();
+  void addCones();
 
   bool closed_ = false;
   std::vector<ObstacleVertex> vertices_;
   std::vector<ObstacleEdge> edges_;
   std::vector<ObstacleTriangle> triangles_;
-  std::vector<std::uint32_t> vertex_of_corner_;  // while building: corner of the mesh -> index in vertices_
-  std::vector<std::uint32_t> face_of_triangle_;  // while building: triangle of the mesh -> index in triangles_
+  std::vector<std::uint32_t> first_edge_;              // by vertex: in edge_directions_
+  std::vector<Vec3> edge_directions_;                  // unit
+  std::vector<NormalCone> vertex_cones_, edge_cones_;  // by node of their trees
+  std::vector<std::uint32_t> vertex_of_corner_;        // while building: corner of the mesh -> index in vertices_
+  std::vector<std::uint32_t> face_of_triangle_;        // while building: triangle of the mesh -> index in triangles_
   BoxTree vertex_tree_;
   BoxTree edge_tree_;
   BoxTree triangle_tree_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Windows against all edges and corners of the mesh: a quad that they call clear keeps its reach from each of them all
-// the way, and of one that is near they name all within reach.
+// the way, and of one that is near they name all within reach at which an edge or a face of it may be nearest.
 #include "contact/broad_phase/mesh_clearance.h"
 
 #include <gtest/gtest.h>
@@ -69,7 +69,68 @@ Touched withinReach(const ObstacleFeatures& features, const QuadElements& quad, 
   return touched;
 }
 
+/// Whether the mesh goes away on both sides of an edge, seen from a point that is `apart` from a point of it.
+bool goesAway(const ObstacleFeatures& features, const ObstacleEdge& edge, const Vec3& apart) {
+  if (edge.faces[1] == kNoFace || edge.bend == EdgeBend::kBranch) return true;
+  const Vec3 along = (edge.ends[1] - edge.ends[0]).normalized();
+  for (const std::uint32_t face : edge.faces) {
+    for (const Vec3& corner : features.triangles()[face].corners) {
+      Vec3 inwards = corner - edge.ends[0];
+      inwards -= along.dot(inwards) * along;
+      if (inwards.norm() > 1e-9 && apart.dot(inwards) > 0.0) return false;
+    }
+  }
+  return true;
+}
+
+/// The same of a vertex, from the ends of its edges.
+bool goesAway(const ObstacleFeatures& features, std::uint32_t vertex, const Vec3& apart) {
+  for (const ObstacleEdge& edge : features.edges()) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (edge.vertices[k] == vertex && apart.dot(edge.ends[1 - k] - edge.ends[k]) > 0.0) return false;
+    }
+  }
+  return true;
+}
+
+/// Where at one of five times an edge or a face of the quad has its nearest point of the mesh around, within reach.
+Touched nearestWithin(const ObstacleFeatures& features, const QuadElements& quad, const Field3& start,
+                      const Field3& end, double reach) {
+  Touched touched;
+  for (int step = 0; step <= 4; ++step) {
+    const auto at = [&](std::uint32_t n) { return Vec3(start.at(n) + 0.25 * step * (end.at(n) - start.at(n))); };
+    for (int k = 0; k < quad.triangle_count; ++k) {
+      const MeshTriangle& t = quad.triangles[static_cast<std::size_t>(k)];
+      const std::array<Vec3, 3> p{at(t[0]), at(t[1]), at(t[2])};
+      for (std::uint32_t v = 0; v < features.vertices().size(); ++v) {
+        if (!features.vertices()[v].touchable) continue;
+        const Vec3& corner = features.vertices()[v].position;
+        const TriangleClosest found = closestOnTriangle(corner, p[0], p[1], p[2]);
+        const Vec3 apart = found.weights[0] * p[0] + found.weights[1] * p[1] + found.weights[2] * p[2] - corner;
+        const bool inside = found.weights.minCoeff() > 0.0;
+        if (inside && found.distance_squared <= reach * reach && goesAway(features, v, apart))
+          touched.corners.insert(v);
+      }
+    }
+    for (int k = 0; k < quad.edge_count; ++k) {
+      const Vec3 a = at(quad.edges[static_cast<std::size_t>(k)][0]), b = at(quad.edges[static_cast<std::size_t>(k)][1]);
+      for (std::uint32_t e = 0; e < features.edges().size(); ++e) {
+        const ObstacleEdge& edge = features.edges()[e];
+        if (!edge.touchable) continue;
+        const auto& [c, d] = edge.ends;
+        const SegmentsClosest found = closestOnSegments(a, b, c, d);
+        const bool inside = found.s > 0.0 && found.s < 1.0 && found.t > 0.0 && found.t < 1.0;
+        const Vec3 apart = a + found.s * (b - a) - c - found.t * (d - c);
+        if (inside && found.distance_squared <= reach * reach && goesAway(features, edge, apart))
+          touched.edges.insert(e);
+      }
+    }
+  }
+  return touched;
+}
+
 struct Seen {
+  int nearest = 0;
   int clear = 0, near = 0, held = 0, most = 0;
 };
 
@@ -87,20 +148,31 @@ void look(MeshClearance& windows, const Grid& grid, const ObstacleFeatures& feat
       else
         ++seen.held;
       ASSERT_NE(view, QuadClearance::kUnknown);
-      const Touched truth = withinReach(features, quad, start, end, reach);
-      Touched named;
+      Touched truth, named;
       if (view == QuadClearance::kNear) {
         Eigen::AlignedBox3d box;
         for (const std::uint32_t n : quad.corners) box.extend(start.at(n)).extend(end.at(n));
         box.min().array() -= reach;
         box.max().array() += reach;
+        const SweptDirections directions(quad, start, end);
         windows.forEachNear(
-            quad, way, reach, box,
-            [&](std::uint32_t e, const ObstacleEdge&) { EXPECT_TRUE(named.edges.insert(e).second); },
-            [&](std::uint32_t v, const ObstacleVertex&) { EXPECT_TRUE(named.corners.insert(v).second); });
+            quad, way, directions, reach, box,
+            [&](std::uint32_t e, const ObstacleEdge& edge) {
+              bool meets = false;
+              for (int k = 0; k < quad.edge_count; ++k) meets = meets || directions.edgeMeets(k, edge);
+              EXPECT_TRUE(!meets || named.edges.insert(e).second);
+            },
+            [&](std::uint32_t v, const ObstacleVertex&) {
+              bool meets = false;
+              for (int k = 0; k < quad.triangle_count; ++k) meets = meets || directions.faceMeets(k, v, features);
+              EXPECT_TRUE(!meets || named.corners.insert(v).second);
+            });
+        truth = nearestWithin(features, quad, start, end, reach);
+        seen.nearest += static_cast<int>(truth.edges.size() + truth.corners.size());
         ++seen.near;
         seen.most = std::max(seen.most, static_cast<int>(named.edges.size() + named.corners.size()));
       } else {
+        truth = withinReach(features, quad, start, end, reach);
         ++seen.clear;
       }
       EXPECT_TRUE(std::includes(named.edges.begin(), named.edges.end(), truth.edges.begin(), truth.edges.end()));
@@ -165,6 +237,7 @@ TEST(MeshClearance, MissNothingWhereThereIsMuchMoreThanTheyKeep) {
   const Seen seen = wander(Grid{3, 3, false}, mesh, 0.3, 0.0, 9);
   EXPECT_GT(seen.near, 50);
   EXPECT_GT(seen.most, 100);
+  EXPECT_GT(seen.nearest, 100);
 }
 
 TEST(MeshClearance, CallNothingClearThatIsNotANumberOrFarAway) {

@@ -18,6 +18,7 @@
 
 #include "cloth/coarse_mesh.h"
 #include "cloth/field.h"
+#include "contact/broad_phase/swept_directions.h"
 #include "obstacles/contact_shape.h"
 #include "obstacles/obstacle_features.h"
 
@@ -58,11 +59,11 @@ class MeshClearance {
   QuadClearance rebuild(const QuadElements& quad, const SweptQuad& swept, double reach) noexcept;
   void invalidate() noexcept;
 
-  /// Calls edge(index, edge) and corner(index, vertex) for touchable features, at least all within reach of a quad
-  /// that is near. box: around its motion, grown by the reach.
+  /// Calls edge(index, edge) and corner(index, vertex) for touchable features, at least all within reach of a quad that
+  /// is near and may have its nearest points there by its directions. box: around its motion, grown by the reach.
   template <typename Edge, typename Corner>
-  void forEachNear(const QuadElements& quad, const SweptQuad& swept, double reach, const Eigen::AlignedBox3d& box,
-                   Edge&& edge, Corner&& corner) const {
+  void forEachNear(const QuadElements& quad, const SweptQuad& swept, const SweptDirections& directions, double reach,
+                   const Eigen::AlignedBox3d& box, Edge&& edge, Corner&& corner) const {
     const ObstacleFeatures& features = *mesh_->features();
     const auto takeEdge = [&](std::uint32_t n, const ObstacleEdge& e) {
       if (e.touchable) edge(n, e);
@@ -74,8 +75,10 @@ class MeshClearance {
     const double least = swept.lowest(normal_.at(window), centre_.at(window)) - reach;
     const HighestFeatures& highest = highest_[window];
     if (highest.rest >= least) {
-      features.forEachEdgeIn(box, takeEdge);
-      features.forEachVertexIn(box, takeCorner);
+      const auto edgesMeet = [&](const NormalCone& normals) { return directions.edgesMeet(normals); };
+      const auto facesMeet = [&](const NormalCone& normals) { return directions.facesMeet(normals); };
+      features.forEachEdgeIn(box, edgesMeet, takeEdge);
+      features.forEachVertexIn(box, facesMeet, takeCorner);
       return;
     }
     for (std::size_t k = 0; k < highest.count && highest.heights[k] >= least; ++k) {

@@ -162,10 +162,8 @@ class ObstacleCandidates {
   void listPairs(double reach) noexcept;
   void listPairsOfRow(int row, const Eigen::AlignedBox3d& box, double reach, Pairs& out) noexcept;
   void listPairsOf(const QuadElements& quad, const SweptQuad& swept, double reach, Pairs& out) const noexcept;
-  void addEdgePair(const MeshEdge& edge, std::uint32_t index, const ObstacleEdge& other, double reach,
-                   Pairs& out) const noexcept;
-  void addCornerPair(const MeshTriangle& triangle, std::uint32_t index, const ObstacleVertex& corner, double reach,
-                     Pairs& out) const noexcept;
+  void addEdgePair(const MeshEdge& edge, std::uint32_t index, double reach, Pairs& out) const noexcept;
+  void addCornerPair(const MeshTriangle& triangle, std::uint32_t index, double reach, Pairs& out) const noexcept;
 
   const ClothPattern& pattern_;
   const ContactShape& shape_;

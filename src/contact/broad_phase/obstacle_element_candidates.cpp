@@ -8,11 +8,11 @@
 #include <limits>
 
 #include "contact/broad_phase/obstacle_candidates.h"
+#include "contact/broad_phase/swept_directions.h"
 #include "contact/narrow_phase/closest_points.h"
 #include "obstacles/convex_shape.h"
 
 namespace curtain {
-
 Eigen::AlignedBox3d ObstacleCandidates::boxOf(const std::array<std::uint32_t, 4>& corners) const noexcept {
   Eigen::AlignedBox3d around;
   for (const std::uint32_t n : corners) around.extend(start_.at(n)).extend(end_.at(n));
@@ -92,24 +92,29 @@ void ObstacleCandidates::listPairsOf(const QuadElements& quad, const SweptQuad& 
   Eigen::AlignedBox3d box = boxOf(quad.corners);
   box.min().array() -= reach;
   box.max().array() += reach;
+  const SweptDirections directions(quad, start_, end_);
   // The plane through the feature is a cheaper test than the distance.
   mesh_clearance_.forEachNear(
-      quad, swept, reach, box,
+      quad, swept, directions, reach, box,
       [&](std::uint32_t index, const ObstacleEdge& edge) {
         if (swept.lowest(edge.outward, edge.ends[0]) > reach) return;
-        for (int k = 0; k < quad.edge_count; ++k)
-          addEdgePair(quad.edges[static_cast<std::size_t>(k)], index, edge, reach, out);
+        for (int k = 0; k < quad.edge_count; ++k) {
+          if (directions.edgeMeets(k, edge)) addEdgePair(quad.edges[static_cast<std::size_t>(k)], index, reach, out);
+        }
       },
       [&](std::uint32_t index, const ObstacleVertex& corner) {
         if (swept.lowest(corner.outward, corner.position) > reach) return;
-        for (int k = 0; k < quad.triangle_count; ++k)
-          addCornerPair(quad.triangles[static_cast<std::size_t>(k)], index, corner, reach, out);
+        for (int k = 0; k < quad.triangle_count; ++k) {
+          if (directions.faceMeets(k, index, *shape_.features()))
+            addCornerPair(quad.triangles[static_cast<std::size_t>(k)], index, reach, out);
+        }
       });
 }
 
 // A node is never further than half its displacement from its position half way.
-void ObstacleCandidates::addEdgePair(const MeshEdge& edge, std::uint32_t index, const ObstacleEdge& other, double reach,
+void ObstacleCandidates::addEdgePair(const MeshEdge& edge, std::uint32_t index, double reach,
                                      Pairs& out) const noexcept {
+  const ObstacleEdge& other = shape_.features()->edges()[index];
   const Vec3 a = start_.at(edge[0]), b = start_.at(edge[1]);
   const Vec3 c = end_.at(edge[0]), d = end_.at(edge[1]);
   const double limit = reach + 0.5 * std::sqrt(std::max((c - a).squaredNorm(), (d - b).squaredNorm()));
@@ -119,8 +124,9 @@ void ObstacleCandidates::addEdgePair(const MeshEdge& edge, std::uint32_t index, 
   out.add({{edge[0], edge[1], 0}, index, true});
 }
 
-void ObstacleCandidates::addCornerPair(const MeshTriangle& triangle, std::uint32_t index, const ObstacleVertex& corner,
-                                       double reach, Pairs& out) const noexcept {
+void ObstacleCandidates::addCornerPair(const MeshTriangle& triangle, std::uint32_t index, double reach,
+                                       Pairs& out) const noexcept {
+  const ObstacleVertex& corner = shape_.features()->vertices()[index];
   std::array<Vec3, 3> at;
   double longest = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
