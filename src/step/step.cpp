@@ -93,6 +93,7 @@ SubstepOutcome Step::substep(const SubstepPlan& plan, const NodeForces& forces, 
   outcome.accepted = progress.settled || plan.isLastResort();
   if (outcome.accepted) take(attempt, progress, outcome);
   constraints_.end(outcome.accepted);
+  inertia_.setGuided(true);  // guided nodes stand in the last resort alone, not in what is made of pins after it
   if (!outcome.accepted) constraints_.distances().resume(state);
   clock.lap(Stage::kFinish);
   return outcome;

@@ -9,6 +9,7 @@
 #include "curtain_sim/scene_yaml.h"
 #include "curtain_sim/simulator.h"
 #include "energy_books.h"
+#include "simulator/hands.h"
 #include "simulator/snapshot_testing.h"
 #include "testing.h"
 
@@ -161,6 +162,26 @@ TEST(HospitalRail, GoesOnFromASnapshotWithTheSameBits) {
       ASSERT_NO_FATAL_FAILURE(curtain_test::expectContinues(scene, life));
     }
   }
+}
+
+// A hand pulls the cloth apart, so that carriers stand in the last substep before the snapshot; another one takes hold
+// after it.
+TEST(TornRail, GoesOnFromASnapshotWithTheSameBits) {
+  curtain_test::Life life;
+  life.deeds = [](Simulator& simulator, int frame) {
+    if (frame == 3) {
+      EXPECT_EQ(curtain_test::refusal(simulator, curtain_test::nodeGrasp("apart", {{3, 6}})), "");
+    }
+    if (frame > 3) simulator.moveGrasp("apart", {{0.0, -0.1 * (frame - 3), 0.0}, Rotation::Identity()});
+    if (frame == 20) {
+      EXPECT_EQ(curtain_test::refusal(simulator, curtain_test::nodeGrasp("other", {{4, 2}})), "");
+    }
+  };
+  const Scene scene = curtain_test::railScene(5, 13, 3, 1.0, 0.8);
+  Simulator scout(scene);
+  curtain_test::run(scout, life.deeds, 0, life.saved_at);
+  ASSERT_GT(scout.statistics().last_resort_substeps, 0);
+  curtain_test::expectContinues(scene, life);
 }
 
 TEST(HospitalRail, MovesAlikeWithAnyNumberOfThreads) {
