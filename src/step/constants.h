@@ -47,9 +47,6 @@ constexpr int kFrictionSweeps = 3;
 // Not in the last resort: objects thrown at cloth at 50 m/s pierced it.
 constexpr double kShareOfPath = 0.01;
 constexpr double kMostTouch = 4.0;
-// The same of the cloth with itself, where both sides move, over that with obstacles. 3: a fifth fewer sweeps in
-// gathered cloth. With obstacles it makes strips that slide off a bar rise.
-constexpr double kClothShare = 3.0;
 // Cloth at rest on something moves little: the first sweeps aim at this share of the tolerance. It then moves at 0.3
 // mm/s instead of 0.8 (RMS), for a fifth more sweeps.
 constexpr double kStrictShare = 0.2;

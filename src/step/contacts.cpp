@@ -127,15 +127,14 @@ void ContactRows::relinearise(const Field3& position) noexcept {
   if (finder_ != nullptr) finder_->relinearise(position, *solved_);
 }
 
-double ContactRows::residual(const Field3& position, bool recovers, double cloth) const noexcept {
+double ContactRows::residual(const Field3& position, bool recovers) const noexcept {
   double worst = 0.0;
   for (const Contact& contact : *all_) {
     if (contact.mobility <= 0.0) continue;  // what is held is watched on its way, by verification
     const double entered = contact.entered(position);
     if (!std::isfinite(entered)) return std::numeric_limits<double>::infinity();
-    const double share = contact.obstacle == Contact::kCloth ? 1.0 / cloth : 1.0;
     const double lacks = recovers || entered < 0.0 ? entered : std::max(0.0, entered - contact.recovery);
-    worst = std::max(worst, share * (contact.pushes() ? std::abs(lacks) : lacks));
+    worst = std::max(worst, contact.pushes() ? std::abs(lacks) : lacks);
     if (contact.sticks)
       worst = std::max(worst, kStickShare * contact.across(contact.point(position) - contact.carried).norm());
   }

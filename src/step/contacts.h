@@ -157,8 +157,7 @@ class ContactRows final : public RowMaker {
 
   /// Largest penetration, separation of a contact that pushes, or slip of one that sticks [m]; infinite when a position
   /// is not finite. recovers: count penetration that Contact::recovery should take out; false: only deeper penetration.
-  /// cloth: how many times as much counts as one of the cloth with itself, > 0.
-  double residual(const Field3& position, bool recovers, double cloth) const noexcept;
+  double residual(const Field3& position, bool recovers) const noexcept;
   /// Turns the slides of those that may slip against their slips. Moves nodes.
   void slide(const Field& inverse, Field3& position) noexcept;
 

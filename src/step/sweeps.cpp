@@ -24,12 +24,10 @@ Sweeps::Sweeps(Constraints& constraints, const NodeInertia& inertia, double tole
       most_sweeps_(most_sweeps) {}
 
 Sweeps::Aim Sweeps::aimOf(const SweepTask& task, bool first, bool touches, int sweeps) const noexcept {
-  double strict = 1.0, contact = 1.0, cloth = 1.0;
+  double strict = 1.0, contact = contact_tolerance_;
   if (touches) {
     const double share = kShareOfPath * task.path / contact_tolerance_;
-    const double least = sweeps < kStrictSweeps ? kStrictShare : 1.0, most = task.last_resort ? 1.0 : kMostTouch;
-    contact = std::clamp(share, least, most);
-    if (!task.last_resort) cloth = std::clamp(kClothShare * share, least, kClothShare * most) / contact;
+    contact *= std::clamp(share, sweeps < kStrictSweeps ? kStrictShare : 1.0, task.last_resort ? 1.0 : kMostTouch);
     if (sweeps < kStrictSweeps) strict = std::clamp(share, kStrictShare, 1.0);
   }
   if (sweeps < kStrictSweeps && !touches && (constraints_.stringsPull() || constraints_.stringsAct())) {
@@ -41,12 +39,11 @@ Sweeps::Aim Sweeps::aimOf(const SweepTask& task, bool first, bool touches, int s
             : 1.0;
   }
   const bool cautious = first && !task.last_resort;
-  return {strict * tolerance_, contact * contact_tolerance_, cloth, cautious ? kFirstSweepShare : 1.0,
-          cautious ? kFirstSweepShare : kLeaveAlone};
+  return {strict * tolerance_, contact, cautious ? kFirstSweepShare : 1.0, cautious ? kFirstSweepShare : kLeaveAlone};
 }
 
 // Slides are turned before contacts are measured.
-Sweeps::Residual Sweeps::look(const Constraints::RodsProgress& rods, bool first, int sweeps, double cloth,
+Sweeps::Residual Sweeps::look(const Constraints::RodsProgress& rods, bool first, int sweeps,
                               StageClock& clock) noexcept {
   Residual residual;
   residual.rods = rods;
@@ -56,7 +53,7 @@ Sweeps::Residual Sweeps::look(const Constraints::RodsProgress& rods, bool first,
     constraints_.settleGuide();
   }
   contacts.relinearise(constraints_.next);
-  residual.touch = contacts.residual(constraints_.next, true, cloth);
+  residual.touch = contacts.residual(constraints_.next, true);
   clock.lap(Stage::kContact);
   residual.strings = constraints_.lookAtStrings(constraints_.stringsPull() || !first);
   return residual;
@@ -96,9 +93,7 @@ SweepOutcome Sweeps::run(const SweepTask& task, StageClock& clock) noexcept {
   bool follow = task.follows;
   double before = kInfinity, touch = 0.0;
   best_ = Best();
-  const Aim loosest = aimOf(task, false, touches, kStrictSweeps);
-  most_touch_ = loosest.contact;
-  most_cloth_ = loosest.cloth;
+  most_touch_ = aimOf(task, false, touches, kStrictSweeps).contact;
   constraints_.beginSolve();
   while (outcome.sweeps < most_sweeps_) {
     const bool first = outcome.sweeps == 0;
@@ -113,7 +108,7 @@ SweepOutcome Sweeps::run(const SweepTask& task, StageClock& clock) noexcept {
     if (first) outcome.predicted_violation = rods.first_residual;
     if (!rods.converged && !task.last_resort) return {SweepEnd::kDiverged, false, outcome.sweeps};
     ++outcome.sweeps;
-    const Residual now = look(rods, first, outcome.sweeps, aim.cloth, clock);
+    const Residual now = look(rods, first, outcome.sweeps, clock);
     touch = now.touch;
     if (reached(aim, now)) {
       clock.lap(Stage::kWeft);
@@ -161,7 +156,7 @@ SweepOutcome Sweeps::conclude(SweepOutcome outcome, double touch) noexcept {
   if (std::isfinite(best_.merit)) {
     if (outcome.end == SweepEnd::kDiverged) outcome.end = SweepEnd::kStalled;
     constraints_.restoreIterate();
-    touch = constraints_.contacts().residual(constraints_.next, false, most_cloth_);
+    touch = constraints_.contacts().residual(constraints_.next, false);
   }
   outcome.within = outcome.end != SweepEnd::kDiverged && isWithin(touch);
   return outcome;

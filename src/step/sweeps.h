@@ -89,17 +89,15 @@ class Sweeps {
   // What one sweep aims at, and what it does not correct.
   struct Aim {
     double links, contact;  // relative, [m]
-    double cloth;           // of the cloth with itself, over that of contacts with obstacles
     double share;           // of the aim at which the solve ends
     double alone;           // of the aim below which strings and contacts are not corrected
   };
   struct Residual {
     Constraints::RodsProgress rods;
-    double strings = 0.0, touch = 0.0;  // relative, [m]: that of the cloth with itself over Aim::cloth
+    double strings = 0.0, touch = 0.0;  // relative, [m]
   };
   Aim aimOf(const SweepTask& task, bool first, bool touches, int sweeps) const noexcept;
-  Residual look(const Constraints::RodsProgress& rods, bool first, int sweeps, double cloth,
-                StageClock& clock) noexcept;
+  Residual look(const Constraints::RodsProgress& rods, bool first, int sweeps, StageClock& clock) noexcept;
   bool reached(const Aim& aim, const Residual& residual) noexcept;
   struct Best {
     double merit = std::numeric_limits<double>::infinity(), residual = 0.0;
@@ -115,7 +113,6 @@ class Sweeps {
   const int most_sweeps_;
   Best best_;                // iterate of a monotone solve
   double most_touch_ = 0.0;  // final tolerance of contacts [m]
-  double most_cloth_ = 1.0;  // Aim::cloth of it
 };
 
 }  // namespace curtain
