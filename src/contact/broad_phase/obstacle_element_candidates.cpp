@@ -13,6 +13,7 @@
 #include "obstacles/convex_shape.h"
 
 namespace curtain {
+
 Eigen::AlignedBox3d ObstacleCandidates::boxOf(const std::array<std::uint32_t, 4>& corners) const noexcept {
   Eigen::AlignedBox3d around;
   for (const std::uint32_t n : corners) around.extend(start_.at(n)).extend(end_.at(n));

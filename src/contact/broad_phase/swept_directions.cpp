@@ -27,8 +27,15 @@ SweptDirections::SweptDirections(const QuadElements& quad, const Field3& start, 
     const Vec3 c = end.at(t[1]) - end.at(t[0]), d = end.at(t[2]) - end.at(t[0]);
     faces_[k].normals = {Vec3(a.cross(b)), Vec3(0.5 * (a.cross(d) + c.cross(b))), Vec3(c.cross(d))};
     double square = 0.0;
-    for (const Vec3& normal : faces_[k].normals) square = std::max(square, normal.squaredNorm());
+    Vec3 low = faces_[k].normals[0], high = low;
+    for (const Vec3& normal : faces_[k].normals) {
+      square = std::max(square, normal.squaredNorm());
+      low = low.cwiseMin(normal);
+      high = high.cwiseMax(normal);
+    }
     faces_[k].longest = std::sqrt(square);
+    faces_[k].middle = 0.5 * (low + high);
+    faces_[k].around = 0.5 * (high - low).norm();
   }
 }
 
@@ -61,16 +68,8 @@ bool SweptDirections::facesMeet(const NormalCone& normals) const noexcept {
   if (normals.sine >= 1.0) return true;
   for (std::size_t k = 0; k < static_cast<std::size_t>(face_count_); ++k) {
     const Face& face = faces_[k];
-    Vec3 low = face.normals[0], high = low;
-    for (const Vec3& normal : face.normals) {
-      low = low.cwiseMin(normal);
-      high = high.cwiseMax(normal);
-    }
-    // The three are within this of their middle, and so is the normal whenever it is looked at.
-    const Vec3 middle = 0.5 * (low + high);
-    const double around = 0.5 * (high - low).norm();
-    if (!(normals.axis.cross(middle).norm() > (normals.sine + kBeside) * (middle.norm() + around) + around))
-      return true;
+    const double within = (normals.sine + kBeside) * (face.middle.norm() + face.around) + face.around;
+    if (!(normals.axis.cross(face.middle).norm() > within)) return true;
   }
   return false;
 }

@@ -40,6 +40,8 @@ class SweptDirections {
   struct Face {
     std::array<Vec3, 3> normals;
     double longest;  // [m^2]
+    Vec3 middle;     // all three are within `around` of it, and so is the normal whenever it is looked at
+    double around;
   };
 
   int edge_count_, face_count_;

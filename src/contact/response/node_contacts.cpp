@@ -52,7 +52,7 @@ bool makeContact(const ObstacleSubstep& substep, const ClothPattern& pattern, co
   const bool frictionless = (substep.frictionless && moving.press == 0.0) || point.distance < 0.0;
   contact.friction = frictionless ? 0.0 : moving.friction;
   contact.recovery = point.recovery;
-  contact.carried = moving.after.toWorld(getenv("CT") ? point.touch : point.start);
+  contact.carried = moving.after.toWorld(point.start);
   contact.end_velocity = moving.motionAt(1.0, point.start) / substep.h;
   contact.surface_velocity = substep.act == ContactFinder::ForcesAct::kAtStart
                                  ? Vec3(moving.motionAt(point.share, point.touch) / substep.h)
