@@ -32,7 +32,7 @@ Constraints::Constraints(const ClothPattern& pattern, const SolverParts& parts, 
   weft_.assign(pattern.grid);
   weft_.most_give = tolerance;
   for (Field* field : {&last_warp_, &last_weft_, &best_.warp, &best_.weft}) field->assign(links, 0.0);
-  for (Field* field : {&violation_, &active_, &change_, &free_per_square_}) field->assign(size, 0.0);
+  for (Field* field : {&violation_, &active_, &compliance_, &change_, &free_per_square_}) field->assign(size, 0.0);
   freeWeft(pattern, inertia.masses(), free_per_square_);
   next.assign(size, 0.0);
   best_.position.assign(size, 0.0);

@@ -79,7 +79,10 @@ class Constraints {
   // ---- Parts of a solve
 
   /// A substep is solved again when contacts are added.
-  void beginSolve() noexcept { net_ready_ = false; }
+  void beginSolve() noexcept {
+    net_ready_ = false;
+    weft_.compliance = contacts_.all().empty() ? kStraightCompliance : kWeftCompliance;
+  }
 
   struct RodsAim {
     bool follow;           ///< along the directions of the present positions
@@ -225,7 +228,7 @@ class Constraints {
   bool directions_set_ = false;  // of the weft, in this substep
   bool measured_ = false;        // violation_ and active_ belong to the present positions
   bool net_ready_ = false;       // net_ has directions of this substep
-  Field violation_, active_, change_;
+  Field violation_, active_, compliance_, change_;
   Field free_per_square_;  // 1 / rest length^2 of weft links with a movable end [1/m^2]; others: 0
   std::vector<WarpMotion> block_motion_;
   std::vector<RodsProgress> block_progress_;

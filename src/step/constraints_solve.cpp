@@ -74,7 +74,7 @@ double Constraints::lookAtStrings(bool closely) noexcept {
 
 double Constraints::measureStrings() noexcept {
   const LineSolve weft = wefts();
-  const double worst = worstOfRows([&](int i) { return measureWeft(weft, i, violation_, active_); });
+  const double worst = worstOfRows([&](int i) { return measureWeft(weft, i, {violation_, active_, compliance_}); });
   measured_ = true;
   return std::max(worst, distances_.measure(inertia_.inverse(), next));
 }
@@ -116,9 +116,12 @@ void Constraints::solveNet(const NetAim& aim) noexcept {
   if (!measured_) measureStrings();
   measured_ = false;
   const Field* const multiplier = aim.newton ? &weft_.multiplier : nullptr;
+  // kStraightCompliance is as small as the rounding of NetSolver's numbers.
+  const Field* const compliance = contacts_.all().empty() ? nullptr : &compliance_;
   makeRows(next, false);
   net_.solve(violation_, active_, rows_,
-             {aim.residual * middle_rest_, aim.damping, aim.enough, kGradientIterations, multiplier}, change_);
+             {aim.residual * middle_rest_, aim.damping, aim.enough, kGradientIterations, multiplier, compliance},
+             change_);
   const double share = distances_.any() ? takeUpTogether() : takeUpStrings(aim.residual);
   for (RowMaker* maker : makers_) maker->takeUp(rows_, share, inertia_.inverse(), next);
   settleGuide();

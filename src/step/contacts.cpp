@@ -47,7 +47,7 @@ void beginContacts(const Field& inverse_inertia, double scale, double ratio, std
       contact.mobility += contact.weight[at] * contact.weight[at] * inverse_inertia[contact.node[at]];
     }
     contact.push *= ratio;
-    contact.leans = contact.push > 0.0 && contact.obstacle != Contact::kCloth;
+    contact.leans = contact.push > 0.0;
     contact.hold = scale * contact.friction * contact.press;
     contact.slide = contact.boundedSlide(ratio * contact.across(contact.slide));
     contact.sticks = contact.pushes() && contact.slide.norm() < kSticksBelow * contact.mostSlide();

@@ -60,7 +60,7 @@ double DistanceRows::measure(const Field& inverse, const Field3& position) noexc
   double worst = 0.0;
   for (DistanceRow& row : all_) {
     const double square = (position.at(row.other) - position.at(row.node)).squaredNorm();
-    const double load = kWeftCompliance * (inverse[row.node] + inverse[row.other]) * row.multiplier;
+    const double load = kStraightCompliance * (inverse[row.node] + inverse[row.other]) * row.multiplier;
     const double give = std::min(load, most_give_) * row.length * row.length;
     row.violation = row.holds ? 0.5 * (square - row.length * row.length) - give : 0.0;
     if (row.compliance > 0.0 && row.holds) row.violation -= givesPerMultiplier(row, std::sqrt(square)) * row.multiplier;

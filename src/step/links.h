@@ -20,6 +20,7 @@ namespace curtain {
 struct LinkSet {
   Field3 direction;                                            ///< [m], shape [(rows + 1) * stride]
   Field multiplier;                                            ///< [kg], shape [(rows + 1) * stride]
+  double compliance = 0.0;                                     ///< overlength by a multiplier times (w_a + w_b)
   double most_give = std::numeric_limits<double>::infinity();  ///< bound of the relative overlength by compliance
 
   void assign(const Grid& grid) {

@@ -43,12 +43,12 @@ NetSolver::NetSolver(const ClothPattern& pattern, const Workers& workers)
   changed_ = partial_;
 }
 
-std::array<NetSolver::Values*, 32> NetSolver::allVectors() noexcept {
+std::array<NetSolver::Values*, 33> NetSolver::allVectors() noexcept {
   return {&weight_,       &warp_.x,     &warp_.y,         &warp_.z,   &weft_.x,       &weft_.y,     &weft_.z,
           &warp_inverse_, &warp_lower_, &weft_diagonal_,  &weft_off_, &weft_inverse_, &weft_lower_, &above_left_,
           &above_right_,  &below_left_, &below_right_,    &rods_,     &move_.x,       &move_.y,     &move_.z,
           &mask_,         &residual_,   &preconditioned_, &pull_,     &product_,      &solution_,   &least_,
-          &interleaved_,  &push_.x,     &push_.y,         &push_.z};
+          &interleaved_,  &push_.x,     &push_.y,         &push_.z,   &damped_};
 }
 
 void NetSolver::reset() noexcept {
@@ -180,8 +180,7 @@ CURTAIN_WIDE void NetSolver::factorWarp(int block) noexcept {
 }
 
 // Scales the right-hand side and initialises the conjugate gradients.
-CURTAIN_WIDE void NetSolver::load(const Field& violation, const Field& active, const Field* multiplier,
-                                  int b) noexcept {
+CURTAIN_WIDE void NetSolver::load(const Field& violation, const Field& active, const Aim& aim, int b) noexcept {
   const Grid& grid = pattern_.grid;
   const auto columns = static_cast<std::size_t>(grid.columns);
   const int end = std::min((b + 1) * kRows, grid.rows);
@@ -201,8 +200,15 @@ CURTAIN_WIDE void NetSolver::load(const Field& violation, const Field& active, c
       x[j] = 0.0F;
       p[j] = 0.0F;
     }
-    if (multiplier == nullptr) continue;
-    const double* const s = multiplier->data() + grid.row(i);
+    const float* const diagonal = &weft_diagonal_[row(i)];
+    float* const damped = &damped_[row(i)];
+    for (std::size_t j = 0; j < columns; ++j) damped[j] = diagonal[j] * (1.0F + damping_);
+    if (aim.compliance != nullptr) {
+      const double* const give = aim.compliance->data() + grid.row(i);
+      for (std::size_t j = 0; j < columns; ++j) damped[j] += diagonal[j] * static_cast<float>(give[j]);
+    }
+    if (aim.multiplier == nullptr) continue;
+    const double* const s = aim.multiplier->data() + grid.row(i);
     const double* const rest = pattern_.weft_rest.data() + grid.row(i);
     float* const least = &least_[row(i)];
 #pragma omp simd
@@ -328,7 +334,7 @@ NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active,
                        std::all_of(rows.begin(), rows.end(), [](const Row& one) { return one.least_damping == 0.0; });
   loadRows(rows, changes);
   findPushed();
-  workers_.run(row_blocks_, [&](int b) { load(violation, active, aim.multiplier, b); });
+  workers_.run(row_blocks_, [&](int b) { load(violation, active, aim, b); });
   if (guided_ != nullptr) leaveOutFixedLinks();
   sumOverRowBlocks([&](int b) {
     factorWeft(b);

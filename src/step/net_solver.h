@@ -52,6 +52,7 @@ class NetSolver {
     double reduction;     ///< of the residual at which to stop, (0..1)
     int most_iterations;  ///< > 0
     const Field* multiplier = nullptr;  ///< of the strings [kg]: none may end below zero; null: no bound
+    const Field* compliance = nullptr;  ///< of the strings, over the diagonal; violations have it in them. null: 0
   };
   struct Outcome {
     int iterations = 0;
@@ -85,7 +86,7 @@ class NetSolver {
   void takeRow(const Field3& position, const Field& inverse_inertia, int row) noexcept;
   void factorWarp(int block) noexcept;
   void factorWeft(int row_block) noexcept;
-  void load(const Field& violation, const Field& active, const Field* multiplier, int row_block) noexcept;
+  void load(const Field& violation, const Field& active, const Aim& aim, int row_block) noexcept;
   void unload(int row_block, const Field* multiplier, Field& change) noexcept;
   void couple(int block) noexcept;
   void answerOfRods(int block) noexcept;
@@ -117,7 +118,7 @@ class NetSolver {
   template <typename Block>
   double sumOverRowBlocks(const Block& block) noexcept;
 
-  std::array<Values*, 32> allVectors() noexcept;
+  std::array<Values*, 33> allVectors() noexcept;
   double multiplierScale() const noexcept { return violation_scale_ / inertia_scale_; }
   std::size_t row(int i) const { return static_cast<std::size_t>(i) * stride_; }
 
@@ -133,6 +134,7 @@ class NetSolver {
   Values3 warp_, weft_;                  // directions over rest lengths; weft: one more link for the ring
   Values warp_inverse_, warp_lower_;     // A_ww = L D L^T by column: 1 / D, and L below the diagonal
   Values weft_diagonal_, weft_off_;      // A_ff: diagonal, entry towards the next link
+  Values damped_;                        // its diagonal with damping and compliance
   Values weft_inverse_, weft_lower_;     // A_ff = L D L^T by row; interleaved over the rows of a block
   Values above_left_, above_right_;      // A_wf at a node: the rod above with the link on the left, on the right
   Values below_left_, below_right_;      // the same for the rod below

@@ -64,7 +64,7 @@ CURTAIN_WIDE void NetSolver::factorWeft(int b) noexcept {
   const auto columns = static_cast<std::size_t>(pattern_.grid.columns);
   for (std::size_t block = 0; block < columns; block += kRows) {
     float diagonals[kSquare], offs[kSquare], ons[kSquare], ons_after[kSquare];
-    transpose(&weft_diagonal_[first + block], stride_, diagonals, kInterleave);
+    transpose(&damped_[first + block], stride_, diagonals, kInterleave);
     transpose(&weft_off_[first + block], stride_, offs, kInterleave);
     transpose(&mask_[first + block], stride_, ons, kInterleave);
     transpose(&mask_[first + block + 1], stride_, ons_after, kInterleave);
@@ -75,7 +75,7 @@ CURTAIN_WIDE void NetSolver::factorWeft(int b) noexcept {
       float* const lower = &weft_lower_[first + block * kInterleave + j];
 #pragma omp simd
       for (std::size_t r = 0; r < kRows; ++r) {
-        const float pivot = diagonal[r] * (1.0F + damping_) - off_before[r] * lower_before[r];
+        const float pivot = diagonal[r] - off_before[r] * lower_before[r];
         const float smallest = kSmallestPivot * diagonal[r];
         const float safe = pivot > smallest ? pivot : smallest;
         const float inverted = on[r] > 0.0F ? 1.0F / (safe > 0.0F ? safe : 1.0F) : 0.0F;
@@ -161,15 +161,14 @@ CURTAIN_WIDE void NetSolver::moveNodes(int block) noexcept {
 CURTAIN_WIDE double NetSolver::schurProduct(int b) noexcept {
   const auto last = static_cast<std::size_t>(pattern_.grid.columns) - 1;
   const std::size_t first = row(b * kRows), count = kRows * stride_;
-  const float *const diagonal = weft_diagonal_.data(), *const off = weft_off_.data(), *const p = pull_.data();
+  const float *const diagonal = damped_.data(), *const off = weft_off_.data(), *const p = pull_.data();
   const float *const s = rods_.data(), *const s_below = s + stride_;
   const float *const above_left = above_left_.data(), *const above_right = above_right_.data();
   const float *const below_left = below_left_.data(), *const below_right = below_right_.data();
-  const float damped = 1.0F + damping_;
   float* const q = product_.data();
   // Link k ends at node k and begins where link k - 1 ends.
   const auto product = [=](std::size_t before, std::size_t k) {
-    return damped * diagonal[k] * p[k] + off[k] * p[k + 1] + off[before] * p[before] -
+    return diagonal[k] * p[k] + off[k] * p[k + 1] + off[before] * p[before] -
            (above_left[k] * s[k] + below_left[k] * s_below[k] + above_right[before] * s[before] +
             below_right[before] * s_below[before]);
   };

@@ -33,7 +33,7 @@ Step::Step(const ClothPattern& pattern, const SolverParts& parts, double stretch
       smallest_rest_(shortestLink(pattern)),
       inertia_(pattern),
       elastic_(parts.elastic),
-      constraints_(pattern, parts, kInnerTolerance * stretch_tolerance, inertia_, workers),
+      constraints_(pattern, parts, kMostGive * stretch_tolerance, inertia_, workers),
       sweeps_(constraints_, inertia_, stretch_tolerance, stretch_tolerance * smallest_rest_, max_sweeps),
       account_(pattern, inertia_, stretch_tolerance, constraints_.middleRest()),
       last_resort_(pattern, constraints_.distances()) {
@@ -42,7 +42,7 @@ Step::Step(const ClothPattern& pattern, const SolverParts& parts, double stretch
 
 void Step::takeStretchTolerance(double tolerance) noexcept {
   stretch_tolerance_ = tolerance;
-  constraints_.takeTolerance(kInnerTolerance * tolerance);
+  constraints_.takeTolerance(kMostGive * tolerance);
   sweeps_.takeTolerances(tolerance, tolerance * smallest_rest_);
   account_.takeStretchTolerance(tolerance);
 }

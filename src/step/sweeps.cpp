@@ -23,14 +23,19 @@ Sweeps::Sweeps(Constraints& constraints, const NodeInertia& inertia, double tole
       contact_tolerance_(kInnerTolerance * contact_tolerance),
       most_sweeps_(most_sweeps) {}
 
-Sweeps::Aim Sweeps::aimOf(const SweepTask& task, bool first, bool touches, int sweeps) const noexcept {
+// What the motion lets contacts be off by, but at least this share of their tolerance [m].
+double Sweeps::touchAim(const SweepTask& task, double least) const noexcept {
+  const double most = task.last_resort ? 1.0 : kMostTouch;
+  return std::clamp(kShareOfPath * task.path, least * contact_tolerance_, most * contact_tolerance_);
+}
+
+Sweeps::Aim Sweeps::aimOf(const SweepTask& task, bool touches, int sweeps) const noexcept {
+  const bool first = sweeps == 0, early = sweeps < (touches ? kStrictSweeps : kStrictSweepsOfLinks);
   double strict = 1.0, contact = contact_tolerance_;
   if (touches) {
-    const double share = kShareOfPath * task.path / contact_tolerance_;
-    contact *= std::clamp(share, sweeps < kStrictSweeps ? kStrictShare : 1.0, task.last_resort ? 1.0 : kMostTouch);
-    if (sweeps < kStrictSweeps) strict = std::clamp(share, kStrictShare, 1.0);
-  }
-  if (sweeps < kStrictSweeps && !touches && (constraints_.stringsPull() || constraints_.stringsAct())) {
+    contact = touchAim(task, early ? kStrictShare : 1.0);
+    strict = std::min(contact / contact_tolerance_, 1.0);
+  } else if (early && (constraints_.stringsPull() || constraints_.stringsAct())) {
     // The last resort leaves no more than its far shorter successors can correct without a jump.
     strict =
         task.last_resort ? kLastResortShare
@@ -82,7 +87,8 @@ bool Sweeps::keepOrUndo(double& residual, const Residual& now, SweepDamping& dam
 
 bool Sweeps::isWithin(double touch) noexcept {
   const double allowed = tolerance_ / kInnerTolerance;
-  return touch <= most_touch_ && constraints_.rodsResidual() <= allowed && constraints_.lookAtStrings(true) <= allowed;
+  return touch <= most_touch_ && constraints_.rodsResidual() <= allowed &&
+         constraints_.lookAtStrings(true) <= (1.0 - kMostGive) * allowed;
 }
 
 SweepOutcome Sweeps::run(const SweepTask& task, StageClock& clock) noexcept {
@@ -93,11 +99,11 @@ SweepOutcome Sweeps::run(const SweepTask& task, StageClock& clock) noexcept {
   bool follow = task.follows;
   double before = kInfinity, touch = 0.0;
   best_ = Best();
-  most_touch_ = aimOf(task, false, touches, kStrictSweeps).contact;
+  most_touch_ = touchAim(task, 1.0);
   constraints_.beginSolve();
   while (outcome.sweeps < most_sweeps_) {
     const bool first = outcome.sweeps == 0;
-    const Aim aim = aimOf(task, first, touches, outcome.sweeps);
+    const Aim aim = aimOf(task, touches, outcome.sweeps);
     const Constraints::RodsProgress rods =
         constraints_.solveRods({follow,
                                 task.precise                           ? kPreciseStop

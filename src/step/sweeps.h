@@ -96,7 +96,8 @@ class Sweeps {
     Constraints::RodsProgress rods;
     double strings = 0.0, touch = 0.0;  // relative, [m]
   };
-  Aim aimOf(const SweepTask& task, bool first, bool touches, int sweeps) const noexcept;
+  double touchAim(const SweepTask& task, double least) const noexcept;
+  Aim aimOf(const SweepTask& task, bool touches, int sweeps) const noexcept;
   Residual look(const Constraints::RodsProgress& rods, bool first, int sweeps, StageClock& clock) noexcept;
   bool reached(const Aim& aim, const Residual& residual) noexcept;
   struct Best {

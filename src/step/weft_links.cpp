@@ -12,7 +12,7 @@ namespace {
 
 struct LinkRow {
   const double *x, *y, *z, *w, *s, *per_square;
-  double most_give;
+  double compliance, most_give;
   LinkRow(const LineSolve& line, int i) {
     const std::size_t row = line.pattern.grid.row(i);
     x = line.value.x.data() + row;
@@ -21,6 +21,7 @@ struct LinkRow {
     w = line.inverse_inertia.data() + row;
     s = line.links.multiplier.data() + row;
     per_square = line.pattern.weft_per_square.data() + row;
+    compliance = line.links.compliance;
     most_give = line.links.most_give;
   }
 };
@@ -28,6 +29,7 @@ struct LinkRow {
 struct Link {
   double violation;  // relative; 0 where no end can move
   double active;
+  double compliance;  // by how much more it may be too long for each unit of multiplier * (w_a + w_b)
   double not_finite;  // 0, or NaN when a position at its ends is not finite
 };
 
@@ -40,11 +42,12 @@ struct Size {
 CURTAIN_INTO_WIDE Link look(const LinkRow& row, std::size_t left, std::size_t right) {
   const double rx = row.x[right] - row.x[left], ry = row.y[right] - row.y[left], rz = row.z[right] - row.z[left];
   const double both = row.w[right] + row.w[left];
-  const double load = kWeftCompliance * both * row.s[right];
+  const double load = row.compliance * both * row.s[right];
   const double give = load < row.most_give ? load : row.most_give;
   const double c = 0.5 * ((rx * rx + ry * ry + rz * rz) * row.per_square[right] - 1.0) - give;
   const double active = ((both > 0.0) & ((c > 0.0) | (row.s[right] > 0.0))) ? 1.0 : 0.0;
-  return {both > 0.0 ? c : 0.0, active, 0.0 * c};  // 0 * x is NaN for NaN and infinity alike
+  const double compliance = load < row.most_give ? row.compliance : 0.0;
+  return {both > 0.0 ? c : 0.0, active, compliance, 0.0 * c};  // 0 * x is NaN for NaN and infinity alike
 }
 
 // Largest sizeOf(left, right) of a row's links, called once for each; infinite when a position is not finite.
@@ -99,15 +102,17 @@ CURTAIN_WIDE double weftSquare(const Grid& grid, int i, const Field3& position, 
   });
 }
 
-CURTAIN_WIDE double measureWeft(const LineSolve& line, int i, Field& violation, Field& active) noexcept {
+CURTAIN_WIDE double measureWeft(const LineSolve& line, int i, const WeftFields& out) noexcept {
   const Grid& grid = line.pattern.grid;
   const LinkRow row(line, i);
   const double* const rest = line.pattern.weft_rest.data() + grid.row(i);
-  double* const c_out = violation.data() + grid.row(i);
-  double* const active_out = active.data() + grid.row(i);
+  double* const c_out = out.violation.data() + grid.row(i);
+  double* const active_out = out.active.data() + grid.row(i);
+  double* const compliance_out = out.compliance.data() + grid.row(i);
   return largestOf(grid, [=](std::size_t left, std::size_t right) -> Size {
     const Link link = look(row, left, right);
     active_out[right] = link.active;
+    compliance_out[right] = link.compliance;
     c_out[right] = link.violation * rest[right] * rest[right];
     return {link.active * std::abs(link.violation), link.not_finite};
   });

@@ -79,15 +79,59 @@ ObstacleParams table(double width) {
 
 TEST(Rest, ComesOnATable) { expectRest("table", sheetAbove(0.55, table(1.2)), 1e-3); }
 
-// With its border hanging over the edges, pulled taut across four corners, the solve leaves a restlessness of a few
-// millimetres per second.
-TEST(Rest, ComesOnATableThatIsSmaller) { expectRest("smaller table", sheetAbove(0.55, table(0.6)), 2e-2); }
+// With its border hanging over the edges, pulled taut across four corners.
+TEST(Rest, ComesOnATableThatIsSmaller) { expectRest("smaller table", sheetAbove(0.55, table(0.6)), 2e-3); }
 
 TEST(Rest, ComesOnTheFloor) {
   ObstacleParams floor;
   floor.name = "floor";
   floor.shape = ShapeKind::kPlane;
   expectRest("floor", sheetAbove(0.05, floor), 1e-3);
+}
+
+// Limp sheets that hang over something, with folds that touch each other. Before the links of cloth that touches gave,
+// no solve of theirs converged, and each kicked them.
+TEST(Rest, ComesToDrapes) {
+  struct Drape {
+    int nodes;
+    double width;  // of the sheet [m]
+    Vec3 centre;   // where it begins [m]
+    double friction;
+    ObstacleParams obstacle;
+  };
+  ObstacleParams post, ball, plate;
+  post.shape = ShapeKind::kCylinder;
+  post.radius = 0.173;
+  post.length = 0.464;
+  ball.shape = ShapeKind::kSphere;
+  ball.radius = 0.116;
+  plate.shape = ShapeKind::kBox;
+  plate.size = {0.04, 0.471, 0.3};
+  for (const Drape& drape :
+       {Drape{10, 0.753, {0.0397, 0.0238, 0.8464}, 0.8, post}, Drape{20, 0.675, {-0.0272, 0.0282, 0.6421}, 0.3, ball},
+        Drape{20, 0.704, {0.0273, -0.0012, 0.6721}, 0.8, plate}}) {
+    Scene scene = flatScene(drape.nodes, drape.nodes, drape.width, drape.width);
+    const double half = 0.5 * drape.width;
+    scene.hang.from = drape.centre + Vec3(-half, half, 0.0);
+    scene.hang.to = drape.centre + Vec3(half, half, 0.0);
+    scene.hang.tilt = 0.5 * kPi;
+    scene.pins.kind = PinKind::kNone;
+    scene.cloth.surface_density = 0.2;
+    scene.air.inside = scene.air.border = scene.air.corner = 1.0;
+    scene.contact.self = true;
+    scene.obstacles.push_back(drape.obstacle);
+    scene.obstacles.back().name = "obstacle";
+    scene.obstacles.back().friction = drape.friction;
+    scene.obstacles.back().pose.position = {0.0, 0.0, 0.5};
+    Simulator simulator(scene);
+    int frames = 0;
+    while (!simulator.statistics().asleep && frames < 600) {
+      simulator.step();
+      ++frames;
+    }
+    EXPECT_TRUE(simulator.statistics().asleep) << drape.width;
+    EXPECT_GT(simulator.statistics().contacts, 0);
+  }
 }
 
 // A sheet on a slope, released at rest: how it has moved on average, half a second after it had time to settle.

@@ -41,7 +41,7 @@ struct Net {
     warp.assign(pattern.grid);
     weft.assign(pattern.grid);
     violation.assign(pattern.grid.size(), 0.0);
-    active = change = violation;
+    active = compliance = change = violation;
     setDirections();
   }
   void setDirections() {
@@ -61,7 +61,8 @@ struct Net {
   }
   double measure() {
     double worst = 0.0;
-    for (int i = 0; i < pattern.grid.rows; ++i) worst = std::max(worst, measureWeft(line(), i, violation, active));
+    for (int i = 0; i < pattern.grid.rows; ++i)
+      worst = std::max(worst, measureWeft(line(), i, {violation, active, compliance}));
     return worst;
   }
   void take() {
@@ -81,7 +82,7 @@ struct Net {
   const GuidedNodes* guided;
   NetSolver solver;
   LinkSet warp, weft;
-  Field violation, active, change;
+  Field violation, active, compliance, change;
   Rows rows;  // beside rods and strings
 };
 
