@@ -72,7 +72,8 @@ void Motion::book(const NodeForces& acting, double h, const SubstepOutcome& outc
     account.bookForces(state.velocity, acting, nullptr, outcome.kick);
   else
     step.book(state, acting, outcome);
-  account.bookContacts(contact.contacts(), outcome.scale != 0.0 ? outcome.kick / outcome.scale : 1.0 / h);
+  account.bookContacts(contact.contacts(), state.velocity,
+                       outcome.scale != 0.0 ? outcome.kick / outcome.scale : 1.0 / h);
 }
 
 void Motion::taken(double h, const SubstepOutcome& outcome) noexcept {

@@ -83,9 +83,9 @@ class EnergyAccount {
   const Field3& before() const noexcept { return before_; }
   /// After it: what the forces did, which acted for `kick` [s]; with_elastic: those and the elastic ones, or null.
   void bookForces(const Field3& velocity, const NodeForces& forces, const Field3* with_elastic, double kick) noexcept;
-  /// What moving obstacles did; per_h: impulse over multiplier [1/s].
-  void bookContacts(const Contacts& contacts, double per_h) noexcept;
-  /// What a moved pin did, by the impulse of the links on it [N s].
+  /// What moving obstacles did, and moved pins that touch something; per_h: impulse over multiplier [1/s].
+  void bookContacts(const Contacts& contacts, const Field3& velocity, double per_h) noexcept;
+  /// What a moved pin did, by the impulse on it of links or contacts [N s].
   void bookPin(const Vec3& impulse, const Vec3& velocity) noexcept { work_.pins -= impulse.dot(velocity); }
   void bookDissipated(double work) noexcept { work_.dissipated += work; }
   void bookElastic(double work) noexcept { work_.elastic += work; }

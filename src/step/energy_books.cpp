@@ -26,10 +26,15 @@ void EnergyAccount::bookForces(const Field3& velocity, const NodeForces& forces,
   work_.elastic += elastic;
 }
 
-void EnergyAccount::bookContacts(const Contacts& contacts, double per_h) noexcept {
+void EnergyAccount::bookContacts(const Contacts& contacts, const Field3& velocity, double per_h) noexcept {
   for (const Contact& contact : contacts) {
-    if (contact.obstacle == Contact::kCloth || !contact.pushes()) continue;
-    work_.obstacles += per_h * (contact.push * contact.normal + contact.slide).dot(contact.surface_velocity);
+    if (!contact.pushes()) continue;
+    const Vec3 impulse = per_h * (contact.push * contact.normal + contact.slide);
+    if (contact.obstacle != Contact::kCloth) work_.obstacles += impulse.dot(contact.surface_velocity);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(contact.nodes); ++k) {
+      const std::size_t node = contact.node[k];
+      if (pattern_.pinned[node] == kPinned) bookPin(contact.weight[k] * impulse, velocity.at(node));
+    }
   }
 }
 
