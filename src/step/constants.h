@@ -49,8 +49,8 @@ constexpr int kFrictionSweeps = 3;
 // Not in the last resort: objects thrown at cloth at 50 m/s pierced it.
 constexpr double kShareOfPath = 0.01;
 constexpr double kMostTouch = 4.0;
-// Cloth at rest on something moves little: the first sweeps aim at this share of the tolerance. With 6 of them a sixth
-// of limp drapes trembles at 1 mm/s. Fewer than kStallWindow.
+// Cloth at rest on something moves little: the first sweeps aim at this share of the tolerance. With 6 of them fewer
+// limp drapes come to rest. Fewer than kStallWindow.
 constexpr double kStrictShare = 0.2;
 constexpr int kStrictSweeps = 12;
 constexpr int kStrictSweepsOfLinks = 6;  // where nothing touches
