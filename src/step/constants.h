@@ -33,8 +33,7 @@ constexpr double kMostViolation = 4.0;
 // meanwhile: a sweep is then a Newton step. (Not in the last resort, where a row between vibrating pins gains energy by
 // it.)
 constexpr double kReduction = 0.3;
-// The same with contact along fixed directions, which are not linearised again. At 0.3 cloth resting on a ball trembles
-// at 1 mm/s.
+// The same with contact. At 0.3 cloth resting on a ball trembles at 1 mm/s.
 constexpr double kContactReduction = 0.05;
 constexpr int kGradientIterations = 12;
 // A sweep that would move a node by more than this share of a link is scaled down to it: larger moves leave the range

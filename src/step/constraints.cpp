@@ -38,10 +38,8 @@ Constraints::Constraints(const ClothPattern& pattern, const SolverParts& parts, 
   best_.position.assign(size, 0.0);
   block_motion_.resize(blocks);
   block_progress_.resize(blocks);
-  if (distances_.any()) {
-    rod_change_.assign(size, 0.0);
-    moved_.assign(size, 0.0);
-  }
+  rod_change_.assign(size, 0.0);
+  moved_.assign(size, 0.0);
   expectContacts(0);
   row_worst_.resize(static_cast<std::size_t>((pattern.grid.rows + kRowsAtOnce - 1) / kRowsAtOnce));
 }

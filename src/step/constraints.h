@@ -215,9 +215,9 @@ class Constraints {
   DistanceRows distances_;
   ContactRows contacts_;
   std::array<RowMaker*, 2> makers_{&distances_, &contacts_};
-  Rows rows_;         // of all makers
-  Field rod_change_;  // of the rods' multipliers, with those of strings and distances_; with these only
-  Field3 moved_;      // by all of them [m]
+  Rows rows_;                            // of all makers
+  Field rod_change_;                     // of the rods' multipliers, with those of strings and rows
+  Field3 moved_;                         // by all of them [m]
   const Field3* other_force_ = nullptr;  // all but the links', in the substep being made [N]
   double per_scale_ = 0;                 // 1 / (h kick) [1/s^2]
   int presses_ = 0;                      // times that the guide was pressed in this substep

@@ -122,7 +122,7 @@ void Constraints::solveNet(const NetAim& aim) noexcept {
   net_.solve(violation_, active_, rows_,
              {aim.residual * middle_rest_, aim.damping, aim.enough, kGradientIterations, multiplier, compliance},
              change_);
-  const double share = distances_.any() ? takeUpTogether() : takeUpStrings(aim.residual);
+  const double share = !rows_.empty() ? takeUpTogether() : takeUpStrings(aim.residual);
   for (RowMaker* maker : makers_) maker->takeUp(rows_, share, inertia_.inverse(), next);
   settleGuide();
 }

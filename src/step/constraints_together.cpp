@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Distances that parts bound: their changes are taken up together with those of the strings, and of the rods.
+// What further rows change is taken up together with the changes of the strings, and of the rods.
 #include <cmath>
 
 #include "step/constants.h"
@@ -8,8 +8,9 @@
 
 namespace curtain {
 
-// A load of 25 times the cloth's weight pulls its node off by metres in a substep, if the rods do not pull it back at
-// once. So nodes are moved by the sum, or by a share of it if that is large. Returns the share.
+// A load of 25 times the cloth's weight pulls its node off by metres in a substep, and a bar under one pushes its nodes
+// as far, if the rods do not pull them back at once. So nodes are moved by the sum, or by a share of it if that is
+// large. Returns the share.
 double Constraints::takeUpTogether() noexcept {
   const Grid& grid = pattern_.grid;
   const Field& inverse = inertia_.inverse();
@@ -17,8 +18,11 @@ double Constraints::takeUpTogether() noexcept {
   for (std::size_t n = 0; n < grid.size(); ++n) change_[n] = std::max(change_[n], -weft_.multiplier[n]);
   const LineSolve weft{pattern_, inverse, weft_, moved_, guided()};
   for (int i = 0; i < grid.rows; ++i) pullWeft(weft, i, change_);
-  net_.rodsAnswer(rows_, rod_change_);
-  distances_.moveBy(rows_, inverse, moved_);
+  net_.rodsAnswer(change_, rows_, rod_change_);
+  for (const Row& row : rows_) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(row.nodes); ++k)
+      moved_.add(row.node[k], (inverse[row.node[k]] * row.weight[k] * row.change) * row.direction);
+  }
   const auto stride = static_cast<std::size_t>(grid.stride);
   double most = 0.0;
   for (std::size_t n = 0; n < grid.size(); ++n) {

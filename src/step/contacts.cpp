@@ -127,7 +127,7 @@ void ContactRows::relinearise(const Field3& position) noexcept {
   if (finder_ != nullptr) finder_->relinearise(position, *solved_);
 }
 
-double ContactRows::residual(const Field3& position, bool recovers) const noexcept {
+double ContactRows::residual(const Field3& position, bool recovers, double tolerance) const noexcept {
   double worst = 0.0;
   for (const Contact& contact : *all_) {
     if (contact.mobility <= 0.0) continue;  // what is held is watched on its way, by verification
@@ -135,6 +135,7 @@ double ContactRows::residual(const Field3& position, bool recovers) const noexce
     if (!std::isfinite(entered)) return std::numeric_limits<double>::infinity();
     const double lacks = recovers || entered < 0.0 ? entered : std::max(0.0, entered - contact.recovery);
     worst = std::max(worst, contact.pushes() ? std::abs(lacks) : lacks);
+    if (lacks > 0.0) worst = std::max(worst, lacks * (tolerance / contact.room));
     if (contact.sticks)
       worst = std::max(worst, kStickShare * contact.across(contact.point(position) - contact.carried).norm());
   }
@@ -153,6 +154,7 @@ void ContactRows::addRows(const Field3& value, bool rates, Rows& rows) const {
     row.weight = contact.weight;
     row.nodes = contact.nodes;
     row.least_damping = kLeastDamping;
+    if (contact.press == 0.0 && !rates) row.least = -contact.push;
     row.key = index;
     // Of a slip: n + lean on both sides, where the exact matrix has n on one. So it stays symmetric; what the slip adds
     // to the distance, or takes from it, is left to the next sweep (Acary, Cadoux, Lemarechal, Malick 2011).
@@ -162,6 +164,7 @@ void ContactRows::addRows(const Field3& value, bool rates, Rows& rows) const {
     if (!contact.sticks) continue;
     Vec3 first, second;
     tangents(row.direction, first, second);
+    row.least = Row().least;
     for (const Vec3& tangent : {first, second}) {
       row.direction = tangent;
       row.violation = tangent.dot(lacks);
@@ -175,13 +178,12 @@ void ContactRows::takeUp(const Rows& rows, double share, const Field& inverse, F
     Contact& contact = (*solved_)[index];
     const double push_change = contact.boundedChange(share * push);
     contact.push += push_change;
-    Vec3 slide_change = contact.sticks ? Vec3(share * slide) : Vec3(push_change * contact.lean);
-    const Vec3 wanted = contact.slide + slide_change;
-    const bool slips = contact.sticks && wanted.squaredNorm() > contact.mostSlide() * contact.mostSlide();
-    if (slips) slide_change = contact.boundedSlide(wanted) - contact.slide;
-    contact.slide += slide_change;
-    if (slips) contact.slip();
-    contact.move(inverse, push_change * contact.normal + slide_change, position);
+    const Vec3 wanted = contact.slide + (contact.sticks ? Vec3(share * slide) : Vec3(push_change * contact.lean));
+    contact.slide = wanted;
+    if (!contact.sticks || wanted.squaredNorm() <= contact.mostSlide() * contact.mostSlide()) return;
+    contact.slide = contact.boundedSlide(wanted);
+    contact.slip();
+    contact.move(inverse, contact.slide - wanted, position);
   });
 }
 

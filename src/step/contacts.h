@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "cloth/cloth.h"
@@ -47,6 +48,8 @@ struct Contact {
   bool curved = false;          ///< the plane is tangent to what is touched, and goes along with the point
   double asked = 0.0;           ///< curved: distance that is asked for at the end [m]
   double recovery = 0.0;        ///< way out of what it is too deep in [m], >= 0; the last resort may skip it
+  /// What it may lack [m]: with more, a point that is near the surface already goes more than half of the way to it.
+  double room = std::numeric_limits<double>::infinity();
   Vec3 carried = Vec3::Zero();  ///< point at the end of the substep without slip [m]; only its tangential part is read
   Vec3 surface_velocity = Vec3::Zero();  ///< of what the point touches, when the force acts [m/s]
   Vec3 end_velocity = Vec3::Zero();      ///< the same at the substep's end [m/s]
@@ -156,7 +159,8 @@ class ContactRows final : public RowMaker {
 
   /// Largest penetration, separation of a contact that pushes, or slip of one that sticks [m]; infinite when a position
   /// is not finite. recovers: count penetration that Contact::recovery should take out; false: only deeper penetration.
-  double residual(const Field3& position, bool recovers) const noexcept;
+  /// What has less room than the tolerance [m] counts for as much as that is less.
+  double residual(const Field3& position, bool recovers, double tolerance) const noexcept;
   /// Turns the slides of those that may slip against their slips. Moves nodes.
   void slide(const Field& inverse, Field3& position) noexcept;
 

@@ -81,7 +81,7 @@ void DistanceRows::addSquares(const Field3& /*position*/, double& sum) const noe
 }
 
 // A row's multiplier is the distance's times its length: the direction is a unit vector, as a contact's.
-void DistanceRows::addRows(const Field3& /*value*/, bool /*rates*/, Rows& rows) const {
+void DistanceRows::addRows(const Field3& /*value*/, bool rates, Rows& rows) const {
   for (std::size_t r = 0; r < all_.size(); ++r) {
     const DistanceRow& distance = all_[r];
     if (!distance.holds) continue;
@@ -91,11 +91,10 @@ void DistanceRows::addRows(const Field3& /*value*/, bool /*rates*/, Rows& rows) 
     row.nodes = 2;
     row.direction = distance.direction / distance.length;
     row.violation = distance.violation / distance.length;
-    row.least = -distance.multiplier * distance.length;
+    if (!rates) row.least = -distance.multiplier * distance.length;
     row.active = distance.active;
     if (distance.compliance > 0.0)
       row.compliance = givesPerMultiplier(distance, distance.direction.norm()) / (distance.length * distance.length);
-    row.with_rods = true;
     row.key = static_cast<std::uint32_t>(r);
     rows.push_back(row);
   }

@@ -78,16 +78,18 @@ int NetRows::changeSet(float goal, NetNodes push) noexcept {
   return leave;
 }
 
-void NetRows::conclude(const Rows& rows, NetNodes push) noexcept {
+void NetRows::conclude(NetNodes push) noexcept {
   for (Packed& row : rows_) {
-    if (!rows[row.index].with_rods) continue;
     row.solution = std::max(row.solution, row.least);
     row.push(row.solution, push);
   }
 }
 
 void NetRows::unload(double scale, Rows& rows) const noexcept {
-  for (const Packed& row : rows_) rows[row.index].change = scale * static_cast<double>(row.solution);
+  for (const Packed& row : rows_) {
+    const bool within = row.solution > row.least;
+    rows[row.index].change = within ? scale * static_cast<double>(row.solution) : rows[row.index].least;
+  }
 }
 
 }  // namespace curtain

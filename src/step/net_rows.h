@@ -75,8 +75,8 @@ class NetRows {
   /// Applies these changes; the search direction is what brings leaving rows to their bound. Returns how many leave.
   int changeSet(float goal, NetNodes push) noexcept;
 
-  /// Of the rows with_rods: brings the solution within its bound and adds its nodal impulses to push.
-  void conclude(const Rows& rows, NetNodes push) noexcept;
+  /// Brings the solution within its bound and adds its nodal impulses to push.
+  void conclude(NetNodes push) noexcept;
   /// Writes the solution to the rows that load() was given.
   void unload(double scale, Rows& rows) const noexcept;
 

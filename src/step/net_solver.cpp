@@ -279,8 +279,9 @@ bool NetSolver::changeStrings(Real goal) noexcept {
   return true;
 }
 
-// A row's diagonal is its nodes' own mobility or, with_rods, what the rods leave of it: that of the Schur complement
-// itself. Where a row continues a taut column this is the other end's mobility alone, a small part of the node's.
+// A row's diagonal is what the rods leave of its nodes' mobility: that of the Schur complement itself. Where a row
+// continues a taut column this is the other end's mobility alone, a small part of the node's. With a least damping it
+// is the nodes' own mobility: damped by a share of what the rods leave, fewer drapes come to rest.
 void NetSolver::loadRows(const Rows& rows, bool set_may_change) noexcept {
   const NetRows::Frame frame{static_cast<std::uint32_t>(pattern_.grid.stride), static_cast<std::uint32_t>(stride_),
                              inertia_scale_, violation_scale_, damping_};
@@ -290,7 +291,7 @@ void NetSolver::loadRows(const Rows& rows, bool set_may_change) noexcept {
     float sum = 0.0F;
     for (std::size_t k = 0; k < static_cast<std::size_t>(one.nodes); ++k) {
       const auto weight = static_cast<float>(one.weight[k]);
-      const bool held = one.with_rods && node[k] < ends;
+      const bool held = one.least_damping == 0.0 && node[k] < ends;
       const float mobility = held ? static_cast<float>(mobilityOf(node[k], one.direction)) : weight_[node[k]] * square;
       sum += weight * weight * mobility;
     }
@@ -369,9 +370,14 @@ NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active,
   return outcome;
 }
 
-void NetSolver::rodsAnswer(Rows& rows, Field& out) noexcept {
-  pull_ = solution_;
-  rows_.conclude(rows, pushes());
+void NetSolver::rodsAnswer(const Field& strings, Rows& rows, Field& out) noexcept {
+  const double per_multiplier = 1.0 / multiplierScale();
+  for (int i = 0; i < pattern_.grid.rows; ++i) {
+    const std::size_t from = pattern_.grid.row(i), to = row(i);
+    for (std::size_t j = 0; j < static_cast<std::size_t>(pattern_.grid.columns); ++j)
+      pull_[to + j] = static_cast<float>(strings[from + j] * pattern_.weft_rest[from + j] * per_multiplier);
+  }
+  rows_.conclude(pushes());
   rows_.unload(multiplierScale(), rows);
   if (guided_ != nullptr) keepFreedom(push_, 0, pattern_.grid.columns);
   closeRows(pull_);

@@ -67,10 +67,11 @@ class NetSolver {
   /// keep theirs
   Outcome solve(const Field& violation, const Field& active, Rows& rows, const Aim& aim, Field& change) noexcept;
 
-  /// The change of the rods' multipliers [kg] that keeps their lengths under the last solve()'s changes of strings and
-  /// of the rows with_rods, which are brought within their bounds first. out: shape of the grid. What rows with a heavy
-  /// load pull by, and the rods pull back, is far larger than what both leave: nodes are to be moved by all together.
-  void rodsAnswer(Rows& rows, Field& out) noexcept;
+  /// The change of the rods' multipliers [kg] that keeps their lengths under these changes of strings, the last
+  /// solve()'s within their bounds, and under those of the rows, which are brought within theirs first. out: shape of
+  /// the grid. What rows with a heavy load pull by, and the rods pull back, is far larger than what both leave: nodes
+  /// are to be moved by all together.
+  void rodsAnswer(const Field& strings, Rows& rows, Field& out) noexcept;
 
  private:
   using Real = float;

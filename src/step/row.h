@@ -21,9 +21,8 @@ struct Row {
   int nodes = 0;  ///< how many of the four are used
   Vec3 direction = Vec3::Zero();
   double violation = 0.0;  ///< by how much sum of weight * direction . position is to grow [m], or velocity [m/s]
-  double least = -std::numeric_limits<double>::infinity();  ///< lower bound of the change [kg m]
+  double least = -std::numeric_limits<double>::infinity();  ///< lower bound of the change [kg m]; rates: none
   bool active = true;          ///< takes part from the start; one that does not may join, where the solve allows it
-  bool with_rods = false;      ///< what the rods pull back by is taken up together with it: see NetSolver::rodsAnswer()
   double compliance = 0.0;     ///< by how much less it is to grow for each unit of the multiplier [1/kg], >= 0
   double least_damping = 0.0;  ///< Levenberg-Marquardt term over the diagonal, if that is larger than the solve's
   std::uint32_t key = 0;       ///< for its maker
@@ -41,8 +40,8 @@ class RowMaker {
   /// Adds a row for each constraint that takes part, or may join, at these positions; rates: that acted in the last
   /// substep, for these velocities.
   virtual void addRows(const Field3& value, bool rates, Rows& rows) const = 0;
-  /// Adds a share of what was found for its rows to the multipliers, within their bounds, and moves nodes. Where the
-  /// rows are with_rods, nodes have been moved.
+  /// Adds a share of what was found for its rows to the multipliers, within their bounds, where nodes have been
+  /// moved by the whole share; moves them back from what is beyond.
   virtual void takeUp(const Rows& rows, double share, const Field& inverse, Field3& position) noexcept = 0;
   /// Moves velocities by what was found for its rows.
   virtual void moveBy(const Rows& rows, const Field& inverse, Field3& velocity) noexcept = 0;

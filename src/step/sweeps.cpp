@@ -58,7 +58,7 @@ Sweeps::Residual Sweeps::look(const Constraints::RodsProgress& rods, bool first,
     constraints_.settleGuide();
   }
   contacts.relinearise(constraints_.next);
-  residual.touch = contacts.residual(constraints_.next, true);
+  residual.touch = contacts.residual(constraints_.next, true, most_touch_);
   clock.lap(Stage::kContact);
   residual.strings = constraints_.lookAtStrings(constraints_.stringsPull() || !first);
   return residual;
@@ -125,25 +125,28 @@ SweepOutcome Sweeps::run(const SweepTask& task, StageClock& clock) noexcept {
       outcome.end = SweepEnd::kDiverged;
       break;
     }
+    const bool worse = residual > before;
     bool undone = false;
     if (task.last_resort) {
       undone = keepOrUndo(residual, now, damping);
       if (undone && damping.exhausted(residual)) break;
-    } else if (residual > before) {
+    } else if (worse) {
       damping.worse();  // too far along directions that hardly anything constrains
     } else {
       damping.better();
     }
     before = residual;
     if (undone || now.strings > aim.alone * aim.links || touch > aim.alone * aim.contact) {
-      // Contact converges better along fixed directions.
-      follow = follow || !touches;
+      // With contact, directions are those of the substep's start, along which the scheme's forces act, until a sweep
+      // makes it worse: under a heavy load the rods leave so little of a node's mobility that directions which have
+      // turned by a percent make pushes grow without end.
+      follow = follow || !touches || worse;
       if (follow)
         constraints_.followDirections();
       else
         constraints_.takeDirections(task.start);
       const bool newton = !touches && !task.last_resort;
-      const double worth = newton ? residual : follow ? kReduction : kContactReduction;
+      const double worth = newton ? residual : touches ? kContactReduction : kReduction;
       const double enough = std::min(kReduction, std::max(kReduction * aim.links / residual, worth));
       constraints_.solveNet({residual, enough, damping.at(residual), newton});
     }
@@ -162,7 +165,7 @@ SweepOutcome Sweeps::conclude(SweepOutcome outcome, double touch) noexcept {
   if (std::isfinite(best_.merit)) {
     if (outcome.end == SweepEnd::kDiverged) outcome.end = SweepEnd::kStalled;
     constraints_.restoreIterate();
-    touch = constraints_.contacts().residual(constraints_.next, false);
+    touch = constraints_.contacts().residual(constraints_.next, false, most_touch_);
   }
   outcome.within = outcome.end != SweepEnd::kDiverged && isWithin(touch);
   return outcome;

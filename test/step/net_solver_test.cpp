@@ -199,8 +199,7 @@ TEST_P(NetSolverOf, SolvesForGuidedNodes) {
   expectWhatADenseSolveGives(net);
 }
 
-// Rows of one to four nodes, with_rods or not, some of which give: what is asked of them is met together with the
-// links.
+// Rows of one to four nodes, some of which give: what is asked of them is met together with the links.
 TEST_P(NetSolverOf, SolvesForFurtherRowsToo) {
   Net net(sceneOf(7, 9, PinKind::kTop, GetParam()));
   std::mt19937 random(3);
@@ -214,7 +213,6 @@ TEST_P(NetSolverOf, SolvesForFurtherRowsToo) {
     }
     row.direction = Vec3(any(random), any(random), any(random)).normalized();
     row.violation = 1e-3 * any(random);
-    row.with_rods = count % 2 == 0;
     if (count > 2) row.compliance = 0.5 * net.pattern.inverse_mass[row.node[0]];
     net.rows.push_back(row);
   }

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "contact/broad_phase/obstacle_candidates.h"
@@ -74,15 +75,16 @@ struct ContactPoint {
   std::array<std::uint32_t, 3> node{};
   std::array<double, 3> weight{};
   int nodes = 1;
-  double share = 0.0;           ///< of the substep that has passed when it touches, [0, 1)
-  Vec3 start = Vec3::Zero();    ///< position at the start of the substep [m]
-  Vec3 touch = Vec3::Zero();    ///< and when it touches [m]
-  Vec3 normal = Vec3::UnitZ();  ///< unit
-  double height = 0.0;          ///< normal . x >= height at the end [m]
-  double distance = 0.0;        ///< signed, at the start [m]; negative: no friction
-  double asked = 0.0;           ///< distance at the end [m]
-  bool curved = false;          ///< Contact::curved
-  double recovery = 0.0;        ///< how far the point is to come out [m]
+  double share = 0.0;                                     ///< of the substep that has passed when it touches, [0, 1)
+  Vec3 start = Vec3::Zero();                              ///< position at the start of the substep [m]
+  Vec3 touch = Vec3::Zero();                              ///< and when it touches [m]
+  Vec3 normal = Vec3::UnitZ();                            ///< unit
+  double height = 0.0;                                    ///< normal . x >= height at the end [m]
+  double distance = 0.0;                                  ///< signed, at the start [m]; negative: no friction
+  double asked = 0.0;                                     ///< distance at the end [m]
+  bool curved = false;                                    ///< Contact::curved
+  double recovery = 0.0;                                  ///< how far the point is to come out [m]
+  double room = std::numeric_limits<double>::infinity();  ///< Contact::room
 
   /// Requires `kept` from the surface at the end, or recovery towards it.
   void keep(double at_start, double kept, const ObstacleSubstep& substep) noexcept {
@@ -91,6 +93,7 @@ struct ContactPoint {
     distance = at_start;
     height += asked;
     recovery = std::max(0.0, asked - at_start);
+    if (at_start > padding) room = asked - 0.5 * (at_start + padding);
   }
 };
 /// Converts to world frame. Nodes of weight 0 are left out; false: none of the others can move.

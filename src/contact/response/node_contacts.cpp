@@ -52,6 +52,7 @@ bool makeContact(const ObstacleSubstep& substep, const ClothPattern& pattern, co
   const bool frictionless = (substep.frictionless && moving.press == 0.0) || point.distance < 0.0;
   contact.friction = frictionless ? 0.0 : moving.friction;
   contact.recovery = point.recovery;
+  contact.room = point.room;
   contact.carried = moving.after.toWorld(point.start);
   contact.end_velocity = moving.motionAt(1.0, point.start) / substep.h;
   contact.surface_velocity = substep.act == ContactFinder::ForcesAct::kAtStart
