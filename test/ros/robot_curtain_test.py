@@ -39,12 +39,16 @@ class RobotCurtainTest(unittest.TestCase):
         self.assertGreaterEqual(at(carrier, 0.5)[0] - at(carrier, shuts["from"])[0], 2.0)
         self.assertGreaterEqual(at(carrier, shuts["until"] + 0.5)[0] - at(carrier, shuts["from"])[0], 2.0)
 
-        # It was held: it went with the fingers, in the region that they took.
+        # It was held: it went with the fingers, in the region that they took. Where frames were dropped the next ones find the hand
+        # further on: those and the twelve after them are left out.
         frames = record.frames()
+        dropped = np.array([statistics.dropped_frames for _, _, statistics in frames])
+        on_time = dropped == dropped[np.maximum(np.arange(len(frames)) - 12, 0)]
         for hold in (opens, shuts):
-            held = (times > hold["from"] + 0.5) & (times < hold["until"] - 0.5)
+            held = (times > hold["from"] + 0.5) & (times < hold["until"] - 0.5) & on_time
             off = [places.at("gripper_tip", frames[i][0]) - edge[i] for i in np.flatnonzero(held)[::10]]
             self.assertGreater(len(off), 20)
+            rospy.loginfo("held within %.3f m in %d frames, %.0f %% on time", max(np.linalg.norm(o) for o in off), len(off), 100.0 * on_time.mean())
             self.assertLess(max(np.linalg.norm(o) for o in off), hold["radius"])
 
         # It was let go: it swings back under its carrier, and hangs there while the robot is away.
