@@ -22,10 +22,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "cloth/cloth.h"
+#include "scene/infinity.h"
 #include "step/row.h"
 
 namespace curtain {
@@ -49,7 +49,7 @@ struct Contact {
   double asked = 0.0;           ///< curved: distance that is asked for at the end [m]
   double recovery = 0.0;        ///< way out of what it is too deep in [m], >= 0; the last resort may skip it
   /// What it may lack [m]: with more, a point that is near the surface already goes more than half of the way to it.
-  double room = std::numeric_limits<double>::infinity();
+  double room = kInfinity;
   Vec3 carried = Vec3::Zero();  ///< point at the end of the substep without slip [m]; only its tangential part is read
   Vec3 surface_velocity = Vec3::Zero();  ///< of what the point touches, when the force acts [m/s]
   Vec3 end_velocity = Vec3::Zero();      ///< the same at the substep's end [m/s]

@@ -139,7 +139,7 @@ SweepOutcome Sweeps::run(const SweepTask& task, StageClock& clock) noexcept {
     if (undone || now.strings > aim.alone * aim.links || touch > aim.alone * aim.contact) {
       // With contact, directions are those of the substep's start, along which the scheme's forces act, until a sweep
       // makes it worse: under a heavy load the rods leave so little of a node's mobility that directions which have
-      // turned by a percent make pushes grow without end.
+      // turned a little make pushes grow from sweep to sweep.
       follow = follow || !touches || worse;
       if (follow)
         constraints_.followDirections();

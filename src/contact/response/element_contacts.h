@@ -7,12 +7,12 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "contact/broad_phase/obstacle_candidates.h"
 #include "contact/response/exit_direction.h"
 #include "obstacles/obstacle_set.h"
+#include "scene/infinity.h"
 #include "step/substep.h"
 
 namespace curtain {
@@ -75,16 +75,16 @@ struct ContactPoint {
   std::array<std::uint32_t, 3> node{};
   std::array<double, 3> weight{};
   int nodes = 1;
-  double share = 0.0;                                     ///< of the substep that has passed when it touches, [0, 1)
-  Vec3 start = Vec3::Zero();                              ///< position at the start of the substep [m]
-  Vec3 touch = Vec3::Zero();                              ///< and when it touches [m]
-  Vec3 normal = Vec3::UnitZ();                            ///< unit
-  double height = 0.0;                                    ///< normal . x >= height at the end [m]
-  double distance = 0.0;                                  ///< signed, at the start [m]; negative: no friction
-  double asked = 0.0;                                     ///< distance at the end [m]
-  bool curved = false;                                    ///< Contact::curved
-  double recovery = 0.0;                                  ///< how far the point is to come out [m]
-  double room = std::numeric_limits<double>::infinity();  ///< Contact::room
+  double share = 0.0;           ///< of the substep that has passed when it touches, [0, 1)
+  Vec3 start = Vec3::Zero();    ///< position at the start of the substep [m]
+  Vec3 touch = Vec3::Zero();    ///< and when it touches [m]
+  Vec3 normal = Vec3::UnitZ();  ///< unit
+  double height = 0.0;          ///< normal . x >= height at the end [m]
+  double distance = 0.0;        ///< signed, at the start [m]; negative: no friction
+  double asked = 0.0;           ///< distance at the end [m]
+  bool curved = false;          ///< Contact::curved
+  double recovery = 0.0;        ///< how far the point is to come out [m]
+  double room = kInfinity;      ///< Contact::room
 
   /// Requires `kept` from the surface at the end, or recovery towards it.
   void keep(double at_start, double kept, const ObstacleSubstep& substep) noexcept {
