@@ -11,7 +11,7 @@ import rospy
 import rostest
 from curtain_sim.msg import GraspActionFeedback, GraspActionResult
 from curtain_testing import Listener
-from robot_testing import NODE, Places, Record, assert_frames_are_sound
+from robot_testing import NODE, ROBOT, Places, Record, assert_frames_are_sound
 
 GRAVITY = 9.81
 HOSPITAL = 0.1972  # kg/m^2, of that material (docs/materials.md)
@@ -23,7 +23,7 @@ class RobotCurtainTest(unittest.TestCase):
         places = Places()
         felt, ended = Listener(NODE + "/grasp/feedback", GraspActionFeedback), Listener(NODE + "/grasp/result", GraspActionResult)
         record = Record()
-        scene, motion = rospy.get_param(NODE + "/scene"), rospy.get_param("/curtain/demo_robot/robot")
+        scene, motion = rospy.get_param(NODE + "/scene"), rospy.get_param(ROBOT + "/robot")
         opens, shuts = motion["grasps"]
         row, column = next(entry["node"] for entry in motion["arm"] if "node" in entry)
         record.wait_until_time(motion["period"] + 1.0, "the robot has opened and shut the curtain")
@@ -39,16 +39,15 @@ class RobotCurtainTest(unittest.TestCase):
         self.assertGreaterEqual(at(carrier, 0.5)[0] - at(carrier, shuts["from"])[0], 2.0)
         self.assertGreaterEqual(at(carrier, shuts["until"] + 0.5)[0] - at(carrier, shuts["from"])[0], 2.0)
 
-        # It was held: it went with the fingers, in the region that they took. Where frames were dropped the next ones find the hand
-        # further on: those and the twelve after them are left out.
+        # It was held: it went where the fingers had been within the last second, in the region that they took. How late it comes there
+        # depends on what else the computer does.
         frames = record.frames()
-        dropped = np.array([statistics.dropped_frames for _, _, statistics in frames])
-        on_time = dropped == dropped[np.maximum(np.arange(len(frames)) - 12, 0)]
+        behind = [rospy.Duration(0.05 * k) for k in range(21)]
         for hold in (opens, shuts):
-            held = (times > hold["from"] + 0.5) & (times < hold["until"] - 0.5) & on_time
-            off = [np.linalg.norm(places.at("gripper_tip", frames[i][0]) - edge[i]) for i in np.flatnonzero(held)[::10]]
+            held = np.flatnonzero((times > hold["from"] + 0.5) & (times < hold["until"] - 0.5))
+            off = [min(np.linalg.norm(places.at("gripper_tip", frames[i][0] - late) - edge[i]) for late in behind) for i in held[::10]]
             self.assertGreater(len(off), 20)
-            rospy.loginfo("held within %.3f m; %.0f %% of the frames on time", max(off), 100.0 * on_time.mean())
+            rospy.loginfo("held within %.3f m", max(off))
             self.assertLess(max(off), hold["radius"])
 
         # It was let go: it swings back under its carrier, and hangs there while the robot is away.
@@ -64,9 +63,7 @@ class RobotCurtainTest(unittest.TestCase):
         the carriers that slide: of the weight of their columns, and of what the hand pulls down itself."""
         cloth, carriers, times = scene["cloth"], scene["rail"]["carriers"], record.times()
         weight = GRAVITY * (HOSPITAL * cloth["width"] * cloth["height"] + cloth["columns"] * carriers["mass"])
-        stamp, _, statistics = record.frames()[0]
-        zero = stamp.to_sec() - statistics.simulated_time
-        pulls = [(m.header.stamp.to_sec() - zero, m.feedback.pull.wrench.force, m.feedback.nodes) for m in felt.messages()]
+        pulls = [(record.since_start(m.header.stamp), m.feedback.pull.wrench.force, m.feedback.nodes) for m in felt.messages()]
         self.assertTrue(all(nodes > 0 for _, _, nodes in pulls))
         pulls = np.array([[time, force.x, force.y, force.z] for time, force, _ in pulls])
 

@@ -10,15 +10,17 @@ from curtain_testing import wait_until
 from std_srvs.srv import Trigger
 
 NODE = "/curtain/curtain_node"
+ROBOT = "/curtain/demo_robot"
 STRETCH_TOLERANCE = 1e-3  # solver.stretch_tolerance
 
 
 class Record:
-    """All frames: times since the first one [s], positions [m] of shape [rows, columns, 3], statistics."""
+    """All frames: stamps, positions [m] of shape [rows, columns, 3], statistics."""
 
     def __init__(self):
         self._lock = threading.Lock()
         self._frames = []
+        self._began = None
         self._subscriber = rospy.Subscriber(NODE + "/state", CurtainState, self._take, queue_size=600, tcp_nodelay=True)
         wait_until(self.count, "the curtain moves", 60.0)
 
@@ -39,16 +41,23 @@ class Record:
         with self._lock:
             return self._frames[-1]
 
-    def wait_until_time(self, simulated, what):
-        wait_until(lambda: self.last()[2].simulated_time >= simulated, what, 60.0 + 2.0 * simulated)
+    def wait_until_time(self, time, what):
+        """time: since the robot's start, by its clock [s]."""
+        wait_until(lambda: rospy.has_param(ROBOT + "/began"), "the robot starts", 60.0)
+        self._began = rospy.get_param(ROBOT + "/began")
+        wait_until(lambda: self.last()[0].to_sec() >= self._began + time, what, 60.0 + 2.0 * time)
+
+    def since_start(self, stamp):
+        """Of the robot, by its clock [s]. Simulated time falls behind it by the frames that are dropped."""
+        return stamp.to_sec() - self._began
 
     def node(self, row, column):
         """Its places in all frames, shape [frames, 3]."""
         return np.array([positions[row, column] for _, positions, _ in self.frames()])
 
     def times(self):
-        """Of all frames, simulated [s]."""
-        return np.array([statistics.simulated_time for _, _, statistics in self.frames()])
+        """Of all frames, since the robot's start [s]."""
+        return np.array([self.since_start(stamp) for stamp, _, _ in self.frames()])
 
 
 class Places:

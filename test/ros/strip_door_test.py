@@ -8,19 +8,19 @@ import unittest
 import numpy as np
 import rospy
 import rostest
-from robot_testing import Places, Record, assert_frames_are_sound
+from robot_testing import ROBOT, Places, Record, assert_frames_are_sound
 
 
 class StripDoorTest(unittest.TestCase):
     def test_robot_goes_through_and_strips_come_back(self):
         rospy.init_node("strip_door_test")
         places, record = Places(), Record()
-        motion = rospy.get_param("/curtain/demo_robot/robot")
+        motion = rospy.get_param(ROBOT + "/robot")
         (_, _, begin, _), (there, _, end, _), (leaves, _, _, _), (back, _, _, _) = motion["base"]
         record.wait_until_time(motion["period"] + 1.0, "the robot has been there and back")
         frames, times = record.frames(), record.times()
 
-        # The base, 1 m/s at the door on both ways. Its clock began with the curtain's first frames.
+        # The base, 1 m/s at the door on both ways.
         driven = [(stamp.to_sec(), places.at("base_footprint", stamp)) for stamp, _, _ in frames]
         driven = np.array([[t, place[1]] for t, place in driven if place is not None])
         self.assertAlmostEqual(driven[:, 1].min(), min(begin, end), delta=1e-3)
