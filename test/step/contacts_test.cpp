@@ -55,5 +55,24 @@ TEST(LongestStep, IsNoMatterOfWhatDoesNotPushNorOfTheClothItself) {
   EXPECT_EQ(longestStep({contact}, kStep, kLink), kInfinity);
 }
 
+TEST(ContactRows, CountWhatLacksMoreThanItsRoomAsMoreThanTheTolerance) {
+  constexpr double kTolerance = 1e-4, kLacks = 1e-5;
+  Field3 position;
+  position.assign(1, 0.0);
+  Contact contact = pushing();
+  contact.weight[0] = contact.mobility = 1.0;
+  contact.offset = kLacks;
+  Contacts contacts{contact};
+  ContactRows rows(kLink);
+  rows.show(&contacts);
+  EXPECT_DOUBLE_EQ(rows.residual(position, true, kTolerance), kLacks);
+  contacts[0].room = 2.0 * kLacks;
+  EXPECT_DOUBLE_EQ(rows.residual(position, true, kTolerance), 0.5 * kTolerance);
+  contacts[0].room = 0.5 * kLacks;
+  EXPECT_DOUBLE_EQ(rows.residual(position, true, kTolerance), 2.0 * kTolerance);
+  position.z[0] = 2.0 * kLacks;  // the other way it has room enough
+  EXPECT_DOUBLE_EQ(rows.residual(position, true, kTolerance), kLacks);
+}
+
 }  // namespace
 }  // namespace curtain
