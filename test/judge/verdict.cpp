@@ -52,6 +52,7 @@ class Court {
         rigour_(rigour),
         finer_(finer),
         simulator_(withFrames(drawn.scene, finer), resolveTrialMesh),
+        carriers_(simulator_.carriers()),
         paper_(drawn.scene.solver.method == Method::kPaper),
         books_(weightScale(simulator_), 60 * static_cast<std::size_t>(finer)) {
     const ClothParams& cloth = drawn.scene.cloth;
@@ -220,11 +221,13 @@ class Court {
   }
   bool isNearPins(int obstacle, const Pose& pose, double distance) const {
     const ObstacleShape& shape = simulator_.obstacleShape(obstacle);
-    return std::any_of(pins_.begin(), pins_.end(), [&](const Pin& pin) {
-      const Vec3 local = pose.orientation.conjugate() * (simulator_.position(pin.node) - pose.position);
+    const auto isNear = [&](NodeIndex node) {
+      const Vec3 local = pose.orientation.conjugate() * (simulator_.position(node) - pose.position);
       SurfacePoint surface;
       return shape.query(local, local, distance, surface) && surface.distance < distance;
-    });
+    };
+    return std::any_of(pins_.begin(), pins_.end(), [&](const Pin& pin) { return isNear(pin.node); }) ||
+           std::any_of(carriers_.begin(), carriers_.end(), isNear);
   }
   // Which obstacles can still be judged.
   void lookAtObstacles() {
@@ -319,9 +322,10 @@ class Court {
   const int finer_;
   Simulator simulator_;
   std::vector<Pin> pins_;
-  std::vector<Vec3> ends_;  // of the lines at the start [m]
-  std::vector<bool>
-      judged_;  // by obstacle: the cloth started clear of it, and it has met no pin, which can't give way, and no other
+  std::vector<NodeIndex> carriers_;  // of the rail, across which they can't give way either
+  std::vector<Vec3> ends_;           // of the lines at the start [m]
+  std::vector<bool> judged_;  // by obstacle: the cloth started clear of it, and it has met no pin or carrier, which
+                              // can't give way, and no other
   std::vector<Pose> places_;  // by obstacle, a frame ago
   const bool paper_;
   double shortest_rod_ = std::numeric_limits<double>::infinity();  // [m]
