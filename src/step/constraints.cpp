@@ -31,14 +31,13 @@ Constraints::Constraints(const ClothPattern& pattern, const SolverParts& parts, 
   warp_.assign(pattern.grid);
   weft_.assign(pattern.grid);
   weft_.most_give = tolerance;
-  for (Field* field : {&last_warp_, &last_weft_, &best_.warp, &best_.weft}) field->assign(links, 0.0);
+  for (Field* field : {&last_warp_, &last_weft_, &best_.warp, &best_.weft, &rod_change_}) field->assign(links, 0.0);
   for (Field* field : {&violation_, &active_, &compliance_, &change_, &free_per_square_}) field->assign(size, 0.0);
   freeWeft(pattern, inertia.masses(), free_per_square_);
   next.assign(size, 0.0);
   best_.position.assign(size, 0.0);
   block_motion_.resize(blocks);
   block_progress_.resize(blocks);
-  rod_change_.assign(size, 0.0);
   moved_.assign(size, 0.0);
   expectContacts(0);
   row_worst_.resize(static_cast<std::size_t>((pattern.grid.rows + kRowsAtOnce - 1) / kRowsAtOnce));

@@ -13,7 +13,7 @@ void Constraints::spreadForces(const LineSolve& warp, const LineSolve& weft, dou
       const std::size_t first = pattern_.grid.row(i) + static_cast<std::size_t>(block) * kLane;
       for (std::size_t n = first; n < first + kLane; ++n) warp_.multiplier[n] = share * last_warp_[n];
     }
-    applyWarpMultipliers(warp, block);
+    pullWarp(warp, block, warp_.multiplier);
   });
   if (weft_pulls_) {
     for (std::size_t n = 0; n < pattern_.grid.size(); ++n) change_[n] = share * last_weft_[n];

@@ -317,7 +317,7 @@ CURTAIN_WIDE WarpMotion warpFinish(const LineSolve& line, const Field3& from, do
                        : finishBlock<false>(line, from, per_step, velocity, load, block);
 }
 
-CURTAIN_WIDE void applyWarpMultipliers(const LineSolve& line, int block) noexcept {
+CURTAIN_WIDE void pullWarp(const LineSolve& line, int block, const Field& multiplier) noexcept {
   const Grid& grid = line.pattern.grid;
   const auto stride = static_cast<std::size_t>(grid.stride);
   for (int i = 0; i < grid.rows; ++i) {
@@ -325,7 +325,7 @@ CURTAIN_WIDE void applyWarpMultipliers(const LineSolve& line, int block) noexcep
     const FieldView v(line.value, first);
     const ConstFieldView d(line.links.direction, first), d_below(line.links.direction, first + stride);
     const double* const w = line.inverse_inertia.data() + first;
-    const double* const s = line.links.multiplier.data() + first;
+    const double* const s = multiplier.data() + first;
     const double* const s_below = s + stride;
 #pragma omp simd
     for (int j = 0; j < kLane; ++j) {

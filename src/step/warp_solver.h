@@ -41,8 +41,8 @@ struct WarpMotion {
 WarpMotion warpFinish(const LineSolve& line, const Field3& from, double per_step, bool tells_turning, Field3& velocity,
                       Field& load, int block) noexcept;
 
-/// Moves a block's nodes by the present multipliers.
-void applyWarpMultipliers(const LineSolve& line, int block) noexcept;
+/// Moves a block's nodes by what rods with these multipliers pull.
+void pullWarp(const LineSolve& line, int block, const Field& multiplier) noexcept;
 
 /// One Newton iteration on the lengths of a block's rods: moves positions and adds to the multipliers.
 LineOutcome warpNewton(const LineSolve& line, LineScratch& scratch, int block) noexcept;

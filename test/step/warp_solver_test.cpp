@@ -85,7 +85,7 @@ TEST(WarpSolver, MovesAlongTheGivenDirections) {
   const Field3 solved = bench.state.position;
   bench.state.position = before;
   for (int block = 0; block < warpBlockCount(bench.pattern.grid); ++block)
-    applyWarpMultipliers(bench.warpLine(), block);
+    pullWarp(bench.warpLine(), block, bench.warpLine().links.multiplier);
   for (std::size_t n = 0; n < bench.pattern.grid.size(); ++n) {
     EXPECT_LT((bench.state.position.at(n) - solved.at(n)).norm(), 1e-14);
   }
