@@ -125,6 +125,9 @@ void SelfCandidates::collectOf(double reach, double deviation, Candidates& out) 
     collectShare(query, static_cast<std::size_t>(share), shares_[static_cast<std::size_t>(share)]);
   });
   for (Share& share : shares_) flush(query, share);
+  if (!out.full) return;  // else which were dropped depends on the number of threads
+  out.vertex_triangles.clear();
+  out.edge_edges.clear();
 }
 
 // Patches meet themselves and their neighbours, whose boxes have nodes in common: does none meet another?

@@ -41,7 +41,7 @@ class SelfCandidates {
   /// Appends every pair (vertex, triangle) and (edge, edge) that has no common node, has a movable node, and comes
   /// within `reach` [m, >= 0] at some time while nodes move straight from start to end (finite, of the grid's size);
   /// also some that only nearly do, so rounding never loses a pair. Each pair comes once, except for closed cloth of
-  /// three or four columns. Allocates nothing: without room in `out` pairs are dropped and out.full is set; see
+  /// three or four columns. Allocates nothing: without room in `out` for all none is named and out.full is set; see
   /// reserve().
   void collect(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept;
 

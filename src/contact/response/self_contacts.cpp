@@ -87,18 +87,24 @@ Contact SelfContacts::makeContact(const PairKey& key, const ClosestPoints& close
   return contact;
 }
 
-// Collects the wanted pairs. sortPairs() follows: the order of candidates depends on the number of threads.
+// Collects the wanted pairs. sortPairs() follows: the order of candidates depends on the number of threads. So where
+// there is no room for all, the last in the order of keys are dropped, not the last that come.
 template <typename Wanted>
 void SelfContacts::select(const Candidates& candidates, const Wanted& wanted) noexcept {
   pairs_.clear();
-  for (const VertexTriangle& c : candidates.vertex_triangles) {
-    const PairKey key{{c.vertex, c.triangle[0], c.triangle[1], c.triangle[2]}, false};
-    if (wanted(key)) full_ = !addWithinRoom(key, pairs_) || full_;
-  }
-  for (const EdgeEdge& c : candidates.edge_edges) {
-    const PairKey key{{c.first[0], c.first[1], c.second[0], c.second[1]}, true};
-    if (wanted(key)) full_ = !addWithinRoom(key, pairs_) || full_;
-  }
+  bool heap = false;
+  const auto take = [&](const PairKey& key) {
+    if (!wanted(key) || addWithinRoom(key, pairs_)) return;
+    if (!heap) std::make_heap(pairs_.begin(), pairs_.end());
+    heap = full_ = true;
+    if (!(key < pairs_.front())) return;
+    std::pop_heap(pairs_.begin(), pairs_.end());
+    pairs_.back() = key;
+    std::push_heap(pairs_.begin(), pairs_.end());
+  };
+  for (const VertexTriangle& c : candidates.vertex_triangles)
+    take({{c.vertex, c.triangle[0], c.triangle[1], c.triangle[2]}, false});
+  for (const EdgeEdge& c : candidates.edge_edges) take({{c.first[0], c.first[1], c.second[0], c.second[1]}, true});
 }
 
 void SelfContacts::sortPairs() noexcept {
