@@ -144,7 +144,7 @@ void writeCheckpoint(const std::string& path, const RunIdentity& run, const curt
   std::string snapshot = simulator.snapshot();
   Archive archive = Archive::saving();
   carry(archive, own_run, own_progress, snapshot);
-  const std::string members = archive.takeWritten();
+  const std::string members = archive.extractWritten();
   std::string bytes(kMagic);
   bytes.reserve(kHeader + members.size() + kChecksum);
   append(kVersion, bytes);

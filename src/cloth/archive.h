@@ -41,7 +41,7 @@ class Archive {
 
   bool loads() const noexcept { return way_ == Way::kLoad; }
   /// The saved bytes, or the description, one line a member.
-  std::string takeWritten() noexcept { return std::move(out_); }
+  std::string extractWritten() noexcept { return std::move(out_); }
   /// Throws ArchiveError when not all bytes were read.
   void finishLoading() const;
   /// Assigns the loaded values to the members.

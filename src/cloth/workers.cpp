@@ -57,7 +57,7 @@ struct Workers::Crew {
   explicit Crew(int count) : arena(count + 1), helpers(count) {}
 
   // Takes a block; -1: none is left.
-  int take(bool from_front) noexcept {
+  int nextBlock(bool from_front) noexcept {
     std::uint64_t seen = left.load(std::memory_order_acquire);
     while (true) {
       Left now = unpacked(seen);
@@ -72,7 +72,7 @@ struct Workers::Crew {
   void help() noexcept {
     int looks = 0;
     while (open.load(std::memory_order_acquire)) {
-      const int block = take(false);
+      const int block = nextBlock(false);
       if (block >= 0) {
         call(body, block);
         undone.fetch_sub(1, std::memory_order_acq_rel);
@@ -130,7 +130,7 @@ void Workers::share(int count, void (*call)(const void*, int), const void* block
   crew.undone.store(count, std::memory_order_relaxed);
   crew.left.store(packed({++crew.loops, 0, static_cast<std::uint16_t>(count)}), std::memory_order_release);
   int own = 0;
-  for (int b = crew.take(true); b >= 0; b = crew.take(true)) {
+  for (int b = crew.nextBlock(true); b >= 0; b = crew.nextBlock(true)) {
     call(block, b);
     ++own;
   }

@@ -231,9 +231,9 @@ void ClothContact::forget() noexcept {
   obstacle_contacts_.beginFrame(true);
 }
 
-void ClothContact::takePins() noexcept {
-  self_candidates_.takePins(pattern_);
-  flatness_.takePins();
+void ClothContact::pinsChanged() noexcept {
+  self_candidates_.pinsChanged(pattern_);
+  flatness_.pinsChanged();
   flatness_.invalidate();
 }
 

@@ -37,9 +37,9 @@ class ClothContact : public ContactFinder {
   }
 
   /// Sets the friction of the cloth on itself; the obstacles have their own.
-  void takeFriction(double friction) noexcept { self_contacts_.takeFriction(friction); }
+  void setFriction(double friction) noexcept { self_contacts_.setFriction(friction); }
   /// Sets the largest strain of a link in a settled substep. Where links are longer now, invalidateStart() must follow.
-  void takeStretchTolerance(double tolerance) noexcept { flatness_.takeOverlong(tolerance); }
+  void setStretchTolerance(double tolerance) noexcept { flatness_.setOverlong(tolerance); }
 
   Contacts& begin(const Field3& start, const Field3& predicted, double h, ForcesAct act) noexcept override;
   void relinearise(const Field3& position, Contacts& contacts) noexcept override {
@@ -81,14 +81,14 @@ class ClothContact : public ContactFinder {
   void copyForces(const Field3& position, std::vector<ContactForce>& out) const;
   void forget() noexcept;
   /// The pattern's pins have changed: links between two of them may have any length.
-  void takePins() noexcept;
+  void pinsChanged() noexcept;
   /// The next substep does not start at the end of the last accepted one.
   void invalidateStart() noexcept {
     taut_ = false;
     flatness_.invalidate();
   }
   /// Accepted substeps without contact are undone, whose forces acted for `time` [s] in all.
-  void takeBack(double time) noexcept { obstacle_contacts_.takeBack(time); }
+  void withdraw(double time) noexcept { obstacle_contacts_.withdraw(time); }
   void carry(Archive& archive);
 
  private:

@@ -24,7 +24,7 @@ class Ticks {
   bool reach(double time) const { return time * rate_ < std::numeric_limits<int>::max() - 1; }
 
   /// Ticks that a frame at this time [s], within reach(), is for: none where the next is still to come.
-  int take(double time) {
+  int advance(double time) {
     const long due = static_cast<long>(std::floor(time * rate_ + kRounding)) + 1;
     if (due <= taken_) return 0;
     const long count = due - taken_;

@@ -95,7 +95,7 @@ class BagPlayer {
       : path_(path), excerpt_(excerpt), writer_(writer), ticks_(excerpt.rate) {}
 
   /// Returns whether the animation goes on.
-  bool take(const rosbag::MessageInstance& message) {
+  bool play(const rosbag::MessageInstance& message) {
     if (message.isType<MarkerArray>()) {
       takeMarkers(read<MarkerArray>(message));
       return true;  // states of an earlier time may follow
@@ -138,7 +138,7 @@ class BagPlayer {
     if (!begin_) begin_ = time;
     if (!ticks_.reach(time - *begin_))
       throw problem(path_, when + "its clock has jumped ahead, by more frames than can be counted; end before that");
-    const int due = ticks_.take(time - *begin_);
+    const int due = ticks_.advance(time - *begin_);
     if (due == 0) return time;
     const bool is_new = surface_.update(*state);
     if (is_new && has_frames_) throw problem(path_, when + "it is another cloth; end before that, or start there");
@@ -188,7 +188,7 @@ void playBag(const std::string& path, const std::string& topic, const Excerpt& e
     BagPlayer player(path, excerpt, writer);
     rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{states, markersTopic(states)}));
     for (const rosbag::MessageInstance& message : view) {
-      if (!player.take(message)) break;
+      if (!player.play(message)) break;
     }
     if (!player.hasFrames()) throw problem(path, "has no state of " + states + " in the part asked for");
   } catch (const rosbag::BagUnindexedException&) {

@@ -71,7 +71,7 @@ bool playScene(const Scene& scene, const Excerpt& excerpt, AnimationWriter& writ
     if (simulator.time() >= excerpt.start - rounding) {
       if (!begin) begin = simulator.time();
       const double time = simulator.time() - *begin;
-      if (const int due = ticks.take(time); due > 0) player.show(time, due);
+      if (const int due = ticks.advance(time); due > 0) player.show(time, due);
     }
     simulator.step();
   }

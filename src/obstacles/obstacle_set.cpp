@@ -79,7 +79,7 @@ ObstacleSet::ObstacleSet(const Scene& scene, const MeshResolver& resolve)
   reset();
 }
 
-void ObstacleSet::takeFriction(double friction) noexcept {
+void ObstacleSet::setFriction(double friction) noexcept {
   for (std::size_t n = 0; n < items_.size(); ++n) {
     if (!items_[n].own_friction) moving_[n].friction = friction;
   }
@@ -176,10 +176,10 @@ void ObstacleSet::setSubstep(double from, double to) noexcept {
   from_ = from;
   to_ = to;
   ++substep_;
-  if (!boxed_) takeBoxes();
+  if (!boxed_) computeBoxes();
 }
 
-void ObstacleSet::takeBoxes() noexcept {
+void ObstacleSet::computeBoxes() noexcept {
   boxed_ = at_rest_ = true;
   swept_.setEmpty();
   looked_.setEmpty();
@@ -195,7 +195,7 @@ void ObstacleSet::takeBoxes() noexcept {
         const Vec3 high = item.begin.position.cwiseMax(item.end.position);
         item.swept = grownBy(item.radius + 0.5 * item.path(), {low, high});
       } else {
-        takeExactBox(n);
+        computeExactBox(n);
       }
     }
     swept_.extend(item.swept);
@@ -203,7 +203,7 @@ void ObstacleSet::takeBoxes() noexcept {
 }
 
 // No point is further than half of its way from where that begins or ends.
-void ObstacleSet::takeExactBox(std::size_t index) noexcept {
+void ObstacleSet::computeExactBox(std::size_t index) noexcept {
   Item& item = items_[index];
   const Eigen::AlignedBox3d& box = moving_[index].bounds;
   item.exact = true;

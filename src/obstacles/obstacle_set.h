@@ -90,9 +90,9 @@ class ObstacleSet {
 
   void reset() noexcept;
   /// Sets the length of a frame [s].
-  void takeFrame(double length) noexcept { frame_length_ = length; }
+  void setFrameLength(double length) noexcept { frame_length_ = length; }
   /// Sets the friction of those that have none of their own.
-  void takeFriction(double friction) noexcept;
+  void setFriction(double friction) noexcept;
   /// Sets the pose at the end of the coming frame, or (jump) from now on.
   void setPose(int index, const Pose& pose, bool jump) noexcept;
 
@@ -122,7 +122,7 @@ class ObstacleSet {
   const Eigen::AlignedBox3d& sweptBounds() const noexcept { return swept_; }
   /// Box around one of them during the frame, with the arcs of its rotation.
   const Eigen::AlignedBox3d& sweptBounds(int index) noexcept {
-    if (!items_[at(index)].exact) takeExactBox(at(index));
+    if (!items_[at(index)].exact) computeExactBox(at(index));
     return items_[at(index)].swept;
   }
   /// Present obstacles whose box of the frame may meet this one, and all that do. Valid until the next call.
@@ -175,8 +175,8 @@ class ObstacleSet {
   void moveOn(std::size_t index, const Pose& pose) noexcept;
   void touch(Item& item) noexcept;
   void place(std::size_t index) noexcept;
-  void takeBoxes() noexcept;
-  void takeExactBox(std::size_t index) noexcept;
+  void computeBoxes() noexcept;
+  void computeExactBox(std::size_t index) noexcept;
   void lookAround(const Eigen::AlignedBox3d& box) noexcept;
 
   double frame_length_;     // [s]

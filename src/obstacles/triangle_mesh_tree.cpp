@@ -149,7 +149,7 @@ TriangleMeshTree::TriangleMeshTree(const ShapeTriangles& mesh) {
 }
 
 // Takes the triangle if it is nearer than the best, or equally near and earlier in the input.
-bool TriangleMeshTree::take(const Vec3& point, std::uint32_t place, NearestTriangle& best) const noexcept {
+bool TriangleMeshTree::improve(const Vec3& point, std::uint32_t place, NearestTriangle& best) const noexcept {
   const Triangle& triangle = triangles_[place];
   NearestTriangle candidate = nearestOnTriangle(point, triangle.corners[0], triangle.corners[1], triangle.corners[2]);
   candidate.triangle = triangle.index;
@@ -167,7 +167,7 @@ bool TriangleMeshTree::nearest(const Vec3& point, double limit_squared, NearestT
   tree_.forEachLeafNear(
       point, [&] { return best.distance_squared * (1.0 + kRounding); },
       [&](std::uint32_t first, std::uint32_t last) {
-        for (std::uint32_t t = first; t < last; ++t) found = take(point, t, best) || found;
+        for (std::uint32_t t = first; t < last; ++t) found = improve(point, t, best) || found;
       });
   if (found) out = best;
   return found;
@@ -184,7 +184,7 @@ bool TriangleMeshTree::nearest(const Vec3& point, double limit_squared, double r
     double distance = seen;
     bool found = false;
     for (std::size_t k = 0; k < near.count && near.distances[k] - moved <= distance * (1.0 + kRounding); ++k) {
-      if (!take(point, near.places[k], best)) continue;
+      if (!improve(point, near.places[k], best)) continue;
       distance = std::sqrt(best.distance_squared);
       found = true;
     }

@@ -47,7 +47,7 @@ CurtainNode::CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& pri
   if (snapshots_.restore(simulator_)) {
     obstacles_.resume(simulator_);
     hands_.restart(simulator_, "the curtain goes on from a snapshot");
-    takeRates();
+    applyRates();
   } else {
     obstacles_.restart(simulator_);
   }
@@ -79,7 +79,7 @@ void CurtainNode::startServices(const ros::NodeHandle& private_node) {
   FileServices::Actions file;
   file.restore = [this](const std::string& snapshot) { return restore(snapshot); };
   Tuning::Actions tuning;
-  tuning.take = [this](const curtain_sim::CurtainConfig& values) { tune(values); };
+  tuning.apply = [this](const curtain_sim::CurtainConfig& values) { tune(values); };
   tuning.present = [this] { return liveValues(simulator_.scene(), params_); };
   tuning_ = std::make_unique<Tuning>(private_node, calls_, tuning);
   file_services_ = std::make_unique<FileServices>(private_node, calls_, simulator_, file);
@@ -130,7 +130,7 @@ void CurtainNode::makeFrames(std::int64_t now) {
     frames_.clear();
     restart("/clock jumped back");
   }
-  for (int i = 0; i < due.frames && !stopping(); ++i) makeFrame(clock_.take(), i + 1 == due.frames);
+  for (int i = 0; i < due.frames && !stopping(); ++i) makeFrame(clock_.advance(), i + 1 == due.frames);
   clock_.logLosses();
   if (due.frames > 0) snapshots_.update(simulator_, clock_.nodeTime());
 }
@@ -149,7 +149,7 @@ void CurtainNode::pause(std::int64_t now) {
 }
 
 void CurtainNode::makeAskedFrame() {
-  const ros::Time stamp = clock_.takeInPause();
+  const ros::Time stamp = clock_.stampInPause();
   makeFrame(stamp, lock_step_.lastOfRequest());
   LockStep::Answer made;
   made.frame = static_cast<std::uint64_t>(simulator_.statistics().frames);
@@ -220,7 +220,7 @@ std::vector<curtain::Problem> CurtainNode::restore(const std::string& snapshot) 
   if (opening_) opening_->restart();
   inputs_.restart();
   obstacles_.resume(simulator_);
-  takeRates();
+  applyRates();
   tuning_->refresh();
   return problems;
 }
@@ -231,19 +231,19 @@ void CurtainNode::setPaused(bool paused) {
 }
 
 void CurtainNode::tune(const curtain_sim::CurtainConfig& values) {
-  const std::vector<curtain::Problem> problems = takeLiveValues(values, simulator_, params_);
+  const std::vector<curtain::Problem> problems = applyLiveValues(values, simulator_, params_);
   if (!problems.empty()) inputs_.refuse("~set_parameters", problems);
   obstacles_.setTimeout(params_.obstacle_timeout);
-  takeRates();
+  applyRates();
 }
 
 // The frame rate may have changed, and rates of the outputs are shares of it.
-void CurtainNode::takeRates() {
+void CurtainNode::applyRates() {
   const double rate = simulator_.scene().solver.frame_rate;
   clock_.setRate(rate);
   outputs_.tune(params_, rate);
-  sensors_.takeFrameRate(rate);
-  if (handles_) handles_->takeFrameRate(rate);
+  sensors_.setFrameRate(rate);
+  if (handles_) handles_->setFrameRate(rate);
 }
 
 curtain_sim::Statistics CurtainNode::nodeStatistics() const {

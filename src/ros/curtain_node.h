@@ -78,7 +78,7 @@ class CurtainNode {
   std::vector<curtain::Problem> restore(const std::string& snapshot);
   void setPaused(bool paused);
   void tune(const curtain_sim::CurtainConfig& values);
-  void takeRates();
+  void applyRates();
   void startServices(const ros::NodeHandle& private_node);
   void startWatch(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
   void waitForNextFrame();

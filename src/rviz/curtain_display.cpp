@@ -124,7 +124,7 @@ void CurtainDisplay::processMessage(const curtain_sim::CurtainState::ConstPtr& s
   }
 }
 
-void CurtainDisplay::takeLoads(const curtain_sim::Loads::ConstPtr& loads) { loads_ = loads; }
+void CurtainDisplay::setLoads(const curtain_sim::Loads::ConstPtr& loads) { loads_ = loads; }
 
 ClothLook CurtainDisplay::look() const {
   return {static_cast<Pattern>(pattern_->getOptionInt()),
@@ -179,7 +179,7 @@ void CurtainDisplay::listenToLoads(bool wanted) {
   const std::string topic = ros::names::parentNamespace(topic_property_->getTopicStd()) + "/loads";
   if (loads_subscriber_ && loads_subscriber_.getTopic() == topic) return;
   loads_.reset();
-  loads_subscriber_ = update_nh_.subscribe(topic, 1, &CurtainDisplay::takeLoads, this);
+  loads_subscriber_ = update_nh_.subscribe(topic, 1, &CurtainDisplay::setLoads, this);
   tell("Loads", StatusProperty::Warn, "nothing on " + topic + " yet");
 }
 

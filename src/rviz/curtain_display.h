@@ -44,7 +44,7 @@ class CurtainDisplay : public rviz::MessageFilterDisplay<curtain_sim::CurtainSta
  private:
   void stopDrawingWithTheWindow();
   void tell(const std::string& about, rviz::StatusProperty::Level level, const std::string& text);
-  void takeLoads(const curtain_sim::Loads::ConstPtr& loads);
+  void setLoads(const curtain_sim::Loads::ConstPtr& loads);
   ClothLook look() const;
   bool follow(const std::string& frame);
   void listenToLoads(bool wanted);

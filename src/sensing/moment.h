@@ -19,7 +19,7 @@ struct Moment {
 };
 
 /// The present one. Allocates nothing once `out` was filled.
-inline void takeMoment(const Simulator& simulator, Moment& out) {
+inline void readMoment(const Simulator& simulator, Moment& out) {
   simulator.copyFineMesh(out.mesh);
   simulator.copyVelocities(out.velocities);
   const auto count = static_cast<std::size_t>(simulator.obstacleCount());

@@ -30,7 +30,7 @@ class Budget {
   }
 
   /// Sets the limit; 0: none. Between frames.
-  void take(double milliseconds) noexcept { seconds_ = 1e-3 * milliseconds; }
+  void set(double milliseconds) noexcept { seconds_ = 1e-3 * milliseconds; }
   bool any() const noexcept { return seconds_ > 0.0; }
   void forget() noexcept;
 

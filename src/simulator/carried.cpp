@@ -148,8 +148,8 @@ void Simulator::Impl::carry(Archive& archive) {
 
 // After carry() has loaded: restores what follows from it.
 void Simulator::Impl::resume() noexcept {
-  takeKeys();
-  takePins();
+  keysChanged();
+  pinsChanged();
   motion.step.resume(motion.state);
   motion.contact.skipSubstep();
   motion.contact.clearCaches();

@@ -45,8 +45,8 @@ std::vector<Problem> Simulator::setFrameRate(double rate) {
   std::vector<Problem> problems;
   if (!change(solver, &SolverParams::frame_rate, rate, "solver", problems)) return problems;
   im.times.setRate(rate);
-  im.takeKeys();
-  if (im.errors) im.errors->takeFrame();
+  im.keysChanged();
+  if (im.errors) im.errors->frameLengthChanged();
   return problems;
 }
 
@@ -54,7 +54,7 @@ std::vector<Problem> Simulator::setFriction(double friction) {
   Impl& im = *impl_;
   std::vector<Problem> problems;
   if (!change(im.scene.contact, &ContactParams::friction, friction, "contact", problems)) return problems;
-  im.takeKeys();
+  im.keysChanged();
   im.sleep.rest().disturb();
   return problems;
 }
@@ -63,7 +63,7 @@ std::vector<Problem> Simulator::setStretchTolerance(double tolerance) {
   Impl& im = *impl_;
   std::vector<Problem> problems;
   if (!change(im.scene.solver, &SolverParams::stretch_tolerance, tolerance, "solver", problems)) return problems;
-  im.takeKeys();
+  im.keysChanged();
   im.motion.contact.invalidateStart();
   im.sleep.rest().disturb();
   return problems;
@@ -79,13 +79,13 @@ std::vector<Problem> Simulator::setPositionTolerance(double tolerance) {
   if (asked && tolerance == 0.0) return {{"solver.position_tolerance", "must stay above 0: the scene asks for one"}};
   if (!asked) return {{"solver.position_tolerance", "must stay 0: the scene asks for none"}};
   im.scene.solver.position_tolerance = tolerance;
-  im.takeKeys();
+  im.keysChanged();
   return problems;
 }
 
 std::vector<Problem> Simulator::setBudget(double ms) {
   std::vector<Problem> problems;
-  if (change(impl_->scene.solver, &SolverParams::budget_ms, ms, "solver", problems)) impl_->takeKeys();
+  if (change(impl_->scene.solver, &SolverParams::budget_ms, ms, "solver", problems)) impl_->keysChanged();
   return problems;
 }
 
@@ -97,7 +97,7 @@ std::vector<Problem> Simulator::setGravity(const Vec3& gravity) {
   if (gravity == im.scene.gravity) return {};
   im.motion.velocities();  // caches them while the forces that made them are known
   im.scene.gravity = gravity;
-  im.takeKeys();
+  im.keysChanged();
   im.driven();
   return {};
 }

@@ -30,7 +30,7 @@ ClosedFrames::ClosedFrames(Motion& motion, StepControls& controls, bool chooses)
       wanted_(chooses && canClose(motion)),
       total_mass_(std::accumulate(motion.pattern.mass.begin(), motion.pattern.mass.end(), 0.0)) {}
 
-void ClosedFrames::takePins() noexcept { wanted_ = chooses_ && canClose(motion_); }
+void ClosedFrames::pinsChanged() noexcept { wanted_ = chooses_ && canClose(motion_); }
 
 // Nothing adds or removes energy but the scheme, and the engine chooses the steps.
 bool ClosedFrames::isClosed() const noexcept {
@@ -67,7 +67,7 @@ void ClosedFrames::endFrame() {
   const Energy now = motion_.energy();
   if (!(account.excess(now.kinetic + now.potential) > too_much)) return;
   controls_.main.askFor(std::min(kEnoughSubsteps, 2 * std::max(1, motion_.statistics.substeps_last)));
-  account.takeOut(now, motion_.state.velocity);
+  account.removeExcess(now, motion_.state.velocity);
   motion_.forgetVelocities();
 }
 

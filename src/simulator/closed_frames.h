@@ -22,7 +22,7 @@ class ClosedFrames {
   }
   void endFrame();
   /// The pattern's pins have changed.
-  void takePins() noexcept;
+  void pinsChanged() noexcept;
 
  private:
   bool isClosed() const noexcept;

@@ -7,7 +7,7 @@ ForceField::ForceField(const Scene& scene, const ClothPattern& pattern, const Pa
     : scene_(scene), pattern_(pattern), parts_(parts), sum_(forces_.damping) {
   const std::size_t size = pattern.grid.size();
   weight_.assign(size, 0.0);
-  takeGravity();
+  gravityChanged();
   sum_.led.reserve(size);
   sum_.air.assign(size, 0.0);
   forces_.damping.assign(size, 0.0);
@@ -19,7 +19,7 @@ void ForceField::reset() noexcept {
   forces_.force = &sum_.force;
 }
 
-void ForceField::takeGravity() noexcept {
+void ForceField::gravityChanged() noexcept {
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) weight_.set(n, pattern_.mass[n] * scene_.gravity);
 }
 

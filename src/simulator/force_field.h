@@ -15,7 +15,7 @@ class ForceField {
 
   void reset() noexcept;
   /// The scene's gravity has changed.
-  void takeGravity() noexcept;
+  void gravityChanged() noexcept;
 
   /// Before a substep of h [s] from this state at `time`, `done` seconds into its frame: asks the parts. True:
   /// evaluate() reads SubstepAhead.

@@ -74,7 +74,7 @@ bool FrameLoop::makeStages(const SubstepPlan& plan, double done) {
     const SubstepOutcome outcome = motion_.attempt(stage, at);
     if (!outcome.accepted || motion_.step.stringsPull() || (motion_.contact.wanted() && motion_.contact.any())) {
       motion_.restore(before_);
-      motion_.contact.takeBack(acted);
+      motion_.contact.withdraw(acted);
       return false;
     }
     controls_.main.accepted(stage, outcome);
@@ -122,7 +122,7 @@ void FrameLoop::accept(StepControl& steps, const SubstepPlan& plan, const Subste
   }
   pins_waited_ = pins_waited_ || outcome.pins_wait;
   countSubstep(1);
-  motion_.taken(plan.h, outcome);
+  motion_.substepAccepted(plan.h, outcome);
 }
 
 void FrameLoop::countSubstep(int steps) noexcept {

@@ -76,7 +76,7 @@ void Motion::book(const NodeForces& acting, double h, const SubstepOutcome& outc
                        outcome.scale != 0.0 ? outcome.kick / outcome.scale : 1.0 / h);
 }
 
-void Motion::taken(double h, const SubstepOutcome& outcome) noexcept {
+void Motion::substepAccepted(double h, const SubstepOutcome& outcome) noexcept {
   contact.afterSubstep(outcome.settled, outcome, state.position);
   const Step* const links = scene.solver.method == Method::kPaper ? nullptr : &step;
   const SubstepMade made{h, state, forces.last(), links, pushing(), outcome.scale};
@@ -87,10 +87,10 @@ bool Motion::driven() const {
   return parts.all.any([this](const Part& part) { return part.drives(state); });
 }
 
-void Motion::takePins() {
-  contact.takePins();
-  step.takePins();
-  if (scene.solver.method == Method::kPaper) paper.takePins();
+void Motion::pinsChanged() {
+  contact.pinsChanged();
+  step.pinsChanged();
+  if (scene.solver.method == Method::kPaper) paper.pinsChanged();
 }
 
 void Motion::repinned() noexcept {

@@ -35,9 +35,9 @@ struct Motion {
   bool driven() const;
 
   /// A substep of h [s] that was planned, was accepted.
-  void taken(double h, const SubstepOutcome& outcome) noexcept;
+  void substepAccepted(double h, const SubstepOutcome& outcome) noexcept;
   /// Takes what follows from the pattern's pins. Allocates nothing but for Method::kPaper.
-  void takePins();
+  void pinsChanged();
   /// After it: what the last substep left is that of other pins.
   void repinned() noexcept;
 

@@ -37,7 +37,7 @@ Rest::Rest(const Scene& scene, const ClothPattern& pattern)
 }
 
 // A swing of this speed has an amplitude of speed / omega. Overdamped cloth as far from rest is slower, by omega m / c.
-void Rest::takeLimits(double damping_per_mass) noexcept {
+void Rest::setLimits(double damping_per_mass) noexcept {
   const SolverParams& solver = scene_.solver;
   jitter_ = kJitter * solver.stretch_tolerance * shortestLink(pattern_);
   const bool asks = solver.position_tolerance > 0.0;

@@ -23,7 +23,7 @@ class Rest {
 
   /// Takes what follows from the scene. damping_per_mass: the largest of any node [1/s]: overdamped cloth creeps back
   /// to rest, so it must be slower.
-  void takeLimits(double damping_per_mass) noexcept;
+  void setLimits(double damping_per_mass) noexcept;
 
   /// Whether the cloth may rest at all.
   bool can() const noexcept { return radius_ > 0.0; }

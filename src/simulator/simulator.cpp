@@ -50,14 +50,14 @@ Simulator::Impl::Impl(const Scene& given, const MeshResolver& resolve)
       closed(motion, controls, !ErrorControl::wanted(scene.solver)),
       surface(scene.cloth, pattern),
       pinned_by_parts(pattern.grid.size(), 0) {
-  takePins();
+  pinsChanged();
   if (ErrorControl::wanted(scene.solver)) errors.emplace(motion, controls, loop, budget);
 }
 
 void Simulator::Impl::reset() {
   times.reset();
   motion.reset();
-  takePins();
+  pinsChanged();
   controls.reset();
   sleep.reset();
   budget.forget();
@@ -67,31 +67,31 @@ void Simulator::Impl::reset() {
 }
 
 // Takes what follows from the keys of the scene that may change.
-void Simulator::Impl::takeKeys() {
+void Simulator::Impl::keysChanged() {
   for (Part* const part : motion.parts.all) part->resume();
-  motion.forces.takeGravity();
-  motion.obstacles.takeFriction(scene.contact.friction);
-  motion.contact.takeFriction(scene.contact.friction);
-  motion.obstacles.takeFrame(times.length());
-  motion.contact.takeStretchTolerance(scene.solver.stretch_tolerance);
-  motion.step.takeStretchTolerance(scene.solver.stretch_tolerance);
-  budget.take(scene.solver.budget_ms);
+  motion.forces.gravityChanged();
+  motion.obstacles.setFriction(scene.contact.friction);
+  motion.contact.setFriction(scene.contact.friction);
+  motion.obstacles.setFrameLength(times.length());
+  motion.contact.setStretchTolerance(scene.solver.stretch_tolerance);
+  motion.step.setStretchTolerance(scene.solver.stretch_tolerance);
+  budget.set(scene.solver.budget_ms);
   controls.both([this](StepControl& control) {
-    control.takeGravity(pattern, scene.gravity);
-    control.takeFrame(times.length());
+    control.setGravity(pattern, scene.gravity);
+    control.setFrameLength(times.length());
     if (!budget.any()) control.allow(std::numeric_limits<int>::max());
   });
-  sleep.takeLimits();
+  sleep.limitsChanged();
 }
 
 // Takes what follows from the pins. Allocates nothing but for Method::kPaper.
-void Simulator::Impl::takePins() {
+void Simulator::Impl::pinsChanged() {
   std::fill(pinned_by_parts.begin(), pinned_by_parts.end(), std::uint8_t{0});
   for (const Part* const part : motion.parts.all) part->pin(pinned_by_parts);
   pinBeside(pinned_by_parts, scene.cloth, pattern);
-  motion.takePins();
-  closed.takePins();
-  sleep.takeLimits();
+  motion.pinsChanged();
+  closed.pinsChanged();
+  sleep.limitsChanged();
 }
 
 // Something that puts energy in does something else from now on.

@@ -23,8 +23,8 @@ struct Simulator::Impl {
 
   void reset();
   void step();
-  void takeKeys();
-  void takePins();
+  void keysChanged();
+  void pinsChanged();
   void driven() noexcept;
   template <typename Change>
   void repin(const Change& change);
@@ -45,7 +45,7 @@ struct Simulator::Impl {
   FineSurface surface;
   std::uint64_t revision = 0;                 // of the positions of cloth and obstacles
   Field3 total_force;                         // scratch of copyForces()
-  std::vector<std::uint8_t> pinned_by_parts;  // scratch of takePins()
+  std::vector<std::uint8_t> pinned_by_parts;  // scratch of pinsChanged()
 
  private:
   void sleepThrough();
@@ -61,7 +61,7 @@ void Simulator::Impl::repin(const Change& change) {
   sleep.wake();
   motion.synchronise();
   change();
-  takePins();
+  pinsChanged();
   motion.repinned();
   controls.both([this](StepControl& control) { control.repinned(motion.step); });
   motion.step.account().leaveOpen();

@@ -3,7 +3,7 @@
 
 namespace curtain {
 
-Sleep::Sleep(Motion& motion) : motion_(motion), rest_(motion.scene, motion.pattern) { takeLimits(); }
+Sleep::Sleep(Motion& motion) : motion_(motion), rest_(motion.scene, motion.pattern) { limitsChanged(); }
 
 void Sleep::wakeForFrame() {
   if (!rest_.watches()) return;
@@ -11,12 +11,12 @@ void Sleep::wakeForFrame() {
   const FrameBegin begin{now, now + motion_.times.length(), motion_.times.rate(), true};
   if (motion_.parts.all.any([&](const Part& part) { return part.wakes(begin, motion_.state); })) rest_.disturb();
   rest_.approachedBy(motion_.obstacles);
-  if (rest_.wake()) takeOver();
+  if (rest_.wake()) restChanged();
 }
 
 void Sleep::wake() {
   rest_.disturb();
-  if (rest_.wake()) takeOver();
+  if (rest_.wake()) restChanged();
 }
 
 // What keeps it awake matters only to cloth that may fall asleep soon, so not before rest_ watches. Cloth whose
@@ -33,19 +33,19 @@ void Sleep::fallAsleep() {
   if (!rest_.look(state, motion_.times.madeTime(), kept, touches)) return;
   motion_.state.velocity.assign(motion_.pattern.grid.size(), 0.0);
   motion_.state.velocity_age = 0.0;  // velocities of zero lag behind nothing
-  takeOver();
+  restChanged();
 }
 
-void Sleep::takeOver() {
+void Sleep::restChanged() {
   motion_.forgetVelocities();
   motion_.statistics.asleep = rest_.asleep();
   motion_.statistics.wakes = rest_.wakes();
 }
 
-void Sleep::takeLimits() noexcept {
+void Sleep::limitsChanged() noexcept {
   double damping = 0.0, air_speed = 0.0;
   for (const Part* const part : motion_.parts.all) damping += part->dampingPerMass(air_speed);
-  rest_.takeLimits(damping);
+  rest_.setLimits(damping);
 }
 
 }  // namespace curtain

@@ -25,10 +25,10 @@ class Sleep {
 
   void reset() noexcept { rest_.forget(); }
   /// What it follows from has changed: keys of the scene, pins, what damps.
-  void takeLimits() noexcept;
+  void limitsChanged() noexcept;
 
  private:
-  void takeOver();
+  void restChanged();
 
   Motion& motion_;
   Rest rest_;

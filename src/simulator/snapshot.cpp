@@ -38,13 +38,13 @@ std::optional<Problem> toleranceOnOneSide(const Scene& ours, const std::string& 
 std::uint32_t Simulator::Impl::layout() {
   Archive archive = Archive::describing();
   carry(archive);
-  return checksum(archive.takeWritten());
+  return checksum(archive.extractWritten());
 }
 
 std::string Simulator::snapshot() const {
   Archive archive = Archive::saving();
   impl_->carry(archive);
-  const std::string scene = writeScene(impl_->scene), carried = archive.takeWritten();
+  const std::string scene = writeScene(impl_->scene), carried = archive.extractWritten();
   return packSnapshot({impl_->layout(), scene, carried});
 }
 

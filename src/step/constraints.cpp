@@ -157,7 +157,7 @@ Constraints::LinkTensions Constraints::tensionsAt(int row, int column, double sc
   return tensions;
 }
 
-void Constraints::takePins() noexcept {
+void Constraints::pinsChanged() noexcept {
   freeWeft(pattern_, inertia_.masses(), free_per_square_);
   net_.reset();
 }

@@ -63,9 +63,9 @@ class Constraints {
   }
 
   /// Sets the relative overlength that the links' compliance may reach.
-  void takeTolerance(double tolerance) noexcept {
+  void setTolerance(double tolerance) noexcept {
     weft_.most_give = tolerance;
-    distances_.takeMostGive(tolerance);
+    distances_.setMostGive(tolerance);
   }
 
   /// null: all nodes are free or pinned.
@@ -104,7 +104,7 @@ class Constraints {
   /// Sets the directions of all links from the present positions.
   void followDirections() noexcept;
   /// Sets the strings' directions from the start of the substep; the rods have theirs.
-  void takeDirections(const Field3& start) noexcept;
+  void setDirections(const Field3& start) noexcept;
 
   struct NetAim {
     double residual;  ///< largest relative violation
@@ -151,7 +151,7 @@ class Constraints {
   // ---- Changes of pins
 
   /// The pattern's pins have changed, and inertia has taken them.
-  void takePins() noexcept;
+  void pinsChanged() noexcept;
   /// Forgets the tensions of links between two pins: nothing solves for them any more.
   void slackenBetweenPins() noexcept;
 
@@ -193,8 +193,8 @@ class Constraints {
   GuidedNodes* guided() noexcept { return guide_ != nullptr && guide_->moves() ? guide_ : nullptr; }
   LineSolve rods() noexcept { return {pattern_, inertia_.inverse(), warp_, next, guided()}; }
   LineSolve wefts() noexcept { return {pattern_, inertia_.inverse(), weft_, next, guided()}; }
-  double takeUpStrings(double residual) noexcept;
-  double takeUpTogether() noexcept;
+  double applyStringChange(double residual) noexcept;
+  double applyTogether() noexcept;
   void beginGuide(const SubstepStart& start, const ClothState& state) noexcept;
   double commitGuide(ClothState& state, const Field& load) noexcept;
   Vec3 pullAt(int row, int column, const Field& warp, const Field& weft, bool strings) const noexcept;

@@ -95,7 +95,7 @@ void Constraints::followDirections() noexcept {
   directions_set_ = net_ready_ = true;
 }
 
-void Constraints::takeDirections(const Field3& start) noexcept {
+void Constraints::setDirections(const Field3& start) noexcept {
   if (net_ready_) return;
   if (!directions_set_) setWeftDirectionsAt(start);
   net_.begin(start, inertia_.inverse(), guided());
@@ -122,13 +122,13 @@ void Constraints::solveNet(const NetAim& aim) noexcept {
   net_.solve(violation_, active_, rows_,
              {aim.residual * middle_rest_, aim.damping, aim.enough, kGradientIterations, multiplier, compliance},
              change_);
-  const double share = !rows_.empty() ? takeUpTogether() : takeUpStrings(aim.residual);
-  for (RowMaker* maker : makers_) maker->takeUp(rows_, share, inertia_.inverse(), next);
+  const double share = !rows_.empty() ? applyTogether() : applyStringChange(aim.residual);
+  for (RowMaker* maker : makers_) maker->applyChange(rows_, share, inertia_.inverse(), next);
   settleGuide();
 }
 
 // Moves nodes by the changes of the strings, or by a share of them if they are large. Returns the share.
-double Constraints::takeUpStrings(double residual) noexcept {
+double Constraints::applyStringChange(double residual) noexcept {
   const LineSolve weft = wefts();
   const double move =
       residual > kWatchMoves ? std::sqrt(worstOfRows([&](int i) { return weftMoveSquared(weft, i, change_); })) : 0.0;
@@ -137,7 +137,7 @@ double Constraints::takeUpStrings(double residual) noexcept {
     for (double& change : change_) change *= share;
   }
   worstOfRows([&](int i) {
-    takeUpWeft(weft_, pattern_.grid, i, change_);
+    applyWeftChange(weft_, pattern_.grid, i, change_);
     pullWeft(weft, i, change_);
     return 0.0;
   });

@@ -46,7 +46,7 @@ CURTAIN_WIDE void boundChange(const Field& multiplier, Field& change) noexcept {
 // A load of 25 times the cloth's weight pulls its node off by metres in a substep, and a bar under one pushes its nodes
 // as far, if the rods do not pull them back at once. So nodes are moved by the sum, or by a share of it if that is
 // large. Returns the share.
-double Constraints::takeUpTogether() noexcept {
+double Constraints::applyTogether() noexcept {
   const Grid& grid = pattern_.grid;
   const Field& inverse = inertia_.inverse();
   for (Field* axis : {&moved_.x, &moved_.y, &moved_.z}) std::fill(axis->begin(), axis->end(), 0.0);

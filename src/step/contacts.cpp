@@ -173,7 +173,7 @@ void ContactRows::addRows(const Field3& value, bool rates, Rows& rows) const {
   }
 }
 
-void ContactRows::takeUp(const Rows& rows, double share, const Field& inverse, Field3& position) noexcept {
+void ContactRows::applyChange(const Rows& rows, double share, const Field& inverse, Field3& position) noexcept {
   forEachChange(rows, first_row, end_row, [&](std::uint32_t index, double push, const Vec3& slide) {
     Contact& contact = (*solved_)[index];
     const double push_change = contact.boundedChange(share * push);

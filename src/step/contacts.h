@@ -165,7 +165,7 @@ class ContactRows final : public RowMaker {
   void slide(const Field& inverse, Field3& position) noexcept;
 
   void addRows(const Field3& value, bool rates, Rows& rows) const override;
-  void takeUp(const Rows& rows, double share, const Field& inverse, Field3& position) noexcept override;
+  void applyChange(const Rows& rows, double share, const Field& inverse, Field3& position) noexcept override;
   void addSquares(const Field3& position, double& sum) const noexcept override;
   void saveIterate() override { best_ = *solved_; }
   void restoreIterate() noexcept override { *solved_ = best_; }

@@ -107,7 +107,8 @@ void DistanceRows::moveBy(const Rows& rows, const Field& inverse, Field3& value)
   }
 }
 
-void DistanceRows::takeUp(const Rows& rows, double share, const Field& /*inverse*/, Field3& /*position*/) noexcept {
+void DistanceRows::applyChange(const Rows& rows, double share, const Field& /*inverse*/,
+                               Field3& /*position*/) noexcept {
   for (std::size_t r = first_row; r < end_row; ++r) {
     DistanceRow& distance = all_[rows[r].key];
     distance.multiplier = std::max(0.0, distance.multiplier + share * rows[r].change / distance.length);

@@ -17,7 +17,7 @@ class DistanceRows final : public RowMaker {
   /// outlive this.
   DistanceRows(const ClothPattern& pattern, std::vector<RowPart*> parts, double most_give, double links);
 
-  void takeMostGive(double most_give) noexcept { most_give_ = most_give; }
+  void setMostGive(double most_give) noexcept { most_give_ = most_give; }
   bool any() const noexcept { return !all_.empty(); }
   const std::vector<DistanceRow>& all() const noexcept { return all_; }
 
@@ -34,7 +34,7 @@ class DistanceRows final : public RowMaker {
   double measure(const Field& inverse, const Field3& position) noexcept;
   /// A row for each that holds, of what measure() or measureRates() has found.
   void addRows(const Field3& value, bool rates, Rows& rows) const override;
-  void takeUp(const Rows& rows, double share, const Field& inverse, Field3& position) noexcept override;
+  void applyChange(const Rows& rows, double share, const Field& inverse, Field3& position) noexcept override;
   void addSquares(const Field3& position, double& sum) const noexcept override;
   void saveIterate() noexcept override;
   void restoreIterate() noexcept override;

@@ -22,8 +22,8 @@ class ElasticChain final : public ElasticPart {
   ElasticPart* part() noexcept { return parts_.size() > 1 ? this : parts_.empty() ? nullptr : parts_.front(); }
 
   bool any() const noexcept override { return !parts_.empty(); }
-  void takePins() noexcept override {
-    for (ElasticPart* const part : parts_) part->takePins();
+  void pinsChanged() noexcept override {
+    for (ElasticPart* const part : parts_) part->pinsChanged();
   }
   void begin(const NodeInertia& inertia, const Field& inverse, double scale, bool explicit_links) noexcept override {
     for (ElasticPart* const part : parts_) part->begin(inertia, inverse, scale, explicit_links);

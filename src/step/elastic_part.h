@@ -23,7 +23,7 @@ class ElasticPart {
   virtual double omegaSquared() const noexcept { return 0.0; }
 
   /// The pattern's pins have changed.
-  virtual void takePins() noexcept = 0;
+  virtual void pinsChanged() noexcept = 0;
 
   /// What a substep bears: |scale| = h * kick [s^2], inverse inertia [1/kg]. explicit_links: links pull along their
   /// directions at the start of the step, and their tensions take a part.

@@ -26,10 +26,10 @@ EnergyAccount::EnergyAccount(const ClothPattern& pattern, const NodeInertia& ine
     : pattern_(pattern), inertia_(inertia), stretch_tolerance_(stretch_tolerance), links_(links) {
   for (std::vector<std::size_t>* const nodes : {&pins_, &held_nodes_}) nodes->reserve(pattern.grid.size());
   before_.assign(pattern.grid.size(), 0.0);
-  takePins();
+  pinsChanged();
 }
 
-void EnergyAccount::takePins() noexcept {
+void EnergyAccount::pinsChanged() noexcept {
   pins_.clear();
   held_nodes_.clear();
   free_mass_ = 0.0;
@@ -159,7 +159,7 @@ double EnergyAccount::excess(double energy) noexcept {
   return energy - *at_start_;
 }
 
-void EnergyAccount::takeOut(const Energy& now, Field3& velocity) const noexcept {
+void EnergyAccount::removeExcess(const Energy& now, Field3& velocity) const noexcept {
   const double share = std::sqrt(std::max(0.0, (*at_start_ - now.potential) / now.kinetic));
   if (!std::isfinite(share)) return;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {

@@ -37,9 +37,9 @@ class EnergyAccount {
   /// stretch_tolerance: relative; links: a typical link's length [m]. pattern and inertia must outlive this.
   EnergyAccount(const ClothPattern& pattern, const NodeInertia& inertia, double stretch_tolerance, double links);
 
-  void takeStretchTolerance(double tolerance) noexcept { stretch_tolerance_ = tolerance; }
+  void setStretchTolerance(double tolerance) noexcept { stretch_tolerance_ = tolerance; }
   /// The pattern's pins have changed.
-  void takePins() noexcept;
+  void pinsChanged() noexcept;
 
   // ---- A substep. Energies are twice an energy [J], seen from the mean velocity of the pins
 
@@ -104,7 +104,7 @@ class EnergyAccount {
   /// first.
   double excess(double energy) noexcept;
   /// Takes the excess over the start out of the velocities, where that can be done.
-  void takeOut(const Energy& now, Field3& velocity) const noexcept;
+  void removeExcess(const Energy& now, Field3& velocity) const noexcept;
 
   void carry(Archive& archive);
 

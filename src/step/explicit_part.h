@@ -10,7 +10,7 @@ namespace curtain {
 /// Not thread-safe. Allocates only in assign().
 class ExplicitPart : public ElasticPart {
  public:
-  void takePins() noexcept override {}
+  void pinsChanged() noexcept override {}
   void begin(const NodeInertia& inertia, const Field& inverse, double scale, bool explicit_links) noexcept override;
   const Field3& addTo(const Field3& force, const Field3& position) noexcept override;
   const Field3& addAhead(const SubstepStart& start, const Field& inverse) noexcept override;

@@ -65,7 +65,7 @@ double NetSolver::sumOverRowBlocks(const Block& block) noexcept {
   return sum;
 }
 
-CURTAIN_WIDE void NetSolver::takeRow(const Field3& position, const Field& inverse_inertia, int i) noexcept {
+CURTAIN_WIDE void NetSolver::loadRow(const Field3& position, const Field& inverse_inertia, int i) noexcept {
   const Grid& grid = pattern_.grid;
   const auto columns = static_cast<std::size_t>(grid.columns);
   const std::size_t from = grid.row(i), to = row(i);
@@ -109,14 +109,14 @@ void NetSolver::begin(const Field3& position, const Field& inverse_inertia, cons
   if (!(inertia_scale_ > 0.0)) inertia_scale_ = 1.0;
   workers_.run(row_blocks_, [&](int b) {
     const int end = std::min((b + 1) * kRows, pattern_.grid.rows);
-    for (int i = b * kRows; i < end; ++i) takeRow(position, inverse_inertia, i);
+    for (int i = b * kRows; i < end; ++i) loadRow(position, inverse_inertia, i);
   });
   const Grid& grid = pattern_.grid;
   for (int i = grid.rows; i < grid.allRows(); ++i) {  // at which no rod or string ends
     for (std::size_t j = 0; j < static_cast<std::size_t>(grid.columns); ++j)
       weight_[row(i) + j] = static_cast<float>(inverse_inertia[grid.row(i) + j] / inertia_scale_);
   }
-  if (guided_ != nullptr) takeGuided();
+  if (guided_ != nullptr) loadGuided();
   workers_.run(column_blocks_, [&](int b) {
     factorWarp(b);
     couple(b);

@@ -84,7 +84,7 @@ class NetSolver {
     Values x, y, z;
   };
 
-  void takeRow(const Field3& position, const Field& inverse_inertia, int row) noexcept;
+  void loadRow(const Field3& position, const Field& inverse_inertia, int row) noexcept;
   void factorWarp(int block) noexcept;
   void factorWeft(int row_block) noexcept;
   void load(const Field& violation, const Field& active, const Aim& aim, int row_block) noexcept;
@@ -98,7 +98,7 @@ class NetSolver {
   void conjugate(int row_block, Real beta) noexcept;
   void addPushes(int row) noexcept;
   float through(int i, std::size_t j, const Vec3& a, const Vec3& b) const noexcept;
-  void takeGuided() noexcept;
+  void loadGuided() noexcept;
   void factorGuided(int block, int i, float* off, float* lower) noexcept;
   void coupleGuided(int block) noexcept;
   void leaveOutFixedLinks() noexcept;

@@ -23,7 +23,7 @@ float NetSolver::through(int i, std::size_t j, const Vec3& a, const Vec3& b) con
 }
 
 // A_ff at the links of guided nodes.
-void NetSolver::takeGuided() noexcept {
+void NetSolver::loadGuided() noexcept {
   const auto columns = static_cast<std::size_t>(pattern_.grid.columns);
   guided_->forEach(0, pattern_.grid.columns, [&](const GuidedNode&, int i, int column) {
     const auto j = static_cast<std::size_t>(column);

@@ -40,10 +40,10 @@ NodeInertia::NodeInertia(const ClothPattern& pattern)
       keep_(pattern.grid.size(), 1.0),
       inverse_(masses_) {
   tensions_.load.assign(pattern.grid.size(), 0.0);
-  takePins();
+  pinsChanged();
 }
 
-void NodeInertia::takePins() noexcept {
+void NodeInertia::pinsChanged() noexcept {
   fill(pattern_, true, guided_move_);
   fill(pattern_, false, guided_stand_);
   inverse_ = masses_;

@@ -26,7 +26,7 @@ class NodeInertia {
   double elasticShare(double scale, bool explicit_links) const noexcept;
 
   /// The pattern's pins have changed.
-  void takePins() noexcept;
+  void pinsChanged() noexcept;
   /// Largest of the last substep's loads over its mass, by the present pins.
   double heaviest() const noexcept;
   /// Guided nodes move from now on; false: they have no inverse inertia either.

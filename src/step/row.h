@@ -42,7 +42,7 @@ class RowMaker {
   virtual void addRows(const Field3& value, bool rates, Rows& rows) const = 0;
   /// Adds a share of what was found for its rows to the multipliers, within their bounds, where nodes have been
   /// moved by the whole share; moves them back from what is beyond.
-  virtual void takeUp(const Rows& rows, double share, const Field& inverse, Field3& position) noexcept = 0;
+  virtual void applyChange(const Rows& rows, double share, const Field& inverse, Field3& position) noexcept = 0;
   /// Moves velocities by what was found for its rows.
   virtual void moveBy(const Rows& rows, const Field& inverse, Field3& velocity) noexcept = 0;
   /// Adds the squares of its violations, over a typical link's length.

@@ -40,11 +40,11 @@ Step::Step(const ClothPattern& pattern, const SolverParts& parts, double stretch
   if (elastic_ != nullptr) inertia_.setElastic(elastic_->omegaSquared());
 }
 
-void Step::takeStretchTolerance(double tolerance) noexcept {
+void Step::setStretchTolerance(double tolerance) noexcept {
   stretch_tolerance_ = tolerance;
-  constraints_.takeTolerance(kMostGive * tolerance);
-  sweeps_.takeTolerances(tolerance, tolerance * smallest_rest_);
-  account_.takeStretchTolerance(tolerance);
+  constraints_.setTolerance(kMostGive * tolerance);
+  sweeps_.setTolerances(tolerance, tolerance * smallest_rest_);
+  account_.setStretchTolerance(tolerance);
 }
 
 void Step::reset() noexcept {
@@ -54,15 +54,15 @@ void Step::reset() noexcept {
   inertia_.forget();
 }
 
-void Step::takePins() noexcept {
+void Step::pinsChanged() noexcept {
   free_ = isFree(pattern_);
-  inertia_.takePins();
+  inertia_.pinsChanged();
   if (elastic_ != nullptr) {
-    elastic_->takePins();
+    elastic_->pinsChanged();
     inertia_.setElastic(elastic_->omegaSquared());
   }
-  constraints_.takePins();
-  account_.takePins();
+  constraints_.pinsChanged();
+  account_.pinsChanged();
 }
 
 void Step::repinned() noexcept {

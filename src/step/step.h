@@ -31,13 +31,13 @@ class Step {
   void expectContacts(std::size_t count) { constraints_.expectContacts(count); }
 
   /// Sets the relative overlength allowed to a link, between substeps.
-  void takeStretchTolerance(double tolerance) noexcept;
+  void setStretchTolerance(double tolerance) noexcept;
 
   /// Forgets the tensions of the last substep.
   void reset() noexcept;
 
   /// Takes what follows from the pattern's pins. Allocates nothing.
-  void takePins() noexcept;
+  void pinsChanged() noexcept;
   /// After it, when the pins have changed: what the last substep left is that of other pins.
   void repinned() noexcept;
 

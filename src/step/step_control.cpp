@@ -60,12 +60,12 @@ void StepControl::reset() noexcept {
   surface_step_ = std::numeric_limits<double>::infinity();
 }
 
-void StepControl::takeGravity(const ClothPattern& pattern, const Vec3& gravity) noexcept {
+void StepControl::setGravity(const ClothPattern& pattern, const Vec3& gravity) noexcept {
   initial_omega_ = hangingOmega(pattern, gravity);
 }
 
 // A limit from rejections stays. Without one, longer frames start unlimited.
-void StepControl::takeFrame(double length) noexcept {
+void StepControl::setFrameLength(double length) noexcept {
   const bool was_limited = limit_ < frame_;
   limit_ = was_limited ? std::min(limit_, length) : length;
   frame_ = length;

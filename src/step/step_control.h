@@ -20,9 +20,9 @@ class StepControl {
 
   /// Share of the h * omega of cloth without ends beside it that steps are chosen for.
   static double phaseShare(const ClothPattern& pattern) noexcept;
-  void takeGravity(const ClothPattern& pattern, const Vec3& gravity) noexcept;
+  void setGravity(const ClothPattern& pattern, const Vec3& gravity) noexcept;
   /// Sets the length of the next frames [s]. To be called between two frames.
-  void takeFrame(double length) noexcept;
+  void setFrameLength(double length) noexcept;
 
   /// The next substep; remaining: rest of the frame [s], > 0. h divides it into equal parts.
   SubstepPlan next(double remaining, const Step& solver) noexcept;

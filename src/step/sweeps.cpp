@@ -144,7 +144,7 @@ SweepOutcome Sweeps::run(const SweepTask& task, StageClock& clock) noexcept {
       if (follow)
         constraints_.followDirections();
       else
-        constraints_.takeDirections(task.start);
+        constraints_.setDirections(task.start);
       const bool newton = !touches && !task.last_resort;
       const double worth = newton ? residual : touches ? kContactReduction : kReduction;
       const double enough = std::min(kReduction, std::max(kReduction * aim.links / residual, worth));

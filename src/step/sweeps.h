@@ -77,7 +77,7 @@ class Sweeps {
   Sweeps(Constraints& constraints, const NodeInertia& inertia, double tolerance, double contact_tolerance,
          int most_sweeps);
 
-  void takeTolerances(double tolerance, double contact_tolerance) noexcept {
+  void setTolerances(double tolerance, double contact_tolerance) noexcept {
     tolerance_ = kInnerTolerance * tolerance;
     contact_tolerance_ = kInnerTolerance * contact_tolerance;
   }

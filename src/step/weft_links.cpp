@@ -132,7 +132,7 @@ double measureWeftRates(const LineSolve& line, int i, Field& violation, Field& a
   return worst;
 }
 
-CURTAIN_WIDE void takeUpWeft(LinkSet& links, const Grid& grid, int i, Field& change) noexcept {
+CURTAIN_WIDE void applyWeftChange(LinkSet& links, const Grid& grid, int i, Field& change) noexcept {
   double* const s = links.multiplier.data() + grid.row(i);
   double* const ds = change.data() + grid.row(i);
 #pragma omp simd

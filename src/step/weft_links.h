@@ -44,7 +44,7 @@ double measureWeft(const LineSolve& line, int row, const WeftFields& out) noexce
 double measureWeftRates(const LineSolve& line, int row, Field& violation, Field& active) noexcept;
 
 /// Bounds a row's changes so that multipliers stay >= 0, and adds them.
-void takeUpWeft(LinkSet& links, const Grid& grid, int row, Field& change) noexcept;
+void applyWeftChange(LinkSet& links, const Grid& grid, int row, Field& change) noexcept;
 
 /// Moves a row's nodes by multipliers (all, or a change) along the links' directions.
 void pullWeft(const LineSolve& line, int row, const Field& multiplier) noexcept;

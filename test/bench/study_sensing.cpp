@@ -74,7 +74,7 @@ void studySensing(const Options& options) {
   simulator.copyRestLengths(warp, weft);
   const curtain::FlatCloth flat(simulator.fineMeshTopology(), warp, weft);
   curtain::Moment moment;
-  curtain::takeMoment(simulator, moment);
+  curtain::readMoment(simulator, moment);
   const int repeats = (options.quick ? 5 : 20) * options.repeats;
   Table table(options.folder, "sensing.csv",
               {"view", "rays", "hits", "triangles", "ms_hierarchy", "ms_look", "ms_points"});

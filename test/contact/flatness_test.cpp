@@ -134,7 +134,7 @@ TEST(Flatness, IsProvedOfPatchesThatKeepApartAlone) {
     const Spacings per_spacing(cloth.pattern);
     FlatPatches patches(nodes.grid(), per_spacing);
     for (int row = 0; row < patches.rows(); ++row) patches.measureRow(nodes, row);
-    nodes.takeLargest(patches.largest());
+    nodes.setLargest(patches.largest());
     const double reach = random.between(0.0, 0.6 * kLink);
     bool all = true;
     const bool said_all = patches.find(static_cast<float>(reach), nodes.rounding());

@@ -140,7 +140,7 @@ TEST_F(ObstaclesAtRest, AreSeenWhereASnapshotHasThem) {
   expectRange(elsewhere, -0.1, 5.1, "saved");
   Archive out = Archive::saving();
   elsewhere.carry(out);
-  const std::string bytes = out.takeWritten();
+  const std::string bytes = out.extractWritten();
   Archive in = Archive::loading(bytes);
   set_.carry(in);
   in.finishLoading();

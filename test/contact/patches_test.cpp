@@ -145,7 +145,7 @@ TEST(Patches, SayWhatDeviates) {
     Scattered places = scatter(grid, 1.0, random);
     SweptNodes nodes(grid);
     nodes.set(places.start, places.end);
-    nodes.takeLargest(20.0f);
+    nodes.setLargest(20.0f);
     std::vector<Vec3> deviation(grid.size(), Vec3::Zero());
     const Vec3 common = random.inBox(0.3);
     for (std::size_t n = 0; n < grid.size(); ++n) {

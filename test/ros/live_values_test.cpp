@@ -184,7 +184,7 @@ TEST(LiveValues, AreTakenOneByOne) {
     }
     wanted.__fromMessage__(message);
     ASSERT_FALSE(same(wanted, before)) << parameter->name;
-    EXPECT_TRUE(takeLiveValues(wanted, simulator, params).empty()) << parameter->name;
+    EXPECT_TRUE(applyLiveValues(wanted, simulator, params).empty()) << parameter->name;
     EXPECT_TRUE(same(presentOf(simulator, params), wanted)) << parameter->name;
   }
 }
@@ -200,7 +200,7 @@ TEST(LiveValues, ThatAreWrongAreLeftAlone) {
   wanted.air_law = "thick";
   wanted.mesh_rate = std::nan("");
   wanted.gravity_z = -1.62;
-  const std::vector<curtain::Problem> problems = takeLiveValues(wanted, simulator, params);
+  const std::vector<curtain::Problem> problems = applyLiveValues(wanted, simulator, params);
   std::set<std::string> keys;
   for (const curtain::Problem& problem : problems) keys.insert(problem.key);
   EXPECT_EQ(keys, (std::set<std::string>{"air.law", "contact.friction", "mesh_rate", "solver.position_tolerance"}));
@@ -215,7 +215,7 @@ TEST(LiveValues, ThatAreTheSameChangeNothing) {
   NodeParams params;
   while (!simulator.statistics().asleep && simulator.time() < 20.0) simulator.step();
   ASSERT_TRUE(simulator.statistics().asleep);
-  EXPECT_TRUE(takeLiveValues(presentOf(simulator, params), simulator, params).empty());
+  EXPECT_TRUE(applyLiveValues(presentOf(simulator, params), simulator, params).empty());
   for (int frame = 0; frame < 3; ++frame) simulator.step();
   EXPECT_TRUE(simulator.statistics().asleep);
 }

@@ -54,7 +54,7 @@ TEST_F(SnapshotKeeperTest, WithoutAFileDoesNothing) {
   EXPECT_FALSE(keeper.restore(simulator));
   keeper.update(simulator, 0);
   keeper.update(simulator, 10 * kSecond);
-  keeper.take(simulator);
+  keeper.keep(simulator);
   EXPECT_FALSE(keeper.health().wanted);
   EXPECT_TRUE(std::filesystem::is_empty(folder_));
 }
@@ -66,7 +66,7 @@ TEST_F(SnapshotKeeperTest, GoesOnFromTheLastOne) {
     SnapshotKeeper keeper(file_, 10.0);
     EXPECT_FALSE(keeper.restore(simulator)) << "there is none yet";
     EXPECT_TRUE(keeper.health().refused.empty());
-    keeper.take(simulator);
+    keeper.keep(simulator);
   }
   curtain::Simulator other = makeSimulator();
   SnapshotKeeper keeper(file_, 10.0);
@@ -84,7 +84,7 @@ TEST_F(SnapshotKeeperTest, WithoutAThreadTheWriteFailsAndTheNextOneIsTried) {
   ASSERT_EQ(pthread_attr_init(&too_large), 0);
   ASSERT_EQ(pthread_attr_setstacksize(&too_large, std::size_t{1} << 47U), 0);
   ASSERT_EQ(pthread_setattr_default_np(&too_large), 0);
-  keeper.take(simulator);
+  keeper.keep(simulator);
   ASSERT_EQ(pthread_setattr_default_np(&usual), 0);
   EXPECT_TRUE(keeper.idle());
   EXPECT_EQ(keeper.health().failed, 1U);
@@ -122,7 +122,7 @@ TEST_F(SnapshotKeeperTest, AllAreAccountedFor) {
   SnapshotHealth counts;
   {
     SnapshotKeeper keeper(file_, 10.0);
-    for (int i = 0; i < 300; ++i) keeper.take(simulator);
+    for (int i = 0; i < 300; ++i) keeper.keep(simulator);
     simulator.step();
     keeper.finish(simulator);
     counts = keeper.health();
@@ -137,7 +137,7 @@ TEST_F(SnapshotKeeperTest, AllAreAccountedFor) {
 TEST_F(SnapshotKeeperTest, AFolderThatIsNotThereIsAFailure) {
   const curtain::Simulator simulator = makeSimulator();
   SnapshotKeeper keeper((folder_ / "nowhere" / "curtain.snapshot").string(), 10.0);
-  keeper.take(simulator);
+  keeper.keep(simulator);
   while (!keeper.idle()) ::usleep(1000);
   EXPECT_EQ(keeper.health().failed, 1U);
   EXPECT_NE(keeper.health().last_failure.find("nowhere"), std::string::npos);
@@ -157,10 +157,10 @@ TEST_F(SnapshotKeeperTest, OneThatIsRefusedIsPutAside) {
       EXPECT_FALSE(keeper.health().foreign);
       EXPECT_EQ(simulator.stateHash(), makeSimulator().stateHash());
       EXPECT_EQ(content(), bytes) << "not before there is another one";
-      keeper.take(simulator);
+      keeper.keep(simulator);
       while (!keeper.idle()) ::usleep(1000);
       simulator.step();
-      keeper.take(simulator);
+      keeper.keep(simulator);
     }
     EXPECT_EQ(content(), simulator.snapshot());
     EXPECT_EQ(content(".refused"), bytes);
@@ -178,7 +178,7 @@ TEST_F(SnapshotKeeperTest, WhatIsNoSnapshotIsLeftAlone) {
       EXPECT_TRUE(keeper.health().foreign);
       keeper.update(simulator, 0);
       keeper.update(simulator, 100 * kSecond);
-      keeper.take(simulator);
+      keeper.keep(simulator);
     }
     EXPECT_EQ(content(), bytes);
   }

@@ -18,7 +18,7 @@ TEST(StepClock, StartsOnePeriodBeforeItsFirstFrame) {
   EXPECT_EQ(clock.next(), 5 * kSecond + kSecond / 100);
   EXPECT_EQ(clock.update(5 * kSecond + kSecond / 100 - 2000).frames, 0);
   EXPECT_EQ(clock.update(5 * kSecond + kSecond / 100).frames, 1);
-  EXPECT_EQ(clock.take(), 5 * kSecond + kSecond / 100);
+  EXPECT_EQ(clock.advance(), 5 * kSecond + kSecond / 100);
 }
 
 // 60 frames a second do not drift, although 1/60 s is no whole number of nanoseconds.
@@ -29,7 +29,7 @@ TEST(StepClock, DoesNotDrift) {
   std::int64_t last = 0;
   for (std::int64_t now = kSecond; now <= 3601 * kSecond; now += kSecond / 100) {
     const int due = clock.update(now).frames;
-    for (int i = 0; i < due; ++i, ++frames) last = clock.take();
+    for (int i = 0; i < due; ++i, ++frames) last = clock.advance();
   }
   EXPECT_EQ(frames, 3600 * 60);
   EXPECT_EQ(last, 3601 * kSecond);
@@ -42,8 +42,8 @@ TEST(StepClock, CapsCatchUpAndCountsWhatItDrops) {
   clock.update(kSecond);
   EXPECT_EQ(clock.update(2 * kSecond).frames, 4);
   EXPECT_EQ(clock.dropped(), 6U);
-  EXPECT_EQ(clock.take(), kSecond + 7 * kSecond / 10);
-  for (int i = 0; i < 3; ++i) clock.take();
+  EXPECT_EQ(clock.advance(), kSecond + 7 * kSecond / 10);
+  for (int i = 0; i < 3; ++i) clock.advance();
   EXPECT_EQ(clock.next(), 2 * kSecond + kSecond / 10);
   EXPECT_EQ(clock.update(2 * kSecond).frames, 0);
 }
@@ -53,7 +53,7 @@ TEST(StepClock, StartsAgainWhenTheClockJumpsBack) {
   StepClock clock(10.0, 1);
   clock.update(kSecond);
   clock.update(2 * kSecond);
-  clock.take();
+  clock.advance();
   const StepClock::Due due = clock.update(kSecond / 2);
   EXPECT_TRUE(due.restarted);
   EXPECT_EQ(due.frames, 0);
@@ -68,7 +68,7 @@ TEST(StepClock, ForgivesRounding) {
   clock.update(100 * kSecond);
   for (int i = 1; i <= 100; ++i) {
     EXPECT_EQ(clock.update(100 * kSecond + i * kSecond / 50 - 1).frames, 1);
-    clock.take();
+    clock.advance();
   }
 }
 
@@ -77,7 +77,7 @@ TEST(StepClock, PassesOverAPause) {
   StepClock clock(10.0, 4);
   clock.update(kSecond);
   clock.update(kSecond + kSecond / 10);
-  clock.take();
+  clock.advance();
   EXPECT_EQ(clock.pass(kSecond + kSecond / 8).frames, 0);
   EXPECT_EQ(clock.pass(100 * kSecond + kSecond / 20).frames, 1);
   EXPECT_EQ(clock.pass(100 * kSecond + kSecond / 20).frames, 0);
@@ -93,14 +93,14 @@ TEST(StepClock, ChangesItsRate) {
   StepClock clock(10.0, 4);
   clock.update(kSecond);
   clock.update(2 * kSecond);
-  for (int i = 0; i < 4; ++i) clock.take();
+  for (int i = 0; i < 4; ++i) clock.advance();
   clock.update(2 * kSecond + kSecond / 20);
   const std::uint64_t dropped = clock.dropped();
   clock.setRate(1000.0);
   EXPECT_EQ(clock.next(), 2 * kSecond + kSecond / 20 + kSecond / 1000);
   EXPECT_EQ(clock.update(2 * kSecond + kSecond / 20 + kSecond / 1000).frames, 1);
-  clock.take();
-  clock.take();  // ahead of the clock, as a grid of stamps is
+  clock.advance();
+  clock.advance();  // ahead of the clock, as a grid of stamps is
   clock.setRate(1.0);
   EXPECT_EQ(clock.next(), 2 * kSecond + kSecond / 20 + 2 * kSecond / 1000 + kSecond);
   EXPECT_EQ(clock.dropped(), dropped);

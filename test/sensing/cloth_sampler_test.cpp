@@ -24,7 +24,7 @@ FlatCloth flatOf(const Simulator& simulator) {
 std::vector<CloudPoint> cloudOf(const Simulator& simulator, double density, std::uint64_t seed = 1) {
   const FlatCloth flat = flatOf(simulator);
   Moment moment;
-  takeMoment(simulator, moment);
+  readMoment(simulator, moment);
   std::vector<CloudPoint> cloud;
   ClothSampler(flat, density, seed).sample(moment, cloud);
   return cloud;

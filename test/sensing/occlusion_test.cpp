@@ -69,7 +69,7 @@ Scene randomScene(Random& random) {
 /// The moment of a simulator, its nodes thrown about.
 Moment randomMoment(const Simulator& simulator, Random& random) {
   Moment moment;
-  takeMoment(simulator, moment);
+  readMoment(simulator, moment);
   for (Vec3& position : moment.mesh.positions) position += random.inBox(0.04);
   for (char& present : moment.present) present = random.between(0.0, 1.0) < 0.8 ? 1 : 0;
   return moment;
@@ -194,7 +194,7 @@ TEST(Occlusion, TurnsNormalsOfMeshesWithThem) {
   scene.obstacles = {none, ball, other};
   const Simulator simulator(scene);
   Moment moment;
-  takeMoment(simulator, moment);
+  readMoment(simulator, moment);
   Pose sensor;  // behind the cloth, a little above
   sensor.position = Vec3(0.5, 0.5, 1.3);
   sensor.orientation = Rotation::FromTwoVectors(Vec3::UnitZ(), Vec3(0.5, 2.0, 1.0) - sensor.position);
@@ -243,7 +243,7 @@ TEST(Occlusion, KnowsWhereOnTheClothItIs) {
   view.setRays(cameraRays(cameraModel(params.camera), problems));
   ASSERT_TRUE(problems.empty());
   Moment moment;
-  takeMoment(simulator, moment);
+  readMoment(simulator, moment);
   for (std::size_t n = 0; n < moment.velocities.size(); ++n) moment.velocities[n] = Vec3(0.0, 3.0, 0.0);
   Pose sensor;
   sensor.position = Vec3(0.5, -1.5, 0.5);  // looks along +y, x to the right, z up

@@ -48,7 +48,7 @@ struct Wall {
     view.setRays(cameraRays(cameraModel(params.camera), problems));
     EXPECT_TRUE(problems.empty());
     Moment moment;
-    takeMoment(simulator, moment);
+    readMoment(simulator, moment);
     view.look(moment, sensor);
     return view.readings();
   }

@@ -26,7 +26,7 @@ Scene restingScene() {
 
 // Seven columns at rest; one that is told to drifts on by so much a frame.
 struct Cloth {
-  Cloth() { rest.takeLimits(0.0); }
+  Cloth() { rest.setLimits(0.0); }
   // So many seconds from now on.
   void wait(double seconds) {
     for (const double end = time + seconds - 1e-9; time < end;) {
@@ -123,7 +123,7 @@ TEST(FallingAsleep, NeedsGravityAndSpeedAndShortFrames) {
   const Scene good = cloth.scene;
   const auto canWith = [&cloth](const Scene& scene) {
     cloth.scene = scene;
-    cloth.rest.takeLimits(0.0);
+    cloth.rest.setLimits(0.0);
     return cloth.rest.can();
   };
   Scene bad = good;

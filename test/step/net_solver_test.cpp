@@ -67,7 +67,7 @@ struct Net {
   }
   void take() {
     for (int i = 0; i < pattern.grid.rows; ++i) {
-      takeUpWeft(weft, pattern.grid, i, change);
+      applyWeftChange(weft, pattern.grid, i, change);
       pullWeft(line(), i, change);
     }
   }

@@ -76,10 +76,10 @@ ClothFlatness::ClothFlatness(const ClothPattern& pattern, double overlong)
   const Grid& grid = pattern.grid;
   const double per_u = 1.0 / pattern.weft_rest[1], per_v = 1.0 / pattern.warp_rest[grid.index(1, 0)];
   per_altitude_ = std::sqrt(per_u * per_u + per_v * per_v);
-  takePins();
+  pinsChanged();
 }
 
-void ClothFlatness::takePins() noexcept {
+void ClothFlatness::pinsChanged() noexcept {
   const Grid& grid = pattern_.grid;
   usable_ = regular_;
   checks_top_ = false;

@@ -29,7 +29,7 @@ class ClothFlatness {
   ClothFlatness(const ClothPattern& pattern, double overlong);
 
   /// The pattern's pins have changed.
-  void takePins() noexcept;
+  void pinsChanged() noexcept;
 
   /// True: any two elements of the cloth without a common node are further apart than `reach` [m]; false: unknown. No
   /// link, except between pins, may be longer than `overlong` allows. Allocates nothing.
@@ -45,7 +45,7 @@ class ClothFlatness {
   }
   void invalidate() noexcept { start_.known = end_.known = false; }
   /// Sets the largest strain of a link [1].
-  void takeOverlong(double overlong) noexcept {
+  void setOverlong(double overlong) noexcept {
     overlong_ = overlong;
     invalidate();
   }

@@ -43,7 +43,7 @@ SelfCandidates::SelfCandidates(const ClothPattern& pattern, const Workers* worke
     for (int j = 0; j < grid_.stride; ++j)
       in_field_[grid_.index(i, j)] = static_cast<std::uint32_t>(pattern.grid.index(i, j % grid_.columns));
   }
-  takePins(pattern);
+  pinsChanged(pattern);
   makeKinds();
   for (Share& share : shares_) {
     share.quads.reserve(kQuadsAtOnce);
@@ -53,7 +53,7 @@ SelfCandidates::SelfCandidates(const ClothPattern& pattern, const Workers* worke
   }
 }
 
-void SelfCandidates::takePins(const ClothPattern& pattern) noexcept {
+void SelfCandidates::pinsChanged(const ClothPattern& pattern) noexcept {
   for (std::size_t n = 0; n < immovable_.size(); ++n) immovable_[n] = pattern.inverse_mass[in_field_[n]] == 0.0 ? 1 : 0;
 }
 
@@ -113,7 +113,7 @@ void SelfCandidates::collectDeviating(const Field3& end, double reach, Candidate
 
 void SelfCandidates::collectOf(double reach, double deviation, Candidates& out) noexcept {
   for (int row = 0; row < flat_.rows(); ++row) flat_.measureRow(nodes_, row);
-  nodes_.takeLargest(flat_.largest());
+  nodes_.setLargest(flat_.largest());
   patches_.sort(flat_);
   const float certain = static_cast<float>(reach) * (1.0f + 2.0f * std::numeric_limits<float>::epsilon());
   const Query query{

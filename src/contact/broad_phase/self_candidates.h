@@ -36,7 +36,7 @@ class SelfCandidates {
   explicit SelfCandidates(const ClothPattern& pattern, const Workers* workers = nullptr);
 
   /// Which nodes can't move has changed.
-  void takePins(const ClothPattern& pattern) noexcept;
+  void pinsChanged(const ClothPattern& pattern) noexcept;
 
   /// Appends every pair (vertex, triangle) and (edge, edge) that has no common node, has a movable node, and comes
   /// within `reach` [m, >= 0] at some time while nodes move straight from start to end (finite, of the grid's size);

@@ -106,7 +106,7 @@ void SweptNodes::setEnd(const Field3& end) noexcept {
 
 // Two coordinates are rounded once each, and so is their difference, which is at most twice as large; the shift to the
 // origin rounds in double precision.
-void SweptNodes::takeLargest(float largest) noexcept {
+void SweptNodes::setLargest(float largest) noexcept {
   const double shift = origin_.cwiseAbs().cwiseMax(origin_at_end_.cwiseAbs()).maxCoeff();
   rounding_ = 4.0f * kUnit * largest + 1e-15f * static_cast<float>(shift);
 }

@@ -25,7 +25,7 @@ class SweptNodes {
   /// The same start and another end [m] than the one that set() was told, which is kept as the expected one.
   void setEnd(const Field3& end) noexcept;
   /// Takes the largest magnitude of a coordinate in start() and end() [m], for rounding().
-  void takeLargest(float largest) noexcept;
+  void setLargest(float largest) noexcept;
   /// Copies them to nodes().
   void interleave() noexcept;
 

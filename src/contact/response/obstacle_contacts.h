@@ -63,7 +63,7 @@ class ObstacleContacts {
   /// got from them, over the time that its forces acted for, which is not the substep's length where steps change.
   void remember(const Contacts& contacts, const Field3& position, const SubstepOutcome& outcome) noexcept;
   /// Accepted substeps without contact are undone, whose forces acted for `time` [s] in all.
-  void takeBack(double time) noexcept { acted_ -= time; }
+  void withdraw(double time) noexcept { acted_ -= time; }
   /// Results do not depend on it.
   void clearCaches() noexcept;
   void carry(Archive& archive);

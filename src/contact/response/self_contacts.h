@@ -49,7 +49,7 @@ class SelfContacts {
 
   double gap() const noexcept { return gap_; }
   void limitRecovery(double most) noexcept { most_recovery_ = most; }
-  void takeFriction(double friction) noexcept { friction_ = friction; }
+  void setFriction(double friction) noexcept { friction_ = friction; }
 
   /// Adds contacts that may touch along the motion from start to predicted, in a substep of h [s], and those that
   /// pushed in the last one (`last`), sorted by node. candidates: at least all pairs that come within the gap, in any

@@ -21,13 +21,13 @@ Vec3 directionOf(const Vec3& v) noexcept {
 
 PaperSolver::PaperSolver(const ClothPattern& pattern)
     : pattern_(pattern), most_way_(kMostSizes * (pattern.warp_coordinate.back() + pattern.weft_coordinate.back())) {
-  takePins();
+  pinsChanged();
   start_.assign(pattern.grid.size(), 0.0);
   rebuilt_ = start_;
   taut_.assign(static_cast<std::size_t>(pattern.grid.columns), 0);
 }
 
-void PaperSolver::takePins() {
+void PaperSolver::pinsChanged() {
   chains_.clear();
   pins_.clear();
   between_.clear();

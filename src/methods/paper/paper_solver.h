@@ -36,7 +36,7 @@ class PaperSolver {
   explicit PaperSolver(const ClothPattern& pattern);
 
   /// Takes what follows from the pattern's pins. Allocates.
-  void takePins();
+  void pinsChanged();
 
   /// One substep of length h > 0 [s]; finder may be null. Where a force is beyond numbers the cloth stops where it is.
   SubstepOutcome substep(const NodeForces& forces, double h, ContactFinder* finder, ClothState& state,

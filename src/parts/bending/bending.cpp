@@ -55,11 +55,11 @@ Bending::Bending(const ClothPattern& pattern, const Workers& workers)
   for (Field3* field : {&couples_, &moved_}) field->assign(size, 0.0);
 }
 
-void Bending::takePins() noexcept {
+void Bending::pinsChanged() noexcept {
   fillWarpLines(pattern_, warp_);
   fillWeftLines(pattern_, weft_);
-  warp_rest_.takePins();
-  weft_rest_.takePins();
+  warp_rest_.pinsChanged();
+  weft_rest_.pinsChanged();
   stiffest_ = stiffestOf(pattern_, warp_, weft_);
 }
 

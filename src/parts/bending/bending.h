@@ -27,7 +27,7 @@ class Bending final : public ElasticPart, public Part {
   Bending(const ClothPattern& pattern, const Workers& workers);
 
   bool any() const noexcept override { return warp_.bend() || weft_.bend(); }
-  void takePins() noexcept override;
+  void pinsChanged() noexcept override;
 
   /// After begin(): lines are stiffer than the step bears.
   bool gives() const noexcept { return gives_; }

@@ -18,7 +18,7 @@ class RestCurvature {
   RestCurvature(const ClothPattern& pattern, bool warp);
 
   /// The pins of its pattern have changed. Allocates nothing.
-  void takePins() noexcept { fill(); }
+  void pinsChanged() noexcept { fill(); }
 
   /// Part of the energy that does not change [J].
   double constant() const noexcept { return constant_; }

@@ -122,7 +122,7 @@ void Grasps::countSprings(Grasp& grasp, const ClothState& state) noexcept {
     grasp.push(state.position.at(held.node), origin, -part_.h * force);
     sum += force;
   }
-  grasp.springs.taken(grasp.held, sum.norm());
+  grasp.springs.substepAccepted(grasp.held, sum.norm());
   slide(grasp, state);
 }
 

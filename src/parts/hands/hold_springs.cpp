@@ -37,7 +37,7 @@ void HoldSprings::addForces(std::vector<HeldNode>& held, const ClothState& state
   }
 }
 
-void HoldSprings::taken(std::vector<HeldNode>& held, double pull) noexcept {
+void HoldSprings::substepAccepted(std::vector<HeldNode>& held, double pull) noexcept {
   pull_ = pull;
   for (HeldNode& node : held) node.velocity = node.started;
 }

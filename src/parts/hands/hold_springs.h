@@ -46,7 +46,7 @@ class HoldSprings {
   void addForces(std::vector<HeldNode>& held, const ClothState& state, const FramePart& part, Field3& force,
                  Field& damping) noexcept;
   /// That substep was accepted, and they pulled with this sum [N].
-  void taken(std::vector<HeldNode>& held, double pull) noexcept;
+  void substepAccepted(std::vector<HeldNode>& held, double pull) noexcept;
 
   double pull() const noexcept { return pull_; }
   void setPull(double pull) noexcept { pull_ = pull; }

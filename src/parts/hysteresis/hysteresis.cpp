@@ -68,7 +68,7 @@ void Hysteresis::fill() noexcept {
   look(false, pattern_.weft_bending, weft_length_, cloth_.bending_weft);
 }
 
-void Hysteresis::takePins() noexcept {
+void Hysteresis::pinsChanged() noexcept {
   if (any()) fill();
 }
 

@@ -34,7 +34,7 @@ class Hysteresis final : public ExplicitPart, public Part {
   void placed(const ClothState& before, ClothState& state) noexcept override;
   void carry(Archive& archive) override;
 
-  void takePins() noexcept override;
+  void pinsChanged() noexcept override;
   double omegaSquared() const noexcept override { return omega_squared_; }
   double commit(const Field3& position) noexcept override;
   void save(std::vector<double>& memory) const override;

@@ -54,12 +54,12 @@ void RailLaw::solve(std::vector<RailRow>& rows) noexcept {
   }
   for (std::size_t p = 0; p < pools_; ++p) {
     pool_[p].u = std::clamp(pool_[p].u, 0.0, most_);
-    take(pool_[p], rows);
+    settle(pool_[p], rows);
     share(pool_[p], rows);
   }
 }
 
-void RailLaw::take(const Pool& pool, std::vector<RailRow>& rows) const noexcept {
+void RailLaw::settle(const Pool& pool, std::vector<RailRow>& rows) const noexcept {
   const bool stopped = pool.u == 0.0 || pool.u == most_;
   bool stays = stopped;
   for (std::size_t i = pool.first; i < pool.end; ++i) {

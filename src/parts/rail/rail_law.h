@@ -60,7 +60,7 @@ class RailLaw {
     double at, bound;
   };
   double minimum(const std::vector<RailRow>& rows, std::size_t first, std::size_t end) noexcept;
-  void take(const Pool& pool, std::vector<RailRow>& rows) const noexcept;
+  void settle(const Pool& pool, std::vector<RailRow>& rows) const noexcept;
   void share(const Pool& pool, std::vector<RailRow>& rows) const noexcept;
   double shift(std::size_t index) const noexcept { return gap_ * static_cast<double>(index); }
 

@@ -48,7 +48,7 @@ void Hands::apply(Simulator& simulator, const ros::Time& now) {
   mailbox_.collect(letters_);
   for (Letter& letter : letters_) read(letter, simulator, now);
   letters_.clear();
-  forget([&](Hand& hand) { return hand.holds ? !follow(hand, simulator, now) : !take(hand, simulator, now); });
+  forget([&](Hand& hand) { return hand.holds ? !follow(hand, simulator, now) : !grip(hand, simulator, now); });
 }
 
 void Hands::read(Letter& letter, Simulator& simulator, const ros::Time&) {
@@ -62,7 +62,7 @@ void Hands::read(Letter& letter, Simulator& simulator, const ros::Time&) {
 }
 
 // Takes hold, if the frame is known. False: it is refused.
-bool Hands::take(Hand& hand, Simulator& simulator, const ros::Time& now) {
+bool Hands::grip(Hand& hand, Simulator& simulator, const ros::Time& now) {
   switch (hand.frame.look(frames_, now)) {
     case FollowedFrame::Standing::kWaiting:
       return true;
@@ -81,7 +81,7 @@ bool Hands::take(Hand& hand, Simulator& simulator, const ros::Time& now) {
     refuse(hand.goal, problems);
     return false;
   }
-  inputs_.take();
+  inputs_.countAccepted();
   hand.holds = true;
   hand.ends = wanted.lifetime > 0.0 ? simulator.time() + wanted.lifetime : std::numeric_limits<double>::infinity();
   hand.goal.setAccepted("holds " + numberOf(simulator.graspState(hand.id)->nodes.size()));

@@ -59,7 +59,7 @@ class Hands {
 
   void read(Letter& letter, curtain::Simulator& simulator, const ros::Time& now);
   void cancel(const Goal& goal, curtain::Simulator& simulator);
-  bool take(Hand& hand, curtain::Simulator& simulator, const ros::Time& now);
+  bool grip(Hand& hand, curtain::Simulator& simulator, const ros::Time& now);
   bool follow(Hand& hand, curtain::Simulator& simulator, const ros::Time& now);
   bool tell(Hand& hand, curtain::Simulator& simulator);
   void refuse(Goal& goal, const std::vector<curtain::Problem>& problems);

@@ -12,7 +12,7 @@ namespace curtain_ros {
 
 using curtain_sim::WindSource;
 
-void CarriedWinds::take(const WindSource& message) {
+void CarriedWinds::note(const WindSource& message) {
   if (message.action == WindSource::DELETEALL) {
     carried_.clear();
   } else if (message.action == WindSource::ADD && message.moves_with_frame) {

@@ -17,7 +17,7 @@ namespace curtain_ros {
 class CarriedWinds {
  public:
   /// A message was taken that adds, replaces or deletes a source.
-  void take(const curtain_sim::WindSource& message);
+  void note(const curtain_sim::WindSource& message);
   /// A new run begins: the simulator has forgotten the messages' sources.
   void clear() { carried_.clear(); }
 

@@ -83,7 +83,7 @@ Handles::Handles(ros::NodeHandle private_node, const NodeParams& params, const c
   update_watch_ = private_node.advertise<visualization_msgs::InteractiveMarkerUpdate>("handles/update", 100);
 }
 
-void Handles::takeFrameRate(double frame_rate) { rate_.setRate(kFollowRate, frame_rate); }
+void Handles::setFrameRate(double frame_rate) { rate_.setRate(kFollowRate, frame_rate); }
 
 void Handles::update(const curtain::Simulator& simulator) {
   if (!rate_.tick() || update_watch_.getNumSubscribers() == 0) return;

@@ -33,7 +33,7 @@ class Handles {
   Handles(ros::NodeHandle private_node, const NodeParams& params, const curtain::Simulator& simulator, Inputs& inputs);
 
   /// Frames a second, from now on.
-  void takeFrameRate(double frame_rate);
+  void setFrameRate(double frame_rate);
 
   /// To be called each frame: about ten times a second moves the handles to their nodes, if somebody subscribed and
   /// either may have moved.

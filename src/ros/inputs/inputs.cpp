@@ -115,7 +115,7 @@ bool Inputs::handle(const char* topic, const Message& message, Simulator& simula
     }
   }
   if (problems.empty()) {
-    take();
+    countAccepted();
     note(message);
   } else {
     refuse(name, problems);

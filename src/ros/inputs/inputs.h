@@ -32,7 +32,7 @@ class Inputs {
   void post(const curtain_sim::DragForce::ConstPtr& message) { drags_.mailbox.post(message); }
 
   /// Counts a message that another input of the node took, or refused. Simulation thread.
-  void take() { ++taken_; }
+  void countAccepted() { ++taken_; }
   void refuse(const std::string& message, const std::vector<curtain::Problem>& problems);
 
   /// Applies what arrived, in order, and removes sources whose lifetime is over. Simulation thread.
@@ -72,7 +72,7 @@ class Inputs {
   void drop(const std::string& message, const std::string& why);
   void warnOfOverflow();
 
-  void note(const curtain_sim::WindSource& message) { carried_.take(message); }
+  void note(const curtain_sim::WindSource& message) { carried_.note(message); }
   void note(const curtain_sim::DragForce&) {}
 
   Frames& frames_;

@@ -95,7 +95,7 @@ void OpenCurtain::read(const Letter& letter, Simulator& simulator) {
     return;
   }
   supersede("a message on ~open came");
-  inputs_.take();
+  inputs_.countAccepted();
   simulator.setDrive(simulator.scene().rail.drive);
   simulator.setOpening(goal.opening);
 }
@@ -111,7 +111,7 @@ void OpenCurtain::accept(Goal goal, Simulator& simulator) {
     return;
   }
   supersede("another goal came");
-  inputs_.take();
+  inputs_.countAccepted();
   simulator.setOpening(wanted.opening);
   goal.setAccepted();
   goal_ = goal;

@@ -23,11 +23,11 @@ CameraInput::CameraInput(ros::NodeHandle& node, Inputs& inputs, Worker& worker)
 void CameraInput::apply() {
   std::deque<CameraInfo::ConstPtr> letters;
   letters_.collect(letters);
-  for (const CameraInfo::ConstPtr& letter : letters) take(*letter);
+  for (const CameraInfo::ConstPtr& letter : letters) receive(*letter);
   work();
 }
 
-void CameraInput::take(const CameraInfo& message) {
+void CameraInput::receive(const CameraInfo& message) {
   Camera camera;
   std::vector<curtain::Problem> problems = toCamera(message, camera.model);
   if (problems.empty()) problems = curtain::checkCamera(camera.model);
@@ -35,7 +35,7 @@ void CameraInput::take(const CameraInfo& message) {
   if (!problems.empty()) return inputs_.refuse("camera_info", problems);
   camera.message = message;
   completeProjection(camera.message);
-  if (std::exchange(next_, std::nullopt)) inputs_.take();  // this one has overtaken it
+  if (std::exchange(next_, std::nullopt)) inputs_.countAccepted();  // this one has overtaken it
   // Its frame and its projection may be others without other rays.
   if (making_ && camera.model == making_->model) {
     making_ = std::move(camera);
@@ -45,7 +45,7 @@ void CameraInput::take(const CameraInfo& message) {
     next_ = std::move(camera);
     return;  // counted when its rays are made
   }
-  inputs_.take();
+  inputs_.countAccepted();
 }
 
 bool CameraInput::work() {
@@ -73,9 +73,9 @@ void CameraInput::settle() {
   model_ = camera.model;
   info_ = camera.message;
   rays_ = std::move(made_);
-  inputs_.take();
+  inputs_.countAccepted();
 }
 
-std::optional<curtain::RayGrid> CameraInput::takeRays() { return std::exchange(rays_, std::nullopt); }
+std::optional<curtain::RayGrid> CameraInput::newRays() { return std::exchange(rays_, std::nullopt); }
 
 }  // namespace curtain_ros

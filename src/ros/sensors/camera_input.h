@@ -37,7 +37,7 @@ class CameraInput {
   const std::optional<sensor_msgs::CameraInfo>& info() const { return info_; }
 
   /// Its rays, once for each camera.
-  std::optional<curtain::RayGrid> takeRays();
+  std::optional<curtain::RayGrid> newRays();
 
   std::string topic() const { return subscriber_.getTopic(); }
 
@@ -47,7 +47,7 @@ class CameraInput {
     sensor_msgs::CameraInfo message;
   };
 
-  void take(const sensor_msgs::CameraInfo& message);
+  void receive(const sensor_msgs::CameraInfo& message);
   void settle();
 
   Inputs& inputs_;

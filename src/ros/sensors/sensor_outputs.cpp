@@ -74,12 +74,12 @@ std::vector<std::string> SensorOutputs::topics() const {
 void SensorOutputs::apply() {
   if (!camera_input_) return;
   camera_input_->apply();
-  takeCamera();
+  updateCamera();
 }
 
-void SensorOutputs::takeCamera() {
+void SensorOutputs::updateCamera() {
   camera_ = camera_input_->info();
-  std::optional<curtain::RayGrid> rays = camera_input_->takeRays();
+  std::optional<curtain::RayGrid> rays = camera_input_->newRays();
   if (rays) rays_ = std::move(rays);
   if (camera_ && params_.frame.empty() && !(frame_ && frame_->name() == camera_->header.frame_id))
     frame_.emplace(camera_->header.frame_id, params_.timeout, "~points/timeout");
@@ -89,7 +89,7 @@ void SensorOutputs::finish() {
   worker_.finish();
   if (!camera_input_) return;
   while (camera_input_->work()) worker_.finish();
-  takeCamera();
+  updateCamera();
 }
 
 // False: it can't see now. Where it was at the stamp is known if a later transform is here already.
@@ -151,7 +151,7 @@ void SensorOutputs::beginView(const ros::Time& stamp, const ros::Time& now) {
     view_.cloud = points_.getNumSubscribers() > 0;
     view_.image = isCamera() && image_.getNumSubscribers() + info_.getNumSubscribers() > 0;
     if (camera_) view_camera_ = *camera_;
-    curtain::takeMoment(simulator_, view_.moment);
+    curtain::readMoment(simulator_, view_.moment);
     worker_.begin([this] { show(view_); });
   } catch (const std::exception& error) {  // no memory, no thread
     ROS_ERROR_STREAM_THROTTLE(kWarnPeriod, "~points can't be made: " << error.what());

@@ -64,7 +64,7 @@ class SensorOutputs {
   void finish();
 
   /// The frame rate has changed. [1/s]
-  void takeFrameRate(double frame_rate) { pace_.setRates(params_.rate, restRate(), frame_rate); }
+  void setFrameRate(double frame_rate) { pace_.setRates(params_.rate, restRate(), frame_rate); }
 
   /// Why nothing is seen although somebody listens; empty: it is seen, or nobody listens.
   const std::string& error() const { return error_; }
@@ -84,7 +84,7 @@ class SensorOutputs {
   bool isCamera() const { return params_.sensor == curtain::SensorKind::kCamera; }
   bool isSensor() const { return params_.sensor != curtain::SensorKind::kAllRound; }
   double restRate() const;
-  void takeCamera();
+  void updateCamera();
   std::uint32_t listeners();
   void beginView(const ros::Time& stamp, const ros::Time& now);
   bool findSensor(const ros::Time& stamp, const ros::Time& now);

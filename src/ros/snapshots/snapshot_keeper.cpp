@@ -79,10 +79,10 @@ void SnapshotKeeper::update(const curtain::Simulator& simulator, std::int64_t no
   if (!next_ || now < *next_ - period_) next_ = now + period_;
   if (now < *next_) return;
   next_ = now + period_;
-  take(simulator);
+  keep(simulator);
 }
 
-void SnapshotKeeper::take(const curtain::Simulator& simulator) {
+void SnapshotKeeper::keep(const curtain::Simulator& simulator) {
   if (!writes()) return;
   collect();
   if (!writing_.valid()) {
@@ -94,7 +94,7 @@ void SnapshotKeeper::take(const curtain::Simulator& simulator) {
 }
 
 void SnapshotKeeper::finish(const curtain::Simulator& simulator) {
-  take(simulator);
+  keep(simulator);
   drain();
 }
 

@@ -50,7 +50,7 @@ class SnapshotKeeper {
   /// To be called after each frame. now  [ns] of the node's clock
   void update(const curtain::Simulator& simulator, std::int64_t now);
 
-  void take(const curtain::Simulator& simulator);
+  void keep(const curtain::Simulator& simulator);
 
   /// Takes the last one, and returns when it is written.
   void finish(const curtain::Simulator& simulator);

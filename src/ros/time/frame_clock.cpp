@@ -87,15 +87,15 @@ StepClock::Due FrameClock::told(const StepClock::Due& due) {
   return due;
 }
 
-ros::Time FrameClock::take() { return stamp(steps_.take()); }
+ros::Time FrameClock::advance() { return stamp(steps_.advance()); }
 
-ros::Time FrameClock::takeInPause() { return stamp(now()); }
+ros::Time FrameClock::stampInPause() { return stamp(now()); }
 
 // time [ns]: of the frame, by the clock that it is due by.
 ros::Time FrameClock::stamp(std::int64_t time) {
   measureSpeed();
   if (source_ == Source::kClock) return toTime(time);
-  if (source_ == Source::kOwn) return toTime(own_now_ = own_.take());
+  if (source_ == Source::kOwn) return toTime(own_now_ = own_.advance());
   const std::int64_t before = nanoseconds(ros::SteadyTime::now());
   const std::int64_t ros_time = nanoseconds(ros::Time::now());
   const std::int64_t after = nanoseconds(ros::SteadyTime::now());

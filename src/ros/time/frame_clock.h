@@ -39,10 +39,10 @@ class FrameClock {
   /// The same in a pause, as of StepClock.
   StepClock::Due pass(std::int64_t now);
 
-  /// Takes the next frame that is due; its stamp. Stamps rise, unless /clock jumped back.
-  ros::Time take();
+  /// Goes on to the next frame that is due; its stamp. Stamps rise, unless /clock jumped back.
+  ros::Time advance();
   /// The stamp of a frame that is made in a pause. Not where follows().
-  ros::Time takeInPause();
+  ros::Time stampInPause();
 
   /// ROS time as the node goes by: its own clock, or everybody's.
   ros::Time rosTime() const { return source_ == Source::kOwn ? toTime(own_now_) : ros::Time::now(); }

@@ -19,7 +19,7 @@ class StepClock {
   StepClock(double frame_rate, int max_catch_up) : period_(1e9 / frame_rate), max_catch_up_(max_catch_up) {}
 
   struct Due {
-    int frames = 0;          ///< to be made now, each to be fetched with take()
+    int frames = 0;          ///< to be made now, each to be followed by advance()
     bool restarted = false;  ///< the clock jumped back: a new run starts now
   };
 
@@ -48,8 +48,8 @@ class StepClock {
     period_ = 1e9 / frame_rate;
   }
 
-  /// Takes the next frame off the grid; its time [ns].
-  std::int64_t take() {
+  /// Goes on to the next frame of the grid; its time [ns].
+  std::int64_t advance() {
     const std::int64_t time = next();
     ++frame_;
     return time;

@@ -79,7 +79,7 @@ CurtainConfig liveValues(const curtain::Scene& scene, const NodeParams& params) 
   return values;
 }
 
-std::vector<Problem> takeLiveValues(const CurtainConfig& values, curtain::Simulator& simulator, NodeParams& params) {
+std::vector<Problem> applyLiveValues(const CurtainConfig& values, curtain::Simulator& simulator, NodeParams& params) {
   std::vector<Problem> all;
   const auto add = [&all](const std::vector<Problem>& problems) {
     all.insert(all.end(), problems.begin(), problems.end());

@@ -17,7 +17,7 @@ curtain_sim::CurtainConfig liveValues(const curtain::Scene& scene, const NodePar
 
 /// Gives the simulator and the node's parameters these values, judged as the scene's and the parameters' are. Returns
 /// what is wrong; those are left as they are, the others are taken. Simulation thread.
-std::vector<curtain::Problem> takeLiveValues(const curtain_sim::CurtainConfig& values, curtain::Simulator& simulator,
-                                             NodeParams& params);
+std::vector<curtain::Problem> applyLiveValues(const curtain_sim::CurtainConfig& values, curtain::Simulator& simulator,
+                                              NodeParams& params);
 
 }  // namespace curtain_ros

@@ -29,7 +29,7 @@ Tuning::Tuning(const ros::NodeHandle& private_node, Calls& calls, Actions action
 
 void Tuning::onChange(Config& config) {
   calls_.run([&] {
-    actions_.take(config);
+    actions_.apply(config);
     config = actions_.present();
   });
 }

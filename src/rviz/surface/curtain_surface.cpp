@@ -26,8 +26,8 @@ double meanOf(const std::vector<float>& values) {
 
 bool CurtainSurface::update(const curtain_sim::CurtainState& state) {
   const bool is_new = !isOfThisCloth(state);
-  if (is_new) takeCloth(state);
-  takeNodes(state);
+  if (is_new) setCloth(state);
+  setNodes(state);
   curtain::fineMeshNormals(topology_, mesh_, normals_);
   setVertices();
   return is_new;
@@ -40,7 +40,7 @@ bool CurtainSurface::isOfThisCloth(const curtain_sim::CurtainState& state) const
          slit_rows_ == state.slit_rows;
 }
 
-void CurtainSurface::takeCloth(const curtain_sim::CurtainState& state) {
+void CurtainSurface::setCloth(const curtain_sim::CurtainState& state) {
   curtain::ClothParams cloth;
   cloth.rows = static_cast<int>(state.rows);
   cloth.columns = static_cast<int>(state.columns);
@@ -60,7 +60,7 @@ void CurtainSurface::takeCloth(const curtain_sim::CurtainState& state) {
 }
 
 // The node's own second layer knows where obstacles are; where the message has none it is built from the first.
-void CurtainSurface::takeNodes(const curtain_sim::CurtainState& state) {
+void CurtainSurface::setNodes(const curtain_sim::CurtainState& state) {
   const std::size_t count = std::size_t{state.rows} * state.columns;
   nodes_.resize(count);
   for (std::size_t n = 0; n < count; ++n) nodes_[n] = pointAt(state.positions, n);

@@ -46,8 +46,8 @@ class CurtainSurface {
 
  private:
   bool isOfThisCloth(const curtain_sim::CurtainState& state) const;
-  void takeCloth(const curtain_sim::CurtainState& state);
-  void takeNodes(const curtain_sim::CurtainState& state);
+  void setCloth(const curtain_sim::CurtainState& state);
+  void setNodes(const curtain_sim::CurtainState& state);
   void setVertices();
   const curtain::Vec3& beside(int row, int column, int rightwards) const;
   float hollowAt(int row, int column, const curtain::Vec3& normal) const;

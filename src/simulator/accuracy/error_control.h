@@ -31,8 +31,8 @@ class ErrorControl {
 
   void reset() noexcept { estimate_.reset(); }
   /// The frames' length has changed.
-  void takeFrame() noexcept {
-    estimate_.takeFrame(motion_.times.length());
+  void frameLengthChanged() noexcept {
+    estimate_.setFrameLength(motion_.times.length());
     lose();
   }
   void carry(Archive& archive);

@@ -46,7 +46,7 @@ void ErrorEstimate::beginWindow() noexcept {
 }
 
 // Substeps keep their length, and a comparison starts at once.
-void ErrorEstimate::takeFrame(double length) noexcept {
+void ErrorEstimate::setFrameLength(double length) noexcept {
   substeps_ =
       static_cast<int>(std::clamp<double>(std::ceil(substeps_ * length / frame_length_ - 1e-9), fewest_, most_));
   frame_length_ = length;

@@ -32,7 +32,7 @@ class ErrorEstimate {
 
   void reset() noexcept;
   /// Sets the length of the next frames [s]; the next comparison starts at once.
-  void takeFrame(double length) noexcept;
+  void setFrameLength(double length) noexcept;
 
   /// The reference run starts with the coming frame from the motion's state, or is on its way.
   bool referenceStarts() const noexcept { return frames_ % (kEverySeconds * window_) == 0; }

@@ -50,7 +50,7 @@ std::vector<Problem> Simulator::setWind(const WindParams& given) {
   if (changes) disturbByWind(wind.id, im.motion, im.sleep.rest());
   winds.set(wind);
   if (changes) disturbByWind(wind.id, im.motion, im.sleep.rest());
-  im.sleep.takeLimits();  // the wind's speed may damp
+  im.sleep.limitsChanged();  // the wind's speed may damp
   return problems;
 }
 
@@ -102,7 +102,7 @@ std::vector<Problem> Simulator::setAir(const AirParams& air) {
   if (!problems.empty()) return problems;
   im.motion.velocities();  // as in setGravity()
   im.scene.air = air;
-  im.takeKeys();
+  im.keysChanged();
   im.sleep.rest().disturb();
   return problems;
 }
