@@ -24,7 +24,7 @@ namespace {
 using curtain::Archive;
 
 constexpr std::string_view kMagic = "curtain checkpoint\n";
-/// To be raised with every change of what carry() lists, or of its meaning.
+/// To be raised with every change of what serialize() lists, or of its meaning.
 constexpr std::uint32_t kVersion = 3;
 constexpr std::size_t kHeader = kMagic.size() + sizeof(std::uint32_t) + sizeof(std::uint64_t);
 constexpr std::size_t kChecksum = sizeof(std::uint32_t);
@@ -33,7 +33,7 @@ constexpr std::size_t kChecksum = sizeof(std::uint32_t);
 const std::vector<std::string> kAside = {"solver.threads", "obstacles[].mesh", "obstacles[].color",
                                          "obstacles[].visible"};
 
-void carry(Archive& archive, RunIdentity& run, Progress& progress, std::string& snapshot) {
+void serialize(Archive& archive, RunIdentity& run, Progress& progress, std::string& snapshot) {
   constexpr auto kLowest = std::numeric_limits<std::int64_t>::min(),
                  kHighest = std::numeric_limits<std::int64_t>::max();
   archive.list("options", run.options, [&](std::pair<std::string, std::string>& option) {
@@ -143,7 +143,7 @@ void writeCheckpoint(const std::string& path, const RunIdentity& run, const curt
   Progress own_progress = progress;
   std::string snapshot = simulator.snapshot();
   Archive archive = Archive::saving();
-  carry(archive, own_run, own_progress, snapshot);
+  serialize(archive, own_run, own_progress, snapshot);
   const std::string members = archive.extractWritten();
   std::string bytes(kMagic);
   bytes.reserve(kHeader + members.size() + kChecksum);
@@ -164,7 +164,7 @@ bool readCheckpoint(const std::string& path, const RunIdentity& run, curtain::Si
     Progress taken;
     std::string snapshot;
     Archive archive = Archive::loading(unpack(bytes));
-    carry(archive, theirs, taken, snapshot);
+    serialize(archive, theirs, taken, snapshot);
     archive.finishLoading();
     archive.commit();
     expectSame(run, theirs);

@@ -2,7 +2,7 @@
 //
 // Serialization of members for snapshots. A class lists its members once,
 //
-//     void carry(Archive& archive);
+//     void serialize(Archive& archive);
 //
 // and the same list saves, loads and describes them, so loading matches saving. Loading trusts no input: counts must
 // match the object, or bytes for each item must follow; indices and loop bounds are range-checked. It changes nothing
@@ -80,25 +80,25 @@ class Archive {
   /// A value that the object fixes: it is saved, and loading another one fails with `why`.
   void same(const char* name, std::uint64_t value, const std::string& why);
 
-  /// carry(item) for every item of a list of any length; its capacity stays. Returns the number of items.
-  template <typename Item, typename Carry>
-  std::size_t list(const char* name, std::vector<Item>& items, const Carry& carry);
-  /// blank: what carry(item) loads into.
-  template <typename Item, typename Carry>
-  void optional(const char* name, std::optional<Item>& item, const Item& blank, const Carry& carry);
+  /// serialize(item) for every item of a list of any length; its capacity stays. Returns the number of items.
+  template <typename Item, typename Serialize>
+  std::size_t list(const char* name, std::vector<Item>& items, const Serialize& serialize);
+  /// blank: what serialize(item) loads into.
+  template <typename Item, typename Serialize>
+  void optional(const char* name, std::optional<Item>& item, const Item& blank, const Serialize& serialize);
 
-  /// Groups what carry() lists under a name.
-  template <typename Carry>
-  void group(const char* name, const Carry& carry);
-  /// object.carry(archive) under a name.
+  /// Groups what serialize() lists under a name.
+  template <typename Serialize>
+  void group(const char* name, const Serialize& serialize);
+  /// object.serialize(archive) under a name.
   template <typename Object>
   void part(const char* name, Object& object) {
-    group(name, [&] { object.carry(*this); });
+    group(name, [&] { object.serialize(*this); });
   }
 
-  /// Values that carry() loads are assigned at once, not by commit(): for local variables.
-  template <typename Carry>
-  void atOnce(const Carry& carry);
+  /// Values that serialize() loads are assigned at once, not by commit(): for local variables.
+  template <typename Serialize>
+  void atOnce(const Serialize& serialize);
   /// When loading: assigns the value to the member, with commit().
   template <typename T>
   void put(T& member, T value);
@@ -175,58 +175,58 @@ void Archive::node(const char* name, Integer& index, const Grid& grid) {
   put(index, static_cast<Integer>(wide));
 }
 
-template <typename Carry>
-void Archive::group(const char* name, const Carry& carry) {
+template <typename Serialize>
+void Archive::group(const char* name, const Serialize& serialize) {
   const Naming naming(*this, name);
-  carry();
+  serialize();
 }
 
-template <typename Carry>
-void Archive::atOnce(const Carry& carry) {
+template <typename Serialize>
+void Archive::atOnce(const Serialize& serialize) {
   const bool before = std::exchange(at_once_, true);
-  carry();
+  serialize();
   at_once_ = before;
 }
 
-template <typename Item, typename Carry>
-std::size_t Archive::list(const char* name, std::vector<Item>& items, const Carry& carry) {
+template <typename Item, typename Serialize>
+std::size_t Archive::list(const char* name, std::vector<Item>& items, const Serialize& serialize) {
   const Naming naming(*this, name);
   if (way_ == Way::kDescribe) {
     describe("list of");
     Item item{};
-    carry(item);
+    serialize(item);
     return 0;
   }
   const std::size_t count = countOf(items.size());
   if (way_ == Way::kSave) {
-    for (Item& item : items) carry(item);
+    for (Item& item : items) serialize(item);
     return count;
   }
   // Not resized to count, which can't be trusted: it grows while there are bytes.
-  std::vector<Item> taken;
-  taken.reserve(items.capacity());
+  std::vector<Item> loaded;
+  loaded.reserve(items.capacity());
   atOnce([&] {
     for (path_.back().index = 0; path_.back().index < count; ++path_.back().index) {
       const std::size_t before = at_;
       Item item{};
-      carry(item);
+      serialize(item);
       if (at_ == before) fail("has items of nothing");
-      taken.push_back(std::move(item));
+      loaded.push_back(std::move(item));
     }
   });
   path_.back().index = kNoIndex;
-  put(items, std::move(taken));
+  put(items, std::move(loaded));
   return count;
 }
 
-template <typename Item, typename Carry>
-void Archive::optional(const char* name, std::optional<Item>& item, const Item& blank, const Carry& carry) {
+template <typename Item, typename Serialize>
+void Archive::optional(const char* name, std::optional<Item>& item, const Item& blank, const Serialize& serialize) {
   const Naming naming(*this, name);
   Item taken = item.value_or(blank);
   bool there = item.has_value();
   atOnce([&] {
     flag("there", there);
-    if (there || way_ == Way::kDescribe) carry(taken);
+    if (there || way_ == Way::kDescribe) serialize(taken);
   });
   put(item, there ? std::optional<Item>(taken) : std::nullopt);
 }

@@ -78,7 +78,7 @@ struct ClothState {
   std::vector<double> place;  ///< of the carriers along the rail [m]; their velocity is along it
   std::vector<double> reach;  ///< of the tie-backs: how far from its point a closed one lets its nodes be [m]
 
-  void carry(Archive& archive);
+  void serialize(Archive& archive);
 };
 
 /// The stiffness of either direction's lines from the bending rigidities [N m] (ClothPattern::warp_bending).

@@ -29,7 +29,7 @@ class StageClock {
   bool late() const noexcept { return last_ >= deadline_; }
   void reset() noexcept { seconds_.fill(0.0); }
   const std::array<double, kStageCount>& seconds() const noexcept { return seconds_; }
-  void carry(Archive& archive);
+  void serialize(Archive& archive);
 
  private:
   Clock::time_point last_ = Clock::now();

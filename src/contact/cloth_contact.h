@@ -89,7 +89,7 @@ class ClothContact : public ContactFinder {
   }
   /// Accepted substeps without contact are undone, whose forces acted for `time` [s] in all.
   void withdraw(double time) noexcept { obstacle_contacts_.withdraw(time); }
-  void carry(Archive& archive);
+  void serialize(Archive& archive);
 
  private:
   void carryPushing(Archive& archive, Contact& contact) const;

@@ -63,7 +63,7 @@ struct MovingObstacle {
     const Vec3 from = before.rotation * local;
     return share == 0.0 ? from : Vec3(((1.0 - share) * from + share * (after.rotation * local)).normalized());
   }
-  void carry(Archive& archive);
+  void serialize(Archive& archive);
 
  private:
   Eigen::AlignedBox3d swept_;
@@ -142,7 +142,7 @@ class ObstacleSet {
   /// Position of an obstacle in byName().
   int rank(int index) const { return rank_[at(index)]; }
 
-  void carry(Archive& archive);
+  void serialize(Archive& archive);
 
  private:
   struct Item {
@@ -168,7 +168,7 @@ class ObstacleSet {
 
     double arm() const noexcept;
     double path() const noexcept { return curve.way(arm()); }
-    void carry(Archive& archive);
+    void serialize(Archive& archive);
   };
   static std::size_t at(int index) { return static_cast<std::size_t>(index); }
   double pathBetween(const Pose& a, const Pose& b, std::size_t index) const noexcept;

@@ -260,7 +260,7 @@ double FrameCurve::way(double radius) const noexcept {
 }
 
 // Between two frames: what the next one starts with.
-void FrameCurve::carry(Archive& archive) {
+void FrameCurve::serialize(Archive& archive) {
   archive.within("length", length_, 0.0, 1e3);
   archive.finite("mean_move", mean_.move);
   archive.finite("mean_turn", mean_.turn);

@@ -117,7 +117,7 @@ class FrameCurve {
   /// Bound of the way in the frame of points within `radius` [m] of the origin [m].
   double way(double radius) const noexcept;
 
-  void carry(Archive& archive);
+  void serialize(Archive& archive);
 
  private:
   double timeAt(double share) const noexcept { return end_time_ - (1.0 - share) * length_; }

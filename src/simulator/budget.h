@@ -57,7 +57,7 @@ class Budget {
   bool fresh() const noexcept { return !moved_; }
   double seconds() const noexcept { return seconds_; }
 
-  void carry(Archive& archive);
+  void serialize(Archive& archive);
 
  private:
   // Running mean, which starts at the first value.

@@ -24,7 +24,7 @@ class ForceField {
   const NodeForces& evaluate(const ClothState& state, const SubstepAhead& ahead) noexcept;
   const NodeForces& last() const noexcept { return forces_; }
 
-  void carry(Archive& archive);
+  void serialize(Archive& archive);
 
  private:
   const Scene& scene_;

@@ -36,7 +36,7 @@ class FrameTimes {
     made_time_ = 0.0;
     since_ = {};
   }
-  void carry(Archive& archive);
+  void serialize(Archive& archive);
 
  private:
   // Counts from the last change of length, so that rounding does not add up.

@@ -53,7 +53,7 @@ class Rest {
 
   std::int64_t wakes() const noexcept { return wakes_; }
 
-  void carry(Archive& archive);
+  void serialize(Archive& archive);
 
  private:
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();

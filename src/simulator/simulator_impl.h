@@ -28,7 +28,7 @@ struct Simulator::Impl {
   void driven() noexcept;
   template <typename Change>
   void repin(const Change& change);
-  void carry(Archive& archive);
+  void serialize(Archive& archive);
   void resume() noexcept;
   std::uint32_t layout();
 

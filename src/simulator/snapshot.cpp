@@ -37,13 +37,13 @@ std::optional<Problem> toleranceOnOneSide(const Scene& ours, const std::string& 
 // Checksum of names, types and counts.
 std::uint32_t Simulator::Impl::layout() {
   Archive archive = Archive::describing();
-  carry(archive);
+  serialize(archive);
   return checksum(archive.extractWritten());
 }
 
 std::string Simulator::snapshot() const {
   Archive archive = Archive::saving();
-  impl_->carry(archive);
+  impl_->serialize(archive);
   const std::string scene = writeScene(impl_->scene), carried = archive.extractWritten();
   return packSnapshot({impl_->layout(), scene, carried});
 }
@@ -60,7 +60,7 @@ std::vector<Problem> Simulator::restore(const std::string& snapshot) {
       return {{"snapshot", "holds other things than this program does: it is of another build"}};
     }
     Archive archive = Archive::loading(parts.carried);
-    impl_->carry(archive);
+    impl_->serialize(archive);
     archive.finishLoading();
     archive.commit();
   } catch (const ArchiveError& error) {

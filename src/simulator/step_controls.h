@@ -31,7 +31,7 @@ struct StepControls {
   void beginFrame() noexcept {
     if (plain_frames > 0) --plain_frames;
   }
-  void carry(Archive& archive);
+  void serialize(Archive& archive);
 
   StepControl main, plain;
   int plain_frames = 0;  // left before leapfrog4 makes stages again

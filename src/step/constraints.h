@@ -162,12 +162,12 @@ class Constraints {
     bool weft_pulls = false;
     DistanceRows::Memory distances;
 
-    void carry(Archive& archive);
+    void serialize(Archive& archive);
   };
   void save(Memory& memory) const;
   void restore(const Memory& memory);
-  void carry(Archive& archive);
-  /// After carry() has loaded, with inertia as it was saved.
+  void serialize(Archive& archive);
+  /// After serialize() has loaded, with inertia as it was saved.
   void resume(const ClothState& state) noexcept;
 
  private:

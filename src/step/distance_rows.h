@@ -75,12 +75,12 @@ class DistanceRows final : public RowMaker {
   struct Memory {
     std::vector<double> last;
 
-    void carry(Archive& archive);
+    void serialize(Archive& archive);
   };
   void save(Memory& memory) const;
   void restore(const Memory& memory) noexcept;
   void forget() noexcept;
-  void carry(Archive& archive);
+  void serialize(Archive& archive);
 
  private:
   double unitOf(const DistanceRow& row) const noexcept;

@@ -106,7 +106,7 @@ class EnergyAccount {
   /// Takes the excess over the start out of the velocities, where that can be done.
   void removeExcess(const Energy& now, Field3& velocity) const noexcept;
 
-  void carry(Archive& archive);
+  void serialize(Archive& archive);
 
  private:
   struct Sums {

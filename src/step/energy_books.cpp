@@ -38,7 +38,7 @@ void EnergyAccount::bookContacts(const Contacts& contacts, const Field3& velocit
   }
 }
 
-void EnergyAccount::carry(Archive& archive) {
+void EnergyAccount::serialize(Archive& archive) {
   archive.number("held", held_);
   archive.optional("at_start", at_start_, 0.0, [&](double& energy) { archive.finite("energy", energy); });
   archive.finite("gravity", work_.gravity);

@@ -44,7 +44,7 @@ class NodeInertia {
     double heaviest = 0.0;  ///< largest load over mass
     double scale = 0.0;     ///< h * kick of the substep [s^2]; 0: there was none
 
-    void carry(Archive& archive);
+    void serialize(Archive& archive);
   };
   const Tensions& tensions() const noexcept { return tensions_; }
   Tensions& tensions() noexcept { return tensions_; }

@@ -65,8 +65,8 @@ class Part {
   virtual void reset(ClothState& /*state*/) {}
   /// The user has moved the nodes from `before`: puts what of the state is its own where it may be.
   virtual void placed(const ClothState& /*before*/, ClothState& /*state*/) noexcept {}
-  virtual void carry(Archive& /*archive*/) {}
-  /// After carry() has loaded, or a key of the scene has changed: takes what follows.
+  virtual void serialize(Archive& /*archive*/) {}
+  /// After serialize() has loaded, or a key of the scene has changed: takes what follows.
   virtual void resume() {}
   /// Marks the nodes that it pins, or holds: kPinned, kHeld.
   virtual void pin(std::vector<std::uint8_t>& /*pinned*/) const noexcept {}

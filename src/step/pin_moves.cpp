@@ -87,7 +87,7 @@ bool PinMoves::endFrame(const FrameEnd& end, ClothState& state) noexcept {
 }
 
 // Ends of lines are no nodes of the cloth, but pins that move as they do.
-void PinMoves::carry(Archive& archive) {
+void PinMoves::serialize(Archive& archive) {
   std::vector<std::uint8_t> seen(archive.loads() ? slot_.size() : 0, 0);
   archive.list("pin_moves", moves_, [&](Move& move) {
     archive.node("node", move.node, pattern_.grid);

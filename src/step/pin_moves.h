@@ -24,7 +24,7 @@ class PinMoves : public Part {
   void move(std::size_t node, const Vec3& target) noexcept;
 
   void reset(ClothState&) override { clear(); }
-  void carry(Archive& archive) override;
+  void serialize(Archive& archive) override;
   void resume() override;
   bool wakes(const FrameBegin&, const ClothState&) const noexcept override { return moves(); }
   bool drives(const ClothState&) const noexcept override { return moves(); }
@@ -38,7 +38,7 @@ class PinMoves : public Part {
   /// The node is not pinned any more: it keeps its velocity.
   void letGo(std::size_t node) noexcept;
   void clear() noexcept;
-  /// While carry() loads: the node will be one of its pins.
+  /// While serialize() loads: the node will be one of its pins.
   virtual bool willPin(std::size_t node) const noexcept { return pattern_.scene_pins[node] == kPinned; }
 
   const Scene& scene_;

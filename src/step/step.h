@@ -109,13 +109,13 @@ class Step {
     bool left_off = false;
     std::vector<double> guide, elastic;
 
-    void carry(Archive& archive);
+    void serialize(Archive& archive);
   };
   void save(Memory& memory) const;
   void restore(const Memory& memory);
 
-  void carry(Archive& archive);
-  /// After carry() has loaded: restores what is not serialized.
+  void serialize(Archive& archive);
+  /// After serialize() has loaded: restores what is not serialized.
   void resume(const ClothState& state) noexcept;
 
  private:

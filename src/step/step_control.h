@@ -44,7 +44,7 @@ class StepControl {
   /// resort takes over; if it was the scheme's retry, the last resort goes on.
   void tookTooLong(const SubstepPlan& plan) noexcept;
 
-  void carry(Archive& archive);
+  void serialize(Archive& archive);
 
  private:
   double stretch(double wanted, double remaining, double bears) noexcept;

@@ -36,7 +36,7 @@ class TrustRegion {
     if (reach_ > kUnbounded) reset();
   }
   void reset() noexcept { *this = TrustRegion(); }
-  void carry(Archive& archive) {
+  void serialize(Archive& archive) {
     archive.within("reach", reach_, 0.0, std::numeric_limits<double>::infinity());
     archive.flag("retry", retry_);
   }

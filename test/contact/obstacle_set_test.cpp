@@ -139,10 +139,10 @@ TEST_F(ObstaclesAtRest, AreSeenWhereASnapshotHasThem) {
   elsewhere.endFrame();
   expectRange(elsewhere, -0.1, 5.1, "saved");
   Archive out = Archive::saving();
-  elsewhere.carry(out);
+  elsewhere.serialize(out);
   const std::string bytes = out.extractWritten();
   Archive in = Archive::loading(bytes);
-  set_.carry(in);
+  set_.serialize(in);
   in.finishLoading();
   in.commit();
   expectRange(set_, -0.1, 5.1, "loaded");

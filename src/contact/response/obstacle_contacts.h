@@ -66,7 +66,7 @@ class ObstacleContacts {
   void withdraw(double time) noexcept { acted_ -= time; }
   /// Results do not depend on it.
   void clearCaches() noexcept;
-  void carry(Archive& archive);
+  void serialize(Archive& archive);
 
   /// For the cloth at `position`. Too slow for every substep.
   ObstacleStanding standing(int obstacle, const Field3& position) const noexcept;
@@ -84,7 +84,7 @@ class ObstacleContacts {
     Vec3 impulse = Vec3::Zero(), angular = Vec3::Zero();  // [N s], [N m s]
     int contacts = 0;
 
-    void carry(Archive& archive);
+    void serialize(Archive& archive);
   };
   const MovingObstacle& moving(std::size_t obstacle) const noexcept {
     return obstacles_.moving(static_cast<int>(obstacle));

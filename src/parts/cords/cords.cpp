@@ -149,6 +149,6 @@ double Cords::work(const Field3& before, const Field3& after, double per_h) cons
   return sum;
 }
 
-void Cords::carry(Archive& archive) { archive.flags("closed", closed_); }
+void Cords::serialize(Archive& archive) { archive.flags("closed", closed_); }
 
 }  // namespace curtain

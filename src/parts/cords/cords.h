@@ -30,7 +30,7 @@ class Cords final : public RowPart, public Part {
   /// A load goes along with the mean of its lines' nodes; tie-backs close from where their nodes are.
   void placed(const ClothState& before, ClothState& state) noexcept override;
   /// Which loops are closed.
-  void carry(Archive& archive) override;
+  void serialize(Archive& archive) override;
   bool explain(const ClothState& state, double time, Plan& plan) const override;
   /// A closed loop has not yet shrunk to its radius.
   bool isUnderWay(const ClothState& state) const noexcept override;

@@ -21,7 +21,7 @@ void Drags::reset(ClothState&) {
   for (const DragParams& drag : scene_.drag) set(drag);
 }
 
-void Drags::carry(Archive& archive) {
+void Drags::serialize(Archive& archive) {
   std::vector<std::pair<DragParams, std::optional<NodeIndex>>> held;  // with the node that it pulls at
   for (const DragForce& drag : drags_.list) held.push_back({drag.params(), drag.node()});
   archive.atOnce([&] {

@@ -22,7 +22,7 @@ class Drags final : public Part {
   const std::vector<DragParams>& params() const noexcept { return drags_.params; }
 
   void reset(ClothState& state) override;
-  void carry(Archive& archive) override;
+  void serialize(Archive& archive) override;
   bool explain(const ClothState& state, double time, Plan& plan) const override;
   bool wakes(const FrameBegin& begin, const ClothState& state) const noexcept override;
   void announce(const ClothState& state, ForceSum& sum) noexcept override;

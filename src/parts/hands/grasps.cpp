@@ -243,7 +243,7 @@ void Grasps::carryGrasp(Archive& archive, Grasp& grasp) {
   }
 }
 
-void Grasps::carry(Archive& archive) {
+void Grasps::serialize(Archive& archive) {
   std::vector<std::string> known;
   std::fill(loaded_.begin(), loaded_.end(), std::uint8_t{0});
   archive.list("grasps", list_, [&](Grasp& grasp) {
@@ -252,7 +252,7 @@ void Grasps::carry(Archive& archive) {
                     "must have ids of their own");
     known.push_back(grasp.params.id);
   });
-  PinMoves::carry(archive);
+  PinMoves::serialize(archive);
 }
 
 void Grasps::resume() {

@@ -35,7 +35,7 @@ inline bool isInRegion(const GraspParams& grasp, const Vec3& at) noexcept {
   return (2.0 * local.cwiseAbs() - grasp.size).maxCoeff() <= 0.0;
 }
 
-/// Not thread-safe. Allocates in the constructor, add() and carry().
+/// Not thread-safe. Allocates in the constructor, add() and serialize().
 class Grasps final : public PinMoves {
  public:
   /// scene and pattern must outlive this.
@@ -61,7 +61,7 @@ class Grasps final : public PinMoves {
   void reset(ClothState&) override { removeAll(); }
   /// Nodes were put elsewhere: they are held there.
   void placed(const ClothState& before, ClothState& state) noexcept override;
-  void carry(Archive& archive) override;
+  void serialize(Archive& archive) override;
   void resume() override;
   void pin(std::vector<std::uint8_t>& pinned) const noexcept override;
   bool wakes(const FrameBegin& begin, const ClothState& state) const noexcept override;
@@ -118,7 +118,7 @@ class Grasps final : public PinMoves {
   double total_mass_;  // [kg]
   std::vector<Grasp> list_;
   int holding_ = 0;
-  std::vector<std::uint8_t> loaded_;  // by node, of what carry() loads: 2: pinned, 1: held by a spring
+  std::vector<std::uint8_t> loaded_;  // by node, of what serialize() loads: 2: pinned, 1: held by a spring
   std::vector<int> hand_;             // by node: index of the grasp that holds it, or -1
   FramePart part_;
 };

@@ -113,7 +113,7 @@ const double* Hysteresis::restore(const double* memory) noexcept {
   return memory + slips_.size();
 }
 
-void Hysteresis::carry(Archive& archive) { archive.finite("slips", slips_); }
+void Hysteresis::serialize(Archive& archive) { archive.finite("slips", slips_); }
 
 bool Hysteresis::explain(const ClothState&, double, Plan& plan) const {
   std::ostringstream text;

@@ -32,7 +32,7 @@ class Hysteresis final : public ExplicitPart, public Part {
   bool explain(const ClothState& state, double time, Plan& plan) const override;
   void reset(ClothState& state) override;
   void placed(const ClothState& before, ClothState& state) noexcept override;
-  void carry(Archive& archive) override;
+  void serialize(Archive& archive) override;
 
   void pinsChanged() noexcept override;
   double omegaSquared() const noexcept override { return omega_squared_; }

@@ -63,7 +63,7 @@ bool Rail::explain(const ClothState&, double, Plan& plan) const {
   return false;
 }
 
-void Rail::carry(Archive& archive) {
+void Rail::serialize(Archive& archive) {
   for (Carrier& carrier : all_) {
     archive.flag("stays", carrier.stays);
     archive.flag("joins", carrier.joins);

@@ -62,7 +62,7 @@ class Rail final : public GuidePart, public Part {
   /// Lets go, and draws as the scene says from now on.
   void reset(ClothState& state) override;
   void placed(const ClothState& before, ClothState& state) noexcept override;
-  void carry(Archive& archive) override;
+  void serialize(Archive& archive) override;
   void resume() override;
   /// Writes the present opening.
   void measure(const ClothState& state, Statistics& statistics) const noexcept override;

@@ -117,7 +117,7 @@ bool TautColumns::endFrame(const FrameEnd&, ClothState& state) noexcept {
   return find(state);
 }
 
-void TautColumns::carry(Archive& archive) {
+void TautColumns::serialize(Archive& archive) {
   archive.list("taut_columns", list_, [&](std::size_t& node) { archive.node("node", node, pattern_.grid); });
 }
 

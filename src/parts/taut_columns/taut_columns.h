@@ -18,7 +18,7 @@ class TautColumns final : public Part {
   TautColumns(const Scene& scene, const ClothPattern& pattern);
 
   void reset(ClothState& state) override;
-  void carry(Archive& archive) override;
+  void serialize(Archive& archive) override;
   void resume() override;
   void pin(std::vector<std::uint8_t>& pinned) const noexcept override;
   bool beginFrame(const FrameBegin& begin, ClothState& state) noexcept override;

@@ -20,7 +20,7 @@ void Winds::reset(ClothState&) {
 }
 
 // They follow from their parameters and the time.
-void Winds::carry(Archive& archive) {
+void Winds::serialize(Archive& archive) {
   std::vector<WindParams> params = winds_.params;
   archive.atOnce([&] { archive.list("winds", params, [&](WindParams& wind) { carryParams(archive, wind); }); });
   if (!archive.loads()) return;

@@ -27,7 +27,7 @@ class Winds final : public Part {
   bool reaches(const std::string& id, const Field3& position) const noexcept;
 
   void reset(ClothState& state) override;
-  void carry(Archive& archive) override;
+  void serialize(Archive& archive) override;
   bool explain(const ClothState& state, double time, Plan& plan) const override;
   /// Also where an obstacle moves that may shade the cloth.
   bool wakes(const FrameBegin& begin, const ClothState& state) const noexcept override;

@@ -35,7 +35,7 @@ class ErrorControl {
     estimate_.setFrameLength(motion_.times.length());
     lose();
   }
-  void carry(Archive& archive);
+  void serialize(Archive& archive);
 
  private:
   struct Reference {
@@ -45,7 +45,7 @@ class ErrorControl {
     bool lost = false;  // a substep failed
     bool in_finer_steps = false;
 
-    void carry(Archive& archive);
+    void serialize(Archive& archive);
   };
   bool makeFrames(int count, int substeps);
   bool makeFrame(int substeps);

@@ -61,7 +61,7 @@ class ErrorEstimate {
   /// Estimated error that a second of motion adds to the positions [m].
   double perSecond() const noexcept;
 
-  void carry(Archive& archive);
+  void serialize(Archive& archive);
 
  private:
   static constexpr int kEverySeconds = 4;

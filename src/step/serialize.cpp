@@ -15,26 +15,26 @@ constexpr int kCount = 1 << 30;  // bound of counters that are read back: adding
 
 }  // namespace
 
-void NodeInertia::Tensions::carry(Archive& archive) {
+void NodeInertia::Tensions::serialize(Archive& archive) {
   archive.numbers("load", load);
   archive.number("heaviest", heaviest);
   archive.number("scale", scale);
 }
 
-void Constraints::Memory::carry(Archive& archive) {
+void Constraints::Memory::serialize(Archive& archive) {
   archive.numbers("warp", warp);
   archive.numbers("weft", weft);
   archive.flag("weft_pulls", weft_pulls);
   archive.part("distances", distances);
 }
 
-void DistanceRows::Memory::carry(Archive& archive) { archive.numbers("last", last); }
+void DistanceRows::Memory::serialize(Archive& archive) { archive.numbers("last", last); }
 
-void DistanceRows::carry(Archive& archive) {
+void DistanceRows::serialize(Archive& archive) {
   for (DistanceRow& row : all_) archive.number("last", row.last);
 }
 
-void Step::Memory::carry(Archive& archive) {
+void Step::Memory::serialize(Archive& archive) {
   archive.part("constraints", constraints);
   archive.part("tensions", tensions);
   archive.number("held", held);
@@ -43,14 +43,14 @@ void Step::Memory::carry(Archive& archive) {
   archive.finite("elastic", elastic);
 }
 
-void Constraints::carry(Archive& archive) {
+void Constraints::serialize(Archive& archive) {
   archive.numbers("last_warp", last_warp_);
   archive.numbers("last_weft", last_weft_);
   archive.flag("weft_pulls", weft_pulls_);
   archive.part("distances", distances_);
 }
 
-void Step::carry(Archive& archive) {
+void Step::serialize(Archive& archive) {
   archive.part("constraints", constraints_);
   archive.part("tensions", inertia_.tensions());
   archive.part("account", account_);
@@ -60,7 +60,7 @@ void Step::carry(Archive& archive) {
 void Step::resume(const ClothState& state) noexcept { constraints_.resume(state); }
 
 // The ranges bound the number of substeps in a frame; next() clamps the other numbers itself.
-void StepControl::carry(Archive& archive) {
+void StepControl::serialize(Archive& archive) {
   double frame = frame_;
   archive.atOnce([&] { archive.within("frame", frame, 1e-6, 1e3); });
   archive.put(frame_, frame);

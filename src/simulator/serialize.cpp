@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Serialization of what a simulator is made of; that of lower floors is in src/*/carried.cpp, of parts in their own.
+// Serialization of what a simulator is made of; that of lower floors is in src/*/serialize.cpp, of parts in their own.
 #include <limits>
 
 #include "cloth/archive_params.h"
@@ -34,7 +34,7 @@ void carryStatistics(Archive& archive, Statistics& s) {
 }  // namespace
 
 // The last forces are needed for velocities that lag behind the positions.
-void ForceField::carry(Archive& archive) {
+void ForceField::serialize(Archive& archive) {
   bool more_than_weight = forces_.force == &sum_.force;
   archive.atOnce([&] { archive.flag("more_than_weight", more_than_weight); });
   archive.numbers("sum", sum_.force);
@@ -45,7 +45,7 @@ void ForceField::carry(Archive& archive) {
   archive.put(forces_.force, static_cast<const Field3*>(more_than_weight ? &sum_.force : &weight_));
 }
 
-void Rest::carry(Archive& archive) {
+void Rest::serialize(Archive& archive) {
   archive.integer("due_in", due_in_, 1, kCount);
   archive.integer("turn", turn_, 0, 3);
   archive.flag("asleep", asleep_);
@@ -60,7 +60,7 @@ void Rest::carry(Archive& archive) {
 }
 
 // Members of the present frame are set by the next one.
-void Budget::carry(Archive& archive) {
+void Budget::serialize(Archive& archive) {
   archive.within("substep", substep_, 0.0, kLargestNumber);
   archive.within("companion", reference_, 0.0, kLargestNumber);
   archive.within("tail", tail_, 0.0, kLargestNumber);
@@ -68,7 +68,7 @@ void Budget::carry(Archive& archive) {
   archive.integer("stalled", stalled_, 0, kCount);
 }
 
-void ErrorEstimate::carry(Archive& archive) {
+void ErrorEstimate::serialize(Archive& archive) {
   archive.within("frame_length", frame_length_, 1e-6, 1e3);
   archive.integer("window", window_, 1, kCount);
   archive.flag("of_stages", of_stages_);
@@ -82,7 +82,7 @@ void ErrorEstimate::carry(Archive& archive) {
 }
 
 // Names are part of the layout: they stay when members are renamed.
-void ErrorControl::Reference::carry(Archive& archive) {
+void ErrorControl::Reference::serialize(Archive& archive) {
   archive.part("state", at.state);
   archive.part("memory", at.memory);
   archive.integer("substeps", substeps, 0, kCount);
@@ -92,18 +92,18 @@ void ErrorControl::Reference::carry(Archive& archive) {
   archive.flag("in_finer_steps", in_finer_steps);
 }
 
-void ErrorControl::carry(Archive& archive) {
+void ErrorControl::serialize(Archive& archive) {
   archive.part("estimate", estimate_);
   archive.part("companion", reference_);
 }
 
-void StepControls::carry(Archive& archive) {
+void StepControls::serialize(Archive& archive) {
   archive.part("control", main);
   archive.integer("plain_frames", plain_frames, 0, kCount);
   archive.part("plain_control", plain);
 }
 
-void FrameTimes::carry(Archive& archive) {
+void FrameTimes::serialize(Archive& archive) {
   archive.integer("frame", frame_, 0, kMostCount);
   archive.within("frame_rate", rate_, 1.0, 10000.0);
   archive.integer("same_since_frame", since_.frame, 0, kMostCount);
@@ -118,7 +118,7 @@ void Motion::carryVelocities(Archive& archive) {
 
 // Not serialized: checkpoints, which are written before they are read; the fine mesh, which has no memory; the
 // revision, which belongs to this simulator's users.
-void Simulator::Impl::carry(Archive& archive) {
+void Simulator::Impl::serialize(Archive& archive) {
   archive.finite("gravity", scene.gravity);
   AirParams air = scene.air;
   archive.group("air", [&] { carryParams(archive, air); });
@@ -129,24 +129,24 @@ void Simulator::Impl::carry(Archive& archive) {
   archive.within("budget_ms", scene.solver.budget_ms, 0.0, 1e6);
   archive.part("state", motion.state);
   archive.group("parts", [&] {
-    for (Part* const part : motion.parts.all) part->carry(archive);
+    for (Part* const part : motion.parts.all) part->serialize(archive);
   });
   archive.part("forces", motion.forces);
   archive.part("obstacles", motion.obstacles);
   archive.part("contact", motion.contact);
   archive.part("exact", motion.step);
-  controls.carry(archive);
+  controls.serialize(archive);
   archive.part("rest", sleep.rest());
   archive.part("budget", budget);
-  if (errors) errors->carry(archive);
+  if (errors) errors->serialize(archive);
   archive.group("statistics", [&] { carryStatistics(archive, motion.statistics); });
   archive.part("clock", motion.clock);
   archive.flag("counts_work", motion.counts_work);
-  times.carry(archive);
+  times.serialize(archive);
   motion.carryVelocities(archive);
 }
 
-// After carry() has loaded: restores what follows from it.
+// After serialize() has loaded: restores what follows from it.
 void Simulator::Impl::resume() noexcept {
   keysChanged();
   pinsChanged();

@@ -30,14 +30,14 @@ void carryTransform(Archive& archive, const char* name, Transform& transform) {
 
 }  // namespace
 
-void MovingObstacle::carry(Archive& archive) {
+void MovingObstacle::serialize(Archive& archive) {
   archive.flag("present", present);
   carryTransform(archive, "before", before);
   carryTransform(archive, "after", after);
   archive.numbers("swept", swept_);
 }
 
-void ObstacleSet::Item::carry(Archive& archive) {
+void ObstacleSet::Item::serialize(Archive& archive) {
   if (shape->convex() == nullptr) {
     archive.same("mesh", fingerprint(shape->triangles()), "the mesh is not the one that it was: its file has changed");
   }
@@ -55,7 +55,7 @@ void ObstacleSet::Item::carry(Archive& archive) {
   archive.put(stands, false);
 }
 
-void ObstacleSet::carry(Archive& archive) {
+void ObstacleSet::serialize(Archive& archive) {
   for (int n = 0; n < count(); ++n) moving(n);  // what is saved does not depend on who was asked for
   archive.within("frame_length", frame_length_, 1e-6, 1e3);
   for (Item& item : items_) archive.part("item", item);
@@ -69,13 +69,13 @@ void ObstacleSet::carry(Archive& archive) {
   archive.put(boxed_, false);
 }
 
-void ObstacleContacts::Load::carry(Archive& archive) {
+void ObstacleContacts::Load::serialize(Archive& archive) {
   archive.numbers("impulse", impulse);
   archive.numbers("angular", angular);
   archive.integer("contacts", contacts, 0, kCount);
 }
 
-void ObstacleContacts::carry(Archive& archive) {
+void ObstacleContacts::serialize(Archive& archive) {
   for (Load& load : loads_) archive.part("load", load);
   archive.number("acted", acted_);
 }
@@ -101,7 +101,7 @@ void ClothContact::carryPushing(Archive& archive, Contact& contact) const {
   archive.flag("sticks", contact.sticks);
 }
 
-void ClothContact::carry(Archive& archive) {
+void ClothContact::serialize(Archive& archive) {
   archive.part("touch", obstacle_contacts_);
   archive.flag("taut", taut_);
   archive.list("pushing", last_, [&](Contact& contact) { carryPushing(archive, contact); });

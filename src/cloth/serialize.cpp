@@ -7,7 +7,7 @@
 namespace curtain {
 
 // Finite values only: contact casts positions to integers.
-void ClothState::carry(Archive& archive) {
+void ClothState::serialize(Archive& archive) {
   archive.finite("position", position);
   archive.finite("velocity", velocity);
   archive.finite("velocity_age", velocity_age);
@@ -15,7 +15,7 @@ void ClothState::carry(Archive& archive) {
   archive.finite("reach", reach);
 }
 
-void StageClock::carry(Archive& archive) {
+void StageClock::serialize(Archive& archive) {
   for (double& seconds : seconds_) archive.number("seconds", seconds);
 }
 
