@@ -11,7 +11,7 @@ namespace curtain {
 namespace {
 
 // Longest strips and spans [links]. Longer ones are fewer to check but bound the slopes between less.
-constexpr int kMostRods = 4, kMostWefts = 20;
+constexpr int kMostRods = 2, kMostWefts = 20;
 // Largest relative difference of rest lengths: the bound assumes a regular reference mesh.
 constexpr double kIrregular = 1e-6;
 // Covers rounding of slopes and kIrregular.

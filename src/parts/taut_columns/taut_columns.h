@@ -25,19 +25,25 @@ class TautColumns final : public Part {
   bool endFrame(const FrameEnd& end, ClothState& state) noexcept override;
 
  private:
-  bool isPin(std::size_t node) const noexcept;
+  /// The rods between two pins that follow each other in a column, with nodes in between.
+  struct Span {
+    std::size_t first, last;  // its pins
+    double length;            // [m]
+  };
+
   bool isHeld(std::size_t node) const noexcept { return held_[node] != 0 && pattern_.pinned[node] == kHeld; }
+  void findSpans(const std::vector<std::uint8_t>& pinned) const noexcept;
+  bool isStraight(const Span& span, const Vec3& apart) const noexcept {
+    return apart.norm() >= (1.0 - scene_.solver.stretch_tolerance) * span.length;
+  }
   bool find(const ClothState& state) noexcept;
   void list() noexcept;
-  bool isStraight(const Field3& position, int first, int last, int column) const noexcept;
-  template <typename Act>
-  void forEachSpan(const Act& act) const;
 
   const Scene& scene_;
   const ClothPattern& pattern_;
-  std::vector<std::uint8_t> held_;            // by node
-  std::vector<std::size_t> list_;             // of held nodes
-  mutable std::vector<std::uint8_t> others_;  // by node: a part before this one pins it
+  std::vector<std::uint8_t> held_, before_;  // by node; before: scratch of find()
+  std::vector<std::size_t> list_;            // of held nodes
+  mutable std::vector<Span> spans_;          // between the pins that pin() was told
 };
 
 }  // namespace curtain
