@@ -23,8 +23,8 @@ bool canClose(const Motion& motion) {
          std::any_of(pinned.begin(), pinned.end(), [](auto is_pinned) { return is_pinned != 0; });
 }
 
-// Kinetic energy of the nodes that move, each faster by `more` [m/s], and potential energy of all. Each lane is summed
-// by itself, so the bits do not depend on the register width.
+// Kinetic energy of the nodes that move but carriers, each faster by `more` [m/s], and potential energy of all. Each
+// lane is summed by itself, so the bits do not depend on the register width.
 CURTAIN_WIDE double energyOf(const ClothPattern& pattern, const ClothState& state, const Vec3& more,
                              const Vec3& gravity) noexcept {
   const ConstFieldView v(state.velocity, 0), p(state.position, 0);
@@ -68,7 +68,11 @@ bool ClosedFrames::isClosed() const noexcept {
 double ClosedFrames::energyWithoutLinks() const noexcept {
   const ClothState& state = motion_.state;
   const Vec3& gravity = motion_.scene.gravity;
-  return energyOf(motion_.pattern, state, state.velocity_age * gravity, gravity) +
+  const Vec3 fall = state.velocity_age * gravity;
+  double carriers = 0.0;
+  for (const std::size_t n : motion_.pattern.guided)
+    carriers += 0.5 * motion_.pattern.mass[n] * (state.velocity.at(n) + fall).squaredNorm();
+  return carriers + energyOf(motion_.pattern, state, fall, gravity) +
          motion_.step.elasticEnergy(*motion_.forces.last().force, state.position);
 }
 

@@ -90,5 +90,21 @@ TEST(TautColumns, AreKeptInSnapshots) {
   EXPECT_EQ(restored.stateHash(), simulator.stateHash());
 }
 
+// A node that is put beside the line is not held there: its rods bring it back.
+TEST(TautColumns, AreNotHeldBesideTheirLine) {
+  Simulator simulator(pinnedColumn());
+  std::vector<Vec3> positions;
+  for (int row = 0; row < kRows; ++row) {
+    for (int column = 0; column < 6; ++column) positions.push_back(simulator.position({row, column}));
+  }
+  const std::vector<Vec3> velocities(positions.size(), Vec3::Zero());
+  positions[5 * 6].y() += 0.05;
+  ASSERT_TRUE(simulator.setState(positions, velocities).empty());
+  ASSERT_GT(bulge(simulator), 0.04);
+  for (int frame = 0; frame < 60; ++frame) simulator.step();
+  EXPECT_LT(bulge(simulator), 0.02);
+  EXPECT_LT(simulator.statistics().warp_stretch, 2.0 * simulator.scene().solver.stretch_tolerance);
+}
+
 }  // namespace
 }  // namespace curtain

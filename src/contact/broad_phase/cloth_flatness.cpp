@@ -86,11 +86,11 @@ void ClothFlatness::pinsChanged() noexcept {
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = 0; j < grid.columns; ++j) {
       const std::size_t n = grid.index(i, j);
-      if (pattern_.inverse_mass[n] > 0.0) continue;
+      if (pattern_.canMove(n)) continue;
       // Links between pins are not bounded by the solve. Those of the top row are checked; for others the proof is not
       // used.
-      if (i > 0 && pattern_.inverse_mass[grid.index(i - 1, j)] == 0.0) usable_ = false;
-      if (j == 0 || pattern_.inverse_mass[n - 1] > 0.0) continue;
+      if (i > 0 && !pattern_.canMove(grid.index(i - 1, j))) usable_ = false;
+      if (j == 0 || pattern_.canMove(n - 1)) continue;
       if (i == 0)
         checks_top_ = true;
       else

@@ -15,8 +15,10 @@ namespace {
 // one). When it runs out the cloth stops, and a mesh that moves on goes through it.
 constexpr std::size_t kPairsPerNode = 8;
 constexpr std::size_t kPairsPerFeature = 4;
-// Capacity of a worker's share of the pairs, over its fair part.
-constexpr std::size_t kRoomOverPart = 2;
+// Parts of the cloth that look for pairs side by side, and the capacity of each as a share of the whole: the same for
+// any number of threads, and so is what there is room for.
+constexpr std::size_t kShares = 8;
+constexpr std::size_t kSharesThatFit = 2;
 // Nodes that one worker takes at a time.
 constexpr std::size_t kNodesAtOnce = 64;
 
@@ -94,8 +96,8 @@ ObstacleCandidates::ObstacleCandidates(const ClothPattern& pattern, const Contac
     const std::size_t room = kPairsPerNode * count + kPairsPerFeature * (shape.features()->edges().size() +
                                                                          shape.features()->vertices().size());
     pairs_.reserve(room);
-    shares_.resize(static_cast<std::size_t>(workers.shares()));
-    for (Pairs& share : shares_) share.list.reserve(std::min(shares_.size(), kRoomOverPart) * room / shares_.size());
+    shares_.resize(kShares);
+    for (Pairs& share : shares_) share.list.reserve(room / kSharesThatFit);
     mesh_clearance_ = MeshClearance(pattern.grid, shape);
   } else if (elements_wanted_) {
     faces_.reserve(2 * count);

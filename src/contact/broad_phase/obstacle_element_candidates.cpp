@@ -72,6 +72,7 @@ void ObstacleCandidates::listPairs(double reach) noexcept {
     full_ = full_ || share.full || pairs_.size() + share.list.size() > pairs_.capacity();
     if (!full_) pairs_.insert(pairs_.end(), share.list.begin(), share.list.end());
   }
+  if (full_) pairs_.clear();
 }
 
 void ObstacleCandidates::listPairsOfRow(int row, const Eigen::AlignedBox3d& box, double reach, Pairs& out) noexcept {

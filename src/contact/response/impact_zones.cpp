@@ -6,8 +6,8 @@
 namespace curtain {
 ImpactZones::ImpactZones(const ClothPattern& pattern)
     : pattern_(pattern), parent_(pattern.grid.size(), kAlone), body_(pattern.grid.size(), 0) {
-  members_.reserve(pattern.grid.nodeCount());
-  bodies_.reserve(pattern.grid.nodeCount() / 2 + 1);
+  members_.reserve(pattern.grid.size());
+  bodies_.reserve(pattern.grid.size() / 2 + 1);
 }
 
 void ImpactZones::clear() noexcept {

@@ -31,20 +31,30 @@ void TautColumns::findSpans(const std::vector<std::uint8_t>& pinned) const noexc
   }
 }
 
+// Its nodes are on the line if no rod is longer than it may be: between pins as far apart as the column is long.
+bool TautColumns::rodsHold(const Span& span, const Field3& position) const noexcept {
+  const auto stride = static_cast<std::size_t>(pattern_.grid.stride);
+  for (std::size_t n = span.first + stride; n <= span.last; n += stride) {
+    const double longest = (1.0 + scene_.solver.stretch_tolerance) * pattern_.warp_rest[n];
+    if (!((position.at(n) - position.at(n - stride)).norm() <= longest)) return false;
+  }
+  return true;
+}
+
 // Straight within the tolerance of a rod's length: by as much the solve may make them longer. True: others are held
 // than before.
 bool TautColumns::find(const ClothState& state) noexcept {
   if (spans_.empty() && list_.empty()) return false;
-  before_ = held_;
+  for (std::size_t n = 0; n < held_.size(); ++n) before_[n] = isHeld(n) ? 1 : 0;
   std::fill(held_.begin(), held_.end(), std::uint8_t{0});
   const auto stride = static_cast<std::size_t>(pattern_.grid.stride);
   for (const Span& span : spans_) {
-    if (!isStraight(span, state.position.at(span.last) - state.position.at(span.first))) continue;
+    const bool straight = isStraight(span, state.position.at(span.last) - state.position.at(span.first));
+    if (!straight || !rodsHold(span, state.position)) continue;
     for (std::size_t n = span.first + stride; n < span.last; n += stride) held_[n] = 1;
   }
-  if (held_ == before_) return false;
   list();
-  return true;
+  return held_ != before_;
 }
 
 void TautColumns::list() noexcept {
@@ -97,12 +107,7 @@ bool TautColumns::beginFrame(const FrameBegin& begin, ClothState& state) noexcep
   return changed;
 }
 
-bool TautColumns::endFrame(const FrameEnd&, ClothState& state) noexcept {
-  for (const std::size_t n : list_) {
-    if (isHeld(n)) state.velocity.set(n, Vec3::Zero());
-  }
-  return find(state);
-}
+bool TautColumns::endFrame(const FrameEnd&, ClothState& state) noexcept { return find(state); }
 
 void TautColumns::serialize(Archive& archive) {
   archive.list("taut_columns", list_, [&](std::size_t& node) { archive.node("node", node, pattern_.grid); });

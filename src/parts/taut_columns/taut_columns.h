@@ -36,6 +36,7 @@ class TautColumns final : public Part {
   bool isStraight(const Span& span, const Vec3& apart) const noexcept {
     return apart.norm() >= (1.0 - scene_.solver.stretch_tolerance) * span.length;
   }
+  bool rodsHold(const Span& span, const Field3& position) const noexcept;
   bool find(const ClothState& state) noexcept;
   void list() noexcept;
 
