@@ -23,7 +23,7 @@ bool canClose(const Motion& motion) {
          std::any_of(pinned.begin(), pinned.end(), [](auto is_pinned) { return is_pinned != 0; });
 }
 
-// Kinetic energy of the nodes that move but carriers, each faster by `more` [m/s], and potential energy of all. Each
+// Kinetic energy of the nodes that move freely, each faster by `more` [m/s], and potential energy of all. Each
 // lane is summed by itself, so the bits do not depend on the register width.
 CURTAIN_WIDE double energyOf(const ClothPattern& pattern, const ClothState& state, const Vec3& more,
                              const Vec3& gravity) noexcept {
@@ -69,10 +69,10 @@ double ClosedFrames::energyWithoutLinks() const noexcept {
   const ClothState& state = motion_.state;
   const Vec3& gravity = motion_.scene.gravity;
   const Vec3 fall = state.velocity_age * gravity;
-  double carriers = 0.0;
+  double guided = 0.0;
   for (const std::size_t n : motion_.pattern.guided)
-    carriers += 0.5 * motion_.pattern.mass[n] * (state.velocity.at(n) + fall).squaredNorm();
-  return carriers + energyOf(motion_.pattern, state, fall, gravity) +
+    guided += 0.5 * motion_.pattern.mass[n] * (state.velocity.at(n) + fall).squaredNorm();
+  return guided + energyOf(motion_.pattern, state, fall, gravity) +
          motion_.step.elasticEnergy(*motion_.forces.last().force, state.position);
 }
 

@@ -22,7 +22,7 @@ class Tuning {
  public:
   struct Actions {
     std::function<void(const curtain_sim::CurtainConfig&)> apply;  ///< sets what is right of these values
-    std::function<curtain_sim::CurtainConfig()> present;          ///< the values that hold
+    std::function<curtain_sim::CurtainConfig()> present;           ///< the values that hold
   };
   /// actions are called by the simulation thread, through calls, and `present` once by the constructor. calls must
   /// outlive this.
