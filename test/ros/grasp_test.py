@@ -237,6 +237,28 @@ class GraspTest(DrivenCurtain):
         self.drive(5)
         self.assertGreater(numpy.abs(self.nodes()[held] - there).max(), 1e-3, "it has let go")
 
+    def test_7b_silence_is_made_up_for_at_twice_the_speed(self):
+        """A frame that moves evenly is not heard of for 0.16 s: what is held does not jump after it."""
+        self.hold()
+        held = list(self.near("gripper"))
+        start, step = self.hem(), 0.5 * FRAME
+        before, fastest = self.nodes()[held], 0.0
+        for k in range(1, 41):
+            self.put("gripper", start + [0.0, step * k, 0.0])
+            if 10 <= k < 18:
+                silent = self.frames.pop("gripper")
+                self.drive()
+                self.frames["gripper"] = silent
+            else:
+                self.drive()
+            there = self.nodes()[held]
+            fastest = max(fastest, numpy.linalg.norm(there - before, axis=1).max())
+            before = there
+        self.assertLessEqual(fastest, 2.0 * step + 1e-4)
+        self.assertGreater(fastest, 1.5 * step, "it catches up")
+        self.drive(3)
+        self.assertLess(abs(self.hem()[1] - start[1] - 40 * step), 1e-4)
+
     def test_8_several_hands_hand_over(self):
         left = self.hold(region=GraspGoal.NODES, rows=[12, 12], columns=[4, 5])
         self.put("right", self.hem())

@@ -5,13 +5,8 @@
 
 namespace curtain_ros {
 
-FollowedFrame::Standing FollowedFrame::look(Frames& frames, const ros::Time& now) {
-  FrameLookup found = frames.lookup(name_);
-  const double ahead = found.known && !found.stamp.isZero() ? (found.stamp - now).toSec() : 0.0;
-  if (ahead > timeout_) {
-    found = frames.lookup(name_, now);
-    if (!found.known) found.error = "its transform is " + curtain::formatNumber(ahead) + " s ahead of the clock";
-  }
+FollowedFrame::Standing FollowedFrame::look(Frames& frames, const ros::Time& now, double step) {
+  const FrameLookup found = frames.follow(name_, {now, timeout_, step}, read_);
   if (found.known) {
     pose_ = found.pose;
     stamp_ = found.stamp;

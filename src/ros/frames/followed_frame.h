@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A tf2 frame that something follows from frame to frame of the simulation: the newest transform, never waited for.
-// One that is ahead of the clock by more than the timeout is that of now; while none comes the last one counts, for the
-// timeout at most. A static frame is never late.
+// A tf2 frame that something follows from frame to frame of the simulation, as Frames::follow() has it. While no
+// transform comes the last one counts, for the timeout at most. A static frame is never late.
 #pragma once
 
 #include <ros/time.h>
@@ -28,10 +27,10 @@ class FollowedFrame {
     kWaiting,  ///< it has never been known, but the listener is young: it may come
     kLost      ///< unknown or too old: error() says which
   };
-  /// now: of the node's clock, which stamps are compared with.
-  Standing look(Frames& frames, const ros::Time& now);
+  /// now: of the node's clock, which stamps are compared with; step: as in Following.
+  Standing look(Frames& frames, const ros::Time& now, double step);
 
-  /// The newest known; none before the first.
+  /// That it is followed to; none before the first.
   const std::optional<curtain::Pose>& pose() const { return pose_; }
   const ros::Time& stamp() const { return stamp_; }
   /// Older than half of the timeout.
@@ -43,7 +42,8 @@ class FollowedFrame {
   double timeout_;
   std::string parameter_;
   std::optional<curtain::Pose> pose_;
-  ros::Time stamp_;   // of that transform; zero: static
+  ros::Time stamp_;   // of the newest transform; zero: static
+  ros::Time read_;    // of the pose
   double age_ = 0.0;  // [s]
   std::string error_;
 };

@@ -22,6 +22,9 @@ namespace {
 
 std::string numberOf(std::size_t nodes) { return std::to_string(nodes) + (nodes == 1 ? " node" : " nodes"); }
 
+// Length of a frame of the simulation [s].
+double stepOf(const Simulator& simulator) { return 1.0 / simulator.scene().solver.frame_rate; }
+
 }  // namespace
 
 Hands::Hands(ros::NodeHandle private_node, double timeout, Frames& frames, Inputs& inputs)
@@ -63,7 +66,7 @@ void Hands::read(Letter& letter, Simulator& simulator, const ros::Time&) {
 
 // Takes hold, if the frame is known. False: it is refused.
 bool Hands::grip(Hand& hand, Simulator& simulator, const ros::Time& now) {
-  switch (hand.frame.look(frames_, now)) {
+  switch (hand.frame.look(frames_, now, stepOf(simulator))) {
     case FollowedFrame::Standing::kWaiting:
       return true;
     case FollowedFrame::Standing::kLost:
@@ -90,7 +93,7 @@ bool Hands::grip(Hand& hand, Simulator& simulator, const ros::Time& now) {
 
 // False: the frame is lost, and the hand has let go.
 bool Hands::follow(Hand& hand, Simulator& simulator, const ros::Time& now) {
-  if (hand.frame.look(frames_, now) == FollowedFrame::Standing::kFresh) {
+  if (hand.frame.look(frames_, now, stepOf(simulator)) == FollowedFrame::Standing::kFresh) {
     simulator.moveGrasp(hand.id, *hand.frame.pose());
     return true;
   }

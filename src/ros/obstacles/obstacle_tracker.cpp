@@ -68,16 +68,12 @@ void ObstacleTracker::update(curtain::Simulator& simulator, const ros::Time& now
   if (!left_out.empty() && !may_come) ROS_WARN_STREAM_THROTTLE(kWarnPeriod, "obstacles left out: " << left_out);
 }
 
-FrameLookup ObstacleTracker::lookUp(Followed& followed, const ros::Time& now) {
+FrameLookup ObstacleTracker::lookUp(Followed& followed, const Following& by) {
   ObstacleHealth& health = followed.health;
-  FrameLookup frame = frames_.lookup(health.frame);
-  const double ahead = frame.known && !frame.stamp.isZero() ? (frame.stamp - now).toSec() : 0.0;
-  health.early = ahead > timeout_;
-  if (health.early) {
-    early_poses_ += followed.obstacles.size();
-    frame = frames_.lookup(health.frame, now);
-    if (!frame.known) frame.error = "its transform is " + std::to_string(ahead) + " s ahead of the clock";
-  }
+  if (!health.present || followed.resumed) followed.read = ros::Time();  // it will jump
+  FrameLookup frame = frames_.follow(health.frame, by, followed.read);
+  health.early = frame.ahead > 0.0;
+  early_poses_ += health.early ? followed.obstacles.size() : 0;
   if (frame.known) {
     followed.stamp = frame.stamp;
     health.is_static = frame.stamp.isZero();
@@ -87,7 +83,7 @@ FrameLookup ObstacleTracker::lookUp(Followed& followed, const ros::Time& now) {
 }
 
 std::string ObstacleTracker::follow(Followed& followed, curtain::Simulator& simulator, const ros::Time& now) {
-  const FrameLookup frame = lookUp(followed, now);
+  const FrameLookup frame = lookUp(followed, {now, timeout_, 1.0 / simulator.scene().solver.frame_rate});
   ObstacleHealth& health = followed.health;
   const bool seen = frame.known || health.present;
   if (followed.resumed && followed.stamp.isZero() && !health.is_static) followed.stamp = now;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Obstacles follow their tf2 frames. Each frame of the simulation takes the latest transform and never waits:
+// Obstacles follow their tf2 frames (Frames::follow()). Each frame of the simulation never waits:
 //
 //   fresh                      the obstacle moves there during the step, which gives its velocity
 //   late                       it stays at its last pose
@@ -75,13 +75,14 @@ class ObstacleTracker {
     std::vector<std::size_t> obstacles;  // on this frame, in tracked_
     std::string names;                   // of these, for messages
     ros::Time stamp;                     // of the last transform
+    ros::Time read;                      // of the pose
     bool resumed = false;                // from a snapshot, and the frame not known since
     ObstacleHealth health;               // of each of them, but for its name
   };
 
   std::size_t placeOf(const std::string& frame);
   void setPresent(Followed& frame, bool present, curtain::Simulator& simulator) const;
-  FrameLookup lookUp(Followed& frame, const ros::Time& now);
+  FrameLookup lookUp(Followed& frame, const Following& by);
   /// Returns why its obstacles are left out; empty: they are not, or it is too early to tell.
   std::string follow(Followed& frame, curtain::Simulator& simulator, const ros::Time& now);
 

@@ -22,17 +22,20 @@ std::string topicOf(std::string frame) {
       frame.begin(), frame.end(), [&](char c) { return !is_good(c); }, '_');
   return "wrench/" + frame;
 }
+
+// Of what tells of each frame. Short, since late listeners want the newest frame and not the ones they missed; but
+// frames that are made up for come all at once.
+std::uint32_t queueOf(const NodeParams& params) { return static_cast<std::uint32_t>(std::max(2, params.max_catch_up)); }
 }  // namespace
 
-// Short queues: late listeners want the newest frame, not the ones they missed.
 Outputs::Outputs(ros::NodeHandle node, const NodeParams& params, const curtain::Simulator& simulator, Frames& frames)
     : geometry_(simulator),
       frames_(frames),
       viewer_frame_(params.mesh_viewer_frame),
-      state_{node.advertise<curtain_sim::CurtainState>("state", 2),
+      state_{node.advertise<curtain_sim::CurtainState>("state", queueOf(params)),
              {params.state_rate, params.state_rest_rate, simulator.scene().solver.frame_rate}},
-      loads_{node.advertise<curtain_sim::Loads>("loads", 2), state_.pace},
-      contacts_{node.advertise<curtain_sim::Contacts>("contacts", 2), state_.pace},
+      loads_{node.advertise<curtain_sim::Loads>("loads", queueOf(params)), state_.pace},
+      contacts_{node.advertise<curtain_sim::Contacts>("contacts", queueOf(params)), state_.pace},
       mesh_{node.advertise<visualization_msgs::Marker>("mesh", 1),
             {params.mesh_rate, kMarkersAtRest, simulator.scene().solver.frame_rate}},
       markers_{node.advertise<visualization_msgs::MarkerArray>("markers", 1),
@@ -43,7 +46,7 @@ Outputs::Outputs(ros::NodeHandle node, const NodeParams& params, const curtain::
       mesh_marker_(params.world_frame, geometry_),
       detail_markers_(params.world_frame, geometry_, params.contact_points),
       plan_rate_(kPlanRate, simulator.scene().solver.frame_rate) {
-  advertiseWrenches(node);
+  advertiseWrenches(node, params);
   tune(params, simulator.scene().solver.frame_rate);
 }
 
@@ -59,15 +62,16 @@ void Outputs::tune(const NodeParams& params, double frame_rate) {
   detail_.viewer_tolerance = params.mesh_viewer_tolerance;
 }
 
-void Outputs::advertiseWrenches(ros::NodeHandle& node) {
+void Outputs::advertiseWrenches(ros::NodeHandle& node, const NodeParams& params) {
   std::map<std::string, std::vector<int>> obstacles;  // by frame
   for (int index = 0; index < geometry_.simulator().obstacleCount(); ++index) {
     const auto at = static_cast<std::size_t>(index);
     obstacles[frames_.resolve(geometry_.simulator().scene().obstacles[at].frame)].push_back(index);
   }
   for (const auto& [frame, on_it] : obstacles) {
-    wrenches_.push_back({{node.advertise<geometry_msgs::WrenchStamped>(topicOf(frame), 2), contacts_.pace},
-                         WrenchMessages(frame, on_it)});
+    wrenches_.push_back(
+        {{node.advertise<geometry_msgs::WrenchStamped>(topicOf(frame), queueOf(params)), contacts_.pace},
+         WrenchMessages(frame, on_it)});
   }
 }
 

@@ -59,7 +59,7 @@ class Outputs {
     WrenchMessages messages;
   };
 
-  void advertiseWrenches(ros::NodeHandle& node);
+  void advertiseWrenches(ros::NodeHandle& node, const NodeParams& params);
   void publishWrenches(const ros::Time& stamp);
   void publishMarkers(const ros::Time& stamp);
   curtain::MeshDetail meshDetail();

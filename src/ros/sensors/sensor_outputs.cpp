@@ -100,7 +100,7 @@ bool SensorOutputs::findSensor(const ros::Time& stamp, const ros::Time& now) {
   if (isCamera() && !camera_) {
     error_ = "no camera_info has come on " + camera_input_->topic();
   } else {
-    const FollowedFrame::Standing standing = frame_->look(frames_, now);
+    const FollowedFrame::Standing standing = frame_->look(frames_, now, 0.0);
     if (standing == FollowedFrame::Standing::kFresh) {
       const FrameLookup then = frames_.lookup(frame_->name(), stamp);
       pose_ = then.known ? then.pose : *frame_->pose();
