@@ -84,8 +84,10 @@ Contact nodeContact(const ObstacleSubstep& substep, const ClothPattern& pattern,
   contact.curved = curved && substep.moving.press == 0.0;
   if (contact.curved && substep.act == ContactFinder::ForcesAct::kAtStart) {
     SurfacePoint there;
-    if (candidates.surfaceOf(node, point.touch, there))
+    if (candidates.surfaceOf(node, point.touch, there)) {
       contact.normal = substep.moving.directionAt(point.share, there.normal);
+      contact.carried_normal = substep.moving.after.rotation * there.normal;
+    }
   }
   return contact;
 }
