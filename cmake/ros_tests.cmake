@@ -62,9 +62,4 @@ foreach(name rviz_display rviz_handle rviz_reopen bags)
   set_tests_properties(_ctest_${PROJECT_NAME}_rostest_test_ros_${name}.test PROPERTIES RESOURCE_LOCK screen)
 endforeach()
 
-# In real time, with a core for the node, one for the robot and the judge.
-foreach(name robot_curtain strip_door)
-  set_tests_properties(_ctest_${PROJECT_NAME}_rostest_test_ros_${name}.test PROPERTIES RUN_SERIAL ON)
-endforeach()
-
 roslaunch_add_file_check(launch USE_TEST_DEPENDENCIES)

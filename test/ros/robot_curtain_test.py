@@ -30,11 +30,11 @@ class RobotCurtainTest(unittest.TestCase):
         rospy.init_node("robot_curtain_test")
         places = Places()
         felt, ended = Listener(NODE + "/grasp/feedback", GraspActionFeedback), Listener(NODE + "/grasp/result", GraspActionResult)
-        record = Record()
+        record = Record(places)
         scene, motion = rospy.get_param(NODE + "/scene"), rospy.get_param(ROBOT + "/robot")
         opens, shuts = motion["grasps"]
         row, column = next(entry["node"] for entry in motion["arm"] if "node" in entry)
-        record.wait_until_time(motion["period"] + 1.0, "the robot has opened and shut the curtain")
+        record.run_until_time(motion["period"] + 1.0)
         times, edge, carrier = record.times(), record.node(row, column), record.node(0, column)
 
         def at(values, time):
@@ -47,10 +47,9 @@ class RobotCurtainTest(unittest.TestCase):
         self.assertGreaterEqual(at(carrier, 0.5)[0] - at(carrier, shuts["from"])[0], 2.0)
         self.assertGreaterEqual(at(carrier, shuts["until"] + 0.5)[0] - at(carrier, shuts["from"])[0], 2.0)
 
-        # It was held: it went where the fingers had been within the last second, in the region that they took. How late it comes there
-        # depends on what else the computer does.
+        # It was held: it went where the fingers had been within the last tenth of a second, in the region that they took.
         frames = record.frames()
-        behind = [rospy.Duration(0.05 * k) for k in range(21)]
+        behind = [rospy.Duration(k / 60.0) for k in range(7)]
         for hold in (opens, shuts):
             held = np.flatnonzero((times > hold["from"] + 0.5) & (times < hold["until"] - 0.5))
             off = [distance_to_path(edge[i], [places.at("gripper_tip", frames[i][0] - late) for late in behind]) for i in held[::10]]

@@ -14,10 +14,11 @@ from robot_testing import ROBOT, Places, Record, assert_frames_are_sound
 class StripDoorTest(unittest.TestCase):
     def test_robot_goes_through_and_strips_come_back(self):
         rospy.init_node("strip_door_test")
-        places, record = Places(), Record()
+        places = Places()
+        record = Record(places)
         motion = rospy.get_param(ROBOT + "/robot")
         (_, _, begin, _), (there, _, end, _), (leaves, _, _, _), (back, _, _, _) = motion["base"]
-        record.wait_until_time(motion["period"] + 1.0, "the robot has been there and back")
+        record.run_until_time(motion["period"] + 1.0)
         frames, times = record.frames(), record.times()
 
         # The base, 1 m/s at the door on both ways.
