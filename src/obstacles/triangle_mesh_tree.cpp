@@ -8,6 +8,10 @@
 namespace curtain {
 namespace {
 
+/// A cache in which more triangles than these had to be looked at is made anew around the point: sweeps ask from nearly
+/// the same place again and again.
+constexpr std::size_t kFew = 2;
+
 /// Bound of the relative rounding of squared distances, so that none of several equally near triangles is missed.
 constexpr double kRounding = 1e-12;
 
@@ -75,20 +79,34 @@ class Segment {
   double shear_z_ = 0.0;
 };
 
-// Inserts a triangle in order; when full the furthest is dropped and bounds all the dropped ones.
-void insert(std::uint32_t place, double distance, NearTriangles& near) {
-  std::size_t k = near.count;
-  if (k == NearTriangles::kMost)
-    near.radius = near.distances[--k];
-  else
-    ++near.count;
-  if (distance >= near.radius) return;
+// Puts a triangle where it belongs among the first k, which are in order.
+void sift(std::size_t k, std::uint32_t place, double distance, NearTriangles& near) {
   for (; k > 0 && near.distances[k - 1] > distance; --k) {
     near.distances[k] = near.distances[k - 1];
     near.places[k] = near.places[k - 1];
   }
   near.distances[k] = distance;
   near.places[k] = place;
+}
+
+// When full the furthest is dropped and bounds all the dropped ones.
+void insert(std::uint32_t place, double distance, NearTriangles& near) {
+  std::size_t k = near.count;
+  if (k == NearTriangles::kMost)
+    near.radius = near.distances[--k];
+  else
+    ++near.count;
+  if (distance < near.radius) sift(k, place, distance, near);
+}
+
+// Moves the centre by `moved` to a point from which the first `known` triangles are sqrt(squared) away; the others may
+// have come nearer by as much.
+void recentre(const Vec3& point, double moved, const std::array<double, NearTriangles::kMost>& squared,
+              std::size_t known, NearTriangles& near) {
+  near.centre = point;
+  near.radius -= moved;
+  for (std::size_t k = 0; k < near.count; ++k)
+    sift(k, near.places[k], k < known ? std::sqrt(squared[k]) : near.distances[k] - moved, near);
 }
 
 }  // namespace
@@ -148,11 +166,14 @@ TriangleMeshTree::TriangleMeshTree(const ShapeTriangles& mesh) {
   margin_ = 1e-12 * (box.diagonal().norm() + box.min().cwiseAbs().maxCoeff());
 }
 
-// Takes the triangle if it is nearer than the best, or equally near and earlier in the input.
-bool TriangleMeshTree::improve(const Vec3& point, std::uint32_t place, NearestTriangle& best) const noexcept {
+// Takes the triangle if it is nearer than the best, or equally near and earlier in the input. squared: its distance
+// [m^2].
+bool TriangleMeshTree::improve(const Vec3& point, std::uint32_t place, NearestTriangle& best,
+                               double& squared) const noexcept {
   const Triangle& triangle = triangles_[place];
   NearestTriangle candidate = nearestOnTriangle(point, triangle.corners[0], triangle.corners[1], triangle.corners[2]);
   candidate.triangle = triangle.index;
+  squared = candidate.distance_squared;
   const bool better = candidate.distance_squared < best.distance_squared ||
                       (candidate.distance_squared == best.distance_squared && candidate.triangle < best.triangle);
   if (better) best = candidate;
@@ -167,7 +188,8 @@ bool TriangleMeshTree::nearest(const Vec3& point, double limit_squared, NearestT
   tree_.forEachLeafNear(
       point, [&] { return best.distance_squared * (1.0 + kRounding); },
       [&](std::uint32_t first, std::uint32_t last) {
-        for (std::uint32_t t = first; t < last; ++t) found = improve(point, t, best) || found;
+        double squared = 0.0;
+        for (std::uint32_t t = first; t < last; ++t) found = improve(point, t, best, squared) || found;
       });
   if (found) out = best;
   return found;
@@ -178,16 +200,19 @@ bool TriangleMeshTree::nearest(const Vec3& point, double limit_squared, double r
   const double moved = (point - near.centre).norm();
   const double seen = near.radius - moved;
   if (seen > 0.0) {
+    std::array<double, NearTriangles::kMost> squared;  // distances of those looked at [m^2]
     NearestTriangle best;
     best.distance_squared = seen * seen * (1.0 - kRounding);  // no triangle outside the cache is as near
     best.triangle = 0;
     double distance = seen;
     bool found = false;
-    for (std::size_t k = 0; k < near.count && near.distances[k] - moved <= distance * (1.0 + kRounding); ++k) {
-      if (!improve(point, near.places[k], best)) continue;
+    std::size_t k = 0;  // how many are looked at
+    for (; k < near.count && near.distances[k] - moved <= distance * (1.0 + kRounding); ++k) {
+      if (!improve(point, near.places[k], best, squared[k])) continue;
       distance = std::sqrt(best.distance_squared);
       found = true;
     }
+    if (k > kFew) recentre(point, moved, squared, k, near);
     if (found || limit_squared <= best.distance_squared) {
       if (!(found && best.distance_squared <= limit_squared)) return false;
       out = best;

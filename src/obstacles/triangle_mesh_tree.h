@@ -68,7 +68,7 @@ class TriangleMeshTree {
     std::uint32_t index;
   };
 
-  bool improve(const Vec3& point, std::uint32_t place, NearestTriangle& best) const noexcept;
+  bool improve(const Vec3& point, std::uint32_t place, NearestTriangle& best, double& squared) const noexcept;
   void collect(const Vec3& point, double radius, NearTriangles& near) const noexcept;
 
   BoxTree tree_;
