@@ -1,9 +1,9 @@
-# The benchmark, test/bench: one program, the rivals in a library of their own. Eigen and the engine keep the layout they
+# The benchmark: one program, the rivals in a library of their own. Eigen and the engine keep the layout they
 # are built with; the rivals, which know neither, get all that this machine's processor can do.
-file(GLOB rival_sources CONFIGURE_DEPENDS test/bench/rivals/*.cpp)
+file(GLOB rival_sources CONFIGURE_DEPENDS bench/rivals/*.cpp)
 list(FILTER rival_sources EXCLUDE REGEX "/bullet.*\\.cpp$")
 add_library(curtain_rivals STATIC ${rival_sources})
-target_include_directories(curtain_rivals PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/test)
+target_include_directories(curtain_rivals PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 target_compile_options(curtain_rivals PRIVATE -O3 -march=native -fno-math-errno -fno-trapping-math -fopenmp-simd)
 target_link_libraries(curtain_rivals PRIVATE curtain_warnings)
 
@@ -16,9 +16,9 @@ if(BULLET_FOUND)
   if(CURTAIN_BENCH_BULLET_SINGLE OR NOT BULLET_SOFT_DOUBLE)
     set(bullet_suffix "")
   endif()
-  target_sources(curtain_rivals PRIVATE test/bench/rivals/bullet.cpp)
+  target_sources(curtain_rivals PRIVATE bench/rivals/bullet.cpp)
   # Not for this machine: Bullet's aligned types must be laid out as in its libraries.
-  set_source_files_properties(test/bench/rivals/bullet.cpp PROPERTIES COMPILE_OPTIONS "-march=x86-64")
+  set_source_files_properties(bench/rivals/bullet.cpp PROPERTIES COMPILE_OPTIONS "-march=x86-64")
   target_include_directories(curtain_rivals SYSTEM PRIVATE ${BULLET_INCLUDE_DIRS})
   if(bullet_suffix)
     target_compile_definitions(curtain_rivals PRIVATE BT_USE_DOUBLE_PRECISION)
@@ -28,7 +28,7 @@ if(BULLET_FOUND)
   endforeach()
   target_link_libraries(curtain_rivals PUBLIC LinearMath${bullet_suffix})
 else()
-  target_sources(curtain_rivals PRIVATE test/bench/rivals/bullet_missing.cpp)
+  target_sources(curtain_rivals PRIVATE bench/rivals/bullet_missing.cpp)
   message(STATUS "curtain_sim: no Bullet (libbullet-dev), btSoftBody takes no part in the benchmark")
 endif()
 
@@ -38,14 +38,14 @@ endif()
 if(NOT TARGET curtain_sensing)
   include(cmake/sensing.cmake)
 endif()
-file(GLOB bench_sources CONFIGURE_DEPENDS test/bench/*.cpp)
+file(GLOB bench_sources CONFIGURE_DEPENDS bench/*.cpp)
 add_executable(curtain_bench ${bench_sources})
 target_include_directories(curtain_bench PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/test)
 target_compile_definitions(curtain_bench PRIVATE CURTAIN_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}")
 target_compile_options(curtain_bench PRIVATE $<$<CONFIG:Release>:-O2>)
 target_link_libraries(curtain_bench PRIVATE curtain_rivals curtain_weigh curtain_sensing curtain_engine curtain_warnings)
 
-# An oracle of drape (test/bench/drape), with nothing of the engine in it.
-add_executable(curtain_shell test/bench/shell/main.cpp)
+# An oracle of drape (bench/drape), with nothing of the engine in it.
+add_executable(curtain_shell bench/shell/main.cpp)
 target_link_libraries(curtain_shell PRIVATE Eigen3::Eigen curtain_warnings)
 target_compile_options(curtain_shell PRIVATE -O3 -march=native -fno-math-errno)

@@ -31,8 +31,8 @@ add_executable(curtain_flood EXCLUDE_FROM_ALL test/ros/flood.cpp)
 target_link_libraries(curtain_flood curtain_ros curtain_warnings)
 add_dependencies(tests curtain_flood)
 
-# The client of test/bench/node/step_rate.
-add_executable(curtain_step_client EXCLUDE_FROM_ALL test/bench/node/step_client.cpp)
+# The client of bench/node/step_rate.
+add_executable(curtain_step_client EXCLUDE_FROM_ALL bench/node/step_client.cpp)
 target_link_libraries(curtain_step_client curtain_ros curtain_warnings)
 add_dependencies(tests curtain_step_client)
 

@@ -104,7 +104,7 @@ set_tests_properties(sweep PROPERTIES ENVIRONMENT "CURTAIN_BATCH=$<TARGET_FILE:c
 # By the formatter's major version that Debian 12 has: others break other lines.
 find_program(CLANG_FORMAT NAMES clang-format-14)
 if(CLANG_FORMAT)
-  add_test(NAME format COMMAND sh -c "find include src test docs -name '*.cpp' -o -name '*.h' | xargs ${CLANG_FORMAT} --dry-run -Werror"
+  add_test(NAME format COMMAND sh -c "find include src test bench docs -name '*.cpp' -o -name '*.h' | xargs ${CLANG_FORMAT} --dry-run -Werror"
     WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
 endif()
 

@@ -35,7 +35,8 @@ def sources(*patterns):
                 yield os.path.relpath(path, ROOT), re.sub(r"//[^\n]*", "", file.read())
 
 
-ALL = ("include/**/*.h", "src/**/*.h", "src/**/*.cpp", "test/**/*.h", "test/**/*.cpp")
+ALL = ("include/**/*.h", "src/**/*.h", "src/**/*.cpp", "test/**/*.h", "test/**/*.cpp",
+       "bench/**/*.h", "bench/**/*.cpp")
 
 
 class Portable(unittest.TestCase):

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A client of ~step for test/bench/node/step_rate: prints how many frames a second it gets; or, with "listen" for the
+// A client of ~step for bench/node/step_rate: prints how many frames a second it gets; or, with "listen" for the
 // frames, one that listens to ~state until it is told to end.
 #include <ros/ros.h>
 
