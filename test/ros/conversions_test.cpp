@@ -132,20 +132,24 @@ TEST(Conversions, BadWindsAreNamed) {
   expect("pressure", [](WindSource& m) { m.pressure = -1.0; });
   expect("unsteadiness", [](WindSource& m) { m.unsteadiness = -1.0; });
   expect("correlation_time", [](WindSource& m) { m.correlation_time = -1.0; });
+  expect("correlation_time", [](WindSource& m) { m.correlation_time = 1e-7; });
+  expect("correlation_time", [](WindSource& m) { m.correlation_time = kNan; });
   expect("lifetime", [](WindSource& m) { m.lifetime = kNan; });
   expect("profile", [](WindSource& m) { m.profile = 2; });
   // Finite, but nothing that a cloth could be held against.
   expect("pose.position", [](WindSource& m) { m.pose.position.x = -1e300; });
   expect("pose.orientation", [](WindSource& m) { m.pose.orientation.x = 1e200; });
   expect("radius", [](WindSource& m) { m.radius = 1e300; });
-  expect("pressure", [](WindSource& m) { m.pressure = 1.1e6; });
-  expect("unsteadiness", [](WindSource& m) { m.unsteadiness = 1.1e6; });
+  expect("pressure", [](WindSource& m) { m.pressure = 1.1e9; });
+  expect("unsteadiness", [](WindSource& m) { m.unsteadiness = 1.1e9; });
+  expect("correlation_time", [](WindSource& m) { m.correlation_time = 1.1e6; });
   expect("lifetime", [](WindSource& m) { m.lifetime = 1e300; });
 }
 
 TEST(Conversions, TheStrongestAreTaken) {
   WindSource wind = goodWind();
-  wind.pressure = wind.unsteadiness = 1e6;
+  wind.pressure = wind.unsteadiness = 1e9;
+  wind.correlation_time = 1e6;
   wind.lifetime = wind.radius = wind.pose.position.x = 1e9;
   EXPECT_EQ(windProblems(wind), "");
   DragForce drag = goodDrag();

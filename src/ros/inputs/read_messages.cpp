@@ -20,7 +20,7 @@ using Problems = std::vector<curtain::Problem>;
 // Larger numbers would cost the cloth's own numbers their digits.
 const curtain::Range kPlace = curtain::between(-1e9, 1e9);    // [m]
 const curtain::Range kForce = curtain::between(-1e6, 1e6);    // [N]
-const curtain::Range kStrength = curtain::between(0.0, 1e6);  // [Pa], [N/m]
+const curtain::Range kStiffness = curtain::between(0.0, 1e6);  // [N/m]
 const curtain::Range kTime = curtain::between(0.0, 1e9);      // [s]
 
 double endOf(double lifetime, double time) {
@@ -74,9 +74,6 @@ Problems toWind(const WindSource& message, const curtain::Pose& frame, double ti
             "must be finite and not zero, has the norm " + curtain::formatNumber(orientation.norm()));
   }
   check.number("lifetime", message.lifetime, kTime);
-  check.number("correlation_time", message.correlation_time, kTime);
-  check.number("pressure", message.pressure, kStrength);
-  check.number("unsteadiness", message.unsteadiness, kStrength);
   if (message.profile != WindSource::UNIFORM && message.profile != WindSource::RING_JET) {
     log.add("profile", "must be UNIFORM (0) or RING_JET (1), is " + std::to_string(message.profile));
   }
@@ -92,7 +89,7 @@ Problems toWind(const WindSource& message, const curtain::Pose& frame, double ti
   wind.profile =
       message.profile == WindSource::RING_JET ? curtain::WindProfile::kRingJet : curtain::WindProfile::kUniform;
   wind.correlation_time =
-      message.correlation_time > 0.0 ? message.correlation_time : curtain::WindParams().correlation_time;
+      message.correlation_time == 0.0 ? curtain::WindParams().correlation_time : message.correlation_time;
   wind.start = time;
   wind.end = endOf(message.lifetime, time);
   return {};
@@ -126,7 +123,7 @@ Problems toDrag(const DragForce& message, const curtain::Pose& frame, double tim
     drag.force = frame.orientation * toVec3(message.force);
   } else if (message.mode == DragForce::SPRING) {
     check.vector("target", toVec3(message.target), kPlace);
-    check.number("stiffness", message.stiffness, kStrength);
+    check.number("stiffness", message.stiffness, kStiffness);
     drag.target = transformPoint(frame, toVec3(message.target));
     if (message.stiffness > 0.0) drag.stiffness = message.stiffness;
   } else {

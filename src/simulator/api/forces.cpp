@@ -1,34 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The public interface of what presses and pulls at the cloth: winds, drags, the air.
+#include "scene/key_values.h"
 #include "simulator/simulator_impl.h"
 
 namespace curtain {
 namespace {
 
-// They differ at most in start and end.
-bool isSame(const WindParams& a, const WindParams& b) {
-  return a.position == b.position && a.direction == b.direction && a.radius == b.radius &&
-         a.half_angle == b.half_angle && a.pressure == b.pressure && a.node_force == b.node_force &&
-         a.porosity_weight == b.porosity_weight && a.distance_weight == b.distance_weight &&
-         a.reference_length == b.reference_length && a.unsteadiness == b.unsteadiness &&
-         a.correlation_time == b.correlation_time && a.correlation_length == b.correlation_length &&
-         a.profile == b.profile && a.shadow == b.shadow;
-}
-
-bool isSame(const DragParams& a, const DragParams& b) {
-  const auto sameNode = [](const std::optional<NodeIndex>& p, const std::optional<NodeIndex>& q) {
-    return p.has_value() == q.has_value() && (!p || (p->row == q->row && p->column == q->column));
-  };
-  return sameNode(a.node, b.node) && a.point == b.point && a.force == b.force && a.target == b.target &&
-         a.stiffness == b.stiffness && a.max_force == b.max_force && a.radius == b.radius;
+template <typename Params>
+bool differAtMostInTime(Params a, const Params& b) {
+  a.start = b.start;
+  a.end = b.end;
+  return KeyValues(a) == KeyValues(b);
 }
 
 // An unchanged source that is given again continues: it keeps its start, so that nothing wakes. True: `given` does.
 template <typename Params>
 bool continues(const std::vector<Params>& known, double now, Params& given) {
   const Params* const old = findById(known, given.id);
-  if (old == nullptr || !actsAt(*old, now) || !actsAt(given, now) || !isSame(*old, given)) return false;
+  if (old == nullptr || !actsAt(*old, now) || !actsAt(given, now) || !differAtMostInTime(*old, given)) return false;
   given.start = old->start;
   return true;
 }
