@@ -18,10 +18,10 @@ namespace {
 using Problems = std::vector<curtain::Problem>;
 
 // Larger numbers would cost the cloth's own numbers their digits.
-const curtain::Range kPlace = curtain::between(-1e9, 1e9);    // [m]
-const curtain::Range kForce = curtain::between(-1e6, 1e6);    // [N]
+const curtain::Range kPlace = curtain::between(-1e9, 1e9);     // [m]
+const curtain::Range kForce = curtain::between(-1e6, 1e6);     // [N]
 const curtain::Range kStiffness = curtain::between(0.0, 1e6);  // [N/m]
-const curtain::Range kTime = curtain::between(0.0, 1e9);      // [s]
+const curtain::Range kTime = curtain::between(0.0, 1e9);       // [s]
 
 double endOf(double lifetime, double time) {
   return lifetime > 0.0 ? time + lifetime : std::numeric_limits<double>::infinity();
