@@ -85,10 +85,10 @@ bool Sweeps::keepOrUndo(double& residual, const Residual& now, SweepDamping& dam
   return true;
 }
 
-bool Sweeps::isWithin(double touch) noexcept {
+bool Sweeps::isWithin(bool recovers) noexcept {
   const double allowed = tolerance_ / kInnerTolerance;
-  return touch <= most_touch_ && constraints_.rodsResidual() <= allowed &&
-         constraints_.lookAtStrings(true) <= (1.0 - kMostGive) * allowed;
+  return constraints_.contacts().residual(constraints_.next, recovers, most_touch_) <= most_touch_ &&
+         constraints_.rodsResidual() <= allowed && constraints_.lookAtStrings(true) <= (1.0 - kMostGive) * allowed;
 }
 
 SweepOutcome Sweeps::run(const SweepTask& task, StageClock& clock) noexcept {
@@ -97,7 +97,7 @@ SweepOutcome Sweeps::run(const SweepTask& task, StageClock& clock) noexcept {
   SweepDamping damping(task.last_resort ? kMostDamping : kLargestDamping);
   StallWatch watch;
   bool follow = task.follows;
-  double before = kInfinity, touch = 0.0;
+  double before = kInfinity;
   best_ = Best();
   most_touch_ = touchAim(task, 1.0);
   constraints_.beginSolve();
@@ -115,12 +115,11 @@ SweepOutcome Sweeps::run(const SweepTask& task, StageClock& clock) noexcept {
     if (!rods.converged && !task.last_resort) return {SweepEnd::kDiverged, false, outcome.sweeps};
     ++outcome.sweeps;
     const Residual now = look(rods, first, outcome.sweeps, clock);
-    touch = now.touch;
     if (reached(aim, now)) {
       clock.lap(Stage::kWeft);
       return {SweepEnd::kConverged, true, outcome.sweeps, outcome.predicted_violation};
     }
-    double residual = std::max(now.strings, touch / constraints_.middleRest());
+    double residual = std::max(now.strings, now.touch / constraints_.middleRest());
     if (!std::isfinite(residual)) {
       outcome.end = SweepEnd::kDiverged;
       break;
@@ -136,7 +135,7 @@ SweepOutcome Sweeps::run(const SweepTask& task, StageClock& clock) noexcept {
       damping.better();
     }
     before = residual;
-    if (undone || now.strings > aim.alone * aim.links || touch > aim.alone * aim.contact) {
+    if (undone || now.strings > aim.alone * aim.links || now.touch > aim.alone * aim.contact) {
       // With contact, directions are those of the substep's start, along which the scheme's forces act, until a sweep
       // makes it worse: under a heavy load the rods leave so little of a node's mobility that directions which have
       // turned a little make pushes grow from sweep to sweep.
@@ -157,17 +156,17 @@ SweepOutcome Sweeps::run(const SweepTask& task, StageClock& clock) noexcept {
     }
     if (!task.last_resort && watch.stalls(outcome.sweeps, std::max(rods.first_residual, residual))) break;
   }
-  return conclude(outcome, touch);
+  return conclude(outcome);
 }
 
 // The solve did not converge; it may still be within the user's tolerance.
-SweepOutcome Sweeps::conclude(SweepOutcome outcome, double touch) noexcept {
-  if (std::isfinite(best_.merit)) {
+SweepOutcome Sweeps::conclude(SweepOutcome outcome) noexcept {
+  const bool returns = std::isfinite(best_.merit);
+  if (returns) {
     if (outcome.end == SweepEnd::kDiverged) outcome.end = SweepEnd::kStalled;
     constraints_.restoreIterate();
-    touch = constraints_.contacts().residual(constraints_.next, false, most_touch_);
   }
-  outcome.within = outcome.end != SweepEnd::kDiverged && isWithin(touch);
+  outcome.within = outcome.end != SweepEnd::kDiverged && isWithin(!returns);
   return outcome;
 }
 

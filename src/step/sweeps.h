@@ -104,8 +104,8 @@ class Sweeps {
     double merit = std::numeric_limits<double>::infinity(), residual = 0.0;
   };
   bool keepOrUndo(double& residual, const Residual& now, SweepDamping& damping) noexcept;
-  SweepOutcome conclude(SweepOutcome outcome, double touch) noexcept;
-  bool isWithin(double touch) noexcept;
+  SweepOutcome conclude(SweepOutcome outcome) noexcept;
+  bool isWithin(bool recovers) noexcept;
 
   Constraints& constraints_;
   const NodeInertia& inertia_;
