@@ -88,7 +88,7 @@ void ClothContact::warmStart() noexcept {
   for (Contact& contact : contacts_) {
     while (first != last_.end() && before(*first, contact)) ++first;
     for (auto old = first; old != last_.end() && !before(contact, *old); ++old) {
-      if (old->source != contact.source) continue;
+      if (old->source != contact.source || old->ran_into) continue;
       contact.push = contact.press > 0.0 ? old->push : std::max(0.0, old->push);
       contact.slide = old->slide;
     }

@@ -46,7 +46,6 @@ void beginContacts(const Field& inverse_inertia, double scale, double ratio, std
       const auto at = static_cast<std::size_t>(k);
       contact.mobility += contact.weight[at] * contact.weight[at] * inverse_inertia[contact.node[at]];
     }
-    contact.first_normal = contact.normal;
     contact.push *= ratio;
     contact.leans = contact.push > 0.0;
     contact.hold = scale * contact.friction * contact.press;
@@ -56,19 +55,6 @@ void beginContacts(const Field& inverse_inertia, double scale, double ratio, std
     if (!contact.sticks) contact.slip();
     contact.move(inverse_inertia, contact.push * contact.normal + contact.slide, position);
   }
-}
-
-void Contact::runInto(const Field& inverse_inertia, Field3& position) noexcept {
-  if (!curved || carried_normal.isZero(0.0) || mobility <= 0.0) return;
-  const Vec3 turn = level - carried_normal;
-  const bool runs_into = turn.squaredNorm() > kMostTurn * kMostTurn && turn.dot(point(position) - carried) < 0.0;
-  const Vec3& wanted = runs_into ? level : first_normal;
-  if (wanted == normal) return;
-  const Vec3 before = push * normal + slide;
-  normal = wanted;
-  slide = across(slide);
-  if (!sticks) slip();
-  move(inverse_inertia, push * normal + slide - before, position);
 }
 
 double fastestSurface(const Contacts& contacts) noexcept {
@@ -137,10 +123,8 @@ void ContactRows::slide(const Field& inverse, Field3& position) noexcept {
   }
 }
 
-void ContactRows::relinearise(const Field& inverse, Field3& position) noexcept {
-  if (finder_ == nullptr) return;
-  finder_->relinearise(position, *solved_);
-  for (Contact& contact : *solved_) contact.runInto(inverse, position);
+void ContactRows::relinearise(const Field3& position) noexcept {
+  if (finder_ != nullptr) finder_->relinearise(position, *solved_);
 }
 
 double ContactRows::residual(const Field3& position, bool recovers, double tolerance) const noexcept {

@@ -26,6 +26,7 @@
 
 #include "cloth/cloth.h"
 #include "scene/infinity.h"
+#include "step/constants.h"
 #include "step/row.h"
 
 namespace curtain {
@@ -51,8 +52,7 @@ struct Contact {
   /// What it may lack [m]: with more, a point that is near the surface already goes more than half of the way to it.
   double room = kInfinity;
   Vec3 carried = Vec3::Zero();  ///< point at the end of the substep without slip [m]; only its tangential part is read
-  Vec3 carried_normal = Vec3::Zero();    ///< of what it touched at the start, as that has turned by the end; 0: unknown
-  Vec3 first_normal = Vec3::UnitZ();     ///< along which it pushed when the solve began
+  Vec3 carried_normal = Vec3::UnitZ();   ///< of what it touched at the start, as that has turned by the end
   Vec3 surface_velocity = Vec3::Zero();  ///< of what the point touches, when the force acts [m/s]
   Vec3 end_velocity = Vec3::Zero();      ///< the same at the substep's end [m/s]
   double friction = 0.0;                 ///< Coulomb coefficient, >= 0; pinched: the sum of both sides'
@@ -66,6 +66,7 @@ struct Contact {
   Vec3 lean = Vec3::Zero();              ///< of its force where it may slip: slide over push
   bool leans = false;                    ///< it may: it pushed in the last substep, too
   std::uint32_t source = 0;              ///< for the finder
+  bool ran_into = false;                 ///< of a face that the node ran into in this substep; found within the solve
 
   Vec3 point(const Field3& value) const noexcept {
     Vec3 p = weight[0] * value.at(node[0]);
@@ -90,11 +91,17 @@ struct Contact {
     level = to;
     offset = level.dot(point(position)) + asked - distance;
   }
-  /// A node pushes along the normal of the substep's start, unless the surface has turned against its motion within the
-  /// substep, as in a valley of a mesh: then it has run into another face, which pushes along its own normal. Along the
-  /// one before, a node that runs into a slope of 37 degrees would leave with 1.6 times its kinetic energy, however
-  /// short the substep. Moves the node.
-  void runInto(const Field& inverse_inertia, Field3& position) noexcept;
+  /// Whether a normal is that of the face that it has met, which may bend a little.
+  bool isOf(const Vec3& to) const noexcept { return (to - level).squaredNorm() <= kMostTurn * kMostTurn; }
+  /// Whether what is nearest at a place, where its normal is `to`, is another face that the point has run into: it is
+  /// turned against the point's motion, as in a valley of a mesh. (Around a convex shape it turns with the motion.)
+  /// Such a face has a contact of its own: one that jumped from face to face would not converge in a substep of any
+  /// length, and a push along the first one's normal gives a node that runs into a slope of 37 degrees 1.6 times its
+  /// kinetic energy.
+  bool runsInto(const Vec3& to, const Vec3& at) const noexcept { return !isOf(to) && turnsAgainst(to, at); }
+  bool turnsAgainst(const Vec3& to, const Vec3& at) const noexcept {
+    return (to - carried_normal).dot(at - carried) < 0.0;
+  }
   /// Share of a motion along the normal that goes across the plane.
   double rise() const noexcept { return std::max(kLeastRise, level.dot(normal)); }
   Vec3 across(const Vec3& v) const { return v - normal.dot(v) * normal; }
@@ -158,8 +165,8 @@ class ContactRows final : public RowMaker {
     all_ = solved_ = contacts != nullptr ? contacts : &none_;
     finder_ = finder;
   }
-  /// Looks at the contacts where their points are now. Moves nodes.
-  void relinearise(const Field& inverse, Field3& position) noexcept;
+  /// Looks at the contacts where their points are now.
+  void relinearise(const Field3& position) noexcept;
   /// Those of the last substep, for velocities; null: none pushed.
   void show(const Contacts* contacts) noexcept { all_ = contacts != nullptr ? contacts : &none_; }
   const Contacts& all() const noexcept { return *all_; }

@@ -57,7 +57,7 @@ Sweeps::Residual Sweeps::look(const Constraints::RodsProgress& rods, bool first,
     contacts.slide(inertia_.inverse(), constraints_.next);
     constraints_.settleGuide();
   }
-  contacts.relinearise(inertia_.inverse(), constraints_.next);
+  contacts.relinearise(constraints_.next);
   residual.touch = contacts.residual(constraints_.next, true, most_touch_);
   clock.lap(Stage::kContact);
   residual.strings = constraints_.lookAtStrings(constraints_.stringsPull() || !first);

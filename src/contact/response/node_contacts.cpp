@@ -82,13 +82,17 @@ Contact nodeContact(const ObstacleSubstep& substep, const ClothPattern& pattern,
   Contact contact;
   makeContact(substep, pattern, point, contact);
   contact.curved = curved && substep.moving.press == 0.0;
-  if (contact.curved && substep.act == ContactFinder::ForcesAct::kAtStart) {
-    SurfacePoint there;
-    if (candidates.surfaceOf(node, point.touch, there)) {
-      contact.normal = substep.moving.directionAt(point.share, there.normal);
-      contact.carried_normal = substep.moving.after.rotation * there.normal;
-    }
-  }
+  contact.carried_normal = contact.level;
+  SurfacePoint there;
+  if (!contact.curved || !candidates.surfaceOf(node, point.touch, there)) return contact;
+  contact.carried_normal = substep.moving.after.rotation * there.normal;
+  if (substep.act == ContactFinder::ForcesAct::kAtStart)
+    contact.normal = substep.moving.directionAt(point.share, there.normal);
+  if (contact.isOf(contact.carried_normal) || !contact.turnsAgainst(contact.level, substep.moving.after.toWorld(to)))
+    return contact;
+  // The face that it runs into is found in the solve.
+  contact.level = contact.carried_normal;
+  contact.offset = contact.level.dot(substep.moving.after.toWorld(point.touch)) + contact.asked - there.distance;
   return contact;
 }
 

@@ -103,12 +103,15 @@ void ObstacleContacts::begin(const Field3& start, const Field3& predicted, const
     dropDuplicates(contacts, first);
   }
   pads_.pinch(contacts);
+  begun_ = contacts.size();
 }
 
 // The distance at the end, not that to a plane of before: a node that slides around an edge follows it.
 void ObstacleContacts::relinearise(const Field3& position, Contacts& contacts) noexcept {
-  for (Contact& contact : contacts) {
-    if (!contact.curved) continue;
+  const std::size_t count = contacts.size();
+  for (std::size_t n = 0; n < count; ++n) {
+    Contact& contact = contacts[n];
+    if (!contact.curved || contact.ran_into) continue;
     const auto obstacle = static_cast<std::size_t>(contact.obstacle);
     const Transform& place = moving(obstacle).after;
     if (contact.nodes > 1) {
@@ -117,9 +120,30 @@ void ObstacleContacts::relinearise(const Field3& position, Contacts& contacts) n
     }
     const std::uint32_t node = contact.node[0];
     SurfacePoint surface;
-    if (candidates_[obstacle].surfaceOf(node, place.toLocal(position.at(node)), surface))
-      contact.turnTo(place.rotation * surface.normal, surface.distance, position);
+    if (!candidates_[obstacle].surfaceOf(node, place.toLocal(position.at(node)), surface)) continue;
+    surface.normal = place.rotation * surface.normal;
+    faceMet(contact, surface, position, contacts).turnTo(surface.normal, surface.distance, position);
   }
+}
+
+// A node's contact with the face that is nearest to it now, of its first one and those of faces that it ran into. May
+// be a new one.
+Contact& ObstacleContacts::faceMet(Contact& first, const SurfacePoint& surface, const Field3& position,
+                                   Contacts& contacts) noexcept {
+  if (first.isOf(surface.normal)) return first;
+  for (std::size_t k = begun_; k < contacts.size(); ++k) {
+    Contact& other = contacts[k];
+    if (other.ran_into && other.node == first.node && other.obstacle == first.obstacle && other.isOf(surface.normal))
+      return other;
+  }
+  if (!first.runsInto(surface.normal, position.at(first.node[0]))) return first;
+  Contact other = first;
+  other.ran_into = true;
+  other.normal = other.level = surface.normal;
+  other.push = 0.0;
+  other.slide = other.lean = other.settled = Vec3::Zero();
+  other.sticks = other.leans = false;
+  return addWithinRoom(other, contacts) ? contacts.back() : first;
 }
 
 // Finds candidates for the motion from start to end of every obstacle near it, which become active; false: none is
