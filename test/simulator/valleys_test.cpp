@@ -71,11 +71,18 @@ std::string writeGroove(double slope) {
 }
 
 TEST(Valleys, AreWhereClothComesToRest) {
-  for (const double slope : {0.3, 0.6, 1.0, 2.0}) {
-    for (const double friction : {0.0, 0.3}) {
-      SCOPED_TRACE("slope " + std::to_string(slope) + ", friction " + std::to_string(friction));
+  struct Case {
+    Method method;
+    double friction;
+  };
+  // Without friction implicit still slides along the groove after 10 s, at 2 mm/s.
+  for (const Case& one : {Case{Method::kAuto, 0.0}, {Method::kAuto, 0.3}, {Method::kImplicit, 0.3}}) {
+    for (const double slope : {0.3, 0.6, 1.0, 2.0}) {
+      SCOPED_TRACE("method " + std::to_string(static_cast<int>(one.method)) + ", slope " + std::to_string(slope) +
+                   ", friction " + std::to_string(one.friction));
       const std::string groove = writeGroove(slope);
-      Scene scene = sheetOver(groove, 10, 10, 0.3 + 0.3 * slope, friction);
+      Scene scene = sheetOver(groove, 10, 10, 0.3 + 0.3 * slope, one.friction);
+      scene.solver.method = one.method;
       scene.air.inside = scene.air.border = scene.air.corner = 0.5;
       Simulator simulator(scene);
       std::filesystem::remove(groove);

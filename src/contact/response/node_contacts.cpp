@@ -92,6 +92,7 @@ Contact nodeContact(const ObstacleSubstep& substep, const ClothPattern& pattern,
     return contact;
   // The face that it runs into is found in the solve.
   contact.level = contact.carried_normal;
+  if (substep.act != ContactFinder::ForcesAct::kAtStart) contact.normal = contact.level;
   contact.offset = contact.level.dot(substep.moving.after.toWorld(point.touch)) + contact.asked - there.distance;
   return contact;
 }
