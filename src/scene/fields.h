@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The table of a scene's keys: every key once, with its member and range. The reader, the range checker, the writer, the
-// comparison and the list of known keys are visitors of this table, so they cannot disagree.
+// The table of a scene's keys: every key once, with its member and range. The reader, the range checker, the writer,
+// the comparison and the list of known keys are visitors of this table, so they cannot disagree.
 //
 // A visitor has these members; keys are relative to the visited map:
 //   integer, integerOr (a word stands for one value), seed, number, optionalNumber, numberOrUnset (NaN: not given),
