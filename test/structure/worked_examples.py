@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Does what some pages of docs say, in a copy of the sources, compiles it and runs its tests and scenes.
 
-  worked_examples.py BUILD_FOLDER [CMAKE_ARGUMENT ...]
+  worked_examples.py BUILD_FOLDER CURTAIN_BATCH [CMAKE_ARGUMENT ...]
 
 Of a page count: diff blocks, applied in their order; and blocks that name a file after the language, "```cpp PATH". What comes of
-it is built without optimisation. Copies are only written where they differ, so that a second run compiles nothing.
+it is built without optimisation; scenes need none of it and are run with the given curtain_batch. Copies are only written where
+they differ, so that a second run compiles nothing.
 """
 import filecmp
-import glob
 import json
 import os
 import re
@@ -113,9 +113,9 @@ def check_scene(batch, scene):
 
 
 def main():
-    if len(sys.argv) < 2:
+    if len(sys.argv) < 3:
         sys.exit(__doc__)
-    build, arguments = os.path.abspath(sys.argv[1]), sys.argv[2:]
+    build, batch, arguments = os.path.abspath(sys.argv[1]), sys.argv[2], sys.argv[3:]
     with tempfile.TemporaryDirectory() as folder:
         fresh = os.path.join(folder, "tree")
         copy_sources(fresh)
@@ -130,12 +130,11 @@ def main():
     objects = os.path.join(build, "objects")
     run("cmake", "-S", build, "-B", objects, "-DCMAKE_BUILD_TYPE=None", "-DCMAKE_CXX_FLAGS=-O0", "-DBUILD_TESTING=OFF",
         "-DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON", "-DCURTAIN_UNITY=ON", *arguments)
-    run("cmake", "--build", objects, "-j2", "--target", "test_examples", "curtain_batch")
+    run("cmake", "--build", objects, "-j2", "--target", "test_examples")
     print(run(os.path.join(objects, "test_examples")))
-    batch = [path for path in glob.glob(os.path.join(objects, "**", "curtain_batch"), recursive=True) if os.path.isfile(path)]
     scenes = [path for path in created if path.startswith("config/scenes/")]
     for scene in scenes:
-        check_scene(batch[0], os.path.join(build, "tree", scene))
+        check_scene(batch, os.path.join(build, "tree", scene))
     print("%d pages followed, %d tests' files and %d scenes run" % (len(PAGES), len(tests), len(scenes)))
 
 
