@@ -136,20 +136,19 @@ long unevenFolds(const Scene& scene, const FineMeshTopology& topology, const Fin
   return uneven;
 }
 
-void look(const Simulator& simulator, Tally& tally) {
+void look(const Simulator& simulator, const ContactShape& shape, Tally& tally) {
   FineMesh mesh;
   simulator.copyFineMesh(mesh);
   const FineMeshTopology& topology = simulator.fineMeshTopology();
   const Scene& scene = simulator.scene();
   const Transform place(simulator.obstaclePose(0));
-  const auto shape = makeContactShape(scene.obstacles[0], resolveMeshUrl);
   std::vector<MeshTriangle> judged;
   const int links = weftLinkCount(scene.cloth);
   bool first_pierced = false;
   for (int i = 0; i + 1 < topology.rows; ++i) {
     for (int link = 0; link < links; ++link) {
       const auto quad = coarseQuad(topology, i, link);
-      if (countPiercings(*shape, place, mesh.positions, {quad[0], quad[1]}, 0.0).faces > 0) {
+      if (countPiercings(shape, place, mesh.positions, {quad[0], quad[1]}, 0.0).faces > 0) {
         ++tally.quads_left_out;
         first_pierced = true;
         continue;
@@ -160,8 +159,8 @@ void look(const Simulator& simulator, Tally& tally) {
     }
   }
   tally.pierced_first += first_pierced;
-  const Piercings count = countPiercings(*shape, place, mesh.positions, judged, kTolerance);
-  tally.nodes += countPiercings(*shape, place, mesh.positions, topology.triangles, kTolerance).nodes;
+  const Piercings count = countPiercings(shape, place, mesh.positions, judged, kTolerance);
+  tally.nodes += countPiercings(shape, place, mesh.positions, topology.triangles, kTolerance).nodes;
   tally.faces += count.faces;
   tally.folds += static_cast<long>(topology.rows) * links;
   tally.flattened += mesh.flattened_folds;
@@ -172,10 +171,11 @@ void look(const Simulator& simulator, Tally& tally) {
 TEST(FineSurface, PiercesNothing) {
   for (const Case& each : cases()) {
     Simulator simulator(each.scene);
+    const auto shape = makeContactShape(each.scene.obstacles[0], resolveMeshUrl);
     Tally tally;
     for (int frame = 0; frame < 120; ++frame) {
       simulator.step();
-      if (frame % 4 == 3) look(simulator, tally);
+      if (frame % 4 == 3) look(simulator, *shape, tally);
     }
     std::printf(
         "%-18s contacts %3d, frames %ld (first layer pierced in %ld, %ld of %ld quads), fine nodes in %ld, faces "
