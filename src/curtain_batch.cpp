@@ -96,7 +96,7 @@ int answer(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit of file sizes is told by the write that meets it
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit of file sizes is reported by the write that meets it
   try {
     return answer(curtain_batch::readOptions(argc, argv));
   } catch (const std::runtime_error& error) {

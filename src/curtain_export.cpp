@@ -150,7 +150,7 @@ bool writePly(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit of file sizes is told by the write that meets it
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit of file sizes is reported by the write that meets it
   try {
     const Options options = readOptions(argc, argv);
     if (options.help) {

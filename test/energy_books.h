@@ -62,7 +62,7 @@ class EnergyBooks {
 
   void open(const curtain::Simulator& simulator) {
     last_energy_ = freeEnergy(simulator);
-    own_.most_kinetic = synchronised_.most_kinetic = simulator.energy().kinetic;
+    own_.max_kinetic = synchronised_.max_kinetic = simulator.energy().kinetic;
   }
   void look(const curtain::Simulator& simulator, bool gravity_changes) {
     const curtain::Work work = simulator.work();
@@ -84,15 +84,15 @@ class EnergyBooks {
 
  private:
   struct Account {
-    double level = 0.0, lowest = 0.0, most_kinetic = 0.0;
+    double level = 0.0, lowest = 0.0, max_kinetic = 0.0;
     double add(double change, double kinetic, double moves) {
       level += change;
       if (level <= lowest) {
         lowest = level;
-        most_kinetic = 0.0;
+        max_kinetic = 0.0;
       }
-      most_kinetic = std::max(most_kinetic, kinetic);
-      return (level - lowest) / (moves + most_kinetic);
+      max_kinetic = std::max(max_kinetic, kinetic);
+      return (level - lowest) / (moves + max_kinetic);
     }
   };
   curtain::Work last_;

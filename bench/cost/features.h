@@ -30,7 +30,7 @@ struct Feature {
   std::function<void(Play& play)> make_idle;  ///< from off, which moves to the same bits
   std::string active_is;
   std::function<void(Play& play)> make_active;  ///< from off
-  double most_idle = 1.02;                      ///< instructions of idle over those of off that the test lets pass
+  double max_idle = 1.02;                       ///< instructions of idle over those of off that the test lets pass
   int frames = 240;                             ///< to be weighed
   int warm_up = 0;                              ///< frames before these
 

@@ -19,7 +19,7 @@ GridState::GridState(const ClothStart& start)
   mass.assign(nodes, 0.0);
   inverse_mass.assign(nodes, 0.0);
   free.assign(nodes, 0.0);
-  least_free_mass = std::numeric_limits<double>::infinity();
+  min_free_mass = std::numeric_limits<double>::infinity();
   for (int i = 0; i < rows_; ++i) {
     for (int j = 0; j < columns_; ++j) {
       const auto from = static_cast<std::size_t>(i * columns_ + j);
@@ -31,7 +31,7 @@ GridState::GridState(const ClothStart& start)
       if (start.pinned[from] != 0) continue;
       inverse_mass[to] = 1.0 / mass[to];
       free[to] = 1.0;
-      least_free_mass = std::min(least_free_mass, mass[to]);
+      min_free_mass = std::min(min_free_mass, mass[to]);
     }
   }
   const auto add = [this](std::size_t a, std::size_t b, std::size_t count, double rest, bool two_sided) {

@@ -51,9 +51,9 @@ class GridState {
   std::vector<double> free;          ///< 1, pinned 0
   std::vector<LinkBatch> batches;    ///< warp from the top, then weft
   std::size_t link_count = 0;
-  double least_free_mass = 0.0;  ///< [kg]
-  std::vector<double> gravity;   ///< [m/s^2], three entries
-  double damping = 0.0;          ///< [1/s]
+  double min_free_mass = 0.0;   ///< [kg]
+  std::vector<double> gravity;  ///< [m/s^2], three entries
+  double damping = 0.0;         ///< [1/s]
   double frame_seconds = 0.0;
 
  private:

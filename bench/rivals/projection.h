@@ -23,7 +23,7 @@ class ProjectionContestant : public Contestant {
     for (int s = 0; s < settings_.substeps; ++s) {
       predict();
       project();
-      takeVelocities();
+      deriveVelocities();
     }
   }
 
@@ -53,7 +53,7 @@ class ProjectionContestant : public Contestant {
     }
   }
 
-  void takeVelocities() {
+  void deriveVelocities() {
     const double per_h = 1.0 / h_;
 #pragma omp simd
     for (std::size_t n = 0; n < state_.count(); ++n) {

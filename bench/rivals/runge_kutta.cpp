@@ -29,8 +29,8 @@ class RungeKutta : public Contestant {
  public:
   RungeKutta(const ClothStart& start, const ExplicitSettings& settings)
       : state_(start), substeps_(settings.substeps), h_(start.frame_seconds / settings.substeps) {
-    stiffness_ = state_.least_free_mass * std::pow(0.5 * settings.limit / h_, 2);
-    dashpot_ = settings.dashpot * std::sqrt(stiffness_ * state_.least_free_mass);
+    stiffness_ = state_.min_free_mass * std::pow(0.5 * settings.limit / h_, 2);
+    dashpot_ = settings.dashpot * std::sqrt(stiffness_ * state_.min_free_mass);
     for (Triple* triple : {&stage_x_, &stage_v_, &sum_x_, &sum_v_, &slope_v_}) triple->assign(state_.count(), 0.0);
   }
 

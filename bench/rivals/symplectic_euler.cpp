@@ -16,8 +16,8 @@ class SymplecticEuler : public Contestant {
   SymplecticEuler(const ClothStart& start, const ExplicitSettings& settings)
       : state_(start), substeps_(settings.substeps), h_(start.frame_seconds / settings.substeps) {
     // omega_max = 2 sqrt(k / m), the fastest mode of a chain of equal masses.
-    stiffness_ = state_.least_free_mass * std::pow(0.5 * settings.limit / h_, 2);
-    dashpot_ = settings.dashpot * std::sqrt(stiffness_ * state_.least_free_mass);
+    stiffness_ = state_.min_free_mass * std::pow(0.5 * settings.limit / h_, 2);
+    dashpot_ = settings.dashpot * std::sqrt(stiffness_ * state_.min_free_mass);
     force_.assign(state_.count(), 0.0);
   }
 

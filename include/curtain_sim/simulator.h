@@ -113,7 +113,7 @@ class Simulator {
   /// Sets positions [m] and velocities [m/s] of all nodes, row-major, shape [rows * columns]; velocities of pinned
   /// nodes are ignored, carriers are put where the rail is nearest. Wakes all of the cloth and forgets the tensions.
   /// Links may be far from their lengths and nodes may coincide: the solver corrects lengths as fast as it can. Contact
-  /// takes the present sides as the right ones. Returns what is wrong (sizes, numbers not finite or beyond 1e9); then
+  /// assumes that the present sides are right. Returns what is wrong (sizes, numbers not finite or beyond 1e9); then
   /// nothing changed. The time stays.
   std::vector<Problem> setState(const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities);
 

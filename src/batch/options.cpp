@@ -90,10 +90,10 @@ double readSampleRate(const std::string& option, const std::string& text) {
 double samplesWithin(const Options& options) { return std::floor(options.duration * options.sample_rate + 1e-9); }
 
 void checkSampleRate(const Options& options) {
-  constexpr double kMostSamples = 1e6;
+  constexpr double kMaxSamples = 1e6;
   if (options.sample_rate == 0.0) return;
   if (!options.samples.empty()) throw std::invalid_argument("--sample-rate: there is --sample, too; leave one out");
-  if (samplesWithin(options) >= kMostSamples)
+  if (samplesWithin(options) >= kMaxSamples)
     throw std::invalid_argument("--sample-rate: at most 1000000 states are possible, --duration has more");
 }
 

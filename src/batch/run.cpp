@@ -53,7 +53,7 @@ class Run {
     }
   }
 
-  Progress takeProgress() { return std::move(progress_); }
+  Progress progress() { return std::move(progress_); }
 
  private:
   void open(const std::string& path, const TableMark& mark, void (*header)(std::ostream&),
@@ -118,7 +118,7 @@ class Run {
 Progress makeRun(const Options& options, curtain::Simulator& simulator) {
   Run run(options, simulator);
   run.make();
-  return run.takeProgress();
+  return run.progress();
 }
 
 }  // namespace curtain_batch

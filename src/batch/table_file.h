@@ -24,7 +24,7 @@ struct TableMark {
 /// Throws std::runtime_error naming the file and the reason when it can't be written. Not thread-safe.
 class TableFile : private std::streambuf {
  public:
-  /// A new file, or an old one anew.
+  /// A new file, or an old one written over.
   explicit TableFile(const std::string& path);
   /// Goes on with a file at a mark; what is behind it is cut off. Throws std::invalid_argument, and leaves the file as
   /// it is, if it does not begin with what the mark is of.

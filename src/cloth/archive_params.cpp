@@ -35,29 +35,29 @@ void judge(const Archive& archive, const std::vector<Problem>& problems) {
 }
 
 template <typename Params>
-void carryFields(Archive& archive, Params& params, const Grid& grid = {}) {
+void serializeFields(Archive& archive, Params& params, const Grid& grid = {}) {
   ParamCarrier carrier(archive, grid);
   archive.atOnce([&] { visitFields(carrier, params); });
 }
 
 }  // namespace
 
-void carryParams(Archive& archive, WindParams& wind) {
-  carryFields(archive, wind);
+void serializeParams(Archive& archive, WindParams& wind) {
+  serializeFields(archive, wind);
   judge(archive, validate(wind, "wind"));
 }
 
-void carryParams(Archive& archive, DragParams& drag, const ClothParams& cloth) {
-  carryFields(archive, drag, Grid(cloth.rows, cloth.columns, cloth.closed));
+void serializeParams(Archive& archive, DragParams& drag, const ClothParams& cloth) {
+  serializeFields(archive, drag, Grid(cloth.rows, cloth.columns, cloth.closed));
   judge(archive, validate(drag, cloth, "drag"));
 }
 
-void carryParams(Archive& archive, AirParams& air) {
-  carryFields(archive, air);
+void serializeParams(Archive& archive, AirParams& air) {
+  serializeFields(archive, air);
   judge(archive, validate(air, "air"));
 }
 
-void carryParams(Archive& archive, GraspParams& grasp, const ClothParams& cloth) {
+void serializeParams(Archive& archive, GraspParams& grasp, const ClothParams& cloth) {
   const Grid grid(cloth.rows, cloth.columns, cloth.closed);
   archive.atOnce([&] {
     archive.text("id", grasp.id);

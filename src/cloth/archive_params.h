@@ -8,9 +8,9 @@
 
 namespace curtain {
 
-void carryParams(Archive& archive, WindParams& wind);
-void carryParams(Archive& archive, DragParams& drag, const ClothParams& cloth);
-void carryParams(Archive& archive, AirParams& air);
-void carryParams(Archive& archive, GraspParams& grasp, const ClothParams& cloth);
+void serializeParams(Archive& archive, WindParams& wind);
+void serializeParams(Archive& archive, DragParams& drag, const ClothParams& cloth);
+void serializeParams(Archive& archive, AirParams& air);
+void serializeParams(Archive& archive, GraspParams& grasp, const ClothParams& cloth);
 
 }  // namespace curtain

@@ -89,7 +89,7 @@ void fillBending(const ClothParams& cloth, ClothPattern& pattern);
 void fillTurningLengths(const ClothPattern& pattern, Field& warp, Field& weft) noexcept;
 
 /// Pins these nodes beside those of the scene, and frees all others; inverse masses and bending follow. Whoever keeps
-/// something that follows from them must take it again: Simulator::Impl::pinsChanged() tells all of them.
+/// something that follows from them must be set again: Simulator::Impl::pinsChanged() tells all of them.
 ///   held  by node, kFree or how it is held; read where scene_pins has kFree
 void pinBeside(const std::vector<std::uint8_t>& held, const ClothParams& cloth, ClothPattern& pattern) noexcept;
 
@@ -108,15 +108,15 @@ void placeCloth(const Scene& scene, const ClothPattern& pattern, Field3& positio
 /// stands out and hangs through, by the length that it has; else it is straight there, its links shorter.
 void placeOnRail(const ClothPattern& pattern, const std::vector<double>& places, bool hangs_through, Field3& position);
 
-/// Calls look(node, other, rest length [m], is a rod) for every link, row by row; it is stored at `node`.
-template <typename Look>
-void forEachLink(const ClothPattern& pattern, const Look& look) {
+/// Calls visit(node, other, rest length [m], is a rod) for every link, row by row; it is stored at `node`.
+template <typename Visit>
+void forEachLink(const ClothPattern& pattern, const Visit& visit) {
   const Grid& grid = pattern.grid;
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = 0; j < grid.columns; ++j) {
       const std::size_t n = grid.index(i, j);
-      if (i > 0) look(n, grid.index(i - 1, j), pattern.warp_rest[n], true);
-      if (grid.hasLink(i, j)) look(n, grid.index(i, j > 0 ? j - 1 : grid.columns - 1), pattern.weft_rest[n], false);
+      if (i > 0) visit(n, grid.index(i - 1, j), pattern.warp_rest[n], true);
+      if (grid.hasLink(i, j)) visit(n, grid.index(i, j > 0 ? j - 1 : grid.columns - 1), pattern.weft_rest[n], false);
     }
   }
 }
@@ -124,12 +124,12 @@ void forEachLink(const ClothPattern& pattern, const Look& look) {
 /// Rest length of the shortest rod or weft link [m].
 double shortestLink(const ClothPattern& pattern);
 
-/// Calls look(row, column on the right, column on the left) for all cells.
-template <typename Look>
-void forEachCell(const Grid& grid, const Look& look) {
+/// Calls visit(row, column on the right, column on the left) for all cells.
+template <typename Visit>
+void forEachCell(const Grid& grid, const Visit& visit) {
   for (int i = 0; i + 1 < grid.rows; ++i) {
     for (int j = grid.closed ? 0 : 1; j < grid.columns; ++j) {
-      if (grid.hasQuad(i, j)) look(i, j, j > 0 ? j - 1 : grid.columns - 1);
+      if (grid.hasQuad(i, j)) visit(i, j, j > 0 ? j - 1 : grid.columns - 1);
     }
   }
 }

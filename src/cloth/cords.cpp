@@ -52,16 +52,17 @@ void addLine(const LineParams& line, const Vec3& gravity, const Field3& position
   }
 }
 
-// Where a column of a loop hangs from a pin, its rods bound how far a node gets: look(pinned node, length of the rods
+// Where a column of a loop hangs from a pin, its rods bound how far a node gets: visit(pinned node, length of the rods
 // [m], distance of the pin from the loop's point [m]) for each; true ends it.
-template <typename Look>
-void forEachPinAbove(const TieBackParams& loop, const ClothPattern& pattern, const Field3& position, const Look& look) {
+template <typename Visit>
+void forEachPinAbove(const TieBackParams& loop, const ClothPattern& pattern, const Field3& position,
+                     const Visit& visit) {
   for (int j = loop.first_column; j <= loop.last_column; ++j) {
     for (int i = 0; i < pattern.grid.rows; ++i) {
       if (!pattern.isPinned({i, j})) continue;
       const double rods = std::abs(pattern.warp_coordinate[static_cast<std::size_t>(loop.row)] -
                                    pattern.warp_coordinate[static_cast<std::size_t>(i)]);
-      if (look(NodeIndex{i, j}, rods, (loop.point - position.at(pattern.grid.index(i, j))).norm())) return;
+      if (visit(NodeIndex{i, j}, rods, (loop.point - position.at(pattern.grid.index(i, j))).norm())) return;
     }
   }
 }

@@ -13,7 +13,7 @@ namespace {
 constexpr double kSteepestRod = 0.9;  // sine of the steepest rod, as of cloth without folds (scene/check_start.cpp)
 constexpr int kSizeHalvings = 40;     // of an interval of angles: to 1e-11 of it
 constexpr int kNewtonSteps = 8;
-constexpr double kLeastDepth = 1e-2;    // of their depth that folds are tried with
+constexpr double kMinDepth = 1e-2;      // of their depth that folds are tried with
 constexpr double kLengthSlack = 1e-12;  // relative, of lengths
 
 using Vec2 = Eigen::Vector2d;
@@ -36,7 +36,7 @@ class FoldedStart {
     findSupports();
     divide();
     sag();
-    for (share_ = 1.0; share_ > kLeastDepth; share_ *= 0.5) {
+    for (share_ = 1.0; share_ > kMinDepth; share_ *= 0.5) {
       position_ = plain_;
       for (Fold& each : folds_) each.size = 0.0;
       if (!placeRows()) continue;

@@ -7,7 +7,7 @@ namespace curtain {
 namespace {
 
 // Principal moments below this share of the largest count as 0 (nodes on a line): no rotation about that axis.
-constexpr double kLeastMoment = 1e-9;
+constexpr double kMinMoment = 1e-9;
 
 }  // namespace
 
@@ -26,7 +26,7 @@ Vec3 turnOf(const Eigen::Matrix3d& inertia, const Vec3& spin) noexcept {
   for (int k = 0; k < 3; ++k) {
     const double moment = solver.eigenvalues()[k];
     const Vec3 axis = solver.eigenvectors().col(k);
-    if (moment > kLeastMoment * largest) turn += axis.dot(spin) / moment * axis;
+    if (moment > kMinMoment * largest) turn += axis.dot(spin) / moment * axis;
   }
   return turn;
 }

@@ -28,7 +28,7 @@ int helpersFor(int threads) noexcept {
 }
 
 // Polls of an idle thread before it yields its core.
-constexpr int kLooksBeforeYield = 4000;
+constexpr int kChecksBeforeYield = 4000;
 
 void pause() noexcept {
 #if defined(__x86_64__) || defined(__i386__)
@@ -70,14 +70,14 @@ struct Workers::Crew {
 
   // Runs until the shift ends.
   void help() noexcept {
-    int looks = 0;
+    int checks = 0;
     while (open.load(std::memory_order_acquire)) {
       const int block = nextBlock(false);
       if (block >= 0) {
         call(body, block);
         undone.fetch_sub(1, std::memory_order_acq_rel);
-        looks = 0;
-      } else if (++looks < kLooksBeforeYield) {
+        checks = 0;
+      } else if (++checks < kChecksBeforeYield) {
         pause();
       } else {
         std::this_thread::yield();
@@ -135,8 +135,8 @@ void Workers::share(int count, void (*call)(const void*, int), const void* block
     ++own;
   }
   if (crew.undone.fetch_sub(own, std::memory_order_acq_rel) == own) return;
-  for (int looks = 0; crew.undone.load(std::memory_order_acquire) > 0;) {
-    if (++looks < kLooksBeforeYield)
+  for (int checks = 0; crew.undone.load(std::memory_order_acquire) > 0;) {
+    if (++checks < kChecksBeforeYield)
       pause();
     else
       std::this_thread::yield();

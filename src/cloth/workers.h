@@ -36,7 +36,7 @@ class Workers {
   /// block must not throw, nor run another loop.
   template <typename Block>
   void run(int count, const Block& block) const {
-    if (!onShift() || count < 2 || count > kMostBlocks) {
+    if (!onShift() || count < 2 || count > kMaxBlocks) {
       for (int b = 0; b < count; ++b) block(b);
       return;
     }
@@ -45,7 +45,7 @@ class Workers {
   }
 
  private:
-  static constexpr int kMostBlocks = 0xffff;
+  static constexpr int kMaxBlocks = 0xffff;
   static constexpr int kSharesPerThread = 4;
 
   bool onShift() const noexcept;

@@ -18,7 +18,7 @@ constexpr int kAdvectionRounds = 64;
 
 // Candidates for crossings, over the gap: twice the share that counts as crossing, for uncertainty of the time of
 // impact.
-constexpr double kCrossingReach = 2.0 * SelfContacts::kLeastShare;
+constexpr double kCrossingReach = 2.0 * SelfContacts::kMinShare;
 // Capacity for contacts, per node.
 constexpr std::size_t kContactsPerNode = 8;
 

@@ -92,7 +92,7 @@ class ClothContact : public ContactFinder {
   void serialize(Archive& archive);
 
  private:
-  void carryPushing(Archive& archive, Contact& contact) const;
+  void serializePushing(Archive& archive, Contact& contact) const;
   void clearAtRandom() noexcept;
   bool staysFlat(const Field3& end, bool settled) noexcept;
   void find(const Field3& start, const Field3& end, double reach) noexcept;

@@ -21,7 +21,7 @@ std::uint64_t fingerprint(const ShapeTriangles& mesh) {
   return bits.hash;
 }
 
-void carryTransform(Archive& archive, const char* name, Transform& transform) {
+void serializeTransform(Archive& archive, const char* name, Transform& transform) {
   archive.group(name, [&] {
     archive.finite("rotation", transform.rotation);
     archive.finite("translation", transform.translation);
@@ -32,8 +32,8 @@ void carryTransform(Archive& archive, const char* name, Transform& transform) {
 
 void MovingObstacle::serialize(Archive& archive) {
   archive.flag("present", present);
-  carryTransform(archive, "before", before);
-  carryTransform(archive, "after", after);
+  serializeTransform(archive, "before", before);
+  serializeTransform(archive, "after", after);
   archive.numbers("swept", swept_);
 }
 
@@ -82,7 +82,7 @@ void ObstacleContacts::serialize(Archive& archive) {
 
 // The multipliers and directions of a contact: they warm-start the next substep, and with the last forces advance
 // velocities to the time of the positions. The rest is recomputed in every substep.
-void ClothContact::carryPushing(Archive& archive, Contact& contact) const {
+void ClothContact::serializePushing(Archive& archive, Contact& contact) const {
   for (std::uint32_t& node : contact.node) archive.node("node", node, pattern_.grid);
   for (double& weight : contact.weight) archive.number("weight", weight);
   archive.integer("nodes", contact.nodes, 0, 4);
@@ -104,7 +104,7 @@ void ClothContact::carryPushing(Archive& archive, Contact& contact) const {
 void ClothContact::serialize(Archive& archive) {
   archive.part("touch", obstacle_contacts_);
   archive.flag("taut", taut_);
-  archive.list("pushing", last_, [&](Contact& contact) { carryPushing(archive, contact); });
+  archive.list("pushing", last_, [&](Contact& contact) { serializePushing(archive, contact); });
   archive.number("last_scale", last_scale_);
   archive.integer("slippery", frictionless_substeps_, 0, kCount);
 }

@@ -26,9 +26,9 @@ class Ticks {
   /// Ticks that a frame at this time [s], within reach(), is for: none where the next is still to come.
   int advance(double time) {
     const long due = static_cast<long>(std::floor(time * rate_ + kRounding)) + 1;
-    if (due <= taken_) return 0;
-    const long count = due - taken_;
-    taken_ = due;
+    if (due <= written_) return 0;
+    const long count = due - written_;
+    written_ = due;
     return static_cast<int>(count);
   }
 
@@ -37,7 +37,7 @@ class Ticks {
   static constexpr double kRounding = 1e-3;
 
   double rate_;
-  long taken_ = 0;
+  long written_ = 0;
 };
 
 }  // namespace curtain

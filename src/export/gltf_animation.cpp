@@ -14,7 +14,7 @@ namespace curtain {
 namespace {
 
 // A file holds its length in 32 bits; some are left for the text in front of the numbers.
-constexpr std::uint64_t kMostBytes = 4000000000U;
+constexpr std::uint64_t kMaxBytes = 4000000000U;
 constexpr int kRoot = 0, kClothMesh = 0;
 
 // IEC 61966-2-1, Sect. 5.2: glTF has linear colours.
@@ -97,7 +97,7 @@ void GltfAnimation::setCloth(const std::vector<std::array<std::uint32_t, 3>>& tr
 void GltfAnimation::checkSize() const {
   const std::uint64_t frames = times_.size() + 1;
   const std::uint64_t bytes = model_.buffers.front().data.size() + sizeof(float) * frames * frames;
-  if (bytes <= kMostBytes) return;
+  if (bytes <= kMaxBytes) return;
   throw std::invalid_argument("a glTF file ends at 4 GB, here after " + std::to_string(times_.size()) +
                               " frames: take fewer a second, or a shorter part");
 }

@@ -97,10 +97,10 @@ class BagPlayer {
   /// Returns whether the animation goes on.
   bool play(const rosbag::MessageInstance& message) {
     if (message.isType<MarkerArray>()) {
-      takeMarkers(read<MarkerArray>(message));
+      addMarkers(read<MarkerArray>(message));
       return true;  // states of an earlier time may follow
     }
-    return isBeforeEnd(takeState(read<curtain_sim::CurtainState>(message)));
+    return isBeforeEnd(addState(read<curtain_sim::CurtainState>(message)));
   }
 
   bool hasFrames() const { return has_frames_; }
@@ -124,7 +124,7 @@ class BagPlayer {
 
   bool isBeforeEnd(double time) const { return !excerpt_.end || time <= *excerpt_.end; }
 
-  double takeState(const curtain_sim::CurtainState::ConstPtr& state) {
+  double addState(const curtain_sim::CurtainState::ConstPtr& state) {
     const std::string wrong = curtain_rviz::whatIsWrong(*state);
     if (!origin_) origin_ = state->header.stamp;
     const double time = timeOf(state->header.stamp);
@@ -152,7 +152,7 @@ class BagPlayer {
   }
 
   // Where bodies were before the animation counts as its start.
-  void takeMarkers(const MarkerArray::ConstPtr& array) {
+  void addMarkers(const MarkerArray::ConstPtr& array) {
     for (const Marker& marker : array->markers) {
       if (marker.ns != "obstacles" || marker.type != Marker::TRIANGLE_LIST || marker.points.empty()) continue;
       const std::string name = "obstacle " + std::to_string(marker.id);

@@ -17,7 +17,7 @@ using curtain::Vec3;
 
 // Of a whole node's mass, what nodes outside the circle keep: lines end where they end in the grid, and a node without
 // mass has no motion. They are 0.6 % of the sample's mass.
-constexpr double kLeastShare = 0.03;
+constexpr double kMinShare = 0.03;
 
 // Air that slows the sample down by 10 / s at 0.12 kg/m^2: it sinks in a second or two and does not swing.
 constexpr double kAir = 1.0;  // AirParams::inside [m/s]
@@ -80,7 +80,7 @@ ClothPattern roundSample(const Scene& sheet) {
         }
       }
       const std::size_t n = grid.index(i, j);
-      pattern.area[n] = whole * std::max(0.25 * cloth, kLeastShare);
+      pattern.area[n] = whole * std::max(0.25 * cloth, kMinShare);
       pattern.mass[n] = sheet.cloth.surface_density * pattern.area[n];
       if (pattern.pinned[n] == curtain::kFree) pattern.inverse_mass[n] = 1.0 / pattern.mass[n];
       // Of the strip of cloth along each line through the node so much is left.

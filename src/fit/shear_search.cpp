@@ -11,7 +11,7 @@ ShearFound findShear(curtain::ClothParams cloth, double coefficient, const Drape
   ShearFound best;
   double nearest = std::numeric_limits<double>::infinity();
   for (int k = 0; k <= kSteps; ++k) {
-    cloth.shear = kLeastShear * std::pow(kMostShear / kLeastShear, static_cast<double>(k) / kSteps);
+    cloth.shear = kMinShear * std::pow(kMaxShear / kMinShear, static_cast<double>(k) / kSteps);
     std::vector<DrapeReading> readings = drape(cloth, test);
     const double off = std::abs(summaryOf(readings).mean - coefficient);
     if (off >= nearest) continue;

@@ -44,7 +44,7 @@ class NodeCounter {
  public:
   explicit NodeCounter(const XMLElement* root) { note(root); }
 
-  /// Nodes of all scenes; more than kMostColladaNodes: too many, or a cycle.
+  /// Nodes of all scenes; more than kMaxColladaNodes: too many, or a cycle.
   double count() {
     double sum = 0.0;
     for (const XMLElement* scene : scenes_) sum += countUnder(scene);
@@ -53,7 +53,7 @@ class NodeCounter {
 
  private:
   static constexpr int kDeepest = 200;  // nested instances
-  static constexpr double kEndless = 10.0 * kMostColladaNodes;
+  static constexpr double kEndless = 10.0 * kMaxColladaNodes;
 
   void note(const XMLElement* element) {
     for (const XMLElement* child = element->FirstChildElement(); child != nullptr;
@@ -116,7 +116,7 @@ std::string colladaProblem(const std::string& path) {
   }
   if (document.RootElement() == nullptr) return "has no element";
   if (hasBadIndices(document.RootElement())) return "a list of indices (p, h, v or vcount) holds something else";
-  if (NodeCounter(document.RootElement()).count() <= kMostColladaNodes) return "";
+  if (NodeCounter(document.RootElement()).count() <= kMaxColladaNodes) return "";
   return "its nodes stand for more than 100000 nodes, or for themselves";
 }
 

@@ -30,16 +30,16 @@ constexpr double kTouch = 1e-12;
 
 /// Newton steps to an entry. Convergence is quadratic, but along a grazing path each step only halves the rest; one
 /// that grazes to 2^-60 of its length does not enter.
-constexpr int kMostSteps = 60;
+constexpr int kMaxSteps = 60;
 
 /// Shortest useful step of an advancement [share of the motion].
-constexpr double kLeastAdvance = 1e-7;
+constexpr double kMinAdvance = 1e-7;
 
 /// Time until the first corner passes the plane that supports the element [share of the motion].
 template <std::size_t N>
 double timeToPlane(const std::array<Vec3, N>& corners, const std::array<Vec3, N>& displacements,
-                   const ElementMinimum& nearest, double least_distance) {
-  const double clearance = nearest.support_bound - least_distance;
+                   const ElementMinimum& nearest, double safe_distance) {
+  const double clearance = nearest.support_bound - safe_distance;
   if (!(clearance > 0.0)) return 0.0;
   std::array<double, N> heights;
   for (std::size_t k = 0; k < N; ++k) heights[k] = nearest.support.dot(corners[k] - corners[0]);
@@ -81,7 +81,7 @@ bool ConvexShape::query(const Vec3& previous, const Vec3& current, double reach,
 bool ConvexShape::enter(const Vec3& start, const Vec3& direction, double length, Entry& entry) const noexcept {
   double travelled = 0.0;
   Vec3 point = start;
-  for (int n = 0; n < kMostSteps; ++n) {
+  for (int n = 0; n < kMaxSteps; ++n) {
     const SurfacePoint surface = nearest(point);
     if (n == 0 && surface.distance < 0.0) return false;
     const double slope = surface.normal.dot(direction);
@@ -152,19 +152,19 @@ std::optional<double> ConvexShape::advance(const std::array<Vec3, N>& start, con
     speed = std::max(speed, displacements[k].template lpNorm<1>());  // >= the length, and cannot overflow
   }
   const double rounding = 32.0 * kEps * (largestCoordinate(start) + largestCoordinate(end) + std::abs(min_distance));
-  const double least_distance = min_distance + rounding;
+  const double safe_distance = min_distance + rounding;
   double time = 0.0;
-  for (int n = 0; n < kMostAdvances; ++n) {
+  for (int n = 0; n < kMaxAdvances; ++n) {
     std::array<Vec3, N> corners;
     for (std::size_t k = 0; k < N; ++k) corners[k] = start[k] + time * displacements[k];
     ElementMinimum nearest;
-    if (!findMinimum(corners, least_distance + (1.0 - time) * speed, nearest)) return std::nullopt;
-    const double clearance = nearest.point.lower_bound - least_distance;
+    if (!findMinimum(corners, safe_distance + (1.0 - time) * speed, nearest)) return std::nullopt;
+    const double clearance = nearest.point.lower_bound - safe_distance;
     if (!(clearance > 0.0)) return time;
-    const double step = std::max(clearance / speed, timeToPlane(corners, displacements, nearest, least_distance));
+    const double step = std::max(clearance / speed, timeToPlane(corners, displacements, nearest, safe_distance));
     if (!(time + step <= 1.0)) return std::nullopt;
     time += step;
-    if (step < kLeastAdvance) return time;
+    if (step < kMinAdvance) return time;
   }
   return time;
 }

@@ -74,7 +74,7 @@ class ConvexShape : public ContactShape {
 
   /// Time in [0, 1] at which a triangle (edge) whose corners move straight from `start` to `end`, in the shape's
   /// frame, first comes nearer than `min_distance` [m] (negative: deeper). Conservative: never late, and none only if
-  /// it certainly never does. Early by at most the time for about kElementAccuracy, or more when kMostAdvances steps
+  /// it certainly never does. Early by at most the time for about kElementAccuracy, or more when kMaxAdvances steps
   /// do not suffice. 0 for an element that starts at that distance.
   std::optional<double> timeOfImpact(const std::array<Vec3, 3>& start, const std::array<Vec3, 3>& end,
                                      double min_distance) const noexcept;
@@ -82,7 +82,7 @@ class ConvexShape : public ContactShape {
                                      double min_distance) const noexcept;
 
   /// Steps of conservative advancement before an element counts as touching.
-  static constexpr int kMostAdvances = 40;
+  static constexpr int kMaxAdvances = 40;
 
  protected:
   /// size: largest coordinate of the solid [m], for rounding.

@@ -22,7 +22,7 @@ namespace cutting_planes {
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 /// Most evaluations of a row, and rows of a triangle. Brackets halve at least every second time: 2^-30.
-constexpr int kMostTangents = 60;
+constexpr int kMaxTangents = 60;
 
 template <std::size_t N>
 double largestCoordinate(const std::array<Vec3, N>& corners) {
@@ -87,7 +87,7 @@ Valley searchValley(double end, TangentAt&& tangentAt, Enough&& enough) {
     const double meet =
         std::clamp((right.value - left.value - right.slope * gap) / (left.slope - right.slope), 0.0, gap);
     const double lower = left.value + left.slope * meet;
-    if (n == kMostTangents || enough(lower) || !(gap > kEps * end)) return {left, right, lower};
+    if (n == kMaxTangents || enough(lower) || !(gap > kEps * end)) return {left, right, lower};
     double next = std::clamp(meet, 0.05 * gap, 0.95 * gap);
     if (n % 2 == 1) {
       if (gap > 0.5 * width) next = 0.5 * gap;

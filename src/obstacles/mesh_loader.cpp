@@ -26,7 +26,7 @@ namespace {
 constexpr double kFarthest = 1e30;
 /// Reading takes about ten times as much memory, and such a mesh is too large for contact in real time.
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20U;
-constexpr std::size_t kMostTriangles = 4000000;
+constexpr std::size_t kMaxTriangles = 4000000;
 
 [[noreturn]] void fail(const std::string& obstacle, const std::string& path, const std::string& reason) {
   throw std::invalid_argument("obstacle '" + obstacle + "': mesh '" + path + "' " + reason);
@@ -61,12 +61,12 @@ class OneFile final : public Assimp::DefaultIOSystem {
 
 /// Triangulation takes a time quadratic in the corners of a polygon.
 void requireModestPolygons(const aiScene& scene, const std::string& path, const std::string& obstacle) {
-  constexpr unsigned int kMostCorners = 1000;
+  constexpr unsigned int kMaxCorners = 1000;
   for (unsigned int m = 0; m < scene.mNumMeshes; ++m) {
     const aiMesh& part = *scene.mMeshes[m];
     for (unsigned int f = 0; f < part.mNumFaces; ++f) {
       const unsigned int corners = part.mFaces[f].mNumIndices;
-      if (corners <= kMostCorners) continue;
+      if (corners <= kMaxCorners) continue;
       fail(obstacle, path, "has a polygon of " + std::to_string(corners) + " corners, more than 1000");
     }
   }
@@ -117,8 +117,8 @@ ShapeTriangles collectParts(const aiScene& scene, const Vec3& scale, const std::
     pending.pop_back();
     for (unsigned int i = 0; i < placed.node->mNumMeshes; ++i) {
       const aiMesh& part = *scene.mMeshes[placed.node->mMeshes[i]];
-      if (mesh.triangles.size() + part.mNumFaces > kMostTriangles ||
-          mesh.corners.size() + part.mNumVertices > 3 * kMostTriangles) {
+      if (mesh.triangles.size() + part.mNumFaces > kMaxTriangles ||
+          mesh.corners.size() + part.mNumVertices > 3 * kMaxTriangles) {
         fail(obstacle, path, "has more than 4 million triangles");
       }
       appendPart(part, placed.pose, scale, mesh);

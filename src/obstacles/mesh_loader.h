@@ -24,7 +24,7 @@ ShapeTriangles loadMesh(const std::string& path, const Vec3& scale, const std::s
 ShapeTriangles loadMesh(const ObstacleParams& obstacle, const MeshResolver& resolve = resolveMeshUrl);
 
 /// Nodes that a DAE file may expand to, each instance counted with all that it stands for.
-constexpr double kMostColladaNodes = 100000.0;
+constexpr double kMaxColladaNodes = 100000.0;
 
 /// What is wrong with the XML of a DAE file, or beyond the limits; "": nothing. For messages: "cannot be read: ...".
 std::string colladaProblem(const std::string& path);

@@ -12,7 +12,7 @@ namespace {
 
 // Obstacles are looked for this much around the cloth, over its size: it moves by less in a frame, mostly. What is
 // found does not depend on it.
-constexpr double kLookFurther = 0.1;
+constexpr double kSearchMargin = 0.1;
 
 Eigen::AlignedBox3d boxAround(const Eigen::AlignedBox3d& box, const Transform& transform) {
   if (!std::isfinite(box.min().sum()) || !std::isfinite(box.max().sum())) {  // a plane is unbounded
@@ -164,7 +164,7 @@ void ObstacleSet::moveOn(std::size_t index, const Pose& pose) noexcept {
   item.end = pose;
 }
 
-// Its place and box are to be worked out anew.
+// Its place and box are out of date.
 void ObstacleSet::touch(Item& item) noexcept {
   any_moved_ = any_moved_ || item.moved;
   item.placed = 0;
@@ -182,7 +182,7 @@ void ObstacleSet::setSubstep(double from, double to) noexcept {
 void ObstacleSet::computeBoxes() noexcept {
   boxed_ = at_rest_ = true;
   swept_.setEmpty();
-  looked_.setEmpty();
+  searched_.setEmpty();
   for (std::size_t n = 0; n < items_.size(); ++n) {
     Item& item = items_[n];
     if (!moving_[n].present) continue;
@@ -213,11 +213,11 @@ void ObstacleSet::computeExactBox(std::size_t index) noexcept {
   item.swept = grownBy(0.5 * item.path(), item.swept);
 }
 
-void ObstacleSet::lookAround(const Eigen::AlignedBox3d& box) noexcept {
-  looked_ = grownBy(kLookFurther * box.sizes().maxCoeff(), box);
+void ObstacleSet::searchAround(const Eigen::AlignedBox3d& box) noexcept {
+  searched_ = grownBy(kSearchMargin * box.sizes().maxCoeff(), box);
   near_.clear();
   for (std::size_t n = 0; n < items_.size(); ++n) {
-    if (moving_[n].present && items_[n].swept.intersects(looked_)) near_.push_back(static_cast<int>(n));
+    if (moving_[n].present && items_[n].swept.intersects(searched_)) near_.push_back(static_cast<int>(n));
   }
 }
 

@@ -3,9 +3,9 @@
 // The obstacles of a scene and their poses: at the start and the end of the frame, and on a curve in between.
 //
 // Where an obstacle moves in a substep is worked out for those alone that somebody asks for (moving()). Whether it may
-// be near is told by a box around its whole motion in the frame, at first around the ball that it can turn in: a robot
-// out of reach costs such a box a moving link and frame, and none where it stands still. What is near is looked for in
-// a box somewhat larger than asked for, and again when the cloth leaves that.
+// be near is decided by a box around its whole motion in the frame, at first around the ball that it can turn in: a
+// robot out of reach costs such a box a moving link and frame, and none where it stands still. What is near is looked
+// for in a box somewhat larger than asked for, and again when the cloth leaves that.
 #pragma once
 
 #include <cstdint>
@@ -127,7 +127,7 @@ class ObstacleSet {
   }
   /// Present obstacles whose box of the frame may meet this one, and all that do. Valid until the next call.
   const std::vector<int>& near(const Eigen::AlignedBox3d& box) noexcept {
-    if (!looked_.contains(box)) lookAround(box);
+    if (!searched_.contains(box)) searchAround(box);
     return near_;
   }
   /// It is present and its box of the frame meets this one.
@@ -177,7 +177,7 @@ class ObstacleSet {
   void place(std::size_t index) noexcept;
   void computeBoxes() noexcept;
   void computeExactBox(std::size_t index) noexcept;
-  void lookAround(const Eigen::AlignedBox3d& box) noexcept;
+  void searchAround(const Eigen::AlignedBox3d& box) noexcept;
 
   double frame_length_;     // [s]
   double following_speed_;  // [m/s]
@@ -186,11 +186,11 @@ class ObstacleSet {
   std::vector<MovingObstacle> moving_;
   Eigen::AlignedBox3d swept_;
   double from_ = 0.0, to_ = 0.0;  // the substep, as shares of the frame
-  std::uint64_t substep_ = 1;     // counts what obstacles are placed anew for
+  std::uint64_t substep_ = 1;     // counts the substeps that obstacles are placed for
   bool any_moved_ = false;
-  bool boxed_ = false;          // the boxes are those of the frame
-  bool at_rest_ = false;        // and no obstacle moves in it
-  Eigen::AlignedBox3d looked_;  // that near_ holds for
+  bool boxed_ = false;            // the boxes are those of the frame
+  bool at_rest_ = false;          // and no obstacle moves in it
+  Eigen::AlignedBox3d searched_;  // that near_ holds for
   std::vector<int> near_;
   std::vector<int> by_name_, rank_;
 };

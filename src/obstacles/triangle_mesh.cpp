@@ -13,7 +13,7 @@ namespace {
 
 /// Cells of the distance grid: 8 per triangle; more than 8192 take longer to fill than the tree to build.
 constexpr double kCellsPerTriangle = 8.0;
-constexpr double kMostCells = 8192.0;
+constexpr double kMaxCells = 8192.0;
 
 /// Share of the coordinates below which the direction from the surface is rounding: 1e-16 / 1e-10 = 1e-6 rad.
 constexpr double kTinyDistance = 1e-10;
@@ -24,7 +24,7 @@ TriangleMeshShape::TriangleMeshShape(ShapeTriangles mesh)
     : topology_(analyseMesh(std::move(mesh))), features_(topology_, FlatEdges::kKeep), tree_(topology_.mesh) {
   const Eigen::AlignedBox3d box = tree_.bounds();
   tiny_ = kTinyDistance * std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
-  const double cells = std::min(kMostCells, kCellsPerTriangle * static_cast<double>(topology_.mesh.triangles.size()));
+  const double cells = std::min(kMaxCells, kCellsPerTriangle * static_cast<double>(topology_.mesh.triangles.size()));
   grid_ = std::make_unique<const DistanceGrid>(
       box, cells, [this](const Vec3& point, double bound) { return gridDistance(point, bound); });
 }
@@ -79,9 +79,9 @@ SurfacePoint TriangleMeshShape::surfacePoint(const Vec3& point, const NearestTri
 bool TriangleMeshShape::entry(const Vec3& previous, const Vec3& current, SurfacePoint& out) const noexcept {
   const Vec3 displacement = current - previous;
   // A node that starts on a shell is on neither side and leaves freely. A solid knows its inside.
-  const double least_fraction = topology_.watertight ? 0.0 : tiny_ / displacement.norm();
+  const double min_fraction = topology_.watertight ? 0.0 : tiny_ / displacement.norm();
   TriangleHit hit;
-  if (!tree_.firstHit(previous, current, least_fraction, hit)) return false;
+  if (!tree_.firstHit(previous, current, min_fraction, hit)) return false;
   const Vec3& face = topology_.face_normals[hit.triangle];
   const bool from_behind = !topology_.watertight && face.dot(displacement) > 0.0;
   out.normal = from_behind ? Vec3(-face) : face;

@@ -8,8 +8,8 @@
 namespace curtain {
 namespace {
 
-/// A cache in which more triangles than these had to be looked at is made anew around the point: sweeps ask from nearly
-/// the same place again and again.
+/// A cache in which more triangles than these had to be looked at is made again around the point: sweeps ask from
+/// nearly the same place again and again.
 constexpr std::size_t kFew = 2;
 
 /// Bound of the relative rounding of squared distances, so that none of several equally near triangles is missed.
@@ -241,7 +241,7 @@ void TriangleMeshTree::collect(const Vec3& point, double radius, NearTriangles& 
   });
 }
 
-bool TriangleMeshTree::firstHit(const Vec3& from, const Vec3& to, double least_fraction,
+bool TriangleMeshTree::firstHit(const Vec3& from, const Vec3& to, double min_fraction,
                                 TriangleHit& out) const noexcept {
   if (from == to) return false;
   const Segment segment(from, to);
@@ -251,7 +251,7 @@ bool TriangleMeshTree::firstHit(const Vec3& from, const Vec3& to, double least_f
   tree_.forEachLeaf(touches, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t t = begin; t < end; ++t) {
       double fraction = 0.0;
-      if (segment.hits(triangles_[t].corners, fraction) && fraction >= least_fraction && (!found || fraction < last)) {
+      if (segment.hits(triangles_[t].corners, fraction) && fraction >= min_fraction && (!found || fraction < last)) {
         found = true;
         last = fraction;
         out = {fraction, triangles_[t].index};

@@ -57,8 +57,8 @@ class TriangleMeshTree {
                NearestTriangle& out) const noexcept;
 
   /// First triangle on the path from -> to, from either side; false: none. No path slips between triangles that share
-  /// an edge. Hits before `least_fraction` do not count.
-  bool firstHit(const Vec3& from, const Vec3& to, double least_fraction, TriangleHit& out) const noexcept;
+  /// an edge. Hits before `min_fraction` do not count.
+  bool firstHit(const Vec3& from, const Vec3& to, double min_fraction, TriangleHit& out) const noexcept;
 
   Eigen::AlignedBox3d bounds() const { return tree_.bounds(); }
 

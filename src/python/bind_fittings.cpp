@@ -23,7 +23,7 @@ const std::string& known(const std::vector<Params>& all, const std::string& id, 
 }
 
 const std::string& lines(const Self& self, const std::string& id) {
-  return known(self.look().scene().lines, id, "there are no lines");
+  return known(self.inspect().scene().lines, id, "there are no lines");
 }
 
 py::object driveOf(const Simulator& simulator) {
@@ -45,7 +45,7 @@ py::array_t<double> railPoints(const Self& self, double spacing) {
   if (!(spacing >= 1e-4 && std::isfinite(spacing)))
     throw py::value_error("spacing: must be a finite number >= 0.0001 [m], is " +
                           std::string(py::str(py::float_(spacing))));
-  const std::vector<Vec3> points = self.look().railPoints(spacing);
+  const std::vector<Vec3> points = self.inspect().railPoints(spacing);
   py::array_t<double> array({static_cast<py::ssize_t>(points.size()), py::ssize_t{3}});
   std::copy_n(points.empty() ? nullptr : points.front().data(), 3 * points.size(), array.mutable_data());
   return array;
@@ -65,13 +65,13 @@ void bindRail(SimulatorClass& simulator) {
       .def("set_drive", &setDrive, py::arg("speed"), py::arg("force"),
            "Speed [m/s] and greatest force on each master [N] of the drive, until reset().")
       .def_property_readonly(
-          "drive", [](const Self& self) { return driveOf(self.look()); },
+          "drive", [](const Self& self) { return driveOf(self.inspect()); },
           "Speed [m/s] and force [N] of the drive; None: it has let go.")
       .def(
           "carriers",
           [](const Self& self) {
             py::list nodes;
-            for (const NodeIndex node : self.look().carriers()) nodes.append(toTuple(node));
+            for (const NodeIndex node : self.inspect().carriers()) nodes.append(toTuple(node));
             return nodes;
           },
           "Nodes that hang by carriers, as (row, column), in the order of the rail; empty: there is no rail.")
@@ -91,14 +91,14 @@ void bindTieBacks(SimulatorClass& simulator) {
       .def(
           "tie_back_closed",
           [](const Self& self, const std::string& id) {
-            return self.look().tieBackClosed(known(self.look().scene().tie_back, id, "there is no tie-back"));
+            return self.inspect().tieBackClosed(known(self.inspect().scene().tie_back, id, "there is no tie-back"));
           },
           py::arg("id"), "It is closed, or closes.");
 }
 
 py::array_t<double> lineTensions(const Self& self, const std::string& id) {
   std::vector<double> tensions;
-  self.look().copyLineTensions(lines(self, id), tensions);
+  self.inspect().copyLineTensions(lines(self, id), tensions);
   return py::array_t<double>(static_cast<py::ssize_t>(tensions.size()), tensions.data());
 }
 
@@ -113,11 +113,11 @@ void bindLines(SimulatorClass& simulator) {
   simulator
       .def(
           "line_end",
-          [](const Self& self, const std::string& id) { return toArray(*self.look().lineEnd(lines(self, id))); },
+          [](const Self& self, const std::string& id) { return toArray(*self.inspect().lineEnd(lines(self, id))); },
           py::arg("id"), "Where the lines of this id end [m], shape (3,).")
       .def(
           "line_pull",
-          [](const Self& self, const std::string& id) { return toArray(self.look().linePull(lines(self, id))); },
+          [](const Self& self, const std::string& id) { return toArray(self.inspect().linePull(lines(self, id))); },
           py::arg("id"), "Force of the lines on their end in the last substep [N], shape (3,).")
       .def("line_tensions", &lineTensions, py::arg("id"),
            "Tension of each of the lines in the last substep [N], in the order of their nodes, 0: slack; shape (n,).")

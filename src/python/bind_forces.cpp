@@ -30,7 +30,7 @@ void bindSources(SimulatorClass& simulator) {
       .def(
           "set_wind",
           [](Self& self, const py::object& wind) {
-            const WindParams params = readWind(wind, self.look().scene().cloth);
+            const WindParams params = readWind(wind, self.inspect().scene().cloth);
             refuse(self.change([&](Simulator& s) { return s.setWind(params); }));
           },
           py::arg("wind"),
@@ -44,12 +44,12 @@ void bindSources(SimulatorClass& simulator) {
           "clear_winds", [](Self& self) { self.change([](Simulator& s) { s.clearWinds(); }); },
           "Removes all winds, also those of the scene.")
       .def_property_readonly(
-          "winds", [](const Self& self) { return windsOf(self.look()); },
+          "winds", [](const Self& self) { return windsOf(self.inspect()); },
           "The present ones, dicts as set_wind() takes them.")
       .def(
           "set_drag",
           [](Self& self, const py::object& drag) {
-            const DragParams params = readDrag(drag, self.look().scene().cloth);
+            const DragParams params = readDrag(drag, self.inspect().scene().cloth);
             refuse(self.change([&](Simulator& s) { return s.setDrag(params); }));
           },
           py::arg("drag"),
@@ -63,7 +63,7 @@ void bindSources(SimulatorClass& simulator) {
           "clear_drags", [](Self& self) { self.change([](Simulator& s) { s.clearDrags(); }); },
           "Removes all drags, also those of the scene.")
       .def_property_readonly(
-          "drags", [](const Self& self) { return dragsOf(self.look()); },
+          "drags", [](const Self& self) { return dragsOf(self.inspect()); },
           "The present ones, dicts as set_drag() takes them.");
 }
 
@@ -85,7 +85,7 @@ void bindChanges(SimulatorClass& simulator) {
       .def(
           "set_air",
           [](Self& self, const py::object& air) {
-            const AirParams params = readAir(air, self.look().scene().air);
+            const AirParams params = readAir(air, self.inspect().scene().air);
             refuse(self.change([&](Simulator& s) { return s.setAir(params); }));
           },
           py::arg("air"),

@@ -43,7 +43,7 @@ void setGrasp(Self& self, const std::string& id, const py::object& position, con
   GraspParams grasp;
   grasp.id = id;
   grasp.frame = readPose(position, orientation, "grasp");
-  readRegion(radius, size, nodes, self.look(), grasp);
+  readRegion(radius, size, nodes, self.inspect(), grasp);
   grasp.stiffness = stiffness;
   grasp.break_force = break_force;
   grasp.pinch_force = pinch_force;
@@ -58,7 +58,7 @@ void moveGrasp(Self& self, const std::string& id, const py::object& position, co
 }
 
 py::object graspState(const Self& self, const std::string& id) {
-  const std::optional<GraspState> state = self.look().graspState(id);
+  const std::optional<GraspState> state = self.inspect().graspState(id);
   if (!state) return py::none();
   py::list nodes;
   for (const NodeIndex node : state->nodes) nodes.append(toTuple(node));
@@ -73,7 +73,7 @@ py::object graspState(const Self& self, const std::string& id) {
 }
 
 void movePin(Self& self, const py::object& node, const py::object& target) {
-  const NodeIndex pin = readNode(node, "node", self.look());
+  const NodeIndex pin = readNode(node, "node", self.inspect());
   const Vec3 point = readPoint(target, "target");
   if (self.change([&](Simulator& s) { return s.movePin(pin, point); })) return;
   throw py::value_error("node (" + std::to_string(pin.row) + ", " + std::to_string(pin.column) +
@@ -119,7 +119,7 @@ void bindHands(SimulatorClass& simulator) {
           "grasps",
           [](const Self& self) {
             py::list ids;
-            for (const std::string& id : self.look().grasps()) ids.append(id);
+            for (const std::string& id : self.inspect().grasps()) ids.append(id);
             return ids;
           },
           "Ids of the grasps that hold or have ended.");

@@ -55,24 +55,24 @@ py::dict energyOf(const Simulator& simulator) {
 void bindMeasures(SimulatorClass& simulator) {
   simulator
       .def_property_readonly(
-          "statistics", [](const Self& self) { return statisticsOf(self.look()); },
+          "statistics", [](const Self& self) { return statisticsOf(self.inspect()); },
           "Counters since the start or reset(), a new dict with the members of the engine's "
           "Statistics (include/curtain_sim/statistics.h).")
       .def_property_readonly(
-          "energy", [](const Self& self) { return energyOf(self.look()); },
+          "energy", [](const Self& self) { return energyOf(self.inspect()); },
           "Kinetic and potential energy of the cloth [J], a new dict.")
       .def(
           "count_work", [](Self& self, bool counted) { self.change([&](Simulator& s) { s.countWork(counted); }); },
           py::arg("counted"), "Starts (from zero) or stops counting work; counting costs about 5 % of a step.")
       .def_property_readonly(
-          "work", [](const Self& self) { return workOf(self.look()); },
+          "work", [](const Self& self) { return workOf(self.inspect()); },
           "Work on the cloth counted so far [J], a new dict: gravity, elastic, dissipated, forces, drive, pins, "
           "obstacles; and kinetic, the increase of the kinetic energy.")
       .def(
-          "plan", [](const Self& self) { return describe(self.look().plan()); },
+          "plan", [](const Self& self) { return describe(self.inspect().plan()); },
           "What a step would do now, what it would skip, and why, in words, a line each.")
       .def(
-          "self_crossings", [](const Self& self) { return self.look().selfCrossings(); },
+          "self_crossings", [](const Self& self) { return self.inspect().selfCrossings(); },
           "Pairs of an edge and a triangle of the cloth that intersect, by brute force (slow).");
 }
 

@@ -16,7 +16,7 @@ void setPose(Self& self, const std::string& name, const py::object& position, co
              bool jump) {
   const int index = self.obstacle(name);
   const py::object turned =
-      orientation.is_none() ? toArray(self.look().obstacleTarget(index).orientation) : orientation;
+      orientation.is_none() ? toArray(self.inspect().obstacleTarget(index).orientation) : orientation;
   const Pose pose = readPose(position, turned, name);
   self.change([&](Simulator& s) { s.setObstaclePose(index, pose, jump); });
 }
@@ -24,7 +24,7 @@ void setPose(Self& self, const std::string& name, const py::object& position, co
 py::tuple poseTuple(const Pose& pose) { return py::make_tuple(toArray(pose.position), toArray(pose.orientation)); }
 
 py::dict wrenchOn(const Self& self, const std::string& name) {
-  const ContactWrench wrench = self.look().contactWrench(self.obstacle(name));
+  const ContactWrench wrench = self.inspect().contactWrench(self.obstacle(name));
   py::dict values;
   values["force"] = toArray(wrench.force);
   values["torque"] = toArray(wrench.torque);
@@ -35,7 +35,7 @@ py::dict wrenchOn(const Self& self, const std::string& name) {
 
 py::dict contactPoints(const Self& self) {
   std::vector<ContactForce> contacts;
-  self.look().copyContactPoints(contacts);
+  self.inspect().copyContactPoints(contacts);
   const auto count = static_cast<py::ssize_t>(contacts.size());
   const auto vectors = [&](const Vec3 ContactForce::*member) {
     py::array_t<double> array({count, py::ssize_t{3}});
@@ -63,7 +63,8 @@ py::dict piercings(const Self& self, const std::string& name, double tolerance, 
     throw py::value_error("tolerance: must be a finite number >= 0 [m], is " +
                           std::string(py::str(py::float_(tolerance))));
   const int index = self.obstacle(name);
-  const Piercings found = fine ? self.look().finePiercings(index, tolerance) : self.look().piercings(index, tolerance);
+  const Piercings found =
+      fine ? self.inspect().finePiercings(index, tolerance) : self.inspect().piercings(index, tolerance);
   py::dict values;
   values["nodes"] = found.nodes;
   values["edges"] = found.edges;
@@ -92,7 +93,7 @@ void bindObstacles(SimulatorClass& simulator) {
       .def(
           "obstacle_pose",
           [](const Self& self, const std::string& name) {
-            return poseTuple(self.look().obstaclePose(self.obstacle(name)));
+            return poseTuple(self.inspect().obstaclePose(self.obstacle(name)));
           },
           py::arg("name"),
           "Position [m], shape (3,), and orientation (x, y, z, w), shape (4,): where it is for the cloth, at the end "
@@ -101,12 +102,12 @@ void bindObstacles(SimulatorClass& simulator) {
       .def(
           "obstacle_target",
           [](const Self& self, const std::string& name) {
-            return poseTuple(self.look().obstacleTarget(self.obstacle(name)));
+            return poseTuple(self.inspect().obstacleTarget(self.obstacle(name)));
           },
           py::arg("name"), "The same of where it is going: as set last, or by the scene's motion.")
       .def(
           "obstacle_lag",
-          [](const Self& self, const std::string& name) { return self.look().obstacleLag(self.obstacle(name)); },
+          [](const Self& self, const std::string& name) { return self.inspect().obstacleLag(self.obstacle(name)); },
           py::arg("name"),
           "How far it is behind its target [m], >= 0: no point of it is further from where it will be there. After a "
           "frame 0, unless it waits for jammed cloth, was cut short by solver.budget_ms, or catches up.")
@@ -120,7 +121,7 @@ void bindObstacles(SimulatorClass& simulator) {
           "An absent obstacle touches nothing. When it comes back, set its pose with jump.")
       .def(
           "obstacle_present",
-          [](const Self& self, const std::string& name) { return self.look().obstaclePresent(self.obstacle(name)); },
+          [](const Self& self, const std::string& name) { return self.inspect().obstaclePresent(self.obstacle(name)); },
           py::arg("name"), "As set; at the start: True.")
       .def("contact_wrench", &wrenchOn, py::arg("name"),
            "Force [N] and torque [N m] of the cloth on an obstacle, about the origin of its frame, along the world's "

@@ -38,13 +38,13 @@ void bindTime(SimulatorClass& simulator) {
           "poses and are all present; hands let go. What was changed of gravity, air, frame rate, friction and "
           "tolerances stays.")
       .def_property_readonly(
-          "time", [](const Self& self) { return self.look().time(); }, "Simulated time [s].")
+          "time", [](const Self& self) { return self.inspect().time(); }, "Simulated time [s].")
       .def_property_readonly(
-          "rows", [](const Self& self) { return self.look().rows(); }, "Nodes along the warp.")
+          "rows", [](const Self& self) { return self.inspect().rows(); }, "Nodes along the warp.")
       .def_property_readonly(
-          "columns", [](const Self& self) { return self.look().columns(); }, "Nodes along the weft.")
+          "columns", [](const Self& self) { return self.inspect().columns(); }, "Nodes along the weft.")
       .def_property_readonly(
-          "scene", [](const Self& self) { return self.look().scene(); },
+          "scene", [](const Self& self) { return self.inspect().scene(); },
           "The scene, with the present values of what may change: gravity, air, frame rate, friction, "
           "tolerances, budget.");
 }
@@ -52,7 +52,7 @@ void bindTime(SimulatorClass& simulator) {
 void bindSaving(SimulatorClass& simulator) {
   simulator
       .def(
-          "snapshot", [](const Self& self) { return py::bytes(self.look().snapshot()); },
+          "snapshot", [](const Self& self) { return py::bytes(self.inspect().snapshot()); },
           "The full state of the motion, as bytes that restore() takes; also those of snapshot files.")
       .def(
           "restore",
@@ -65,7 +65,7 @@ void bindSaving(SimulatorClass& simulator) {
           "or "
           "of another scene; then nothing changed. Releases the GIL.")
       .def(
-          "state_hash", [](const Self& self) { return self.look().stateHash(); },
+          "state_hash", [](const Self& self) { return self.inspect().stateHash(); },
           "Hash of the bits of positions and velocities (FNV-1a, 64 bits).");
 }
 
@@ -91,7 +91,7 @@ void bindArrays(SimulatorClass& simulator) {
       .def_property_readonly(
           "fine_triangles",
           [](const py::object& self) {
-            const auto& triangles = self.cast<const Self&>().look().fineMeshTopology().triangles;
+            const auto& triangles = self.cast<const Self&>().inspect().fineMeshTopology().triangles;
             return readOnlyArray(py::dtype::of<std::uint32_t>(), {static_cast<py::ssize_t>(triangles.size()), 3},
                                  triangles.data(), self);
           },
@@ -104,7 +104,7 @@ void bindNodes(SimulatorClass& simulator) {
       .def(
           "set_state",
           [](Self& self, const py::object& positions, const py::object& velocities) {
-            const Simulator& now = self.look();
+            const Simulator& now = self.inspect();
             const auto p = readField(positions, "positions", now.rows(), now.columns());
             const auto v = readField(velocities, "velocities", now.rows(), now.columns());
             refuse(self.change([&](Simulator& s) { return s.setState(p, v); }));
@@ -117,35 +117,35 @@ void bindNodes(SimulatorClass& simulator) {
           "fine_normals",
           [](const Self& self) {
             FineMesh mesh;
-            self.look().copyFineMesh(mesh);
+            self.inspect().copyFineMesh(mesh);
             std::vector<Vec3> normals;
-            fineMeshNormals(self.look().fineMeshTopology(), mesh, normals);
-            const auto& grid = self.look().fineMeshTopology();
+            fineMeshNormals(self.inspect().fineMeshTopology(), mesh, normals);
+            const auto& grid = self.inspect().fineMeshTopology();
             return py::array_t<double>({grid.rows, grid.columns, 3}, normals.data()->data());
           },
           "Unit normals of the mesh for display, shape (rows, fine columns, 3).")
       .def(
           "nearest_node",
           [](const Self& self, const py::object& point) {
-            return toTuple(self.look().nearestNode(readPoint(point, "point")));
+            return toTuple(self.inspect().nearestNode(readPoint(point, "point")));
           },
           py::arg("point"), "Node nearest to a point [m], as (row, column).")
       .def(
           "masses",
           [](const Self& self) {
-            const Simulator& s = self.look();
+            const Simulator& s = self.inspect();
             return onGrid<double>(s, [&](NodeIndex node) { return s.mass(node); });
           },
           "[kg], of nodes with their carriers, shape (rows, columns).")
       .def(
           "pinned",
           [](const Self& self) {
-            const Simulator& s = self.look();
+            const Simulator& s = self.inspect();
             return onGrid<bool>(s, [&](NodeIndex node) { return s.pinned(node); });
           },
           "Whether a node's position is prescribed, or a rigid hand's; bool, shape (rows, columns).")
       .def(
-          "rest_lengths", [](const Self& self) { return restLengths(self.look()); },
+          "rest_lengths", [](const Self& self) { return restLengths(self.inspect()); },
           "Rest lengths [m]: of the rods between two rows, from the top down, shape (rows - 1,), and of the weft "
           "links, "
           "shape (rows, links); closed cloth has as many links as columns, other cloth one less.");

@@ -90,12 +90,12 @@ void PythonSimulator::step(std::int64_t frames) {
 
 std::vector<std::string> PythonSimulator::obstacles() const {
   std::vector<std::string> names;
-  for (const ObstacleParams& obstacle : look().scene().obstacles) names.push_back(obstacle.name);
+  for (const ObstacleParams& obstacle : inspect().scene().obstacles) names.push_back(obstacle.name);
   return names;
 }
 
 int PythonSimulator::obstacle(const std::string& name) const {
-  const std::vector<ObstacleParams>& obstacles = look().scene().obstacles;
+  const std::vector<ObstacleParams>& obstacles = inspect().scene().obstacles;
   for (std::size_t k = 0; k < obstacles.size(); ++k) {
     if (obstacles[k].name == name) return static_cast<int>(k);
   }

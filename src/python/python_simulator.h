@@ -22,7 +22,7 @@ class PythonSimulator {
   explicit PythonSimulator(const Scene& scene);
 
   /// For looking; RuntimeError while another thread makes frames.
-  const Simulator& look() const {
+  const Simulator& inspect() const {
     checkFree();
     return simulator_;
   }
@@ -59,13 +59,13 @@ class PythonSimulator {
   void step(std::int64_t frames);
 
   /// Arrays on the present state, read-only. See LiveArray.
-  pybind11::array positions() { return positions_.view(look()); }
-  pybind11::array velocities() { return velocities_.view(look()); }         ///< [m/s]
-  pybind11::array forces() { return forces_.view(look()); }                 ///< [N]
-  pybind11::array contactForces() { return contact_forces_.view(look()); }  ///< [N]
-  pybind11::array warpTensions() { return warp_tensions_.view(look()); }    ///< [N]
-  pybind11::array weftTensions() { return weft_tensions_.view(look()); }    ///< [N]
-  pybind11::array finePositions() { return fine_positions_.view(look()); }  ///< [m]
+  pybind11::array positions() { return positions_.view(inspect()); }
+  pybind11::array velocities() { return velocities_.view(inspect()); }         ///< [m/s]
+  pybind11::array forces() { return forces_.view(inspect()); }                 ///< [N]
+  pybind11::array contactForces() { return contact_forces_.view(inspect()); }  ///< [N]
+  pybind11::array warpTensions() { return warp_tensions_.view(inspect()); }    ///< [N]
+  pybind11::array weftTensions() { return weft_tensions_.view(inspect()); }    ///< [N]
+  pybind11::array finePositions() { return fine_positions_.view(inspect()); }  ///< [m]
 
   /// Number of the obstacle in the scene; ValueError when there is none of this name.
   int obstacle(const std::string& name) const;

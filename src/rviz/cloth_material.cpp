@@ -82,18 +82,18 @@ Ogre::GpuProgramParametersSharedPtr ClothMaterial::lighting() const {
   return material_->getTechnique(0)->getPass(0)->getVertexProgramParameters();
 }
 
-void ClothMaterial::setLook(const ClothLook& look) {
-  const bool same =
-      has_fabric_ && look.pattern == drawn_.pattern && look.ground == drawn_.ground && look.figure == drawn_.figure;
+void ClothMaterial::setAppearance(const ClothAppearance& appearance) {
+  const bool same = has_fabric_ && appearance.pattern == drawn_.pattern && appearance.ground == drawn_.ground &&
+                    appearance.figure == drawn_.figure;
   if (!same) {
-    Pixels pixels = drawFabric(look.pattern, look.ground, look.figure);
+    Pixels pixels = drawFabric(appearance.pattern, appearance.ground, appearance.figure);
     fillTexture(fabric_, pixels.rgba);
     has_fabric_ = true;
   }
-  drawn_ = look;
-  lighting()->setNamedConstant("repeats_per_metre", 1.0F / look.repeat);
-  lighting()->setNamedConstant("sheen", look.sheen);
-  lighting()->setNamedConstant("translucency", look.translucency);
+  drawn_ = appearance;
+  lighting()->setNamedConstant("repeats_per_metre", 1.0F / appearance.repeat);
+  lighting()->setNamedConstant("sheen", appearance.sheen);
+  lighting()->setNamedConstant("translucency", appearance.translucency);
 }
 
 void ClothMaterial::setLayerRange(double range) {

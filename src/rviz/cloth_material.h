@@ -14,7 +14,7 @@
 namespace curtain_rviz {
 
 /// What the user chooses.
-struct ClothLook {
+struct ClothAppearance {
   Pattern pattern = Pattern::kNone;
   Colour ground{}, figure{};
   float repeat = 0.25F;       ///< of the pattern [m], > 0
@@ -33,7 +33,7 @@ class ClothMaterial {
 
   const Ogre::MaterialPtr& material() const { return material_; }
 
-  void setLook(const ClothLook& look);
+  void setAppearance(const ClothAppearance& appearance);
   /// range: of the vertices' values that the colours are for, > 0; 0: the fabric itself is shown.
   void setLayerRange(double range);
 
@@ -43,7 +43,7 @@ class ClothMaterial {
   std::string name_;
   Ogre::MaterialPtr material_;
   Ogre::TexturePtr fabric_, scale_;
-  ClothLook drawn_;  // in the texture
+  ClothAppearance drawn_;  // in the texture
   bool has_fabric_ = false;
 };
 

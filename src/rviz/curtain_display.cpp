@@ -126,7 +126,7 @@ void CurtainDisplay::processMessage(const curtain_sim::CurtainState::ConstPtr& s
 
 void CurtainDisplay::setLoads(const curtain_sim::Loads::ConstPtr& loads) { loads_ = loads; }
 
-ClothLook CurtainDisplay::look() const {
+ClothAppearance CurtainDisplay::appearance() const {
   return {static_cast<Pattern>(pattern_->getOptionInt()),
           toColour(*ground_),
           toColour(*figure_),
@@ -156,7 +156,7 @@ void CurtainDisplay::update(float wall_dt, float) {
   const bool placed = follow(state_->header.frame_id);
   cloth_->setVisible(placed);
   if (!placed) return;
-  material_->setLook(look());
+  material_->setAppearance(appearance());
   if (state_ != shown_) {
     if (surface_.update(*state_)) cloth_->setCloth(surface_);
     cloth_->move(surface_);

@@ -45,7 +45,7 @@ class CurtainDisplay : public rviz::MessageFilterDisplay<curtain_sim::CurtainSta
   void stopDrawingWithTheWindow();
   void tell(const std::string& about, rviz::StatusProperty::Level level, const std::string& text);
   void setLoads(const curtain_sim::Loads::ConstPtr& loads);
-  ClothLook look() const;
+  ClothAppearance appearance() const;
   bool follow(const std::string& frame);
   void listenToLoads(bool wanted);
   void showLayer(double seconds);

@@ -11,14 +11,14 @@ namespace curtain {
 namespace {
 
 // Lines of one entry [1]: the weft links of the largest cloth.
-constexpr std::size_t kMostNodes = 4096;
+constexpr std::size_t kMaxNodes = 4096;
 
 bool isSame(const NodeIndex& a, const NodeIndex& b) { return a.row == b.row && a.column == b.column; }
 
 void checkNodes(const LineParams& line, const ClothParams& cloth, const std::string& key, ProblemLog& log) {
   if (!log.good(key)) return;
-  if (line.nodes.empty() || line.nodes.size() > kMostNodes) {
-    log.add(key, "must have 1 to " + std::to_string(kMostNodes) + " entries [row, column], has " +
+  if (line.nodes.empty() || line.nodes.size() > kMaxNodes) {
+    log.add(key, "must have 1 to " + std::to_string(kMaxNodes) + " entries [row, column], has " +
                      std::to_string(line.nodes.size()));
     return;
   }

@@ -17,7 +17,7 @@ constexpr double kSteepest = 0.87;
 // Sharpest corner, as the cosine of its turn (120 degrees): the cloth on both sides of it would touch.
 constexpr double kSharpest = -0.5;
 // An arc is looked at in so many places.
-constexpr int kLooks = 8;
+constexpr int kSamples = 8;
 
 bool checkPath(const std::vector<RailPiece>& pieces, ProblemLog& log) {
   if (pieces.size() < 2) {
@@ -38,8 +38,8 @@ bool checkPath(const std::vector<RailPiece>& pieces, ProblemLog& log) {
       log.add(itemKey("rail.path", i), "must not turn by more than 120 degrees from the piece before it");
       return false;
     }
-    for (int k = 0; k <= kLooks; ++k) {
-      if (std::abs(piece.at(piece.length() * k / kLooks).tangent.z()) <= kSteepest) continue;
+    for (int k = 0; k <= kSamples; ++k) {
+      if (std::abs(piece.at(piece.length() * k / kSamples).tangent.z()) <= kSteepest) continue;
       log.add(itemKey("rail.path", i), "must not be steeper than 60 degrees");
       return false;
     }

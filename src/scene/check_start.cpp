@@ -22,7 +22,7 @@
 namespace curtain {
 namespace {
 
-constexpr double kMostGap = 1e-6;  // of the width, between an edge in pleats and its end
+constexpr double kMaxGap = 1e-6;  // of the width, between an edge in pleats and its end
 
 bool clothIsGood(const ClothParams& cloth, const ProblemLog& log) {
   for (const char* key : {"cloth.closed", "cloth.rows", "cloth.columns", "cloth.height", "cloth.width",
@@ -119,7 +119,7 @@ void checkHeading(const Scene& scene, ProblemLog& log) {
   const std::vector<double> row = pleatLinks(cloth), angles = headingAngles(hang, row, span);
   double reach = 0.0;
   for (std::size_t j = 0; j < row.size(); ++j) reach += row[j] * std::cos(angles[j]);
-  if (std::min(cloth.width, hemWidth(cloth)) > span && std::abs(reach - span) > kMostGap * cloth.width)
+  if (std::min(cloth.width, hemWidth(cloth)) > span && std::abs(reach - span) > kMaxGap * cloth.width)
     log.add("hang.heading", "must be gathered where pleats of these links reach " + formatNumber(reach) +
                                 " m at least, and |to - from| is " + formatNumber(span) + " m" + is);
 }

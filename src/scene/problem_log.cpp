@@ -6,10 +6,10 @@ namespace curtain {
 void ProblemLog::add(const std::string& key, const std::string& text) {
   if (hasSelfOrAncestor(key)) return;
   keys_.insert(key);
-  if (problems_.size() < kMostProblems) {
+  if (problems_.size() < kMaxProblems) {
     problems_.push_back({key, text});
-  } else if (problems_.size() == kMostProblems) {
-    problems_.push_back({"", "has more problems than these " + std::to_string(kMostProblems)});
+  } else if (problems_.size() == kMaxProblems) {
+    problems_.push_back({"", "has more problems than these " + std::to_string(kMaxProblems)});
   }
 }
 

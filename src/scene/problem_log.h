@@ -15,7 +15,7 @@ namespace curtain {
 class ProblemLog {
  public:
   /// Limit for the list; with more problems the file is hardly a scene.
-  static constexpr std::size_t kMostProblems = 200;
+  static constexpr std::size_t kMaxProblems = 200;
 
   /// Adds the problem unless the key, or a key above it, has one already.
   void add(const std::string& key, const std::string& text);

@@ -13,7 +13,7 @@ namespace {
 // Relative difference of an arc's radii at both ends: for rounding of typed coordinates.
 constexpr double kRound = 1e-3;
 // Least sine of an arc's angle: its plane follows from its ends and centre, which must not be on one line.
-constexpr double kLeastSine = 1e-3;
+constexpr double kMinSine = 1e-3;
 
 double angleBetween(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
@@ -31,7 +31,7 @@ std::string RailPath::problemOf(const std::vector<RailPiece>& pieces, std::size_
            formatNumber(b.norm()) + " m from its end";
   }
   const double angle = angleBetween(a, b);
-  if (std::sin(angle) >= kLeastSine) return "";
+  if (std::sin(angle) >= kMinSine) return "";
   return "must be an arc of more than 0 and less than 180 degrees, has " + formatNumber(angle * 180.0 / kPi) +
          " (longer arcs: two of them)";
 }

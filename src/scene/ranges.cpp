@@ -48,13 +48,13 @@ std::string IntRange::text() const {
 std::string formatNumber(double value) {
   if (std::isnan(value)) return ".nan";
   if (std::isinf(value)) return value > 0.0 ? ".inf" : "-.inf";
-  constexpr int kMostDigits = std::numeric_limits<double>::max_digits10;
+  constexpr int kMaxDigits = std::numeric_limits<double>::max_digits10;
   int digits = 1;
-  while (digits < kMostDigits && readBack(print(value, digits)) != value) ++digits;
+  while (digits < kMaxDigits && readBack(print(value, digits)) != value) ++digits;
   // With more places before the dot than digits, streams print 1e+02, which people don't want to read.
   int places = 1;
-  for (double rest = std::abs(value); rest >= 10.0 && places < kMostDigits; rest /= 10.0) ++places;
-  return print(value, places < kMostDigits ? std::max(digits, places) : digits);
+  for (double rest = std::abs(value); rest >= 10.0 && places < kMaxDigits; rest /= 10.0) ++places;
+  return print(value, places < kMaxDigits ? std::max(digits, places) : digits);
 }
 
 std::string formatYamlNumber(double value) {

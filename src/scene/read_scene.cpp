@@ -43,7 +43,7 @@ std::string readText(std::istream& file) {
 }
 
 // A fullness gives the width where that is left out.
-void takeFullness(const YAML::Node& root, Scene& scene) {
+void applyFullness(const YAML::Node& root, Scene& scene) {
   const YAML::Node cloth = root["cloth"];
   const bool has_width = cloth.IsDefined() && cloth.IsMap() && cloth["width"].IsDefined();
   const double span = (scene.hang.to - scene.hang.from).norm();
@@ -53,7 +53,7 @@ void takeFullness(const YAML::Node& root, Scene& scene) {
 
 // The material comes first: the other keys are read over it. Whatever else it may be is a problem that the reader
 // finds.
-void takeMaterial(const YAML::Node& root, Scene& scene) {
+void applyMaterial(const YAML::Node& root, Scene& scene) {
   const YAML::Node cloth = root["cloth"];
   if (!cloth.IsDefined() || !cloth.IsMap()) return;
   const YAML::Node name = cloth["material"];
@@ -76,9 +76,9 @@ SceneReading readScene(const YAML::Node& root) {
     if (!root.IsMap()) return failed("must be a map with at least cloth: rows, columns, is " + describeValue(root));
     SceneReading reading;
     ProblemLog log;
-    takeMaterial(root, reading.scene);
+    applyMaterial(root, reading.scene);
     StrictReader::readMap(root, "", reading.scene, log);
-    takeFullness(root, reading.scene);
+    applyFullness(root, reading.scene);
     checkScene(reading.scene, log);
     reading.problems = log.problems();
     return reading;

@@ -22,13 +22,13 @@ struct NumberParts {
   std::string exponent;  // empty: none
 };
 
-std::string takeDigits(const std::string& text, std::size_t& at) {
+std::string readDigits(const std::string& text, std::size_t& at) {
   const std::size_t start = at;
   while (at < text.size() && text[at] >= '0' && text[at] <= '9') ++at;
   return text.substr(start, at - start);
 }
 
-std::string takeSign(const std::string& text, std::size_t& at) {
+std::string readSign(const std::string& text, std::size_t& at) {
   if (at < text.size() && (text[at] == '-' || text[at] == '+')) return std::string(1, text[at++]);
   return "";
 }
@@ -36,17 +36,17 @@ std::string takeSign(const std::string& text, std::size_t& at) {
 // Splits the decimal number that the text begins with; returns how long that is, 0: there is none.
 std::size_t splitFront(const std::string& text, NumberParts& parts) {
   std::size_t at = 0;
-  parts.sign = takeSign(text, at);
-  parts.whole = takeDigits(text, at);
+  parts.sign = readSign(text, at);
+  parts.whole = readDigits(text, at);
   if (at < text.size() && text[at] == '.') {
     parts.dot = true;
-    parts.fraction = takeDigits(text, ++at);
+    parts.fraction = readDigits(text, ++at);
   }
   if (parts.whole.empty() && parts.fraction.empty()) return 0;
   if (at == text.size() || (text[at] != 'e' && text[at] != 'E')) return at;
   std::size_t end = at + 1;
-  parts.exponent_sign = takeSign(text, end);
-  parts.exponent = takeDigits(text, end);
+  parts.exponent_sign = readSign(text, end);
+  parts.exponent = readDigits(text, end);
   return parts.exponent.empty() ? at : end;
 }
 
@@ -157,7 +157,7 @@ bool isNumberTag(const std::string& tag) { return tag == "tag:yaml.org,2002:floa
 // In quotes, without a tag, or with that of text.
 bool isTextTag(const std::string& tag) { return tag == "!" || tag == "?" || tag == "tag:yaml.org,2002:str"; }
 
-void takeNumber(const NumberParts& parts, ScalarValue& value) {
+void readNumber(const NumberParts& parts, ScalarValue& value) {
   value.kind = isInteger(parts) ? ScalarKind::kInteger : ScalarKind::kReal;
   value.number = parseReal(parts);
   if (value.kind == ScalarKind::kInteger) parseInteger(parts, value);
@@ -182,7 +182,7 @@ ScalarValue scalarValue(const YAML::Node& node) {
   } else if (splitSpecial(text, value.number)) {
     value.kind = ScalarKind::kReal;
   } else if (splitNumber(text, parts) && (is_value || isYaml11Number(parts))) {
-    takeNumber(parts, value);
+    readNumber(parts, value);
   } else {
     value.hint = hintFor(text, false);
   }
@@ -194,7 +194,7 @@ ScalarValue numberValue(const YAML::Node& node) {
   NumberParts parts;
   if (value.kind != ScalarKind::kText || !isTextTag(node.Tag()) || !splitNumber(node.Scalar(), parts)) return value;
   if (node.Tag() == "?" && isOctal(parts)) return value;  // rosparam makes another number of it
-  takeNumber(parts, value);
+  readNumber(parts, value);
   return value;
 }
 

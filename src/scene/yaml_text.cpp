@@ -86,9 +86,9 @@ class Inspector final : public YAML::EventHandler {
  private:
   void count(const YAML::Mark& mark, std::size_t more) {
     values_ += more;
-    if (values_ <= kMostYamlValues) return;
+    if (values_ <= kMaxYamlValues) return;
     throw Refusal{
-        placed(mark, "comes to more than " + std::to_string(kMostYamlValues) + " values, which no scene needs")};
+        placed(mark, "comes to more than " + std::to_string(kMaxYamlValues) + " values, which no scene needs")};
   }
   void countOne(const YAML::Mark& mark, YAML::anchor_t anchor) {
     count(mark, 1);

@@ -12,7 +12,7 @@ namespace curtain {
 
 /// Longest text that is read, and most values; an alias counts as all values that it stands for.
 constexpr std::size_t kLongestYaml = std::size_t{16} << 20U;
-constexpr std::size_t kMostYamlValues = 1000000;
+constexpr std::size_t kMaxYamlValues = 1000000;
 
 /// Reads the text's only document, null when there is none. False: `problem` says what is wrong, with line and column
 /// if known.

@@ -3,7 +3,7 @@
 // What the rays of a sensor meet first: the cloth's fine mesh, or an obstacle. The search is Embree's (bounding volume
 // hierarchies, packets of eight rays), in the sensor's frame, so that single precision is precise near the sensor:
 //
-//   the cloth        a triangle mesh, its hierarchy built anew for each moment: then no result depends on those before
+//   the cloth        a triangle mesh, its hierarchy built again for each moment: then no result depends on those before
 //   solids           sphere, box, cylinder, capsule, plane: met exactly, not as the facets they are drawn with
 //   mesh obstacles   a hierarchy each, built once, put where the obstacle is
 //

@@ -31,11 +31,11 @@ Vec2 distort(const std::array<double, 5>& d, const Vec2& p, Eigen::Matrix2d& slo
 
 // The point that is distorted to this one, by Newton's method. None where the distortion folds the image over.
 std::optional<Vec2> undistort(const std::array<double, 5>& distortion, const Vec2& wanted) {
-  constexpr int kMostSteps = 50;
+  constexpr int kMaxSteps = 50;
   constexpr double kExact = 1e-9;  // a millionth of a pixel of the usual focal lengths
   Vec2 point = wanted;
   Eigen::Matrix2d slope;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const Vec2 error = distort(distortion, point, slope) - wanted;
     if (!(slope.determinant() > 0.0 && slope.trace() > 0.0)) return std::nullopt;
     if (error.norm() < kExact) return point;
@@ -59,8 +59,8 @@ std::vector<Problem> checkCamera(const CameraModel& camera) {
   };
   require("width", camera.width, between(1, 8192));
   require("height", camera.height, between(1, 8192));
-  if (problems.empty() && camera.width * camera.height > kMostRays) {
-    problems.push_back({"width", "times height must be at most " + std::to_string(kMostRays) + ", is " +
+  if (problems.empty() && camera.width * camera.height > kMaxRays) {
+    problems.push_back({"width", "times height must be at most " + std::to_string(kMaxRays) + ", is " +
                                      std::to_string(camera.width * camera.height)});
   }
   require("fx", camera.fx, between(1e-3, 1e6));

@@ -46,9 +46,9 @@ void checkSensor(const SensorParams& params, ProblemLog& log) {
                                 ", lidar.highest is " + formatNumber(params.lidar.highest));
   }
   const long rays = static_cast<long>(params.lidar.rings) * params.lidar.columns;
-  if (log.good("lidar.rings") && log.good("lidar.columns") && rays > kMostRays) {
+  if (log.good("lidar.rings") && log.good("lidar.columns") && rays > kMaxRays) {
     log.add("lidar.rings",
-            "times lidar.columns must be at most " + std::to_string(kMostRays) + ", is " + std::to_string(rays));
+            "times lidar.columns must be at most " + std::to_string(kMaxRays) + ", is " + std::to_string(rays));
   }
   if (log.good("camera.distortion") && params.camera.distortion.size() > 5) {
     log.add("camera.distortion", "must have at most 5 numbers, k1, k2, p1, p2, k3 of plumb_bob, has " +

@@ -64,7 +64,7 @@ struct SensorParams {
 };
 
 /// Most rays of a sensor, and points all round: more is a mistake in a number, at 40 bytes a point.
-constexpr int kMostRays = 1 << 22;
+constexpr int kMaxRays = 1 << 22;
 
 /// What is wrong with values together; each by itself has its range below.
 void checkSensor(const SensorParams& params, ProblemLog& log);

@@ -9,7 +9,7 @@ namespace curtain {
 SensorView::SensorView(const Simulator& simulator, const FlatCloth& flat, const SensorParams& params)
     : flat_(flat), params_(params), caster_(simulator, params.porosity.value_or(simulator.scene().cloth.porosity)) {}
 
-void SensorView::look(const Moment& moment, const Pose& sensor) {
+void SensorView::render(const Moment& moment, const Pose& sensor) {
   caster_.place(moment, sensor);
   const RayRange range{static_cast<float>(params_.min_range), static_cast<float>(params_.max_range)};
   caster_.cast(rays_, range, randomKey(params_.seed, moment.frame, Purpose::kPore), hits_);

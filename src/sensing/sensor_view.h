@@ -20,18 +20,18 @@ class SensorView {
   /// flat must outlive this. Throws std::runtime_error when Embree can't be started.
   SensorView(const Simulator& simulator, const FlatCloth& flat, const SensorParams& params);
 
-  /// Its rays, before the first look().
+  /// Its rays, before the first render().
   void setRays(RayGrid rays) { rays_ = std::move(rays); }
   const RayGrid& rays() const { return rays_; }
 
   /// Looks at a moment. Throws std::runtime_error when there is not enough memory.
   ///   sensor  pose in the world
-  void look(const Moment& moment, const Pose& sensor);
+  void render(const Moment& moment, const Pose& sensor);
 
-  /// Of the last look(), by ray: depth of a camera, distance of a lidar [m]; NaN: none.
+  /// Of the last render(), by ray: depth of a camera, distance of a lidar [m]; NaN: none.
   const std::vector<float>& readings() const { return readings_; }
 
-  /// The points of the last look(), by ray, in the sensor's frame, with normals towards the sensor. out: resized
+  /// The points of the last render(), by ray, in the sensor's frame, with normals towards the sensor. out: resized
   void points(const Moment& moment, std::vector<CloudPoint>& out) const;
 
  private:

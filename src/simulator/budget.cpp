@@ -9,7 +9,7 @@ namespace {
 // Share of the budget kept free: the deadline is checked between sweeps only.
 constexpr double kSpare = 0.1;
 // Stalled frames in a row after which a substep may take what it needs.
-constexpr int kMostStalledFrames = 4;
+constexpr int kMaxStalledFrames = 4;
 // A substep is started only if this many times their mean computing time is left.
 constexpr double kTimeMargin = 1.4;
 constexpr int kManySubsteps = 1 << 20;
@@ -37,7 +37,7 @@ void Budget::beginFrame(Clock::time_point begin) noexcept {
 
 bool Budget::affordsCompanion() const noexcept { return !any() || frame_ + reference_ < (1.0 - kSpare) * seconds_; }
 
-bool Budget::mustMove() const noexcept { return stalled_ >= kMostStalledFrames && !moved_; }
+bool Budget::mustMove() const noexcept { return stalled_ >= kMaxStalledFrames && !moved_; }
 
 int Budget::affordable(Clock::time_point now) const noexcept {
   if (!any() || substep_ <= 0.0) return kManySubsteps;

@@ -9,7 +9,7 @@
 //   4 last sweeps       a substep whose time is over is accepted when its links are within the tolerance
 //
 // A substep that is further off, or crosses something, is never accepted: the cloth stops for the frame and tries a
-// shorter one. After kMostStalledFrames such frames in a row a substep may take what it needs.
+// shorter one. After kMaxStalledFrames such frames in a row a substep may take what it needs.
 #pragma once
 
 #include <chrono>
@@ -37,7 +37,7 @@ class Budget {
   void beginFrame(Clock::time_point begin) noexcept;
   /// The last frames suggest that there is time for the reference run, too.
   bool affordsCompanion() const noexcept;
-  void companionTook(double seconds) noexcept { reference_ = follow(reference_, seconds); }
+  void referenceTook(double seconds) noexcept { reference_ = follow(reference_, seconds); }
 
   /// Substeps that there is time for, >= 1.
   int affordable(Clock::time_point now) const noexcept;

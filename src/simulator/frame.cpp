@@ -63,7 +63,7 @@ double Simulator::Impl::moveThrough(Budget::Clock::time_point begin) {
   budget.beginFrame(first ? Budget::Clock::now() : begin);
   bool repins = false;
   for (Part* const part : parts) repins = part->beginFrame(frame, motion.state) || repins;
-  if (repins) repin([] {});
+  if (repins) changePins([] {});
   if (errors) errors->beginFrame();
   return loop.make();
 }
@@ -83,7 +83,7 @@ void Simulator::Impl::endFrame(double share) {
   nextFrame(share);
   ++revision;
   motion.measure();
-  if (repins) repin([] {});
+  if (repins) changePins([] {});
   sleep.fallAsleep();
   if (errors && sleep.asleep()) errors->lose();
   s.stage_seconds = motion.clock.seconds();

@@ -80,7 +80,7 @@ void Motion::substepAccepted(double h, const SubstepOutcome& outcome) noexcept {
   contact.afterSubstep(outcome.settled, outcome, state.position);
   const Step* const links = scene.solver.method == Method::kPaper ? nullptr : &step;
   const SubstepMade made{h, state, forces.last(), links, pushing(), outcome.scale};
-  for (Part* const part : parts.all) part->substepTaken(made);
+  for (Part* const part : parts.all) part->substepDone(made);
 }
 
 bool Motion::driven() const {
@@ -93,9 +93,9 @@ void Motion::pinsChanged() {
   if (scene.solver.method == Method::kPaper) paper.pinsChanged();
 }
 
-void Motion::repinned() noexcept {
+void Motion::afterPinsChanged() noexcept {
   contact.invalidateStart();
-  step.repinned();
+  step.afterPinsChanged();
   velocities_fresh_ = false;
 }
 

@@ -36,10 +36,10 @@ struct Motion {
 
   /// A substep of h [s] that was planned, was accepted.
   void substepAccepted(double h, const SubstepOutcome& outcome) noexcept;
-  /// Takes what follows from the pattern's pins. Allocates nothing but for Method::kPaper.
+  /// Updates what depends on the pattern's pins. Allocates nothing but for Method::kPaper.
   void pinsChanged();
   /// After it: what the last substep left is that of other pins.
-  void repinned() noexcept;
+  void afterPinsChanged() noexcept;
 
   /// Contacts that pushed in the last accepted substep; null: none.
   const Contacts* pushing() const noexcept { return contact.pushing().empty() ? nullptr : &contact.pushing(); }
@@ -56,7 +56,7 @@ struct Motion {
   void measureState() noexcept;
   void measure() noexcept;
 
-  void carryVelocities(Archive& archive);
+  void serializeVelocities(Archive& archive);
 
   const Scene& scene;
   const ClothPattern& pattern;

@@ -112,7 +112,7 @@ bool Rest::rests(const ClothState& state, double time) noexcept {
   return false;
 }
 
-bool Rest::look(const ClothState& state, double time, bool kept_awake, bool touches) noexcept {
+bool Rest::check(const ClothState& state, double time, bool kept_awake, bool touches) noexcept {
   allowed_ = touches ? std::max(radius_, jitter_) : radius_;
   const bool rest = rests(state, time);
   swept_.setEmpty();

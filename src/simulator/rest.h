@@ -21,7 +21,7 @@ class Rest {
   /// Both must outlive this.
   Rest(const Scene& scene, const ClothPattern& pattern);
 
-  /// Takes what follows from the scene. damping_per_mass: the largest of any node [1/s]: overdamped cloth creeps back
+  /// Updates what depends on the scene. damping_per_mass: the largest of any node [1/s]: overdamped cloth creeps back
   /// to rest, so it must be slower.
   void setLimits(double damping_per_mass) noexcept;
 
@@ -43,11 +43,11 @@ class Rest {
   /// Wakes the cloth if it was disturbed. True: it slept.
   bool wake() noexcept;
 
-  /// To be called after each frame with motion; true: it is time to look().
+  /// To be called after each frame with motion; true: it is time to check().
   bool due() noexcept;
   /// Puts cloth at rest to sleep. kept_awake: by a part; touches: a contact pushed in the last substep. True: it
   /// fell asleep.
-  bool look(const ClothState& state, double time, bool kept_awake, bool touches) noexcept;
+  bool check(const ClothState& state, double time, bool kept_awake, bool touches) noexcept;
 
   void forget() noexcept;
 

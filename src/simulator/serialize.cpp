@@ -11,15 +11,15 @@ namespace curtain {
 namespace {
 
 constexpr double kLargestNumber = std::numeric_limits<double>::max();
-constexpr double kLeastNumber = std::numeric_limits<double>::min();
+constexpr double kMinNumber = std::numeric_limits<double>::min();
 constexpr std::int64_t kCount = 1 << 30;  // bound of counters: adding to them can't overflow an int
-constexpr std::int64_t kMostCount = std::int64_t{1} << 53;
+constexpr std::int64_t kMaxCount = std::int64_t{1} << 53;
 
-void carryStatistics(Archive& archive, Statistics& s) {
+void serializeStatistics(Archive& archive, Statistics& s) {
   for (std::int64_t* const count : {&s.frames, &s.substeps, &s.sweeps, &s.rejected, &s.last_resort_substeps,
                                     &s.unsettled, &s.asleep_frames, &s.wakes, &s.estimates_skipped, &s.longer_substeps,
                                     &s.unfinished_substeps, &s.shortened_frames, &s.late_frames, &s.stops})
-    archive.integer("count", *count, 0, kMostCount);
+    archive.integer("count", *count, 0, kMaxCount);
   for (int* const count : {&s.substeps_last, &s.sweeps_last, &s.stops_last, &s.contacts, &s.contacts_max})
     archive.integer("count_last", *count, 0, kCount);
   for (double* const number :
@@ -56,7 +56,7 @@ void Rest::serialize(Archive& archive) {
   archive.require(boxes == 0 || boxes == box_.size(), "must have a box for each column");
   archive.numbers("all", all_);
   archive.numbers("swept", swept_);
-  archive.integer("wakes", wakes_, 0, kMostCount);
+  archive.integer("wakes", wakes_, 0, kMaxCount);
 }
 
 // Members of the present frame are set by the next one.
@@ -73,7 +73,7 @@ void ErrorEstimate::serialize(Archive& archive) {
   archive.integer("window", window_, 1, kCount);
   archive.flag("of_stages", of_stages_);
   archive.integer("substeps", substeps_, fewest_, most_);
-  archive.integer("frames", frames_, 0, kMostCount);
+  archive.integer("frames", frames_, 0, kMaxCount);
   archive.integer("compared", compared_, 0, kCount);
   archive.within("steps_sum", steps_sum_, 0.0, kLargestNumber);
   archive.within("companion_sum", reference_sum_, 0.0, kLargestNumber);
@@ -104,14 +104,14 @@ void StepControls::serialize(Archive& archive) {
 }
 
 void FrameTimes::serialize(Archive& archive) {
-  archive.integer("frame", frame_, 0, kMostCount);
+  archive.integer("frame", frame_, 0, kMaxCount);
   archive.within("frame_rate", rate_, 1.0, 10000.0);
-  archive.integer("same_since_frame", since_.frame, 0, kMostCount);
+  archive.integer("same_since_frame", since_.frame, 0, kMaxCount);
   archive.finite("same_since_time", since_.time);
   archive.finite("made_time", made_time_);
 }
 
-void Motion::carryVelocities(Archive& archive) {
+void Motion::serializeVelocities(Archive& archive) {
   archive.numbers("velocities", velocities_);
   archive.flag("velocities_fresh", velocities_fresh_);
 }
@@ -121,11 +121,11 @@ void Motion::carryVelocities(Archive& archive) {
 void Simulator::Impl::serialize(Archive& archive) {
   archive.finite("gravity", scene.gravity);
   AirParams air = scene.air;
-  archive.group("air", [&] { carryParams(archive, air); });
+  archive.group("air", [&] { serializeParams(archive, air); });
   archive.put(scene.air, air);
   archive.within("friction", scene.contact.friction, 0.0, 10.0);
   archive.within("stretch_tolerance", scene.solver.stretch_tolerance, 1e-12, 0.1);
-  if (errors) archive.within("position_tolerance", scene.solver.position_tolerance, kLeastNumber, 1.0);
+  if (errors) archive.within("position_tolerance", scene.solver.position_tolerance, kMinNumber, 1.0);
   archive.within("budget_ms", scene.solver.budget_ms, 0.0, 1e6);
   archive.part("state", motion.state);
   archive.group("parts", [&] {
@@ -139,11 +139,11 @@ void Simulator::Impl::serialize(Archive& archive) {
   archive.part("rest", sleep.rest());
   archive.part("budget", budget);
   if (errors) errors->serialize(archive);
-  archive.group("statistics", [&] { carryStatistics(archive, motion.statistics); });
+  archive.group("statistics", [&] { serializeStatistics(archive, motion.statistics); });
   archive.part("clock", motion.clock);
   archive.flag("counts_work", motion.counts_work);
   times.serialize(archive);
-  motion.carryVelocities(archive);
+  motion.serializeVelocities(archive);
 }
 
 // After serialize() has loaded: restores what follows from it.

@@ -66,7 +66,7 @@ void Simulator::Impl::reset() {
   ++revision;
 }
 
-// Takes what follows from the keys of the scene that may change.
+// Updates what depends on the keys of the scene that may change.
 void Simulator::Impl::keysChanged() {
   for (Part* const part : motion.parts.all) part->resume();
   motion.forces.gravityChanged();
@@ -84,7 +84,7 @@ void Simulator::Impl::keysChanged() {
   sleep.limitsChanged();
 }
 
-// Takes what follows from the pins. Allocates nothing but for Method::kPaper.
+// Updates what depends on the pins. Allocates nothing but for Method::kPaper.
 void Simulator::Impl::pinsChanged() {
   std::fill(pinned_by_parts.begin(), pinned_by_parts.end(), std::uint8_t{0});
   for (const Part* const part : motion.parts.all) part->pin(pinned_by_parts);

@@ -27,13 +27,13 @@ struct Simulator::Impl {
   void pinsChanged();
   void driven() noexcept;
   template <typename Change>
-  void repin(const Change& change);
+  void changePins(const Change& change);
   void serialize(Archive& archive);
   void resume() noexcept;
   std::uint32_t layout();
 
   Scene scene;           // some keys may change, see Simulator::scene()
-  ClothPattern pattern;  // its pins may change (repin())
+  ClothPattern pattern;  // its pins may change (changePins())
   FrameTimes times;
   Motion motion;
   StepControls controls;
@@ -57,13 +57,13 @@ struct Simulator::Impl {
 
 // Between substeps: what parts pin changes by change(). Nodes that were pinned keep the velocity they moved with.
 template <typename Change>
-void Simulator::Impl::repin(const Change& change) {
+void Simulator::Impl::changePins(const Change& change) {
   sleep.wake();
   motion.synchronise();
   change();
   pinsChanged();
-  motion.repinned();
-  controls.both([this](StepControl& control) { control.repinned(motion.step); });
+  motion.afterPinsChanged();
+  controls.both([this](StepControl& control) { control.afterPinsChanged(motion.step); });
   motion.step.account().leaveOpen();
   if (errors) errors->lose();
   ++revision;

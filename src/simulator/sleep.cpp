@@ -30,7 +30,7 @@ void Sleep::fallAsleep() {
                     (rest_.watches() && parts.any([&](const Part& part) { return part.keepsAwake(state, now); }));
   const Contacts* const contacts = motion_.pushing();
   const bool touches = contacts != nullptr && anyPushes(*contacts);
-  if (!rest_.look(state, motion_.times.madeTime(), kept, touches)) return;
+  if (!rest_.check(state, motion_.times.madeTime(), kept, touches)) return;
   motion_.state.velocity.assign(motion_.pattern.grid.size(), 0.0);
   motion_.state.velocity_age = 0.0;  // velocities of zero lag behind nothing
   restChanged();

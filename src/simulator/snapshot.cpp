@@ -44,8 +44,8 @@ std::uint32_t Simulator::Impl::layout() {
 std::string Simulator::snapshot() const {
   Archive archive = Archive::saving();
   impl_->serialize(archive);
-  const std::string scene = writeScene(impl_->scene), carried = archive.extractWritten();
-  return packSnapshot({impl_->layout(), scene, carried});
+  const std::string scene = writeScene(impl_->scene), state = archive.extractWritten();
+  return packSnapshot({impl_->layout(), scene, state});
 }
 
 std::vector<Problem> Simulator::restore(const std::string& snapshot) {
@@ -59,7 +59,7 @@ std::vector<Problem> Simulator::restore(const std::string& snapshot) {
       if (auto problem = toleranceOnOneSide(impl_->scene, std::string(parts.scene))) return {*problem};
       return {{"snapshot", "holds other things than this program does: it is of another build"}};
     }
-    Archive archive = Archive::loading(parts.carried);
+    Archive archive = Archive::loading(parts.state);
     impl_->serialize(archive);
     archive.finishLoading();
     archive.commit();

@@ -16,7 +16,7 @@ namespace curtain {
 namespace {
 
 // Larger files are not read, whatever their header says: a snapshot of the largest cloth is smaller.
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 34;
+constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 34;
 
 // Reads up to so many bytes; fewer: end of file. -1: see errno.
 ssize_t readUpTo(int descriptor, char* to, std::size_t most) {
@@ -51,7 +51,7 @@ std::vector<Problem> readSnapshotFile(const std::string& path, std::string& out)
     if (begun < 0) return failedOn(path, "cannot be read");
     bytes.resize(static_cast<std::size_t>(begun));
     if (auto problem = judgeHeader(bytes, size)) return {{path, problem->text}};
-    if (size > kMostBytes) return {{path, "is too large for a snapshot: " + std::to_string(size) + " bytes"}};
+    if (size > kMaxBytes) return {{path, "is too large for a snapshot: " + std::to_string(size) + " bytes"}};
     bytes.resize(size);
     const ssize_t rest = readUpTo(file.descriptor(), bytes.data() + kSnapshotHeader, size - kSnapshotHeader);
     if (rest < 0) return failedOn(path, "cannot be read");

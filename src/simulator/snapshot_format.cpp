@@ -43,12 +43,12 @@ std::string packSnapshot(const SnapshotParts& parts) {
   Header header{
       {}, kByteOrder, kSnapshotVersion, kNumber, 0, parts.layout, static_cast<std::uint32_t>(parts.scene.size())};
   std::memcpy(header.magic, kMagic.data(), kMagic.size());
-  header.length = sizeof header + parts.scene.size() + parts.carried.size() + kChecksum;
+  header.length = sizeof header + parts.scene.size() + parts.state.size() + kChecksum;
   std::string bytes;
   bytes.reserve(header.length);
   bytes.append(reinterpret_cast<const char*>(&header), sizeof header);
   bytes.append(parts.scene);
-  bytes.append(parts.carried);
+  bytes.append(parts.state);
   const std::uint32_t sum = checksum(bytes);
   bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
   return bytes;

@@ -35,7 +35,7 @@ constexpr std::size_t kSnapshotHeader = 48;
 struct SnapshotParts {
   std::uint32_t layout = 0;
   std::string_view scene;
-  std::string_view carried;
+  std::string_view state;
 };
 
 std::string packSnapshot(const SnapshotParts& parts);

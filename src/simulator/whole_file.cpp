@@ -24,14 +24,14 @@ bool writeAll(int descriptor, const std::string& bytes) {
   return true;
 }
 
-// Tries names beside the file until take(name) succeeds: it makes the file, or fails with EEXIST if another thread or
+// Tries names beside the file until create(name) succeeds: it makes the file, or fails with EEXIST if another thread or
 // process uses the name. False: it failed with another errno.
-template <typename Take>
-bool takeNameBeside(const std::string& path, std::string& name, const Take& take) {
+template <typename Create>
+bool claimNameBeside(const std::string& path, std::string& name, const Create& create) {
   static std::atomic<unsigned> next{0};
   do {
     name = path + ".tmp-" + std::to_string(::getpid()) + '-' + std::to_string(next++);
-    if (take(name.c_str())) return true;
+    if (create(name.c_str())) return true;
   } while (errno == EEXIST);
   return false;
 }
@@ -47,7 +47,7 @@ bool writeNamedAtLast(const std::string& path, const std::string& bytes, std::st
   File file(::open(folderOf(path).c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666));
   if (!file.isOpen() || !writeAll(file.descriptor(), bytes) || ::fsync(file.descriptor()) != 0) return false;
   const std::string nameless = "/proc/self/fd/" + std::to_string(file.descriptor());
-  return takeNameBeside(path, name, [&](const char* to) {
+  return claimNameBeside(path, name, [&](const char* to) {
     return ::linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, to, AT_SYMLINK_FOLLOW) == 0;
   });
 }
@@ -59,7 +59,7 @@ bool writeNamed(const std::string& path, const std::string& bytes, std::string& 
     descriptor = ::open(as, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);  // reduced by the umask
     return descriptor >= 0;
   };
-  if (!takeNameBeside(path, name, create)) return false;
+  if (!claimNameBeside(path, name, create)) return false;
   File file(descriptor);
   if (writeAll(descriptor, bytes) && ::fsync(descriptor) == 0 && file.close()) return true;
   const int why = errno;

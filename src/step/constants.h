@@ -11,7 +11,7 @@ namespace curtain {
 // Tolerance used inside the solver, as a share of the user's: what the last half-sweep disturbs must still fit.
 constexpr double kInnerTolerance = 0.5;
 // Share of the user's tolerance that the compliance of links may take.
-constexpr double kMostGive = 0.1;
+constexpr double kMaxGive = 0.1;
 // Share of the tolerance below which strings and contacts are not corrected in the first sweep. Far below 1: a link
 // that drifts through the whole tolerance and is then corrected at once gets a velocity jump.
 constexpr double kFirstSweepShare = 1e-4;
@@ -27,7 +27,7 @@ constexpr int kNewtonIterations = 12;
 // Share of the tolerance within which a block of columns is not solved again in a later sweep.
 constexpr double kLeaveAlone = 0.1;
 // A relative violation beyond this is a failed step: slow convergence starts nearer.
-constexpr double kMostViolation = 4.0;
+constexpr double kMaxViolation = 4.0;
 // Conjugate gradients stop at this share of the initial residual, or of the tolerance. Without contact they go on to
 // the square of the relative residual, which is the accuracy of the linearisation, and the active set changes
 // meanwhile: a sweep is then a Newton step. (Not in the last resort, where a row between vibrating pins gains energy by
@@ -44,10 +44,10 @@ constexpr double kWatchMoves = 1e-3;  // relative violation below which no solve
 // Without an end some would turn to and fro, and every turn disturbs the links.
 constexpr int kFrictionSweeps = 3;
 // The residual turns into motion, so the tolerance of contacts follows the motion: this share of the displacement of
-// nodes in the substep (RMS, relative to their mean), at most kMostTouch contact tolerances; more would save no sweeps.
+// nodes in the substep (RMS, relative to their mean), at most kMaxTouch contact tolerances; more would save no sweeps.
 // Not in the last resort: objects thrown at cloth at 50 m/s pierced it.
 constexpr double kShareOfPath = 0.01;
-constexpr double kMostTouch = 4.0;
+constexpr double kMaxTouch = 4.0;
 // Cloth at rest on something moves little: the first sweeps aim at this share of the tolerance. With 6 of them fewer
 // limp drapes come to rest. Fewer than kStallWindow.
 constexpr double kStrictShare = 0.2;
@@ -55,9 +55,9 @@ constexpr int kStrictSweeps = 12;
 constexpr int kStrictSweepsOfLinks = 6;  // where nothing touches
 // Where strings pull and substeps are short, the tolerance of a link exceeds the displacement by weight, and a flat net
 // amplifies it tenfold across the strings: it would never come to rest. So the aim is this share of the displacement by
-// weight, but at least kLeastShare of the tolerance.
+// weight, but at least kMinShare of the tolerance.
 constexpr double kShareOfWeight = 0.3;
-constexpr double kLeastShare = 0.01;
+constexpr double kMinShare = 0.01;
 // The same for the last resort, whose substeps are long. 1: taut sheets never come to rest. 0.01: rows drawn straight
 // rise by as much as they may sag, without energy to pay for it.
 constexpr double kLastResortShare = 0.1;
@@ -72,7 +72,7 @@ constexpr double kDampingPerResidual = 0.05;
 constexpr double kLargestDamping = 0.1;
 // Its bound in the last resort, whose sweeps must reduce the sum of squares: if a step a thousand times shorter than
 // Jacobi's does not, the solve has stalled.
-constexpr double kMostDamping = 1e3;
+constexpr double kMaxDamping = 1e3;
 // Change of the damping after a sweep that made things worse, and after one that improved them.
 constexpr double kDampingGrowth = 8.0;
 constexpr double kDampingShrink = 2.0;
@@ -81,19 +81,19 @@ constexpr double kDampingShrink = 2.0;
 
 // Largest motion of a touched obstacle's surface in a substep, over the shortest link: with more, the solve could not
 // bring links to their lengths.
-constexpr double kMostSurfaceMotion = 0.2;
+constexpr double kMaxSurfaceMotion = 0.2;
 // Largest angle by which the normal of what pushes turns in a substep [rad]: impulses act along those of its start. Of
 // 128 places of a bar at 10 to 50 revolutions a second 11 gave the cloth up to 0.24 m g H too much. With this, and what
 // arrives moving no further than the distance that it is kept at, none gives more than 3e-4. Of 900 strips that slide
 // off edges and bars none gains; with twice the angle 2 do, up to 0.03 m g L.
-constexpr double kMostTurn = 0.125;
+constexpr double kMaxTurn = 0.125;
 // A substep this many times as long as these ask for is made again.
 constexpr double kTooLong = 2.0;
 // Ratio of kinetic energies, with and without the work of links, above which the links are assumed to have jumped to
 // another configuration. Otherwise links only take energy out, but leapfrog's energy wavers by the square of the angle
 // that links turn by: 0.03 at 0.17 rad. An excess that a shorter step would not reduce is taken out of the velocities
 // instead.
-constexpr double kMostAdded = 1.03;
+constexpr double kMaxAdded = 1.03;
 // Share of the tolerance that LastResort::bound() fills: the rest is for rounding of lengths.
 constexpr double kBoundShare = 1.0 - 1e-6;
 // Positions beyond this [m] count as diverged: damping takes the cube of a speed and energy the square times a mass,
@@ -111,7 +111,7 @@ constexpr double kReachGrowth = 1.2;
 // Trust radius, in links, from which the scheme's own substeps are tried again.
 constexpr double kUnbounded = 2.0;
 // Least trust radius: nodes move by a hundredth of the links' tolerance, so there is nothing left to solve.
-constexpr double kLeastReach = 1e-5;
+constexpr double kMinReach = 1e-5;
 // Links that exceed their bound by this factor at the start of a path were pulled there by pins that moved apart, or
 // put there by setState(). Then any result counts that is not worse than kForcedGrowth times the start.
 constexpr double kForced = 10.0;
@@ -151,18 +151,18 @@ constexpr double kTurnPerStep = 0.07;
 // h * omega for the reference run of the error estimate.
 constexpr double kLongestPhase = 1.8;
 // Finding the step for mass scaling costs as much as a sweep, so substeps longer than this share of a frame are kept.
-constexpr double kWorthLooking = 0.25;
+constexpr double kWorthScaling = 0.25;
 // After kGoodToGrow accepted substeps the limit from rejections grows by this factor.
 constexpr double kLimitGrowth = 1.4;
 constexpr int kGoodToGrow = 8;
 // Substeps of implicit with `substeps: auto`: only accuracy limits its step.
 constexpr int kImplicitSubsteps = 8;
 // What elastic forces may take of h^2 omega^2 at least, where tensions take all that they may: up to leapfrog's limit.
-constexpr double kLeastForElastic = 4.0 - kStablePhase * kStablePhase;
+constexpr double kMinForElastic = 4.0 - kStablePhase * kStablePhase;
 // What tensions may take of it at least, where steps can't follow explicit elastic forces. 1: a node whose links and
 // cells are at their bounds alike.
-constexpr double kLeastForTensions = 1.0;
-// The same as kLeastForElastic where links follow, which then take none. There they act where the step leads to, which
+constexpr double kMinForTensions = 1.0;
+// The same as kMinForElastic where links follow, which then take none. There they act where the step leads to, which
 // is stable below 4 / 3; at 1 a line that gives way takes backward Euler's step.
 constexpr double kElasticBackward = 1.0;
 // The same of the paper's scheme. First order: 27 mm after a second of a swing of 43 rods. Its weft overlength falls
@@ -170,7 +170,7 @@ constexpr double kElasticBackward = 1.0;
 // number.
 constexpr int kPaperSubsteps = 16;
 // With a computing budget substeps may be longer by this factor; beyond it their solve costs all that is saved.
-constexpr double kMostStretch = 2.0;
+constexpr double kMaxStretch = 2.0;
 // A fixed substep that fails is divided by at most this before the last resort takes over.
 constexpr int kRoomBelowFixed = 16;
 // Substeps a frame of the last resort; the bound motion converges at any step. Of 8 to 128, on 40 wild scenes, 8 take
@@ -189,6 +189,6 @@ constexpr double kStickShare = 0.25;
 
 // Least damping of contact rows, relative to the diagonal. Many contacts are nearly redundant; solved exactly, some
 // would pull so that others can push.
-constexpr float kLeastDamping = 0.2F;
+constexpr float kMinDamping = 0.2F;
 
 }  // namespace curtain

@@ -30,7 +30,7 @@ Constraints::Constraints(const ClothPattern& pattern, const SolverParts& parts, 
   scratch_.assign(pattern.grid);
   warp_.assign(pattern.grid);
   weft_.assign(pattern.grid);
-  weft_.most_give = tolerance;
+  weft_.max_give = tolerance;
   for (Field* field : {&last_warp_, &last_weft_, &best_.warp, &best_.weft, &rod_change_}) field->assign(links, 0.0);
   for (Field* field : {&violation_, &active_, &compliance_, &change_, &free_per_square_}) field->assign(size, 0.0);
   freeWeft(pattern, inertia.masses(), free_per_square_);

@@ -64,7 +64,7 @@ class Constraints {
 
   /// Sets the relative overlength that the links' compliance may reach.
   void setTolerance(double tolerance) noexcept {
-    weft_.most_give = tolerance;
+    weft_.max_give = tolerance;
     distances_.setMostGive(tolerance);
   }
 
@@ -85,10 +85,10 @@ class Constraints {
   }
 
   struct RodsAim {
-    bool follow;           ///< along the directions of the present positions
-    double stop;           ///< relative residual at the start of the last Newton iteration
-    double leave_alone;    ///< blocks of columns within this residual are skipped
-    double most_residual;  ///< beyond it the solve has failed
+    bool follow;          ///< along the directions of the present positions
+    double stop;          ///< relative residual at the start of the last Newton iteration
+    double leave_alone;   ///< blocks of columns within this residual are skipped
+    double max_residual;  ///< beyond it the solve has failed
   };
   struct RodsProgress {
     bool converged = true;
@@ -99,7 +99,7 @@ class Constraints {
 
   /// Largest relative violation of a string. closely: keep the violation of each for solveNet(); otherwise none may
   /// pull.
-  double lookAtStrings(bool closely) noexcept;
+  double checkStrings(bool closely) noexcept;
 
   /// Sets the directions of all links from the present positions.
   void followDirections() noexcept;
@@ -199,8 +199,8 @@ class Constraints {
   double commitGuide(ClothState& state, const Field& load) noexcept;
   Vec3 pullAt(int row, int column, const Field& warp, const Field& weft, bool strings) const noexcept;
   void makeRows(const Field3& value, bool rates) noexcept;
-  template <typename Look>
-  double worstOfRows(const Look& look) noexcept;
+  template <typename Visit>
+  double worstOfRows(const Visit& visit) noexcept;
   template <typename Block>
   void forEachBlock(const Block& block) const;
 
@@ -242,14 +242,14 @@ void Constraints::forEachBlock(const Block& run) const {
   workers_.run(warpBlockCount(pattern_.grid), [&](int block) { run(block); });
 }
 
-// Calls look(row) for all rows; returns the largest result.
-template <typename Look>
-double Constraints::worstOfRows(const Look& look) noexcept {
+// Calls visit(row) for all rows; returns the largest result.
+template <typename Visit>
+double Constraints::worstOfRows(const Visit& visit) noexcept {
   const int rows = pattern_.grid.rows;
   workers_.run(static_cast<int>(row_worst_.size()), [&](int b) {
     double worst = 0.0;
     const int end = std::min((b + 1) * kRowsAtOnce, rows);
-    for (int i = b * kRowsAtOnce; i < end; ++i) worst = std::max(worst, look(i));
+    for (int i = b * kRowsAtOnce; i < end; ++i) worst = std::max(worst, visit(i));
     row_worst_[static_cast<std::size_t>(b)] = worst;
   });
   return *std::max_element(row_worst_.begin(), row_worst_.end());

@@ -37,7 +37,7 @@ Constraints::RodsProgress Constraints::solveBlock(const LineSolve& warp, const R
     if (aim.follow) setWarpDirections(pattern_.grid, block, next, warp_.direction);
     const LineOutcome outcome = warpNewton(warp, scratch_, block);
     if (iteration == 0) progress.first_residual = std::max(progress.first_residual, outcome.residual);
-    if (!outcome.sound || !(outcome.residual < aim.most_residual)) break;
+    if (!outcome.sound || !(outcome.residual < aim.max_residual)) break;
     if (outcome.residual <= aim.stop) return progress;
   }
   progress.converged = false;
@@ -65,7 +65,7 @@ double Constraints::rodsResidual() noexcept {
   return worst;
 }
 
-double Constraints::lookAtStrings(bool closely) noexcept {
+double Constraints::checkStrings(bool closely) noexcept {
   measured_ = false;
   if (closely) return measureStrings();
   const double longest = worstOfRows([&](int i) { return weftSquare(pattern_.grid, i, next, free_per_square_); });

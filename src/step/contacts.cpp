@@ -19,15 +19,15 @@ void tangents(const Vec3& normal, Vec3& first, Vec3& second) {
   second = normal.cross(first);
 }
 
-// Calls take(contact's index, change of push, change of slide) for all contacts with rows: the normal's comes first.
-template <typename Take>
-void forEachChange(const Rows& rows, std::size_t first, std::size_t end, const Take& take) {
+// Calls visit(contact's index, change of push, change of slide) for all contacts with rows: the normal's comes first.
+template <typename Visit>
+void forEachChange(const Rows& rows, std::size_t first, std::size_t end, const Visit& visit) {
   for (std::size_t r = first; r != end;) {
     const std::uint32_t index = rows[r].key;
     const double push = rows[r].change;
     Vec3 slide = Vec3::Zero();
     for (++r; r != end && rows[r].key == index; ++r) slide += rows[r].change * rows[r].direction;
-    take(index, push, slide);
+    visit(index, push, slide);
   }
 }
 
@@ -50,7 +50,7 @@ void beginContacts(const Field& inverse_inertia, double scale, double ratio, std
     contact.leans = contact.push > 0.0;
     contact.hold = scale * contact.friction * contact.press;
     contact.slide = contact.boundedSlide(ratio * contact.across(contact.slide));
-    contact.sticks = contact.pushes() && contact.slide.norm() < kSticksBelow * contact.mostSlide();
+    contact.sticks = contact.pushes() && contact.slide.norm() < kSticksBelow * contact.maxSlide();
     if (!contact.pushes()) continue;
     if (!contact.sticks) contact.slip();
     contact.move(inverse_inertia, contact.push * contact.normal + contact.slide, position);
@@ -70,7 +70,7 @@ double longestStep(const Contacts& contacts, double h, double link) noexcept {
   for (const Contact& contact : contacts) {
     if (contact.obstacle == Contact::kCloth || !contact.pushes()) continue;
     const double motion = std::abs(h) * contact.surface_velocity.norm();
-    most = std::max({most, motion / (kMostSurfaceMotion * link), (contact.level - contact.normal).norm() / kMostTurn});
+    most = std::max({most, motion / (kMaxSurfaceMotion * link), (contact.level - contact.normal).norm() / kMaxTurn});
     if (contact.curved && !contact.leans) most = std::max(most, motion / contact.asked);
   }
   return most > 0.0 ? std::abs(h) / most : std::numeric_limits<double>::infinity();
@@ -101,7 +101,7 @@ bool pressesOnObstacle(const Contacts& contacts) noexcept {
 void projectContacts(const Field& inverse_inertia, Contacts& contacts, Field3& position) noexcept {
   for (Contact& contact : contacts) {
     if (contact.mobility <= 0.0) continue;
-    const double change = contact.boundedChange(contact.entered(position) / (contact.rise() * contact.mobility));
+    const double change = contact.boundedChange(contact.depth(position) / (contact.rise() * contact.mobility));
     contact.push += change;
     contact.move(inverse_inertia, change * contact.normal, position);
   }
@@ -131,13 +131,13 @@ double ContactRows::residual(const Field3& position, bool recovers, double toler
   double worst = 0.0;
   for (const Contact& contact : *all_) {
     if (contact.mobility <= 0.0) continue;  // what is held is watched on its way, by verification
-    const double entered = contact.entered(position);
-    if (!std::isfinite(entered)) return std::numeric_limits<double>::infinity();
-    const double lacks = recovers || entered < 0.0 ? entered : std::max(0.0, entered - contact.recovery);
-    worst = std::max(worst, contact.pushes() ? std::abs(lacks) : lacks);
-    if (lacks > 0.0) worst = std::max(worst, lacks * (tolerance / contact.room));
+    const double depth = contact.depth(position);
+    if (!std::isfinite(depth)) return std::numeric_limits<double>::infinity();
+    const double violation = recovers || depth < 0.0 ? depth : std::max(0.0, depth - contact.recovery);
+    worst = std::max(worst, contact.pushes() ? std::abs(violation) : violation);
+    if (violation > 0.0) worst = std::max(worst, violation * (tolerance / contact.room));
     if (contact.sticks)
-      worst = std::max(worst, kStickShare * contact.across(contact.point(position) - contact.carried).norm());
+      worst = std::max(worst, kStickShare * contact.across(contact.point(position) - contact.anchor).norm());
   }
   return worst;
 }
@@ -146,14 +146,14 @@ void ContactRows::addRows(const Field3& value, bool rates, Rows& rows) const {
   for (std::uint32_t index = 0; index < all_->size(); ++index) {
     const Contact& contact = (*all_)[index];
     const Vec3 point = contact.point(value);
-    const Vec3 lacks = (rates ? contact.end_velocity : contact.carried) - point;  // what the point is to move by
-    const double along = rates ? contact.level.dot(lacks) : contact.entered(value) / contact.rise();
+    const Vec3 violation = (rates ? contact.end_velocity : contact.anchor) - point;  // what the point is to move by
+    const double along = rates ? contact.level.dot(violation) : contact.depth(value) / contact.rise();
     if (!contact.pushes() && (rates || !(along > 0.0))) continue;
     Row row;
     row.node = contact.node;
     row.weight = contact.weight;
     row.nodes = contact.nodes;
-    row.least_damping = kLeastDamping;
+    row.min_damping = kMinDamping;
     if (contact.press == 0.0 && !rates) row.least = -contact.push;
     row.key = index;
     // Of a slip: n + lean on both sides, where the exact matrix has n on one. So it stays symmetric; what the slip adds
@@ -167,7 +167,7 @@ void ContactRows::addRows(const Field3& value, bool rates, Rows& rows) const {
     row.least = Row().least;
     for (const Vec3& tangent : {first, second}) {
       row.direction = tangent;
-      row.violation = tangent.dot(lacks);
+      row.violation = tangent.dot(violation);
       rows.push_back(row);
     }
   }
@@ -180,7 +180,7 @@ void ContactRows::applyChange(const Rows& rows, double share, const Field& inver
     contact.push += push_change;
     const Vec3 wanted = contact.slide + (contact.sticks ? Vec3(share * slide) : Vec3(push_change * contact.lean));
     contact.slide = wanted;
-    if (!contact.sticks || wanted.squaredNorm() <= contact.mostSlide() * contact.mostSlide()) return;
+    if (!contact.sticks || wanted.squaredNorm() <= contact.maxSlide() * contact.maxSlide()) return;
     contact.slide = contact.boundedSlide(wanted);
     contact.slip();
     contact.move(inverse, contact.slide - wanted, position);
@@ -189,8 +189,8 @@ void ContactRows::applyChange(const Rows& rows, double share, const Field& inver
 
 void ContactRows::addSquares(const Field3& position, double& sum) const noexcept {
   for (const Contact& contact : *all_) {
-    const double entered = contact.entered(position);
-    const double relative = (entered > 0.0 || contact.pushes() ? entered : 0.0) / links_;
+    const double depth = contact.depth(position);
+    const double relative = (depth > 0.0 || contact.pushes() ? depth : 0.0) / links_;
     sum += relative * relative;
   }
 }

@@ -35,7 +35,7 @@ class ContactFinder;
 
 struct Contact {
   static constexpr int kCloth = -1;
-  static constexpr double kLeastRise = 0.5;  // of a point that turns further in a substep: the next sweeps see it
+  static constexpr double kMinRise = 0.5;  // of a point that turns further in a substep: the next sweeps see it
   static constexpr std::uint32_t kNowhere = ~std::uint32_t{0};
 
   std::array<std::uint32_t, 4> node{};  ///< in the grid's fields
@@ -51,8 +51,8 @@ struct Contact {
   double recovery = 0.0;        ///< way out of what it is too deep in [m], >= 0; the last resort may skip it
   /// What it may lack [m]: with more, a point that is near the surface already goes more than half of the way to it.
   double room = kInfinity;
-  Vec3 carried = Vec3::Zero();  ///< point at the end of the substep without slip [m]; only its tangential part is read
-  Vec3 carried_normal = Vec3::UnitZ();   ///< of what it touched at the start, as that has turned by the end
+  Vec3 anchor = Vec3::Zero();  ///< point at the end of the substep without slip [m]; only its tangential part is read
+  Vec3 anchor_normal = Vec3::UnitZ();    ///< of what it touched at the start, as that has turned by the end
   Vec3 surface_velocity = Vec3::Zero();  ///< of what the point touches, when the force acts [m/s]
   Vec3 end_velocity = Vec3::Zero();      ///< the same at the substep's end [m/s]
   double friction = 0.0;                 ///< Coulomb coefficient, >= 0; pinched: the sum of both sides'
@@ -84,7 +84,7 @@ struct Contact {
   }
   bool pushes() const noexcept { return push > 0.0 || press > 0.0; }
   /// How far below the plane [m]; negative: above it.
-  double entered(const Field3& position) const noexcept { return offset - level.dot(point(position)); }
+  double depth(const Field3& position) const noexcept { return offset - level.dot(point(position)); }
   /// The point is this far from what it touches, whose normal is there `to`: that of a far side is not taken.
   void turnTo(const Vec3& to, double distance, const Field3& position) noexcept {
     if (!(to.dot(normal) > 0.0)) return;
@@ -92,7 +92,7 @@ struct Contact {
     offset = level.dot(point(position)) + asked - distance;
   }
   /// Whether a normal is that of the face that it has met, which may bend a little.
-  bool isOf(const Vec3& to) const noexcept { return (to - level).squaredNorm() <= kMostTurn * kMostTurn; }
+  bool isOf(const Vec3& to) const noexcept { return (to - level).squaredNorm() <= kMaxTurn * kMaxTurn; }
   /// Whether what is nearest at a place, where its normal is `to`, is another face that the point has run into: it is
   /// turned against the point's motion, as in a valley of a mesh. (Around a convex shape it turns with the motion.)
   /// Such a face has a contact of its own: one that jumped from face to face would not converge in a substep of any
@@ -100,15 +100,15 @@ struct Contact {
   /// kinetic energy.
   bool runsInto(const Vec3& to, const Vec3& at) const noexcept { return !isOf(to) && turnsAgainst(to, at); }
   bool turnsAgainst(const Vec3& to, const Vec3& at) const noexcept {
-    return (to - carried_normal).dot(at - carried) < 0.0;
+    return (to - anchor_normal).dot(at - anchor) < 0.0;
   }
   /// Share of a motion along the normal that goes across the plane.
-  double rise() const noexcept { return std::max(kLeastRise, level.dot(normal)); }
+  double rise() const noexcept { return std::max(kMinRise, level.dot(normal)); }
   Vec3 across(const Vec3& v) const { return v - normal.dot(v) * normal; }
   /// Bound of slide [kg m].
-  double mostSlide() const noexcept { return press > 0.0 ? hold : friction * push; }
+  double maxSlide() const noexcept { return press > 0.0 ? hold : friction * push; }
   /// The slide that would end the slip, if nothing else moved.
-  Vec3 wantedSlide(const Field3& position) const { return slide - across(point(position) - carried) / mobility; }
+  Vec3 wantedSlide(const Field3& position) const { return slide - across(point(position) - anchor) / mobility; }
   /// It may slip from now on.
   void slip() noexcept {
     sticks = false;
@@ -116,7 +116,7 @@ struct Contact {
   }
   /// Projection on Coulomb's disc.
   Vec3 boundedSlide(const Vec3& wanted) const {
-    const double size = wanted.norm(), most = mostSlide();
+    const double size = wanted.norm(), most = maxSlide();
     return size > most ? Vec3(wanted * (most / size)) : wanted;
   }
   /// A change of push within its bound.

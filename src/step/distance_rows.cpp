@@ -9,8 +9,8 @@
 
 namespace curtain {
 
-DistanceRows::DistanceRows(const ClothPattern& pattern, std::vector<RowPart*> parts, double most_give, double links)
-    : pattern_(pattern), parts_(std::move(parts)), most_give_(most_give), links_(links) {
+DistanceRows::DistanceRows(const ClothPattern& pattern, std::vector<RowPart*> parts, double max_give, double links)
+    : pattern_(pattern), parts_(std::move(parts)), max_give_(max_give), links_(links) {
   std::size_t count = 0;
   for (const RowPart* part : parts_) count += part->count();
   all_.resize(count);
@@ -61,7 +61,7 @@ double DistanceRows::measure(const Field& inverse, const Field3& position) noexc
   for (DistanceRow& row : all_) {
     const double square = (position.at(row.other) - position.at(row.node)).squaredNorm();
     const double load = kStraightCompliance * (inverse[row.node] + inverse[row.other]) * row.multiplier;
-    const double give = std::min(load, most_give_) * row.length * row.length;
+    const double give = std::min(load, max_give_) * row.length * row.length;
     row.violation = row.holds ? 0.5 * (square - row.length * row.length) - give : 0.0;
     if (row.compliance > 0.0 && row.holds) row.violation -= givesPerMultiplier(row, std::sqrt(square)) * row.multiplier;
     row.active = row.holds && (row.violation > 0.0 || row.multiplier > 0.0);

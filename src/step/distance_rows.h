@@ -13,11 +13,11 @@ namespace curtain {
 
 class DistanceRows final : public RowMaker {
  public:
-  /// most_give: bound of the relative overlength by compliance; links: a typical link's length [m]. All arguments must
+  /// max_give: bound of the relative overlength by compliance; links: a typical link's length [m]. All arguments must
   /// outlive this.
-  DistanceRows(const ClothPattern& pattern, std::vector<RowPart*> parts, double most_give, double links);
+  DistanceRows(const ClothPattern& pattern, std::vector<RowPart*> parts, double max_give, double links);
 
-  void setMostGive(double most_give) noexcept { most_give_ = most_give; }
+  void setMostGive(double max_give) noexcept { max_give_ = max_give; }
   bool any() const noexcept { return !all_.empty(); }
   const std::vector<DistanceRow>& all() const noexcept { return all_; }
 
@@ -90,7 +90,7 @@ class DistanceRows final : public RowMaker {
 
   const ClothPattern& pattern_;
   std::vector<RowPart*> parts_;
-  double most_give_;
+  double max_give_;
   const double links_;
   std::vector<DistanceRow> all_;  // part by part
   std::vector<double> best_;      // multipliers of the iterate to return to

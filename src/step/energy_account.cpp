@@ -13,7 +13,7 @@ namespace {
 
 // Largest energy, from put_in (without links) and driven (all mass at the speed of the fastest pin), both twice an
 // energy [J]. The root is of a ratio, so that other units give the same bits.
-double mostOf(double put_in, double driven) noexcept {
+double maxOf(double put_in, double driven) noexcept {
   if (!(put_in > 0.0)) return 4.0 * driven;
   const double factor = 1.0 + 2.0 * std::sqrt(driven / put_in);
   return factor * factor * put_in;
@@ -44,10 +44,10 @@ void EnergyAccount::pinsChanged() noexcept {
 
 // A rod that is predicted longer by a share e, from rest, has turned by sqrt(2 e) and gains e / 2 of its energy.
 bool EnergyAccount::isSmall(double predicted_violation) noexcept {
-  return predicted_violation <= 2.0 * (kMostAdded - 1.0);
+  return predicted_violation <= 2.0 * (kMaxAdded - 1.0);
 }
 
-// Pins and obstacles that move may take what links seem to, so nothing more is held then.
+// Pins and obstacles that move may absorb what links seem to absorb, so nothing more is held then.
 EnergyAccount::Entry EnergyAccount::entryOf(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end,
                                             const Drive& drive, double can_hold) const noexcept {
   const Vec3 frame = frameOf(start.state.velocity);
@@ -58,8 +58,8 @@ EnergyAccount::Entry EnergyAccount::entryOf(const Scheme::Rules& rules, const Su
   const double held = std::min(held_, can_hold), taken = moved ? 0.0 : sums.put_in - sums.stepped;
   Entry entry;
   entry.held = std::clamp(held + taken, 0.0, can_hold);
-  if (!(sums.stepped > mostOf(kMostAdded * sums.put_in, driven))) return entry;
-  const double most = mostOf(sums.put_in, driven) + held;
+  if (!(sums.stepped > maxOf(kMaxAdded * sums.put_in, driven))) return entry;
+  const double most = maxOf(sums.put_in, driven) + held;
   if (!(sums.stepped > most)) return entry;
   entry.most = most;
   entry.made = sums.stepped - most;
@@ -69,13 +69,13 @@ EnergyAccount::Entry EnergyAccount::entryOf(const Scheme::Rules& rules, const Su
 double EnergyAccount::most(const Scheme::Rules& rules, const SubstepStart& start, const Field3& end,
                            const Drive& drive) const noexcept {
   const Vec3 frame = frameOf(start.state.velocity);
-  return mostOf(sumsOf(start, end, frame, rules.follows).put_in + drive.put_in,
-                drivenBy(start.state.velocity, frame, drive.pushed));
+  return maxOf(sumsOf(start, end, frame, rules.follows).put_in + drive.put_in,
+               drivenBy(start.state.velocity, frame, drive.pushed));
 }
 
 double EnergyAccount::most(const Field3& velocity, double surface) const noexcept {
   const Vec3 frame = frameOf(velocity);
-  return mostOf(kineticOf(velocity, frame), drivenBy(velocity, frame, surface));
+  return maxOf(kineticOf(velocity, frame), drivenBy(velocity, frame, surface));
 }
 
 void EnergyAccount::bound(double most, Field3& velocity) const noexcept {

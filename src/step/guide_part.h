@@ -29,7 +29,7 @@ class GuidePart : public GuidedNodes {
   virtual void begin(const SubstepStart& start, const ClothState& state, const Field& inverse) noexcept = 0;
   /// In this substep they may move.
   virtual bool moves() const noexcept = 0;
-  /// Takes what acts on its nodes now.
+  /// Reads the forces that act on its nodes now.
   virtual void press(const NodeForce& force) noexcept = 0;
   /// After loops over all nodes: all of its nodes together. True: a freedom has changed.
   virtual bool settle(Field3& position) noexcept = 0;

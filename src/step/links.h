@@ -18,10 +18,10 @@
 namespace curtain {
 
 struct LinkSet {
-  Field3 direction;                                            ///< [m], shape [(rows + 1) * stride]
-  Field multiplier;                                            ///< [kg], shape [(rows + 1) * stride]
-  double compliance = 0.0;                                     ///< overlength by a multiplier times (w_a + w_b)
-  double most_give = std::numeric_limits<double>::infinity();  ///< bound of the relative overlength by compliance
+  Field3 direction;                                           ///< [m], shape [(rows + 1) * stride]
+  Field multiplier;                                           ///< [kg], shape [(rows + 1) * stride]
+  double compliance = 0.0;                                    ///< overlength by a multiplier times (w_a + w_b)
+  double max_give = std::numeric_limits<double>::infinity();  ///< bound of the relative overlength by compliance
 
   void assign(const Grid& grid) {
     const std::size_t size = grid.size() + static_cast<std::size_t>(grid.stride);

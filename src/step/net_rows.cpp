@@ -11,7 +11,7 @@ void NetRows::scale(const Frame& frame, const Row& row, Packed& packed) noexcept
   packed.dy = static_cast<float>(row.direction.y());
   packed.dz = static_cast<float>(row.direction.z());
   packed.on = row.active ? 1.0F : 0.0F;
-  packed.damping = std::max(frame.damping, static_cast<float>(row.least_damping));
+  packed.damping = std::max(frame.damping, static_cast<float>(row.min_damping));
   packed.compliance = static_cast<float>(row.compliance / frame.inertia_scale);
   packed.per_diagonal = 1.0F / (packed.diagonal * (1.0F + packed.damping) + packed.compliance);
   packed.residual = static_cast<float>(row.violation / frame.violation_scale);

@@ -53,11 +53,11 @@ class NetRows {
     }
   }
   bool any() const noexcept { return !rows_.empty(); }
-  /// Calls take(node), in NetSolver's numbering, for the nodes of all rows; a node may come more than once.
-  template <typename Take>
-  void forEachNode(const Take& take) const {
+  /// Calls visit(node), in NetSolver's numbering, for the nodes of all rows; a node may come more than once.
+  template <typename Visit>
+  void forEachNode(const Visit& visit) const {
     for (const Packed& row : rows_) {
-      for (int k = 0; k < row.nodes; ++k) take(row.node[static_cast<std::size_t>(k)]);
+      for (int k = 0; k < row.nodes; ++k) visit(row.node[static_cast<std::size_t>(k)]);
     }
   }
 

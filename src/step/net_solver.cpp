@@ -291,7 +291,7 @@ void NetSolver::loadRows(const Rows& rows, bool set_may_change) noexcept {
     float sum = 0.0F;
     for (std::size_t k = 0; k < static_cast<std::size_t>(one.nodes); ++k) {
       const auto weight = static_cast<float>(one.weight[k]);
-      const bool held = one.least_damping == 0.0 && node[k] < ends;
+      const bool held = one.min_damping == 0.0 && node[k] < ends;
       const float mobility = held ? static_cast<float>(mobilityOf(node[k], one.direction)) : weight_[node[k]] * square;
       sum += weight * weight * mobility;
     }
@@ -332,7 +332,7 @@ NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active,
   damping_ = static_cast<float>(aim.damping);
   violation_scale_ = aim.largest;
   const bool changes = aim.multiplier != nullptr &&
-                       std::all_of(rows.begin(), rows.end(), [](const Row& one) { return one.least_damping == 0.0; });
+                       std::all_of(rows.begin(), rows.end(), [](const Row& one) { return one.min_damping == 0.0; });
   loadRows(rows, changes);
   findPushed();
   workers_.run(row_blocks_, [&](int b) { load(violation, active, aim, b); });
@@ -342,14 +342,14 @@ NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active,
     return 0.0;
   });
   double aligned = 0.0;
-  bool anew = true;
+  bool restart = true;
   outcome.reduction = 1.0;
   while (true) {
     const double next = sumOverRowBlocks([&](int b) { return precondition(b); }) + rows_.aligned();
-    const float beta = anew ? 0.0F : static_cast<float>(next / aligned);
+    const float beta = restart ? 0.0F : static_cast<float>(next / aligned);
     aligned = next;
-    anew = false;
-    if (outcome.iterations >= aim.most_iterations || !(aligned > 0.0)) break;
+    restart = false;
+    if (outcome.iterations >= aim.max_iterations || !(aligned > 0.0)) break;
     ++outcome.iterations;
     sumOverRowBlocks([&](int b) {
       conjugate(b, beta);
@@ -362,8 +362,8 @@ NetSolver::Outcome NetSolver::solve(const Field& violation, const Field& active,
     if (!(curvature > 0.0) || !std::isfinite(alpha)) break;
     outcome.reduction = step(alpha);
     if (outcome.reduction > aim.reduction) continue;
-    anew = changes && changeStrings(static_cast<float>(aim.reduction));
-    if (!anew) break;
+    restart = changes && changeStrings(static_cast<float>(aim.reduction));
+    if (!restart) break;
   }
   workers_.run(row_blocks_, [&](int b) { unload(b, aim.multiplier, change); });
   rows_.unload(multiplierScale(), rows);

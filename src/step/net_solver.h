@@ -45,12 +45,12 @@ class NetSolver {
 
   /// Scale and termination of a solve.
   struct Aim {
-    double largest;       ///< about the largest violation over a rest length [m], > 0: sets the scale of the numbers
-    double damping;       ///< Levenberg-Marquardt term relative to the diagonal, [0..1): a flat net has about as many
-                          ///< links as degrees of freedom in its plane, so some combinations of multipliers hardly
-                          ///< move anything and would grow without bound
-    double reduction;     ///< of the residual at which to stop, (0..1)
-    int most_iterations;  ///< > 0
+    double largest;      ///< about the largest violation over a rest length [m], > 0: sets the scale of the numbers
+    double damping;      ///< Levenberg-Marquardt term relative to the diagonal, [0..1): a flat net has about as many
+                         ///< links as degrees of freedom in its plane, so some combinations of multipliers hardly
+                         ///< move anything and would grow without bound
+    double reduction;    ///< of the residual at which to stop, (0..1)
+    int max_iterations;  ///< > 0
     const Field* multiplier = nullptr;  ///< of the strings [kg]: none may end below zero; null: no bound
     const Field* compliance = nullptr;  ///< of the strings, over the diagonal; violations have it in them. null: 0
   };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Guided nodes in NetSolver: what the loops over nodes set up as if they were free, is set up anew for them, with their
-// matrices.
+// Guided nodes in NetSolver: what the loops over nodes set up as if they were free, is set up again for them, with
+// their matrices.
 #include <algorithm>
 
 #include "step/net_solver.h"

@@ -71,10 +71,10 @@ double NodeInertia::elasticShare(double scale, bool explicit_links) const noexce
   const double asked = std::abs(scale) * elastic_,
                most = explicit_links ? kStablePhase * kStablePhase : kElasticBackward;
   if (!(asked > most)) return 1.0;
-  return (explicit_links ? most - kLeastForTensions : most) / asked;
+  return (explicit_links ? most - kMinForTensions : most) / asked;
 }
 
-void NodeInertia::set(const NodeForces& forces, double kick, double scale, double most_phase, bool implicit) noexcept {
+void NodeInertia::set(const NodeForces& forces, double kick, double scale, double max_phase, bool implicit) noexcept {
   inverse_ = masses_;
   damped_ = forces.has_damping;
   const std::size_t size = pattern_.grid.size();
@@ -88,9 +88,9 @@ void NodeInertia::set(const NodeForces& forces, double kick, double scale, doubl
       keep_[n] = step.keep;
     }
   }
-  if (most_phase <= 0.0 || tensions_.scale == 0.0) return;
+  if (max_phase <= 0.0 || tensions_.scale == 0.0) return;
   const double borne = std::abs(scale) * elastic_ * elasticShare(scale, true);
-  const double left = std::max(kLeastForTensions, most_phase * most_phase - borne);
+  const double left = std::max(kMinForTensions, max_phase * max_phase - borne);
   const double per_load = 2.0 * std::abs(scale / tensions_.scale) / left;
   if (!(per_load * tensions_.heaviest > 1.0)) return;
   // Not more than all of the cloth: where links can't keep their lengths their tensions are as large as the inertia
@@ -113,7 +113,7 @@ double NodeInertia::addedMass(double per_load) const noexcept {
   return sum;
 }
 
-double NodeInertia::stepForPhase(double most_phase, double scaling_share) const noexcept {
+double NodeInertia::stepForPhase(double max_phase, double scaling_share) const noexcept {
   constexpr double kLargest = 1e4;  // bound of the search, over the step without mass scaling
   if (tensions_.scale == 0.0 || !(tensions_.heaviest > 0.0)) return std::numeric_limits<double>::infinity();
   double per_load = 1.0 / tensions_.heaviest;  // no node is scaled; proportional to h^2
@@ -127,7 +127,7 @@ double NodeInertia::stepForPhase(double most_phase, double scaling_share) const 
     factor = std::sqrt(factor);
   }
   const double per_omega = 0.5 * std::abs(tensions_.scale) * per_load;  // of the tensions, [s^2]
-  return most_phase * std::sqrt(per_omega / (1.0 + elastic_ * per_omega));
+  return max_phase * std::sqrt(per_omega / (1.0 + elastic_ * per_omega));
 }
 
 }  // namespace curtain

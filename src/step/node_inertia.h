@@ -13,9 +13,9 @@ class NodeInertia {
  public:
   explicit NodeInertia(const ClothPattern& pattern);
 
-  /// Prepares a substep whose forces act for `kick` [s], scale = h * kick [s^2]. most_phase: h * omega from which nodes
+  /// Prepares a substep whose forces act for `kick` [s], scale = h * kick [s^2]. max_phase: h * omega from which nodes
   /// are mass-scaled; 0: never. implicit: damping acts on the velocities at the end.
-  void set(const NodeForces& forces, double kick, double scale, double most_phase, bool implicit) noexcept;
+  void set(const NodeForces& forces, double kick, double scale, double max_phase, bool implicit) noexcept;
 
   /// Bound of the squares of the frequencies of explicit elastic forces [1/s^2], beside which tensions act.
   void setElastic(double omega_squared) noexcept { elastic_ = omega_squared; }
@@ -51,9 +51,9 @@ class NodeInertia {
   void forget() noexcept;
   double omegaSquared() const noexcept;  ///< of both [1/s^2]
 
-  /// Largest step with h * omega <= most_phase when mass scaling may add this share of the cloth's mass [s]; infinite
+  /// Largest step with h * omega <= max_phase when mass scaling may add this share of the cloth's mass [s]; infinite
   /// without tensions.
-  double stepForPhase(double most_phase, double scaling_share) const noexcept;
+  double stepForPhase(double max_phase, double scaling_share) const noexcept;
 
  private:
   double addedMass(double per_load) const noexcept;

@@ -66,7 +66,7 @@ class Part {
   /// The user has moved the nodes from `before`: puts what of the state is its own where it may be.
   virtual void placed(const ClothState& /*before*/, ClothState& /*state*/) noexcept {}
   virtual void serialize(Archive& /*archive*/) {}
-  /// After serialize() has loaded, or a key of the scene has changed: takes what follows.
+  /// After serialize() has loaded, or a key of the scene has changed: updates what depends on them.
   virtual void resume() {}
   /// Marks the nodes that it pins, or holds: kPinned, kHeld.
   virtual void pin(std::vector<std::uint8_t>& /*pinned*/) const noexcept {}
@@ -101,7 +101,7 @@ class Part {
   virtual void announce(const ClothState& /*state*/, ForceSum& /*sum*/) noexcept {}
   /// After all have: adds its forces and its damping.
   virtual void addForces(const ClothState& /*state*/, ForceSum& /*sum*/) noexcept {}
-  virtual void substepTaken(const SubstepMade& /*made*/) noexcept {}
+  virtual void substepDone(const SubstepMade& /*made*/) noexcept {}
   /// True: it pins other nodes from now on.
   virtual bool endFrame(const FrameEnd& /*end*/, ClothState& /*state*/) noexcept { return false; }
 };

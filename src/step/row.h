@@ -22,11 +22,11 @@ struct Row {
   Vec3 direction = Vec3::Zero();
   double violation = 0.0;  ///< by how much sum of weight * direction . position is to grow [m], or velocity [m/s]
   double least = -std::numeric_limits<double>::infinity();  ///< lower bound of the change [kg m]; rates: none
-  bool active = true;          ///< takes part from the start; one that does not may join, where the solve allows it
-  double compliance = 0.0;     ///< by how much less it is to grow for each unit of the multiplier [1/kg], >= 0
-  double least_damping = 0.0;  ///< Levenberg-Marquardt term over the diagonal, if that is larger than the solve's
-  std::uint32_t key = 0;       ///< for its maker
-  double change = 0.0;         ///< out: of the multiplier [kg m], or its rate
+  bool active = true;        ///< takes part from the start; one that does not may join, where the solve allows it
+  double compliance = 0.0;   ///< by how much less it is to grow for each unit of the multiplier [1/kg], >= 0
+  double min_damping = 0.0;  ///< Levenberg-Marquardt term over the diagonal, if that is larger than the solve's
+  std::uint32_t key = 0;     ///< for its maker
+  double change = 0.0;       ///< out: of the multiplier [kg m], or its rate
 };
 
 using Rows = std::vector<Row>;

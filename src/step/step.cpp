@@ -33,7 +33,7 @@ Step::Step(const ClothPattern& pattern, const SolverParts& parts, double stretch
       smallest_rest_(shortestLink(pattern)),
       inertia_(pattern),
       elastic_(parts.elastic),
-      constraints_(pattern, parts, kMostGive * stretch_tolerance, inertia_, workers),
+      constraints_(pattern, parts, kMaxGive * stretch_tolerance, inertia_, workers),
       sweeps_(constraints_, inertia_, stretch_tolerance, stretch_tolerance * smallest_rest_, max_sweeps),
       account_(pattern, inertia_, stretch_tolerance, constraints_.middleRest()),
       last_resort_(pattern, constraints_.distances()) {
@@ -42,7 +42,7 @@ Step::Step(const ClothPattern& pattern, const SolverParts& parts, double stretch
 
 void Step::setStretchTolerance(double tolerance) noexcept {
   stretch_tolerance_ = tolerance;
-  constraints_.setTolerance(kMostGive * tolerance);
+  constraints_.setTolerance(kMaxGive * tolerance);
   sweeps_.setTolerances(tolerance, tolerance * smallest_rest_);
   account_.setStretchTolerance(tolerance);
 }
@@ -65,7 +65,7 @@ void Step::pinsChanged() noexcept {
   account_.pinsChanged();
 }
 
-void Step::repinned() noexcept {
+void Step::afterPinsChanged() noexcept {
   constraints_.slackenBetweenPins();
   inertia_.tensions().heaviest = inertia_.heaviest();
   account_.setHeld(0.0);
@@ -91,7 +91,7 @@ SubstepOutcome Step::substep(const SubstepPlan& plan, const NodeForces& forces, 
   judge(attempt, progress, outcome);
   if (plan.isLastResort() && !progress.settled) boundPath(attempt, progress, outcome);
   outcome.accepted = progress.settled || plan.isLastResort();
-  if (outcome.accepted) take(attempt, progress, outcome);
+  if (outcome.accepted) accept(attempt, progress, outcome);
   constraints_.end(outcome.accepted);
   inertia_.setGuided(true);  // guided nodes stand in the last resort alone, not in what is made of pins after it
   if (!outcome.accepted) constraints_.distances().resume(state);
@@ -108,7 +108,7 @@ Step::Attempt Step::predict(const SubstepPlan& plan, const NodeForces& forces, C
   const double kick = state.velocity_age + (1.0 - rules.age) * plan.h;
   const double scale = plan.h * kick;
   inertia_.setGuided(!plan.isLastResort());
-  inertia_.set(forces, kick, scale, plan.most_phase, rules.backward);
+  inertia_.set(forces, kick, scale, plan.max_phase, rules.backward);
   if (elastic_ != nullptr) elastic_->begin(inertia_, inertia_.inverse(), scale, !rules.follows);
   // Warm start only along fixed directions: with present directions old tensions diverge where rods have turned much.
   const double before = inertia_.tensions().scale;
@@ -234,7 +234,7 @@ void Step::boundPath(const Attempt& attempt, const Progress& progress, SubstepOu
 }
 
 // Eq. (6).
-void Step::take(const Attempt& attempt, const Progress& progress, SubstepOutcome& outcome) noexcept {
+void Step::accept(const Attempt& attempt, const Progress& progress, SubstepOutcome& outcome) noexcept {
   const SubstepPlan& plan = attempt.plan;
   ClothState& state = attempt.state;
   NodeInertia::Tensions& tensions = inertia_.tensions();
@@ -276,7 +276,7 @@ double Step::turning(double kick) const noexcept {
                    std::abs(kick));
 }
 
-// For cloth without pins: takes what the solve has added to the momentum out again, by a rigid motion.
+// For cloth without pins: removes the momentum that the solve has added, by a rigid motion.
 void Step::keepMomentum(const SubstepStart& start) noexcept {
   const Field3& from = start.state.position;
   Field3& next = constraints_.next;

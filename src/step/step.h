@@ -36,10 +36,10 @@ class Step {
   /// Forgets the tensions of the last substep.
   void reset() noexcept;
 
-  /// Takes what follows from the pattern's pins. Allocates nothing.
+  /// Updates what depends on the pattern's pins. Allocates nothing.
   void pinsChanged() noexcept;
   /// After it, when the pins have changed: what the last substep left is that of other pins.
-  void repinned() noexcept;
+  void afterPinsChanged() noexcept;
 
   /// One substep. finder may be null: nothing to touch. Allocates nothing.
   SubstepOutcome substep(const SubstepPlan& plan, const NodeForces& forces, ContactFinder* finder, ClothState& state,
@@ -149,7 +149,7 @@ class Step {
   Progress solveAndVerify(const Attempt& attempt) noexcept;
   void judge(const Attempt& attempt, Progress& progress, SubstepOutcome& outcome) noexcept;
   void boundPath(const Attempt& attempt, const Progress& progress, SubstepOutcome& outcome) noexcept;
-  void take(const Attempt& attempt, const Progress& progress, SubstepOutcome& outcome) noexcept;
+  void accept(const Attempt& attempt, const Progress& progress, SubstepOutcome& outcome) noexcept;
   double meanSquare(const Field3& velocity) const noexcept;
   bool needsEnergyCheck(const Attempt& attempt, const Progress& progress) const noexcept;
   void keepMomentum(const SubstepStart& start) noexcept;

@@ -71,7 +71,7 @@ void StepControl::setFrameLength(double length) noexcept {
   frame_ = length;
 }
 
-void StepControl::repinned(const Step& solver) noexcept {
+void StepControl::afterPinsChanged(const Step& solver) noexcept {
   if (solver.inertia().tensions().scale != 0.0) omega_ = std::sqrt(solver.inertia().omegaSquared());
 }
 
@@ -79,7 +79,7 @@ double StepControl::stepFromTensions(bool frame_begins, const Step& solver) noex
   const double longest_stage = composed_ ? kLongestStage : 1.0;
   const double omega = std::max(omega_, std::sqrt(solver.inertia().elastic()));  // no tension may be known yet
   const double for_phase = omega > 0.0 ? phase_share_ * kPhasePerStep / (longest_stage * omega) : frame_;
-  if (method_ != Method::kAuto || for_phase > kWorthLooking * frame_) return for_phase;
+  if (method_ != Method::kAuto || for_phase > kWorthScaling * frame_) return for_phase;
   // Once a frame: an impact within it is no reason for longer steps. But at its beginning no tensions may be known.
   if (frame_begins || std::isinf(scaled_step_))
     scaled_step_ = solver.inertia().stepForPhase(phase_share_ * kPhasePerStep, kMassScalingShare);
@@ -101,7 +101,7 @@ double StepControl::stretch(double wanted, double remaining, double bears) noexc
   stretched_ = false;
   if (method_ != Method::kAuto && method_ != Method::kImplicit) return wanted;
   const double not_rejected = std::max(limit_, frame_ / max_substeps_);
-  const double longest = std::min({kMostStretch * wanted, remaining / allowed_, not_rejected, surface_step_, bears});
+  const double longest = std::min({kMaxStretch * wanted, remaining / allowed_, not_rejected, surface_step_, bears});
   stretched_ = longest > wanted;
   return std::max(wanted, longest);
 }
@@ -117,7 +117,7 @@ SubstepPlan StepControl::next(double remaining, const Step& solver) noexcept {
   double wanted = most;
   if (method_ == Method::kImplicit) plan.scheme = SchemeKind::kImplicit;
   const bool leapfrog = plan.scheme == SchemeKind::kLeapfrog;
-  if (leapfrog && method_ == Method::kAuto) plan.most_phase = phase_share_ * kStablePhase;
+  if (leapfrog && method_ == Method::kAuto) plan.max_phase = phase_share_ * kStablePhase;
   if (leapfrog && fixed_substeps_ == 0) {
     const double for_phase = stepFromTensions(frame_begins, solver);
     const double for_turn = turning_ > 0.0 && !composed_ ? kTurnPerStep / turning_ : frame_;
@@ -131,7 +131,7 @@ SubstepPlan StepControl::next(double remaining, const Step& solver) noexcept {
     plan.scheme = SchemeKind::kLastResort;
     plan.reach = trust_.reach();
     plan.precise = false;
-    plan.most_phase = phase_share_ * kStablePhase;
+    plan.max_phase = phase_share_ * kStablePhase;
     step = std::max(smallest, frame_ / kLastResortSubsteps);
   }
   if (!plan.isLastResort()) step = stretch(step, remaining, std::max(smallest, bears));

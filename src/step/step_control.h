@@ -37,7 +37,7 @@ class StepControl {
   /// Takes note of the tensions of a substep that another control planned.
   void watch(const SubstepOutcome& outcome) noexcept;
   /// The pins have changed: takes note of what the tensions of the last substep mean with these.
-  void repinned(const Step& solver) noexcept;
+  void afterPinsChanged(const Step& solver) noexcept;
   void accepted(const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept;
   void rejected(const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept;
   /// The substep did not finish within a frame's computing time. Makes shorter ones, but not so short that the last

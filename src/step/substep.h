@@ -25,8 +25,8 @@ struct SubstepPlan {
   bool tells_turning = true;                               ///< compute SubstepOutcome::turning
   bool precise = false;                                    ///< solve rods to rounding
   bool may_be_shorter = false;                             ///< reject it if what it touches asks for that
-  double most_phase = 0.0;  ///< mass scaling: nodes with a larger h * omega get the inertia that makes it this; 0:
-                            ///< none. The effect vanishes with the step.
+  double max_phase = 0.0;  ///< mass scaling: nodes with a larger h * omega get the inertia that makes it this; 0:
+                           ///< none. The effect vanishes with the step.
 
   bool isLastResort() const noexcept { return scheme == SchemeKind::kLastResort; }
 };

@@ -16,16 +16,16 @@ bool StallWatch::stalls(int sweeps, double residual) noexcept {
 }
 
 Sweeps::Sweeps(Constraints& constraints, const NodeInertia& inertia, double tolerance, double contact_tolerance,
-               int most_sweeps)
+               int max_sweeps)
     : constraints_(constraints),
       inertia_(inertia),
       tolerance_(kInnerTolerance * tolerance),
       contact_tolerance_(kInnerTolerance * contact_tolerance),
-      most_sweeps_(most_sweeps) {}
+      max_sweeps_(max_sweeps) {}
 
 // What the motion lets contacts be off by, but at least this share of their tolerance [m].
 double Sweeps::touchAim(const SweepTask& task, double least) const noexcept {
-  const double most = task.last_resort ? 1.0 : kMostTouch;
+  const double most = task.last_resort ? 1.0 : kMaxTouch;
   return std::clamp(kShareOfPath * task.path, least * contact_tolerance_, most * contact_tolerance_);
 }
 
@@ -40,7 +40,7 @@ Sweeps::Aim Sweeps::aimOf(const SweepTask& task, bool touches, int sweeps) const
     strict =
         task.last_resort ? kLastResortShare
         : task.weight_path > 0.0
-            ? std::clamp(kShareOfWeight * task.weight_path / (constraints_.middleRest() * tolerance_), kLeastShare, 1.0)
+            ? std::clamp(kShareOfWeight * task.weight_path / (constraints_.middleRest() * tolerance_), kMinShare, 1.0)
             : 1.0;
   }
   const bool cautious = first && !task.last_resort;
@@ -48,8 +48,8 @@ Sweeps::Aim Sweeps::aimOf(const SweepTask& task, bool touches, int sweeps) const
 }
 
 // Slides are turned before contacts are measured.
-Sweeps::Residual Sweeps::look(const Constraints::RodsProgress& rods, bool first, int sweeps,
-                              StageClock& clock) noexcept {
+Sweeps::Residual Sweeps::measureResidual(const Constraints::RodsProgress& rods, bool first, int sweeps,
+                                         StageClock& clock) noexcept {
   Residual residual;
   residual.rods = rods;
   ContactRows& contacts = constraints_.contacts();
@@ -58,9 +58,9 @@ Sweeps::Residual Sweeps::look(const Constraints::RodsProgress& rods, bool first,
     constraints_.settleGuide();
   }
   contacts.relinearise(constraints_.next);
-  residual.touch = contacts.residual(constraints_.next, true, most_touch_);
+  residual.touch = contacts.residual(constraints_.next, true, max_touch_);
   clock.lap(Stage::kContact);
-  residual.strings = constraints_.lookAtStrings(constraints_.stringsPull() || !first);
+  residual.strings = constraints_.checkStrings(constraints_.stringsPull() || !first);
   return residual;
 }
 
@@ -87,21 +87,21 @@ bool Sweeps::keepOrUndo(double& residual, const Residual& now, SweepDamping& dam
 
 bool Sweeps::isWithin(bool recovers) noexcept {
   const double allowed = tolerance_ / kInnerTolerance;
-  return constraints_.contacts().residual(constraints_.next, recovers, most_touch_) <= most_touch_ &&
-         constraints_.rodsResidual() <= allowed && constraints_.lookAtStrings(true) <= (1.0 - kMostGive) * allowed;
+  return constraints_.contacts().residual(constraints_.next, recovers, max_touch_) <= max_touch_ &&
+         constraints_.rodsResidual() <= allowed && constraints_.checkStrings(true) <= (1.0 - kMaxGive) * allowed;
 }
 
 SweepOutcome Sweeps::run(const SweepTask& task, StageClock& clock) noexcept {
   const bool touches = !constraints_.contacts().all().empty();
   SweepOutcome outcome;
-  SweepDamping damping(task.last_resort ? kMostDamping : kLargestDamping);
+  SweepDamping damping(task.last_resort ? kMaxDamping : kLargestDamping);
   StallWatch watch;
   bool follow = task.follows;
   double before = kInfinity;
   best_ = Best();
-  most_touch_ = touchAim(task, 1.0);
+  max_touch_ = touchAim(task, 1.0);
   constraints_.beginSolve();
-  while (outcome.sweeps < most_sweeps_) {
+  while (outcome.sweeps < max_sweeps_) {
     const bool first = outcome.sweeps == 0;
     const Aim aim = aimOf(task, touches, outcome.sweeps);
     const Constraints::RodsProgress rods =
@@ -109,12 +109,12 @@ SweepOutcome Sweeps::run(const SweepTask& task, StageClock& clock) noexcept {
                                 task.precise                           ? kPreciseStop
                                 : first && !constraints_.stringsPull() ? kNewtonStop
                                                                        : kNewtonStopLater,
-                                first ? 0.0 : kLeaveAlone * aim.links, task.last_resort ? kInfinity : kMostViolation});
+                                first ? 0.0 : kLeaveAlone * aim.links, task.last_resort ? kInfinity : kMaxViolation});
     clock.lap(Stage::kWarp);
     if (first) outcome.predicted_violation = rods.first_residual;
     if (!rods.converged && !task.last_resort) return {SweepEnd::kDiverged, false, outcome.sweeps};
     ++outcome.sweeps;
-    const Residual now = look(rods, first, outcome.sweeps, clock);
+    const Residual now = measureResidual(rods, first, outcome.sweeps, clock);
     if (reached(aim, now)) {
       clock.lap(Stage::kWeft);
       return {SweepEnd::kConverged, true, outcome.sweeps, outcome.predicted_violation};

@@ -75,7 +75,7 @@ class Sweeps {
  public:
   /// tolerance: relative, of links; contact_tolerance: [m]; both the user's. constraints and inertia must outlive this.
   Sweeps(Constraints& constraints, const NodeInertia& inertia, double tolerance, double contact_tolerance,
-         int most_sweeps);
+         int max_sweeps);
 
   void setTolerances(double tolerance, double contact_tolerance) noexcept {
     tolerance_ = kInnerTolerance * tolerance;
@@ -98,7 +98,7 @@ class Sweeps {
   };
   double touchAim(const SweepTask& task, double least) const noexcept;
   Aim aimOf(const SweepTask& task, bool touches, int sweeps) const noexcept;
-  Residual look(const Constraints::RodsProgress& rods, bool first, int sweeps, StageClock& clock) noexcept;
+  Residual measureResidual(const Constraints::RodsProgress& rods, bool first, int sweeps, StageClock& clock) noexcept;
   bool reached(const Aim& aim, const Residual& residual) noexcept;
   struct Best {
     double merit = std::numeric_limits<double>::infinity(), residual = 0.0;
@@ -111,9 +111,9 @@ class Sweeps {
   const NodeInertia& inertia_;
   double tolerance_;          // inside the solver, relative
   double contact_tolerance_;  // [m]
-  const int most_sweeps_;
-  Best best_;                // iterate of a monotone solve
-  double most_touch_ = 0.0;  // final tolerance of contacts [m]
+  const int max_sweeps_;
+  Best best_;               // iterate of a monotone solve
+  double max_touch_ = 0.0;  // final tolerance of contacts [m]
 };
 
 }  // namespace curtain

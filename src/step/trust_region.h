@@ -27,7 +27,7 @@ class TrustRegion {
   }
   /// The last resort has failed; touches: in contact.
   void failed(bool touches) noexcept {
-    reach_ = std::max(kLeastReach, kReachShrink * reach_);
+    reach_ = std::max(kMinReach, kReachShrink * reach_);
     retry_ = touches;
   }
   void succeeded() noexcept {

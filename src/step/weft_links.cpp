@@ -12,7 +12,7 @@ namespace {
 
 struct LinkRow {
   const double *x, *y, *z, *w, *s, *per_square;
-  double compliance, most_give;
+  double compliance, max_give;
   LinkRow(const LineSolve& line, int i) {
     const std::size_t row = line.pattern.grid.row(i);
     x = line.value.x.data() + row;
@@ -22,7 +22,7 @@ struct LinkRow {
     s = line.links.multiplier.data() + row;
     per_square = line.pattern.weft_per_square.data() + row;
     compliance = line.links.compliance;
-    most_give = line.links.most_give;
+    max_give = line.links.max_give;
   }
 };
 
@@ -39,14 +39,14 @@ struct Size {
 };
 
 // A link takes part when it is too long or still pulls, and has an end that can move.
-CURTAIN_INTO_WIDE Link look(const LinkRow& row, std::size_t left, std::size_t right) {
+CURTAIN_INTO_WIDE Link linkAt(const LinkRow& row, std::size_t left, std::size_t right) {
   const double rx = row.x[right] - row.x[left], ry = row.y[right] - row.y[left], rz = row.z[right] - row.z[left];
   const double both = row.w[right] + row.w[left];
   const double load = row.compliance * both * row.s[right];
-  const double give = load < row.most_give ? load : row.most_give;
+  const double give = load < row.max_give ? load : row.max_give;
   const double c = 0.5 * ((rx * rx + ry * ry + rz * rz) * row.per_square[right] - 1.0) - give;
   const double active = ((both > 0.0) & ((c > 0.0) | (row.s[right] > 0.0))) ? 1.0 : 0.0;
-  const double compliance = load < row.most_give ? row.compliance : 0.0;
+  const double compliance = load < row.max_give ? row.compliance : 0.0;
   return {both > 0.0 ? c : 0.0, active, compliance, 0.0 * c};  // 0 * x is NaN for NaN and infinity alike
 }
 
@@ -110,7 +110,7 @@ CURTAIN_WIDE double measureWeft(const LineSolve& line, int i, const WeftFields& 
   double* const active_out = out.active.data() + grid.row(i);
   double* const compliance_out = out.compliance.data() + grid.row(i);
   return largestOf(grid, [=](std::size_t left, std::size_t right) -> Size {
-    const Link link = look(row, left, right);
+    const Link link = linkAt(row, left, right);
     active_out[right] = link.active;
     compliance_out[right] = link.compliance;
     c_out[right] = link.violation * rest[right] * rest[right];

@@ -9,7 +9,7 @@
 
 namespace curtain {
 
-/// Relative overlength of a weft link per unit of multiplier * (w_a + w_b), at most LinkSet::most_give, in cloth that
+/// Relative overlength of a weft link per unit of multiplier * (w_a + w_b), at most LinkSet::max_give, in cloth that
 /// touches something; it vanishes with the square of the substep. A net has about as many links as degrees of freedom
 /// in its plane, so some combinations of pulls hardly move anything. With contacts, whose rows are damped, the solve
 /// does not determine them without compliance: lengths come and go by more than the aim from sweep to sweep, and draped

@@ -13,7 +13,7 @@ namespace {
 // for folds.
 constexpr double kShare = 0.1;
 // Clearance that will do where the other would change the rods' lengths.
-constexpr double kLeastDistanceShare = 0.01;
+constexpr double kMinDistanceShare = 0.01;
 
 }  // namespace
 
@@ -45,7 +45,7 @@ void FineSurface::build(const Field3& position, ObstacleSet& obstacles, double t
   position_ = &position;
   mesh_ = &out;
   wanted_ = kShare * thickness;
-  least_ = kLeastDistanceShare * thickness;
+  least_ = kMinDistanceShare * thickness;
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = 0; j < grid.columns; ++j) node(i, j, 0) = position.at(grid.index(i, j));
   }
@@ -174,7 +174,7 @@ bool FineSurface::isRodClear(int row, int link, double clearance) {
 void FineSurface::settleFold(int row, int link) {
   for (const double clearance : {wanted_, least_}) {
     if (isRodClear(row, link, clearance)) return;
-    const auto angle = leastTurn([&](double turn) {
+    const auto angle = minTurn([&](double turn) {
       place(row, link, turn);
       return isRodClear(row, link, clearance);
     });

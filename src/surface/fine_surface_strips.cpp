@@ -88,7 +88,7 @@ std::optional<double> FineSurface::tryTurn(const Strip& strip, Rows rows) {
   const auto turnBy = [this, rows, link = strip.link](double angle) {
     for (int row = rows.first; row <= rows.last; ++row) place(row, link, fold(row, link).turn + angle);
   };
-  const std::optional<double> angle = leastTurn(test(strip, rows, turnBy));
+  const std::optional<double> angle = minTurn(test(strip, rows, turnBy));
   turnBy(angle.value_or(0.0));
   for (int row = rows.first; row <= rows.last; ++row) fold(row, strip.link).turn += angle.value_or(0.0);
   return angle;

@@ -46,7 +46,7 @@ std::optional<double> oneWay(double sign, double limit, const Accepts& accepts) 
 /// The turn to make [rad]; none: there is no such turn. accepts(turn) is not called for 0 and may have side effects;
 /// its last argument need not be the turn returned.
 template <typename Accepts>
-std::optional<double> leastTurn(const Accepts& accepts) {
+std::optional<double> minTurn(const Accepts& accepts) {
   const std::optional<double> down = fold_turn::oneWay(1.0, kPi, accepts);
   const double limit = down ? *down / kPreference : kPi;
   const std::optional<double> up = fold_turn::oneWay(-1.0, limit, accepts);

@@ -119,10 +119,10 @@ class Oracle {
     }
     if (was_named || shared || dropped || gap > motion_.reach) return;
     ++left_out;
-    EXPECT_GT(leastDistance(one, other), motion_.reach) << motion_.name << ": missed " << one[0] << " " << other[0];
+    EXPECT_GT(minDistance(one, other), motion_.reach) << motion_.name << ": missed " << one[0] << " " << other[0];
   }
 
-  double leastDistance(const Elements& one, const Elements& other) const {
+  double minDistance(const Elements& one, const Elements& other) const {
     constexpr int kInstants = 16;
     double least = 1e300;
     for (int k = 0; k <= kInstants; ++k) {

@@ -23,7 +23,7 @@ inline Real distanceToSegment(const Vec3l& p, const Vec3l& a, const Vec3l& b) {
 
 /// Least value of a function of one valley, by golden section.
 template <typename Function>
-Real leastOfConvex(const Function& function, Real low = 0.0L, Real high = 1.0L) {
+Real minOfConvex(const Function& function, Real low = 0.0L, Real high = 1.0L) {
   constexpr Real kGolden = 0.6180339887498948482L;
   for (int i = 0; i < 60; ++i) {
     const Real one = high - kGolden * (high - low);
@@ -46,7 +46,7 @@ inline Real distanceToTriangle(const Vec3l& p, const Vec3l& a, const Vec3l& b, c
   if (!(n.norm() > kThin * std::max((b - a).squaredNorm(), (c - a).squaredNorm()))) {
     // Segments across the triangle, side by side.
     return std::min(
-        least, leastOfConvex([&](Real s) -> Real { return distanceToSegment(p, a + s * (c - a), b + s * (c - b)); }));
+        least, minOfConvex([&](Real s) -> Real { return distanceToSegment(p, a + s * (c - a), b + s * (c - b)); }));
   }
   const bool inside =
       n.dot((b - a).cross(p - a)) >= 0.0L && n.dot((c - b).cross(p - b)) >= 0.0L && n.dot((a - c).cross(p - c)) >= 0.0L;
@@ -59,7 +59,7 @@ inline Real distanceOfSegments(const Vec3l& a, const Vec3l& b, const Vec3l& c, c
       {distanceToSegment(a, c, d), distanceToSegment(b, c, d), distanceToSegment(c, a, b), distanceToSegment(d, a, b)});
   const Vec3l n = (b - a).cross(d - c);
   if (!(n.norm() > kThin * (b - a).norm() * (d - c).norm())) {
-    return std::min(least, leastOfConvex([&](Real s) { return distanceToSegment(a + s * (b - a), c, d); }));
+    return std::min(least, minOfConvex([&](Real s) { return distanceToSegment(a + s * (b - a), c, d); }));
   }
   // Seen along n the segments cross where each has its ends on both sides of the other.
   const auto side = [&n](const Vec3l& from, const Vec3l& to, const Vec3l& p) {
@@ -80,14 +80,14 @@ inline Real distanceAt(bool edges, const CcdPoints& x, Real t) {
 }
 
 /// Least distance over [0, last]: evenly spaced samples, each valley between three of them searched by golden section.
-inline Real leastDistance(bool edges, const CcdPoints& x, Real last, int samples) {
+inline Real minDistance(bool edges, const CcdPoints& x, Real last, int samples) {
   const auto at = [&](int k) { return distanceAt(edges, x, last * k / samples); };
   Real least = std::min(at(0), at(samples));
   for (int k = 1; k < samples; ++k) {
     const Real here = at(k);
     if (here > at(k - 1) || here > at(k + 1)) continue;
     const auto distance = [&](Real t) { return distanceAt(edges, x, t); };
-    least = std::min({least, here, leastOfConvex(distance, last * (k - 1) / samples, last * (k + 1) / samples)});
+    least = std::min({least, here, minOfConvex(distance, last * (k - 1) / samples, last * (k + 1) / samples)});
   }
   return least;
 }

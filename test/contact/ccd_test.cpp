@@ -18,7 +18,7 @@ using curtain::Vec3;
 using curtain_test::CcdPoints;
 using curtain_test::CcdQuery;
 using curtain_test::distanceAt;
-using curtain_test::leastDistance;
+using curtain_test::minDistance;
 using curtain_test::Random;
 using curtain_test::readCcdQueries;
 using curtain_test::Real;
@@ -119,7 +119,7 @@ void expectTrue(bool edges, const CcdPoints& x, double min_distance, int& told_h
     ASSERT_LE(distanceAt(edges, x, static_cast<Real>(*told)), static_cast<Real>(min_distance) + kClose);
     if (*told == 0.0) return;
   }
-  ASSERT_GT(leastDistance(edges, x, told ? static_cast<Real>(*told) : 1.0L, 60), static_cast<Real>(min_distance));
+  ASSERT_GT(minDistance(edges, x, told ? static_cast<Real>(*told) : 1.0L, 60), static_cast<Real>(min_distance));
 }
 
 TEST(CcdOracle, AgreesOnRandomQueries) {
@@ -189,7 +189,7 @@ TEST(CcdSymmetry, OrderPlaceAndScaleDoNotMatter) {
     const CcdPoints x = randomQuery(random, edges, 0.5);
     const double thick = k % 4 < 2 ? 0.0 : 0.05;
     const auto told = timeOfImpact(edges, x, thick);
-    const Real nearest = leastDistance(edges, x, 1.0L, 60);
+    const Real nearest = minDistance(edges, x, 1.0L, 60);
     if (!told && nearest < 1e-6L + 1.01L * static_cast<Real>(thick)) continue;  // so near that roundings decide
     const auto same = [&](const CcdPoints& other, double min_distance, const char* what) {
       const auto again = timeOfImpact(edges, other, min_distance);

@@ -43,7 +43,7 @@ std::uint32_t separated(bool edges, const std::array<SweptNode, kNodes>& nodes, 
 
 // Least distance of a pair at 33 instants; points(n) is its n-th point's place.
 template <typename Distance>
-double leastDistance(const std::array<SweptNode, kNodes>& nodes, std::size_t pair, const Distance& distance) {
+double minDistance(const std::array<SweptNode, kNodes>& nodes, std::size_t pair, const Distance& distance) {
   double least = 1e300;
   for (int instant = 0; instant <= 32; ++instant) {
     const double t = instant / 32.0;
@@ -72,7 +72,7 @@ TEST(SeparatingAxis, IsProvedOfWhatStaysApartAlone) {
     for (const bool edges : {false, true}) {
       const std::uint32_t lanes = separated(edges, nodes, static_cast<float>(reach), 1e-7f);
       for (std::size_t k = 0; k < kPairsAtOnce; ++k) {
-        const double least = leastDistance(nodes, k, [&](const auto& at) {
+        const double least = minDistance(nodes, k, [&](const auto& at) {
           return edges ? distanceOfSegments(at(0), at(1), at(2), at(3))
                        : distanceToTriangle(at(0), at(1), at(2), at(3));
         });
@@ -139,7 +139,7 @@ TEST(SeparatingAxis, IsProvedOfQuadsThatStayApartAlone) {
       before = lanes;
     }
     for (std::size_t k = 0; k < kPairsAtOnce; ++k) {
-      const double least = leastDistance(corners, k, [&](const auto& at) {
+      const double least = minDistance(corners, k, [&](const auto& at) {
         return distanceOfQuads({at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7)});
       });
       const bool said = (before >> k & 1U) != 0;

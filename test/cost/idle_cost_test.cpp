@@ -30,7 +30,7 @@ TEST_P(IdleCost, IsNextToNothing) {
   ASSERT_NO_THROW(off = weightWithout(feature));
   ASSERT_NO_THROW(idle = weigh(feature, FeatureState::kIdle));
   EXPECT_EQ(idle.state_hash, off.state_hash) << "the motions differ: what is compared is not the feature alone";
-  EXPECT_LE(idle.instructions / off.instructions, feature.most_idle)
+  EXPECT_LE(idle.instructions / off.instructions, feature.max_idle)
       << idle.instructions << " instructions per node and frame, " << off.instructions << " without";
 }
 

@@ -26,7 +26,7 @@ class Breaker {
     if (range.low > std::numeric_limits<int>::min()) add(key, std::to_string(range.low - 1));
     if (range.high < std::numeric_limits<int>::max()) add(key, std::to_string(range.high + 1));
     add(key, {"2.5", "1e2", "five", "'5.0'", "0x10", "99999999999999999999", ".nan", "true", "[5]", "{}", "~"});
-    takeAway(key);
+    removeKey(key);
   }
   void integerOr(Key key, const int& value, IntRange range, const char*, int word_value) {
     integer(key, value, range);
@@ -36,7 +36,7 @@ class Breaker {
   void seed(Key key, const std::uint64_t&) { add(key, {"-1", "1.5", "18446744073709551616", "one", "~"}); }
   void number(Key key, const double&, Range range) {
     for (const std::string& value : badNumbers(range)) add(key, value);
-    takeAway(key);
+    removeKey(key);
   }
   void optionalNumber(Key key, const std::optional<double>& value, Range range) {
     if (value) number(key, *value, range);
@@ -47,12 +47,12 @@ class Breaker {
   void flag(Key key, const bool&) { add(key, {"1", "maybe", "'true'", "tRue", "[true]", "~"}); }
   void text(Key key, const std::string&) {
     add(key, {"5", "''", "true", "[a]", "{}", "~", ".inf"});
-    takeAway(key);
+    removeKey(key);
   }
   void vector(Key key, const curtain::Vec3&, Range range) {
     add(key, {"5", "[1, 2]", "[1, 2, 3, 4]", "{x: 1}", "north", "[]", "~"});
     for (const std::string& value : badNumbers(range)) add(key, "[1.0, " + value + ", 1.0]");
-    takeAway(key);
+    removeKey(key);
   }
   void optionalVector(Key key, const std::optional<curtain::Vec3>& value, Range range) {
     if (value) vector(key, *value, range);
@@ -132,7 +132,7 @@ class Breaker {
   void add(Key key, std::initializer_list<std::string> values) {
     for (const std::string& value : values) add(key, value);
   }
-  void takeAway(Key key) {
+  void removeKey(Key key) {
     if (key.required) all_.push_back({keyOf(key), ""});
   }
 

@@ -95,14 +95,14 @@ void fitLines(Scene& scene) {
 void fitTogether(Scene& scene, Choices& choices) {
   curtain::ClothParams& cloth = scene.cloth;
   if (!scene.rail.path.empty()) cloth.closed = false;
-  cloth.rows = std::min(cloth.rows, kMostRows);
-  cloth.columns = std::min(cloth.columns, kMostColumns);
+  cloth.rows = std::min(cloth.rows, kMaxRows);
+  cloth.columns = std::min(cloth.columns, kMaxColumns);
   // Together they say how much a frame may take: their product, times the nodes.
   for (int* count :
        {&scene.solver.substeps, &scene.solver.max_substeps, &scene.solver.max_sweeps, &scene.contact.zone_iterations}) {
-    *count = std::min(*count, kMostRounds);
+    *count = std::min(*count, kMaxRounds);
   }
-  scene.solver.threads = std::min(scene.solver.threads, kMostThreads);
+  scene.solver.threads = std::min(scene.solver.threads, kMaxThreads);
   const int room = (curtain::weftLinkCount(cloth) - 1) / 2;  // strips of two columns
   cloth.slits.resize(std::min(cloth.slits.size(), static_cast<std::size_t>(room)));
   for (std::size_t i = 0; i < cloth.slits.size(); ++i) {
@@ -190,8 +190,8 @@ void SceneMaker::pickVector(const Range& range, Vec3& value) {
 
 NodeIndex SceneMaker::pickNode() {
   NodeIndex node;
-  node.row = static_cast<int>(choices_.below(kMostRows));
-  node.column = static_cast<int>(choices_.below(kMostColumns));
+  node.row = static_cast<int>(choices_.below(kMaxRows));
+  node.column = static_cast<int>(choices_.below(kMaxColumns));
   return node;
 }
 

@@ -90,10 +90,10 @@ class SceneMaker {
 };
 
 /// Sizes that a made-up scene has at most, so that stepping it takes milliseconds.
-constexpr int kMostRows = 6;
-constexpr int kMostColumns = 6;
-constexpr int kMostRounds = 3;
-constexpr int kMostThreads = 3;
+constexpr int kMaxRows = 6;
+constexpr int kMaxColumns = 6;
+constexpr int kMaxRounds = 3;
+constexpr int kMaxThreads = 3;
 
 /// A scene with every key made up; none when what they mean together can't be simulated. Its meshes have made-up names.
 std::optional<curtain::Scene> makeScene(Choices& choices);

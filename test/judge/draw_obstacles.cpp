@@ -15,7 +15,7 @@ constexpr const char* kMeshes[] = {"icosphere.stl", "l_prism.obj", "cube_quads.o
                                    "two_cubes_cm_z_up.dae"};
 
 // As large as the other shapes. Returns how far it reaches from its origin [m].
-double takeMesh(Dice& dice, ObstacleParams& obstacle) {
+double drawMesh(Dice& dice, ObstacleParams& obstacle) {
   obstacle.radius = 0.0;
   obstacle.mesh = std::string("test/meshes/") + kMeshes[dice.integer(0, 4)];
   const Eigen::AlignedBox3d box = makeObstacleShape(obstacle, resolveTrialMesh)->bounds();
@@ -47,7 +47,7 @@ void addObstacle(Dice& dice, const Ranges& ranges, Shapes shapes, const std::str
     obstacle.length = dice.between(0.1, 1.0);
     reach += 0.5 * obstacle.length;
   }
-  if (meshes) reach = takeMesh(dice, obstacle);
+  if (meshes) reach = drawMesh(dice, obstacle);
   obstacle.friction = dice.between(0.0, 0.8);
   const Vec3 middle =
       0.5 * (scene.hang.from + scene.hang.to) - Vec3(0.0, 0.0, dice.between(0.0, 0.8) * scene.cloth.height);

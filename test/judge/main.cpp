@@ -26,8 +26,8 @@ struct Options {
   std::vector<std::string> cases;
   std::string shrink_to, write_to, csv;
   long repeat_every = 10;
-  double most_seconds = 0.0;
-  int most_nodes = 1 << 30;
+  double max_seconds = 0.0;
+  int max_nodes = 1 << 30;
   bool verbose = false;
 };
 
@@ -58,9 +58,9 @@ Options parse(int argc, char** argv) {
     else if (name == "--repeat-every")
       options.repeat_every = std::stol(value());
     else if (name == "--most-seconds")
-      options.most_seconds = std::stod(value());
+      options.max_seconds = std::stod(value());
     else if (name == "--most-nodes")
-      options.most_nodes = std::stoi(value());
+      options.max_nodes = std::stoi(value());
     else if (name == "--verbose")
       options.verbose = true;
     else
@@ -74,14 +74,14 @@ class Session {
   explicit Session(const Options& options) : options_(options) {
     if (options.csv.empty()) return;
     csv_.open(options.csv);
-    csv_ << "kind,seed,method,rows,columns,frames,substeps,rejected,sweeps,last_resort,stops,momentum_cut,most_solves,"
+    csv_ << "kind,seed,method,rows,columns,frames,substeps,rejected,sweeps,last_resort,stops,momentum_cut,max_solves,"
             "stretch,energy_gain,energy_finer,seconds,slowest_frame_s,holds\n";
   }
 
   void hear(const Drawn& drawn, const std::string& name) {
     Rigour rigour;
     rigour.repeats = options_.repeat_every > 0 && drawn.seed % static_cast<std::uint64_t>(options_.repeat_every) == 0;
-    rigour.most_seconds = options_.most_seconds;
+    rigour.max_seconds = options_.max_seconds;
     const Verdict verdict = judge(drawn, rigour);
     ++heard_;
     if (!options_.write_to.empty()) std::ofstream(pathIn(options_.write_to, drawn)) << write(drawn);
@@ -93,14 +93,14 @@ class Session {
           name.c_str(), drawn.scene.cloth.rows, drawn.scene.cloth.columns, drawn.scene.solver.frame_rate,
           verdict.holds() ? "holds" : verdict.faults.front().c_str(), verdict.stretch,
           static_cast<long long>(verdict.substeps), static_cast<long long>(verdict.frames),
-          static_cast<long long>(verdict.rejected), static_cast<long long>(verdict.most_solves),
+          static_cast<long long>(verdict.rejected), static_cast<long long>(verdict.max_solves),
           static_cast<long long>(verdict.stops), verdict.seconds);
       std::fflush(stdout);
     }
     if (verdict.holds()) return;
     ++failed_;
     if (options_.shrink_to.empty()) return;
-    rigour.most_seconds = std::max(1.0, 2.0 * verdict.seconds);
+    rigour.max_seconds = std::max(1.0, 2.0 * verdict.seconds);
     const std::string path = pathIn(options_.shrink_to, drawn);
     std::ofstream(path) << write(shrink(drawn, rigour));
     std::printf("  shrunk to %s\n", path.c_str());
@@ -118,8 +118,8 @@ class Session {
     csv_ << kindName(drawn.kind) << ',' << drawn.seed << ',' << toString(drawn.scene.solver.method) << ','
          << drawn.scene.cloth.rows << ',' << drawn.scene.cloth.columns << ',' << v.frames << ',' << v.substeps << ','
          << v.rejected << ',' << v.sweeps << ',' << v.last_resort << ',' << v.stops << ',' << v.momentum_cut << ','
-         << v.most_solves << ',' << v.stretch << ',' << v.energy_gain << ',' << v.energy_finer << ',' << v.seconds
-         << ',' << v.slowest << ',' << v.holds() << '\n';
+         << v.max_solves << ',' << v.stretch << ',' << v.energy_gain << ',' << v.energy_finer << ',' << v.seconds << ','
+         << v.slowest << ',' << v.holds() << '\n';
     csv_.flush();
   }
 
@@ -147,7 +147,7 @@ int main(int argc, char** argv) try {
     std::uint64_t seed = options.first;
     for (long n = 0; n < options.count[k]; ++seed) {
       const Drawn drawn = draw(kKinds[k], seed);
-      if (drawn.scene.cloth.rows * drawn.scene.cloth.columns > options.most_nodes) continue;
+      if (drawn.scene.cloth.rows * drawn.scene.cloth.columns > options.max_nodes) continue;
       session.hear(drawn, std::string(kindName(kKinds[k])) + " " + std::to_string(seed));
       ++n;
     }

@@ -58,7 +58,7 @@ def main():
     line("scenes in which it did", lambda some: share(sum(number(row, "stops") > 0 for row in some), len(some)))
     line("momentum cut, median of the scenes with any [N s]",
          lambda some: (lambda cut: f"{cut[len(cut) // 2]:.2g}" if cut else "–")(sorted(number(row, "momentum_cut") for row in some if number(row, "momentum_cut") > 0)))
-    line("most solves in a frame", lambda some: f"{most(some, 'most_solves'):.0f}")
+    line("most solves in a frame", lambda some: f"{most(some, 'max_solves'):.0f}")
     line("rejected, of all solves", lambda some: share(total(some, "rejected"), total(some, "rejected") + total(some, "substeps")))
     line("computing time, s", lambda some: f"{total(some, 'seconds'):.0f}")
     failed = [f"{row['kind']} {row['seed']}" for row in rows if row["holds"] != "1"]

@@ -20,7 +20,7 @@ using namespace curtain;
 
 // Twice the tolerance: motion through contact may leave so much.
 constexpr double kToleranceShare = 2.0;
-constexpr std::int64_t kMostSolves = 2000;
+constexpr std::int64_t kMaxSolves = 2000;
 // Brute force looks at every frame, but of long trials of large cloth: at so many nodes in a trial, some 2 us each.
 constexpr double kNodesLookedAt = 3e5;
 // Leapfrog knows the energy of what turns or swings at omega to a share of (h omega)^2 / 4: the work of a rod whose
@@ -29,7 +29,7 @@ constexpr double kNodesLookedAt = 3e5;
 // of the first order at least: with steps of a sixteenth no more is left than what links may hide.
 constexpr double kStepKnows = 0.72;
 constexpr int kFiner = 16;
-constexpr double kMostFrames = 1e4;  // a second, that a scene may have
+constexpr double kMaxFrames = 1e4;  // a second, that a scene may have
 // Of the paper's rods, relative: they are rebuilt to rounding (5e-15 is measured), that of the places apart.
 constexpr double kPaperRods = 1e-12;
 // After a hand that may have pulled them apart [s]: links come back at the speed of a fall. But not from beyond this
@@ -40,7 +40,7 @@ constexpr double kTorn = 0.1;
 constexpr double kInside = 1e-6;
 
 Scene withFrames(Scene scene, double times) {
-  scene.solver.frame_rate = std::min(times * scene.solver.frame_rate, kMostFrames);
+  scene.solver.frame_rate = std::min(times * scene.solver.frame_rate, kMaxFrames);
   return scene;
 }
 
@@ -98,7 +98,7 @@ class Court {
       happen();
       simulator_.step();
       look();
-      if (rigour_.most_seconds > 0.0 && verdict_.seconds > rigour_.most_seconds) {
+      if (rigour_.max_seconds > 0.0 && verdict_.seconds > rigour_.max_seconds) {
         fault("took longer than it may");
       }
     }
@@ -121,7 +121,7 @@ class Court {
       if (happenings.opening >= 0.0) simulator_.setOpening(happenings.opening);
       if (happenings.tie_back >= 0 && !drawn_.scene.tie_back.empty())
         simulator_.setTieBack(drawn_.scene.tie_back[0].id, happenings.tie_back == 1);
-      if (happenings.other_rate > 0.0) simulator_.setFrameRate(std::min(finer_ * happenings.other_rate, kMostFrames));
+      if (happenings.other_rate > 0.0) simulator_.setFrameRate(std::min(finer_ * happenings.other_rate, kMaxFrames));
     }
     for (std::size_t k = 0; k < happenings.hands.size(); ++k) moveHand(k);
     if (happenings.pin_swing.isZero() && happenings.pin_jerk.isZero()) return;
@@ -277,7 +277,7 @@ class Court {
     verdict_.last_resort = s.last_resort_substeps;
     verdict_.momentum_cut = s.momentum_cut;
     verdict_.stops = s.stops;
-    verdict_.most_solves = std::max(verdict_.most_solves, s.substeps_last + s.rejected - verdict_.rejected);
+    verdict_.max_solves = std::max(verdict_.max_solves, s.substeps_last + s.rejected - verdict_.rejected);
     verdict_.rejected = s.rejected;
     verdict_.seconds = s.step_seconds_sum;
     verdict_.slowest = s.step_seconds_max;
@@ -290,7 +290,7 @@ class Court {
       lookAtPaper(s);
     else if (!paper_ && !forced && !(stretch <= kToleranceShare * drawn_.scene.solver.stretch_tolerance))
       fault("stretch", stretch);
-    if (verdict_.most_solves > kMostSolves) fault("solves in a frame", static_cast<double>(verdict_.most_solves));
+    if (verdict_.max_solves > kMaxSolves) fault("solves in a frame", static_cast<double>(verdict_.max_solves));
     if (rigour_.energy || rigour_.brute_force) lookAtObstacles();
     // Cloth that is jammed is pushed at by no known force.
     const bool free = std::all_of(judged_.begin(), judged_.end(), [](bool judged) { return judged; });
@@ -350,16 +350,16 @@ Verdict judge(const Drawn& drawn, const Rigour& rigour) {
   }
   Verdict verdict = Court(drawn, rigour).run(false);
   const double links_hide = kSchemeGain + slackGain(kToleranceShare * drawn.scene.solver.stretch_tolerance);
-  const double most_gain = drawn.kind == Kind::kEveryday ? links_hide
-                           : drawn.kind == Kind::kSudden ? kStepKnows
-                                                         : std::numeric_limits<double>::infinity();
+  const double max_gain = drawn.kind == Kind::kEveryday ? links_hide
+                          : drawn.kind == Kind::kSudden ? kStepKnows
+                                                        : std::numeric_limits<double>::infinity();
   // Cloth that stays where it is for a while has links that can't hold: these pull by no known force.
-  if (verdict.holds() && verdict.stops == 0 && !(verdict.energy_gain <= most_gain)) {
+  if (verdict.holds() && verdict.stops == 0 && !(verdict.energy_gain <= max_gain)) {
     Rigour of_energy;
     of_energy.brute_force = false;
-    of_energy.most_seconds = rigour.most_seconds;
+    of_energy.max_seconds = rigour.max_seconds;
     verdict.energy_finer = Court(drawn, of_energy, kFiner).run(false).energy_gain;
-    if (!(verdict.energy_finer <= most_gain)) {
+    if (!(verdict.energy_finer <= max_gain)) {
       std::ostringstream text;
       text << "energy " << verdict.energy_gain << ", in steps of a " << kFiner << "th " << verdict.energy_finer;
       verdict.faults.push_back(text.str());

@@ -19,7 +19,7 @@ struct Verdict {
   double energy_gain = 0.0;      ///< that nobody has put in, as EnergyBooks measures it
   double energy_finer = 0.0;     ///< the same in finer steps, where it was looked at
   double momentum_cut = 0.0;     ///< [N s]
-  std::int64_t most_solves = 0;  ///< substeps solved in one frame, rejected ones included
+  std::int64_t max_solves = 0;   ///< substeps solved in one frame, rejected ones included
   double seconds = 0.0;          ///< computing time
   double slowest = 0.0;          ///< frame [s]
   std::uint64_t hash = 0;        ///< of where it ends
@@ -31,7 +31,7 @@ struct Rigour {
   bool energy = true;       ///< rises by no more than is put in
   bool repeats = false;  ///< a second run, interrupted by a snapshot in the middle and with caches cleared at random,
                          ///< ends with the same bits
-  double most_seconds = 0.0;  ///< of computing time, then it is given up as too slow; 0: as long as it takes
+  double max_seconds = 0.0;  ///< of computing time, then it is given up as too slow; 0: as long as it takes
 };
 
 Verdict judge(const Drawn& drawn, const Rigour& rigour);

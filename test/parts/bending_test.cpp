@@ -117,7 +117,7 @@ class BendingLines_ : public ::testing::TestWithParam<Shape> {
   Field3 withSpared() const { return curtain::withSpared(pattern_.grid, force_, shears_.spared); }
   // How hard the shears that are left press a link together, of all that they are; and what is spared of a link that
   // is not pressed, or across it.
-  double mostPress() const {
+  double maxPress() const {
     double worst = 0.0;
     for (int i = 0; i < pattern_.grid.rows; ++i) {
       for (int j = 0; j < pattern_.grid.columns; ++j) {
@@ -161,7 +161,7 @@ TEST_P(BendingLines_, WeftExertsMinusKx) {
   for (int b = 0; b < (pattern_.grid.rows + kLane - 1) / kLane; ++b)
     bendWeft(pattern_.grid, lines, position_, b, shears_, force_);
   EXPECT_LT(differenceFrom(pattern_, false, nullptr, position_, withSpared()), kRounding);
-  EXPECT_LT(mostPress(), kRounding);
+  EXPECT_LT(maxPress(), kRounding);
   for (int i = 0; i < pattern_.grid.rows; ++i) {
     for (int j = 0; j < pattern_.grid.columns; ++j) {
       const Vec3 one = weftBendingAt(pattern_.grid, lines, position_, i, j);
@@ -181,7 +181,7 @@ TEST_P(BendingLines_, WeftThatGivesWayIsInSeriesWithItsNodes) {
   for (int b = 0; b < (pattern_.grid.rows + kLane - 1) / kLane; ++b)
     bendWeftGiving(pattern_.grid, lines, give_, position_, b, scratch_, true, shears_, force_);
   EXPECT_LT(differenceFrom(pattern_, false, &give_, position_, withSpared()), kRounding);
-  EXPECT_LT(mostPress(), kRounding);
+  EXPECT_LT(maxPress(), kRounding);
 }
 
 TEST_P(BendingLines_, BoundIsAboveTheMatrix) {

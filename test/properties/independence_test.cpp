@@ -82,7 +82,7 @@ TEST_P(Independence, OfWhatIsFarAwayToTheBit) {
 // With strings, obstacles and self-contact; more rows and columns than a block has.
 TEST_P(Independence, OfTheNumberOfThreadsToTheBit) {
   for (Kind kind : {obstacles(), selfContact()}) {
-    kind.wanted.most_nodes = 20;
+    kind.wanted.max_nodes = 20;
     for (const std::uint64_t seed : seeds(1)) {
       Scene scene = sceneOf(seed, kind);
       scene.cloth.rows = std::max(scene.cloth.rows, 18);
@@ -137,7 +137,7 @@ TEST_P(Independence, OfTheOrderOfSlackColumnsToTheBit) {
   double gone = 0.0;
   for (const std::uint64_t seed : seeds(3)) {
     Wanted wanted;
-    wanted.most_nodes = 8;
+    wanted.max_nodes = 8;
     Scene scene = sceneOf(seed, {"", wanted, false});
     scene.cloth.columns = static_cast<int>(order.size());
     scene.cloth.column_spacing.clear();

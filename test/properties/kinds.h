@@ -51,7 +51,7 @@ inline Kind fabric() {
 inline Kind selfContact() {
   Kind kind{"SelfContact", wantedFor(false, false), true};
   kind.wanted.self = true;
-  kind.wanted.most_nodes = 11;
+  kind.wanted.max_nodes = 11;
   return kind;
 }
 

@@ -53,9 +53,9 @@ std::vector<double> RandomScenes::factors(int count, double least, double most) 
 
 void RandomScenes::makeCloth(const Wanted& wanted, curtain::Scene& scene) {
   curtain::ClothParams& cloth = scene.cloth;
-  const int least = wanted.self ? wanted.most_nodes - 2 : 3;
-  cloth.rows = integer(least, wanted.most_nodes);
-  cloth.columns = integer(least, wanted.most_nodes);
+  const int least = wanted.self ? wanted.max_nodes - 2 : 3;
+  cloth.rows = integer(least, wanted.max_nodes);
+  cloth.columns = integer(least, wanted.max_nodes);
   cloth.height = between(0.6, 1.6);
   cloth.width = between(0.5, 1.4);
   cloth.surface_density = between(0.1, 0.4);

@@ -23,7 +23,7 @@ struct Wanted {
   bool mesh = false;       ///< and a mesh
   bool self = false;       ///< gathered, blown together: contact of the cloth with itself
   bool fabric = false;     ///< bends, resists shear and twist, rubs within itself
-  int most_nodes = 9;      ///< along either side
+  int max_nodes = 9;       ///< along either side
 };
 
 class RandomScenes {

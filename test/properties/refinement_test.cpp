@@ -42,7 +42,7 @@ TEST_P(Refinement, ChangesLessAndLessByTheOrderClaimed) {
     Wanted wanted;
     wanted.drags = wanted.gentle = true;
     wanted.damped = claim.damped;
-    wanted.most_nodes = 6;
+    wanted.max_nodes = 6;
     Scene scene = randomScene(seed, wanted);
     for (DragParams& drag : scene.drag) drag.end = 100.0;  // forces that jump are no matter of order
     scene.air.threshold = 1e3;  // and damping that depends on the speed costs leapfrog an order

@@ -99,7 +99,7 @@ TEST_P(Reversal, ComesBackToWhereItBegan) {
   constexpr double kStep = 2.0 / kSubsteps;
   for (const std::uint64_t seed : seeds(6)) {
     Wanted wanted;
-    wanted.most_nodes = 10;
+    wanted.max_nodes = 10;
     const Scene scene = randomScene(seed, wanted);
     Swing swing(scene, seed, GetParam().precise);
     for (const double way : {1.0, -1.0}) {

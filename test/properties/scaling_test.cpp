@@ -88,7 +88,7 @@ TEST_P(ScalingOfRest, OfLengthsAndMassesChangesNoBit) {
   int asleep = 0;
   for (const std::uint64_t seed : seeds(2)) {
     Wanted wanted = slack().wanted;
-    wanted.most_nodes = 6;
+    wanted.max_nodes = 6;
     Scene scene = randomScene(seed, wanted);
     scene.solver.method = GetParam();
     scene.solver.rest_speed = 3e-3;

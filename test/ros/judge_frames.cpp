@@ -119,14 +119,14 @@ class Judge {
       const curtain::Piercings found = curtain::countPiercings(obstacles_.shape(numbers_.at(contact.name)),
                                                                placeOf(contact), grid_, position_, kDepthTolerance);
       note(number, contact.name, found.nodes + found.edges + found.faces);
-      most_obstacles_ = std::max(most_obstacles_, frame.contacts->obstacles.size());
+      max_obstacles_ = std::max(max_obstacles_, frame.contacts->obstacles.size());
     }
   }
 
   bool clean() const { return frames_ > 0 && missing_ == 0 && found_.empty(); }
   std::string report() const {
     std::ostringstream text;
-    text << frames_ << " frames, " << missing_ << " missing, " << most_obstacles_ << " obstacles";
+    text << frames_ << " frames, " << missing_ << " missing, " << max_obstacles_ << " obstacles";
     for (const auto& [name, what] : found_)
       text << "; goes through " << name << " in " << what.frames << " frames, first " << what.first << ", at most "
            << what.most << " parts";
@@ -170,7 +170,7 @@ class Judge {
   curtain_sim::CurtainStateConstPtr state_;  // that position_ and crossings_ are of
   std::int64_t crossings_ = 0;
   std::uint64_t frames_ = 0, missing_ = 0, last_ = 0;
-  std::size_t most_obstacles_ = 0;
+  std::size_t max_obstacles_ = 0;
   std::map<std::string, Found> found_;
 };
 

@@ -79,7 +79,7 @@ TEST(LockStep, RefusesWhatCanNotBe) {
   EXPECT_EQ(got.message, "the node is running: pause it first, by ~pause");
   EXPECT_FALSE(running.asked());
   EXPECT_FALSE(paused.asked());
-  std::future<Answer> most = paused.ask(kMostFrames);
+  std::future<Answer> most = paused.ask(kMaxFrames);
   EXPECT_TRUE(waits(most));
 }
 

@@ -10,14 +10,14 @@ namespace {
 
 // What the reader does is counted in allocations: a known key of ten characters takes about 50 of them, in yaml-cpp and
 // in the log of problems. Without the limit that these texts are for it would be millions a character, or no end.
-constexpr long kMostAllocations = 20;     // a character …
+constexpr long kMaxAllocations = 20;      // a character …
 constexpr long kFewAllocations = 1000;    // … and at least
 constexpr std::size_t kMessage = 100000;  // [characters]: 200 problems of 500
 
 std::string refuse(const std::string& text) {
   const long before = allocations;
   const std::vector<Problem> problems = readSceneText(text).problems;
-  EXPECT_LT(allocations - before, kFewAllocations + kMostAllocations * static_cast<long>(text.size()));
+  EXPECT_LT(allocations - before, kFewAllocations + kMaxAllocations * static_cast<long>(text.size()));
   EXPECT_FALSE(problems.empty());
   const std::string message = describe(problems);
   EXPECT_LT(message.size(), kMessage) << message.substr(0, 300);

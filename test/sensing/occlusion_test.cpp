@@ -248,7 +248,7 @@ TEST(Occlusion, KnowsWhereOnTheClothItIs) {
   Pose sensor;
   sensor.position = Vec3(0.5, -1.5, 0.5);  // looks along +y, x to the right, z up
   sensor.orientation = Eigen::AngleAxisd(-0.5 * curtain_test::kPi, Vec3::UnitX());
-  view.look(moment, sensor);
+  view.render(moment, sensor);
   std::vector<CloudPoint> points;
   view.points(moment, points);
   int seen = 0;
@@ -292,8 +292,8 @@ TEST(Occlusion, HasTheSameBitsEveryTime) {
   const auto look = [&](bool looked_before, std::vector<CloudPoint>& out) {
     SensorView view(simulator, flat, params);
     view.setRays(lidarRays(params.lidar));
-    if (looked_before) view.look(before, sensor);
-    view.look(moment, sensor);
+    if (looked_before) view.render(before, sensor);
+    view.render(moment, sensor);
     view.points(moment, out);
   };
   std::array<std::vector<CloudPoint>, 3> points;

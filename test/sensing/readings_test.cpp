@@ -49,7 +49,7 @@ struct Wall {
     EXPECT_TRUE(problems.empty());
     Moment moment;
     readMoment(simulator, moment);
-    view.look(moment, sensor);
+    view.render(moment, sensor);
     return view.readings();
   }
 };

@@ -52,10 +52,10 @@ TEST(Budget, KeepsTimeForWhatComesAfterTheSubsteps) {
 TEST(Budget, LeavesTheCompanionAtHomeWhenBothDontFit) {
   Budget budget(10.0);
   budget.beginFrame(at(0.0));
-  budget.companionTook(0.004);
+  budget.referenceTook(0.004);
   budget.endFrame(1.0, at(0.0049), at(0.0049));
   EXPECT_TRUE(budget.affordsCompanion());
-  budget.companionTook(0.008);
+  budget.referenceTook(0.008);
   budget.beginFrame(at(1.0));
   budget.endFrame(1.0, at(1.009), at(1.009));
   EXPECT_FALSE(budget.affordsCompanion());

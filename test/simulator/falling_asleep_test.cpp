@@ -32,7 +32,7 @@ struct Cloth {
     for (const double end = time + seconds - 1e-9; time < end;) {
       time += kFrame;
       for (int i = 1; i < 4; ++i) state.position.add(pattern.grid.index(i, 2), Vec3(drift, 0.0, 0.0));
-      if (rest.due()) rest.look(state, time, gusts, touches);
+      if (rest.due()) rest.check(state, time, gusts, touches);
     }
   }
 

@@ -36,7 +36,7 @@ struct Least {
   double pull = 0.0;    // horizontal, on an outer pin [N]
 };
 
-Least leastOf(const std::string& hung, int n, double span) {
+Least minOf(const std::string& hung, int n, double span) {
   for (const auto& row : curtain_test::readTruth("net_exact.csv")) {
     if (row.at("case") == hung && std::stoi(row.at("n")) == n && std::abs(std::stod(row.at("D")) - span) < 1e-9) {
       return {std::stod(row.at("E_min_J (1 kg, 1 m x 1 m, g 9.81)")), std::stod(row.at("H_N"))};
@@ -55,7 +55,7 @@ class NetAtRest : public ::testing::TestWithParam<std::tuple<const char*, int, d
 // With the default settings, after 10 s. Bound: the one asked of the package, 1e-3 relative; the links' tolerance of
 // 1e-3 moves it by less than that (below), their mean being far less than the longest.
 TEST_P(NetAtRest, HasLeastEnergyByDefault) {
-  const Least least = leastOf(hung(), size(), span());
+  const Least least = minOf(hung(), size(), span());
   ASSERT_LT(least.energy, 0.0);
   Scene scene = net(hung(), size(), span());
   scene.air.inside = scene.air.border = scene.air.corner = 1.0;
@@ -74,7 +74,7 @@ TEST_P(NetAtRest, HasLeastEnergyByDefault) {
 // hooks between equal spans are not pulled sideways. With 1e-5 that is 3.3e-5 of |E| for the flattest net. Above it:
 // what has not come down yet.
 TEST_P(NetAtRest, HasLeastEnergyToWhatItsLinksAreHeldTo) {
-  const Least least = leastOf(hung(), size(), span());
+  const Least least = minOf(hung(), size(), span());
   ASSERT_LT(least.energy, 0.0);
   Scene scene = net(hung(), size(), span());
   scene.air.inside = scene.air.border = scene.air.corner = 2.0;

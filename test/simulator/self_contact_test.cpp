@@ -35,9 +35,9 @@ class Watch {
     ASSERT_EQ(simulator.selfCrossings(), 0) << "frame " << now.frames;
     ASSERT_LE(std::max(now.warp_stretch, now.weft_stretch), tolerance_) << "frame " << now.frames;
     ASSERT_LE(now.warp_compression, tolerance_) << "frame " << now.frames;
-    most_contacts_ = std::max(most_contacts_, now.contacts);
+    max_contacts_ = std::max(max_contacts_, now.contacts);
   }
-  int mostContacts() const { return most_contacts_; }
+  int maxContacts() const { return max_contacts_; }
   static void report(const char* name, const Simulator& simulator) {
     const Statistics& s = simulator.statistics();
     std::printf("%s: %.2f substeps a frame, %lld rejected, %lld unsettled\n", name,
@@ -47,7 +47,7 @@ class Watch {
 
  private:
   double tolerance_;
-  int most_contacts_ = 0;
+  int max_contacts_ = 0;
 };
 
 TEST(SelfContact, ASheetThatFallsOnTheFloorCrumplesWithoutACrossing) {
@@ -72,7 +72,7 @@ TEST(SelfContact, ASheetThatFallsOnTheFloorCrumplesWithoutACrossing) {
     simulator.step();
     ASSERT_NO_FATAL_FAILURE(watch.look(simulator));
   }
-  EXPECT_GT(watch.mostContacts(), 1000) << "it is no heap";
+  EXPECT_GT(watch.maxContacts(), 1000) << "it is no heap";
   Watch::report("crumpled", simulator);
 }
 
@@ -91,7 +91,7 @@ TEST(SelfContact, ACurtainGatheredToAQuarterAndBlownNeverCrossesItself) {
     simulator.step();
     ASSERT_NO_FATAL_FAILURE(watch.look(simulator));
   }
-  EXPECT_GT(watch.mostContacts(), 50);
+  EXPECT_GT(watch.maxContacts(), 50);
   Watch::report("gathered", simulator);
 }
 
@@ -114,7 +114,7 @@ TEST(SelfContact, ASheetSpunByItsCornersNeverCrossesItself) {
     simulator.step();
     ASSERT_NO_FATAL_FAILURE(watch.look(simulator));
   }
-  EXPECT_GT(watch.mostContacts(), 5);
+  EXPECT_GT(watch.maxContacts(), 5);
   Watch::report("spun", simulator);
 }
 
@@ -141,7 +141,7 @@ TEST(SelfContact, ASheetWrungToARopeNeverCrossesItself) {
     simulator.step();
     ASSERT_NO_FATAL_FAILURE(watch.look(simulator));
   }
-  EXPECT_GT(watch.mostContacts(), 200);
+  EXPECT_GT(watch.maxContacts(), 200);
   Watch::report("wrung", simulator);
 }
 

@@ -35,7 +35,7 @@ TEST_P(SpinningBar, GivesWhatItsWorkSays) {
   const double per_second = GetParam(), rate = std::max(60.0, 6.0 * per_second);
   Scene scene = beside();
   scene.solver.frame_rate = rate;
-  double most_work = 0.0;
+  double max_work = 0.0;
   for (const double away : {0.0825, 0.0925, 0.1, 0.1075, 0.115, 0.1225, 0.13, 0.1375, 0.145}) {
     Simulator simulator(scene);
     const auto turned = [&](double turns) {
@@ -54,9 +54,9 @@ TEST_P(SpinningBar, GivesWhatItsWorkSays) {
       books.look(simulator, false);
     }
     EXPECT_LE(books.gain(), kSchemeGain) << per_second << " rev/s, " << away << " m away";
-    most_work = std::max(most_work, simulator.work().obstacles / weightScale(simulator));
+    max_work = std::max(max_work, simulator.work().obstacles / weightScale(simulator));
   }
-  EXPECT_GT(most_work, 1.0);  // it does hit the cloth
+  EXPECT_GT(max_work, 1.0);  // it does hit the cloth
 }
 
 INSTANTIATE_TEST_SUITE_P(Speeds, SpinningBar, ::testing::Values(10.0, 20.0, 35.0, 50.0), [](const auto& it) {

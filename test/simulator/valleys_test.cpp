@@ -98,7 +98,7 @@ TEST(Valleys, AreWhereClothComesToRest) {
 
 TEST(Valleys, OfRoughMeshesGiveFallingClothNoEnergy) {
   // In a frame, of m g L: what is asked of strips that slide off edges.
-  constexpr double kMostRise = 1e-2;
+  constexpr double kMaxRise = 1e-2;
   for (const unsigned seed : {13U, 16U, 31U, 39U}) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> share(0.0, 1.0);
@@ -120,7 +120,7 @@ TEST(Valleys, OfRoughMeshesGiveFallingClothNoEnergy) {
       most = std::max(most, (now - before) / unit);
       before = now;
     }
-    EXPECT_LT(most, kMostRise) << "seed " << seed;
+    EXPECT_LT(most, kMaxRise) << "seed " << seed;
     EXPECT_LT(simulator.energy().potential, start - 0.3 * unit) << "it fell by at least half of its height";
   }
 }

@@ -31,18 +31,18 @@ TEST(LongestStep, IsUnboundedWhereNothingMoves) {
 TEST(LongestStep, OfWhatStaysGoesByTheLinkAndOfWhatArrivesByTheDistanceKept) {
   Contact contact = pushing();
   contact.surface_velocity = Vec3(0.0, 3.0, 4.0);
-  EXPECT_DOUBLE_EQ(longestStep({contact}, kStep, kLink), kMostSurfaceMotion * kLink / 5.0);
+  EXPECT_DOUBLE_EQ(longestStep({contact}, kStep, kLink), kMaxSurfaceMotion * kLink / 5.0);
   contact.leans = false;
   EXPECT_DOUBLE_EQ(longestStep({contact}, kStep, kLink), 0.004 / 5.0);
   contact.curved = false;  // comes out of what it is inside of
-  EXPECT_DOUBLE_EQ(longestStep({contact}, kStep, kLink), kMostSurfaceMotion * kLink / 5.0);
+  EXPECT_DOUBLE_EQ(longestStep({contact}, kStep, kLink), kMaxSurfaceMotion * kLink / 5.0);
 }
 
 TEST(LongestStep, LetsNormalsTurnByALittle) {
   Contact contact = pushing();
   constexpr double kAngle = 0.5;
   contact.level = Vec3(std::sin(kAngle), 0.0, std::cos(kAngle));
-  EXPECT_NEAR(longestStep({contact}, kStep, kLink), kStep * kMostTurn / kAngle, 0.02 * kStep);
+  EXPECT_NEAR(longestStep({contact}, kStep, kLink), kStep * kMaxTurn / kAngle, 0.02 * kStep);
 }
 
 TEST(LongestStep, IsNoMatterOfWhatDoesNotPushNorOfTheClothItself) {

@@ -25,9 +25,7 @@ struct Nodes {
     inertia.emplace(pattern);
     mass = pattern.mass[node];
   }
-  void set(double most_phase, bool implicit = false) {
-    inertia->set(forces, kStep, kStep * kStep, most_phase, implicit);
-  }
+  void set(double max_phase, bool implicit = false) { inertia->set(forces, kStep, kStep * kStep, max_phase, implicit); }
   // One node's links carry so many times its mass in a last substep of the same length.
   void load(double masses) {
     NodeInertia::Tensions& tensions = inertia->tensions();

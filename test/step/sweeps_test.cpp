@@ -19,13 +19,13 @@ constexpr double kTolerance = 1e-3;
 
 // A cloth whose nodes were predicted to be at constraints.next.
 struct Solve {
-  explicit Solve(const Scene& scene, int most_sweeps = 200)
+  explicit Solve(const Scene& scene, int max_sweeps = 200)
       : pattern(makePattern(scene)),
         state(makeInitialState(scene, pattern)),
         workers(1),
         inertia(pattern),
         constraints(pattern, {}, 0.5 * kTolerance, inertia, workers),
-        sweeps(constraints, inertia, kTolerance, kTolerance * shortestLink(pattern), most_sweeps) {
+        sweeps(constraints, inertia, kTolerance, kTolerance * shortestLink(pattern), max_sweeps) {
     force.assign(pattern.grid.size(), 0.0);
     forces.force = &force;
     inertia.set(forces, kStep, kStep * kStep, 0.0, false);
@@ -133,10 +133,10 @@ TEST(Sweeps, TheLastResortMakesTheSumOfSquaresSmaller) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Solve solve(cloth(PinKind::kTopCorners), 4);
     shake(solve.pattern, 0.3, seed, solve.constraints.next);
-    solve.constraints.lookAtStrings(true);
+    solve.constraints.checkStrings(true);
     const double before = solve.constraints.merit(solve.constraints.rodsResidual());
     solve.run(true);
-    solve.constraints.lookAtStrings(true);
+    solve.constraints.checkStrings(true);
     EXPECT_LT(solve.constraints.merit(solve.constraints.rodsResidual()), before) << seed;
   }
 }

@@ -222,7 +222,7 @@ TEST(Floors, RoomsHaveAnOrder) {
   EXPECT_GT(checkRooms("parts", roomsOfParts(), true), 0);
 }
 
-// Words of its identifiers: mostScaled_limit has most, scaled and limit. Those of a comment do not count.
+// Words of its identifiers: maxScaled_limit has most, scaled and limit. Those of a comment do not count.
 std::set<std::string> wordsOf(const std::string& whole) {
   std::set<std::string> words;
   const std::string line = whole.substr(0, whole.find("//"));

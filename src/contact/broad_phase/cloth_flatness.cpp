@@ -11,14 +11,14 @@ namespace curtain {
 namespace {
 
 // Longest strips and spans [links]. Longer ones are fewer to check but bound the slopes between less.
-constexpr int kMostRods = 2, kMostWefts = 20;
+constexpr int kMaxRods = 2, kMaxWefts = 20;
 // Largest relative difference of rest lengths: the bound assumes a regular reference mesh.
 constexpr double kIrregular = 1e-6;
 // Covers rounding of slopes and kIrregular.
 constexpr double kFlatnessRounding = 1e-5;
 
 struct Extremes {
-  double least_square, least, most_across;
+  double min_square, least, max_across;
 };
 
 // Over vectors from nodes to nodes, `stride` apart: squared length, component along one direction, and across it.
@@ -27,17 +27,17 @@ CURTAIN_INTO_WIDE Extremes extremes(const ConstFieldView& from, const ConstField
   const double *const ax = from.x, *const ay = from.y, *const az = from.z;
   const double *const bx = to.x, *const by = to.y, *const bz = to.z;
   const double px = along.x(), py = along.y(), pz = along.z(), qx = across.x(), qy = across.y(), qz = across.z();
-  double least_square = 1e300, least = 1e300, most_across = 0.0;
-#pragma omp simd reduction(min : least_square, least) reduction(max : most_across)
+  double min_square = 1e300, least = 1e300, max_across = 0.0;
+#pragma omp simd reduction(min : min_square, least) reduction(max : max_across)
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t k = n * stride;
     const double x = bx[k] - ax[k], y = by[k] - ay[k], z = bz[k] - az[k];
     const double square = x * x + y * y + z * z, p = x * px + y * py + z * pz, q = std::abs(x * qx + y * qy + z * qz);
-    least_square = least_square < square ? least_square : square;
+    min_square = min_square < square ? min_square : square;
     least = least < p ? least : p;
-    most_across = most_across > q ? most_across : q;
+    max_across = max_across > q ? max_across : q;
   }
-  return {least_square, least, most_across};
+  return {min_square, least, max_across};
 }
 
 CURTAIN_WIDE Extremes extremesOfRow(const ConstFieldView& from, const ConstFieldView& to, std::size_t count,
@@ -51,7 +51,7 @@ CURTAIN_WIDE Extremes extremesOfColumn(const ConstFieldView& from, const ConstFi
 }
 
 // Whether no link of the top row exceeds this squared ratio to its rest length.
-CURTAIN_WIDE bool holdsRow(const ClothPattern& pattern, const Field3& position, double most_square) noexcept {
+CURTAIN_WIDE bool holdsRow(const ClothPattern& pattern, const Field3& position, double max_square) noexcept {
   const double *const x = position.x.data(), *const y = position.y.data(), *const z = position.z.data();
   const double* const per_square = pattern.weft_per_square.data();
   const auto columns = static_cast<std::size_t>(pattern.grid.columns);
@@ -62,7 +62,7 @@ CURTAIN_WIDE bool holdsRow(const ClothPattern& pattern, const Field3& position, 
     const double square = (dx * dx + dy * dy + dz * dz) * per_square[j];
     most = most > square ? most : square;
   }
-  return most <= most_square;
+  return most <= max_square;
 }
 
 }  // namespace
@@ -71,8 +71,8 @@ ClothFlatness::ClothFlatness(const ClothPattern& pattern, double overlong)
     : pattern_(pattern),
       overlong_(overlong),
       regular_(isRegular(pattern)),
-      strips_(spansOf(pattern.warp_coordinate, kMostRods)),
-      spans_(spansOf(pattern.weft_coordinate, kMostWefts)) {
+      strips_(spansOf(pattern.warp_coordinate, kMaxRods)),
+      spans_(spansOf(pattern.weft_coordinate, kMaxWefts)) {
   const Grid& grid = pattern.grid;
   const double per_u = 1.0 / pattern.weft_rest[1], per_v = 1.0 / pattern.warp_rest[grid.index(1, 0)];
   per_altitude_ = std::sqrt(per_u * per_u + per_v * per_v);
@@ -110,8 +110,8 @@ bool ClothFlatness::isRegular(const ClothPattern& pattern) const {
   return regular;
 }
 
-std::vector<ClothFlatness::Span> ClothFlatness::spansOf(const Field& coordinate, int most_links) {
-  const int links = static_cast<int>(coordinate.size()) - 1, count = (links + most_links - 1) / most_links;
+std::vector<ClothFlatness::Span> ClothFlatness::spansOf(const Field& coordinate, int max_links) {
+  const int links = static_cast<int>(coordinate.size()) - 1, count = (links + max_links - 1) / max_links;
   std::vector<Span> spans;
   for (int k = 0; k < count; ++k) {
     const auto first = static_cast<std::size_t>(k * links / count);
@@ -122,10 +122,10 @@ std::vector<ClothFlatness::Span> ClothFlatness::spansOf(const Field& coordinate,
 }
 
 void ClothFlatness::Slopes::merge(const Slopes& other) noexcept {
-  least_u = std::min(least_u, other.least_u);
-  least_v = std::min(least_v, other.least_v);
-  most_u_across = std::max(most_u_across, other.most_u_across);
-  most_v_across = std::max(most_v_across, other.most_v_across);
+  min_u = std::min(min_u, other.min_u);
+  min_v = std::min(min_v, other.min_v);
+  max_u_across = std::max(max_u_across, other.max_u_across);
+  max_v_across = std::max(max_v_across, other.max_v_across);
 }
 
 // Mean of the two warp directions in the middle column that differ most.
@@ -174,9 +174,9 @@ bool ClothFlatness::chooseDirections(const Field3& position, Projection& project
 }
 
 // Largest deviation of a link's slope from that of its line, over all lines of a span.
-double ClothFlatness::slopeDeviation(double least_square, const Span& span) const noexcept {
+double ClothFlatness::slopeDeviation(double min_square, const Span& span) const noexcept {
   const double longest = 1.0 + overlong_;
-  const double c = std::min(std::sqrt(least_square) * span.per_length, longest);
+  const double c = std::min(std::sqrt(min_square) * span.per_length, longest);
   const double s = span.links * (1.0 - c) + (span.links - 1.0) * overlong_;
   return std::sqrt(std::max(0.0, longest * longest - 2.0 * c * (1.0 - s) + c * c)) + kFlatnessRounding;
 }
@@ -188,25 +188,25 @@ ClothFlatness::Slopes ClothFlatness::slopesOf(const Field3& position, const Proj
     const auto first = static_cast<int>(strip.first), last = static_cast<int>(strip.last);
     const Extremes of = extremesOfRow({position, grid.row(first)}, {position, grid.row(last)},
                                       static_cast<std::size_t>(grid.columns), projection.b, projection.a);
-    const double deviation = slopeDeviation(of.least_square, strip);
-    all.least_v = std::min(all.least_v, of.least * strip.per_length - deviation);
-    all.most_v_across = std::max(all.most_v_across, of.most_across * strip.per_length + deviation);
+    const double deviation = slopeDeviation(of.min_square, strip);
+    all.min_v = std::min(all.min_v, of.least * strip.per_length - deviation);
+    all.max_v_across = std::max(all.max_v_across, of.max_across * strip.per_length + deviation);
   }
   for (const Span& span : spans_) {
     const Extremes of =
         extremesOfColumn({position, span.first}, {position, span.last}, static_cast<std::size_t>(grid.rows),
                          static_cast<std::size_t>(grid.stride), projection.a, projection.b);
-    const double deviation = slopeDeviation(of.least_square, span);
-    all.least_u = std::min(all.least_u, of.least * span.per_length - deviation);
-    all.most_u_across = std::max(all.most_u_across, of.most_across * span.per_length + deviation);
+    const double deviation = slopeDeviation(of.min_square, span);
+    all.min_u = std::min(all.min_u, of.least * span.per_length - deviation);
+    all.max_u_across = std::max(all.max_u_across, of.max_across * span.per_length + deviation);
   }
   return all;
 }
 
 bool ClothFlatness::areFlat(const Slopes& slopes, double reach) const noexcept {
   const double limit = reach * per_altitude_ * (1.0 + kFlatnessRounding) + kFlatnessRounding;
-  const double u = slopes.least_u - limit, v = slopes.least_v - limit;
-  const double across = 0.5 * (slopes.most_u_across + slopes.most_v_across);
+  const double u = slopes.min_u - limit, v = slopes.min_v - limit;
+  const double across = 0.5 * (slopes.max_u_across + slopes.max_v_across);
   return u > 0.0 && v > 0.0 && u * v > across * across;
 }
 
@@ -235,10 +235,10 @@ bool ClothFlatness::staysFlat(const Field3& end, double reach) noexcept {
   const double longest = (1.0 + overlong_) * (1.0 + kFlatnessRounding);
   const double off_a = longest * (end_.a - start_.a).norm(), off_b = longest * (end_.b - start_.b).norm();
   Slopes slopes = start_.slopes;
-  slopes.least_u -= off_a;
-  slopes.most_v_across += off_a;
-  slopes.least_v -= off_b;
-  slopes.most_u_across += off_b;
+  slopes.min_u -= off_a;
+  slopes.max_v_across += off_a;
+  slopes.min_v -= off_b;
+  slopes.max_u_across += off_b;
   slopes.merge(end_.slopes);
   return areFlat(slopes, reach);
 }

@@ -53,8 +53,8 @@ class ClothFlatness {
  private:
   // Bounds of the slopes along a and b, over all links.
   struct Slopes {
-    double least_u, most_u_across;  // of weft links: least along a; largest |.| along b
-    double least_v, most_v_across;  // of rods: least along b; largest |.| along a
+    double min_u, max_u_across;  // of weft links: least along a; largest |.| along b
+    double min_v, max_v_across;  // of rods: least along b; largest |.| along a
     void merge(const Slopes& other) noexcept;
   };
   struct Span {
@@ -62,7 +62,7 @@ class ClothFlatness {
     double per_length;        // 1 / rest length [1/m]
     double links;             // number of links
   };
-  static std::vector<Span> spansOf(const Field& coordinate, int most_links);
+  static std::vector<Span> spansOf(const Field& coordinate, int max_links);
   bool isRegular(const ClothPattern& pattern) const;
   Vec3 warpDirection(const Field3& position) const noexcept;
   // Slopes of the cloth along directions that suit it.
@@ -74,7 +74,7 @@ class ClothFlatness {
   bool chooseDirections(const Field3& position, Projection& projection) const noexcept;
   void measure(const Field3& position, Projection& projection) const noexcept;
   Slopes slopesOf(const Field3& position, const Projection& projection) const noexcept;
-  double slopeDeviation(double least_square, const Span& span) const noexcept;
+  double slopeDeviation(double min_square, const Span& span) const noexcept;
   bool areFlat(const Slopes& slopes, double reach) const noexcept;
   bool topRowHolds(const Field3& position) const noexcept;
 

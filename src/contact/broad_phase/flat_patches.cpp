@@ -74,7 +74,7 @@ CURTAIN_WIDE void columnRanges(const Strip& s) {
   Simd8::reduceFours(s.v_high, s.links + 1, false);
 }
 
-float mostOf(const float* from, const float* to) { return *std::max_element(from, to); }
+float maxOf(const float* from, const float* to) { return *std::max_element(from, to); }
 
 }  // namespace
 
@@ -92,7 +92,7 @@ FlatPatches::FlatPatches(const Grid& grid, const Spacings& per_spacing)
     for (int j = 0; j < columns_; ++j) {
       Slopes& slopes = slopes_[at(i, j)];
       const auto largest = [&](const Spacings::Floats& per, int at, int count) {
-        return mostOf(per.data() + at * kAlong, per.data() + std::min((at + 1) * kAlong, count));
+        return maxOf(per.data() + at * kAlong, per.data() + std::min((at + 1) * kAlong, count));
       };
       slopes.u.low = slopes.u.high = slopes.v.low = slopes.v.high = Eigen::Array4f::Zero();
       slopes.spacing_u = 1.0f / largest(per_spacing_.u, j, grid_.linkCount());
@@ -158,7 +158,7 @@ bool FlatPatches::keepsApart(const Slopes& patch, float reach, float rounding) n
   using Eigen::Array4f;
   constexpr float kUlps = 1e-6f;   // of a slope: rounding of the quotient and of the box's centre and half edges
   constexpr float kSlack = 2e-5f;  // of lambda: rounding of U, V, a, b, worst for c near 1
-  constexpr float kLeastSine = 0.1f;
+  constexpr float kMinSine = 0.1f;
   const Array4f mid_u = 0.5f * (patch.u.low + patch.u.high), mid_v = 0.5f * (patch.v.low + patch.v.high);
   const Array4f half_u = 0.5f * (patch.u.high - patch.u.low), half_v = 0.5f * (patch.v.high - patch.v.low);
   const float squared_u = (mid_u * mid_u).sum(), squared_v = (mid_v * mid_v).sum();
@@ -175,13 +175,13 @@ bool FlatPatches::keepsApart(const Slopes& patch, float reach, float rounding) n
   const float cosine = (unit_u * unit_v).sum();
   const float plus = std::sqrt(std::max(0.0f, 1.0f + cosine)), minus = std::sqrt(std::max(0.0f, 1.0f - cosine));
   const float lambda = std::min(plus, minus);
-  if (!(lambda > kLeastSine)) return false;
+  if (!(lambda > kMinSine)) return false;
   const Array4f mean = (unit_u + unit_v) * (0.5f / plus), skew = (unit_u - unit_v) * (0.5f / minus);
   const Array4f a = (mean + skew).abs(), b = (mean - skew).abs();
-  const Array4f most_u = (half_u + (rounding / patch.spacing_u + kUlps)) * per_u + kUlps;
-  const Array4f most_v = (half_v + (rounding / patch.spacing_v + kUlps)) * per_v + kUlps;
-  const float along_a = (a * most_u).sum(), along_b = (b * most_v).sum();
-  const float across = 0.5f * ((b * most_u).sum() + (a * most_v).sum());
+  const Array4f max_u = (half_u + (rounding / patch.spacing_u + kUlps)) * per_u + kUlps;
+  const Array4f max_v = (half_v + (rounding / patch.spacing_v + kUlps)) * per_v + kUlps;
+  const float along_a = (a * max_u).sum(), along_b = (b * max_v).sum();
+  const float across = 0.5f * ((b * max_u).sum() + (a * max_v).sum());
   const float half = 0.5f * (along_a - along_b);
   const float deviation = 0.5f * (along_a + along_b) + std::sqrt(half * half + across * across);
   const float least = lambda - deviation - kSlack;

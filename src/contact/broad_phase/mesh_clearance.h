@@ -65,10 +65,10 @@ class MeshClearance {
   void forEachNear(const QuadElements& quad, const SweptQuad& swept, const SweptDirections& directions, double reach,
                    const Eigen::AlignedBox3d& box, Edge&& edge, Corner&& corner) const {
     const ObstacleFeatures& features = *mesh_->features();
-    const auto takeEdge = [&](std::uint32_t n, const ObstacleEdge& e) {
+    const auto addEdge = [&](std::uint32_t n, const ObstacleEdge& e) {
       if (e.touchable) edge(n, e);
     };
-    const auto takeCorner = [&](std::uint32_t n, const ObstacleVertex& v) {
+    const auto addCorner = [&](std::uint32_t n, const ObstacleVertex& v) {
       if (v.touchable) corner(n, v);
     };
     const std::size_t window = quad.corners[0];
@@ -77,16 +77,16 @@ class MeshClearance {
     if (highest.rest >= least) {
       const auto edgesMeet = [&](const NormalCone& normals) { return directions.edgesMeet(normals); };
       const auto facesMeet = [&](const NormalCone& normals) { return directions.facesMeet(normals); };
-      features.forEachEdgeIn(box, edgesMeet, takeEdge);
-      features.forEachVertexIn(box, facesMeet, takeCorner);
+      features.forEachEdgeIn(box, edgesMeet, addEdge);
+      features.forEachVertexIn(box, facesMeet, addCorner);
       return;
     }
     for (std::size_t k = 0; k < highest.count && highest.heights[k] >= least; ++k) {
       const std::uint32_t feature = highest.features[k];
       if ((feature & kCorner) != 0)
-        features.ifVertexIn(box, feature & ~kCorner, takeCorner);
+        features.ifVertexIn(box, feature & ~kCorner, addCorner);
       else
-        features.ifEdgeIn(box, feature, takeEdge);
+        features.ifEdgeIn(box, feature, addEdge);
     }
   }
 

@@ -137,7 +137,7 @@ void ObstacleCandidates::invalidate() noexcept {
 void ObstacleCandidates::prepare(const MovingObstacle& moving, const Field3& start, const Field3& predicted) noexcept {
   ++substep_;
   toLocal(moving.before, start, start_);
-  list(moving, predicted, elementReach() + kLeastShare * gaps_.thickness);
+  list(moving, predicted, elementReach() + kMinShare * gaps_.thickness);
 }
 
 void ObstacleCandidates::follow(const MovingObstacle& moving, const Field3& end) noexcept {

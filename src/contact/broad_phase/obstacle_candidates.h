@@ -122,20 +122,20 @@ class ObstacleCandidates {
   double nodeReach() const noexcept { return 1.5 * gaps_.thickness + gaps_.padding; }
   double elementReach() const noexcept { return 0.4 * gaps_.thickness + gaps_.padding; }
   /// The same for crossings: twice what counts as crossing, because times of impact may be early [m].
-  double crossingReach() const noexcept { return 2.0 * kLeastShare * gaps_.thickness + gaps_.padding; }
+  double crossingReach() const noexcept { return 2.0 * kMinShare * gaps_.thickness + gaps_.padding; }
   /// Distance below which a part counts as crossing [m]; at most, and for one that starts at `distance` > 0: one that
   /// is within the padding already may not go half of the way to the surface.
-  double least() const noexcept { return gaps_.padding + kLeastShare * gaps_.thickness; }
+  double least() const noexcept { return gaps_.padding + kMinShare * gaps_.thickness; }
   double least(double distance) const noexcept {
     const double above = distance - gaps_.padding;
-    return above > 0.0 ? gaps_.padding + std::min(kLeastShare * gaps_.thickness, 0.5 * above) : 0.5 * distance;
+    return above > 0.0 ? gaps_.padding + std::min(kMinShare * gaps_.thickness, 0.5 * above) : 0.5 * distance;
   }
   /// A list ran full: candidates are missing.
   bool full() const noexcept { return full_; }
 
  private:
   // What counts as crossing, over the thickness.
-  static constexpr double kLeastShare = 0.02;
+  static constexpr double kMinShare = 0.02;
 
   static void toLocal(const Transform& place, const Field3& position, Field3& out) noexcept;
   void list(const MovingObstacle& moving, const Field3& end, double reach) noexcept;

@@ -38,25 +38,25 @@ class Patches {
   /// Takes the boxes of patches and sorts them along the axis along which they extend most; before forEachPair().
   /// Allocates nothing.
   void sort(const FlatPatches& boxes) noexcept;
-  /// Calls take(a, b) for patches whose boxes are at most `reach` [m] apart along every axis, and take(a, a) for each:
-  /// number `share` of `shares` parts of them.
-  template <typename Take>
-  void forEachPair(float reach, std::size_t share, std::size_t shares, const Take& take) const noexcept {
+  /// Calls visit(a, b) for patches whose boxes are at most `reach` [m] apart along every axis, and visit(a, a) for
+  /// each: number `share` of `shares` parts of them.
+  template <typename Visit>
+  void forEachPair(float reach, std::size_t share, std::size_t shares, const Visit& visit) const noexcept {
     for (std::size_t k = share; k < order_.size(); k += shares) {
       const int a = order_[k].second;
-      take(a, a);
+      visit(a, a);
       const float end = sorted_[3 + axis_][k] + reach;
       for (std::size_t l = k + 1; l < order_.size() && sorted_[axis_][l] <= end; l += 8) {
         const std::uint32_t all = order_.size() - l < 8 ? (1U << (order_.size() - l)) - 1U : 0xFFU;
         for (std::uint32_t bits = meeting(k, l, reach) & all; bits != 0; bits &= bits - 1)
-          take(a, order_[l + static_cast<std::size_t>(__builtin_ctz(bits))].second);
+          visit(a, order_[l + static_cast<std::size_t>(__builtin_ctz(bits))].second);
       }
     }
   }
-  /// Calls take(p, q) for the pairs of a quad of each patch, or of two of the same one, that have no common node and
+  /// Calls visit(p, q) for the pairs of a quad of each patch, or of two of the same one, that have no common node and
   /// whose boxes are at most `reach` [m] apart along every axis; after fitRow().
-  template <typename Take>
-  void forEachQuadPair(int a, int b, float reach, const Take& take) const noexcept {
+  template <typename Visit>
+  void forEachQuadPair(int a, int b, float reach, const Visit& visit) const noexcept {
     std::uint32_t near[kQuads];
     std::uint32_t some = findNear(a, b, reach, near);
     if (some == 0) return;
@@ -66,8 +66,8 @@ class Patches {
       std::uint32_t bits = near[p] & ~(beside.rows[p / kAlong] & beside.columns[p % kAlong]);
       if (a == b) bits &= ~((2U << p) - 1U);
       for (; bits != 0; bits &= bits - 1)
-        take(first_[static_cast<std::size_t>(a)] + quad_[p],
-             first_[static_cast<std::size_t>(b)] + quad_[static_cast<std::size_t>(__builtin_ctz(bits))]);
+        visit(first_[static_cast<std::size_t>(a)] + quad_[p],
+              first_[static_cast<std::size_t>(b)] + quad_[static_cast<std::size_t>(__builtin_ctz(bits))]);
     }
   }
 

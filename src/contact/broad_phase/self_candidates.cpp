@@ -12,7 +12,7 @@ constexpr std::size_t kQuadsAtOnce = 1024, kFoundAtOnce = 1024;
 // Gilbert's steps: few for all pairs of quads, more for the rest. Still more separate hardly any.
 constexpr int kFirstSteps = 2, kSteps = 4;
 // Room for the element pairs of a cluster.
-constexpr std::size_t kMostLocalPairs = 128;
+constexpr std::size_t kMaxLocalPairs = 128;
 
 // Elements of a quad, by new numbers of its nodes.
 template <typename NumberOf>
@@ -250,7 +250,7 @@ void SelfCandidates::testClusters(const Query& query, std::size_t kind, Share& s
     std::fill(nodes.begin() + static_cast<std::ptrdiff_t>(count), nodes.end(), nodes[0]);
   share.count[kind] = 0;
   const auto& [vertices, edges] = kinds_[kind];
-  std::array<std::uint8_t, kMostLocalPairs> near;
+  std::array<std::uint8_t, kMaxLocalPairs> near;
   findNear(clusters, query.motion, vertices, edges, near.data());
   for (std::size_t l = 0; l < vertices.size() + edges.size(); ++l) {
     const bool is_edge = l >= vertices.size();

@@ -7,7 +7,7 @@
 //   elements of either         a plane between them                                         separating_axis.h
 //
 // Elements are tested for eight clusters of nodes at a time, of a window or of two quads, whose nodes are numbered
-// alike. Patches that are even as a whole, with those around them, are not looked into.
+// alike. Patches that are even as a whole, with those around them, are skipped.
 #pragma once
 
 #include <array>
@@ -71,7 +71,7 @@ class SelfCandidates {
   /// Parameters of one search.
   struct Query {
     StraightMotion motion;
-    float most;  // patches that deviate from what was expected by no more are not looked into [m]; 0: all are
+    float most;  // patches that deviate from what was expected by no more are skipped [m]; 0: all are
     Candidates* out;
   };
 

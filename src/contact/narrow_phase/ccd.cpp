@@ -28,10 +28,10 @@ namespace {
 constexpr double kRoundoff = 0.5 * std::numeric_limits<double>::epsilon();
 
 /// Steps before an impact is reported. A dozen suffice unless the elements slide along at a distance of rounding.
-constexpr int kMostSteps = 100;
+constexpr int kMaxSteps = 100;
 
 /// Squared lengths below this may have lost digits to underflow.
-constexpr double kLeastSquare = 1e-280;
+constexpr double kMinSquare = 1e-280;
 
 /// A fixed direction that separates for this share of the time to the predicted impact is good enough.
 constexpr double kGood = 0.95;
@@ -134,7 +134,7 @@ double MovingHull::apartUntil(const Vec3& n, double t) const {
   double distance = kSmall;
   if (min_distance_ > 0.0) {
     const double squared = n.squaredNorm();
-    if (!(squared > kLeastSquare)) return t;
+    if (!(squared > kMinSquare)) return t;
     distance += min_distance_ * std::sqrt(squared) * (1.0 + 8.0 * kRoundoff);
   }
   const Four q0 = start_.along(n) - (distance + 6.0 * kRoundoff * size.dot(largest_start_));
@@ -247,7 +247,7 @@ struct EdgeEdgeMotion {
 /// Unit length within 4u; zero where the length underflows.
 Vec3 unit(const Vec3& direction) {
   const double squared = direction.squaredNorm();
-  return squared > kLeastSquare ? Vec3(direction / std::sqrt(squared)) : Vec3(Vec3::Zero());
+  return squared > kMinSquare ? Vec3(direction / std::sqrt(squared)) : Vec3(Vec3::Zero());
 }
 
 template <typename Pair>
@@ -258,7 +258,7 @@ std::optional<double> timeOfImpact(const Points& start, const Points& end, doubl
   hull.measure();
   double t = 0.0;
   Directions here = Pair::directions(hull.at(t));
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     double until = hull.apartUntil(here.refined, t);
     if (until <= t) until = hull.apartUntilOthers(here, t);
     if (until > 1.0) return std::nullopt;

@@ -11,8 +11,8 @@ namespace {
 using Lanes = Simd8::Lanes;
 using Vectors = Simd8::Vectors;
 
-constexpr float kLeastSine = 0.01f;      // of the angle between the mean slopes, squared
-constexpr float kLeastSlope = 1e-4f;     // of the mean slopes, squared
+constexpr float kMinSine = 0.01f;        // of the angle between the mean slopes, squared
+constexpr float kMinSlope = 1e-4f;       // of the mean slopes, squared
 constexpr float kRoundedSlopes = 2e-5f;  // rounding of U, V, a, b, on lambda
 constexpr float kTiny = 1e-20f;
 
@@ -41,17 +41,17 @@ CURTAIN_INTO_WIDE std::uint32_t findDirections(Vectors mean_u, Vectors mean_v, V
                      (mean_u.z - mean_v.z) * per_minus};
   b = {a.x - skew.x, a.y - skew.y, a.z - skew.z};
   a.add(skew);
-  return Simd8::bitsOf(((plus < minus ? plus : minus) > kLeastSine) &
-                       ((square_u < square_v ? square_u : square_v) > kLeastSlope));
+  return Simd8::bitsOf(((plus < minus ? plus : minus) > kMinSine) &
+                       ((square_u < square_v ? square_u : square_v) > kMinSlope));
 }
 
 // Bound for lambda: reach over the least altitude of a triangle, plus rounding of the slopes by a few ulps of the
 // largest coordinate over the spacing.
-CURTAIN_INTO_WIDE void findLimit(const FlatNodes& nodes, const Lanes& most_u, float most_v, Lanes& limit) {
-  const Lanes squares = most_u * most_u + most_v * most_v;
+CURTAIN_INTO_WIDE void findLimit(const FlatNodes& nodes, const Lanes& max_u, float max_v, Lanes& limit) {
+  const Lanes squares = max_u * max_u + max_v * max_v;
   Simd8::inverseRoot(squares, limit);
-  limit = (1.0f + 1e-4f) * (nodes.reach * (squares * limit) +
-                            (16.0f * nodes.rounding) * (most_u > most_v ? most_u : Lanes{} + most_v)) +
+  limit = (1.0f + 1e-4f) *
+              (nodes.reach * (squares * limit) + (16.0f * nodes.rounding) * (max_u > max_v ? max_u : Lanes{} + max_v)) +
           kRoundedSlopes;
 }
 
@@ -121,14 +121,14 @@ CURTAIN_INTO_WIDE std::uint32_t findFlatWindows(const FlatNodes& nodes, int high
     slopes(places[1], mean_u.y, mean_v.y);
     slopes(places[2], mean_u.z, mean_v.z);
   }
-  Lanes most_u, limit;
-  Simd8::load(nodes.per_spacing_u, most_u);
+  Lanes max_u, limit;
+  Simd8::load(nodes.per_spacing_u, max_u);
   if (wide == 2) {
     Lanes other;
     Simd8::load(nodes.per_spacing_u + 1, other);
-    Simd8::raise(most_u, other);
+    Simd8::raise(max_u, other);
   }
-  findLimit(nodes, most_u, *std::max_element(nodes.per_spacing_v, nodes.per_spacing_v + high), limit);
+  findLimit(nodes, max_u, *std::max_element(nodes.per_spacing_v, nodes.per_spacing_v + high), limit);
   const std::uint32_t found = findDirections(mean_u, mean_v, a, b);
   return found & findFlat<wide>(nodes, high, a, b, limit);
 }

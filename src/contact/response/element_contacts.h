@@ -25,7 +25,7 @@ struct ObstacleSubstep {
   ContactFinder::ForcesAct act;
   bool frictionless;      ///< no friction
   double recovery_speed;  ///< depenetration speed within the gap [m/s]
-  double most_recovery;   ///< largest depenetration in this substep [m]
+  double max_recovery;    ///< largest depenetration in this substep [m]
 
   /// Depenetration of a part at this signed distance [m].
   double recoveryAt(double distance) const noexcept;

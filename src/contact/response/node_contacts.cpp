@@ -17,7 +17,7 @@ constexpr double kFasterInside = 20.0;
 }  // namespace
 
 double ObstacleSubstep::recoveryAt(double distance) const noexcept {
-  return std::min((distance < 0.0 ? kFasterInside : 1.0) * recovery_speed * h, most_recovery);
+  return std::min((distance < 0.0 ? kFasterInside : 1.0) * recovery_speed * h, max_recovery);
 }
 
 double recoveredDistance(double distance, double kept, double recovery) noexcept {
@@ -53,11 +53,11 @@ bool makeContact(const ObstacleSubstep& substep, const ClothPattern& pattern, co
   contact.friction = frictionless ? 0.0 : moving.friction;
   contact.recovery = point.recovery;
   contact.room = point.room;
-  contact.carried = moving.after.toWorld(point.start);
+  contact.anchor = moving.after.toWorld(point.start);
   contact.end_velocity = moving.motionAt(1.0, point.start) / substep.h;
   contact.surface_velocity = substep.act == ContactFinder::ForcesAct::kAtStart
                                  ? Vec3(moving.motionAt(point.share, point.touch) / substep.h)
-                                 : Vec3((contact.carried - moving.before.toWorld(point.start)) / substep.h);
+                                 : Vec3((contact.anchor - moving.before.toWorld(point.start)) / substep.h);
   return moves;
 }
 
@@ -82,16 +82,16 @@ Contact nodeContact(const ObstacleSubstep& substep, const ClothPattern& pattern,
   Contact contact;
   makeContact(substep, pattern, point, contact);
   contact.curved = curved && substep.moving.press == 0.0;
-  contact.carried_normal = contact.level;
+  contact.anchor_normal = contact.level;
   SurfacePoint there;
   if (!contact.curved || !candidates.surfaceOf(node, point.touch, there)) return contact;
-  contact.carried_normal = substep.moving.after.rotation * there.normal;
+  contact.anchor_normal = substep.moving.after.rotation * there.normal;
   if (substep.act == ContactFinder::ForcesAct::kAtStart)
     contact.normal = substep.moving.directionAt(point.share, there.normal);
-  if (contact.isOf(contact.carried_normal) || !contact.turnsAgainst(contact.level, substep.moving.after.toWorld(to)))
+  if (contact.isOf(contact.anchor_normal) || !contact.turnsAgainst(contact.level, substep.moving.after.toWorld(to)))
     return contact;
   // The face that it runs into is found in the solve.
-  contact.level = contact.carried_normal;
+  contact.level = contact.anchor_normal;
   if (substep.act != ContactFinder::ForcesAct::kAtStart) contact.normal = contact.level;
   contact.offset = contact.level.dot(substep.moving.after.toWorld(point.touch)) + contact.asked - there.distance;
   return contact;

@@ -200,11 +200,11 @@ int ObstacleContacts::advect(const Field3& start, Field3& end) noexcept {
   findCrossings(start, end, false);
   int count = 0;
   for (const Crossing& crossing : crossings_) {
-    bool news = false;
+    bool found_new = false;
     for (std::size_t k = 0; k < static_cast<std::size_t>(crossing.nodes); ++k) {
-      news = advectNode(crossing.node[k], crossing.contact.obstacle, start, end) || news;
+      found_new = advectNode(crossing.node[k], crossing.contact.obstacle, start, end) || found_new;
     }
-    count += news ? 1 : 0;
+    count += found_new ? 1 : 0;
   }
   return count;
 }

@@ -43,7 +43,7 @@ class ObstacleContacts {
   void begin(const Field3& start, const Field3& predicted, const Begin& begin, Contacts& contacts) noexcept;
   /// ContactFinder::relinearise().
   void relinearise(const Field3& position, Contacts& contacts) noexcept;
-  void limitRecovery(double most) noexcept { most_recovery_ = most; }
+  void limitRecovery(double most) noexcept { max_recovery_ = most; }
 
   /// Adds contacts for parts that would cross an obstacle along the motion from start to end; returns how many.
   /// links_hold: no link is longer than kOverlong at the end.
@@ -90,7 +90,7 @@ class ObstacleContacts {
     return obstacles_.moving(static_cast<int>(obstacle));
   }
   ObstacleSubstep substepOf(std::size_t obstacle) const noexcept {
-    return {moving(obstacle), static_cast<int>(obstacle), h_, act_, frictionless_, recovery_speed_, most_recovery_};
+    return {moving(obstacle), static_cast<int>(obstacle), h_, act_, frictionless_, recovery_speed_, max_recovery_};
   }
   void addHeld(const Field3& position, const SubstepOutcome& outcome) noexcept;
   void addLoad(int obstacle, const Vec3& point, const Vec3& impulse, bool pushes) noexcept;
@@ -103,7 +103,7 @@ class ObstacleContacts {
 
   const ClothPattern& pattern_;
   double thickness_, recovery_speed_;
-  double most_recovery_ = std::numeric_limits<double>::infinity();  // in a substep [m]
+  double max_recovery_ = std::numeric_limits<double>::infinity();  // in a substep [m]
   ObstacleSet& obstacles_;
   Pads pads_;
   SampledBounds bounds_;

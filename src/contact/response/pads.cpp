@@ -16,7 +16,7 @@ double roomOf(const Contact& contact, const Vec3& point) { return contact.normal
 }  // namespace
 
 Pads::Pads(const ClothPattern& pattern, const ObstacleSet& obstacles, double thickness)
-    : pattern_(pattern), obstacles_(obstacles), most_play_(2.0 * kRestingSlack * thickness) {
+    : pattern_(pattern), obstacles_(obstacles), max_play_(2.0 * kRestingSlack * thickness) {
   std::size_t pads = 0;
   for (int n = 0; n < obstacles.count(); ++n) pads += obstacles.press(n) > 0.0 ? 1 : 0;
   if (pads < 2) return;
@@ -28,7 +28,7 @@ Pads::Pads(const ClothPattern& pattern, const ObstacleSet& obstacles, double thi
 bool Pads::closes(const Contact& a, const Contact& b) const noexcept {
   const double turned = std::acos(std::min(1.0, std::max(-1.0, -a.normal.dot(b.normal))));
   if (turned > std::atan(a.friction) + std::atan(b.friction)) return false;
-  return roomOf(a, a.carried) + roomOf(b, a.carried) <= most_play_;
+  return roomOf(a, a.anchor) + roomOf(b, a.anchor) <= max_play_;
 }
 
 void Pads::pinch(Contacts& contacts) noexcept {
@@ -60,14 +60,14 @@ void Pads::pinch(Contacts& contacts) noexcept {
     a.other = b.obstacle;
     a.surface_velocity = 0.5 * (a.surface_velocity + b.surface_velocity);
     a.end_velocity = 0.5 * (a.end_velocity + b.end_velocity);
-    a.carried = 0.5 * (a.carried + b.carried);
+    a.anchor = 0.5 * (a.anchor + b.anchor);
     // It stays where it is between them, as far as both leave it room, else in the middle.
-    const double room_a = roomOf(a, a.carried), room_b = roomOf(b, a.carried);
+    const double room_a = roomOf(a, a.anchor), room_b = roomOf(b, a.anchor);
     const Vec3 across = (a.normal - b.normal).normalized();
-    const double per_way = 1.0 / a.normal.dot(across), low = -room_a * per_way, high = room_b * per_way;
+    const double per_distance = 1.0 / a.normal.dot(across), low = -room_a * per_distance, high = room_b * per_distance;
     const double way = low > high ? 0.5 * (low + high) : std::min(high, std::max(low, 0.0));
     a.normal = a.level = across;
-    a.offset = across.dot(a.carried) + way;
+    a.offset = across.dot(a.anchor) + way;
     a.recovery = 0.0;
     b.node[0] = Contact::kNowhere;
   }

@@ -35,7 +35,7 @@ class Pads {
 
   const ClothPattern& pattern_;
   const ObstacleSet& obstacles_;
-  double most_play_;             // [m]
+  double max_play_;              // [m]
   std::vector<Touch> touches_;   // scratch
   std::vector<Pair> pairs_;      // scratch
   std::vector<double> pinched_;  // area of the cloth that it pinches, by obstacle [m^2]; scratch

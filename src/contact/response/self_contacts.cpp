@@ -72,7 +72,7 @@ SelfContacts::SelfContacts(const ClothPattern& pattern, double gap, const Contac
 }
 
 double SelfContacts::offsetAt(double distance, double h) const noexcept {
-  return recoveredDistance(distance, gap_, std::min(recovery_speed_ * h, most_recovery_));
+  return recoveredDistance(distance, gap_, std::min(recovery_speed_ * h, max_recovery_));
 }
 
 Contact SelfContacts::makeContact(const PairKey& key, const ClosestPoints& closest) const noexcept {
@@ -81,7 +81,7 @@ Contact SelfContacts::makeContact(const PairKey& key, const ClosestPoints& close
   contact.node = key.node;
   contact.weight = closest.weight;
   contact.normal = contact.level = closest.apart / closest.distance;
-  contact.carried = closest.apart;
+  contact.anchor = closest.apart;
   contact.friction = friction_;
   contact.source = key.edges ? 1 : 0;
   return contact;
@@ -93,7 +93,7 @@ template <typename Wanted>
 void SelfContacts::select(const Candidates& candidates, const Wanted& wanted) noexcept {
   pairs_.clear();
   bool heap = false;
-  const auto take = [&](const PairKey& key) {
+  const auto visit = [&](const PairKey& key) {
     if (!wanted(key) || addWithinRoom(key, pairs_)) return;
     if (!heap) std::make_heap(pairs_.begin(), pairs_.end());
     heap = full_ = true;
@@ -103,8 +103,8 @@ void SelfContacts::select(const Candidates& candidates, const Wanted& wanted) no
     std::push_heap(pairs_.begin(), pairs_.end());
   };
   for (const VertexTriangle& c : candidates.vertex_triangles)
-    take({{c.vertex, c.triangle[0], c.triangle[1], c.triangle[2]}, false});
-  for (const EdgeEdge& c : candidates.edge_edges) take({{c.first[0], c.first[1], c.second[0], c.second[1]}, true});
+    visit({{c.vertex, c.triangle[0], c.triangle[1], c.triangle[2]}, false});
+  for (const EdgeEdge& c : candidates.edge_edges) visit({{c.first[0], c.first[1], c.second[0], c.second[1]}, true});
 }
 
 void SelfContacts::sortPairs() noexcept {
@@ -176,9 +176,9 @@ void SelfContacts::collect(const Candidates& candidates, const Contacts& last, c
 double SelfContacts::crossesAt(const PairKey& key, const std::array<Vec3, 4>& from, const std::array<Vec3, 4>& to,
                                double& distance) const noexcept {
   constexpr double kNever = 2.0;
-  if (boxesApart(key.edges, from, to, kLeastShare * gap_)) return kNever;
+  if (boxesApart(key.edges, from, to, kMinShare * gap_)) return kNever;
   distance = closestPoints(key.edges, from).distance;
-  const double least = std::min(kLeastShare * gap_, 0.5 * distance);
+  const double least = std::min(kMinShare * gap_, 0.5 * distance);
   if (distance - largestApproach(key.edges, from, to) > least) return kNever;
   const std::optional<double> time =
       key.edges ? edgeEdgeTimeOfImpact(from[0], from[1], from[2], from[3], to[0], to[1], to[2], to[3], least)
@@ -209,7 +209,7 @@ int SelfContacts::verify(const Candidates& candidates, const Field3& start, cons
     if (!(closest.distance > 0.0)) closest = closestPoints(key.edges, from);
     if (!(closest.distance > 0.0)) continue;
     Contact contact = makeContact(key, closest);
-    contact.carried = mix(closest.weight, from);
+    contact.anchor = mix(closest.weight, from);
     contact.offset = offsetAt(distance, h);
     contact.recovery = std::max(0.0, contact.offset - distance);
     addWithinRoom(contact, contacts);

@@ -42,13 +42,13 @@ ClosestPoints closestPoints(bool edges, const std::array<Vec3, 4>& at) noexcept;
 class SelfContacts {
  public:
   /// Share of the gap below which a pair counts as crossing.
-  static constexpr double kLeastShare = 0.02;
+  static constexpr double kMinShare = 0.02;
 
   /// gap: between two parts of the cloth [m]. Uses friction and recovery_speed of params.
   SelfContacts(const ClothPattern& pattern, double gap, const ContactParams& params);
 
   double gap() const noexcept { return gap_; }
-  void limitRecovery(double most) noexcept { most_recovery_ = most; }
+  void limitRecovery(double most) noexcept { max_recovery_ = most; }
   void setFriction(double friction) noexcept { friction_ = friction; }
 
   /// Adds contacts that may touch along the motion from start to predicted, in a substep of h [s], and those that
@@ -58,7 +58,7 @@ class SelfContacts {
                double h, Contacts& contacts) noexcept;
 
   /// Adds contacts for pairs that would cross along the motion from start to end; returns how many. candidates: at
-  /// least all pairs that come within kLeastShare of the gap, in any order.
+  /// least all pairs that come within kMinShare of the gap, in any order.
   int verify(const Candidates& candidates, const Field3& start, const Field3& end, double h,
              Contacts& contacts) noexcept;
 
@@ -87,9 +87,9 @@ class SelfContacts {
   double offsetAt(double distance, double h) const noexcept;
 
   double gap_, friction_, recovery_speed_;
-  double most_recovery_ = std::numeric_limits<double>::infinity();  // in a substep [m]
-  std::vector<PairKey> pairs_;                                      // touching or crossing
-  std::vector<ClosestPoints> closest_;                              // of touching pairs, at the start
+  double max_recovery_ = std::numeric_limits<double>::infinity();  // in a substep [m]
+  std::vector<PairKey> pairs_;                                     // touching or crossing
+  std::vector<ClosestPoints> closest_;                             // of touching pairs, at the start
   bool full_ = false;
 };
 

@@ -9,7 +9,7 @@ namespace {
 
 // Largest displacement of a node in a substep, over the cloth's size: contact can't search longer paths. Only extreme
 // forces on cloth without pins reach it.
-constexpr double kMostSizes = 4.0;
+constexpr double kMaxSizes = 4.0;
 
 // Unit vector along v. For coincident nodes any will do, but always the same.
 Vec3 directionOf(const Vec3& v) noexcept {
@@ -20,7 +20,7 @@ Vec3 directionOf(const Vec3& v) noexcept {
 }  // namespace
 
 PaperSolver::PaperSolver(const ClothPattern& pattern)
-    : pattern_(pattern), most_way_(kMostSizes * (pattern.warp_coordinate.back() + pattern.weft_coordinate.back())) {
+    : pattern_(pattern), max_way_(kMaxSizes * (pattern.warp_coordinate.back() + pattern.weft_coordinate.back())) {
   pinsChanged();
   start_.assign(pattern.grid.size(), 0.0);
   rebuilt_ = start_;
@@ -196,7 +196,7 @@ double PaperSolver::kineticEnergy(const Chain& chain, const Field3& velocity, co
 // To be called before velocities change, when it is known which columns wefts pull on.
 void PaperSolver::keepEnergies(const Field3& velocity) noexcept {
   const Vec3 common = commonMean(velocity);
-  for (Chain& chain : chains_) chain.most_energy = kineticEnergy(chain, velocity, carrierOf(chain, velocity, common));
+  for (Chain& chain : chains_) chain.max_energy = kineticEnergy(chain, velocity, carrierOf(chain, velocity, common));
 }
 
 // Rods and wefts do no work: relative to its carrier a column has at most its old kinetic energy plus the work of the
@@ -210,15 +210,15 @@ void PaperSolver::boundEnergy(const NodeForces& forces, ClothState& state) noexc
     const Vec3 move = carrierOf(chain, state.position, common_move) - carrierOf(chain, start_, Vec3::Zero());
     for (int k = chain.first(); k <= chain.rods; ++k) {
       const std::size_t n = chain.node(k);
-      chain.most_energy += forces.force->at(n).dot(state.position.at(n) - start_.at(n) - move);
+      chain.max_energy += forces.force->at(n).dot(state.position.at(n) - start_.at(n) - move);
     }
     const Vec3 carrier = carrierOf(chain, state.velocity, common);
     const double energy = kineticEnergy(chain, state.velocity, carrier);
     if (isTaut(chain)) {
-      most += chain.most_energy;
+      most += chain.max_energy;
       all += energy;
     } else {
-      slowDown(chain, chain.most_energy, energy, carrier, state.velocity);
+      slowDown(chain, chain.max_energy, energy, carrier, state.velocity);
     }
   }
   for (const Chain& chain : chains_) {
@@ -268,7 +268,7 @@ void PaperSolver::stopApproach(const Contacts& contacts, Field3& velocity) const
 }
 
 bool PaperSolver::sound(const ClothState& state, double h) const noexcept {
-  const double fastest = most_way_ / h;
+  const double fastest = max_way_ / h;
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     if (pattern_.inverse_mass[n] <= 0.0) continue;
     if (!(state.velocity.at(n).squaredNorm() <= fastest * fastest) || !state.position.at(n).allFinite()) return false;

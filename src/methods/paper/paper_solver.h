@@ -35,7 +35,7 @@ class PaperSolver {
  public:
   explicit PaperSolver(const ClothPattern& pattern);
 
-  /// Takes what follows from the pattern's pins. Allocates.
+  /// Updates what depends on the pattern's pins. Allocates.
   void pinsChanged();
 
   /// One substep of length h > 0 [s]; finder may be null. Where a force is beyond numbers the cloth stops where it is.
@@ -48,8 +48,8 @@ class PaperSolver {
     std::size_t anchor;
     std::ptrdiff_t step;
     int rods;
-    bool loose;          ///< the anchor is not pinned and moves too
-    double most_energy;  ///< [J]; scratch
+    bool loose;         ///< the anchor is not pinned and moves too
+    double max_energy;  ///< [J]; scratch
 
     int first() const { return loose ? 0 : 1; }
     std::size_t node(int k) const { return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(anchor) + k * step); }
@@ -83,7 +83,7 @@ class PaperSolver {
   }
 
   const ClothPattern& pattern_;
-  double most_way_;  // of a node in a substep [m]
+  double max_way_;  // of a node in a substep [m]
   std::vector<Chain> chains_;
   std::vector<std::size_t> pins_;
   std::vector<std::size_t> between_;  // lower node of the rod half way between two pins of a column

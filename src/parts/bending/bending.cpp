@@ -68,7 +68,7 @@ void Bending::begin(const NodeInertia& inertia, const Field& inverse, double sca
   const NodeInertia::Tensions& tensions = inertia.tensions();
   const double size = std::abs(scale);
   const double all = explicit_links ? kStablePhase * kStablePhase : kElasticBackward;
-  const double limit = std::max(all - size * inertia.elastic(), std::min(all, kLeastForElastic));
+  const double limit = std::max(all - size * inertia.elastic(), std::min(all, kMinForElastic));
   const double per_load = explicit_links && tensions.scale != 0.0 ? 2.0 * size / std::abs(tensions.scale) : 0.0;
   gives_ = size * stiffest_ + per_load * tensions.heaviest > limit;
   if (gives_) setGive(inertia, inverse, size, per_load, limit);
@@ -79,7 +79,7 @@ CURTAIN_WIDE void Bending::setGive(const NodeInertia& inertia, const Field& inve
                                    double limit) noexcept {
   const double* const w = inverse.data();
   const double* const load = inertia.tensions().load.data();
-  const double least = per_load > 0.0 ? kLeastForElastic : limit;
+  const double least = per_load > 0.0 ? kMinForElastic : limit;
   const auto give = [&](const BendingLines& lines, const BendingLines& other, Field& out) {
     const double* const own = lines.bound.data();
     const double* const others = other.bend() ? other.bound.data() : own;

@@ -16,7 +16,7 @@ namespace {
 constexpr double kPresliding = 5e-5;
 // Pulls of more than so many times the cloth's weight may move it further: pads that are stiffer by far than all that
 // pulls at them are hard to solve for.
-constexpr double kMostWeights = 10.0, kStandardGravity = 9.81;
+constexpr double kMaxWeights = 10.0, kStandardGravity = 9.81;
 // Share of the cloth's mass that a hand which gives way moves with it, as drag_force.cpp has it.
 constexpr double kHeldShare = 0.25;
 
@@ -123,7 +123,7 @@ void Grasps::prepare(Grasp& grasp) const {
     const double damping = 2.0 * std::sqrt(params.stiffness * kHeldShare * total_mass_);
     grasp.springs = {share * params.stiffness, share * damping, most, total_mass_};
   } else {
-    const double bears = std::min({most, params.break_force, kMostWeights * kStandardGravity * total_mass_});
+    const double bears = std::min({most, params.break_force, kMaxWeights * kStandardGravity * total_mass_});
     grasp.springs = {bears / kPresliding, 0.0, most, total_mass_};
   }
 }
@@ -212,14 +212,14 @@ std::vector<std::string> Grasps::ids() const {
 
 // ---- Serialization
 
-void Grasps::carryGrasp(Archive& archive, Grasp& grasp) {
-  carryParams(archive, grasp.params, scene_.cloth);
-  const auto carryPose = [&](const char* name, Pose& pose) {
+void Grasps::serializeGrasp(Archive& archive, Grasp& grasp) {
+  serializeParams(archive, grasp.params, scene_.cloth);
+  const auto serializePose = [&](const char* name, Pose& pose) {
     archive.finite(name, pose);
     archive.require(std::abs(pose.orientation.norm() - 1.0) <= 1e-3, "must have a unit quaternion");
   };
-  carryPose("from", grasp.from);
-  carryPose("to", grasp.to);
+  serializePose("from", grasp.from);
+  serializePose("to", grasp.to);
   archive.integer("taken", grasp.taken, 1, 1 << 30);
   double pull = grasp.springs.pull();
   archive.atOnce([&] { archive.number("pull", pull); });
@@ -247,7 +247,7 @@ void Grasps::serialize(Archive& archive) {
   std::vector<std::string> known;
   std::fill(loaded_.begin(), loaded_.end(), std::uint8_t{0});
   archive.list("grasps", list_, [&](Grasp& grasp) {
-    carryGrasp(archive, grasp);
+    serializeGrasp(archive, grasp);
     archive.require(std::find(known.begin(), known.end(), grasp.params.id) == known.end(),
                     "must have ids of their own");
     known.push_back(grasp.params.id);

@@ -2,7 +2,7 @@
 //
 // Hands that hold the cloth. A node in a hand that does not give is pinned, and its moves are those of pins
 // (step/pin_moves.h); others hang on springs (hold_springs.h). Changes by the user of who is pinned go through
-// Simulator::Impl::repin().
+// Simulator::Impl::changePins().
 #pragma once
 
 #include <cstdint>
@@ -71,7 +71,7 @@ class Grasps final : public PinMoves {
   bool beginFrame(const FrameBegin& begin, ClothState& state) noexcept override;
   void announce(const ClothState& state, ForceSum& sum) noexcept override;
   void addForces(const ClothState& state, ForceSum& sum) noexcept override;
-  void substepTaken(const SubstepMade& made) noexcept override;
+  void substepDone(const SubstepMade& made) noexcept override;
   bool endFrame(const FrameEnd& end, ClothState& state) noexcept override;
 
  private:
@@ -111,7 +111,7 @@ class Grasps final : public PinMoves {
   void countSprings(Grasp& grasp, const ClothState& state) noexcept;
   void slide(Grasp& grasp, const ClothState& state) noexcept;
   void changeHeld(Grasp& grasp, const ClothState& state) noexcept;
-  void carryGrasp(Archive& archive, Grasp& grasp);
+  void serializeGrasp(Archive& archive, Grasp& grasp);
 
   bool willPin(std::size_t node) const noexcept override { return loaded_[node] == 2; }
 

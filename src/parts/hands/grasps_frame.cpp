@@ -69,7 +69,7 @@ void Grasps::addForces(const ClothState& state, ForceSum& sum) noexcept {
   }
 }
 
-void Grasps::substepTaken(const SubstepMade& made) noexcept {
+void Grasps::substepDone(const SubstepMade& made) noexcept {
   if (!any()) return;
   for (Grasp& grasp : list_) {
     if (!grasp.holds()) continue;
@@ -185,7 +185,7 @@ bool Grasps::endFrame(const FrameEnd& frame, ClothState& state) noexcept {
       grasp.end = GraspEnd::kBroken;
     } else if (grasp.slid) {
       changeHeld(grasp, state);
-      note();  // before another hand takes what comes into its region
+      note();  // before another hand grasps what comes into its region
       if (!grasp.holds()) grasp.end = GraspEnd::kSlippedOut;
     }
     ends = ends || grasp.end != GraspEnd::kNone;

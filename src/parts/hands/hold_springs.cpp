@@ -11,7 +11,7 @@ namespace curtain {
 // that slides ever faster feels the limit and no more.
 double HoldSprings::shareOf(const std::vector<HeldNode>& held, const ClothState& state,
                             const FramePart& part) const noexcept {
-  if (std::isinf(most_force_)) return 1.0;
+  if (std::isinf(max_force_)) return 1.0;
   Vec3 sum = Vec3::Zero();
   double fastest = 0.0;
   for (const HeldNode& node : held) {
@@ -20,11 +20,11 @@ double HoldSprings::shareOf(const std::vector<HeldNode>& held, const ClothState&
     sum += forceOf(node, at + part.h * velocity, velocity, part);
     fastest = std::max(fastest, (targetOf(node, part.end) - at - part.h * before).squaredNorm());
   }
-  if (pull_ + mass_ * std::sqrt(fastest) / (part.h * part.h) <= most_force_) return 1.0;
+  if (pull_ + mass_ * std::sqrt(fastest) / (part.h * part.h) <= max_force_) return 1.0;
   // And where they have pulled with more than the limit, the rest of it sets the cloth in motion.
-  const double sets_in = part.h * std::max(0.0, pull_ - most_force_) / mass_;  // [m/s]
+  const double sets_in = part.h * std::max(0.0, pull_ - max_force_) / mass_;  // [m/s]
   const double wanted = sum.norm() + static_cast<double>(held.size()) * (stiffness_ * part.h + damping_) * sets_in;
-  return wanted > most_force_ ? most_force_ / wanted : 1.0;
+  return wanted > max_force_ ? max_force_ / wanted : 1.0;
 }
 
 void HoldSprings::addForces(std::vector<HeldNode>& held, const ClothState& state, const FramePart& part, Field3& force,
@@ -47,7 +47,7 @@ double HoldSprings::kept(const std::vector<HeldNode>& held, const Field3& positi
   Vec3 sum = Vec3::Zero();
   for (const HeldNode& node : held) sum += stiffness_ * (targetOf(node, part.end) - position.at(node.node));
   const double pulls = sum.norm();
-  return pulls > most_force_ ? most_force_ / pulls : 1.0;
+  return pulls > max_force_ ? max_force_ / pulls : 1.0;
 }
 
 }  // namespace curtain

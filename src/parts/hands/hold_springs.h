@@ -37,10 +37,10 @@ struct FramePart {
 class HoldSprings {
  public:
   HoldSprings() = default;
-  /// stiffness [N/m] and damping [kg/s] of each; most_force: of all of them [N], may be infinite; mass: of all the
+  /// stiffness [N/m] and damping [kg/s] of each; max_force: of all of them [N], may be infinite; mass: of all the
   /// cloth [kg].
-  HoldSprings(double stiffness, double damping, double most_force, double mass)
-      : stiffness_(stiffness), damping_(damping), most_force_(most_force), mass_(mass) {}
+  HoldSprings(double stiffness, double damping, double max_force, double mass)
+      : stiffness_(stiffness), damping_(damping), max_force_(max_force), mass_(mass) {}
 
   /// Adds their forces [N] and damping coefficients [kg/s] for a substep from this state.
   void addForces(std::vector<HeldNode>& held, const ClothState& state, const FramePart& part, Field3& force,
@@ -70,7 +70,7 @@ class HoldSprings {
 
   double shareOf(const std::vector<HeldNode>& held, const ClothState& state, const FramePart& part) const noexcept;
 
-  double stiffness_ = 0.0, damping_ = 0.0, most_force_ = 0.0, mass_ = 0.0;
+  double stiffness_ = 0.0, damping_ = 0.0, max_force_ = 0.0, mass_ = 0.0;
   double pull_ = 0.0;   // in the last accepted substep [N]
   double share_ = 1.0;  // of their stiffness, in the last substep
 };

@@ -44,7 +44,7 @@ void Hysteresis::fill() noexcept {
   sliders_.clear();
   omega_squared_ = 0.0;
   fillTurningLengths(pattern_, warp_length_, weft_length_);
-  const auto look = [&](bool warp, const Field& stiffness, const Field& length, double rigidity) {
+  const auto visit = [&](bool warp, const Field& stiffness, const Field& length, double rigidity) {
     for (int i = 0; i < grid.rows && !stiffness.empty(); ++i) {
       for (int j = 0; j < grid.columns; ++j) {
         const std::size_t n = grid.index(i, j);
@@ -64,8 +64,8 @@ void Hysteresis::fill() noexcept {
       }
     }
   };
-  look(true, pattern_.warp_bending, warp_length_, cloth_.bending_warp);
-  look(false, pattern_.weft_bending, weft_length_, cloth_.bending_weft);
+  visit(true, pattern_.warp_bending, warp_length_, cloth_.bending_warp);
+  visit(false, pattern_.weft_bending, weft_length_, cloth_.bending_weft);
 }
 
 void Hysteresis::pinsChanged() noexcept {

@@ -155,7 +155,7 @@ void Rail::commit(ClothState& state) noexcept {
   });
 }
 
-void Rail::substepTaken(const SubstepMade& made) noexcept {
+void Rail::substepDone(const SubstepMade& made) noexcept {
   double sum = 0.0;
   for (const Carrier& carrier : all_) sum += std::abs(carrier.drawn);
   impulse_ += made.h * sum;

@@ -75,7 +75,7 @@ class Rail final : public GuidePart, public Part {
     impulse_ = 0.0;
     return false;
   }
-  void substepTaken(const SubstepMade& made) noexcept override;
+  void substepDone(const SubstepMade& made) noexcept override;
   bool endFrame(const FrameEnd& end, ClothState& state) noexcept override;
 
   // ---- A substep, of the carriers

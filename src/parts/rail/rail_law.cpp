@@ -30,7 +30,7 @@ double RailLaw::minimum(const std::vector<RailRow>& rows, std::size_t first, std
   std::sort(kinks_.begin(), kinks_.end(), [](const Kink& a, const Kink& b) { return a.at < b.at; });
   double below = 0.0;
   for (std::size_t k = 0; k < kinks_.size(); ++k) {
-    // Summed anew, since a bound may be infinite.
+    // Summed again, since a bound may be infinite.
     double above = 0.0;
     for (std::size_t n = k; n < kinks_.size(); ++n) above += kinks_[n].bound;
     const double u = (moment - below + above) / mass;

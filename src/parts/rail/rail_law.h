@@ -44,10 +44,10 @@ class RailLaw {
   /// rows: as many as carriers, in their order.
   void solve(std::vector<RailRow>& rows) noexcept;
 
-  /// Calls look(first, end) for the runs of carriers that touch, of the last solution.
-  template <typename Look>
-  void forEachRun(const Look& look) const {
-    for (std::size_t p = 0; p < pools_; ++p) look(pool_[p].first, pool_[p].end);
+  /// Calls visit(first, end) for the runs of carriers that touch, of the last solution.
+  template <typename Visit>
+  void forEachRun(const Visit& visit) const {
+    for (std::size_t p = 0; p < pools_; ++p) visit(pool_[p].first, pool_[p].end);
   }
 
  private:

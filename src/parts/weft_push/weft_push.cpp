@@ -12,12 +12,12 @@ namespace {
 
 constexpr double kNoLength = 1e-300;  // [m]; a link that has none has no direction either
 
-// Calls look(node on the right, node on the left) for all weft links.
-template <typename Look>
-void forEachWeft(const Grid& grid, const Look& look) {
+// Calls visit(node on the right, node on the left) for all weft links.
+template <typename Visit>
+void forEachWeft(const Grid& grid, const Visit& visit) {
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = grid.closed ? 0 : 1; j < grid.columns; ++j) {
-      if (grid.hasLink(i, j)) look(grid.index(i, j), grid.index(i, j > 0 ? j - 1 : grid.columns - 1));
+      if (grid.hasLink(i, j)) visit(grid.index(i, j), grid.index(i, j > 0 ? j - 1 : grid.columns - 1));
     }
   }
 }

@@ -22,7 +22,7 @@ void Winds::reset(ClothState&) {
 // They follow from their parameters and the time.
 void Winds::serialize(Archive& archive) {
   std::vector<WindParams> params = winds_.params;
-  archive.atOnce([&] { archive.list("winds", params, [&](WindParams& wind) { carryParams(archive, wind); }); });
+  archive.atOnce([&] { archive.list("winds", params, [&](WindParams& wind) { serializeParams(archive, wind); }); });
   if (!archive.loads()) return;
   Sources<WindSource, WindParams> loaded;
   for (const WindParams& wind : params) loaded.put(made(wind));

@@ -5,7 +5,7 @@
 
 namespace curtain_ros {
 
-FollowedFrame::Standing FollowedFrame::look(Frames& frames, const ros::Time& now, double step) {
+FollowedFrame::Standing FollowedFrame::update(Frames& frames, const ros::Time& now, double step) {
   const FrameLookup found = frames.follow(name_, {now, timeout_, step}, read_);
   if (found.known) {
     pose_ = found.pose;

@@ -28,7 +28,7 @@ class FollowedFrame {
     kLost      ///< unknown or too old: error() says which
   };
   /// now: of the node's clock, which stamps are compared with; step: as in Following.
-  Standing look(Frames& frames, const ros::Time& now, double step);
+  Standing update(Frames& frames, const ros::Time& now, double step);
 
   /// That it is followed to; none before the first.
   const std::optional<curtain::Pose>& pose() const { return pose_; }

@@ -21,7 +21,7 @@ constexpr double kFarthest = 1e9;
 constexpr double kFastest = 2.0;
 
 // Or by this share of the way, if that is more: on a computer that makes one frame in three it stays behind by 0.4 s.
-constexpr double kLeastMadeUp = 1.0 / 8.0;
+constexpr double kMinMadeUp = 1.0 / 8.0;
 
 std::string withoutSlash(const std::string& frame) {
   return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
@@ -79,7 +79,7 @@ FrameLookup Frames::follow(const std::string& frame, const Following& by, ros::T
     return found;
   }
   const double behind = read.isZero() ? 0.0 : (found.stamp - read).toSec();
-  const double taken = std::max(kFastest * by.step, kLeastMadeUp * behind);
+  const double taken = std::max(kFastest * by.step, kMinMadeUp * behind);
   read = found.stamp;
   if (by.step > 0.0 && behind > taken) {
     const ros::Time on_the_way = found.stamp - ros::Duration(behind - taken);

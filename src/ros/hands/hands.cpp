@@ -66,7 +66,7 @@ void Hands::read(Letter& letter, Simulator& simulator, const ros::Time&) {
 
 // Takes hold, if the frame is known. False: it is refused.
 bool Hands::grip(Hand& hand, Simulator& simulator, const ros::Time& now) {
-  switch (hand.frame.look(frames_, now, stepOf(simulator))) {
+  switch (hand.frame.update(frames_, now, stepOf(simulator))) {
     case FollowedFrame::Standing::kWaiting:
       return true;
     case FollowedFrame::Standing::kLost:
@@ -93,7 +93,7 @@ bool Hands::grip(Hand& hand, Simulator& simulator, const ros::Time& now) {
 
 // False: the frame is lost, and the hand has let go.
 bool Hands::follow(Hand& hand, Simulator& simulator, const ros::Time& now) {
-  if (hand.frame.look(frames_, now, stepOf(simulator)) == FollowedFrame::Standing::kFresh) {
+  if (hand.frame.update(frames_, now, stepOf(simulator)) == FollowedFrame::Standing::kFresh) {
     simulator.moveGrasp(hand.id, *hand.frame.pose());
     return true;
   }

@@ -21,13 +21,13 @@ using Problems = std::vector<curtain::Problem>;
 // Messages kept of a topic between two frames. Senders at 1 kHz for a frame of 1/20 s fit.
 
 // Each source costs a pass over the cloth in each substep: far more than anybody places, few enough for a frame.
-constexpr std::size_t kMostSources = 256;
+constexpr std::size_t kMaxSources = 256;
 
 template <typename Params>
 Problems checkRoom(const std::vector<Params>& all, const std::string& id) {
-  if (all.size() < kMostSources || curtain::findById(all, id) != nullptr) return {};
+  if (all.size() < kMaxSources || curtain::findById(all, id) != nullptr) return {};
   return {{"id", "is new, and there are " + std::to_string(all.size()) + " already; at most " +
-                     std::to_string(kMostSources) + " at a time"}};
+                     std::to_string(kMaxSources) + " at a time"}};
 }
 
 template <typename Params>
@@ -134,7 +134,7 @@ void Inputs::drop(const std::string& message, const std::string& why) {
 }
 
 void Inputs::count(curtain_sim::Statistics& statistics) const {
-  statistics.messages_taken = taken_;
+  statistics.messages_taken = accepted_;
   statistics.dropped_invalid = invalid_;
   statistics.dropped_untransformed = untransformed_;
   statistics.dropped_overflow = static_cast<std::uint32_t>(winds_.mailbox.lost() + drags_.mailbox.lost());

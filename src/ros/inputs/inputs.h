@@ -18,8 +18,8 @@
 #include "curtain_sim/WindSource.h"
 #include "curtain_sim/simulator.h"
 #include "ros/frames/frames.h"
-#include "ros/inputs/carried_winds.h"
 #include "ros/inputs/mailbox.h"
+#include "ros/inputs/moving_winds.h"
 
 namespace curtain_ros {
 
@@ -32,7 +32,7 @@ class Inputs {
   void post(const curtain_sim::DragForce::ConstPtr& message) { drags_.mailbox.post(message); }
 
   /// Counts a message that another input of the node took, or refused. Simulation thread.
-  void countAccepted() { ++taken_; }
+  void countAccepted() { ++accepted_; }
   void refuse(const std::string& message, const std::vector<curtain::Problem>& problems);
 
   /// Applies what arrived, in order, and removes sources whose lifetime is over. Simulation thread.
@@ -76,10 +76,10 @@ class Inputs {
   void note(const curtain_sim::DragForce&) {}
 
   Frames& frames_;
-  CarriedWinds carried_;
+  MovingWinds carried_;
   Topic<curtain_sim::WindSource> winds_;
   Topic<curtain_sim::DragForce> drags_;
-  std::uint64_t taken_ = 0;
+  std::uint64_t accepted_ = 0;
   std::uint32_t invalid_ = 0;
   std::uint32_t untransformed_ = 0;
   std::uint64_t warned_overflow_ = 0;

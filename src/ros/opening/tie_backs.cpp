@@ -6,7 +6,7 @@
 namespace curtain_ros {
 namespace {
 
-constexpr std::size_t kMostRequests = 50;  // between two frames
+constexpr std::size_t kMaxRequests = 50;  // between two frames
 
 std::vector<std::string> idsOf(const curtain::Scene& scene) {
   std::vector<std::string> ids;
@@ -18,7 +18,7 @@ std::vector<std::string> idsOf(const curtain::Scene& scene) {
 
 TieBacks::TieBacks(ros::NodeHandle private_node, const curtain::Scene& scene)
     : ids_(idsOf(scene)),
-      mailbox_(kMostRequests),
+      mailbox_(kMaxRequests),
       server_(private_node.advertiseService("tie_back", &TieBacks::answer, this)) {}
 
 bool TieBacks::answer(curtain_sim::TieBack::Request& request, curtain_sim::TieBack::Response& response) {

@@ -121,7 +121,7 @@ std::set<std::string> chosenLinks(const RobotParams& params, const urdf::Model& 
   return chosen;
 }
 
-void takeShape(const urdf::Geometry& geometry, ObstacleParams& obstacle) {
+void setShape(const urdf::Geometry& geometry, ObstacleParams& obstacle) {
   switch (geometry.type) {
     case urdf::Geometry::SPHERE:
       obstacle.shape = ShapeKind::kSphere;
@@ -157,7 +157,7 @@ ObstacleParams obstacleOf(const RobotParams& params, const std::string& link, co
   obstacle.pose.position = curtain::Vec3(origin.position.x, origin.position.y, origin.position.z);
   const urdf::Rotation& turn = origin.rotation;
   obstacle.pose.orientation = Eigen::Quaterniond(turn.w, turn.x, turn.y, turn.z).normalized();
-  takeShape(*collision.geometry, obstacle);
+  setShape(*collision.geometry, obstacle);
   return obstacle;
 }
 

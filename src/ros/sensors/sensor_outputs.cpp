@@ -40,11 +40,11 @@ SensorOutputs::SensorOutputs(ros::NodeHandle node, ros::NodeHandle private_node,
       image_message_(sensor_msgs::Image()),
       info_message_(CameraInfo()) {
   const double count = flat_.area() * params_.density;
-  if (!isSensor() && count > curtain::kMostRays) {
+  if (!isSensor() && count > curtain::kMaxRays) {
     throw ParameterError("can't start, a problem with " + private_node.getNamespace() + "/points/density: gives " +
                          curtain::formatNumber(std::round(count)) + " points on " +
                          curtain::formatNumber(flat_.area()) + " m^2 of cloth, must give at most " +
-                         std::to_string(curtain::kMostRays));
+                         std::to_string(curtain::kMaxRays));
   }
   if (isCamera() && params_.camera.from_camera_info) {
     camera_input_ = std::make_unique<CameraInput>(node, inputs, worker_);
@@ -100,7 +100,7 @@ bool SensorOutputs::findSensor(const ros::Time& stamp, const ros::Time& now) {
   if (isCamera() && !camera_) {
     error_ = "no camera_info has come on " + camera_input_->topic();
   } else {
-    const FollowedFrame::Standing standing = frame_->look(frames_, now, 0.0);
+    const FollowedFrame::Standing standing = frame_->update(frames_, now, 0.0);
     if (standing == FollowedFrame::Standing::kFresh) {
       const FrameLookup then = frames_.lookup(frame_->name(), stamp);
       pose_ = then.known ? then.pose : *frame_->pose();
@@ -165,7 +165,7 @@ void SensorOutputs::show(const View& view) {
       sampler_->sample(view.moment, cloud_);
       return showCloud(view, 1, static_cast<std::uint32_t>(cloud_.size()));
     }
-    sensor_->look(view.moment, view.sensor);
+    sensor_->render(view.moment, view.sensor);
     if (view.image) showDepths(view);
     if (!view.cloud) return;
     sensor_->points(view.moment, cloud_);

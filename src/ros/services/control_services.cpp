@@ -6,14 +6,14 @@
 namespace curtain_ros {
 namespace {
 
-constexpr std::uint32_t kMostSteppers = 4;  // callers of ~step at a time; others wait for one of these to be answered
+constexpr std::uint32_t kMaxSteppers = 4;  // callers of ~step at a time; others wait for one of these to be answered
 
 }  // namespace
 
 const char kStops[] = "the node stops";
 
 ControlServices::ControlServices(const ros::NodeHandle& private_node, Calls& calls, Actions actions)
-    : calls_(calls), actions_(std::move(actions)), short_(private_node, 1), long_(private_node, kMostSteppers) {
+    : calls_(calls), actions_(std::move(actions)), short_(private_node, 1), long_(private_node, kMaxSteppers) {
   reset_ = short_.node().advertiseService("reset", &ControlServices::reset, this);
   pause_ = short_.node().advertiseService("pause", &ControlServices::pause, this);
   step_ = long_.node().advertiseService("step", &ControlServices::step, this);

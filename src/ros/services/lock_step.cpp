@@ -7,8 +7,8 @@ namespace curtain_ros {
 namespace {
 
 std::string problemOf(std::uint32_t frames, bool paused) {
-  if (frames < 1 || frames > kMostFrames) {
-    return "frames: must be an integer in [1, " + std::to_string(kMostFrames) + "], is " + std::to_string(frames);
+  if (frames < 1 || frames > kMaxFrames) {
+    return "frames: must be an integer in [1, " + std::to_string(kMaxFrames) + "], is " + std::to_string(frames);
   }
   return paused ? "" : "the node is running: pause it first, by ~pause";
 }

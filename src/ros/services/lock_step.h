@@ -14,7 +14,7 @@
 namespace curtain_ros {
 
 /// Most frames of a request.
-constexpr std::uint32_t kMostFrames = 100000;
+constexpr std::uint32_t kMaxFrames = 100000;
 
 /// Simulation thread only.
 class LockStep {

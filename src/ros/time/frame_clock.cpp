@@ -58,24 +58,24 @@ void FrameClock::resume() {
 StepClock::Due FrameClock::update(std::int64_t now) {
   const std::uint64_t before = dropped();
   const StepClock::Due due = told(steps_.update(now));
-  look(now);
+  measureLateness(now);
   if (dropped() > before) cause_ = causeOf(lateness_, 1.0 / frame_rate_);
   lateness_.frames = due.frames;
   return due;
 }
 
 StepClock::Due FrameClock::pass(std::int64_t now) {
-  look(now);
+  measureLateness(now);
   lateness_.frames = 0;
   return told(steps_.pass(now));
 }
 
-void FrameClock::look(std::int64_t now) {
+void FrameClock::measureLateness(std::int64_t now) {
   const ros::SteadyTime here = ros::SteadyTime::now();
-  lateness_.due = 1e-9 * static_cast<double>(now - looked_at_);
-  lateness_.passed = looked_.isZero() ? lateness_.due : (here - looked_).toSec();
-  looked_at_ = now;
-  looked_ = here;
+  lateness_.due = 1e-9 * static_cast<double>(now - measured_at_);
+  lateness_.passed = measured_.isZero() ? lateness_.due : (here - measured_).toSec();
+  measured_at_ = now;
+  measured_ = here;
   thread_seconds_ = threadSeconds();
 }
 

@@ -54,7 +54,7 @@ class FrameClock {
   void begin(double seconds);
   /// Changes the frames' length.
   void setRate(double frame_rate);
-  /// A pause is over: the speed is measured anew.
+  /// A pause is over: the speed is measured again.
   void resume();
 
   /// Until the next frame is due; a /clock that others drive is polled.
@@ -78,7 +78,7 @@ class FrameClock {
   }
 
   StepClock::Due told(const StepClock::Due& due);
-  void look(std::int64_t now);
+  void measureLateness(std::int64_t now);
   ros::Time stamp(std::int64_t time);
   void measureSpeed();
   std::uint64_t dropped() const { return source_ == Source::kOwn ? 0 : steps_.dropped(); }
@@ -93,11 +93,11 @@ class FrameClock {
   std::uint64_t logged_dropped_ = 0;
   std::uint32_t logged_set_back_ = 0;
   // Since the last look at the clock that frames are due by.
-  std::int64_t looked_at_ = 0;   // of that clock [ns]
-  ros::SteadyTime looked_;       // on the monotonic clock; zero: not yet
-  double thread_seconds_ = 0.0;  // computing time of this thread then [s]
-  Lateness lateness_;            // frames and their time since then; the rest is of the look before
-  std::string cause_;            // of the last frames dropped
+  std::int64_t measured_at_ = 0;  // of that clock [ns]
+  ros::SteadyTime measured_;      // on the monotonic clock; zero: not yet
+  double thread_seconds_ = 0.0;   // computing time of this thread then [s]
+  Lateness lateness_;             // frames and their time since then; the rest is of the look before
+  std::string cause_;             // of the last frames dropped
   // Frames and their start on the monotonic clock, of the second that is measured now.
   std::int64_t measured_frames_ = 0;
   ros::SteadyTime measured_since_ = ros::SteadyTime::now();

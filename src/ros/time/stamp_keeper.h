@@ -25,7 +25,7 @@ class StampKeeper {
     const std::int64_t stamp = time + offset_;
     const bool set_back = last_ - stamp > kSetBack;
     set_back_ += set_back ? 1U : 0U;
-    last_ = set_back ? stamp : std::max(stamp, last_ + kLeastStep);
+    last_ = set_back ? stamp : std::max(stamp, last_ + kMinStep);
     return last_;
   }
 
@@ -34,7 +34,7 @@ class StampKeeper {
 
  private:
   static constexpr std::int64_t kGoodReading = 100'000;  // [ns]; usual: 100
-  static constexpr std::int64_t kLeastStep = 1'000;      // [ns]
+  static constexpr std::int64_t kMinStep = 1'000;        // [ns]
   static constexpr std::int64_t kSetBack = 500'000'000;  // [ns] below that NTP slews a clock and does not set it
 
   std::int64_t offset_ = 0;

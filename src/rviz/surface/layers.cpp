@@ -8,8 +8,8 @@
 namespace curtain_rviz {
 namespace {
 
-constexpr double kForget = 4.0;       // [s] in which the range's end falls to 1/e
-constexpr double kLeastRange = 1e-6;  // so that rounding noise of cloth at rest is not spread over all colours
+constexpr double kForget = 4.0;     // [s] in which the range's end falls to 1/e
+constexpr double kMinRange = 1e-6;  // so that rounding noise of cloth at rest is not spread over all colours
 
 using Nodes = std::vector<float>;
 
@@ -91,7 +91,7 @@ void valuesOf(Layer layer, const curtain_sim::CurtainState& state, const curtain
 
 double LayerRange::follow(const std::vector<float>& values, double seconds) {
   const double largest = values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
-  peak_ = std::max({peak_ * std::exp(-seconds / kForget), largest, kLeastRange});
+  peak_ = std::max({peak_ * std::exp(-seconds / kForget), largest, kMinRange});
   return roundUp(peak_);
 }
 

@@ -11,9 +11,9 @@ namespace {
 
 // As scenes allow: [m], [m/s], [N].
 constexpr float kLargest = 1e9F;
-constexpr std::uint32_t kMostFolds = 64;
+constexpr std::uint32_t kMaxFolds = 64;
 // Of the drawn mesh: its indices have 32 bits, and what is beyond would not be seen.
-constexpr std::uint64_t kMostVertices = 1U << 26U;
+constexpr std::uint64_t kMaxVertices = 1U << 26U;
 
 /// Collects the first thing that is wrong.
 class Check {
@@ -49,11 +49,11 @@ bool isSound(const curtain_sim::WindSource& wind) {
 std::string whatIsWrong(const curtain_sim::CurtainState& state) {
   Check check;
   check.that(state.rows >= 2 && state.columns >= 2, "rows, columns: must be at least 2");
-  check.that(state.folds >= 1 && state.folds <= kMostFolds, "folds: must be in [1, 64]");
+  check.that(state.folds >= 1 && state.folds <= kMaxFolds, "folds: must be in [1, 64]");
   if (!check.wrong().empty()) return check.wrong();
   const std::uint64_t rows = state.rows, columns = state.columns, folds = state.folds;
   const std::uint64_t links = rows * (state.closed ? columns : columns - 1);
-  check.that(rows <= kMostVertices && links <= kMostVertices && links * folds <= kMostVertices,
+  check.that(rows <= kMaxVertices && links <= kMaxVertices && links * folds <= kMaxVertices,
              "rows, columns: too many to draw");
   if (!check.wrong().empty()) return check.wrong();
   constexpr float kSmallest = 1e-9F;

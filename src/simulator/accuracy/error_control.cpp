@@ -37,7 +37,7 @@ bool ErrorControl::makeFrame(int substeps) {
   const bool composed = params.method == Method::kLeapfrog4;
   SubstepPlan plan;
   plan.h = motion_.times.length() / substeps;
-  if (params.method == Method::kAuto) plan.most_phase = StepControl::phaseShare(motion_.pattern) * kStablePhase;
+  if (params.method == Method::kAuto) plan.max_phase = StepControl::phaseShare(motion_.pattern) * kStablePhase;
   plan.precise = composed;
   const int parts = ErrorEstimate::stepsPerSubstep(params.method);
   SubstepPlan part = plan;
@@ -75,7 +75,7 @@ bool ErrorControl::makeFrames(int count, int substeps) {
 // would ask for millions.
 int ErrorControl::stableSubsteps() const noexcept {
   const double wanted = std::ceil(1.0 / (motion_.times.rate() * controls_.main.longestStableStep()));
-  return static_cast<int>(std::clamp<double>(wanted, 1.0, estimate_.mostSubsteps()));
+  return static_cast<int>(std::clamp<double>(wanted, 1.0, estimate_.maxSubsteps()));
 }
 
 void ErrorControl::makePilotRuns() {
@@ -132,7 +132,7 @@ void ErrorControl::beginFrame() {
   if (estimate_.referenceMoves() && budget_.affordsCompanion()) {
     const Budget::Clock::time_point begin = Budget::Clock::now();
     moveReference();
-    budget_.companionTook(Budget::secondsSince(begin));
+    budget_.referenceTook(Budget::secondsSince(begin));
   } else if (estimate_.referenceMoves()) {
     lose();
     ++motion_.statistics.estimates_skipped;

@@ -11,7 +11,7 @@ namespace {
 constexpr double kAim = 0.7;
 constexpr double kFewer = 0.35;
 // Least |1 - (n/m)^p|: runs with nearly equal steps say nothing of the error.
-constexpr double kLeastPart = 0.3;
+constexpr double kMinPart = 0.3;
 constexpr double kPilot = 0.5;  // length of a pilot run [s]
 // Errors grow at least with the square of time, since errors of velocities move the nodes. From a pilot run's half
 // second on we assume the cube: measured powers are 1.5 to 2.2 for chains released at 45 degrees and 2.8 to 3.2 at 90,
@@ -68,7 +68,7 @@ double ErrorEstimate::error(const Field3& a, double n, const Field3& b, double m
     ++count;
   }
   const double part = std::abs(1.0 - std::pow(n / m, order));
-  return count > 0 && part > kLeastPart ? std::sqrt(sum / static_cast<double>(count)) / part : 0.0;
+  return count > 0 && part > kMinPart ? std::sqrt(sum / static_cast<double>(count)) / part : 0.0;
 }
 
 void ErrorEstimate::aimAt(double error_per_second, double substeps) noexcept {

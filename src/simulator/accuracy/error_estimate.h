@@ -41,7 +41,7 @@ class ErrorEstimate {
   /// Least substeps a frame of the motion.
   int substeps() const noexcept { return substeps_; }
   /// Largest number it may ask for.
-  int mostSubsteps() const noexcept { return most_; }
+  int maxSubsteps() const noexcept { return most_; }
   /// Stability needs this many.
   void atLeast(int least) noexcept { substeps_ = std::clamp(least, substeps_, most_); }
   /// A reference run with half as many is stable, if `least` are needed for that.

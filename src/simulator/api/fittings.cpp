@@ -116,8 +116,8 @@ std::vector<NodeIndex> Simulator::carriers() const {
 std::vector<Vec3> Simulator::railPoints(double spacing) const {
   const RailPattern& rail = impl_->pattern.rail;
   if (rail.empty()) return {};
-  constexpr double kMostParts = 1e6;
-  const int parts = static_cast<int>(std::clamp(std::ceil(rail.path.length() / spacing), 1.0, kMostParts));
+  constexpr double kMaxParts = 1e6;
+  const int parts = static_cast<int>(std::clamp(std::ceil(rail.path.length() / spacing), 1.0, kMaxParts));
   std::vector<Vec3> points;
   for (int k = 0; k <= parts; ++k) points.push_back(rail.path.at(rail.path.length() * k / parts).point);
   return points;

@@ -12,7 +12,7 @@ std::vector<Problem> Simulator::setGrasp(const GraspParams& grasp) {
   std::vector<std::size_t> nodes;
   problems = im.motion.parts.hands.find(grasp, im.motion.state.position, nodes);
   if (!problems.empty()) return problems;
-  im.repin([&] { im.motion.parts.hands.add(grasp, nodes, im.motion.state); });
+  im.changePins([&] { im.motion.parts.hands.add(grasp, nodes, im.motion.state); });
   return problems;
 }
 
@@ -25,14 +25,14 @@ bool Simulator::moveGrasp(const std::string& id, const Pose& frame) {
 bool Simulator::releaseGrasp(const std::string& id) {
   Impl& im = *impl_;
   if (!im.motion.parts.hands.has(id)) return false;
-  im.repin([&] { im.motion.parts.hands.remove(id); });
+  im.changePins([&] { im.motion.parts.hands.remove(id); });
   return true;
 }
 
 void Simulator::releaseAllGrasps() {
   Impl& im = *impl_;
   if (im.motion.parts.hands.ids().empty()) return;
-  im.repin([&] { im.motion.parts.hands.removeAll(); });
+  im.changePins([&] { im.motion.parts.hands.removeAll(); });
 }
 
 std::optional<GraspState> Simulator::graspState(const std::string& id) const {

@@ -25,14 +25,14 @@ LastResort::LastResort(const ClothPattern& pattern, const DistanceRows& distance
   }
 }
 
-// Calls look(node, other, rest length, is a rod) for every link and row with a movable end.
-template <typename Look>
-void LastResort::forEachBound(const Field& inverse, const Look& look) const {
+// Calls visit(node, other, rest length, is a rod) for every link and row with a movable end.
+template <typename Visit>
+void LastResort::forEachBound(const Field& inverse, const Visit& visit) const {
   forEachLink(pattern_, [&](std::size_t n, std::size_t other, double rest, bool rod) {
-    if (inverse[n] + inverse[other] > 0.0) look(n, other, rest, rod);
+    if (inverse[n] + inverse[other] > 0.0) visit(n, other, rest, rod);
   });
   for (const DistanceRow& row : distances_.all()) {
-    if (row.holds && row.compliance == 0.0) look(row.node, row.other, row.length, false);
+    if (row.holds && row.compliance == 0.0) visit(row.node, row.other, row.length, false);
   }
 }
 

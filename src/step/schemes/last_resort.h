@@ -47,8 +47,8 @@ class LastResort final : public Scheme {
  private:
   bool rigidMotionOfPins(const Field3& position, const Field& inverse, const Field3& velocity,
                          RigidMotion& motion) const noexcept;
-  template <typename Look>
-  void forEachBound(const Field& inverse, const Look& look) const;
+  template <typename Visit>
+  void forEachBound(const Field& inverse, const Visit& visit) const;
   struct Misfit {
     double worst = 0.0, squares = 0.0;
   };

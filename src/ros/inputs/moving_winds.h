@@ -14,7 +14,7 @@
 namespace curtain_ros {
 
 /// Simulation thread only.
-class CarriedWinds {
+class MovingWinds {
  public:
   /// A message was taken that adds, replaces or deletes a source.
   void note(const curtain_sim::WindSource& message);

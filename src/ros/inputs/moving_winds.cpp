@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/inputs/carried_winds.h"
+#include "ros/inputs/moving_winds.h"
 
 #include <ros/console.h>
 
@@ -12,7 +12,7 @@ namespace curtain_ros {
 
 using curtain_sim::WindSource;
 
-void CarriedWinds::note(const WindSource& message) {
+void MovingWinds::note(const WindSource& message) {
   if (message.action == WindSource::DELETEALL) {
     carried_.clear();
   } else if (message.action == WindSource::ADD && message.moves_with_frame) {
@@ -22,7 +22,7 @@ void CarriedWinds::note(const WindSource& message) {
   }
 }
 
-void CarriedWinds::update(Frames& frames, curtain::Simulator& simulator) {
+void MovingWinds::update(Frames& frames, curtain::Simulator& simulator) {
   for (auto carried = carried_.begin(); carried != carried_.end();) {
     const auto& [id, message] = *carried;
     const std::vector<curtain::WindParams>& winds = simulator.winds();
