@@ -16,6 +16,19 @@ constexpr int kStageCount = static_cast<int>(Stage::kStageCount);
 /// Its name in the statistics of curtain_batch, e.g. "forces".
 const char* stageName(Stage stage);
 
+/// How a frame was made, from best to worst: that of its worst substep.
+enum class FrameQuality : std::uint8_t {
+  kResolved,   ///< by the method, links and contacts within their tolerances; or the cloth slept
+  kHurried,    ///< solver.budget_ms lengthened a substep, or ended a substep or the frame early
+  kUnsettled,  ///< a substep ended above solver.stretch_tolerance
+  kBounded,    ///< a substep by the last resort: motion was cut so that links hold (docs/method.md)
+  kStopped     ///< in such a substep the cloth stayed where it was
+};
+/// Number of qualities.
+constexpr int kFrameQualityCount = 5;
+/// Its name in Python's statistics, e.g. "resolved".
+const char* toString(FrameQuality quality);
+
 /// Counters since construction or reset(); where it says so, values of the last frame.
 struct Statistics {
   std::int64_t frames = 0;                ///< frames made
@@ -31,28 +44,30 @@ struct Statistics {
   std::int64_t wakes = 0;                 ///< times that it woke
   bool asleep = false;                    ///< it sleeps now
   // What solver.budget_ms has cost, in the order in which it is given up.
-  std::int64_t estimates_skipped = 0;    ///< frames without the reference run of position_tolerance
-  std::int64_t longer_substeps = 0;      ///< substeps longer than the tensions ask for
-  std::int64_t unfinished_substeps = 0;  ///< substeps that ended before their links had converged
-  std::int64_t shortened_frames = 0;     ///< frames that ended early
-  double lost_time = 0.0;                ///< motion that these left out [s]
-  std::int64_t late_frames = 0;          ///< frames that took longer than the budget all the same
-  std::int64_t stops = 0;                ///< last resort substeps in which the cloth stayed where it was
-  int stops_last = 0;                    ///< in the last frame: the cloth stands, but is not at rest
-  double momentum_cut = 0.0;             ///< by the last resort, sum over nodes and substeps [N s]
-  double obstacles_waited = 0.0;         ///< delay of obstacles where the cloth could not give way [s]
-  double warp_stretch = 0.0;             ///< largest relative overlength of a warp rod at the last frame's end
-  double weft_stretch = 0.0;             ///< the same of a weft link
-  double warp_compression = 0.0;         ///< largest relative underlength of a warp rod, last frame's end
-  double warp_stretch_max = 0.0;         ///< the largest at any frame's end
-  double weft_stretch_max = 0.0;         ///< the same for weft links
-  double warp_compression_max = 0.0;     ///< the same for underlength of warp rods
-  int contacts = 0;               ///< contacts that push on an obstacle or the cloth itself at the last frame's end
-  int contacts_max = 0;           ///< the most at any frame's end
-  double penetration_max = 0.0;   ///< deepest penetration of a node into an obstacle at any frame's end [m]
-  double step_seconds = 0.0;      ///< computing time of the last frame [s]
-  double step_seconds_max = 0.0;  ///< of the longest frame [s]
-  double step_seconds_sum = 0.0;  ///< of all frames [s]
+  std::int64_t estimates_skipped = 0;              ///< frames without the reference run of position_tolerance
+  std::int64_t longer_substeps = 0;                ///< substeps longer than the tensions ask for
+  std::int64_t unfinished_substeps = 0;            ///< substeps that ended before their links had converged
+  std::int64_t shortened_frames = 0;               ///< frames that ended early
+  double lost_time = 0.0;                          ///< motion that these left out [s]
+  std::int64_t late_frames = 0;                    ///< frames that took longer than the budget all the same
+  std::int64_t stops = 0;                          ///< last resort substeps in which the cloth stayed where it was
+  int stops_last = 0;                              ///< in the last frame: the cloth stands, but is not at rest
+  double momentum_cut = 0.0;                       ///< by the last resort, sum over nodes and substeps [N s]
+  double momentum_cut_last = 0.0;                  ///< of it, in the last frame [N s]
+  FrameQuality quality = FrameQuality::kResolved;  ///< of the last frame
+  double obstacles_waited = 0.0;                   ///< delay of obstacles where the cloth could not give way [s]
+  double warp_stretch = 0.0;          ///< largest relative overlength of a warp rod at the last frame's end
+  double weft_stretch = 0.0;          ///< the same of a weft link
+  double warp_compression = 0.0;      ///< largest relative underlength of a warp rod, last frame's end
+  double warp_stretch_max = 0.0;      ///< the largest at any frame's end
+  double weft_stretch_max = 0.0;      ///< the same for weft links
+  double warp_compression_max = 0.0;  ///< the same for underlength of warp rods
+  int contacts = 0;                   ///< contacts that push on an obstacle or the cloth itself at the last frame's end
+  int contacts_max = 0;               ///< the most at any frame's end
+  double penetration_max = 0.0;       ///< deepest penetration of a node into an obstacle at any frame's end [m]
+  double step_seconds = 0.0;          ///< computing time of the last frame [s]
+  double step_seconds_max = 0.0;      ///< of the longest frame [s]
+  double step_seconds_sum = 0.0;      ///< of all frames [s]
   std::array<double, kStageCount> stage_seconds{};  ///< computing time by stage, all frames [s]
   double opening = 0.0;         ///< present place of the master carriers, as rail.opening; 0 without a rail
   double drive_force = 0.0;     ///< of the rail's drive on all masters, mean over the last frame [N]

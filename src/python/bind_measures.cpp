@@ -18,22 +18,22 @@ py::dict statisticsOf(const Simulator& simulator) {
   for (int stage = 0; stage < kStageCount; ++stage)
     stages[stageName(static_cast<Stage>(stage))] = s.stage_seconds.at(static_cast<std::size_t>(stage));
   using namespace py::literals;
-  return py::dict("frames"_a = s.frames, "time"_a = s.time, "substeps"_a = s.substeps,
-                  "substeps_last"_a = s.substeps_last, "sweeps"_a = s.sweeps, "sweeps_last"_a = s.sweeps_last,
-                  "rejected"_a = s.rejected, "last_resort_substeps"_a = s.last_resort_substeps,
-                  "unsettled"_a = s.unsettled, "asleep_frames"_a = s.asleep_frames, "wakes"_a = s.wakes,
-                  "asleep"_a = s.asleep, "estimates_skipped"_a = s.estimates_skipped,
-                  "longer_substeps"_a = s.longer_substeps, "unfinished_substeps"_a = s.unfinished_substeps,
-                  "shortened_frames"_a = s.shortened_frames, "lost_time"_a = s.lost_time,
-                  "late_frames"_a = s.late_frames, "stops"_a = s.stops, "stops_last"_a = s.stops_last,
-                  "momentum_cut"_a = s.momentum_cut, "obstacles_waited"_a = s.obstacles_waited,
-                  "warp_stretch"_a = s.warp_stretch, "weft_stretch"_a = s.weft_stretch,
-                  "warp_compression"_a = s.warp_compression, "warp_stretch_max"_a = s.warp_stretch_max,
-                  "weft_stretch_max"_a = s.weft_stretch_max, "warp_compression_max"_a = s.warp_compression_max,
-                  "contacts"_a = s.contacts, "contacts_max"_a = s.contacts_max, "penetration_max"_a = s.penetration_max,
-                  "step_seconds"_a = s.step_seconds, "step_seconds_max"_a = s.step_seconds_max,
-                  "step_seconds_sum"_a = s.step_seconds_sum, "stage_seconds"_a = stages, "opening"_a = s.opening,
-                  "drive_force"_a = s.drive_force, "position_error"_a = s.position_error, "finite"_a = s.finite);
+  return py::dict(
+      "frames"_a = s.frames, "time"_a = s.time, "substeps"_a = s.substeps, "substeps_last"_a = s.substeps_last,
+      "sweeps"_a = s.sweeps, "sweeps_last"_a = s.sweeps_last, "rejected"_a = s.rejected,
+      "last_resort_substeps"_a = s.last_resort_substeps, "unsettled"_a = s.unsettled,
+      "asleep_frames"_a = s.asleep_frames, "wakes"_a = s.wakes, "asleep"_a = s.asleep,
+      "estimates_skipped"_a = s.estimates_skipped, "longer_substeps"_a = s.longer_substeps,
+      "unfinished_substeps"_a = s.unfinished_substeps, "shortened_frames"_a = s.shortened_frames,
+      "lost_time"_a = s.lost_time, "late_frames"_a = s.late_frames, "stops"_a = s.stops, "stops_last"_a = s.stops_last,
+      "momentum_cut"_a = s.momentum_cut, "momentum_cut_last"_a = s.momentum_cut_last, "quality"_a = toString(s.quality),
+      "obstacles_waited"_a = s.obstacles_waited, "warp_stretch"_a = s.warp_stretch, "weft_stretch"_a = s.weft_stretch,
+      "warp_compression"_a = s.warp_compression, "warp_stretch_max"_a = s.warp_stretch_max,
+      "weft_stretch_max"_a = s.weft_stretch_max, "warp_compression_max"_a = s.warp_compression_max,
+      "contacts"_a = s.contacts, "contacts_max"_a = s.contacts_max, "penetration_max"_a = s.penetration_max,
+      "step_seconds"_a = s.step_seconds, "step_seconds_max"_a = s.step_seconds_max,
+      "step_seconds_sum"_a = s.step_seconds_sum, "stage_seconds"_a = stages, "opening"_a = s.opening,
+      "drive_force"_a = s.drive_force, "position_error"_a = s.position_error, "finite"_a = s.finite);
 }
 
 py::dict workOf(const Simulator& simulator) {

@@ -43,6 +43,8 @@ void Simulator::Impl::sleepThrough() {
   nextFrame(0.0);
   s.substeps_last = 0;
   s.sweeps_last = 0;
+  s.momentum_cut_last = 0.0;
+  s.quality = FrameQuality::kResolved;
   ++s.asleep_frames;
 }
 

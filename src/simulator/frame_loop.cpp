@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulator/frame_loop.h"
 
+#include <algorithm>
+
 #include "step/schemes/composition.h"
 
 namespace curtain {
@@ -8,6 +10,13 @@ namespace {
 
 // Share of its path below which the cloth counts as stopped in a substep.
 constexpr double kStopped = 1e-3;
+
+FrameQuality qualityOf(const SubstepPlan& plan, const SubstepOutcome& outcome, bool stretched) noexcept {
+  if (outcome.share < kStopped) return FrameQuality::kStopped;
+  if (plan.isLastResort()) return FrameQuality::kBounded;
+  if (outcome.late || stretched) return FrameQuality::kHurried;
+  return outcome.settled ? FrameQuality::kResolved : FrameQuality::kUnsettled;
+}
 
 }  // namespace
 
@@ -20,6 +29,8 @@ double FrameLoop::make() {
   motion_.statistics.substeps_last = 0;
   motion_.statistics.sweeps_last = 0;
   motion_.statistics.stops_last = 0;
+  motion_.statistics.momentum_cut_last = 0.0;
+  motion_.statistics.quality = FrameQuality::kResolved;
   motion_.forgetVelocities();
   tally_ = {};
   pins_waited_ = false;
@@ -28,7 +39,10 @@ double FrameLoop::make() {
   const Workers::Shift shift(motion_.workers);
   double done = 0.0;
   while (length - done > 1e-9 * length) {
-    if (budget_.any() && budget_.over(Budget::Clock::now())) return done / length;
+    if (budget_.any() && budget_.over(Budget::Clock::now())) {
+      lowerQuality(FrameQuality::kHurried);
+      return done / length;
+    }
     done += makeSubstep(done);
   }
   return 1.0;
@@ -114,6 +128,8 @@ void FrameLoop::accept(StepControl& steps, const SubstepPlan& plan, const Subste
   if (outcome.share < kStopped) ++s.stops, ++s.stops_last;
   if (plan.isLastResort()) ++s.last_resort_substeps;
   s.momentum_cut += outcome.momentum_cut;
+  s.momentum_cut_last += outcome.momentum_cut;
+  lowerQuality(qualityOf(plan, outcome, steps.stretched()));
   s.obstacles_waited += motion_.lag.substepMade(outcome.share, plan.h);
   steps.accepted(plan, outcome);
   if (&steps != &controls_.main) {
@@ -123,6 +139,10 @@ void FrameLoop::accept(StepControl& steps, const SubstepPlan& plan, const Subste
   pins_waited_ = pins_waited_ || outcome.pins_wait;
   countSubstep(1);
   motion_.substepAccepted(plan.h, outcome);
+}
+
+void FrameLoop::lowerQuality(FrameQuality quality) noexcept {
+  motion_.statistics.quality = std::max(motion_.statistics.quality, quality);
 }
 
 void FrameLoop::countSubstep(int steps) noexcept {

@@ -38,6 +38,7 @@ class FrameLoop {
   SubstepOutcome attemptInTime(const SubstepPlan& plan, double done);
   void reject(StepControl& steps, const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept;
   void accept(StepControl& steps, const SubstepPlan& plan, const SubstepOutcome& outcome) noexcept;
+  void lowerQuality(FrameQuality quality) noexcept;
   void countSubstep(int steps) noexcept;
 
   Motion& motion_;

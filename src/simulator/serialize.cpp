@@ -22,11 +22,14 @@ void serializeStatistics(Archive& archive, Statistics& s) {
     archive.integer("count", *count, 0, kMaxCount);
   for (int* const count : {&s.substeps_last, &s.sweeps_last, &s.stops_last, &s.contacts, &s.contacts_max})
     archive.integer("count_last", *count, 0, kCount);
-  for (double* const number :
-       {&s.time, &s.lost_time, &s.momentum_cut, &s.obstacles_waited, &s.warp_stretch, &s.weft_stretch,
-        &s.warp_compression, &s.warp_stretch_max, &s.weft_stretch_max, &s.warp_compression_max, &s.penetration_max,
-        &s.step_seconds, &s.step_seconds_max, &s.step_seconds_sum, &s.position_error, &s.opening, &s.drive_force})
+  for (double* const number : {&s.time, &s.lost_time, &s.momentum_cut, &s.momentum_cut_last, &s.obstacles_waited,
+                               &s.warp_stretch, &s.weft_stretch, &s.warp_compression, &s.warp_stretch_max,
+                               &s.weft_stretch_max, &s.warp_compression_max, &s.penetration_max, &s.step_seconds,
+                               &s.step_seconds_max, &s.step_seconds_sum, &s.position_error, &s.opening, &s.drive_force})
     archive.number("number", *number);
+  int quality = static_cast<int>(s.quality);
+  archive.integer("quality", quality, 0, kFrameQualityCount - 1);
+  s.quality = static_cast<FrameQuality>(quality);
   for (bool* const flag : {&s.asleep, &s.finite}) archive.flag("flag", *flag);
   for (double& seconds : s.stage_seconds) archive.number("stage_seconds", seconds);
 }

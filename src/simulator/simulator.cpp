@@ -21,6 +21,12 @@ const char* stageName(Stage stage) {
   return kNames.at(static_cast<std::size_t>(stage));
 }
 
+const char* toString(FrameQuality quality) {
+  constexpr std::array<const char*, kFrameQualityCount> kNames = {"resolved", "hurried", "unsettled", "bounded",
+                                                                  "stopped"};
+  return kNames.at(static_cast<std::size_t>(quality));
+}
+
 namespace {
 
 const Scene& judged(const Scene& scene) {

@@ -76,6 +76,7 @@ TEST(BudgetedSimulator, ChangesNoBitWhileThereIsTime) {
       a.step();
       b.step();
       ASSERT_EQ(a.stateHash(), b.stateHash()) << "frame " << frame;
+      ASSERT_EQ(b.statistics().quality, FrameQuality::kResolved) << "frame " << frame;
     }
     EXPECT_EQ(b.statistics().shortened_frames + b.statistics().unfinished_substeps + b.statistics().longer_substeps +
                   b.statistics().estimates_skipped + b.statistics().late_frames,
@@ -90,8 +91,12 @@ TEST(BudgetedSimulator, GivesUpTimeAndNotTheCloth) {
   Simulator simulator(scene);
   double stretch = 0.0;
   for (int frame = 0; frame < 300; ++frame) {
+    const double lost = simulator.statistics().lost_time;
     simulator.step();
     const Statistics& s = simulator.statistics();
+    if (s.lost_time > lost) {
+      EXPECT_GE(s.quality, FrameQuality::kHurried) << "frame " << frame;
+    }
     stretch = std::max({stretch, s.warp_stretch, s.weft_stretch});
     const Piercings pierced = simulator.piercings(0);
     ASSERT_EQ(pierced.nodes + pierced.edges + pierced.faces, 0) << "frame " << frame;

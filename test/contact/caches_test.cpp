@@ -78,7 +78,7 @@ void expectSame(const Contacts& one, const Contacts& other, const std::string& w
   for (std::size_t n = 0; n < one.size(); ++n) {
     const Contact &a = one[n], &b = other[n];
     EXPECT_TRUE(a.node == b.node && a.nodes == b.nodes && a.obstacle == b.obstacle && a.source == b.source) << when;
-    EXPECT_TRUE(a.weight == b.weight && a.normal == b.normal && a.offset == b.offset && a.carried == b.carried) << when;
+    EXPECT_TRUE(a.weight == b.weight && a.normal == b.normal && a.offset == b.offset && a.anchor == b.anchor) << when;
     EXPECT_TRUE(a.friction == b.friction && a.surface_velocity == b.surface_velocity) << when;
     EXPECT_TRUE(a.push == b.push && a.slide == b.slide) << when;
     if (::testing::Test::HasFailure()) return;

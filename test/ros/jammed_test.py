@@ -7,7 +7,7 @@ import unittest
 
 import rospy
 import rostest
-from curtain_sim.msg import Contacts
+from curtain_sim.msg import Contacts, Statistics
 from curtain_testing import OK, WARN, Curtain, Diagnostics, Listener, MovingFrame, distance, points
 from visualization_msgs.msg import MarkerArray
 
@@ -62,6 +62,7 @@ class JammedTest(unittest.TestCase):
         state = self.curtain.wait_for(lambda s: s.statistics.frame > frame + 120, "it would have slept")
         self.assertFalse(state.statistics.asleep)
         self.assertGreater(state.statistics.stops_last, 0)
+        self.assertEqual(state.statistics.quality, Statistics.STOPPED)
 
 
 if __name__ == "__main__":

@@ -57,6 +57,8 @@ inline void expectSameStatistics(const curtain::Statistics& a, const curtain::St
   EXPECT_EQ(a.stops, b.stops);
   EXPECT_EQ(a.stops_last, b.stops_last);
   EXPECT_EQ(a.momentum_cut, b.momentum_cut);
+  EXPECT_EQ(a.momentum_cut_last, b.momentum_cut_last);
+  EXPECT_EQ(a.quality, b.quality);
   EXPECT_EQ(a.obstacles_waited, b.obstacles_waited);
   EXPECT_TRUE(sameBits(a.warp_stretch, b.warp_stretch));
   EXPECT_TRUE(sameBits(a.weft_stretch, b.weft_stretch));

@@ -167,6 +167,8 @@ TEST(StoppedCloth, DoesNotSleep) {
   EXPECT_GT(stopped.statistics().stops_last, 0);
   EXPECT_FALSE(stopped.statistics().asleep);
   EXPECT_EQ(at_rest.statistics().stops_last, 0);
+  EXPECT_EQ(stopped.statistics().quality, FrameQuality::kStopped);
+  EXPECT_EQ(at_rest.statistics().quality, FrameQuality::kResolved);
 }
 
 // A ribbon with a heavy hem, 250 times its own weight, that a bar is pushed into. The hem hangs free: nothing is

@@ -94,6 +94,8 @@ void toMessage(const curtain::Statistics& statistics, curtain_sim::Statistics& m
   message.finite = statistics.finite;
   message.last_resort_substeps = static_cast<std::uint64_t>(statistics.last_resort_substeps);
   message.momentum_cut = statistics.momentum_cut;
+  message.momentum_cut_last = statistics.momentum_cut_last;
+  message.quality = static_cast<std::uint8_t>(statistics.quality);
   message.obstacles_waited = statistics.obstacles_waited;
   message.stops = static_cast<std::uint64_t>(statistics.stops);
   message.stops_last = static_cast<std::uint32_t>(statistics.stops_last);
