@@ -214,6 +214,10 @@ class Simulator {
   /// The same for the fine mesh.
   Piercings finePiercings(int obstacle, double depth_tolerance = 1e-6) const;
 
+  /// Where the first layer's mesh is nearest to an obstacle at its present pose. About as long as a query of the shape
+  /// for every node. An absent obstacle is infinitely far.
+  ObstacleDistance obstacleDistance(int obstacle) const;
+
   /// Force and torque of the cloth on an obstacle, mean over the last frame; zero before the first one.
   ContactWrench contactWrench(int obstacle) const;
   /// Where the cloth presses on obstacles at the end of the last substep, with the mean forces of that substep, sorted

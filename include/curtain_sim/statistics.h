@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <limits>
 
 namespace curtain {
 
@@ -80,6 +81,13 @@ struct Piercings {
   int nodes = 0;  ///< deeper than the tolerance
   int edges = 0;  ///< warp, weft and the quads' diagonals
   int faces = 0;  ///< triangles, two a quad
+};
+
+/// Where the cloth is nearest to an obstacle, or deepest in it; in world axes.
+struct ObstacleDistance {
+  double distance = std::numeric_limits<double>::infinity();  ///< [m], negative inside; infinite: there is no obstacle
+  Eigen::Vector3d on_cloth = Eigen::Vector3d::Zero();         ///< [m]
+  Eigen::Vector3d on_obstacle = Eigen::Vector3d::Zero();      ///< nearest to it on the obstacle's surface [m]
 };
 
 /// Contact force and torque of the cloth on an obstacle, pressure and friction, in world axes.

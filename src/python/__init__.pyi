@@ -50,6 +50,11 @@ class _ContactPoints(TypedDict):
     normal_force: _Array
     friction: _Array
 
+class _ObstacleDistance(TypedDict):
+    distance: float
+    on_cloth: _Array
+    on_obstacle: _Array
+
 class _Piercings(TypedDict):
     nodes: int
     edges: int
@@ -173,6 +178,7 @@ class Simulator:
     def obstacle_present(self, name: str) -> bool: ...
     def contact_wrench(self, name: str) -> _ContactWrench: ...
     def contact_points(self) -> _ContactPoints: ...
+    def obstacle_distance(self, name: str) -> _ObstacleDistance: ...
     def piercings(self, name: str, depth_tolerance: float = 1e-06, fine: bool = False) -> _Piercings: ...
 
     @property

@@ -58,6 +58,15 @@ py::dict contactPoints(const Self& self) {
   return values;
 }
 
+py::dict distanceOf(const Self& self, const std::string& name) {
+  const ObstacleDistance found = self.inspect().obstacleDistance(self.obstacle(name));
+  py::dict values;
+  values["distance"] = found.distance;
+  values["on_cloth"] = toArray(found.on_cloth);
+  values["on_obstacle"] = toArray(found.on_obstacle);
+  return values;
+}
+
 py::dict piercings(const Self& self, const std::string& name, double tolerance, bool fine) {
   if (!(tolerance >= 0.0 && std::isfinite(tolerance)))
     throw py::value_error("tolerance: must be a finite number >= 0 [m], is " +
@@ -134,6 +143,10 @@ void bindObstacles(SimulatorClass& simulator) {
            "obstacle), shape (n, 3); normal_force [N], > 0, shape (n,); friction of the cloth on the obstacle [N], "
            "shape "
            "(n, 3).")
+      .def("obstacle_distance", &distanceOf, py::arg("name"),
+           "Where the cloth is nearest to an obstacle, or deepest in it: the distance [m], negative inside, infinite "
+           "for "
+           "an absent one; on_cloth and on_obstacle, the two points [m].")
       .def(
           "piercings", &piercings, py::arg("name"), py::arg("depth_tolerance") = 1e-6, py::arg("fine") = false,
           "Nodes, edges and faces of the cloth that are deeper than the tolerance [m] in an obstacle or go through it, "

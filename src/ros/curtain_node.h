@@ -38,6 +38,7 @@
 #include "ros/services/control_services.h"
 #include "ros/services/file_services.h"
 #include "ros/services/lock_step.h"
+#include "ros/services/measure_services.h"
 #include "ros/snapshots/snapshot_keeper.h"
 #include "ros/time/clock_publisher.h"
 #include "ros/time/frame_clock.h"
@@ -113,6 +114,7 @@ class CurtainNode {
   std::unique_ptr<ControlServices> control_services_;
   std::unique_ptr<Tuning> tuning_;
   std::unique_ptr<FileServices> file_services_;
+  std::unique_ptr<MeasureServices> measure_services_;
   std::unique_ptr<RoscppWatch> watch_;  // none unless ~watch_roscpp
   Diagnostics diagnostics_;
   std::thread thread_;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "contact/oracle/obstacle_distance.h"
 #include "contact/oracle/piercings.h"
 #include "scene/fnv1a.h"
 #include "scene/ranges.h"
@@ -228,6 +229,13 @@ Work Simulator::work() const { return impl_->motion.step.account().work(); }
 
 std::int64_t Simulator::selfCrossings() const {
   return countSelfCrossings(impl_->pattern.grid, impl_->motion.state.position);
+}
+
+ObstacleDistance Simulator::obstacleDistance(int obstacle) const {
+  const ObstacleSet& obstacles = impl_->motion.obstacles;
+  if (!obstacles.present(obstacle)) return {};
+  return distanceTo(obstacles.shape(obstacle), Transform(obstacles.reached(obstacle)), impl_->pattern.grid,
+                    impl_->motion.state.position);
 }
 
 Piercings Simulator::piercings(int obstacle, double depth_tolerance) const {

@@ -73,7 +73,7 @@ class BadInput(unittest.TestCase):
         self.refused(lambda sim: sim.set_grasp("hand", [0, 0, 2], nodes=[(7, 0), (7, 6)]), "grasp.nodes[1]: must be (row, column)")
 
     def test_names(self):
-        for method in ("obstacle_pose", "obstacle_target", "obstacle_lag", "obstacle_present", "contact_wrench", "piercings"):
+        for method in ("obstacle_pose", "obstacle_target", "obstacle_lag", "obstacle_present", "contact_wrench", "obstacle_distance", "piercings"):
             self.refused(lambda sim, method=method: getattr(sim, method)("bal"), 'there is no obstacle "bal", there are ball')
         self.refused(lambda sim: sim.set_obstacle_present("bal", True), 'no obstacle "bal"')
         self.refused(lambda sim: sim.move_grasp("hand", [0, 0, 0]), 'no grasp "hand" holds')

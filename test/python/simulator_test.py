@@ -241,6 +241,10 @@ class Parts(unittest.TestCase):
         distances = numpy.linalg.norm(points["position"] - position, axis=1)
         assert_allclose(distances, 0.2, atol=0.05)  # on its surface, or on an element that bridges it
         assert_array_equal(sim.contact_wrench("far")["force"], 0.0)
+        near = sim.obstacle_distance("ball")
+        self.assertLess(abs(near["distance"]), 0.01)  # it touches
+        self.assertAlmostEqual(numpy.linalg.norm(near["on_cloth"] - near["on_obstacle"]), abs(near["distance"]), delta=1e-12)
+        self.assertGreater(sim.obstacle_distance("far")["distance"], 0.1)
         self.assertEqual(sim.piercings("ball"), {"nodes": 0, "edges": 0, "faces": 0})
         self.assertEqual(sim.piercings("ball", fine=True)["nodes"], 0)
         self.assertEqual(sim.self_crossings(), 0)

@@ -17,15 +17,17 @@ import rostest
 from actionlib import ActionClient, CommState
 from actionlib_msgs.msg import GoalStatus
 from curtain_sim.msg import GraspAction, GraspGoal, GraspResult, WindSource
-from curtain_sim.srv import ExportMesh, Load, Save, Step
+from curtain_sim.srv import Distance, ExportMesh, Load, Save, Step
 from curtain_testing import (OK, Curtain, Diagnostics, NodeProcess, assert_stream_is_sound, billow, distance,
                              node_position, publisher, wait_until, wind_message)
 from std_srvs.srv import SetBool, Trigger
 
 NODE = "/stage/curtain"
 ROWS, COLUMNS, FOLDS = 10, 8, 3
+BALL, RADIUS = (0.35, 1.5, 1.6), 0.2
 TRIANGLES = 2 * (ROWS - 1) * (COLUMNS - 1) * FOLDS
-TYPES = {"reset": Trigger, "pause": SetBool, "step": Step, "save": Save, "load": Load, "export_mesh": ExportMesh}
+TYPES = {"reset": Trigger, "pause": SetBool, "step": Step, "save": Save, "load": Load, "export_mesh": ExportMesh,
+         "distance": Distance}
 AWAKE = {"cloth": {"rows": 10, "columns": 8}, "solver": {"rest_speed": 0.0, "substeps": 64}}  # 100000 frames take a while
 CALLER = """
 import rospy
@@ -278,6 +280,22 @@ class ServicesTest(unittest.TestCase):
                 self.assertLess(distance(corners[3 * k:3 * k + 3], vertices[vertex]), 1e-6)
         for name in os.listdir(self.folder):
             os.remove(self.path(name))
+
+    def test_distance(self):
+        """As far from the ball as the nearest node of ~state, or nearer by what its quad's flatness makes."""
+        self.good(self.call.pause(True))
+        state = self.state_of(self.good(self.call.step(1)).frame)
+        answer = self.good(self.call.distance([]))
+        self.assertEqual((answer.names, answer.frame_id), (["ball"], state.header.frame_id))
+        self.assertEqual(answer.simulated_time, state.statistics.simulated_time)
+        nodes = min(distance(node_position(state, row, column), BALL) for row in range(ROWS) for column in range(COLUMNS)) - RADIUS
+        self.assertLessEqual(answer.distances[0], nodes + 1e-6)
+        self.assertGreater(answer.distances[0], nodes - 0.01, "half of a link of 0.1 m at 1 m: 1.3 mm on a plane")
+        points = [(p.x, p.y, p.z) for p in (answer.on_cloth[0], answer.on_obstacle[0])]
+        self.assertAlmostEqual(distance(*points), answer.distances[0], delta=1e-9)
+        self.assertAlmostEqual(distance(points[1], BALL), RADIUS, delta=1e-9)
+        self.assertEqual(self.good(self.call.distance(["ball", "ball"])).distances, 2 * answer.distances)
+        self.refused(self.call.distance(["bal"]), "no obstacle 'bal'", "'ball'")
 
     def test_a_caller_that_dies_holds_up_nobody(self):
         """Killed while its 100000 frames are made: others get theirs, and the stream goes on at 60 Hz."""
