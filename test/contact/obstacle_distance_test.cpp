@@ -92,6 +92,27 @@ TEST(ObstacleDistance, IsThatOfDenseSamplesOfTheCloth) {
   compare(TriangleMeshShape(curtain_test::bumpySphere(12, 14, 0.3)), "bumpy mesh", 300);
 }
 
+// One large quad in a plane, above everything.
+Field3 plate(const Grid& grid, double height) {
+  Field3 position;
+  position.assign(grid.size(), 1e9);
+  for (int k = 0; k < 4; ++k)
+    position.set(grid.index(k / 2, k % 2), Vec3(k % 2 == 0 ? -5.0 : 4.0, k / 2 == 0 ? -5.0 : 4.0, height));
+  return position;
+}
+
+TEST(ObstacleDistance, IsOfAFaceOverACorner) {
+  const Grid grid(2, 2, false);
+  const TriangleMeshShape box(curtain_test::kBox.triangles());
+  const Vec3 corner(0.5, 0.8, 0.3);
+  Pose pose;
+  pose.orientation = Eigen::Quaterniond::FromTwoVectors(corner, Vec3::UnitZ());
+  const ObstacleDistance found = distanceTo(box, Transform(pose), grid, plate(grid, 2.0));
+  EXPECT_NEAR(found.distance, 2.0 - corner.norm(), 1e-12);
+  EXPECT_LT((found.on_obstacle - Vec3(0.0, 0.0, corner.norm())).norm(), 1e-12);
+  EXPECT_LT((found.on_cloth - Vec3(0.0, 0.0, 2.0)).norm(), 1e-12);
+}
+
 TEST(ObstacleDistance, IsOfAnEdgeBetweenItsNodes) {
   const Grid grid(2, 2, false);
   Field3 position;
