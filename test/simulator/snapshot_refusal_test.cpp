@@ -220,8 +220,8 @@ void useAll(Simulator& simulator) {
 TEST_F(Refusal, IsOrNoHarmIsDoneWhenTheChecksumIsRight) {
   SnapshotParts parts;
   ASSERT_FALSE(unpackSnapshot(snapshot_, parts).has_value());
-  const auto first = static_cast<std::size_t>(parts.carried.data() - snapshot_.data());
-  const std::size_t end = first + parts.carried.size();
+  const auto first = static_cast<std::size_t>(parts.state.data() - snapshot_.data());
+  const std::size_t end = first + parts.state.size();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const double numbers[] = {kInfinity, -kInfinity, std::nan(""), 1e300, -1e300, 1e-300, 5e-324, 0.0, -0.0, -1.0, 1e9};
   const std::uint64_t counts[] = {0,    1,        ~std::uint64_t{0}, std::uint64_t{1} << 63,
@@ -280,7 +280,7 @@ TEST_F(Refusal, IsOfBadHeadersWithARightChecksum) {
   // A nest of lists and a list of lists by name.
   const std::string bomb = "a: &a [1, 1]\nb: &b [*a, *a]\nc: &c [*b, *b]\ncloth: [*c, *c]\n";
   for (const std::string& scene : {std::string(100000, '['), bomb}) {
-    expectRefused(packSnapshot({parts.layout, scene, parts.carried}), "");
+    expectRefused(packSnapshot({parts.layout, scene, parts.state}), "");
   }
 }
 
