@@ -91,22 +91,22 @@ std::uint64_t hostileCount(Choices& choices) {
   return counts[choices.below(std::size(counts))];
 }
 
-// One thing that is carried becomes something else, or is gone, or comes twice.
-void change(Choices& choices, std::string& carried) {
-  if (carried.empty()) return;
-  const std::size_t at = choices.below(carried.size());
+// One thing that is state becomes something else, or is gone, or comes twice.
+void change(Choices& choices, std::string& state) {
+  if (state.empty()) return;
+  const std::size_t at = choices.below(state.size());
   switch (choices.below(5)) {
     case 0:
-      return overwrite(carried, at, hostileNumber(choices));
+      return overwrite(state, at, hostileNumber(choices));
     case 1:
-      return overwrite(carried, at, hostileCount(choices));
+      return overwrite(state, at, hostileCount(choices));
     case 2:
-      return overwrite(carried, at, static_cast<char>(choices.below(256)));
+      return overwrite(state, at, static_cast<char>(choices.below(256)));
     case 3:
-      carried.erase(at, 1 + choices.below(64));
+      state.erase(at, 1 + choices.below(64));
       return;
     default:
-      carried.insert(at, carried.substr(at, 1 + choices.below(64)));
+      state.insert(at, state.substr(at, 1 + choices.below(64)));
       return;
   }
 }
@@ -129,9 +129,9 @@ void checkSnapshot(const std::string& bytes) {
   const Sample& good = sample(choices.below(std::size(kScenes)));
   curtain::SnapshotParts parts;
   require(!curtain::unpackSnapshot(good.snapshot, parts), "the sample is a snapshot");
-  std::string carried(parts.carried);
-  for (std::uint64_t changes = 1 + choices.below(4); changes > 0; --changes) change(choices, carried);
-  parts.carried = carried;
+  std::string state(parts.state);
+  for (std::uint64_t changes = 1 + choices.below(4); changes > 0; --changes) change(choices, state);
+  parts.state = state;
   const std::string changed = curtain::packSnapshot(parts);
 
   Simulator simulator(good.scene);
