@@ -25,7 +25,7 @@ using curtain::Archive;
 
 constexpr std::string_view kMagic = "curtain checkpoint\n";
 /// To be raised with every change of what serialize() lists, or of its meaning.
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 constexpr std::size_t kHeader = kMagic.size() + sizeof(std::uint32_t) + sizeof(std::uint64_t);
 constexpr std::size_t kChecksum = sizeof(std::uint32_t);
 
@@ -45,6 +45,7 @@ void serialize(Archive& archive, RunIdentity& run, Progress& progress, std::stri
   archive.number("kinetic", sums.initial.kinetic);
   archive.number("potential", sums.initial.potential);
   archive.list("frame_seconds", sums.frame_seconds, [&](double& seconds) { archive.number("seconds", seconds); });
+  for (std::int64_t& frames : sums.frames_of) archive.integer("frames_of_quality", frames, 0, kHighest);
   archive.list("loads", sums.loads, [&](curtain::ContactWrench& load) {
     archive.numbers("force", load.force);
     archive.numbers("torque", load.torque);

@@ -145,6 +145,7 @@ void writeMesh(const Simulator& simulator, const std::string& path) {
 
 void RunSums::add(const Simulator& simulator) {
   frame_seconds.push_back(simulator.statistics().step_seconds);
+  ++frames_of[static_cast<std::size_t>(simulator.statistics().quality)];
   loads.resize(static_cast<std::size_t>(simulator.obstacleCount()));
   for (int obstacle = 0; obstacle < simulator.obstacleCount(); ++obstacle) {
     ContactWrench& mean = loads[static_cast<std::size_t>(obstacle)];
@@ -178,6 +179,8 @@ std::string statisticsJson(const Simulator& simulator, const RunSums& run) {
                           {"max", 1e3 * quantile(run.frame_seconds, 1.0)}};
   json["substeps_mean"] = s.frames > 0 ? static_cast<double>(s.substeps) / static_cast<double>(s.frames) : 0.0;
   json["sweeps_mean"] = s.substeps > 0 ? static_cast<double>(s.sweeps) / static_cast<double>(s.substeps) : 0.0;
+  for (std::size_t n = 0; n < run.frames_of.size(); ++n)
+    json["quality"][toString(static_cast<FrameQuality>(n))] = run.frames_of[n];
   json["position_error"] = s.position_error;
   json["substeps_rejected"] = s.rejected;
   json["last_resort_substeps"] = s.last_resort_substeps;

@@ -3,6 +3,8 @@
 // States, meshes and statistics as files. All throw std::runtime_error naming the file when it can't be written.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <iosfwd>
 #include <optional>
 #include <string>
@@ -35,9 +37,10 @@ void writeMesh(const Simulator& simulator, const std::string& path);
 
 /// What frames of a run add up to.
 struct RunSums {
-  Energy initial;                     ///< where the run began
-  std::vector<double> frame_seconds;  ///< computing time of every frame so far [s]
-  std::vector<ContactWrench> loads;   ///< by obstacle: means so far, over the time that the forces acted for
+  Energy initial;                                            ///< where the run began
+  std::vector<double> frame_seconds;                         ///< computing time of every frame so far [s]
+  std::array<std::int64_t, kFrameQualityCount> frames_of{};  ///< frames by their FrameQuality
+  std::vector<ContactWrench> loads;  ///< by obstacle: means so far, over the time that the forces acted for
 
   /// After a frame.
   void add(const Simulator& simulator);

@@ -115,6 +115,8 @@ TEST_F(Options, StatisticsHaveTheKeysThatToolsRead) {
   EXPECT_LE(json.at("ms_per_frame").at("p99"), json.at("ms_per_frame").at("max"));
   EXPECT_EQ(json.at("nodes").get<int>(), 20);
   EXPECT_EQ(json.at("frames").get<int>(), 6);
+  EXPECT_EQ(json.at("quality").at("resolved").get<int>(), 6);
+  EXPECT_EQ(json.at("quality").size(), static_cast<std::size_t>(curtain::kFrameQualityCount));
   EXPECT_DOUBLE_EQ(json.at("simulated_s").get<double>(), 0.1);
   EXPECT_DOUBLE_EQ(json.at("substeps_mean").get<double>(), 8.0);
   EXPECT_LE(json.at("stretch_max").at("warp").get<double>(), 1e-3);

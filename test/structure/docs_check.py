@@ -315,11 +315,18 @@ class Described(unittest.TestCase):
             self.all_described(fields, "docs/messages.md", 1)
         self.all_described(re.findall(r"^\w+ +(\w+)", read("msg/Statistics.msg"), re.M), "docs/messages.md", 30)
 
+    def test_version_of_snapshots(self):
+        version = re.search(r"kSnapshotVersion = (\d+)", read("src/simulator/snapshot_format.h")).group(1)
+        self.assertIn("format version, %s |" % version, read("docs/snapshots.md"))
+
     def test_statistics_of_curtain_batch(self):
         text = read("src/simulator/export.cpp")
         keys = set(re.findall(r"json\[\"(\w+)\"\]", text)) | set(re.findall(r"\{\"(\w+)\", ", text))
-        stages = set(re.findall(r"case Stage::\w+: return \"(\w+)\"", read("src/simulator/simulator.cpp")))
-        self.all_described(keys | stages, "docs/batch.md", 40)
+        names = {count: set(re.findall(r"\"(\w+)\"", list)) for count, list in
+                 re.findall(r"(\w+)> kNames = \{(.*?)\}", read("src/simulator/simulator.cpp"), re.S)}
+        stages, qualities = names["kStageCount"], names["kFrameQualityCount"]
+        self.assertEqual((len(stages), len(qualities)), (7, 5))
+        self.all_described(keys | stages | qualities, "docs/batch.md", 40)
         table = read("docs/architecture.md")
         for stage in stages:
             self.assertRegex(table, r"(?m)^\| %s \|" % stage)

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "curtain_sim/statistics.h"
+
 namespace curtain_ros {
 
 using diagnostic_msgs::DiagnosticStatus;
@@ -99,6 +101,7 @@ void checkSimulation(const Health& health, const Pulse& pulse, Rises& rises, Dia
   report.value("largest stretch", stretch);
   report.value("stretch tolerance", health.stretch_tolerance);
   report.value("asleep", s.asleep ? "yes" : "no");
+  report.value("quality of the last frame", curtain::toString(static_cast<curtain::FrameQuality>(s.quality)));
   report.value("stops in the last frame", s.stops_last);
   report.value("restarts", s.restarts);
   report.otherwise(health.paused ? "paused" : "runs");
