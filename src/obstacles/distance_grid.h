@@ -29,13 +29,14 @@ class DistanceGrid {
   /// About `cell_count` cubic cells over `bounds` [m], each filled by one call of `distance`.
   DistanceGrid(const Eigen::AlignedBox3d& bounds, double cell_count, const Distance& distance);
 
-  /// Bounds of the distance at any finite point [m].
+  /// Bounds of the distance at a point [m]; NaN where that is not finite.
   Bracket bracket(const Vec3& point) const noexcept {
     std::array<int, 3> cell;
     for (int i = 0; i < 3; ++i) {
       const double steps = (point[i] - low_[i]) / cell_size_;
       const auto axis = static_cast<std::size_t>(i);
-      cell[axis] = static_cast<int>(std::clamp(steps, 0.0, static_cast<double>(counts_[axis] - 1)));
+      const double last = counts_[axis] - 1;
+      cell[axis] = static_cast<int>(std::min(std::max(0.0, steps), last));  // in this order NaN becomes 0
     }
     const double distance = static_cast<double>(distances_[index(cell)]);
     const double away = (point - centre(cell)).norm() + margin_;

@@ -27,9 +27,7 @@ void serializeStatistics(Archive& archive, Statistics& s) {
                                &s.weft_stretch_max, &s.warp_compression_max, &s.penetration_max, &s.step_seconds,
                                &s.step_seconds_max, &s.step_seconds_sum, &s.position_error, &s.opening, &s.drive_force})
     archive.number("number", *number);
-  int quality = static_cast<int>(s.quality);
-  archive.integer("quality", quality, 0, kFrameQualityCount - 1);
-  s.quality = static_cast<FrameQuality>(quality);
+  archive.integer("quality", s.quality, 0, kFrameQualityCount - 1);
   for (bool* const flag : {&s.asleep, &s.finite}) archive.flag("flag", *flag);
   for (double& seconds : s.stage_seconds) archive.number("stage_seconds", seconds);
 }

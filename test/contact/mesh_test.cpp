@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "contact/all_triangles.h"
@@ -201,6 +202,20 @@ TEST(Mesh, AnswersForTwoHundredThousandTriangles) {
     SurfacePoint surface;
     ASSERT_TRUE(shape.query(anywhere[k], anywhere[k], 5.0, surface));
     EXPECT_NEAR(std::abs(surface.distance), bruteDistance(mesh, anywhere[k]), 1e-12);
+  }
+}
+
+// What a state from a damaged file may come to within a step, before the step is refused.
+TEST(TriangleMesh, IsNowhereNearWhatIsNoPoint) {
+  const TriangleMeshShape shape(bumpySphere(12, 14, 0.3));
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  SurfacePoint surface;
+  for (const double bad : {nan, infinity, -infinity}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 point(0.1, 0.2, 0.3);
+      point[axis] = bad;
+      EXPECT_FALSE(shape.query(point, point, 1.0, surface)) << bad << " along axis " << axis;
+    }
   }
 }
 

@@ -30,7 +30,7 @@ class Machines(SweepTest):
                    "PasswordAuthentication no\nKbdInteractiveAuthentication no\nUsePAM no\n" % (port, self.of("host"), self.of("pid"), self.of("user.pub")))
         # One connection a machine for all that parallel and rsync do.
         self.write("ssh_config", "Host *\nPort %d\nUser %s\nIdentityFile %s\nIdentitiesOnly yes\nUserKnownHostsFile /dev/null\n"
-                   "StrictHostKeyChecking no\nLogLevel ERROR\nControlMaster auto\nControlPath %s/%%h\nControlPersist 3\n" %
+                   "StrictHostKeyChecking no\nLogLevel ERROR\nControlMaster auto\nControlPath %s/%%h\nControlPersist 60\n" %
                    (port, getpass.getuser(), self.of("user"), self.folder))
         self.server = subprocess.Popen([SSHD, "-D", "-f", self.of("sshd_config"), "-E", self.of("sshd.log")])
         self.addCleanup(self.stop)
