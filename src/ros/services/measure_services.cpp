@@ -33,7 +33,7 @@ bool MeasureServices::distance(curtain_sim::Distance::Request& request, curtain_
   for (const std::string& name : response.names) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     response.names.clear();
-    response.message = "there is no obstacle '" + name + "', known are";
+    response.message = "there is no obstacle '" + name + (known.empty() ? "': the scene has none" : "', known are");
     for (const std::string& each : known) response.message += " '" + each + "'";
     return true;
   }
