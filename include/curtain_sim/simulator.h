@@ -214,8 +214,8 @@ class Simulator {
   /// The same for the fine mesh.
   Piercings finePiercings(int obstacle, double depth_tolerance = 1e-6) const;
 
-  /// Where the first layer's mesh is nearest to an obstacle at its present pose. About as long as a query of the shape
-  /// for every node. An absent obstacle is infinitely far.
+  /// Where the first layer's mesh is nearest to an obstacle at its present pose, by a query of the shape for every node
+  /// (slow for large meshes). An absent obstacle is infinitely far.
   ObstacleDistance obstacleDistance(int obstacle) const;
 
   /// Force and torque of the cloth on an obstacle, mean over the last frame; zero before the first one.

@@ -89,7 +89,7 @@ void fillBending(const ClothParams& cloth, ClothPattern& pattern);
 void fillTurningLengths(const ClothPattern& pattern, Field& warp, Field& weft) noexcept;
 
 /// Pins these nodes beside those of the scene, and frees all others; inverse masses and bending follow. Whoever keeps
-/// something that follows from them must be set again: Simulator::Impl::pinsChanged() tells all of them.
+/// something that depends on them must update it: Simulator::Impl::pinsChanged() tells all of them.
 ///   held  by node, kFree or how it is held; read where scene_pins has kFree
 void pinBeside(const std::vector<std::uint8_t>& held, const ClothParams& cloth, ClothPattern& pattern) noexcept;
 
