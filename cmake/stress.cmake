@@ -7,6 +7,7 @@ foreach(program curtain_stress curtain_soak)
   target_include_directories(${program} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/test ${CMAKE_CURRENT_SOURCE_DIR}/src)
   target_link_libraries(${program} PRIVATE curtain_engine curtain_warnings)
 endforeach()
+curtain_unite(curtain_stress)
 # The default, and the two that do not share its steps; the others differ little, or keep nothing.
 foreach(method auto leapfrog4 implicit)
   add_test(NAME stress_${method} COMMAND curtain_stress --method ${method})

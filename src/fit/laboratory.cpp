@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kGravity = 9.81;  // [m/s^2], where cloth was measured; what differs from place to place is 0.5 %
 
-std::string number(double value) {
+std::string fourDigits(double value) {
   std::ostringstream text;
   text.precision(4);
   text << value;
@@ -100,14 +100,14 @@ class Maker {
     if (twist > 0.0 && std::isfinite(twist)) {
       // Wide cloth bent along the bias: B45 = (B_warp + B_weft) / 4 + D_t.
       add("bending_bias", cloth.bending_bias, 0.25 * (cloth.bending_warp + cloth.bending_weft) + twist,
-          comment(measured) + " of " + of + ", twist D_t = " + number(twist) + " N m");
+          comment(measured) + " of " + of + ", twist D_t = " + fourDigits(twist) + " N m");
       return;
     }
     cloth.bending_bias = 0.0;
-    preset_.notes.push_back("bending along the bias, " + number(rigidity_along) + " N m of " + of + ", is " +
+    preset_.notes.push_back("bending along the bias, " + fourDigits(rigidity_along) + " N m of " + of + ", is " +
                             (sample == BiasSample::kWide ? "less than warp and weft alone give"
                                                          : "more than any stiffness to twist gives") +
-                            " (D_t = " + number(twist) + " N m): no stiffness to twist is set");
+                            " (D_t = " + fourDigits(twist) + " N m): no stiffness to twist is set");
   }
 
   void noteFriction() {

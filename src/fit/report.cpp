@@ -9,7 +9,7 @@ namespace curtain_fit {
 namespace {
 
 // Six digits: more than anything of a fabric is known by.
-std::string number(double value) {
+std::string sixDigits(double value) {
   std::ostringstream text;
   text.precision(6);
   text << value;
@@ -17,7 +17,7 @@ std::string number(double value) {
 }
 
 void write(const PresetKey& key, std::ostringstream& out) {
-  out << "  " << key.name << ": " << number(key.value) << "  # " << key.comment << '\n';
+  out << "  " << key.name << ": " << sixDigits(key.value) << "  # " << key.comment << '\n';
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ std::string describe(const std::vector<DrapeReading>& readings, int nodes) {
   const DrapeSummary summary = summaryOf(readings);
   const auto moving = std::count_if(readings.begin(), readings.end(), [](const DrapeReading& r) { return !r.at_rest; });
   std::ostringstream out;
-  out << percent(summary.mean) << " % +- " << percent(summary.spread) << ", " << number(summary.folds) << " folds ("
+  out << percent(summary.mean) << " % +- " << percent(summary.spread) << ", " << sixDigits(summary.folds) << " folds ("
       << readings.size() << " starts, " << nodes << " x " << nodes << " nodes";
   if (moving > 0) out << ", " << moving << " not at rest";
   out << ")";
@@ -56,7 +56,7 @@ std::string yamlOf(const std::vector<DrapeReading>& readings, int nodes) {
   std::ostringstream out;
   out << "nodes: " << nodes << "\ncoefficient: " << percent(summary.mean)
       << "  # %, mean of the starts\nspread: " << percent(summary.spread)
-      << "  # standard deviation\nfolds: " << number(summary.folds)
+      << "  # standard deviation\nfolds: " << sixDigits(summary.folds)
       << "\nstarts:  # rim's height where it meets the warp and weft through the middle, and time until it is at "
          "rest\n";
   for (const DrapeReading& reading : readings) {

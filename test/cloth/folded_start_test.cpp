@@ -21,7 +21,7 @@ using curtain_test::Random;
 using curtain_test::ringScene;
 
 // Positions are rounded to eps of their size (below 8 m here) at both ends of a link, after at most `rows` additions.
-constexpr double kRounding = 64.0 * 8.0 * kEps;  // [m] 1.1e-13
+constexpr double kFoldRounding = 64.0 * 8.0 * kEps;  // [m] 1.1e-13
 
 Scene pushing(Scene scene) {
   scene.cloth.surface_density = 0.2;
@@ -44,8 +44,8 @@ Scene limp(Scene scene) {
   return scene;
 }
 
-struct Start {
-  explicit Start(const Scene& scene)
+struct FoldedStart {
+  explicit FoldedStart(const Scene& scene)
       : pattern(makePattern(scene)), position(makeInitialState(scene, pattern).position) {}
   Vec3 at(int i, int j) const { return position.at(pattern.grid.index(i, j)); }
   // Lengths of rods, or wefts, over those at rest: the smallest and the largest.
@@ -67,26 +67,26 @@ TEST(FoldedStart, LinksHaveTheirLengthsAndPinsTheirPlaces) {
   for (const int every : {2, 3, 4, 8}) {
     for (const double share : {0.5, 0.6, 0.8, 0.99}) {
       const Scene scene = gathered(20, 25, 1.5, share, every);
-      const Start start(scene), plain(limp(scene));
+      const FoldedStart start(scene), plain(limp(scene));
       SCOPED_TRACE(std::to_string(every) + ". column, gathered to " + std::to_string(share));
       EXPECT_NEAR(start.lengths(true).first, 1.0, 1e-12);
       EXPECT_NEAR(start.lengths(true).second, 1.0, 1e-12);
       // A bisection of angles ends at 1e-11 of them.
       EXPECT_NEAR(start.lengths(false).first, 1.0, 1e-9);
       EXPECT_LE(start.lengths(false).second, 1.0 + 1e-11);
-      for (int j = 0; j < 25; j += every) EXPECT_LE((start.at(0, j) - plain.at(0, j)).norm(), kRounding);
+      for (int j = 0; j < 25; j += every) EXPECT_LE((start.at(0, j) - plain.at(0, j)).norm(), kFoldRounding);
     }
   }
 }
 
 TEST(FoldedStart, FrontsAndBacksAlternate) {
-  const Start start(gathered(6, 13, 1.2, 0.6, 3));
+  const FoldedStart start(gathered(6, 13, 1.2, 0.6, 3));
   const Vec3 front(0.8, -0.6, 0.0);
   const auto out = [&](int row, int j) { return (start.at(row, j) - start.at(0, 0)).dot(front); };
   for (int row = 0; row < 6; ++row) {
     for (int j = 1; j < 12; ++j) {
       if (j % 3 == 0) {
-        EXPECT_NEAR(out(row, j), 0.0, kRounding);
+        EXPECT_NEAR(out(row, j), 0.0, kFoldRounding);
       } else {
         EXPECT_GT(std::abs(out(row, j)), 0.05);
         if (j > 3) {
@@ -100,13 +100,13 @@ TEST(FoldedStart, FrontsAndBacksAlternate) {
 // Where every node of the top row is pinned it is straight; folds grow down from there.
 TEST(FoldedStart, FoldsGrowDownFromAStraightTop) {
   const Scene scene = gathered(40, 40, 1.0, 0.6, 1);
-  const Start start(scene), plain(limp(scene));
+  const FoldedStart start(scene), plain(limp(scene));
   const Vec3 front(0.8, -0.6, 0.0);
   double before = -1.0;
   for (int i = 0; i < 40; ++i) {
     double deepest = 0.0;
     for (int j = 0; j < 40; ++j) {
-      EXPECT_LE((start.at(0, j) - plain.at(0, j)).norm(), kRounding);
+      EXPECT_LE((start.at(0, j) - plain.at(0, j)).norm(), kFoldRounding);
       deepest = std::max(deepest, std::abs((start.at(i, j) - plain.at(i, j)).dot(front)));
     }
     EXPECT_GE(deepest, before - 1e-6) << "row " << i;
@@ -123,7 +123,7 @@ TEST(FoldedStart, FoldsGrowDownFromAStraightTop) {
 TEST(FoldedStart, LimpClothIsNotFlatEither) {
   Scene scene = gathered(40, 40, 1.0, 0.6, 1);
   scene.cloth.bending_weft = 1e-9;
-  const Start start(scene), plain(limp(scene));
+  const FoldedStart start(scene), plain(limp(scene));
   const Vec3 front(0.8, -0.6, 0.0);
   for (int j = 1; j < 39; j += 2) EXPECT_GT(std::abs((start.at(39, j) - plain.at(39, j)).dot(front)), 1e-3);
   EXPECT_NEAR(start.lengths(true).second, 1.0, 1e-12);
@@ -131,9 +131,9 @@ TEST(FoldedStart, LimpClothIsNotFlatEither) {
 
 TEST(FoldedStart, ClothThatDoesNotPushLiesFlat) {
   Scene scene = gathered(9, 13, 1.0, 0.6, 3);
-  const Start plain(limp(scene));
+  const FoldedStart plain(limp(scene));
   scene.cloth.bending_weft = 0.0;
-  const Start unbending(scene);
+  const FoldedStart unbending(scene);
   EXPECT_EQ(plain.position.x, unbending.position.x);
   EXPECT_EQ(plain.position.y, unbending.position.y);
   EXPECT_EQ(plain.position.z, unbending.position.z);
@@ -141,9 +141,9 @@ TEST(FoldedStart, ClothThatDoesNotPushLiesFlat) {
 
 TEST(FoldedStart, ClothAsWideAsItsEdgeIsFlat) {
   const Scene scene = pushing(flatScene(9, 16));
-  const Start start(scene), plain(limp(scene));
+  const FoldedStart start(scene), plain(limp(scene));
   for (std::size_t n = 0; n < start.pattern.grid.size(); ++n)
-    ASSERT_LE((start.position.at(n) - plain.position.at(n)).norm(), kRounding);
+    ASSERT_LE((start.position.at(n) - plain.position.at(n)).norm(), kFoldRounding);
 }
 
 TEST(FoldedStart, RingsFoldToTheirOutside) {
@@ -151,7 +151,7 @@ TEST(FoldedStart, RingsFoldToTheirOutside) {
   scene.hang.radius = 0.2;
   scene.pins.kind = PinKind::kList;
   for (int j = 0; j < 48; j += 6) scene.pins.nodes.push_back({0, j});
-  const Start start(scene);
+  const FoldedStart start(scene);
   EXPECT_NEAR(start.lengths(true).second, 1.0, 1e-12);
   EXPECT_GT(start.lengths(false).first, 0.9);  // 0.63 without folds
   EXPECT_LE(start.lengths(false).second, 1.0 + 1e-11);
@@ -159,7 +159,7 @@ TEST(FoldedStart, RingsFoldToTheirOutside) {
   for (int i = 0; i < 12; ++i) {
     for (int j = 0; j < 48; ++j) {
       const Vec3 out = start.at(i, j) - scene.hang.from;
-      EXPECT_GE(std::sqrt(out.x() * out.x() + out.y() * out.y()), least - kRounding);
+      EXPECT_GE(std::sqrt(out.x() * out.x() + out.y() * out.y()), least - kFoldRounding);
     }
   }
 }
@@ -173,7 +173,7 @@ TEST(FoldedStart, ClothOnARailFoldsBetweenItsCarriers) {
   ASSERT_TRUE(validate(scene).empty()) << describe(validate(scene));
   for (const double opening : {0.0, 0.3}) {
     scene.rail.opening = opening;
-    const Start start(scene);
+    const FoldedStart start(scene);
     EXPECT_NEAR(start.lengths(true).second, 1.0, 1e-12);
     EXPECT_GT(start.lengths(false).first, 0.99) << opening;
     EXPECT_LE(start.lengths(false).second, 1.0 + 1e-11);
@@ -183,7 +183,7 @@ TEST(FoldedStart, ClothOnARailFoldsBetweenItsCarriers) {
 // Between pins shear bears whole columns: the cells on either side pull up what they weigh, to rounding.
 TEST(FoldedStart, ColumnsHangByShearAsTheyWeigh) {
   const Scene scene = gathered(15, 25, 1.5, 0.6, 4);
-  const Start start(scene);
+  const FoldedStart start(scene);
   const double rest = 1.5 / 24.0, height = scene.cloth.height;
   for (int j = 1; j < 24; ++j) {
     if (j % 4 == 0) continue;
@@ -228,13 +228,13 @@ TEST(FoldedStart, KeepsRodsAndOverstretchesNothingInRandomScenes) {
     const Scene scene = randomScene(random);
     if (!validate(scene).empty()) continue;
     SCOPED_TRACE("scene " + std::to_string(tried++));
-    const Start start(scene), plain(limp(scene));
+    const FoldedStart start(scene), plain(limp(scene));
     ASSERT_NEAR(start.lengths(true).first, 1.0, 1e-11);
     ASSERT_NEAR(start.lengths(true).second, 1.0, 1e-11);
     // Tapered rows are no longer straight where rods slant; without folds, too, some wefts start too long for that.
     ASSERT_LE(start.lengths(false).second, std::max(1.0, plain.lengths(false).second) + 1e-11);
     for (const NodeIndex& pin : scene.pins.nodes)
-      ASSERT_LE((start.at(pin.row, pin.column) - plain.at(pin.row, pin.column)).norm(), kRounding);
+      ASSERT_LE((start.at(pin.row, pin.column) - plain.at(pin.row, pin.column)).norm(), kFoldRounding);
     double longer = 0.0;
     forEachLink(start.pattern, [&](std::size_t a, std::size_t b, double, bool rod) {
       if (!rod)

@@ -32,7 +32,7 @@ Scene pleatedScene(Heading heading, double fullness, int columns = 73) {
 
 // Positions of some metres are rounded to eps of their size at each of at most 73 additions, and the angles' size to
 // eps of pi, which all links add to.
-constexpr double kRounding = 73.0 * 4.0 * 8.0 * kEps;
+constexpr double kHeadingRounding = 73.0 * 4.0 * 8.0 * kEps;
 
 TEST(Heading, LinksKeepTheirLengthsAndTheEdgeItsEnds) {
   Random random(3);
@@ -46,11 +46,11 @@ TEST(Heading, LinksKeepTheirLengthsAndTheEdgeItsEnds) {
         const ClothPattern pattern = makePattern(scene);
         const Field3 position = makeInitialState(scene, pattern).position;
         forEachLink(pattern, [&](std::size_t n, std::size_t other, double rest, bool) {
-          EXPECT_NEAR((position.at(n) - position.at(other)).norm(), rest, kRounding);
+          EXPECT_NEAR((position.at(n) - position.at(other)).norm(), rest, kHeadingRounding);
         });
-        EXPECT_LT((position.at(0) - scene.hang.from).norm(), kRounding);
+        EXPECT_LT((position.at(0) - scene.hang.from).norm(), kHeadingRounding);
         // At full width the chord is flat in the angles' size: to the root of eps.
-        const double bound = fullness == 1.0 ? 3.0 * std::sqrt(kEps) : kRounding;
+        const double bound = fullness == 1.0 ? 3.0 * std::sqrt(kEps) : kHeadingRounding;
         EXPECT_LT((position.at(pattern.grid.index(0, 72)) - scene.hang.to).norm(), bound);
       }
     }
@@ -124,7 +124,7 @@ TEST(Heading, PinsTopHoldsEyeletsOnTheirPole) {
   for (int j = 0; j < 73; ++j) {
     if (pattern.pinned[pattern.grid.index(0, j)] == 0) continue;
     ++eyelets;
-    EXPECT_LT((position.at(pattern.grid.index(0, j)) - scene.hang.from).cross(pole).norm(), kRounding) << j;
+    EXPECT_LT((position.at(pattern.grid.index(0, j)) - scene.hang.from).cross(pole).norm(), kHeadingRounding) << j;
   }
   EXPECT_EQ(eyelets, 19);  // nine waves
 }

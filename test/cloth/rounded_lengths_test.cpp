@@ -50,13 +50,13 @@ double overlength(const Scene& scene) {
 }
 
 // Positions of metres are rounded to 1e-16 m, links here are centimetres long.
-constexpr double kRounding = 1e-12;
+constexpr double kSumRounding = 1e-12;
 
 void expectNothingOverlong(const std::string& yaml) {
   SCOPED_TRACE(yaml);
   const SceneReading reading = readSceneText(yaml);
   ASSERT_TRUE(reading.problems.empty()) << describe(reading.problems);
-  EXPECT_LE(overlength(reading.scene), kRounding);
+  EXPECT_LE(overlength(reading.scene), kSumRounding);
 }
 
 TEST(RoundedLengths, TheLineIsAsLongAsTheClothIsWide) {

@@ -24,7 +24,7 @@ namespace {
 using curtain_test::Random;
 
 constexpr int kSamples = 24;  // along the edge of a triangle
-constexpr double kRounding = 1e-6;
+constexpr double kDistanceRounding = 1e-6;
 
 // Crumpled cloth somewhere around the origin.
 Field3 crumpled(const Grid& grid, Random& random, double apart) {
@@ -73,13 +73,13 @@ void compare(const ContactShape& shape, const std::string& name, std::uint64_t f
     const Transform place(pose);
     const Sampled sampled = sample(shape, place, grid, position);
     const ObstacleDistance found = distanceTo(shape, place, grid, position);
-    EXPECT_NEAR((found.on_cloth - found.on_obstacle).norm(), std::abs(found.distance), kRounding);
+    EXPECT_NEAR((found.on_cloth - found.on_obstacle).norm(), std::abs(found.distance), kDistanceRounding);
     SurfacePoint surface;
     const Vec3 touch = place.toLocal(found.on_obstacle);
     ASSERT_TRUE(shape.query(touch, touch, 1e3, surface));
-    EXPECT_NEAR(surface.distance, 0.0, kRounding) << "it is on the surface";
+    EXPECT_NEAR(surface.distance, 0.0, kDistanceRounding) << "it is on the surface";
     if (shape.convex() == nullptr && sampled.distance < sampled.spacing) continue;  // it may go through the mesh
-    EXPECT_LE(found.distance, sampled.distance + kRounding);
+    EXPECT_LE(found.distance, sampled.distance + kDistanceRounding);
     EXPECT_GE(found.distance, sampled.distance - sampled.spacing);
     apart += found.distance > 0.0;
   }

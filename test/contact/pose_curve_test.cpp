@@ -13,9 +13,9 @@
 namespace curtain {
 namespace {
 
-constexpr double kFrame = 1.0 / 60.0;  // [s]
-constexpr double kArm = 0.5;           // [m]
-constexpr double kRounding = 1e-11;    // of values near 1, over a frame's length
+constexpr double kFrame = 1.0 / 60.0;     // [s]
+constexpr double kArm = 0.5;              // [m]
+constexpr double kCurveRounding = 1e-11;  // of values near 1, over a frame's length
 
 Pose poseOf(const Vec3& position, const Vec3& turn = Vec3::Zero()) { return changed(Pose(), {position, turn}); }
 
@@ -39,10 +39,10 @@ TEST(FrameCurve, IsExactForConstantAcceleration) {
   const FrameCurve curve = ledAlong(path, frames);
   for (const double share : {0.0, 0.3, 0.5, 0.9, 1.0}) {
     const double t = (frames - 1 + share) * kFrame;
-    EXPECT_LT(distance(curve.at(share), path(t)), kRounding) << share;
+    EXPECT_LT(distance(curve.at(share), path(t)), kCurveRounding) << share;
     const PoseChange speed = (1.0 / kFrame) * curve.rateAt(share);
-    EXPECT_LT((speed.move - t * acceleration).norm(), kRounding / kFrame) << share;
-    EXPECT_LT((speed.turn - t * spin_up).norm(), kRounding / kFrame) << share;
+    EXPECT_LT((speed.move - t * acceleration).norm(), kCurveRounding / kFrame) << share;
+    EXPECT_LT((speed.turn - t * spin_up).norm(), kCurveRounding / kFrame) << share;
   }
 }
 
@@ -53,9 +53,9 @@ TEST(FrameCurve, HasNoStepsInItsSpeed) {
   };
   for (int frames = 2; frames < 100; ++frames) {
     const FrameCurve before = ledAlong(path, frames), after = ledAlong(path, frames + 1);
-    EXPECT_LT(distance(before.at(1.0), after.at(0.0)), kRounding);
+    EXPECT_LT(distance(before.at(1.0), after.at(0.0)), kCurveRounding);
     const PoseChange step = after.rateAt(0.0) - before.rateAt(1.0);
-    EXPECT_LT(step.reach(kArm), kRounding) << frames;
+    EXPECT_LT(step.reach(kArm), kCurveRounding) << frames;
     const double d = 1e-5;
     const PoseChange slope = (0.5 / d) * changeBetween(after.at(0.4 - d), after.at(0.4 + d));
     EXPECT_LT((slope - after.rateAt(0.4)).reach(kArm), 1e-8) << frames;

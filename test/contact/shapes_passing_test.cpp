@@ -13,7 +13,7 @@ namespace {
 using namespace curtain_test;
 
 // Coordinates here are below 4 m: a handful of roundings of 4.4e-16 each stay below this [m].
-constexpr double kRounding = 1e-14;
+constexpr double kPassingRounding = 1e-14;
 
 TEST(ShapesPassing, NodePressedIntoAThinPlateGoesBackTheWayItCame) {
   const BoxShape plate(Vec3(1.0, 1.0, 0.01));
@@ -21,18 +21,18 @@ TEST(ShapesPassing, NodePressedIntoAThinPlateGoesBackTheWayItCame) {
   // In the lower half: the nearest exit would be below.
   ASSERT_TRUE(plate.query(Vec3(0.1, 0.2, 0.02), Vec3(0.1, 0.2, -0.004), 0.001, surface));
   EXPECT_EQ(surface.normal, Vec3(Vec3::UnitZ()));
-  EXPECT_NEAR(surface.distance, -0.009, kRounding);
+  EXPECT_NEAR(surface.distance, -0.009, kPassingRounding);
   // Right through.
   ASSERT_TRUE(plate.query(Vec3(0.1, 0.2, 0.02), Vec3(0.1, 0.2, -0.5), 0.001, surface));
   EXPECT_EQ(surface.normal, Vec3(Vec3::UnitZ()));
-  EXPECT_NEAR(surface.distance, -0.505, kRounding);
+  EXPECT_NEAR(surface.distance, -0.505, kPassingRounding);
   // From below, through.
   ASSERT_TRUE(plate.query(Vec3(0.1, 0.2, -0.02), Vec3(0.1, 0.2, 0.5), 0.001, surface));
   EXPECT_EQ(surface.normal, Vec3(-Vec3::UnitZ()));
   // Who was inside already goes out by the nearest exit.
   ASSERT_TRUE(plate.query(Vec3(0.1, 0.2, -0.003), Vec3(0.1, 0.2, -0.004), 0.001, surface));
   EXPECT_EQ(surface.normal, Vec3(-Vec3::UnitZ()));
-  EXPECT_NEAR(surface.distance, -0.001, kRounding);
+  EXPECT_NEAR(surface.distance, -0.001, kPassingRounding);
   // Past the rim nothing is crossed.
   EXPECT_FALSE(plate.query(Vec3(0.51, 0.0, 0.02), Vec3(0.51, 0.0, -0.5), 0.001, surface));
 }
@@ -46,22 +46,22 @@ TEST(ShapesPassing, NodeThatPassedARoundSolidIsHeldByTheTangentPlaneOfTheEntry) 
   // A thin rod crossed at right angles: entry at x = -0.005, current 0.02 beyond the axis.
   const CapsuleShape rod(0.005, 2.0);
   ASSERT_TRUE(rod.query(Vec3(-0.02, 0.0, 0.3), Vec3(0.02, 0.0, 0.3), 0.0, surface));
-  EXPECT_NEAR((surface.normal + Vec3::UnitX()).norm(), 0.0, kRounding);
-  EXPECT_NEAR(surface.distance, -0.025, kRounding);
+  EXPECT_NEAR((surface.normal + Vec3::UnitX()).norm(), 0.0, kPassingRounding);
+  EXPECT_NEAR(surface.distance, -0.025, kPassingRounding);
   // Past its axis but still inside: back as well.
   ASSERT_TRUE(rod.query(Vec3(-0.02, 0.0, 0.3), Vec3(0.002, 0.0, 0.3), 0.0, surface));
-  EXPECT_NEAR(surface.distance, -0.007, kRounding);
+  EXPECT_NEAR(surface.distance, -0.007, kPassingRounding);
   // Before its axis: the nearest exit is the same side, exact distance.
   ASSERT_TRUE(rod.query(Vec3(-0.02, 0.0, 0.3), Vec3(-0.002, 0.0, 0.3), 0.0, surface));
-  EXPECT_NEAR(surface.distance, -0.003, kRounding);
+  EXPECT_NEAR(surface.distance, -0.003, kPassingRounding);
   // Cylinder through its ends.
   ASSERT_TRUE(kCylinder.query(Vec3(0.1, 0.0, 1.0), Vec3(0.1, 0.0, -1.0), 0.0, surface));
   EXPECT_EQ(surface.normal, Vec3(Vec3::UnitZ()));
-  EXPECT_NEAR(surface.distance, -1.7, kRounding);
+  EXPECT_NEAR(surface.distance, -1.7, kPassingRounding);
   // Capsule through its caps, along the axis.
   ASSERT_TRUE(kCapsule.query(Vec3(0.0, 0.0, 2.0), Vec3(0.0, 0.0, -2.0), 0.0, surface));
-  EXPECT_NEAR((surface.normal - Vec3::UnitZ()).norm(), 0.0, kRounding);
-  EXPECT_NEAR(surface.distance, -3.0, kRounding);
+  EXPECT_NEAR((surface.normal - Vec3::UnitZ()).norm(), 0.0, kPassingRounding);
+  EXPECT_NEAR(surface.distance, -3.0, kPassingRounding);
   // Plane: its distance is the entry's as well.
   ASSERT_TRUE(kPlane.query(Vec3(0.0, 0.0, 1.0), Vec3(5.0, 0.0, -2.0), 0.0, surface));
   EXPECT_EQ(surface.distance, -2.0);
@@ -137,7 +137,7 @@ TEST(ShapesPassing, NodeOnTheSurfaceLeavesFreely) {
       }
       SurfacePoint out;
       // All are convex: outward from the tangent plane nothing is crossed.
-      EXPECT_FALSE(shape->query(foot, foot + 0.3 * direction, 1e-5, out) && out.distance < -kRounding)
+      EXPECT_FALSE(shape->query(foot, foot + 0.3 * direction, 1e-5, out) && out.distance < -kPassingRounding)
           << name << " " << foot.transpose() << " along " << direction.transpose() << ": " << out.distance;
     }
   }

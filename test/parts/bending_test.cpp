@@ -148,24 +148,24 @@ class BendingLines_ : public ::testing::TestWithParam<Shape> {
 };
 
 // Bound: the dense solution's own rounding, some ten operations deep; matrices have condition numbers below 1e4.
-constexpr double kRounding = 1e-11;
+constexpr double kEnergyRounding = 1e-11;
 
 TEST_P(BendingLines_, WarpExertsMinusKx) {
   const BendingLines lines = warpLines(pattern_);
   for (int b = 0; b < blocks(); ++b) bendWarp(pattern_.grid, lines, nothing_, position_, b, force_);
-  EXPECT_LT(differenceFrom(pattern_, true, nullptr, position_, force_), kRounding);
+  EXPECT_LT(differenceFrom(pattern_, true, nullptr, position_, force_), kEnergyRounding);
 }
 
 TEST_P(BendingLines_, WeftExertsMinusKx) {
   const BendingLines lines = weftLines(pattern_);
   for (int b = 0; b < (pattern_.grid.rows + kLane - 1) / kLane; ++b)
     bendWeft(pattern_.grid, lines, position_, b, shears_, force_);
-  EXPECT_LT(differenceFrom(pattern_, false, nullptr, position_, withSpared()), kRounding);
-  EXPECT_LT(maxPress(), kRounding);
+  EXPECT_LT(differenceFrom(pattern_, false, nullptr, position_, withSpared()), kEnergyRounding);
+  EXPECT_LT(maxPress(), kEnergyRounding);
   for (int i = 0; i < pattern_.grid.rows; ++i) {
     for (int j = 0; j < pattern_.grid.columns; ++j) {
       const Vec3 one = weftBendingAt(pattern_.grid, lines, position_, i, j);
-      EXPECT_LT((one - force_.at(pattern_.grid.index(i, j))).norm(), kRounding * (1.0 + one.norm()));
+      EXPECT_LT((one - force_.at(pattern_.grid.index(i, j))).norm(), kEnergyRounding * (1.0 + one.norm()));
     }
   }
 }
@@ -173,15 +173,15 @@ TEST_P(BendingLines_, WeftExertsMinusKx) {
 TEST_P(BendingLines_, WarpThatGivesWayIsInSeriesWithItsNodes) {
   const BendingLines lines = warpLines(pattern_);
   for (int b = 0; b < blocks(); ++b) bendWarpGiving(pattern_.grid, lines, give_, position_, b, scratch_, force_);
-  EXPECT_LT(differenceFrom(pattern_, true, &give_, position_, force_), kRounding);
+  EXPECT_LT(differenceFrom(pattern_, true, &give_, position_, force_), kEnergyRounding);
 }
 
 TEST_P(BendingLines_, WeftThatGivesWayIsInSeriesWithItsNodes) {
   const BendingLines lines = weftLines(pattern_);
   for (int b = 0; b < (pattern_.grid.rows + kLane - 1) / kLane; ++b)
     bendWeftGiving(pattern_.grid, lines, give_, position_, b, scratch_, true, shears_, force_);
-  EXPECT_LT(differenceFrom(pattern_, false, &give_, position_, withSpared()), kRounding);
-  EXPECT_LT(maxPress(), kRounding);
+  EXPECT_LT(differenceFrom(pattern_, false, &give_, position_, withSpared()), kEnergyRounding);
+  EXPECT_LT(maxPress(), kEnergyRounding);
 }
 
 TEST_P(BendingLines_, BoundIsAboveTheMatrix) {

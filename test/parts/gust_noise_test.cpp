@@ -63,15 +63,15 @@ TEST(HashedNormal, NeighboursAreUncorrelated) {
   EXPECT_NEAR(product([](int n) { return hashedNormal(8, n % 100, n / 100 % 3, n / 300); }), 0.0, bound);
 }
 
-constexpr double kTime = 0.2;     // [s] correlation time
-constexpr double kLength = 0.25;  // [m] correlation length
+constexpr double kTime = 0.2;          // [s] correlation time
+constexpr double kNoiseLength = 0.25;  // [m] correlation length
 constexpr int kSamples = 20000;
 
 // Times more than two correlation times apart at every phase: independent.
 double sampleTime(int n) { return (2.0 + 0.6180339887498949) * kTime * n; }
 
 struct Sheet {
-  explicit Sheet(const Scene& scene, std::uint64_t seed = 5, double length = kLength)
+  explicit Sheet(const Scene& scene, std::uint64_t seed = 5, double length = kNoiseLength)
       : pattern(makePattern(scene)), gusts(seed, length, kTime, pattern) {}
   ClothPattern pattern;
   GustNoise gusts;

@@ -16,12 +16,12 @@ namespace {
 
 using curtain_test::Fabric;
 
-constexpr double kWidth = 1.2e-3;   // 2HB [N]
-constexpr double kRigidity = 1e-4;  // B [N m]
-constexpr double kSlider = 10.0;    // K_p / B
+constexpr double kWidth = 1.2e-3;          // 2HB [N]
+constexpr double kBendingRigidity = 1e-4;  // B [N m]
+constexpr double kSlider = 10.0;           // K_p / B
 
 Scene rubbing(Scene scene) {
-  scene.cloth.bending_warp = scene.cloth.bending_weft = kRigidity;
+  scene.cloth.bending_warp = scene.cloth.bending_weft = kBendingRigidity;
   scene.cloth.bending_hysteresis = kWidth;
   scene.pins.kind = PinKind::kNone;
   return scene;
@@ -98,7 +98,7 @@ TEST(Hysteresis, RunsRoundTheLoopOfKes) {
         if (k == kSteps) at_zero[way > 0 ? 1 : 0] = moment;
       }
     }
-    const double loop = 2.0 * kWidth * (kMost - 0.5 * kWidth / (kSlider * kRigidity));
+    const double loop = 2.0 * kWidth * (kMost - 0.5 * kWidth / (kSlider * kBendingRigidity));
     EXPECT_NEAR(at_zero[1] - at_zero[0], kWidth, 1e-2 * kWidth) << warp;
     EXPECT_NEAR(area, loop, 1e-2 * loop) << warp;
     EXPECT_NEAR(dissipated / (kJoints * kStrip), loop, 1e-2 * loop) << warp;

@@ -16,7 +16,7 @@ namespace curtain {
 namespace {
 
 constexpr double kGap = 0.1;
-constexpr double kLength = 3.0;
+constexpr double kRailLength = 3.0;
 
 RailRow rowOf(double mass, double wish) {
   RailRow row;
@@ -45,7 +45,7 @@ std::vector<double> placesOf(const std::vector<RailRow>& rows) {
 void expectInOrder(const std::vector<double>& s) {
   constexpr double kRounding = 1e-14;
   EXPECT_GE(s.front(), 0.0);
-  EXPECT_LE(s.back(), kLength + kRounding);
+  EXPECT_LE(s.back(), kRailLength + kRounding);
   for (std::size_t i = 1; i < s.size(); ++i) EXPECT_GE(s[i] - s[i - 1], kGap - kRounding);
 }
 
@@ -58,12 +58,12 @@ TEST(RailLaw, FindsTheLeastOfItsSum) {
     std::vector<RailRow> rows;
     const int count = 1 + trial % 9;
     for (int i = 0; i < count; ++i) {
-      rows.push_back(rowOf(between(0.1, 2.0), between(-0.3, kLength + 0.3)));
+      rows.push_back(rowOf(between(0.1, 2.0), between(-0.3, kRailLength + 0.3)));
       const double was = kGap * i + between(0.0, 0.2);
       rows.back().friction = {was, trial % 3 == 0 ? 0.0 : between(0.0, 1.0)};
       if (i % 4 == 3) rows.back().drive = {was + between(-0.2, 0.2), between(0.0, 2.0)};
     }
-    RailLaw law(rows.size(), kGap, kLength);
+    RailLaw law(rows.size(), kGap, kRailLength);
     law.solve(rows);
     const std::vector<double> s = placesOf(rows);
     expectInOrder(s);
@@ -75,7 +75,7 @@ TEST(RailLaw, FindsTheLeastOfItsSum) {
       // Into the order again: by sorting what the gaps are taken off.
       for (std::size_t i = 0; i < other.size(); ++i) other[i] -= kGap * static_cast<double>(i);
       std::sort(other.begin(), other.end());
-      const double most = kLength - kGap * static_cast<double>(other.size() - 1);
+      const double most = kRailLength - kGap * static_cast<double>(other.size() - 1);
       for (std::size_t i = 0; i < other.size(); ++i)
         other[i] = std::clamp(other[i], 0.0, most) + kGap * static_cast<double>(i);
       ASSERT_GE(objective(rows, other), least - 1e-12) << "trial " << trial << " look " << look;
@@ -85,7 +85,7 @@ TEST(RailLaw, FindsTheLeastOfItsSum) {
 
 TEST(RailLaw, PushedCarriersMoveAsOneBodyAndKeepTheMomentum) {
   std::vector<RailRow> rows = {rowOf(1.0, 1.5), rowOf(2.0, 1.1), rowOf(3.0, 1.2)};
-  RailLaw(rows.size(), kGap, kLength).solve(rows);
+  RailLaw(rows.size(), kGap, kRailLength).solve(rows);
   expectInOrder(placesOf(rows));
   double before = 0.0, after = 0.0;
   for (const RailRow& row : rows) {
@@ -100,7 +100,7 @@ TEST(RailLaw, PushedCarriersMoveAsOneBodyAndKeepTheMomentum) {
 TEST(RailLaw, CarriersStayToTheBitUntilFrictionIsOvercome) {
   std::vector<RailRow> rows = {rowOf(2.0, 0.0)};
   const double was = 1.0 / 3.0;
-  RailLaw law(1, kGap, kLength);
+  RailLaw law(1, kGap, kRailLength);
   rows[0].friction = {was, 0.5};
   rows[0].wish = was + 0.2499;
   law.solve(rows);
@@ -116,7 +116,7 @@ TEST(RailLaw, AFastenedCarrierStopsAllThatPushIt) {
   std::vector<RailRow> rows = {rowOf(1.0, 0.9), rowOf(1.0, 0.95), rowOf(1.0, 0.97)};
   rows[0].friction = {0.5, 0.0};
   rows[1].friction = {1.0 / 3.0, std::numeric_limits<double>::infinity()};
-  RailLaw(rows.size(), kGap, kLength).solve(rows);
+  RailLaw(rows.size(), kGap, kRailLength).solve(rows);
   EXPECT_EQ(rows[1].place, 1.0 / 3.0);
   EXPECT_DOUBLE_EQ(rows[0].place, 1.0 / 3.0 - kGap);
   EXPECT_TRUE(rows[0].stays);
@@ -125,7 +125,7 @@ TEST(RailLaw, AFastenedCarrierStopsAllThatPushIt) {
 
 TEST(RailLaw, TheDriveArrivesIfItsForceIsEnough) {
   std::vector<RailRow> rows = {rowOf(2.0, 1.0)};
-  RailLaw law(1, kGap, kLength);
+  RailLaw law(1, kGap, kRailLength);
   rows[0].drive = {1.5, 1.5};  // it needs 1
   law.solve(rows);
   EXPECT_EQ(rows[0].place, 1.5);
@@ -140,7 +140,7 @@ TEST(RailLaw, TheDriveCarriesWhatFrictionDoesNot) {
   std::vector<RailRow> rows = {rowOf(2.0, 0.9)};
   rows[0].friction = {1.0, 0.15};
   rows[0].drive = {1.0, 5.0};  // it is where it is to be, and 0.2 kg m pull it back
-  RailLaw(1, kGap, kLength).solve(rows);
+  RailLaw(1, kGap, kRailLength).solve(rows);
   EXPECT_EQ(rows[0].place, 1.0);
   EXPECT_NEAR(rows[0].drawn, 0.05, 1e-15);
 }

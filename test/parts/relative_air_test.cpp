@@ -29,8 +29,9 @@ AirParams relativeLaw() {
   return air;
 }
 
-struct Cloth {
-  explicit Cloth(double porosity = 0.0) : pattern(makePattern(flatScene(6, 5, 1.5, 0.8))), air(law, porosity, pattern) {
+struct ClothInAir {
+  explicit ClothInAir(double porosity = 0.0)
+      : pattern(makePattern(flatScene(6, 5, 1.5, 0.8))), air(law, porosity, pattern) {
     const std::size_t size = pattern.grid.size();
     for (Field3* field : {&area_vectors, &wind, &velocity, &others, &pull}) field->assign(size, 0.0);
     position = makeInitialState(flatScene(6, 5, 1.5, 0.8), pattern).position;
@@ -56,7 +57,7 @@ struct Cloth {
 };
 
 TEST(RelativeAir, IsTheFormulaAtTheStartOfNoStep) {
-  Cloth cloth(0.25);
+  ClothInAir cloth(0.25);
   Random random(3);
   cloth.position = randomPositions(cloth.pattern.grid, random, 1.0);
   cloth.wind = randomPositions(cloth.pattern.grid, random, 9.0);
@@ -78,7 +79,7 @@ TEST(RelativeAir, IsTheFormulaAtTheStartOfNoStep) {
 
 // The node's share of the flat cloth, not twice that: the total is that of the whole sheet.
 TEST(RelativeAir, LoadsAFlatSheetByItsWholeArea) {
-  Cloth cloth;
+  ClothInAir cloth;
   for (std::size_t n = 0; n < cloth.pattern.grid.size(); ++n) cloth.wind.set(n, Vec3(0.0, 7.0, 0.0));
   const Field3 force = cloth.force();
   double sum = 0.0;
@@ -88,7 +89,7 @@ TEST(RelativeAir, LoadsAFlatSheetByItsWholeArea) {
 
 TEST(RelativeAir, LeavesBalanceAloneAtAnyStep) {
   Random random(5);
-  Cloth cloth;
+  ClothInAir cloth;
   cloth.position = randomPositions(cloth.pattern.grid, random, 1.0);
   cloth.wind = randomPositions(cloth.pattern.grid, random, 9.0);
   cloth.velocity = randomPositions(cloth.pattern.grid, random, 4.0);
@@ -112,7 +113,7 @@ TEST(RelativeAir, LeavesBalanceAloneAtAnyStep) {
 
 TEST(RelativeAir, NeverTurnsARelativeVelocityAround) {
   Random random(7);
-  Cloth cloth;
+  ClothInAir cloth;
   cloth.wind = randomPositions(cloth.pattern.grid, random, 20.0);
   const std::size_t n = cloth.middle();
   const Vec3 normal = cloth.area_vectors.at(n).normalized(), u = cloth.wind.at(n);
@@ -131,7 +132,7 @@ TEST(RelativeAir, NeverTurnsARelativeVelocityAround) {
 
 // v = V tanh(g t / V) of a plate that falls flat from rest.
 TEST(RelativeAir, IsOfSecondOrderInTheFall) {
-  Cloth cloth;
+  ClothInAir cloth;
   const std::size_t n = cloth.middle();
   const double w = cloth.pattern.inverse_mass[n], g = 9.81;
   const double terminal = std::sqrt(2.0 * g / (w * kDensity * kNormal * cloth.pattern.area[n]));

@@ -17,11 +17,11 @@ namespace {
 
 using curtain_test::Fabric;
 
-constexpr double kRigidity = 20.0;  // [N/m]
+constexpr double kShearRigidity = 20.0;  // [N/m]
 
 ClothParams sheared(const Fabric& fabric) {
   ClothParams cloth = fabric.scene.cloth;
-  cloth.shear = kRigidity;
+  cloth.shear = kShearRigidity;
   cloth.bending_weft = 1e-4;
   return cloth;
 }
@@ -53,7 +53,7 @@ TEST(Shear, FlatClothHasNone) {
     double energy = 0.0;
     const Field3& force = shear.forceAt(fabric.position, energy);
     EXPECT_NEAR(energy, 0.0, 1e-20);
-    for (std::size_t n = 0; n < fabric.pattern.grid.size(); ++n) EXPECT_LT(force.at(n).norm(), 1e-12 * kRigidity);
+    for (std::size_t n = 0; n < fabric.pattern.grid.size(); ++n) EXPECT_LT(force.at(n).norm(), 1e-12 * kShearRigidity);
   }
 }
 
@@ -73,8 +73,8 @@ TEST(Shear, PullsAtAPictureFrameByItsRigidity) {
     double energy = 0.0, pull = 0.0;
     const Field3& force = shear.forceAt(fabric.position, energy);
     for (int j = 0; j < grid.columns; ++j) pull += force.at(grid.index(0, j)).x();
-    EXPECT_NEAR(pull, kRigidity * 1.3 * std::sin(gamma), 1e-12 * kRigidity);
-    EXPECT_NEAR(energy, 0.5 * kRigidity * 0.8 * 1.3 * std::pow(std::sin(gamma), 2), 1e-12 * kRigidity);
+    EXPECT_NEAR(pull, kShearRigidity * 1.3 * std::sin(gamma), 1e-12 * kShearRigidity);
+    EXPECT_NEAR(energy, 0.5 * kShearRigidity * 0.8 * 1.3 * std::pow(std::sin(gamma), 2), 1e-12 * kShearRigidity);
   }
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 using namespace curtain_test;
 
-constexpr int kFrames = 30;
+constexpr int kComparedFrames = 30;
 
 void expectSame(const Motion& one, const Motion& other, const std::string& what) {
   EXPECT_EQ(firstDifference(one, other), -1) << what << "; apart by " << farthestApart(one, other) << " m";
@@ -73,7 +73,8 @@ TEST_P(Independence, OfWhatIsFarAwayToTheBit) {
   for (const Kind& kind : {slack(), taut(), obstacles(), selfContact()}) {
     for (const std::uint64_t seed : seeds(2)) {
       const Scene scene = sceneOf(seed, kind);
-      expectSame(record(scene, kFrames), record(withFarThings(scene, RandomScenes(seed + 500)), kFrames),
+      expectSame(record(scene, kComparedFrames),
+                 record(withFarThings(scene, RandomScenes(seed + 500)), kComparedFrames),
                  kind.name + (", " + repeat(seed)));
     }
   }
@@ -109,10 +110,10 @@ TEST_P(Independence, OfWhatTimeIsCutIntoToTheBit) {
       for (DragParams& drag : scene.drag) drag.end = 100.0;  // one that ends within a frame ends with a substep
       for (ObstacleParams& obstacle : scene.obstacles) obstacle.motion.clear();  // goes straight within a frame
       scene.solver.substeps = 2;
-      const Motion coarse = record(scene, kFrames);
+      const Motion coarse = record(scene, kComparedFrames);
       scene.solver.frame_rate *= 2.0;
       scene.solver.substeps = 1;
-      const Motion fine = record(scene, 2 * kFrames);
+      const Motion fine = record(scene, 2 * kComparedFrames);
       if (coarse.statistics.rejected + fine.statistics.rejected > 0)
         continue;  // done again in halves, of what is left of a frame
       if (GetParam() == Method::kLeapfrog4 && longestString(scene, coarse) >= 0.999)
@@ -158,11 +159,11 @@ TEST_P(Independence, OfTheOrderOfSlackColumnsToTheBit) {
       permuted.cloth.column_mass[j] = scene.cloth.column_mass[order[j]];
       permuted.drag[j].force = scene.drag[order[j]].force;
     }
-    Motion motion = record(scene, kFrames);
+    Motion motion = record(scene, kComparedFrames);
     if (stringsMayPull(scene, motion)) continue;
     ++slack;
     gone = std::max(gone, farthestGone(motion));
-    Motion other = columnsFrom(record(permuted, kFrames), [&](int j) {
+    Motion other = columnsFrom(record(permuted, kComparedFrames), [&](int j) {
       return static_cast<int>(std::find(order.begin(), order.end(), static_cast<std::size_t>(j)) - order.begin());
     });
     for (Motion* const one : {&motion, &other}) {  // where along the line a column hangs is its own
@@ -183,14 +184,14 @@ TEST_P(Independence, OfTheOrderOfObstaclesToTheBit) {
   int contacts = 0;
   for (const std::uint64_t seed : seeds(3, {12})) {
     const Scene scene = sceneOf(seed, obstacles());
-    const Motion motion = record(scene, kFrames);
+    const Motion motion = record(scene, kComparedFrames);
     contacts += motion.statistics.contacts_max;
     Scene other = scene;
     std::reverse(other.obstacles.begin(), other.obstacles.end());
-    expectSame(motion, record(other, kFrames), repeat(seed) + ", reversed");
+    expectSame(motion, record(other, kComparedFrames), repeat(seed) + ", reversed");
     other = scene;
     std::rotate(other.obstacles.begin(), other.obstacles.begin() + 2, other.obstacles.end());
-    expectSame(motion, record(other, kFrames), repeat(seed) + ", rotated");
+    expectSame(motion, record(other, kComparedFrames), repeat(seed) + ", rotated");
   }
   EXPECT_GT(contacts, 0) << "nothing ever touched";
 }
@@ -207,7 +208,7 @@ TEST_P(Independence, OfTheOrderOfLists) {
       another.id = "another";
       another.direction += Vec3(0.3, -0.2, 0.1);
       scene.wind.push_back(another);
-      const Motion motion = record(scene, kFrames);
+      const Motion motion = record(scene, kComparedFrames);
       constexpr double kOff = 1e-7;
       const double growth = growthOf(scene, motion, kOff, seed);
       if (!(growth * kOff < 1e-3)) continue;
@@ -220,7 +221,8 @@ TEST_P(Independence, OfTheOrderOfLists) {
       std::reverse(other.wind.begin(), other.wind.end());
       std::reverse(other.drag.begin(), other.drag.end());
       const double single = kind.wanted.gentle && !stringsMayPull(scene, motion) ? 0.0 : kSingle;
-      EXPECT_LE(farthestApart(motion, record(other, kFrames)), growth * (roundingShare(scene, motion, 5.0) + single))
+      EXPECT_LE(farthestApart(motion, record(other, kComparedFrames)),
+                growth * (roundingShare(scene, motion, 5.0) + single))
           << kind.name << ", " << repeat(seed);
     }
   }
@@ -239,10 +241,10 @@ class Counting : public ::testing::TestWithParam<Method> {
   static double leftOpen(const Scene& scene, const Motion& motion) {
     Scene other = scene;
     other.solver.substeps *= 2;
-    const double by_step = farthestApart(motion, record(other, kFrames));
+    const double by_step = farthestApart(motion, record(other, kComparedFrames));
     other = scene;
     other.solver.stretch_tolerance *= 0.5;
-    return 4.0 * (by_step + farthestApart(motion, record(other, kFrames)));
+    return 4.0 * (by_step + farthestApart(motion, record(other, kComparedFrames)));
   }
 };
 
@@ -255,9 +257,9 @@ TEST_P(Counting, BeginsAtEitherEnd) {
     Scene scene = randomScene(seed, kind.wanted);
     scene.solver.method = GetParam();
     scene.solver.substeps = 8;
-    const Motion motion = record(scene, kFrames);
+    const Motion motion = record(scene, kComparedFrames);
     const Motion other =
-        columnsFrom(record(reversed(scene), kFrames), [&](int j) { return scene.cloth.columns - 1 - j; });
+        columnsFrom(record(reversed(scene), kComparedFrames), [&](int j) { return scene.cloth.columns - 1 - j; });
     const double open = leftOpen(scene, motion);
     EXPECT_LE(farthestApart(motion, other), open) << repeat(seed);
     telling += open < 0.1 * farthestGone(motion) ? 1 : 0;
@@ -283,11 +285,11 @@ TEST_P(Counting, BeginsAnywhereOnARing) {
     scene.gravity = Vec3(0.0, 0.0, -9.81);
     scene.solver.method = GetParam();
     scene.solver.substeps = 8;
-    const Motion motion = record(scene, kFrames);
+    const Motion motion = record(scene, kComparedFrames);
     Similarity turn;
     const Scene other = cycled(scene, 2, turn);
-    const Motion moved =
-        columnsFrom(seenBack(turn, record(other, kFrames)), [&](int j) { return (j + 2) % scene.cloth.columns; });
+    const Motion moved = columnsFrom(seenBack(turn, record(other, kComparedFrames)),
+                                     [&](int j) { return (j + 2) % scene.cloth.columns; });
     const double open = leftOpen(scene, motion);
     EXPECT_LE(farthestApart(motion, moved), open) << repeat(seed);
     telling += open < 0.1 * farthestGone(motion) ? 1 : 0;

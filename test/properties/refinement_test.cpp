@@ -89,7 +89,7 @@ double zeroOfBessel(int k) {
   return 0.5 * (low + high);
 }
 
-constexpr double kLength = 2.0, kGravity = 9.81, kAngle = 1e-3;
+constexpr double kLength = 2.0, kEarthGravity = 9.81, kAngle = 1e-3;
 
 // A continuous chain hung up at s = 1 and let go straight at a small angle (D. Bernoulli 1733): how far it is aside at
 // s (0: its free end) at a time, over its length and the angle.
@@ -99,7 +99,7 @@ double asideOfContinuousChain(double s, double time) {
   for (int k = 1; k <= 60; ++k) {
     const double j = zeroOfBessel(k), slope = std::cyl_bessel_j(1.0, j);
     x += 4.0 * std::cyl_bessel_j(2.0, j) / (j * j * slope * slope) * std::cyl_bessel_j(0.0, j * std::sqrt(s)) *
-         std::cos(0.5 * j * std::sqrt(kGravity / kLength) * time);
+         std::cos(0.5 * j * std::sqrt(kEarthGravity / kLength) * time);
   }
   return x;
 }
@@ -112,7 +112,7 @@ double errorOfRods(int rods, Lumping lumping) {
   scene.cloth.height = kLength;
   scene.cloth.lumping = lumping;
   scene.hang.tilt = kAngle;
-  scene.gravity = Vec3(0.0, 0.0, -kGravity);
+  scene.gravity = Vec3(0.0, 0.0, -kEarthGravity);
   scene.solver.method = Method::kLeapfrog4;
   scene.solver.substeps = 4;
   scene.solver.rest_speed = 0.0;

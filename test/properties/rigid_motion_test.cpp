@@ -33,7 +33,7 @@ namespace {
 
 using namespace curtain_test;
 
-constexpr int kFrames = 30;
+constexpr int kMovedFrames = 30;
 constexpr double kOff = 1e-7;
 constexpr double kChaos = 1e-3;  // [m]
 constexpr double kContactSlack = 0.1;
@@ -53,7 +53,7 @@ class RigidMotion : public ::testing::TestWithParam<std::tuple<Kind, Method>> {
     Trial trial;
     trial.scene = randomScene(seed, kind.wanted);
     trial.scene.solver.method = method;
-    trial.motion = record(trial.scene, kFrames);
+    trial.motion = record(trial.scene, kMovedFrames);
     trial.growth = growthOf(trial.scene, trial.motion, kOff, seed);
     trial.fit = trial.growth * kOff < kChaos;
     trial.rods_alone =
@@ -66,7 +66,7 @@ class RigidMotion : public ::testing::TestWithParam<std::tuple<Kind, Method>> {
     return trial.growth * (roundingShare(trial.scene, trial.motion, size) + single) + contact;
   }
   void expectSame(const Trial& trial, const Similarity& s, double size, const std::string& what) {
-    const double apart = farthestApart(trial.motion, seenBack(s, record(seen(s, trial.scene), kFrames)));
+    const double apart = farthestApart(trial.motion, seenBack(s, record(seen(s, trial.scene), kMovedFrames)));
     const bool by_rounding = apart <= tolerance(trial, size);
     ++compared_;
     otherwise_ += by_rounding ? 0 : 1;

@@ -16,7 +16,7 @@ namespace {
 
 using namespace curtain_test;
 
-constexpr int kFrames = 40;
+constexpr int kScaledFrames = 40;
 
 Similarity units(double length, double time, double mass) {
   Similarity s;
@@ -39,7 +39,7 @@ TEST_P(Scaling, ChangesNoBit) {
   for (const std::uint64_t seed : seeds(2, {11, 14})) {
     Scene scene = randomScene(seed, kind.wanted);
     scene.solver.method = method;
-    const Motion motion = record(scene, kFrames);
+    const Motion motion = record(scene, kScaledFrames);
     contacts += motion.statistics.contacts_max;
     // A thousandth and a thousand times, with gravity as it is and as it comes.
     for (const Similarity& s : {units(0x1p-10, 0x1p-5, 0x1p-20), units(0x1p10, 0x1p5, 0x1p20),
@@ -47,7 +47,7 @@ TEST_P(Scaling, ChangesNoBit) {
       if (method == Method::kLeapfrog4 && s.time != 1.0) continue;  // takes a second off where a string pulls
       const Scene image = seen(s, scene);
       if (kind.wanted.fabric && !validate(image).empty()) continue;  // stiffer than a scene may be
-      const Motion other = seenBack(s, record(image, kFrames));
+      const Motion other = seenBack(s, record(image, kScaledFrames));
       EXPECT_EQ(firstDifference(motion, other), -1)
           << describe(s) << "; " << repeat(seed) << "; apart by " << farthestApart(motion, other);
     }
@@ -73,9 +73,9 @@ TEST(ScalingOfRelativeAir, ChangesNoBit) {
     scene.ambient.velocity = Vec3(1.0, 3.0, 0.5);
     scene.ambient.intensity = 0.3;
     scene.ambient.length_scale = 2.0;
-    const Motion motion = record(scene, kFrames);
+    const Motion motion = record(scene, kScaledFrames);
     for (const Similarity& s : {units(0x1p-10, 0x1p-5, 0x1p-20), units(0x1p6, 1.0, 0x1p4), units(1.0, 0x1p-4, 1.0)}) {
-      const Motion other = seenBack(s, record(seen(s, scene), kFrames));
+      const Motion other = seenBack(s, record(seen(s, scene), kScaledFrames));
       EXPECT_EQ(firstDifference(motion, other), -1) << describe(s) << "; " << repeat(seed);
     }
   }

@@ -21,7 +21,7 @@ using namespace curtain_test;
 enum class Cause { kWind, kGravity, kPull, kJerk };
 constexpr double kHuge = 200.0;  // edge of a plate that no cloth gets around [m]
 
-struct Blow {
+struct SuddenForce {
   Scene scene;
   Cause cause = Cause::kWind;
   int quiet = 0;                // frames before
@@ -34,9 +34,9 @@ struct Blow {
 };
 
 // The cloth hangs in the plane y = 0, the plate stands before it, in +y.
-Blow randomBlow(std::uint64_t seed) {
+SuddenForce randomBlow(std::uint64_t seed) {
   RandomScenes random(seed);
-  Blow blow;
+  SuddenForce blow;
   const int most = random.chance(0.1) ? 40 : 16;
   Scene& scene = blow.scene;
   scene =
@@ -118,7 +118,7 @@ Blow randomBlow(std::uint64_t seed) {
 }
 
 // What went wrong, or nothing.
-std::string passes(const Blow& blow) {
+std::string passes(const SuddenForce& blow) {
   Simulator simulator(blow.scene);
   std::vector<NodeIndex> pins;
   for (int i = 0; i < simulator.rows(); ++i) {
@@ -154,7 +154,7 @@ TEST(SuddenForces, TakeNoCurtainThroughAThinPlate) {
   int held = 0, torn = 0;
   const std::vector<std::uint64_t> all = seeds(40);
   for (const std::uint64_t seed : all) {
-    const Blow blow = randomBlow(seed);
+    const SuddenForce blow = randomBlow(seed);
     const std::string wrong = passes(blow);
     held += wrong.empty() ? 1 : 0;
     torn += wrong.find("torn") != std::string::npos ? 1 : 0;

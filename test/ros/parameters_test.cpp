@@ -25,7 +25,7 @@ XmlRpcValue value(double number) { return XmlRpcValue(number); }
 XmlRpcValue value(const char* text) { return XmlRpcValue(std::string(text)); }
 XmlRpcValue flag(bool on) { return XmlRpcValue(on); }
 
-XmlRpcValue smallScene() {
+XmlRpcValue smallSceneParameters() {
   XmlRpcValue scene;
   scene["cloth"]["rows"] = value(10);
   scene["cloth"]["columns"] = value(8);
@@ -34,7 +34,7 @@ XmlRpcValue smallScene() {
 
 ParameterReading readWith(const std::string& key, const XmlRpcValue& content) {
   XmlRpcValue tree;
-  tree["scene"] = smallScene();
+  tree["scene"] = smallSceneParameters();
   tree[key] = content;
   return readParameters(tree, "/stage/curtain");
 }
@@ -73,7 +73,7 @@ TEST(Parameters, TextThatIsWhollyANumberIsThatNumber) {
     EXPECT_TRUE(names(readWith("max_catch_up", value(text)).problems, "max_catch_up: must be an integer in [1, 1000]"));
   for (const char* text : {"1e-6 m", "0x10", "1,5", "", "nan", "inf", ".inf", " 1"})
     EXPECT_TRUE(names(readWith("obstacle_timeout", value(text)).problems, std::string("is the text \"") + text + '"'));
-  XmlRpcValue scene = smallScene();
+  XmlRpcValue scene = smallSceneParameters();
   scene["cloth"]["rows"] = value("4");
   scene["cloth"]["bending_warp"] = value("3e-06");
   scene["gravity"][0] = value("0");
@@ -97,7 +97,7 @@ TEST(Parameters, TextThatIsWhollyANumberIsThatNumber) {
 
 // Parameters have no folder that a path could be relative to.
 TEST(Parameters, MeshesOfTheSceneNeedAWholePath) {
-  XmlRpcValue scene = smallScene();
+  XmlRpcValue scene = smallSceneParameters();
   XmlRpcValue& statue = scene["obstacles"][0];
   statue["name"] = value("statue");
   statue["shape"] = value("mesh");
@@ -114,7 +114,7 @@ TEST(Parameters, MeshesOfTheSceneNeedAWholePath) {
 
 // Every key that a scene file can hold goes through the parameter tree unchanged.
 TEST(Parameters, TreeAndFileGiveTheSameScene) {
-  XmlRpcValue scene = smallScene();
+  XmlRpcValue scene = smallSceneParameters();
   scene["cloth"]["height"] = value(1.7);
   scene["cloth"]["width"] = value(2);
   scene["gravity"][0] = value(0);
@@ -134,7 +134,7 @@ TEST(Parameters, TreeAndFileGiveTheSameScene) {
 
 TEST(Parameters, DefaultsNeedOnlyAScene) {
   XmlRpcValue tree;
-  tree["scene"] = smallScene();
+  tree["scene"] = smallSceneParameters();
   const ParameterReading reading = readParameters(tree, "/stage/curtain");
   EXPECT_TRUE(reading.problems.empty());
   EXPECT_TRUE(reading.warnings.empty());
@@ -184,7 +184,7 @@ TEST(Parameters, UnknownOnesAreWarnedOf) {
 
 // All problems at once, with the scene's dotted keys behind the parameter's name.
 TEST(Parameters, SceneProblemsAreAllNamed) {
-  XmlRpcValue scene = smallScene();
+  XmlRpcValue scene = smallSceneParameters();
   scene["cloth"]["rows"] = value(1);
   scene["cloth"]["columns"] = value(8.0);
   scene["cloth"]["width"] = value("1e-6 m");
@@ -198,7 +198,7 @@ TEST(Parameters, SceneProblemsAreAllNamed) {
 
 // Obstacles that name no frame stand in the node's world frame, whatever its name; motions are not for the node.
 TEST(Parameters, ObstaclesStandInTheWorldFrame) {
-  XmlRpcValue scene = smallScene();
+  XmlRpcValue scene = smallSceneParameters();
   scene["obstacles"][0]["name"] = value("ball");
   scene["obstacles"][0]["shape"] = value("sphere");
   scene["obstacles"][0]["radius"] = value(0.3);
@@ -212,7 +212,7 @@ TEST(Parameters, ObstaclesStandInTheWorldFrame) {
 }
 
 TEST(Parameters, MotionInTheWorldFrameIsWarnedOf) {
-  XmlRpcValue scene = smallScene();
+  XmlRpcValue scene = smallSceneParameters();
   XmlRpcValue& ball = scene["obstacles"][0];
   ball["name"] = value("ball");
   ball["shape"] = value("sphere");
@@ -393,7 +393,7 @@ TEST(Parameters, RobotIsReadStrictly) {
 // A description in the node's own namespace is no unknown parameter, where a robot is asked for.
 TEST(Parameters, TheDescriptionIsKnown) {
   XmlRpcValue tree;
-  tree["scene"] = smallScene();
+  tree["scene"] = smallSceneParameters();
   tree["robot_description"] = value("<robot/>");
   EXPECT_TRUE(names(readParameters(tree, "/stage/curtain").warnings, "robot_description: is not a known key"));
   tree["robot"]["visible"] = flag(false);

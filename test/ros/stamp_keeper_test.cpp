@@ -10,9 +10,9 @@ namespace curtain_ros {
 namespace {
 
 constexpr std::int64_t kMillisecond = 1000000;
-constexpr std::int64_t kSecond = 1000 * kMillisecond;
+constexpr std::int64_t kStampSecond = 1000 * kMillisecond;
 constexpr std::int64_t kFrame = 16 * kMillisecond;
-constexpr std::int64_t kOffset = 1000 * kSecond;
+constexpr std::int64_t kOffset = 1000 * kStampSecond;
 
 TEST(StampKeeper, AddsTheOffset) {
   StampKeeper keeper;
@@ -45,7 +45,7 @@ TEST(StampKeeper, NeverGoesBackWhenTheFirstReadingWasWrong) {
 TEST(StampKeeper, FollowsAClockThatIsSet) {
   StampKeeper keeper;
   keeper.stamp(kFrame, {kOffset, 100});
-  EXPECT_EQ(keeper.stamp(2 * kFrame, {kOffset + 3600 * kSecond, 100}), kOffset + 3600 * kSecond + 2 * kFrame);
+  EXPECT_EQ(keeper.stamp(2 * kFrame, {kOffset + 3600 * kStampSecond, 100}), kOffset + 3600 * kStampSecond + 2 * kFrame);
   EXPECT_EQ(keeper.setBack(), 0U);
   EXPECT_EQ(keeper.stamp(3 * kFrame, {kOffset, 100}), kOffset + 3 * kFrame);
   EXPECT_EQ(keeper.setBack(), 1U);

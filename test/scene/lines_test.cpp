@@ -6,16 +6,16 @@
 namespace curtain {
 namespace {
 
-std::string with(const std::string& entry) { return "cloth: {rows: 4, columns: 9}\n" + entry + "\n"; }
-std::string line(const std::string& entry) { return with("lines: [{id: a, " + entry + "}]"); }
-std::string tie(const std::string& entry) { return with("tie_back: [{id: a, point: [0, 0, 1], " + entry + "}]"); }
+std::string sheetWith(const std::string& entry) { return "cloth: {rows: 4, columns: 9}\n" + entry + "\n"; }
+std::string line(const std::string& entry) { return sheetWith("lines: [{id: a, " + entry + "}]"); }
+std::string tie(const std::string& entry) { return sheetWith("tie_back: [{id: a, point: [0, 0, 1], " + entry + "}]"); }
 
 TEST(LinesInput, AreReadAndWritten) {
   const Scene scene =
-      expectScene(with("lines: [{id: a, nodes: [[3, 0], [3, 8]], length: 2.0, mass: 0.5},\n"
-                       "        {id: b, nodes: [[0, 0]], to: [1, 2, 3]}]\n"
-                       "tie_back: [{id: t, row: 2, first_column: 1, last_column: 7, point: [0, 0, 1],\n"
-                       "            radius: 0.2, speed: 0.5, closed: false}]"));
+      expectScene(sheetWith("lines: [{id: a, nodes: [[3, 0], [3, 8]], length: 2.0, mass: 0.5},\n"
+                            "        {id: b, nodes: [[0, 0]], to: [1, 2, 3]}]\n"
+                            "tie_back: [{id: t, row: 2, first_column: 1, last_column: 7, point: [0, 0, 1],\n"
+                            "            radius: 0.2, speed: 0.5, closed: false}]"));
   ASSERT_EQ(scene.lines.size(), 2u);
   ASSERT_EQ(scene.lines[0].nodes.size(), 2u);
   EXPECT_EQ(scene.lines[0].nodes[1].column, 8);
@@ -48,7 +48,7 @@ TEST(LinesInput, NeedAnEnd) {
 }
 
 TEST(LinesInput, IdsAreUnique) {
-  expectProblem(with("lines: [{id: a, nodes: [[3, 0]], to: [0, 0, 0]}, {id: a, nodes: [[3, 1]], to: [0, 0, 0]}]"),
+  expectProblem(sheetWith("lines: [{id: a, nodes: [[3, 0]], to: [0, 0, 0]}, {id: a, nodes: [[3, 1]], to: [0, 0, 0]}]"),
                 "lines[1].id", {"lines[0]"});
 }
 
@@ -64,7 +64,7 @@ TEST(TieBackInput, RowAndColumnsMustBeThere) {
   expectProblem(tie("row: 1, first_column: 9, last_column: 9"), "tie_back[0].first_column", {"[0, 8]", "is 9"});
   expectProblem(tie("row: 1, first_column: 0"), "tie_back[0].last_column", {"is missing"});
   expectProblem(tie("row: 1, first_column: 0, last_column: 8, radius: 0.0"), "tie_back[0].radius", {"0.001"});
-  expectProblem(with("tie_back: [{id: a, row: 1, first_column: 0, last_column: 8}]"), "tie_back[0].point",
+  expectProblem(sheetWith("tie_back: [{id: a, row: 1, first_column: 0, last_column: 8}]"), "tie_back[0].point",
                 {"is missing"});
 }
 

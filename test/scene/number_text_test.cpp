@@ -11,9 +11,9 @@
 namespace curtain {
 namespace {
 
-std::string with(const std::string& text) { return smallScene() + text + "\n"; }
+std::string sceneWith(const std::string& text) { return smallScene() + text + "\n"; }
 std::string clothWith(const std::string& text) { return "cloth: {rows: 4, columns: 3, " + text + "}\n"; }
-std::string windWith(const std::string& text) { return with("wind: [{id: fan, " + text + "}]"); }
+std::string windWith(const std::string& text) { return sceneWith("wind: [{id: fan, " + text + "}]"); }
 
 // To YAML 1.1 these are texts: numbers as Python and others print them, and what is in quotes.
 TEST(NumberText, TextThatIsWhollyANumberIsThatNumber) {
@@ -81,7 +81,9 @@ TEST(NumberText, NumbersDoNotDependOnTheLocale) {
 
 TEST(NumberText, TextThatIsNotWhollyANumberIsNamed) {
   const std::string key = "solver.stretch_tolerance";
-  const auto tolerance = [](const std::string& value) { return with("solver: {stretch_tolerance: " + value + "}"); };
+  const auto tolerance = [](const std::string& value) {
+    return sceneWith("solver: {stretch_tolerance: " + value + "}");
+  };
   for (const char* text :
        {"",    " ",   " 1e-6", "1e-6 ",    "1 e-6", "1e -6", "0x10",  "0x1p-3", "1,5", "1.0.0",
         "1e",  "1e+", "e5",    ".",        "-",     "+",     "--1",   "+-1",    ".e1", "nan",
@@ -105,7 +107,7 @@ TEST(NumberText, TextThatIsNotWhollyANumberIsNamed) {
 
 // Ranges and whole numbers are as those of numbers without quotes.
 TEST(NumberText, TextThatIsANumberIsJudgedAsOne) {
-  expectProblem(with("solver: {stretch_tolerance: '2e-1'}"), "solver.stretch_tolerance",
+  expectProblem(sceneWith("solver: {stretch_tolerance: '2e-1'}"), "solver.stretch_tolerance",
                 {"a number in [1e-12, 0.1], is 0.2"});
   expectProblem(clothWith("height: '1e999'"), "cloth.height", {"a number in [1e-09, 1000000000], is .inf"});
   const std::string range = "must be an integer in [2, 4096], is ";
@@ -115,9 +117,9 @@ TEST(NumberText, TextThatIsANumberIsJudgedAsOne) {
   expectProblem("cloth: {rows: 1.0e+3, columns: 3}", "cloth.rows", {range + "1.0e+3"});
   expectProblem("cloth: {rows: '1', columns: 3}", "cloth.rows", {range + "1"});
   expectProblem("cloth: {rows: '4 rows', columns: 3}", "cloth.rows", {range + "the text \"4 rows\""});
-  expectProblem(with("solver: {substeps: '0'}"), "solver.substeps", {"auto or an integer in [1, 10000], is 0"});
-  expectProblem(with("solver: {seed: '-1'}"), "solver.seed", {"an integer in [0, 18446744073709551615], is -1"});
-  expectProblem(with("pins: [['0', '1.5']]"), "pins[0][1]", {"an integer, is 1.5"});
+  expectProblem(sceneWith("solver: {substeps: '0'}"), "solver.substeps", {"auto or an integer in [1, 10000], is 0"});
+  expectProblem(sceneWith("solver: {seed: '-1'}"), "solver.seed", {"an integer in [0, 18446744073709551615], is -1"});
+  expectProblem(sceneWith("pins: [['0', '1.5']]"), "pins[0][1]", {"an integer, is 1.5"});
 }
 
 }  // namespace

@@ -8,10 +8,12 @@
 #include <cstdio>
 
 #include "over_a_bar.h"
+#include "simulator/scenes.h"
 
 namespace curtain {
 namespace {
 
+using curtain_test::energyOf;
 using curtain_test::layOver;
 using curtain_test::massOfRow;
 using curtain_test::Strap;
@@ -21,11 +23,6 @@ using curtain_test::strapScene;
 // 0.1 %, and its ends by half a link's turn at most, so times are right to 1 %; a way that grows as cosh(w t) with
 // w t ~ 2 is so to 2 %.
 constexpr double kChords = 0.02;
-
-double energyOf(const Simulator& simulator) {
-  const Energy energy = simulator.energy();
-  return energy.kinetic + energy.potential;
-}
 
 // x'' = 2 g x / L: half of what hangs further down on one side grows as cosh.
 TEST(Scarf, SlidesOffAsItsWeightAsks) {

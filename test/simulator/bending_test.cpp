@@ -10,15 +10,15 @@
 #include <vector>
 
 #include "simulator/chains.h"
+#include "simulator/scenes.h"
 #include "simulator/strips.h"
 
 namespace curtain {
 namespace {
 
+using curtain_test::kGravity;
 using curtain_test::Overhang;
 using curtain_test::Strip;
-
-constexpr double kGravity = 9.81;
 
 // The strip whose weight bends it by Gamma = density g L^3 / B.
 Strip stripOf(double gamma, int rods, bool along_warp) {

@@ -8,6 +8,7 @@
 
 #include "chains.h"
 #include "curtain_sim/simulator.h"
+#include "simulator/scenes.h"
 #include "testing.h"
 
 namespace curtain_test {
@@ -25,11 +26,6 @@ std::vector<Vec3> positionsOf(const Simulator& simulator) {
   std::vector<Vec3> positions;
   simulator.copyPositions(positions);
   return positions;
-}
-
-double energyOf(const Simulator& simulator) {
-  const Energy energy = simulator.energy();
-  return energy.kinetic + energy.potential;
 }
 
 double balance(const Work& work) {

@@ -8,14 +8,14 @@
 #include <cstdio>
 
 #include "curtain_sim/simulator.h"
+#include "simulator/scenes.h"
 #include "testing.h"
 
 namespace curtain {
 namespace {
 
+using curtain_test::kGravity;
 using curtain_test::kPi;
-
-constexpr double kGravity = 9.81;
 
 // A horizontal sheet of 12 x 10 nodes over the origin.
 Scene sheetAt(double height, double air) {

@@ -76,13 +76,13 @@ ObstacleParams obstacleOf(ShapeKind shape, const std::string& mesh = "") {
   return obstacle;
 }
 
-struct Case {
+struct Surface {
   std::string name;
   Scene scene;
 };
 
-std::vector<Case> cases() {
-  std::vector<Case> all;
+std::vector<Surface> cases() {
+  std::vector<Surface> all;
   const auto add = [&](const std::string& name, const ObstacleParams& obstacle, int nodes) {
     all.push_back({name, sheetOver(obstacle, nodes)});
   };
@@ -169,7 +169,7 @@ void look(const Simulator& simulator, const ContactShape& shape, Tally& tally) {
 }
 
 TEST(FineSurface, PiercesNothing) {
-  for (const Case& each : cases()) {
+  for (const Surface& each : cases()) {
     Simulator simulator(each.scene);
     const auto shape = makeContactShape(each.scene.obstacles[0], resolveMeshUrl);
     Tally tally;
@@ -287,7 +287,7 @@ TEST(FineSurface, TurnsNoFurtherThanItMust) {
 // The mesh is a function of the nodes and obstacles: asked twice, after other frames, or of another simulator, it has
 // the same bits.
 TEST(FineSurface, IsTheSameForTheSameState) {
-  for (const Case& each : cases()) {
+  for (const Surface& each : cases()) {
     Simulator one(each.scene), other(each.scene);
     FineMesh early, first, second, third;
     for (int frame = 0; frame < 50; ++frame) {

@@ -14,6 +14,7 @@
 namespace curtain {
 namespace {
 
+using curtain_test::energyOf;
 using curtain_test::flatScene;
 using curtain_test::run;
 using curtain_test::shippedScene;
@@ -35,11 +36,6 @@ Scene loadScene(const std::vector<NodeIndex>& nodes, double mass) {
   scene.lines[0].length = 1.0;
   scene.lines[0].mass = mass;
   return scene;
-}
-
-double energyOf(const Simulator& simulator) {
-  const Energy energy = simulator.energy();
-  return energy.kinetic + energy.potential;
 }
 
 double clothMass(const Simulator& simulator) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "curtain_sim/simulator.h"
+#include "simulator/scenes.h"
 #include "testing.h"
 
 namespace curtain_test {
@@ -22,7 +23,7 @@ namespace {
 using namespace curtain;
 
 // Touches itself and a ball, and carries a load: the tolerance reaches every part of the solver.
-Scene busyScene() {
+Scene touchingScene() {
   Scene scene = flatScene(10, 8);
   scene.hang.to.x() = 0.6;
   scene.hang.tilt = 0.9;
@@ -45,10 +46,6 @@ Scene estimatedScene() {
   return scene;
 }
 
-void run(Simulator& simulator, int frames) {
-  for (int frame = 0; frame < frames; ++frame) simulator.step();
-}
-
 struct Key {
   Scene scene;
   std::function<void(Scene&)> in_scene;
@@ -57,10 +54,10 @@ struct Key {
 
 std::map<std::string, Key> keys() {
   return {{"friction",
-           {busyScene(), [](Scene& scene) { scene.contact.friction = 0.9; },
+           {touchingScene(), [](Scene& scene) { scene.contact.friction = 0.9; },
             [](Simulator& simulator) { return simulator.setFriction(0.9); }}},
           {"stretch_tolerance",
-           {busyScene(), [](Scene& scene) { scene.solver.stretch_tolerance = 1e-5; },
+           {touchingScene(), [](Scene& scene) { scene.solver.stretch_tolerance = 1e-5; },
             [](Simulator& simulator) { return simulator.setStretchTolerance(1e-5); }}},
           {"position_tolerance",
            {estimatedScene(), [](Scene& scene) { scene.solver.position_tolerance = 1e-5; },
@@ -153,7 +150,7 @@ TEST(LiveKeys, OutOfRangeChangeNothing) {
 
 // Links that a loose tolerance has let get longer are within a strict one after a frame, and stay so.
 TEST(LiveKeys, AStricterToleranceHoldsAFrameLater) {
-  Scene scene = busyScene();
+  Scene scene = touchingScene();
   scene.solver.stretch_tolerance = 0.1;
   const double strict = 1e-4;
   Simulator simulator(scene);
@@ -202,7 +199,7 @@ TEST(LiveKeys, LowerFrictionWakesWhatItHeld) {
 
 // A budget that nothing can keep shortens frames from the next one on; without it they are whole again.
 TEST(LiveKeys, ABudgetComesAndGoes) {
-  Scene scene = busyScene();
+  Scene scene = touchingScene();
   Simulator simulator(scene);
   run(simulator, 30);
   ASSERT_EQ(simulator.statistics().shortened_frames, 0);

@@ -8,15 +8,15 @@
 #include <numeric>
 
 #include "curtain_sim/simulator.h"
+#include "simulator/scenes.h"
 #include "testing.h"
 
 namespace curtain {
 namespace {
 
 using curtain_test::flatScene;
+using curtain_test::kGravity;
 using curtain_test::ringScene;
-
-constexpr double kGravity = 9.81;
 
 Scene hanging(double rest_speed) {
   Scene scene = flatScene(12, 6);

@@ -10,12 +10,14 @@
 #include <string>
 
 #include "curtain_sim/simulator.h"
+#include "simulator/scenes.h"
 #include "testing.h"
 
 namespace curtain {
 namespace {
 
 using curtain_test::kPi;
+using curtain_test::massOf;
 
 Scene hangingCurtain(int rows, int columns) {
   Scene scene;
@@ -123,14 +125,6 @@ Vec3 centreOf(const Simulator& simulator) {
     }
   }
   return sum / mass;
-}
-
-double massOf(const Simulator& simulator) {
-  double mass = 0.0;
-  for (int i = 0; i < simulator.rows(); ++i) {
-    for (int j = 0; j < simulator.columns(); ++j) mass += simulator.mass({i, j});
-  }
-  return mass;
 }
 
 // At rest a sheet presses on what it lies on with its weight, at its centre of mass.

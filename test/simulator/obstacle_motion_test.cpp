@@ -10,15 +10,17 @@
 #include <functional>
 
 #include "curtain_sim/simulator.h"
+#include "simulator/scenes.h"
 #include "testing.h"
 
 namespace curtain {
 namespace {
 
+using curtain_test::kGravity;
 using curtain_test::kPi;
+using curtain_test::massOf;
 
-constexpr double kGravity = 9.81;
-constexpr double kFriction = 0.5;
+constexpr double kFloorFriction = 0.5;
 
 // A square of cloth that lies on a wide floor.
 Scene sheetOnFloor(double rate) {
@@ -35,7 +37,7 @@ Scene sheetOnFloor(double rate) {
   floor.shape = ShapeKind::kBox;
   floor.size = Vec3(20.0, 2.0, 0.2);
   floor.pose.position = Vec3(0.0, 0.0, -0.1);
-  floor.friction = kFriction;
+  floor.friction = kFloorFriction;
   scene.obstacles.push_back(floor);
   return scene;
 }
@@ -111,14 +113,7 @@ TEST(Belt, LeavesClothBehindAboveTheFrictionBound) {
   scene.obstacles[0].acceleration = Vec3(0.8 * kGravity, 0.0, 0.0);
   Simulator simulator(scene);
   for (int k = 0; k < 60; ++k) simulator.step();
-  EXPECT_NEAR(middle(simulator), 0.5 * kFriction * kGravity, 0.02 * 0.5 * kFriction * kGravity);
-}
-
-double massOf(const Simulator& simulator) {
-  double mass = 0.0;
-  for (int i = 0; i < simulator.rows(); ++i)
-    for (int j = 0; j < simulator.columns(); ++j) mass += simulator.mass({i, j});
-  return mass;
+  EXPECT_NEAR(middle(simulator), 0.5 * kFloorFriction * kGravity, 0.02 * 0.5 * kFloorFriction * kGravity);
 }
 
 // A lift that goes down with 0.3 g: each frame feels m (g - a), though frames have different numbers of substeps.

@@ -90,7 +90,7 @@ TEST_P(PositionTolerance, TakesAtMostTwiceTheFewestSubsteps) {
   }
 }
 
-std::string nameOf(const ::testing::TestParamInfo<std::tuple<Chain, Method>>& test) {
+std::string nameOfChain(const ::testing::TestParamInfo<std::tuple<Chain, Method>>& test) {
   const Chain chain = std::get<0>(test.param);
   return "N" + std::to_string(chain.rods) + "A" + std::to_string(chain.degrees) + toString(std::get<1>(test.param));
 }
@@ -100,8 +100,8 @@ const auto kReleasedAt45 =
 const auto kReleasedAt90 = ::testing::Values(Chain{1, 90}, Chain{2, 90}, Chain{5, 90}, Chain{10, 90});
 const auto kMethods = ::testing::Values(Method::kAuto, Method::kLeapfrog4);
 
-INSTANTIATE_TEST_SUITE_P(Chains, PositionTolerance, ::testing::Combine(kReleasedAt45, kMethods), nameOf);
-INSTANTIATE_TEST_SUITE_P(Horizontal, PositionTolerance, ::testing::Combine(kReleasedAt90, kMethods), nameOf);
+INSTANTIATE_TEST_SUITE_P(Chains, PositionTolerance, ::testing::Combine(kReleasedAt45, kMethods), nameOfChain);
+INSTANTIATE_TEST_SUITE_P(Horizontal, PositionTolerance, ::testing::Combine(kReleasedAt90, kMethods), nameOfChain);
 
 // It is kept to, by the same factor, from the first second on, which goes by a rehearsal of half of it.
 class KeptTolerance : public PositionTolerance {};
@@ -114,8 +114,8 @@ TEST_P(KeptTolerance, IsKeptInTheFirstSecond) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Chains, KeptTolerance, ::testing::Combine(kReleasedAt45, kMethods), nameOf);
-INSTANTIATE_TEST_SUITE_P(Horizontal, KeptTolerance, ::testing::Combine(kReleasedAt90, kMethods), nameOf);
+INSTANTIATE_TEST_SUITE_P(Chains, KeptTolerance, ::testing::Combine(kReleasedAt45, kMethods), nameOfChain);
+INSTANTIATE_TEST_SUITE_P(Horizontal, KeptTolerance, ::testing::Combine(kReleasedAt90, kMethods), nameOfChain);
 
 // Fixed substeps are the user's: the error that they make is told (to a factor of three, as above), nothing is changed.
 TEST(PositionToleranceFixed, TellsTheErrorOfFixedSubsteps) {

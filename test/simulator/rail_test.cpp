@@ -7,12 +7,13 @@
 
 #include "curtain_sim/simulator.h"
 #include "simulator/rail_scenes.h"
+#include "simulator/scenes.h"
 #include "testing.h"
 
 namespace curtain {
 namespace {
 
-constexpr double kGravity = 9.81;
+using curtain_test::kGravity;
 
 void makeSeconds(Simulator& simulator, double seconds) {
   const auto frames = static_cast<int>(std::lround(seconds * simulator.scene().solver.frame_rate));

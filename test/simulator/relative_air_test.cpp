@@ -9,6 +9,7 @@
 #include "curtain_sim/plan.h"
 #include "curtain_sim/simulator.h"
 #include "energy_books.h"
+#include "simulator/scenes.h"
 #include "testing.h"
 #include "truth_table.h"
 
@@ -16,9 +17,8 @@ namespace curtain {
 namespace {
 
 using curtain_test::flatScene;
+using curtain_test::kGravity;
 using curtain_test::kPi;
-
-constexpr double kGravity = 9.81;
 
 Scene inRelativeAir(Scene scene) {
   scene.air.law = AirLaw::kRelative;
@@ -39,7 +39,7 @@ double fastest(const Simulator& simulator) {
   return most;
 }
 
-void run(Simulator& simulator, double seconds) {
+void runSeconds(Simulator& simulator, double seconds) {
   const double end = simulator.time() + seconds - 1e-6;
   while (simulator.time() < end) simulator.step();
 }
@@ -58,7 +58,7 @@ TEST_P(EveryExactMethod, FreeSheetFallsAtItsTerminalSpeed) {
     scene.solver.method = GetParam();
     scene.solver.substeps = substeps;
     Simulator simulator(scene);
-    run(simulator, 4.0);
+    runSeconds(simulator, 4.0);
     std::vector<Vec3> velocities;
     simulator.copyVelocities(velocities);
     const double expected = floatingSpeed(scene);
@@ -83,7 +83,7 @@ TEST_P(StripInWind, RestsAtTheAngleOfTheClosedForm) {
   Scene scene = inRelativeAir(flatScene(44, 4, 2.0));
   scene.ambient.velocity = Vec3(0.0, std::sqrt(r) * floatingSpeed(scene), 0.0);
   Simulator simulator(scene);
-  run(simulator, 20.0);
+  runSeconds(simulator, 20.0);
   const Vec3 tip = simulator.position({43, 1}) - simulator.position({0, 1});
   EXPECT_NEAR(std::atan2(tip.y(), -tip.z()), theta, 1e-10);
   EXPECT_LT(fastest(simulator), 1e-8);
@@ -103,7 +103,7 @@ TEST(RelativeAirScene, RestIsTheSameAtAnyStep) {
     scene.solver.substeps = substeps;
     scene.solver.stretch_tolerance = 1e-8;
     Simulator simulator(scene);
-    run(simulator, 15.0);
+    runSeconds(simulator, 15.0);
     EXPECT_LT(fastest(simulator), 2e-3) << substeps;
     return simulator.position({10, 4});
   };
@@ -125,7 +125,7 @@ TEST(RelativeAirScene, LeavesMotionAlongTheClothAlone) {
     scene.solver.method = Method::kLeapfrog;
     scene.solver.substeps = 8;
     Simulator simulator(scene);
-    run(simulator, 0.5);
+    runSeconds(simulator, 0.5);
     return simulator.position({8, 0});
   };
   EXPECT_LT((swing(AirLaw::kRelative) - swing(AirLaw::kContinuous)).norm(), 1e-9);
@@ -141,7 +141,7 @@ TEST(RelativeAirScene, IsOfSecondOrder) {
     scene.solver.substeps = substeps;
     scene.solver.stretch_tolerance = 1e-10;
     Simulator simulator(scene);
-    run(simulator, 0.5);
+    runSeconds(simulator, 0.5);
     return simulator.position({10, 1});
   };
   const Vec3 a = tipAfter(8), b = tipAfter(16), c = tipAfter(32);
@@ -234,8 +234,8 @@ TEST(RelativeAirScene, SourcesBlowAtTheSpeedOfTheirPressure) {
 }
 
 // A flag at a vertical mast. Its weight keeps it down in slow wind, where its swing dies out; in faster wind it flies,
-// and waves run down it that the air feeds, since it overtakes them. They are as fast as the tension lets them run,
-// which grows with the wind.
+// and waves runSeconds down it that the air feeds, since it overtakes them. They are as fast as the tension lets them
+// runSeconds, which grows with the wind.
 struct Flutter {
   double size = 0.0;       // RMS of the sideways motion of the fly end [m]
   double frequency = 0.0;  // of a sine of the same speed (RMS) [Hz]
@@ -272,9 +272,9 @@ TEST(RelativeAirScene, FlagHangsStillBelowACriticalSpeed) {
   Scene scene = flagAt(0.8);
   scene.solver.stretch_tolerance = 1e-5;
   Simulator simulator(scene);
-  run(simulator, 8.0);
+  runSeconds(simulator, 8.0);
   const Flutter begun = flutterOf(simulator, 4.0);
-  run(simulator, 20.0);
+  runSeconds(simulator, 20.0);
   EXPECT_LT(flutterOf(simulator, 4.0).size, 0.05 * begun.size);
 }
 
@@ -282,9 +282,9 @@ TEST(RelativeAirScene, FlagFluttersAboveItAndFasterInFasterWind) {
   double frequency = 0.0;
   for (const double speed : {2.0, 4.0, 8.0}) {
     Simulator simulator(flagAt(speed));
-    run(simulator, 8.0);
+    runSeconds(simulator, 8.0);
     const Flutter begun = flutterOf(simulator, 4.0);
-    run(simulator, 6.0);
+    runSeconds(simulator, 6.0);
     const Flutter goes_on = flutterOf(simulator, 4.0);
     EXPECT_GT(goes_on.size, 0.02) << speed;
     EXPECT_GT(goes_on.size, 0.5 * begun.size) << speed << ": it does not die out";
@@ -317,7 +317,7 @@ TEST(RelativeAirScene, GustsKeepTheClothAwakeAndSteadyAirDoesNot) {
     scene.ambient.velocity = Vec3(0.0, 0.3, 0.0);
     scene.ambient.intensity = intensity;
     Simulator simulator(scene);
-    run(simulator, 30.0);
+    runSeconds(simulator, 30.0);
     return simulator.statistics().asleep;
   };
   EXPECT_TRUE(sleeps(0.0));
@@ -327,11 +327,11 @@ TEST(RelativeAirScene, GustsKeepTheClothAwakeAndSteadyAirDoesNot) {
 TEST(RelativeAirScene, TheLawMayChangeWhileItRuns) {
   Scene scene = flatScene(8, 6);
   Simulator simulator(scene);
-  run(simulator, 0.2);
+  runSeconds(simulator, 0.2);
   AirParams air;
   air.law = AirLaw::kRelative;
   EXPECT_TRUE(simulator.setAir(air).empty());
-  run(simulator, 0.2);
+  runSeconds(simulator, 0.2);
   EXPECT_TRUE(simulator.statistics().finite);
   air.density = 0.0;
   ASSERT_EQ(simulator.setAir(air).size(), 1u);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Scenes to try a whole simulator on: the defaults on a given grid, and those that are shipped.
+// Scenes to try a whole simulator on: the defaults on a given grid, and those that are shipped. And what is asked of
+// any.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,6 +12,8 @@
 #include "curtain_sim/simulator.h"
 
 namespace curtain_test {
+
+constexpr double kGravity = 9.81;  // that of every scene which says nothing else [m/s^2]
 
 inline curtain::Scene sceneOf(int rows, int columns) {
   curtain::Scene scene;
@@ -28,6 +31,21 @@ inline curtain::Scene shippedScene(const std::string& name) {
 
 inline void run(curtain::Simulator& simulator, int frames) {
   for (int frame = 0; frame < frames; ++frame) simulator.step();
+}
+
+// Kinetic and potential [J].
+inline double energyOf(const curtain::Simulator& simulator) {
+  const curtain::Energy energy = simulator.energy();
+  return energy.kinetic + energy.potential;
+}
+
+// Of the whole cloth [kg].
+inline double massOf(const curtain::Simulator& simulator) {
+  double mass = 0.0;
+  for (int i = 0; i < simulator.rows(); ++i) {
+    for (int j = 0; j < simulator.columns(); ++j) mass += simulator.mass({i, j});
+  }
+  return mass;
 }
 
 }  // namespace curtain_test

@@ -82,7 +82,7 @@ TEST(Sleep, SleepsOnWhenNothingOfItMatters) {
   Scene scene = hanging();
   scene.wind.push_back(fan(3.0));
   scene.drag.push_back(pull({0.0, 0.05, 0.0}));
-  scene.obstacles.push_back(ballAt({5.0, 0.0, 0.6}));
+  scene.obstacles.push_back(smallBallAt({5.0, 0.0, 0.6}));
   Simulator simulator(scene);
   ASSERT_TRUE(sleepsWithin(simulator, 900));
   const std::int64_t wakes = simulator.statistics().wakes;
@@ -136,7 +136,7 @@ TEST(Sleep, GustsKeepItAwakeHoweverWeak) {
 
 TEST(Sleep, RestsOnABallAndPressesOn) {
   Scene scene = hanging();
-  scene.obstacles.push_back(ballAt({0.5, -0.1, 0.6}));
+  scene.obstacles.push_back(smallBallAt({0.5, -0.1, 0.6}));
   Simulator simulator(scene);
   ASSERT_TRUE(sleepsWithin(simulator, 900));
   const Vec3 force = simulator.contactWrench(0).force;

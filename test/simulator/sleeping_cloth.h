@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "curtain_sim/simulator.h"
+#include "simulator/scenes.h"
 #include "testing.h"
 
 namespace curtain_test {
@@ -35,10 +36,6 @@ inline Scene sleepless(Scene scene) {
   return scene;
 }
 
-inline void run(Simulator& simulator, int frames) {
-  for (int frame = 0; frame < frames; ++frame) simulator.step();
-}
-
 inline bool sleepsWithin(Simulator& simulator, int frames) {
   for (int frame = 0; frame < frames; ++frame) {
     simulator.step();
@@ -64,7 +61,7 @@ inline double farthestMoved(const Simulator& simulator, const std::vector<Vec3>&
   return worst;
 }
 
-inline ObstacleParams ballAt(const Vec3& position) { return ballAt(position, 0.15); }
+inline ObstacleParams smallBallAt(const Vec3& position) { return ballAt(position, 0.15); }
 
 inline WindParams fan(double pressure) {
   WindParams wind = fanAt({0.5, -1.0, 0.7}, 1.0);

@@ -12,10 +12,12 @@
 
 #include "curtain_sim/simulator.h"
 #include "scene/pi.h"
+#include "simulator/scenes.h"
 
 namespace curtain {
 namespace {
 
+using curtain_test::energyOf;
 // What a frame may add to the energy, over m g L: the displacement in a substep that is as long as the links allow
 // turns them by a tenth of a radian, whose square the leapfrog's energy wavers by.
 constexpr double kWavers = 1e-2;
@@ -92,11 +94,6 @@ Scene stripScene(unsigned seed) {
   scene.hang.to = scene.hang.from + Vec3(0.0, scene.cloth.width, 0.0);
   scene.hang.tilt = 0.5 * kPi;
   return scene;
-}
-
-double energyOf(const Simulator& simulator) {
-  const Energy energy = simulator.energy();
-  return energy.kinetic + energy.potential;
 }
 
 TEST(SlidingStrips, GainNoEnergy) {

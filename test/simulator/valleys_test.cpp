@@ -71,12 +71,12 @@ std::string writeGroove(double slope) {
 }
 
 TEST(Valleys, AreWhereClothComesToRest) {
-  struct Case {
+  struct Valley {
     Method method;
     double friction;
   };
   // Without friction implicit still slides along the groove after 10 s, at 2 mm/s.
-  for (const Case& one : {Case{Method::kAuto, 0.0}, {Method::kAuto, 0.3}, {Method::kImplicit, 0.3}}) {
+  for (const Valley& one : {Valley{Method::kAuto, 0.0}, {Method::kAuto, 0.3}, {Method::kImplicit, 0.3}}) {
     for (const double slope : {0.3, 0.6, 1.0, 2.0}) {
       SCOPED_TRACE("method " + std::to_string(static_cast<int>(one.method)) + ", slope " + std::to_string(slope) +
                    ", friction " + std::to_string(one.friction));

@@ -36,7 +36,7 @@ std::vector<Cause> causes() {
   const auto blown = [](Scene& scene) { scene.wind.push_back(fan(3.0)); };
   const auto pulled = [](Scene& scene) { scene.drag.push_back(pull({0.0, 0.05, 0.0})); };
   const auto withBall = [](const Vec3& place) {
-    return [place](Scene& scene) { scene.obstacles.push_back(ballAt(place)); };
+    return [place](Scene& scene) { scene.obstacles.push_back(smallBallAt(place)); };
   };
   const auto once = [](auto call) {
     return [call](Simulator& simulator, int frame) {
@@ -145,7 +145,7 @@ std::vector<Cause> causes() {
        0.03},
       {"scripted obstacle",
        [](Scene& scene) {
-         scene.obstacles.push_back(ballAt({0.5, -1.0, 0.6}));
+         scene.obstacles.push_back(smallBallAt({0.5, -1.0, 0.6}));
          scene.obstacles[0].motion = {{6.0, scene.obstacles[0].pose}, {6.5, scene.obstacles[0].pose}};
          scene.obstacles[0].motion[1].pose.position.y() = 0.0;
        },

@@ -15,7 +15,7 @@ namespace {
 
 using namespace curtain_test;
 
-constexpr double kStep = 0.01;
+constexpr double kAccountStep = 0.01;
 constexpr Scheme::Rules kRules = {false, false, 0.5};  // leapfrog's
 
 // Cloth that moves at 1 m/s along x, with no forces.
@@ -36,11 +36,11 @@ struct Moving {
     scene.pins.kind = pins;
     return scene;
   }
-  SubstepStart start() const { return {state, force, nullptr, nullptr, kStep, kStep}; }
+  SubstepStart start() const { return {state, force, nullptr, nullptr, kAccountStep, kAccountStep}; }
   /// Where the nodes are when they went at `factor` of their speed.
   Field3 end(double factor) const {
     Field3 end = state.position;
-    for (std::size_t n = 0; n < pattern.grid.size(); ++n) end.add(n, factor * kStep * state.velocity.at(n));
+    for (std::size_t n = 0; n < pattern.grid.size(); ++n) end.add(n, factor * kAccountStep * state.velocity.at(n));
     return end;
   }
 
@@ -125,10 +125,10 @@ TEST(EnergyAccount, ForcesPutInTheirWork) {
   const Field3 moving = cloth.state.velocity;
   cloth.state.velocity.assign(cloth.pattern.grid.size(), 0.0);
   for (std::size_t n = 0; n < cloth.pattern.grid.size(); ++n)
-    cloth.force.set(n, cloth.pattern.mass[n] / kStep * moving.at(n));
+    cloth.force.set(n, cloth.pattern.mass[n] / kAccountStep * moving.at(n));
   const auto look = [&](double speed) {
     Field3 end = cloth.state.position;
-    for (std::size_t n = 0; n < cloth.pattern.grid.size(); ++n) end.add(n, speed * kStep * moving.at(n));
+    for (std::size_t n = 0; n < cloth.pattern.grid.size(); ++n) end.add(n, speed * kAccountStep * moving.at(n));
     return cloth.account.entryOf(kRules, cloth.start(), end, {}, 0.0);
   };
   EXPECT_EQ(look(1.0).made, 0.0);  // m v^2 / 2 = F v / 2 over the step
@@ -169,9 +169,9 @@ TEST(EnergyAccount, BoundsWhatIsBeyondMeasure) {
 TEST(Contacts, DrivePointsOutOfWhereTheyWere) {
   Contact contact;
   contact.recovery = 2e-3;
-  EXPECT_EQ(fastestDrive({contact}, kStep), 0.0);
+  EXPECT_EQ(fastestDrive({contact}, kAccountStep), 0.0);
   contact.push = 1.0;
-  EXPECT_EQ(fastestDrive({contact}, kStep), 2e-3 / kStep);
+  EXPECT_EQ(fastestDrive({contact}, kAccountStep), 2e-3 / kAccountStep);
 }
 
 }  // namespace

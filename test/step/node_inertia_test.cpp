@@ -14,7 +14,7 @@
 namespace curtain {
 namespace {
 
-constexpr double kStep = 1e-3;
+constexpr double kInertiaStep = 1e-3;
 
 // Nodes of equal mass; the first row is pinned.
 struct Nodes {
@@ -25,13 +25,15 @@ struct Nodes {
     inertia.emplace(pattern);
     mass = pattern.mass[node];
   }
-  void set(double max_phase, bool implicit = false) { inertia->set(forces, kStep, kStep * kStep, max_phase, implicit); }
+  void set(double max_phase, bool implicit = false) {
+    inertia->set(forces, kInertiaStep, kInertiaStep * kInertiaStep, max_phase, implicit);
+  }
   // One node's links carry so many times its mass in a last substep of the same length.
   void load(double masses) {
     NodeInertia::Tensions& tensions = inertia->tensions();
     tensions.load[node] = masses * mass;
     tensions.heaviest = masses;
-    tensions.scale = kStep * kStep;
+    tensions.scale = kInertiaStep * kInertiaStep;
   }
 
   ClothPattern pattern;
@@ -53,7 +55,7 @@ TEST(NodeInertia, WithoutAirAndTensionsItIsTheMasses) {
 TEST(NodeInertia, AirTakesAShareOfImpulseAndVelocity) {
   Nodes nodes;
   nodes.forces.has_damping = true;
-  nodes.forces.damping.assign(nodes.pattern.grid.size(), 2.0 * nodes.mass / kStep);  // z = 2
+  nodes.forces.damping.assign(nodes.pattern.grid.size(), 2.0 * nodes.mass / kInertiaStep);  // z = 2
   nodes.set(0.0);
   EXPECT_DOUBLE_EQ((*nodes.inertia->keep())[nodes.node], 1.0 / 5.0);
   EXPECT_DOUBLE_EQ(nodes.inertia->inverse()[nodes.node], 2.0 / 5.0 / nodes.mass);
@@ -66,7 +68,7 @@ TEST(NodeInertia, AirTakesAShareOfImpulseAndVelocity) {
 TEST(NodeInertia, ANodeThatSwingsTooFastIsHeavierUntilItsPhaseIsTheOneAllowed) {
   Nodes nodes;
   nodes.load(4.0);
-  EXPECT_DOUBLE_EQ(nodes.inertia->omegaSquared() * kStep * kStep, 8.0);
+  EXPECT_DOUBLE_EQ(nodes.inertia->omegaSquared() * kInertiaStep * kInertiaStep, 8.0);
   nodes.set(1.0);
   EXPECT_DOUBLE_EQ(nodes.inertia->inverse()[nodes.node], 0.125 / nodes.mass);
   EXPECT_EQ(nodes.inertia->inverse()[nodes.other], 1.0 / nodes.mass);
@@ -86,10 +88,10 @@ TEST(NodeInertia, AStepForAPhaseIsLongerWhereFewNodesMayBeHeavier) {
   Nodes nodes;
   EXPECT_TRUE(std::isinf(nodes.inertia->stepForPhase(1.0, 0.0)));
   nodes.load(5.0);
-  EXPECT_DOUBLE_EQ(nodes.inertia->stepForPhase(1.0, 0.0), kStep / std::sqrt(10.0));
+  EXPECT_DOUBLE_EQ(nodes.inertia->stepForPhase(1.0, 0.0), kInertiaStep / std::sqrt(10.0));
   // A third of the nine free nodes' mass: the one may weigh four times as much, and the step be twice as long.
   const double step = nodes.inertia->stepForPhase(1.0, 1.0 / 3.0);
-  const double longest = 2.0 * kStep / std::sqrt(10.0);
+  const double longest = 2.0 * kInertiaStep / std::sqrt(10.0);
   EXPECT_LE(step, longest * (1.0 + 1e-12));
   EXPECT_GE(step, longest * std::exp2(-1.0 / 64.0));  // the weight to within 2^(1/32)
 }

@@ -21,8 +21,8 @@ Scene sceneOf(int rows, int columns, PinKind pins) {
   return scene;
 }
 
-struct Bench {
-  explicit Bench(const Scene& scene) : pattern(makePattern(scene)), state(makeInitialState(scene, pattern)) {
+struct WarpBench {
+  explicit WarpBench(const Scene& scene) : pattern(makePattern(scene)), state(makeInitialState(scene, pattern)) {
     warp.assign(pattern.grid);
     scratch.assign(pattern.grid);
     setWarpDirections(pattern.grid, state.position, warp.direction);
@@ -56,7 +56,7 @@ struct Bench {
 // Newton ends quadratically: from a relative violation of 1e-1 five iterations leave rounding, 1e-16 * rows, times
 // the condition of a column of that height (~ rows^2).
 TEST(WarpSolver, BringsEveryRodToItsLength) {
-  Bench bench(sceneOf(20, 13, PinKind::kTop));
+  WarpBench bench(sceneOf(20, 13, PinKind::kTop));
   bench.shake(0.005, 3);
   EXPECT_GT(warpStretch(bench.pattern, bench.state.position).longer, 1e-3);
   for (int iteration = 0; iteration < 6; ++iteration) EXPECT_TRUE(bench.newton().sound);
@@ -67,7 +67,7 @@ TEST(WarpSolver, BringsEveryRodToItsLength) {
 
 // Constraint forces come in pairs: without pins the centre of mass stays. 1e-16 * nodes of rounding.
 TEST(WarpSolver, FreeColumnsKeepTheirMomentum) {
-  Bench bench(sceneOf(20, 13, PinKind::kNone));
+  WarpBench bench(sceneOf(20, 13, PinKind::kNone));
   bench.shake(0.005, 4);
   const Field3 before = bench.state.position;
   for (int iteration = 0; iteration < 6; ++iteration) bench.newton();
@@ -78,7 +78,7 @@ TEST(WarpSolver, FreeColumnsKeepTheirMomentum) {
 // The move of every node is along the directions given, whatever the rods' present directions are: the multipliers
 // alone reproduce it.
 TEST(WarpSolver, MovesAlongTheGivenDirections) {
-  Bench bench(sceneOf(9, 5, PinKind::kTop));
+  WarpBench bench(sceneOf(9, 5, PinKind::kTop));
   bench.shake(0.02, 5);
   const Field3 before = bench.state.position;
   for (int iteration = 0; iteration < 3; ++iteration) bench.newton();
@@ -92,14 +92,14 @@ TEST(WarpSolver, MovesAlongTheGivenDirections) {
 }
 
 TEST(WarpSolver, ReportsARodThatTurnedOver) {
-  Bench bench(sceneOf(2, 3, PinKind::kTop));
+  WarpBench bench(sceneOf(2, 3, PinKind::kTop));
   const std::size_t node = bench.pattern.grid.index(1, 1);
   bench.state.position.set(node, bench.state.position.at(node) + Vec3(0.0, 0.0, 4.0));
   EXPECT_FALSE(bench.newton().sound);
 }
 
 TEST(WarpSolver, ProjectedVelocitiesKeepTheRodsLengths) {
-  Bench bench(sceneOf(15, 6, PinKind::kTop));
+  WarpBench bench(sceneOf(15, 6, PinKind::kTop));
   Field3 velocity;
   velocity.assign(bench.pattern.grid.size(), 0.0);
   std::mt19937 random(6);
