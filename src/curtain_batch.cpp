@@ -57,6 +57,11 @@ int simulate(Options options) {
   }
   const std::string jammed = curtain::describeLastResort(simulator.statistics());
   if (!jammed.empty()) std::cerr << "curtain_batch: " << jammed << '\n';
+  for (const curtain::HandParams& hand : simulator.scene().hands) {
+    const auto state = simulator.graspState(hand.grasp.id);
+    const std::string failure = state ? curtain::describeFailure(hand, state->end) : "";
+    if (!failure.empty()) std::cerr << "curtain_batch: " << failure << '\n';
+  }
   if (simulator.statistics().finite) return EXIT_SUCCESS;
   std::cerr << "curtain_batch: the state became non-finite at t = " << simulator.time() << " s\n";
   return kNotFinite;

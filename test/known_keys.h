@@ -34,7 +34,7 @@ class KeyCollector {
   void pins(Key key, const PinParams&) { note(key); }
   void slits(Key key, const std::vector<SlitParams>&) { note(key); }
   void path(Key key, const std::vector<RailPiece>&, Range) { note(key); }
-  bool belongs(Key, bool, ShapeKind) { return true; }
+  bool belongs(Key, bool, const Chosen&) { return true; }
 
   template <typename Enum>
   void choice(Key key, const Enum&, const std::vector<std::string>&) {

@@ -278,6 +278,53 @@ struct WindParams {
   double end = std::numeric_limits<double>::infinity();  ///< [s], > start
 };
 
+/// A pose at a time: of a smooth curve, held at both ends, see docs/method.md, "Obstacles that move".
+struct PoseKey {
+  double time = 0.0;  ///< [s], strictly increasing along a motion
+  Pose pose;          ///< in the world
+};
+
+/// Which nodes a hand takes.
+enum class GraspRegion {
+  kSphere,  ///< those in a ball
+  kBox,     ///< those in a box
+  kNodes    ///< listed ones
+};
+
+/// A hand that takes hold of the cloth. What it holds moves with the gripper's frame.
+///
+/// Where nothing but releaseGrasp() ends it and it does not give, the held nodes are pinned. Otherwise each hangs on a
+/// spring from its place in the frame (stiff: 0.05 mm at break_force), and is a free node of the cloth for all else.
+struct GraspParams {
+  std::string id;                             ///< unique among the grasps, not empty
+  Pose frame;                                 ///< of the gripper in the world, when it takes hold
+  GraspRegion region = GraspRegion::kSphere;  ///< decides which of the members below are read
+  Pose place;                                 ///< of ball and box, centre and axes in the gripper's frame
+  double radius = 0.0;                        ///< of the ball [m], > 0
+  Vec3 size = Vec3::Zero();                   ///< of the box, edge lengths [m], > 0
+  std::vector<NodeIndex> nodes;               ///< listed ones, each once
+  double stiffness = std::numeric_limits<double>::infinity();    ///< of the hand [N/m], > 0; infinite: it does not give
+  double break_force = std::numeric_limits<double>::infinity();  ///< pull that tears the cloth out of it [N], > 0
+  /// Either of two pads presses with this [N], > 0: they hold by 2 friction pinch_force at most, and beyond that the
+  /// cloth slides out between them. With a ball or a box, which is where the pads are. Infinite: it never slides.
+  double pinch_force = std::numeric_limits<double>::infinity();
+  double friction = 0.5;  ///< of the pads, Coulomb coefficient; > 0 with a pinch_force
+};
+
+/// A hand that takes hold, moves and lets go by itself.
+struct HandParams {
+  GraspParams grasp;                                     ///< grasp.frame: pose of the gripper where it has no motion
+  std::vector<PoseKey> motion;                           ///< of the gripper
+  double start = 0.0;                                    ///< [s]; it takes hold as the first frame from then on begins
+  double end = std::numeric_limits<double>::infinity();  ///< [s], > start; it lets go, in the same way
+};
+
+/// A point at a time.
+struct PointKey {
+  double time = 0.0;             ///< [s], strictly increasing along a path
+  Vec3 position = Vec3::Zero();  ///< [m]
+};
+
 /// A user force on a node and its neighbourhood.
 struct DragParams {
   std::string id;                 ///< unique among the drags, not empty
@@ -285,6 +332,7 @@ struct DragParams {
   std::optional<Vec3> point;      ///< [m] grasp the node nearest to this point when the drag starts
   Vec3 force = Vec3::Zero();      ///< [N], shared by the neighbourhood
   std::optional<Vec3> target;     ///< [m] pull the node to this point with a critically damped spring
+  std::vector<PointKey> path;     ///< in place of target: the same to a point on a smooth curve through these
   double stiffness = 20.0;        ///< of that spring [N/m], > 0
   double max_force = 10.0;        ///< the spring never pulls harder [N], > 0
   double radius = 0.0;            ///< of the neighbourhood along the cloth [m], >= 0; 0 = the node alone
@@ -300,12 +348,6 @@ enum class ShapeKind {
   kCapsule,   ///< around the z axis
   kPlane,     ///< z = 0; the +z side is free
   kMesh       ///< triangles of a mesh file
-};
-
-/// A pose at a time, of an obstacle's scripted motion.
-struct PoseKey {
-  double time = 0.0;  ///< [s], strictly increasing along a motion
-  Pose pose;          ///< in the world
 };
 
 /// A rigid body that the cloth touches.
@@ -370,18 +412,21 @@ struct SolverParams {
 
 /// Everything a simulator starts from.
 struct Scene {
-  ClothParams cloth;                      ///< grid, size and mass
-  HangParams hang;                        ///< start position
-  HemParams hem;                          ///< weights along the bottom row
-  PinParams pins;                         ///< pinned nodes; on a rail kTop pins none
-  RailParams rail;                        ///< the top edge slides on it, or there is none
-  std::vector<LineParams> lines;          ///< unique ids
-  std::vector<TieBackParams> tie_back;    ///< unique ids
-  Vec3 gravity = Vec3(0.0, 0.0, -9.81);   ///< [m/s^2]
-  AirParams air;                          ///< damping, or the law of the relative velocity
-  AmbientParams ambient;                  ///< the wind everywhere
-  std::vector<WindParams> wind;           ///< unique ids
-  std::vector<DragParams> drag;           ///< unique ids
+  ClothParams cloth;                     ///< grid, size and mass
+  HangParams hang;                       ///< start position
+  HemParams hem;                         ///< weights along the bottom row
+  PinParams pins;                        ///< pinned nodes; on a rail kTop pins none
+  RailParams rail;                       ///< the top edge slides on it, or there is none
+  std::vector<LineParams> lines;         ///< unique ids
+  std::vector<TieBackParams> tie_back;   ///< unique ids
+  Vec3 gravity = Vec3(0.0, 0.0, -9.81);  ///< [m/s^2]
+  AirParams air;                         ///< damping, or the law of the relative velocity
+  AmbientParams ambient;                 ///< the wind everywhere
+  std::vector<WindParams> wind;          ///< unique ids
+  std::vector<DragParams> drag;          ///< unique ids
+  std::vector<HandParams> hands;         ///< unique ids
+  /// Poses of a frame that the scene's pins move with, from where they are at its first one.
+  std::vector<PoseKey> pins_motion;
   std::vector<ObstacleParams> obstacles;  ///< unique names
   ContactParams contact;                  ///< of cloth with obstacles and itself
   SolverParams solver;                    ///< how motion is computed

@@ -143,15 +143,16 @@ class Simulator {
   /// anything but a rigid grasp with method: paper; then nothing changed. Allocates.
   std::vector<Problem> setGrasp(const GraspParams& grasp);
   /// Pose of the gripper's frame at the end of the next step. The nodes move there evenly, and stay; where a frame ends
-  /// early (solver.budget_ms), or pins have to wait for the cloth, they follow in the next ones. False: no grasp of
-  /// this id holds, or the pose is not finite.
+  /// early (solver.budget_ms), or pins have to wait for the cloth, they follow in the next ones. A hand of the scene
+  /// goes where its motion leads all the same. False: no grasp of this id holds, or the pose is not finite.
   bool moveGrasp(const std::string& id, const Pose& frame);
-  /// Lets go, and forgets the grasp; its nodes keep the velocity they moved with. False: there is none of this id.
+  /// Lets go, and forgets the grasp; its nodes keep the velocity they moved with. A hand of the scene does nothing more
+  /// until reset(). False: there is none of this id.
   bool releaseGrasp(const std::string& id);
   void releaseAllGrasps();  ///< as releaseGrasp(), of all
   /// How a grasp goes, or how it ended (until releaseGrasp(), reset(), or another of this id); none: there is none.
   std::optional<GraspState> graspState(const std::string& id) const;
-  /// Ids of the grasps that hold or have ended, in their order.
+  /// Ids of the grasps that hold or have ended, in their order; first those of the scene.
   std::vector<std::string> grasps() const;
 
   /// Closes a tie-back, from where its nodes are and at its speed, or opens it: its nodes are free at once. Returns

@@ -20,6 +20,10 @@ class ParamCarrier {
   void node(Key key, std::optional<NodeIndex>& value) {
     archive_.optional(key.name, value, NodeIndex(), [this](NodeIndex& item) { archive_.node("value", item, grid_); });
   }
+  template <typename T>
+  void list(Key key, std::vector<T>& values) {
+    archive_.list(key.name, values, [this](T& item) { visitFields(*this, item); });
+  }
   template <typename Enum>
   void choice(Key key, Enum& value, const std::vector<std::string>& names) {
     archive_.integer(key.name, value, 0, static_cast<std::int64_t>(names.size()) - 1);

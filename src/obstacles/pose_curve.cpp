@@ -149,19 +149,21 @@ double PoseCurve::fastest(double radius) const noexcept {
 }
 
 ScriptedMotion::ScriptedMotion(const ObstacleParams& params, double radius)
-    : steady_(params.motion.empty() &&
-              !(params.velocity.isZero(0.0) && params.spin.isZero(0.0) && params.acceleration.isZero(0.0))),
-      start_(params.pose),
-      speed_{params.velocity, params.spin},
-      acceleration_(params.acceleration) {
-  if (params.motion.empty()) return;
-  start_ = params.motion.front().pose;
-  last_ = params.motion.back().pose;
+    : ScriptedMotion(params.pose, params.motion, radius) {
+  steady_ = params.motion.empty() &&
+            !(params.velocity.isZero(0.0) && params.spin.isZero(0.0) && params.acceleration.isZero(0.0));
+  speed_ = {params.velocity, params.spin};
+  acceleration_ = params.acceleration;
+}
+
+ScriptedMotion::ScriptedMotion(const Pose& start, const std::vector<PoseKey>& poses, double radius)
+    : start_(poses.empty() ? start : poses.front().pose), last_(poses.empty() ? start : poses.back().pose) {
+  if (poses.empty()) return;
   std::vector<Piece> moves, turns;
-  for (const PoseKey& key : params.motion) {
+  for (const PoseKey& key : poses) {
     if (!times_.empty()) {
       const double time = key.time - times_.back();
-      const PoseChange change = changeBetween(params.motion[times_.size() - 1].pose, key.pose);
+      const PoseChange change = changeBetween(poses[times_.size() - 1].pose, key.pose);
       moves.push_back({change.move / time, time, {}, {}});
       turns.push_back({change.turn / time, time, {}, {}});
     }
@@ -171,8 +173,7 @@ ScriptedMotion::ScriptedMotion(const ObstacleParams& params, double radius)
   joinAll(turns, radius);
   for (std::size_t k = 0; k < moves.size(); ++k) {
     const double time = moves[k].time;
-    pieces_.emplace_back(params.motion[k].pose, params.motion[k + 1].pose,
-                         PoseChange{time * moves[k].mean, time * turns[k].mean},
+    pieces_.emplace_back(poses[k].pose, poses[k + 1].pose, PoseChange{time * moves[k].mean, time * turns[k].mean},
                          PoseChange{time * moves[k].first, time * turns[k].first},
                          PoseChange{time * moves[k].last, time * turns[k].last});
   }
@@ -186,7 +187,7 @@ std::size_t ScriptedMotion::pieceAt(double time) const noexcept {
 
 Pose ScriptedMotion::at(double time) const noexcept {
   if (steady_) return changed(start_, {time * speed_.move + (0.5 * time * time) * acceleration_, time * speed_.turn});
-  if (time <= times_.front()) return start_;
+  if (times_.empty() || time <= times_.front()) return start_;
   if (time >= times_.back()) return last_;
   const std::size_t piece = pieceAt(time);
   return pieces_[piece].at((time - times_[piece]) / durationOf(piece));
@@ -194,7 +195,7 @@ Pose ScriptedMotion::at(double time) const noexcept {
 
 PoseChange ScriptedMotion::rateAt(double time) const noexcept {
   if (steady_) return {speed_.move + time * acceleration_, speed_.turn};
-  if (time <= times_.front() || time > times_.back()) return {};
+  if (times_.empty() || time <= times_.front() || time > times_.back()) return {};
   const std::size_t piece = pieceAt(time);
   return (1.0 / durationOf(piece)) * pieces_[piece].rateAt((time - times_[piece]) / durationOf(piece));
 }
@@ -202,7 +203,7 @@ PoseChange ScriptedMotion::rateAt(double time) const noexcept {
 double ScriptedMotion::fastest(double from, double to, double radius) const noexcept {
   if (steady_) return std::max(rateAt(from).reach(radius), rateAt(to).reach(radius));
   double most = 0.0;
-  if (to < times_.front() || from > times_.back() || pieces_.empty()) return most;
+  if (times_.empty() || to < times_.front() || from > times_.back() || pieces_.empty()) return most;
   for (std::size_t k = pieceAt(from); k < pieces_.size() && times_[k] < to; ++k)
     most = std::max(most, pieces_[k].fastest(radius) / durationOf(k));
   return most;

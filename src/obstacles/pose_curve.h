@@ -8,7 +8,8 @@
 // turns back.
 //
 //   PoseCurve      between two poses, with given speeds at both
-//   ScriptedMotion of a scene file: through all its poses, or with constant speed, spin and acceleration
+//   ScriptedMotion of a scene file: through all its poses, or with constant speed, spin and acceleration; of obstacles,
+//                  hands, pins and drags
 //   FrameCurve     of the coming frame: along a script, or to a pose that was set, of which the next is not known yet
 #pragma once
 
@@ -70,10 +71,11 @@ class PoseCurve {
 class ScriptedMotion {
  public:
   ScriptedMotion() = default;
-  /// radius: of the obstacle's points about its origin [m].
+  /// start: where there are no poses. radius: of its points about its origin [m].
+  ScriptedMotion(const Pose& start, const std::vector<PoseKey>& poses, double radius);
   ScriptedMotion(const ObstacleParams& params, double radius);
 
-  /// False: the scene file moves it not.
+  /// False: it stands.
   bool any() const noexcept { return steady_ || !times_.empty(); }
   /// Before its first pose and after its last one it stands.
   Pose at(double time) const noexcept;

@@ -68,7 +68,7 @@ py::object graspState(const Self& self, const std::string& id) {
   values["torque"] = toArray(state->torque);
   values["slipped"] = state->slipped;
   values["holds"] = state->end == GraspEnd::kNone;
-  values["end"] = state->end == GraspEnd::kNone ? "" : state->end == GraspEnd::kBroken ? "broken" : "slipped_out";
+  values["end"] = state->end == GraspEnd::kNone ? "" : toString(state->end);
   return py::object(values);
 }
 
@@ -114,7 +114,9 @@ void bindHands(SimulatorClass& simulator) {
       .def("grasp_state", &graspState, py::arg("id"),
            "How a grasp goes or how it ended, None where there is none: nodes that it holds; force of the cloth on the "
            "hand [N] and torque about the gripper's origin [N m], mean over the last frame, along the world's axes; "
-           "slipped, way of the cloth between the pads [m]; holds; end: \"\", \"broken\" or \"slipped_out\".")
+           "slipped, way of the cloth between the pads [m]; holds; end: \"\", \"broken\" or \"slipped_out\"; of hands "
+           "of "
+           "the scene also \"waiting\", \"missed\" or \"released\".")
       .def_property_readonly(
           "grasps",
           [](const Self& self) {
@@ -122,7 +124,7 @@ void bindHands(SimulatorClass& simulator) {
             for (const std::string& id : self.inspect().grasps()) ids.append(id);
             return ids;
           },
-          "Ids of the grasps that hold or have ended.");
+          "Ids of the grasps that hold or have ended, and of the scene's hands.");
 }
 
 }  // namespace curtain::python

@@ -9,14 +9,11 @@
 namespace curtain {
 namespace {
 
-// What a hand can bear.
-Range strength() { return {kSmallest, kLargest, false, true}; }
-
 void checkNodes(const GraspParams& grasp, const ClothParams& cloth, const std::string& key, ProblemLog& log) {
-  if (grasp.nodes.empty()) log.add(joinKey(key, "nodes"), "must list at least one node");
+  if (grasp.nodes.empty() && log.good(key)) log.add(key, "must list at least one node");
   std::set<std::pair<int, int>> seen;
   for (std::size_t k = 0; k < grasp.nodes.size(); ++k) {
-    const std::string item = itemKey(joinKey(key, "nodes"), k);
+    const std::string item = itemKey(key, k);
     const NodeIndex& node = grasp.nodes[k];
     checkNodeOnGrid(node, cloth, item, log);
     if (!seen.emplace(node.row, node.column).second) log.add(item, "must be listed once");
@@ -25,29 +22,18 @@ void checkNodes(const GraspParams& grasp, const ClothParams& cloth, const std::s
 
 }  // namespace
 
+void checkHold(const GraspParams& grasp, const ClothParams& cloth, const std::string& key, ProblemLog& log) {
+  if (grasp.region != GraspRegion::kNodes || !log.good(joinKey(key, "region"))) return;
+  checkNodes(grasp, cloth, joinKey(key, "nodes"), log);
+  if (grasp.pinch_force <= kLargest)
+    log.add(joinKey(key, "pinch_force"), "needs a sphere or a box: listed nodes have no edge to slide out of");
+}
+
 std::vector<Problem> validate(const GraspParams& grasp, const ClothParams& cloth, const std::string& key) {
   ProblemLog log;
-  RangeChecker check(key, log);
-  check.text("id", grasp.id);
-  check.vector("frame.position", grasp.frame.position, anywhere());
-  check.rotation("frame.orientation", grasp.frame.orientation);
-  check.choice("region", grasp.region, {"sphere", "box", "nodes"});
-  if (grasp.region == GraspRegion::kNodes) {
-    checkNodes(grasp, cloth, key, log);
-  } else {
-    check.vector("place.position", grasp.place.position, anywhere());
-    check.rotation("place.orientation", grasp.place.orientation);
-    if (grasp.region == GraspRegion::kSphere) check.number("radius", grasp.radius, positive());
-    if (grasp.region == GraspRegion::kBox) check.vector("size", grasp.size, positive());
-  }
-  check.number("stiffness", grasp.stiffness, strength());
-  check.number("break_force", grasp.break_force, strength());
-  check.number("pinch_force", grasp.pinch_force, strength());
-  const bool pinches = grasp.pinch_force <= kLargest;
-  check.number("friction", grasp.friction, pinches ? positive() : notNegative());
-  if (pinches && grasp.region == GraspRegion::kNodes) {
-    log.add(joinKey(key, "pinch_force"), "needs a sphere or a box: listed nodes have no edge to slide out of");
-  }
+  RangeChecker checker(key, log);
+  visitFields(checker, grasp);
+  checkHold(grasp, cloth, key, log);
   return log.problems();
 }
 

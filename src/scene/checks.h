@@ -20,6 +20,9 @@ void checkRail(const Scene& scene, ProblemLog& log);
 /// Checks that lines and tie-backs belong to nodes of the cloth and have an end.
 void checkLines(const Scene& scene, ProblemLog& log);
 
+/// Checks what a hand takes, beside its single values.
+void checkHold(const GraspParams& grasp, const ClothParams& cloth, const std::string& key, ProblemLog& log);
+
 /// Checks that row and column are on the grid, unless the grid's size is wrong.
 void checkNodeOnGrid(const NodeIndex& node, const ClothParams& cloth, const std::string& key, ProblemLog& log);
 

@@ -7,7 +7,7 @@
 //   integer, integerOr (a word stands for one value), seed, number, optionalNumber, numberOrUnset (NaN: not given),
 //   flag, text, choice, vector, optionalVector, scale (one number or three), rotation, node, nodes, numbers, integers,
 //   pins, slits, path (of a rail), map (a struct below), list (a list of structs, and what one has that says nothing),
-//   belongs (false: the key is not for this value).
+//   belongs (false: the key is not for what was chosen).
 #pragma once
 
 #include <type_traits>
@@ -26,6 +26,13 @@ struct Key {
 };
 
 inline Key required(const char* name) { return {name, true}; }
+
+/// A choice that other keys belong to.
+struct Chosen {
+  const char* key;
+  const std::vector<std::string>& names;
+  std::size_t value;
+};
 
 template <typename T>
 struct Fields;
@@ -202,6 +209,15 @@ struct Fields<WindParams> {
 };
 
 template <>
+struct Fields<PointKey> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& key) {
+    v.number("time", key.time, anywhere());
+    v.vector("position", key.position, anywhere());
+  }
+};
+
+template <>
 struct Fields<DragParams> {
   template <typename Visitor, typename T>
   static void visit(Visitor& v, T& drag) {
@@ -210,6 +226,7 @@ struct Fields<DragParams> {
     v.optionalVector("point", drag.point, anywhere());
     v.vector("force", drag.force, anyForce());
     v.optionalVector("target", drag.target, anywhere());
+    v.list("path", drag.path);
     v.number("stiffness", drag.stiffness, positive());
     v.number("max_force", drag.max_force, positive());
     v.number("radius", drag.radius, notNegative());
@@ -225,6 +242,56 @@ struct Fields<PoseKey> {
     v.number("time", key.time, anywhere());
     v.vector("position", key.pose.position, anywhere());
     v.rotation("orientation", key.pose.orientation);
+  }
+};
+
+template <>
+struct Fields<Pose> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& pose) {
+    v.vector("position", pose.position, anywhere());
+    v.rotation("orientation", pose.orientation);
+  }
+};
+
+template <>
+struct Fields<GraspParams> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& grasp) {
+    v.text(required("id"), grasp.id);
+    v.map("frame", grasp.frame);
+    visitHold(v, grasp);
+  }
+
+  /// What it takes, and how it holds it.
+  template <typename Visitor, typename T>
+  static void visitHold(Visitor& v, T& grasp) {
+    v.choice("region", grasp.region, graspRegionNames());
+    const GraspRegion region = grasp.region;
+    const Chosen chosen{"region", graspRegionNames(), static_cast<std::size_t>(region)};
+    if (v.belongs("place", region != GraspRegion::kNodes, chosen)) v.map("place", grasp.place);
+    if (v.belongs("radius", region == GraspRegion::kSphere, chosen))
+      v.number(required("radius"), grasp.radius, positive());
+    if (v.belongs("size", region == GraspRegion::kBox, chosen)) v.vector(required("size"), grasp.size, positive());
+    if (v.belongs("nodes", region == GraspRegion::kNodes, chosen)) v.nodes(required("nodes"), grasp.nodes);
+    v.number("stiffness", grasp.stiffness, strength());
+    v.number("break_force", grasp.break_force, strength());
+    v.number("pinch_force", grasp.pinch_force, strength());
+    v.number("friction", grasp.friction, grasp.pinch_force <= kLargest ? positive() : notNegative());
+  }
+};
+
+template <>
+struct Fields<HandParams> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& hand) {
+    v.text(required("id"), hand.grasp.id);
+    v.vector("position", hand.grasp.frame.position, anywhere());
+    v.rotation("orientation", hand.grasp.frame.orientation);
+    Fields<GraspParams>::visitHold(v, hand.grasp);
+    v.number("start", hand.start, anywhere());
+    v.number("end", hand.end, orInfinite());
+    v.list("motion", hand.motion, PoseKey{0.0, hand.grasp.frame});  // read before
   }
 };
 
@@ -256,13 +323,14 @@ struct Fields<ObstacleParams> {
     const bool long_shape = shape == ShapeKind::kCylinder || shape == ShapeKind::kCapsule;
     const bool box = shape == ShapeKind::kBox;
     const bool mesh = shape == ShapeKind::kMesh;
-    if (v.belongs("radius", long_shape || shape == ShapeKind::kSphere, shape)) {
+    const Chosen chosen{"shape", shapeNames(), static_cast<std::size_t>(shape)};
+    if (v.belongs("radius", long_shape || shape == ShapeKind::kSphere, chosen)) {
       v.number(required("radius"), obstacle.radius, positive());
     }
-    if (v.belongs("length", long_shape, shape)) v.number(required("length"), obstacle.length, positive());
-    if (v.belongs("size", box, shape)) v.vector(required("size"), obstacle.size, positive());
-    if (v.belongs("mesh", mesh, shape)) v.text(required("mesh"), obstacle.mesh);
-    if (v.belongs("scale", mesh, shape)) v.scale("scale", obstacle.scale, notZero());
+    if (v.belongs("length", long_shape, chosen)) v.number(required("length"), obstacle.length, positive());
+    if (v.belongs("size", box, chosen)) v.vector(required("size"), obstacle.size, positive());
+    if (v.belongs("mesh", mesh, chosen)) v.text(required("mesh"), obstacle.mesh);
+    if (v.belongs("scale", mesh, chosen)) v.scale("scale", obstacle.scale, notZero());
   }
 };
 
@@ -312,6 +380,8 @@ struct Fields<Scene> {
     v.map("ambient", scene.ambient);
     v.list("wind", scene.wind);
     v.list("drag", scene.drag);
+    v.list("hands", scene.hands);
+    v.list("pins_motion", scene.pins_motion);
     v.list("obstacles", scene.obstacles);
     v.map("contact", scene.contact);
     v.map("solver", scene.solver);

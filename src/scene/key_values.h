@@ -31,6 +31,11 @@ class KeyValues {
     flag(key, value.has_value());
     if (value) numbers_.insert(numbers_.end(), {static_cast<double>(value->row), static_cast<double>(value->column)});
   }
+  template <typename T>
+  void list(Key, const std::vector<T>& values) {
+    numbers_.push_back(static_cast<double>(values.size()));
+    for (const T& value : values) visitFields(*this, value);
+  }
   template <typename Enum>
   void choice(Key, Enum value, const std::vector<std::string>&) {
     numbers_.push_back(static_cast<double>(value));

@@ -49,6 +49,11 @@ const std::vector<std::string>& shapeNames() {
   return kNames;
 }
 
+const std::vector<std::string>& graspRegionNames() {
+  static const std::vector<std::string> kNames = {"sphere", "box", "nodes"};
+  return kNames;
+}
+
 const std::vector<std::string>& methodNames() {
   static const std::vector<std::string> kNames = {"auto", "leapfrog", "leapfrog4", "implicit", "paper"};
   return kNames;

@@ -16,6 +16,7 @@ const std::vector<std::string>& airLawNames();
 const std::vector<std::string>& gustSpectrumNames();
 const std::vector<std::string>& windProfileNames();
 const std::vector<std::string>& shapeNames();
+const std::vector<std::string>& graspRegionNames();
 
 /// "a, b or c"
 std::string alternatives(const std::vector<std::string>& names);

@@ -41,8 +41,8 @@ class RangeChecker {
   void path(Key key, const std::vector<RailPiece>& pieces, Range range);
   void pins(Key, const PinParams&) {}                 // the same
   void slits(Key, const std::vector<SlitParams>&) {}  // the same: checkSlits()
-  bool belongs(Key, bool yes, ShapeKind) {
-    return yes && log_.good(joinKey(prefix_, "shape"));  // with an unknown shape nothing is known of its keys
+  bool belongs(Key, bool yes, const Chosen& chosen) {
+    return yes && log_.good(joinKey(prefix_, chosen.key));  // with an unknown choice nothing is known of its keys
   }
 
   template <typename Enum>

@@ -38,6 +38,8 @@ inline Range notNegative() { return between(0.0, kLargest); }
 inline Range turn() { return between(-6.3, 6.3); }
 inline Range anyForce() { return between(-kStrongest, kStrongest); }
 inline Range notZero() { return {-kLargest, kLargest, true}; }
+/// What a hand can bear.
+inline Range strength() { return {kSmallest, kLargest, false, true}; }
 /// An end time.
 inline Range orInfinite() { return {-kLargest, kLatest, false, true}; }
 

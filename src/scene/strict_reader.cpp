@@ -375,13 +375,13 @@ void StrictReader::readSlit(const YAML::Node& node, const std::string& key, Slit
   }
 }
 
-bool StrictReader::belongs(Key key, bool yes, ShapeKind shape) {
-  // With an unknown shape nothing is known of its keys: this one counts as known.
+bool StrictReader::belongs(Key key, bool yes, const Chosen& chosen) {
+  // With an unknown choice nothing is known of its keys: this one counts as known.
   const bool given = entryOf(key) != entries_.end();
   asked_.emplace_back(key.name);
-  if (!log_.good(joinKey(prefix_, "shape"))) return false;
+  if (!log_.good(joinKey(prefix_, chosen.key))) return false;
   if (given && !yes) {
-    log_.add(keyOf(key), "does not belong to shape " + shapeNames().at(static_cast<std::size_t>(shape)));
+    log_.add(keyOf(key), "does not belong to " + std::string(chosen.key) + " " + chosen.names.at(chosen.value));
   }
   return yes;
 }

@@ -44,7 +44,7 @@ class StrictReader {
   void pins(Key key, PinParams& value);
   void slits(Key key, std::vector<SlitParams>& values);
   void path(Key key, std::vector<RailPiece>& pieces, Range range);
-  bool belongs(Key key, bool yes, ShapeKind shape);
+  bool belongs(Key key, bool yes, const Chosen& chosen);
 
   template <typename Enum>
   void choice(Key key, Enum& value, const std::vector<std::string>& names) {

@@ -158,10 +158,24 @@ void checkWind(const WindParams& wind, const std::string& key, ProblemLog& log) 
   checkTimes(wind.start, wind.end, key, log);
 }
 
+// Times of poses or points.
+template <typename AtTime>
+void checkIncrease(const std::vector<AtTime>& entries, const std::string& list, ProblemLog& log) {
+  for (std::size_t i = 1; i < entries.size(); ++i) {
+    const std::string time_key = joinKey(itemKey(list, i), "time"), before_key = joinKey(itemKey(list, i - 1), "time");
+    const double before = entries[i - 1].time, time = entries[i].time;
+    if (!log.good(time_key) || !log.good(before_key) || time > before) continue;
+    log.add(time_key, "must be > the time before it = " + formatNumber(before) + ", is " + formatNumber(time));
+  }
+}
+
 void checkDrag(const DragParams& drag, const ClothParams& cloth, const std::string& key, ProblemLog& log) {
   const std::string node_key = joinKey(key, "node");
   checkTimes(drag.start, drag.end, key, log);
   if (drag.node) checkNodeOnGrid(*drag.node, cloth, node_key, log);
+  checkIncrease(drag.path, joinKey(key, "path"), log);
+  if (drag.target && !drag.path.empty())
+    log.add(joinKey(key, "target"), "must not be given beside path, which says where it is");
   // Last: a problem of the whole entry suppresses others below its key.
   const bool readable = log.good(node_key) && log.good(joinKey(key, "point"));
   if (drag.node.has_value() == drag.point.has_value() && (drag.node.has_value() || readable)) {
@@ -176,30 +190,50 @@ void checkObstacle(const ObstacleParams& obstacle, const std::string& key, Probl
     if (!obstacle.motion.empty() && !value.isZero(0.0))
       log.add(joinKey(key, name), "must not be given beside motion, which says where it is");
   }
-  for (std::size_t i = 1; i < obstacle.motion.size(); ++i) {
-    const std::string time_key = joinKey(itemKey(joinKey(key, "motion"), i), "time");
-    const std::string before_key = joinKey(itemKey(joinKey(key, "motion"), i - 1), "time");
-    const double before = obstacle.motion[i - 1].time;
-    const double time = obstacle.motion[i].time;
-    if (!log.good(time_key) || !log.good(before_key) || time > before) continue;
-    log.add(time_key, "must be > the time before it = " + formatNumber(before) + ", is " + formatNumber(time));
-  }
+  checkIncrease(obstacle.motion, joinKey(key, "motion"), log);
 }
 
-// name: the entry's id, which setWind() and the topics address it by.
+// name: an entry's id, which setWind() and the topics address it by; seen: those before it.
+void checkUnique(const std::string& name, std::size_t entry, const std::string& list, const std::string& key,
+                 std::map<std::string, std::size_t>& seen, ProblemLog& log) {
+  const std::string name_key = joinKey(itemKey(list, entry), key);
+  if (name.empty() || !log.good(name_key)) return;
+  const auto [first, inserted] = seen.emplace(name, entry);
+  if (!inserted) log.add(name_key, "must be unique, " + quoted(name) + " is taken by " + itemKey(list, first->second));
+}
+
 template <typename T>
 void checkUnique(const std::vector<T>& entries, const std::string& list, const std::string& key, std::string T::*name,
                  ProblemLog& log) {
   std::map<std::string, std::size_t> seen;
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    const std::string& value = entries[i].*name;
-    const std::string name_key = joinKey(itemKey(list, i), key);
-    if (value.empty() || !log.good(name_key)) continue;
-    const auto [first, inserted] = seen.emplace(value, i);
-    if (!inserted) {
-      log.add(name_key, "must be unique, " + quoted(value) + " is taken by " + itemKey(list, first->second));
-    }
+  for (std::size_t i = 0; i < entries.size(); ++i) checkUnique(entries[i].*name, i, list, key, seen, log);
+}
+
+void checkHand(const HandParams& hand, const Scene& scene, const std::string& key, ProblemLog& log) {
+  checkTimes(hand.start, hand.end, key, log);
+  checkHold(hand.grasp, scene.cloth, key, log);
+  checkIncrease(hand.motion, joinKey(key, "motion"), log);
+  if (scene.solver.method != Method::kPaper || !log.good("solver.method")) return;
+  const std::pair<const char*, double> limits[] = {{"stiffness", hand.grasp.stiffness},
+                                                   {"break_force", hand.grasp.break_force},
+                                                   {"pinch_force", hand.grasp.pinch_force}};
+  for (const auto& [name, value] : limits) {
+    if (value <= kLargest) log.add(joinKey(key, name), "can't be given with solver.method paper, which knows no pulls");
   }
+}
+
+void checkHands(const Scene& scene, ProblemLog& log) {
+  std::map<std::string, std::size_t> seen;
+  for (std::size_t i = 0; i < scene.hands.size(); ++i) {
+    checkHand(scene.hands[i], scene, itemKey("hands", i), log);
+    checkUnique(scene.hands[i].grasp.id, i, "hands", "id", seen, log);
+  }
+  checkIncrease(scene.pins_motion, "pins_motion", log);
+  const bool none =
+      scene.pins.kind == PinKind::kNone || (scene.pins.kind == PinKind::kList && scene.pins.nodes.empty());
+  if (!scene.pins_motion.empty() && none && log.good("pins")) log.add("pins_motion", "needs pins, there are none");
+  if (!scene.pins_motion.empty() && !scene.rail.path.empty())
+    log.add("pins_motion", "can't be given with a rail, which does not move");
 }
 
 // Checks every value by itself, then some together.
@@ -241,6 +275,7 @@ void checkScene(const Scene& scene, ProblemLog& log) {
   checkUnique(scene.obstacles, "obstacles", "name", &ObstacleParams::name, log);
   for (std::size_t i = 0; i < scene.wind.size(); ++i) checkWind(scene.wind[i], itemKey("wind", i), log);
   for (std::size_t i = 0; i < scene.drag.size(); ++i) checkDrag(scene.drag[i], scene.cloth, itemKey("drag", i), log);
+  checkHands(scene, log);
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
     checkObstacle(scene.obstacles[i], itemKey("obstacles", i), log);
   }

@@ -53,7 +53,7 @@ class SceneWriter {
   void integers(Key key, const std::vector<int>& values, IntRange) {
     out_ << YAML::Key << key.name << YAML::Value << YAML::Flow << values;
   }
-  bool belongs(Key, bool yes, ShapeKind) { return yes; }
+  bool belongs(Key, bool yes, const Chosen&) { return yes; }
 
   void pins(Key key, const PinParams& value) {
     if (value.kind != PinKind::kList) {

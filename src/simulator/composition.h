@@ -11,6 +11,7 @@
 #include "parts/drag/drags.h"
 #include "parts/hands/grasps.h"
 #include "parts/hysteresis/hysteresis.h"
+#include "parts/pins/scene_pins.h"
 #include "parts/rail/rail.h"
 #include "parts/shear/shear.h"
 #include "parts/taut_columns/taut_columns.h"
@@ -18,7 +19,6 @@
 #include "parts/weft_push/weft_push.h"
 #include "parts/wind/winds.h"
 #include "step/elastic_chain.h"
-#include "step/pin_moves.h"
 #include "step/solver_parts.h"
 
 namespace curtain {
@@ -30,7 +30,7 @@ struct Composition {
   const ObstacleSet& obstacles;
   const Workers& workers;
 
-  PinMoves pins{scene, pattern};
+  ScenePins pins{scene, pattern};
   Winds winds{scene, pattern, obstacles};
   AirDamping air_damping{scene.air, pattern};
   Drags drags{scene, pattern};

@@ -55,6 +55,11 @@ double Simulator::Impl::moveThrough(Budget::Clock::time_point begin) {
   const bool strained = parts.any([](const Part& part) { return part.strains(); });
   const FrameBegin frame{times.begin(), times.end(), times.rate(),
                          !strained && std::max(s.warp_stretch, s.weft_stretch) < kHold};
+  if (parts.any([&](const Part& part) { return part.begins(frame); })) {
+    changePins([&] {
+      for (Part* const part : parts) part->begun(frame, motion.state);
+    });
+  }
   for (Part* const part : parts) {
     if (part->prepareFrame(frame, motion.state)) motion.forgetVelocities();
   }

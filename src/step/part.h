@@ -91,6 +91,10 @@ class Part {
   /// part that blows adds its own.
   virtual double dampingPerMass(double& /*air_speed*/) const noexcept { return 0.0; }
 
+  /// Before the coming frame it pins or frees nodes by its own schedule: begun() follows.
+  virtual bool begins(const FrameBegin& /*begin*/) const noexcept { return false; }
+  virtual void begun(const FrameBegin& /*begin*/, ClothState& /*state*/) noexcept {}
+
   // ---- A frame in which the cloth moves
   /// Before all else of it. True: a velocity has changed.
   virtual bool prepareFrame(const FrameBegin& /*begin*/, ClothState& /*state*/) noexcept { return false; }

@@ -93,7 +93,7 @@ class Breaker {
   void slits(Key key, const std::vector<curtain::SlitParams>&) {
     add(key, {"1", "{}", "all", "[x]", "[-1]", "[99999]", "[[0]]", "[{from_row: 1}]", "[{column: 1, row: 1}]", "~"});
   }
-  bool belongs(Key key, bool yes, curtain::ShapeKind) {
+  bool belongs(Key key, bool yes, const curtain::Chosen&) {
     if (!yes) add(key, "1.0");  // one that does not belong there
     return yes;
   }

@@ -49,7 +49,7 @@ class WordCollector {
     note(key);
     words.insert({"column", "from_row"});
   }
-  bool belongs(Key, bool, curtain::ShapeKind) { return true; }
+  bool belongs(Key, bool, const curtain::Chosen&) { return true; }
 
   template <typename Enum>
   void choice(Key key, const Enum&, const std::vector<std::string>& names) {

@@ -71,7 +71,7 @@ class SceneBits {
       add(slit.from_row);
     }
   }
-  bool belongs(Key, bool yes, curtain::ShapeKind) { return yes; }
+  bool belongs(Key, bool yes, const curtain::Chosen&) { return yes; }
 
   template <typename Enum>
   void choice(Key, const Enum& value, const std::vector<std::string>&) {

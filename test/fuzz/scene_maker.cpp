@@ -66,19 +66,33 @@ void fitRail(Scene& scene, Choices& choices) {
   rail.carriers.gap = choices.between(0.01, 0.5) * 0.3 * scene.cloth.width / (scene.cloth.columns - 1);
 }
 
+// Times that increase.
+template <typename AtTime>
+void putInOrder(std::vector<AtTime>& entries) {
+  for (std::size_t i = 1; i < entries.size(); ++i) {
+    const double before = entries[i - 1].time;
+    if (!(entries[i].time > before)) entries[i].time = before + std::max(0.01, 0.01 * std::abs(before));
+  }
+}
+
+// Each once.
+void putOnGrid(std::vector<NodeIndex>& nodes, const curtain::ClothParams& cloth) {
+  std::vector<NodeIndex> kept;
+  for (NodeIndex& node : nodes) {
+    putOnGrid(node, cloth);
+    const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const NodeIndex& other) {
+      return other.row == node.row && other.column == node.column;
+    });
+    if (is_new) kept.push_back(node);
+  }
+  nodes = kept;
+}
+
 // Lines from nodes of the cloth, each once, to an end that they reach.
 void fitLines(Scene& scene) {
   const curtain::ClothParams& cloth = scene.cloth;
   for (curtain::LineParams& line : scene.lines) {
-    std::vector<NodeIndex> nodes;
-    for (NodeIndex& node : line.nodes) {
-      putOnGrid(node, cloth);
-      const bool is_new = std::none_of(nodes.begin(), nodes.end(), [&](const NodeIndex& other) {
-        return other.row == node.row && other.column == node.column;
-      });
-      if (is_new) nodes.push_back(node);
-    }
-    line.nodes = nodes;
+    putOnGrid(line.nodes, cloth);
     if (!line.to && (!line.mass || !line.length || scene.gravity.isZero())) line.to = scene.hang.from;
     if (line.to && line.length) line.length = std::max(*line.length, 4.0 * (cloth.width + cloth.height));
   }
@@ -89,6 +103,23 @@ void fitLines(Scene& scene) {
   }
   if (scene.solver.method == curtain::Method::kPaper && !(scene.lines.empty() && scene.tie_back.empty()))
     scene.solver.method = curtain::Method::kAuto;
+}
+
+// Hands that pull where pulls are known; pins that there are.
+void fitHands(Scene& scene) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  for (curtain::HandParams& hand : scene.hands) {
+    putOnGrid(hand.grasp.nodes, scene.cloth);
+    if (hand.grasp.region == curtain::GraspRegion::kNodes) hand.grasp.pinch_force = kNone;
+    if (scene.solver.method == curtain::Method::kPaper)
+      hand.grasp.stiffness = hand.grasp.break_force = hand.grasp.pinch_force = kNone;
+    if (!(hand.end > hand.start)) hand.end = kNone;
+    putInOrder(hand.motion);
+  }
+  putInOrder(scene.pins_motion);
+  const bool none = scene.pins.kind == curtain::PinKind::kNone ||
+                    (scene.pins.kind == curtain::PinKind::kList && scene.pins.nodes.empty());
+  if (none || !scene.rail.path.empty()) scene.pins_motion.clear();
 }
 
 // Values that have a meaning together; what is left over is for validate().
@@ -152,14 +183,11 @@ void fitTogether(Scene& scene, Choices& choices) {
       drag.node = NodeIndex{};
     if (drag.node) putOnGrid(*drag.node, cloth);
     if (!(drag.end > drag.start)) drag.end = std::numeric_limits<double>::infinity();
+    if (!drag.path.empty()) drag.target.reset();
+    putInOrder(drag.path);
   }
-  for (ObstacleParams& obstacle : scene.obstacles) {
-    for (std::size_t i = 1; i < obstacle.motion.size(); ++i) {
-      const double before = obstacle.motion[i - 1].time;
-      if (!(obstacle.motion[i].time > before))
-        obstacle.motion[i].time = before + std::max(0.01, 0.01 * std::abs(before));
-    }
-  }
+  fitHands(scene);
+  for (curtain::ObstacleParams& obstacle : scene.obstacles) putInOrder(obstacle.motion);
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ class SceneMaker {
   void pins(Key, curtain::PinParams& value);
   void slits(Key, std::vector<curtain::SlitParams>& values);
   void path(Key, std::vector<curtain::RailPiece>& pieces, curtain::Range range);
-  bool belongs(Key, bool yes, curtain::ShapeKind) { return yes; }
+  bool belongs(Key, bool yes, const curtain::Chosen&) { return yes; }
 
   template <typename Enum>
   void choice(Key, Enum& value, const std::vector<std::string>& names) {

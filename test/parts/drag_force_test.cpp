@@ -31,7 +31,7 @@ struct Cloth {
     Field3 force;
     force.assign(pattern.grid.size(), 0.0);
     damping.assign(pattern.grid.size(), 0.0);
-    drag.addForces(pattern, position, dt, force, damping);
+    drag.addForces(pattern, position, 0.0, dt, force, damping);
     return force;
   }
   ClothPattern pattern;
@@ -280,7 +280,7 @@ TEST(DragSpring, HoldsAPinnedNodeWithoutDividingByZero) {
   Field3 force;
   force.assign(pattern.grid.size(), 0.0);
   Field damping(pattern.grid.size(), 0.0);
-  drag.addForces(pattern, state.position, 0.01, force, damping);
+  drag.addForces(pattern, state.position, 0.0, 0.01, force, damping);
   EXPECT_NEAR(force.at(pattern.grid.index(0, 0)).norm(), 5.0, 5.0 * 8.0 * kEps);
 }
 

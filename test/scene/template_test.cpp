@@ -112,6 +112,8 @@ TEST(Template, EntriesAreReadableAndShowDefaults) {
     YAML::Node scene = YAML::Load(withCommentedKeys(text))["scene"];
     // What cannot be given together is documented together.
     scene["drag"][0].remove("point");
+    scene["drag"][0].remove("target");
+    for (const char* key : {"size", "nodes"}) scene["hands"][0].remove(key);
     scene["hang"].remove("radius");
     scene["hang"].remove("fullness");
     scene["hang"].remove("overlap");

@@ -88,6 +88,30 @@ TEST(Allocations, NoneWhileHandsHoldAndLoseTheCloth) {
   EXPECT_GT(simulator.graspState("pads")->slipped, 0.01);
 }
 
+// Hands of the scene take hold and let go within frames.
+TEST(Allocations, NoneWhileTheSceneMovesHandsAndPins) {
+  Scene scene = sceneOf(12, 12);
+  for (const char* id : {"rigid", "pads"}) {
+    HandParams hand;
+    hand.grasp.id = id;
+    hand.grasp.frame.position = Simulator(scene).position({11, id[0] == 'r' ? 2 : 9});
+    hand.grasp.radius = 0.15;
+    if (id[0] == 'p') hand.grasp.pinch_force = 0.3;
+    hand.start = 0.2;
+    hand.end = 0.7;
+    hand.motion = {{0.2, hand.grasp.frame}, {1.0, {hand.grasp.frame.position + Vec3(0.0, 0.3, -0.2), {}}}};
+    hand.motion[1].pose.orientation = Rotation::Identity();
+    scene.hands.push_back(hand);
+  }
+  scene.pins_motion = {{0.0, Pose()}, {1.0, {Vec3(0.0, 0.1, 0.1), Rotation::Identity()}}};
+  Simulator simulator(scene);
+  const long before = allocations;
+  run(simulator, 60);
+  EXPECT_EQ(allocations - before, 0);
+  EXPECT_EQ(simulator.graspState("rigid")->end, GraspEnd::kReleased);
+  EXPECT_NE(simulator.graspState("pads")->end, GraspEnd::kMissed);
+}
+
 // Its iterates are kept with the contacts that they were found with.
 TEST(Allocations, NoneInTheLastResort) {
   Scene scene = sceneOf(12, 10);

@@ -320,7 +320,7 @@ class Described(unittest.TestCase):
         self.assertIn("format version, %s |" % version, read("docs/snapshots.md"))
 
     def test_statistics_of_curtain_batch(self):
-        text = read("src/simulator/export.cpp")
+        text = read("src/simulator/api/export.cpp")
         keys = set(re.findall(r"json\[\"(\w+)\"\]", text)) | set(re.findall(r"\{\"(\w+)\", ", text))
         names = {count: set(re.findall(r"\"(\w+)\"", list)) for count, list in
                  re.findall(r"(\w+)> kNames = \{(.*?)\}", read("src/simulator/simulator.cpp"), re.S)}

@@ -11,6 +11,12 @@ namespace {
 // Share of the cloth's mass that a dragged node moves with it; the spring is critically damped for that mass.
 constexpr double kDraggedShare = 0.25;
 
+ScriptedMotion motionAlong(const std::vector<PointKey>& path) {
+  std::vector<PoseKey> poses;
+  for (const PointKey& point : path) poses.push_back({point.time, {point.position, Rotation::Identity()}});
+  return {Pose(), poses, 0.0};
+}
+
 }  // namespace
 
 NodeIndex nearestNode(const Grid& grid, const Field3& position, const Vec3& point) noexcept {
@@ -28,7 +34,7 @@ NodeIndex nearestNode(const Grid& grid, const Field3& position, const Vec3& poin
   return nearest;
 }
 
-DragForce::DragForce(const DragParams& drag, const ClothPattern& pattern) : drag_(drag) {
+DragForce::DragForce(const DragParams& drag, const ClothPattern& pattern) : drag_(drag), path_(motionAlong(drag.path)) {
   shares_.reserve(drag.radius > 0.0 ? pattern.grid.nodeCount() : 1);
   const double total_mass = std::accumulate(pattern.mass.begin(), pattern.mass.end(), 0.0);
   spring_damping_ = 2.0 * std::sqrt(drag.stiffness * kDraggedShare * total_mass);
@@ -63,24 +69,25 @@ void DragForce::grasp(NodeIndex node, const ClothPattern& pattern) noexcept {
 
 // The spring's present pull. Its damper, and the implicit term that makes it stable at any stiffness (backward Euler: k
 // (target - x - dt v')), are damping coefficients: the solver puts them into the nodes' inertia, so the links feel them
-// too. At its force limit the spring is a softer one.
-void DragForce::addSpring(const Field3& position, double dt, Field3& force, Field& damping) const noexcept {
+// too. At its force limit the spring is a softer one. On a path the damper is between node and target.
+void DragForce::addSpring(const Field3& position, double end, double dt, Field3& force, Field& damping) const noexcept {
   Vec3 x = Vec3::Zero();
   for (const Share& share : shares_) x += share.weight * position.at(share.node);
-  const Vec3 way = *drag_.target - x;
+  const Vec3 way = (path_.any() ? path_.at(end).position : *drag_.target) - x;
+  const Vec3 damper = path_.any() ? Vec3(spring_damping_ * path_.rateAt(end).move) : Vec3::Zero();
   const double distance = way.norm();
   const double k = distance * drag_.stiffness > drag_.max_force ? drag_.max_force / distance : drag_.stiffness;
   for (const Share& share : shares_) {
-    force.add(share.node, (share.weight * k) * way);
+    force.add(share.node, (share.weight * k) * way + share.weight * damper);
     damping[share.node] += share.weight * (spring_damping_ + k * dt);
   }
 }
 
-void DragForce::addForces(const ClothPattern& pattern, const Field3& position, double dt, Field3& force,
+void DragForce::addForces(const ClothPattern& pattern, const Field3& position, double end, double dt, Field3& force,
                           Field& damping) noexcept {
   if (!node_) grasp(nearestNode(pattern.grid, position, *drag_.point), pattern);
-  if (drag_.target) {
-    addSpring(position, dt, force, damping);
+  if (damps()) {
+    addSpring(position, end, dt, force, damping);
   } else {
     for (const Share& share : shares_) force.add(share.node, share.weight * drag_.force);
   }

@@ -7,6 +7,7 @@
 
 #include "cloth/cloth.h"
 #include "curtain_sim/scene.h"
+#include "obstacles/pose_curve.h"
 
 namespace curtain {
 
@@ -18,6 +19,11 @@ class DragForce {
   const DragParams& params() const { return drag_; }
   bool actsAt(double time) const { return time >= drag_.start && time < drag_.end; }
 
+  /// The target moves between these times [s].
+  bool movesWithin(double from, double to) const noexcept {
+    return path_.any() && to > drag_.start && from < drag_.end && path_.fastest(from, to, 0.0) > 0.0;
+  }
+
   /// The grasped node; none before a drag by point first acts.
   const std::optional<NodeIndex>& node() const { return node_; }
 
@@ -25,11 +31,11 @@ class DragForce {
   void grasp(NodeIndex node, const ClothPattern& pattern) noexcept;
 
   /// True for a spring, which has a damper.
-  bool damps() const { return drag_.target.has_value(); }
+  bool damps() const { return drag_.target.has_value() || path_.any(); }
 
-  /// Adds its forces [N], and for a spring its damping coefficients [kg/s]. dt: how long the forces act [s]. Allocates
-  /// nothing.
-  void addForces(const ClothPattern& pattern, const Field3& position, double dt, Field3& force,
+  /// Adds its forces [N], and for a spring its damping coefficients [kg/s]. end: until when the forces act [s], dt: how
+  /// long [s]. Allocates nothing.
+  void addForces(const ClothPattern& pattern, const Field3& position, double end, double dt, Field3& force,
                  Field& damping) noexcept;
 
  private:
@@ -37,12 +43,13 @@ class DragForce {
     std::size_t node;
     double weight;
   };
-  void addSpring(const Field3& position, double dt, Field3& force, Field& damping) const noexcept;
+  void addSpring(const Field3& position, double end, double dt, Field3& force, Field& damping) const noexcept;
 
   DragParams drag_;
   std::optional<NodeIndex> node_;
   std::vector<Share> shares_;    // weights add up to one; has capacity for every node
   double spring_damping_ = 0.0;  // [kg/s]
+  ScriptedMotion path_;          // of the target
 };
 
 /// The node nearest to a point.

@@ -42,8 +42,10 @@ void Drags::serialize(Archive& archive) {
 }
 
 bool Drags::wakes(const FrameBegin& begin, const ClothState&) const noexcept {
-  const auto changes = [&](const DragParams& drag) { return changesWithin(drag, begin.from, begin.to); };
-  return !drags_.params.empty() && std::any_of(drags_.params.begin(), drags_.params.end(), changes);
+  const auto changes = [&](const DragForce& drag) {
+    return changesWithin(drag.params(), begin.from, begin.to) || drag.movesWithin(begin.from, begin.to);
+  };
+  return !drags_.list.empty() && std::any_of(drags_.list.begin(), drags_.list.end(), changes);
 }
 
 void Drags::announce(const ClothState&, ForceSum& sum) noexcept {
@@ -57,7 +59,7 @@ void Drags::announce(const ClothState&, ForceSum& sum) noexcept {
 void Drags::addForces(const ClothState& state, ForceSum& sum) noexcept {
   for (DragForce& drag : drags_.list) {
     if (drag.actsAt(sum.time))
-      drag.addForces(pattern_, state.position, sum.h + state.velocity_age, sum.force, sum.damping);
+      drag.addForces(pattern_, state.position, sum.time + sum.h, sum.h + state.velocity_age, sum.force, sum.damping);
   }
 }
 
@@ -67,9 +69,9 @@ bool Drags::explain(const ClothState&, double time, Plan& plan) const {
   for (const DragParams& drag : drags_.params) {
     const std::string why = whyNotAt(drag, time);
     plan.push_back({"drag '" + drag.id + "'", why.empty(),
-                    !why.empty()  ? why
-                    : drag.target ? "pulls by a spring"
-                                  : "pulls"});
+                    !why.empty()                        ? why
+                    : drag.target || !drag.path.empty() ? "pulls by a spring"
+                                                        : "pulls"});
     acts = acts || why.empty();
   }
   return acts;

@@ -36,7 +36,9 @@ Grasps::Grasps(const Scene& scene, const ClothPattern& pattern)
     : PinMoves(scene, pattern, true),
       total_mass_(std::accumulate(pattern.mass.begin(), pattern.mass.end(), 0.0)),
       loaded_(pattern.grid.size(), 0),
-      hand_(pattern.grid.size(), -1) {}
+      hand_(pattern.grid.size(), -1) {
+  nodes_.reserve(pattern.grid.nodeCount());
+}
 
 bool Grasps::Grasp::moves() const noexcept {
   return holds() && !(from.position == to.position && from.orientation.coeffs() == to.orientation.coeffs());
@@ -87,23 +89,29 @@ std::vector<Problem> Grasps::find(const GraspParams& grasp, const Field3& positi
     listNodes(grasp, nodes, problems);
     return problems;
   }
-  const Grid& grid = pattern_.grid;
-  const Pose frame = normalised(grasp.frame);
-  const Vec3 centre = toWorld(frame, grasp.place.position);
-  double nearest = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j) {
-      const std::size_t n = grid.index(i, j);
-      if (!isFree(n)) continue;
-      const Vec3 at = position.at(n);
-      nearest = std::min(nearest, (at - centre).norm());
-      if (isInRegion(grasp, toLocal(frame, at))) nodes.push_back(n);
-    }
-  }
+  listFree(grasp, position, nodes);
   if (!nodes.empty()) return problems;
+  const Vec3 centre = toWorld(normalised(grasp.frame), grasp.place.position);
+  double nearest = std::numeric_limits<double>::infinity();
+  forEachFree([&](std::size_t n) { nearest = std::min(nearest, (position.at(n) - centre).norm()); });
   const std::string where = std::isfinite(nearest) ? "the nearest is " + formatNumber(nearest) + " m from its centre"
                                                    : "all of the cloth's are pinned or held";
   return {{"grasp.region", "holds no free node: " + where}};
+}
+
+// Free nodes that it would take, row by row.
+void Grasps::listFree(const GraspParams& grasp, const Field3& position, std::vector<std::size_t>& nodes) const {
+  if (grasp.region == GraspRegion::kNodes) {
+    for (const NodeIndex& node : grasp.nodes) {
+      if (isFree(pattern_.grid.index(node))) nodes.push_back(pattern_.grid.index(node));
+    }
+    std::sort(nodes.begin(), nodes.end());
+    return;
+  }
+  const Pose frame = normalised(grasp.frame);
+  forEachFree([&](std::size_t n) {
+    if (isInRegion(grasp, toLocal(frame, position.at(n)))) nodes.push_back(n);
+  });
 }
 
 // What follows from its parameters.
@@ -119,7 +127,7 @@ void Grasps::prepare(Grasp& grasp) const {
   // Without a stiffness of the hand, that of the cloth between the pads; it needs no damper, since its implicit part
   // damps it far beyond the critical.
   if (params.stiffness <= kLargest) {
-    const double share = 1.0 / static_cast<double>(grasp.taken);
+    const double share = 1.0 / static_cast<double>(std::max<std::size_t>(grasp.taken, 1));
     const double damping = 2.0 * std::sqrt(params.stiffness * kHeldShare * total_mass_);
     grasp.springs = {share * params.stiffness, share * damping, most, total_mass_};
   } else {
@@ -129,11 +137,23 @@ void Grasps::prepare(Grasp& grasp) const {
 }
 
 void Grasps::add(const GraspParams& params, const std::vector<std::size_t>& nodes, ClothState& state) {
-  Grasp grasp;
+  const std::size_t known = indexOf(params.id);
+  if (known == list_.size()) list_.emplace_back();
+  Grasp& grasp = list_[known];
+  grasp = Grasp();
   grasp.params = params;
-  grasp.params.frame = grasp.from = grasp.to = normalised(params.frame);
+  grasp.params.frame = normalised(params.frame);
   grasp.params.place = normalised(params.place);
+  grasp.held.reserve(nodes.size());
+  hold(grasp, nodes, state);
+  note();
+}
+
+// Takes these nodes, with the gripper where its parameters have it.
+void Grasps::hold(Grasp& grasp, const std::vector<std::size_t>& nodes, ClothState& state) noexcept {
+  grasp.from = grasp.to = grasp.params.frame;
   grasp.taken = nodes.size();
+  grasp.end = GraspEnd::kNone;
   prepare(grasp);
   for (const std::size_t n : nodes) {
     HeldNode held;
@@ -144,12 +164,6 @@ void Grasps::add(const GraspParams& params, const std::vector<std::size_t>& node
     if (grasp.pins) state.velocity.set(n, Vec3::Zero());
     grasp.held.push_back(held);
   }
-  const std::size_t known = indexOf(params.id);
-  if (known < list_.size())
-    list_[known] = std::move(grasp);
-  else
-    list_.push_back(std::move(grasp));
-  note();
 }
 
 void Grasps::release(Grasp& grasp) noexcept {
@@ -162,6 +176,33 @@ void Grasps::remove(const std::string& id) {
   release(list_[known]);
   list_.erase(list_.begin() + static_cast<std::ptrdiff_t>(known));
   note();
+}
+
+// Room for all that a hand of the scene may hold, which is taken within a frame.
+void Grasps::reset(ClothState&) {
+  removeAll();
+  for (const HandParams& hand : scene_.hands) {
+    Grasp grasp;
+    grasp.params = hand.grasp;
+    grasp.params.place = normalised(hand.grasp.place);
+    grasp.end = GraspEnd::kWaiting;
+    grasp.held.reserve(pattern_.grid.nodeCount());
+    follow(grasp);
+    list_.push_back(std::move(grasp));
+  }
+  note();
+}
+
+// Of a hand of the scene: its motion. Its gripper is where that has it at the start.
+void Grasps::follow(Grasp& grasp) const {
+  const auto same = [&](const HandParams& hand) { return hand.grasp.id == grasp.params.id; };
+  const auto found = std::find_if(scene_.hands.begin(), scene_.hands.end(), same);
+  if (found == scene_.hands.end()) return;
+  const GraspParams& params = found->grasp;
+  const double wide = params.region == GraspRegion::kSphere ? params.radius : 0.5 * params.size.norm();
+  const double reach = params.region == GraspRegion::kNodes ? 0.0 : params.place.position.norm() + wide;
+  grasp.hand = &*found;
+  grasp.motion = {normalised(params.frame), found->motion, reach};
 }
 
 void Grasps::removeAll() noexcept {
@@ -220,7 +261,9 @@ void Grasps::serializeGrasp(Archive& archive, Grasp& grasp) {
   };
   serializePose("from", grasp.from);
   serializePose("to", grasp.to);
-  archive.integer("taken", grasp.taken, 1, 1 << 30);
+  bool scripted = grasp.hand != nullptr;
+  archive.atOnce([&] { archive.flag("scripted", scripted); });
+  archive.integer("taken", grasp.taken, 0, 1 << 30);
   double pull = grasp.springs.pull();
   archive.atOnce([&] { archive.number("pull", pull); });
   archive.list("held", grasp.held, [&](HeldNode& held) {
@@ -232,9 +275,16 @@ void Grasps::serializeGrasp(Archive& archive, Grasp& grasp) {
   archive.finite("force", grasp.force);
   archive.finite("torque", grasp.torque);
   archive.within("slipped", grasp.slipped, 0.0, std::numeric_limits<double>::max());
-  archive.integer("end", grasp.end, 0, 2);
+  archive.integer("end", grasp.end, 0, 5);
   archive.require(grasp.holds() == (grasp.end == GraspEnd::kNone), "must hold nodes unless it has ended");
   if (!archive.loads()) return;
+  if (scripted) {
+    follow(grasp);
+    archive.require(grasp.hand != nullptr, "must be a hand of the scene");
+    grasp.held.reserve(pattern_.grid.nodeCount());
+  }
+  archive.require(scripted || grasp.end < GraspEnd::kWaiting, "must be a hand of the scene");
+  archive.require(grasp.taken > 0 || !grasp.holds(), "must have taken what it holds");
   prepare(grasp);
   grasp.springs.setPull(pull);
   for (const HeldNode& held : grasp.held) {

@@ -2,7 +2,8 @@
 //
 // Hands that hold the cloth. A node in a hand that does not give is pinned, and its moves are those of pins
 // (step/pin_moves.h); others hang on springs (hold_springs.h). Changes by the user of who is pinned go through
-// Simulator::Impl::changePins().
+// Simulator::Impl::changePins(). The hands of the scene are grasps like others, that wait for their time from the
+// start.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "curtain_sim/grasp.h"
+#include "obstacles/pose_curve.h"
 #include "parts/hands/hold_springs.h"
 #include "step/pin_moves.h"
 #include "step/step.h"
@@ -35,7 +37,7 @@ inline bool isInRegion(const GraspParams& grasp, const Vec3& at) noexcept {
   return (2.0 * local.cwiseAbs() - grasp.size).maxCoeff() <= 0.0;
 }
 
-/// Not thread-safe. Allocates in the constructor, add() and serialize().
+/// Not thread-safe. Allocates in the constructor, reset(), add() and serialize().
 class Grasps final : public PinMoves {
  public:
   /// scene and pattern must outlive this.
@@ -58,7 +60,7 @@ class Grasps final : public PinMoves {
   GraspState stateOf(const std::string& id) const;
   std::vector<std::string> ids() const;
 
-  void reset(ClothState&) override { removeAll(); }
+  void reset(ClothState&) override;
   /// Nodes were put elsewhere: they are held there.
   void placed(const ClothState& before, ClothState& state) noexcept override;
   void serialize(Archive& archive) override;
@@ -67,6 +69,8 @@ class Grasps final : public PinMoves {
   bool wakes(const FrameBegin& begin, const ClothState& state) const noexcept override;
   bool strains() const noexcept override { return any(); }
   bool reversible() const noexcept override { return !any(); }
+  bool begins(const FrameBegin& begin) const noexcept override;
+  void begun(const FrameBegin& begin, ClothState& state) noexcept override;
   bool prepareFrame(const FrameBegin& begin, ClothState& state) noexcept override;
   bool beginFrame(const FrameBegin& begin, ClothState& state) noexcept override;
   void announce(const ClothState& state, ForceSum& sum) noexcept override;
@@ -88,6 +92,8 @@ class Grasps final : public PinMoves {
     Vec3 force = Vec3::Zero(), torque = Vec3::Zero();     // mean of the last frame
     double slipped = 0.0;                                 // [m]
     GraspEnd end = GraspEnd::kNone;
+    const HandParams* hand = nullptr;  // of the scene, or null
+    ScriptedMotion motion;             // of such a one
 
     bool holds() const noexcept { return !held.empty(); }
     bool moves() const noexcept;
@@ -100,10 +106,22 @@ class Grasps final : public PinMoves {
   };
 
   bool any() const noexcept { return holding_ > 0; }  // a hand holds something
+  bool isDue(const Grasp& grasp, double time) const noexcept;
+  void hold(Grasp& grasp, const std::vector<std::size_t>& nodes, ClothState& state) noexcept;
+  void follow(Grasp& grasp) const;
+  void listFree(const GraspParams& grasp, const Field3& position, std::vector<std::size_t>& nodes) const;
   std::size_t indexOf(const std::string& id) const noexcept;
   void prepare(Grasp& grasp) const;
   void listNodes(const GraspParams& grasp, std::vector<std::size_t>& nodes, std::vector<Problem>& problems) const;
   bool isFree(std::size_t node) const noexcept { return pattern_.scene_pins[node] == kFree && hand_[node] < 0; }
+  template <typename Visit>
+  void forEachFree(const Visit& visit) const {
+    for (int i = 0; i < pattern_.grid.rows; ++i) {
+      for (std::size_t n = pattern_.grid.index(i, 0); n < pattern_.grid.index(i, pattern_.grid.columns); ++n) {
+        if (isFree(n)) visit(n);
+      }
+    }
+  }
   void note() noexcept;
   void release(Grasp& grasp) noexcept;
   void countPinned(Grasp& grasp, const SubstepMade& made) noexcept;
@@ -120,6 +138,7 @@ class Grasps final : public PinMoves {
   int holding_ = 0;
   std::vector<std::uint8_t> loaded_;  // by node, of what serialize() loads: 2: pinned, 1: held by a spring
   std::vector<int> hand_;             // by node: index of the grasp that holds it, or -1
+  std::vector<std::size_t> nodes_;    // scratch of begun()
   FramePart part_;
 };
 

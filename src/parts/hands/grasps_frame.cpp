@@ -19,11 +19,50 @@ Vec3 withinNumbers(const Vec3& pull) noexcept {
 }  // namespace
 
 bool Grasps::wakes(const FrameBegin& begin, const ClothState& state) const noexcept {
-  const auto moves = [](const Grasp& grasp) { return grasp.moves(); };
-  return any() && (PinMoves::wakes(begin, state) || std::any_of(list_.begin(), list_.end(), moves));
+  const auto moves = [&](const Grasp& grasp) {
+    const bool scripted =
+        grasp.hand != nullptr && grasp.holds() && grasp.motion.fastest(begin.from, begin.to, 1.0) > 0.0;
+    return grasp.moves() || scripted;
+  };
+  return begins(begin) || (any() && (PinMoves::wakes(begin, state) || std::any_of(list_.begin(), list_.end(), moves)));
+}
+
+// Its time to take hold, or to let go, has come as the frame begins.
+bool Grasps::isDue(const Grasp& grasp, double time) const noexcept {
+  constexpr double kTimeRounding = 1e-9;  // [s]
+  if (grasp.hand == nullptr) return false;
+  if (grasp.end == GraspEnd::kWaiting) return grasp.hand->start <= time + kTimeRounding;
+  return grasp.holds() && grasp.hand->end <= time + kTimeRounding;
+}
+
+bool Grasps::begins(const FrameBegin& begin) const noexcept {
+  return std::any_of(list_.begin(), list_.end(), [&](const Grasp& grasp) { return isDue(grasp, begin.from); });
+}
+
+// Those that let go are first: what they held another may take.
+void Grasps::begun(const FrameBegin& begin, ClothState& state) noexcept {
+  for (Grasp& grasp : list_) {
+    if (!grasp.holds() || !isDue(grasp, begin.from)) continue;
+    release(grasp);
+    grasp.end = GraspEnd::kReleased;
+    note();
+  }
+  for (Grasp& grasp : list_) {
+    if (grasp.end != GraspEnd::kWaiting || !isDue(grasp, begin.from)) continue;
+    grasp.params.frame = grasp.motion.at(begin.from);
+    nodes_.clear();
+    listFree(grasp.params, state.position, nodes_);
+    grasp.end = GraspEnd::kMissed;
+    if (nodes_.empty() || grasp.hand->end <= begin.from) continue;
+    hold(grasp, nodes_, state);
+    note();
+  }
 }
 
 bool Grasps::prepareFrame(const FrameBegin& begin, ClothState& state) noexcept {
+  for (Grasp& grasp : list_) {
+    if (grasp.hand != nullptr && grasp.holds()) grasp.to = grasp.motion.at(begin.to);
+  }
   for (const Grasp& grasp : list_) {
     if (!grasp.pins || !grasp.moves()) continue;
     for (const HeldNode& held : grasp.held) move(held.node, toWorld(grasp.to, held.place));

@@ -111,6 +111,7 @@ void Hands::cancel(const Goal& goal, Simulator& simulator) {
 }
 
 void Hands::update(Simulator& simulator) {
+  warnOfScene(simulator);
   hands_.erase(
       std::remove_if(hands_.begin(), hands_.end(), [&](Hand& hand) { return hand.holds && !tell(hand, simulator); }),
       hands_.end());
@@ -150,7 +151,26 @@ bool Hands::tell(Hand& hand, Simulator& simulator) {
 void Hands::restart(Simulator& simulator, const std::string& why) {
   for (Hand& hand : hands_) end(hand, simulator, GraspResult::RESET, why);
   hands_.clear();
-  simulator.releaseAllGrasps();
+  const auto ofScene = [&](const std::string& id) {
+    const auto& all = simulator.scene().hands;
+    return std::any_of(all.begin(), all.end(), [&](const curtain::HandParams& hand) { return hand.grasp.id == id; });
+  };
+  for (const std::string& id : simulator.grasps()) {
+    if (!ofScene(id)) simulator.releaseGrasp(id);
+  }
+}
+
+// Once for each that failed.
+void Hands::warnOfScene(const Simulator& simulator) {
+  const std::vector<curtain::HandParams>& all = simulator.scene().hands;
+  ends_.resize(all.size(), curtain::GraspEnd::kWaiting);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const auto state = simulator.graspState(all[k].grasp.id);
+    const curtain::GraspEnd end = state ? state->end : curtain::GraspEnd::kReleased;
+    const std::string failure = end == ends_[k] ? "" : curtain::describeFailure(all[k], end);
+    ends_[k] = end;
+    if (!failure.empty()) ROS_WARN_STREAM(forLog(failure));
+  }
 }
 
 void Hands::refuse(Goal& goal, const std::vector<curtain::Problem>& problems) {

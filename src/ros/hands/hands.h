@@ -62,6 +62,7 @@ class Hands {
   bool grip(Hand& hand, curtain::Simulator& simulator, const ros::Time& now);
   bool follow(Hand& hand, curtain::Simulator& simulator, const ros::Time& now);
   bool tell(Hand& hand, curtain::Simulator& simulator);
+  void warnOfScene(const curtain::Simulator& simulator);
   void refuse(Goal& goal, const std::vector<curtain::Problem>& problems);
   void end(Hand& hand, curtain::Simulator& simulator, std::uint8_t how, const std::string& message);
 
@@ -69,8 +70,9 @@ class Hands {
   Inputs& inputs_;
   double timeout_;
   Mailbox<Letter> mailbox_;
-  std::deque<Letter> letters_;  // scratch
-  std::vector<Hand> hands_;     // in the order of their goals
+  std::deque<Letter> letters_;           // scratch
+  std::vector<Hand> hands_;              // in the order of their goals
+  std::vector<curtain::GraspEnd> ends_;  // of the scene's hands, as last seen
   Server server_;
 };
 

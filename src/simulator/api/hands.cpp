@@ -1,9 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The public interface of hands that hold the cloth.
+#include <array>
+
+#include "scene/ranges.h"
 #include "simulator/simulator_impl.h"
 
 namespace curtain {
+
+const char* toString(GraspEnd end) {
+  constexpr std::array<const char*, 6> kNames = {"holds", "broken", "slipped_out", "waiting", "missed", "released"};
+  return kNames.at(static_cast<std::size_t>(end));
+}
+
+std::string describeFailure(const HandParams& hand, GraspEnd end) {
+  const std::string who = "hand '" + hand.grasp.id + "' ";
+  if (end == GraspEnd::kMissed)
+    return who + "took nothing at " + formatNumber(hand.start) + " s: no free node was where it took hold";
+  if (end == GraspEnd::kBroken) return who + "lost the cloth: the pull reached its break_force";
+  return end == GraspEnd::kSlippedOut ? who + "lost the cloth: it slid out between the pads" : "";
+}
 
 std::vector<Problem> Simulator::setGrasp(const GraspParams& grasp) {
   Impl& im = *impl_;

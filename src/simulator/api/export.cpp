@@ -214,6 +214,17 @@ std::string statisticsJson(const Simulator& simulator, const RunSums& run) {
     entry["mean"] = toJson(at < run.loads.size() ? run.loads[at] : ContactWrench());
   }
   json["wrenches"] = wrenches;
+  nlohmann::ordered_json hands = nlohmann::ordered_json::object();
+  for (const HandParams& hand : simulator.scene().hands) {
+    const std::optional<GraspState> state = simulator.graspState(hand.grasp.id);
+    if (!state) continue;
+    hands[hand.grasp.id] = {{"end", toString(state->end)},
+                            {"nodes", state->nodes.size()},
+                            {"force", {state->force.x(), state->force.y(), state->force.z()}},
+                            {"torque", {state->torque.x(), state->torque.y(), state->torque.z()}},
+                            {"slipped", state->slipped}};
+  }
+  json["hands"] = hands;
   json["rest"] = {{"asleep", s.asleep}, {"frames_asleep", s.asleep_frames}, {"wakes", s.wakes}};
   json["budget"] = {{"ms", simulator.scene().solver.budget_ms},
                     {"estimates_skipped", s.estimates_skipped},
