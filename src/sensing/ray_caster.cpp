@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -70,6 +71,12 @@ RTCGeometry newTriangles(RTCDevice device, std::size_t points, const Triangles& 
   return geometry;
 }
 
+// The last number stands for all obstacles that have none of their own.
+std::uint16_t labelOf(std::size_t obstacle) {
+  constexpr std::size_t kLast = std::numeric_limits<std::uint16_t>::max();
+  return static_cast<std::uint16_t>(std::min(obstacle + RayHit::kFirstObstacle, kLast));
+}
+
 // Embree's worker threads take no part: there are other simulators, and cores that have better to do.
 void commitAlone(RTCScene scene) {
   tbb::task_arena alone(1, 1);
@@ -95,6 +102,7 @@ struct RayCaster::Impl {
   std::vector<std::size_t> solid_obstacles;  // their numbers
   std::vector<MeshObstacle> meshes;
   std::vector<Eigen::Matrix3f> turns;  // by the instance's id: from its frame, which Embree's normals are in
+  std::vector<std::uint16_t> labels;   // by the instance's id
 
   double porosity = 0.0;
 
@@ -164,6 +172,8 @@ void RayCaster::Impl::addMesh(std::size_t obstacle, const ShapeTriangles& shape)
   const unsigned int id = rtcAttachGeometry(scene, instance);
   meshes.push_back({obstacle, own, instance, id});
   turns.resize(id + 1U, Eigen::Matrix3f::Identity());
+  labels.resize(id + 1U, RayHit::kBackground);
+  labels[id] = labelOf(obstacle);
 }
 
 bool RayCaster::available() { return true; }
@@ -248,6 +258,7 @@ void RayCaster::Impl::castPacket(const RayGrid& rays, int column, int row, const
     RayHit& hit = hits[place(lane)];
     const unsigned int geometry = packet.hit.geomID[lane], instance = packet.hit.instID[0][lane];
     hit.triangle = RayHit::kNothing;
+    hit.label = RayHit::kBackground;
     if (geometry == RTC_INVALID_GEOMETRY_ID) continue;
     const bool of_cloth = instance == RTC_INVALID_GEOMETRY_ID && geometry == cloth_id;
     hit.triangle = of_cloth ? static_cast<std::int32_t>(packet.hit.primID[lane]) : RayHit::kObstacle;
@@ -256,6 +267,9 @@ void RayCaster::Impl::castPacket(const RayGrid& rays, int column, int row, const
     hit.b2 = packet.hit.v[lane];
     hit.normal = {packet.hit.Ng_x[lane], packet.hit.Ng_y[lane], packet.hit.Ng_z[lane]};
     if (instance != RTC_INVALID_GEOMETRY_ID) hit.normal = turns[instance] * hit.normal;
+    hit.label = of_cloth                              ? RayHit::kCloth
+                : instance != RTC_INVALID_GEOMETRY_ID ? labels[instance]
+                                                      : labelOf(solid_obstacles[packet.hit.primID[lane]]);
   }
 }
 

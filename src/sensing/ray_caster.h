@@ -24,8 +24,10 @@ namespace curtain {
 struct RayHit {
   static constexpr std::int32_t kNothing = -1;  ///< nothing within the range
   static constexpr std::int32_t kObstacle = -2;
+  static constexpr std::uint16_t kBackground = 0, kCloth = 1, kFirstObstacle = 2;
 
   std::int32_t triangle = kNothing;                  ///< of the fine mesh, or one of the above
+  std::uint16_t label = kBackground;                 ///< kBackground, kCloth, or kFirstObstacle and its number
   float distance = 0.0F;                             ///< parameter along the ray, in lengths of its direction
   float b1 = 0.0F, b2 = 0.0F;                        ///< weights of the triangle's second and third corner
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< sensor's frame, of any length and either side

@@ -18,6 +18,19 @@ void SensorView::render(const Moment& moment, const Pose& sensor) {
   for (std::size_t ray = 0; ray < hits_.size(); ++ray) readings_[ray] = readings.read(ray, direction(ray), hits_[ray]);
 }
 
+void SensorView::labels(std::vector<std::uint16_t>& out) const {
+  out.resize(hits_.size());
+  for (std::size_t ray = 0; ray < hits_.size(); ++ray) out[ray] = hits_[ray].label;
+}
+
+void SensorView::nodes(std::vector<std::int32_t>& out) const {
+  out.resize(hits_.size());
+  for (std::size_t ray = 0; ray < hits_.size(); ++ray) {
+    const RayHit& hit = hits_[ray];
+    out[ray] = hit.triangle >= 0 ? flat_.nearestNode(flat_.place(hit.triangle, hit.b1, hit.b2)) : -1;
+  }
+}
+
 void SensorView::points(const Moment& moment, std::vector<CloudPoint>& out) const {
   out.assign(hits_.size(), CloudPoint());
   for (std::size_t ray = 0; ray < hits_.size(); ++ray) {

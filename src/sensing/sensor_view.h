@@ -31,6 +31,11 @@ class SensorView {
   /// Of the last render(), by ray: depth of a camera, distance of a lidar [m]; NaN: none.
   const std::vector<float>& readings() const { return readings_; }
 
+  /// What each ray of the last render() met first, whether it gave a reading or not: RayHit::label. out: resized
+  void labels(std::vector<std::uint16_t>& out) const;
+  /// The nearest node on the flat cloth, row * columns + column, or -1: it met no cloth. out: resized
+  void nodes(std::vector<std::int32_t>& out) const;
+
   /// The points of the last render(), by ray, in the sensor's frame, with normals towards the sensor. out: resized
   void points(const Moment& moment, std::vector<CloudPoint>& out) const;
 

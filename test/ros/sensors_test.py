@@ -10,6 +10,7 @@ import rosgraph
 import rospy
 import rostest
 import tf2_ros
+from curtain_sim.msg import Labels
 from curtain_sim.srv import Step
 from curtain_testing import (OK, WARN, Curtain, Diagnostics, Listener, NodeProcess, Process, distance, node_position,
                              program, publisher, static_frame, wait_until)
@@ -144,6 +145,31 @@ class SensorsTest(unittest.TestCase):
         self.assertEqual(points.shape, (PIXELS_HIGH, PIXELS_WIDE))
         self.assertEqual(points["node"][59, 79], -1, "the ball")
         self.assertGreaterEqual(points["node"][40, 64], 0)
+
+    def test_labels(self):
+        """What each pixel shows, named; the same on the depth image; nodes where it is cloth."""
+        self.open_eyes()
+        topic = "/camera/curtain/depth/"
+        depths, labels, nodes = (self.listen(topic + name, Image) for name in ("image", "labels", "nodes"))
+        names = wait_until(self.listen(topic + "label_names", Labels).last, "the names are there").names
+        self.assertEqual(names, ["background", "cloth", "wall", "ball"])
+
+        def of_one_frame():
+            by_stamp = [{m.header.stamp: m for m in listener.messages()[-20:]} for listener in (depths, labels, nodes)]
+            stamps = set(by_stamp[0]) & set(by_stamp[1]) & set(by_stamp[2])
+            return [messages[max(stamps)] for messages in by_stamp] if stamps else None
+        depth, label, node = wait_until(of_one_frame, "all three are there, of one frame")
+        self.assertEqual((label.encoding, node.encoding, label.header.frame_id), ("16UC1", "32SC1", "camera"))
+        depth = depths_of(depth)
+        label = numpy.frombuffer(label.data, "<u2").reshape(depth.shape)
+        node = numpy.frombuffer(node.data, "<i4").reshape(depth.shape)
+        self.assertEqual(label[59, 79], names.index("ball"))
+        self.assertEqual(label[40, 64], names.index("cloth"))
+        for row, column in [(0, 0), (0, -1), (-1, 0), (-1, -1)]:
+            self.assertEqual(label[row, column], names.index("wall"))
+        self.assertTrue((depth[label == names.index("ball")] < 1.55).all())
+        numpy.testing.assert_array_equal(node >= 0, label == names.index("cloth"))
+        self.assertLess(node.max(), ROWS * COLUMNS)
 
     def test_lidar(self):
         """A paused node has a view of every frame that is asked for; its noise is new in each."""

@@ -8,10 +8,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "obstacles/contact_shape.h"
 #include "sensing/moment.h"
+#include "sensing/ray_caster.h"
 
 namespace curtain_test {
 
@@ -19,7 +21,7 @@ using curtain::Vec3;
 
 struct BruteHit {
   double distance = std::numeric_limits<double>::infinity();
-  bool of_cloth = false;
+  std::uint16_t label = curtain::RayHit::kBackground;
 };
 
 /// Parameter of the intersection with a triangle (Moeller, Trumbore 1997); infinite: none.
@@ -52,12 +54,13 @@ inline double meetSolid(const curtain::ObstacleShape& shape, const Vec3& origin,
 inline BruteHit firstThing(const curtain::Simulator& simulator, const curtain::Moment& moment, const Vec3& origin,
                            const Vec3& direction, double nearest, double farthest) {
   BruteHit first;
-  const auto note = [&](double distance, bool of_cloth) {
-    if (distance > nearest && distance <= farthest && distance < first.distance) first = {distance, of_cloth};
+  const auto note = [&](double distance, std::size_t label) {
+    if (distance > nearest && distance <= farthest && distance < first.distance)
+      first = {distance, static_cast<std::uint16_t>(label)};
   };
   const std::vector<Vec3>& points = moment.mesh.positions;
   for (const auto& t : simulator.fineMeshTopology().triangles)
-    note(meetTriangle(origin, direction, points[t[0]], points[t[1]], points[t[2]]), true);
+    note(meetTriangle(origin, direction, points[t[0]], points[t[1]], points[t[2]]), 1);
   for (std::size_t i = 0; i < moment.obstacles.size(); ++i) {
     if (moment.present[i] == 0) continue;
     const curtain::Pose& pose = moment.obstacles[i];
@@ -68,10 +71,10 @@ inline BruteHit firstThing(const curtain::Simulator& simulator, const curtain::M
       const curtain::ShapeTriangles mesh = shape.triangles();
       for (const auto& t : mesh.triangles) {
         const auto corner = [&](int k) -> const Vec3& { return mesh.corners[static_cast<std::size_t>(t[k])]; };
-        note(meetTriangle(o, d, corner(0), corner(1), corner(2)), false);
+        note(meetTriangle(o, d, corner(0), corner(1), corner(2)), 2 + i);
       }
     } else {
-      note(meetSolid(shape, o, d, nearest, farthest), false);
+      note(meetSolid(shape, o, d, nearest, farthest), 2 + i);
     }
   }
   return first;

@@ -127,7 +127,7 @@ struct Judge {
         hit.triangle == RayHit::kNothing ? std::numeric_limits<double>::infinity() : hit.distance * length;
     const auto agrees = [&](const BruteHit& truth, double slack) {
       if (std::isinf(truth.distance) || std::isinf(told)) return truth.distance == told;
-      return std::abs(truth.distance - told) <= slack && truth.of_cloth == (hit.triangle >= 0);
+      return std::abs(truth.distance - told) <= slack && truth.label == hit.label;
     };
     if (agrees(first(sensor.position, direction), 2.0 * kWidth)) return true;
     // At a slant, at an outline, or at the end of the range: the rays beside, which also bracket it.
@@ -140,7 +140,7 @@ struct Judge {
       const Vec3 aside = kWidth * (std::cos(angle) * across + std::sin(angle) * up);
       const BruteHit truth = first(sensor.position + aside, direction);
       if (agrees(truth, 2.0 * kWidth)) found = true;
-      if (truth.of_cloth != (hit.triangle >= 0) || std::isinf(truth.distance)) continue;
+      if (truth.label != hit.label || std::isinf(truth.distance)) continue;
       least = std::min(least, truth.distance);
       most = std::max(most, truth.distance);
     }
@@ -165,9 +165,8 @@ TEST(Occlusion, IsThatOfBruteForce) {
       const Vec3 direction(rays.x[ray], rays.y[ray], rays.z[ray]);
       if (judge.isRight(direction, hits[ray])) continue;
       ++wrong;
-      ADD_FAILURE() << "scene " << s << ", ray " << ray << ": met " << hits[ray].triangle << " at "
-                    << hits[ray].distance << ", first is "
-                    << judge.first(sensor.position, sensor.orientation * direction).distance;
+      ADD_FAILURE() << "scene " << s << ", ray " << ray << ": met " << hits[ray].label << " at " << hits[ray].distance
+                    << ", first is " << judge.first(sensor.position, sensor.orientation * direction).distance;
       if (wrong > 10) return;
     }
     beside += judge.beside;

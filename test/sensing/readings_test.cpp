@@ -54,6 +54,43 @@ struct Wall {
   }
 };
 
+// Of what is there: lost readings and noise change none; a node is near to where the ray meets the cloth.
+TEST(Readings, LabelsAndNodesAreOfWhatIsMet) {
+  Wall wall;
+  wall.params.dropout = 0.5;
+  wall.params.camera.fx = 300.0;  // the cloth is in the middle of the image
+  const Simulator simulator(wall.scene);
+  std::vector<double> warp, weft;
+  simulator.copyRestLengths(warp, weft);
+  const FlatCloth flat(simulator.fineMeshTopology(), warp, weft);
+  SensorView view(simulator, flat, wall.params);
+  std::vector<Problem> problems;
+  view.setRays(cameraRays(cameraModel(wall.params.camera), problems));
+  Moment moment;
+  readMoment(simulator, moment);
+  view.render(moment, wall.sensor);
+  std::vector<std::uint16_t> labels;
+  std::vector<std::int32_t> nodes;
+  view.labels(labels);
+  view.nodes(nodes);
+  int of_cloth = 0;
+  for (std::size_t ray = 0; ray < labels.size(); ++ray) {
+    const Vec3 on_cloth = wall.sensor.position + Vec3(view.rays().x[ray], 1.0, -view.rays().y[ray]);
+    const double beyond = std::max(std::abs(on_cloth.x() - 0.5), std::abs(on_cloth.z() - 0.5)) - 0.5;
+    if (std::abs(beyond) < 1e-5) continue;
+    ASSERT_EQ(labels[ray], beyond < 0.0 ? RayHit::kCloth : RayHit::kFirstObstacle) << ray;
+    ASSERT_EQ(nodes[ray] >= 0, beyond < 0.0);
+    if (nodes[ray] < 0) continue;
+    ++of_cloth;
+    const Vec3 node = simulator.position({nodes[ray] / 5, nodes[ray] % 5});
+    // Half a link either way: rows are 0.2 m apart, columns 0.25 m.
+    ASSERT_LT(std::abs(node.x() - on_cloth.x()), 0.125 + 1e-5);
+    ASSERT_LT(std::abs(node.z() - on_cloth.z()), 0.1 + 1e-5);
+  }
+  EXPECT_GT(of_cloth, 10000);
+  EXPECT_LT(of_cloth, static_cast<int>(labels.size()) - 10000);
+}
+
 TEST(Readings, ADepthIsAlongTheAxis) {
   Wall wall;
   for (const float depth : wall.readings()) ASSERT_NEAR(depth, 1.0F, 1e-6F);

@@ -45,6 +45,16 @@ void copyBytes(const std::vector<Value>& values, std::vector<std::uint8_t>& byte
   if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
 }
 
+template <typename Value>
+void fill(const std::vector<Value>& values, std::uint32_t height, std::uint32_t width, const std::string& encoding,
+          sensor_msgs::Image& image) {
+  image.height = height;
+  image.width = width;
+  image.encoding = encoding;
+  image.step = width * static_cast<std::uint32_t>(sizeof(Value));
+  copyBytes(values, image.data);
+}
+
 }  // namespace
 
 void fillCloud(const std::vector<CloudPoint>& points, std::uint32_t height, std::uint32_t width, bool dense,
@@ -56,13 +66,16 @@ void fillCloud(const std::vector<CloudPoint>& points, std::uint32_t height, std:
   copyBytes(points, cloud.data);
 }
 
-void fillDepths(const std::vector<float>& depths, std::uint32_t height, std::uint32_t width,
-                sensor_msgs::Image& image) {
-  image.height = height;
-  image.width = width;
-  image.encoding = sensor_msgs::image_encodings::TYPE_32FC1;
-  image.step = width * static_cast<std::uint32_t>(sizeof(float));
-  copyBytes(depths, image.data);
+void fillImage(const std::vector<float>& depths, std::uint32_t height, std::uint32_t width, sensor_msgs::Image& image) {
+  fill(depths, height, width, sensor_msgs::image_encodings::TYPE_32FC1, image);
+}
+void fillImage(const std::vector<std::uint16_t>& labels, std::uint32_t height, std::uint32_t width,
+               sensor_msgs::Image& image) {
+  fill(labels, height, width, sensor_msgs::image_encodings::TYPE_16UC1, image);
+}
+void fillImage(const std::vector<std::int32_t>& nodes, std::uint32_t height, std::uint32_t width,
+               sensor_msgs::Image& image) {
+  fill(nodes, height, width, sensor_msgs::image_encodings::TYPE_32SC1, image);
 }
 
 }  // namespace curtain_ros

@@ -19,7 +19,11 @@ sensor_msgs::PointCloud2 emptyCloud();
 void fillCloud(const std::vector<curtain::CloudPoint>& points, std::uint32_t height, std::uint32_t width, bool dense,
                sensor_msgs::PointCloud2& cloud);
 
-/// Depths [m] row by row, NaN: none, as depth_image_proc writes it.
-void fillDepths(const std::vector<float>& depths, std::uint32_t height, std::uint32_t width, sensor_msgs::Image& image);
+/// An image of single values, row by row: depths [m] (NaN: none, as depth_image_proc writes it), labels, nodes.
+void fillImage(const std::vector<float>& depths, std::uint32_t height, std::uint32_t width, sensor_msgs::Image& image);
+void fillImage(const std::vector<std::uint16_t>& labels, std::uint32_t height, std::uint32_t width,
+               sensor_msgs::Image& image);  ///< as above
+void fillImage(const std::vector<std::int32_t>& nodes, std::uint32_t height, std::uint32_t width,
+               sensor_msgs::Image& image);  ///< as above
 
 }  // namespace curtain_ros

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "curtain_sim/Labels.h"
 #include "ros/sensors/read_camera_info.h"
 #include "ros/sensors/sensor_messages.h"
 #include "ros/time/warn_period.h"
@@ -19,6 +20,13 @@ using sensor_msgs::CameraInfo;
 namespace {
 
 constexpr double kCloudsAtRest = 1.0;  // [1/s] all round
+
+curtain_sim::Labels namesOf(const std::vector<curtain::ObstacleParams>& obstacles) {
+  curtain_sim::Labels labels;
+  labels.names = {"background", "cloth"};
+  for (const curtain::ObstacleParams& obstacle : obstacles) labels.names.push_back(obstacle.name);
+  return labels;
+}
 
 curtain::FlatCloth flatCloth(const curtain::Simulator& simulator) {
   std::vector<double> warp, weft;
@@ -38,6 +46,8 @@ SensorOutputs::SensorOutputs(ros::NodeHandle node, ros::NodeHandle private_node,
       pace_(params.rate, restRate(), simulator.scene().solver.frame_rate),
       cloud_message_(emptyCloud()),
       image_message_(sensor_msgs::Image()),
+      labels_message_(sensor_msgs::Image()),
+      nodes_message_(sensor_msgs::Image()),
       info_message_(CameraInfo()) {
   const double count = flat_.area() * params_.density;
   if (!isSensor() && count > curtain::kMaxRays) {
@@ -61,6 +71,10 @@ SensorOutputs::SensorOutputs(ros::NodeHandle node, ros::NodeHandle private_node,
   if (!isCamera()) return;
   image_ = private_node.advertise<sensor_msgs::Image>("depth/image", 2);
   info_ = private_node.advertise<CameraInfo>("depth/camera_info", 2);
+  labels_ = private_node.advertise<sensor_msgs::Image>("depth/labels", 2);
+  nodes_ = private_node.advertise<sensor_msgs::Image>("depth/nodes", 2);
+  names_ = private_node.advertise<curtain_sim::Labels>("depth/label_names", 1, true);  // latched
+  names_.publish(namesOf(simulator.scene().obstacles));
 }
 
 // A sensor's noise is new in every frame, whether anything moves or not.
@@ -125,8 +139,9 @@ void SensorOutputs::prepare() {
 }
 
 std::uint32_t SensorOutputs::listeners() {
-  const std::uint32_t images = isCamera() ? image_.getNumSubscribers() + info_.getNumSubscribers() : 0;
-  const std::uint32_t all = points_.getNumSubscribers() + images;
+  std::uint32_t all = 0;
+  for (const ros::Publisher* const topic : {&points_, &image_, &info_, &labels_, &nodes_})
+    all += *topic ? topic->getNumSubscribers() : 0;
   if (all == 0) error_.clear();
   return all;
 }
@@ -150,6 +165,8 @@ void SensorOutputs::beginView(const ros::Time& stamp, const ros::Time& now) {
     view_.sensor = pose_;
     view_.cloud = points_.getNumSubscribers() > 0;
     view_.image = isCamera() && image_.getNumSubscribers() + info_.getNumSubscribers() > 0;
+    view_.labels = isCamera() && labels_.getNumSubscribers() > 0;
+    view_.nodes = isCamera() && nodes_.getNumSubscribers() > 0;
     if (camera_) view_camera_ = *camera_;
     curtain::readMoment(simulator_, view_.moment);
     worker_.begin([this] { show(view_); });
@@ -167,6 +184,14 @@ void SensorOutputs::show(const View& view) {
     }
     sensor_->render(view.moment, view.sensor);
     if (view.image) showDepths(view);
+    if (view.labels) {
+      sensor_->labels(seen_labels_);
+      showImage(view, seen_labels_, labels_message_, labels_);
+    }
+    if (view.nodes) {
+      sensor_->nodes(seen_nodes_);
+      showImage(view, seen_nodes_, nodes_message_, nodes_);
+    }
     if (!view.cloud) return;
     sensor_->points(view.moment, cloud_);
     showCloud(view, static_cast<std::uint32_t>(sensor_->rays().height),
@@ -184,16 +209,23 @@ void SensorOutputs::showCloud(const View& view, std::uint32_t height, std::uint3
   points_.publish(message);
 }
 
-void SensorOutputs::showDepths(const View& view) {
-  const auto image = image_message_.edit();
+template <typename Value>
+void SensorOutputs::showImage(const View& view, const std::vector<Value>& values,
+                              ReusedMessage<sensor_msgs::Image>& reused, const ros::Publisher& publisher) {
+  const auto image = reused.edit();
   image->header.stamp = view.stamp;
   image->header.frame_id = view.frame;
-  fillDepths(sensor_->readings(), static_cast<std::uint32_t>(sensor_->rays().height),
-             static_cast<std::uint32_t>(sensor_->rays().width), *image);
+  fillImage(values, static_cast<std::uint32_t>(sensor_->rays().height),
+            static_cast<std::uint32_t>(sensor_->rays().width), *image);
+  publisher.publish(image);
+}
+
+void SensorOutputs::showDepths(const View& view) {
+  showImage(view, sensor_->readings(), image_message_, image_);
   const auto info = info_message_.edit();
   *info = view_camera_;
-  info->header = image->header;
-  image_.publish(image);
+  info->header.stamp = view.stamp;
+  info->header.frame_id = view.frame;
   info_.publish(info);
 }
 

@@ -77,7 +77,7 @@ class SensorOutputs {
     ros::Time stamp;
     std::string frame;
     curtain::Pose sensor;
-    bool cloud, image;  // somebody listens
+    bool cloud, image, labels, nodes;  // somebody listens
     curtain::Moment moment;
   };
 
@@ -92,13 +92,16 @@ class SensorOutputs {
   void show(const View& view);
   void showCloud(const View& view, std::uint32_t height, std::uint32_t width);
   void showDepths(const View& view);
+  template <typename Value>
+  void showImage(const View& view, const std::vector<Value>& values, ReusedMessage<sensor_msgs::Image>& reused,
+                 const ros::Publisher& publisher);
 
   curtain::SensorParams params_;
   const curtain::Simulator& simulator_;
   Frames& frames_;
   curtain::FlatCloth flat_;
   Pace pace_;
-  ros::Publisher points_, image_, info_;
+  ros::Publisher points_, image_, info_, labels_, nodes_, names_;
   std::optional<FollowedFrame> frame_;  // none: not known which
   curtain::Pose pose_;                  // of the sensor
   std::string error_;
@@ -110,8 +113,10 @@ class SensorOutputs {
   // Of the view that is being made; the simulation thread's when there is none.
   View view_;
   std::vector<curtain::CloudPoint> cloud_;
+  std::vector<std::uint16_t> seen_labels_;
+  std::vector<std::int32_t> seen_nodes_;
   ReusedMessage<sensor_msgs::PointCloud2> cloud_message_;
-  ReusedMessage<sensor_msgs::Image> image_message_;
+  ReusedMessage<sensor_msgs::Image> image_message_, labels_message_, nodes_message_;
   ReusedMessage<sensor_msgs::CameraInfo> info_message_;
   sensor_msgs::CameraInfo view_camera_;
 
