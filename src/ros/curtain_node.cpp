@@ -84,13 +84,16 @@ void CurtainNode::startServices(const ros::NodeHandle& private_node) {
   tuning_ = std::make_unique<Tuning>(private_node, calls_, tuning);
   file_services_ = std::make_unique<FileServices>(private_node, calls_, simulator_, file);
   measure_services_ = std::make_unique<MeasureServices>(private_node, calls_, simulator_, frames_.world());
+  ties_ = std::make_unique<Ties>(private_node, params_.grasp_timeout,
+                                 Ties::Surroundings{calls_, simulator_, frames_, [this] { return clock_.rosTime(); }});
 }
 
 void CurtainNode::startWatch(const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
   std::vector<std::string> topics = inputs_.topics(), services;
   for (const char* tf : {"/tf", "/tf_static"}) topics.push_back(node.resolveName(tf));
   for (const char* own : {"handles/feedback", "open"}) topics.push_back(private_node.resolveName(own));
-  for (const char* own : {"reset", "pause", "step", "save", "load", "export_mesh", "distance", "set_parameters"})
+  for (const char* own :
+       {"reset", "pause", "step", "save", "load", "export_mesh", "distance", "attach", "detach", "set_parameters"})
     services.push_back(private_node.resolveName(own));
   for (const std::string& topic : sensors_.topics()) topics.push_back(topic);
   if (tie_backs_) services.push_back(private_node.resolveName("tie_back"));
@@ -171,6 +174,7 @@ void CurtainNode::makeFrame(const ros::Time& stamp, bool latest) {
   applyInputs();
   obstacles_.update(simulator_, clock_.rosTime());
   hands_.apply(simulator_, clock_.rosTime());
+  ties_->apply();
   simulator_.step();
   if (!simulator_.statistics().finite) {
     ROS_ERROR_THROTTLE(2.0, "the state is not finite any more: the curtain starts again from the scene");
@@ -184,6 +188,7 @@ void CurtainNode::makeFrame(const ros::Time& stamp, bool latest) {
   if (handles_) handles_->update(simulator_);
   if (opening_) opening_->update(simulator_);
   hands_.update(simulator_);
+  ties_->update();
   diagnostics_.frameMade();
 }
 
@@ -204,6 +209,7 @@ void CurtainNode::showSensors(const ros::Time& stamp, bool latest) {
 void CurtainNode::restart(const std::string& why) {
   ++restarts_;
   hands_.restart(simulator_, "the curtain started again");
+  ties_->restart();
   simulator_.reset();
   lock_step_.end(why);
   if (opening_) opening_->restart();
@@ -217,6 +223,7 @@ std::vector<curtain::Problem> CurtainNode::restore(const std::string& snapshot) 
   if (!problems.empty()) return problems;
   ++restarts_;
   hands_.restart(simulator_, "a snapshot was loaded");
+  ties_->restart();
   lock_step_.end("a snapshot was loaded");
   if (opening_) opening_->restart();
   inputs_.restart();

@@ -25,6 +25,7 @@
 #include "curtain_sim/simulator.h"
 #include "ros/frames/frames.h"
 #include "ros/hands/hands.h"
+#include "ros/hands/ties.h"
 #include "ros/health/diagnostics.h"
 #include "ros/inputs/handles.h"
 #include "ros/inputs/inputs.h"
@@ -115,6 +116,7 @@ class CurtainNode {
   std::unique_ptr<Tuning> tuning_;
   std::unique_ptr<FileServices> file_services_;
   std::unique_ptr<MeasureServices> measure_services_;
+  std::unique_ptr<Ties> ties_;
   std::unique_ptr<RoscppWatch> watch_;  // none unless ~watch_roscpp
   Diagnostics diagnostics_;
   std::thread thread_;
