@@ -110,6 +110,13 @@ class Simulator {
   std::vector<Problem> setPositionTolerance(double tolerance);  ///< see setFriction()
   std::vector<Problem> setBudget(double ms);                    ///< see setFriction()
 
+  /// Changes the cloth from the next step on, also after reset(), whose start is that of such cloth: surface_density,
+  /// porosity, row_mass, column_mass, shear, bending_warp, bending_weft, bending_bias, bending_hysteresis and material;
+  /// all else must be as it is. Motion goes on, contacts are found anew, and sleeping cloth wakes. The simulator is
+  /// made anew within, but for the obstacles' shapes and the fine mesh's topology: references to scene() and
+  /// statistics() end. Returns what is wrong; then nothing changed.
+  std::vector<Problem> setCloth(const ClothParams& cloth);
+
   /// Sets positions [m] and velocities [m/s] of all nodes, row-major, shape [rows * columns]; velocities of pinned
   /// nodes are ignored, carriers are put where the rail is nearest. Wakes all of the cloth and forgets the tensions.
   /// Links may be far from their lengths and nodes may coincide: the solver corrects lengths as fast as it can. Contact

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 namespace curtain {
 namespace {
@@ -44,13 +45,20 @@ double followingSpeed(const Scene& scene) noexcept {
   return gravity > 0.0 ? std::sqrt(2.0 * gravity * scene.cloth.height) : std::numeric_limits<double>::infinity();
 }
 
-ObstacleSet::ObstacleSet(const Scene& scene, const MeshResolver& resolve)
+ShapeMaker shapesBy(MeshResolver resolve) {
+  return [resolve = std::move(resolve)](std::size_t, const ObstacleParams& params) {
+    return std::shared_ptr<const ContactShape>(makeContactShape(params, resolve));
+  };
+}
+
+ObstacleSet::ObstacleSet(const Scene& scene, const ShapeMaker& make_shape)
     : frame_length_(1.0 / scene.solver.frame_rate), following_speed_(followingSpeed(scene)) {
   std::string unusable;
-  for (const ObstacleParams& params : scene.obstacles) {
+  for (std::size_t n = 0; n < scene.obstacles.size(); ++n) {
+    const ObstacleParams& params = scene.obstacles[n];
     Item item;
     try {
-      item.shape = makeContactShape(params, resolve);
+      item.shape = make_shape(n, params);
     } catch (const std::invalid_argument& error) {
       unusable += (unusable.empty() ? "" : "\n") + std::string(error.what());
       continue;

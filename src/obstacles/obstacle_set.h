@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -69,10 +70,15 @@ struct MovingObstacle {
   Eigen::AlignedBox3d swept_;
 };
 
+/// The shape of the scene's obstacle of this number. Throws std::invalid_argument for a mesh that cannot be used.
+using ShapeMaker = std::function<std::shared_ptr<const ContactShape>(std::size_t number, const ObstacleParams& params)>;
+/// Makes them from the scene; meshes are read from where this finds them.
+ShapeMaker shapesBy(MeshResolver resolve);
+
 class ObstacleSet {
  public:
-  /// Throws std::invalid_argument for a mesh that cannot be used.
-  ObstacleSet(const Scene& scene, const MeshResolver& resolve);
+  /// Throws std::invalid_argument with all that make_shape throws.
+  ObstacleSet(const Scene& scene, const ShapeMaker& make_shape);
 
   int count() const { return static_cast<int>(items_.size()); }
   bool anyPresent() const noexcept;
@@ -85,6 +91,7 @@ class ObstacleSet {
     return pathBetween(items_[at(index)].begin, items_[at(index)].end, at(index));
   }
   const ContactShape& shape(int index) const { return *items_[at(index)].shape; }
+  std::shared_ptr<const ContactShape> sharedShape(std::size_t number) const { return items_[number].shape; }
   bool present(int index) const { return moving_[at(index)].present; }
   void setPresent(int index, bool present) noexcept;
 
@@ -146,7 +153,7 @@ class ObstacleSet {
 
  private:
   struct Item {
-    std::unique_ptr<const ContactShape> shape;
+    std::shared_ptr<const ContactShape> shape;
     ScriptedMotion script;
     FrameCurve curve;  // from begin, in the frame
     Pose initial;

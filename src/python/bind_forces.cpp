@@ -93,6 +93,16 @@ void bindChanges(SimulatorClass& simulator) {
           "others keep their values.")
       .def("set_frame_rate", number(&Simulator::setFrameRate), py::arg("rate"),
            "Frames per second, in [1, 10000]; from the next step on, also after reset().")
+      .def(
+          "set_cloth",
+          [](Self& self, const py::kwargs& values) {
+            const ClothParams cloth = readCloth(values, self.inspect().scene());
+            refuse(self.change([&](Simulator& s) { return s.setCloth(cloth); }));
+          },
+          "Changes the cloth from the next step on, also after reset(): surface_density, porosity, row_mass, "
+          "column_mass, shear, bending_warp, bending_weft, bending_bias, bending_hysteresis, as in a scene. What is "
+          "not "
+          "given stays.")
       .def("set_friction", number(&Simulator::setFriction), py::arg("friction"),
            "Coulomb coefficient of the cloth on itself and on obstacles that name none, in [0, 10]; as "
            "set_frame_rate().")

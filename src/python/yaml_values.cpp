@@ -156,6 +156,15 @@ DragParams readDrag(const py::handle& values, const ClothParams& cloth) {
   return readEntry(values, cloth, "drag").drag.front();
 }
 
+ClothParams readCloth(const py::handle& values, const Scene& present) {
+  YAML::Node root = YAML::Load(writeScene(present));
+  const YAML::Node given = toYaml(values, "cloth");
+  for (const auto& entry : given) root["cloth"][entry.first.Scalar()] = entry.second;
+  SceneReading reading = readScene(root);
+  refuse(reading.problems);
+  return reading.scene.cloth;
+}
+
 AirParams readAir(const py::handle& values, const AirParams& present) {
   Scene scene = smallest();
   scene.air = present;

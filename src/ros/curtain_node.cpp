@@ -81,6 +81,7 @@ void CurtainNode::startServices(const ros::NodeHandle& private_node) {
   Tuning::Actions tuning;
   tuning.apply = [this](const curtain_sim::CurtainConfig& values) { tune(values); };
   tuning.present = [this] { return liveValues(simulator_.scene(), params_); };
+  tuning.set_material = [this](const std::string& material) { return applyMaterial(material, simulator_); };
   tuning_ = std::make_unique<Tuning>(private_node, calls_, tuning);
   file_services_ = std::make_unique<FileServices>(private_node, calls_, simulator_, file);
   measure_services_ = std::make_unique<MeasureServices>(private_node, calls_, simulator_, frames_.world());
@@ -92,8 +93,8 @@ void CurtainNode::startWatch(const ros::NodeHandle& node, const ros::NodeHandle&
   std::vector<std::string> topics = inputs_.topics(), services;
   for (const char* tf : {"/tf", "/tf_static"}) topics.push_back(node.resolveName(tf));
   for (const char* own : {"handles/feedback", "open"}) topics.push_back(private_node.resolveName(own));
-  for (const char* own :
-       {"reset", "pause", "step", "save", "load", "export_mesh", "distance", "attach", "detach", "set_parameters"})
+  for (const char* own : {"reset", "pause", "step", "save", "load", "export_mesh", "distance", "attach", "detach",
+                          "set_material", "set_parameters"})
     services.push_back(private_node.resolveName(own));
   for (const std::string& topic : sensors_.topics()) topics.push_back(topic);
   if (tie_backs_) services.push_back(private_node.resolveName("tie_back"));

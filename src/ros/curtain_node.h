@@ -12,7 +12,7 @@
 //   inputs  obstacles  outputs  snapshots  watch  what it does; watch, which looks into roscpp, can be switched off
 //   opening  hands  sensors  health  services     the rail's drive and tie-backs; grasps; points and depth images; what
 //                                                 it says of itself; is asked for
-//   tuning                                        what is changed meanwhile
+//   tuning  ties                                  what is changed meanwhile; what is tied to frames
 #pragma once
 
 #include <ros/node_handle.h>
@@ -25,7 +25,6 @@
 #include "curtain_sim/simulator.h"
 #include "ros/frames/frames.h"
 #include "ros/hands/hands.h"
-#include "ros/hands/ties.h"
 #include "ros/health/diagnostics.h"
 #include "ros/inputs/handles.h"
 #include "ros/inputs/inputs.h"
@@ -41,6 +40,7 @@
 #include "ros/services/lock_step.h"
 #include "ros/services/measure_services.h"
 #include "ros/snapshots/snapshot_keeper.h"
+#include "ros/ties/ties.h"
 #include "ros/time/clock_publisher.h"
 #include "ros/time/frame_clock.h"
 #include "ros/tuning/tuning.h"

@@ -6,13 +6,14 @@
 
 namespace curtain {
 
-Motion::Motion(const Scene& scene_, const ClothPattern& pattern_, const FrameTimes& times_, const MeshResolver& resolve)
+Motion::Motion(const Scene& scene_, const ClothPattern& pattern_, const FrameTimes& times_,
+               const ShapeMaker& make_shape)
     : scene(scene_),
       pattern(pattern_),
       times(times_),
       initial(makeInitialState(scene, pattern)),
       state(initial),
-      obstacles(scene, resolve),
+      obstacles(scene, make_shape),
       workers(threadsFor(scene.solver.threads, pattern.grid.nodeCount())),
       parts{scene, pattern, obstacles, workers},
       forces(scene, pattern, parts.all),

@@ -23,7 +23,7 @@ struct Motion {
   };
 
   /// scene, pattern and times must outlive this. Throws std::invalid_argument for a mesh that can't be used.
-  Motion(const Scene& scene, const ClothPattern& pattern, const FrameTimes& times, const MeshResolver& resolve);
+  Motion(const Scene& scene, const ClothPattern& pattern, const FrameTimes& times, const ShapeMaker& make_shape);
   void reset();
 
   /// One attempt at a substep from `done` seconds into the frame.

@@ -45,11 +45,11 @@ ClothPattern patternOf(const Scene& scene) {
 
 }  // namespace
 
-Simulator::Impl::Impl(const Scene& given, const MeshResolver& resolve)
+Simulator::Impl::Impl(const Scene& given, const ShapeMaker& make_shape)
     : scene(judged(given)),
       pattern(patternOf(scene)),
       times(scene.solver.frame_rate),
-      motion(scene, pattern, times, resolve),
+      motion(scene, pattern, times, make_shape),
       controls(scene.solver, pattern, scene.gravity),
       sleep(motion),
       budget(scene.solver.budget_ms),
@@ -107,7 +107,8 @@ void Simulator::Impl::driven() noexcept {
   sleep.rest().disturb();
 }
 
-Simulator::Simulator(const Scene& scene, const MeshResolver& resolve) : impl_(std::make_unique<Impl>(scene, resolve)) {}
+Simulator::Simulator(const Scene& scene, const MeshResolver& resolve)
+    : impl_(std::make_unique<Impl>(scene, shapesBy(resolve))) {}
 Simulator::~Simulator() = default;
 Simulator::Simulator(Simulator&&) noexcept = default;
 Simulator& Simulator::operator=(Simulator&&) noexcept = default;

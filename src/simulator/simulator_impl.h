@@ -19,7 +19,13 @@
 namespace curtain {
 
 struct Simulator::Impl {
-  Impl(const Scene& given, const MeshResolver& resolve);
+  Impl(const Scene& given, const ShapeMaker& make_shape);
+  /// Of the same scene with other cloth, at its start. Throws std::invalid_argument with what is wrong with it.
+  std::unique_ptr<Impl> withCloth(const ClothParams& cloth) const;
+  /// Another scene differs by no more than what setCloth() may change.
+  bool mayBecome(const Scene& other) const;
+  /// Goes on where another one is, whose cloth differs by what may change.
+  void continueFrom(Impl& other);
 
   void reset();
   void step();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <new>
+#include <stdexcept>
 
 #include "cloth/archive.h"
 #include "curtain_sim/scene_yaml.h"
@@ -51,22 +52,36 @@ std::string Simulator::snapshot() const {
 std::vector<Problem> Simulator::restore(const std::string& snapshot) {
   SnapshotParts parts;
   if (auto problem = unpackSnapshot(snapshot, parts)) return {*problem};
+  std::unique_ptr<Impl> other;  // with the snapshot's cloth, where that is another one
   try {
-    if (auto problem = firstDifference(writeScene(impl_->scene), std::string(parts.scene), kAside)) {
+    const SceneReading theirs = readSceneText(std::string(parts.scene));
+    Scene with_theirs = impl_->scene;
+    with_theirs.cloth = theirs.scene.cloth;
+    const bool same = writeScene(with_theirs) == writeScene(impl_->scene);
+    if (theirs.problems.empty() && !same && impl_->mayBecome(with_theirs)) other = impl_->withCloth(theirs.scene.cloth);
+    Impl& into = other ? *other : *impl_;
+    if (auto problem = firstDifference(writeScene(into.scene), std::string(parts.scene), kAside)) {
       return {{problem->key, problem->text + ": the snapshot is of another scene"}};
     }
-    if (parts.layout != impl_->layout()) {
-      if (auto problem = toleranceOnOneSide(impl_->scene, std::string(parts.scene))) return {*problem};
+    if (parts.layout != into.layout()) {
+      if (auto problem = toleranceOnOneSide(into.scene, std::string(parts.scene))) return {*problem};
       return {{"snapshot", "holds other things than this program does: it is of another build"}};
     }
     Archive archive = Archive::loading(parts.state);
-    impl_->serialize(archive);
+    into.serialize(archive);
     archive.finishLoading();
     archive.commit();
   } catch (const ArchiveError& error) {
     return {{"snapshot", std::string("is damaged: ") + error.what()}};
   } catch (const std::bad_alloc&) {
     return {{"snapshot", "cannot be restored: there is not enough memory"}};
+  } catch (const std::invalid_argument& error) {
+    return {{"snapshot", std::string("is damaged: ") + error.what()}};
+  }
+  if (other) {
+    other->revision = impl_->revision;
+    other->surface.shareTopology(impl_->surface);
+    impl_ = std::move(other);
   }
   impl_->resume();
   return {};

@@ -20,7 +20,7 @@ constexpr double kMinDistanceShare = 0.01;
 FineSurface::FineSurface(const ClothParams& cloth, const ClothPattern& pattern)
     : pattern_(pattern),
       shape_(cloth.folds),
-      topology_(makeFineMeshTopology(cloth)),
+      topology_(std::make_shared<const FineMeshTopology>(makeFineMeshTopology(cloth))),
       links_(pattern.grid.linkCount()),
       quad_triangles_{{0, 2, 1}, {1, 2, 3}} {
   area_vectors_.assign(pattern.grid.size(), 0.0);
@@ -40,7 +40,7 @@ FineSurface::FineSurface(const ClothParams& cloth, const ClothPattern& pattern)
 
 void FineSurface::build(const Field3& position, ObstacleSet& obstacles, double thickness, FineMesh& out) {
   const Grid& grid = pattern_.grid;
-  out.positions.resize(static_cast<std::size_t>(topology_.rows) * static_cast<std::size_t>(topology_.columns));
+  out.positions.resize(static_cast<std::size_t>(topology_->rows) * static_cast<std::size_t>(topology_->columns));
   out.flattened_folds = 0;
   position_ = &position;
   mesh_ = &out;
@@ -49,7 +49,7 @@ void FineSurface::build(const Field3& position, ObstacleSet& obstacles, double t
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = 0; j < grid.columns; ++j) node(i, j, 0) = position.at(grid.index(i, j));
   }
-  if (topology_.folds == 1) return;
+  if (topology_->folds == 1) return;
   nodeAreaVectors(grid, position, area_vectors_);
   for (int i = 0; i < grid.rows; ++i) {
     for (int link = 0; link < links_; ++link) place(i, link, 0.0);
@@ -68,15 +68,15 @@ void FineSurface::build(const Field3& position, ObstacleSet& obstacles, double t
 }
 
 Vec3& FineSurface::node(int row, int link, int p) {
-  const int column = (link * topology_.folds + p) % topology_.columns;
-  return mesh_->positions[static_cast<std::size_t>(row * topology_.columns + column)];
+  const int column = (link * topology_->folds + p) % topology_->columns;
+  return mesh_->positions[static_cast<std::size_t>(row * topology_->columns + column)];
 }
 
 // Places the fold, turned by the angle about its chord.
 void FineSurface::place(int row, int link, double angle) {
   const int column = (link + 1) % pattern_.grid.columns;
   if (!pattern_.grid.hasLink(row, column)) {  // no triangle has these nodes
-    for (int p = 1; p < topology_.folds; ++p) node(row, link, p) = node(row, link, topology_.folds);
+    for (int p = 1; p < topology_->folds; ++p) node(row, link, p) = node(row, link, topology_->folds);
     return;
   }
   FoldArc arc = foldArc(pattern_.grid, pattern_.weft_rest, *position_, area_vectors_, row, column);
@@ -115,13 +115,13 @@ void FineSurface::findStrips() {
     for (int link = 0; link < links_; ++link) {
       const int right = (link + 1) % grid.columns;
       if (!grid.hasQuad(i, right)) continue;
-      const Vec3 upper = 0.5 * (node(i, link, 0) + node(i, link, topology_.folds));
-      const Vec3 lower = 0.5 * (node(i + 1, link, 0) + node(i + 1, link, topology_.folds));
+      const Vec3 upper = 0.5 * (node(i, link, 0) + node(i, link, topology_->folds));
+      const Vec3 lower = 0.5 * (node(i + 1, link, 0) + node(i + 1, link, topology_->folds));
       const Vec3 middle = 0.5 * (upper + lower);
       const double rest =
           std::max({pattern_.weft_rest[grid.index(i, right)], pattern_.weft_rest[grid.index(i + 1, right)],
-                    (node(i, link, 0) - node(i, link, topology_.folds)).norm(),
-                    (node(i + 1, link, 0) - node(i + 1, link, topology_.folds)).norm()});
+                    (node(i, link, 0) - node(i, link, topology_->folds)).norm(),
+                    (node(i + 1, link, 0) - node(i + 1, link, topology_->folds)).norm()});
       const double reach = 0.5 * rest + (upper - middle).norm() + wanted_;
       SurfacePoint surface;
       const bool is_near = std::any_of(near_.begin(), near_.end(), [&](const MovingObstacle* obstacle) {
@@ -141,7 +141,7 @@ double FineSurface::clearanceOf(int row, int link) {
   points_.clear();
   for (int i = row; i <= row + 1; ++i) {
     points_.push_back(node(i, link, 0));
-    points_.push_back(node(i, link, topology_.folds));
+    points_.push_back(node(i, link, topology_->folds));
   }
   for (const double clearance : {wanted_, least_, 0.0}) {
     if (keeps(quad_triangles_, clearance)) return clearance;
@@ -159,14 +159,14 @@ bool FineSurface::keeps(const std::vector<MeshTriangle>& triangles, double clear
 bool FineSurface::isClear(int row, int link, double clearance) {
   points_.clear();
   for (int i = row; i <= row + 1; ++i) {
-    for (int p = 0; p <= topology_.folds; ++p) points_.push_back(node(i, link, p));
+    for (int p = 0; p <= topology_->folds; ++p) points_.push_back(node(i, link, p));
   }
   return keeps(strip_triangles_, clearance);
 }
 
 bool FineSurface::isRodClear(int row, int link, double clearance) {
   points_.clear();
-  for (int p = 0; p <= topology_.folds; ++p) points_.push_back(node(row, link, p));
+  for (int p = 0; p <= topology_->folds; ++p) points_.push_back(node(row, link, p));
   return keeps(rods_, clearance);
 }
 
@@ -182,8 +182,8 @@ void FineSurface::settleFold(int row, int link) {
     fold(row, link).turn = angle.value_or(0.0);
     if (angle) return;
   }
-  const Vec3 from = 0.5 * (node(row, link, 0) + node(row, link, topology_.folds));
-  for (int p = 1; p < topology_.folds; ++p) {
+  const Vec3 from = 0.5 * (node(row, link, 0) + node(row, link, topology_->folds));
+  for (int p = 1; p < topology_->folds; ++p) {
     Vec3& moved = node(row, link, p);
     for (const MovingObstacle* obstacle : near_) {
       SurfacePoint surface;

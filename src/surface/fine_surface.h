@@ -17,6 +17,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -32,7 +33,9 @@ class FineSurface {
  public:
   FineSurface(const ClothParams& cloth, const ClothPattern& pattern);
 
-  const FineMeshTopology& topology() const { return topology_; }
+  const FineMeshTopology& topology() const { return *topology_; }
+  /// Takes another one's, which is the same: references to it stay good.
+  void shareTopology(const FineSurface& other) { topology_ = other.topology_; }
 
   /// thickness [m], > 0: of the contact; the fine mesh keeps a share of it.
   void build(const Field3& position, ObstacleSet& obstacles, double thickness, FineMesh& out);
@@ -80,7 +83,7 @@ class FineSurface {
 
   const ClothPattern& pattern_;
   FoldShape shape_;
-  FineMeshTopology topology_;
+  std::shared_ptr<const FineMeshTopology> topology_;
   int links_;
   std::vector<MeshTriangle> strip_triangles_;  // points: the upper fold, left to right, then the lower one
   std::vector<MeshTriangle> rods_;             // of one fold

@@ -21,7 +21,7 @@ constexpr int kLiftBisections = 6;
 }  // namespace
 
 const FineSurface::Strip* FineSurface::stripAt(int row, int link) const {
-  if (row < 0 || row + 1 >= topology_.rows) return nullptr;
+  if (row < 0 || row + 1 >= topology_->rows) return nullptr;
   const std::int32_t at = strip_at_[static_cast<std::size_t>(row * links_ + link)];
   return at < 0 ? nullptr : &strips_[static_cast<std::size_t>(at)];
 }
@@ -107,7 +107,7 @@ std::optional<double> FineSurface::tryLift(const Strip& strip, Rows rows) {
   if (!allFree(rows, strip.link, Stage::kLifted)) return std::nullopt;
   kept_.clear();
   for (int row = rows.first; row <= rows.last; ++row) {
-    for (int p = 1; p < topology_.folds; ++p) kept_.push_back(node(row, strip.link, p));
+    for (int p = 1; p < topology_->folds; ++p) kept_.push_back(node(row, strip.link, p));
   }
   const auto clears = test(strip, rows, [this, &strip, rows](double lift) { liftFolds(strip, rows, lift); });
   double good = kFirstLift * wanted_;
@@ -133,10 +133,10 @@ std::optional<double> FineSurface::tryLift(const Strip& strip, Rows rows) {
 // Puts the nodes `lift` [m] from their kept places, each along the normal of the nearest obstacle there.
 void FineSurface::liftFolds(const Strip& strip, Rows rows, double lift) {
   // A point of the quad, so on the cloth's side of an open mesh.
-  const Vec3 from = 0.5 * (node(strip.row, strip.link, topology_.folds) + node(strip.row + 1, strip.link, 0));
+  const Vec3 from = 0.5 * (node(strip.row, strip.link, topology_->folds) + node(strip.row + 1, strip.link, 0));
   std::size_t at = 0;
   for (int row = rows.first; row <= rows.last; ++row) {
-    for (int p = 1; p < topology_.folds; ++p, ++at) {
+    for (int p = 1; p < topology_->folds; ++p, ++at) {
       const Vec3& base = kept_[at];
       double nearest = (base - from).norm() + wanted_;  // the strip's obstacle is within this of the quad
       Vec3 normal = Vec3::Zero();
@@ -161,7 +161,7 @@ bool FineSurface::gather(const Strip& strip) {
     if (each.stage == Stage::kGathered) continue;
     each.stage = Stage::kGathered;
     moved = true;
-    for (int p = 1; p < topology_.folds; ++p) node(row, strip.link, p) = node(row, strip.link, topology_.folds);
+    for (int p = 1; p < topology_->folds; ++p) node(row, strip.link, p) = node(row, strip.link, topology_->folds);
   }
   return moved;
 }

@@ -67,7 +67,7 @@ Scene sceneOf(const Case& of, std::uint64_t seed) {
 // Contact of a cloth, whose caches it can do without.
 struct Finder {
   Finder(const Scene& scene, const ClothPattern& pattern)
-      : obstacles(scene, resolveMeshUrl), contact(pattern, scene.contact, obstacles, 1e-3, alone) {}
+      : obstacles(scene, shapesBy(resolveMeshUrl)), contact(pattern, scene.contact, obstacles, 1e-3, alone) {}
   const Workers alone{1};
   ObstacleSet obstacles;
   ClothContact contact;

@@ -24,7 +24,7 @@ struct BoxInCloth {
     box.size = size;
     scene.obstacles.push_back(box);
     pattern = makePattern(scene);
-    obstacles = std::make_unique<ObstacleSet>(scene, resolveMeshUrl);
+    obstacles = std::make_unique<ObstacleSet>(scene, shapesBy(resolveMeshUrl));
     position.assign(pattern.grid.size(), 0.0);
     for (int i = 0; i < 9; ++i) {
       for (int j = 0; j < 9; ++j) position.set(pattern.grid.index(i, j), middle + 0.04 * Vec3(j - 4, 0.0, 4 - i));

@@ -31,7 +31,7 @@ struct Past {
     ObstacleParams ball = ballAt(random.inBox(10.0), kRadius);
     scene.obstacles.push_back(ball);
     middle = ball.pose.position;
-    obstacles.emplace(scene, resolveMeshUrl);
+    obstacles.emplace(scene, shapesBy(resolveMeshUrl));
     near.emplace(pattern, *moving().shape, ObstacleGaps{kThickness, 0.3 * kThickness}, alone);
   }
   const MovingObstacle& moving() { return obstacles->moving(0); }

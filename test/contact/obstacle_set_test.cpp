@@ -59,7 +59,7 @@ class ObstaclesAtRest : public testing::Test {
   void SetUp() override {
     for (int n = 0; n < 2; ++n) expectRange(set_, -0.1, 1.1, "at rest");
   }
-  ObstacleSet set_{twoSpheres(), resolveMeshUrl};
+  ObstacleSet set_{twoSpheres(), shapesBy(resolveMeshUrl)};
 };
 
 TEST_F(ObstaclesAtRest, AreSeenToMove) {
@@ -95,7 +95,7 @@ TEST(ObstaclesWithMotion, StayWithinTheirBoxesOfTheFrame) {
     Scene scene = twoSpheres();
     scene.obstacles[1].shape = ShapeKind::kBox;
     scene.obstacles[1].size = Vec3(0.1, 0.4, 1.0);
-    ObstacleSet set(scene, resolveMeshUrl);
+    ObstacleSet set(scene, shapesBy(resolveMeshUrl));
     const Vec3 begin = scene.obstacles[1].pose.position, way = random.inBox(0.5);
     Pose end;
     end.position = begin + way;
@@ -120,7 +120,7 @@ TEST(ObstaclesWithMotion, StayWithinTheirBoxesOfTheFrame) {
 TEST(ObstaclesWithMotion, AreWhereItLedWhileTheyWereGone) {
   Scene scene = twoSpheres();
   scene.obstacles[1].motion = {{1.0, poseOf(1.0)}, {2.0, poseOf(4.0)}};
-  ObstacleSet set(scene, resolveMeshUrl);
+  ObstacleSet set(scene, shapesBy(resolveMeshUrl));
   expectRange(set, -0.1, 1.1, "before its motion");
   set.setPresent(1, false);
   for (const double end : {1.5, 2.0, 3.0}) {
@@ -134,7 +134,7 @@ TEST(ObstaclesWithMotion, AreWhereItLedWhileTheyWereGone) {
 }
 
 TEST_F(ObstaclesAtRest, AreSeenWhereASnapshotHasThem) {
-  ObstacleSet elsewhere(twoSpheres(), resolveMeshUrl);
+  ObstacleSet elsewhere(twoSpheres(), shapesBy(resolveMeshUrl));
   elsewhere.setPose(1, poseOf(5.0), true);
   elsewhere.endFrame();
   expectRange(elsewhere, -0.1, 5.1, "saved");

@@ -154,11 +154,13 @@ class Parts(unittest.TestCase):
         sim.set_air({"inside": 0.7})
         sim.set_frame_rate(30)
         sim.set_friction(0.5)
+        sim.set_cloth(shear=20, surface_density=0.3)
         sim.set_stretch_tolerance(1e-4)
         sim.set_position_tolerance(1e-2)
         sim.set_budget(5)
         scene = sim.scene.to_dict()
         self.assertEqual((scene["gravity"], scene["air"]["inside"], scene["air"]["border"]), ([0, 0, -1.62], 0.7, 0.4))
+        self.assertEqual((scene["cloth"]["shear"], scene["cloth"]["surface_density"]), (20, 0.3))
         solver = scene["solver"]
         self.assertEqual((solver["frame_rate"], scene["contact"]["friction"], solver["stretch_tolerance"],
                           solver["position_tolerance"], solver["budget_ms"]), (30, 0.5, 1e-4, 1e-2, 5))

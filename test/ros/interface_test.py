@@ -61,7 +61,7 @@ class InterfaceTest(unittest.TestCase):
                           NODE + "/parameter_descriptions", NODE + "/parameter_updates", NODE + "/points", NODE + "/state"])
         served = [service for service, nodes in master.getSystemState()[2] if NODE in nodes]
         self.assertEqual(sorted(s[len(NODE) + 1:] for s in served if "handles" not in s and "logger" not in s),
-                         ["attach", "detach", "distance", "export_mesh", "load", "pause", "reset", "save", "set_parameters", "step"])
+                         ["attach", "detach", "distance", "export_mesh", "load", "pause", "reset", "save", "set_material", "set_parameters", "step"])
         self.assertEqual(types["/stage/wind_source"], "curtain_sim/WindSource")
         self.assertEqual(types["/stage/drag_force"], "curtain_sim/DragForce")
 

@@ -99,7 +99,7 @@ class Inbox {
 class Judge {
  public:
   explicit Judge(const curtain::Scene& scene)
-      : grid_(curtain::makeGrid(scene.cloth)), obstacles_(scene, curtain::resolveMeshUrl) {
+      : grid_(curtain::makeGrid(scene.cloth)), obstacles_(scene, curtain::shapesBy(curtain::resolveMeshUrl)) {
     for (std::size_t i = 0; i < scene.obstacles.size(); ++i) numbers_[scene.obstacles[i].name] = static_cast<int>(i);
     position_.assign(grid_.size(), 0.0);
   }

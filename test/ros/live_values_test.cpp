@@ -48,6 +48,12 @@ struct Collector {
   void choice(Rest&&...) {}
   template <typename... Rest>
   void seed(Rest&&...) {}
+  template <typename... Rest>
+  void optionalNumber(Rest&&...) {}
+  template <typename... Rest>
+  void numbers(Rest&&...) {}
+  template <typename... Rest>
+  void slits(Rest&&...) {}
 };
 
 Table tableOfKeys() {
@@ -59,6 +65,7 @@ Table tableOfKeys() {
   const curtain::Scene scene;
   collect("", NodeParams());
   collect("air_", scene.air);
+  collect("cloth_", scene.cloth);
   collect("contact_", scene.contact);
   collect("solver_", scene.solver);
   const curtain::Range range = curtain::anywhere();
@@ -88,7 +95,7 @@ TEST(LiveValues, HaveTheDefaultsAndRangesOfTheirKeys) {
     EXPECT_EQ(valueOf<double>(*parameter, CurtainConfig::__getMax__()), key->second.high) << parameter->name;
     ++numbers;
   }
-  EXPECT_EQ(numbers, 23);
+  EXPECT_EQ(numbers, 30);
 }
 
 TEST(LiveValues, OfferEveryLawOfTheAir) {
@@ -143,7 +150,7 @@ TEST(LiveValues, AreWhatTheManualCallsLive) {
     const std::string& says = of_section ? comments.at(section) : comment;
     const bool lives = std::regex_match(says, says_live);
     const bool starts = says.find("startup only") != std::string::npos;
-    const bool is_section = name == "contact" || name == "solver";  // whose keys say it each
+    const bool is_section = name == "cloth" || name == "contact" || name == "solver";  // whose keys say it each
     EXPECT_TRUE(is_section || lives != starts) << name << " must say one of both: " << says;
     if (lives && (name == "gravity" || name != section)) live.insert(name);
   }
@@ -151,7 +158,9 @@ TEST(LiveValues, AreWhatTheManualCallsLive) {
 }
 
 curtain::Simulator makeSimulator(const std::string& rest = "") {
-  return curtain::Simulator(curtain::readSceneText("cloth: {rows: 6, columns: 5}\n" + rest).scene);
+  return curtain::Simulator(
+      curtain::readSceneText("cloth: {rows: 6, columns: 5, bending_warp: 1.0e-4, bending_weft: 1.0e-4}\n" + rest)
+          .scene);
 }
 
 CurtainConfig presentOf(const curtain::Simulator& simulator, const NodeParams& params) {

@@ -8,7 +8,7 @@ import unittest
 
 import rospy
 import rostest
-from curtain_sim.srv import Load, Save
+from curtain_sim.srv import Load, Save, SetMaterial
 from curtain_testing import WARN, Curtain, Diagnostics, NodeProcess, wait_until
 from dynamic_reconfigure.client import Client
 
@@ -57,6 +57,24 @@ class TuningTest(unittest.TestCase):
         self.assertEqual((answer["gravity_x"], answer["air_inside"], answer["air_fast_gain"]), (3.0, 0.2, 0.1))
         self.curtain.wait_for(lambda s: sum(s.positions[0::3]) > 0.36 * len(s.positions) / 3.0, "it leans to +x")
         self.shown("air_inside", 0.2)
+
+    def test_another_fabric(self):
+        """Denser cloth weighs more, at once; a known fabric brings all that is known of it, and no other name is one."""
+        whole = self.weight()
+        self.assertEqual(self.client.update_configuration({"cloth_surface_density": 0.4})["cloth_surface_density"], 0.4)
+        wait_until(lambda: abs(self.weight() - 2.0 * whole) < 1e-3 * abs(whole), "it weighs twice as much")
+        frame = self.curtain.next().statistics.frame
+        rospy.wait_for_service(NODE + "/set_material", 20.0)
+        set_material = rospy.ServiceProxy(NODE + "/set_material", SetMaterial)
+        answer = set_material("velvet")
+        self.assertTrue(answer.success, answer.message)
+        self.shown("cloth_surface_density", 0.4773)
+        self.shown("cloth_shear", 50.0)
+        self.shown("contact_friction", 0.6)
+        self.curtain.wait_for(lambda s: s.statistics.frame > frame + 30, "frames come, and are counted on")
+        answer = set_material("tweed")
+        self.assertFalse(answer.success)
+        self.assertIn("material: must be none, cotton_voile", answer.message)
 
     def test_rates(self):
         self.client.update_configuration({"state_rate": 10.0})

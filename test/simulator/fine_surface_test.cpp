@@ -199,7 +199,7 @@ class OverAPlane {
       : scene_(planeScene()),
         pattern_(makePattern(scene_)),
         surface_(scene_.cloth, pattern_),
-        obstacles_(scene_, resolveMeshUrl) {
+        obstacles_(scene_, shapesBy(resolveMeshUrl)) {
     position_.assign(pattern_.grid.size(), 0.0);
   }
   /// tilt [rad]: of the cloth about its weft, over the plane z = 0.

@@ -40,7 +40,7 @@ WindParams windAt(const Vec3& position, const Vec3& direction, double radius) {
 // The solver has a shorter way for weight alone.
 bool actsAtStart(const Scene& scene) {
   const ClothPattern pattern = makePattern(scene);
-  const ObstacleSet obstacles(scene, {});
+  const ObstacleSet obstacles(scene, shapesBy({}));
   const Workers workers(1);
   const Composition parts{scene, pattern, obstacles, workers};
   ForceField forces(scene, pattern, parts.all);

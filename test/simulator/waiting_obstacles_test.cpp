@@ -106,7 +106,7 @@ TEST(ObstacleLag, TheMotionOfASubstepIsWhatWasMade) {
   const FrameTimes times(rate);
   const ClothPattern pattern = makePattern(scene);
   const Workers alone(1);
-  ObstacleSet obstacles(scene, resolveMeshUrl);
+  ObstacleSet obstacles(scene, shapesBy(resolveMeshUrl));
   ClothContact contact(pattern, scene.contact, obstacles, 1e-3, alone);
   ObstacleLag lag(pattern, times, obstacles, contact);
   const Field3 position = makeInitialState(scene, pattern).position;

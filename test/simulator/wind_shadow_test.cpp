@@ -39,7 +39,7 @@ struct Shade {
       : scene(withObstacle(obstacle)),
         pattern(makePattern(scene)),
         position(makeInitialState(scene, pattern).position),
-        obstacles(scene, resolveMeshUrl),
+        obstacles(scene, shapesBy(resolveMeshUrl)),
         source(wind, pattern, 0.0, 1) {
     WindShadow().cast(obstacles, pattern.grid, position, source);
   }

@@ -16,7 +16,7 @@
 //
 //   0 narrow_phase, oracle < 1 broad_phase < 2 response < 4 contact's own files
 //   0 parameters, time, frames < 1 inputs, obstacles, outputs, snapshots, watch < 2 opening, hands, sensors, health,
-//     services < 3 tuning < 4 ros' own files
+//     services < 3 tuning ties < 4 ros' own files
 //
 // Rooms of ros at the same height do not know each other, nor do those of parts, which are all at the same height.
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ constexpr char kPlaysBags[] = "src/export/play_bag.cpp";
 const Rooms kContactRooms = {{"narrow_phase", 0}, {"oracle", 0}, {"broad_phase", 1}, {"response", 2}};
 const Rooms kRosRooms = {{"parameters", 0}, {"time", 0},      {"frames", 0},   {"inputs", 1},  {"obstacles", 1},
                          {"outputs", 1},    {"snapshots", 1}, {"watch", 1},    {"opening", 2}, {"hands", 2},
-                         {"sensors", 2},    {"health", 2},    {"services", 2}, {"tuning", 3}};
+                         {"sensors", 2},    {"health", 2},    {"services", 2}, {"tuning", 3},  {"ties", 3}};
 constexpr int kAboveRooms = 4;
 constexpr int kRos = 7;
 constexpr int kPrograms = 8;

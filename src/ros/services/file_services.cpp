@@ -13,7 +13,11 @@ namespace curtain_ros {
 
 FileServices::FileServices(const ros::NodeHandle& private_node, Calls& calls, const curtain::Simulator& simulator,
                            Actions actions)
-    : calls_(calls), simulator_(simulator), actions_(std::move(actions)), thread_(private_node, 1) {
+    : calls_(calls),
+      simulator_(simulator),
+      topology_(simulator.fineMeshTopology()),
+      actions_(std::move(actions)),
+      thread_(private_node, 1) {
   save_ = thread_.node().advertiseService("save", &FileServices::save, this);
   load_ = thread_.node().advertiseService("load", &FileServices::load, this);
   export_ = thread_.node().advertiseService("export_mesh", &FileServices::exportMesh, this);
@@ -62,7 +66,7 @@ bool FileServices::exportMesh(curtain_sim::ExportMesh::Request& request, curtain
     simulator_.copyFineMesh(mesh);
     response.simulated_time = simulator_.time();
   });
-  const curtain::FineMeshTopology& topology = simulator_.fineMeshTopology();  // never changes
+  const curtain::FineMeshTopology& topology = topology_;
   response.message =
       taken ? curtain::describe(curtain::writeWholeFile(request.path, curtain::meshFile(mesh, topology, *format)))
             : kStops;

@@ -36,6 +36,7 @@ class FileServices {
 
   Calls& calls_;
   const curtain::Simulator& simulator_;
+  const curtain::FineMeshTopology& topology_;  // which never changes
   Actions actions_;
   ServiceThreads thread_;
   ros::ServiceServer save_, load_, export_;

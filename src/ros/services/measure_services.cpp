@@ -21,20 +21,22 @@ std::vector<std::string> obstaclesOf(const curtain::Scene& scene) {
 
 MeasureServices::MeasureServices(const ros::NodeHandle& private_node, Calls& calls, const curtain::Simulator& simulator,
                                  std::string world)
-    : calls_(calls), simulator_(simulator), world_(std::move(world)), thread_(private_node, 1) {
+    : calls_(calls),
+      simulator_(simulator),
+      known_(obstaclesOf(simulator.scene())),
+      world_(std::move(world)),
+      thread_(private_node, 1) {
   distance_ = thread_.node().advertiseService("distance", &MeasureServices::distance, this);
   thread_.start();
 }
 
-// The names of a node's obstacles never change, so they are judged by this thread.
 bool MeasureServices::distance(curtain_sim::Distance::Request& request, curtain_sim::Distance::Response& response) {
-  const std::vector<std::string> known = obstaclesOf(simulator_.scene());
-  response.names = request.obstacles.empty() ? known : request.obstacles;
+  response.names = request.obstacles.empty() ? known_ : request.obstacles;
   for (const std::string& name : response.names) {
-    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
     response.names.clear();
-    response.message = "there is no obstacle '" + name + (known.empty() ? "': the scene has none" : "', known are");
-    for (const std::string& each : known) response.message += " '" + each + "'";
+    response.message = "there is no obstacle '" + name + (known_.empty() ? "': the scene has none" : "', known are");
+    for (const std::string& each : known_) response.message += " '" + each + "'";
     return true;
   }
   response.frame_id = world_;
@@ -48,9 +50,8 @@ bool MeasureServices::distance(curtain_sim::Distance::Request& request, curtain_
 }
 
 void MeasureServices::measure(const std::string& name, curtain_sim::Distance::Response& response) const {
-  const std::vector<curtain::ObstacleParams>& all = simulator_.scene().obstacles;
-  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& each) { return each.name == name; });
-  const curtain::ObstacleDistance nearest = simulator_.obstacleDistance(static_cast<int>(found - all.begin()));
+  const auto found = std::find(known_.begin(), known_.end(), name);
+  const curtain::ObstacleDistance nearest = simulator_.obstacleDistance(static_cast<int>(found - known_.begin()));
   response.distances.push_back(nearest.distance);
   response.on_cloth.push_back(toPoint(nearest.on_cloth));
   response.on_obstacle.push_back(toPoint(nearest.on_obstacle));

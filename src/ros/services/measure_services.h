@@ -7,6 +7,7 @@
 #include <ros/service_server.h>
 
 #include <string>
+#include <vector>
 
 #include "curtain_sim/Distance.h"
 #include "curtain_sim/simulator.h"
@@ -27,6 +28,7 @@ class MeasureServices {
 
   Calls& calls_;
   const curtain::Simulator& simulator_;
+  const std::vector<std::string> known_;  // obstacles, in the scene's order
   const std::string world_;
   ServiceThreads thread_;
   ros::ServiceServer distance_;

@@ -36,6 +36,17 @@ void visitAir(Config& config, Air& air, const Visit& visit) {
   visit(config.air_tangential_drag, air.tangential_drag);
 }
 
+template <typename Config, typename Cloth, typename Visit>
+void visitCloth(Config& config, Cloth& cloth, const Visit& visit) {
+  visit(config.cloth_surface_density, cloth.surface_density);
+  visit(config.cloth_bending_warp, cloth.bending_warp);
+  visit(config.cloth_bending_weft, cloth.bending_weft);
+  visit(config.cloth_bending_bias, cloth.bending_bias);
+  visit(config.cloth_bending_hysteresis, cloth.bending_hysteresis);
+  visit(config.cloth_shear, cloth.shear);
+  visit(config.cloth_porosity, cloth.porosity);
+}
+
 const auto kToConfig = [](double& config, const double& ours) { config = ours; };
 const auto kFromConfig = [](const double& config, double& ours) { ours = config; };
 
@@ -67,6 +78,7 @@ CurtainConfig liveValues(const curtain::Scene& scene, const NodeParams& params) 
   CurtainConfig values = CurtainConfig::__getDefault__();
   visitNode(values, params, kToConfig);
   visitAir(values, scene.air, kToConfig);
+  visitCloth(values, scene.cloth, kToConfig);
   values.air_law = curtain::airLawNames().at(static_cast<std::size_t>(scene.air.law));
   values.gravity_x = scene.gravity.x();
   values.gravity_y = scene.gravity.y();
@@ -86,6 +98,9 @@ std::vector<Problem> applyLiveValues(const CurtainConfig& values, curtain::Simul
   };
   add(simulator.setGravity({values.gravity_x, values.gravity_y, values.gravity_z}));
   add(setAir(values, simulator));
+  curtain::ClothParams cloth = simulator.scene().cloth;
+  visitCloth(values, cloth, kFromConfig);
+  add(simulator.setCloth(cloth));
   add(simulator.setFriction(values.contact_friction));
   add(simulator.setFrameRate(values.solver_frame_rate));
   add(simulator.setStretchTolerance(values.solver_stretch_tolerance));
@@ -93,6 +108,18 @@ std::vector<Problem> applyLiveValues(const CurtainConfig& values, curtain::Simul
   add(simulator.setBudget(values.solver_budget_ms));
   add(setNode(values, params));
   return all;
+}
+
+std::vector<Problem> applyMaterial(const std::string& name, curtain::Simulator& simulator) {
+  const std::vector<std::string>& names = curtain::materialNames();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return {{"material", "must be " + curtain::alternatives(names) + ", is '" + name + "'"}};
+  curtain::Scene scene = simulator.scene();
+  curtain::applyMaterial(static_cast<curtain::Material>(found - names.begin()), scene);
+  std::vector<Problem> problems = simulator.setCloth(scene.cloth);
+  if (problems.empty()) problems = simulator.setAir(scene.air);
+  if (problems.empty()) problems = simulator.setFriction(scene.contact.friction);
+  return problems;
 }
 
 }  // namespace curtain_ros

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "ros/services/control_services.h"
+
 namespace curtain_ros {
 namespace {
 
@@ -24,7 +26,17 @@ Tuning::Tuning(const ros::NodeHandle& private_node, Calls& calls, Actions action
     if (begun) onChange(config);
     begun = true;
   });
+  set_material_ = thread_.node().advertiseService("set_material", &Tuning::setMaterial, this);
   thread_.start();
+}
+
+bool Tuning::setMaterial(curtain_sim::SetMaterial::Request& request, curtain_sim::SetMaterial::Response& response) {
+  std::vector<curtain::Problem> problems;
+  const bool tried = calls_.run([&] { problems = actions_.set_material(request.material); });
+  response.message = tried ? curtain::describe(problems) : kStops;
+  response.success = response.message.empty();
+  if (tried) publish();
+  return true;
 }
 
 void Tuning::onChange(Config& config) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/hands/ties.h"
+#include "ros/ties/ties.h"
 
 #include <ros/console.h>
 
@@ -91,7 +91,8 @@ bool Ties::tie(const Attach::Request& request, Attach::Response& response) {
   response.message = curtain::describe(problems);
   if (!problems.empty()) return true;
   ties_.push_back({id, std::move(frame)});
-  for (const curtain::NodeIndex& node : simulator.graspState(id)->nodes) {
+  const curtain::GraspState state = *simulator.graspState(id);
+  for (const curtain::NodeIndex& node : state.nodes) {
     response.tied_rows.push_back(node.row);
     response.tied_columns.push_back(node.column);
   }

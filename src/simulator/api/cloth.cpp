@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Cloth that becomes another one while it moves. Much is worked out from its masses and rigidities as a simulator is
+// made, so another simulator is made, and goes on where this one is: nothing of the old cloth can be left in it.
+#include <stdexcept>
+
+#include "curtain_sim/scene_yaml.h"
+#include "scene/scene_difference.h"
+#include "simulator/simulator_impl.h"
+
+namespace curtain {
+namespace {
+
+const std::vector<std::string> kMayChange = {
+    "cloth.material", "cloth.surface_density", "cloth.porosity",     "cloth.row_mass",     "cloth.column_mass",
+    "cloth.shear",    "cloth.bending_warp",    "cloth.bending_weft", "cloth.bending_bias", "cloth.bending_hysteresis"};
+
+std::string layoutOf(Part& part) {
+  Archive archive = Archive::describing();
+  part.serialize(archive);
+  return archive.extractWritten();
+}
+
+template <typename Item>
+void transfer(Item& from, Item& to) {
+  Archive saving = Archive::saving();
+  from.serialize(saving);
+  const std::string bytes = saving.extractWritten();
+  Archive loading = Archive::loading(bytes);
+  to.serialize(loading);
+  loading.finishLoading();
+  loading.commit();
+}
+
+}  // namespace
+
+std::unique_ptr<Simulator::Impl> Simulator::Impl::withCloth(const ClothParams& cloth) const {
+  Scene changed = scene;
+  changed.cloth = cloth;
+  return std::make_unique<Impl>(
+      changed, [this](std::size_t number, const ObstacleParams&) { return motion.obstacles.sharedShape(number); });
+}
+
+void Simulator::Impl::continueFrom(Impl& other) {
+  other.sleep.wake();
+  other.motion.synchronise();
+  transfer(other.times, times);
+  motion.state = other.motion.state;
+  transfer(other.motion.obstacles, motion.obstacles);
+  for (std::size_t k = 0; k < motion.parts.all.size(); ++k) {
+    Part &from = *other.motion.parts.all[k], &to = *motion.parts.all[k];
+    // What only one of both cloths has begins where the cloth is.
+    layoutOf(from) == layoutOf(to) ? transfer(from, to) : to.placed(other.motion.state, motion.state);
+  }
+  motion.statistics = other.motion.statistics;
+  motion.counts_work = other.motion.counts_work;
+  motion.step.account().restore(other.motion.step.account().work());
+  surface.shareTopology(other.surface);
+  keysChanged();
+  pinsChanged();
+  motion.measureState();
+  motion.step.account().leaveOpen();
+  if (errors) errors->lose();
+  revision = other.revision + 1;
+}
+
+std::vector<Problem> Simulator::setCloth(const ClothParams& cloth) {
+  Scene changed = impl_->scene;
+  changed.cloth = cloth;
+  std::vector<Problem> problems = validate(changed);
+  if (!problems.empty()) return problems;
+  const std::string before = writeScene(impl_->scene), after = writeScene(changed);
+  if (const auto problem = firstDifference(before, after, kMayChange))
+    return {{problem->key, "can't change while it runs: " + problem->text}};
+  if (before == after) return {};
+  try {
+    std::unique_ptr<Impl> next = impl_->withCloth(cloth);
+    next->continueFrom(*impl_);
+    impl_ = std::move(next);
+  } catch (const std::invalid_argument& error) {
+    return {{"cloth", error.what()}};
+  }
+  return {};
+}
+
+bool Simulator::Impl::mayBecome(const Scene& other) const {
+  return !firstDifference(writeScene(scene), writeScene(other), kMayChange);
+}
+
+}  // namespace curtain
