@@ -122,6 +122,14 @@ struct HemParams {
   std::vector<double> weights;
 };
 
+/// Where the cloth is at the start, in place of hung by its edge. One of both, or neither.
+struct StartParams {
+  std::optional<std::string> over;  ///< laid over this obstacle: flat and level above it, along hang.from -> hang.to,
+                                    ///< from where it has come to rest on all obstacles at their start
+  std::optional<std::string> file;  ///< its nodes: CSV as curtain_batch --out writes it (of several times the last), or
+                                    ///< ASCII PLY as its --mesh; a path or a URL
+};
+
 /// Where the cloth starts.
 struct HangParams {
   Vec3 from = Vec3(0.0, 0.0, 2.2);  ///< [m]; closed cloth: the ring's centre
@@ -145,6 +153,7 @@ struct HangParams {
   /// contact thicknesses in front of or behind its neighbours. Flat cloth only. Not given: they hang side by side, the
   /// cut links between them.
   std::optional<double> overlap;
+  StartParams start;  ///< somewhere else
 };
 
 /// Which nodes are pinned.

@@ -5,9 +5,9 @@
 //
 // A visitor has these members; keys are relative to the visited map:
 //   integer, integerOr (a word stands for one value), seed, number, optionalNumber, numberOrUnset (NaN: not given),
-//   flag, text, choice, vector, optionalVector, scale (one number or three), rotation, node, nodes, numbers, integers,
-//   pins, slits, path (of a rail), map (a struct below), list (a list of structs, and what one has that says nothing),
-//   belongs (false: the key is not for what was chosen).
+//   flag, text, optionalText, choice, vector, optionalVector, scale (one number or three), rotation, node, nodes,
+//   numbers, integers, pins, slits, path (of a rail), map (a struct below), list (a list of structs, and what one has
+//   that says nothing), belongs (false: the key is not for what was chosen).
 #pragma once
 
 #include <type_traits>
@@ -72,6 +72,15 @@ struct Fields<ClothParams> {
 };
 
 template <>
+struct Fields<StartParams> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& start) {
+    v.optionalText("over", start.over);
+    v.optionalText("file", start.file);
+  }
+};
+
+template <>
 struct Fields<HangParams> {
   template <typename Visitor, typename T>
   static void visit(Visitor& v, T& hang) {
@@ -84,6 +93,7 @@ struct Fields<HangParams> {
     v.number("pressed", hang.pressed, notNegative());
     v.optionalNumber("fullness", hang.fullness, between(1.0, 3.0));
     v.optionalNumber("overlap", hang.overlap, notNegative());
+    v.map("start", hang.start);
   }
 };
 

@@ -29,6 +29,9 @@ class RangeChecker {
   void numberOrUnset(Key key, const double& value, Range range);
   void flag(Key, const bool&) {}
   void text(Key key, const std::string& value);
+  void optionalText(Key key, const std::optional<std::string>& value) {
+    if (value) text(key, *value);
+  }
   void texts(Key, const std::vector<std::string>&) {}
   void vector(Key key, const Vec3& value, Range range);
   void optionalVector(Key key, const std::optional<Vec3>& value, Range range);

@@ -103,6 +103,8 @@ SceneReading readSceneFile(const std::string& path) {
   SceneReading reading = readSceneText(readText(file));
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   for (ObstacleParams& obstacle : reading.scene.obstacles) obstacle.mesh = resolvePath(obstacle.mesh, folder);
+  std::optional<std::string>& start = reading.scene.hang.start.file;
+  if (start) start = resolvePath(*start, folder);
   return reading;
 }
 

@@ -237,6 +237,16 @@ void StrictReader::text(Key key, std::string& value) {
   if (const YAML::Node* found = find(key, "text")) readText(*found, keyOf(key), value);
 }
 
+void StrictReader::optionalText(Key key, std::optional<std::string>& value) {
+  std::string read;
+  if (entryOf(key) == entries_.end()) {
+    asked_.emplace_back(key.name);
+    return;
+  }
+  text(key, read);
+  value = read;
+}
+
 void StrictReader::texts(Key key, std::vector<std::string>& values) {
   const YAML::Node* found = find(key, "a list of texts");
   if (!found || !checkSequence(*found, keyOf(key), "a list of texts")) return;

@@ -32,6 +32,7 @@ class StrictReader {
   void numberOrUnset(Key key, double& value, Range range);
   void flag(Key key, bool& value);
   void text(Key key, std::string& value);
+  void optionalText(Key key, std::optional<std::string>& value);
   void texts(Key key, std::vector<std::string>& values);
   void vector(Key key, Vec3& value, Range range);
   void optionalVector(Key key, std::optional<Vec3>& value, Range range);

@@ -222,6 +222,25 @@ void checkHand(const HandParams& hand, const Scene& scene, const std::string& ke
   }
 }
 
+// Laid over something, or put somewhere: nothing may hold the cloth elsewhere.
+void checkStartElsewhere(const Scene& scene, ProblemLog& log) {
+  const StartParams& start = scene.hang.start;
+  const bool over = start.over.has_value(), file = start.file.has_value();
+  if (!over && !file) return;
+  if (over && file) log.add("hang.start", "must give one of over and file, gives both");
+  if (!scene.rail.path.empty())
+    log.add("hang.start", "can't be given with a rail, whose carriers say where the edge is");
+  if (!scene.lines.empty() || !scene.tie_back.empty())
+    log.add("hang.start", "can't be given with lines or tie-backs, which begin where the cloth hangs");
+  if (!over) return;
+  if (scene.pins.kind != PinKind::kNone && log.good("pins"))
+    log.add("hang.start.over", "needs pins: none, what is laid over something is not hung");
+  if (scene.cloth.closed) log.add("hang.start.over", "can't be given for closed cloth");
+  const auto is_it = [&](const ObstacleParams& obstacle) { return obstacle.name == *start.over; };
+  if (std::none_of(scene.obstacles.begin(), scene.obstacles.end(), is_it))
+    log.add("hang.start.over", "must be the name of an obstacle, is " + quoted(*start.over));
+}
+
 void checkHands(const Scene& scene, ProblemLog& log) {
   std::map<std::string, std::size_t> seen;
   for (std::size_t i = 0; i < scene.hands.size(); ++i) {
@@ -276,6 +295,7 @@ void checkScene(const Scene& scene, ProblemLog& log) {
   for (std::size_t i = 0; i < scene.wind.size(); ++i) checkWind(scene.wind[i], itemKey("wind", i), log);
   for (std::size_t i = 0; i < scene.drag.size(); ++i) checkDrag(scene.drag[i], scene.cloth, itemKey("drag", i), log);
   checkHands(scene, log);
+  checkStartElsewhere(scene, log);
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
     checkObstacle(scene.obstacles[i], itemKey("obstacles", i), log);
   }

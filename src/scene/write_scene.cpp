@@ -33,6 +33,9 @@ class SceneWriter {
   void text(Key key, const std::string& value) {
     out_ << YAML::Key << key.name << YAML::Value << YAML::DoubleQuoted << value;
   }
+  void optionalText(Key key, const std::optional<std::string>& value) {
+    if (value) text(key, *value);
+  }
   void vector(Key key, const Vec3& value, Range) { flow(key, {value.x(), value.y(), value.z()}); }
   void optionalVector(Key key, const std::optional<Vec3>& value, Range range) {
     if (value) vector(key, *value, range);

@@ -61,7 +61,7 @@ struct Motion {
   const Scene& scene;
   const ClothPattern& pattern;
   const FrameTimes& times;
-  const ClothState initial;
+  ClothState initial;
   ClothState state;
   ObstacleSet obstacles;
   Workers workers;

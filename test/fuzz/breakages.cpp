@@ -49,6 +49,9 @@ class Breaker {
     add(key, {"5", "''", "true", "[a]", "{}", "~", ".inf"});
     removeKey(key);
   }
+  void optionalText(Key key, const std::optional<std::string>&) {
+    add(key, {"5", "''", "true", "[a]", "{}", "~", ".inf"});
+  }
   void vector(Key key, const curtain::Vec3&, Range range) {
     add(key, {"5", "[1, 2]", "[1, 2, 3, 4]", "{x: 1}", "north", "[]", "~"});
     for (const std::string& value : badNumbers(range)) add(key, "[1.0, " + value + ", 1.0]");

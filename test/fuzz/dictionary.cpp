@@ -29,6 +29,7 @@ class WordCollector {
   void numberOrUnset(Key key, const double&, Range) { note(key); }
   void flag(Key key, const bool&) { note(key); }
   void text(Key key, const std::string&) { note(key); }
+  void optionalText(Key key, const std::optional<std::string>&) { note(key); }
   void vector(Key key, const curtain::Vec3&, Range) { note(key); }
   void optionalVector(Key key, const std::optional<curtain::Vec3>&, Range) { note(key); }
   void scale(Key key, const curtain::Vec3&, Range) { note(key); }

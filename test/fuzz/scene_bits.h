@@ -34,6 +34,7 @@ class SceneBits {
   void numberOrUnset(Key, const double& value, Range) { add(value == value ? value : -1.0); }
   void flag(Key, const bool& value) { add(value); }
   void text(Key, const std::string& value) { addText(value); }
+  void optionalText(Key, const std::optional<std::string>& value) { addText(value.value_or("")); }
   void vector(Key, const curtain::Vec3& value, Range) { addVector(value); }
   void optionalVector(Key, const std::optional<curtain::Vec3>& value, Range) { addOptional(value); }
   void scale(Key, const curtain::Vec3& value, Range) { addVector(value); }

@@ -37,6 +37,7 @@ class SceneMaker {
   void text(Key key, std::string& value) {
     if (value.empty()) value = std::string(key.name) + " " + std::to_string(++texts_);
   }
+  void optionalText(Key, std::optional<std::string>&) {}  // of files and obstacles, which there must be
   void vector(Key, curtain::Vec3& value, curtain::Range range) {
     if (!isGood(value, range) || !choices_.oneIn(3)) pickVector(range, value);
   }

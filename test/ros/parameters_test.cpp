@@ -403,5 +403,27 @@ TEST(Parameters, TheDescriptionIsKnown) {
   EXPECT_TRUE(names(readParameters(tree, "/stage/curtain").warnings, "robot_description: is not a known key"));
 }
 
+// What only a file has, or only offline runs know.
+TEST(Parameters, StartsElsewhereAreWhereTheNodeCanKnowThem) {
+  XmlRpc::XmlRpcValue tree;
+  tree["scene"] = smallSceneParameters();
+  tree["scene"]["hang"]["start"]["file"] = std::string("towel.csv");
+  ParameterReading reading = readParameters(tree, "/curtain");
+  ASSERT_EQ(reading.problems.size(), 1U);
+  EXPECT_NE(reading.problems[0].find("hang.start.file: must be"), std::string::npos) << reading.problems[0];
+  XmlRpc::XmlRpcValue laid;
+  laid["scene"] = smallSceneParameters();
+  laid["scene"]["pins"] = std::string("none");
+  laid["scene"]["hang"]["start"]["over"] = std::string("ball");
+  laid["scene"]["obstacles"][0]["name"] = std::string("ball");
+  laid["scene"]["obstacles"][0]["radius"] = 0.2;
+  reading = readParameters(laid, "/curtain");
+  EXPECT_TRUE(reading.problems.empty()) << reading.problems[0];
+  laid["scene"]["obstacles"][0]["frame"] = std::string("gripper");
+  reading = readParameters(laid, "/curtain");
+  ASSERT_EQ(reading.problems.size(), 1U);
+  EXPECT_NE(reading.problems[0].find("hang.start.over: must be an obstacle of the frame 'world'"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace curtain_ros

@@ -117,6 +117,7 @@ TEST(Template, EntriesAreReadableAndShowDefaults) {
     scene["hang"].remove("radius");
     scene["hang"].remove("fullness");
     scene["hang"].remove("overlap");
+    scene["hang"].remove("start");
     for (const char* key : {"length", "size", "mesh", "scale"}) scene["obstacles"][0].remove(key);
     const SceneReading reading = readScene(scene);
     EXPECT_TRUE(reading.problems.empty()) << describe(reading.problems);

@@ -169,6 +169,15 @@ void readSceneTree(const YAML::Node& yaml, const std::string& name, ParameterRea
       reading.problems.push_back(name + ": " + curtain::itemKey("obstacles", i) + ".mesh: must be " + kMeshPlaces +
                                  ", is " + curtain::quoted(obstacle.mesh) + ": parameters have no folder");
   }
+  const curtain::StartParams& start = scene.scene.hang.start;
+  if (start.file && start.file->find("://") == std::string::npos && start.file->front() != '/')
+    reading.problems.push_back(name + ": hang.start.file: must be " + kMeshPlaces + ", is " +
+                               curtain::quoted(*start.file) + ": parameters have no folder");
+  for (const curtain::ObstacleParams& obstacle : scene.scene.obstacles) {
+    if (start.over == obstacle.name && obstacle.frame != reading.node.world_frame)
+      reading.problems.push_back(name + ": hang.start.over: must be an obstacle of the frame '" +
+                                 reading.node.world_frame + "': where others are is known later");
+  }
   // Motions are for offline runs. An obstacle on a frame of its own has tf2 instead; one in the world frame would stand
   // still without a word.
   for (curtain::ObstacleParams& obstacle : scene.scene.obstacles) {

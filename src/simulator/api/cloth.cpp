@@ -37,8 +37,13 @@ void transfer(Item& from, Item& to) {
 std::unique_ptr<Simulator::Impl> Simulator::Impl::withCloth(const ClothParams& cloth) const {
   Scene changed = scene;
   changed.cloth = cloth;
-  return std::make_unique<Impl>(
+  auto next = std::make_unique<Impl>(
       changed, [this](std::size_t number, const ObstacleParams&) { return motion.obstacles.sharedShape(number); });
+  if (scene.hang.start.over || scene.hang.start.file) {  // where it is does not depend on the fabric
+    next->motion.initial = motion.initial;
+    next->reset();
+  }
+  return next;
 }
 
 void Simulator::Impl::continueFrom(Impl& other) {
