@@ -226,6 +226,10 @@ class Simulator {
   /// (slow for large meshes). An absent obstacle is infinitely far.
   ObstacleDistance obstacleDistance(int obstacle) const;
 
+  /// Share of an obstacle's silhouette [0..1] that the first layer's mesh hides from somebody far away in the direction
+  /// `from` (any length > 0), sampled: to about a hundredth. NaN: it is absent, or a plane. Allocates.
+  double covered(int obstacle, const Vec3& from) const;
+
   /// Force and torque of the cloth on an obstacle, mean over the last frame; zero before the first one.
   ContactWrench contactWrench(int obstacle) const;
   /// Where the cloth presses on obstacles at the end of the last substep, with the mean forces of that substep, sorted

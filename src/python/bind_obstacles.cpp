@@ -148,6 +148,17 @@ void bindObstacles(SimulatorClass& simulator) {
            "for "
            "an absent one; on_cloth and on_obstacle, the two points [m].")
       .def(
+          "covered",
+          [](const Self& self, const std::string& name, const py::object& direction) {
+            const Vec3 from = readPoint(direction, "direction");
+            if (!(from.norm() > 0.0)) throw py::value_error("direction: must have a length > 0");
+            return self.inspect().covered(self.obstacle(name), from);
+          },
+          py::arg("name"), py::arg("direction") = py::make_tuple(0.0, 0.0, 1.0),
+          "Share of an obstacle's silhouette, in [0, 1], that the cloth hides from somebody far away in this "
+          "direction, "
+          "to about a hundredth; nan for an absent one and a plane.")
+      .def(
           "piercings", &piercings, py::arg("name"), py::arg("depth_tolerance") = 1e-6, py::arg("fine") = false,
           "Nodes, edges and faces of the cloth that are deeper than the tolerance [m] in an obstacle or go through it, "
           "by brute force (slow). fine: of the mesh for display.");

@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "contact/oracle/coverage.h"
 #include "contact/oracle/obstacle_distance.h"
 #include "contact/oracle/piercings.h"
 #include "scene/fnv1a.h"
@@ -241,6 +242,13 @@ ObstacleDistance Simulator::obstacleDistance(int obstacle) const {
   if (!obstacles.present(obstacle)) return {};
   return distanceTo(obstacles.shape(obstacle), Transform(obstacles.reached(obstacle)), impl_->pattern.grid,
                     impl_->motion.state.position);
+}
+
+double Simulator::covered(int obstacle, const Vec3& from) const {
+  const ObstacleSet& obstacles = impl_->motion.obstacles;
+  if (!obstacles.present(obstacle)) return std::numeric_limits<double>::quiet_NaN();
+  return coveredShare(obstacles.shape(obstacle), Transform(obstacles.reached(obstacle)), impl_->pattern.grid,
+                      impl_->motion.state.position, from);
 }
 
 Piercings Simulator::piercings(int obstacle, double depth_tolerance) const {

@@ -167,6 +167,12 @@ class Parts(unittest.TestCase):
         sim.step()
         self.assertEqual(sim.time, 1 / 30)
 
+    def test_what_is_covered(self):
+        """A ball behind the cloth is hidden from the front, and not from behind."""
+        sim = simulator(obstacles=[{"name": "ball", "radius": 0.1, "position": [0.4, 2.0, 1.6]}])
+        self.assertEqual(sim.covered("ball", (0, 1, 0)), 0.0)
+        self.assertGreater(sim.covered("ball", (0, -1, 0)), 0.9)
+
     def test_pins_and_hands_move_what_they_hold(self):
         sim = simulator()
         positions = sim.positions

@@ -49,6 +49,7 @@ class InterfaceTest(unittest.TestCase):
         self.assertEqual(types[NODE + "/markers"], "visualization_msgs/MarkerArray")
         self.assertEqual(types[NODE + "/contacts"], "curtain_sim/Contacts")
         self.assertEqual(types[NODE + "/loads"], "curtain_sim/Loads")
+        self.assertEqual(types[NODE + "/summary"], "curtain_sim/Summary")
         published, subscribed, _ = master.getSystemState()
         inputs = [topic for topic, nodes in subscribed if NODE in nodes]
         outputs = [topic for topic, nodes in published if NODE in nodes]
@@ -58,7 +59,8 @@ class InterfaceTest(unittest.TestCase):
         self.assertEqual(sorted(t for t in outputs if t != "/rosout" and "handles" not in t),
                          ["/diagnostics", NODE + "/contacts", NODE + "/grasp/feedback", NODE + "/grasp/result",
                           NODE + "/grasp/status", NODE + "/loads", NODE + "/markers", NODE + "/mesh",
-                          NODE + "/parameter_descriptions", NODE + "/parameter_updates", NODE + "/points", NODE + "/state"])
+                          NODE + "/parameter_descriptions", NODE + "/parameter_updates", NODE + "/points", NODE + "/state",
+                          NODE + "/summary"])
         served = [service for service, nodes in master.getSystemState()[2] if NODE in nodes]
         self.assertEqual(sorted(s[len(NODE) + 1:] for s in served if "handles" not in s and "logger" not in s),
                          ["attach", "detach", "distance", "export_mesh", "load", "pause", "reset", "save", "set_material", "set_parameters", "step"])

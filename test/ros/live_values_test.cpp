@@ -51,6 +51,8 @@ struct Collector {
   template <typename... Rest>
   void optionalNumber(Rest&&...) {}
   template <typename... Rest>
+  void vector(Rest&&...) {}
+  template <typename... Rest>
   void numbers(Rest&&...) {}
   template <typename... Rest>
   void slits(Rest&&...) {}

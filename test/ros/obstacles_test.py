@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Obstacles follow their tf2 frames, push the curtain, and are left out while their frame is missing or too old."""
+import math
 import sys
 import unittest
 
@@ -9,7 +10,7 @@ import rostest
 import tf2_ros
 from curtain_testing import (Curtain, Listener, MovingFrame, billow, distance, points, static_frame,
                              wait_until)
-from curtain_sim.msg import Contacts
+from curtain_sim.msg import Contacts, Summary
 from rosgraph_msgs.msg import Log
 from visualization_msgs.msg import Marker, MarkerArray
 
@@ -90,6 +91,18 @@ class ObstaclesTest(unittest.TestCase):
         self.assertLess(distance((ball.origin.x, ball.origin.y, ball.origin.z), THROUGH), 1e-9)
         self.assertEqual(by_name["post"].contacts, 0)
         self.assertEqual(by_name["post"].wrench.force.y, 0.0)
+
+    def test_3c_summary_of_it(self):
+        """The ball is touched and the post is not; seen from above the vertical cloth hides little of either."""
+        listener = Listener("/curtain/summary", Summary)
+        message = listener.next()
+        listener.close()
+        self.assertEqual((message.header.frame_id, message.obstacles), ("world", ["ball", "post"]))
+        self.assertEqual((message.touching, message.at_rest), ([True, False], False))
+        self.assertTrue(math.isnan(message.opening), "no rail")
+        for share in message.covered:
+            self.assertTrue(0.0 <= share < 0.5, share)
+        self.assertGreater(message.covered[0], 0.0, "the cloth lies on the ball")
 
     def test_4_obstacle_is_drawn_where_it_is(self):
         listener = Listener("/curtain/markers", MarkerArray)

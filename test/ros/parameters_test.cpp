@@ -239,6 +239,9 @@ struct ManualReader {
   void text(curtain::Key key, const std::string& value) { compare(key, value); }
   void textOrNone(curtain::Key key, const std::string& value) { compare(key, value); }
   void number(curtain::Key key, double value, curtain::Range) { compare(key, value); }
+  void vector(curtain::Key key, const curtain::Vec3& value, curtain::Range) {
+    compare(key, std::vector<double>(value.data(), value.data() + 3));
+  }
   void integer(curtain::Key key, int value, curtain::IntRange) { compare(key, value); }
   void flag(curtain::Key key, bool value) { compare(key, value); }
 };

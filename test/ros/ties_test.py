@@ -8,7 +8,7 @@ import numpy
 import rospy
 import rostest
 from curtain_sim.srv import Attach, AttachRequest, Detach, Step
-from curtain_testing import Curtain, node_position, publisher, wait_until
+from curtain_testing import Curtain, node_position, wait_until
 from geometry_msgs.msg import Point, TransformStamped, Vector3
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
@@ -26,7 +26,7 @@ class TiesTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         rospy.init_node("ties_test")
-        cls.transforms = publisher("/tf", TFMessage)
+        cls.transforms = rospy.Publisher("/tf", TFMessage, queue_size=10)  # nobody listens until a tie asks for it
         cls.curtain = Curtain(NODE)
         cls.step, cls.reset = proxy("step", Step), proxy("reset", Trigger)
         cls.attach, cls.detach = proxy("attach", Attach), proxy("detach", Detach)
@@ -58,7 +58,7 @@ class TiesTest(unittest.TestCase):
         def answered():
             self.send()
             answer = self.attach(AttachRequest(frame="gripper", **fields))
-            return None if "gripper' " in answer.message else answer
+            return None if "frame 'gripper'" in answer.message else answer
         return wait_until(answered, "the frame is known")
 
     def corner(self, state):

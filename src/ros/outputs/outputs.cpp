@@ -40,9 +40,11 @@ Outputs::Outputs(ros::NodeHandle node, const NodeParams& params, const curtain::
             {params.mesh_rate, kMarkersAtRest, simulator.scene().solver.frame_rate}},
       markers_{node.advertise<visualization_msgs::MarkerArray>("markers", 1),
                {params.markers_rate, kMarkersAtRest, simulator.scene().solver.frame_rate}},
+      summary_{node.advertise<curtain_sim::Summary>("summary", 1), markers_.pace},
       states_(params, geometry_),
       load_messages_(params, simulator),
       contact_messages_(params),
+      summary_messages_(params),
       mesh_marker_(params.world_frame, geometry_),
       detail_markers_(params.world_frame, geometry_, params.contact_points),
       plan_rate_(kPlanRate, simulator.scene().solver.frame_rate) {
@@ -56,7 +58,7 @@ void Outputs::tune(const NodeParams& params, double frame_rate) {
   }
   for (Wrench& wrench : wrenches_) wrench.stream.pace.setRates(params.state_rate, params.state_rest_rate, frame_rate);
   mesh_.pace.setRates(params.mesh_rate, kMarkersAtRest, frame_rate);
-  markers_.pace.setRates(params.markers_rate, kMarkersAtRest, frame_rate);
+  for (Stream* stream : {&markers_, &summary_}) stream->pace.setRates(params.markers_rate, kMarkersAtRest, frame_rate);
   plan_rate_.setRate(kPlanRate, frame_rate);
   detail_.tolerance = params.mesh_tolerance;
   detail_.viewer_tolerance = params.mesh_viewer_tolerance;
@@ -76,12 +78,12 @@ void Outputs::advertiseWrenches(ros::NodeHandle& node, const NodeParams& params)
 }
 
 void Outputs::showAgain(const ros::Time& stamp) {
-  for (Stream* stream : {&mesh_, &markers_}) stream->pace.tick();
+  for (Stream* stream : {&mesh_, &markers_, &summary_}) stream->pace.tick();
   publishMarkers(stamp);
 }
 
 void Outputs::publish(const ros::Time& stamp, curtain_sim::Statistics statistics, bool latest) {
-  for (Stream* stream : {&state_, &loads_, &contacts_, &mesh_, &markers_}) stream->pace.tick();
+  for (Stream* stream : {&state_, &loads_, &contacts_, &mesh_, &markers_, &summary_}) stream->pace.tick();
   publishWrenches(stamp);
   if (state_.due() && state_.pace.send(geometry_.revision())) {
     ++state_.sent;
@@ -115,6 +117,8 @@ void Outputs::publishMarkers(const ros::Time& stamp) {
     markers_.publisher.publish(detail_markers_.build(stamp));
     ++markers_.sent;
   }
+  if (summary_.due() && summary_.pace.send(geometry_.revision()))
+    summary_.publisher.publish(summary_messages_.build(geometry_.simulator(), stamp));
 }
 
 void Outputs::count(curtain_sim::Statistics& statistics) const {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// ~state, ~loads, ~contacts, ~wrench/FRAME, ~mesh and ~markers. What nobody subscribes to is not built; what is built
-// is shared with subscribers in this process, not copied. And the plan (what runs for the scene, what is skipped) in
-// the log, at level DEBUG.
+// ~state, ~loads, ~contacts, ~wrench/FRAME, ~mesh, ~markers and ~summary. What nobody subscribes to is not built; what
+// is built is shared with subscribers in this process, not copied. And the plan (what runs for the scene, what is
+// skipped) in the log, at level DEBUG.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -70,10 +70,11 @@ class Outputs {
   std::string viewer_frame_;
   std::string viewer_error_;
   curtain::MeshDetail detail_;
-  Stream state_, loads_, contacts_, mesh_, markers_;
+  Stream state_, loads_, contacts_, mesh_, markers_, summary_;
   StateMessages states_;
   LoadMessages load_messages_;
   ContactMessages contact_messages_;
+  SummaryMessages summary_messages_;
   std::vector<Wrench> wrenches_;  // by tf2 frame
   MeshMarker mesh_marker_;
   DetailMarkers detail_markers_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "ros/frames/geometry.h"
 
@@ -234,6 +235,27 @@ geometry_msgs::WrenchStamped::ConstPtr WrenchMessages::build(const curtain::Simu
   message->header.stamp = stamp;
   message->wrench.force = toVector(force);
   message->wrench.torque = toVector(torque);
+  return message;
+}
+
+curtain_sim::Summary::ConstPtr SummaryMessages::build(const curtain::Simulator& simulator, const ros::Time& stamp) {
+  const auto message = message_.edit();
+  const curtain::Scene& scene = simulator.scene();
+  message->header.stamp = stamp;
+  message->header.frame_id = world_;
+  message->simulated_time = simulator.time();
+  message->at_rest = static_cast<std::uint8_t>(simulator.statistics().asleep);
+  const bool on_rail = !scene.rail.path.empty();
+  message->opening = on_rail ? simulator.statistics().opening : std::numeric_limits<double>::quiet_NaN();
+  message->obstacles.clear();
+  message->touching.clear();
+  message->covered.clear();
+  for (int k = 0; k < simulator.obstacleCount(); ++k) {
+    message->obstacles.push_back(scene.obstacles[static_cast<std::size_t>(k)].name);
+    const bool touches = simulator.obstaclePresent(k) && simulator.contactWrench(k).contacts > 0;
+    message->touching.push_back(static_cast<std::uint8_t>(touches));
+    message->covered.push_back(simulator.covered(k, from_));
+  }
   return message;
 }
 

@@ -14,6 +14,7 @@
 #include "curtain_sim/Contacts.h"
 #include "curtain_sim/CurtainState.h"
 #include "curtain_sim/Loads.h"
+#include "curtain_sim/Summary.h"
 #include "ros/outputs/geometry_cache.h"
 #include "ros/outputs/reused_message.h"
 #include "ros/parameters/parameters.h"
@@ -82,6 +83,20 @@ class ContactMessages {
   std::vector<curtain::ContactForce> forces_;
   std::vector<std::uint32_t> place_;  // by obstacle of the scene: in the message
   ReusedMessage<curtain_sim::Contacts> message_;
+};
+
+/// What a task asks of the curtain. One thread at a time.
+class SummaryMessages {
+ public:
+  explicit SummaryMessages(const NodeParams& params)
+      : world_(params.world_frame), from_(params.summary_from), message_(curtain_sim::Summary()) {}
+
+  curtain_sim::Summary::ConstPtr build(const curtain::Simulator& simulator, const ros::Time& stamp);
+
+ private:
+  std::string world_;
+  curtain::Vec3 from_;
+  ReusedMessage<curtain_sim::Summary> message_;
 };
 
 /// What the cloth does to all obstacles on one tf2 frame: in its axes, about its origin. One thread at a time.

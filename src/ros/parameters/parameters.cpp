@@ -49,6 +49,10 @@ struct Names {
     all.insert(key.name);
   }
   template <typename... Rest>
+  void vector(curtain::Key key, Rest&&...) {
+    all.insert(key.name);
+  }
+  template <typename... Rest>
   void number(curtain::Key key, Rest&&...) {
     all.insert(key.name);
   }

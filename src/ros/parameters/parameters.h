@@ -31,18 +31,19 @@ struct NodeParams {
   double mesh_tolerance = 0.0;           ///< [m] that ~mesh may be off the fine mesh
   std::string mesh_viewer_frame;         ///< tf2 frame of the camera that ~mesh is for; empty: none
   double mesh_viewer_tolerance = 0.001;  ///< [rad] that it may be off as seen from there
-  double markers_rate = 10.0;            ///< of ~markers, as mesh_rate
-  int max_catch_up = 4;                  ///< frames that a late node makes at once before it drops some
-  bool state_folds = false;              ///< ~state carries the second-layer nodes
-  bool contact_points = false;           ///< ~contacts and ~markers carry where the cloth presses on obstacles
-  bool handles = true;                   ///< interactive markers on the hem
-  double handle_stiffness = 100.0;       ///< of their springs [N/m]
-  std::string snapshot_file;             ///< where the state is kept for the next start; empty: nowhere
-  double snapshot_period = 10.0;         ///< [s] of the node's clock between two snapshots
-  double diagnostic_period = 1.0;        ///< [s] of the computer's clock between two messages on /diagnostics
-  bool start_paused = false;             ///< no frame before ~pause or ~step asks for it
-  bool publish_clock = false;            ///< the node publishes /clock
-  bool watch_roscpp = true;  ///< register with a restarted master, count messages dropped in roscpp's queues
+  double markers_rate = 10.0;            ///< of ~markers and ~summary, as mesh_rate
+  curtain::Vec3 summary_from = curtain::Vec3::UnitZ();  ///< direction from which ~summary sees what the cloth covers
+  int max_catch_up = 4;                                 ///< frames that a late node makes at once before it drops some
+  bool state_folds = false;                             ///< ~state carries the second-layer nodes
+  bool contact_points = false;      ///< ~contacts and ~markers carry where the cloth presses on obstacles
+  bool handles = true;              ///< interactive markers on the hem
+  double handle_stiffness = 100.0;  ///< of their springs [N/m]
+  std::string snapshot_file;        ///< where the state is kept for the next start; empty: nowhere
+  double snapshot_period = 10.0;    ///< [s] of the node's clock between two snapshots
+  double diagnostic_period = 1.0;   ///< [s] of the computer's clock between two messages on /diagnostics
+  bool start_paused = false;        ///< no frame before ~pause or ~step asks for it
+  bool publish_clock = false;       ///< the node publishes /clock
+  bool watch_roscpp = true;         ///< register with a restarted master, count messages dropped in roscpp's queues
 };
 
 /// What reading gave: usable only when problems is empty.
@@ -95,6 +96,7 @@ struct Fields<curtain_ros::NodeParams> {
     v.textOrNone("mesh_viewer_frame", params.mesh_viewer_frame);
     v.number("mesh_viewer_tolerance", params.mesh_viewer_tolerance, between(0.0, 1.0));
     v.number("markers_rate", params.markers_rate, between(kSmallest, 10000.0));
+    v.vector("summary_from", params.summary_from, anywhere());
     v.integer("max_catch_up", params.max_catch_up, IntRange{1, 1000});
     v.flag("state_folds", params.state_folds);
     v.flag("contact_points", params.contact_points);

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "curtain_sim/fine_mesh.h"
 #include "scene/ranges.h"
 #include "simulator/self_crossings.h"
 
