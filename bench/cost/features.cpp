@@ -120,6 +120,16 @@ void addDrag(Play& play, bool spring, double start) {
   play.scene.drag.push_back(hand);
 }
 
+void addHand(Play& play, double start) {
+  curtain::HandParams hand;
+  hand.grasp.id = "hand";
+  hand.grasp.region = curtain::GraspRegion::kNodes;
+  hand.grasp.nodes = {{43, 0}};
+  hand.start = start;
+  hand.end = 2.0 * kNever;
+  play.scene.hands.push_back(hand);
+}
+
 void damp(Play& play, double coefficient, double fast_gain) {
   play.scene.air.inside = play.scene.air.border = play.scene.air.corner = coefficient;
   play.scene.air.fast_gain = fast_gain;
@@ -194,6 +204,9 @@ std::vector<Feature> makeFeatures() {
   add(
       "drag spring", swing(), "starts later", [](Play& p) { addDrag(p, true, kNever); }, "pulls",
       [](Play& p) { addDrag(p, true, 0.0); });
+  add(
+      "hand of the scene", swing(), "takes hold later", [](Play& p) { addHand(p, kNever); }, "holds a corner",
+      [](Play& p) { addHand(p, 0.0); });
   add("pins moved", swing(), "", nullptr, "at 0.3 m/s", movePins);
   add(
       "obstacle sphere", swing(), "beside it", [](Play& p) { addBall(p, kBeside); }, "in its way",

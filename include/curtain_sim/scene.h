@@ -434,7 +434,7 @@ struct Scene {
   std::vector<WindParams> wind;          ///< unique ids
   std::vector<DragParams> drag;          ///< unique ids
   std::vector<HandParams> hands;         ///< unique ids
-  /// Poses of a frame that the scene's pins move with, from where they are at its first one.
+  /// Poses of a frame that the scene's pins move with, from where they are at time 0.
   std::vector<PoseKey> pins_motion;
   std::vector<ObstacleParams> obstacles;  ///< unique names
   ContactParams contact;                  ///< of cloth with obstacles and itself

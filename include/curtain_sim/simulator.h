@@ -29,7 +29,8 @@ class Simulator {
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;  ///< as above
 
-  /// As given, with the present values of what may change: gravity, air, frame rate, friction, tolerances, budget.
+  /// As given, with the present values of what may change: gravity, air, frame rate, friction, tolerances, budget, and
+  /// the cloth's fabric (setCloth()).
   const Scene& scene() const;
 
   /// Back to the scene's start: time 0, its winds and drags, zero statistics. Obstacles return to their scene poses and
@@ -48,7 +49,8 @@ class Simulator {
   /// Restores a snapshot of the same scene and continues with the same bits: time, winds and drags, moves of obstacles
   /// and pins, grasps, sleep, statistics. The scene may differ in what may change (see scene()), which comes with the
   /// snapshot, in solver.threads, and in mesh paths. Returns what is wrong (damaged, cut short, of another scene or
-  /// format); then nothing changed. With solver.budget_ms later bits depend on computing time. Allocates.
+  /// format); then nothing changed. With solver.budget_ms later bits depend on computing time. Where the cloth's fabric
+  /// is another one, references end as those of setCloth() do. Allocates.
   std::vector<Problem> restore(const std::string& snapshot);
 
   /// Node state, row-major, shape [rows * columns]; out is resized.
@@ -110,11 +112,12 @@ class Simulator {
   std::vector<Problem> setPositionTolerance(double tolerance);  ///< see setFriction()
   std::vector<Problem> setBudget(double ms);                    ///< see setFriction()
 
-  /// Changes the cloth from the next step on, also after reset(), whose start is that of such cloth: surface_density,
-  /// porosity, row_mass, column_mass, shear, bending_warp, bending_weft, bending_bias, bending_hysteresis and material;
-  /// all else must be as it is. Motion goes on, contacts are found anew, and sleeping cloth wakes. The simulator is
-  /// made anew within, but for the obstacles' shapes and the fine mesh's topology: references to scene() and
-  /// statistics() end. Returns what is wrong; then nothing changed.
+  /// Changes the cloth from the next step on, also after reset(): surface_density, porosity, row_mass, column_mass,
+  /// shear, bending_warp, bending_weft, bending_bias, bending_hysteresis and material (a name: applyMaterial() has set
+  /// the others); all else must be as it is. Motion goes on, contacts are found anew, and sleeping cloth wakes; a start
+  /// by hang.start stays. Within, the simulator is made anew but for the obstacles' shapes and the fine mesh's
+  /// topology: other references that it gave end, as those of scene(), statistics(), winds(). Returns what is wrong;
+  /// then nothing changed.
   std::vector<Problem> setCloth(const ClothParams& cloth);
 
   /// Sets positions [m] and velocities [m/s] of all nodes, row-major, shape [rows * columns]; velocities of pinned
@@ -245,6 +248,8 @@ class Simulator {
  private:
   friend struct CacheClearing;  // test/clear_caches.h
   struct Impl;
+  void startFrom(const std::string& file, const MeshResolver& resolve);
+  void startOver(const std::string& name, const MeshResolver& resolve);
   std::unique_ptr<Impl> impl_;
 };
 

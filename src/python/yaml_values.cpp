@@ -159,6 +159,10 @@ DragParams readDrag(const py::handle& values, const ClothParams& cloth) {
 ClothParams readCloth(const py::handle& values, const Scene& present) {
   YAML::Node root = YAML::Load(writeScene(present));
   const YAML::Node given = toYaml(values, "cloth");
+  if (given["material"]) {  // sets all of these, but for those that are given
+    for (const char* key : {"surface_density", "porosity", "shear", "bending_warp", "bending_weft", "bending_bias"})
+      root["cloth"].remove(key);
+  }
   for (const auto& entry : given) root["cloth"][entry.first.Scalar()] = entry.second;
   SceneReading reading = readScene(root);
   refuse(reading.problems);

@@ -235,6 +235,7 @@ void checkStartElsewhere(const Scene& scene, ProblemLog& log) {
   if (!over) return;
   if (scene.pins.kind != PinKind::kNone && log.good("pins"))
     log.add("hang.start.over", "needs pins: none, what is laid over something is not hung");
+  if (!(scene.gravity.z() < 0.0)) log.add("hang.start.over", "needs gravity that points down");
   if (scene.cloth.closed) log.add("hang.start.over", "can't be given for closed cloth");
   const auto is_it = [&](const ObstacleParams& obstacle) { return obstacle.name == *start.over; };
   if (std::none_of(scene.obstacles.begin(), scene.obstacles.end(), is_it))

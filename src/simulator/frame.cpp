@@ -52,14 +52,14 @@ void Simulator::Impl::sleepThrough() {
 double Simulator::Impl::moveThrough(Budget::Clock::time_point begin) {
   const Statistics& s = motion.statistics;
   const PartList& parts = motion.parts.all;
-  const bool strained = parts.any([](const Part& part) { return part.strains(); });
-  const FrameBegin frame{times.begin(), times.end(), times.rate(),
-                         !strained && std::max(s.warp_stretch, s.weft_stretch) < kHold};
+  FrameBegin frame{times.begin(), times.end(), times.rate(), true};
   if (parts.any([&](const Part& part) { return part.begins(frame); })) {
     changePins([&] {
       for (Part* const part : parts) part->begun(frame, motion.state);
     });
   }
+  const bool strained = parts.any([](const Part& part) { return part.strains(); });
+  frame.links_hold = !strained && std::max(s.warp_stretch, s.weft_stretch) < kHold;
   for (Part* const part : parts) {
     if (part->prepareFrame(frame, motion.state)) motion.forgetVelocities();
   }

@@ -52,6 +52,8 @@ class Rest {
   void forget() noexcept;
 
   std::int64_t wakes() const noexcept { return wakes_; }
+  /// Counts on from there.
+  void countOn(std::int64_t wakes) noexcept { wakes_ = wakes; }
 
   void serialize(Archive& archive);
 

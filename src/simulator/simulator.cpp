@@ -111,8 +111,8 @@ void Simulator::Impl::driven() noexcept {
 Simulator::Simulator(const Scene& scene, const MeshResolver& resolve)
     : impl_(std::make_unique<Impl>(scene, shapesBy(resolve))) {
   const StartParams& start = scene.hang.start;
-  if (start.file) impl_->startFrom(*start.file, resolve);
-  if (start.over) impl_->startOver(*start.over, resolve);
+  if (start.file) startFrom(*start.file, resolve);
+  if (start.over) startOver(*start.over, resolve);
 }
 Simulator::~Simulator() = default;
 Simulator::Simulator(Simulator&&) noexcept = default;

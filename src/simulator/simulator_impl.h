@@ -20,9 +20,7 @@ namespace curtain {
 
 struct Simulator::Impl {
   Impl(const Scene& given, const ShapeMaker& make_shape);
-  /// Starts at the nodes of a file, or laid over an obstacle. Throw std::invalid_argument with what is wrong with it.
-  void startFrom(const std::string& file, const MeshResolver& resolve);
-  void startOver(const std::string& obstacle, const MeshResolver& resolve);
+  /// Starts with its nodes there, row by row.
   void startAt(const std::vector<Vec3>& positions);
   /// Of the same scene with other cloth, at its start. Throws std::invalid_argument with what is wrong with it.
   std::unique_ptr<Impl> withCloth(const ClothParams& cloth) const;

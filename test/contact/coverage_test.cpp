@@ -58,6 +58,14 @@ TEST(Coverage, OfWhatHasNoSilhouetteIsNoNumber) {
   Scene scene = curtain_test::flatScene(4, 4);
   scene.obstacles = {curtain_test::ballAt({0.5, 0.5, 0.5}, 0.2)};
   Simulator simulator(scene);
+  DragParams drag;
+  drag.id = "drag";
+  drag.node = NodeIndex{3, 3};
+  drag.force = Vec3(1e100, 0.0, 0.0);
+  scene.drag = {drag};
+  Simulator torn(scene);
+  for (int frame = 0; frame < 5; ++frame) torn.step();
+  EXPECT_LE(torn.covered(0, -Vec3::UnitY()), 1.0) << "nodes that are no numbers hide nothing";
   simulator.setObstaclePresent(0, false);
   EXPECT_TRUE(std::isnan(simulator.covered(0, -Vec3::UnitY())));
 }

@@ -154,6 +154,8 @@ class Parts(unittest.TestCase):
         sim.set_air({"inside": 0.7})
         sim.set_frame_rate(30)
         sim.set_friction(0.5)
+        sim.set_cloth(material="velvet")
+        self.assertEqual(sim.scene.to_dict()["cloth"]["shear"], 50)
         sim.set_cloth(shear=20, surface_density=0.3)
         sim.set_stretch_tolerance(1e-4)
         sim.set_position_tolerance(1e-2)

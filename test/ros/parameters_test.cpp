@@ -425,7 +425,13 @@ TEST(Parameters, StartsElsewhereAreWhereTheNodeCanKnowThem) {
   laid["scene"]["obstacles"][0]["frame"] = std::string("gripper");
   reading = readParameters(laid, "/curtain");
   ASSERT_EQ(reading.problems.size(), 1U);
-  EXPECT_NE(reading.problems[0].find("hang.start.over: must be an obstacle of the frame 'world'"), std::string::npos);
+  EXPECT_NE(reading.problems[0].find("hang.start: needs all obstacles in the frame 'world'"), std::string::npos);
+  XmlRpc::XmlRpcValue blind;
+  blind["scene"] = smallSceneParameters();
+  for (int axis = 0; axis < 3; ++axis) blind["summary_from"][axis] = 0.0;
+  reading = readParameters(blind, "/curtain");
+  ASSERT_EQ(reading.problems.size(), 1U);
+  EXPECT_NE(reading.problems[0].find("summary_from: must have a length > 0"), std::string::npos);
 }
 
 }  // namespace

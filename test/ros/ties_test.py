@@ -98,6 +98,7 @@ class TiesTest(unittest.TestCase):
                 ({"rows": [9], "columns": []}, "as many entries as rows"),
                 ({"rows": [0], "columns": [0]}, "is pinned by the scene"),
                 ({"radius": 0.01, "point": Point(1.0, 0.0, 0.0)}, "holds no free node"),
+                ({"point": Point(float("nan"), 0.0, 0.0)}, "point: must be 3 times a number"),
                 ({"stiffness": -3.0}, "stiffness")]:
             answer = self.tie(**fields)
             self.assertFalse(answer.success, text)

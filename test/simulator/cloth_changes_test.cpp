@@ -165,6 +165,24 @@ TEST(ClothChanges, KeepWhatElseThereIs) {
   EXPECT_EQ(simulator.selfCrossings(), 0);
 }
 
+// Counters go on, and what an error estimate has learnt stays.
+TEST(ClothChanges, KeepWhatIsCountedAndEstimated) {
+  Scene scene = flatScene(10, 8);
+  scene.hang.tilt = 0.8;
+  scene.solver.position_tolerance = 1e-3;
+  Simulator simulator(scene);
+  run(simulator, 90);
+  const Statistics before = simulator.statistics();
+  ClothParams cloth = scene.cloth;
+  cloth.surface_density = 0.25;
+  ASSERT_TRUE(simulator.setCloth(cloth).empty());
+  run(simulator, 1);
+  const Statistics& after = simulator.statistics();
+  EXPECT_EQ(after.frames, before.frames + 1);
+  EXPECT_GE(after.substeps, before.substeps + before.substeps_last / 2) << "as fine as before";
+  EXPECT_GE(after.stage_seconds[0], before.stage_seconds[0]);
+}
+
 TEST(ClothChanges, GoIntoSnapshots) {
   const Scene scene = clothInTouch();
   Simulator simulator(scene), other(scene);
@@ -198,6 +216,10 @@ TEST(ClothChanges, WakeClothAndLetItSleepAgain) {
   simulator.step();
   EXPECT_FALSE(simulator.statistics().asleep);
   EXPECT_TRUE(sleeps());
+  heavy.surface_density = 0.5;
+  ASSERT_TRUE(simulator.setCloth(heavy).empty());
+  simulator.step();
+  EXPECT_EQ(simulator.statistics().wakes, 2);
 }
 
 TEST(ClothChanges, AreRefusedInWords) {

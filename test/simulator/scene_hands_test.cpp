@@ -55,7 +55,7 @@ TEST(SceneHands, DoWhatAUserDoes) {
     right.end = 0.81;
     if (!by_paper) right.grasp.stiffness = 50.0;
     left.motion = curveFrom(left.grasp.frame, 0.1);
-    right.motion = curveFrom(right.grasp.frame, 0.3);
+    right.motion = curveFrom(right.grasp.frame, 0.1);  // on its way when it takes hold
     scene.hands = {left, right};
     Simulator by_itself(scene), led(plain);
     for (int frame = 0; frame < 90; ++frame) {
@@ -115,12 +115,38 @@ TEST(SceneHands, AreTheUsersToo) {
   scene.hands = {handAt("hand", {1.0, 0.0, 0.0}, 0.1)};
   scene.hands[0].start = 0.1;
   Simulator simulator(scene);
+  GraspParams other = scene.hands[0].grasp;
+  const std::vector<Problem> problems = simulator.setGrasp(other);
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_NE(problems[0].text.find("begins later: release it first"), std::string::npos);
   EXPECT_TRUE(simulator.releaseGrasp("hand"));
   run(simulator, 20);
   EXPECT_FALSE(simulator.graspState("hand").has_value());
   simulator.reset();
   run(simulator, 20);
   EXPECT_EQ(endOf(simulator, "hand"), GraspEnd::kNone);
+}
+
+// One whose whole time lies between two frames holds nothing, and has missed nothing.
+TEST(SceneHands, BetweenTwoFramesHoldNothing) {
+  Scene scene = flatScene(8, 8);
+  scene.hands = {handAt("hand", {1.0, 0.0, 0.0}, 0.1)};
+  scene.hands[0].start = 0.001;
+  scene.hands[0].end = 0.005;
+  Simulator simulator(scene);
+  run(simulator, 3);
+  EXPECT_EQ(endOf(simulator, "hand"), GraspEnd::kReleased);
+}
+
+// A motion that has begun before time 0 leads the pins on from there.
+TEST(ScenePins, BeginWhereTheyAreAtTimeZero) {
+  Scene scene = flatScene(8, 8);
+  Pose far;
+  far.position = Vec3(0.0, 2.0, 0.0);
+  scene.pins_motion = {{-10.0, Pose()}, {10.0, far}};
+  Simulator simulator(scene);
+  run(simulator, 1);
+  EXPECT_NEAR(simulator.position({0, 0}).y(), 2.0 / 20.0 / kRate, 1e-9);
 }
 
 // 2 N are more than its cloth of 0.2 kg can bear in one hand.

@@ -174,6 +174,32 @@ TEST(StartsElsewhere, NothingMayBePierced) {
   }
 }
 
+// What stands on the thing is in the way, and what is smooth and steep holds nothing.
+TEST(StartsElsewhere, WhereItCannotLieItIsNotLaid) {
+  const auto refused = [](const Scene& scene, const std::string& words) {
+    try {
+      const Simulator simulator(scene);
+      ADD_FAILURE() << "accepted, but " << words;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+  };
+  Scene scene = laidOver(ShapeKind::kBox);
+  ObstacleParams mug = ballAt(scene.obstacles[0].pose.position + Vec3(0.1, 0.0, 0.2), 0.08);
+  mug.name = "mug";
+  scene.obstacles.push_back(mug);
+  refused(scene, "hang.start.over: the cloth goes through the obstacle 'mug' where it is spread out");
+  scene = laidOver(ShapeKind::kSphere);
+  scene.obstacles[0].radius = 0.02;
+  scene.contact.friction = 0.0;
+  scene.obstacles[0].pose.position.z() = 2.0;
+  scene.hang.from.x() += 0.3;
+  scene.hang.to.x() += 0.3;
+  scene.cloth.row_mass.assign(17, 1.0);
+  scene.cloth.row_mass[0] = 30.0;  // it hangs down on one side
+  refused(scene, "hang.start.over: the cloth slides off it");
+}
+
 TEST(StartsElsewhere, WhatDoesNotGoTogetherIsRefused) {
   const auto refused = [](const std::function<void(Scene&)>& change, const std::string& key) {
     Scene scene = laidOver(ShapeKind::kSphere);
@@ -186,6 +212,7 @@ TEST(StartsElsewhere, WhatDoesNotGoTogetherIsRefused) {
   refused([](Scene& scene) { scene.hang.start.over = "nobody"; }, "hang.start.over");
   refused([](Scene& scene) { scene.pins.kind = PinKind::kTop; }, "hang.start.over");
   refused([](Scene& scene) { scene.hang.start.over = ""; }, "hang.start.over");
+  refused([](Scene& scene) { scene.gravity = Vec3::Zero(); }, "hang.start.over");
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ class View {
   // Barycentric coordinates are linear across the triangle.
   void draw(const Vec3& a, const Vec3& b, const Vec3& c) {
     const double area = (b.x() - a.x()) * (c.y() - a.y()) - (c.x() - a.x()) * (b.y() - a.y());
-    if (area == 0.0) return;
+    if (area == 0.0 || !(a + b + c).allFinite()) return;
     const auto range = [this](double p, double q, double r, int axis) {
       const double low = (std::min({p, q, r}) - low_[axis]) / step_[axis],
                    high = (std::max({p, q, r}) - low_[axis]) / step_[axis];

@@ -21,6 +21,10 @@ Vec3 directionOf(const Vec3& v) noexcept {
 
 PaperSolver::PaperSolver(const ClothPattern& pattern)
     : pattern_(pattern), max_way_(kMaxSizes * (pattern.warp_coordinate.back() + pattern.weft_coordinate.back())) {
+  const std::size_t nodes = pattern.grid.nodeCount();  // room for what pins them within a step
+  chains_.reserve(2 * nodes);
+  pins_.reserve(nodes);
+  between_.reserve(nodes);
   pinsChanged();
   start_.assign(pattern.grid.size(), 0.0);
   rebuilt_ = start_;

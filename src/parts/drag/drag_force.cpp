@@ -74,11 +74,12 @@ void DragForce::addSpring(const Field3& position, double end, double dt, Field3&
   Vec3 x = Vec3::Zero();
   for (const Share& share : shares_) x += share.weight * position.at(share.node);
   const Vec3 way = (path_.any() ? path_.at(end).position : *drag_.target) - x;
-  const Vec3 damper = path_.any() ? Vec3(spring_damping_ * path_.rateAt(end).move) : Vec3::Zero();
   const double distance = way.norm();
   const double k = distance * drag_.stiffness > drag_.max_force ? drag_.max_force / distance : drag_.stiffness;
+  // At the limit no more of the damper leads the node.
+  const Vec3 led = path_.any() ? Vec3(k / drag_.stiffness * spring_damping_ * path_.rateAt(end).move) : Vec3::Zero();
   for (const Share& share : shares_) {
-    force.add(share.node, (share.weight * k) * way + share.weight * damper);
+    force.add(share.node, (share.weight * k) * way + share.weight * led);
     damping[share.node] += share.weight * (spring_damping_ + k * dt);
   }
 }

@@ -80,6 +80,9 @@ void Grasps::listNodes(const GraspParams& grasp, std::vector<std::size_t>& nodes
 std::vector<Problem> Grasps::find(const GraspParams& grasp, const Field3& position,
                                   std::vector<std::size_t>& nodes) const {
   std::vector<Problem> problems;
+  const std::size_t known = indexOf(grasp.id);
+  if (known < list_.size() && list_[known].end == GraspEnd::kWaiting)
+    return {{"grasp.id", "'" + grasp.id + "' is a hand of the scene, which begins later: release it first"}};
   if (holds(grasp.id)) return {{"grasp.id", "'" + grasp.id + "' holds the cloth already: release it first"}};
   if (scene_.solver.method == Method::kPaper && !isRigid(grasp)) {
     return {{"grasp",

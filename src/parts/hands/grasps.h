@@ -106,7 +106,9 @@ class Grasps final : public PinMoves {
   };
 
   bool any() const noexcept { return holding_ > 0; }  // a hand holds something
+  static constexpr double kTimeRounding = 1e-9;       // [s]
   bool isDue(const Grasp& grasp, double time) const noexcept;
+  static bool isOver(const Grasp& grasp, double time) noexcept { return grasp.hand->end <= time + kTimeRounding; }
   void hold(Grasp& grasp, const std::vector<std::size_t>& nodes, ClothState& state) noexcept;
   void follow(Grasp& grasp) const;
   void listFree(const GraspParams& grasp, const Field3& position, std::vector<std::size_t>& nodes) const;

@@ -29,10 +29,9 @@ bool Grasps::wakes(const FrameBegin& begin, const ClothState& state) const noexc
 
 // Its time to take hold, or to let go, has come as the frame begins.
 bool Grasps::isDue(const Grasp& grasp, double time) const noexcept {
-  constexpr double kTimeRounding = 1e-9;  // [s]
   if (grasp.hand == nullptr) return false;
   if (grasp.end == GraspEnd::kWaiting) return grasp.hand->start <= time + kTimeRounding;
-  return grasp.holds() && grasp.hand->end <= time + kTimeRounding;
+  return grasp.holds() && isOver(grasp, time);
 }
 
 bool Grasps::begins(const FrameBegin& begin) const noexcept {
@@ -49,11 +48,13 @@ void Grasps::begun(const FrameBegin& begin, ClothState& state) noexcept {
   }
   for (Grasp& grasp : list_) {
     if (grasp.end != GraspEnd::kWaiting || !isDue(grasp, begin.from)) continue;
+    grasp.end = GraspEnd::kReleased;
+    if (isOver(grasp, begin.from)) continue;  // between two frames
     grasp.params.frame = grasp.motion.at(begin.from);
     nodes_.clear();
     listFree(grasp.params, state.position, nodes_);
     grasp.end = GraspEnd::kMissed;
-    if (nodes_.empty() || grasp.hand->end <= begin.from) continue;
+    if (nodes_.empty()) continue;
     hold(grasp, nodes_, state);
     note();
   }

@@ -10,7 +10,7 @@ void ScenePins::reset(ClothState& state) {
   PinMoves::reset(state);
   places_.clear();
   if (!motion_.any()) return;
-  const Pose& first = scene_.pins_motion.front().pose;
+  const Pose first = motion_.at(0.0);
   const Grid& grid = pattern_.grid;
   for (int i = 0; i < grid.rows; ++i) {
     for (std::size_t n = grid.index(i, 0); n < grid.index(i, grid.columns); ++n) {

@@ -98,6 +98,11 @@ YAML::Node toYaml(const XmlRpcValue& value) {
   }
 }
 
+void checkDirection(const NodeParams& params, curtain::ProblemLog& log) {
+  if (log.good("summary_from") && !(params.summary_from.norm() > 0.0))
+    log.add("summary_from", "must have a length > 0, is [0, 0, 0]");
+}
+
 // own: a map without the scene.
 void readOwn(const YAML::Node& own, const std::string& space, ParameterReading& reading) {
   curtain::ProblemLog log;
@@ -105,6 +110,7 @@ void readOwn(const YAML::Node& own, const std::string& space, ParameterReading& 
   curtain::visitFields(reader, reading.node);
   Checker checker("", log);
   curtain::visitFields(checker, reading.node);
+  checkDirection(reading.node, log);
   for (const curtain::Problem& problem : log.problems())
     reading.problems.push_back(space + curtain::describe({problem}));
   // Unknown ones do no harm: other nodes keep theirs there, too.
@@ -163,6 +169,20 @@ void fillObstacleFrames(const YAML::Node& scene, const std::string& world_frame)
   }
 }
 
+// The cloth is put there before tf2 is heard.
+void checkStart(const curtain::Scene& scene, const std::string& name, ParameterReading& reading) {
+  const curtain::StartParams& start = scene.hang.start;
+  if (!start.over && !start.file) return;
+  if (start.file && !start.file->empty() && start.file->find("://") == std::string::npos && start.file->front() != '/')
+    reading.problems.push_back(name + ": hang.start.file: must be " + kMeshPlaces + ", is " +
+                               curtain::quoted(*start.file) + ": parameters have no folder");
+  const std::string& world = reading.node.world_frame;
+  const auto moves = [&](const curtain::ObstacleParams& obstacle) { return obstacle.frame != world; };
+  if (reading.robot || std::any_of(scene.obstacles.begin(), scene.obstacles.end(), moves))
+    reading.problems.push_back(name + ": hang.start: needs all obstacles in the frame '" + world +
+                               "', and no robot: where others are is known later");
+}
+
 void readSceneTree(const YAML::Node& yaml, const std::string& name, ParameterReading& reading) {
   if (yaml.IsMap()) fillObstacleFrames(yaml, reading.node.world_frame);
   curtain::SceneReading scene = curtain::readScene(yaml);
@@ -173,15 +193,7 @@ void readSceneTree(const YAML::Node& yaml, const std::string& name, ParameterRea
       reading.problems.push_back(name + ": " + curtain::itemKey("obstacles", i) + ".mesh: must be " + kMeshPlaces +
                                  ", is " + curtain::quoted(obstacle.mesh) + ": parameters have no folder");
   }
-  const curtain::StartParams& start = scene.scene.hang.start;
-  if (start.file && start.file->find("://") == std::string::npos && start.file->front() != '/')
-    reading.problems.push_back(name + ": hang.start.file: must be " + kMeshPlaces + ", is " +
-                               curtain::quoted(*start.file) + ": parameters have no folder");
-  for (const curtain::ObstacleParams& obstacle : scene.scene.obstacles) {
-    if (start.over == obstacle.name && obstacle.frame != reading.node.world_frame)
-      reading.problems.push_back(name + ": hang.start.over: must be an obstacle of the frame '" +
-                                 reading.node.world_frame + "': where others are is known later");
-  }
+  checkStart(scene.scene, name, reading);
   // Motions are for offline runs. An obstacle on a frame of its own has tf2 instead; one in the world frame would stand
   // still without a word.
   for (curtain::ObstacleParams& obstacle : scene.scene.obstacles) {
@@ -255,6 +267,7 @@ std::vector<curtain::Problem> validate(const NodeParams& params) {
   curtain::ProblemLog log;
   Checker checker("", log);
   curtain::visitFields(checker, params);
+  checkDirection(params, log);
   return log.problems();
 }
 

@@ -12,6 +12,7 @@
 #include "ros/inputs/read_messages.h"
 #include "ros/services/control_services.h"
 #include "scene/ranges.h"
+#include "step/pin_moves.h"
 
 namespace curtain_ros {
 
@@ -69,7 +70,8 @@ bool Ties::tie(const Attach::Request& request, Attach::Response& response) {
   const std::string id = request.id.empty() ? request.frame : request.id;
   GraspGoal goal;
   curtain::GraspParams grasp;
-  response.message = toGoal(request, goal);
+  response.message = curtain::isPlace(toVec3(request.point)) ? toGoal(request, goal)
+                                                             : "point: must be 3 times " + curtain::anywhere().text();
   if (!response.message.empty()) return true;
   FollowedFrame frame(goal.frame, timeout_, "~grasp_timeout");
   const FollowedFrame::Standing standing = frame.update(around_.frames, around_.now(), 0.0);

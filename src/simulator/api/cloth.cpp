@@ -2,8 +2,10 @@
 //
 // Cloth that becomes another one while it moves. Much is worked out from its masses and rigidities as a simulator is
 // made, so another simulator is made, and goes on where this one is: nothing of the old cloth can be left in it.
+#include <new>
 #include <stdexcept>
 
+#include "cloth/archive.h"
 #include "curtain_sim/scene_yaml.h"
 #include "scene/scene_difference.h"
 #include "simulator/simulator_impl.h"
@@ -61,8 +63,12 @@ void Simulator::Impl::continueFrom(Impl& other) {
   motion.counts_work = other.motion.counts_work;
   motion.step.account().restore(other.motion.step.account().work());
   surface.shareTopology(other.surface);
+  transfer(other.motion.clock, motion.clock);
+  sleep.rest().countOn(other.sleep.rest().wakes());
+  if (errors && other.errors) transfer(*other.errors, *errors);
   keysChanged();
   pinsChanged();
+  motion.step.resume(motion.state);
   motion.measureState();
   motion.step.account().leaveOpen();
   if (errors) errors->lose();
@@ -84,6 +90,10 @@ std::vector<Problem> Simulator::setCloth(const ClothParams& cloth) {
     impl_ = std::move(next);
   } catch (const std::invalid_argument& error) {
     return {{"cloth", error.what()}};
+  } catch (const ArchiveError& error) {
+    return {{"cloth", std::string("can't change: the state is not sound: ") + error.what()}};
+  } catch (const std::bad_alloc&) {
+    return {{"cloth", "can't change: there is not enough memory"}};
   }
   return {};
 }

@@ -4,12 +4,32 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "contact/oracle/obstacle_distance.h"
 #include "contact/oracle/piercings.h"
 #include "simulator/simulator_impl.h"
 #include "simulator/start/laid_start.h"
 #include "simulator/start/start_file.h"
 
 namespace curtain {
+namespace {
+
+constexpr double kDepthTolerance = 1e-6;  // [m] of piercings
+
+// Cloth that is put into an obstacle would stay in it. Empty: it goes through none.
+std::string problemOfPiercings(const Simulator& simulator, const std::vector<ObstacleParams>& obstacles) {
+  for (int k = 0; k < simulator.obstacleCount(); ++k) {
+    const Piercings pierced = simulator.piercings(k, kDepthTolerance);
+    if (pierced.nodes + pierced.edges + pierced.faces > 0)
+      return "the cloth goes through the obstacle '" + obstacles[static_cast<std::size_t>(k)].name + "'";
+  }
+  return {};
+}
+
+[[noreturn]] void refuse(const std::string& key, const std::string& text) {
+  throw std::invalid_argument("hang.start." + key + ": " + text);
+}
+
+}  // namespace
 
 void Simulator::Impl::startAt(const std::vector<Vec3>& positions) {
   std::size_t from = 0;
@@ -20,37 +40,34 @@ void Simulator::Impl::startAt(const std::vector<Vec3>& positions) {
   reset();
 }
 
-void Simulator::Impl::startFrom(const std::string& file, const MeshResolver& resolve) {
-  const auto refuse = [](const std::string& text) { throw std::invalid_argument("hang.start.file: " + text); };
+void Simulator::startFrom(const std::string& file, const MeshResolver& resolve) {
+  Impl& im = *impl_;
+  std::string problem;
   try {
-    startAt(readStartFile(resolve(file), scene.cloth));
+    im.startAt(readStartFile(resolve(file), im.scene.cloth));
+    problem = problemOfStart(im.scene, im.pattern, im.motion.state.position);
   } catch (const std::invalid_argument& error) {
-    refuse(error.what());
+    refuse("file", error.what());
   }
-  const std::string problem = problemOfStart(scene, pattern, motion.state.position);
-  if (!problem.empty()) refuse(file + ": " + problem);
-  for (int k = 0; k < motion.obstacles.count(); ++k) {
-    const Piercings piercings = countPiercings(motion.obstacles.shape(k), Transform(motion.obstacles.reached(k)),
-                                               pattern.grid, motion.state.position, 1e-6);
-    if (piercings.nodes + piercings.edges + piercings.faces > 0)
-      refuse(file + ": the cloth goes through the obstacle '" + scene.obstacles[static_cast<std::size_t>(k)].name +
-             "'");
-  }
+  if (problem.empty()) problem = problemOfPiercings(*this, im.scene.obstacles);
+  if (!problem.empty()) refuse("file", file + ": " + problem);
 }
 
-void Simulator::Impl::startOver(const std::string& obstacle, const MeshResolver& resolve) {
-  const auto found = std::find_if(scene.obstacles.begin(), scene.obstacles.end(),
-                                  [&](const ObstacleParams& params) { return params.name == obstacle; });
-  const auto number = static_cast<int>(found - scene.obstacles.begin());
-  const Eigen::AlignedBox3d bounds = motion.obstacles.shape(number).bounds();
-  const Transform place(motion.obstacles.reached(number));
-  Eigen::AlignedBox3d box(bounds.min(), bounds.max());
-  if (bounds.sizes().allFinite()) {
-    const Vec3 half = place.rotation.cwiseAbs() * (0.5 * bounds.sizes());
-    box = {place.toWorld(bounds.center()) - half, place.toWorld(bounds.center()) + half};
-  }
-  Simulator resting(settlingScene(scene, box), resolve);
-  startAt(layOver(resting));
+void Simulator::startOver(const std::string& name, const MeshResolver& resolve) {
+  Impl& im = *impl_;
+  const std::vector<ObstacleParams>& all = im.scene.obstacles;
+  const auto is_it = [&](const ObstacleParams& params) { return params.name == name; };
+  const auto number = static_cast<int>(std::find_if(all.begin(), all.end(), is_it) - all.begin());
+  Scene settling = settlingScene(im.scene, im.motion.obstacles, number);
+  Simulator resting(settling, resolve);
+  std::string problem = problemOfPiercings(resting, all);
+  if (!problem.empty()) refuse("over", problem + " where it is spread out, just above '" + name + "'");
+  im.startAt(layOver(resting));
+  problem = problemOfPiercings(*this, all);
+  // No resting cloth is further from what it rests on than contact keeps it.
+  const double farthest = 2.0 * im.scene.contact.thickness + all[static_cast<std::size_t>(number)].padding;
+  if (problem.empty() && !(obstacleDistance(number).distance <= farthest)) problem = "the cloth slides off it";
+  if (!problem.empty()) refuse("over", problem);
 }
 
 }  // namespace curtain
