@@ -135,6 +135,7 @@ TEST(Template, DocumentsTheNodeParameters) {
                                           "obstacle_timeout",
                                           "state_rate",
                                           "state_rest_rate",
+                                          "summary_from",
                                           "watch_roscpp",
                                           "mesh_rate",
                                           "mesh_tolerance",
