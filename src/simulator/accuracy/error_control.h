@@ -35,6 +35,8 @@ class ErrorControl {
     estimate_.setFrameLength(motion_.times.length());
     lose();
   }
+  /// What has been learnt of the error, to be gone on with.
+  ErrorEstimate& estimate() noexcept { return estimate_; }
   void serialize(Archive& archive);
 
  private:

@@ -65,7 +65,7 @@ void Simulator::Impl::continueFrom(Impl& other) {
   surface.shareTopology(other.surface);
   transfer(other.motion.clock, motion.clock);
   sleep.rest().countOn(other.sleep.rest().wakes());
-  if (errors && other.errors) transfer(*other.errors, *errors);
+  if (errors && other.errors) transfer(other.errors->estimate(), errors->estimate());
   keysChanged();
   pinsChanged();
   motion.step.resume(motion.state);
