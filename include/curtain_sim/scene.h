@@ -421,21 +421,20 @@ struct SolverParams {
 
 /// Everything a simulator starts from.
 struct Scene {
-  ClothParams cloth;                     ///< grid, size and mass
-  HangParams hang;                       ///< start position
-  HemParams hem;                         ///< weights along the bottom row
-  PinParams pins;                        ///< pinned nodes; on a rail kTop pins none
-  RailParams rail;                       ///< the top edge slides on it, or there is none
-  std::vector<LineParams> lines;         ///< unique ids
-  std::vector<TieBackParams> tie_back;   ///< unique ids
-  Vec3 gravity = Vec3(0.0, 0.0, -9.81);  ///< [m/s^2]
-  AirParams air;                         ///< damping, or the law of the relative velocity
-  AmbientParams ambient;                 ///< the wind everywhere
-  std::vector<WindParams> wind;          ///< unique ids
-  std::vector<DragParams> drag;          ///< unique ids
-  std::vector<HandParams> hands;         ///< unique ids
-  /// Poses of a frame that the scene's pins move with, from where they are at time 0.
-  std::vector<PoseKey> pins_motion;
+  ClothParams cloth;                      ///< grid, size and mass
+  HangParams hang;                        ///< start position
+  HemParams hem;                          ///< weights along the bottom row
+  PinParams pins;                         ///< pinned nodes; on a rail kTop pins none
+  RailParams rail;                        ///< the top edge slides on it, or there is none
+  std::vector<LineParams> lines;          ///< unique ids
+  std::vector<TieBackParams> tie_back;    ///< unique ids
+  Vec3 gravity = Vec3(0.0, 0.0, -9.81);   ///< [m/s^2]
+  AirParams air;                          ///< damping, or the law of the relative velocity
+  AmbientParams ambient;                  ///< the wind everywhere
+  std::vector<WindParams> wind;           ///< unique ids
+  std::vector<DragParams> drag;           ///< unique ids
+  std::vector<HandParams> hands;          ///< unique ids
+  std::vector<PoseKey> pins_motion;       ///< of a frame that the pins move with, from where they are at time 0
   std::vector<ObstacleParams> obstacles;  ///< unique names
   ContactParams contact;                  ///< of cloth with obstacles and itself
   SolverParams solver;                    ///< how motion is computed
