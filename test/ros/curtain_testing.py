@@ -31,6 +31,12 @@ def wait_until(condition, what, patience=PATIENCE):
         time.sleep(0.005)
 
 
+def service(node, name, kind):
+    """Calls a service of a node, over one connection."""
+    rospy.wait_for_service(node + "/" + name, PATIENCE)
+    return rospy.ServiceProxy(node + "/" + name, kind, persistent=True)
+
+
 class Listener:
     """Keeps what arrives on a topic."""
 

@@ -13,7 +13,7 @@ import rospy
 import rostest
 from curtain_sim.msg import DragForce
 from curtain_sim.srv import Load, Save, Step
-from curtain_testing import OK, Curtain, Diagnostics, Listener, assert_stream_is_sound, publisher, wait_until
+from curtain_testing import OK, Curtain, Diagnostics, Listener, assert_stream_is_sound, publisher, service, wait_until
 from geometry_msgs.msg import TransformStamped
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Image
@@ -24,19 +24,14 @@ NODE = "/curtain/curtain_node"
 ORIGIN = 1.0  # s, that the clock begins at
 
 
-def proxy(name, kind):
-    rospy.wait_for_service(NODE + "/" + name, 20.0)
-    return rospy.ServiceProxy(NODE + "/" + name, kind, persistent=True)
-
-
 class LockStepTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         rospy.init_node("learner")
         cls.ticks = Listener("/clock", Clock)
         cls.curtain = Curtain(NODE)
-        cls.step, cls.reset = proxy("step", Step), proxy("reset", Trigger)
-        cls.pause = proxy("pause", SetBool)
+        cls.step, cls.reset = service(NODE, "step", Step), service(NODE, "reset", Trigger)
+        cls.pause = service(NODE, "pause", SetBool)
         wait_until(lambda: cls.curtain._subscriber.get_num_connections() > 0, "the node is there")
 
     def good(self, answer):
@@ -100,13 +95,13 @@ class LockStepTest(unittest.TestCase):
     def test_5_reset_and_load_begin_a_run_but_the_clock_goes_on(self):
         path = os.path.join(tempfile.mkdtemp(), "state")
         before, first = self.stepped(1)
-        self.good(proxy("save", Save)(path))
+        self.good(service(NODE, "save", Save)(path))
         _, later = self.stepped(20)
         self.good(self.reset())
         answer, state = self.stepped(1)
         self.assertEqual((answer.frame, state.statistics.frame), (1, 1))
         self.assertAlmostEqual((answer.stamp - later.header.stamp).to_sec(), 1 / 60.0, delta=2e-9)
-        self.good(proxy("load", Load)(path))
+        self.good(service(NODE, "load", Load)(path))
         answer, again = self.stepped(20)
         self.assertEqual(again.positions, later.positions, "the same motion")
         self.assertEqual(answer.frame, before.frame + 20)

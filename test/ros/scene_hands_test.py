@@ -10,17 +10,12 @@ import numpy
 import rospy
 import rostest
 from curtain_sim.srv import Load, Save, Step
-from curtain_testing import Curtain, Listener, node_position, wait_until
+from curtain_testing import Curtain, Listener, node_position, service, wait_until
 from rosgraph_msgs.msg import Log
 from std_srvs.srv import Trigger
 
 NODE = "/curtain/curtain_node"
 COLUMNS = 8
-
-
-def proxy(name, kind):
-    rospy.wait_for_service(NODE + "/" + name, 20.0)
-    return rospy.ServiceProxy(NODE + "/" + name, kind, persistent=True)
 
 
 class SceneHandsTest(unittest.TestCase):
@@ -29,7 +24,7 @@ class SceneHandsTest(unittest.TestCase):
         rospy.init_node("scene_hands_test")
         cls.log = Listener("/rosout", Log)
         cls.curtain = Curtain(NODE)
-        cls.step, cls.reset = proxy("step", Step), proxy("reset", Trigger)
+        cls.step, cls.reset = service(NODE, "step", Step), service(NODE, "reset", Trigger)
         wait_until(lambda: cls.curtain._subscriber.get_num_connections() > 0, "the node is there")
 
     def stepped(self, frames):
@@ -51,10 +46,10 @@ class SceneHandsTest(unittest.TestCase):
     def test_2_go_on_from_a_snapshot(self):
         path = os.path.join(tempfile.mkdtemp(), "state")
         self.stepped(48)  # 0.8 s: the hand is on its way
-        self.assertTrue(proxy("save", Save)(path).success)
+        self.assertTrue(service(NODE, "save", Save)(path).success)
         later = self.stepped(20)
         self.assertTrue(self.reset().success)
-        answer = proxy("load", Load)(path)
+        answer = service(NODE, "load", Load)(path)
         self.assertTrue(answer.success, answer.message)
         self.assertEqual(self.stepped(20).positions, later.positions, "the same motion")
 

@@ -8,7 +8,7 @@ import numpy
 import rospy
 import rostest
 from curtain_sim.srv import Attach, AttachRequest, Detach, Step
-from curtain_testing import Curtain, node_position, wait_until
+from curtain_testing import Curtain, node_position, service, wait_until
 from geometry_msgs.msg import Point, TransformStamped, Vector3
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
@@ -17,19 +17,14 @@ NODE = "/curtain/curtain_node"
 CORNER = numpy.array([0.7, 0.0, 1.1])  # where node [9, 7] starts
 
 
-def proxy(name, kind):
-    rospy.wait_for_service(NODE + "/" + name, 20.0)
-    return rospy.ServiceProxy(NODE + "/" + name, kind, persistent=True)
-
-
 class TiesTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         rospy.init_node("ties_test")
         cls.transforms = rospy.Publisher("/tf", TFMessage, queue_size=10)  # nobody listens until a tie asks for it
         cls.curtain = Curtain(NODE)
-        cls.step, cls.reset = proxy("step", Step), proxy("reset", Trigger)
-        cls.attach, cls.detach = proxy("attach", Attach), proxy("detach", Detach)
+        cls.step, cls.reset = service(NODE, "step", Step), service(NODE, "reset", Trigger)
+        cls.attach, cls.detach = service(NODE, "attach", Attach), service(NODE, "detach", Detach)
         wait_until(lambda: cls.curtain._subscriber.get_num_connections() > 0, "the node is there")
 
     def setUp(self):

@@ -67,6 +67,12 @@ std::string tableOf(const Simulator& simulator) {
   return table.str();
 }
 
+Scene startedAt(const std::string& file, Scene scene) {
+  scene.hang.start = {};
+  scene.hang.start.file = file;
+  return scene;
+}
+
 // It lies on the thing and stays there: what moves in two seconds is less than a link.
 TEST(StartsElsewhere, LaidOverSomethingStaysThere) {
   for (const ShapeKind shape : {ShapeKind::kSphere, ShapeKind::kBox, ShapeKind::kCapsule, ShapeKind::kPlane}) {
@@ -98,24 +104,27 @@ TEST(StartsElsewhere, FromATableItsNodesAreThoseOfTheTable) {
   run(laid, 5);
   const std::string late = tableOf(laid);
   const StartFile file("nodes.csv", early + late.substr(late.find('\n') + 1));  // of two times the last
-  Scene scene = laid.scene();
-  scene.hang.start.over.reset();
-  scene.hang.start.file = file.path();
-  Simulator simulator(scene);
+  Simulator simulator(startedAt(file.path(), laid.scene()));
   std::vector<Vec3> wanted, got;
   laid.copyPositions(wanted);
   simulator.copyPositions(got);
   EXPECT_EQ(wanted, got);  // 17 digits
 }
 
+TEST(StartsElsewhere, FromATableThatWasWrittenOnWindows) {
+  const Scene scene = flatScene(3, 3, 0.2, 0.2);
+  std::string text;
+  for (const char letter : tableOf(Simulator(scene)))
+    text += letter == '\n' ? std::string("\r\n") : std::string(1, letter);
+  const StartFile file("nodes.csv", text);
+  EXPECT_EQ(Simulator(startedAt(file.path(), scene)).position({2, 2}), Simulator(scene).position({2, 2}));
+}
+
 TEST(StartsElsewhere, FromAMeshItsNodesAreThoseOfTheFirstLayer) {
   Simulator laid(laidOver(ShapeKind::kBox));
   const StartFile file("mesh.ply");
   writeMesh(laid, file.path());
-  Scene scene = laid.scene();
-  scene.hang.start.over.reset();
-  scene.hang.start.file = file.path();
-  Simulator simulator(scene);
+  Simulator simulator(startedAt(file.path(), laid.scene()));
   std::vector<Vec3> wanted, got;
   laid.copyPositions(wanted);
   simulator.copyPositions(got);
@@ -154,6 +163,7 @@ TEST(StartsElsewhere, WhatIsWrongWithAFileIsSaid) {
   refused("nodes.csv", good.substr(0, good.rfind("0,2,2,")), "has no [2, 2]");
   refused("nodes.csv", with("0,2,2,", "0,2,2,9,"), "must have 9 fields, has 10");
   refused("nodes.csv", good + "0,2,2,nan,0,0,0,0,0\n", "must be a number");
+  refused("nodes.csv", good + "0,2,2,0.2m,0,0,0,0,0\n", "must be a number, is '0.2m'");
   refused("nodes.csv", good + "0,2,2,5,0,0,0,0,0\n", "m long, is");
   refused("mesh.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 9\nend_header\n", "must be an ASCII PLY");
   refused("mesh.ply", "ply\nformat ascii 1.0\nelement vertex 8\nend_header\n", "must have 9 vertices");

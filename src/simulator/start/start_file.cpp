@@ -22,6 +22,13 @@ constexpr double kUnset = std::numeric_limits<double>::quiet_NaN();
 
 [[noreturn]] void fail(const std::string& text) { throw std::invalid_argument(text); }
 
+// Without the carriage return of files that were written elsewhere.
+bool readLine(std::istream& in, std::string& line) {
+  if (!std::getline(in, line)) return false;
+  if (!line.empty() && line.back() == '\r') line.pop_back();
+  return true;
+}
+
 std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> fields;
   std::istringstream in(line);
@@ -32,7 +39,7 @@ std::vector<std::string> split(const std::string& line) {
 double numberIn(const std::string& text, const std::string& where) {
   std::istringstream in(text);
   double value = 0.0;
-  if (!(in >> value) || !anywhere().contains(value))
+  if (!(in >> value) || in.peek() != std::istringstream::traits_type::eof() || !anywhere().contains(value))
     fail(where + ": must be a number, is '" + text.substr(0, 40) + "'");
   return value;
 }
@@ -40,7 +47,7 @@ double numberIn(const std::string& text, const std::string& where) {
 // A table with the columns row, column, x, y and z, among others. What comes later counts.
 std::vector<Vec3> readTable(std::istream& in, const ClothParams& cloth) {
   std::string line;
-  std::getline(in, line);
+  readLine(in, line);
   const std::vector<std::string> header = split(line);
   const auto columnOf = [&](const char* name) {
     const auto found = std::find(header.begin(), header.end(), name);
@@ -52,7 +59,7 @@ std::vector<Vec3> readTable(std::istream& in, const ClothParams& cloth) {
                     z = columnOf("z");
   std::vector<Vec3> nodes(static_cast<std::size_t>(cloth.rows) * static_cast<std::size_t>(cloth.columns),
                           Vec3::Constant(kUnset));
-  for (int number = 2; std::getline(in, line); ++number) {
+  for (int number = 2; readLine(in, line); ++number) {
     if (line.empty()) continue;
     const std::string where = "line " + std::to_string(number);
     const std::vector<std::string> fields = split(line);
@@ -79,7 +86,7 @@ std::vector<Vec3> readMesh(std::istream& in, const ClothParams& cloth) {
   std::string line, word;
   long vertices = -1;
   bool ascii = false;
-  while (std::getline(in, line) && line.rfind("end_header", 0) != 0) {
+  while (readLine(in, line) && line.rfind("end_header", 0) != 0) {
     std::istringstream fields(line);
     fields >> word;
     if (word == "format") {
@@ -98,7 +105,7 @@ std::vector<Vec3> readMesh(std::istream& in, const ClothParams& cloth) {
          ", as the fine mesh of this cloth, has " + std::to_string(vertices));
   const long step = vertices == all ? topology.folds : 1, width = vertices == all ? topology.columns : cloth.columns;
   std::vector<Vec3> nodes;
-  for (long n = 0; n < vertices && std::getline(in, line); ++n) {
+  for (long n = 0; n < vertices && readLine(in, line); ++n) {
     if ((n % width) % step != 0) continue;
     std::istringstream fields(line);
     std::string x, y, z;
