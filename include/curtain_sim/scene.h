@@ -403,6 +403,32 @@ enum class Method {
   kPaper       ///< Cheng 2000, Sect. 3: one explicit pass, rods rebuilt to their length; order 1, wefts give way
 };
 
+/// Air drag of a further cloth; density, law, threshold and fast_gain are those of AirParams.
+struct LayerAirParams {
+  double inside = 0.0;            ///< as AirParams has them, each
+  double border = 0.0;            ///< as above
+  double corner = 0.0;            ///< as above
+  double normal_drag = 1.2;       ///< as above
+  double tangential_drag = 0.02;  ///< as above
+};
+
+/// Name of the first cloth beside those of its layers.
+constexpr const char* kFirstCloth = "cloth";
+
+/// A further cloth in the same world. It touches the first and all others where contact.self is true.
+///
+/// Its columns are counted on after those before it: nodes of lines, tie-backs, drags and hands are [row, column] with
+/// such columns, and so are all results. Pins, slits and carriers are of its own columns.
+struct LayerParams {
+  std::string name;    ///< unique among the layers, not "cloth": letters, digits and _, a letter first
+  ClothParams cloth;   ///< as many rows and folds as the first has; not closed
+  HangParams hang;     ///< where it starts; start.file is the first's alone, of all nodes
+  HemParams hem;       ///< weights along its bottom row
+  PinParams pins;      ///< its pinned nodes
+  RailParams rail;     ///< its own
+  LayerAirParams air;  ///< its own
+};
+
 /// How motion is computed.
 struct SolverParams {
   Method method = Method::kAuto;    ///< time integration scheme
@@ -437,8 +463,13 @@ struct Scene {
   std::vector<PoseKey> pins_motion;       ///< of a frame that the pins move with, from where they are at time 0
   std::vector<ObstacleParams> obstacles;  ///< unique names
   ContactParams contact;                  ///< of cloth with obstacles and itself
+  std::vector<LayerParams> layers;        ///< unique names; further cloths beside the first
   SolverParams solver;                    ///< how motion is computed
 };
+
+/// The grid that all cloths of a scene have together: the first's parameters, with the columns and slits of all, and a
+/// slit between neighbours. Without layers: the scene's cloth.
+ClothParams wholeCloth(const Scene& scene);
 
 /// Everything wrong with the scene's values; empty when it can be simulated. Does not open mesh files.
 std::vector<Problem> validate(const Scene& scene);
@@ -457,6 +488,8 @@ std::vector<Problem> validate(const ContactParams& contact, const std::string& k
 /// (docs/materials.md); the coefficients of Eq. (4) unless air.law, to be set first, is relative. kNone changes nothing
 /// but the name. A scene file's other keys come after it.
 void applyMaterial(Material material, Scene& scene);
+/// The same for a layer of the scene, but for friction and thickness, which are of all contact.
+void applyMaterial(Material material, const Scene& scene, LayerParams& layer);
 
 /// Names of the methods as scene files and --method spell them, in the order of the enum.
 const std::vector<std::string>& methodNames();

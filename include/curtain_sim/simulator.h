@@ -127,21 +127,34 @@ class Simulator {
   /// nothing changed. The time stays.
   std::vector<Problem> setState(const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities);
 
+  /// A cloth of the scene and its columns, [first_column, first_column + columns) of all.
+  struct LayerColumns {
+    std::string name;  ///< kFirstCloth, or LayerParams::name
+    int first_column = 0, columns = 0;
+  };
+  /// All cloths, in the order of their columns.
+  std::vector<LayerColumns> layers() const;
+
+  // Of rails, `layer` says whose: kFirstCloth, or the name of a layer.
+
   /// Draws the master carriers of the rail to an opening, 0 (shut) to 1 (gathered as far as the gaps allow), by the
   /// drive: not faster than its speed, not harder than its force. Arrived, it keeps them there. Returns what is wrong:
   /// no rail, not in [0, 1]; then nothing changed.
-  std::vector<Problem> setOpening(double opening);
+  std::vector<Problem> setOpening(double opening, const std::string& layer = kFirstCloth);
+  /// Present place of the master carriers, as rail.opening; 0 without a rail.
+  double opening(const std::string& layer = kFirstCloth) const;
   /// The drive lets go: carriers slide freely, as before the first setOpening().
-  void releaseDrive();
-  /// Changes the drive's speed and force, until reset(). Returns what is wrong with them; then nothing changed.
-  std::vector<Problem> setDrive(const DriveParams& drive);
-  /// Nodes that hang by carriers, in the order of the rail; none: there is no rail.
+  void releaseDrive(const std::string& layer = kFirstCloth);
+  /// Changes the drive's speed and force, until reset(). Returns what is wrong; then nothing changed.
+  std::vector<Problem> setDrive(const DriveParams& drive, const std::string& layer = kFirstCloth);
+  /// Nodes that hang by carriers of any rail, in the order of their columns; none: there is no rail.
   std::vector<NodeIndex> carriers() const;
   /// Points along the rail, from its beginning to its end, evenly, no further apart than spacing > 0 [m], in a million
-  /// parts at most.
-  std::vector<Vec3> railPoints(double spacing) const;
-  bool drives() const;               ///< the drive has not let go
-  const DriveParams& drive() const;  ///< the present one
+  /// parts at most. Empty: there is no rail.
+  std::vector<Vec3> railPoints(double spacing, const std::string& layer = kFirstCloth) const;
+  bool drives(const std::string& layer = kFirstCloth) const;  ///< its rail's drive has not let go
+  /// The present drive of its rail, or of the scene where there is none.
+  const DriveParams& drive(const std::string& layer = kFirstCloth) const;
 
   /// Moves a pinned node to this point [m], evenly over the next step; there it stays. False: it is not pinned, a hand
   /// holds it, or the point is not finite.

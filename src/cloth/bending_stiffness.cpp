@@ -55,18 +55,26 @@ class Neighbours {
 
 }  // namespace
 
-void fillBending(const ClothParams& cloth, ClothPattern& pattern) {
+void fillBending(const Layers& layers, ClothPattern& pattern) {
   const Grid& grid = pattern.grid;
   const Neighbours neighbours(pattern);
-  pattern.warp_bending.assign(cloth.bending_warp > 0.0 ? grid.size() : 0, 0.0);
-  pattern.weft_bending.assign(cloth.bending_weft > 0.0 ? grid.size() : 0, 0.0);
-  for (int i = 0; i < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j) {
-      const std::size_t n = grid.index(i, j);
-      if (cloth.bending_warp > 0.0)
-        pattern.warp_bending[n] = stiffnessOf(neighbours.alongWarp(i, j), cloth.bending_warp);
-      if (cloth.bending_weft > 0.0)
-        pattern.weft_bending[n] = stiffnessOf(neighbours.alongWeft(i, j), cloth.bending_weft);
+  bool warp = false, weft = false;
+  for (const Layers::Layer& layer : layers) {
+    warp = warp || layer.cloth->bending_warp > 0.0;
+    weft = weft || layer.cloth->bending_weft > 0.0;
+  }
+  pattern.warp_bending.assign(warp ? grid.size() : 0, 0.0);
+  pattern.weft_bending.assign(weft ? grid.size() : 0, 0.0);
+  for (const Layers::Layer& layer : layers) {
+    const ClothParams& cloth = *layer.cloth;
+    for (int i = 0; i < grid.rows; ++i) {
+      for (int j = layer.first; j < layer.end; ++j) {
+        const std::size_t n = grid.index(i, j);
+        if (cloth.bending_warp > 0.0)
+          pattern.warp_bending[n] = stiffnessOf(neighbours.alongWarp(i, j), cloth.bending_warp);
+        if (cloth.bending_weft > 0.0)
+          pattern.weft_bending[n] = stiffnessOf(neighbours.alongWeft(i, j), cloth.bending_weft);
+      }
     }
   }
 }

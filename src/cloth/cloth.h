@@ -10,6 +10,7 @@
 #include "cloth/cords.h"
 #include "cloth/field.h"
 #include "curtain_sim/scene.h"
+#include "scene/layers.h"
 #include "scene/rail_layout.h"
 #include "scene/rail_path.h"
 
@@ -25,8 +26,9 @@ enum : std::uint8_t {
   kHeld = 3,  ///< links keep it where a part moves it: it has no inertia in a solve, but is no pin for what touches it
 };
 
-/// Carriers of the cloth, which are nodes of the top row, in their order on the rail; none: there is no rail.
+/// A rail and its carriers, which are nodes of the top row, in their order on it.
 struct RailPattern {
+  std::size_t layer = 0;  ///< of the scene's cloths (Layers)
   RailPath path;
   RailLayout layout;
   std::vector<int> columns;
@@ -35,7 +37,6 @@ struct RailPattern {
   double gap = 0.0;                    ///< least distance of neighbours [m]
 
   std::size_t size() const { return columns.size(); }
-  bool empty() const { return columns.empty(); }
 };
 
 /// The part of a cloth that does not move. Constant but for what follows from its pins (pinBeside()).
@@ -52,7 +53,7 @@ struct ClothPattern {
   std::vector<std::uint8_t> pinned;
   std::vector<std::uint8_t> scene_pins;  ///< the same without what parts pin beside it; constant
   std::vector<std::size_t> guided;       ///< nodes that are kGuided, in order
-  RailPattern rail;
+  std::vector<RailPattern> rails;        ///< in the order of their columns
   CordsPattern cords;
   /// Bending stiffness of the warp line through the node, and of the weft line [N m]: E = k (1 - cos(turn)) for the
   /// turn between the node's two links. 0 at the lines' ends, and where both links are held fast. Empty: limp.
@@ -60,8 +61,10 @@ struct ClothPattern {
   /// Turn of the line at the node where nothing bends it [rad], within (-pi/2, pi/2): of the warp about the weft's
   /// direction there, of the weft about the warp's. Empty: straight.
   Field warp_rest_turn, weft_rest_turn;
-  Field warp_coordinate;  ///< of each row, length along the warp from the hung edge [m], shape [rows]
-  Field weft_coordinate;  ///< of each column, length along the weft of the top row [m], shape [columns]
+  Field warp_coordinate;  ///< of each node, length along its warp from the hung edge [m]
+  Field weft_coordinate;  ///< of each column, length along the weft of the top row [m], shape [columns]; counted on
+                          ///< from cloth to cloth, a link apart
+  std::vector<int> layer;  ///< of each column, the number of its cloth (Layers), shape [columns]
 
   /// Whether there is a node, or an end, at an index of a Field.
   bool isThere(std::size_t n) const { return mass[n] > 0.0 || pinned[n] != kFree; }
@@ -75,14 +78,14 @@ struct ClothState {
   Field3 position;            ///< [m]
   Field3 velocity;            ///< [m/s], at the time of the positions minus velocity_age
   double velocity_age = 0.0;  ///< [s], >= 0 between substeps
-  std::vector<double> place;  ///< of the carriers along the rail [m]; their velocity is along it
+  std::vector<double> place;  ///< of all carriers along their rails [m]; their velocity is along them
   std::vector<double> reach;  ///< of the tie-backs: how far from its point a closed one lets its nodes be [m]
 
   void serialize(Archive& archive);
 };
 
 /// The stiffness of either direction's lines from the bending rigidities [N m] (ClothPattern::warp_bending).
-void fillBending(const ClothParams& cloth, ClothPattern& pattern);
+void fillBending(const Layers& layers, ClothPattern& pattern);
 
 /// Lengths that a joint's turn stands for, of either direction's lines [m], shapes [grid.size()]; its stiffness is
 /// rigidity width / length.
@@ -91,10 +94,12 @@ void fillTurningLengths(const ClothPattern& pattern, Field& warp, Field& weft) n
 /// Pins these nodes beside those of the scene, and frees all others; inverse masses and bending follow. Whoever keeps
 /// something that depends on them must update it: Simulator::Impl::pinsChanged() tells all of them.
 ///   held  by node, kFree or how it is held; read where scene_pins has kFree
-void pinBeside(const std::vector<std::uint8_t>& held, const ClothParams& cloth, ClothPattern& pattern) noexcept;
+void pinBeside(const std::vector<std::uint8_t>& held, const Layers& layers, ClothPattern& pattern) noexcept;
 
 /// Rest lengths, masses, pins and bending of a validated scene.
 ClothPattern makePattern(const Scene& scene);
+/// Of one cloth, of a scene that has no other, without bending and cords.
+ClothPattern makeLayerPattern(const Scene& scene);
 /// Its shape, with the slits.
 Grid makeGrid(const ClothParams& cloth);
 
@@ -104,8 +109,8 @@ ClothState makeInitialState(const Scene& scene, const ClothPattern& pattern);
 /// Places the nodes of the cloth at the start, but not the ends of its cords.
 void placeCloth(const Scene& scene, const ClothPattern& pattern, Field3& position);
 
-/// Positions of cloth on a rail, with its carriers at these places [m]. hangs_through: between carriers the top row
-/// stands out and hangs through, by the length that it has; else it is straight there, its links shorter.
+/// Positions of one cloth on its rail, with its carriers at these places [m]. hangs_through: between carriers the top
+/// row stands out and hangs through, by the length that it has; else it is straight there, its links shorter.
 void placeOnRail(const ClothPattern& pattern, const std::vector<double>& places, bool hangs_through, Field3& position);
 
 /// Calls visit(node, other, rest length [m], is a rod) for every link, row by row; it is stored at `node`.

@@ -60,8 +60,8 @@ void forEachPinAbove(const TieBackParams& loop, const ClothPattern& pattern, con
   for (int j = loop.first_column; j <= loop.last_column; ++j) {
     for (int i = 0; i < pattern.grid.rows; ++i) {
       if (!pattern.isPinned({i, j})) continue;
-      const double rods = std::abs(pattern.warp_coordinate[static_cast<std::size_t>(loop.row)] -
-                                   pattern.warp_coordinate[static_cast<std::size_t>(i)]);
+      const double rods = std::abs(pattern.warp_coordinate[pattern.grid.index(loop.row, j)] -
+                                   pattern.warp_coordinate[pattern.grid.index(i, j)]);
       if (visit(NodeIndex{i, j}, rods, (loop.point - position.at(pattern.grid.index(i, j))).norm())) return;
     }
   }

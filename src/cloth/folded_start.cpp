@@ -57,7 +57,7 @@ class FoldedStart {
     return pattern_.weft_coordinate[static_cast<std::size_t>(column(unwrapped))] +
            scene_.cloth.width * (unwrapped / grid_.columns);
   }
-  double depth(int row) const { return pattern_.warp_coordinate[static_cast<std::size_t>(row)]; }
+  double depth(int row) const { return pattern_.warp_coordinate[grid_.index(row, 0)]; }
   Vec3 course(int row, int unwrapped) const { return inPlan(plain_.at(at(row, unwrapped))); }
   Vec3 inPlan(const Vec3& point) const { return point - point.dot(down_) * down_; }
   double weightOf(double mass) const { return mass * scene_.gravity.dot(down_); }

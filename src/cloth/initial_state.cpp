@@ -65,7 +65,7 @@ void placeFlat(const Scene& scene, const ClothPattern& pattern, Field3& position
     double down = 0.0;
     double last_across = 0.0;
     for (int i = 0; i < grid.rows; ++i) {
-      const double depth = pattern.warp_coordinate[static_cast<std::size_t>(i)] / scene.cloth.height;
+      const double depth = pattern.warp_coordinate[grid.index(i, j)] / scene.cloth.height;
       const double across = share * std::min(span, narrower * rowWidth(scene.cloth, depth));
       if (i > 0) {
         const double rest = pattern.warp_rest[grid.index(i, j)];
@@ -92,7 +92,7 @@ void placePleated(const Scene& scene, const ClothPattern& pattern, Field3& posit
       top += links[link] * (std::cos(angles[link]) * frame.along + std::sin(angles[link]) * across);
     }
     for (int i = 0; i < grid.rows; ++i)
-      position.set(grid.index(i, j), top + pattern.warp_coordinate[static_cast<std::size_t>(i)] * frame.down);
+      position.set(grid.index(i, j), top + pattern.warp_coordinate[grid.index(i, j)] * frame.down);
   }
 }
 
@@ -101,7 +101,7 @@ void placeRing(const Scene& scene, const ClothPattern& pattern, Field3& position
   const Grid& grid = pattern.grid;
   const double radius = hungRadius(scene);
   for (int i = 0; i < grid.rows; ++i) {
-    const double along = pattern.warp_coordinate[static_cast<std::size_t>(i)];
+    const double along = pattern.warp_coordinate[grid.index(i, 0)];
     const double ring = radius + along * std::sin(scene.hang.tilt);
     const double height = -along * std::cos(scene.hang.tilt);
     for (int j = 0; j < grid.columns; ++j) {
@@ -111,12 +111,11 @@ void placeRing(const Scene& scene, const ClothPattern& pattern, Field3& position
   }
 }
 
-}  // namespace
-
-void placeCloth(const Scene& scene, const ClothPattern& pattern, Field3& position) {
-  const bool on_rail = !pattern.rail.empty(), folds = weftsPush(scene.cloth);
+// One cloth, of a scene that has no other.
+void placeLayer(const Scene& scene, const ClothPattern& pattern, Field3& position) {
+  const bool on_rail = !pattern.rails.empty(), folds = weftsPush(scene.cloth);
   if (on_rail) {
-    placeOnRail(pattern, pattern.rail.layout.placesFor(scene.rail.opening), !folds, position);
+    placeOnRail(pattern, pattern.rails.front().layout.placesFor(scene.rail.opening), !folds, position);
   } else if (scene.cloth.closed) {
     placeRing(scene, pattern, position);
   } else if (isPleated(scene.hang)) {
@@ -130,12 +129,33 @@ void placeCloth(const Scene& scene, const ClothPattern& pattern, Field3& positio
             position);
 }
 
+}  // namespace
+
+void placeCloth(const Scene& scene, const ClothPattern& pattern, Field3& position) {
+  const Layers layers(scene);
+  for (std::size_t k = 0; k < layers.size(); ++k) {
+    const Scene one = layerScene(scene, k);
+    const ClothPattern own = makeLayerPattern(one);
+    Field3 placed;
+    placed.assign(own.grid.size(), 0.0);
+    placeLayer(one, own, placed);
+    for (int i = 0; i < own.grid.rows; ++i) {
+      for (int j = 0; j < own.grid.columns; ++j)
+        position.set(pattern.grid.index(i, layers[k].first + j), placed.at(own.grid.index(i, j)));
+    }
+  }
+}
+
 ClothState makeInitialState(const Scene& scene, const ClothPattern& pattern) {
   const Grid& grid = pattern.grid;
   ClothState state;
   state.position.assign(grid.size(), 0.0);
   state.velocity.assign(grid.size(), 0.0);
-  if (!pattern.rail.empty()) state.place = pattern.rail.layout.placesFor(scene.rail.opening);
+  for (const RailPattern& rail : pattern.rails) {
+    const RailParams& params = rail.layer == 0 ? scene.rail : scene.layers[rail.layer - 1].rail;
+    const std::vector<double> places = rail.layout.placesFor(params.opening);
+    state.place.insert(state.place.end(), places.begin(), places.end());
+  }
   placeCloth(scene, pattern, state.position);
   for (const CordEnd& end : pattern.cords.ends) state.position.set(end.node, end.start);
   for (std::size_t k = 0; k < pattern.cords.loops.size(); ++k)

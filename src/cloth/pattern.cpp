@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "cloth/cloth.h"
 #include "scene/heading.h"
@@ -17,14 +18,15 @@ double factor(const std::vector<double>& factors, int i) {
 void fillRestLengths(const ClothParams& cloth, ClothPattern& pattern) {
   const Grid& grid = pattern.grid;
   const std::vector<double> rods = shareOut(cloth.height, cloth.row_spacing, grid.rows - 1);
-  pattern.warp_coordinate.assign(static_cast<std::size_t>(grid.rows), 0.0);
   for (int i = 1; i < grid.rows; ++i) {
-    const auto row = static_cast<std::size_t>(i);
-    pattern.warp_coordinate[row] = pattern.warp_coordinate[row - 1] + rods[row - 1];
-    for (int j = 0; j < grid.columns; ++j) pattern.warp_rest[grid.index(i, j)] = rods[row - 1];
+    const double rod = rods[static_cast<std::size_t>(i - 1)];
+    for (int j = 0; j < grid.columns; ++j) {
+      pattern.warp_coordinate[grid.index(i, j)] = pattern.warp_coordinate[grid.index(i - 1, j)] + rod;
+      pattern.warp_rest[grid.index(i, j)] = rod;
+    }
   }
   for (int i = 0; i < grid.rows; ++i) {
-    const double down = pattern.warp_coordinate[static_cast<std::size_t>(i)] / cloth.height;
+    const double down = pattern.warp_coordinate[grid.index(i, 0)] / cloth.height;
     const std::vector<double> links = shareOut(rowWidth(cloth, down), cloth.column_spacing, grid.linkCount());
     for (int j = 1; j < grid.columns; ++j) pattern.weft_rest[grid.index(i, j)] = links[static_cast<std::size_t>(j - 1)];
     if (grid.closed) pattern.weft_rest[grid.index(i, 0)] = links.back();
@@ -133,7 +135,7 @@ std::vector<NodeIndex> pinnedNodes(const Scene& scene) {
 // Pinned carriers are fastened to the rail.
 void fillRail(const Scene& scene, ClothPattern& pattern) {
   if (scene.rail.path.empty()) return;
-  RailPattern& rail = pattern.rail;
+  RailPattern& rail = pattern.rails.emplace_back();
   rail.path = RailPath(scene.rail.path);
   rail.layout = RailLayout(scene);
   rail.columns = RailLayout::columnsOf(scene);
@@ -157,13 +159,55 @@ void pressPleats(const Scene& scene, ClothPattern& pattern) {
   const std::vector<double> angles =
       headingAngles(scene.hang, pleatLinks(scene.cloth), (scene.hang.to - scene.hang.from).norm());
   pattern.weft_rest_turn.assign(grid.size(), 0.0);
-  for (int i = 0; i < grid.rows && pattern.warp_coordinate[static_cast<std::size_t>(i)] <= scene.hang.pressed; ++i) {
+  for (int i = 0; i < grid.rows && pattern.warp_coordinate[grid.index(i, 0)] <= scene.hang.pressed; ++i) {
     for (int j = 1; j + 1 < grid.columns; ++j) {
       const auto link = static_cast<std::size_t>(j);
       if (grid.hasLink(i, j) && grid.hasLink(i, j + 1))
         pattern.weft_rest_turn[grid.index(i, j)] = angles[link - 1] - angles[link];
     }
   }
+}
+
+// Fields of the grid's size with what padding and missing links have.
+void clear(ClothPattern& pattern) {
+  const std::size_t size = pattern.grid.size();
+  for (Field* const field :
+       {&pattern.warp_rest, &pattern.weft_rest, &pattern.warp_per_square, &pattern.weft_per_square})
+    field->assign(size, 1.0);
+  for (Field* const field :
+       {&pattern.cell, &pattern.area, &pattern.mass, &pattern.inverse_mass, &pattern.warp_coordinate})
+    field->assign(size, 0.0);
+  pattern.pinned.assign(size, 0);
+}
+
+// Puts the pattern of one cloth into that of all, from a column on.
+void addLayer(const ClothPattern& layer, std::size_t number, int first, ClothPattern& pattern) {
+  const Grid &grid = pattern.grid, &from = layer.grid;
+  const auto copy = [&](const auto& source, auto& target) {
+    for (int i = 0; i < from.rows && !source.empty(); ++i)
+      std::copy_n(&source[from.index(i, 0)], from.columns, &target[grid.index(i, first)]);
+  };
+  copy(layer.warp_rest, pattern.warp_rest);
+  copy(layer.weft_rest, pattern.weft_rest);
+  copy(layer.warp_per_square, pattern.warp_per_square);
+  copy(layer.weft_per_square, pattern.weft_per_square);
+  copy(layer.warp_coordinate, pattern.warp_coordinate);
+  copy(layer.area, pattern.area);
+  copy(layer.mass, pattern.mass);
+  copy(layer.inverse_mass, pattern.inverse_mass);
+  copy(layer.pinned, pattern.pinned);
+  if (!layer.weft_rest_turn.empty()) pattern.weft_rest_turn.resize(grid.size(), 0.0);
+  copy(layer.weft_rest_turn, pattern.weft_rest_turn);
+  for (int i = 0; i < grid.rows && first > 0; ++i) pattern.weft_per_square[grid.index(i, first)] = 0.0;  // cut
+  for (const std::size_t node : layer.guided) pattern.guided.push_back(node + static_cast<std::size_t>(first));
+  for (RailPattern rail : layer.rails) {
+    rail.layer = number;
+    for (int& column : rail.columns) column += first;
+    pattern.rails.push_back(std::move(rail));
+  }
+  pattern.layer.resize(static_cast<std::size_t>(first + from.columns), static_cast<int>(number));
+  const double along = first > 0 ? pattern.weft_coordinate.back() + layer.weft_rest[1] : 0.0;
+  for (const double place : layer.weft_coordinate) pattern.weft_coordinate.push_back(along + place);
 }
 
 }  // namespace
@@ -176,21 +220,10 @@ Grid makeGrid(const ClothParams& cloth) {
   return grid;
 }
 
-ClothPattern makePattern(const Scene& scene) {
+ClothPattern makeLayerPattern(const Scene& scene) {
   ClothPattern pattern;
   pattern.grid = makeGrid(scene.cloth);
-  addEndRows(scene, pattern.grid);
-  const std::size_t size = pattern.grid.size();
-  pattern.warp_rest.assign(size, 1.0);
-  pattern.weft_rest.assign(size, 1.0);
-  pattern.warp_per_square.assign(size, 1.0);
-  pattern.weft_per_square.assign(size, 1.0);
-  pattern.cell.assign(size, 0.0);
-  forEachCell(pattern.grid, [&](int i, int j, int) { pattern.cell[pattern.grid.index(i, j)] = 1.0; });
-  pattern.area.assign(size, 0.0);
-  pattern.mass.assign(size, 0.0);
-  pattern.inverse_mass.assign(size, 0.0);
-  pattern.pinned.assign(size, 0);
+  clear(pattern);
   fillRestLengths(scene.cloth, pattern);
   fillMasses(scene.cloth, pattern);
   addHem(scene.hem, pattern);
@@ -200,14 +233,26 @@ ClothPattern makePattern(const Scene& scene) {
     pattern.inverse_mass[pattern.grid.index(node)] = 0.0;
   }
   fillRail(scene, pattern);
-  fillBending(scene.cloth, pattern);
   pressPleats(scene, pattern);
+  return pattern;
+}
+
+ClothPattern makePattern(const Scene& scene) {
+  ClothPattern pattern;
+  pattern.grid = makeGrid(wholeCloth(scene));
+  addEndRows(scene, pattern.grid);
+  clear(pattern);
+  forEachCell(pattern.grid, [&](int i, int j, int) { pattern.cell[pattern.grid.index(i, j)] = 1.0; });
+  const Layers layers(scene);
+  for (std::size_t k = 0; k < layers.size(); ++k)
+    addLayer(makeLayerPattern(layerScene(scene, k)), k, layers[k].first, pattern);
+  fillBending(layers, pattern);
   fillCords(scene, pattern);
   pattern.scene_pins = pattern.pinned;
   return pattern;
 }
 
-void pinBeside(const std::vector<std::uint8_t>& held, const ClothParams& cloth, ClothPattern& pattern) noexcept {
+void pinBeside(const std::vector<std::uint8_t>& held, const Layers& layers, ClothPattern& pattern) noexcept {
   const Grid& grid = pattern.grid;
   for (int i = 0; i < grid.rows; ++i) {
     for (std::size_t n = grid.index(i, 0); n < grid.index(i, grid.columns); ++n) {
@@ -216,7 +261,7 @@ void pinBeside(const std::vector<std::uint8_t>& held, const ClothParams& cloth, 
       pattern.inverse_mass[n] = held[n] == kPinned ? 0.0 : 1.0 / pattern.mass[n];
     }
   }
-  fillBending(cloth, pattern);
+  fillBending(layers, pattern);
 }
 
 double lightestCorner(const ClothPattern& pattern, int row, int right, int left) {

@@ -23,7 +23,7 @@ const Vec3 kDown = -Vec3::UnitZ();        // where cloth starts to hang towards,
 
 void placeOnRail(const ClothPattern& pattern, const std::vector<double>& places, bool hangs_through, Field3& position) {
   const Grid& grid = pattern.grid;
-  const RailPattern& rail = pattern.rail;
+  const RailPattern& rail = pattern.rails.front();
   // All rows are as wide as the top edge, and the hem may be narrower by its rounding.
   const double hem = pattern.weft_rest[grid.index(grid.rows - 1, 1)] / pattern.weft_rest[grid.index(0, 1)];
   const double narrowest = std::min(1.0, hem);

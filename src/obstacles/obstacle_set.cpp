@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "scene/layers.h"
+
 namespace curtain {
 namespace {
 
@@ -42,7 +44,7 @@ void MovingObstacle::move(const Transform& from, const Transform& to, const Pose
 
 double followingSpeed(const Scene& scene) noexcept {
   const double gravity = scene.gravity.norm();
-  return gravity > 0.0 ? std::sqrt(2.0 * gravity * scene.cloth.height) : std::numeric_limits<double>::infinity();
+  return gravity > 0.0 ? std::sqrt(2.0 * gravity * longestWarp(scene)) : std::numeric_limits<double>::infinity();
 }
 
 ShapeMaker shapesBy(MeshResolver resolve) {

@@ -60,16 +60,16 @@ void checkTieBack(const TieBackParams& loop, const ClothParams& cloth, const std
 
 }  // namespace
 
-void checkLines(const Scene& scene, ProblemLog& log) {
+void checkLines(const Scene& scene, const ClothParams& whole, ProblemLog& log) {
   for (std::size_t i = 0; i < scene.lines.size(); ++i) {
     const std::string key = itemKey("lines", i);
-    checkNodes(scene.lines[i], scene.cloth, joinKey(key, "nodes"), log);
+    checkNodes(scene.lines[i], whole, joinKey(key, "nodes"), log);
     checkEnd(scene.lines[i], key, log);
     if (!scene.lines[i].to && scene.lines[i].mass && log.good("gravity") && scene.gravity.isZero())
       log.add(joinKey(key, "to"), "is missing, must be a list of 3 numbers: without gravity no load hangs below");
   }
   for (std::size_t i = 0; i < scene.tie_back.size(); ++i)
-    checkTieBack(scene.tie_back[i], scene.cloth, itemKey("tie_back", i), log);
+    checkTieBack(scene.tie_back[i], whole, itemKey("tie_back", i), log);
   if (scene.solver.method != Method::kPaper || (scene.lines.empty() && scene.tie_back.empty())) return;
   log.add("solver.method", std::string("must not be paper where there are ") +
                                (scene.lines.empty() ? "tie-backs (tie_back)" : "lines") +

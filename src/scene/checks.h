@@ -17,8 +17,8 @@ void checkStart(const Scene& scene, ProblemLog& log);
 /// Checks that rail, carriers and cloth fit together.
 void checkRail(const Scene& scene, ProblemLog& log);
 
-/// Checks that lines and tie-backs belong to nodes of the cloth and have an end.
-void checkLines(const Scene& scene, ProblemLog& log);
+/// Checks that lines and tie-backs belong to nodes of the whole cloth (wholeCloth()) and have an end.
+void checkLines(const Scene& scene, const ClothParams& whole, ProblemLog& log);
 
 /// Checks what a hand takes, beside its single values.
 void checkHold(const GraspParams& grasp, const ClothParams& cloth, const std::string& key, ProblemLog& log);

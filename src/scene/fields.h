@@ -34,6 +34,15 @@ struct Chosen {
   std::size_t value;
 };
 
+/// A layer that says nothing: its drag and its folds are the scene's.
+inline LayerParams layerBeside(const Scene& scene) {
+  LayerParams layer;
+  layer.cloth.folds = scene.cloth.folds;
+  const AirParams& air = scene.air;
+  layer.air = {air.inside, air.border, air.corner, air.normal_drag, air.tangential_drag};
+  return layer;
+}
+
 template <typename T>
 struct Fields;
 
@@ -357,6 +366,32 @@ struct Fields<ContactParams> {
 };
 
 template <>
+struct Fields<LayerAirParams> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& air) {
+    v.number("inside", air.inside, notNegative());
+    v.number("border", air.border, notNegative());
+    v.number("corner", air.corner, notNegative());
+    v.number("normal_drag", air.normal_drag, between(0.0, 100.0));
+    v.number("tangential_drag", air.tangential_drag, between(0.0, 100.0));
+  }
+};
+
+template <>
+struct Fields<LayerParams> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& layer) {
+    v.text(required("name"), layer.name);
+    v.map("cloth", layer.cloth);
+    v.map("hang", layer.hang);
+    v.map("hem", layer.hem);
+    v.pins("pins", layer.pins);
+    v.map("rail", layer.rail);
+    v.map("air", layer.air);
+  }
+};
+
+template <>
 struct Fields<SolverParams> {
   template <typename Visitor, typename T>
   static void visit(Visitor& v, T& solver) {
@@ -394,6 +429,7 @@ struct Fields<Scene> {
     v.list("pins_motion", scene.pins_motion);
     v.list("obstacles", scene.obstacles);
     v.map("contact", scene.contact);
+    v.list("layers", scene.layers, layerBeside(scene));
     v.map("solver", scene.solver);
   }
 };

@@ -38,24 +38,46 @@ constexpr std::array<Properties, 11> kTable = {{
 // Of a flat plate across the flow: Hoerner, Fluid-Dynamic Drag (1965), Sect. 3.
 constexpr double kPlateDrag = 1.17;
 
+// None: the material has no properties.
+const Properties* propertiesOf(Material material) {
+  return material == Material::kNone ? nullptr : &kTable.at(static_cast<std::size_t>(material) - 1);
+}
+
+void setFabric(const Properties& properties, ClothParams& cloth) {
+  cloth.surface_density = properties.density;
+  cloth.bending_warp = properties.bending_warp;
+  cloth.bending_weft = properties.bending_weft;
+  cloth.bending_bias = properties.bending_bias;
+  cloth.shear = properties.shear;
+  cloth.porosity = properties.porosity;
+}
+
+// Eq. (4) is linear up to the threshold; there it is the plate's drag, rho / 2 C v^2, and beyond it stays that.
+// Relative air has no use for its coefficients.
+template <typename Air>
+void setDrag(const Properties& properties, const AirParams& law, Air& air) {
+  if (law.law == AirLaw::kRelative) return;
+  air.inside = air.border = air.corner = 0.5 * kPlateDrag * (1.0 - properties.porosity) * law.threshold;
+}
+
 }  // namespace
 
 void applyMaterial(Material material, Scene& scene) {
   scene.cloth.material = material;
-  if (material == Material::kNone) return;
-  const Properties& properties = kTable.at(static_cast<std::size_t>(material) - 1);
-  scene.cloth.surface_density = properties.density;
-  scene.cloth.bending_warp = properties.bending_warp;
-  scene.cloth.bending_weft = properties.bending_weft;
-  scene.cloth.bending_bias = properties.bending_bias;
-  scene.cloth.shear = properties.shear;
-  scene.cloth.porosity = properties.porosity;
-  scene.contact.friction = properties.friction;
-  scene.contact.thickness = properties.thickness;
-  if (scene.air.law == AirLaw::kRelative) return;  // which has no use for the coefficients of Eq. (4)
-  // Eq. (4) is linear up to the threshold; there it is the plate's drag, rho / 2 C v^2, and beyond it stays that.
-  const double drag = 0.5 * kPlateDrag * (1.0 - properties.porosity) * scene.air.threshold;
-  scene.air.inside = scene.air.border = scene.air.corner = drag;
+  const Properties* const properties = propertiesOf(material);
+  if (properties == nullptr) return;
+  setFabric(*properties, scene.cloth);
+  scene.contact.friction = properties->friction;
+  scene.contact.thickness = properties->thickness;
+  setDrag(*properties, scene.air, scene.air);
+}
+
+void applyMaterial(Material material, const Scene& scene, LayerParams& layer) {
+  layer.cloth.material = material;
+  const Properties* const properties = propertiesOf(material);
+  if (properties == nullptr) return;
+  setFabric(*properties, layer.cloth);
+  setDrag(*properties, scene.air, layer.air);
 }
 
 }  // namespace curtain

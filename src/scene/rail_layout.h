@@ -41,7 +41,7 @@ class RailLayout {
   /// Carriers that the drive moves.
   const std::vector<std::size_t>& masters() const noexcept { return masters_; }
   /// Mean opening of the masters at these places of theirs [m].
-  double openingOf(const std::vector<double>& places) const noexcept;
+  double openingOf(const double* places) const noexcept;
 
  private:
   std::vector<double> cloth_;

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <system_error>
 
 #include "curtain_sim/scene_yaml.h"
@@ -42,30 +43,55 @@ std::string readText(std::istream& file) {
   return text;
 }
 
+// A map under a key; undefined: there is none.
+YAML::Node mapIn(const YAML::Node& map, const char* key) {
+  const YAML::Node found = map.IsMap() ? map[key] : YAML::Node(YAML::NodeType::Undefined);
+  return found.IsDefined() && found.IsMap() ? found : YAML::Node(YAML::NodeType::Undefined);
+}
+
 // A fullness gives the width where that is left out.
-void applyFullness(const YAML::Node& root, Scene& scene) {
-  const YAML::Node cloth = root["cloth"];
-  const bool has_width = cloth.IsDefined() && cloth.IsMap() && cloth["width"].IsDefined();
-  const double span = (scene.hang.to - scene.hang.from).norm();
-  if (scene.hang.fullness && !has_width && !scene.cloth.closed && span > 0.0)
-    scene.cloth.width = *scene.hang.fullness * span;
+void applyFullness(const YAML::Node& root, const HangParams& hang, ClothParams& cloth) {
+  const YAML::Node map = mapIn(root, "cloth");
+  const bool has_width = map.IsDefined() && map["width"].IsDefined();
+  const double span = (hang.to - hang.from).norm();
+  if (hang.fullness && !has_width && !cloth.closed && span > 0.0) cloth.width = *hang.fullness * span;
+}
+
+std::optional<std::size_t> placeOfName(const YAML::Node& map, const char* key, const std::vector<std::string>& names) {
+  if (!map.IsDefined() || !map[key].IsDefined() || !map[key].IsScalar()) return std::nullopt;
+  const auto found = std::find(names.begin(), names.end(), map[key].Scalar());
+  return found == names.end() ? std::nullopt : std::optional<std::size_t>(found - names.begin());
 }
 
 // The material comes first: the other keys are read over it. Whatever else it may be is a problem that the reader
 // finds.
+std::optional<Material> materialIn(const YAML::Node& root) {
+  const std::optional<std::size_t> place = placeOfName(mapIn(root, "cloth"), "material", materialNames());
+  return place ? std::optional<Material>(static_cast<Material>(*place)) : std::nullopt;
+}
+
 void applyMaterial(const YAML::Node& root, Scene& scene) {
-  const YAML::Node cloth = root["cloth"];
-  if (!cloth.IsDefined() || !cloth.IsMap()) return;
-  const YAML::Node name = cloth["material"];
-  if (!name.IsDefined() || !name.IsScalar()) return;
-  const auto& names = materialNames();
-  const auto found = std::find(names.begin(), names.end(), name.Scalar());
-  if (found == names.end()) return;
-  const YAML::Node air = root["air"];
-  if (air.IsDefined() && air.IsMap() && air["law"].IsDefined() && air["law"].IsScalar() &&
-      air["law"].Scalar() == airLawNames()[static_cast<std::size_t>(AirLaw::kRelative)])
-    scene.air.law = AirLaw::kRelative;
-  applyMaterial(static_cast<Material>(found - names.begin()), scene);
+  const std::optional<Material> material = materialIn(root);
+  if (!material) return;
+  const std::optional<std::size_t> law = placeOfName(mapIn(root, "air"), "law", airLawNames());
+  if (law && static_cast<AirLaw>(*law) == AirLaw::kRelative) scene.air.law = AirLaw::kRelative;
+  applyMaterial(*material, scene);
+}
+
+// Layers are read again over their materials; what is wrong with them is known.
+void readLayersAgain(const YAML::Node& root, Scene& scene) {
+  for (std::size_t k = 0; k < scene.layers.size(); ++k) {
+    const YAML::Node map = root["layers"][k];
+    const std::optional<Material> material = materialIn(map);
+    LayerParams& layer = scene.layers[k];
+    if (material) {
+      layer = layerBeside(scene);
+      applyMaterial(*material, scene, layer);
+      ProblemLog known;
+      StrictReader::readMap(map, itemKey("layers", k), layer, known);
+    }
+    applyFullness(map, layer.hang, layer.cloth);
+  }
 }
 
 }  // namespace
@@ -78,7 +104,8 @@ SceneReading readScene(const YAML::Node& root) {
     ProblemLog log;
     applyMaterial(root, reading.scene);
     StrictReader::readMap(root, "", reading.scene, log);
-    applyFullness(root, reading.scene);
+    applyFullness(root, reading.scene.hang, reading.scene.cloth);
+    readLayersAgain(root, reading.scene);
     checkScene(reading.scene, log);
     reading.problems = log.problems();
     return reading;

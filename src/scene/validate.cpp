@@ -3,9 +3,11 @@
 // Checks a scene's values: each by itself (RangeChecker), and together (here and in check_start.cpp).
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 
 #include "scene/checks.h"
+#include "scene/layers.h"
 #include "scene/range_checker.h"
 #include "scene/ranges.h"
 #include "scene/scalar.h"
@@ -16,6 +18,9 @@ namespace {
 
 // Least density of air that has a velocity [kg/m^3]: with the strongest wind its speeds and their squares are finite.
 constexpr double kThinnest = 1e-6;
+
+// Of all cloths together, as of one.
+constexpr int kMaxColumns = 4096;
 
 // Shortest link of cloth that resists bending [m].
 constexpr double kShortestThatBends = 1e-6;
@@ -31,7 +36,7 @@ void checkCount(const std::string& key, const std::vector<double>& values, int c
                    std::to_string(values.size()));
 }
 
-void checkCloth(const ClothParams& cloth, ProblemLog& log) {
+void checkSizes(const ClothParams& cloth, ProblemLog& log) {
   if (log.good("cloth.rows")) {
     checkCount("cloth.row_spacing", cloth.row_spacing, cloth.rows - 1, "rows - 1", log);
     checkCount("cloth.row_mass", cloth.row_mass, cloth.rows, "rows", log);
@@ -209,9 +214,10 @@ void checkUnique(const std::vector<T>& entries, const std::string& list, const s
   for (std::size_t i = 0; i < entries.size(); ++i) checkUnique(entries[i].*name, i, list, key, seen, log);
 }
 
-void checkHand(const HandParams& hand, const Scene& scene, const std::string& key, ProblemLog& log) {
+void checkHand(const HandParams& hand, const Scene& scene, const ClothParams& whole, const std::string& key,
+               ProblemLog& log) {
   checkTimes(hand.start, hand.end, key, log);
-  checkHold(hand.grasp, scene.cloth, key, log);
+  checkHold(hand.grasp, whole, key, log);
   checkIncrease(hand.motion, joinKey(key, "motion"), log);
   if (scene.solver.method != Method::kPaper || !log.good("solver.method")) return;
   const std::pair<const char*, double> limits[] = {{"stiffness", hand.grasp.stiffness},
@@ -242,18 +248,84 @@ void checkStartElsewhere(const Scene& scene, ProblemLog& log) {
     log.add("hang.start.over", "must be the name of an obstacle, is " + quoted(*start.over));
 }
 
-void checkHands(const Scene& scene, ProblemLog& log) {
+void checkHands(const Scene& scene, const ClothParams& whole, ProblemLog& log) {
   std::map<std::string, std::size_t> seen;
   for (std::size_t i = 0; i < scene.hands.size(); ++i) {
-    checkHand(scene.hands[i], scene, itemKey("hands", i), log);
+    checkHand(scene.hands[i], scene, whole, itemKey("hands", i), log);
     checkUnique(scene.hands[i].grasp.id, i, "hands", "id", seen, log);
   }
   checkIncrease(scene.pins_motion, "pins_motion", log);
-  const bool none =
-      scene.pins.kind == PinKind::kNone || (scene.pins.kind == PinKind::kList && scene.pins.nodes.empty());
-  if (!scene.pins_motion.empty() && none && log.good("pins")) log.add("pins_motion", "needs pins, there are none");
-  if (!scene.pins_motion.empty() && !scene.rail.path.empty())
+  if (scene.pins_motion.empty() || !log.good("pins") || !log.good("layers")) return;
+  const auto pinned = [](const auto& one) {
+    return one.pins.kind != PinKind::kNone && (one.pins.kind != PinKind::kList || !one.pins.nodes.empty());
+  };
+  const auto slides = [](const auto& one) { return !one.rail.path.empty(); };
+  if (!pinned(scene) && std::none_of(scene.layers.begin(), scene.layers.end(), pinned))
+    log.add("pins_motion", "needs pins, there are none");
+  if (slides(scene) || std::any_of(scene.layers.begin(), scene.layers.end(), slides))
     log.add("pins_motion", "can't be given with a rail, which does not move");
+}
+
+// What belongs to one cloth, as the first of a scene.
+void checkCloth(const Scene& scene, ProblemLog& log) {
+  checkSizes(scene.cloth, log);
+  checkSlits(scene.cloth, log);
+  checkHem(scene, log);
+  if (scene.rail.path.empty()) checkStart(scene, log);
+  checkPins(scene, log);
+  checkRail(scene, log);
+  checkBending(scene, log);
+  checkStartElsewhere(scene, log);
+}
+
+bool isName(const std::string& text) {
+  const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  return !text.empty() && isLetter(text.front()) && std::all_of(text.begin(), text.end(), [&](char c) {
+    return isLetter(c) || (c >= '0' && c <= '9') || c == '_';
+  });
+}
+
+void checkLayer(const Scene& scene, std::size_t number, ProblemLog& log) {
+  const std::string key = itemKey("layers", number);
+  const LayerParams& layer = scene.layers[number];
+  const std::string name_key = joinKey(key, "name");
+  if (!isName(layer.name) && log.good(name_key))
+    log.add(name_key, "must be letters, digits and _, a letter first, is " + quoted(layer.name));
+  if (layer.name == kFirstCloth) log.add(name_key, "must not be " + quoted(kFirstCloth) + ", which is the first cloth");
+  if (!log.good(key)) return;
+  ProblemLog own;
+  checkCloth(layerScene(scene, number + 1), own);
+  for (const Problem& problem : own.problems())
+    log.add(problem.key.rfind("solver", 0) == 0 ? problem.key : joinKey(key, problem.key), problem.text);
+  const auto sameAsFirst = [&](const char* name, int value, int first) {
+    const std::string of_first = "cloth." + std::string(name), its = joinKey(key, of_first);
+    if (value == first || !log.good(of_first) || !log.good(its)) return;
+    log.add(its, "must be that of the first cloth, " + std::to_string(first) + ", is " + std::to_string(value));
+  };
+  sameAsFirst("rows", layer.cloth.rows, scene.cloth.rows);
+  sameAsFirst("folds", layer.cloth.folds, scene.cloth.folds);
+  if (layer.cloth.closed) log.add(joinKey(key, "cloth.closed"), "must be false: cloth beside others is not closed");
+  if (layer.hang.start.file)
+    log.add(joinKey(key, "hang.start.file"), "must not be given: the first cloth's has the nodes of all");
+}
+
+void checkLayers(const Scene& scene, ProblemLog& log) {
+  if (scene.layers.empty()) return;
+  checkUnique(scene.layers, "layers", "name", &LayerParams::name, log);
+  for (std::size_t k = 0; k < scene.layers.size(); ++k) checkLayer(scene, k, log);
+  if (!log.good("layers") || !log.good("cloth")) return;
+  if (scene.cloth.closed) log.add("layers", "must be empty beside closed cloth (cloth.closed)");
+  std::int64_t columns = scene.cloth.columns;
+  for (const LayerParams& layer : scene.layers) columns += layer.cloth.columns;
+  if (columns > kMaxColumns)
+    log.add("layers", "must have " + std::to_string(kMaxColumns) + " columns at most with the first cloth's, has " +
+                          std::to_string(columns));
+  const auto elsewhere = [](const auto& one) { return one.hang.start.over || one.hang.start.file; };
+  if (std::any_of(scene.layers.begin(), scene.layers.end(), elsewhere) &&
+      (!scene.lines.empty() || !scene.tie_back.empty()))
+    log.add("layers", "can't start elsewhere (hang.start) with lines or tie-backs, which begin where the cloth hangs");
+  if (scene.hang.start.file && std::any_of(scene.layers.begin(), scene.layers.end(), elsewhere))
+    log.add("hang.start.file", "must be the only start, it has the nodes of all layers");
 }
 
 // Checks every value by itself, then some together.
@@ -278,25 +350,24 @@ void checkNodeOnGrid(const NodeIndex& node, const ClothParams& cloth, const std:
 void checkScene(const Scene& scene, ProblemLog& log) {
   RangeChecker checker("", log);
   visitFields(checker, scene);
-  checkCloth(scene.cloth, log);
-  checkSlits(scene.cloth, log);
-  checkHem(scene, log);
-  if (scene.rail.path.empty()) checkStart(scene, log);
+  checkCloth(scene, log);
   checkAir(scene.air, "air", log);
   checkLaw(scene, log);
-  checkPins(scene, log);
-  checkRail(scene, log);
-  checkBending(scene, log);
-  checkLines(scene, log);
+  checkLayers(scene, log);
+  ClothParams whole = scene.cloth;  // unless its size is wrong
+  if (log.good("layers"))
+    whole = wholeCloth(scene);
+  else
+    whole.columns = kMaxColumns;
+  checkLines(scene, whole, log);
   checkUnique(scene.lines, "lines", "id", &LineParams::id, log);
   checkUnique(scene.tie_back, "tie_back", "id", &TieBackParams::id, log);
   checkUnique(scene.wind, "wind", "id", &WindParams::id, log);
   checkUnique(scene.drag, "drag", "id", &DragParams::id, log);
   checkUnique(scene.obstacles, "obstacles", "name", &ObstacleParams::name, log);
   for (std::size_t i = 0; i < scene.wind.size(); ++i) checkWind(scene.wind[i], itemKey("wind", i), log);
-  for (std::size_t i = 0; i < scene.drag.size(); ++i) checkDrag(scene.drag[i], scene.cloth, itemKey("drag", i), log);
-  checkHands(scene, log);
-  checkStartElsewhere(scene, log);
+  for (std::size_t i = 0; i < scene.drag.size(); ++i) checkDrag(scene.drag[i], whole, itemKey("drag", i), log);
+  checkHands(scene, whole, log);
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
     checkObstacle(scene.obstacles[i], itemKey("obstacles", i), log);
   }

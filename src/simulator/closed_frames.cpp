@@ -83,7 +83,7 @@ void ClosedFrames::endFrame() {
     account.leaveOpen();
     return;
   }
-  const double too_much = kTooMuch * total_mass_ * motion_.scene.gravity.norm() * motion_.scene.cloth.height;
+  const double too_much = kTooMuch * total_mass_ * motion_.scene.gravity.norm() * longestWarp(motion_.scene);
   if (account.isClosed() && account.excess(energyWithoutLinks()) <= too_much) return;
   const Energy now = motion_.energy();
   if (!(account.excess(now.kinetic + now.potential) > too_much)) return;

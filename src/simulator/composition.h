@@ -30,17 +30,18 @@ struct Composition {
   const ObstacleSet& obstacles;
   const Workers& workers;
 
+  Layers layers{scene};
   ScenePins pins{scene, pattern};
   Winds winds{scene, pattern, obstacles};
-  AirDamping air_damping{scene.air, pattern};
+  AirDamping air_damping{scene.air, layers, pattern};
   Drags drags{scene, pattern};
-  RelativeAir relative_air{scene.air, scene.cloth.porosity, pattern, scene.ambient};
+  RelativeAir relative_air{scene.air, layers, pattern, scene.ambient};
   Grasps hands{scene, pattern};
   Bending bending{pattern, workers};
-  Hysteresis hysteresis{scene.cloth, pattern};
-  Shear shear{scene.cloth, pattern, workers};
-  Twist twist{scene.cloth, pattern, workers};
-  WeftPush weft_push{scene.cloth, pattern};
+  Hysteresis hysteresis{layers, pattern};
+  Shear shear{layers, pattern, workers};
+  Twist twist{layers, pattern, workers};
+  WeftPush weft_push{layers, pattern};
   Rail rail{scene, pattern};
   Cords cords{pattern};
   TautColumns taut_columns{scene, pattern};

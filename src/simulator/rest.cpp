@@ -42,7 +42,7 @@ void Rest::setLimits(double damping_per_mass) noexcept {
   jitter_ = kJitter * solver.stretch_tolerance * shortestLink(pattern_);
   const bool asks = solver.position_tolerance > 0.0;
   const double speed = asks ? std::min(solver.rest_speed, solver.position_tolerance) : solver.rest_speed;
-  const double gravity = scene_.gravity.norm(), omega = kLowestFrequency * std::sqrt(gravity / scene_.cloth.height);
+  const double gravity = scene_.gravity.norm(), omega = kLowestFrequency * std::sqrt(gravity / longestWarp(scene_));
   const double slower = damping_per_mass > omega ? omega / damping_per_mass : 1.0;
   // Longer frames say too little of the motion between them.
   const bool can_rest = gravity > 0.0 && 1.0 / solver.frame_rate <= kLongestFrame;

@@ -56,7 +56,7 @@ Simulator::Impl::Impl(const Scene& given, const ShapeMaker& make_shape)
       budget(scene.solver.budget_ms),
       loop(motion, controls, budget),
       closed(motion, controls, !ErrorControl::wanted(scene.solver)),
-      surface(scene.cloth, pattern),
+      surface(wholeCloth(scene), pattern),
       pinned_by_parts(pattern.grid.size(), 0) {
   pinsChanged();
   if (ErrorControl::wanted(scene.solver)) errors.emplace(motion, controls, loop, budget);
@@ -96,7 +96,7 @@ void Simulator::Impl::keysChanged() {
 void Simulator::Impl::pinsChanged() {
   std::fill(pinned_by_parts.begin(), pinned_by_parts.end(), std::uint8_t{0});
   for (const Part* const part : motion.parts.all) part->pin(pinned_by_parts);
-  pinBeside(pinned_by_parts, scene.cloth, pattern);
+  pinBeside(pinned_by_parts, motion.parts.layers, pattern);
   motion.pinsChanged();
   closed.pinsChanged();
   sleep.limitsChanged();

@@ -50,6 +50,13 @@ CURTAIN_WIDE Extremes extremesOfColumn(const ConstFieldView& from, const ConstFi
   return extremes(from, to, count, stride, along, across);
 }
 
+// Along the warp [m]; used of regular cloth only, whose columns are alike.
+Field rowsOf(const ClothPattern& pattern) {
+  Field rows;
+  for (int i = 0; i < pattern.grid.rows; ++i) rows.push_back(pattern.warp_coordinate[pattern.grid.index(i, 0)]);
+  return rows;
+}
+
 // Whether no link of the top row exceeds this squared ratio to its rest length.
 CURTAIN_WIDE bool holdsRow(const ClothPattern& pattern, const Field3& position, double max_square) noexcept {
   const double *const x = position.x.data(), *const y = position.y.data(), *const z = position.z.data();
@@ -71,7 +78,7 @@ ClothFlatness::ClothFlatness(const ClothPattern& pattern, double overlong)
     : pattern_(pattern),
       overlong_(overlong),
       regular_(isRegular(pattern)),
-      strips_(spansOf(pattern.warp_coordinate, kMaxRods)),
+      strips_(spansOf(rowsOf(pattern), kMaxRods)),
       spans_(spansOf(pattern.weft_coordinate, kMaxWefts)) {
   const Grid& grid = pattern.grid;
   const double per_u = 1.0 / pattern.weft_rest[1], per_v = 1.0 / pattern.warp_rest[grid.index(1, 0)];

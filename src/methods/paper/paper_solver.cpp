@@ -17,10 +17,14 @@ Vec3 directionOf(const Vec3& v) noexcept {
   return length > 0.0 ? Vec3(v / length) : Vec3(-Vec3::UnitZ());
 }
 
+double sizeOf(const ClothPattern& pattern) {
+  return *std::max_element(pattern.warp_coordinate.begin(), pattern.warp_coordinate.end()) +
+         pattern.weft_coordinate.back();
+}
+
 }  // namespace
 
-PaperSolver::PaperSolver(const ClothPattern& pattern)
-    : pattern_(pattern), max_way_(kMaxSizes * (pattern.warp_coordinate.back() + pattern.weft_coordinate.back())) {
+PaperSolver::PaperSolver(const ClothPattern& pattern) : pattern_(pattern), max_way_(kMaxSizes * sizeOf(pattern)) {
   const std::size_t nodes = pattern.grid.nodeCount();  // room for what pins them within a step
   chains_.reserve(2 * nodes);
   pins_.reserve(nodes);

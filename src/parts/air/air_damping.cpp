@@ -8,8 +8,19 @@
 #include "cloth/wide.h"
 
 namespace curtain {
+namespace {
 
-AirDamping::AirDamping(const AirParams& air, const ClothPattern& pattern) : air_(air), pattern_(pattern) {
+// c_r of Eq. (4).
+template <typename Air>
+double atPlace(const Air& air, bool on_row_edge, bool on_column_edge) {
+  if (on_row_edge && on_column_edge) return air.corner;
+  return on_row_edge || on_column_edge ? air.border : air.inside;
+}
+
+}  // namespace
+
+AirDamping::AirDamping(const AirParams& air, const Layers& layers, const ClothPattern& pattern)
+    : air_(air), layers_(layers), pattern_(pattern) {
   linear_.assign(pattern.grid.size(), 0.0);
   resume();
 }
@@ -21,9 +32,9 @@ void AirDamping::resume() {
     for (int j = 0; j < grid.columns; ++j) {
       const bool on_row_edge = i == 0 || i + 1 == grid.rows;
       const bool on_column_edge = !grid.hasLink(i, j) || !grid.hasLink(i, j + 1 < grid.columns ? j + 1 : 0);
-      const double place = on_row_edge && on_column_edge   ? air_.corner
-                           : on_row_edge || on_column_edge ? air_.border
-                                                           : air_.inside;
+      const LayerAirParams* const own = layers_.at(j).air;
+      const double place =
+          own != nullptr ? atPlace(*own, on_row_edge, on_column_edge) : atPlace(air_, on_row_edge, on_column_edge);
       const double coefficient = air_.density * place * pattern_.area[grid.index(i, j)];
       linear_[grid.index(i, j)] = coefficient;
       active_ = active_ || coefficient > 0.0;

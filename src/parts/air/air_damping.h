@@ -11,8 +11,8 @@ namespace curtain {
 /// Damping coefficients of the nodes [kg/s]: force = -coefficient * velocity.
 class AirDamping final : public Part {
  public:
-  /// All arguments must outlive this.
-  AirDamping(const AirParams& air, const ClothPattern& pattern);
+  /// All that the arguments refer to must outlive this. Layers may have their own coefficients.
+  AirDamping(const AirParams& air, const Layers& layers, const ClothPattern& pattern);
 
   /// False: no coefficient is above zero and there is nothing to do.
   bool active() const { return active_; }
@@ -30,6 +30,7 @@ class AirDamping final : public Part {
 
  private:
   const AirParams& air_;
+  const Layers layers_;
   const ClothPattern& pattern_;
   Field linear_;  // rho * c_r * area of every node [kg/s]
   bool active_ = false;

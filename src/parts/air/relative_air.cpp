@@ -19,7 +19,7 @@ CURTAIN_INTO_WIDE double meanOf(double u, double gained, double z) {
 }
 
 // Constants of addForces().
-struct Drag {
+struct Substep {
   double normal, tangential;  // 1/2 rho c [kg/m^3]
   double kick;                // [s]
   double pulls;               // 1: there are pulls; 0: there are none
@@ -33,7 +33,7 @@ struct NodeRow {
 };
 
 template <bool kBackward>
-CURTAIN_INTO_WIDE void addRow(int columns, const NodeRow row, const Drag drag) {
+CURTAIN_INTO_WIDE void addRow(int columns, const NodeRow row, const Substep drag) {
   const auto& [inverse_mass, areas, area_vector, wind, velocity, pull, force] = row;
   const double kick = drag.kick, pulled = drag.kick * drag.pulls;
 #pragma omp simd
@@ -65,27 +65,36 @@ CURTAIN_INTO_WIDE void addRow(int columns, const NodeRow row, const Drag drag) {
   }
 }
 
-CURTAIN_WIDE void addMiddle(int columns, const NodeRow& row, const Drag& drag) noexcept {
+CURTAIN_WIDE void addMiddle(int columns, const NodeRow& row, const Substep& drag) noexcept {
   addRow<false>(columns, row, drag);
 }
-CURTAIN_WIDE void addEnd(int columns, const NodeRow& row, const Drag& drag) noexcept {
+CURTAIN_WIDE void addEnd(int columns, const NodeRow& row, const Substep& drag) noexcept {
   addRow<true>(columns, row, drag);
 }
 
 }  // namespace
 
-RelativeAir::RelativeAir(const AirParams& air, double porosity, const ClothPattern& pattern,
+RelativeAir::RelativeAir(const AirParams& air, const Layers& layers, const ClothPattern& pattern,
                          const AmbientParams& ambient)
-    : air_(air), porosity_(porosity), pattern_(pattern), ambient_(ambient) {
+    : air_(air), layers_(layers), pattern_(pattern), ambient_(ambient) {
   area_vectors_.assign(pattern.grid.size(), 0.0);
   kept_.reserve(pattern.grid.nodeCount());
   resume();
 }
 
+RelativeAir::Drag RelativeAir::dragOf(const Layers::Layer& layer) const noexcept {
+  if (air_.law != AirLaw::kRelative) return {0.0, 0.0};
+  const double normal = layer.air != nullptr ? layer.air->normal_drag : air_.normal_drag;
+  const double tangential = layer.air != nullptr ? layer.air->tangential_drag : air_.tangential_drag;
+  return {0.5 * air_.density * normal * (1.0 - layer.cloth->porosity), 0.5 * air_.density * tangential};
+}
+
 void RelativeAir::resume() {
-  const bool asked = air_.law == AirLaw::kRelative;
-  normal_ = asked ? 0.5 * air_.density * air_.normal_drag * (1.0 - porosity_) : 0.0;
-  tangential_ = asked ? 0.5 * air_.density * air_.tangential_drag : 0.0;
+  largest_ = 0.0;
+  for (const Layers::Layer& layer : layers_) {
+    const Drag drag = dragOf(layer);
+    largest_ = std::max({largest_, drag.normal, drag.tangential});
+  }
 }
 
 double RelativeAir::dampingPerMass(double& air_speed) const noexcept {
@@ -95,7 +104,7 @@ double RelativeAir::dampingPerMass(double& air_speed) const noexcept {
     area_per_mass = std::max(area_per_mass, pattern_.area[n] * pattern_.inverse_mass[n]);
   }
   air_speed += ambient_.meanSpeed();
-  return std::max(normal_, tangential_) * air_speed * area_per_mass;
+  return largest_ * air_speed * area_per_mass;
 }
 
 void RelativeAir::announce(const ClothState& state, ForceSum& sum) noexcept {
@@ -111,18 +120,21 @@ void RelativeAir::addForces(const ClothState& state, ForceSum& sum) noexcept {
   const Grid& grid = pattern_.grid;
   nodeAreaVectors(grid, state.position, area_vectors_);
   const SubstepAhead& ahead = sum.ahead;
-  const Drag drag{normal_, tangential_, ahead.kick, ahead.pull != nullptr ? 1.0 : 0.0};
-  for (int i = 0; i < grid.rows; ++i) {
-    const std::size_t row = grid.row(i);
-    const ConstFieldView pull(ahead.pull != nullptr ? *ahead.pull : sum.air, row);  // read unconditionally
-    const NodeRow nodes{pattern_.inverse_mass.data() + row,
-                        pattern_.area.data() + row,
-                        {area_vectors_, row},
-                        {sum.air, row},
-                        {state.velocity, row},
-                        pull,
-                        {sum.force, row}};
-    (ahead.backward ? addEnd : addMiddle)(grid.columns, nodes, drag);
+  for (const Layers::Layer& layer : layers_) {
+    const Drag drag = dragOf(layer);
+    const Substep substep{drag.normal, drag.tangential, ahead.kick, ahead.pull != nullptr ? 1.0 : 0.0};
+    for (int i = 0; i < grid.rows; ++i) {
+      const std::size_t row = grid.index(i, layer.first);
+      const ConstFieldView pull(ahead.pull != nullptr ? *ahead.pull : sum.air, row);  // read unconditionally
+      const NodeRow nodes{pattern_.inverse_mass.data() + row,
+                          pattern_.area.data() + row,
+                          {area_vectors_, row},
+                          {sum.air, row},
+                          {state.velocity, row},
+                          pull,
+                          {sum.force, row}};
+      (ahead.backward ? addEnd : addMiddle)(layer.end - layer.first, nodes, substep);
+    }
   }
   for (std::size_t k = 0; k < kept_.size(); ++k) sum.force.set(sum.led[k], kept_[k]);
 }

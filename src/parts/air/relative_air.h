@@ -28,11 +28,13 @@ namespace curtain {
 
 class RelativeAir final : public Part {
  public:
-  /// porosity: of the cloth; it lowers c_n by this share. air and pattern must outlive this.
-  RelativeAir(const AirParams& air, double porosity, const ClothPattern& pattern, const AmbientParams& ambient = {});
+  /// All that the arguments refer to but ambient must outlive this. The porosity of a cloth lowers its c_n by its
+  /// share.
+  RelativeAir(const AirParams& air, const Layers& layers, const ClothPattern& pattern,
+              const AmbientParams& ambient = {});
 
   /// False: another law is asked for, or no coefficient is above zero.
-  bool active() const noexcept { return normal_ > 0.0 || tangential_ > 0.0; }
+  bool active() const noexcept { return largest_ > 0.0; }
 
   void resume() override;
   bool explain(const ClothState& state, double time, Plan& plan) const override;
@@ -45,11 +47,16 @@ class RelativeAir final : public Part {
   void addForces(const ClothState& state, ForceSum& sum) noexcept override;
 
  private:
+  struct Drag {
+    double normal, tangential;  // 1/2 rho c [kg/m^3]
+  };
+  Drag dragOf(const Layers::Layer& layer) const noexcept;
+
   const AirParams& air_;
-  const double porosity_;
+  const Layers layers_;
   const ClothPattern& pattern_;
   const AmbientWind ambient_;
-  double normal_ = 0.0, tangential_ = 0.0;  // 1/2 rho c [kg/m^3]
+  double largest_ = 0.0;  // 1/2 rho c of all [kg/m^3]
   Field3 area_vectors_;
   std::vector<Vec3> kept_;  // forces on the nodes that are led [N]
 };

@@ -48,13 +48,15 @@ void DragForce::grasp(NodeIndex node, const ClothPattern& pattern) noexcept {
   if (!(drag_.radius * drag_.radius > 0.0)) {  // also where the square underflows
     shares_.push_back({grid.index(node), 1.0});
   } else {
-    const double v = pattern.warp_coordinate[static_cast<std::size_t>(node.row)];
+    const double v = pattern.warp_coordinate[grid.index(node)];
     const double u = pattern.weft_coordinate[static_cast<std::size_t>(node.column)];
     const double ring = grid.closed ? pattern.weft_coordinate.back() + pattern.weft_rest[0] : 0.0;
     double sum = 0.0;
     for (int i = 0; i < grid.rows; ++i) {
       for (int j = 0; j < grid.columns; ++j) {
-        const double dv = pattern.warp_coordinate[static_cast<std::size_t>(i)] - v;
+        if (pattern.layer[static_cast<std::size_t>(j)] != pattern.layer[static_cast<std::size_t>(node.column)])
+          continue;
+        const double dv = pattern.warp_coordinate[grid.index(i, j)] - v;
         double du = std::abs(pattern.weft_coordinate[static_cast<std::size_t>(j)] - u);
         if (grid.closed) du = std::min(du, ring - du);
         const double near = 1.0 - (du * du + dv * dv) / (drag_.radius * drag_.radius);

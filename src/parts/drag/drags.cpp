@@ -26,7 +26,7 @@ void Drags::serialize(Archive& archive) {
   for (const DragForce& drag : drags_.list) held.push_back({drag.params(), drag.node()});
   archive.atOnce([&] {
     archive.list("drags", held, [&](auto& one) {
-      serializeParams(archive, one.first, scene_.cloth);
+      serializeParams(archive, one.first, wholeCloth(scene_));
       archive.optional("holds", one.second, NodeIndex(),
                        [&](NodeIndex& node) { archive.node("node", node, pattern_.grid); });
     });

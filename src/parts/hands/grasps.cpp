@@ -257,7 +257,7 @@ std::vector<std::string> Grasps::ids() const {
 // ---- Serialization
 
 void Grasps::serializeGrasp(Archive& archive, Grasp& grasp) {
-  serializeParams(archive, grasp.params, scene_.cloth);
+  serializeParams(archive, grasp.params, wholeCloth(scene_));
   const auto serializePose = [&](const char* name, Pose& pose) {
     archive.finite(name, pose);
     archive.require(std::abs(pose.orientation.norm() - 1.0) <= 1e-3, "must have a unit quaternion");

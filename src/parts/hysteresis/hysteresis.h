@@ -26,7 +26,7 @@ namespace curtain {
 class Hysteresis final : public ExplicitPart, public Part {
  public:
   /// All arguments must outlive this.
-  Hysteresis(const ClothParams& cloth, const ClothPattern& pattern);
+  Hysteresis(const Layers& layers, const ClothPattern& pattern);
 
   bool any() const noexcept override { return !slips_.empty(); }
   bool explain(const ClothState& state, double time, Plan& plan) const override;
@@ -55,7 +55,7 @@ class Hysteresis final : public ExplicitPart, public Part {
   void startSlips() noexcept;
 
   const ClothPattern& pattern_;
-  const ClothParams& cloth_;
+  const Layers layers_;
   double omega_squared_ = 0.0;   // bound [1/s^2]
   std::vector<Slider> sliders_;  // with room for those of all joints, whether they are pinned or not
   std::vector<double> slips_;    // s, shape [2 grid.size()]: of warp lines, then of weft lines

@@ -11,27 +11,36 @@ namespace curtain {
 namespace {
 
 // The top row's.
-std::vector<std::size_t> nodesOf(const RailPattern& rail) { return {rail.columns.begin(), rail.columns.end()}; }
+std::vector<std::size_t> nodesOf(const std::vector<RailPattern>& rails) {
+  std::vector<std::size_t> nodes;
+  for (const RailPattern& rail : rails) nodes.insert(nodes.end(), rail.columns.begin(), rail.columns.end());
+  return nodes;
+}
 
 }  // namespace
 
 Rail::Rail(const Scene& scene, const ClothPattern& pattern)
-    : GuidePart(pattern.grid, nodesOf(pattern.rail)),
-      scene_(scene),
-      pattern_(pattern),
-      law_(pattern.rail.size(), pattern.rail.gap, pattern.rail.path.length()) {
-  const RailPattern& rail = pattern.rail;
-  all_.resize(rail.size());
-  for (std::size_t k = 0; k < rail.size(); ++k) {
-    const int column = rail.columns[k];
-    all_[k].column = column;
-    const bool left = k > 0 && rail.columns[k - 1] + 1 == column;
-    const bool right = k + 1 < rail.size() && rail.columns[k + 1] == column + 1;
-    adjacent_.push_back(left || right ? 1 : 0);
+    : GuidePart(pattern.grid, nodesOf(pattern.rails)), scene_(scene), pattern_(pattern) {
+  for (const RailPattern& rail : pattern.rails) {
+    const std::size_t first = all_.size();
+    for (std::size_t k = 0; k < rail.size(); ++k) {
+      const int column = rail.columns[k];
+      all_.emplace_back().column = column;
+      const bool left = k > 0 && rail.columns[k - 1] + 1 == column;
+      const bool right = k + 1 < rail.size() && rail.columns[k + 1] == column + 1;
+      adjacent_.push_back(left || right ? 1 : 0);
+      track_of_.push_back(tracks_.size());
+      fastened_.push_back(rail.fastened[k]);
+    }
+    tracks_.push_back({rail,
+                       first,
+                       all_.size(),
+                       RailLaw(rail.size(), rail.gap, rail.path.length()),
+                       {},
+                       std::vector<double>(rail.layout.masters().size(), 0.0)});
+    tracks_.back().asked.drive = driveOf(tracks_.back());
   }
-  rows_.resize(rail.size());
-  asked_.drive = scene.rail.drive;
-  goal_.assign(rail.layout.masters().size(), 0.0);
+  rows_.resize(all_.size());
 }
 
 void Rail::forget() noexcept {
@@ -52,7 +61,7 @@ void Rail::begin(const SubstepStart& substep, const ClothState& state, const Fie
     RailRow& row = rows_[k];
     carrier.inverse = carrier.mobility = inverse[node(carrier)];
     stands_ = stands_ || !(carrier.inverse > 0.0);
-    carrier.along = carrier.now = pattern_.rail.path.at(start.place[k]).tangent;
+    carrier.along = carrier.now = pathOf(k).at(start.place[k]).tangent;
     carrier.point = start.position.at(node(carrier));
     carrier.moved = false;
     carrier.began = start.place[k];
@@ -60,25 +69,28 @@ void Rail::begin(const SubstepStart& substep, const ClothState& state, const Fie
     row = RailRow();
     row.mass = 1.0 / carrier.inverse;
     row.wish = row.place = start.place[k];
-    row.friction = {state.place[k], pattern_.rail.fastened[k] != 0 ? kInfinity : 0.0};
+    row.friction = {state.place[k], isFastened(k) ? kInfinity : 0.0};
     setFreedom(k);
   }
-  if (!asked_.draws) return;
-  const std::vector<std::size_t>& masters = pattern_.rail.layout.masters();
-  for (std::size_t m = 0; m < masters.size(); ++m) {
-    const double from = state.place[masters[m]], most = std::abs(asked_.drive.speed * step_);
-    rows_[masters[m]].drive = {from + std::clamp(goal_[m] - from, -most, most), scale_ * asked_.drive.force};
+  for (const Track& track : tracks_) {
+    if (!track.asked.draws) continue;
+    const std::vector<std::size_t>& masters = track.rail.layout.masters();
+    for (std::size_t m = 0; m < masters.size(); ++m) {
+      const std::size_t k = track.first + masters[m];
+      const double from = state.place[k], most = std::abs(track.asked.drive.speed * step_);
+      rows_[k].drive = {from + std::clamp(track.goal[m] - from, -most, most), scale_ * track.asked.drive.force};
+    }
   }
 }
 
 // The rail's reaction across itself carries what acts there and turns the carrier in its arc.
 void Rail::bindFriction(std::size_t k, const Vec3& force) noexcept {
-  if (pattern_.rail.fastened[k] != 0) return;
-  const RailPath::Place at = pattern_.rail.path.at(rows_[k].place);
+  if (isFastened(k)) return;
+  const RailPath::Place at = pathOf(k).at(rows_[k].place);
   const double speed = (rows_[k].place - all_[k].began) / step_;
   const Vec3 across =
       force - force.dot(at.tangent) * at.tangent - pattern_.mass[node(all_[k])] * speed * speed * at.curvature;
-  const double bound = scale_ * pattern_.rail.friction * across.norm();
+  const double bound = scale_ * tracks_[track_of_[k]].rail.friction * across.norm();
   rows_[k].friction.bound = std::isfinite(bound) ? bound : 0.0;
 }
 
@@ -96,7 +108,7 @@ void Rail::press(const NodeForce& force) noexcept {
 
 void Rail::put(std::size_t k, double place, Field3& position) noexcept {
   Carrier& carrier = all_[k];
-  const RailPath::Place at = pattern_.rail.path.at(place);
+  const RailPath::Place at = pathOf(k).at(place);
   carrier.now = at.tangent;
   carrier.point = at.point;
   position.set(node(carrier), at.point);
@@ -115,14 +127,14 @@ void Rail::settlePositions(int first, int end, Field3& position) noexcept {
 bool Rail::settle(Field3& position) noexcept {
   for (std::size_t k = 0; k < all_.size(); ++k)
     rows_[k].wish += all_[k].along.dot(position.at(node(all_[k])) - all_[k].point);
-  law_.solve(rows_);
+  for (Track& track : tracks_) track.law.solve(rows_.data() + track.first);
   bool changed = false;
   for (std::size_t k = 0; k < all_.size(); ++k) {
     Carrier& carrier = all_[k];
     put(k, rows_[k].place, position);
     carrier.moved = carrier.moved || (carrier.mobility == 0.0 && !rows_[k].stays);
     // A string between neighbouring columns must have an end that moves, so that its pull can grow until one does.
-    const bool may_stay = !carrier.moved && (adjacent_[k] == 0 || pattern_.rail.fastened[k] != 0);
+    const bool may_stay = !carrier.moved && (adjacent_[k] == 0 || isFastened(k));
     const double mobility = rows_[k].stays && may_stay ? 0.0 : carrier.inverse;
     changed = changed || mobility != carrier.mobility;
     carrier.mobility = mobility;
@@ -150,15 +162,19 @@ void Rail::commit(ClothState& state) noexcept {
     all_[k].drawn = row.drawn / scale_;
   }
   if (stands_) return;
-  law_.forEachRun([&](std::size_t first, std::size_t end) {
-    for (std::size_t k = first; k + 1 < end; ++k) all_[k].joins = true;
-  });
+  for (const Track& track : tracks_) {
+    track.law.forEachRun([&](std::size_t first, std::size_t end) {
+      for (std::size_t k = first; k + 1 < end; ++k) all_[track.first + k].joins = true;
+    });
+  }
 }
 
 void Rail::substepDone(const SubstepMade& made) noexcept {
-  double sum = 0.0;
-  for (const Carrier& carrier : all_) sum += std::abs(carrier.drawn);
-  impulse_ += made.h * sum;
+  for (Track& track : tracks_) {
+    double sum = 0.0;
+    for (std::size_t k = track.first; k < track.end; ++k) sum += std::abs(all_[k].drawn);
+    track.impulse += made.h * sum;
+  }
 }
 
 // An impulse puts in itself times the mean speed; that of the drive is its multiplier over the step.
@@ -184,7 +200,7 @@ void Rail::beginRates(const ClothState& state, double age, Field3& velocity) noe
   for (std::size_t k = 0; k < all_.size(); ++k) {
     Carrier& carrier = all_[k];
     const std::size_t n = node(carrier);
-    carrier.now = carrier.along = pattern_.rail.path.at(state.place[k]).tangent;
+    carrier.now = carrier.along = pathOf(k).at(state.place[k]).tangent;
     carrier.mobility = all_[k].stays ? 0.0 : 1.0 / pattern_.mass[n];
     const Vec3 v = all_[k].stays ? state.velocity.at(n) : velocity.at(n);
     carrier.speed = v.dot(carrier.now) + age * carrier.mobility * all_[k].force;

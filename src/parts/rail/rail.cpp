@@ -8,58 +8,88 @@
 
 namespace curtain {
 
-void Rail::reset(ClothState&) { ask({false, 0.0, scene_.rail.drive}); }
+std::optional<std::size_t> Rail::railOf(std::size_t layer) const noexcept {
+  for (std::size_t t = 0; t < tracks_.size(); ++t) {
+    if (tracks_[t].rail.layer == layer) return t;
+  }
+  return std::nullopt;
+}
 
-void Rail::ask(const Asked& asked) {
-  asked_ = asked;
+const DriveParams& Rail::driveOf(const Track& track) const noexcept {
+  const std::size_t layer = track.rail.layer;
+  return layer == 0 ? scene_.rail.drive : scene_.layers[layer - 1].rail.drive;
+}
+
+void Rail::reset(ClothState&) {
+  for (Track& track : tracks_) track.asked = {false, 0.0, driveOf(track)};
+  resume();
+}
+
+void Rail::ask(std::size_t rail, const Asked& asked) {
+  tracks_[rail].asked = asked;
   resume();
 }
 
 void Rail::resume() {
-  if (!any()) return;
-  const std::vector<double> places = pattern_.rail.layout.placesFor(asked_.opening);
-  const std::vector<std::size_t>& masters = pattern_.rail.layout.masters();
-  for (std::size_t m = 0; m < masters.size(); ++m) goal_[m] = places[masters[m]];
+  for (Track& track : tracks_) {
+    const std::vector<double> places = track.rail.layout.placesFor(track.asked.opening);
+    const std::vector<std::size_t>& masters = track.rail.layout.masters();
+    for (std::size_t m = 0; m < masters.size(); ++m) track.goal[m] = places[masters[m]];
+  }
 }
 
 // Carriers to the nearest places that the gaps between them leave.
 void Rail::placed(const ClothState&, ClothState& state) noexcept {
-  const RailPattern& rail = pattern_.rail;
-  double least = 0.0;
-  for (std::size_t k = 0; k < rail.size(); ++k, least += rail.gap) {
-    const auto n = static_cast<std::size_t>(rail.columns[k]);
-    const double most = rail.path.length() - rail.gap * static_cast<double>(rail.size() - 1 - k);
-    const double after = k > 0 ? state.place[k - 1] + rail.gap : 0.0;
-    state.place[k] = std::min(most, std::max(after, rail.path.nearest(state.position.at(n))));
-    const RailPath::Place at = rail.path.at(state.place[k]);
-    state.position.set(n, at.point);
-    state.velocity.set(n, state.velocity.at(n).dot(at.tangent) * at.tangent);
+  for (const Track& track : tracks_) {
+    const RailPattern& rail = track.rail;
+    for (std::size_t k = track.first; k < track.end; ++k) {
+      const std::size_t n = node(all_[k]);
+      const double most = rail.path.length() - rail.gap * static_cast<double>(track.end - 1 - k);
+      const double after = k > track.first ? state.place[k - 1] + rail.gap : 0.0;
+      state.place[k] = std::min(most, std::max(after, rail.path.nearest(state.position.at(n))));
+      const RailPath::Place at = rail.path.at(state.place[k]);
+      state.position.set(n, at.point);
+      state.velocity.set(n, state.velocity.at(n).dot(at.tangent) * at.tangent);
+    }
   }
+}
+
+bool Rail::hasArrived(const Track& track, const ClothState& state) const noexcept {
+  const std::vector<std::size_t>& masters = track.rail.layout.masters();
+  for (std::size_t m = 0; m < masters.size(); ++m) {
+    if (state.place[track.first + masters[m]] != track.goal[m]) return false;
+  }
+  return true;
 }
 
 bool Rail::isUnderWay(const ClothState& state) const noexcept {
-  if (!asked_.draws || !any()) return false;
-  const std::vector<std::size_t>& masters = pattern_.rail.layout.masters();
-  for (std::size_t m = 0; m < masters.size(); ++m) {
-    if (state.place[masters[m]] != goal_[m]) return true;
-  }
-  return false;
+  return std::any_of(tracks_.begin(), tracks_.end(),
+                     [&](const Track& track) { return track.asked.draws && !hasArrived(track, state); });
+}
+
+bool Rail::drives(const ClothState&) const noexcept {
+  return std::any_of(tracks_.begin(), tracks_.end(), [](const Track& track) { return track.asked.draws; });
+}
+
+double Rail::openingOf(std::size_t rail, const ClothState& state) const noexcept {
+  return tracks_[rail].rail.layout.openingOf(state.place.data() + tracks_[rail].first);
 }
 
 void Rail::measure(const ClothState& state, Statistics& statistics) const noexcept {
-  if (any()) statistics.opening = pattern_.rail.layout.openingOf(state.place);
+  if (const std::optional<std::size_t> rail = railOf(0)) statistics.opening = openingOf(*rail, state);
 }
 
 bool Rail::endFrame(const FrameEnd& end, ClothState&) noexcept {
-  end.statistics.drive_force = impulse_ / end.length;
+  if (const std::optional<std::size_t> rail = railOf(0))
+    end.statistics.drive_force = tracks_[*rail].impulse / end.length;
   return false;
 }
 
-bool Rail::explain(const ClothState&, double, Plan& plan) const {
+bool Rail::explain(const ClothState& state, double, Plan& plan) const {
   plan.push_back({"rail", any(),
                   !any() ? "there is none"
                          : std::to_string(all_.size()) + " carriers slide" +
-                               (asked_.draws ? ", and the drive draws them" : "; the drive has let go")});
+                               (drives(state) ? ", and the drive draws them" : "; the drive has let go")});
   return false;
 }
 
@@ -70,10 +100,12 @@ void Rail::serialize(Archive& archive) {
     archive.finite("force", carrier.force);
     archive.finite("drawn", carrier.drawn);
   }
-  archive.flag("draws", asked_.draws);
-  archive.within("opening", asked_.opening, 0.0, 1.0);
-  archive.within("speed", asked_.drive.speed, kSmallest, kLargest);
-  archive.within("force", asked_.drive.force, 0.0, kLargest);
+  for (Track& track : tracks_) {
+    archive.flag("draws", track.asked.draws);
+    archive.within("opening", track.asked.opening, 0.0, 1.0);
+    archive.within("speed", track.asked.drive.speed, kSmallest, kLargest);
+    archive.within("force", track.asked.drive.force, 0.0, kLargest);
+  }
 }
 
 }  // namespace curtain

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The rail of a curtain: its carriers, in the solve, and what is asked of their drive. A carrier is a node of the top
-// row with one freedom, its place s along the rail: x = gamma(s), and since |gamma'| = 1, the mass that belongs to s is
-// that of node and carrier, on arcs too. A force f moves it by w (f . tangent): its inverse inertia is the matrix
+// The rails of curtains: their carriers, in the solve, and what is asked of their drives. A carrier is a node of the
+// top row with one freedom, its place s along the rail: x = gamma(s), and since |gamma'| = 1, the mass that belongs to
+// s is that of node and carrier, on arcs too. A force f moves it by w (f . tangent): its inverse inertia is the matrix
 // w tangent tangent^T (GuidedNodes).
 //
 // What a loop over nodes moved it by counts along the tangent only, as a change of the wished place, where a carrier
@@ -13,6 +13,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "curtain_sim/scene.h"
@@ -48,31 +49,35 @@ class Rail final : public GuidePart, public Part {
   /// scene and pattern must outlive this.
   Rail(const Scene& scene, const ClothPattern& pattern);
 
-  bool any() const noexcept { return !pattern_.rail.empty(); }
+  bool any() const noexcept { return !pattern_.rails.empty(); }
 
-  /// What is asked of the drive.
+  /// What is asked of a drive.
   struct Asked {
     bool draws = false;
     double opening = 0.0;  ///< to draw the masters to [0..1]
     DriveParams drive;
   };
-  void ask(const Asked& asked);
-  const Asked& asked() const noexcept { return asked_; }
+  /// Number of the rail that a cloth (Layers) hangs from; none: it hangs from none.
+  std::optional<std::size_t> railOf(std::size_t layer) const noexcept;
+  void ask(std::size_t rail, const Asked& asked);
+  const Asked& asked(std::size_t rail) const noexcept { return tracks_[rail].asked; }
+  /// Present opening of a rail.
+  double openingOf(std::size_t rail, const ClothState& state) const noexcept;
 
   /// Lets go, and draws as the scene says from now on.
   void reset(ClothState& state) override;
   void placed(const ClothState& before, ClothState& state) noexcept override;
   void serialize(Archive& archive) override;
   void resume() override;
-  /// Writes the present opening.
+  /// Writes the present opening of the first cloth.
   void measure(const ClothState& state, Statistics& statistics) const noexcept override;
   bool explain(const ClothState& state, double time, Plan& plan) const override;
   /// It draws a master that has not arrived.
   bool isUnderWay(const ClothState& state) const noexcept override;
-  bool drives(const ClothState&) const noexcept override { return asked_.draws && any(); }
+  bool drives(const ClothState&) const noexcept override;
   bool reversible() const noexcept override { return !any(); }
   bool beginFrame(const FrameBegin&, ClothState&) noexcept override {
-    impulse_ = 0.0;
+    for (Track& track : tracks_) track.impulse = 0.0;
     return false;
   }
   void substepDone(const SubstepMade& made) noexcept override;
@@ -112,6 +117,19 @@ class Rail final : public GuidePart, public Part {
     return std::lower_bound(all_.data(), all_.data() + all_.size(), column,
                             [](const Carrier& carrier, int at) { return carrier.column < at; });
   }
+  // A rail and its carriers, [first, end) of all.
+  struct Track {
+    const RailPattern& rail;
+    std::size_t first, end;
+    RailLaw law;
+    Asked asked;
+    std::vector<double> goal;  // places that the masters are drawn to [m]
+    double impulse = 0.0;      // of the drive in this frame [N s]
+  };
+  const DriveParams& driveOf(const Track& track) const noexcept;
+  bool hasArrived(const Track& track, const ClothState& state) const noexcept;
+  const RailPath& pathOf(std::size_t k) const noexcept { return tracks_[track_of_[k]].rail.path; }
+  bool isFastened(std::size_t k) const noexcept { return fastened_[k] != 0; }
   void put(std::size_t k, double place, Field3& position) noexcept;
   void setFreedom(std::size_t k) noexcept;
   void bindFriction(std::size_t k, const Vec3& force) noexcept;
@@ -123,13 +141,12 @@ class Rail final : public GuidePart, public Part {
   std::vector<Carrier> all_;
   std::vector<std::uint8_t> adjacent_;  // a neighbouring column has one too
   std::vector<RailRow> rows_;           // wishes and places
-  RailLaw law_;
-  Asked asked_;
-  std::vector<double> goal_;  // places that the masters are drawn to [m]
-  double impulse_ = 0.0;      // of the drive in this frame [N s]
-  double step_ = 0.0;         // of the substep [s]
-  double scale_ = 0.0;        // step times kick [s^2]
-  bool stands_ = false;       // nothing moves a carrier in this substep
+  std::vector<Track> tracks_;
+  std::vector<std::size_t> track_of_;   // by carrier
+  std::vector<std::uint8_t> fastened_;  // the same
+  double step_ = 0.0;                   // of the substep [s]
+  double scale_ = 0.0;                  // step times kick [s^2]
+  bool stands_ = false;                 // nothing moves a carrier in this substep
 };
 
 }  // namespace curtain

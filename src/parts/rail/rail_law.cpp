@@ -16,7 +16,7 @@ RailLaw::RailLaw(std::size_t carriers, double gap, double length)
 
 // The u at which the derivative of the terms of rows [first, end) changes its sign. It is M u - sum m w + (bounds of
 // the kinks below u) - (bounds of those above).
-double RailLaw::minimum(const std::vector<RailRow>& rows, std::size_t first, std::size_t end) noexcept {
+double RailLaw::minimum(const RailRow* rows, std::size_t first, std::size_t end) noexcept {
   double mass = 0.0, moment = 0.0;
   kinks_.clear();
   for (std::size_t i = first; i < end; ++i) {
@@ -42,9 +42,9 @@ double RailLaw::minimum(const std::vector<RailRow>& rows, std::size_t first, std
   return (moment - below) / mass;
 }
 
-void RailLaw::solve(std::vector<RailRow>& rows) noexcept {
+void RailLaw::solve(RailRow* rows) noexcept {
   pools_ = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
+  for (std::size_t i = 0; i < pool_.size(); ++i) {
     Pool pool{i, i + 1, minimum(rows, i, i + 1)};
     while (pools_ > 0 && pool_[pools_ - 1].u > pool.u) {
       pool.first = pool_[--pools_].first;
@@ -59,7 +59,7 @@ void RailLaw::solve(std::vector<RailRow>& rows) noexcept {
   }
 }
 
-void RailLaw::settle(const Pool& pool, std::vector<RailRow>& rows) const noexcept {
+void RailLaw::settle(const Pool& pool, RailRow* rows) const noexcept {
   const bool stopped = pool.u == 0.0 || pool.u == most_;
   bool stays = stopped;
   for (std::size_t i = pool.first; i < pool.end; ++i) {
@@ -75,7 +75,7 @@ void RailLaw::settle(const Pool& pool, std::vector<RailRow>& rows) const noexcep
 }
 
 // Divides the force on a run among friction and drive: friction does what it can before the drive does anything.
-void RailLaw::share(const Pool& pool, std::vector<RailRow>& rows) const noexcept {
+void RailLaw::share(const Pool& pool, RailRow* rows) const noexcept {
   double needed = 0.0, rubs = 0.0;  // multiplier that has not been found a source for; bound of friction at rest
   for (std::size_t i = pool.first; i < pool.end; ++i) {
     RailRow& row = rows[i];

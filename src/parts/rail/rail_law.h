@@ -42,7 +42,7 @@ class RailLaw {
   RailLaw(std::size_t carriers, double gap, double length);
 
   /// rows: as many as carriers, in their order.
-  void solve(std::vector<RailRow>& rows) noexcept;
+  void solve(RailRow* rows) noexcept;
 
   /// Calls visit(first, end) for the runs of carriers that touch, of the last solution.
   template <typename Visit>
@@ -59,9 +59,9 @@ class RailLaw {
   struct Kink {
     double at, bound;
   };
-  double minimum(const std::vector<RailRow>& rows, std::size_t first, std::size_t end) noexcept;
-  void settle(const Pool& pool, std::vector<RailRow>& rows) const noexcept;
-  void share(const Pool& pool, std::vector<RailRow>& rows) const noexcept;
+  double minimum(const RailRow* rows, std::size_t first, std::size_t end) noexcept;
+  void settle(const Pool& pool, RailRow* rows) const noexcept;
+  void share(const Pool& pool, RailRow* rows) const noexcept;
   double shift(std::size_t index) const noexcept { return gap_ * static_cast<double>(index); }
 
   const double gap_, most_;  // [m]; bound of u

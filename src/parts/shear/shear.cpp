@@ -18,13 +18,13 @@ Field inverseOf(const Field& lengths) {
 
 // A cell's own largest frequency, with the share of its nodes' masses that belongs to it; that of all cells together
 // is no larger (Irons, Treharne 1971).
-double fastestCell(const ClothPattern& pattern) {
+double fastestCell(const Layers& layers, const ClothPattern& pattern) {
   const Grid& grid = pattern.grid;
   double fastest = 0.0;
   forEachCell(grid, [&](int i, int j, int left) {
     const double weft = pattern.weft_rest[grid.index(i, j)], warp = pattern.warp_rest[grid.index(i + 1, j)];
     const double per_node = lightestCorner(pattern, i, j, left) * warp * weft;
-    fastest = std::max(fastest, 4.0 * (warp / weft + weft / warp) / per_node);
+    fastest = std::max(fastest, layers.at(j).cloth->shear * (4.0 * (warp / weft + weft / warp) / per_node));
   });
   return fastest;
 }
@@ -32,14 +32,13 @@ double fastestCell(const ClothPattern& pattern) {
 using Vec2 = Eigen::Vector2d;
 
 // Nodes of open cloth laid flat: along their rows from the middle, and down their columns [m].
-std::vector<Vec2> layFlat(const ClothPattern& pattern) {
+void layFlat(const ClothPattern& pattern, const Layers::Layer& layer, std::vector<Vec2>& at) {
   const Grid& grid = pattern.grid;
-  std::vector<Vec2> at(grid.size(), Vec2::Zero());
   for (int i = 0; i < grid.rows; ++i) {
-    for (int j = 1; j < grid.columns; ++j)
+    for (int j = layer.first + 1; j < layer.end; ++j)
       at[grid.index(i, j)].x() = at[grid.index(i, j - 1)].x() + pattern.weft_rest[grid.index(i, j)];
-    const double middle = 0.5 * at[grid.index(i, grid.columns - 1)].x();
-    for (int j = 0; j < grid.columns; ++j) {
+    const double middle = 0.5 * at[grid.index(i, layer.end - 1)].x();
+    for (int j = layer.first; j < layer.end; ++j) {
       Vec2& node = at[grid.index(i, j)];
       node.x() -= middle;
       if (i == 0) continue;
@@ -48,7 +47,6 @@ std::vector<Vec2> layFlat(const ClothPattern& pattern) {
       node.y() = above.y() + std::sqrt(std::max(0.0, rest * rest - along * along));
     }
   }
-  return at;
 }
 
 // The corners of a flat cell: top left, top right, bottom left, bottom right. A ring's are trapezoids side by side.
@@ -64,15 +62,21 @@ std::array<Vec2, 4> flatCell(const ClothPattern& pattern, const std::vector<Vec2
 
 }  // namespace
 
-Shear::Shear(const ClothParams& cloth, const ClothPattern& pattern, const Workers& workers)
-    : pattern_(pattern), workers_(workers), rigidity_(cloth.shear) {
+Shear::Shear(const Layers& layers, const ClothPattern& pattern, const Workers& workers)
+    : pattern_(pattern), workers_(workers), layers_(layers) {
+  omega_squared_ = fastestCell(layers, pattern);
   if (!any()) return;
   const Grid& grid = pattern.grid;
-  omega_squared_ = rigidity_ * fastestCell(pattern);
+  stiffness_.assign(grid.size(), 0.0);
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j)
+      stiffness_[grid.index(i, j)] = 0.25 * layers.at(j).cloth->shear * pattern.cell[grid.index(i, j)];
+  }
   per_warp_ = inverseOf(pattern.warp_rest);
   per_weft_ = inverseOf(pattern.weft_rest);
   for (Field& sines : flat_) sines.assign(grid.size(), 0.0);
-  const std::vector<Vec2> flat = layFlat(pattern);
+  std::vector<Vec2> flat(grid.size(), Vec2::Zero());
+  for (const Layers::Layer& layer : layers) layFlat(pattern, layer, flat);
   forEachCell(grid, [&](int i, int j, int left) {
     const std::size_t n = grid.index(i, j), below = grid.index(i + 1, j);
     const std::array<Vec2, 4> at = flatCell(pattern, flat, i, j, left);
@@ -93,19 +97,19 @@ CURTAIN_WIDE void Shear::shearCells(const Field3& position, int row, CellCorners
   const std::size_t first = pattern_.grid.row(row), second = pattern_.grid.row(row + 1);
   const ConstFieldView a(position, first), b(position, second);
   const double *const per_top = per_weft_.data() + first, *const per_bottom = per_weft_.data() + second,
-                      *const per_warp = per_warp_.data() + second, *const cell = pattern_.cell.data() + first,
+                      *const per_warp = per_warp_.data() + second, *const stiffness = stiffness_.data() + first,
                       *const flat_ef = flat_[0].data() + first, *const flat_eg = flat_[1].data() + first,
                       *const flat_df = flat_[2].data() + first, *const flat_dg = flat_[3].data() + first;
   const FieldView tl(corners.top_left, 0), tr(corners.top_right, 0), bl(corners.bottom_left, 0),
       br(corners.bottom_right, 0);
-  const double quarter = 0.25 * share() * rigidity_;
+  const double share = this->share();
 #pragma omp simd
   for (std::size_t j = 1; j < columns; ++j) {
     const double ex = a.x[j] - a.x[j - 1], ey = a.y[j] - a.y[j - 1], ez = a.z[j] - a.z[j - 1];              // top
     const double dx = b.x[j] - b.x[j - 1], dy = b.y[j] - b.y[j - 1], dz = b.z[j] - b.z[j - 1];              // bottom
     const double fx = b.x[j - 1] - a.x[j - 1], fy = b.y[j - 1] - a.y[j - 1], fz = b.z[j - 1] - a.z[j - 1];  // left
     const double gx = b.x[j] - a.x[j], gy = b.y[j] - a.y[j], gz = b.z[j] - a.z[j];                          // right
-    const double k = quarter * cell[j];
+    const double k = share * stiffness[j];
     const double ef = k * ((ex * fx + ey * fy + ez * fz) * per_top[j] * per_warp[j - 1] - flat_ef[j]);
     const double eg = k * ((ex * gx + ey * gy + ez * gz) * per_top[j] * per_warp[j] - flat_eg[j]);
     const double df = k * ((dx * fx + dy * fy + dz * fz) * per_bottom[j] * per_warp[j - 1] - flat_df[j]);
@@ -133,7 +137,7 @@ void Shear::shearSeam(const Field3& position, int row, CellCorners& corners) con
                     last_below = grid.index(row + 1, grid.columns - 1);
   const Vec3 top = position.at(n) - position.at(last), bottom = position.at(below) - position.at(last_below);
   const Vec3 left = position.at(last_below) - position.at(last), right = position.at(below) - position.at(n);
-  const double k = 0.25 * share() * rigidity_ * pattern_.cell[n];
+  const double k = share() * stiffness_[n];
   const double ef = k * (top.dot(left) * per_weft_[n] * per_warp_[last_below] - flat_[0][n]);
   const double eg = k * (top.dot(right) * per_weft_[n] * per_warp_[below] - flat_[1][n]);
   const double df = k * (bottom.dot(left) * per_weft_[below] * per_warp_[last_below] - flat_[2][n]);
@@ -164,7 +168,7 @@ double Shear::energyAt(const Field3& position) const noexcept {
       const Vec3 e = position.at(weft) - position.at(grid.index(row, left));
       const Vec3 f = position.at(warp) - position.at(grid.index(i, column));
       const double per = per_weft_[weft] * per_warp_[warp], s = e.dot(f) * per - flat;
-      sum += 0.125 * share() * rigidity_ * pattern_.cell[n] * s * s / per;
+      sum += 0.5 * share() * stiffness_[n] * s * s / per;
     };
     corner(i, left, flat_[0][n]);
     corner(i, j, flat_[1][n]);
@@ -176,7 +180,9 @@ double Shear::energyAt(const Field3& position) const noexcept {
 
 bool Shear::explain(const ClothState&, double, Plan& plan) const {
   std::ostringstream text;
-  if (any()) text << rigidity_ << " N/m" << (share() < 1.0 ? ", of which the substeps bear a part" : "");
+  if (any())
+    text << listOf(layers_, &ClothParams::shear) << " N/m"
+         << (share() < 1.0 ? ", of which the substeps bear a part" : "");
   plan.push_back({"shear", any(), any() ? text.str() : "cloth.shear is 0"});
   return false;
 }

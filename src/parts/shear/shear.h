@@ -27,10 +27,10 @@ namespace curtain {
 /// Not thread-safe. Allocates only in the constructor, and nothing for cloth without shear rigidity.
 class Shear final : public ExplicitPart, public Part {
  public:
-  /// All arguments must outlive this.
-  Shear(const ClothParams& cloth, const ClothPattern& pattern, const Workers& workers);
+  /// All that the arguments refer to must outlive this.
+  Shear(const Layers& layers, const ClothPattern& pattern, const Workers& workers);
 
-  bool any() const noexcept override { return rigidity_ > 0.0; }
+  bool any() const noexcept override { return omega_squared_ > 0.0; }
   bool explain(const ClothState& state, double time, Plan& plan) const override;
 
   double omegaSquared() const noexcept override { return omega_squared_; }
@@ -45,9 +45,10 @@ class Shear final : public ExplicitPart, public Part {
 
   const ClothPattern& pattern_;
   const Workers& workers_;
-  const double rigidity_;       // [N/m]
+  const Layers layers_;
   double omega_squared_ = 0.0;  // bound [1/s^2]
   Field per_warp_, per_weft_;   // 1 / rest length [1/m]
+  Field stiffness_;             // a quarter of G, of the cell below this node, on its left [N/m]; 0: there is none
   std::array<Field, 4> flat_;   // s_0 of its corners: top left, top right, bottom left, bottom right
   std::optional<CellSum> cells_;
 };

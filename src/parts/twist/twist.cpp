@@ -25,9 +25,10 @@ double volumeOf(const Corners& at, const Field3& position) noexcept {
 
 }  // namespace
 
-Twist::Twist(const ClothParams& cloth, const ClothPattern& pattern, const Workers& workers)
-    : pattern_(pattern), workers_(workers), given_(cloth.bending_bias > 0.0), rigidity_(twistRigidity(cloth)) {
-  if (!any()) return;
+Twist::Twist(const Layers& layers, const ClothPattern& pattern, const Workers& workers)
+    : pattern_(pattern), workers_(workers), layers_(layers) {
+  const auto resists = [](const Layers::Layer& layer) { return twistRigidity(*layer.cloth) > 0.0; };
+  if (std::none_of(layers.begin(), layers.end(), resists)) return;
   const Grid& grid = pattern.grid;
   stiffness_.assign(grid.size(), 0.0);
   forEachCell(grid, [&](int i, int j, int left) {
@@ -35,7 +36,7 @@ Twist::Twist(const ClothParams& cloth, const ClothPattern& pattern, const Worker
     const double top = pattern.weft_rest[n], bottom = pattern.weft_rest[below];
     const double on_left = pattern.warp_rest[grid.index(i + 1, left)], on_right = pattern.warp_rest[below];
     const double area = 0.25 * (top + bottom) * (on_left + on_right), edges = top * bottom * on_left * on_right;
-    const double stiffness = 4.0 * rigidity_ * area / (edges * edges);
+    const double stiffness = 4.0 * twistRigidity(*layers.at(j).cloth) * area / (edges * edges);
     stiffness_[n] = pattern.cell[n] * stiffness;
     // Its own frequency, with the share of its nodes' masses that belongs to it. The slope of V at a node is twice the
     // area of the others' triangle at most.
@@ -114,12 +115,15 @@ double Twist::energyAt(const Field3& position) const noexcept {
 
 bool Twist::explain(const ClothState&, double, Plan& plan) const {
   std::ostringstream text;
-  if (any())
-    text << rigidity_ << " N m" << (share() < 1.0 ? ", of which the substeps bear a part" : "");
-  else if (given_)
+  const auto given = [](const Layers::Layer& layer) { return layer.cloth->bending_bias > 0.0; };
+  if (any()) {
+    for (const Layers::Layer& layer : layers_) text << (layer.first > 0 ? ", " : "") << twistRigidity(*layer.cloth);
+    text << " N m" << (share() < 1.0 ? ", of which the substeps bear a part" : "");
+  } else if (std::any_of(layers_.begin(), layers_.end(), given)) {
     text << "cloth.bending_bias is no more than warp and weft lines give";
-  else
+  } else {
     text << "cloth.bending_bias is 0";
+  }
   plan.push_back({"twist", any(), text.str()});
   return false;
 }

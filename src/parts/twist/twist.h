@@ -25,10 +25,10 @@ namespace curtain {
 /// Not thread-safe. Allocates only in the constructor, and nothing for cloth that does not resist twist.
 class Twist final : public ExplicitPart, public Part {
  public:
-  /// All arguments must outlive this.
-  Twist(const ClothParams& cloth, const ClothPattern& pattern, const Workers& workers);
+  /// All that the arguments refer to must outlive this.
+  Twist(const Layers& layers, const ClothPattern& pattern, const Workers& workers);
 
-  bool any() const noexcept override { return rigidity_ > 0.0; }
+  bool any() const noexcept override { return omega_squared_ > 0.0; }
   bool explain(const ClothState& state, double time, Plan& plan) const override;
 
   double omegaSquared() const noexcept override { return omega_squared_; }
@@ -43,8 +43,7 @@ class Twist final : public ExplicitPart, public Part {
 
   const ClothPattern& pattern_;
   const Workers& workers_;
-  const bool given_;            // cloth.bending_bias is
-  const double rigidity_;       // D_t [N m]
+  const Layers layers_;
   double omega_squared_ = 0.0;  // bound [1/s^2]
   Field stiffness_;             // of the cell below this node, on its left: dE / dV = stiffness V [N/m^5]
   std::optional<CellSum> cells_;

@@ -19,7 +19,7 @@ namespace curtain {
 class WeftPush final : public ExplicitPart, public Part {
  public:
   /// pattern must outlive this.
-  WeftPush(const ClothParams& cloth, const ClothPattern& pattern);
+  WeftPush(const Layers& layers, const ClothPattern& pattern);
 
   bool any() const noexcept override { return !load_.empty(); }
   bool explain(const ClothState& state, double time, Plan& plan) const override;

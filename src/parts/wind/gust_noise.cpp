@@ -52,12 +52,13 @@ GustNoise::GustNoise(std::uint64_t seed, double correlation_length, double corre
                      const ClothPattern& pattern)
     : seed_(seed), correlation_time_(correlation_time) {
   const Grid& grid = pattern.grid;
-  const double height = pattern.warp_coordinate.back();
+  const double height = pattern.warp_coordinate[grid.index(grid.rows - 1, 0)];
   const double width = pattern.weft_coordinate.back() + (grid.closed ? pattern.weft_rest[grid.index(0, 0)] : 0.0);
   const int row_cells = latticeCells(height, correlation_length, 1, grid.rows);
   // A single cell around a ring would have one lattice point for both its ends.
   const int column_cells = latticeCells(width, correlation_length, grid.closed ? 2 : 1, grid.columns);
-  for (const double v : pattern.warp_coordinate) row_place_.push_back(place(v / height * row_cells));
+  for (int i = 0; i < grid.rows; ++i)  // other cloths' rows as if they were as high
+    row_place_.push_back(place(pattern.warp_coordinate[grid.index(i, 0)] / height * row_cells));
   for (const double u : pattern.weft_coordinate) column_place_.push_back(place(u / width * column_cells));
   if (grid.closed) {
     for (Place& p : column_place_) p.high %= column_cells;  // the lattice closes with the ring

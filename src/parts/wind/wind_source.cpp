@@ -20,13 +20,21 @@ std::uint64_t seedOf(std::uint64_t seed, const std::string& id) {
   return mixed.hash;
 }
 
+Field poresOf(const WindParams& wind, const Layers& layers) {
+  Field pores;
+  for (const Layers::Layer& layer : layers)
+    pores.resize(static_cast<std::size_t>(layer.end), 1.0 - wind.porosity_weight * layer.cloth->porosity);
+  return pores;
+}
+
 }  // namespace
 
-WindSource::WindSource(const WindParams& wind, const ClothPattern& pattern, double porosity, std::uint64_t seed)
+WindSource::WindSource(const WindParams& wind, const ClothPattern& pattern, const Layers& layers, std::uint64_t seed)
     : wind_(wind),
       axis_(wind.direction.normalized()),
-      porosity_factor_(1.0 - wind.porosity_weight * porosity),
-      strength_(porosity_factor_ * (wind.pressure + wind.node_force + wind.unsteadiness)),
+      pores_(poresOf(wind, layers)),
+      strength_(*std::max_element(pores_.begin(), pores_.end()) *
+                (wind.pressure + wind.node_force + wind.unsteadiness)),
       steady_(wind.pressure + wind.node_force > 0.0),
       gusts_(seedOf(seed, wind.id), wind.correlation_length, wind.correlation_time, pattern),
       distance_factor_(pattern.grid.size(), 0.0),
@@ -176,11 +184,12 @@ CURTAIN_WIDE void WindSource::addSteady(const ClothPattern& pattern, int i, cons
                                         const Field3& area_vectors, Field3& force) const noexcept {
   const Grid& grid = pattern.grid;
   const Cone cone = cone_;
-  const double pressure = wind_.pressure, node_force = wind_.node_force, factor_of_pores = porosity_factor_;
+  const double pressure = wind_.pressure, node_force = wind_.node_force;
   const std::size_t row = grid.row(i);
   const ConstFieldView p(position, row), normal(area_vectors, row);
   const double* const area = pattern.area.data() + row;
   const double* const factor = distance_factor_.data() + row;
+  const double* const pores = pores_.data();
   const FieldView f(force, row);
 #pragma omp simd
   for (int j = 0; j < grid.columns; ++j) {
@@ -191,7 +200,7 @@ CURTAIN_WIDE void WindSource::addSteady(const ClothPattern& pattern, int i, cons
     const double cos_psi = std::abs(nx * cone.ax + ny * cone.ay + nz * cone.az) / normal_size;
     const double centre_force = pressure * area[j] + node_force;
     // Cheng 2000, Eq. (2): (f_w . d) d / |d|^2, with f_w along the axis; then Eq. (3).
-    const double push = factor_of_pores * centre_force * d.along * cos_psi * factor[j];
+    const double push = pores[j] * centre_force * d.along * cos_psi * factor[j];
     f.x[j] += push * d.x;
     f.y[j] += push * d.y;
     f.z[j] += push * d.z;
@@ -200,7 +209,8 @@ CURTAIN_WIDE void WindSource::addSteady(const ClothPattern& pattern, int i, cons
 
 CURTAIN_WIDE void WindSource::addGusts(const ClothPattern& pattern, int i, Field3& force) noexcept {
   const Grid& grid = pattern.grid;
-  const double strength = wind_.unsteadiness * porosity_factor_;
+  const double strength = wind_.unsteadiness;
+  const double* const pores = pores_.data();
   double* const gust = gust_row_.data();
   const std::size_t row = grid.row(i);
   const double* const factor = distance_factor_.data() + row;
@@ -210,7 +220,7 @@ CURTAIN_WIDE void WindSource::addGusts(const ClothPattern& pattern, int i, Field
     gusts_.rowOf(i, component++, gust);
     double* const f = field->data() + row;
 #pragma omp simd
-    for (int j = 0; j < grid.columns; ++j) f[j] += strength * area[j] * factor[j] * gust[j];
+    for (int j = 0; j < grid.columns; ++j) f[j] += strength * pores[j] * area[j] * factor[j] * gust[j];
   }
 }
 

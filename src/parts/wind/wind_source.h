@@ -22,7 +22,7 @@ namespace curtain {
 class WindSource {
  public:
   /// wind must be valid (validate()).
-  WindSource(const WindParams& wind, const ClothPattern& pattern, double porosity, std::uint64_t seed);
+  WindSource(const WindParams& wind, const ClothPattern& pattern, const Layers& layers, std::uint64_t seed);
 
   const WindParams& params() const { return wind_; }
   bool blowsAt(double time) const { return time >= wind_.start && time < wind_.end && strength_ > 0.0; }
@@ -92,10 +92,10 @@ class WindSource {
   WindParams wind_;
   Vec3 axis_;
   Cone cone_;
-  double porosity_factor_;  // 1 - c_mu mu
-  double widening_ = 0.0;   // of the cone's radius along its axis; 0 = parallel wind
-  double strength_;         // sum of pressure, node force and gusts; 0: the source is still
-  bool steady_;             // it has more than gusts
+  Field pores_;            // by column, 1 - c_mu mu
+  double widening_ = 0.0;  // of the cone's radius along its axis; 0 = parallel wind
+  double strength_;        // sum of pressure, node force and gusts; 0: the source is still
+  bool steady_;            // it has more than gusts
   GustNoise gusts_;
   Field distance_factor_;           // of Eq. (3), of every node, from the last find(); 0 where nothing is reached
   Field gust_row_;                  // scratch: a component of the gusts along a row

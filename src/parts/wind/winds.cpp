@@ -9,7 +9,7 @@
 namespace curtain {
 
 Winds::Winds(const Scene& scene, const ClothPattern& pattern, const ObstacleSet& obstacles)
-    : scene_(scene), pattern_(pattern), obstacles_(obstacles), bounds_(pattern) {
+    : scene_(scene), layers_(scene), pattern_(pattern), obstacles_(obstacles), bounds_(pattern) {
   area_vectors_.assign(pattern.grid.size(), 0.0);
   for (const WindParams& wind : scene.wind) set(wind);
 }

@@ -38,14 +38,13 @@ class Winds final : public Part {
   void addForces(const ClothState& state, ForceSum& sum) noexcept override;
 
  private:
-  WindSource made(const WindParams& wind) const {
-    return WindSource(wind, pattern_, scene_.cloth.porosity, scene_.solver.seed);
-  }
+  WindSource made(const WindParams& wind) const { return WindSource(wind, pattern_, layers_, scene_.solver.seed); }
   bool isReachedBy(const WindSource& wind, const Field3& position) const noexcept;
   bool shadowMoves(const WindSource& wind, double time) const noexcept;
   PlanEntry planOf(const WindSource& wind, const Field3& position, double time) const;
 
   const Scene& scene_;
+  const Layers layers_;
   const ClothPattern& pattern_;
   const ObstacleSet& obstacles_;
   SampledBounds bounds_;

@@ -12,33 +12,76 @@
 
 namespace curtain {
 
-std::vector<Problem> Simulator::setOpening(double opening) {
-  Impl& im = *impl_;
-  if (im.pattern.rail.empty()) return {{"opening", "is for cloth on a rail: this scene has no rail.path"}};
+namespace {
+
+// Number of the rail that the cloth of this name hangs from.
+std::optional<std::size_t> railOf(const Motion& motion, const std::string& layer) {
+  if (layer == kFirstCloth) return motion.parts.rail.railOf(0);
+  const std::vector<LayerParams>& layers = motion.scene.layers;
+  for (std::size_t k = 0; k < layers.size(); ++k) {
+    if (layers[k].name == layer) return motion.parts.rail.railOf(k + 1);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Simulator::LayerColumns> Simulator::layers() const {
+  std::vector<LayerColumns> all;
+  for (const Layers::Layer& layer : impl_->motion.parts.layers) {
+    const std::size_t number = all.size();
+    all.push_back(
+        {number == 0 ? kFirstCloth : impl_->scene.layers[number - 1].name, layer.first, layer.end - layer.first});
+  }
+  return all;
+}
+
+std::vector<Problem> Simulator::setOpening(double opening, const std::string& layer) {
+  const std::optional<std::size_t> rail = railOf(impl_->motion, layer);
+  if (!rail) return {{"opening", "is for cloth on a rail: " + quoted(layer) + " has no rail.path"}};
   const Range range = between(0.0, 1.0);
   if (!range.contains(opening)) return {{"opening", "must be " + range.text() + ", is " + formatNumber(opening)}};
-  if (drives() && opening == im.motion.parts.rail.asked().opening) return {};
-  im.motion.parts.rail.ask({true, opening, drive()});
-  im.driven();
+  const Rail::Asked& asked = impl_->motion.parts.rail.asked(*rail);
+  if (asked.draws && opening == asked.opening) return {};
+  impl_->motion.parts.rail.ask(*rail, {true, opening, asked.drive});
+  impl_->driven();
   return {};
 }
 
-void Simulator::releaseDrive() {
-  if (!drives()) return;
-  impl_->motion.parts.rail.ask({false, impl_->motion.parts.rail.asked().opening, drive()});
+double Simulator::opening(const std::string& layer) const {
+  const std::optional<std::size_t> rail = railOf(impl_->motion, layer);
+  return rail ? impl_->motion.parts.rail.openingOf(*rail, impl_->motion.state) : 0.0;
+}
+
+void Simulator::releaseDrive(const std::string& layer) {
+  const std::optional<std::size_t> rail = railOf(impl_->motion, layer);
+  if (!rail || !drives(layer)) return;
+  const Rail::Asked& asked = impl_->motion.parts.rail.asked(*rail);
+  impl_->motion.parts.rail.ask(*rail, {false, asked.opening, asked.drive});
   impl_->driven();
 }
 
-std::vector<Problem> Simulator::setDrive(const DriveParams& drive) {
+std::vector<Problem> Simulator::setDrive(const DriveParams& drive, const std::string& layer) {
   std::vector<Problem> problems = validate(drive, "drive");
+  const std::optional<std::size_t> rail = railOf(impl_->motion, layer);
+  if (problems.empty() && !rail)
+    problems = {{"drive", "is for cloth on a rail: " + quoted(layer) + " has no rail.path"}};
   if (!problems.empty()) return problems;
-  impl_->motion.parts.rail.ask({drives(), impl_->motion.parts.rail.asked().opening, drive});
+  const Rail::Asked& asked = impl_->motion.parts.rail.asked(*rail);
+  impl_->motion.parts.rail.ask(*rail, {asked.draws, asked.opening, drive});
   impl_->driven();
   return problems;
 }
 
-bool Simulator::drives() const { return impl_->motion.parts.rail.asked().draws; }
-const DriveParams& Simulator::drive() const { return impl_->motion.parts.rail.asked().drive; }
+bool Simulator::drives(const std::string& layer) const {
+  const std::optional<std::size_t> rail = railOf(impl_->motion, layer);
+  return rail && impl_->motion.parts.rail.asked(*rail).draws;
+}
+
+const DriveParams& Simulator::drive(const std::string& layer) const {
+  const std::optional<std::size_t> rail = railOf(impl_->motion, layer);
+  return rail ? impl_->motion.parts.rail.asked(*rail).drive : impl_->scene.rail.drive;
+}
 
 bool Simulator::movePin(NodeIndex node, const Vec3& target) {
   const Grid& grid = impl_->pattern.grid;
@@ -109,13 +152,16 @@ bool Simulator::setLineEnd(const std::string& id, const Vec3& target) {
 
 std::vector<NodeIndex> Simulator::carriers() const {
   std::vector<NodeIndex> nodes;
-  for (const int column : impl_->pattern.rail.columns) nodes.push_back({0, column});
+  for (const RailPattern& rail : impl_->pattern.rails) {
+    for (const int column : rail.columns) nodes.push_back({0, column});
+  }
   return nodes;
 }
 
-std::vector<Vec3> Simulator::railPoints(double spacing) const {
-  const RailPattern& rail = impl_->pattern.rail;
-  if (rail.empty()) return {};
+std::vector<Vec3> Simulator::railPoints(double spacing, const std::string& layer) const {
+  const std::optional<std::size_t> number = railOf(impl_->motion, layer);
+  if (!number) return {};
+  const RailPattern& rail = impl_->pattern.rails[*number];
   constexpr double kMaxParts = 1e6;
   const int parts = static_cast<int>(std::clamp(std::ceil(rail.path.length() / spacing), 1.0, kMaxParts));
   std::vector<Vec3> points;

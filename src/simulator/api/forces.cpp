@@ -58,7 +58,7 @@ const std::vector<WindParams>& Simulator::winds() const { return impl_->motion.p
 
 std::vector<Problem> Simulator::setDrag(const DragParams& given) {
   Impl& im = *impl_;
-  std::vector<Problem> problems = validate(given, im.scene.cloth, "drag");
+  std::vector<Problem> problems = validate(given, wholeCloth(im.scene), "drag");
   if (!problems.empty()) return problems;
   Drags& drags = im.motion.parts.drags;
   DragParams drag = given;

@@ -23,7 +23,7 @@ std::string describeFailure(const HandParams& hand, GraspEnd end) {
 
 std::vector<Problem> Simulator::setGrasp(const GraspParams& grasp) {
   Impl& im = *impl_;
-  std::vector<Problem> problems = validate(grasp, im.scene.cloth, "grasp");
+  std::vector<Problem> problems = validate(grasp, wholeCloth(im.scene), "grasp");
   if (!problems.empty()) return problems;
   std::vector<std::size_t> nodes;
   problems = im.motion.parts.hands.find(grasp, im.motion.state.position, nodes);

@@ -44,7 +44,7 @@ void Simulator::startFrom(const std::string& file, const MeshResolver& resolve) 
   Impl& im = *impl_;
   std::string problem;
   try {
-    im.startAt(readStartFile(resolve(file), im.scene.cloth));
+    im.startAt(readStartFile(resolve(file), wholeCloth(im.scene)));
     problem = problemOfStart(im.scene, im.pattern, im.motion.state.position);
   } catch (const std::invalid_argument& error) {
     refuse("file", error.what());

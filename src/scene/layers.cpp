@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/layers.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace curtain {
+
+Layers::Layers(const Scene& scene) : Layers(scene.cloth) {
+  for (const LayerParams& layer : scene.layers) {
+    const int first = layers_.back().end;
+    layers_.push_back({first, first + layer.cloth.columns, &layer.cloth, &layer.air});
+  }
+}
+
+std::size_t Layers::numberOf(int column) const noexcept {
+  std::size_t number = 0;
+  while (number + 1 < layers_.size() && column >= layers_[number].end) ++number;
+  return number;
+}
+
+std::string listOf(const Layers& layers, double ClothParams::*value) {
+  std::ostringstream text;
+  for (const Layers::Layer& layer : layers) text << (layer.first > 0 ? ", " : "") << layer.cloth->*value;
+  return text.str();
+}
+
+ClothParams wholeCloth(const Scene& scene) {
+  ClothParams whole = scene.cloth;
+  if (scene.layers.empty()) return whole;
+  whole.column_spacing.clear();
+  whole.column_mass.clear();
+  for (const LayerParams& layer : scene.layers) {
+    whole.slits.push_back({whole.columns - 1, 0});
+    for (const SlitParams& slit : layer.cloth.slits)
+      whole.slits.push_back({whole.columns + slit.column, slit.from_row});
+    whole.columns += layer.cloth.columns;
+  }
+  return whole;
+}
+
+Scene layerScene(const Scene& scene, std::size_t number) {
+  Scene one;
+  one.gravity = scene.gravity;
+  one.air = scene.air;
+  one.obstacles = scene.obstacles;
+  one.contact = scene.contact;
+  one.solver = scene.solver;
+  if (number == 0) {
+    one.cloth = scene.cloth;
+    one.hang = scene.hang;
+    one.hem = scene.hem;
+    one.pins = scene.pins;
+    one.rail = scene.rail;
+    return one;
+  }
+  const LayerParams& layer = scene.layers[number - 1];
+  one.cloth = layer.cloth;
+  one.hang = layer.hang;
+  one.hem = layer.hem;
+  one.pins = layer.pins;
+  one.rail = layer.rail;
+  return one;
+}
+
+double longestWarp(const Scene& scene) {
+  double longest = scene.cloth.height;
+  for (const LayerParams& layer : scene.layers) longest = std::max(longest, layer.cloth.height);
+  return longest;
+}
+
+}  // namespace curtain
