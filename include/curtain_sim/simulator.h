@@ -112,13 +112,13 @@ class Simulator {
   std::vector<Problem> setPositionTolerance(double tolerance);  ///< see setFriction()
   std::vector<Problem> setBudget(double ms);                    ///< see setFriction()
 
-  /// Changes the cloth from the next step on, also after reset(): surface_density, porosity, row_mass, column_mass,
-  /// shear, bending_warp, bending_weft, bending_bias, bending_hysteresis and material (a name: applyMaterial() has set
-  /// the others); all else must be as it is. Motion goes on, contacts are found anew, and sleeping cloth wakes; a start
-  /// by hang.start stays. Within, the simulator is made anew but for the obstacles' shapes and the fine mesh's
-  /// topology: other references that it gave end, as those of scene(), statistics(), winds(). Returns what is wrong;
-  /// then nothing changed.
-  std::vector<Problem> setCloth(const ClothParams& cloth);
+  /// Changes the first cloth, or that of a layer, from the next step on, also after reset(): surface_density, porosity,
+  /// row_mass, column_mass, shear, bending_warp, bending_weft, bending_bias, bending_hysteresis and material (a name:
+  /// applyMaterial() has set the others); all else must be as it is. Motion goes on, contacts are found anew, and
+  /// sleeping cloth wakes; a start by hang.start stays. Within, the simulator is made anew but for the obstacles'
+  /// shapes and the fine mesh's topology: other references that it gave end, as those of scene(), statistics(),
+  /// winds(). Returns what is wrong; then nothing changed.
+  std::vector<Problem> setCloth(const ClothParams& cloth, const std::string& layer = kFirstCloth);
 
   /// Sets positions [m] and velocities [m/s] of all nodes, row-major, shape [rows * columns]; velocities of pinned
   /// nodes are ignored, carriers are put where the rail is nearest. Wakes all of the cloth and forgets the tensions.
@@ -262,7 +262,7 @@ class Simulator {
   friend struct CacheClearing;  // test/clear_caches.h
   struct Impl;
   void startFrom(const std::string& file, const MeshResolver& resolve);
-  void startOver(const std::string& name, const MeshResolver& resolve);
+  void layOver(const MeshResolver& resolve);
   std::unique_ptr<Impl> impl_;
 };
 

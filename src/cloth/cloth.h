@@ -61,9 +61,9 @@ struct ClothPattern {
   /// Turn of the line at the node where nothing bends it [rad], within (-pi/2, pi/2): of the warp about the weft's
   /// direction there, of the weft about the warp's. Empty: straight.
   Field warp_rest_turn, weft_rest_turn;
-  Field warp_coordinate;  ///< of each node, length along its warp from the hung edge [m]
-  Field weft_coordinate;  ///< of each column, length along the weft of the top row [m], shape [columns]; counted on
-                          ///< from cloth to cloth, a link apart
+  Field warp_coordinate;   ///< of each node, length along its warp from the hung edge [m]
+  Field weft_coordinate;   ///< of each column, length along the weft of the top row [m], shape [columns]; counted on
+                           ///< from cloth to cloth, a link apart
   std::vector<int> layer;  ///< of each column, the number of its cloth (Layers), shape [columns]
 
   /// Whether there is a node, or an end, at an index of a Field.

@@ -192,6 +192,7 @@ void addLayer(const ClothPattern& layer, std::size_t number, int first, ClothPat
   copy(layer.warp_per_square, pattern.warp_per_square);
   copy(layer.weft_per_square, pattern.weft_per_square);
   copy(layer.warp_coordinate, pattern.warp_coordinate);
+  copy(layer.cell, pattern.cell);
   copy(layer.area, pattern.area);
   copy(layer.mass, pattern.mass);
   copy(layer.inverse_mass, pattern.inverse_mass);
@@ -224,6 +225,7 @@ ClothPattern makeLayerPattern(const Scene& scene) {
   ClothPattern pattern;
   pattern.grid = makeGrid(scene.cloth);
   clear(pattern);
+  forEachCell(pattern.grid, [&](int i, int j, int) { pattern.cell[pattern.grid.index(i, j)] = 1.0; });
   fillRestLengths(scene.cloth, pattern);
   fillMasses(scene.cloth, pattern);
   addHem(scene.hem, pattern);
@@ -242,7 +244,6 @@ ClothPattern makePattern(const Scene& scene) {
   pattern.grid = makeGrid(wholeCloth(scene));
   addEndRows(scene, pattern.grid);
   clear(pattern);
-  forEachCell(pattern.grid, [&](int i, int j, int) { pattern.cell[pattern.grid.index(i, j)] = 1.0; });
   const Layers layers(scene);
   for (std::size_t k = 0; k < layers.size(); ++k)
     addLayer(makeLayerPattern(layerScene(scene, k)), k, layers[k].first, pattern);

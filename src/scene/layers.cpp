@@ -63,6 +63,11 @@ Scene layerScene(const Scene& scene, std::size_t number) {
   return one;
 }
 
+bool startsElsewhere(const Scene& scene) {
+  const auto elsewhere = [](const auto& one) { return one.hang.start.over || one.hang.start.file; };
+  return elsewhere(scene) || std::any_of(scene.layers.begin(), scene.layers.end(), elsewhere);
+}
+
 double longestWarp(const Scene& scene) {
   double longest = scene.cloth.height;
   for (const LayerParams& layer : scene.layers) longest = std::max(longest, layer.cloth.height);

@@ -47,6 +47,9 @@ std::string listOf(const Layers& layers, double ClothParams::*value);
 /// A scene of one of the cloths alone, 0 being the first: without what is of all of them (lines, winds, hands, ...).
 Scene layerScene(const Scene& scene, std::size_t number);
 
+/// A cloth starts somewhere else than hung by its edge (hang.start).
+bool startsElsewhere(const Scene& scene);
+
 /// Length of the longest warp [m].
 double longestWarp(const Scene& scene);
 

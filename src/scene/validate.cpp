@@ -320,11 +320,10 @@ void checkLayers(const Scene& scene, ProblemLog& log) {
   if (columns > kMaxColumns)
     log.add("layers", "must have " + std::to_string(kMaxColumns) + " columns at most with the first cloth's, has " +
                           std::to_string(columns));
-  const auto elsewhere = [](const auto& one) { return one.hang.start.over || one.hang.start.file; };
-  if (std::any_of(scene.layers.begin(), scene.layers.end(), elsewhere) &&
-      (!scene.lines.empty() || !scene.tie_back.empty()))
+  if (startsElsewhere(scene) && (!scene.lines.empty() || !scene.tie_back.empty()))
     log.add("layers", "can't start elsewhere (hang.start) with lines or tie-backs, which begin where the cloth hangs");
-  if (scene.hang.start.file && std::any_of(scene.layers.begin(), scene.layers.end(), elsewhere))
+  const auto laid = [](const LayerParams& layer) { return layer.hang.start.over.has_value(); };
+  if (scene.hang.start.file && std::any_of(scene.layers.begin(), scene.layers.end(), laid))
     log.add("hang.start.file", "must be the only start, it has the nodes of all layers");
 }
 

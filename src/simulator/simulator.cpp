@@ -112,7 +112,11 @@ Simulator::Simulator(const Scene& scene, const MeshResolver& resolve)
     : impl_(std::make_unique<Impl>(scene, shapesBy(resolve))) {
   const StartParams& start = scene.hang.start;
   if (start.file) startFrom(*start.file, resolve);
-  if (start.over) startOver(*start.over, resolve);
+  if (!start.file && startsElsewhere(impl_->scene)) layOver(resolve);
+  const bool touch = !impl_->scene.layers.empty() && impl_->scene.contact.self;
+  if (const std::int64_t crossings = touch ? selfCrossings() : 0; crossings > 0)
+    throw std::invalid_argument("layers: the cloths go through each other or themselves in " +
+                                std::to_string(crossings) + " places at the start");
 }
 Simulator::~Simulator() = default;
 Simulator::Simulator(Simulator&&) noexcept = default;

@@ -22,8 +22,10 @@ struct Simulator::Impl {
   Impl(const Scene& given, const ShapeMaker& make_shape);
   /// Starts with its nodes there, row by row.
   void startAt(const std::vector<Vec3>& positions);
-  /// Of the same scene with other cloth, at its start. Throws std::invalid_argument with what is wrong with it.
-  std::unique_ptr<Impl> withCloth(const ClothParams& cloth) const;
+  /// Least distance of one of its cloths (Layers) from an obstacle that is there [m].
+  double distanceOf(std::size_t layer, int obstacle) const;
+  /// Of the same scene but for its cloths, at its start. Throws std::invalid_argument with what is wrong with it.
+  std::unique_ptr<Impl> withCloths(const Scene& changed) const;
   /// Another scene differs by no more than what setCloth() may change.
   bool mayBecome(const Scene& other) const;
   /// Goes on where another one is, whose cloth differs by what may change.

@@ -57,8 +57,10 @@ std::vector<Problem> Simulator::restore(const std::string& snapshot) {
     const SceneReading theirs = readSceneText(std::string(parts.scene));
     Scene with_theirs = impl_->scene;
     with_theirs.cloth = theirs.scene.cloth;
+    for (std::size_t k = 0; k < std::min(with_theirs.layers.size(), theirs.scene.layers.size()); ++k)
+      with_theirs.layers[k].cloth = theirs.scene.layers[k].cloth;
     const bool same = writeScene(with_theirs) == writeScene(impl_->scene);
-    if (theirs.problems.empty() && !same && impl_->mayBecome(with_theirs)) other = impl_->withCloth(theirs.scene.cloth);
+    if (theirs.problems.empty() && !same && impl_->mayBecome(with_theirs)) other = impl_->withCloths(with_theirs);
     Impl& into = other ? *other : *impl_;
     if (auto problem = firstDifference(writeScene(into.scene), std::string(parts.scene), kAside)) {
       return {{problem->key, problem->text + ": the snapshot is of another scene"}};

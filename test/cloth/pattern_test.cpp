@@ -125,7 +125,7 @@ TEST(Pattern, SpacingsAreProportions) {
       }
     }
   }
-  EXPECT_NEAR(pattern.warp_coordinate[2], 0.6, 8 * kEps);
+  EXPECT_NEAR(pattern.warp_coordinate[pattern.grid.index(2, 0)], 0.6, 8 * kEps);
   EXPECT_NEAR(pattern.weft_coordinate[2], 0.8, 8 * kEps);
 }
 

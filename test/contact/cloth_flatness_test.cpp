@@ -67,7 +67,7 @@ Field3 laid(const ClothPattern& pattern, const Place& place) {
   for (int i = 0; i < pattern.grid.rows; ++i) {
     for (int j = 0; j < pattern.grid.columns; ++j) {
       position.set(pattern.grid.index(i, j), place(pattern.weft_coordinate[static_cast<std::size_t>(j)],
-                                                   pattern.warp_coordinate[static_cast<std::size_t>(i)]));
+                                                   pattern.warp_coordinate[pattern.grid.index(i, j)]));
     }
   }
   return position;
@@ -112,9 +112,12 @@ TEST(ClothFlatness, SeesAPleatOfTwoLinks) {
   for (int row = 0; row + 4 < 44; ++row) {
     for (const bool along_warp : {true, false}) {
       Sheet sheet(sheetScene());
-      const Field& coordinate = along_warp ? sheet.pattern.warp_coordinate : sheet.pattern.weft_coordinate;
-      const auto first = static_cast<std::size_t>(std::min(row, 35));
-      const double from = coordinate[first + 1], to = coordinate[first + 2];
+      const int first = std::min(row, 35);
+      const auto coordinate = [&](int k) {
+        return along_warp ? sheet.pattern.warp_coordinate[sheet.pattern.grid.index(k, 0)]
+                          : sheet.pattern.weft_coordinate[static_cast<std::size_t>(k)];
+      };
+      const double from = coordinate(first + 1), to = coordinate(first + 2);
       const auto pleated = [=](double s) { return s < from ? s : s < to ? 2.0 * from - s : s - 2.0 * (to - from); };
       const Field3 position = laid(sheet.pattern, [&](double u, double v) {
         return along_warp ? Vec3(u, 0.0, -pleated(v)) : Vec3(pleated(u), 0.0, -v);

@@ -34,7 +34,7 @@ double energyOf(const Scene& scene, const Vec3& curved) {
   for (int i = 0; i < kNodes; ++i) {
     for (int j = 0; j < kNodes; ++j) {
       const double x = pattern.weft_coordinate[static_cast<std::size_t>(j)],
-                   y = -pattern.warp_coordinate[static_cast<std::size_t>(i)];
+                   y = -pattern.warp_coordinate[pattern.grid.index(i, j)];
       const double s = (x + y) / std::sqrt(2.0), t = (y - x) / std::sqrt(2.0);
       const Vec3 terms(0.5 * s * s, 0.5 * t * t, s * t);
       position.set(pattern.grid.index(i, j), {x, y, kCurvature * curved.dot(terms)});

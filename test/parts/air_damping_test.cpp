@@ -22,7 +22,7 @@ using curtain_test::ringScene;
 
 Field coefficients(const AirParams& air, const Scene& scene, double speed) {
   const ClothPattern pattern = makePattern(scene);
-  const AirDamping damping(air, pattern);
+  const AirDamping damping(air, scene.cloth, pattern);
   Field3 velocity;
   velocity.assign(pattern.grid.size(), 0.0);
   const Vec3 v = speed * Vec3(2.0, -3.0, 6.0) / 7.0;
@@ -94,7 +94,7 @@ TEST(AirDamping, AddsToWhatIsThereAndLeavesPaddingAlone) {
   air.inside = air.border = air.corner = 1.0;
   const Scene scene = flatScene(3, 3);
   const ClothPattern pattern = makePattern(scene);
-  const AirDamping damping(air, pattern);
+  const AirDamping damping(air, scene.cloth, pattern);
   Field3 velocity;
   velocity.assign(pattern.grid.size(), 0.0);
   Field once(pattern.grid.size(), 0.0), on_top(pattern.grid.size(), 4.0);
@@ -120,17 +120,17 @@ TEST(AirDamping, TotalDoesNotDependOnTheGrid) {
 }
 
 TEST(AirDamping, IsActiveWhenAnyPlaceHasACoefficient) {
-  const ClothPattern pattern = makePattern(flatScene(4, 4));
-  const ClothPattern ring = makePattern(ringScene(4, 4));
+  const Scene sheet = flatScene(4, 4), closed = ringScene(4, 4);
+  const ClothPattern pattern = makePattern(sheet), ring = makePattern(closed);
   const AirParams none;
-  EXPECT_FALSE(AirDamping(none, pattern).active());
+  EXPECT_FALSE(AirDamping(none, sheet.cloth, pattern).active());
   for (double AirParams::*place : {&AirParams::inside, &AirParams::border, &AirParams::corner}) {
     AirParams air;
     air.*place = 0.1;
-    EXPECT_TRUE(AirDamping(air, pattern).active());
-    EXPECT_EQ(AirDamping(air, ring).active(), place != &AirParams::corner) << "a ring has no corners";
+    EXPECT_TRUE(AirDamping(air, sheet.cloth, pattern).active());
+    EXPECT_EQ(AirDamping(air, closed.cloth, ring).active(), place != &AirParams::corner) << "a ring has no corners";
     air.density = 0.0;
-    EXPECT_FALSE(AirDamping(air, pattern).active());
+    EXPECT_FALSE(AirDamping(air, sheet.cloth, pattern).active());
   }
 }
 

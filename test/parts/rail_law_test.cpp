@@ -64,7 +64,7 @@ TEST(RailLaw, FindsTheLeastOfItsSum) {
       if (i % 4 == 3) rows.back().drive = {was + between(-0.2, 0.2), between(0.0, 2.0)};
     }
     RailLaw law(rows.size(), kGap, kRailLength);
-    law.solve(rows);
+    law.solve(rows.data());
     const std::vector<double> s = placesOf(rows);
     expectInOrder(s);
     const double least = objective(rows, s);
@@ -85,7 +85,7 @@ TEST(RailLaw, FindsTheLeastOfItsSum) {
 
 TEST(RailLaw, PushedCarriersMoveAsOneBodyAndKeepTheMomentum) {
   std::vector<RailRow> rows = {rowOf(1.0, 1.5), rowOf(2.0, 1.1), rowOf(3.0, 1.2)};
-  RailLaw(rows.size(), kGap, kRailLength).solve(rows);
+  RailLaw(rows.size(), kGap, kRailLength).solve(rows.data());
   expectInOrder(placesOf(rows));
   double before = 0.0, after = 0.0;
   for (const RailRow& row : rows) {
@@ -103,11 +103,11 @@ TEST(RailLaw, CarriersStayToTheBitUntilFrictionIsOvercome) {
   RailLaw law(1, kGap, kRailLength);
   rows[0].friction = {was, 0.5};
   rows[0].wish = was + 0.2499;
-  law.solve(rows);
+  law.solve(rows.data());
   EXPECT_EQ(rows[0].place, was);
   EXPECT_TRUE(rows[0].stays);
   rows[0].wish = was + 0.2501;
-  law.solve(rows);
+  law.solve(rows.data());
   EXPECT_NEAR(rows[0].place, was + 0.0001, 1e-15);
   EXPECT_FALSE(rows[0].stays);
 }
@@ -116,7 +116,7 @@ TEST(RailLaw, AFastenedCarrierStopsAllThatPushIt) {
   std::vector<RailRow> rows = {rowOf(1.0, 0.9), rowOf(1.0, 0.95), rowOf(1.0, 0.97)};
   rows[0].friction = {0.5, 0.0};
   rows[1].friction = {1.0 / 3.0, std::numeric_limits<double>::infinity()};
-  RailLaw(rows.size(), kGap, kRailLength).solve(rows);
+  RailLaw(rows.size(), kGap, kRailLength).solve(rows.data());
   EXPECT_EQ(rows[1].place, 1.0 / 3.0);
   EXPECT_DOUBLE_EQ(rows[0].place, 1.0 / 3.0 - kGap);
   EXPECT_TRUE(rows[0].stays);
@@ -127,11 +127,11 @@ TEST(RailLaw, TheDriveArrivesIfItsForceIsEnough) {
   std::vector<RailRow> rows = {rowOf(2.0, 1.0)};
   RailLaw law(1, kGap, kRailLength);
   rows[0].drive = {1.5, 1.5};  // it needs 1
-  law.solve(rows);
+  law.solve(rows.data());
   EXPECT_EQ(rows[0].place, 1.5);
   EXPECT_DOUBLE_EQ(rows[0].drawn, 1.0);
   rows[0].drive.bound = 0.5;
-  law.solve(rows);
+  law.solve(rows.data());
   EXPECT_DOUBLE_EQ(rows[0].place, 1.25);
   EXPECT_DOUBLE_EQ(rows[0].drawn, 0.5);
 }
@@ -140,7 +140,7 @@ TEST(RailLaw, TheDriveCarriesWhatFrictionDoesNot) {
   std::vector<RailRow> rows = {rowOf(2.0, 0.9)};
   rows[0].friction = {1.0, 0.15};
   rows[0].drive = {1.0, 5.0};  // it is where it is to be, and 0.2 kg m pull it back
-  RailLaw(1, kGap, kRailLength).solve(rows);
+  RailLaw(1, kGap, kRailLength).solve(rows.data());
   EXPECT_EQ(rows[0].place, 1.0);
   EXPECT_NEAR(rows[0].drawn, 0.05, 1e-15);
 }

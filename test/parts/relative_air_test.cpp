@@ -29,9 +29,15 @@ AirParams relativeLaw() {
   return air;
 }
 
+ClothParams sheet(int rows, int columns, double porosity) {
+  ClothParams cloth = flatScene(rows, columns).cloth;
+  cloth.porosity = porosity;
+  return cloth;
+}
+
 struct ClothInAir {
   explicit ClothInAir(double porosity = 0.0)
-      : pattern(makePattern(flatScene(6, 5, 1.5, 0.8))), air(law, porosity, pattern) {
+      : cloth(sheet(6, 5, porosity)), pattern(makePattern(flatScene(6, 5, 1.5, 0.8))), air(law, cloth, pattern) {
     const std::size_t size = pattern.grid.size();
     for (Field3* field : {&area_vectors, &wind, &velocity, &others, &pull}) field->assign(size, 0.0);
     position = makeInitialState(flatScene(6, 5, 1.5, 0.8), pattern).position;
@@ -51,6 +57,7 @@ struct ClothInAir {
   std::size_t middle() const { return pattern.grid.index(3, 2); }
 
   const AirParams law = relativeLaw();
+  const ClothParams cloth;
   ClothPattern pattern;
   RelativeAir air;
   Field3 position, area_vectors, wind, velocity, others, pull;
@@ -153,11 +160,11 @@ TEST(RelativeAir, IsOfSecondOrderInTheFall) {
 TEST(RelativeAir, IsInactiveUnderOtherLawsAndWithoutDrag) {
   const ClothPattern pattern = makePattern(flatScene(4, 3));
   const AirParams other, relative = relativeLaw();
-  EXPECT_FALSE(RelativeAir(other, 0.0, pattern).active());
+  EXPECT_FALSE(RelativeAir(other, sheet(4, 3, 0.0), pattern).active());
   AirParams none = relative;
   none.normal_drag = none.tangential_drag = 0.0;
-  EXPECT_FALSE(RelativeAir(none, 0.0, pattern).active());
-  EXPECT_TRUE(RelativeAir(relative, 1.0, pattern).active()) << "all pores: friction is left";
+  EXPECT_FALSE(RelativeAir(none, sheet(4, 3, 0.0), pattern).active());
+  EXPECT_TRUE(RelativeAir(relative, sheet(4, 3, 1.0), pattern).active()) << "all pores: friction is left";
 }
 
 }  // namespace

@@ -25,7 +25,8 @@ WindParams gusts(const std::string& id) {
 // Sum over nodes and times of the product of two sources' gusts over the geometric mean of their squares.
 double likeness(const WindParams& one, std::uint64_t seed_one, const WindParams& other, std::uint64_t seed_other) {
   const WindyCloth cloth(flatScene(9, 9));
-  WindSource a(one, cloth.pattern, 0.0, seed_one), b(other, cloth.pattern, 0.0, seed_other);
+  const ClothParams dense = porous(cloth.pattern, 0.0);
+  WindSource a(one, cloth.pattern, dense, seed_one), b(other, cloth.pattern, dense, seed_other);
   double ab = 0.0, aa = 0.0, bb = 0.0;
   for (int sample = 0; sample < 500; ++sample) {
     const double time = 2.1 * sample * one.correlation_time;
@@ -50,16 +51,16 @@ TEST(WindGusts, RepeatWithIdAndSeedAndAreTheirOwnOtherwise) {
 TEST(WindGusts, StartWithTheSource) {
   const WindyCloth cloth(flatScene(4, 4));
   WindParams wind = gusts("a");
-  WindSource early(wind, cloth.pattern, 0.0, 1);
+  WindSource early(wind, cloth.pattern, porous(cloth.pattern, 0.0), 1);
   wind.start = 8.0;
-  WindSource late(wind, cloth.pattern, 0.0, 1);
+  WindSource late(wind, cloth.pattern, porous(cloth.pattern, 0.0), 1);
   const Field3 a = cloth.push(early, 0.375), b = cloth.push(late, 8.375);  // exact in binary
   for (std::size_t n = 0; n < cloth.pattern.grid.size(); ++n) EXPECT_EQ(a.at(n), b.at(n));
 }
 
 TEST(WindGusts, AreTheUnsteadinessInPascalOnTheNodesArea) {
   const WindyCloth cloth(flatScene(9, 9));
-  WindSource source(gusts("a"), cloth.pattern, 0.0, 1);
+  WindSource source(gusts("a"), cloth.pattern, porous(cloth.pattern, 0.0), 1);
   double sum = 0.0;
   int count = 0;
   for (int sample = 0; sample < 2000; ++sample) {

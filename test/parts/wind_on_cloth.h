@@ -8,12 +8,22 @@
 
 namespace curtain_test {
 
+using curtain::ClothParams;
 using curtain::ClothPattern;
 using curtain::Field3;
 using curtain::Scene;
 using curtain::Vec3;
 using curtain::WindParams;
 using curtain::WindSource;
+
+/// Cloth of a pattern's columns and of this porosity.
+inline ClothParams porous(const ClothPattern& pattern, double porosity) {
+  ClothParams cloth;
+  cloth.rows = pattern.grid.rows;
+  cloth.columns = pattern.grid.columns;
+  cloth.porosity = porosity;
+  return cloth;
+}
 
 struct WindyCloth {
   explicit WindyCloth(const Scene& scene)
@@ -36,7 +46,7 @@ struct WindyCloth {
     return force;
   }
   Field3 push(const WindParams& wind, double porosity = 0.0) const {
-    WindSource source(wind, pattern, porosity, 1);
+    WindSource source(wind, pattern, porous(pattern, porosity), 1);
     return push(source);
   }
   Vec3 total(const WindParams& wind) const {

@@ -21,7 +21,7 @@ TEST(WindReach, NothingOutsideTheConeOrBehindTheDisc) {
   wind.half_angle = std::atan(0.25);  // apex 2 m behind the disc; the cone is 0.25 m wider each metre
   wind.pressure = 1.0;
   WindyCloth cloth(flatScene(3, 3));
-  const WindSource source(wind, cloth.pattern, 0.0, 1);
+  const WindSource source(wind, cloth.pattern, porous(cloth.pattern, 0.0), 1);
   const auto reached = [&](double across, double along) {
     return source.reachesPoint(wind.position + Vec3(across, 0.0, along));
   };
@@ -51,7 +51,7 @@ TEST(WindReach, ReachesNoPlaceOfABoxThatItMayNotReach) {
   const WindyCloth cloth(flatScene(2, 2));
   int out_of_reach = 0, missed = 0;
   for (int trial = 0; trial < 4000; ++trial) {
-    const WindSource source(randomWind(random), cloth.pattern, 0.0, 1);
+    const WindSource source(randomWind(random), cloth.pattern, porous(cloth.pattern, 0.0), 1);
     const Eigen::AlignedBox3d box = randomBox(random);
     const bool may = source.mayReach(box);
     bool does = false;
@@ -81,7 +81,7 @@ TEST(WindReach, ReachesAlongItsEdge) {
   wind.radius = 1.0;
   wind.pressure = 1.0;
   wind.half_angle = std::atan(0.5);
-  const WindSource source(wind, cloth.pattern, 0.0, 1);
+  const WindSource source(wind, cloth.pattern, porous(cloth.pattern, 0.0), 1);
   const auto at = [](double x, double y) { return Eigen::AlignedBox3d(Vec3(x, y, -0.5), Vec3(x + 1.0, y + 1.0, 0.5)); };
   EXPECT_FALSE(source.mayReach(at(-1.001, -0.5)));  // behind the disc
   EXPECT_TRUE(source.mayReach(at(-0.999, -0.5)));
@@ -98,7 +98,7 @@ WindParams gustless() {
 
 TEST(WindReach, FindsNothingOutsideTheBounds) {
   const WindyCloth cloth(flatScene(5, 5));
-  WindSource source(gustless(), cloth.pattern, 0.0, 1);
+  WindSource source(gustless(), cloth.pattern, porous(cloth.pattern, 0.0), 1);
   source.find(cloth.pattern.grid, cloth.position, Eigen::AlignedBox3d(Vec3(0, 0, 0), Vec3(1, 0, 1)));
   EXPECT_TRUE(source.reaches());
   EXPECT_FALSE(source.reachesRow(0));

@@ -247,7 +247,9 @@ TEST(WindSource, BlowsFromStartUntilBeforeEndAndOnlyWithStrength) {
   wind.id = "fan";
   wind.start = 1.0;
   wind.end = 2.0;
-  const auto blows = [&](double time) { return WindSource(wind, cloth.pattern, 0.0, 1).blowsAt(time); };
+  const auto blows = [&](double time) {
+    return WindSource(wind, cloth.pattern, porous(cloth.pattern, 0.0), 1).blowsAt(time);
+  };
   EXPECT_FALSE(blows(1.5)) << "no pressure, no node force, no gusts";
   for (double* strength : {&wind.pressure, &wind.node_force, &wind.unsteadiness}) {
     *strength = 1.0;

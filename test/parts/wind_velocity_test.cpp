@@ -26,7 +26,7 @@ TEST(WindVelocity, HasTheDynamicPressureOfTheForce) {
   wind.node_force = 0.01;
   wind.distance_weight = 1.4;
   const WindyCloth cloth(scene);
-  WindSource source(wind, cloth.pattern, 0.3, 1);  // pores are the cloth's
+  WindSource source(wind, cloth.pattern, porous(cloth.pattern, 0.3), 1);  // pores are the cloth's
   const Field3 force = cloth.push(source);
   Field3 velocity;
   velocity.assign(cloth.pattern.grid.size(), 0.0);
@@ -57,7 +57,7 @@ TEST(WindVelocity, OfGustsHasTheDynamicPressureOfTheirForce) {
   wind.radius = 2.0;
   wind.unsteadiness = 4.0;
   const WindyCloth cloth(scene);
-  WindSource source(wind, cloth.pattern, 0.0, 1);
+  WindSource source(wind, cloth.pattern, porous(cloth.pattern, 0.0), 1);
   const Field3 force = cloth.push(source, 0.7);
   Field3 velocity;
   velocity.assign(cloth.pattern.grid.size(), 0.0);

@@ -113,7 +113,7 @@ TEST(RailLayout, SpreadsCarriersFromTheirGapsToTheRail) {
   EXPECT_NEAR(shut[2], 0.8, 1e-15);
   // What is left beside the gaps goes by the cloth: 0.2 to 0.7.
   EXPECT_NEAR((shut[1] - 0.05) / (shut[2] - shut[1] - 0.05), 0.2 / 0.7, 1e-14);
-  EXPECT_NEAR(layout.openingOf(layout.placesFor(0.3)), 0.3, 1e-14);
+  EXPECT_NEAR(layout.openingOf(layout.placesFor(0.3).data()), 0.3, 1e-14);
 }
 
 // A rail longer than the cloth is covered as far as the cloth reaches, nearly.

@@ -40,8 +40,8 @@ struct Shade {
         pattern(makePattern(scene)),
         position(makeInitialState(scene, pattern).position),
         obstacles(scene, shapesBy(resolveMeshUrl)),
-        source(wind, pattern, 0.0, 1) {
-    WindShadow().cast(obstacles, pattern.grid, position, source);
+        source(wind, pattern, scene.cloth, 1) {
+    WindShadow(pattern).cast(obstacles, pattern.grid, position, source);
   }
   static Scene withObstacle(const ObstacleParams& obstacle) {
     Scene scene = flatScene(21, 21);

@@ -62,7 +62,7 @@ void WindShadow::cast(const ObstacleSet& obstacles, const Grid& grid, const Fiel
                         plane ? std::numeric_limits<double>::infinity() : 0.5 * box.sizes().norm()});
   }
   Field& shade = wind.shade();
-  if (in_cone_.empty()) {
+  if (in_cone_.empty() && !layers_.any()) {
     if (wind.shaded()) std::fill(shade.begin(), shade.end(), 1.0);
     wind.setShaded(false);
     return;
@@ -75,6 +75,7 @@ void WindShadow::cast(const ObstacleSet& obstacles, const Grid& grid, const Fiel
       shade[n] = wind.reachesPoint(node) ? shareAt(node, wind) : 1.0;
     }
   }
+  if (layers_.any()) layers_.cast(position, wind);
 }
 
 }  // namespace curtain

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "obstacles/obstacle_set.h"
+#include "parts/wind/layer_shadow.h"
 #include "parts/wind/wind_source.h"
 
 namespace curtain {
@@ -21,6 +22,9 @@ namespace curtain {
 /// Not thread-safe. Allocates only where there are more obstacles than ever before.
 class WindShadow {
  public:
+  /// pattern must outlive this.
+  explicit WindShadow(const ClothPattern& pattern) : layers_(pattern) {}
+
   /// Sets the source's shade from the obstacles' poses at the end of the last frame. Does nothing for sources without
   /// WindParams::shadow, and hardly anything where no obstacle is in the cone.
   void cast(const ObstacleSet& obstacles, const Grid& grid, const Field3& position, WindSource& wind);
@@ -35,6 +39,7 @@ class WindShadow {
   double shareAt(const Vec3& node, const WindSource& wind) const noexcept;
 
   std::vector<InCone> in_cone_;
+  LayerShadow layers_;
 };
 
 /// Whether an obstacle that is there may be in the source's cone, at the end of the last frame or now.

@@ -53,9 +53,13 @@ class WindSource {
   /// Largest speed of its air, without gusts [m/s].
   double topSpeed(const ClothPattern& pattern, double density) const noexcept;
 
-  /// Share of the wind that obstacles leave each node [0..1], shape [grid.size()], read by find(); WindParams::shadow.
+  /// Share of its wind that the cloth of this column lets through.
+  double passes(int column) const noexcept { return 1.0 - pores_[static_cast<std::size_t>(column)]; }
+
+  /// Share of the wind that obstacles and other cloths leave each node [0..1], shape [grid.size()], read by find();
+  /// WindParams::shadow.
   Field& shade() noexcept { return shade_; }
-  /// An obstacle is in the cone; else all of shade() is 1 and not read.
+  /// An obstacle or another cloth may be in the cone; else all of shade() is 1 and not read.
   bool shaded() const noexcept { return shaded_; }
   void setShaded(bool shaded) noexcept { shaded_ = shaded; }
   /// Two directions across the axis and each other, 0 and 1.

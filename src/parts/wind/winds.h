@@ -48,7 +48,7 @@ class Winds final : public Part {
   const ClothPattern& pattern_;
   const ObstacleSet& obstacles_;
   SampledBounds bounds_;
-  WindShadow shadow_;
+  WindShadow shadow_{pattern_};
   Sources<WindSource, WindParams> winds_;
   bool reach_ = false;   // a node, in the present substep
   Field3 area_vectors_;  // in rows that a wind reaches

@@ -2,20 +2,28 @@
 //
 // Cloth that becomes another one while it moves. Much is worked out from its masses and rigidities as a simulator is
 // made, so another simulator is made, and goes on where this one is: nothing of the old cloth can be left in it.
+#include <algorithm>
 #include <new>
 #include <stdexcept>
 
 #include "cloth/archive.h"
 #include "curtain_sim/scene_yaml.h"
+#include "scene/scalar.h"
 #include "scene/scene_difference.h"
 #include "simulator/simulator_impl.h"
 
 namespace curtain {
 namespace {
 
-const std::vector<std::string> kMayChange = {
-    "cloth.material", "cloth.surface_density", "cloth.porosity",     "cloth.row_mass",     "cloth.column_mass",
-    "cloth.shear",    "cloth.bending_warp",    "cloth.bending_weft", "cloth.bending_bias", "cloth.bending_hysteresis"};
+// Keys that may change, of the first cloth and of layers.
+std::vector<std::string> mayChange() {
+  std::vector<std::string> keys;
+  for (const char* name : {"material", "surface_density", "porosity", "row_mass", "column_mass", "shear",
+                           "bending_warp", "bending_weft", "bending_bias", "bending_hysteresis"}) {
+    for (const char* of : {"cloth.", "layers[].cloth."}) keys.push_back(std::string(of) + name);
+  }
+  return keys;
+}
 
 std::string layoutOf(Part& part) {
   Archive archive = Archive::describing();
@@ -36,12 +44,10 @@ void transfer(Item& from, Item& to) {
 
 }  // namespace
 
-std::unique_ptr<Simulator::Impl> Simulator::Impl::withCloth(const ClothParams& cloth) const {
-  Scene changed = scene;
-  changed.cloth = cloth;
+std::unique_ptr<Simulator::Impl> Simulator::Impl::withCloths(const Scene& changed) const {
   auto next = std::make_unique<Impl>(
       changed, [this](std::size_t number, const ObstacleParams&) { return motion.obstacles.sharedShape(number); });
-  if (scene.hang.start.over || scene.hang.start.file) {  // where it is does not depend on the fabric
+  if (startsElsewhere(scene)) {  // where it is does not depend on the fabric
     next->motion.initial = motion.initial;
     next->reset();
   }
@@ -75,17 +81,25 @@ void Simulator::Impl::continueFrom(Impl& other) {
   revision = other.revision + 1;
 }
 
-std::vector<Problem> Simulator::setCloth(const ClothParams& cloth) {
+std::vector<Problem> Simulator::setCloth(const ClothParams& cloth, const std::string& layer) {
   Scene changed = impl_->scene;
-  changed.cloth = cloth;
+  if (layer == kFirstCloth) {
+    changed.cloth = cloth;
+  } else {
+    const auto found = std::find_if(changed.layers.begin(), changed.layers.end(),
+                                    [&](const LayerParams& one) { return one.name == layer; });
+    if (found == changed.layers.end())
+      return {{"layer", "must be \"cloth\" or the name of a layer, is " + quoted(layer)}};
+    found->cloth = cloth;
+  }
   std::vector<Problem> problems = validate(changed);
   if (!problems.empty()) return problems;
   const std::string before = writeScene(impl_->scene), after = writeScene(changed);
-  if (const auto problem = firstDifference(before, after, kMayChange))
+  if (const auto problem = firstDifference(before, after, mayChange()))
     return {{problem->key, "can't change while it runs: " + problem->text}};
   if (before == after) return {};
   try {
-    std::unique_ptr<Impl> next = impl_->withCloth(cloth);
+    std::unique_ptr<Impl> next = impl_->withCloths(changed);
     next->continueFrom(*impl_);
     impl_ = std::move(next);
   } catch (const std::invalid_argument& error) {
@@ -99,7 +113,7 @@ std::vector<Problem> Simulator::setCloth(const ClothParams& cloth) {
 }
 
 bool Simulator::Impl::mayBecome(const Scene& other) const {
-  return !firstDifference(writeScene(scene), writeScene(other), kMayChange);
+  return !firstDifference(writeScene(scene), writeScene(other), mayChange());
 }
 
 }  // namespace curtain

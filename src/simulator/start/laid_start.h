@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Cloth that begins laid over an obstacle: where it comes to rest when it falls on it, flat and level, from just above.
+// Several cloths fall one above the other, in their order.
 #pragma once
 
 #include <vector>
@@ -10,11 +11,21 @@
 
 namespace curtain {
 
-/// The scene in which it comes to rest: the cloth above the obstacle of this number, all obstacles where they are at
-/// the start, and nothing else moves.
-Scene settlingScene(const Scene& scene, const ObstacleSet& obstacles, int number);
+/// A cloth (Layers) and the obstacle that it is laid over.
+struct Laid {
+  std::size_t layer;
+  int obstacle;
+  std::string key;  ///< of hang.start.over
+};
 
-/// Positions [m] of the nodes where it is at rest, row by row. resting: a simulator of settlingScene().
-std::vector<Vec3> layOver(Simulator& resting);
+/// All cloths of a validated scene that are laid over something.
+std::vector<Laid> laidCloths(const Scene& scene);
+
+/// The scene in which they come to rest: these cloths above their obstacles, others where they hang, all obstacles
+/// where they are at the start, and nothing else moves.
+Scene settlingScene(const Scene& scene, const ObstacleSet& obstacles, const std::vector<Laid>& laid);
+
+/// Positions [m] of all nodes where they are at rest, row by row. resting: a simulator of settlingScene().
+std::vector<Vec3> settle(Simulator& resting);
 
 }  // namespace curtain

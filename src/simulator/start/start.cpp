@@ -26,7 +26,7 @@ std::string problemOfPiercings(const Simulator& simulator, const std::vector<Obs
 }
 
 [[noreturn]] void refuse(const std::string& key, const std::string& text) {
-  throw std::invalid_argument("hang.start." + key + ": " + text);
+  throw std::invalid_argument(key + ": " + text);
 }
 
 }  // namespace
@@ -47,27 +47,44 @@ void Simulator::startFrom(const std::string& file, const MeshResolver& resolve) 
     im.startAt(readStartFile(resolve(file), wholeCloth(im.scene)));
     problem = problemOfStart(im.scene, im.pattern, im.motion.state.position);
   } catch (const std::invalid_argument& error) {
-    refuse("file", error.what());
+    refuse("hang.start.file", error.what());
   }
   if (problem.empty()) problem = problemOfPiercings(*this, im.scene.obstacles);
-  if (!problem.empty()) refuse("file", file + ": " + problem);
+  if (!problem.empty()) refuse("hang.start.file", file + ": " + problem);
 }
 
-void Simulator::startOver(const std::string& name, const MeshResolver& resolve) {
+void Simulator::layOver(const MeshResolver& resolve) {
   Impl& im = *impl_;
-  const std::vector<ObstacleParams>& all = im.scene.obstacles;
-  const auto is_it = [&](const ObstacleParams& params) { return params.name == name; };
-  const auto number = static_cast<int>(std::find_if(all.begin(), all.end(), is_it) - all.begin());
-  Scene settling = settlingScene(im.scene, im.motion.obstacles, number);
-  Simulator resting(settling, resolve);
-  std::string problem = problemOfPiercings(resting, all);
-  if (!problem.empty()) refuse("over", problem + " where it is spread out, just above '" + name + "'");
-  im.startAt(layOver(resting));
-  problem = problemOfPiercings(*this, all);
-  // No resting cloth is further from what it rests on than contact keeps it.
-  const double farthest = 2.0 * im.scene.contact.thickness + all[static_cast<std::size_t>(number)].padding;
-  if (problem.empty() && !(obstacleDistance(number).distance <= farthest)) problem = "the cloth slides off it";
-  if (!problem.empty()) refuse("over", problem);
+  const ObstacleSet& obstacles = im.motion.obstacles;
+  const std::vector<Laid> laid = laidCloths(im.scene);
+  Simulator resting(settlingScene(im.scene, obstacles, laid), resolve);
+  std::string problem = problemOfPiercings(resting, im.scene.obstacles);
+  const std::string& first = im.scene.obstacles[static_cast<std::size_t>(laid.front().obstacle)].name;
+  if (!problem.empty()) refuse(laid.front().key, problem + " where it is spread out, just above '" + first + "'");
+  im.startAt(settle(resting));
+  problem = problemOfPiercings(*this, im.scene.obstacles);
+  if (problem.empty() && im.scene.contact.self && selfCrossings() > 0) problem = "the cloth goes through itself";
+  if (!problem.empty()) refuse(laid.front().key, problem);
+  for (const Laid& one : laid) {
+    // No resting cloth is further from what it rests on than contact keeps it.
+    const double farthest = 2.0 * static_cast<double>(laid.size()) * im.scene.contact.thickness +
+                            im.scene.obstacles[static_cast<std::size_t>(one.obstacle)].padding;
+    if (!(im.distanceOf(one.layer, one.obstacle) <= farthest)) refuse(one.key, "the cloth slides off it");
+  }
+}
+
+// Of one of the cloths from an obstacle [m].
+double Simulator::Impl::distanceOf(std::size_t layer, int obstacle) const {
+  const Layers::Layer& columns = motion.parts.layers[layer];
+  const Grid grid(pattern.grid.rows, columns.end - columns.first, pattern.grid.closed);
+  Field3 position;
+  position.assign(grid.size(), 0.0);
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j)
+      position.set(grid.index(i, j), motion.state.position.at(pattern.grid.index(i, columns.first + j)));
+  }
+  return distanceTo(motion.obstacles.shape(obstacle), Transform(motion.obstacles.reached(obstacle)), grid, position)
+      .distance;
 }
 
 }  // namespace curtain
