@@ -177,11 +177,11 @@ TEST(Snapshot, HasAVersionForEveryLayout) {
   SnapshotParts parts;
   const std::string snapshot = Simulator(all).snapshot();
   ASSERT_FALSE(unpackSnapshot(snapshot, parts).has_value());
-  EXPECT_EQ(kSnapshotVersion, 17U);
-  EXPECT_EQ(parts.layout, 2528678104U);
+  EXPECT_EQ(kSnapshotVersion, 18U);
+  EXPECT_EQ(parts.layout, 1097326813U);
   const std::string plain = Simulator(flatScene(4, 5)).snapshot();
   ASSERT_FALSE(unpackSnapshot(plain, parts).has_value());
-  EXPECT_EQ(parts.layout, 509966600U);
+  EXPECT_EQ(parts.layout, 3558247167U);
 }
 
 }  // namespace
