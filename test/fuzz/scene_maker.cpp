@@ -6,6 +6,8 @@
 
 #include "cloth/cloth.h"
 #include "scene/heading.h"
+#include "scene/layers.h"
+#include "simulator/self_crossings.h"
 
 namespace curtain_test {
 namespace {
@@ -44,6 +46,7 @@ void placeLine(Scene& scene, Choices& choices) {
 // A rail that the cloth hangs from: flat pieces a few metres long, and arcs of a quarter of a circle.
 void fitRail(Scene& scene, Choices& choices) {
   curtain::RailParams& rail = scene.rail;
+  if (!(scene.cloth.width > 1e-6 && scene.cloth.width < kFarthestRail)) rail.path.clear();  // no gap or place fits
   if (rail.path.empty()) return;
   scene.hang.radius.reset();
   if (scene.cloth.hem_width) scene.cloth.hem_width = std::max(*scene.cloth.hem_width, scene.cloth.width);
@@ -89,8 +92,7 @@ void putOnGrid(std::vector<NodeIndex>& nodes, const curtain::ClothParams& cloth)
 }
 
 // Lines from nodes of the cloth, each once, to an end that they reach.
-void fitLines(Scene& scene) {
-  const curtain::ClothParams& cloth = scene.cloth;
+void fitLines(Scene& scene, const curtain::ClothParams& cloth) {
   for (curtain::LineParams& line : scene.lines) {
     putOnGrid(line.nodes, cloth);
     if (!line.to && (!line.mass || !line.length || scene.gravity.isZero())) line.to = scene.hang.from;
@@ -106,10 +108,10 @@ void fitLines(Scene& scene) {
 }
 
 // Hands that pull where pulls are known; pins that there are.
-void fitHands(Scene& scene) {
+void fitHands(Scene& scene, const curtain::ClothParams& cloth) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   for (curtain::HandParams& hand : scene.hands) {
-    putOnGrid(hand.grasp.nodes, scene.cloth);
+    putOnGrid(hand.grasp.nodes, cloth);
     if (hand.grasp.region == curtain::GraspRegion::kNodes) hand.grasp.pinch_force = kNone;
     if (scene.solver.method == curtain::Method::kPaper)
       hand.grasp.stiffness = hand.grasp.break_force = hand.grasp.pinch_force = kNone;
@@ -119,21 +121,17 @@ void fitHands(Scene& scene) {
   putInOrder(scene.pins_motion);
   const bool none = scene.pins.kind == curtain::PinKind::kNone ||
                     (scene.pins.kind == curtain::PinKind::kList && scene.pins.nodes.empty());
-  if (none || !scene.rail.path.empty()) scene.pins_motion.clear();
+  const auto slides = [](const curtain::LayerParams& layer) { return !layer.rail.path.empty(); };
+  const bool slide = !scene.rail.path.empty() || std::any_of(scene.layers.begin(), scene.layers.end(), slides);
+  if (none || slide) scene.pins_motion.clear();
 }
 
-// Values that have a meaning together; what is left over is for validate().
-void fitTogether(Scene& scene, Choices& choices) {
+// Of one cloth, of a scene that has no other.
+void fitCloth(Scene& scene, Choices& choices) {
   curtain::ClothParams& cloth = scene.cloth;
   if (!scene.rail.path.empty()) cloth.closed = false;
   cloth.rows = std::min(cloth.rows, kMaxRows);
   cloth.columns = std::min(cloth.columns, kMaxColumns);
-  // Together they say how much a frame may take: their product, times the nodes.
-  for (int* count :
-       {&scene.solver.substeps, &scene.solver.max_substeps, &scene.solver.max_sweeps, &scene.contact.zone_iterations}) {
-    *count = std::min(*count, kMaxRounds);
-  }
-  scene.solver.threads = std::min(scene.solver.threads, kMaxThreads);
   const int room = (curtain::weftLinkCount(cloth) - 1) / 2;  // strips of two columns
   cloth.slits.resize(std::min(cloth.slits.size(), static_cast<std::size_t>(room)));
   for (std::size_t i = 0; i < cloth.slits.size(); ++i) {
@@ -159,11 +157,45 @@ void fitTogether(Scene& scene, Choices& choices) {
   if (cloth.closed || !(fullness >= 1.0 && fullness <= 3.0)) scene.hang.fullness.reset();
   fitRail(scene, choices);
   for (NodeIndex& pin : scene.pins.nodes) putOnGrid(pin, cloth);
-  fitLines(scene);
+  if (cloth.bending_warp == 0.0 && cloth.bending_weft == 0.0) cloth.bending_hysteresis = 0.0;
+}
+
+// Beside the first, which is fitted.
+void fitLayers(Scene& scene, Choices& choices) {
+  if (scene.cloth.closed) scene.layers.clear();
+  for (std::size_t k = 0; k < scene.layers.size(); ++k) {
+    curtain::LayerParams& layer = scene.layers[k];
+    layer.name = "layer" + std::to_string(k);
+    layer.cloth.rows = scene.cloth.rows;
+    layer.cloth.folds = scene.cloth.folds;
+    layer.cloth.closed = false;
+    Scene one = curtain::layerScene(scene, k + 1);
+    fitCloth(one, choices);
+    scene.solver.method = one.solver.method;
+    layer = {layer.name, one.cloth, one.hang, one.hem, one.pins, one.rail, layer.air};
+  }
+  // What goes wrong with them is not to spoil the scene.
+  const Scene first = curtain::layerScene(scene, 0);
+  Scene all = first;
+  all.layers = scene.layers;
+  if (curtain::validate(first).empty() && !curtain::validate(all).empty()) scene.layers.clear();
+}
+
+// Values that have a meaning together; what is left over is for validate().
+void fitTogether(Scene& scene, Choices& choices) {
+  // Together they say how much a frame may take: their product, times the nodes.
+  for (int* count :
+       {&scene.solver.substeps, &scene.solver.max_substeps, &scene.solver.max_sweeps, &scene.contact.zone_iterations}) {
+    *count = std::min(*count, kMaxRounds);
+  }
+  scene.solver.threads = std::min(scene.solver.threads, kMaxThreads);
+  fitCloth(scene, choices);
+  fitLayers(scene, choices);
+  const curtain::ClothParams whole = curtain::wholeCloth(scene);
+  fitLines(scene, whole);
   for (curtain::ObstacleParams& obstacle : scene.obstacles) {
     if (!obstacle.motion.empty()) obstacle.velocity = obstacle.spin = obstacle.acceleration = Vec3::Zero();
   }
-  if (cloth.bending_warp == 0.0 && cloth.bending_weft == 0.0) cloth.bending_hysteresis = 0.0;
   if (scene.air.law == curtain::AirLaw::kRelative) {
     scene.air.density = std::max(scene.air.density, 1e-6);
     scene.air.inside = scene.air.border = scene.air.corner = 0.0;
@@ -181,12 +213,12 @@ void fitTogether(Scene& scene, Choices& choices) {
       drag.point.reset();
     else if (!drag.point)
       drag.node = NodeIndex{};
-    if (drag.node) putOnGrid(*drag.node, cloth);
+    if (drag.node) putOnGrid(*drag.node, whole);
     if (!(drag.end > drag.start)) drag.end = std::numeric_limits<double>::infinity();
     if (!drag.path.empty()) drag.target.reset();
     putInOrder(drag.path);
   }
-  fitHands(scene);
+  fitHands(scene, whole);
   for (curtain::ObstacleParams& obstacle : scene.obstacles) putInOrder(obstacle.motion);
 }
 
@@ -272,18 +304,32 @@ std::optional<Scene> makeScene(Choices& choices) {
   curtain::visitFields(maker, scene);
   fitTogether(scene, choices);
   // Strips overlap where slits cut them from row 0 on, and not by much.
-  if (!curtain::validate(scene).empty()) scene.hang.overlap.reset();
+  const auto for_hangs = [&](const auto& change) {
+    if (curtain::validate(scene).empty()) return;
+    change(scene.hang);
+    for (curtain::LayerParams& layer : scene.layers) change(layer.hang);
+  };
+  for_hangs([](curtain::HangParams& hang) { hang.overlap.reset(); });
   // Pressed pleats ask for bending, which asks for links that have a length, and another method than the paper's.
-  if (!curtain::validate(scene).empty()) scene.hang.pressed = 0.0;
+  for_hangs([](curtain::HangParams& hang) { hang.pressed = 0.0; });
   if (!curtain::validate(scene).empty()) {
-    scene.cloth.bending_warp = scene.cloth.bending_weft = scene.cloth.bending_hysteresis = 0.0;
-    if (scene.solver.method == curtain::Method::kPaper) scene.cloth.shear = scene.cloth.bending_bias = 0.0;
+    const auto make_limp = [&](curtain::ClothParams& cloth) {
+      cloth.bending_warp = cloth.bending_weft = cloth.bending_hysteresis = 0.0;
+      if (scene.solver.method == curtain::Method::kPaper) cloth.shear = cloth.bending_bias = 0.0;
+    };
+    make_limp(scene.cloth);
+    for (curtain::LayerParams& layer : scene.layers) make_limp(layer.cloth);
   }
+  if (!curtain::validate(scene).empty()) scene.layers.clear();
   if (!curtain::validate(scene).empty()) return std::nullopt;
   if (!curtain::problemsAtStart(scene, curtain::makePattern(scene)).empty()) {
     scene.lines.clear();
     scene.tie_back.clear();
   }
+  // Cloths that touch must not begin crossed.
+  const curtain::ClothPattern pattern = curtain::makePattern(scene);
+  if (!scene.layers.empty() && countSelfCrossings(pattern.grid, makeInitialState(scene, pattern).position) > 0)
+    scene.contact.self = false;
   return scene;
 }
 
