@@ -26,26 +26,26 @@ const std::string& lines(const Self& self, const std::string& id) {
   return known(self.inspect().scene().lines, id, "there are no lines");
 }
 
-py::object driveOf(const Simulator& simulator) {
-  if (!simulator.drives()) return py::none();
+py::object driveOf(const Simulator& simulator, const std::string& layer) {
+  if (!simulator.drives(layer)) return py::none();
   py::dict values;
-  values["speed"] = simulator.drive().speed;
-  values["force"] = simulator.drive().force;
+  values["speed"] = simulator.drive(layer).speed;
+  values["force"] = simulator.drive(layer).force;
   return py::object(values);
 }
 
-void setDrive(Self& self, double speed, double force) {
+void setDrive(Self& self, double speed, double force, const std::string& layer) {
   DriveParams drive;
   drive.speed = speed;
   drive.force = force;
-  refuse(self.change([&](Simulator& s) { return s.setDrive(drive); }));
+  refuse(self.change([&](Simulator& s) { return s.setDrive(drive, layer); }));
 }
 
-py::array_t<double> railPoints(const Self& self, double spacing) {
+py::array_t<double> railPoints(const Self& self, double spacing, const std::string& layer) {
   if (!(spacing >= 1e-4 && std::isfinite(spacing)))
     throw py::value_error("spacing: must be a finite number >= 0.0001 [m], is " +
                           std::string(py::str(py::float_(spacing))));
-  const std::vector<Vec3> points = self.inspect().railPoints(spacing);
+  const std::vector<Vec3> points = self.inspect().railPoints(spacing, layer);
   py::array_t<double> array({static_cast<py::ssize_t>(points.size()), py::ssize_t{3}});
   std::copy_n(points.empty() ? nullptr : points.front().data(), 3 * points.size(), array.mutable_data());
   return array;
@@ -55,18 +55,26 @@ void bindRail(SimulatorClass& simulator) {
   simulator
       .def(
           "set_opening",
-          [](Self& self, double opening) { refuse(self.change([&](Simulator& s) { return s.setOpening(opening); })); },
-          py::arg("opening"),
-          "Draws the master carriers of the rail to an opening, 0 (shut) to 1 (gathered as far as the gaps allow), by "
-          "the drive; arrived, it keeps them there. statistics[\"opening\"] is the present one.")
+          [](Self& self, double opening, const std::string& layer) {
+            refuse(self.change([&](Simulator& s) { return s.setOpening(opening, layer); }));
+          },
+          py::arg("opening"), py::arg("layer") = kFirstCloth,
+          "Draws the master carriers of a layer's rail to an opening, 0 (shut) to 1 (gathered as far as the gaps "
+          "allow), "
+          "by the drive; arrived, it keeps them there. opening() is the present one.")
       .def(
-          "release_drive", [](Self& self) { self.change([](Simulator& s) { s.releaseDrive(); }); },
+          "opening", [](const Self& self, const std::string& layer) { return self.inspect().opening(layer); },
+          py::arg("layer") = kFirstCloth, "Present opening of a layer's rail; 0 without one.")
+      .def(
+          "release_drive",
+          [](Self& self, const std::string& layer) { self.change([&](Simulator& s) { s.releaseDrive(layer); }); },
+          py::arg("layer") = kFirstCloth,
           "The drive lets go: carriers slide freely, as before the first set_opening().")
-      .def("set_drive", &setDrive, py::arg("speed"), py::arg("force"),
+      .def("set_drive", &setDrive, py::arg("speed"), py::arg("force"), py::arg("layer") = kFirstCloth,
            "Speed [m/s] and greatest force on each master [N] of the drive, until reset().")
       .def_property_readonly(
-          "drive", [](const Self& self) { return driveOf(self.inspect()); },
-          "Speed [m/s] and force [N] of the drive; None: it has let go.")
+          "drive", [](const Self& self) { return driveOf(self.inspect(), kFirstCloth); },
+          "Speed [m/s] and force [N] of the first cloth's drive; None: it has let go.")
       .def(
           "carriers",
           [](const Self& self) {
@@ -75,8 +83,8 @@ void bindRail(SimulatorClass& simulator) {
             return nodes;
           },
           "Nodes that hang by carriers, as (row, column), in the order of the rail; empty: there is no rail.")
-      .def("rail_points", &railPoints, py::arg("spacing"),
-           "Points along the rail [m], evenly, no further apart than spacing [m]; shape (n, 3).");
+      .def("rail_points", &railPoints, py::arg("spacing"), py::arg("layer") = kFirstCloth,
+           "Points along a layer's rail [m], evenly, no further apart than spacing [m]; shape (n, 3).");
 }
 
 void bindTieBacks(SimulatorClass& simulator) {

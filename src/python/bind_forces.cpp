@@ -30,7 +30,7 @@ void bindSources(SimulatorClass& simulator) {
       .def(
           "set_wind",
           [](Self& self, const py::object& wind) {
-            const WindParams params = readWind(wind, self.inspect().scene().cloth);
+            const WindParams params = readWind(wind, wholeCloth(self.inspect().scene()));
             refuse(self.change([&](Simulator& s) { return s.setWind(params); }));
           },
           py::arg("wind"),
@@ -49,7 +49,7 @@ void bindSources(SimulatorClass& simulator) {
       .def(
           "set_drag",
           [](Self& self, const py::object& drag) {
-            const DragParams params = readDrag(drag, self.inspect().scene().cloth);
+            const DragParams params = readDrag(drag, wholeCloth(self.inspect().scene()));
             refuse(self.change([&](Simulator& s) { return s.setDrag(params); }));
           },
           py::arg("drag"),
@@ -95,11 +95,12 @@ void bindChanges(SimulatorClass& simulator) {
            "Frames per second, in [1, 10000]; from the next step on, also after reset().")
       .def(
           "set_cloth",
-          [](Self& self, const py::kwargs& values) {
-            const ClothParams cloth = readCloth(values, self.inspect().scene());
-            refuse(self.change([&](Simulator& s) { return s.setCloth(cloth); }));
+          [](Self& self, const std::string& layer, const py::kwargs& values) {
+            const ClothParams cloth = readCloth(values, self.inspect().scene(), layer);
+            refuse(self.change([&](Simulator& s) { return s.setCloth(cloth, layer); }));
           },
-          "Changes the cloth from the next step on, also after reset(): surface_density, porosity, row_mass, "
+          py::arg("layer") = kFirstCloth,
+          "Changes a cloth from the next step on, also after reset(): surface_density, porosity, row_mass, "
           "column_mass, shear, bending_warp, bending_weft, bending_bias, bending_hysteresis, as in a scene; or "
           "material, "
           "which sets what is known of the cloth itself. What is not given stays.")

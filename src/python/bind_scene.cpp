@@ -47,7 +47,7 @@ void bindScene(py::module& module) {
       .def("__repr__",
            [](const Scene& scene) {
              return "<curtain_engine.Scene of " + std::to_string(scene.cloth.rows) + " x " +
-                    std::to_string(scene.cloth.columns) + " nodes>";
+                    std::to_string(wholeCloth(scene).columns) + " nodes>";
            })
       .def(py::pickle([](const Scene& scene) { return py::str(writeScene(scene)); },
                       [](const py::str& text) { return readText(text); }));

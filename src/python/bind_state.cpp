@@ -24,7 +24,7 @@ py::tuple restLengths(const Simulator& simulator) {
   std::vector<double> warp, weft;
   simulator.copyRestLengths(warp, weft);
   const py::array_t<double> rods(static_cast<py::ssize_t>(warp.size()), warp.data());
-  const py::ssize_t links = weftLinkCount(simulator.scene().cloth);
+  const auto links = static_cast<py::ssize_t>(weft.size()) / simulator.rows();
   return py::make_tuple(rods, py::array_t<double>({py::ssize_t{simulator.rows()}, links}, weft.data()));
 }
 
@@ -42,7 +42,19 @@ void bindTime(SimulatorClass& simulator) {
       .def_property_readonly(
           "rows", [](const Self& self) { return self.inspect().rows(); }, "Nodes along the warp.")
       .def_property_readonly(
-          "columns", [](const Self& self) { return self.inspect().columns(); }, "Nodes along the weft.")
+          "columns", [](const Self& self) { return self.inspect().columns(); }, "Nodes along the weft, of all cloths.")
+      .def_property_readonly(
+          "layers",
+          [](const Self& self) {
+            py::dict columns;
+            for (const Simulator::LayerColumns& layer : self.inspect().layers())
+              columns[py::str(layer.name)] =
+                  py::slice(layer.first_column, layer.first_column + layer.columns, py::ssize_t{1});
+            return columns;
+          },
+          "Columns of each cloth, as slices by name: positions[:, layers[\"blackout\"]] are that layer's. The first "
+          "cloth "
+          "is \"cloth\".")
       .def_property_readonly(
           "scene", [](const Self& self) { return self.inspect().scene(); },
           "The scene, with the present values of what may change: gravity, air, frame rate, friction, "

@@ -156,17 +156,24 @@ DragParams readDrag(const py::handle& values, const ClothParams& cloth) {
   return readEntry(values, cloth, "drag").drag.front();
 }
 
-ClothParams readCloth(const py::handle& values, const Scene& present) {
+ClothParams readCloth(const py::handle& values, const Scene& present, const std::string& layer) {
   YAML::Node root = YAML::Load(writeScene(present));
+  const auto found = std::find_if(present.layers.begin(), present.layers.end(),
+                                  [&](const LayerParams& one) { return one.name == layer; });
+  const bool first = layer == kFirstCloth;
+  if (!first && found == present.layers.end())
+    refuse({{"layer", "must be \"cloth\" or the name of a layer, is \"" + layer + "\""}});
+  const auto number = static_cast<std::size_t>(found - present.layers.begin());
+  YAML::Node cloth = first ? root["cloth"] : root["layers"][number]["cloth"];
   const YAML::Node given = toYaml(values, "cloth");
   if (given["material"]) {  // sets all of these, but for those that are given
     for (const char* key : {"surface_density", "porosity", "shear", "bending_warp", "bending_weft", "bending_bias"})
-      root["cloth"].remove(key);
+      cloth.remove(key);
   }
-  for (const auto& entry : given) root["cloth"][entry.first.Scalar()] = entry.second;
+  for (const auto& entry : given) cloth[entry.first.Scalar()] = entry.second;
   SceneReading reading = readScene(root);
   refuse(reading.problems);
-  return reading.scene.cloth;
+  return first ? reading.scene.cloth : reading.scene.layers[number].cloth;
 }
 
 AirParams readAir(const py::handle& values, const AirParams& present) {

@@ -35,8 +35,8 @@ pybind11::object writeSceneValues(const Scene& scene, const char* key);  ///< se
 /// A wind, a drag or the air as its part of a scene file is; ValueError with what is wrong. cloth: that it is for.
 WindParams readWind(const pybind11::handle& values, const ClothParams& cloth);
 DragParams readDrag(const pybind11::handle& values, const ClothParams& cloth);  ///< as above
-/// The present cloth with these values in place of its own.
-ClothParams readCloth(const pybind11::handle& values, const Scene& present);
+/// The present cloth of this name (Simulator::layers()) with these values in place of its own.
+ClothParams readCloth(const pybind11::handle& values, const Scene& present, const std::string& layer);
 /// Keys that are not given keep the present values.
 AirParams readAir(const pybind11::handle& values, const AirParams& present);
 

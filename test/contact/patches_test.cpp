@@ -45,7 +45,7 @@ std::map<std::pair<int, int>, int> named(const SweptNodes& nodes, std::size_t sh
   scene.cloth.closed = grid.closed;
   const Spacings per_spacing(makePattern(scene));
   FlatPatches boxes(grid, per_spacing);
-  Patches patches(grid);
+  Patches patches(grid, Gaps(grid, 2));
   for (int row = 0; row < patches.rows(); ++row) {
     boxes.measureRow(nodes, row);
     patches.fitRow(nodes, row);
@@ -154,7 +154,7 @@ TEST(Patches, SayWhatDeviates) {
     }
     nodes.setEnd(places.start);  // what is told in between does not matter
     nodes.setEnd(places.end);
-    Patches patches(nodes.grid());
+    Patches patches(nodes.grid(), Gaps(nodes.grid(), 2));
     const float spread = patches.measureDeviations(nodes);
     const float most = 0.015f;
     // With the quads next to a patch on the right and below.

@@ -232,6 +232,30 @@ TEST(SelfCandidates, NamesJustThePairsOfTheStripsOfCutCloth) {
   }
 }
 
+// Cloths of two columns and more side by side in the grid, each a heap, one through the other.
+TEST(SelfCandidates, NamesJustThePairsOfClothsInOneGrid) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    Random random(seed);
+    std::vector<int> first;  // columns of the cloths
+    int columns = 0;
+    for (int k = 0; k < 5; ++k) {
+      first.push_back(columns);
+      columns += 2 + static_cast<int>(random.between(0.0, k == 2 ? 1.0 : 9.0));
+    }
+    ClothPattern pattern = squareCloth(11, columns, 0.025, false);
+    pattern.grid.slit_row.assign(static_cast<std::size_t>(columns), 11);
+    for (std::size_t k = 1; k < first.size(); ++k) pattern.grid.slit_row[static_cast<std::size_t>(first[k])] = 0;
+    Field3 cloth = heap(pattern.grid, seed);
+    for (const int column : first) {
+      const Vec3 at = cloth.at(pattern.grid.index(0, column)), to = random.inBox(0.02);
+      for (int i = 0; i < 11; ++i) {
+        for (int j = column; j < columns; ++j) cloth.add(pattern.grid.index(i, j), to - at);
+      }
+    }
+    EXPECT_FALSE(isEmpty(checked({"cloths", pattern, cloth, moved(pattern, cloth, 0.003, seed), 0.006})));
+  }
+}
+
 TEST(SelfCandidates, MissesNoPairOfAnyShapeOfGrid) {
   for (const auto& [rows, columns] :
        std::vector<std::pair<int, int>>{{2, 2}, {2, 3}, {3, 2}, {2, 50}, {50, 2}, {9, 10}, {17, 9}}) {

@@ -80,7 +80,7 @@ CURTAIN_INTO_WIDE void store(const Lanes& value, bool single, float* first, floa
 
 }  // namespace
 
-Patches::Patches(const Grid& grid)
+Patches::Patches(const Grid& grid, const Gaps& gaps)
     : grid_(grid), rows_((grid.rows - 1 + kAlong - 1) / kAlong), columns_((grid.linkCount() + kAlong - 1) / kAlong) {
   const auto count = static_cast<std::size_t>(rows_ * columns_);
   for (int patch = 0; patch < rows_ * columns_; ++patch) {
@@ -88,7 +88,8 @@ Patches::Patches(const Grid& grid)
     first_.push_back(static_cast<std::uint32_t>(grid.index(row, column)));
     there_.push_back(0);
     for (int k = 0; k < kQuads; ++k) {
-      const bool is_there = row + k / kAlong < grid.rows - 1 && column + k % kAlong < grid.linkCount();
+      const int i = row + k / kAlong, j = column + k % kAlong;
+      const bool is_there = i < grid.rows - 1 && j < grid.linkCount() && !gaps.at(j);
       there_.back() |= (is_there ? 1U : 0U) << k;
     }
   }

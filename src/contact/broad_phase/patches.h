@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "contact/broad_phase/flat_patches.h"
+#include "contact/broad_phase/gaps.h"
 #include "contact/broad_phase/swept_nodes.h"
 
 namespace curtain {
@@ -21,8 +22,8 @@ class Patches {
  public:
   static constexpr int kAlong = FlatPatches::kAlong, kQuads = kAlong * kAlong;  ///< quads along a side, and in all
 
-  /// Quads go by their upper left nodes in this grid.
-  explicit Patches(const Grid& grid);
+  /// Quads go by their upper left nodes in this grid; those in gaps are left out.
+  Patches(const Grid& grid, const Gaps& gaps);
 
   /// Takes the boxes of a row of patches' quads during the motion. Allocates nothing. Thread-safe for different rows.
   void fitRow(const SweptNodes& nodes, int row) noexcept;

@@ -34,9 +34,10 @@ SelfCandidates::SelfCandidates(const ClothPattern& pattern, const Workers* worke
       immovable_(in_field_.size(), 0),
       per_spacing_(pattern),
       flat_(grid_, per_spacing_),
-      patches_(grid_),
       high_(std::min(2, grid_.rows - 1)),
       wide_(std::min(2, grid_.linkCount())),
+      gaps_(grid_, wide_),
+      patches_(grid_, gaps_),
       workers_(workers),
       shares_(workers == nullptr ? 1 : static_cast<std::size_t>(workers->shares())) {
   for (int i = 0; i < grid_.rows; ++i) {
@@ -95,7 +96,8 @@ void SelfCandidates::makeKinds() {
 
 // Of a window of quads.
 std::size_t SelfCandidates::whereIs(int row, int column, int high, int wide) const noexcept {
-  return (row + high + 1 == grid_.rows ? 2U : 0U) + (!grid_.closed && column + wide + 1 == grid_.columns ? 1U : 0U);
+  const bool last = !grid_.closed && (column + wide + 1 == grid_.columns || gaps_.at(column + wide));
+  return (row + high + 1 == grid_.rows ? 2U : 0U) + (last ? 1U : 0U);
 }
 
 void SelfCandidates::collect(const Field3& start, const Field3& end, double reach, Candidates& out) noexcept {
@@ -191,6 +193,7 @@ void SelfCandidates::addWindows(const Query& query, std::size_t index, Share& sh
       const std::uint32_t all = columns - j < 8 ? (1U << (columns - j)) - 1U : 0xFFU;
       for (std::uint32_t bent = ~flatWindows(flatNodes(query, i, j), high_, wide_) & all; bent != 0; bent &= bent - 1) {
         const int column = j + __builtin_ctz(bent);
+        if (gaps_.at(column) || gaps_.at(column + wide_ - 1)) continue;
         const auto node_of = [&](std::uint32_t k) {
           const auto n = static_cast<int>(k);
           return static_cast<std::uint32_t>(grid_.index(i + std::min(n / 3, high_), column + std::min(n % 3, wide_)));

@@ -104,8 +104,9 @@ class SelfCandidates {
   Spacings per_spacing_;
   double reach_ = 0.0;  // of the last collect() [m]
   FlatPatches flat_;
-  Patches patches_;
   int high_, wide_;  // quads along a window: two, or one where there are no more
+  Gaps gaps_;
+  Patches patches_;
   std::array<Kind, kKinds> kinds_;
   const Workers* workers_;
   std::vector<Share> shares_;       // empty between searches
