@@ -70,6 +70,8 @@ class Simulator {
   /// Rest lengths [m]. warp: of the rods between two rows, from the top down, the same in every column, shape
   /// [rows - 1]; weft: of the links, row by row, shape [rows * links], as FineMeshBuilder takes them. Resized.
   void copyRestLengths(std::vector<double>& warp, std::vector<double>& weft) const;
+  /// Rest lengths of the rods of all columns [m], row by row, shape [(rows - 1) * columns].
+  void copyRods(std::vector<double>& out) const;
 
   Vec3 position(NodeIndex node) const;             ///< [m]
   double mass(NodeIndex node) const;               ///< [kg], with its carrier's
@@ -143,6 +145,8 @@ class Simulator {
   std::vector<Problem> setOpening(double opening, const std::string& layer = kFirstCloth);
   /// Present place of the master carriers, as rail.opening; 0 without a rail.
   double opening(const std::string& layer = kFirstCloth) const;
+  /// Force of its rail's drive on all masters, mean over the last frame [N]; 0 without a rail.
+  double driveForce(const std::string& layer = kFirstCloth) const;
   /// The drive lets go: carriers slide freely, as before the first setOpening().
   void releaseDrive(const std::string& layer = kFirstCloth);
   /// Changes the drive's speed and force, until reset(). Returns what is wrong; then nothing changed.

@@ -42,7 +42,10 @@ CurtainNode::CurtainNode(const ros::NodeHandle& node, const ros::NodeHandle& pri
       calls_([this] { wake(); }),
       diagnostics_(node, private_node, reading.node.diagnostic_period, clock_.follows()) {
   if (reading.node.handles) handles_ = std::make_unique<Handles>(private_node, reading.node, simulator_, inputs_);
-  if (!reading.scene.rail.path.empty()) opening_ = std::make_unique<OpenCurtain>(private_node, inputs_);
+  for (const curtain::Simulator::LayerColumns& layer : simulator_.layers()) {
+    if (!simulator_.railPoints(1.0, layer.name).empty())
+      openings_.push_back(std::make_unique<OpenCurtain>(private_node, inputs_, layer.name));
+  }
   if (!reading.scene.tie_back.empty()) tie_backs_ = std::make_unique<TieBacks>(private_node, reading.scene);
   if (snapshots_.restore(simulator_)) {
     obstacles_.resume(simulator_);
@@ -81,7 +84,9 @@ void CurtainNode::startServices(const ros::NodeHandle& private_node) {
   Tuning::Actions tuning;
   tuning.apply = [this](const curtain_sim::CurtainConfig& values) { tune(values); };
   tuning.present = [this] { return liveValues(simulator_.scene(), params_); };
-  tuning.set_material = [this](const std::string& material) { return applyMaterial(material, simulator_); };
+  tuning.set_material = [this](const std::string& material, const std::string& layer) {
+    return applyMaterial(material, layer, simulator_);
+  };
   tuning_ = std::make_unique<Tuning>(private_node, calls_, tuning);
   file_services_ = std::make_unique<FileServices>(private_node, calls_, simulator_, file);
   measure_services_ = std::make_unique<MeasureServices>(private_node, calls_, simulator_, frames_.world());
@@ -92,7 +97,8 @@ void CurtainNode::startServices(const ros::NodeHandle& private_node) {
 void CurtainNode::startWatch(const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
   std::vector<std::string> topics = inputs_.topics(), services;
   for (const char* tf : {"/tf", "/tf_static"}) topics.push_back(node.resolveName(tf));
-  for (const char* own : {"handles/feedback", "open"}) topics.push_back(private_node.resolveName(own));
+  topics.push_back(private_node.resolveName("handles/feedback"));
+  for (const auto& opening : openings_) topics.push_back(opening->topic());
   for (const char* own : {"reset", "pause", "step", "save", "load", "export_mesh", "distance", "attach", "detach",
                           "set_material", "set_parameters"})
     services.push_back(private_node.resolveName(own));
@@ -166,7 +172,7 @@ void CurtainNode::makeAskedFrame() {
 
 void CurtainNode::applyInputs() {
   inputs_.apply(simulator_);
-  if (opening_) opening_->apply(simulator_);
+  for (const auto& opening : openings_) opening->apply(simulator_);
   if (tie_backs_) tie_backs_->apply(simulator_);
   sensors_.apply();
 }
@@ -187,7 +193,7 @@ void CurtainNode::makeFrame(const ros::Time& stamp, bool latest) {
   outputs_.publish(stamp, nodeStatistics(), latest);
   showSensors(stamp, latest);
   if (handles_) handles_->update(simulator_);
-  if (opening_) opening_->update(simulator_);
+  for (const auto& opening : openings_) opening->update(simulator_);
   hands_.update(simulator_);
   ties_->update();
   diagnostics_.frameMade();
@@ -213,7 +219,7 @@ void CurtainNode::restart(const std::string& why) {
   ties_->restart();
   simulator_.reset();
   lock_step_.end(why);
-  if (opening_) opening_->restart();
+  for (const auto& opening : openings_) opening->restart();
   inputs_.restart();
   obstacles_.restart(simulator_);
 }
@@ -226,7 +232,7 @@ std::vector<curtain::Problem> CurtainNode::restore(const std::string& snapshot) 
   hands_.restart(simulator_, "a snapshot was loaded");
   ties_->restart();
   lock_step_.end("a snapshot was loaded");
-  if (opening_) opening_->restart();
+  for (const auto& opening : openings_) opening->restart();
   inputs_.restart();
   obstacles_.resume(simulator_);
   applyRates();

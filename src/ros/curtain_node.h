@@ -97,9 +97,9 @@ class CurtainNode {
   Hands hands_;
   Outputs outputs_;
   SensorOutputs sensors_;
-  std::unique_ptr<Handles> handles_;      // none unless ~handles
-  std::unique_ptr<OpenCurtain> opening_;  // none without a rail
-  std::unique_ptr<TieBacks> tie_backs_;   // none without one in the scene
+  std::unique_ptr<Handles> handles_;                    // none unless ~handles
+  std::vector<std::unique_ptr<OpenCurtain>> openings_;  // of cloths on rails
+  std::unique_ptr<TieBacks> tie_backs_;                 // none without one in the scene
   FrameClock clock_;
   std::unique_ptr<ClockPublisher> clock_publisher_;  // none unless ~publish_clock
   LockStep lock_step_;

@@ -11,9 +11,13 @@ FlatCloth::FlatCloth(const FineMeshTopology& topology, std::vector<double> warp_
       node_columns_(topology.closed ? links_ : links_ + 1),
       warp_rest_(std::move(warp_rest)),
       weft_rest_(std::move(weft_rest)),
-      warp_begin_(static_cast<std::size_t>(topology.rows), 0.0),
+      by_column_(warp_rest_.size() != static_cast<std::size_t>(topology.rows - 1)),
+      warp_begin_(weft_rest_.size(), 0.0),
       weft_begin_(weft_rest_.size(), 0.0) {
-  for (std::size_t i = 1; i < warp_begin_.size(); ++i) warp_begin_[i] = warp_begin_[i - 1] + warp_rest_[i - 1];
+  for (int i = 1; i < topology.rows; ++i) {
+    for (int link = 0; link < links_; ++link)
+      warp_begin_[linkAt(i, link)] = warp_begin_[linkAt(i - 1, link)] + rod(i - 1, link);
+  }
   for (int i = 0; i < topology.rows; ++i) {
     for (int link = 1; link < links_; ++link)
       weft_begin_[linkAt(i, link)] = weft_begin_[linkAt(i, link - 1)] + weft_rest_[linkAt(i, link - 1)];
@@ -33,7 +37,7 @@ double FlatCloth::area(int triangle) const {
   const Cell cell = cellOf(triangle);
   const int base_row = cell.second ? cell.row + 1 : cell.row;
   const double base = weft_rest_[linkAt(base_row, cell.column / topology_.folds)] / topology_.folds;
-  return 0.5 * base * warp_rest_[static_cast<std::size_t>(cell.row)];
+  return 0.5 * base * rod(cell.row, cell.column / topology_.folds);
 }
 
 double FlatCloth::area() const {
@@ -59,8 +63,7 @@ Eigen::Vector2d FlatCloth::coordinates(const ClothPlace& place) const {
   const std::size_t above = linkAt(place.row, place.link), below = linkAt(place.row + 1, place.link);
   const double u_above = weft_begin_[above] + place.across * weft_rest_[above];
   const double u_below = weft_begin_[below] + place.across * weft_rest_[below];
-  const auto row = static_cast<std::size_t>(place.row);
-  return {u_above + place.down * (u_below - u_above), warp_begin_[row] + place.down * warp_rest_[row]};
+  return {u_above + place.down * (u_below - u_above), warp_begin_[above] + place.down * rod(place.row, place.link)};
 }
 
 std::int32_t FlatCloth::nearestNode(const ClothPlace& place) const {

@@ -28,7 +28,7 @@ struct ClothPlace {
 /// Immutable: any number of threads may use it.
 class FlatCloth {
  public:
-  /// warp_rest, weft_rest  as Simulator::copyRestLengths() gives them
+  /// warp_rest, weft_rest  as Simulator::copyRestLengths() gives them; warp_rest of several cloths: as copyRods() does
   FlatCloth(const FineMeshTopology& topology, std::vector<double> warp_rest, std::vector<double> weft_rest);
 
   int triangleCount() const { return static_cast<int>(topology_.triangles.size()); }
@@ -57,13 +57,19 @@ class FlatCloth {
     bool second;      // of the quad's two triangles
   };
   Cell cellOf(int triangle) const;
+  // Of the rods on the left of a link's cell [m].
+  double rod(int row, int link) const {
+    const auto at = static_cast<std::size_t>(by_column_ ? row * node_columns_ + link : row);
+    return warp_rest_[at];
+  }
   std::size_t linkAt(int row, int link) const { return static_cast<std::size_t>(row * links_ + link); }
   std::int32_t node(int row, int column) const { return row * node_columns_ + column % node_columns_; }
 
   FineMeshTopology topology_;
   int links_, node_columns_;
   std::vector<double> warp_rest_, weft_rest_;
-  std::vector<double> warp_begin_, weft_begin_;  // [m] from the hung edge, from column 0
+  bool by_column_;                               // warp_rest_ has the rods of all columns
+  std::vector<double> warp_begin_, weft_begin_;  // [m] from the hung edge, from column 0; by link
 };
 
 }  // namespace curtain

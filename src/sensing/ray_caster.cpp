@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "scene/layers.h"
 #include "sensing/embree.h"
 #include "sensing/embree_solids.h"
 #include "sensing/hashed_random.h"
@@ -24,7 +25,7 @@ constexpr int kPacketWide = 4;  // two rows of four: neighbours in both directio
 struct Context {
   EmbreeContext embree;  // first
   std::uint64_t pore_key;
-  double porosity;
+  const double* porosity;  // by triangle of the cloth
 };
 
 // Whether a hit of the cloth counts: a ray's number and the triangle decide.
@@ -34,7 +35,7 @@ void passPores(const RTCFilterFunctionNArguments* args) {
     if (args->valid[i] == 0) continue;
     const std::uint64_t ray = RTCRayN_id(args->ray, args->N, i);
     const std::uint64_t triangle = RTCHitN_primID(args->hit, args->N, i);
-    if (hashedUniform(context.pore_key, ray << 32U | triangle) < context.porosity) args->valid[i] = 0;
+    if (hashedUniform(context.pore_key, ray << 32U | triangle) < context.porosity[triangle]) args->valid[i] = 0;
   }
 }
 
@@ -104,23 +105,24 @@ struct RayCaster::Impl {
   std::vector<Eigen::Matrix3f> turns;  // by the instance's id: from its frame, which Embree's normals are in
   std::vector<std::uint16_t> labels;   // by the instance's id
 
-  double porosity = 0.0;
+  std::vector<std::uint16_t> cloth_labels;  // by triangle of the cloth
+  std::vector<double> porosity;             // the same
 
-  Impl(const Simulator& simulator, double porosity);
+  Impl(const Simulator& simulator, std::optional<double> porosity);
   ~Impl();
-  void addCloth(const FineMeshTopology& topology);
+  void addCloth(const Simulator& simulator, std::optional<double> of_all);
   void addMesh(std::size_t obstacle, const ShapeTriangles& shape);
   void castPacket(const RayGrid& rays, int column, int row, const RayRange& range, Context& context,
                   std::vector<RayHit>& hits) const;
 };
 
-RayCaster::Impl::Impl(const Simulator& simulator, double of_cloth) : porosity(of_cloth) {
+RayCaster::Impl::Impl(const Simulator& simulator, std::optional<double> of_all) {
   device = rtcNewDevice(nullptr);
   if (device == nullptr) throw std::runtime_error("Embree can't be started on this machine");
   scene = rtcNewScene(device);
   // Robust: no ray slips through between two triangles. Dynamic: as fast to build as to look through once.
   rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST));
-  addCloth(simulator.fineMeshTopology());
+  addCloth(simulator, of_all);
   const std::vector<ObstacleParams>& obstacles = simulator.scene().obstacles;
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     const ObstacleShape& shape = simulator.obstacleShape(static_cast<int>(i));
@@ -149,11 +151,25 @@ RayCaster::Impl::~Impl() {
   if (device != nullptr) rtcReleaseDevice(device);
 }
 
-void RayCaster::Impl::addCloth(const FineMeshTopology& topology) {
+void RayCaster::Impl::addCloth(const Simulator& simulator, std::optional<double> of_all) {
+  const FineMeshTopology& topology = simulator.fineMeshTopology();
+  const Scene& given = simulator.scene();
+  const Layers layers(given);
+  for (const auto& triangle : topology.triangles) {
+    // Its corner on the left; of closed cloth any, which has no layers.
+    const std::uint32_t left =
+        *std::min_element(triangle.begin(), triangle.end(), [&](std::uint32_t a, std::uint32_t b) {
+          return a % static_cast<std::uint32_t>(topology.columns) < b % static_cast<std::uint32_t>(topology.columns);
+        });
+    const std::size_t layer = layers.numberOf(static_cast<int>(left) % topology.columns / topology.folds);
+    cloth_labels.push_back(layer == 0 ? RayHit::kCloth : labelOf(given.obstacles.size() + layer - 1));
+    porosity.push_back(of_all.value_or(layers[layer].cloth->porosity));
+  }
   const auto points = static_cast<std::size_t>(topology.rows) * static_cast<std::size_t>(topology.columns);
   cloth = newTriangles(device, points, topology.triangles, positions);
   rtcSetGeometryBuildQuality(cloth, RTC_BUILD_QUALITY_MEDIUM);
-  if (porosity > 0.0) rtcSetGeometryIntersectFilterFunction(cloth, passPores);
+  const bool any_pores = *std::max_element(porosity.begin(), porosity.end()) > 0.0;
+  if (any_pores) rtcSetGeometryIntersectFilterFunction(cloth, passPores);
   cloth_id = rtcAttachGeometry(scene, cloth);
 }
 
@@ -178,7 +194,7 @@ void RayCaster::Impl::addMesh(std::size_t obstacle, const ShapeTriangles& shape)
 
 bool RayCaster::available() { return true; }
 
-RayCaster::RayCaster(const Simulator& simulator, double porosity)
+RayCaster::RayCaster(const Simulator& simulator, std::optional<double> porosity)
     : impl_(std::make_unique<Impl>(simulator, porosity)) {}
 RayCaster::~RayCaster() = default;
 
@@ -221,7 +237,7 @@ void RayCaster::cast(const RayGrid& rays, const RayRange& range, std::uint64_t p
   Context context;
   initCoherent(context.embree);
   context.pore_key = pore_key;
-  context.porosity = im.porosity;
+  context.porosity = im.porosity.data();
   for (int row = 0; row < rays.height; row += kLanes / kPacketWide) {
     for (int column = 0; column < rays.width; column += kPacketWide)
       im.castPacket(rays, column, row, range, context, hits);
@@ -267,7 +283,7 @@ void RayCaster::Impl::castPacket(const RayGrid& rays, int column, int row, const
     hit.b2 = packet.hit.v[lane];
     hit.normal = {packet.hit.Ng_x[lane], packet.hit.Ng_y[lane], packet.hit.Ng_z[lane]};
     if (instance != RTC_INVALID_GEOMETRY_ID) hit.normal = turns[instance] * hit.normal;
-    hit.label = of_cloth                              ? RayHit::kCloth
+    hit.label = of_cloth                              ? cloth_labels[packet.hit.primID[lane]]
                 : instance != RTC_INVALID_GEOMETRY_ID ? labels[instance]
                                                       : labelOf(solid_obstacles[packet.hit.primID[lane]]);
   }

@@ -27,7 +27,8 @@ struct RayHit {
   static constexpr std::uint16_t kBackground = 0, kCloth = 1, kFirstObstacle = 2;
 
   std::int32_t triangle = kNothing;                  ///< of the fine mesh, or one of the above
-  std::uint16_t label = kBackground;                 ///< kBackground, kCloth, or kFirstObstacle and its number
+  std::uint16_t label = kBackground;                 ///< kBackground, kCloth, kFirstObstacle and its number, or behind
+                                                     ///< the obstacles a layer of the scene
   float distance = 0.0F;                             ///< parameter along the ray, in lengths of its direction
   float b1 = 0.0F, b2 = 0.0F;                        ///< weights of the triangle's second and third corner
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< sensor's frame, of any length and either side
@@ -46,8 +47,8 @@ class RayCaster {
 
   /// Copies what does not change: the mesh's triangles and the obstacles' shapes. Throws std::runtime_error when Embree
   /// can't be started.
-  ///   porosity  [0..1] probability that a layer of cloth lets a ray through
-  RayCaster(const Simulator& simulator, double porosity);
+  ///   porosity  [0..1] probability that a sheet of cloth lets a ray through; none: that of its fabric
+  RayCaster(const Simulator& simulator, std::optional<double> porosity);
   ~RayCaster();
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;

@@ -7,7 +7,7 @@
 namespace curtain {
 
 SensorView::SensorView(const Simulator& simulator, const FlatCloth& flat, const SensorParams& params)
-    : flat_(flat), params_(params), caster_(simulator, params.porosity.value_or(simulator.scene().cloth.porosity)) {}
+    : flat_(flat), params_(params), caster_(simulator, params.porosity) {}
 
 void SensorView::render(const Moment& moment, const Pose& sensor) {
   caster_.place(moment, sensor);

@@ -199,6 +199,14 @@ void Simulator::copyRestLengths(std::vector<double>& warp, std::vector<double>& 
   }
 }
 
+void Simulator::copyRods(std::vector<double>& out) const {
+  const Grid& grid = impl_->pattern.grid;
+  out.clear();
+  for (int i = 1; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j) out.push_back(impl_->pattern.warp_rest[grid.index(i, j)]);
+  }
+}
+
 Vec3 Simulator::position(NodeIndex node) const {
   return impl_->motion.state.position.at(impl_->pattern.grid.index(node));
 }

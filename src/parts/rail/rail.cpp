@@ -80,8 +80,8 @@ void Rail::measure(const ClothState& state, Statistics& statistics) const noexce
 }
 
 bool Rail::endFrame(const FrameEnd& end, ClothState&) noexcept {
-  if (const std::optional<std::size_t> rail = railOf(0))
-    end.statistics.drive_force = tracks_[*rail].impulse / end.length;
+  for (Track& track : tracks_) track.force = track.impulse / end.length;
+  if (const std::optional<std::size_t> rail = railOf(0)) end.statistics.drive_force = driveForce(*rail);
   return false;
 }
 

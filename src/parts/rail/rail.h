@@ -61,6 +61,8 @@ class Rail final : public GuidePart, public Part {
   std::optional<std::size_t> railOf(std::size_t layer) const noexcept;
   void ask(std::size_t rail, const Asked& asked);
   const Asked& asked(std::size_t rail) const noexcept { return tracks_[rail].asked; }
+  /// Of a rail's drive on all its masters, mean over the last frame [N].
+  double driveForce(std::size_t rail) const noexcept { return tracks_[rail].force; }
   /// Present opening of a rail.
   double openingOf(std::size_t rail, const ClothState& state) const noexcept;
 
@@ -125,6 +127,7 @@ class Rail final : public GuidePart, public Part {
     Asked asked;
     std::vector<double> goal;  // places that the masters are drawn to [m]
     double impulse = 0.0;      // of the drive in this frame [N s]
+    double force = 0.0;        // mean over the last frame [N]
   };
   const DriveParams& driveOf(const Track& track) const noexcept;
   bool hasArrived(const Track& track, const ClothState& state) const noexcept;

@@ -59,7 +59,7 @@ void Hands::read(Letter& letter, Simulator& simulator, const ros::Time&) {
   const curtain_sim::GraspGoal& wanted = *letter.goal.getGoal();
   curtain::GraspParams grasp;
   const std::string id = letter.goal.getGoalID().id;
-  const std::vector<curtain::Problem> problems = toGrasp(wanted, id, simulator.scene().cloth, grasp);
+  const std::vector<curtain::Problem> problems = toGrasp(wanted, id, wholeCloth(simulator.scene()), grasp);
   if (!problems.empty()) return refuse(letter.goal, problems);
   hands_.push_back({letter.goal, id, FollowedFrame(wanted.frame, timeout_, "~grasp_timeout"), false, 0.0});
 }
@@ -77,7 +77,7 @@ bool Hands::grip(Hand& hand, Simulator& simulator, const ros::Time& now) {
   }
   const curtain_sim::GraspGoal& wanted = *hand.goal.getGoal();
   curtain::GraspParams grasp;
-  toGrasp(wanted, hand.id, simulator.scene().cloth, grasp);
+  toGrasp(wanted, hand.id, wholeCloth(simulator.scene()), grasp);
   grasp.frame = *hand.frame.pose();
   const std::vector<curtain::Problem> problems = simulator.setGrasp(grasp);
   if (!problems.empty()) {

@@ -49,7 +49,7 @@ Problems add(const WindSource& message, const curtain::Pose& frame, Simulator& s
 }
 Problems add(const DragForce& message, const curtain::Pose& frame, Simulator& simulator) {
   curtain::DragParams drag;
-  Problems problems = toDrag(message, frame, simulator.time(), simulator.scene().cloth, drag);
+  Problems problems = toDrag(message, frame, simulator.time(), wholeCloth(simulator.scene()), drag);
   if (problems.empty()) problems = checkRoom(simulator.drags(), message.id);
   return problems.empty() ? simulator.setDrag(drag) : problems;
 }

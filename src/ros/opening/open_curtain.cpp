@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/opening/open_curtain.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "ros/inputs/mailbox.h"
@@ -52,11 +53,14 @@ bool StandstillWatch::standsStill(double time, double off) noexcept {
   return time - since_ > kPatience;
 }
 
-OpenCurtain::OpenCurtain(ros::NodeHandle private_node, Inputs& inputs)
+OpenCurtain::OpenCurtain(const ros::NodeHandle& private_node, Inputs& inputs, const std::string& layer)
     : inputs_(inputs),
+      layer_(layer),
+      space_(layer == curtain::kFirstCloth ? "" : "layers/" + layer + "/"),
+      node_(private_node),
       mailbox_(kMailboxCapacity),
       server_(
-          private_node, "open_curtain",
+          node_, space_ + "open_curtain",
           [this](Goal goal) {
             mailbox_.post({nullptr, goal, false});
           },
@@ -68,9 +72,17 @@ OpenCurtain::OpenCurtain(ros::NodeHandle private_node, Inputs& inputs)
       [this](const std_msgs::Float64::ConstPtr& message) {
         mailbox_.post({message, std::nullopt, false});
       };
-  subscriber_ = private_node.subscribe<std_msgs::Float64>("open", kQueueSize, on_message, ros::VoidConstPtr(),
-                                                          ros::TransportHints().tcpNoDelay());
+  subscriber_ = node_.subscribe<std_msgs::Float64>(space_ + "open", kQueueSize, on_message, ros::VoidConstPtr(),
+                                                   ros::TransportHints().tcpNoDelay());
   server_.start();
+}
+
+// The scene's, of its own rail.
+const curtain::DriveParams& OpenCurtain::sceneDrive(const Simulator& simulator) const {
+  const curtain::Scene& scene = simulator.scene();
+  const auto found = std::find_if(scene.layers.begin(), scene.layers.end(),
+                                  [this](const curtain::LayerParams& one) { return one.name == layer_; });
+  return found == scene.layers.end() ? scene.rail.drive : found->rail.drive;
 }
 
 void OpenCurtain::apply(Simulator& simulator) {
@@ -91,28 +103,27 @@ void OpenCurtain::read(const Letter& letter, Simulator& simulator) {
   goal.opening = letter.opening->data;
   const std::vector<curtain::Problem> problems = checkGoal(goal);
   if (!problems.empty()) {
-    inputs_.refuse("~open", problems);
+    inputs_.refuse("~" + space_ + "open", problems);
     return;
   }
-  supersede("a message on ~open came");
+  supersede("a message on ~" + space_ + "open came");
   inputs_.countAccepted();
-  simulator.setDrive(simulator.scene().rail.drive);
-  simulator.setOpening(goal.opening);
+  simulator.setDrive(sceneDrive(simulator), layer_);
+  simulator.setOpening(goal.opening, layer_);
 }
 
 void OpenCurtain::accept(Goal goal, Simulator& simulator) {
   const OpenCurtainGoal& wanted = *goal.getGoal();
   std::vector<curtain::Problem> problems = checkGoal(wanted);
-  if (problems.empty()) problems = simulator.setDrive(driveOf(wanted, simulator.scene().rail.drive));
+  if (problems.empty()) problems = simulator.setDrive(driveOf(wanted, sceneDrive(simulator)), layer_);
   if (!problems.empty()) {
-    inputs_.refuse("~open_curtain/goal", problems);
-    goal.setRejected(resultOf(simulator.statistics().opening, curtain::describe(problems)),
-                     curtain::describe(problems));
+    inputs_.refuse("~" + space_ + "open_curtain/goal", problems);
+    goal.setRejected(resultOf(simulator.opening(layer_), curtain::describe(problems)), curtain::describe(problems));
     return;
   }
   supersede("another goal came");
   inputs_.countAccepted();
-  simulator.setOpening(wanted.opening);
+  simulator.setOpening(wanted.opening, layer_);
   goal.setAccepted();
   goal_ = goal;
   watch_ = StandstillWatch();
@@ -120,7 +131,7 @@ void OpenCurtain::accept(Goal goal, Simulator& simulator) {
 
 void OpenCurtain::cancel(const Goal& goal, Simulator& simulator) {
   if (!goal_ || !(*goal_ == goal)) return;
-  simulator.releaseDrive();
+  simulator.releaseDrive(layer_);
   supersede("it was cancelled");
 }
 
@@ -131,11 +142,11 @@ void OpenCurtain::supersede(const std::string& why) {
 }
 
 void OpenCurtain::update(Simulator& simulator) {
-  opening_ = simulator.statistics().opening;
+  opening_ = simulator.opening(layer_);
   if (!goal_) return;
   OpenCurtainFeedback feedback;
   feedback.opening = opening_;
-  feedback.force = simulator.statistics().drive_force;
+  feedback.force = simulator.driveForce(layer_);
   goal_->publishFeedback(feedback);
   const double off = std::abs(opening_ - goal_->getGoal()->opening);
   if (off <= kReached) {
@@ -143,7 +154,7 @@ void OpenCurtain::update(Simulator& simulator) {
     goal_.reset();
   } else if (watch_.standsStill(simulator.time(), off)) {
     const std::string why = "the force does not suffice: no nearer for " + curtain::formatNumber(kPatience) + " s";
-    simulator.releaseDrive();
+    simulator.releaseDrive(layer_);
     goal_->setAborted(resultOf(opening_, why), why);
     goal_.reset();
   }

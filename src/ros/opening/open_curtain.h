@@ -41,8 +41,12 @@ class StandstillWatch {
 
 class OpenCurtain {
  public:
-  /// For a scene with a rail. Subscribes ~open and serves ~open_curtain. inputs must outlive this.
-  OpenCurtain(ros::NodeHandle private_node, Inputs& inputs);
+  /// For a cloth that hangs from a rail (Simulator::layers()). Subscribes ~open and serves ~open_curtain, of a layer
+  /// below ~layers/NAME. inputs must outlive this.
+  OpenCurtain(const ros::NodeHandle& private_node, Inputs& inputs, const std::string& layer);
+
+  /// Topics that it subscribes.
+  std::string topic() const { return subscriber_.getTopic(); }
 
   /// Before a frame: applies what arrived, in order. Simulation thread.
   void apply(curtain::Simulator& simulator);
@@ -65,8 +69,11 @@ class OpenCurtain {
   void accept(Goal goal, curtain::Simulator& simulator);
   void cancel(const Goal& goal, curtain::Simulator& simulator);
   void supersede(const std::string& why);
+  const curtain::DriveParams& sceneDrive(const curtain::Simulator& simulator) const;
 
   Inputs& inputs_;
+  const std::string layer_, space_;  // its name, and what topics begin with
+  ros::NodeHandle node_;             // of its topics
   Mailbox<Letter> mailbox_;
   std::deque<Letter> letters_;  // scratch
   std::optional<Goal> goal_;    // that is being worked on

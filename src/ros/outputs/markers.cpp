@@ -115,7 +115,11 @@ void buildArrows(const std::vector<curtain::ContactForce>& forces, Points& point
   }
 }
 
-void buildWires(const std::vector<Vec3>& nodes, int rows, int columns, bool closed, Points& points) {
+// Links that slits cut are left out.
+void buildWires(const std::vector<Vec3>& nodes, const curtain::ClothParams& cloth, Points& points) {
+  const int rows = cloth.rows, columns = cloth.columns;
+  std::vector<int> cut_from(static_cast<std::size_t>(columns), rows);  // of the link on the right of each column
+  for (const curtain::SlitParams& slit : cloth.slits) cut_from[static_cast<std::size_t>(slit.column)] = slit.from_row;
   const auto at = [&](int row, int column) -> const Vec3& {
     return nodes[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column)];
   };
@@ -123,9 +127,9 @@ void buildWires(const std::vector<Vec3>& nodes, int rows, int columns, bool clos
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       if (row + 1 < rows) addLine(at(row, column), at(row + 1, column), points);
-      if (column + 1 < columns) addLine(at(row, column), at(row, column + 1), points);
+      const bool links = (column + 1 < columns || cloth.closed) && row < cut_from[static_cast<std::size_t>(column)];
+      if (links) addLine(at(row, column), at(row, (column + 1) % columns), points);
     }
-    if (closed) addLine(at(row, columns - 1), at(row, 0), points);
   }
 }
 
@@ -160,7 +164,7 @@ visualization_msgs::MarkerArray blankDetails(const std::string& frame, const cur
       makeMarker(frame, "nodes", Marker::POINTS, kNodeSize, colour(0.10F, 0.75F, 0.95F)),
       makeMarker(frame, "folds", Marker::POINTS, kFoldSize, colour(0.95F, 0.85F, 0.30F)),
       makeMarker(frame, "wind", Marker::LINE_LIST, kWindWidth, colour(0.55F, 0.80F, 1.00F)),
-      makeMarker(frame, "rail", Marker::LINE_STRIP, kRailWidth, colour(0.62F, 0.63F, 0.66F)),
+      makeMarker(frame, "rail", Marker::LINE_LIST, kRailWidth, colour(0.62F, 0.63F, 0.66F)),
       makeMarker(frame, "carriers", Marker::SPHERE_LIST, kCarrierSize, colour(0.86F, 0.87F, 0.90F)),
       makeMarker(frame, "lines", Marker::LINE_LIST, kLineWidth, colour(0.80F, 0.72F, 0.52F)),
       makeMarker(frame, "lines", Marker::SPHERE_LIST, kLoadSize, colour(0.35F, 0.33F, 0.32F)),
@@ -168,7 +172,10 @@ visualization_msgs::MarkerArray blankDetails(const std::string& frame, const cur
   };
   array.markers.push_back(makeMarker(frame, "contacts", Marker::LINE_LIST, kArrowWidth, colour(1.00F, 0.55F, 0.10F)));
   array.markers[kLoads].id = 1;
-  for (const Vec3& point : simulator.railPoints(kRailStep)) array.markers[kRail].points.push_back(toPoint(point));
+  for (const curtain::Simulator::LayerColumns& layer : simulator.layers()) {
+    const std::vector<Vec3> points = simulator.railPoints(kRailStep, layer.name);
+    for (std::size_t k = 1; k < points.size(); ++k) addLine(points[k - 1], points[k], array.markers[kRail].points);
+  }
   for (const Slot slot : {kRail, kCarriers}) showUnlessEmpty(array.markers[slot]);
   for (int i = 0; i < simulator.obstacleCount(); ++i) {  // shapes never change: their triangles are made once
     Marker marker = makeMarker(frame, "obstacles", Marker::TRIANGLE_LIST, 1.0, colour(1.0F, 1.0F, 1.0F));
@@ -252,8 +259,7 @@ visualization_msgs::MarkerArray::ConstPtr DetailMarkers::build(const ros::Time& 
 void DetailMarkers::fill(visualization_msgs::MarkerArray& array) {
   const curtain::Simulator& simulator = geometry_.simulator();
   const std::vector<Vec3>& positions = geometry_.nodes();
-  buildWires(positions, simulator.rows(), simulator.columns(), simulator.scene().cloth.closed,
-             array.markers[kWires].points);
+  buildWires(positions, wholeCloth(simulator.scene()), array.markers[kWires].points);
 
   Points& nodes = array.markers[kNodes].points;
   nodes.resize(positions.size());

@@ -42,6 +42,7 @@ Outputs::Outputs(ros::NodeHandle node, const NodeParams& params, const curtain::
                {params.markers_rate, kMarkersAtRest, simulator.scene().solver.frame_rate}},
       summary_{node.advertise<curtain_sim::Summary>("summary", 1), markers_.pace},
       states_(params, geometry_),
+      layers_(node, simulator, queueOf(params), state_.pace),
       load_messages_(params, simulator),
       contact_messages_(params),
       summary_messages_(params),
@@ -56,6 +57,7 @@ void Outputs::tune(const NodeParams& params, double frame_rate) {
   for (Stream* stream : {&state_, &loads_, &contacts_}) {
     stream->pace.setRates(params.state_rate, params.state_rest_rate, frame_rate);
   }
+  layers_.setRates(params.state_rate, params.state_rest_rate, frame_rate);
   for (Wrench& wrench : wrenches_) wrench.stream.pace.setRates(params.state_rate, params.state_rest_rate, frame_rate);
   mesh_.pace.setRates(params.mesh_rate, kMarkersAtRest, frame_rate);
   for (Stream* stream : {&markers_, &summary_}) stream->pace.setRates(params.markers_rate, kMarkersAtRest, frame_rate);
@@ -85,10 +87,14 @@ void Outputs::showAgain(const ros::Time& stamp) {
 void Outputs::publish(const ros::Time& stamp, curtain_sim::Statistics statistics, bool latest) {
   for (Stream* stream : {&state_, &loads_, &contacts_, &mesh_, &markers_, &summary_}) stream->pace.tick();
   publishWrenches(stamp);
-  if (state_.due() && state_.pace.send(geometry_.revision())) {
-    ++state_.sent;
+  const bool of_all = state_.due() && state_.pace.send(geometry_.revision());
+  const bool of_layers = layers_.due(geometry_.revision());
+  if (of_all || of_layers) {
+    if (of_all) ++state_.sent;
     count(statistics);
-    state_.publisher.publish(states_.build(stamp, statistics));
+    const curtain_sim::CurtainState::ConstPtr state = states_.build(stamp, statistics);
+    if (of_all) state_.publisher.publish(state);
+    if (of_layers) layers_.publish(*state);
   }
   if (loads_.due() && loads_.pace.send(geometry_.revision())) {
     loads_.publisher.publish(load_messages_.build(stamp));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// ~state, ~loads, ~contacts, ~wrench/FRAME, ~mesh, ~markers and ~summary. What nobody subscribes to is not built; what
-// is built is shared with subscribers in this process, not copied. And the plan (what runs for the scene, what is
-// skipped) in the log, at level DEBUG.
+// ~state, ~layers/NAME/state, ~loads, ~contacts, ~wrench/FRAME, ~mesh, ~markers and ~summary. What nobody subscribes to
+// is not built; what is built is shared with subscribers in this process, not copied. And the plan (what runs for the
+// scene, what is skipped) in the log, at level DEBUG.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -15,6 +15,7 @@
 #include "curtain_sim/simulator.h"
 #include "ros/frames/frames.h"
 #include "ros/outputs/geometry_cache.h"
+#include "ros/outputs/layer_states.h"
 #include "ros/outputs/markers.h"
 #include "ros/outputs/state_messages.h"
 #include "ros/parameters/parameters.h"
@@ -72,6 +73,7 @@ class Outputs {
   curtain::MeshDetail detail_;
   Stream state_, loads_, contacts_, mesh_, markers_, summary_;
   StateMessages states_;
+  LayerStates layers_;
   LoadMessages load_messages_;
   ContactMessages contact_messages_;
   SummaryMessages summary_messages_;

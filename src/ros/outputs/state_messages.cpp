@@ -21,13 +21,14 @@ curtain_sim::CurtainState blankState(const NodeParams& params, const curtain::Si
   message.header.frame_id = params.world_frame;
   message.rows = static_cast<std::uint32_t>(simulator.rows());
   message.columns = static_cast<std::uint32_t>(simulator.columns());
-  message.closed = simulator.scene().cloth.closed;
-  message.folds = static_cast<std::uint32_t>(simulator.scene().cloth.folds);
+  const curtain::ClothParams cloth = wholeCloth(simulator.scene());
+  message.closed = cloth.closed;
+  message.folds = static_cast<std::uint32_t>(cloth.folds);
   std::vector<double> warp, weft;
   simulator.copyRestLengths(warp, weft);
   toFloats(warp, message.warp_rest);
   toFloats(weft, message.weft_rest);
-  for (const curtain::SlitParams& slit : simulator.scene().cloth.slits) {
+  for (const curtain::SlitParams& slit : cloth.slits) {
     message.slit_columns.push_back(static_cast<std::uint32_t>(slit.column));
     message.slit_rows.push_back(static_cast<std::uint32_t>(slit.from_row));
   }
@@ -247,6 +248,13 @@ curtain_sim::Summary::ConstPtr SummaryMessages::build(const curtain::Simulator& 
   message->at_rest = static_cast<std::uint8_t>(simulator.statistics().asleep);
   const bool on_rail = !scene.rail.path.empty();
   message->opening = on_rail ? simulator.statistics().opening : std::numeric_limits<double>::quiet_NaN();
+  message->layers.clear();
+  message->openings.clear();
+  for (const curtain::LayerParams& layer : scene.layers) {
+    message->layers.push_back(layer.name);
+    message->openings.push_back(layer.rail.path.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                                        : simulator.opening(layer.name));
+  }
   message->obstacles.clear();
   message->touching.clear();
   message->covered.clear();

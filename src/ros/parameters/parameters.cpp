@@ -172,7 +172,7 @@ void fillObstacleFrames(const YAML::Node& scene, const std::string& world_frame)
 // The cloth is put there before tf2 is heard.
 void checkStart(const curtain::Scene& scene, const std::string& name, ParameterReading& reading) {
   const curtain::StartParams& start = scene.hang.start;
-  if (!start.over && !start.file) return;
+  if (!curtain::startsElsewhere(scene)) return;
   if (start.file && !start.file->empty() && start.file->find("://") == std::string::npos && start.file->front() != '/')
     reading.problems.push_back(name + ": hang.start.file: must be " + kMeshPlaces + ", is " +
                                curtain::quoted(*start.file) + ": parameters have no folder");

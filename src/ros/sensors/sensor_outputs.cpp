@@ -21,16 +21,18 @@ namespace {
 
 constexpr double kCloudsAtRest = 1.0;  // [1/s] all round
 
-curtain_sim::Labels namesOf(const std::vector<curtain::ObstacleParams>& obstacles) {
+curtain_sim::Labels namesOf(const curtain::Scene& scene) {
   curtain_sim::Labels labels;
   labels.names = {"background", "cloth"};
-  for (const curtain::ObstacleParams& obstacle : obstacles) labels.names.push_back(obstacle.name);
+  for (const curtain::ObstacleParams& obstacle : scene.obstacles) labels.names.push_back(obstacle.name);
+  for (const curtain::LayerParams& layer : scene.layers) labels.names.push_back(layer.name);
   return labels;
 }
 
 curtain::FlatCloth flatCloth(const curtain::Simulator& simulator) {
   std::vector<double> warp, weft;
   simulator.copyRestLengths(warp, weft);
+  if (simulator.layers().size() > 1) simulator.copyRods(warp);
   return {simulator.fineMeshTopology(), std::move(warp), std::move(weft)};
 }
 
@@ -74,7 +76,7 @@ SensorOutputs::SensorOutputs(ros::NodeHandle node, ros::NodeHandle private_node,
   labels_ = private_node.advertise<sensor_msgs::Image>("depth/labels", 2);
   nodes_ = private_node.advertise<sensor_msgs::Image>("depth/nodes", 2);
   names_ = private_node.advertise<curtain_sim::Labels>("depth/label_names", 1, true);  // latched
-  names_.publish(namesOf(simulator.scene().obstacles));
+  names_.publish(namesOf(simulator.scene()));
 }
 
 // A sensor's noise is new in every frame, whether anything moves or not.

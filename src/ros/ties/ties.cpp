@@ -87,7 +87,7 @@ bool Ties::tie(const Attach::Request& request, Attach::Response& response) {
     goal.rows = {nearest.row};
     goal.columns = {nearest.column};
   }
-  std::vector<curtain::Problem> problems = toGrasp(goal, id, simulator.scene().cloth, grasp);
+  std::vector<curtain::Problem> problems = toGrasp(goal, id, wholeCloth(simulator.scene()), grasp);
   grasp.frame = *frame.pose();
   if (problems.empty()) problems = simulator.setGrasp(grasp);
   response.message = curtain::describe(problems);

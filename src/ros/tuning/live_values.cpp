@@ -110,12 +110,21 @@ std::vector<Problem> applyLiveValues(const CurtainConfig& values, curtain::Simul
   return all;
 }
 
-std::vector<Problem> applyMaterial(const std::string& name, curtain::Simulator& simulator) {
+std::vector<Problem> applyMaterial(const std::string& name, const std::string& layer, curtain::Simulator& simulator) {
   const std::vector<std::string>& names = curtain::materialNames();
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) return {{"material", "must be " + curtain::alternatives(names) + ", is '" + name + "'"}};
+  const auto material = static_cast<curtain::Material>(found - names.begin());
   curtain::Scene scene = simulator.scene();
-  curtain::applyMaterial(static_cast<curtain::Material>(found - names.begin()), scene);
+  if (!layer.empty() && layer != curtain::kFirstCloth) {
+    const auto one = std::find_if(scene.layers.begin(), scene.layers.end(),
+                                  [&](const curtain::LayerParams& params) { return params.name == layer; });
+    if (one == scene.layers.end())
+      return {{"layer", "must be empty, \"cloth\" or the name of a layer, is '" + layer + "'"}};
+    curtain::applyMaterial(material, scene, *one);
+    return simulator.setCloth(one->cloth, layer);
+  }
+  curtain::applyMaterial(material, scene);
   std::vector<Problem> problems = simulator.setCloth(scene.cloth);
   if (problems.empty()) problems = simulator.setAir(scene.air);
   if (problems.empty()) problems = simulator.setFriction(scene.contact.friction);

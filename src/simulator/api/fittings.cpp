@@ -53,6 +53,11 @@ double Simulator::opening(const std::string& layer) const {
   return rail ? impl_->motion.parts.rail.openingOf(*rail, impl_->motion.state) : 0.0;
 }
 
+double Simulator::driveForce(const std::string& layer) const {
+  const std::optional<std::size_t> rail = railOf(impl_->motion, layer);
+  return rail ? impl_->motion.parts.rail.driveForce(*rail) : 0.0;
+}
+
 void Simulator::releaseDrive(const std::string& layer) {
   const std::optional<std::size_t> rail = railOf(impl_->motion, layer);
   if (!rail || !drives(layer)) return;
