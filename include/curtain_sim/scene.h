@@ -282,7 +282,7 @@ struct WindParams {
   double unsteadiness = 0.0;         ///< standard deviation of each component of the gusts [Pa], >= 0
   double correlation_time = 0.2;     ///< of the gusts [s], [1e-6..1e6]
   double correlation_length = 0.25;  ///< of the gusts along the cloth [m], > 0
-  bool shadow = false;               ///< obstacles shade the nodes behind them
+  bool shadow = false;               ///< obstacles and other cloths shade the nodes behind them
   double start = 0.0;                ///< [s]
   double end = std::numeric_limits<double>::infinity();  ///< [s], > start
 };

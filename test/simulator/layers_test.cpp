@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <sstream>
 
+#include "curtain_sim/scene_yaml.h"
 #include "curtain_sim/simulator.h"
 #include "parts/wind/layer_shadow.h"
 #include "simulator/scenes.h"
@@ -375,6 +378,22 @@ TEST(Layers, RefuseWhatDoesNotFit) {
   crossed.layers[0].hang.from = Vec3(0.35, -0.31, 1.0);
   crossed.layers[0].hang.to = Vec3(0.35, 0.29, 1.0);
   EXPECT_THROW(Simulator{crossed}, std::invalid_argument);
+}
+
+// The scene of docs/layers.md, for a second.
+TEST(Layers, TheExampleOfThePageRuns) {
+  std::ifstream page(std::string(CURTAIN_SOURCE_DIR) + "/docs/layers.md");
+  std::stringstream whole;
+  whole << page.rdbuf();
+  const std::string text = whole.str(), fence = "```yaml\n";
+  const std::size_t begin = text.find(fence) + fence.size();
+  const SceneReading reading = readSceneText(text.substr(begin, text.find("```", begin) - begin));
+  ASSERT_TRUE(reading.problems.empty()) << describe(reading.problems);
+  Simulator simulator(reading.scene);
+  run(simulator, 60);
+  EXPECT_EQ(simulator.selfCrossings(), 0);
+  EXPECT_EQ(simulator.layers()[1].name, "towel");
+  EXPECT_GT(simulator.position({12, 32}).z(), simulator.position({12, 12}).z()) << "the towel lies above";
 }
 
 // The words of a layer's material and of its keys, and a width by its fullness.

@@ -61,6 +61,7 @@ SCENERY = {
     "spokes": {"radius!": NUMBER, "count!": int, "to!": XYZ, "thickness!": NUMBER},
     "sky": {"radius": NUMBER, "zenith!": color},
 }
+CLOTH = {"pattern": TEXT, "color": color, "pattern_color": color, "pattern_size": NUMBER, "sheen": NUMBER, "translucency": NUMBER}
 DEMO = {
     "frames": [{"frame!": TEXT, "parent": TEXT, "at": XYZ, "turn": XYZ, "waves": [WAVE],
                 "drift": {"move!": XYZ, "period!": NUMBER, "begin": NUMBER}}],
@@ -69,14 +70,12 @@ DEMO = {
                "shadow": FLAG, "moves": FLAG, "rest": vector(2)}],
     "hands": [{"id!": TEXT, "row": int, "column": int, "point": XYZ, "period!": NUMBER, "offset": NUMBER, "path!": path(4),
                "stiffness": NUMBER, "radius": NUMBER}],
-    "openings": [{"period!": NUMBER, "path!": path(2)}],
+    "openings": [{"period!": NUMBER, "path!": path(2), "layer": TEXT}],
     "follow": {"frame!": TEXT, "lag": NUMBER},
     "scenery!": ANY,
     "gallery": {"at": NUMBER, "step": NUMBER, "picture": int},
     "look!": {"camera!": {"from!": XYZ, "at!": XYZ, "frame": TEXT, "view": NUMBER}, "background!": color,
-              "cloth!": {"pattern": TEXT, "color": color, "pattern_color": color, "pattern_size": NUMBER, "sheen": NUMBER,
-                         "translucency": NUMBER},
-              "wind": FLAG, "handles": FLAG, "robot": FLAG},
+              "cloth!": CLOTH, "layers": ANY, "wind": FLAG, "handles": FLAG, "robot": FLAG},
 }
 GRASP = {"from!": NUMBER, "until!": NUMBER, "radius": NUMBER, "stiffness": NUMBER, "break_force": NUMBER, "pinch_force": NUMBER,
          "friction": NUMBER}
@@ -200,8 +199,13 @@ class Demos(unittest.TestCase):
             self.assertLess(hand.get("row", -1), scene["cloth"]["rows"])
             self.assertLess(hand.get("column", -1), scene["cloth"]["columns"])
             self.assertLessEqual(hand["path"][-1][0], hand["period"])
-        if demo.get("openings"):
-            self.assertTrue(scene.get("rail"), "nothing opens without a rail")
+        rails = {layer["name"]: layer.get("rail") for layer in scene.get("layers", [])}
+        rails[None] = scene.get("rail")
+        for opening in demo.get("openings", []):
+            self.assertTrue(rails.get(opening.get("layer")), "nothing opens without a rail")
+        for layer, cloth in demo["look"].get("layers", {}).items():
+            self.assertIn(layer, rails)
+            self.assertEqual(problems(cloth, CLOTH, layer), [])
 
     @of_each
     def test_scenes_run_and_stay_whole(self, name):
