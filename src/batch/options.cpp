@@ -19,7 +19,7 @@ const char* const kUsage =
     "  --duration S       simulated time [s] (default 1)\n"
     "  --method NAME      instead of the scene's solver.method\n"
     "  --substeps N       instead of the scene's solver.substeps\n"
-    "  --rows N           instead of the scene's cloth.rows\n"
+    "  --rows N           instead of the scene's cloth.rows, of layers too\n"
     "  --columns N        instead of the scene's cloth.columns\n"
     "  --out FILE.csv     states t,row,column,x,y,z,vx,vy,vz of the first-layer nodes\n"
     "  --sample T,T,...   times of these states [s], each at the first frame not before it (default: the end)\n"
@@ -212,7 +212,10 @@ curtain::Scene readScene(const std::string& path, const Options& options) {
     scene.solver.method = *method;
   }
   if (options.substeps > 0) scene.solver.substeps = options.substeps;
-  if (options.rows > 0) scene.cloth.rows = options.rows;
+  if (options.rows > 0) {
+    scene.cloth.rows = options.rows;
+    for (curtain::LayerParams& layer : scene.layers) layer.cloth.rows = options.rows;
+  }
   if (options.columns > 0) scene.cloth.columns = options.columns;
   return scene;
 }

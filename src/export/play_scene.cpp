@@ -15,7 +15,7 @@ std::array<float, 3> toFloats(const Vec3& v) {
 DrawnMesh drawnMeshOf(const Simulator& simulator) {
   std::vector<double> warp, weft;
   simulator.copyRestLengths(warp, weft);
-  return makeDrawnMesh(simulator.scene().cloth, warp, weft);
+  return makeDrawnMesh(wholeCloth(simulator.scene()), warp, weft);
 }
 
 /// A simulator's pictures, one after the other.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ros/frames/geometry.h"
+#include "scene/layers.h"
 #include "scene/sources.h"
 
 namespace curtain_ros {
@@ -72,7 +73,11 @@ Handles::Handles(ros::NodeHandle private_node, const NodeParams& params, const c
       inputs_(inputs),
       rate_(kFollowRate, simulator.scene().solver.frame_rate),
       server_(private_node.resolveName("handles")) {
-  for (const int column : handleColumns(simulator.scene().cloth)) {
+  std::vector<int> columns;
+  for (const curtain::Layers::Layer& layer : curtain::Layers(simulator.scene())) {
+    for (const int column : handleColumns(*layer.cloth)) columns.push_back(layer.first + column);
+  }
+  for (const int column : columns) {
     const Handle handle{"handle_" + std::to_string(column), {simulator.rows() - 1, column}};
     handles_.push_back(handle);
     server_.insert(
