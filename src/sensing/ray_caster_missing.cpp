@@ -11,7 +11,7 @@ struct RayCaster::Impl {};
 
 bool RayCaster::available() { return false; }
 
-RayCaster::RayCaster(const Simulator&, double) {
+RayCaster::RayCaster(const Simulator&, std::optional<double>) {
   throw std::runtime_error("this build is without Embree, it casts no rays");
 }
 RayCaster::~RayCaster() = default;

@@ -13,6 +13,7 @@
 #include "curtain_sim/CurtainConfig.h"
 #include "curtain_sim/obstacle_shape.h"
 #include "curtain_sim/scene_yaml.h"
+#include "scene/layers.h"
 #include "scene/range_checker.h"
 #include "scene/strict_reader.h"
 
