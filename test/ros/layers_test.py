@@ -79,6 +79,7 @@ class LayersTest(unittest.TestCase):
 
     def test_each_rail_opens_by_itself(self):
         first, dark = publisher(NODE + "/open", Float64), publisher(NODE + "/layers/dark/open", Float64)
+        first.publish(0.0)
         dark.publish(0.8)
         self.wait_for_opening("dark", 0.8)
         self.wait_for_opening("cloth", 0.0)
