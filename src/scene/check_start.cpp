@@ -62,7 +62,8 @@ void checkFlat(const Scene& scene, ProblemLog& log) {
     return;
   }
   const double longest = longestEdge(scene);
-  if (!(span <= longest * (1.0 + kTypedRounding))) {
+  const bool hangs = !hang.start.over;  // of laid cloth the line gives a direction alone
+  if (hangs && !(span <= longest * (1.0 + kTypedRounding))) {
     const std::string limit = scene.hang.overlap ? "the overlapping strips reach, " : "cloth.width = ";
     log.add("hang.to", "must be no further from hang.from than " + limit + formatNumber(longest) + " m, is " +
                            formatNumber(span) + " m away (" + line + ")");
