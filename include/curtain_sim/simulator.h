@@ -249,6 +249,9 @@ class Simulator {
   /// Share of an obstacle's silhouette [0..1] that the first layer's mesh hides from somebody far away in the direction
   /// `from` (any length > 0), sampled: to about a hundredth. NaN: it is absent, or a plane. Allocates.
   double covered(int obstacle, const Vec3& from) const;
+  /// The cloth is between a point [m] and who looks at it from far away; from: direction towards that one, any length >
+  /// 0.
+  bool hides(const Vec3& point, const Vec3& from) const;
 
   /// Force and torque of the cloth on an obstacle, mean over the last frame; zero before the first one.
   ContactWrench contactWrench(int obstacle) const;

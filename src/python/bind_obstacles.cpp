@@ -148,6 +148,15 @@ void bindObstacles(SimulatorClass& simulator) {
            "for "
            "an absent one; on_cloth and on_obstacle, the two points [m].")
       .def(
+          "hides",
+          [](const Self& self, const py::object& point, const py::object& direction) {
+            const Vec3 at = readPoint(point, "point"), from = readPoint(direction, "direction");
+            if (!(from.norm() > 0.0)) throw py::value_error("direction: must have a length > 0");
+            return self.inspect().hides(at, from);
+          },
+          py::arg("point"), py::arg("direction") = py::make_tuple(0.0, 0.0, 1.0),
+          "The cloth is between a point [m] and somebody far away in this direction.")
+      .def(
           "covered",
           [](const Self& self, const std::string& name, const py::object& direction) {
             const Vec3 from = readPoint(direction, "direction");

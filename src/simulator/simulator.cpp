@@ -263,6 +263,10 @@ double Simulator::covered(int obstacle, const Vec3& from) const {
                       impl_->motion.state.position, from);
 }
 
+bool Simulator::hides(const Vec3& point, const Vec3& from) const {
+  return hidesPoint(impl_->pattern.grid, impl_->motion.state.position, point, from);
+}
+
 Piercings Simulator::piercings(int obstacle, double depth_tolerance) const {
   const ObstacleSet& obstacles = impl_->motion.obstacles;
   if (!obstacles.present(obstacle)) return {};

@@ -53,6 +53,25 @@ TEST(Coverage, DependsOnTheDirection) {
   EXPECT_NEAR(shareOf({0.5, 0.5, 0.5}, ShapeKind::kSphere, aslant), 0.5, 0.02);
 }
 
+// Of the points of a square behind the cloth, a metre wide and high, those in its shadow are hidden; from the other
+// side none is, nor from along the cloth.
+TEST(Coverage, HidesThePointsInItsShadow) {
+  const Simulator simulator(curtain_test::flatScene(5, 6));
+  const Vec3 from(0.4, -1.0, 0.3);
+  curtain_test::Random random(7);
+  int hidden = 0;
+  for (int k = 0; k < 400; ++k) {
+    const Vec3 point(random.between(-1.0, 2.0), random.between(0.05, 0.5), random.between(-1.0, 2.0));
+    const Vec3 on_cloth = point + point.y() * from;
+    const bool in_shadow = on_cloth.x() > 0.0 && on_cloth.x() < 1.0 && on_cloth.z() > 0.0 && on_cloth.z() < 1.0;
+    EXPECT_EQ(simulator.hides(point, from), in_shadow) << point.transpose();
+    EXPECT_FALSE(simulator.hides(point, -from));
+    EXPECT_FALSE(simulator.hides(point, Vec3::UnitX()));
+    hidden += in_shadow ? 1 : 0;
+  }
+  EXPECT_GT(hidden, 20);
+}
+
 TEST(Coverage, OfWhatHasNoSilhouetteIsNoNumber) {
   EXPECT_TRUE(std::isnan(shareOf({0.0, 0.0, 0.0}, ShapeKind::kPlane, Vec3::UnitZ())));
   Scene scene = curtain_test::flatScene(4, 4);

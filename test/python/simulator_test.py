@@ -174,6 +174,8 @@ class Parts(unittest.TestCase):
         sim = simulator(obstacles=[{"name": "ball", "radius": 0.1, "position": [0.4, 2.0, 1.6]}])
         self.assertEqual(sim.covered("ball", (0, 1, 0)), 0.0)
         self.assertGreater(sim.covered("ball", (0, -1, 0)), 0.9)
+        ball = sim.obstacle_pose("ball")[0]
+        self.assertEqual((sim.hides(ball, (0, 1, 0)), sim.hides(ball, (0, -1, 0))), (False, True))
 
     def test_pins_and_hands_move_what_they_hold(self):
         sim = simulator()

@@ -93,16 +93,21 @@ class ObstaclesTest(unittest.TestCase):
         self.assertEqual(by_name["post"].wrench.force.y, 0.0)
 
     def test_3c_summary_of_it(self):
-        """The ball is touched and the post is not; the cloth that lies on the ball hides some of it from above."""
+        """The ball is touched and the post is not; the cloth that the ball pushes hides some of it from there, and the frame on its
+        far side."""
         listener = Listener("/curtain/summary", Summary)
-        message = listener.next()
-        listener.close()
+        self.addCleanup(listener.close)
+        wait_until(lambda: listener.last() and not any(math.isnan(h) for h in listener.last().frames_hidden[:2]), "tf2 knows the frames")
+        message = listener.last()
+        self.assertEqual(message.frames, ["far_side", "near_side", "nowhere"])
+        self.assertEqual(list(message.frames_hidden[:2]), [1.0, 0.0])
+        self.assertTrue(math.isnan(message.frames_hidden[2]))
         self.assertEqual((message.header.frame_id, message.obstacles), ("world", ["ball", "post"]))
         self.assertEqual(message.touching, [True, False])
         self.assertTrue(math.isnan(message.opening), "no rail")
         for share in message.covered:
             self.assertTrue(0.0 <= share <= 1.0, share)
-        self.assertGreater(message.covered[0], 0.0, "the cloth lies on the ball")
+        self.assertGreater(message.covered[0], 0.0, "the cloth is on the ball")
 
     def test_4_obstacle_is_drawn_where_it_is(self):
         listener = Listener("/curtain/markers", MarkerArray)

@@ -139,18 +139,31 @@ TEST(Template, DocumentsTheNodeParameters) {
   const YAML::Node root = YAML::Load(templateText());
   std::set<std::string> keys;
   for (const auto& entry : root) keys.insert(entry.first.Scalar());
-  const std::set<std::string> expected = {"world_frame",       "obstacle_timeout",
-                                          "state_rate",        "state_rest_rate",
-                                          "summary_from",      "watch_roscpp",
-                                          "mesh_rate",         "mesh_tolerance",
-                                          "mesh_viewer_frame", "mesh_viewer_tolerance",
-                                          "markers_rate",      "max_catch_up",
-                                          "state_folds",       "handles",
-                                          "handle_stiffness",  "scene",
-                                          "snapshot_file",     "snapshot_period",
-                                          "diagnostic_period", "grasp_timeout",
-                                          "contact_points",    "start_paused",
-                                          "publish_clock",     "points"};
+  const std::set<std::string> expected = {"world_frame",
+                                          "obstacle_timeout",
+                                          "state_rate",
+                                          "state_rest_rate",
+                                          "summary_from",
+                                          "summary_frames",
+                                          "watch_roscpp",
+                                          "mesh_rate",
+                                          "mesh_tolerance",
+                                          "mesh_viewer_frame",
+                                          "mesh_viewer_tolerance",
+                                          "markers_rate",
+                                          "max_catch_up",
+                                          "state_folds",
+                                          "handles",
+                                          "handle_stiffness",
+                                          "scene",
+                                          "snapshot_file",
+                                          "snapshot_period",
+                                          "diagnostic_period",
+                                          "grasp_timeout",
+                                          "contact_points",
+                                          "start_paused",
+                                          "publish_clock",
+                                          "points"};
   EXPECT_EQ(keys, expected);
 }
 

@@ -54,6 +54,18 @@ class View {
 
 }  // namespace
 
+bool hidesPoint(const Grid& grid, const Field3& position, const Vec3& point, const Vec3& from) {
+  const std::vector<MeshTriangle> triangles = makeCoarseMesh(grid).triangles;
+  return std::any_of(triangles.begin(), triangles.end(), [&](const MeshTriangle& t) {
+    const Vec3 a = position.at(t[0]) - point, b = position.at(t[1]) - point, c = position.at(t[2]) - point;
+    // The line goes through the triangle where it is on the same side of its three edges, seen from the point.
+    const double ab = a.cross(b).dot(from), bc = b.cross(c).dot(from), ca = c.cross(a).dot(from);
+    const bool inside = (ab >= 0.0 && bc >= 0.0 && ca >= 0.0) || (ab <= 0.0 && bc <= 0.0 && ca <= 0.0);
+    const double sum = ab + bc + ca;
+    return inside && sum != 0.0 && a.cross(b).dot(c) / sum > 0.0;
+  });
+}
+
 double coveredShare(const ContactShape& shape, const Transform& place, const Grid& grid, const Field3& position,
                     const Vec3& from) {
   const Vec3 towards = from.normalized(), across = towards.unitOrthogonal();

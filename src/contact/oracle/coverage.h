@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// How much of an obstacle the cloth hides from somebody far away. On demand.
+// How much of an obstacle the cloth hides from somebody far away, and whether it hides a point. On demand.
 #pragma once
 
 #include "cloth/cloth.h"
@@ -18,5 +18,9 @@ namespace curtain {
 /// Allocates; thread-safe.
 double coveredShare(const ContactShape& shape, const Transform& place, const Grid& grid, const Field3& position,
                     const Vec3& from);
+
+/// Whether the first layer's mesh is between a point and who looks at it from far away. from: direction towards that
+/// one, any length > 0. Allocates; thread-safe.
+bool hidesPoint(const Grid& grid, const Field3& position, const Vec3& point, const Vec3& from);
 
 }  // namespace curtain

@@ -124,7 +124,7 @@ void Outputs::publishMarkers(const ros::Time& stamp) {
     ++markers_.sent;
   }
   if (summary_.due() && summary_.pace.send(geometry_.revision()))
-    summary_.publisher.publish(summary_messages_.build(geometry_.simulator(), stamp));
+    summary_.publisher.publish(summary_messages_.build(geometry_.simulator(), stamp, frames_));
 }
 
 void Outputs::count(curtain_sim::Statistics& statistics) const {

@@ -239,7 +239,8 @@ geometry_msgs::WrenchStamped::ConstPtr WrenchMessages::build(const curtain::Simu
   return message;
 }
 
-curtain_sim::Summary::ConstPtr SummaryMessages::build(const curtain::Simulator& simulator, const ros::Time& stamp) {
+curtain_sim::Summary::ConstPtr SummaryMessages::build(const curtain::Simulator& simulator, const ros::Time& stamp,
+                                                      Frames& frames) {
   const auto message = message_.edit();
   const curtain::Scene& scene = simulator.scene();
   message->header.stamp = stamp;
@@ -248,6 +249,13 @@ curtain_sim::Summary::ConstPtr SummaryMessages::build(const curtain::Simulator& 
   message->at_rest = static_cast<std::uint8_t>(simulator.statistics().asleep);
   const bool on_rail = !scene.rail.path.empty();
   message->opening = on_rail ? simulator.statistics().opening : std::numeric_limits<double>::quiet_NaN();
+  message->frames = asked_;
+  message->frames_hidden.clear();
+  for (const std::string& frame : asked_) {
+    const FrameLookup at = frames.lookup(frame);
+    const double hidden = at.known && simulator.hides(at.pose.position, from_) ? 1.0 : 0.0;
+    message->frames_hidden.push_back(at.known ? hidden : std::numeric_limits<double>::quiet_NaN());
+  }
   message->layers.clear();
   message->openings.clear();
   for (const curtain::LayerParams& layer : scene.layers) {

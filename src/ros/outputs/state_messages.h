@@ -15,6 +15,7 @@
 #include "curtain_sim/CurtainState.h"
 #include "curtain_sim/Loads.h"
 #include "curtain_sim/Summary.h"
+#include "ros/frames/frames.h"
 #include "ros/outputs/geometry_cache.h"
 #include "ros/outputs/reused_message.h"
 #include "ros/parameters/parameters.h"
@@ -89,13 +90,18 @@ class ContactMessages {
 class SummaryMessages {
  public:
   explicit SummaryMessages(const NodeParams& params)
-      : world_(params.world_frame), from_(params.summary_from), message_(curtain_sim::Summary()) {}
+      : world_(params.world_frame),
+        from_(params.summary_from),
+        asked_(params.summary_frames),
+        message_(curtain_sim::Summary()) {}
 
-  curtain_sim::Summary::ConstPtr build(const curtain::Simulator& simulator, const ros::Time& stamp);
+  /// frames is asked where those of ~summary_frames are.
+  curtain_sim::Summary::ConstPtr build(const curtain::Simulator& simulator, const ros::Time& stamp, Frames& frames);
 
  private:
   std::string world_;
   curtain::Vec3 from_;
+  std::vector<std::string> asked_;
   ReusedMessage<curtain_sim::Summary> message_;
 };
 

@@ -33,6 +33,7 @@ struct NodeParams {
   double mesh_viewer_tolerance = 0.001;  ///< [rad] that it may be off as seen from there
   double markers_rate = 10.0;            ///< of ~markers and ~summary, as mesh_rate
   curtain::Vec3 summary_from = curtain::Vec3::UnitZ();  ///< direction from which ~summary sees what the cloth covers
+  std::vector<std::string> summary_frames;              ///< tf2 frames of which ~summary tells whether it hides them
   int max_catch_up = 4;                                 ///< frames that a late node makes at once before it drops some
   bool state_folds = false;                             ///< ~state carries the second-layer nodes
   bool contact_points = false;      ///< ~contacts and ~markers carry where the cloth presses on obstacles
@@ -97,6 +98,7 @@ struct Fields<curtain_ros::NodeParams> {
     v.number("mesh_viewer_tolerance", params.mesh_viewer_tolerance, between(0.0, 1.0));
     v.number("markers_rate", params.markers_rate, between(kSmallest, 10000.0));
     v.vector("summary_from", params.summary_from, anywhere());
+    v.texts("summary_frames", params.summary_frames);
     v.integer("max_catch_up", params.max_catch_up, IntRange{1, 1000});
     v.flag("state_folds", params.state_folds);
     v.flag("contact_points", params.contact_points);
