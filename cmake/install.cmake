@@ -46,7 +46,7 @@ else()
   set_target_properties(curtain_node PROPERTIES INSTALL_RPATH "$ORIGIN/${from_bin_to_lib}")
   set_target_properties(curtain_nodelet PROPERTIES INSTALL_RPATH "$ORIGIN")
   catkin_install_python(PROGRAMS scripts/curtain_rviz scripts/demo_motion scripts/demo_robot scripts/demo_scenery
-    scripts/live_figures scripts/sweep DESTINATION ${curtain_bin})
+    scripts/live_figures scripts/robot_scene scripts/sweep DESTINATION ${curtain_bin})
   install(DIRECTORY scripts/curtain_sweep DESTINATION ${curtain_bin} FILES_MATCHING PATTERN "*.py")
   install(DIRECTORY launch DESTINATION ${curtain_share})
   if(TARGET curtain_rviz)

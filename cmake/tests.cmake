@@ -97,6 +97,11 @@ if(TARGET curtain_python AND without_numpy EQUAL 0)
 else()
   message(STATUS "curtain_sim: no Python module or no NumPy (Debian: python3-numpy), its tests are left out")
 endif()
+if(without_numpy EQUAL 0)
+  add_test(NAME robot_scene COMMAND ${Python3_EXECUTABLE} -B -m unittest discover -s test/robot -p *_test.py
+    WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+  set_tests_properties(robot_scene PROPERTIES ENVIRONMENT "CURTAIN_BATCH=$<TARGET_FILE:curtain_batch>")
+endif()
 add_test(NAME sweep COMMAND ${Python3_EXECUTABLE} -B -m unittest discover -s test/sweep -p *_test.py
   WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
 set_tests_properties(sweep PROPERTIES ENVIRONMENT "CURTAIN_BATCH=$<TARGET_FILE:curtain_batch>")
