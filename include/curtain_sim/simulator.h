@@ -67,8 +67,9 @@ class Simulator {
   /// of the link that closes the ring, or 0). All 0 before the first step and with method: paper.
   void copyTensions(std::vector<double>& warp, std::vector<double>& weft) const;
 
-  /// Rest lengths [m]. warp: of the rods between two rows, from the top down, the same in every column, shape
-  /// [rows - 1]; weft: of the links, row by row, shape [rows * links], as FineMeshBuilder takes them. Resized.
+  /// Rest lengths [m]. warp: of the rods between two rows, from the top down, the same in every column of a
+  /// cloth, of several the first's, shape [rows - 1]; weft: of the links, row by row, shape [rows * links], as
+  /// FineMeshBuilder takes them. Resized.
   void copyRestLengths(std::vector<double>& warp, std::vector<double>& weft) const;
   /// Rest lengths of the rods of all columns [m], row by row, shape [(rows - 1) * columns].
   void copyRods(std::vector<double>& out) const;

@@ -199,7 +199,10 @@ void addLayer(const ClothPattern& layer, std::size_t number, int first, ClothPat
   copy(layer.pinned, pattern.pinned);
   if (!layer.weft_rest_turn.empty()) pattern.weft_rest_turn.resize(grid.size(), 0.0);
   copy(layer.weft_rest_turn, pattern.weft_rest_turn);
-  for (int i = 0; i < grid.rows && first > 0; ++i) pattern.weft_per_square[grid.index(i, first)] = 0.0;  // cut
+  for (int i = 0; i < grid.rows && first > 0; ++i) {  // cut off from the cloth before it
+    pattern.weft_rest[grid.index(i, first)] = layer.weft_rest[from.index(i, 1)];
+    pattern.weft_per_square[grid.index(i, first)] = 0.0;
+  }
   for (const std::size_t node : layer.guided) pattern.guided.push_back(node + static_cast<std::size_t>(first));
   for (RailPattern rail : layer.rails) {
     rail.layer = number;

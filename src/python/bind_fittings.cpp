@@ -26,6 +26,14 @@ const std::string& lines(const Self& self, const std::string& id) {
   return known(self.inspect().scene().lines, id, "there are no lines");
 }
 
+const std::string& layerOf(const Self& self, const std::string& layer) {
+  const std::vector<Simulator::LayerColumns> layers = self.inspect().layers();
+  const bool found =
+      std::any_of(layers.begin(), layers.end(), [&](const Simulator::LayerColumns& one) { return one.name == layer; });
+  if (!found) throw py::value_error("there is no layer \"" + layer + "\"");
+  return layer;
+}
+
 py::object driveOf(const Simulator& simulator, const std::string& layer) {
   if (!simulator.drives(layer)) return py::none();
   py::dict values;
@@ -45,7 +53,7 @@ py::array_t<double> railPoints(const Self& self, double spacing, const std::stri
   if (!(spacing >= 1e-4 && std::isfinite(spacing)))
     throw py::value_error("spacing: must be a finite number >= 0.0001 [m], is " +
                           std::string(py::str(py::float_(spacing))));
-  const std::vector<Vec3> points = self.inspect().railPoints(spacing, layer);
+  const std::vector<Vec3> points = self.inspect().railPoints(spacing, layerOf(self, layer));
   py::array_t<double> array({static_cast<py::ssize_t>(points.size()), py::ssize_t{3}});
   std::copy_n(points.empty() ? nullptr : points.front().data(), 3 * points.size(), array.mutable_data());
   return array;
@@ -63,11 +71,15 @@ void bindRail(SimulatorClass& simulator) {
           "allow), "
           "by the drive; arrived, it keeps them there. opening() is the present one.")
       .def(
-          "opening", [](const Self& self, const std::string& layer) { return self.inspect().opening(layer); },
+          "opening",
+          [](const Self& self, const std::string& layer) { return self.inspect().opening(layerOf(self, layer)); },
           py::arg("layer") = kFirstCloth, "Present opening of a layer's rail; 0 without one.")
       .def(
           "release_drive",
-          [](Self& self, const std::string& layer) { self.change([&](Simulator& s) { s.releaseDrive(layer); }); },
+          [](Self& self, const std::string& layer) {
+            layerOf(self, layer);
+            self.change([&](Simulator& s) { s.releaseDrive(layer); });
+          },
           py::arg("layer") = kFirstCloth,
           "The drive lets go: carriers slide freely, as before the first set_opening().")
       .def("set_drive", &setDrive, py::arg("speed"), py::arg("force"), py::arg("layer") = kFirstCloth,

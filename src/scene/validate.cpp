@@ -323,8 +323,11 @@ void checkLayers(const Scene& scene, ProblemLog& log) {
   if (startsElsewhere(scene) && (!scene.lines.empty() || !scene.tie_back.empty()))
     log.add("layers", "can't start elsewhere (hang.start) with lines or tie-backs, which begin where the cloth hangs");
   const auto laid = [](const LayerParams& layer) { return layer.hang.start.over.has_value(); };
+  const auto slides = [](const LayerParams& layer) { return !layer.rail.path.empty(); };
   if (scene.hang.start.file && std::any_of(scene.layers.begin(), scene.layers.end(), laid))
     log.add("hang.start.file", "must be the only start, it has the nodes of all layers");
+  if (scene.hang.start.file && std::any_of(scene.layers.begin(), scene.layers.end(), slides))
+    log.add("hang.start.file", "can't be given with a layer on a rail, whose carriers say where its edge is");
 }
 
 // Checks every value by itself, then some together.
@@ -354,7 +357,7 @@ void checkScene(const Scene& scene, ProblemLog& log) {
   checkLaw(scene, log);
   checkLayers(scene, log);
   ClothParams whole = scene.cloth;  // unless its size is wrong
-  if (log.good("layers"))
+  if (log.good("layers") && log.good("cloth"))
     whole = wholeCloth(scene);
   else
     whole.columns = kMaxColumns;

@@ -14,6 +14,7 @@
 #include "scene/ranges.h"
 #include "simulator/self_crossings.h"
 #include "simulator/simulator_impl.h"
+#include "simulator/start/laid_start.h"
 
 namespace curtain {
 
@@ -113,10 +114,8 @@ Simulator::Simulator(const Scene& scene, const MeshResolver& resolve)
   const StartParams& start = scene.hang.start;
   if (start.file) startFrom(*start.file, resolve);
   if (!start.file && startsElsewhere(impl_->scene)) layOver(resolve);
-  const bool touch = !impl_->scene.layers.empty() && impl_->scene.contact.self;
-  if (const std::int64_t crossings = touch ? selfCrossings() : 0; crossings > 0)
-    throw std::invalid_argument("layers: the cloths go through each other or themselves in " +
-                                std::to_string(crossings) + " places at the start");
+  const std::string problem = problemOfLayers(impl_->scene, impl_->pattern, impl_->motion.state.position);
+  if (!problem.empty()) throw std::invalid_argument("layers: " + problem);
 }
 Simulator::~Simulator() = default;
 Simulator::Simulator(Simulator&&) noexcept = default;

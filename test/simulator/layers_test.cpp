@@ -153,6 +153,30 @@ TEST(Layers, NeverCrossInRandomScenes) {
   EXPECT_GT(touched, 1000);
 }
 
+// Drawn to one side their wefts are taut, and solved as well as those of a cloth alone: one node is pinned, wind blows.
+TEST(Layers, TautWeftsAreSolvedAsAlone) {
+  Scene scene = flatScene(9, 8, 1.3, 0.6);
+  scene.hang.tilt = 0.5;
+  scene.pins = {PinKind::kList, {{0, 0}, {4, 7}}};
+  scene.solver.substeps = 24;
+  scene.solver.stretch_tolerance = 1e-8;
+  scene.wind = {curtain_test::fanAt({0.4, -2.0, 1.0}, 30.0)};
+  scene.wind[0].direction = Vec3(0.0, 1.0, 0.1);
+  scene.wind[0].pressure = 2.0;
+  Simulator alone(scene);
+  LayerParams beside = layerAt("beside", 0.0, 9, 8, 1.3, 0.6);
+  beside.hang = scene.hang;
+  beside.hang.from.x() += 0.7;
+  beside.hang.to.x() += 0.7;
+  beside.pins = scene.pins;
+  scene.layers = {beside};
+  Simulator both(scene);
+  for (Simulator* simulator : {&alone, &both}) run(*simulator, 20);
+  // Each is solved to 1e-8 of a link in 480 substeps; beside each other they are in other places of the same wind.
+  EXPECT_LT(farthest(columnsOf(both, 0, 8), positionsOf(alone)), 1e-4);
+  EXPECT_LT(static_cast<double>(both.statistics().sweeps), 1.2 * static_cast<double>(alone.statistics().sweeps));
+}
+
 // At rest the rods below the hung edge carry what is below them, of each cloth by itself.
 TEST(Layers, EachHangsByItsOwnWeight) {
   Scene scene = twoPanes();
@@ -295,6 +319,57 @@ TEST(Layers, ShadeEachOtherByTheirPores) {
   }
 }
 
+// Level grids, one behind the other, and wind straight on: lines to nodes go through nodes and along edges. A sheet
+// counts once, a fold of it twice.
+TEST(Layers, ShadeOnceWhereTrianglesMeet) {
+  Scene scene = flatScene(9, 9, 1.0, 1.0);
+  scene.cloth.porosity = 0.5;
+  scene.layers = {layerAt("behind", 0.25, 9, 9, 1.0, 1.0), layerAt("aside", 0.5, 9, 9, 1.0, 1.0)};
+  scene.layers[0].cloth.porosity = 0.25;
+  scene.layers[1].hang.from.x() = 0.03;
+  scene.layers[1].hang.to.x() = 1.03;
+  const ClothPattern pattern = makePattern(scene);
+  const Field3 position = makeInitialState(scene, pattern).position;
+  WindParams fan = curtain_test::fanAt({0.5, -1.0, 0.5}, 3.0);
+  fan.pressure = 1.0;
+  fan.shadow = true;
+  WindSource source(fan, pattern, Layers(scene), 1);
+  LayerShadow(pattern).cast(position, source);
+  for (int i = 1; i < 8; ++i) {
+    for (int j = 1; j < 8; ++j) {
+      EXPECT_NEAR(source.shade()[pattern.grid.index(i, j)], 1.0, 1e-12);
+      EXPECT_NEAR(source.shade()[pattern.grid.index(i, 9 + j)], 0.5, 1e-12) << i << " " << j;
+      EXPECT_NEAR(source.shade()[pattern.grid.index(i, 18 + j)], 0.125, 1e-12) << i << " " << j;
+    }
+  }
+}
+
+// Beside a laid cloth others start where they hang, on rails too.
+TEST(Layers, OnlyLaidClothsAreMovedAtTheStart) {
+  Scene scene = towelOnTable(0.4);
+  LayerParams hung = layerAt("hung", 2.0, 13, 7, 0.5, 0.5);
+  hung.hang.tilt = 0.6;
+  LayerParams sliding = layerAt("sliding", 3.0, 13, 7, 0.5, 0.5);
+  sliding.rail.path = {{Vec3(0.0, 3.0, 1.0), {}}, {Vec3(0.45, 3.0, 0.9), {}}};
+  sliding.rail.carriers.every = 2;
+  sliding.rail.carriers.friction = 0.0;
+  sliding.rail.opening = 0.5;
+  scene.layers.push_back(hung);
+  scene.layers.push_back(sliding);
+  Simulator simulator(scene);
+  scene.hang.start = {};
+  scene.pins.kind = PinKind::kTop;
+  scene.hang.from.z() = scene.hang.to.z() = 3.0;
+  scene.layers.erase(scene.layers.begin());
+  const Simulator plain(scene);
+  EXPECT_LT(farthest(columnsOf(simulator, 22, 36), columnsOf(plain, 13, 27)), 1e-12);
+  EXPECT_NEAR(simulator.opening("sliding"), 0.5, 1e-9);
+  EXPECT_TRUE(simulator.setOpening(0.9, "sliding").empty());
+  run(simulator, 60);
+  EXPECT_NEAR(simulator.opening("sliding"), 0.9, 1e-3);
+  EXPECT_GT(simulator.driveForce("sliding"), 0.0);
+}
+
 TEST(Layers, SnapshotsAndThreadsKeepTheBits) {
   Scene scene = twoPanes();
   scene.layers[0].rail.path = {{Vec3(0.0, 0.1, 2.2), {}}, {Vec3(0.5, 0.1, 2.2), {}}};
@@ -316,6 +391,7 @@ TEST(Layers, SnapshotsAndThreadsKeepTheBits) {
   Simulator restored(scene);
   EXPECT_TRUE(restored.restore(simulator.snapshot()).empty());
   EXPECT_TRUE(restored.drives("dense"));
+  EXPECT_EQ(restored.driveForce("dense"), simulator.driveForce("dense"));
   for (Simulator* one : {&simulator, &restored}) run(*one, 30);
   EXPECT_EQ(simulator.stateHash(), restored.stateHash());
 }
@@ -365,6 +441,13 @@ TEST(Layers, RefuseWhatDoesNotFit) {
        },
        "lines[0].nodes[0]", "column in [0, 11]"},
       {[](Scene& s) { s.layers[0].cloth.columns = 4090; }, "layers", "4096 columns at most"},
+      {[](Scene& s) { s.cloth.closed = true; }, "layers", "must be empty beside closed cloth"},
+      {[](Scene& s) { s.cloth.columns = 2147483647; }, "cloth.columns", "must be an integer in [2, 4096]"},
+      {[](Scene& s) {
+         s.hang.start.file = "a.csv";
+         s.layers[0].rail.path = {{Vec3(0, 1, 1), {}}, {Vec3(0.4, 1, 1), {}}};
+       },
+       "hang.start.file", "can't be given with a layer on a rail"},
   };
   for (const Bad& bad : all) {
     Scene scene = twoPanes();
@@ -378,6 +461,11 @@ TEST(Layers, RefuseWhatDoesNotFit) {
   crossed.layers[0].hang.from = Vec3(0.35, -0.31, 1.0);
   crossed.layers[0].hang.to = Vec3(0.35, 0.29, 1.0);
   EXPECT_THROW(Simulator{crossed}, std::invalid_argument);
+  Scene together = twoPanes();  // another size in the same plane
+  together.layers[0].hang.from.y() = together.layers[0].hang.to.y() = 0.0;
+  EXPECT_THROW(Simulator{together}, std::invalid_argument);
+  Simulator fine(twoPanes());
+  EXPECT_NE(fine.setOpening(0.5, "nobody")[0].text.find("there is not"), std::string::npos);
 }
 
 // The scene of docs/layers.md, for a second.

@@ -23,10 +23,12 @@ class Gaps {
       int next = quad + 1;
       while (next + 1 < grid.columns && !isCut(grid, next)) ++next;
       gap_[static_cast<std::size_t>(quad)] = quad - before > wide && next - quad > wide;
+      any_ = any_ || at(quad);
       before = quad;
     }
   }
 
+  bool any() const noexcept { return any_; }
   /// A column of quads, by the column of nodes on its left, is a gap.
   bool at(int quad) const noexcept { return gap_[static_cast<std::size_t>(quad)]; }
 
@@ -34,6 +36,7 @@ class Gaps {
   static bool isCut(const Grid& grid, int quad) { return grid.slit_row[static_cast<std::size_t>(quad) + 1] == 0; }
 
   std::vector<bool> gap_;
+  bool any_ = false;
 };
 
 }  // namespace curtain

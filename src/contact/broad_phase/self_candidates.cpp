@@ -134,6 +134,7 @@ void SelfCandidates::collectOf(double reach, double deviation, Candidates& out) 
 
 // Patches meet themselves and their neighbours, whose boxes have nodes in common: does none meet another?
 bool SelfCandidates::onlyNeighboursMeet(const Query& query) const noexcept {
+  if (gaps_.any()) return false;  // neighbours across a gap need not meet
   const int rows = flat_.rows(), columns = flat_.columns();
   const int across = grid_.closed && columns > 2 ? columns : columns - 1;  // pairs side by side in a row
   int more = rows * (columns + across) + (rows - 1) * (columns + 2 * across);

@@ -21,7 +21,10 @@ const DriveParams& Rail::driveOf(const Track& track) const noexcept {
 }
 
 void Rail::reset(ClothState&) {
-  for (Track& track : tracks_) track.asked = {false, 0.0, driveOf(track)};
+  for (Track& track : tracks_) {
+    track.asked = {false, 0.0, driveOf(track)};
+    track.force = 0.0;
+  }
   resume();
 }
 
@@ -101,6 +104,7 @@ void Rail::serialize(Archive& archive) {
     archive.finite("drawn", carrier.drawn);
   }
   for (Track& track : tracks_) {
+    archive.finite("drive_force", track.force);
     archive.flag("draws", track.asked.draws);
     archive.within("opening", track.asked.opening, 0.0, 1.0);
     archive.within("speed", track.asked.drive.speed, kSmallest, kLargest);

@@ -2,22 +2,28 @@
 #include "parts/wind/layer_shadow.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace curtain {
 namespace {
 
 constexpr int kCells = 64;  // along either direction, at most; what is found does not depend on it
 
-// Whether the line from one point to another crosses the triangle (Möller, Trumbore 1997).
-bool crosses(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
+constexpr double kEdge = 1e-9;       // of a triangle's weights, and of a line: on an edge, it is met by both sides
+constexpr std::size_t kSheets = 16;  // that a line is followed through, one after the other
+
+// Where along the line from one point to another it crosses the triangle, [0..1]; negative: nowhere (Möller, Trumbore
+// 1997).
+double crossing(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
   const Vec3 line = to - from, ab = b - a, ac = c - a, across = line.cross(ac);
   const double volume = ab.dot(across);
-  if (volume == 0.0) return false;
+  if (volume == 0.0) return -1.0;
   const Vec3 off = from - a, turned = off.cross(ab);
   const double u = off.dot(across) / volume, v = line.dot(turned) / volume, along = ac.dot(turned) / volume;
-  return u >= 0.0 && v >= 0.0 && u + v <= 1.0 && along >= 0.0 && along <= 1.0;
+  return u >= -kEdge && v >= -kEdge && u + v <= 1.0 + kEdge && along >= 0.0 && along <= 1.0 ? along : -1.0;
 }
 
 }  // namespace
@@ -84,16 +90,25 @@ double LayerShadow::shareAt(std::size_t node, int layer, const Field3& position,
   const Vec3 point = position.at(node), start = wind.origin(point);
   const Place at = places_[node];
   const int u = cellAlong(at.u, low_.u), v = cellAlong(at.v, low_.v);
+  // Sheets that were crossed: where, and of which cloth. A line through an edge or a node meets each side of it.
+  std::array<std::pair<int, double>, kSheets> sheets;
+  std::size_t count = 0;
   double share = 1.0;
   for (int i = std::max(u - 1, 0); i <= u; ++i) {
     for (int j = std::max(v - 1, 0); j <= v; ++j) {
       const auto cell = static_cast<std::size_t>(i * kCells + j);
-      for (std::uint32_t k = begins_[cell]; k < begins_[cell + 1]; ++k) {
+      for (std::uint32_t k = begins_[cell]; k < begins_[cell + 1] && count < kSheets; ++k) {
         const Triangle& triangle = triangles_[sorted_[k]];
         if (triangle.layer == layer) continue;
-        if (crosses(point, start, position.at(triangle.corners[0]), position.at(triangle.corners[1]),
-                    position.at(triangle.corners[2])))
-          share *= wind.passes(static_cast<int>(triangle.corners[0] % static_cast<std::size_t>(pattern_.grid.stride)));
+        const double at_line = crossing(point, start, position.at(triangle.corners[0]),
+                                        position.at(triangle.corners[1]), position.at(triangle.corners[2]));
+        const auto same = [&](const std::pair<int, double>& sheet) {
+          return sheet.first == triangle.layer && std::abs(sheet.second - at_line) < kEdge;
+        };
+        const auto end = sheets.begin() + static_cast<std::ptrdiff_t>(count);
+        if (at_line < 0.0 || std::any_of(sheets.begin(), end, same)) continue;
+        sheets[count++] = {triangle.layer, at_line};
+        share *= wind.passes(static_cast<int>(triangle.corners[0] % static_cast<std::size_t>(pattern_.grid.stride)));
       }
     }
   }

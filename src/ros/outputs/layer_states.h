@@ -17,7 +17,7 @@
 
 namespace curtain_ros {
 
-/// The part of a state that columns [first, first + columns) are; out keeps its winds and statistics.
+/// The part of a state that columns [first, first + columns) are, with its winds and statistics.
 ///   warp_rest  of these columns
 void cutOut(const curtain_sim::CurtainState& whole, std::uint32_t first, std::uint32_t columns,
             const std::vector<float>& warp_rest, curtain_sim::CurtainState& out);

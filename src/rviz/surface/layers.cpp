@@ -30,11 +30,15 @@ void strains(const curtain_sim::CurtainState& state, Nodes& out) {
     raise(out[a], percent);
     raise(out[b], percent);
   };
+  std::vector<std::size_t> cut_from(columns, rows);  // of the link on the right of each column
+  for (std::size_t k = 0; k < state.slit_columns.size(); ++k) {
+    if (state.slit_columns[k] < columns) cut_from[state.slit_columns[k]] = state.slit_rows[k];
+  }
   for (std::size_t i = 0; i < rows; ++i) {
     for (std::size_t j = 0; j < columns; ++j) {
       const std::size_t n = i * columns + j;
       if (i > 0) link(n - columns, n, state.warp_rest[i - 1]);
-      if (j < links) link(n, i * columns + (j + 1) % columns, state.weft_rest[i * links + j]);
+      if (j < links && i < cut_from[j]) link(n, i * columns + (j + 1) % columns, state.weft_rest[i * links + j]);
     }
   }
 }

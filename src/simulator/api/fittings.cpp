@@ -24,6 +24,14 @@ std::optional<std::size_t> railOf(const Motion& motion, const std::string& layer
   return std::nullopt;
 }
 
+std::string whyNoRail(const Scene& scene, const std::string& layer) {
+  if (layer == kFirstCloth) return "is for cloth on a rail: this scene has no rail.path";
+  const bool known =
+      std::any_of(scene.layers.begin(), scene.layers.end(), [&](const LayerParams& one) { return one.name == layer; });
+  return known ? "is for cloth on a rail: layer " + quoted(layer) + " has no rail.path"
+               : "is of a layer that there is not: " + quoted(layer);
+}
+
 }  // namespace
 
 std::vector<Simulator::LayerColumns> Simulator::layers() const {
@@ -38,7 +46,7 @@ std::vector<Simulator::LayerColumns> Simulator::layers() const {
 
 std::vector<Problem> Simulator::setOpening(double opening, const std::string& layer) {
   const std::optional<std::size_t> rail = railOf(impl_->motion, layer);
-  if (!rail) return {{"opening", "is for cloth on a rail: " + quoted(layer) + " has no rail.path"}};
+  if (!rail) return {{"opening", whyNoRail(impl_->scene, layer)}};
   const Range range = between(0.0, 1.0);
   if (!range.contains(opening)) return {{"opening", "must be " + range.text() + ", is " + formatNumber(opening)}};
   const Rail::Asked& asked = impl_->motion.parts.rail.asked(*rail);
@@ -69,8 +77,7 @@ void Simulator::releaseDrive(const std::string& layer) {
 std::vector<Problem> Simulator::setDrive(const DriveParams& drive, const std::string& layer) {
   std::vector<Problem> problems = validate(drive, "drive");
   const std::optional<std::size_t> rail = railOf(impl_->motion, layer);
-  if (problems.empty() && !rail)
-    problems = {{"drive", "is for cloth on a rail: " + quoted(layer) + " has no rail.path"}};
+  if (problems.empty() && !rail) problems = {{"drive", whyNoRail(impl_->scene, layer)}};
   if (!problems.empty()) return problems;
   const Rail::Asked& asked = impl_->motion.parts.rail.asked(*rail);
   impl_->motion.parts.rail.ask(*rail, {asked.draws, asked.opening, drive});

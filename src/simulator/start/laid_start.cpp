@@ -4,15 +4,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/broad_phase/self_candidates.h"
 #include "scene/layers.h"
 #include "scene/pi.h"
 #include "scene/problem_log.h"
+#include "simulator/self_crossings.h"
 
 namespace curtain {
 namespace {
 
 // It falls on the obstacle in air that lets nothing swing for long [m/s], and is where it is after so long [s].
 constexpr double kThickAir = 1.0, kLongest = 10.0;
+// Cloths that begin nearer have no sides that contact could keep [m].
+constexpr double kNearest = 1e-5;
 
 // Spreads cloth out level, so high above the obstacle [m].
 void spreadOut(const ObstacleSet& obstacles, int number, double higher, const ClothParams& cloth, HangParams& hang) {
@@ -36,6 +40,23 @@ void spreadOut(const ObstacleSet& obstacles, int number, double higher, const Cl
 }
 
 }  // namespace
+
+std::string problemOfLayers(const Scene& scene, const ClothPattern& pattern, const Field3& position) {
+  if (scene.layers.empty() || !scene.contact.self) return {};
+  if (const std::int64_t crossings = countSelfCrossings(pattern.grid, position); crossings > 0)
+    return "the cloths go through each other or themselves in " + std::to_string(crossings) + " places at the start";
+  Candidates near;
+  SelfCandidates(pattern).collect(position, position, kNearest, near);
+  const auto layer_of = [&](std::uint32_t node) {
+    return pattern.layer[node % static_cast<std::size_t>(pattern.grid.stride)];
+  };
+  const bool touch =
+      std::any_of(near.vertex_triangles.begin(), near.vertex_triangles.end(),
+                  [&](const VertexTriangle& pair) { return layer_of(pair.vertex) != layer_of(pair.triangle[0]); }) ||
+      std::any_of(near.edge_edges.begin(), near.edge_edges.end(),
+                  [&](const EdgeEdge& pair) { return layer_of(pair.first[0]) != layer_of(pair.second[0]); });
+  return touch ? "two cloths begin in the same place: leave contact.thickness and more between them" : "";
+}
 
 std::vector<Laid> laidCloths(const Scene& scene) {
   std::vector<Laid> laid;

@@ -18,11 +18,14 @@ struct Laid {
   std::string key;  ///< of hang.start.over
 };
 
+/// What is wrong with how several cloths that touch begin; empty: nothing, or there is one.
+std::string problemOfLayers(const Scene& scene, const ClothPattern& pattern, const Field3& position);
+
 /// All cloths of a validated scene that are laid over something.
 std::vector<Laid> laidCloths(const Scene& scene);
 
-/// The scene in which they come to rest: these cloths above their obstacles, others where they hang, all obstacles
-/// where they are at the start, and nothing else moves.
+/// The scene in which they come to rest: these cloths above their obstacles, others beside them, all obstacles where
+/// they are at the start.
 Scene settlingScene(const Scene& scene, const ObstacleSet& obstacles, const std::vector<Laid>& laid);
 
 /// Positions [m] of all nodes where they are at rest, row by row. resting: a simulator of settlingScene().

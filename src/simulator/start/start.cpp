@@ -61,7 +61,19 @@ void Simulator::layOver(const MeshResolver& resolve) {
   std::string problem = problemOfPiercings(resting, im.scene.obstacles);
   const std::string& first = im.scene.obstacles[static_cast<std::size_t>(laid.front().obstacle)].name;
   if (!problem.empty()) refuse(laid.front().key, problem + " where it is spread out, just above '" + first + "'");
-  im.startAt(settle(resting));
+  // Others start where they hang.
+  std::vector<Vec3> nodes, settled = settle(resting);
+  copyPositions(nodes);
+  for (const Laid& one : laid) {
+    const Layers::Layer& columns = im.motion.parts.layers[one.layer];
+    for (int i = 0; i < rows(); ++i) {
+      for (int j = columns.first; j < columns.end; ++j) {
+        const auto n = static_cast<std::size_t>(i * im.pattern.grid.columns + j);
+        nodes[n] = settled[n];
+      }
+    }
+  }
+  im.startAt(nodes);
   problem = problemOfPiercings(*this, im.scene.obstacles);
   if (problem.empty() && im.scene.contact.self && selfCrossings() > 0) problem = "the cloth goes through itself";
   if (!problem.empty()) refuse(laid.front().key, problem);
