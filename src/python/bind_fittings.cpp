@@ -75,6 +75,10 @@ void bindRail(SimulatorClass& simulator) {
           [](const Self& self, const std::string& layer) { return self.inspect().opening(layerOf(self, layer)); },
           py::arg("layer") = kFirstCloth, "Present opening of a layer's rail; 0 without one.")
       .def(
+          "drive_force",
+          [](const Self& self, const std::string& layer) { return self.inspect().driveForce(layerOf(self, layer)); },
+          py::arg("layer") = kFirstCloth, "Force of the drive of a layer's rail on its masters, mean over a frame [N].")
+      .def(
           "release_drive",
           [](Self& self, const std::string& layer) {
             layerOf(self, layer);

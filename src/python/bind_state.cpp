@@ -157,8 +157,18 @@ void bindNodes(SimulatorClass& simulator) {
           },
           "Whether a node's position is prescribed, or a rigid hand's; bool, shape (rows, columns).")
       .def(
+          "rods",
+          [](const Self& self) {
+            std::vector<double> rods;
+            self.inspect().copyRods(rods);
+            const py::ssize_t rows = self.inspect().rows() - 1, columns = self.inspect().columns();
+            return py::array_t<double>({rows, columns}, rods.data());
+          },
+          "Rest lengths of the rods of all columns [m], shape (rows - 1, columns).")
+      .def(
           "rest_lengths", [](const Self& self) { return restLengths(self.inspect()); },
-          "Rest lengths [m]: of the rods between two rows, from the top down, shape (rows - 1,), and of the weft "
+          "Rest lengths [m]: of the first cloth's rods between two rows, from the top down, shape (rows - 1,), and of "
+          "the weft "
           "links, "
           "shape (rows, links); closed cloth has as many links as columns, other cloth one less.");
 }

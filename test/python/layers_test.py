@@ -31,6 +31,9 @@ class LayersTest(unittest.TestCase):
         self.assertAlmostEqual(top[layers["dark"], 1].mean(), 0.1, delta=0.05)
         warp, weft = self.simulator.rest_lengths()
         self.assertEqual((warp.shape, weft.shape), ((6,), (7, 14)))
+        rods = self.simulator.rods()
+        self.assertEqual(rods.shape, (6, 15))
+        self.assertTrue(numpy.allclose(rods.sum(axis=0), [1.0] * 6 + [1.2] * 9))
 
     def test_rails_and_fabrics_go_by_name(self):
         self.simulator.set_opening(0.5, layer="dark")
@@ -38,6 +41,7 @@ class LayersTest(unittest.TestCase):
             self.simulator.step()
         self.assertAlmostEqual(self.simulator.opening("dark"), 0.5, delta=1e-3)
         self.assertEqual(self.simulator.opening(), 0.0)
+        self.assertGreaterEqual(self.simulator.drive_force("dark"), 0.0)
         self.assertEqual(len(self.simulator.rail_points(0.1)), 0)
         self.assertGreater(len(self.simulator.rail_points(0.1, layer="dark")), 5)
         self.assertEqual(self.simulator.self_crossings(), 0)
@@ -50,6 +54,8 @@ class LayersTest(unittest.TestCase):
     def test_what_is_not_there_is_named(self):
         with self.assertRaisesRegex(ValueError, "rail"):
             self.simulator.set_opening(0.5)
+        with self.assertRaisesRegex(ValueError, "layer"):
+            self.simulator.opening("nobody")
         with self.assertRaisesRegex(ValueError, "layer"):
             self.simulator.set_cloth(layer="nobody", shear=1.0)
         bad = scene()

@@ -19,7 +19,7 @@ STUB = os.path.join(os.path.dirname(curtain_engine.__file__), "__init__.pyi")
 # Methods of Simulator that Python has under another name than their own in snake_case.
 RENAMED = {
     "copyPositions": "positions", "copyVelocities": "velocities", "copyForces": "forces", "copyContactForces": "contact_forces",
-    "copyTensions": "warp_tensions", "copyRestLengths": "rest_lengths", "copyFineMesh": "fine_positions",
+    "copyTensions": "warp_tensions", "copyRestLengths": "rest_lengths", "copyRods": "rods", "copyFineMesh": "fine_positions",
     "fineMeshTopology": "fine_triangles", "copyContactPoints": "contact_points", "copyLineTensions": "line_tensions",
     "position": "positions", "mass": "masses", "obstacleCount": "obstacles", "finePiercings": "piercings", "drives": "drive",
 }

@@ -66,13 +66,13 @@ class TuningTest(unittest.TestCase):
         frame = self.curtain.next().statistics.frame
         rospy.wait_for_service(NODE + "/set_material", 20.0)
         set_material = rospy.ServiceProxy(NODE + "/set_material", SetMaterial)
-        answer = set_material("velvet")
+        answer = set_material("velvet", "")
         self.assertTrue(answer.success, answer.message)
         self.shown("cloth_surface_density", 0.4773)
         self.shown("cloth_shear", 50.0)
         self.shown("contact_friction", 0.6)
         self.curtain.wait_for(lambda s: s.statistics.frame > frame + 30, "frames come, and are counted on")
-        answer = set_material("tweed")
+        answer = set_material("tweed", "")
         self.assertFalse(answer.success)
         self.assertIn("material: must be none, cotton_voile", answer.message)
 
