@@ -115,10 +115,10 @@ void projectContacts(const Field& inverse_inertia, Contacts& contacts, Field3& p
 
 void ContactRows::slide(const Field& inverse, Field3& position) noexcept {
   for (Contact& contact : *solved_) {
-    if (contact.sticks || isFrictionless(contact)) continue;
-    const Vec3 change = contact.boundedSlide(contact.wantedSlide(position)) - contact.slide;
+    if (isFrictionless(contact)) continue;
+    const Vec3 wanted = contact.wantedSlide(position), change = contact.boundedSlide(wanted) - contact.slide;
     contact.slide += change;
-    contact.slip();
+    if (!contact.sticks || wanted.squaredNorm() > contact.maxSlide() * contact.maxSlide()) contact.slip();
     contact.move(inverse, change, position);
   }
 }
