@@ -115,7 +115,8 @@ void projectContacts(const Field& inverse_inertia, Contacts& contacts, Field3& p
 
 void ContactRows::slide(const Field& inverse, Field3& position) noexcept {
   for (Contact& contact : *solved_) {
-    if (isFrictionless(contact)) continue;
+    // What sticks to an obstacle is held by rows of its own. Turned as well, strips that slide gained energy.
+    if ((contact.sticks && contact.obstacle != Contact::kCloth) || isFrictionless(contact)) continue;
     const Vec3 wanted = contact.wantedSlide(position), change = contact.boundedSlide(wanted) - contact.slide;
     contact.slide += change;
     if (!contact.sticks || wanted.squaredNorm() > contact.maxSlide() * contact.maxSlide()) contact.slip();

@@ -175,7 +175,7 @@ class ContactRows final : public RowMaker {
   /// is not finite. recovers: count penetration that Contact::recovery should take out; false: only deeper penetration.
   /// What has less room than the tolerance [m] counts for as much as that is less.
   double residual(const Field3& position, bool recovers, double tolerance) const noexcept;
-  /// Turns the slides of those that may slip against their slips. Moves nodes.
+  /// Turns the slides of those that may slip, and of cloth on cloth, against their slips. Moves nodes.
   void slide(const Field& inverse, Field3& position) noexcept;
 
   void addRows(const Field3& value, bool rates, Rows& rows) const override;
