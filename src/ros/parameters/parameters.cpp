@@ -46,6 +46,10 @@ struct Names {
     all.insert(key.name);
   }
   template <typename... Rest>
+  void texts(curtain::Key key, Rest&&...) {
+    all.insert(key.name);
+  }
+  template <typename... Rest>
   void textOrNone(curtain::Key key, Rest&&...) {
     all.insert(key.name);
   }
