@@ -39,6 +39,8 @@ struct Collector {
   template <typename... Rest>
   void textOrNone(Rest&&...) {}
   template <typename... Rest>
+  void texts(Rest&&...) {}
+  template <typename... Rest>
   void flag(Rest&&...) {}
   template <typename... Rest>
   void integer(Rest&&...) {}

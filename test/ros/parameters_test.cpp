@@ -238,6 +238,7 @@ struct ManualReader {
   }
   void text(curtain::Key key, const std::string& value) { compare(key, value); }
   void textOrNone(curtain::Key key, const std::string& value) { compare(key, value); }
+  void texts(curtain::Key key, const std::vector<std::string>& values) { compare(key, values); }
   void number(curtain::Key key, double value, curtain::Range) { compare(key, value); }
   void vector(curtain::Key key, const curtain::Vec3& value, curtain::Range) {
     compare(key, std::vector<double>(value.data(), value.data() + 3));
