@@ -15,8 +15,9 @@
 // again, an iteration goes on. One that is as near as rounding falls the other way (seed 12, on the last of 30 frames),
 // and the two motions are two solutions of the same substep. Their links differ by the tolerance, as if the scene's
 // lengths were off by that share, so they may be apart by its growth. Few are: of what is off by 1e-6 of the tolerance,
-// by its growth, one in thousands of decisions, a scene makes hundreds. More than every fourth pair of motions would be
-// something else.
+// by its growth, one in thousands of decisions, a scene makes hundreds. Of 208 pairs with self-contact (240 seeds,
+// leapfrog4) 22 were. More than every fourth would be something else. Both turns of a scene share one motion to compare
+// with, so 16 scenes are looked at, and none that is chosen.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -86,7 +87,7 @@ class RigidMotion : public ::testing::TestWithParam<std::tuple<Kind, Method>> {
 // About any axis, gravity turned as well; and about the vertical, gravity plumb.
 TEST_P(RigidMotion, TurnedSceneMovesTurned) {
   int fit = 0, rods_alone = 0;
-  for (const std::uint64_t seed : seeds(8, {12})) {
+  for (const std::uint64_t seed : seeds(16)) {
     const Trial trial = trialOf(seed);
     if (!trial.fit) continue;
     ++fit;
