@@ -132,8 +132,9 @@ class Simulator {
 
   /// A cloth of the scene and its columns, [first_column, first_column + columns) of all.
   struct LayerColumns {
-    std::string name;  ///< kFirstCloth, or LayerParams::name
-    int first_column = 0, columns = 0;
+    std::string name;      ///< kFirstCloth, or LayerParams::name
+    int first_column = 0;  ///< of all columns
+    int columns = 0;       ///< how many
   };
   /// All cloths, in the order of their columns.
   std::vector<LayerColumns> layers() const;

@@ -7,7 +7,7 @@
 #include "cloth/cloth.h"
 #include "scene/heading.h"
 #include "scene/layers.h"
-#include "simulator/self_crossings.h"
+#include "simulator/start/laid_start.h"
 
 namespace curtain_test {
 namespace {
@@ -326,9 +326,9 @@ std::optional<Scene> makeScene(Choices& choices) {
     scene.lines.clear();
     scene.tie_back.clear();
   }
-  // Cloths that touch must not begin crossed.
+  // Cloths that touch must not begin crossed, or in the same place.
   const curtain::ClothPattern pattern = curtain::makePattern(scene);
-  if (!scene.layers.empty() && countSelfCrossings(pattern.grid, makeInitialState(scene, pattern).position) > 0)
+  if (!curtain::problemOfLayers(scene, pattern, makeInitialState(scene, pattern).position).empty())
     scene.contact.self = false;
   return scene;
 }

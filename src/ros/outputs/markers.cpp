@@ -115,22 +115,23 @@ void buildArrows(const std::vector<curtain::ContactForce>& forces, Points& point
   }
 }
 
-// Links that slits cut are left out.
-void buildWires(const std::vector<Vec3>& nodes, const curtain::ClothParams& cloth, Points& points) {
-  const int rows = cloth.rows, columns = cloth.columns;
-  std::vector<int> cut_from(static_cast<std::size_t>(columns), rows);  // of the link on the right of each column
+// Nodes that links join, but for those that slits cut.
+std::vector<std::array<std::size_t, 2>> linksOf(const curtain::ClothParams& cloth) {
+  std::vector<int> cut_from(static_cast<std::size_t>(cloth.columns), cloth.rows);  // on the right of each column
   for (const curtain::SlitParams& slit : cloth.slits) cut_from[static_cast<std::size_t>(slit.column)] = slit.from_row;
-  const auto at = [&](int row, int column) -> const Vec3& {
-    return nodes[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column)];
+  const auto at = [&](int row, int column) {
+    return static_cast<std::size_t>(row) * cut_from.size() + static_cast<std::size_t>(column % cloth.columns);
   };
-  points.clear();
-  for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      if (row + 1 < rows) addLine(at(row, column), at(row + 1, column), points);
-      const bool links = (column + 1 < columns || cloth.closed) && row < cut_from[static_cast<std::size_t>(column)];
-      if (links) addLine(at(row, column), at(row, (column + 1) % columns), points);
+  std::vector<std::array<std::size_t, 2>> links;
+  for (int row = 0; row < cloth.rows; ++row) {
+    for (int column = 0; column < cloth.columns; ++column) {
+      if (row + 1 < cloth.rows) links.push_back({at(row, column), at(row + 1, column)});
+      const bool goes_on = column + 1 < cloth.columns || cloth.closed;
+      if (goes_on && row < cut_from[static_cast<std::size_t>(column)])
+        links.push_back({at(row, column), at(row, column + 1)});
     }
   }
+  return links;
 }
 
 // Disc, spokes and the circle at the end of the drawn part.
@@ -229,7 +230,10 @@ void MeshMarker::fill(Marker& marker) {
 }
 
 DetailMarkers::DetailMarkers(const std::string& world_frame, GeometryCache& geometry, bool contact_points)
-    : geometry_(geometry), contact_points_(contact_points), message_(blankDetails(world_frame, geometry.simulator())) {
+    : geometry_(geometry),
+      contact_points_(contact_points),
+      links_(linksOf(wholeCloth(geometry.simulator().scene()))),
+      message_(blankDetails(world_frame, geometry.simulator())) {
   for (int i = 0; i < geometry.simulator().obstacleCount(); ++i)
     obstacle_normals_.push_back(cornerNormals(geometry.simulator().obstacleShape(i).triangles()));
 }
@@ -259,7 +263,9 @@ visualization_msgs::MarkerArray::ConstPtr DetailMarkers::build(const ros::Time& 
 void DetailMarkers::fill(visualization_msgs::MarkerArray& array) {
   const curtain::Simulator& simulator = geometry_.simulator();
   const std::vector<Vec3>& positions = geometry_.nodes();
-  buildWires(positions, wholeCloth(simulator.scene()), array.markers[kWires].points);
+  Points& wires = array.markers[kWires].points;
+  wires.clear();
+  for (const auto& [from, to] : links_) addLine(positions[from], positions[to], wires);
 
   Points& nodes = array.markers[kNodes].points;
   nodes.resize(positions.size());

@@ -17,6 +17,8 @@
 #include <visualization_msgs/Marker.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -71,6 +73,7 @@ class DetailMarkers {
 
   GeometryCache& geometry_;
   bool contact_points_;
+  std::vector<std::array<std::size_t, 2>> links_;  // nodes that they join
   std::vector<curtain::ContactForce> forces_;
   std::uint64_t picture_ = 0;
   std::optional<std::uint64_t> revision_, filled_;  // of that picture; of the array, without its wind
