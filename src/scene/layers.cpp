@@ -46,20 +46,14 @@ Scene layerScene(const Scene& scene, std::size_t number) {
   one.obstacles = scene.obstacles;
   one.contact = scene.contact;
   one.solver = scene.solver;
-  if (number == 0) {
-    one.cloth = scene.cloth;
-    one.hang = scene.hang;
-    one.hem = scene.hem;
-    one.pins = scene.pins;
-    one.rail = scene.rail;
-    return one;
-  }
-  const LayerParams& layer = scene.layers[number - 1];
-  one.cloth = layer.cloth;
-  one.hang = layer.hang;
-  one.hem = layer.hem;
-  one.pins = layer.pins;
-  one.rail = layer.rail;
+  const auto copyFrom = [&one](const auto& cloth_of) {
+    one.cloth = cloth_of.cloth;
+    one.hang = cloth_of.hang;
+    one.hem = cloth_of.hem;
+    one.pins = cloth_of.pins;
+    one.rail = cloth_of.rail;
+  };
+  number == 0 ? copyFrom(scene) : copyFrom(scene.layers[number - 1]);
   return one;
 }
 

@@ -79,7 +79,7 @@ void LayerShadow::sortIntoCells(const Field3& position, const WindSource& wind) 
   };
   for (std::size_t t = 0; t < triangles_.size(); ++t) ++begins_[cellOf(t) + 1];
   for (std::size_t cell = 1; cell < begins_.size(); ++cell) begins_[cell] += begins_[cell - 1];
-  // Filled from the end of each cell, whose begin moves there and back.
+  // While a cell is filled its begin moves to its end, which is where the next one begins; then all move back.
   for (std::size_t t = 0; t < triangles_.size(); ++t) sorted_[begins_[cellOf(t)]++] = static_cast<std::uint32_t>(t);
   for (std::size_t cell = begins_.size() - 1; cell > 0; --cell) begins_[cell] = begins_[cell - 1];
   begins_[0] = 0;
