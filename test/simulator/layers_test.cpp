@@ -241,9 +241,10 @@ TEST(Layers, LieAboveEachOther) {
 
 // Drawn level from the cloth that it lies on, and which is held, the towel resists by Coulomb's law, by what of its
 // weight the hand does not bear. Drawn steadily, its inertia takes no part in the mean: m v over the time is 1e-3 of
-// it. The hand lifts its edge by a quarter of the thickness, off the cloth: held nearer, the two would press.
+// it. The hand lifts its edge by a quarter of the thickness, off the cloth: held nearer, the two would press. Of what
+// lies there 0.005 is found too much or too little, whatever the friction; its cause is not known (docs/accuracy.md).
 TEST(Layers, SlideByCoulombsLaw) {
-  for (const double friction : {0.2, 0.6, 0.8}) {
+  for (const double friction : {0.2, 0.4, 0.6, 0.8}) {
     Scene scene = towelOnTable(friction);
     scene.solver.rest_speed = 0.0;
     Simulator simulator(scene);
@@ -269,7 +270,7 @@ TEST(Layers, SlideByCoulombsLaw) {
     }
     EXPECT_EQ(simulator.selfCrossings(), 0);
     const double lying = weightOf(simulator, simulator.layers()[1]) + force.z();
-    EXPECT_NEAR(-force.x(), friction * lying, 0.03 * friction * lying) << friction;
+    EXPECT_NEAR(-force.x(), friction * lying, 0.006 * lying) << friction;
   }
 }
 
