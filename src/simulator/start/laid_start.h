@@ -4,8 +4,11 @@
 // Several cloths fall one above the other, in their order.
 #pragma once
 
+#include <cstddef>
+#include <string>
 #include <vector>
 
+#include "cloth/cloth.h"
 #include "curtain_sim/simulator.h"
 #include "obstacles/obstacle_set.h"
 
