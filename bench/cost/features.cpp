@@ -2,6 +2,7 @@
 #include "bench/cost/features.h"
 
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 
 #include "curtain_sim/scene_yaml.h"
@@ -130,6 +131,35 @@ void addHand(Play& play, double start) {
   play.scene.hands.push_back(hand);
 }
 
+// A cloth like the first behind it, out of its reach for as long as both swing.
+void addLayer(Play& play) {
+  const Scene& scene = play.scene;
+  curtain::LayerParams layer;
+  layer.name = "behind";
+  layer.cloth = scene.cloth;
+  layer.hang = scene.hang;
+  layer.hang.from.y() += 0.5;
+  layer.hang.to.y() += 0.5;
+  layer.pins = scene.pins;
+  play.scene.layers.push_back(layer);
+}
+
+// The same two cloths, each simulated by itself.
+Play apart() {
+  Play play = swing();
+  Scene behind = play.scene;
+  behind.hang.from.y() += 0.5;
+  behind.hang.to.y() += 0.5;
+  play.each_frame = [other = std::make_shared<curtain::Simulator>(behind)](curtain::Simulator&) { other->step(); };
+  return play;
+}
+
+Play layered() {
+  Play play = swing();
+  addLayer(play);
+  return play;
+}
+
 void damp(Play& play, double coefficient, double fast_gain) {
   play.scene.air.inside = play.scene.air.border = play.scene.air.corner = coefficient;
   play.scene.air.fast_gain = fast_gain;
@@ -241,6 +271,14 @@ std::vector<Feature> makeFeatures() {
       "self-contact", swing(), "the cloth is flat", [](Play& p) { p.scene.contact.self = true; }, "", nullptr)
       .max_idle = 1.16;
   add("self-contact: gathered to 60 %", gathered(), "", nullptr, "on", [](Play& p) { p.scene.contact.self = true; });
+  add("layers: each by itself", apart(), "", nullptr, "two cloths in one scene; apart", [](Play& p) {
+    p.each_frame = nullptr;
+    addLayer(p);
+  }).nodes *= 2;
+  add(
+      "layers: self-contact", layered(), "two cloths; flat and apart", [](Play& p) { p.scene.contact.self = true; }, "",
+      nullptr)
+      .nodes *= 2;
   add(
       "folds: second layer", swing(), "not looked at", [](Play& p) { p.scene.cloth.folds = 6; },
       "fine mesh every frame",

@@ -32,6 +32,7 @@ struct Feature {
   std::function<void(Play& play)> make_active;  ///< from off
   double max_idle = 1.02;                       ///< instructions of idle over those of off that the test lets pass
   int frames = 240;                             ///< to be weighed
+  int nodes = 44 * 40;                          ///< that a frame moves, of all cloths
   int warm_up = 0;                              ///< frames before these
 
   bool has(FeatureState state) const;

@@ -34,9 +34,8 @@ void runFrames(const Feature& feature, FeatureState state) {
     ns.push_back(std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count());
   }
   std::nth_element(ns.begin(), ns.begin() + feature.frames / 2, ns.end());
-  const int nodes = simulator.rows() * simulator.columns();
   const double median = ns[static_cast<std::size_t>(feature.frames) / 2];
-  std::printf("ns: %.4f\nsubsteps: %.4f\nhash: %016" PRIx64 "\n", median / nodes,
+  std::printf("ns: %.4f\nsubsteps: %.4f\nhash: %016" PRIx64 "\n", median / feature.nodes,
               static_cast<double>(simulator.statistics().substeps - before) / feature.frames, simulator.stateHash());
 }
 

@@ -57,8 +57,7 @@ Weight weigh(const Feature& feature, FeatureState state) {
   const std::string text = outputOf(callgrind + programFor(feature, state));
   Weight weight = read(text);
   weight.ns = 0.0;
-  const auto& cloth = feature.off.scene.cloth;
-  weight.instructions = std::stod(wordAfter(text, "Collected :")) / (feature.frames * cloth.rows * cloth.columns);
+  weight.instructions = std::stod(wordAfter(text, "Collected :")) / (feature.frames * feature.nodes);
   return weight;
 }
 
