@@ -87,7 +87,7 @@ void studySensing(const Options& options) {
     view.setRays(one.params.sensor == SensorKind::kCamera
                      ? curtain::cameraRays(curtain::cameraModel(one.params.camera), problems)
                      : curtain::lidarRays(one.params.lidar));
-    const double look = least(repeats, [&] { view.look(moment, pose); });
+    const double look = least(repeats, [&] { view.render(moment, pose); });
     std::vector<curtain::CloudPoint> points;
     const double cloud = least(repeats, [&] { view.points(moment, points); });
     int hits = 0;
