@@ -35,9 +35,10 @@ const std::vector<Study>& studies() {
 namespace {
 
 int usage() {
-  std::fprintf(stderr,
-               "usage: curtain_bench [--out FOLDER] [--quick] [--repeats N] [--scene PART] [--bullet] [--methods] "
-               "[STUDY…]\nstudies:");
+  std::fprintf(
+      stderr,
+      "usage: curtain_bench [--out FOLDER] [--quick] [--repeats N] [--scene PART] [--bullet] [--methods] [--studies] "
+      "[STUDY…]\nstudies:");
   for (const Study& study : studies()) std::fprintf(stderr, " %s", study.name.c_str());
   std::fprintf(stderr, "\n");
   return 2;
@@ -63,6 +64,9 @@ int benchMain(int count, char** words) {
     } else if (word == "--methods") {
       for (const std::string& method : curtain::methodNames()) std::printf("%s ", method.c_str());
       std::printf("\n");
+      return 0;
+    } else if (word == "--studies") {
+      for (const Study& study : studies()) std::printf("%s\n", study.name.c_str());
       return 0;
     } else if (word == "--out" && w + 1 < count) {
       options.folder = words[++w];
