@@ -260,7 +260,7 @@ def contact():
 
 def contact_frames():
     lines = ['## What frames take in contact\n',
-             'Least of two runs: of the medians, of the frames that all but one in a hundred are below, of the longest. Substeps and',
+             'Least of two runs, or of one that took a minute: of the medians, of the frames that all but one in a hundred are below, of the longest. Substeps and',
              'sweeps: means of a frame; contacts: most at a frame\'s end. Sizes: frames 30 to 60 of a gathered curtain, blown.\n',
              '| scene | median | 99 % | longest | substeps | sweeps | contacts |', '|---|---|---|---|---|---|---|']
     for row in table('contact_frames'):

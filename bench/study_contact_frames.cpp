@@ -18,6 +18,8 @@ namespace {
 
 using curtain::Scene;
 
+constexpr double kLong = 60.0;  // of computing [s]: a run that takes longer is not repeated
+
 struct Case {
   std::string name;
   Scene scene;
@@ -76,13 +78,15 @@ void measure(const Case& one, int repeats, Table& table) {
   std::vector<double> medians, late, longest;
   double frames = 0.0, substeps = 0.0, sweeps = 0.0;
   int contacts = 0;
-  for (int repeat = 0; repeat < repeats; ++repeat) {
+  double seconds = 0.0;
+  for (int repeat = 0; repeat < repeats && seconds < kLong; ++repeat) {
     curtain::Simulator simulator(one.scene);
     const curtain::Statistics& now = simulator.statistics();
     std::vector<double> ms;
     for (int frame = 0; frame < one.last; ++frame) {
       const curtain::Statistics before = now;
       simulator.step();
+      seconds += now.step_seconds;
       if (frame < one.first) continue;
       ms.push_back(1e3 * now.step_seconds);
       frames += 1.0;
@@ -113,6 +117,7 @@ void studyContactFrames(const Options& options) {
   for (Case& one : cases()) {
     if (one.name.find(options.scene) == std::string::npos) continue;
     std::replace(one.name.begin(), one.name.end(), ',', ';');
+    if (options.quick && (one.first > 60 || one.scene.cloth.rows > 200)) continue;  // minutes each
     if (options.quick) one.last = std::min(one.last, one.first + 30);
     measure(one, options.quick ? 1 : std::min(options.repeats, 2), table);
   }
