@@ -393,7 +393,7 @@ def differ(stamps):
 def stamp_text(stamp, stamps):
     """When a study was measured and of what, and on what, as far as the head does not say it."""
     where = [f'{title}: {stamp[column]}' for column, title in WHERE.items() if stamp[column] != usual(stamps, column)]
-    return f"*Measured {stamp['date']} at commit {stamp['commit']}" + ''.join('; ' + text for text in where) + '.*\n'
+    return f"Measured {stamp['date']} at commit {stamp['commit']}" + ''.join('; ' + text for text in where) + '.\n'
 
 
 def main():

@@ -276,10 +276,13 @@ std::vector<Feature> makeFeatures() {
     p.each_frame = nullptr;
     addLayer(p);
   }).nodes *= 2;
-  add(
-      "layers: self-contact", layered(), "two cloths; flat and apart", [](Play& p) { p.scene.contact.self = true; }, "",
-      nullptr)
-      .nodes *= 2;
+  // The proof that nothing touches is of one flat cloth (cloth_flatness.h): of several, all nodes are looked at in
+  // every substep. Measured 3.705.
+  Feature& flat_layers = add(
+      "layers: self-contact", layered(), "two flat cloths apart", [](Play& p) { p.scene.contact.self = true; }, "",
+      nullptr);
+  flat_layers.nodes *= 2;
+  flat_layers.max_idle = 3.75;
   add(
       "folds: second layer", swing(), "not looked at", [](Play& p) { p.scene.cloth.folds = 6; },
       "fine mesh every frame",
