@@ -423,7 +423,7 @@ def main():
         return
     with open(path, encoding='utf-8') as file:
         if file.read() != page:
-            sys.exit(f'{path} is not what the tables beside it say: run bench/page.py {FOLDER}')
+            sys.exit(f"{path} is not what the tables beside it say: run bench/page.py {FOLDER}{' --mixed' if differ(stamps) else ''}")
 
 
 main()

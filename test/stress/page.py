@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes README.md into the folder given from matrix.csv, and soak.csv where it is."""
+"""Writes README.md into the folder given from matrix.csv, and soak.csv where it is. With --check it only says whether the page is up
+to date."""
 import csv
 import math
 import os
@@ -95,8 +96,14 @@ def main():
     lines = matrix(os.path.join(folder, "matrix.csv"))
     if os.path.exists(os.path.join(folder, "soak.csv")):
         lines += soak(os.path.join(folder, "soak.csv"))
-    with open(os.path.join(folder, "README.md"), "w") as file:
-        file.write(TEXT + "\n".join(lines) + "\n")
+    path, page = os.path.join(folder, "README.md"), TEXT + "\n".join(lines) + "\n"
+    if sys.argv[2:] != ["--check"]:
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(page)
+        return
+    with open(path, encoding="utf-8") as file:
+        if file.read() != page:
+            sys.exit("%s is not what the tables beside it say: run test/stress/page.py %s" % (path, folder))
 
 
 if __name__ == "__main__":

@@ -80,6 +80,12 @@ def described(name, page):
     return re.search(r"`~?/?%s(?:/…)?`" % re.escape(name), page) is not None
 
 
+def agrees(test, program, *arguments):
+    """What a program would write is there."""
+    result = subprocess.run([sys.executable, program, *arguments, "--check"], stderr=subprocess.PIPE, text=True, cwd=ROOT)
+    test.assertEqual(result.returncode, 0, result.stderr)
+
+
 class Links(unittest.TestCase):
     """What pages point at."""
 
@@ -126,6 +132,18 @@ class Links(unittest.TestCase):
             name = os.path.relpath(page, "docs")
             if name != "README.md":
                 self.assertIn("](%s)" % name, index)
+
+
+class Figures(unittest.TestCase):
+    """What pages tell of measurements is what the tables have."""
+
+    def test_figures_in_the_text(self):
+        agrees(self, "docs/make_figures.py")
+
+    def test_pages_of_tables(self):
+        for program, folder in (("bench/page.py", "docs/bench"), ("test/stress/page.py", "docs/stress")):
+            with self.subTest(folder=folder):
+                agrees(self, program, folder)
 
 
 class Commands(unittest.TestCase):
@@ -266,8 +284,7 @@ class Described(unittest.TestCase):
         self.assertEqual(missing, [], "not in %s" % page)
 
     def test_made_pages_are_up_to_date(self):
-        result = subprocess.run([sys.executable, os.path.join(ROOT, "docs/make_pages.py"), "--check"], stderr=subprocess.PIPE, text=True)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        agrees(self, "docs/make_pages.py")
 
     def test_scene_keys(self):
         keys = set(re.findall(r"\bv\.\w+\((?:required\()?\"(\w+)\"", read("src/scene/fields.h")))

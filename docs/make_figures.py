@@ -1,0 +1,298 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Writes the figures that pages quote from docs/bench/*.csv and docs/stress/random.md into the pages: docs/make_figures.py.
+With --check it only says which figures are not what the tables have.
+
+FIGURES has the text around them, with {} for each, as it stands once in its page: who rewrites such a text, rewrites it there, too.
+"""
+import csv
+import math
+import os
+import re
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+NUMBER = r"(-?\d+(?: \d{3})*(?:\.\d+)?(?:e-?\d+)?)"
+RIVALS = ("symplectic Euler", "Runge-Kutta 4", "Baraff-Witkin", "PBD", "XPBD", "btSoftBody")
+
+
+def read(path):
+    """A file of the checkout."""
+    with open(os.path.join(ROOT, path), encoding="utf-8", newline="") as file:
+        return file.read()
+
+
+def rows(table, **wanted):
+    """Rows of a benchmark's table that have what is wanted in these columns, with numbers as such."""
+    lines = csv.DictReader(read("docs/bench/%s.csv" % table).splitlines())
+    found = [row for row in lines if all(row[key] == wanted[key] for key in wanted)]
+    if not found:
+        sys.exit("docs/bench/%s.csv has no row of %s" % (table, wanted))
+    return [{key: number(text) for key, text in row.items()} for row in found]
+
+
+def number(text):
+    """A number as such, other text as it is."""
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def one(table, column, **wanted):
+    """A cell."""
+    found = rows(table, **wanted)
+    if len(found) != 1:
+        sys.exit("docs/bench/%s.csv has %d rows of %s" % (table, len(found), wanted))
+    return found[0][column]
+
+
+def short(value, digits=2):
+    """As many digits, all of them where it is larger: 0.50, 35, 569, 5.6e-5."""
+    if abs(value) < 1e-2:
+        return re.sub(r"e-0?", "e-", "%.*e" % (digits - 1, value))
+    return "%.0f" % value if abs(value) >= 10 ** digits - 0.5 else ("%#.*g" % (digits, value)).rstrip(".")
+
+
+def within(value, digits=2):
+    """Rounded up: a bound."""
+    unit = 10.0 ** (math.floor(math.log10(value)) - digits + 1)
+    return short(unit * math.ceil(value / unit * (1.0 - 1e-12)), digits)
+
+
+def fixed(value, decimals=0):
+    """So many decimals, and spaces where there are ten thousands."""
+    text = "%.*f" % (decimals, value)
+    return "{:,}".format(int(text)).replace(",", " ") if decimals == 0 and abs(value) >= 1e4 else text
+
+
+def swing(method, error, column="ms_min"):
+    """The fastest setting of a method, or of any of them, that is at least this true after a second of the swing."""
+    methods = (method,) if isinstance(method, str) else method
+    good = [row for row in rows("work_precision", scene="swing") if row["method"] in methods and row["error_m"] <= error]
+    return min(good, key=lambda row: row["ms_min"])[column]
+
+
+def took(method, error):
+    """Its ms, as they are told."""
+    return short(swing(method, error))
+
+
+def blown(wind):
+    """ms a frame of the gathered curtain in its fan."""
+    return short(one("gusts", "ms_min", wind=wind, method="auto", setting="default"))
+
+
+def seen(view, column="ms_look", digits=2):
+    """ms of a sensor's view."""
+    return short(one("sensing", column, view=view), digits)
+
+
+def energy(method):
+    """Relative drift of our energy after a minute."""
+    return short(one("energy", "drift", method=method, setting="substeps 8", t_s="60"))
+
+
+def frame(scene, column="ms_median_min"):
+    """A frame in contact [ms]."""
+    return short(one("contact_frames", column, scene=scene))
+
+
+def both(scene):
+    """Median and 99 % of a frame in contact [ms]."""
+    return [frame(scene), frame(scene, "ms_99_min")]
+
+
+def cores(scene):
+    """Median of a frame in contact on one core and on two [ms]."""
+    return [frame(scene + "; one core"), frame(scene + "; two cores")]
+
+
+def engine(scene, name, setting, column="ms_median"):
+    """What an engine takes or leaves in the same scene."""
+    return one("engines", column, scene=scene, engine=name, setting=setting)
+
+
+def peer(name, setting):
+    """ms a frame and overlength of an engine with the ball."""
+    return [short(engine("ball 44 x 40", name, setting)), short(engine("ball 44 x 40", name, setting, "stretch_max"))]
+
+
+def per_frame(feature, state, column="instructions"):
+    """Instructions or ns a frame of the 44 x 40 nodes."""
+    return 44 * 40 * one("features", column, feature=feature, state=state)
+
+
+def ratio(feature, decimals=3, state="idle"):
+    """Instructions with a feature over those without."""
+    return fixed(per_frame(feature, state) / per_frame(feature, "off"), decimals)
+
+
+def largest(table, column, **wanted):
+    """The largest of a column, whatever its sign."""
+    return max(abs(row[column]) for row in rows(table, **wanted))
+
+
+def grid(scene, size, threads="1", column="ms_min"):
+    """ms a frame of a scene by its size."""
+    lines, columns = size.split(" x ")
+    return one("scaling", column, scene=scene, series="both", method="auto", threads=threads, rows=lines, columns=columns)
+
+
+def drawn(name):
+    """A row of the table of random scenes: everyday, wild, sudden."""
+    found = re.search(r"^\| \**%s\** \| (.*) \|$" % name, read("docs/stress/random.md"), re.M)
+    if not found:
+        sys.exit("docs/stress/random.md has no row '%s'" % name)
+    return [int(cell.strip("*")) for cell in found[1].split(" | ")]
+
+
+def held():
+    """Of each kind of random scenes how many held, of how many."""
+    return [str(count) for pair in zip(drawn("hold"), drawn("scenes")) for count in pair]
+
+
+BALL, GATHERED = "ball 44 x 40", "gathered 44 x 40"
+PEERS = (peer("NvCloth", "2400 Hz; phases top-down") + peer("Jolt", "LRA; steps a frame 8; iterations 40") +
+         peer("Bullet", "substeps 64; piterations 4"))
+OURS_WITH_BALL = [short(engine(BALL, "curtain_sim", "default")), within(engine(BALL, "curtain_sim", "default", "stretch_max"))]
+ASLEEP, AWAKE = fixed(per_frame("rest: all sleeps", "active")), fixed(round(per_frame("rest: all sleeps", "off"), -3))
+NVCLOTH = "9600 Hz; self-collision at 20.0 mm; phases even/odd"
+CAMERA, NOISE, PORES = "camera 640 x 480", "; nguyen_2012 and dropouts", "; porosity 0.2"
+HANDCRAFTED = rows("ccd", set="handcrafted")
+BOUNDS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
+
+FIGURES = {
+    "README.md": [
+        ("off by less than 1 mm | {} ms of computing; the fastest rival takes {} |", [took("auto", 1e-3), took(RIVALS, 1e-3)]),
+        ("off by less than 0.01 mm | {} ms (`leapfrog4`); the fastest rival takes {} |", [took("leapfrog4", 1e-5), took(RIVALS, 1e-5)]),
+        ("median (99 %) of a frame | {} ({}) ms;", both("curtain")),
+        ("the same without contact | {} ms", [blown("gusts")]),
+        ("pushed 0.4 m into a curtain, links within {} | {} ms a frame; NvCloth {} for {}, Jolt {} for {}, Bullet {} for {} |",
+         OURS_WITH_BALL[::-1] + PEERS),
+        ("44 x 40 | {} ms, links within {}, nothing crosses; NvCloth {} for {}, {} crossings |",
+         [short(engine(GATHERED, "curtain_sim", "default")), within(engine(GATHERED, "curtain_sim", "default", "stretch_max")),
+          short(engine(GATHERED, "NvCloth", NVCLOTH)), short(engine(GATHERED, "NvCloth", NVCLOTH, "stretch_max")),
+          fixed(engine(GATHERED, "NvCloth", NVCLOTH, "crossings_end"))]),
+        ("on any frame | {} of {}; [the others]", [str(sum(drawn("hold"))), str(sum(drawn("scenes")))]),
+        ("8 substeps | {} of what it can lose (`leapfrog4`: {}) |", [energy("auto"), energy("leapfrog4")]),
+        ("a curtain asleep | {} instructions a frame |", [ASLEEP]),
+    ],
+    "docs/accuracy.md": [
+        # -- error against computing time
+        ("| **`auto`**, `leapfrog` | **{} ms** | **{}** ({} mm) | **{}** | {} | {} |",
+         [took("auto", 1e-2), took("auto", 1e-3), short(1e3 * swing("auto", 1e-3, "error_m"))] + [took("auto", bound) for bound in BOUNDS[2:]]),
+        ("| `leapfrog4` | {} | {} ({} mm) | {} | **{}** | **{}** |",
+         [took("leapfrog4", 1e-2), took("leapfrog4", 1e-3), short(1e3 * swing("leapfrog4", 1e-3, "error_m"))] +
+         [took("leapfrog4", bound) for bound in BOUNDS[2:]]),
+        ("| `implicit` (stable, damps) | {} |", [took("implicit", 1e-2)]),
+        ("symplectic Euler | {} | {} | {} | {} | |", [took("symplectic Euler", bound) for bound in BOUNDS[:4]]),
+        ("Runge–Kutta 4 | {} | {} | {} | {} | |", [took("Runge-Kutta 4", bound) for bound in BOUNDS[:4]]),
+        ("Baraff–Witkin | {} |", [took("Baraff-Witkin", 1e-2)]),
+        ("| PBD / XPBD | {} / {} | {} / {} |", [took(method, bound) for bound in BOUNDS[:2] for method in ("PBD", "XPBD")]),
+        ("btSoftBody (double) | {} |", [took("btSoftBody", 1e-2)]),
+        ("at its 16 substeps, `auto`'s {} mm;",
+         [short(1e3 * one("work_precision", "error_m", scene="swing", method="auto", setting="default"), 1)]),
+        ("the same with ball and self-contact | 4.9 (12) | {} ({}) |", both("curtain")),
+        # -- exactness
+        ("within {} (`auto`; `leapfrog` {}; {} nets)",
+         [within(largest("nets", "relative_error", method="auto")), within(largest("nets", "relative_error", method="leapfrog")),
+          str(len(rows("nets", method="auto")))]),
+        ("against the closed form | within {} of its length |", [within(largest("wind", "tip_error_over_L", method="auto"), 1)]),
+        ("five eigenfrequencies | within {} (`leapfrog`, 8 substeps), {} (`leapfrog4`) |",
+         [within(largest("modes", "relative_error", method=method, setting="substeps 8")) for method in ("leapfrog", "leapfrog4")]),
+        ("8 substeps | {} of what it can lose (`leapfrog4`: {}) |", [energy("auto"), energy("leapfrog4")]),
+        # -- speed
+        ("of that misfit, 44 x 40: above {} |",
+         [short(one("hard_spot", "ms_median", sheet="44x40", method="XPBD", setting="substeps 1024; iterations 1; compliance 0 m/N"))]),
+        ("no contact, one core | {} ms a frame (steady wind {}) |", [blown("gusts"), blown("steady")]),
+        ("| {} / {} / {} / {} ms a frame; 100 000 (400 rows) on two cores: {} at best, {} median |",
+         [fixed(grid("swing", "16 x 15"), 3)] + [short(grid("swing", size)) for size in ("44 x 40", "112 x 90", "400 x 250")] +
+         [short(grid("swing", "400 x 250", "2", column)) for column in ("ms_min", "ms_median")]),
+        ("| {} / {} / {} to {} ms a frame, single frames longer (100 000: {} s) |",
+         [short(grid("curtain", size)) for size in ("44 x 40", "112 x 90", "400 x 250")] +
+         [short(grid("curtain", "400 x 250", column="ms_median")), short(1e-3 * grid("curtain", "400 x 250", column="ms_max"), 1)]),
+        ("wind elsewhere {} of the instructions without it, ten winds {}, obstacle beside {},",
+         [ratio("wind steady"), ratio("winds: ten"), ratio("obstacle sphere")]),
+        ("a robot of thirty links out of reach {} standing and {} moving, since each link's way is a curve (of the blown, gathered curtain {}),",
+         [ratio("robot: thirty links"), ratio("robot: thirty links move past a swing"), ratio("robot: thirty links move")]),
+        ("drag or damping {}, rest {}; touching itself, flat: {} (", [ratio("drag force"), ratio("rest"), ratio("self-contact", 2)]),
+        # -- contact
+        ("slowest frame {} / {} ms (ball of 0.15 m at 5 / 20 m/s) and {} / {} (plate edge-on) |",
+         [frame("%s through it at %s m/s" % (what, speed), "ms_longest_min") for what in ("ball", "plate") for speed in ("5", "20")]),
+        ("| {} / {} / {} ms; {} / {} / {} ms |",
+         [fixed(one("contact", "ms_added", scene=scene), decimals) for scene, decimals in (
+             ("obstacle out of reach", 3), ("obstacle beside", 3), ("ball in it", 2), ("flat (itself)", 3), ("gathered to 60 % (itself)", 1),
+             ("heap on the floor (itself)", 0))]),
+        ("| curtain {} ({}), skirt {} ({}), flag {} ({}), sheet {} ({}), parachute {} ({}) ms |",
+         [text for scene in ("curtain", "skirt", "flag", "sheet", "parachute") for text in both(scene)]),
+        ("with a ball | {} / {}; {} / {}; {} / {} ms |",
+         cores("gathered and blown 105 x 96 without contact") + cores("gathered and blown 105 x 96") +
+         cores("gathered in steady wind with a ball 105 x 96")),
+        ("settled | {} / {}, {} / {} ms; smooth: asleep, bumpy: {} / {} (",
+         [text for state in ("smooth; settling", "bumpy; settling", "bumpy; settled") for text in cores("over a mesh 105 x 96; " + state)]),
+        ("nearest | {} ms, {}; {} ms, {}; {} ms, {}; {} ms, {} (", OURS_WITH_BALL + PEERS),
+        ("continuous detection, {} public queries | {} missed; false alarms {} % of the handcrafted, none of the cloth's; {} and {} ns",
+         [fixed(sum(row["queries"] for row in rows("ccd"))), fixed(sum(row["missed"] for row in rows("ccd"))),
+          short(100.0 * sum(row["false_alarms"] for row in HANDCRAFTED) / sum(row["queries"] for row in HANDCRAFTED))] +
+         [short(row["ns_min"]) for row in rows("ccd", set="cloth")]),
+        # -- the others
+        ("before a thin plate | {} of {}, {} of {}, {} of {} held", held()),
+        ("| {} instructions a frame, {} us (awake, hanging still: {}, {} us);",
+         [ASLEEP, short(1e-3 * per_frame("rest: all sleeps", "active", "ns_min"), 1), AWAKE, short(1e-3 * per_frame("rest: all sleeps", "off", "ns_min"))]),
+        ("{} triangles | {} ms of one core ({} with noise, {} with pores),",
+         [fixed(one("sensing", "triangles", view=CAMERA)), seen(CAMERA), seen(CAMERA + NOISE), seen(CAMERA + PORES)]),
+        ("`~points` of it {} ms more", [seen(CAMERA, "ms_points", 1)]),
+    ],
+    "docs/layers.md": [
+        ("cost {} of what they cost alone", [ratio("layers: each by itself", 2, "active")]),
+        ("with `contact.self` {} times as much, while one cloth that is flat costs {}:", [ratio("layers: self-contact", 1), ratio("self-contact", 2)]),
+    ],
+    "docs/method.md": [
+        ("A sleeping curtain costs {} instructions a frame, one that is awake and hangs still {}.", [ASLEEP, AWAKE]),
+    ],
+    "docs/sensors.md": [
+        ("takes {} ms of one core, of which the hierarchy of boxes, built anew for each view, is {}; its points {} ms more; with noise {}, with pores {};",
+         [seen(CAMERA), seen(CAMERA, "ms_hierarchy"), seen(CAMERA, "ms_points", 1), seen(CAMERA + NOISE), seen(CAMERA + PORES)]),
+        ("a lidar of 64 x 2048 rays {}; 20 000 points all round {} (",
+         [seen("lidar 64 x 2048"), seen("all round; 10 000 points a m^2", "ms_points", 1)]),
+    ],
+}
+
+
+def find(page, text):
+    """Where a text of FIGURES stands in a page, wherever its lines break."""
+    pattern = NUMBER.join(re.sub(r"(?:\\? )+", r"\\s+", re.escape(part)) for part in text.split("{}"))
+    places = list(re.finditer(pattern, page))
+    return places[0] if len(places) == 1 else None
+
+
+def main():
+    """Writes, or says what is wrong."""
+    if sys.argv[1:] not in ([], ["--check"]):
+        sys.exit(__doc__)
+    wrong = []
+    for path, entries in FIGURES.items():
+        page = read(path)
+        for text, figures in entries:
+            place = find(page, text)
+            if place is None:
+                wrong.append("%s has not once: %s" % (path, text))
+                continue
+            for k in range(len(figures), 0, -1):  # the last one first: what is before it stays where it is
+                if place[k] != figures[k - 1]:
+                    line = page.count("\n", 0, place.start(k)) + 1
+                    if sys.argv[1:]:
+                        before = text.split("{}")[k - 1][-30:]
+                        wrong.append("%s:%d: %s%s, but the table has %s" % (path, line, before, place[k], figures[k - 1]))
+                    else:
+                        page = page[:place.start(k)] + figures[k - 1] + page[place.end(k):]
+        if not sys.argv[1:]:
+            with open(os.path.join(ROOT, path), "w", encoding="utf-8", newline="") as file:
+                file.write(page)
+    if wrong:
+        sys.exit("\n".join(wrong) + "\ndocs/make_figures.py writes what the tables have, and has the text around each figure")
+
+
+if __name__ == "__main__":
+    main()
