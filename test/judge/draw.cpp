@@ -315,6 +315,38 @@ void drawLines(Drawn& drawn) {
   scene.tie_back.clear();
 }
 
+// A second cloth of other fabric and size before or behind the first, so near that they touch, by dice of its own.
+void drawLayer(Drawn& drawn) {
+  Dice dice(3 * drawn.seed + static_cast<std::uint64_t>(drawn.kind) + (17ULL << 59));
+  Scene& scene = drawn.scene;
+  const bool wild = drawn.kind == Kind::kWild, self = scene.contact.self;
+  if (scene.cloth.closed || scene.solver.method == Method::kPaper || !dice.chance(0.15)) return;
+  LayerParams layer;
+  layer.name = "second";
+  layer.cloth.rows = scene.cloth.rows;
+  layer.cloth.columns = dice.integer(2, scene.cloth.columns);
+  layer.cloth.height = dice.between(0.5, 1.5) * scene.cloth.height;
+  layer.cloth.width = dice.between(0.5, 1.5) * scene.cloth.width;
+  layer.cloth.surface_density = dice.magnitude(0.2, 5.0) * scene.cloth.surface_density;
+  if (dice.chance(0.5)) layer.cloth.shear = dice.magnitude(0.3, wild ? 1e5 : 300.0);
+  if (dice.chance(0.5)) layer.cloth.bending_warp = layer.cloth.bending_weft = dice.magnitude(1e-7, wild ? 1.0 : 1e-3);
+  const Vec3 along = (scene.hang.to - scene.hang.from).normalized();
+  const Rotation tilt(Eigen::AngleAxisd(scene.hang.tilt, along));
+  const Vec3 across = tilt * along.cross(Vec3::UnitZ()).normalized();
+  layer.hang = scene.hang;
+  layer.hang.heading = Heading::kGathered;
+  layer.hang.pressed = 0.0;
+  layer.hang.from += (dice.chance(0.5) ? 1.0 : -1.0) * dice.magnitude(2.0, 20.0) * scene.contact.thickness * across;
+  layer.hang.to = layer.hang.from + dice.between(0.6, 1.0) * layer.cloth.width * along;
+  const PinKind kinds[] = {PinKind::kTop, PinKind::kTopCorners, PinKind::kLeft, PinKind::kNone};
+  layer.pins.kind = kinds[dice.integer(0, 3)];
+  scene.layers.push_back(layer);
+  scene.contact.self = true;
+  if (validate(scene).empty() && problemsAtStart(scene, makePattern(scene)).empty()) return;
+  scene.layers.clear();
+  scene.contact.self = self;
+}
+
 // Hands, by dice of their own. Two that do not give could be drawn through each other with what they hold: of those,
 // and beside pins that move, there is one.
 void drawHands(Drawn& drawn) {
@@ -391,6 +423,7 @@ Drawn draw(Kind kind, std::uint64_t seed) {
   if (beginsTorn(scene)) scene.cloth.hem_width.reset();
   if (kind != Kind::kSudden) drawLines(drawn);
   if (kind != Kind::kSudden) drawHands(drawn);
+  if (kind != Kind::kSudden) drawLayer(drawn);
   return drawn;
 }
 

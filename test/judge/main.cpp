@@ -13,11 +13,14 @@
 #include <fstream>
 #include <iostream>
 #include <sstream>
+#include <string>
+#include <utility>
 
 #include "judge/verdict.h"
 
 namespace {
 
+using namespace curtain;
 using namespace curtain_test;
 
 struct Options {
@@ -69,12 +72,45 @@ Options parse(int argc, char** argv) {
   return options;
 }
 
+int columnsOf(const Scene& scene) {
+  int columns = scene.cloth.columns;
+  for (const LayerParams& layer : scene.layers) columns += layer.cloth.columns;
+  return columns;
+}
+
+// What a trial has, by the names that the page of random scenes gives it, joined by +.
+std::string partsOf(const Drawn& drawn) {
+  const Scene& scene = drawn.scene;
+  const ClothParams& cloth = scene.cloth;
+  const auto isMesh = [](const ObstacleParams& obstacle) { return obstacle.shape == ShapeKind::kMesh; };
+  const bool meshes = std::any_of(scene.obstacles.begin(), scene.obstacles.end(), isMesh);
+  const std::pair<const char*, bool> parts[] = {
+      {"obstacles", !scene.obstacles.empty()},
+      {"meshes", meshes},
+      {"self-contact", scene.contact.self},
+      {"layers", !scene.layers.empty()},
+      {"fabric", cloth.shear > 0.0 || cloth.bending_bias > 0.0 || cloth.bending_hysteresis > 0.0},
+      {"bending", cloth.bending_warp > 0.0 || cloth.bending_weft > 0.0},
+      {"slits", !cloth.slits.empty()},
+      {"ring", cloth.closed},
+      {"rail", !scene.rail.path.empty()},
+      {"lines", !scene.lines.empty() || !scene.tie_back.empty()},
+      {"hands", !drawn.happenings.hands.empty()},
+      {"relative air", scene.air.law == AirLaw::kRelative}};
+  std::string joined;
+  for (const auto& [name, has] : parts) {
+    if (has) joined += (joined.empty() ? "" : "+") + std::string(name);
+  }
+  return joined;
+}
+
 class Session {
  public:
   explicit Session(const Options& options) : options_(options) {
     if (options.csv.empty()) return;
     csv_.open(options.csv);
-    csv_ << "kind,seed,method,rows,columns,frames,substeps,rejected,sweeps,last_resort,stops,momentum_cut,max_solves,"
+    csv_ << "kind,seed,method,parts,rows,columns,frames,substeps,rejected,sweeps,last_resort,stops,momentum_cut,max_"
+            "solves,"
             "stretch,energy_gain,energy_finer,seconds,slowest_frame_s,holds\n";
   }
 
@@ -116,10 +152,10 @@ class Session {
   void record(const Drawn& drawn, const Verdict& v) {
     if (!csv_.is_open()) return;
     csv_ << kindName(drawn.kind) << ',' << drawn.seed << ',' << toString(drawn.scene.solver.method) << ','
-         << drawn.scene.cloth.rows << ',' << drawn.scene.cloth.columns << ',' << v.frames << ',' << v.substeps << ','
-         << v.rejected << ',' << v.sweeps << ',' << v.last_resort << ',' << v.stops << ',' << v.momentum_cut << ','
-         << v.max_solves << ',' << v.stretch << ',' << v.energy_gain << ',' << v.energy_finer << ',' << v.seconds << ','
-         << v.slowest << ',' << v.holds() << '\n';
+         << partsOf(drawn) << ',' << drawn.scene.cloth.rows << ',' << columnsOf(drawn.scene) << ',' << v.frames << ','
+         << v.substeps << ',' << v.rejected << ',' << v.sweeps << ',' << v.last_resort << ',' << v.stops << ','
+         << v.momentum_cut << ',' << v.max_solves << ',' << v.stretch << ',' << v.energy_gain << ',' << v.energy_finer
+         << ',' << v.seconds << ',' << v.slowest << ',' << v.holds() << '\n';
     csv_.flush();
   }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes docs/stress/random.md of the judge's tables (curtain_judge --csv)."""
+"""Makes docs/stress/random.md: page.py OF_WHAT TABLE..., OF_WHAT a line on the run, TABLE of curtain_judge --csv."""
 import csv
 import sys
 
@@ -20,7 +20,7 @@ def share(part, whole):
 
 def main():
     rows = []
-    for name in sys.argv[1:]:
+    for name in sys.argv[2:]:
         with open(name, newline="", encoding="utf-8") as table:
             rows += list(csv.DictReader(table))
     print("# Random scenes\n")
@@ -29,6 +29,7 @@ def main():
           "crossed or pierced by brute force, looked for at every frame, of long scenes of large cloth at every n-th; energy that nobody has put in (not of wild scenes, and of sudden ones "
           "where a step can't know it); of the paper's method that numbers are finite, nothing is crossed or pierced, and rods keep their lengths where nothing touches; "
           "and of some that a second run, gone on from a snapshot in its middle and with its caches cleared at random, ends with the same bits. Seeds that once failed are kept, made as small as they would go, in `test/judge/cases`.\n")
+    print(sys.argv[1] + "\n")
     for kind, what in KINDS.items():
         print(f"- **{kind}**: {what}.")
     print("\n| | " + " | ".join(KINDS) + " |\n|---" * 1 + "|---" * len(KINDS) + "|")
@@ -61,6 +62,14 @@ def main():
     line("most solves in a frame", lambda some: f"{most(some, 'max_solves'):.0f}")
     line("rejected, of all solves", lambda some: share(total(some, "rejected"), total(some, "rejected") + total(some, "substeps")))
     line("computing time, s", lambda some: f"{total(some, 'seconds'):.0f}")
+    parts = sorted({part for row in rows for part in row["parts"].split("+") if part})
+    print("\nBy what scenes have, of all kinds together:\n")
+    print("| with | scenes | hold | substeps of the last resort | us a frame and node, median |\n|---|---|---|---|---|")
+    for part in ["anything or nothing", *parts]:
+        some = [row for row in rows if part not in parts or part in row["parts"].split("+")]
+        cost = sorted(1e6 * number(row, "seconds") / (number(row, "frames") * number(row, "rows") * number(row, "columns")) for row in some)
+        print(f"| {part} | {len(some)} | {sum(row['holds'] == '1' for row in some)} | {share(total(some, 'last_resort'), total(some, 'substeps'))} "
+              f"| {cost[len(cost) // 2]:.2g} |")
     failed = [f"{row['kind']} {row['seed']}" for row in rows if row["holds"] != "1"]
     if failed:
         print("\nDid not hold when they were drawn, and were mended since or are told in docs/accuracy.md: " + ", ".join(failed) + ".")

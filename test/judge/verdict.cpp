@@ -56,8 +56,8 @@ class Court {
         paper_(drawn.scene.solver.method == Method::kPaper),
         books_(weightScale(simulator_), 60 * static_cast<std::size_t>(finer)) {
     const ClothParams& cloth = drawn.scene.cloth;
-    for (int i = 0; i < cloth.rows; ++i) {
-      for (int j = 0; j < cloth.columns; ++j) {
+    for (int i = 0; i < simulator_.rows(); ++i) {
+      for (int j = 0; j < simulator_.columns(); ++j) {
         if (simulator_.pinned({i, j})) pins_.push_back({{i, j}, simulator_.position({i, j})});
         if (i > 0)
           shortest_rod_ =
@@ -70,8 +70,8 @@ class Court {
     taken_at_.resize(happenings.hands.size());
     pulls_known_ = happenings.hands.empty() &&  // hands put in what they like
                    ((happenings.pin_swing.isZero() && happenings.pin_jerk.isZero()) || !linksStraightBetweenPins());
-    every_ = std::max(1, static_cast<int>(cloth.rows * cloth.columns * drawn.seconds * drawn.scene.solver.frame_rate /
-                                          kNodesLookedAt));
+    every_ = std::max(1, static_cast<int>(simulator_.rows() * simulator_.columns() * drawn.seconds *
+                                          drawn.scene.solver.frame_rate / kNodesLookedAt));
     simulator_.countWork(rigour.energy && !paper_);
     books_.open(simulator_);
     for (int o = 0; o < simulator_.obstacleCount(); ++o) {
@@ -388,6 +388,7 @@ Drawn shrink(Drawn drawn, const Rigour& rigour) {
   cut([](Drawn& d) { return d.scene.drag.empty() ? false : (d.scene.drag.erase(d.scene.drag.begin()), true); });
   cut([](Drawn& d) { return d.scene.wind.empty() ? false : (d.scene.wind.pop_back(), true); });
   cut([](Drawn& d) { return d.scene.wind.empty() ? false : (d.scene.wind.erase(d.scene.wind.begin()), true); });
+  cut([](Drawn& d) { return d.scene.layers.empty() ? false : (d.scene.layers.clear(), true); });
   cut([](Drawn& d) { return d.scene.contact.self ? (d.scene.contact.self = false, true) : false; });
   cut([](Drawn& d) { return d.happenings.pin_swing.isZero() ? false : (d.happenings.pin_swing.setZero(), true); });
   cut([](Drawn& d) { return d.happenings.pin_jerk.isZero() ? false : (d.happenings.pin_jerk.setZero(), true); });
@@ -419,7 +420,7 @@ Drawn shrink(Drawn drawn, const Rigour& rigour) {
     rows = std::max(2, rows);
     columns = std::max(2, columns);
     const bool plain_grid = cloth.row_spacing.empty() && cloth.column_spacing.empty() && cloth.row_mass.empty() &&
-                            cloth.column_mass.empty() && cloth.slits.empty();
+                            cloth.column_mass.empty() && cloth.slits.empty() && d.scene.layers.empty();
     if (!plain_grid || (rows == cloth.rows && columns == cloth.columns)) return false;
     const auto move = [&](NodeIndex& node) {
       node.row = node.row * (rows - 1) / (cloth.rows - 1);
