@@ -105,6 +105,16 @@ class Links(unittest.TestCase):
                         self.assertIn(anchor, anchors(full))
         self.assertGreater(count, 100)
 
+    def test_links_by_name_are_defined_and_used(self):
+        count = 0
+        for page in pages():
+            text = re.sub(r"`[^`\n]*`", "", FENCE.sub("", read(page)))
+            used = set(re.findall(r"\]\[([^\]\[]+)\]", text))
+            count += len(used)
+            with self.subTest(page=page):
+                self.assertEqual(used, set(re.findall(r"^\[([^\]]+)\]: \w+://\S+$", text, re.M)))
+        self.assertGreater(count, 50)
+
     def test_paths_in_the_text_exist(self):
         count = 0
         for page in pages():
