@@ -165,6 +165,11 @@ def told(name):
     return [cell.replace(" %", "") for cell in found[1].split(" | ")]
 
 
+def soaked(column):
+    """A column of the soak's table."""
+    return [float(row[column]) for row in csv.DictReader(read("docs/stress/soak.csv").splitlines())]
+
+
 def held():
     """Of each kind of random scenes how many held, of how many."""
     return [str(count) for pair in zip(drawn("hold"), drawn("scenes")) for count in pair]
@@ -275,6 +280,8 @@ FIGURES = {
          [told(name)[0] for name in ("scenes that needed the last resort", "substeps of the last resort", "scenes in which it did",
                                      "substeps in which the cloth stayed where it was")] +
          [told(name)[1] for name in ("scenes that needed the last resort", "scenes in which it did")]),
+        ("median of ten minutes {} to {} ms a frame; longest frame of ten minutes {} to {} ms |",
+         [short(pick(soaked(column))) for column in ("median_ms", "longest_ms") for pick in (min, max)]),
         ("| {} instructions a frame, {} us (awake, hanging still: {}, {} us);",
          [ASLEEP, short(1e-3 * per_frame("rest: all sleeps", "active", "ns_min"), 1), AWAKE, short(1e-3 * per_frame("rest: all sleeps", "off", "ns_min"))]),
         ("{} triangles | {} ms of one core ({} with noise, {} with pores),",
