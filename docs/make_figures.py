@@ -267,7 +267,11 @@ FIGURES = {
          cores("gathered in steady wind with a ball 105 x 96")),
         ("settled | {} / {}, {} / {} ms; smooth: asleep, bumpy: {} / {} (",
          [text for state in ("smooth; settling", "bumpy; settling", "bumpy; settled") for text in cores("over a mesh 105 x 96; " + state)]),
-        ("nearest | {} ms, {}; {} ms, {}; {} ms, {}; {} ms, {} (", OURS_WITH_BALL + PEERS),
+        ("in overlength | {} ms, {}; {} ms, {}; {} ms, {}; {} ms, {} (", OURS_WITH_BALL + PEERS),
+        ("NvCloth's truest setting takes {} ms for {}, its fastest {} for {}.",
+         peer("NvCloth", "19200 Hz; phases even/odd") + peer("NvCloth", "60 Hz; phases top-down")),
+        ("took up to {} ms;", [short(engine(BALL, "curtain_sim", "default", "ms_99"))]),
+        ("of such a ball has {}, longest {} |", [short(one("contact_peers", column, method="auto")) for column in ("ms_median", "ms_longest")]),
         ("#continuous-collision-detection), {} public queries (which: [test/truth](../test/truth/README.md)) | {} missed; false alarms {} % of the handcrafted, none of the cloth's; {} and {} ns",
          [fixed(sum(row["queries"] for row in rows("ccd"))), fixed(sum(row["missed"] for row in rows("ccd"))),
           short(100.0 * sum(row["false_alarms"] for row in HANDCRAFTED) / sum(row["queries"] for row in HANDCRAFTED))] +
