@@ -232,7 +232,7 @@ FIGURES = {
         ("within {} (`auto`; `leapfrog` {}; {} nets)",
          [within(largest("nets", "relative_error", method="auto")), within(largest("nets", "relative_error", method="leapfrog")),
           str(len(rows("nets", method="auto")))]),
-        ("against the closed form | within {} of its length |", [within(largest("wind", "tip_error_over_L", method="auto"), 1)]),
+        ("against the closed form for the model's wind | within {} of its length |", [within(largest("wind", "tip_error_over_L", method="auto"), 1)]),
         ("five eigenfrequencies | within {} (`leapfrog`, 8 substeps), {} (`leapfrog4`), {} with the default substeps |",
          [within(largest("modes", "relative_error", method=method, setting=setting))
           for method, setting in (("leapfrog", "substeps 8"), ("leapfrog4", "substeps 8"), ("auto", "default"))]),
