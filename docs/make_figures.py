@@ -93,6 +93,16 @@ def energy(method):
     return short(one("energy", "drift", method=method, setting="substeps 8", t_s="60"))
 
 
+def sheet(method, setting, column="ms_median", size="44x40"):
+    """What a sheet hung by two corners and dropped flat takes."""
+    return one("hard_spot", column, sheet=size, method=method, setting=setting)
+
+
+def early(method, setting, size="44x40"):
+    """How far off it is after 0.1 s [m]."""
+    return one("hard_spot_motion", "error_m", sheet=size, method=method, setting=setting, t_s="0.1")
+
+
 def frame(scene, column="ms_median_min"):
     """A frame in contact [ms]."""
     return short(one("contact_frames", column, scene=scene))
@@ -165,13 +175,26 @@ def drawn(name):
     return [int(cell.strip("*")) for cell in found[1].split(" | ")]
 
 
+def told(name):
+    """Figures of that table as it tells them: shares [%]."""
+    found = re.search(r"^\| %s \| (.*) \|$" % name, read("docs/stress/random.md"), re.M)
+    if not found:
+        sys.exit("docs/stress/random.md has no row '%s'" % name)
+    return [cell.replace(" %", "") for cell in found[1].split(" | ")]
+
+
+def soaked(column):
+    """A column of the soak's table."""
+    return [float(row[column]) for row in csv.DictReader(read("docs/stress/soak.csv").splitlines())]
+
+
 def held():
     """Of each kind of random scenes how many held, of how many."""
     return [str(count) for pair in zip(drawn("hold"), drawn("scenes")) for count in pair]
 
 
 BALL, GATHERED, FINE = "ball 44 x 40", "gathered 44 x 40", "gathered 105 x 96"
-PEERS = (peer("NvCloth", "2400 Hz; phases top-down") + peer("Jolt", "LRA; steps a frame 8; iterations 40") +
+PEERS = (peer("NvCloth", "2400 Hz; phases top-down") + peer("Jolt", "LRA; steps a frame 4; iterations 40") +
          peer("Bullet", "substeps 64; piterations 4"))
 OURS_WITH_BALL = [short(engine(BALL, "curtain_sim", "default")), within(engine(BALL, "curtain_sim", "default", "stretch_max"))]
 ASLEEP, AWAKE = fixed(per_frame("rest: all sleeps", "active")), fixed(round(per_frame("rest: all sleeps", "off"), -3))
@@ -179,6 +202,8 @@ QUICK = "600 Hz; self-collision at 9.00 mm; phases top-down"
 NVCLOTH = "9600 Hz; self-collision at 20.0 mm; phases even/odd"
 CAMERA, NOISE, PORES = "camera 640 x 480", "; nguyen_2012 and dropouts", "; porosity 0.2"
 HANDCRAFTED = rows("ccd", set="handcrafted")
+DUELS = [("auto", "default"), ("XPBD", "substeps 256; iterations 1; compliance 0 m/N"),
+         ("auto", "substeps 16"), ("XPBD", "substeps 1024; iterations 1; compliance 0 m/N")]
 BOUNDS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
 
 FIGURES = {
@@ -189,12 +214,13 @@ FIGURES = {
         ("the same without contact | {} ms", [blown("gusts")]),
         ("pushed 0.4 m into a curtain, links within {} | {} ms a frame; NvCloth {} for {}, Jolt {} for {}, Bullet {} for {} |",
          OURS_WITH_BALL[::-1] + PEERS),
-        ("44 x 40 | {} ms, links within {}, nothing crosses; NvCloth {} for {}, {} crossings |",
+        ("44 x 40 | {} ms, links within {}, no edge through a face at the end; NvCloth {} for {}, {} crossings |",
          [short(engine(GATHERED, "curtain_sim", "default")), within(engine(GATHERED, "curtain_sim", "default", "stretch_max")),
           short(engine(GATHERED, "NvCloth", NVCLOTH)), short(engine(GATHERED, "NvCloth", NVCLOTH, "stretch_max")),
           fixed(engine(GATHERED, "NvCloth", NVCLOTH, "crossings_end"))]),
         ("on any frame | {} of {}; [the others]", [str(sum(drawn("hold"))), str(sum(drawn("scenes")))]),
-        ("8 substeps | {} of what it can lose (`leapfrog4`: {}) |", [energy("auto"), energy("leapfrog4")]),
+        ("of which scenes: {} are of `paper`", [str(sum(drawn("of the paper's method")))]),
+        ("8 substeps | {} of what it can lose (`leapfrog4`: {}); [automatic", [energy("auto"), energy("leapfrog4")]),
         ("a curtain asleep | {} instructions a frame |", [ASLEEP]),
     ],
     "docs/accuracy.md": [
@@ -210,6 +236,14 @@ FIGURES = {
         ("Baraff–Witkin | {} |", [took("Baraff-Witkin", 1e-2)]),
         ("| PBD / XPBD | {} / {} | {} / {} |", [took(method, bound) for bound in BOUNDS[:2] for method in ("PBD", "XPBD")]),
         ("btSoftBody (double) | {} |", [took("btSoftBody", 1e-2)]),
+        ("`auto` takes {} ms for {} mm. The row",
+         [short(one("work_precision", "ms_min", scene="swing", method="auto", setting="default")),
+          short(1e3 * one("work_precision", "error_m", scene="swing", method="auto", setting="default"))]),
+        ("`auto` takes {} ms a frame and is off by {} um after 0.1 s, XPBD with 256 substeps takes {} ms for {} um; with 16 substeps `auto` takes "
+         "{} ms for {} um, XPBD with 1024 takes {} ms for {} um.",
+         [text for method, setting in DUELS for text in (short(sheet(method, setting)), short(1e6 * early(method, setting)))]),
+        ("in the snap that follows differs more: {} and {} in the first pair, {} and {} in the second.", [short(sheet(method, setting, "stretch")) for method, setting in DUELS]),
+        ("confirms to {} um at that time.", [short(1e6 * early(*DUELS[-1]))]),
         ("at its 16 substeps, `auto`'s {} mm;",
          [short(1e3 * one("work_precision", "error_m", scene="swing", method="auto", setting="default"), 1)]),
         ("the same with ball and self-contact | 4.9 (12) | {} ({}) |", both("curtain")),
@@ -217,13 +251,15 @@ FIGURES = {
         ("within {} (`auto`; `leapfrog` {}; {} nets)",
          [within(largest("nets", "relative_error", method="auto")), within(largest("nets", "relative_error", method="leapfrog")),
           str(len(rows("nets", method="auto")))]),
-        ("against the closed form | within {} of its length |", [within(largest("wind", "tip_error_over_L", method="auto"), 1)]),
-        ("five eigenfrequencies | within {} (`leapfrog`, 8 substeps), {} (`leapfrog4`) |",
-         [within(largest("modes", "relative_error", method=method, setting="substeps 8")) for method in ("leapfrog", "leapfrog4")]),
-        ("8 substeps | {} of what it can lose (`leapfrog4`: {}) |", [energy("auto"), energy("leapfrog4")]),
+        ("against the closed form for the model's wind | within {} of its length |", [within(largest("wind", "tip_error_over_L", method="auto"), 1)]),
+        ("five eigenfrequencies | within {} (`leapfrog`, 8 substeps), {} (`leapfrog4`), {} with the default substeps |",
+         [within(largest("modes", "relative_error", method=method, setting=setting))
+          for method, setting in (("leapfrog", "substeps 8"), ("leapfrog4", "substeps 8"), ("auto", "default"))]),
+        ("8 substeps | {} of what it can lose (`leapfrog4`: {}); automatic", [energy("auto"), energy("leapfrog4")]),
         # -- speed
-        ("of that misfit, 44 x 40: above {} |",
-         [short(one("hard_spot", "ms_median", sheet="44x40", method="XPBD", setting="substeps 1024; iterations 1; compliance 0 m/N"))]),
+        ("median (longest) frame: {} ({}), {} ({}), {} ({}) ms; XPBD of 44 x 40 with links within {}: {} (",
+         [short(sheet("auto", "default", column, size)) for size in ("20x20", "44x40", "100x100") for column in ("ms_median", "ms_max")] +
+         [short(sheet(*DUELS[-1], "stretch")), short(sheet(*DUELS[-1]))]),
         ("no contact, one core | {} ms a frame (steady wind {}) |", [blown("gusts"), blown("steady")]),
         ("| {} / {} / {} / {} ms a frame; 100 000 (400 rows) on two cores: {} at best, {} median |",
          [fixed(grid("swing", "16 x 15"), 3)] + [short(grid("swing", size)) for size in ("44 x 40", "112 x 90", "400 x 250")] +
@@ -233,7 +269,7 @@ FIGURES = {
          [short(grid("curtain", "400 x 250", column="ms_median")), short(1e-3 * grid("curtain", "400 x 250", column="ms_max"), 1)]),
         ("wind elsewhere {} of the instructions without it, ten winds {}, obstacle beside {},",
          [ratio("wind steady"), ratio("winds: ten"), ratio("obstacle sphere")]),
-        ("a robot of thirty links out of reach {} standing and {} moving, since each link's way is a curve (of the blown, gathered curtain {}),",
+        ("a robot of thirty links out of reach {} standing and {} moving, since each link's path is a curve ({} of the blown, gathered curtain),",
          [ratio("robot: thirty links"), ratio("robot: thirty links move past a swing"), ratio("robot: thirty links move")]),
         ("drag or damping {}, rest {}; touching itself, flat: {} (", [ratio("drag force"), ratio("rest"), ratio("self-contact", 2)]),
         # -- contact
@@ -250,13 +286,25 @@ FIGURES = {
          cores("gathered in steady wind with a ball 105 x 96")),
         ("settled | {} / {}, {} / {} ms; smooth: asleep, bumpy: {} / {} (",
          [text for state in ("smooth; settling", "bumpy; settling", "bumpy; settled") for text in cores("over a mesh 105 x 96; " + state)]),
-        ("nearest | {} ms, {}; {} ms, {}; {} ms, {}; {} ms, {} (", OURS_WITH_BALL + PEERS),
-        ("continuous detection, {} public queries | {} missed; false alarms {} % of the handcrafted, none of the cloth's; {} and {} ns",
+        ("in overlength | {} ms, {}; {} ms, {}; {} ms, {}; {} ms, {} (", OURS_WITH_BALL + PEERS),
+        ("NvCloth's truest setting takes {} ms for {}, its fastest {} for {}.",
+         peer("NvCloth", "19200 Hz; phases even/odd") + peer("NvCloth", "60 Hz; phases top-down")),
+        ("took up to {} ms;", [short(engine(BALL, "curtain_sim", "default", "ms_99"))]),
+        ("of such a ball has {}, longest {} |", [short(one("contact_peers", column, method="auto")) for column in ("ms_median", "ms_longest")]),
+        ("#continuous-collision-detection), {} public queries (which: [test/truth](../test/truth/README.md)) | {} missed; false alarms {} % of the handcrafted, none of the cloth's; {} and {} ns",
          [fixed(sum(row["queries"] for row in rows("ccd"))), fixed(sum(row["missed"] for row in rows("ccd"))),
           short(100.0 * sum(row["false_alarms"] for row in HANDCRAFTED) / sum(row["queries"] for row in HANDCRAFTED))] +
          [short(row["ns_min"]) for row in rows("ccd", set="cloth")]),
         # -- the others
         ("before a thin plate | {} of {}, {} of {}, {} of {} held", held()),
+        ("- {} of the scenes are of the method `paper`", [str(sum(drawn("of the paper's method")))]),
+        ("{} % of the everyday scenes needed the last resort, in {} % of all their substeps, and in {} % of them the cloth was stopped for some "
+         "substeps ({} % of all); of the wild ones {} % and {} %.",
+         [told(name)[0] for name in ("scenes that needed the last resort", "substeps of the last resort", "scenes in which it did",
+                                     "substeps in which the cloth stayed where it was")] +
+         [told(name)[1] for name in ("scenes that needed the last resort", "scenes in which it did")]),
+        ("median of ten minutes {} to {} ms a frame; longest frame of ten minutes {} to {} ms |",
+         [short(pick(soaked(column))) for column in ("median_ms", "longest_ms") for pick in (min, max)]),
         ("| {} instructions a frame, {} us (awake, hanging still: {}, {} us);",
          [ASLEEP, short(1e-3 * per_frame("rest: all sleeps", "active", "ns_min"), 1), AWAKE, short(1e-3 * per_frame("rest: all sleeps", "off", "ns_min"))]),
         ("{} triangles | {} ms of one core ({} with noise, {} with pores),",
@@ -286,10 +334,13 @@ FIGURES = {
         ("with `contact.self` {} times as much, while one cloth that is flat costs {}:", [ratio("layers: self-contact", 1), ratio("self-contact", 2)]),
     ],
     "docs/method.md": [
+        ("No misses on {} public queries with exact answers, {} and {} ns a query",
+         [fixed(sum(row["queries"] for row in rows("ccd")))] + [short(row["ns_min"]) for row in rows("ccd", set="cloth")]),
+        ("| swing, 1760 nodes | 27 mm | {} mm |", [short(1e3 * one("work_precision", "error_m", scene="swing", method="auto", setting="default"))]),
         ("A sleeping curtain costs {} instructions a frame, one that is awake and hangs still {}.", [ASLEEP, AWAKE]),
     ],
     "docs/sensors.md": [
-        ("takes {} ms of one core, of which the hierarchy of boxes, built anew for each view, is {}; its points {} ms more; with noise {}, with pores {};",
+        ("takes {} ms of one core, of which the hierarchy of boxes, rebuilt for each view, is {}; its points {} ms more; with noise {}, with pores {};",
          [seen(CAMERA), seen(CAMERA, "ms_hierarchy"), seen(CAMERA, "ms_points", 1), seen(CAMERA + NOISE), seen(CAMERA + PORES)]),
         ("a lidar of 64 x 2048 rays {}; 20 000 points all round {} (",
          [seen("lidar 64 x 2048"), seen("all round; 10 000 points a m^2", "ms_points", 1)]),

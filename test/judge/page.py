@@ -24,11 +24,13 @@ def main():
         with open(name, newline="", encoding="utf-8") as table:
             rows += list(csv.DictReader(table))
     print("# Random scenes\n")
-    print("Made by `test/judge/run`: scenes drawn from seeds over all keys and sizes (`test/judge/draw.cpp`), carried out, and judged at every "
+    print("Made by `test/judge/run`: scenes drawn from seeds over all keys and sizes (`test/judge/draw.cpp`), simulated, and judged at every "
           "frame: numbers finite, no link longer (no rod shorter) than twice the tolerance of 1e-3, at most 2000 solves a frame; nothing "
-          "crossed or pierced by brute force, looked for at every frame, of long scenes of large cloth at every n-th; energy that nobody has put in (not of wild scenes, and of sudden ones "
-          "where a step can't know it); of the paper's method that numbers are finite, nothing is crossed or pierced, and rods keep their lengths where nothing touches; "
-          "and of some that a second run, gone on from a snapshot in its middle and with its caches cleared at random, ends with the same bits. Seeds that once failed are kept, made as small as they would go, in `test/judge/cases`.\n")
+          "crossed or pierced by brute force, looked for at every frame, of long scenes of large cloth at every n-th; "
+          "energy beyond what forces, pins and obstacles supply (not in wild scenes, nor in sudden ones where a step can't foresee it); "
+          "of the paper's method that numbers are finite, nothing is crossed or pierced, and rods keep their lengths where nothing touches (wefts are not judged); "
+          "and in some scenes that a second run, continued from a snapshot in its middle and with its caches cleared at random, ends with the same bits. "
+          "[Which scenes are excused from what](../accuracy.md#random-scenes). Seeds that once failed are kept, made as small as they would go, in `test/judge/cases`.\n")
     print(sys.argv[1] + "\n")
     for kind, what in KINDS.items():
         print(f"- **{kind}**: {what}.")
@@ -72,7 +74,7 @@ def main():
               f"| {cost[len(cost) // 2]:.2g} |")
     failed = [f"{row['kind']} {row['seed']}" for row in rows if row["holds"] != "1"]
     if failed:
-        print("\nDid not hold when they were drawn, and were mended since or are told in docs/accuracy.md: " + ", ".join(failed) + ".")
+        print("\nDid not hold when they were drawn; since then mended, or described in docs/accuracy.md: " + ", ".join(failed) + ".")
 
 
 main()

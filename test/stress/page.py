@@ -9,23 +9,25 @@ import sys
 
 TEXT = """# Stress
 
-What the cloth is put through, and what came of it: made by `test/stress/run`. Cloth of 12 x 10 nodes, 1 m x 1 m, 0.2 kg/m²,
+Extreme cases and how the cloth comes through them, made by `test/stress/run`. Cloth of 12 x 10 nodes, 1 m x 1 m, 0.2 kg/m²,
 in air that damps a swing by 0.8 of critical, unless the case says otherwise; `test/stress/tortures_of_*.cpp` says what exactly
 happens, and what is allowed where that is not the rule.
 
 A case holds when every number stays finite, no link is longer than allowed at any frame's end (2e-3, twice the tolerance, while
 substeps settle; more where pins or obstacles leave it no choice), the energy never rises by more than what is put in
-and 1e-2 of what moves: m g H, the kinetic energy meanwhile and the works of the last 60 frames (gravity, winds, drags, pins and obstacles accounted for substep by substep:
-`Simulator::work()`; what air takes is not added, so a rise that it takes in the same frame is not seen), it is back at rest for half a
-second in the time that the air allows, and a second run gives the same bits. `paper` moves wefts once and
-leaves what is over, and counts no work of pins; of it only finite numbers are asked. Where a row is drawn straight its kinetic energy is bounded, too (by what links within
-their tolerance let it sag).
+and 1e-2 of what moves: m g H, the kinetic energy meanwhile and the works of the last 60 frames (gravity, winds, drags, pins and obstacles
+accounted for substep by substep: `Simulator::work()`; the work of the air is not added, so a rise that the air takes away in the same frame
+is not seen), it is back at rest for half a second in the time that the air allows, and a second run gives the same bits. `paper` corrects
+wefts once, leaves the remaining error, and counts no work of pins; of its results only finite numbers are required. Where a row is drawn
+straight its kinetic energy is bounded, too (by the sag that links within their tolerance permit).
+
+A case holds also where the last resort had to cut the motion: `last_resort` and `stops` of [matrix.csv](matrix.csv) count such substeps.
 
 The quick cases were run with every method, the slow ones (grids of up to a million nodes, a million frames, more random seeds) with the
-default; `--long` runs them with the others, too.
+default; `--long` runs them with the others, too. Empty cells were not run.
 
 Each cell: largest overlength of a link (or shortness of a rod) / rise of the energy / time back to rest [s] (– where it is not asked
-for). In parentheses: reported, not judged, for the start or the pins leave no choice. **Bold**: does not hold.
+for). In parentheses: reported, not judged, because the start or the pins leave no choice. **Bold**: does not hold.
 
 """
 
@@ -71,6 +73,9 @@ def matrix(path):
     worst = [row for row in rows if row["method"] == "auto"]
     lines.append("")
     lines.append("%d of %d hold; of `auto`, %d of %d." % (held, len(rows), sum(row["holds"] == "1" for row in worst), len(worst)))
+    exact = [row for row in rows if row["method"] != "paper"]
+    lines.append("Of the %d runs of methods other than `paper`, %d needed the last resort, and in %d the cloth was stopped for some substeps." % (
+        len(exact), sum(row["last_resort"] != "0" for row in exact), sum(row["stops"] != "0" for row in exact)))
     return lines
 
 
@@ -80,13 +85,14 @@ def soak(path):
     if not rows:
         return []
     lines = ["", "## Soak", "", "The demo (curtain, ball, fan) as fast as it goes, half a minute of quiet at the end of every "
-             "interval. A row an hour of the table in `soak.csv`.", "",
-             "| simulated hours | median ms a frame | sweeps a frame | longest link | height at rest [m] | memory [kB] | heap [kB] |",
-             "|---|---|---|---|---|---|---|"]
+             "interval. One row an hour, of the table in [soak.csv](soak.csv). Heap: what the program has allocated (`mallinfo2`); memory: "
+             "what the system keeps for it.", "",
+             "| simulated hours | median ms a frame | longest of ten minutes | sweeps a frame | longest link | height at rest [m] | memory [kB] | heap [kB] |",
+             "|---|---|---|---|---|---|---|---|"]
     shown = rows[:1] + rows[5::6] + ([] if len(rows) % 6 == 0 else rows[-1:])
     for row in shown:
-        lines.append("| %.2f | %.2f | %.2f | %s | %s | %s | %s |" % (
-            float(row["hours"]), float(row["median_ms"]), float(row["sweeps_per_frame"]), row["stretch_max"],
+        lines.append("| %.2f | %.2f | %.0f | %.2f | %s | %s | %s | %s |" % (
+            float(row["hours"]), float(row["median_ms"]), float(row["longest_ms"]), float(row["sweeps_per_frame"]), row["stretch_max"],
             row["rest_height_m"], row["resident_kb"], row["heap_kb"]))
     return lines
 
