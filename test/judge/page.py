@@ -55,6 +55,11 @@ def main():
         line(f"worst link of the scene in ({lower:g}, {edge:g}]",
              lambda some, a=lower, b=edge: str(sum(a < number(row, "stretch") <= b or (a == 0.0 and number(row, "stretch") <= b) for row in exact(some))))
         lower = edge
+    # What the verdict is of.
+    line("frames looked at by brute force", lambda some: share(total(some, "brute_forced"), total(some, "frames")))
+    line("frames of the others in which a hand may have pulled links apart", lambda some: share(total(exact(some), "links_excused"), total(exact(some), "frames")))
+    line("obstacles excused, of all frames of all", lambda some: share(total(some, "obstacles_excused"), total(some, "obstacles")))
+    line("frames of the others whose energy is judged", lambda some: share(total(exact(some), "energy_judged"), total(exact(some), "frames")))
     line("scenes that needed the last resort", lambda some: share(sum(number(row, "last_resort") > 0 for row in some), len(some)))
     line("substeps of the last resort", lambda some: share(total(some, "last_resort"), total(some, "substeps")))
     line("substeps in which the cloth stayed where it was", lambda some: share(total(some, "stops"), total(some, "substeps")))

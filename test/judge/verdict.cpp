@@ -288,17 +288,23 @@ class Court {
     const bool forced = simulator_.time() <= forced_until_;
     if (paper_ && took_.empty())
       lookAtPaper(s);
-    else if (!paper_ && !forced && !(stretch <= kToleranceShare * drawn_.scene.solver.stretch_tolerance))
+    else if (!paper_ && forced)
+      ++verdict_.links_excused;
+    else if (!paper_ && !(stretch <= kToleranceShare * drawn_.scene.solver.stretch_tolerance))
       fault("stretch", stretch);
     if (verdict_.max_solves > kMaxSolves) fault("solves in a frame", static_cast<double>(verdict_.max_solves));
     if (rigour_.energy || rigour_.brute_force) lookAtObstacles();
     // Cloth that is jammed is pushed at by no known force.
     const bool free = std::all_of(judged_.begin(), judged_.end(), [](bool judged) { return judged; });
+    verdict_.obstacles_excused += std::count(judged_.begin(), judged_.end(), false);
+    verdict_.obstacles += static_cast<std::int64_t>(judged_.size());
     if (rigour_.energy && !paper_ && free && pulls_known_) {
+      ++verdict_.energy_judged;
       books_.look(simulator_, !drawn_.happenings.gravity.isZero());
       verdict_.energy_gain = books_.gain();
     }
     if (!rigour_.brute_force || s.frames % every_ != 0) return;
+    ++verdict_.brute_forced;
     if (drawn_.scene.contact.self && !crossed_at_start_ && simulator_.selfCrossings() > 0) fault("crosses itself");
     for (int o = 0; o < simulator_.obstacleCount(); ++o) {
       if (judged_[static_cast<std::size_t>(o)] && !clear(o))

@@ -20,9 +20,14 @@ struct Verdict {
   double energy_finer = 0.0;     ///< the same in finer steps, where it was looked at
   double momentum_cut = 0.0;     ///< [N s]
   std::int64_t max_solves = 0;   ///< substeps solved in one frame, rejected ones included
-  double seconds = 0.0;          ///< computing time
-  double slowest = 0.0;          ///< frame [s]
-  std::uint64_t hash = 0;        ///< of where it ends
+  // What was judged, of the frames.
+  std::int64_t brute_forced = 0;   ///< looked at by brute force
+  std::int64_t links_excused = 0;  ///< hands that do not give may have pulled links apart
+  std::int64_t energy_judged = 0;
+  std::int64_t obstacles = 0, obstacles_excused = 0;  ///< over all obstacles: of them not judged, as Court::judged_
+  double seconds = 0.0;                               ///< computing time
+  double slowest = 0.0;                               ///< frame [s]
+  std::uint64_t hash = 0;                             ///< of where it ends
   bool holds() const { return faults.empty(); }
 };
 
