@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "cloth/cloth.h"
+#include "curtain_sim/simulator.h"
 #include "judge/dice.h"
 #include "step/weft_links.h"
 
@@ -342,9 +344,12 @@ void drawLayer(Drawn& drawn) {
   layer.pins.kind = kinds[dice.integer(0, 3)];
   scene.layers.push_back(layer);
   scene.contact.self = true;
-  if (validate(scene).empty() && problemsAtStart(scene, makePattern(scene)).empty()) return;
-  scene.layers.clear();
-  scene.contact.self = self;
+  try {
+    const Simulator begins(scene, resolveTrialMesh);
+  } catch (const std::invalid_argument&) {  // it begins in the first, or in itself
+    scene.layers.clear();
+    scene.contact.self = self;
+  }
 }
 
 // Hands, by dice of their own. Two that do not give could be drawn through each other with what they hold: of those,
