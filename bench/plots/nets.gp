@@ -5,7 +5,7 @@ M = values(T, "$4!=\"paper\"", 4)
 set logscale y
 set format y "10^{%T}"
 set xrange [0.45:1.02]
-set yrange [1e-6:1e-1]
+set yrange [1e-10:1e-1]
 set xlabel "span D (of the width)"
 set ylabel "|E - E_{least}| / |E_{least}|"
 set title "nets at rest: potential energy against the least there is" offset 10, 0
