@@ -246,6 +246,7 @@ FIGURES = {
          [text for method, setting in DUELS for text in (short(sheet(method, setting)), short(1e6 * early(method, setting)))]),
         ("in the snap that follows differs more: {} and {} in the first pair, {} and {} in the second.", [short(sheet(method, setting, "stretch")) for method, setting in DUELS]),
         ("confirms to {} um at that time.", [short(1e6 * early(*DUELS[-1]))]),
+        ("energy of its start within {} of what it could lose", [energy("auto").lstrip("-")]),
         ("at its 16 substeps, `auto`'s {} mm;",
          [short(1e3 * one("work_precision", "error_m", scene="swing", method="auto", setting="default"), 1)]),
         ("the same with ball and self-contact | 4.9 (12) | {} ({}) |", both("curtain")),
