@@ -300,6 +300,9 @@ FIGURES = {
          [short(row["ns_min"]) for row in rows("ccd", set="cloth")]),
         # -- the others
         ("before a thin plate | {} of {}, {} of {}, {} of {} held", held()),
+        ("everyday scenes', {} % of the wild and {} % of the sudden ones' are\n", told("obstacles excused, of all frames of all")[1:]),
+        ("- So of the frames of all obstacles {} % of the", told("obstacles excused, of all frames of all")[:1]),
+        ("excused; {}, {} and {} % of the frames", told("frames looked at by brute force")),
         ("- {} of the scenes are of the method `paper`", [str(sum(drawn("of the paper's method")))]),
         ("{} % of the everyday scenes needed the last resort, in {} % of all their substeps, and in {} % of them the cloth was stopped for some "
          "substeps ({} % of all); of the wild ones {} % and {} %.",
