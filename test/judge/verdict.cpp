@@ -55,7 +55,6 @@ class Court {
         carriers_(simulator_.carriers()),
         paper_(drawn.scene.solver.method == Method::kPaper),
         books_(weightScale(simulator_), 60 * static_cast<std::size_t>(finer)) {
-    const ClothParams& cloth = drawn.scene.cloth;
     for (int i = 0; i < simulator_.rows(); ++i) {
       for (int j = 0; j < simulator_.columns(); ++j) {
         if (simulator_.pinned({i, j})) pins_.push_back({{i, j}, simulator_.position({i, j})});
