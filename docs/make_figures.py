@@ -183,6 +183,32 @@ def told(name):
     return [cell.replace(" %", "") for cell in found[1].split(" | ")]
 
 
+DROPPED = "sheet dropped by two corners"
+
+
+def whole(scene, method="auto", budget="0", column="ms_median"):
+    """Of a whole scene, bench/whole_scenes."""
+    return one("whole_scenes", column, scene=scene, method=method, budget_ms=budget)
+
+
+def unhurried(scene, method="auto"):
+    """Median and 99 % of a frame [ms]."""
+    return [short(whole(scene, method, column=column)) for column in ("ms_median", "ms_99")]
+
+
+def pair(scene):
+    """The same, of the paper's method and the default."""
+    return unhurried(scene, "paper") + unhurried(scene)
+
+
+def hurried(scene):
+    """99 % of a frame [ms], late frames, motion left out [%] with budgets of 4, 2, 1 ms."""
+    budgets = ("4", "2", "1")
+    return ([short(whole(scene, budget=budget, column="ms_99")) for budget in budgets] +
+            [fixed(whole(scene, budget=budget, column="late_frames")) for budget in budgets] +
+            [short(100.0 * whole(scene, budget=budget, column="left_out")) for budget in budgets])
+
+
 def soaked(column):
     """A column of the soak's table."""
     return [float(row[column]) for row in csv.DictReader(read("docs/stress/soak.csv").splitlines())]
@@ -249,7 +275,14 @@ FIGURES = {
         ("energy of its start within {} of what it could lose", [energy("auto").lstrip("-")]),
         ("at its 16 substeps, `auto`'s {} mm;",
          [short(1e3 * one("work_precision", "error_m", scene="swing", method="auto", setting="default"), 1)]),
-        ("the same with ball and self-contact | 4.9 (12) | {} ({}) |", both("curtain")),
+        ("stretch by up to {} of their length in the curtain and {} in the flag",
+         [short(whole(name, "paper", column="stretch_max")) for name in ("curtain", "flag without self-contact")]),
+        ("without self-contact | {} ({}) | {} ({}) | under", pair("flag without self-contact")),
+        ("1760 nodes, without contact | {} ({}) | {} ({}) | 10 |", pair("curtain without contact")),
+        ("the same with ball and self-contact | {} ({}) | {} ({}) | |", pair("curtain")),
+        ("by two corners, 5 s (without it {} ms a frame, 99 % {}) | 99 % of the frames within {}, {}, {} ms; of 300 late {}, {}, {}; motion left out {}, {}, {} %;",
+         unhurried(DROPPED) + hurried(DROPPED)),
+        ("with ball and self-contact ({} ms, 99 % {}): within {}, {}, {} ms; late {}, {}, {}; left out {}, {}, {} %:", unhurried("curtain") + hurried("curtain")),
         # -- exactness
         ("within {} (`auto`; `leapfrog` {}; {} nets)",
          [within(largest("nets", "relative_error", method="auto")), within(largest("nets", "relative_error", method="leapfrog")),
