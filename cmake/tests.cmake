@@ -118,7 +118,7 @@ if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT CMAKE_CXX_FLAGS MATCHES "-fsaniti
   include(cmake/cost.cmake)
   curtain_add_tests(cost curtain_weigh)
 endif()
-# The bits of motion: for both numbers of threads, and on a processor without AVX; emulated, which is slow, so what touches all kinds of things.
+# The bits of motion: for both numbers of threads, and on a processor without AVX. That one is emulated, which is slow: only with contact.
 set(golden ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/golden/check)
 foreach(threads 1 2)
   add_test(NAME golden_${threads} COMMAND ${golden} --threads ${threads} $<TARGET_FILE:curtain_batch>)
