@@ -49,7 +49,7 @@ void ObstacleSet::Item::serialize(Archive& archive) {
   archive.require(!follows || script.any(), "there is no motion to follow");
   archive.put(scripted, follows);
   archive.flag("moved", moved);
-  archive.within("own_way", own_path, 0.0, std::numeric_limits<double>::infinity());
+  archive.within("pace", pace, 0.0, std::numeric_limits<double>::infinity());
   archive.flag("behind", behind);
   archive.part("curve", curve);
   archive.put(stands, false);

@@ -8,8 +8,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "scene/layers.h"
-
 namespace curtain {
 namespace {
 
@@ -42,11 +40,6 @@ void MovingObstacle::move(const Transform& from, const Transform& to, const Pose
   swept_ = boxAround(bounds, before).merged(boxAround(bounds, after));
 }
 
-double followingSpeed(const Scene& scene) noexcept {
-  const double gravity = scene.gravity.norm();
-  return gravity > 0.0 ? std::sqrt(2.0 * gravity * longestWarp(scene)) : std::numeric_limits<double>::infinity();
-}
-
 ShapeMaker shapesBy(MeshResolver resolve) {
   return [resolve = std::move(resolve)](std::size_t, const ObstacleParams& params) {
     return std::shared_ptr<const ContactShape>(makeContactShape(params, resolve));
@@ -54,7 +47,7 @@ ShapeMaker shapesBy(MeshResolver resolve) {
 }
 
 ObstacleSet::ObstacleSet(const Scene& scene, const ShapeMaker& make_shape)
-    : frame_length_(1.0 / scene.solver.frame_rate), following_speed_(followingSpeed(scene)) {
+    : frame_length_(1.0 / scene.solver.frame_rate) {
   std::string unusable;
   for (std::size_t n = 0; n < scene.obstacles.size(); ++n) {
     const ObstacleParams& params = scene.obstacles[n];
@@ -105,7 +98,7 @@ void ObstacleSet::reset() noexcept {
     items_[n].curve.put(items_[n].initial);
     items_[n].scripted = items_[n].script.any();
     items_[n].stands = items_[n].moves = items_[n].moved = items_[n].behind = items_[n].boxed = false;
-    items_[n].own_path = 0.0;
+    items_[n].pace = 0.0;
     moving_[n].present = true;
   }
   any_moved_ = boxed_ = false;
@@ -133,6 +126,7 @@ void ObstacleSet::setPose(int index, const Pose& pose, bool jump) noexcept {
     item.begin = pose;
     item.curve.put(pose);
     item.behind = false;
+    item.pace = 0.0;
   }
   item.moved = item.moved || moves;
   touch(item);
@@ -145,7 +139,7 @@ void ObstacleSet::beginFrame(double end_time) noexcept {
     if (item.scripted) moveOn(n, item.script.at(end_time));
     if (item.behind) {
       const double rest = pathBetween(item.begin, item.end, n);
-      const double allowed = std::max(item.own_path, following_speed_ * frame_length_);
+      const double allowed = kCatchUp * item.pace;
       item.curve.leadEvenly(item.begin, item.end, rest > allowed ? allowed / rest : 1.0, frame_length_);
     } else if (item.scripted) {
       item.curve.follow(item.script, end_time, frame_length_);
@@ -170,7 +164,7 @@ double ObstacleSet::pathBetween(const Pose& a, const Pose& b, std::size_t index)
 void ObstacleSet::moveOn(std::size_t index, const Pose& pose) noexcept {
   Item& item = items_[index];
   item.stands = false;
-  if (item.behind) item.own_path = pathBetween(item.end, pose, index);
+  item.pace = std::max(item.pace, pathBetween(item.end, pose, index));
   item.end = pose;
 }
 
@@ -252,7 +246,7 @@ void ObstacleSet::endFrame(double share) noexcept {
     item.curve.arrive(item.begin);
     item.moves = false;
     item.moved = item.behind = !samePlace(item.begin, item.end);
-    item.own_path = 0.0;
+    if (!item.behind) item.pace = 0.0;
     item.left = item.begin;
     item.placed = 0;
     item.boxed = boxed_ = false;

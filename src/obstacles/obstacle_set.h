@@ -21,10 +21,11 @@ namespace curtain {
 
 class Archive;
 
-/// Speed limit of an obstacle that fell behind its pose, because a frame ended early or the cloth could not give way
-/// [m/s]; its own speed if that is higher. It is that of a free fall through the cloth's height, at which cloth
-/// commonly moves by itself. Infinite without gravity.
-double followingSpeed(const Scene& scene) noexcept;
+/// What fell behind its target, because a frame ended early or the cloth could not give way, follows no faster than this
+/// many times the fastest that its target has moved since. Much faster than it ever was it would be a blow to the cloth,
+/// and substeps would have to be so much shorter that a frame gets it no further. With 1 it would never catch up with a
+/// target that moves evenly.
+constexpr double kCatchUp = 1.5;
 
 /// A rigid transform as a matrix, for many points.
 struct Transform {
@@ -165,7 +166,7 @@ class ObstacleSet {
     bool moved = false;
     bool stands = false;        // has stood for a frame, and nothing has moved it since
     double radius = 0.0;        // of its points about its origin, with the padding [m]
-    double own_path = 0.0;      // displacement of its target since the last frame [m]
+    double pace = 0.0;          // of its target, at its fastest since it was last there [m a frame]
     bool behind = false;        // the last frame ended short of the target
     std::uint64_t placed = 0;   // substep that its MovingObstacle is of
     Eigen::AlignedBox3d swept;  // around its motion in the frame, world frame
@@ -186,8 +187,7 @@ class ObstacleSet {
   void computeExactBox(std::size_t index) noexcept;
   void searchAround(const Eigen::AlignedBox3d& box) noexcept;
 
-  double frame_length_;     // [s]
-  double following_speed_;  // [m/s]
+  double frame_length_;  // [s]
 
   std::vector<Item> items_;
   std::vector<MovingObstacle> moving_;

@@ -2,6 +2,7 @@
 #include "step/pin_moves.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "cloth/archive.h"
 #include "obstacles/obstacle_set.h"
@@ -38,11 +39,13 @@ bool PinMoves::moves() const noexcept {
 void PinMoves::move(std::size_t node, const Vec3& target) noexcept {
   if (slot_[node] == kNone) {
     slot_[node] = moves_.size();
-    moves_.push_back({node, target, false, false});
+    moves_.push_back({node, target});
     return;
   }
-  moves_[slot_[node]].target = target;
-  moves_[slot_[node]].arrived = false;
+  Move& move = moves_[slot_[node]];
+  move.pace = std::max(move.pace, (target - move.target).norm());
+  move.target = target;
+  move.arrived = false;
 }
 
 void PinMoves::letGo(std::size_t node) noexcept {
@@ -65,11 +68,12 @@ bool PinMoves::prepareFrame(const FrameBegin&, ClothState& state) noexcept {
 
 // Pinned nodes move by their velocity alone.
 bool PinMoves::beginFrame(const FrameBegin& begin, ClothState& state) noexcept {
-  const double following_speed = followingSpeed(scene_);
   for (Move& move : moves_) {
-    const Vec3 velocity = (move.target - state.position.at(move.node)) * begin.rate;
-    const double share = move.behind ? std::min(1.0, following_speed / velocity.norm()) : 1.0;
-    state.velocity.set(move.node, share * velocity);
+    const Vec3 path = move.target - state.position.at(move.node);
+    if (!move.behind) move.pace = path.norm();
+    const double allowed = kCatchUp * move.pace;
+    const double share = path.norm() > allowed ? allowed / path.norm() : 1.0;
+    state.velocity.set(move.node, share * begin.rate * path);
     move.behind = share < 1.0;
   }
   return false;
@@ -97,6 +101,7 @@ void PinMoves::serialize(Archive& archive) {
       seen[move.node] = 1;
     }
     archive.finite("target", move.target);
+    archive.within("pace", move.pace, 0.0, std::numeric_limits<double>::infinity());
     archive.flag("behind", move.behind);
     archive.flag("arrived", move.arrived);
   });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Moves of pinned nodes, evenly over a frame. One that did not arrive follows in the next frames, no faster than
-// followingSpeed() (obstacles/obstacle_set.h).
+// kCatchUp (obstacles/obstacle_set.h) allows.
 #pragma once
 
 #include <vector>
@@ -49,6 +49,7 @@ class PinMoves : public Part {
   struct Move {
     std::size_t node = 0;
     Vec3 target = Vec3::Zero();
+    double pace = 0.0;     // of its target, at its fastest since it was last there [m a frame]
     bool behind = false;   // did not arrive in the last frame
     bool arrived = false;  // in the last frame; only its velocity is left
   };

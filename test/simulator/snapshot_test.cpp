@@ -177,11 +177,11 @@ TEST(Snapshot, HasAVersionForEveryLayout) {
   SnapshotParts parts;
   const std::string snapshot = Simulator(all).snapshot();
   ASSERT_FALSE(unpackSnapshot(snapshot, parts).has_value());
-  EXPECT_EQ(kSnapshotVersion, 18U);
-  EXPECT_EQ(parts.layout, 1097326813U);
+  EXPECT_EQ(kSnapshotVersion, 19U);
+  EXPECT_EQ(parts.layout, 1267211714U);
   const std::string plain = Simulator(flatScene(4, 5)).snapshot();
   ASSERT_FALSE(unpackSnapshot(plain, parts).has_value());
-  EXPECT_EQ(parts.layout, 3558247167U);
+  EXPECT_EQ(parts.layout, 3159170174U);
 }
 
 }  // namespace
