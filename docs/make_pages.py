@@ -91,7 +91,7 @@ def read_sections(lines):
             top = len(parents) == 1
             target = scene if top else sections[-1]
             name = key["name"] if top else ".".join(parents[2:] + [key["name"]])
-            target.rows.append([re.sub(r"^(motion|path)\.", r"\1[].", name), value, text])
+            target.rows.append([re.sub(r"^(motion|path|patches)\.", r"\1[].", name), value, text])
             last, pending = target.rows[-1], []
     return sections
 

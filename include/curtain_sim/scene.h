@@ -71,6 +71,21 @@ enum class Material {
   kParachuteNylon
 };
 
+/// A part of the cloth that is of another fabric: the nodes of a block, each with its share of the area. What is not
+/// given is that of the cloth, or of patches before it in the list.
+struct PatchParams {
+  std::vector<int> rows;                     ///< its first and its last, [0..rows - 1]. Empty: all
+  std::vector<int> columns;                  ///< the same, [0..columns - 1]
+  Material material = Material::kNone;       ///< what applyMaterial() was called with; has no effect of its own
+  std::optional<double> surface_density;     ///< as those of the cloth
+  std::optional<double> porosity;            ///< the same
+  std::optional<double> bending_warp;        ///< the same
+  std::optional<double> bending_weft;        ///< the same
+  std::optional<double> bending_bias;        ///< the same
+  std::optional<double> bending_hysteresis;  ///< the same
+  std::optional<double> shear;               ///< the same
+};
+
 /// The cloth: its grid, its size and its mass.
 struct ClothParams {
   int rows = 0;                         ///< nodes along the warp, hung edge first [2..4096]; no default
@@ -89,9 +104,10 @@ struct ClothParams {
   double bending_bias = 0.0;  ///< the same along the bias, of wide cloth, [0..1000]; up to the quarter of the others'
                               ///< sum that warp and weft give: no more than that
   double bending_hysteresis = 0.0;  ///< twice the friction's moment per width [N], [0..1e6]: KES 2HB; 0: none
-  double shear = 0.0;             ///< shear rigidity [N/m], [0..1e6]: force per width and angle; 0: none. With it wefts
-                                  ///< that bend resist shortening until they buckle
-  std::vector<SlitParams> slits;  ///< cuts along the warp, each elsewhere; strips have at least two columns
+  double shear = 0.0;  ///< shear rigidity [N/m], [0..1e6]: force per width and angle; 0: none. With it wefts
+                       ///< that bend resist shortening until they buckle
+  std::vector<PatchParams> patches;  ///< parts of other fabrics; where they overlap the last one holds
+  std::vector<SlitParams> slits;     ///< cuts along the warp, each elsewhere; strips have at least two columns
   /// Relative lengths of the rows-1 warp rods, top first, each > 0; scaled to height. Empty: all equal.
   std::vector<double> row_spacing;
   /// Relative lengths of the weft links of a row (columns-1, closed: columns), each > 0; scaled to the
@@ -490,6 +506,11 @@ std::vector<Problem> validate(const ContactParams& contact, const std::string& k
 void applyMaterial(Material material, Scene& scene);
 /// The same for a layer of the scene, but for friction and thickness, which are of all contact.
 void applyMaterial(Material material, const Scene& scene, LayerParams& layer);
+/// The same for a patch, but for air drag, too.
+void applyMaterial(Material material, PatchParams& patch);
+/// Lays a patch on the cloth, over those that are there; those that it covers go. One that gives nothing only does
+/// that.
+void addPatch(const PatchParams& patch, ClothParams& cloth);
 
 /// Names of the methods as scene files and --method spell them, in the order of the enum.
 const std::vector<std::string>& methodNames();

@@ -58,23 +58,18 @@ class Neighbours {
 void fillBending(const Layers& layers, ClothPattern& pattern) {
   const Grid& grid = pattern.grid;
   const Neighbours neighbours(pattern);
-  bool warp = false, weft = false;
-  for (const Layers::Layer& layer : layers) {
-    warp = warp || layer.cloth->bending_warp > 0.0;
-    weft = weft || layer.cloth->bending_weft > 0.0;
-  }
+  const bool warp = layers.anyFabric([](const Fabric& fabric) { return fabric.bending_warp > 0.0; });
+  const bool weft = layers.anyFabric([](const Fabric& fabric) { return fabric.bending_weft > 0.0; });
   pattern.warp_bending.assign(warp ? grid.size() : 0, 0.0);
   pattern.weft_bending.assign(weft ? grid.size() : 0, 0.0);
-  for (const Layers::Layer& layer : layers) {
-    const ClothParams& cloth = *layer.cloth;
-    for (int i = 0; i < grid.rows; ++i) {
-      for (int j = layer.first; j < layer.end; ++j) {
-        const std::size_t n = grid.index(i, j);
-        if (cloth.bending_warp > 0.0)
-          pattern.warp_bending[n] = stiffnessOf(neighbours.alongWarp(i, j), cloth.bending_warp);
-        if (cloth.bending_weft > 0.0)
-          pattern.weft_bending[n] = stiffnessOf(neighbours.alongWeft(i, j), cloth.bending_weft);
-      }
+  for (int i = 0; i < grid.rows && (warp || weft); ++i) {
+    for (int j = 0; j < grid.columns; ++j) {
+      const std::size_t n = grid.index(i, j);
+      const Fabric fabric = layers.fabricAt(i, j);
+      if (fabric.bending_warp > 0.0)
+        pattern.warp_bending[n] = stiffnessOf(neighbours.alongWarp(i, j), fabric.bending_warp);
+      if (fabric.bending_weft > 0.0)
+        pattern.weft_bending[n] = stiffnessOf(neighbours.alongWeft(i, j), fabric.bending_weft);
     }
   }
 }

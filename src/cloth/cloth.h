@@ -139,6 +139,17 @@ void forEachCell(const Grid& grid, const Visit& visit) {
   }
 }
 
+/// A value of the fabric of each cell, by the node at its top right: the mean of its corners'. value(Fabric): double.
+template <typename Value>
+Field perCell(const Grid& grid, const Layers& layers, const Value& value) {
+  Field out(grid.size(), 0.0);
+  const auto at = [&](int i, int j) { return value(layers.fabricAt(i, j)); };
+  forEachCell(grid, [&](int i, int j, int left) {
+    out[grid.index(i, j)] = 0.25 * ((at(i, left) + at(i, j)) + (at(i + 1, left) + at(i + 1, j)));
+  });
+  return out;
+}
+
 /// Least mass for each area of cloth at the corners of a cell [kg/m^2]; arguments as forEachCell() has them.
 double lightestCorner(const ClothPattern& pattern, int row, int right, int left);
 

@@ -134,8 +134,9 @@ void placeLayer(const Scene& scene, const ClothPattern& pattern, Field3& positio
 void placeCloth(const Scene& scene, const ClothPattern& pattern, Field3& position) {
   const Layers layers(scene);
   for (std::size_t k = 0; k < layers.size(); ++k) {
-    const Scene one = layerScene(scene, k);
+    Scene one = layerScene(scene, k);
     const ClothPattern own = makeLayerPattern(one);
+    one.cloth = prevailingFabric(one.cloth);
     Field3 placed;
     placed.assign(own.grid.size(), 0.0);
     placeLayer(one, own, placed);

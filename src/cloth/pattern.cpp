@@ -72,12 +72,13 @@ void fillMasses(const ClothParams& cloth, ClothPattern& pattern) {
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = 0; j < grid.columns; ++j) total_area += pattern.area[grid.index(i, j)] = nodeArea(pattern, i, j);
   }
-  const double uniform_mass = cloth.surface_density * total_area / static_cast<double>(grid.nodeCount());
   for (int i = 0; i < grid.rows; ++i) {
     for (int j = 0; j < grid.columns; ++j) {
       const std::size_t node = grid.index(i, j);
-      const double base =
-          cloth.lumping == Lumping::kUniform ? uniform_mass : cloth.surface_density * pattern.area[node];
+      const double density = fabricAt(cloth, i, j).surface_density;
+      const double base = cloth.lumping == Lumping::kUniform
+                              ? density * total_area / static_cast<double>(grid.nodeCount())
+                              : density * pattern.area[node];
       pattern.mass[node] = base * factor(cloth.row_mass, i) * factor(cloth.column_mass, j);
     }
   }

@@ -21,10 +21,10 @@ namespace curtain {
 
 class Archive;
 
-/// What fell behind its target, because a frame ended early or the cloth could not give way, follows no faster than this
-/// many times the fastest that its target has moved since. Much faster than it ever was it would be a blow to the cloth,
-/// and substeps would have to be so much shorter that a frame gets it no further. With 1 it would never catch up with a
-/// target that moves evenly.
+/// What fell behind its target, because a frame ended early or the cloth could not give way, follows no faster than
+/// this many times the fastest that its target has moved since. Much faster than it ever was it would be a blow to the
+/// cloth, and substeps would have to be so much shorter that a frame gets it no further. With 1 it would never catch up
+/// with a target that moves evenly.
 constexpr double kCatchUp = 1.5;
 
 /// A rigid transform as a matrix, for many points.

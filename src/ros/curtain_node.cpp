@@ -84,8 +84,8 @@ void CurtainNode::startServices(const ros::NodeHandle& private_node) {
   Tuning::Actions tuning;
   tuning.apply = [this](const curtain_sim::CurtainConfig& values) { tune(values); };
   tuning.present = [this] { return liveValues(simulator_.scene(), params_); };
-  tuning.set_material = [this](const std::string& material, const std::string& layer) {
-    return applyMaterial(material, layer, simulator_);
+  tuning.set_material = [this](const curtain_sim::SetMaterialRequest& wanted) {
+    return applyMaterial(wanted, simulator_);
   };
   tuning_ = std::make_unique<Tuning>(private_node, calls_, tuning);
   file_services_ = std::make_unique<FileServices>(private_node, calls_, simulator_, file);

@@ -53,6 +53,23 @@ void visitFields(Visitor& visitor, T& value) {
 }
 
 template <>
+struct Fields<PatchParams> {
+  template <typename Visitor, typename T>
+  static void visit(Visitor& v, T& patch) {
+    v.integers("rows", patch.rows, IntRange{0, 4095});
+    v.integers("columns", patch.columns, IntRange{0, 4095});
+    v.choice("material", patch.material, materialNames());
+    v.optionalNumber("surface_density", patch.surface_density, positive());
+    v.optionalNumber("porosity", patch.porosity, between(0.0, 1.0));
+    v.optionalNumber("bending_warp", patch.bending_warp, between(0.0, 1e3));
+    v.optionalNumber("bending_weft", patch.bending_weft, between(0.0, 1e3));
+    v.optionalNumber("bending_bias", patch.bending_bias, between(0.0, 1e3));
+    v.optionalNumber("bending_hysteresis", patch.bending_hysteresis, between(0.0, 1e6));
+    v.optionalNumber("shear", patch.shear, between(0.0, 1e6));
+  }
+};
+
+template <>
 struct Fields<ClothParams> {
   template <typename Visitor, typename T>
   static void visit(Visitor& v, T& cloth) {
@@ -72,6 +89,7 @@ struct Fields<ClothParams> {
     v.number("bending_bias", cloth.bending_bias, between(0.0, 1e3));
     v.number("bending_hysteresis", cloth.bending_hysteresis, between(0.0, 1e6));
     v.number("shear", cloth.shear, between(0.0, 1e6));
+    v.list("patches", cloth.patches);
     v.slits("slits", cloth.slits);
     v.numbers("row_spacing", cloth.row_spacing, positive());
     v.numbers("column_spacing", cloth.column_spacing, positive());

@@ -2,7 +2,6 @@
 #include "scene/layers.h"
 
 #include <algorithm>
-#include <sstream>
 
 namespace curtain {
 
@@ -19,10 +18,9 @@ std::size_t Layers::numberOf(int column) const noexcept {
   return number;
 }
 
-std::string listOf(const Layers& layers, double ClothParams::*value) {
-  std::ostringstream text;
-  for (const Layers::Layer& layer : layers) text << (layer.first > 0 ? ", " : "") << layer.cloth->*value;
-  return text.str();
+Fabric Layers::fabricAt(int row, int column) const noexcept {
+  const Layer& layer = at(column);
+  return curtain::fabricAt(*layer.cloth, row, column - layer.first);
 }
 
 ClothParams wholeCloth(const Scene& scene) {
@@ -30,6 +28,7 @@ ClothParams wholeCloth(const Scene& scene) {
   if (scene.layers.empty()) return whole;
   whole.column_spacing.clear();
   whole.column_mass.clear();
+  whole.patches.clear();
   for (const LayerParams& layer : scene.layers) {
     whole.slits.push_back({whole.columns - 1, 0});
     for (const SlitParams& slit : layer.cloth.slits)

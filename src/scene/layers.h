@@ -8,11 +8,13 @@
 //     +-----------+  +--------+  +----------+
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <sstream>
 #include <string>
 #include <vector>
 
-#include "curtain_sim/scene.h"
+#include "scene/fabric.h"
 
 namespace curtain {
 
@@ -35,14 +37,30 @@ class Layers {
   const Layer& operator[](std::size_t number) const noexcept { return layers_[number]; }
   /// Number of the one that has the column, which must be of the grid.
   std::size_t numberOf(int column) const noexcept;
+  /// Fabric of a node.
+  Fabric fabricAt(int row, int column) const noexcept;
+  /// One of the cloths has fabric of this kind somewhere.
+  template <typename Is>
+  bool anyFabric(const Is& is) const {
+    return std::any_of(layers_.begin(), layers_.end(),
+                       [&](const Layer& layer) { return curtain::anyFabric(*layer.cloth, is); });
+  }
   const Layer& at(int column) const noexcept { return layers_[numberOf(column)]; }
 
  private:
   std::vector<Layer> layers_;
 };
 
-/// A value of all cloths, as text: "40" or "40, 110".
-std::string listOf(const Layers& layers, double ClothParams::*value);
+/// A value of all cloths, as text: "40", "40, 110", or "40 and patches".
+template <typename Value>
+std::string listOf(const Layers& layers, const Value& value) {
+  std::ostringstream text;
+  for (const Layers::Layer& layer : layers) {
+    text << (layer.first > 0 ? ", " : "") << value(fabricOf(*layer.cloth));
+    if (!layer.cloth->patches.empty()) text << " and patches";
+  }
+  return text.str();
+}
 
 /// A scene of one of the cloths alone, 0 being the first: without what is of all of them (lines, winds, hands, ...).
 Scene layerScene(const Scene& scene, std::size_t number);

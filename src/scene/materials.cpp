@@ -43,7 +43,8 @@ const Properties* propertiesOf(Material material) {
   return material == Material::kNone ? nullptr : &kTable.at(static_cast<std::size_t>(material) - 1);
 }
 
-void setFabric(const Properties& properties, ClothParams& cloth) {
+template <typename Cloth>
+void setFabric(const Properties& properties, Cloth& cloth) {
   cloth.surface_density = properties.density;
   cloth.bending_warp = properties.bending_warp;
   cloth.bending_weft = properties.bending_weft;
@@ -78,6 +79,11 @@ void applyMaterial(Material material, const Scene& scene, LayerParams& layer) {
   if (properties == nullptr) return;
   setFabric(*properties, layer.cloth);
   setDrag(*properties, scene.air, layer.air);
+}
+
+void applyMaterial(Material material, PatchParams& patch) {
+  patch.material = material;
+  if (const Properties* const properties = propertiesOf(material)) setFabric(*properties, patch);
 }
 
 }  // namespace curtain

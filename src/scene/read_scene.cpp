@@ -65,10 +65,11 @@ std::optional<std::size_t> placeOfName(const YAML::Node& map, const char* key, c
 
 // The material comes first: the other keys are read over it. Whatever else it may be is a problem that the reader
 // finds.
-std::optional<Material> materialIn(const YAML::Node& root) {
-  const std::optional<std::size_t> place = placeOfName(mapIn(root, "cloth"), "material", materialNames());
+std::optional<Material> materialOf(const YAML::Node& cloth) {
+  const std::optional<std::size_t> place = placeOfName(cloth, "material", materialNames());
   return place ? std::optional<Material>(static_cast<Material>(*place)) : std::nullopt;
 }
+std::optional<Material> materialIn(const YAML::Node& root) { return materialOf(mapIn(root, "cloth")); }
 
 void applyMaterial(const YAML::Node& root, Scene& scene) {
   const std::optional<Material> material = materialIn(root);
@@ -78,7 +79,19 @@ void applyMaterial(const YAML::Node& root, Scene& scene) {
   applyMaterial(*material, scene);
 }
 
-// Layers are read again over their materials; what is wrong with them is known.
+// Patches and layers are read again over their materials; what is wrong with them is known.
+void readPatchesAgain(const YAML::Node& root, ClothParams& cloth) {
+  for (std::size_t k = 0; k < cloth.patches.size(); ++k) {
+    const YAML::Node map = root["cloth"]["patches"][k];
+    const std::optional<Material> material = map.IsMap() ? materialOf(map) : std::nullopt;
+    if (!material) continue;
+    cloth.patches[k] = {};
+    applyMaterial(*material, cloth.patches[k]);
+    ProblemLog known;
+    StrictReader::readMap(map, itemKey("cloth.patches", k), cloth.patches[k], known);
+  }
+}
+
 void readLayersAgain(const YAML::Node& root, Scene& scene) {
   for (std::size_t k = 0; k < scene.layers.size(); ++k) {
     const YAML::Node map = root["layers"][k];
@@ -90,6 +103,7 @@ void readLayersAgain(const YAML::Node& root, Scene& scene) {
       ProblemLog known;
       StrictReader::readMap(map, itemKey("layers", k), layer, known);
     }
+    readPatchesAgain(map, layer.cloth);
     applyFullness(map, layer.hang, layer.cloth);
   }
 }
@@ -104,6 +118,7 @@ SceneReading readScene(const YAML::Node& root) {
     ProblemLog log;
     applyMaterial(root, reading.scene);
     StrictReader::readMap(root, "", reading.scene, log);
+    readPatchesAgain(root, reading.scene.cloth);
     applyFullness(root, reading.scene.hang, reading.scene.cloth);
     readLayersAgain(root, reading.scene);
     checkScene(reading.scene, log);

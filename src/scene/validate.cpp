@@ -84,14 +84,37 @@ void checkSlits(const ClothParams& cloth, ProblemLog& log) {
   }
 }
 
+// One direction of a block of nodes.
+void checkBlock(const std::string& key, const std::vector<int>& block, int count, ProblemLog& log) {
+  if (block.empty() || !log.good(key)) return;
+  const std::string most = std::to_string(count - 1);
+  if (block.size() != 2) {
+    log.add(key, "must be [first, last], has " + std::to_string(block.size()) + " entries");
+  } else if (block[0] > block[1] || block[1] >= count) {
+    log.add(key, "must be [first, last] with 0 <= first <= last <= " + most + ", is [" + std::to_string(block[0]) +
+                     ", " + std::to_string(block[1]) + "]");
+  }
+}
+
+void checkPatches(const ClothParams& cloth, ProblemLog& log) {
+  for (std::size_t k = 0; k < cloth.patches.size(); ++k) {
+    const std::string key = itemKey("cloth.patches", k);
+    if (log.good("cloth.rows")) checkBlock(joinKey(key, "rows"), cloth.patches[k].rows, cloth.rows, log);
+    if (log.good("cloth.columns")) checkBlock(joinKey(key, "columns"), cloth.patches[k].columns, cloth.columns, log);
+  }
+}
+
 // Springs of a joint are as stiff as its links' lengths are small, to the third power.
 void checkBending(const Scene& scene, ProblemLog& log) {
   const ClothParams& cloth = scene.cloth;
-  if (scene.solver.method == Method::kPaper && (cloth.shear > 0.0 || cloth.bending_bias > 0.0))
+  if (!cloth.patches.empty() && (!log.good("cloth.rows") || !log.good("cloth.columns"))) return;
+  const auto any = [&](const auto& is) { return anyFabric(cloth, is); };
+  if (scene.solver.method == Method::kPaper &&
+      any([](const Fabric& fabric) { return fabric.shear > 0.0 || fabric.bending_bias > 0.0; }))
     log.add("solver.method", "can't be paper for cloth that resists shear or twist (cloth.shear, bending_bias > 0)");
-  if (cloth.bending_hysteresis > 0.0 && !(cloth.bending_warp > 0.0 || cloth.bending_weft > 0.0))
+  if (any([](const Fabric& fabric) { return fabric.bending_hysteresis > 0.0 && !fabric.bends(); }))
     log.add("cloth.bending_hysteresis", "must be 0 where bending_warp and bending_weft are 0");
-  if (!(cloth.bending_warp > 0.0 || cloth.bending_weft > 0.0)) return;
+  if (!any([](const Fabric& fabric) { return fabric.bends(); })) return;
   if (scene.solver.method == Method::kPaper)
     log.add("solver.method",
             "can't be paper for cloth that resists bending (cloth.bending_warp, cloth.bending_weft > 0)");
@@ -270,6 +293,7 @@ void checkHands(const Scene& scene, const ClothParams& whole, ProblemLog& log) {
 void checkCloth(const Scene& scene, ProblemLog& log) {
   checkSizes(scene.cloth, log);
   checkSlits(scene.cloth, log);
+  checkPatches(scene.cloth, log);
   checkHem(scene, log);
   if (scene.rail.path.empty()) checkStart(scene, log);
   checkPins(scene, log);

@@ -161,9 +161,11 @@ void RayCaster::Impl::addCloth(const Simulator& simulator, std::optional<double>
         *std::min_element(triangle.begin(), triangle.end(), [&](std::uint32_t a, std::uint32_t b) {
           return a % static_cast<std::uint32_t>(topology.columns) < b % static_cast<std::uint32_t>(topology.columns);
         });
-    const std::size_t layer = layers.numberOf(static_cast<int>(left) % topology.columns / topology.folds);
+    const int row = static_cast<int>(left) / topology.columns;
+    const int column = static_cast<int>(left) % topology.columns / topology.folds;
+    const std::size_t layer = layers.numberOf(column);
     cloth_labels.push_back(layer == 0 ? RayHit::kCloth : labelOf(given.obstacles.size() + layer - 1));
-    porosity.push_back(of_all.value_or(layers[layer].cloth->porosity));
+    porosity.push_back(of_all.value_or(layers.fabricAt(row, column).porosity));
   }
   const auto points = static_cast<std::size_t>(topology.rows) * static_cast<std::size_t>(topology.columns);
   cloth = newTriangles(device, points, topology.triangles, positions);

@@ -352,6 +352,32 @@ void drawLayer(Drawn& drawn) {
   }
 }
 
+// A part of the cloth that is of another fabric, by dice of its own.
+void drawPatch(Drawn& drawn) {
+  Dice dice(3 * drawn.seed + static_cast<std::uint64_t>(drawn.kind) + (19ULL << 59));
+  Scene& scene = drawn.scene;
+  ClothParams& cloth = scene.cloth;
+  const bool wild = drawn.kind == Kind::kWild;
+  if (scene.solver.method == Method::kPaper || !dice.chance(0.15)) return;
+  PatchParams patch;
+  const auto block = [&](int count) {
+    const int first = dice.integer(0, count - 1);
+    return std::vector<int>{first, dice.integer(first, count - 1)};
+  };
+  patch.rows = block(cloth.rows);
+  if (dice.chance(0.5)) patch.columns = block(cloth.columns);
+  if (dice.chance(0.7)) patch.surface_density = dice.magnitude(0.2, 5.0) * cloth.surface_density;
+  if (dice.chance(0.5)) patch.porosity = dice.between(0.0, 1.0);
+  if (dice.chance(0.5)) patch.shear = dice.magnitude(0.3, wild ? 1e5 : 300.0);
+  if (dice.chance(0.5)) patch.bending_warp = patch.bending_weft = dice.magnitude(1e-7, wild ? 1.0 : 1e-3);
+  cloth.patches.push_back(patch);
+  try {
+    const Simulator begins(scene, resolveTrialMesh);
+  } catch (const std::invalid_argument&) {  // its links are too short to bend, or it begins in itself
+    cloth.patches.clear();
+  }
+}
+
 // Hands, by dice of their own. Two that do not give could be drawn through each other with what they hold: of those,
 // and beside pins that move, there is one.
 void drawHands(Drawn& drawn) {
@@ -429,6 +455,7 @@ Drawn draw(Kind kind, std::uint64_t seed) {
   if (kind != Kind::kSudden) drawLines(drawn);
   if (kind != Kind::kSudden) drawHands(drawn);
   if (kind != Kind::kSudden) drawLayer(drawn);
+  if (kind != Kind::kSudden) drawPatch(drawn);
   return drawn;
 }
 

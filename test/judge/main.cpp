@@ -90,6 +90,7 @@ std::string partsOf(const Drawn& drawn) {
       {"self-contact", scene.contact.self},
       {"layers", !scene.layers.empty()},
       {"fabric", cloth.shear > 0.0 || cloth.bending_bias > 0.0 || cloth.bending_hysteresis > 0.0},
+      {"patches", !cloth.patches.empty()},
       {"bending", cloth.bending_warp > 0.0 || cloth.bending_weft > 0.0},
       {"slits", !cloth.slits.empty()},
       {"ring", cloth.closed},

@@ -27,6 +27,7 @@ Drawn shrink(Drawn drawn, const Rigour& rigour) {
   cut([](Drawn& d) { return d.scene.wind.empty() ? false : (d.scene.wind.pop_back(), true); });
   cut([](Drawn& d) { return d.scene.wind.empty() ? false : (d.scene.wind.erase(d.scene.wind.begin()), true); });
   cut([](Drawn& d) { return d.scene.layers.empty() ? false : (d.scene.layers.clear(), true); });
+  cut([](Drawn& d) { return d.scene.cloth.patches.empty() ? false : (d.scene.cloth.patches.clear(), true); });
   cut([](Drawn& d) { return d.scene.contact.self ? (d.scene.contact.self = false, true) : false; });
   cut([](Drawn& d) { return d.happenings.pin_swing.isZero() ? false : (d.happenings.pin_swing.setZero(), true); });
   cut([](Drawn& d) { return d.happenings.pin_jerk.isZero() ? false : (d.happenings.pin_jerk.setZero(), true); });
@@ -58,7 +59,8 @@ Drawn shrink(Drawn drawn, const Rigour& rigour) {
     rows = std::max(2, rows);
     columns = std::max(2, columns);
     const bool plain_grid = cloth.row_spacing.empty() && cloth.column_spacing.empty() && cloth.row_mass.empty() &&
-                            cloth.column_mass.empty() && cloth.slits.empty() && d.scene.layers.empty();
+                            cloth.column_mass.empty() && cloth.slits.empty() && cloth.patches.empty() &&
+                            d.scene.layers.empty();
     if (!plain_grid || (rows == cloth.rows && columns == cloth.columns)) return false;
     const auto move = [&](NodeIndex& node) {
       node.row = node.row * (rows - 1) / (cloth.rows - 1);

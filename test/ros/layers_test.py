@@ -108,8 +108,8 @@ class LayersTest(unittest.TestCase):
 
     def test_material_is_that_of_a_layer(self):
         set_material = service(NODE, "set_material", SetMaterial)
-        self.assertTrue(set_material("velvet", "banner").success)
-        answer = set_material("velvet", "nobody")
+        self.assertTrue(set_material("velvet", "banner", [], []).success)
+        answer = set_material("velvet", "nobody", [], [])
         self.assertFalse(answer.success)
         self.assertIn("layer", answer.message)
 

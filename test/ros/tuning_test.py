@@ -66,15 +66,31 @@ class TuningTest(unittest.TestCase):
         frame = self.curtain.next().statistics.frame
         rospy.wait_for_service(NODE + "/set_material", 20.0)
         set_material = rospy.ServiceProxy(NODE + "/set_material", SetMaterial)
-        answer = set_material("velvet", "")
+        answer = set_material("velvet", "", [], [])
         self.assertTrue(answer.success, answer.message)
         self.shown("cloth_surface_density", 0.4773)
         self.shown("cloth_shear", 50.0)
         self.shown("contact_friction", 0.6)
         self.curtain.wait_for(lambda s: s.statistics.frame > frame + 30, "frames come, and are counted on")
-        answer = set_material("tweed", "")
+        answer = set_material("tweed", "", [], [])
         self.assertFalse(answer.success)
         self.assertIn("material: must be none, cotton_voile", answer.message)
+
+    def test_a_part_of_another_fabric(self):
+        """A part weighs what its fabric does; what lies on it goes; material none takes it away; no other part is one."""
+        rospy.wait_for_service(NODE + "/set_material", 20.0)
+        set_material = rospy.ServiceProxy(NODE + "/set_material", SetMaterial)
+        whole = self.weight()
+        rows, columns = self.curtain.next().rows, self.curtain.next().columns
+        # All of it but the fabric's own keys, as a patch: weights go by the density of velvet over that of the cloth.
+        self.assertTrue(set_material("velvet", "", [0, rows - 1], [0, columns - 1]).success)
+        share = 0.4773 / rospy.get_param(NODE + "/cloth_surface_density")
+        wait_until(lambda: abs(self.weight() - share * whole) < 1e-3 * abs(whole), "it weighs as velvet does")
+        answer = set_material("silk", "", [2, rows], [])
+        self.assertFalse(answer.success)
+        self.assertIn("cloth.patches[1].rows: must be [first, last] with 0 <= first <= last <= %d" % (rows - 1), answer.message)
+        self.assertTrue(set_material("none", "", [0, rows - 1], []).success)
+        wait_until(lambda: abs(self.weight() - whole) < 1e-3 * abs(whole), "the patch is gone")
 
     def test_rates(self):
         self.client.update_configuration({"state_rate": 10.0})

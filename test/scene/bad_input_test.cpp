@@ -229,6 +229,20 @@ TEST(BadInput, SlitsOutsideTheClothAndTwiceAtOnePlaceAreNamed) {
                 {"leaves column 0 alone"});
 }
 
+TEST(BadInput, PatchesThatAreNoPartOfTheClothAreNamed) {
+  const auto patch = [](const std::string& keys) { return "cloth: {rows: 4, columns: 8, patches: [{" + keys + "}]}"; };
+  expectProblem("cloth: {rows: 4, columns: 8, patches: {rows: [0, 1]}}", "cloth.patches", {"a list", "is a map"});
+  expectProblem(patch("rows: [1]"), "cloth.patches[0].rows", {"must be [first, last]", "has 1 entries"});
+  expectProblem(patch("rows: [2, 1]"), "cloth.patches[0].rows", {"0 <= first <= last <= 3, is [2, 1]"});
+  expectProblem(patch("columns: [0, 8]"), "cloth.patches[0].columns", {"0 <= first <= last <= 7, is [0, 8]"});
+  expectProblem(patch("columns: [-1, 3]"), "cloth.patches[0].columns[0]", {"[0, 4095]", "is -1"});
+  expectProblem(patch("material: tweed"), "cloth.patches[0].material", {"cotton_voile", "tweed"});
+  expectProblem(patch("surface_density: 0"), "cloth.patches[0].surface_density", {"[1e-09, ", "is 0"});
+  expectProblem(patch("folds: 2"), "cloth.patches[0].folds", {"is not a known key", "rows, columns, material"});
+  expectProblem(patch("bending_hysteresis: 0.01"), "cloth.bending_hysteresis", {"must be 0 where bending_warp"});
+  expectProblem(patch("bending_warp: 1e-4") + "\nsolver: {method: paper}", "solver.method", {"can't be paper"});
+}
+
 TEST(BadInput, HangLineLongerThanTheClothIsWideIsNamed) {
   expectProblem(with("hang: {from: [0, 0, 2], to: [1.1, 0, 2]}"), "hang.to",
                 {"no further from hang.from than cloth.width = 1 m", "is 1.1 m away"});

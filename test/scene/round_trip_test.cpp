@@ -66,6 +66,20 @@ void compareCloth(const ClothParams& a, const ClothParams& b) {
     c.same("slits.column", a.slits[i].column, b.slits[i].column);
     c.same("slits.from_row", a.slits[i].from_row, b.slits[i].from_row);
   }
+  ASSERT_EQ(a.patches.size(), b.patches.size());
+  for (std::size_t i = 0; i < a.patches.size(); ++i) {
+    const PatchParams &one = a.patches[i], &other = b.patches[i];
+    EXPECT_EQ(one.rows, other.rows);
+    EXPECT_EQ(one.columns, other.columns);
+    c.same("patches.material", one.material, other.material);
+    c.optional("patches.surface_density", one.surface_density, other.surface_density);
+    c.optional("patches.porosity", one.porosity, other.porosity);
+    c.optional("patches.bending_warp", one.bending_warp, other.bending_warp);
+    c.optional("patches.bending_weft", one.bending_weft, other.bending_weft);
+    c.optional("patches.bending_bias", one.bending_bias, other.bending_bias);
+    c.optional("patches.bending_hysteresis", one.bending_hysteresis, other.bending_hysteresis);
+    c.optional("patches.shear", one.shear, other.shear);
+  }
   c.numbers("row_spacing", a.row_spacing, b.row_spacing);
   c.numbers("column_spacing", a.column_spacing, b.column_spacing);
   c.numbers("row_mass", a.row_mass, b.row_mass);
@@ -285,6 +299,18 @@ Scene oddScene() {
   scene.cloth.lumping = Lumping::kUniform;
   scene.cloth.folds = 9;
   scene.cloth.porosity = 1.0 / 3.0;
+  PatchParams patch;
+  patch.rows = {2, 4};
+  applyMaterial(Material::kVelvet, patch);
+  patch.surface_density = numbers.between(0.1, 0.3);
+  patch.porosity = 1.0 / 3.0;
+  patch.bending_bias = 0.0;
+  scene.cloth.patches = {patch, {}};
+  scene.cloth.patches[1].columns = {0, 3};
+  scene.cloth.patches[1].bending_warp = 1e-4 / 3.0;
+  scene.cloth.patches[1].bending_weft = 1e-5 / 3.0;
+  scene.cloth.patches[1].bending_hysteresis = 1e-3 / 3.0;
+  scene.cloth.patches[1].shear = 1e2 / 3.0;
   scene.cloth.slits = {{1, 5}};
   scene.cloth.row_spacing = numbers.list(5);
   scene.cloth.column_spacing = numbers.list(4);

@@ -66,6 +66,18 @@ std::map<std::string, Change> changes() {
              cloth.bending_weft = cloth.bending_weft > 0.0 ? 5e-4 : 1e-4;
            }},
           {"bias", [](ClothParams& cloth) { cloth.bending_bias = cloth.bending_bias > 0.0 ? 0.0 : 1e-3; }},
+          {"patches",
+           [](ClothParams& cloth) {
+             PatchParams hem, netting;
+             hem.rows = {9, 11};
+             hem.surface_density = 0.4;
+             hem.bending_warp = hem.bending_weft = 2e-4;
+             netting.rows = {0, 4};
+             netting.columns = {3, 9};
+             netting.porosity = 0.7;
+             netting.shear = 10.0;
+             cloth.patches = {hem, netting};
+           }},
           {"all", [](ClothParams& cloth) {
              cloth = resistingEverything(cloth);
              cloth.surface_density = 0.3;

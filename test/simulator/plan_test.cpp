@@ -22,7 +22,7 @@ const PlanEntry& entryOf(const Plan& plan, const std::string& stage) {
   return none;
 }
 
-WindParams fan(const std::string& id, const Vec3& position) {
+WindParams fanCalled(const std::string& id, const Vec3& position) {
   WindParams wind;
   wind.id = id;
   wind.position = position;
@@ -51,8 +51,8 @@ TEST(Plan, GravityAloneLeavesEverythingElseOut) {
 
 TEST(Plan, NamesWhatActsAndWhyTheOthersDoNot) {
   Scene scene = flatScene(8, 6);
-  scene.wind = {fan("near", {0.5, -1.0, 0.5}), fan("past", {9.0, -1.0, 0.5}), fan("late", {0.5, -1.0, 0.5}),
-                fan("still", {0.5, -1.0, 0.5})};
+  scene.wind = {fanCalled("near", {0.5, -1.0, 0.5}), fanCalled("past", {9.0, -1.0, 0.5}),
+                fanCalled("late", {0.5, -1.0, 0.5}), fanCalled("still", {0.5, -1.0, 0.5})};
   scene.wind[2].start = 7.0;
   scene.wind[3].pressure = 0.0;
   scene.drag.resize(1);
@@ -97,7 +97,7 @@ TEST(Plan, OfClothThatSleepsNothingRuns) {
 
 TEST(Plan, GustsAloneReadNoNormals) {
   Scene scene = flatScene(8, 6);
-  scene.wind = {fan("gusts", {0.5, -1.0, 0.5})};
+  scene.wind = {fanCalled("gusts", {0.5, -1.0, 0.5})};
   scene.wind[0].pressure = 0.0;
   scene.wind[0].unsteadiness = 1.0;
   const Simulator simulator(scene);

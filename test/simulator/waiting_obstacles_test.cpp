@@ -126,8 +126,8 @@ TEST(ObstacleLag, TheMotionOfASubstepIsWhatWasMade) {
   EXPECT_NEAR(obstacles.lag(0), 7.35e-3, 1e-12);
 }
 
-// Of each of ten frames a quarter is made, of later ones all: in the cloth's time the obstacle moves at most 1.5 times as
-// fast as it was led, and makes up 5 mm a frame.
+// Of each of ten frames a quarter is made, of later ones all: in the cloth's time the obstacle moves at most 1.5 times
+// as fast as it was led, and makes up 5 mm a frame.
 TEST(ObstacleLag, WhatFellBehindIsHardlyFasterThanItWas) {
   Scene scene = flatScene(4, 4);
   scene.obstacles.push_back(ballAt({0.0, -1.0, 0.0}, 0.1));

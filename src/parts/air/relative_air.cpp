@@ -20,21 +20,21 @@ CURTAIN_INTO_WIDE double meanOf(double u, double gained, double z) {
 
 // Constants of addForces().
 struct Substep {
-  double normal, tangential;  // 1/2 rho c [kg/m^3]
+  double normal, tangential;  // 1/2 rho c [kg/m^3], normal: of cloth without pores
   double kick;                // [s]
   double pulls;               // 1: there are pulls; 0: there are none
 };
 
 // A row of nodes.
 struct NodeRow {
-  const double *inverse_mass, *area;
+  const double *inverse_mass, *area, *solid;
   ConstFieldView area_vector, wind, velocity, pull;
   FieldView force;
 };
 
 template <bool kBackward>
 CURTAIN_INTO_WIDE void addRow(int columns, const NodeRow row, const Substep drag) {
-  const auto& [inverse_mass, areas, area_vector, wind, velocity, pull, force] = row;
+  const auto& [inverse_mass, areas, solid, area_vector, wind, velocity, pull, force] = row;
   const double kick = drag.kick, pulled = drag.kick * drag.pulls;
 #pragma omp simd
   for (int j = 0; j < columns; ++j) {
@@ -50,7 +50,7 @@ CURTAIN_INTO_WIDE void addRow(int columns, const NodeRow row, const Substep drag
     const double tx = ux - un * nx, ty = uy - un * ny, tz = uz - un * nz;
     const double hx = gx - gn * nx, hy = gy - gn * ny, hz = gz - gn * nz;
     // The corner triangles of nodeAreaVectors() are twice the node's share.
-    const double bn = 0.5 * drag.normal * size, bt = drag.tangential * areas[j];
+    const double bn = 0.5 * (drag.normal * solid[j]) * size, bt = drag.tangential * areas[j];
     // First with the speed at the start, then with that of the mean: of second order.
     const double first = std::sqrt(ux * ux + uy * uy + uz * uz);
     const double zn = bn * first * kw, zt = bt * first * kw;
@@ -78,6 +78,11 @@ RelativeAir::RelativeAir(const AirParams& air, const Layers& layers, const Cloth
                          const AmbientParams& ambient)
     : air_(air), layers_(layers), pattern_(pattern), ambient_(ambient) {
   area_vectors_.assign(pattern.grid.size(), 0.0);
+  solid_.assign(pattern.grid.size(), 1.0);
+  for (int i = 0; i < pattern.grid.rows; ++i) {
+    for (int j = 0; j < pattern.grid.columns; ++j)
+      solid_[pattern.grid.index(i, j)] = 1.0 - layers.fabricAt(i, j).porosity;
+  }
   kept_.reserve(pattern.grid.nodeCount());
   resume();
 }
@@ -86,14 +91,18 @@ RelativeAir::Drag RelativeAir::dragOf(const Layers::Layer& layer) const noexcept
   if (air_.law != AirLaw::kRelative) return {0.0, 0.0};
   const double normal = layer.air != nullptr ? layer.air->normal_drag : air_.normal_drag;
   const double tangential = layer.air != nullptr ? layer.air->tangential_drag : air_.tangential_drag;
-  return {0.5 * air_.density * normal * (1.0 - layer.cloth->porosity), 0.5 * air_.density * tangential};
+  return {0.5 * air_.density * normal, 0.5 * air_.density * tangential};
 }
 
 void RelativeAir::resume() {
   largest_ = 0.0;
   for (const Layers::Layer& layer : layers_) {
     const Drag drag = dragOf(layer);
-    largest_ = std::max({largest_, drag.normal, drag.tangential});
+    double solid = 0.0;
+    for (int i = 0; i < pattern_.grid.rows; ++i) {
+      for (int j = layer.first; j < layer.end; ++j) solid = std::max(solid, solid_[pattern_.grid.index(i, j)]);
+    }
+    largest_ = std::max({largest_, drag.normal * solid, drag.tangential});
   }
 }
 
@@ -128,6 +137,7 @@ void RelativeAir::addForces(const ClothState& state, ForceSum& sum) noexcept {
       const ConstFieldView pull(ahead.pull != nullptr ? *ahead.pull : sum.air, row);  // read unconditionally
       const NodeRow nodes{pattern_.inverse_mass.data() + row,
                           pattern_.area.data() + row,
+                          solid_.data() + row,
                           {area_vectors_, row},
                           {sum.air, row},
                           {state.velocity, row},

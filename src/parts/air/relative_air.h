@@ -58,6 +58,7 @@ class RelativeAir final : public Part {
   const AmbientWind ambient_;
   double largest_ = 0.0;  // 1/2 rho c of all [kg/m^3]
   Field3 area_vectors_;
+  Field solid_;             // by node, the share that is no pore
   std::vector<Vec3> kept_;  // forces on the nodes that are led [N]
 };
 

@@ -19,8 +19,7 @@ constexpr double kJointsOfANode = 6.0;
 }  // namespace
 
 Hysteresis::Hysteresis(const Layers& layers, const ClothPattern& pattern) : pattern_(pattern), layers_(layers) {
-  const auto rubs = [](const Layers::Layer& layer) { return layer.cloth->bending_hysteresis > 0.0; };
-  if (std::none_of(layers.begin(), layers.end(), rubs)) return;
+  if (!layers.anyFabric([](const Fabric& fabric) { return fabric.bending_hysteresis > 0.0; })) return;
   const std::size_t size = pattern.grid.size();
   slips_.assign(2 * size, 0.0);
   sliders_.reserve(2 * size);
@@ -45,18 +44,19 @@ void Hysteresis::fill() noexcept {
   sliders_.clear();
   omega_squared_ = 0.0;
   fillTurningLengths(pattern_, warp_length_, weft_length_);
-  const auto visit = [&](bool warp, const Field& stiffness, const Field& length, double ClothParams::*rigidity) {
+  const auto visit = [&](bool warp, const Field& stiffness, const Field& length, double Fabric::*rigidity) {
     for (int i = 0; i < grid.rows && !stiffness.empty(); ++i) {
       for (int j = 0; j < grid.columns; ++j) {
         const std::size_t n = grid.index(i, j);
-        const ClothParams& cloth = *layers_.at(j).cloth;
-        if (stiffness[n] == 0.0 || !(cloth.bending_hysteresis > 0.0)) continue;
+        if (stiffness[n] == 0.0) continue;
+        const Fabric fabric = layers_.fabricAt(i, j);
+        if (!(fabric.bending_hysteresis > 0.0)) continue;
         Slider slider;
         slider.joint = turningJoint(pattern_, warp, i, j);
         slider.slip = warp ? n : grid.size() + n;
         slider.stiffness = kSlider * stiffness[n];
-        const double width = stiffness[n] * length[n] / (cloth.*rigidity);
-        slider.most = 0.5 * cloth.bending_hysteresis * width;
+        const double width = stiffness[n] * length[n] / (fabric.*rigidity);
+        slider.most = 0.5 * fabric.bending_hysteresis * width;
         const double a = slider.joint.per_before, b = slider.joint.per_after;
         const Field& mass = pattern_.mass;
         const double per_mass =
@@ -66,8 +66,8 @@ void Hysteresis::fill() noexcept {
       }
     }
   };
-  visit(true, pattern_.warp_bending, warp_length_, &ClothParams::bending_warp);
-  visit(false, pattern_.weft_bending, weft_length_, &ClothParams::bending_weft);
+  visit(true, pattern_.warp_bending, warp_length_, &Fabric::bending_warp);
+  visit(false, pattern_.weft_bending, weft_length_, &Fabric::bending_weft);
 }
 
 void Hysteresis::pinsChanged() noexcept {
@@ -120,7 +120,7 @@ void Hysteresis::serialize(Archive& archive) { archive.finite("slips", slips_); 
 bool Hysteresis::explain(const ClothState&, double, Plan& plan) const {
   std::ostringstream text;
   if (any())
-    text << listOf(layers_, &ClothParams::bending_hysteresis) << " N"
+    text << listOf(layers_, [](const Fabric& fabric) { return fabric.bending_hysteresis; }) << " N"
          << (share() < 1.0 ? ", of which the substeps bear a part" : "");
   else
     text << "cloth.bending_hysteresis is 0";

@@ -18,13 +18,13 @@ Field inverseOf(const Field& lengths) {
 
 // A cell's own largest frequency, with the share of its nodes' masses that belongs to it; that of all cells together
 // is no larger (Irons, Treharne 1971).
-double fastestCell(const Layers& layers, const ClothPattern& pattern) {
+double fastestCell(const Field& rigidity, const ClothPattern& pattern) {
   const Grid& grid = pattern.grid;
   double fastest = 0.0;
   forEachCell(grid, [&](int i, int j, int left) {
     const double weft = pattern.weft_rest[grid.index(i, j)], warp = pattern.warp_rest[grid.index(i + 1, j)];
     const double per_node = lightestCorner(pattern, i, j, left) * warp * weft;
-    fastest = std::max(fastest, layers.at(j).cloth->shear * (4.0 * (warp / weft + weft / warp) / per_node));
+    fastest = std::max(fastest, rigidity[grid.index(i, j)] * (4.0 * (warp / weft + weft / warp) / per_node));
   });
   return fastest;
 }
@@ -64,14 +64,12 @@ std::array<Vec2, 4> flatCell(const ClothPattern& pattern, const std::vector<Vec2
 
 Shear::Shear(const Layers& layers, const ClothPattern& pattern, const Workers& workers)
     : pattern_(pattern), workers_(workers), layers_(layers) {
-  omega_squared_ = fastestCell(layers, pattern);
-  if (!any()) return;
+  if (!layers.anyFabric([](const Fabric& fabric) { return fabric.shear > 0.0; })) return;
   const Grid& grid = pattern.grid;
+  const Field rigidity = perCell(grid, layers, [](const Fabric& fabric) { return fabric.shear; });
+  omega_squared_ = fastestCell(rigidity, pattern);
   stiffness_.assign(grid.size(), 0.0);
-  for (int i = 0; i < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j)
-      stiffness_[grid.index(i, j)] = 0.25 * layers.at(j).cloth->shear * pattern.cell[grid.index(i, j)];
-  }
+  for (std::size_t n = 0; n < grid.size(); ++n) stiffness_[n] = 0.25 * rigidity[n] * pattern.cell[n];
   per_warp_ = inverseOf(pattern.warp_rest);
   per_weft_ = inverseOf(pattern.weft_rest);
   for (Field& sines : flat_) sines.assign(grid.size(), 0.0);
@@ -181,7 +179,7 @@ double Shear::energyAt(const Field3& position) const noexcept {
 bool Shear::explain(const ClothState&, double, Plan& plan) const {
   std::ostringstream text;
   if (any())
-    text << listOf(layers_, &ClothParams::shear) << " N/m"
+    text << listOf(layers_, [](const Fabric& fabric) { return fabric.shear; }) << " N/m"
          << (share() < 1.0 ? ", of which the substeps bear a part" : "");
   plan.push_back({"shear", any(), any() ? text.str() : "cloth.shear is 0"});
   return false;

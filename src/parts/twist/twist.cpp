@@ -9,10 +9,6 @@
 namespace curtain {
 namespace {
 
-double twistRigidity(const ClothParams& cloth) {
-  return std::max(0.0, cloth.bending_bias - 0.25 * (cloth.bending_warp + cloth.bending_weft));
-}
-
 struct Corners {
   std::size_t a, b, c, d;  // top left, top right, bottom left, bottom right
 };
@@ -27,16 +23,17 @@ double volumeOf(const Corners& at, const Field3& position) noexcept {
 
 Twist::Twist(const Layers& layers, const ClothPattern& pattern, const Workers& workers)
     : pattern_(pattern), workers_(workers), layers_(layers) {
-  const auto resists = [](const Layers::Layer& layer) { return twistRigidity(*layer.cloth) > 0.0; };
-  if (std::none_of(layers.begin(), layers.end(), resists)) return;
+  const auto twistOf = [](const Fabric& fabric) { return fabric.twist(); };
+  if (!layers.anyFabric([&](const Fabric& fabric) { return twistOf(fabric) > 0.0; })) return;
   const Grid& grid = pattern.grid;
+  const Field rigidity = perCell(grid, layers, twistOf);
   stiffness_.assign(grid.size(), 0.0);
   forEachCell(grid, [&](int i, int j, int left) {
     const std::size_t n = grid.index(i, j), below = grid.index(i + 1, j);
     const double top = pattern.weft_rest[n], bottom = pattern.weft_rest[below];
     const double on_left = pattern.warp_rest[grid.index(i + 1, left)], on_right = pattern.warp_rest[below];
     const double area = 0.25 * (top + bottom) * (on_left + on_right), edges = top * bottom * on_left * on_right;
-    const double stiffness = 4.0 * twistRigidity(*layers.at(j).cloth) * area / (edges * edges);
+    const double stiffness = 4.0 * rigidity[n] * area / (edges * edges);
     stiffness_[n] = pattern.cell[n] * stiffness;
     // Its own frequency, with the share of its nodes' masses that belongs to it. The slope of V at a node is twice the
     // area of the others' triangle at most.
@@ -115,11 +112,10 @@ double Twist::energyAt(const Field3& position) const noexcept {
 
 bool Twist::explain(const ClothState&, double, Plan& plan) const {
   std::ostringstream text;
-  const auto given = [](const Layers::Layer& layer) { return layer.cloth->bending_bias > 0.0; };
   if (any()) {
-    for (const Layers::Layer& layer : layers_) text << (layer.first > 0 ? ", " : "") << twistRigidity(*layer.cloth);
-    text << " N m" << (share() < 1.0 ? ", of which the substeps bear a part" : "");
-  } else if (std::any_of(layers_.begin(), layers_.end(), given)) {
+    text << listOf(layers_, [](const Fabric& fabric) { return fabric.twist(); }) << " N m"
+         << (share() < 1.0 ? ", of which the substeps bear a part" : "");
+  } else if (layers_.anyFabric([](const Fabric& fabric) { return fabric.bending_bias > 0.0; })) {
     text << "cloth.bending_bias is no more than warp and weft lines give";
   } else {
     text << "cloth.bending_bias is 0";

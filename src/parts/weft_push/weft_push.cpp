@@ -22,23 +22,23 @@ void forEachWeft(const Grid& grid, const Visit& visit) {
   }
 }
 
-bool pushes(const Layers::Layer& layer) { return layer.cloth->shear > 0.0 && layer.cloth->bending_weft > 0.0; }
-
 }  // namespace
 
 WeftPush::WeftPush(const Layers& layers, const ClothPattern& pattern) : pattern_(pattern) {
-  if (std::none_of(layers.begin(), layers.end(), pushes)) return;
+  if (!layers.anyFabric([](const Fabric& fabric) { return fabric.push() > 0.0; })) return;
   const Grid& grid = pattern.grid;
   load_.assign(grid.size(), 0.0);
   const auto stride = static_cast<std::size_t>(grid.stride);
-  forEachWeft(grid, [&](std::size_t n, std::size_t) {
-    const Layers::Layer& layer = layers.at(static_cast<int>(n % stride));
-    if (!pushes(layer)) return;
+  const auto rigidityAt = [&](std::size_t n) {
+    return layers.fabricAt(static_cast<int>(n / stride), static_cast<int>(n % stride)).push();
+  };
+  forEachWeft(grid, [&](std::size_t n, std::size_t left) {
+    const double rigidity = 0.5 * (rigidityAt(n) + rigidityAt(left));
     // Half the cloth to the next row belongs to this.
     const double above = n >= stride ? pattern.cell[n - stride] * pattern.warp_rest[n] : 0.0;
     const double below = n + stride < grid.row(grid.rows) ? pattern.cell[n] * pattern.warp_rest[n + stride] : 0.0;
     const double rest = pattern.weft_rest[n];
-    load_[n] = kPi * kPi * layer.cloth->bending_weft / (rest * rest) * 0.5 * (above + below);
+    load_[n] = kPi * kPi * rigidity / (rest * rest) * 0.5 * (above + below);
   });
   assign(grid.size());
   push_.assign(stride + 1, 0.0);

@@ -108,7 +108,7 @@ double LayerShadow::shareAt(std::size_t node, int layer, const Field3& position,
         const auto end = sheets.begin() + static_cast<std::ptrdiff_t>(count);
         if (at_line < 0.0 || std::any_of(sheets.begin(), end, same)) continue;
         sheets[count++] = {triangle.layer, at_line};
-        share *= wind.passes(static_cast<int>(triangle.corners[0] % static_cast<std::size_t>(pattern_.grid.stride)));
+        share *= wind.passes(triangle.corners[0]);
       }
     }
   }

@@ -20,10 +20,12 @@ std::uint64_t seedOf(std::uint64_t seed, const std::string& id) {
   return mixed.hash;
 }
 
-Field poresOf(const WindParams& wind, const Layers& layers) {
-  Field pores;
-  for (const Layers::Layer& layer : layers)
-    pores.resize(static_cast<std::size_t>(layer.end), 1.0 - wind.porosity_weight * layer.cloth->porosity);
+Field poresOf(const WindParams& wind, const Grid& grid, const Layers& layers) {
+  Field pores(grid.size(), 0.0);
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = 0; j < grid.columns; ++j)
+      pores[grid.index(i, j)] = 1.0 - wind.porosity_weight * layers.fabricAt(i, j).porosity;
+  }
   return pores;
 }
 
@@ -32,7 +34,7 @@ Field poresOf(const WindParams& wind, const Layers& layers) {
 WindSource::WindSource(const WindParams& wind, const ClothPattern& pattern, const Layers& layers, std::uint64_t seed)
     : wind_(wind),
       axis_(wind.direction.normalized()),
-      pores_(poresOf(wind, layers)),
+      pores_(poresOf(wind, pattern.grid, layers)),
       strength_(*std::max_element(pores_.begin(), pores_.end()) *
                 (wind.pressure + wind.node_force + wind.unsteadiness)),
       steady_(wind.pressure + wind.node_force > 0.0),
@@ -189,7 +191,7 @@ CURTAIN_WIDE void WindSource::addSteady(const ClothPattern& pattern, int i, cons
   const ConstFieldView p(position, row), normal(area_vectors, row);
   const double* const area = pattern.area.data() + row;
   const double* const factor = distance_factor_.data() + row;
-  const double* const pores = pores_.data();
+  const double* const pores = pores_.data() + row;
   const FieldView f(force, row);
 #pragma omp simd
   for (int j = 0; j < grid.columns; ++j) {
@@ -210,9 +212,9 @@ CURTAIN_WIDE void WindSource::addSteady(const ClothPattern& pattern, int i, cons
 CURTAIN_WIDE void WindSource::addGusts(const ClothPattern& pattern, int i, Field3& force) noexcept {
   const Grid& grid = pattern.grid;
   const double strength = wind_.unsteadiness;
-  const double* const pores = pores_.data();
   double* const gust = gust_row_.data();
   const std::size_t row = grid.row(i);
+  const double* const pores = pores_.data() + row;
   const double* const factor = distance_factor_.data() + row;
   const double* const area = pattern.area.data() + row;
   int component = 0;

@@ -53,8 +53,8 @@ class WindSource {
   /// Largest speed of its air, without gusts [m/s].
   double topSpeed(const ClothPattern& pattern, double density) const noexcept;
 
-  /// Share of its wind that the cloth of this column lets through.
-  double passes(int column) const noexcept { return 1.0 - pores_[static_cast<std::size_t>(column)]; }
+  /// Share of its wind that the cloth at this node lets through.
+  double passes(std::size_t node) const noexcept { return 1.0 - pores_[node]; }
 
   /// Share of the wind that obstacles and other cloths leave each node [0..1], shape [grid.size()], read by find();
   /// WindParams::shadow.
@@ -96,7 +96,7 @@ class WindSource {
   WindParams wind_;
   Vec3 axis_;
   Cone cone_;
-  Field pores_;            // by column, 1 - c_mu mu
+  Field pores_;            // by node, 1 - c_mu mu
   double widening_ = 0.0;  // of the cone's radius along its axis; 0 = parallel wind
   double strength_;        // sum of pressure, node force and gusts; 0: the source is still
   bool steady_;            // it has more than gusts

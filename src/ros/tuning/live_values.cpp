@@ -110,19 +110,32 @@ std::vector<Problem> applyLiveValues(const CurtainConfig& values, curtain::Simul
   return all;
 }
 
-std::vector<Problem> applyMaterial(const std::string& name, const std::string& layer, curtain::Simulator& simulator) {
+std::vector<Problem> applyMaterial(const curtain_sim::SetMaterialRequest& wanted, curtain::Simulator& simulator) {
+  const std::string &name = wanted.material, &layer = wanted.layer;
   const std::vector<std::string>& names = curtain::materialNames();
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) return {{"material", "must be " + curtain::alternatives(names) + ", is '" + name + "'"}};
   const auto material = static_cast<curtain::Material>(found - names.begin());
   curtain::Scene scene = simulator.scene();
+  const bool part = !wanted.rows.empty() || !wanted.columns.empty();
+  curtain::PatchParams patch;
+  patch.rows.assign(wanted.rows.begin(), wanted.rows.end());
+  patch.columns.assign(wanted.columns.begin(), wanted.columns.end());
+  curtain::applyMaterial(material, patch);
   if (!layer.empty() && layer != curtain::kFirstCloth) {
     const auto one = std::find_if(scene.layers.begin(), scene.layers.end(),
                                   [&](const curtain::LayerParams& params) { return params.name == layer; });
     if (one == scene.layers.end())
       return {{"layer", "must be empty, \"cloth\" or the name of a layer, is '" + layer + "'"}};
-    curtain::applyMaterial(material, scene, *one);
+    if (part)
+      addPatch(patch, one->cloth);
+    else
+      curtain::applyMaterial(material, scene, *one);
     return simulator.setCloth(one->cloth, layer);
+  }
+  if (part) {
+    addPatch(patch, scene.cloth);
+    return simulator.setCloth(scene.cloth);
   }
   curtain::applyMaterial(material, scene);
   std::vector<Problem> problems = simulator.setCloth(scene.cloth);

@@ -20,10 +20,10 @@ curtain_sim::CurtainConfig liveValues(const curtain::Scene& scene, const NodePar
 std::vector<curtain::Problem> applyLiveValues(const curtain_sim::CurtainConfig& values, curtain::Simulator& simulator,
                                               NodeParams& params);
 
-/// Makes the cloth of a layer ("" or "cloth": the first) one of this fabric (curtain::applyMaterial());
-/// contact.thickness stays, and of a layer friction and air. Returns what is wrong with it: a name that is none, or a
-/// method that knows no such cloth; then nothing changed.
-std::vector<curtain::Problem> applyMaterial(const std::string& name, const std::string& layer,
+/// Makes the cloth that is asked for, or a part of it, one of a known fabric (curtain::applyMaterial());
+/// contact.thickness stays, and of a layer or a part friction and air. Returns what is wrong with it: a name that is
+/// none, no such part, or a method that knows no such cloth; then nothing changed.
+std::vector<curtain::Problem> applyMaterial(const curtain_sim::SetMaterialRequest& wanted,
                                             curtain::Simulator& simulator);
 
 }  // namespace curtain_ros

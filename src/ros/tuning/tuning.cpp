@@ -32,7 +32,7 @@ Tuning::Tuning(const ros::NodeHandle& private_node, Calls& calls, Actions action
 
 bool Tuning::setMaterial(curtain_sim::SetMaterial::Request& request, curtain_sim::SetMaterial::Response& response) {
   std::vector<curtain::Problem> problems;
-  const bool tried = calls_.run([&] { problems = actions_.set_material(request.material, request.layer); });
+  const bool tried = calls_.run([&] { problems = actions_.set_material(request); });
   response.message = tried ? curtain::describe(problems) : kStops;
   response.success = response.message.empty();
   if (tried) publish();

@@ -28,7 +28,7 @@ class Tuning {
     std::function<void(const curtain_sim::CurtainConfig&)> apply;  ///< sets what is right of these values
     std::function<curtain_sim::CurtainConfig()> present;           ///< the values that hold
     /// Makes the cloth one of this fabric, or says why not.
-    std::function<std::vector<curtain::Problem>(const std::string& material, const std::string& layer)> set_material;
+    std::function<std::vector<curtain::Problem>(const curtain_sim::SetMaterialRequest&)> set_material;
   };
   /// actions are called by the simulation thread, through calls, and `present` once by the constructor. calls must
   /// outlive this.

@@ -18,7 +18,7 @@ namespace {
 // Keys that may change, of the first cloth and of layers.
 std::vector<std::string> mayChange() {
   std::vector<std::string> keys;
-  for (const char* name : {"material", "surface_density", "porosity", "row_mass", "column_mass", "shear",
+  for (const char* name : {"material", "surface_density", "porosity", "row_mass", "column_mass", "shear", "patches",
                            "bending_warp", "bending_weft", "bending_bias", "bending_hysteresis"}) {
     for (const char* of : {"cloth.", "layers[].cloth."}) keys.push_back(std::string(of) + name);
   }
