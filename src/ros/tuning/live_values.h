@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "curtain_sim/CurtainConfig.h"
+#include "curtain_sim/SetMaterial.h"
 #include "curtain_sim/simulator.h"
 #include "ros/parameters/parameters.h"
 
