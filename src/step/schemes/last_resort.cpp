@@ -39,16 +39,28 @@ void LastResort::forEachBound(const Field& inverse, const Visit& visit) const {
 SubstepStart LastResort::start(const Task& task, const ClothState& state, SubstepOutcome& outcome) noexcept {
   const Field* const keep = task.inertia.keep();
   const Field& w = task.inertia.inverse();
-  const Field3& force = forceFrom(state, task);
+  const Field3& outer = *task.forces.force;
   base_.position = state.position;
   base_.place = state.place;
-  for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
-    const Vec3 v = state.velocity.at(n);
-    base_.velocity.set(
-        n, w[n] > 0.0 ? Vec3((keep != nullptr ? (*keep)[n] : 1.0) * v + task.kick * w[n] * force.at(n)) : v);
+  const auto accelerate = [&](const Field3& force, double sign) {
+    for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
+      if (w[n] > 0.0) base_.velocity.add(n, sign * task.kick * w[n] * force.at(n));
+    }
+    for (const std::size_t n : pattern_.guided) base_.velocity.set(n, Vec3::Zero());  // they stand still
+  };
+  const auto cutPath = [&] {
+    outcome.momentum_cut += cut(base_.position, w, task.plan.h, task.plan.reach, base_.velocity);
+  };
+  for (std::size_t n = 0; n < pattern_.grid.size(); ++n)
+    base_.velocity.set(n, (keep != nullptr && w[n] > 0.0 ? (*keep)[n] : 1.0) * state.velocity.at(n));
+  accelerate(outer, 1.0);
+  cutPath();
+  if (task.elastic != nullptr) {
+    // Where the outer forces lead within the reach: shear of links that are many times too long has no bound.
+    accelerate(outer, -1.0);
+    accelerate(task.elastic->addAhead({base_, outer, nullptr, nullptr, task.kick, task.plan.h}, w), 1.0);
+    cutPath();
   }
-  for (const std::size_t n : pattern_.guided) base_.velocity.set(n, Vec3::Zero());  // they stand still
-  outcome.momentum_cut += cut(base_.position, w, task.plan.h, task.plan.reach, base_.velocity);
   return {base_, no_force_, nullptr, nullptr, task.kick, task.plan.h};
 }
 
