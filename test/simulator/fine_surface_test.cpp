@@ -175,7 +175,7 @@ TEST(FineSurface, PiercesNothing) {
     Tally tally;
     for (int frame = 0; frame < 120; ++frame) {
       simulator.step();
-      if (frame % 4 == 3) look(simulator, *shape, tally);
+      if (frame % 8 == 7) look(simulator, *shape, tally);
     }
     std::printf(
         "%-18s contacts %3d, frames %ld (first layer pierced in %ld, %ld of %ld quads), fine nodes in %ld, faces "
