@@ -26,6 +26,7 @@ const std::vector<Study>& studies() {
                                          {"contact", studyContact},
                                          {"contact_frames", studyContactFrames},
                                          {"contact_peers", studyContactPeers},
+                                         {"closed_forms", studyClosedForms},
                                          {"ccd", studyCcd},
                                          {"features", studyFeatures},
                                          {"sensing", studySensing}};

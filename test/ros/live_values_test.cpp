@@ -58,6 +58,8 @@ struct Collector {
   void numbers(Rest&&...) {}
   template <typename... Rest>
   void slits(Rest&&...) {}
+  template <typename... Rest>
+  void list(Rest&&...) {}
 };
 
 Table tableOfKeys() {

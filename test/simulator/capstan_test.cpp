@@ -12,19 +12,12 @@
 namespace curtain {
 namespace {
 
+using curtain_test::bearable;
 using curtain_test::layOver;
 using curtain_test::Strap;
 using curtain_test::strapScene;
 
 constexpr double kLight = 0.05;  // [kg]
-
-// The pull on the other side, over gravity, of a strap that is about to slide. Along it
-//     dT / da = friction (T + w sin a) + w cos a,   w = mass over length * radius,
-// with the angle a from where the strap meets the bar on the light side: all that the strap weighs is counted.
-double bearable(const Strap& strap, double friction, double pull) {
-  const double e = std::exp(friction * kPi), w = Strap::kPerLength * strap.held();
-  return pull * e + 2.0 * friction * w / (1.0 + friction * friction) * (1.0 + e);
-}
 
 // By how much the heavy end sinks in a second [m]. load: over the largest that the strap holds; might: if that slides,
 // by how much with the acceleration that is left.

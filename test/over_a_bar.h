@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -77,9 +78,19 @@ inline double layOver(curtain::Simulator& simulator, const Strap& strap) {
     }
     for (const double y : {-0.02, 0.02}) positions.push_back(at(way) + curtain::Vec3(0.0, y, 0.0));
   }
-  EXPECT_TRUE(
-      simulator.setState(positions, std::vector<curtain::Vec3>(positions.size(), curtain::Vec3::Zero())).empty());
+  const std::vector<curtain::Vec3> still(positions.size(), curtain::Vec3::Zero());
+  const std::vector<curtain::Problem> problems = simulator.setState(positions, still);
+  if (!problems.empty()) throw std::logic_error(curtain::describe(problems));
   return way - half_turn;
+}
+
+/// The pull on the left side, over gravity, of a strap that is about to slide there, `pull` [kg] being that on the
+/// right (Euler 1769, Eytelwein 1808). Along it
+///     dT / da = friction (T + w sin a) + w cos a,   w = mass over length * radius,
+/// with the angle a from where the strap meets the bar on the right: all that the strap weighs is counted.
+inline double bearable(const Strap& strap, double friction, double pull) {
+  const double e = std::exp(friction * curtain::kPi), w = Strap::kPerLength * strap.held();
+  return pull * e + 2.0 * friction * w / (1.0 + friction * friction) * (1.0 + e);
 }
 
 /// Of a row [kg].
