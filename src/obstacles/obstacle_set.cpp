@@ -164,7 +164,7 @@ double ObstacleSet::pathBetween(const Pose& a, const Pose& b, std::size_t index)
 void ObstacleSet::moveOn(std::size_t index, const Pose& pose) noexcept {
   Item& item = items_[index];
   item.stands = false;
-  item.pace = std::max(item.pace, pathBetween(item.end, pose, index));
+  if (item.behind) item.pace = std::max(item.pace, pathBetween(item.end, pose, index));
   item.end = pose;
 }
 
@@ -243,10 +243,11 @@ void ObstacleSet::endFrame(double share) noexcept {
   for (Item& item : items_) {
     if (!item.moved) continue;
     item.begin = item.curve.at(share);
+    const bool behind = !samePlace(item.begin, item.end);
+    if (!behind || !item.behind) item.pace = behind ? item.path() : 0.0;
     item.curve.arrive(item.begin);
     item.moves = false;
-    item.moved = item.behind = !samePlace(item.begin, item.end);
-    if (!item.behind) item.pace = 0.0;
+    item.moved = item.behind = behind;
     item.left = item.begin;
     item.placed = 0;
     item.boxed = boxed_ = false;

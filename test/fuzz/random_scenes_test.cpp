@@ -65,8 +65,9 @@ TEST(RandomSceneMaker, EveryKeyIsBroken) {
     for (Breakage& breakage : curtain_test::breakagesOf(validScene(n))) all.push_back(std::move(breakage));
   }
   for (const std::string& key : curtain::knownSceneKeys()) {
-    // No layer is closed, and few have strips; the first cloth's keys are the same.
+    // No layer is closed, few have strips, or patches that rub; the first cloth's keys are the same.
     if (key == "layers[].hang.radius" || key == "layers[].hang.overlap") continue;
+    if (key == "layers[].cloth.patches[].bending_hysteresis") continue;
     const auto same = [&key](const Breakage& breakage) {
       std::string plain;
       bool inside = false;

@@ -126,6 +126,28 @@ void fitHands(Scene& scene, const curtain::ClothParams& cloth) {
   if (none || slide) scene.pins_motion.clear();
 }
 
+// Blocks on the cloth; what a material says stands in the keys, as a file's reader has it.
+void fitPatches(curtain::ClothParams& cloth) {
+  const auto fit = [](std::vector<int>& block, int count) {
+    if (block.size() != 2) block.clear();
+    for (int& place : block) place = std::min(std::max(place, 0), count - 1);
+    std::sort(block.begin(), block.end());
+  };
+  const auto orElse = [](const auto& value, const auto& other) { return value ? value : other; };
+  for (curtain::PatchParams& patch : cloth.patches) {
+    fit(patch.rows, cloth.rows);
+    fit(patch.columns, cloth.columns);
+    curtain::PatchParams known;
+    applyMaterial(patch.material, known);
+    patch.surface_density = orElse(patch.surface_density, known.surface_density);
+    patch.porosity = orElse(patch.porosity, known.porosity);
+    patch.bending_warp = orElse(patch.bending_warp, known.bending_warp);
+    patch.bending_weft = orElse(patch.bending_weft, known.bending_weft);
+    patch.bending_bias = orElse(patch.bending_bias, known.bending_bias);
+    patch.shear = orElse(patch.shear, known.shear);
+  }
+}
+
 // Of one cloth, of a scene that has no other.
 void fitCloth(Scene& scene, Choices& choices) {
   curtain::ClothParams& cloth = scene.cloth;
@@ -157,7 +179,11 @@ void fitCloth(Scene& scene, Choices& choices) {
   if (cloth.closed || !(fullness >= 1.0 && fullness <= 3.0)) scene.hang.fullness.reset();
   fitRail(scene, choices);
   for (NodeIndex& pin : scene.pins.nodes) putOnGrid(pin, cloth);
-  if (cloth.bending_warp == 0.0 && cloth.bending_weft == 0.0) cloth.bending_hysteresis = 0.0;
+  fitPatches(cloth);
+  if (anyFabric(cloth, [](const curtain::Fabric& fabric) { return !fabric.bends(); })) {
+    cloth.bending_hysteresis = 0.0;
+    for (curtain::PatchParams& patch : cloth.patches) patch.bending_hysteresis.reset();
+  }
 }
 
 // Beside the first, which is fitted.
@@ -316,6 +342,7 @@ std::optional<Scene> makeScene(Choices& choices) {
     const auto make_limp = [&](curtain::ClothParams& cloth) {
       cloth.bending_warp = cloth.bending_weft = cloth.bending_hysteresis = 0.0;
       if (scene.solver.method == curtain::Method::kPaper) cloth.shear = cloth.bending_bias = 0.0;
+      cloth.patches.clear();
     };
     make_limp(scene.cloth);
     for (curtain::LayerParams& layer : scene.layers) make_limp(layer.cloth);
