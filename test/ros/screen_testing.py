@@ -44,9 +44,10 @@ class ScreenTest(unittest.TestCase):
             return log.read()[-2000:]
 
     def start_screen(self):
-        """An X server on a display of its own choice; the environment for its programs."""
+        """An X server; the environment for its programs. Its number is that of no other test: a server of the same number that ends
+        takes away the socket of one that begins."""
         reader, writer = os.pipe()
-        self.start("Xvfb", "-displayfd", str(writer), "-screen", "0", "%dx%dx24" % (WIDTH, HEIGHT), "-nolisten", "tcp",
+        self.start("Xvfb", ":%d" % (1000 + os.getpid() % 60000), "-displayfd", str(writer), "-screen", "0", "%dx%dx24" % (WIDTH, HEIGHT), "-nolisten", "tcp",
                    pass_fds=(writer,))
         os.close(writer)
         with os.fdopen(reader) as answer:
