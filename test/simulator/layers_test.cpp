@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include "curtain_sim/scene_yaml.h"
 #include "curtain_sim/simulator.h"
@@ -17,6 +15,7 @@
 namespace curtain {
 namespace {
 
+using curtain_test::exampleOf;
 using curtain_test::flatScene;
 using curtain_test::kGravity;
 using curtain_test::Random;
@@ -471,12 +470,7 @@ TEST(Layers, RefuseWhatDoesNotFit) {
 
 // The scene of docs/layers.md, for a second.
 TEST(Layers, TheExampleOfThePageRuns) {
-  std::ifstream page(std::string(CURTAIN_SOURCE_DIR) + "/docs/layers.md");
-  std::stringstream whole;
-  whole << page.rdbuf();
-  const std::string text = whole.str(), fence = "```yaml\n";
-  const std::size_t begin = text.find(fence) + fence.size();
-  const SceneReading reading = readSceneText(text.substr(begin, text.find("```", begin) - begin));
+  const SceneReading reading = readSceneText(exampleOf("docs/layers.md"));
   ASSERT_TRUE(reading.problems.empty()) << describe(reading.problems);
   Simulator simulator(reading.scene);
   run(simulator, 60);

@@ -178,5 +178,16 @@ TEST(Patches, TakeTheirFabricFromAMaterialAndWhatIsGivenWins) {
   EXPECT_EQ(reading.scene.contact.friction, Scene().contact.friction) << "is of all contact";
 }
 
+// The cloth of docs/materials.md, for a second.
+TEST(Patches, TheExampleOfThePageRuns) {
+  const SceneReading reading = readSceneText(exampleOf("docs/materials.md"));
+  ASSERT_TRUE(reading.problems.empty()) << describe(reading.problems);
+  Simulator simulator(reading.scene);
+  run(simulator, 60);
+  Scene canvas;
+  applyMaterial(Material::kCanvas, canvas);
+  EXPECT_NEAR(simulator.mass({42, 7}) / simulator.mass({5, 7}), canvas.cloth.surface_density / 0.1, 1e-12);
+}
+
 }  // namespace
 }  // namespace curtain_test

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <sstream>
 #include <string>
 
 #include "curtain_sim/scene_yaml.h"
@@ -27,6 +29,16 @@ inline curtain::Scene shippedScene(const std::string& name) {
       curtain::readSceneFile(std::string(CURTAIN_SOURCE_DIR) + "/config/scenes/" + name + ".yaml");
   EXPECT_TRUE(reading.problems.empty()) << curtain::describe(reading.problems);
   return reading.scene;
+}
+
+/// The first YAML that a page of the repository shows.
+inline std::string exampleOf(const std::string& path) {
+  std::ifstream page(std::string(CURTAIN_SOURCE_DIR) + "/" + path);
+  std::stringstream whole;
+  whole << page.rdbuf();
+  const std::string text = whole.str(), fence = "```yaml\n";
+  const std::size_t begin = text.find(fence) + fence.size();
+  return text.substr(begin, text.find("```", begin) - begin);
 }
 
 inline void run(curtain::Simulator& simulator, int frames) {
