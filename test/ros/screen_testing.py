@@ -10,6 +10,8 @@ WIDTH, HEIGHT = 1000, 800  # of the screen and rviz's window [pixel]
 
 
 class ScreenTest(unittest.TestCase):
+    screens = 0  # started by this process
+
     @staticmethod
     def installed(*tools):
         """False, with a message, when one of them is not."""
@@ -44,10 +46,11 @@ class ScreenTest(unittest.TestCase):
             return log.read()[-2000:]
 
     def start_screen(self):
-        """An X server; the environment for its programs. Its number is that of no other test: a server of the same number that ends
-        takes away the socket of one that begins."""
+        """An X server; the environment for its programs. It has a number of its own: one that ends takes away the socket of one of the
+        same number that begins."""
+        ScreenTest.screens += 1
         reader, writer = os.pipe()
-        self.start("Xvfb", ":%d" % (1000 + os.getpid() % 60000), "-displayfd", str(writer), "-screen", "0", "%dx%dx24" % (WIDTH, HEIGHT), "-nolisten", "tcp",
+        self.start("Xvfb", ":%d" % (1000 + (os.getpid() * 10 + ScreenTest.screens) % 50000), "-displayfd", str(writer), "-screen", "0", "%dx%dx24" % (WIDTH, HEIGHT), "-nolisten", "tcp",
                    pass_fds=(writer,))
         os.close(writer)
         with os.fdopen(reader) as answer:
