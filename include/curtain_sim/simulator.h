@@ -116,9 +116,9 @@ class Simulator {
   std::vector<Problem> setBudget(double ms);                    ///< see setFriction()
 
   /// Changes the first cloth, or that of a layer, from the next step on, also after reset(): surface_density, porosity,
-  /// row_mass, column_mass, shear, bending_warp, bending_weft, bending_bias, bending_hysteresis and material (a name:
-  /// applyMaterial() has set the others); all else must be as it is. Motion goes on, contacts are found anew, and
-  /// sleeping cloth wakes; a start by hang.start stays. Within, the simulator is made anew but for the obstacles'
+  /// row_mass, column_mass, shear, bending_warp, bending_weft, bending_bias, bending_hysteresis, patches and material
+  /// (a name: applyMaterial() has set the others); all else must be as it is. Motion goes on, contacts are found anew,
+  /// and sleeping cloth wakes; a start by hang.start stays. Within, the simulator is made anew but for the obstacles'
   /// shapes and the fine mesh's topology: other references that it gave end, as those of scene(), statistics(),
   /// winds(). Returns what is wrong; then nothing changed.
   std::vector<Problem> setCloth(const ClothParams& cloth, const std::string& layer = kFirstCloth);

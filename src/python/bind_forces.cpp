@@ -101,9 +101,8 @@ void bindChanges(SimulatorClass& simulator) {
           },
           py::arg("layer") = kFirstCloth,
           "Changes a cloth from the next step on, also after reset(): surface_density, porosity, row_mass, "
-          "column_mass, shear, bending_warp, bending_weft, bending_bias, bending_hysteresis, as in a scene; or "
-          "material, "
-          "which sets what is known of the cloth itself. What is not given stays.")
+          "column_mass, shear, bending_warp, bending_weft, bending_bias, bending_hysteresis, patches, as in a scene; "
+          "or material, which sets what is known of the cloth itself. What is not given stays.")
       .def("set_friction", number(&Simulator::setFriction), py::arg("friction"),
            "Coulomb coefficient of the cloth on itself and on obstacles that name none, in [0, 10]; as "
            "set_frame_rate().")
