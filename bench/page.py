@@ -136,7 +136,7 @@ def closed_forms():
             '- slope: a sheet slides down 30 degrees with friction 0.3 for half a second.',
             '- belt: a sheet on a belt that speeds up with 0.45 g, friction 0.5.',
             '- capstan: the largest load that a strap over a bar of friction 0.3 holds with 50 g at its other end, over Euler\'s e^(mu pi) with '
-            'the strap\'s own weight, found to a thousandth.\n',
+            'the strap\'s own weight, sought between 0.5 and 1.5 to a thousandth: 0.5 is nothing held.\n',
             markdown(['problem', 'method'] + ['substeps ' + s for s in values(rows, 'substeps')], body)]
 
 
