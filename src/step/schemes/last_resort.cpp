@@ -56,7 +56,7 @@ SubstepStart LastResort::start(const Task& task, const ClothState& state, Subste
   accelerate(outer, 1.0);
   cutPath();
   if (task.elastic != nullptr) {
-    // Where the outer forces lead within the reach: shear of links that are many times too long has no bound.
+    // Where the outer forces lead within the reach: the force of links many times too long has no bound.
     accelerate(outer, -1.0);
     accelerate(task.elastic->addAhead({base_, outer, nullptr, nullptr, task.kick, task.plan.h}, w), 1.0);
     cutPath();
