@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <random>
+#include <string>
 
 #include "cloth/cloth.h"
 #include "scene/pi.h"
@@ -49,6 +50,19 @@ inline curtain::Scene flatScene(int rows, int columns, double height = 1.0, doub
   scene.hang.from = {0.0, 0.0, height};
   scene.hang.to = {width, 0.0, height};
   return scene;
+}
+
+/// A cloth beside that of flatScene(), behind it by y [m].
+inline curtain::LayerParams layerAt(const std::string& name, double y, int rows, int columns, double height,
+                                    double width) {
+  curtain::LayerParams layer;
+  layer.name = name;
+  const curtain::Scene scene = flatScene(rows, columns, height, width);
+  layer.cloth = scene.cloth;
+  layer.hang = scene.hang;
+  layer.hang.from.y() += y;
+  layer.hang.to.y() += y;
+  return layer;
 }
 
 /// Closed cloth around the vertical through (0, 0, 2).

@@ -95,6 +95,14 @@ TEST_F(Options, ExplainSaysWhatRunsAtTheStartAndAtTheEnd) {
   EXPECT_NE(run.out.find("- self-contact: contact.self is false", end), std::string::npos) << run.out;
 }
 
+TEST_F(Options, ExplainTellsOfPatches) {
+  const std::string scene =
+      this->scene("cloth: {rows: 8, columns: 4, shear: 20, patches: [{rows: [0, 3], shear: 40}]}\n");
+  const Outcome run = batch({scene, "--explain", "--duration", "0.1"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("20 and patches N/m"), std::string::npos) << run.out;
+}
+
 TEST_F(Options, StatisticsOfRestAndBudget) {
   const auto asleep = stats({smallScene("air: {inside: 1, border: 1, corner: 1}\n"), "--duration", "5"});
   EXPECT_TRUE(asleep.at("rest").at("asleep").get<bool>());

@@ -111,6 +111,18 @@ TEST(Readings, PoresLetTheirShareThrough) {
     for (const float depth : wall.readings()) (depth > 1.5F ? through : stopped) += 1;
     expectShare(through, through + stopped, porosity);
   }
+  // A patch over what is left of the middle column lets all of them through. (5 columns of nodes, 4 of cells.)
+  Wall patched;
+  PatchParams net;
+  net.columns = {0, 2};
+  net.porosity = 1.0;
+  patched.scene.cloth.patches = {net};
+  const std::vector<float> readings = patched.readings();
+  const int width = patched.params.camera.width;
+  for (std::size_t pixel = 0; pixel < readings.size(); ++pixel) {
+    const int column = static_cast<int>(pixel % static_cast<std::size_t>(width));
+    if (std::abs(2 * column + 1 - width) > 2) ASSERT_EQ(readings[pixel] > 1.5F, 2 * column < width) << pixel;
+  }
   // Two layers: folded cloth would do, a second curtain is simpler to be sure of: a ray passes both by the square.
   wall.scene = curtain_test::ringScene(4, 40, 1.0, 2.0);
   wall.scene.hang.from = Vec3(0.5, 0.0, 1.0);
