@@ -30,8 +30,9 @@ class Interrupted(SweepTest):
         return process
 
     def logged(self):
+        """Lines of the job log, its head counted before it is there, too."""
         try:
-            return len(self.read("params.sweep", "joblog").splitlines())
+            return max(1, len(self.read("params.sweep", "joblog").splitlines()))
         except FileNotFoundError:
             return 1
 
