@@ -41,7 +41,8 @@ constexpr int kGradientIterations = 12;
 constexpr double kLargestMove = 0.1;
 constexpr double kWatchMoves = 1e-3;  // relative violation below which no solve can exceed kLargestMove
 // Sweeps of a substep that turn the slides of contacts that may slip. In later ones a slide only goes with what pushes.
-// Without an end some would turn to and fro, and every turn disturbs the links.
+// Without an end some would turn to and fro, and every turn disturbs the links. Where links follow there is none: there
+// a substep does not start with the last one's pushes, and a strap over a bar would slip at half of what it holds.
 constexpr int kFrictionSweeps = 3;
 // The residual turns into motion, so the tolerance of contacts follows the motion: this share of the displacement of
 // nodes in the substep (RMS, relative to their mean), at most kMaxTouch contact tolerances; more would save no sweeps.

@@ -110,14 +110,12 @@ Step::Attempt Step::predict(const SubstepPlan& plan, const NodeForces& forces, C
   inertia_.setGuided(!plan.isLastResort());
   inertia_.set(forces, kick, scale, plan.max_phase, rules.backward);
   if (elastic_ != nullptr) elastic_->begin(inertia_, inertia_.inverse(), scale, !rules.follows);
-  // The last resort starts from nothing: a solve that had started from the last substep has failed.
-  const double before = plan.isLastResort() ? 0.0 : inertia_.tensions().scale;
-  const double ratio = before != 0.0 ? scale / before : 0.0;
+  // Warm start only along fixed directions: with present directions old tensions diverge where rods have turned much.
+  const double before = inertia_.tensions().scale;
+  const double ratio = !rules.follows && before != 0.0 ? scale / before : 0.0;
   const Scheme::Task task{plan, kick, forces, inertia_, elastic_};
   const Attempt attempt{plan, forces, finder, state, clock, scheme, kick, ratio, scheme.start(task, state, outcome)};
-  // Links that follow start without tension: with present directions old ones diverge where rods have turned much.
-  // Contacts push along the same directions all the time, and must know what they held, or a strap slips over a bar.
-  constraints_.begin(attempt.start, state, rules.follows ? 0.0 : ratio, !plan.isLastResort());
+  constraints_.begin(attempt.start, state, ratio, !plan.isLastResort());
   clock.lap(Stage::kPredict);
   return attempt;
 }

@@ -47,13 +47,13 @@ Sweeps::Aim Sweeps::aimOf(const SweepTask& task, bool touches, int sweeps) const
   return {strict * tolerance_, contact, cautious ? kFirstSweepShare : 1.0, cautious ? kFirstSweepShare : kLeaveAlone};
 }
 
-// Slides are turned before contacts are measured.
-Sweeps::Residual Sweeps::measureResidual(const Constraints::RodsProgress& rods, bool first, int sweeps,
+// Slides are turned, if they are, before contacts are measured.
+Sweeps::Residual Sweeps::measureResidual(const Constraints::RodsProgress& rods, bool first, bool turns,
                                          StageClock& clock) noexcept {
   Residual residual;
   residual.rods = rods;
   ContactRows& contacts = constraints_.contacts();
-  if (!contacts.all().empty() && sweeps <= kFrictionSweeps) {
+  if (!contacts.all().empty() && turns) {
     contacts.slide(inertia_.inverse(), constraints_.next);
     constraints_.settleGuide();
   }
@@ -114,7 +114,8 @@ SweepOutcome Sweeps::run(const SweepTask& task, StageClock& clock) noexcept {
     if (first) outcome.predicted_violation = rods.first_residual;
     if (!rods.converged && !task.last_resort) return {SweepEnd::kDiverged, false, outcome.sweeps};
     ++outcome.sweeps;
-    const Residual now = measureResidual(rods, first, outcome.sweeps, clock);
+    const bool turns = outcome.sweeps <= kFrictionSweeps || (task.follows && !task.last_resort);
+    const Residual now = measureResidual(rods, first, turns, clock);
     if (reached(aim, now)) {
       clock.lap(Stage::kWeft);
       return {SweepEnd::kConverged, true, outcome.sweeps, outcome.predicted_violation};

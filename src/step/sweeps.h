@@ -98,7 +98,7 @@ class Sweeps {
   };
   double touchAim(const SweepTask& task, double least) const noexcept;
   Aim aimOf(const SweepTask& task, bool touches, int sweeps) const noexcept;
-  Residual measureResidual(const Constraints::RodsProgress& rods, bool first, int sweeps, StageClock& clock) noexcept;
+  Residual measureResidual(const Constraints::RodsProgress& rods, bool first, bool turns, StageClock& clock) noexcept;
   bool reached(const Aim& aim, const Residual& residual) noexcept;
   struct Best {
     double merit = std::numeric_limits<double>::infinity(), residual = 0.0;
