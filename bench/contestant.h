@@ -6,7 +6,9 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace curtain_bench {
@@ -22,19 +24,33 @@ struct Points {
   }
 };
 
-/// A ball that goes straight from one place to another and stays there.
-struct MovingBall {
-  double radius = 0.0;  ///< [m]; 0: there is none
+/// What the cloth touches.
+struct Solid {
+  enum class Shape {
+    kNone,
+    kBall,
+    kBar,   ///< round, along y
+    kFloor  ///< all below its height
+  };
+  using Place = std::array<double, 3>;
+
+  Shape shape = Shape::kNone;
+  double radius = 0.0;  ///< of a ball or bar [m]
   double margin = 0.0;  ///< kept from it [m]
   double friction = 0.0;
-  std::array<double, 3> from{}, to{};  ///< [m]
-  double seconds = 1.0;                ///< that it takes
+  std::function<Place(double)> at;  ///< of its middle, or of the floor's top, at a time [s] [m]
 
-  std::array<double, 3> at(double time) const {
-    const double share = time < seconds ? time / seconds : 1.0;
-    std::array<double, 3> place{};
-    for (std::size_t k = 0; k < 3; ++k) place[k] = from[k] + share * (to[k] - from[k]);
-    return place;
+  /// How far a point is from its surface, less than 0 inside [m]; normal: unit, away from it.
+  double distance(const Place& middle, const Place& point, Place& normal) const {
+    const double along = shape == Shape::kBar ? 0.0 : point[1] - middle[1];
+    if (shape == Shape::kFloor) {
+      normal = {0.0, 0.0, 1.0};
+      return point[2] - middle[2];
+    }
+    const double x = point[0] - middle[0], z = point[2] - middle[2];
+    const double length = std::sqrt(x * x + along * along + z * z);
+    if (length > 0.0) normal = {x / length, along / length, z / length};
+    return length - radius;
   }
 };
 
@@ -50,7 +66,7 @@ struct ClothStart {
   std::array<double, 3> gravity{};  ///< [m/s^2]
   double damping = 0.0;  ///< [1/s] velocities go with e^(-damping t); 0 but where a study wants the state of rest
   double frame_seconds = 1.0 / 60.0;
-  MovingBall ball;  ///< btSoftBody alone knows it
+  Solid solid;  ///< position-based methods and btSoftBody alone know it
 
   std::size_t count() const { return static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns); }
 };

@@ -21,6 +21,9 @@ ClothStart clothStart(const curtain::Scene& scene, double damping = 0.0);
 /// The simulator itself, at the scene's own solver settings.
 std::unique_ptr<Contestant> makeOurs(const curtain::Scene& scene);
 
+/// The same, from where `start` has its nodes, at rest.
+std::unique_ptr<Contestant> makeOurs(const curtain::Scene& scene, const ClothStart& start);
+
 /// A method at a setting, to be put on any scene.
 struct Entry {
   std::string method;

@@ -26,6 +26,8 @@ const std::vector<Study>& studies() {
                                          {"contact", studyContact},
                                          {"contact_frames", studyContactFrames},
                                          {"contact_peers", studyContactPeers},
+                                         {"gathered", studyGathered},
+                                         {"fabric", studyFabric},
                                          {"closed_forms", studyClosedForms},
                                          {"ccd", studyCcd},
                                          {"features", studyFeatures},

@@ -22,6 +22,14 @@ class Ours : public Contestant {
  public:
   explicit Ours(const curtain::Scene& scene) : simulator_(scene) {}
 
+  Ours(const curtain::Scene& scene, const Points& at) : simulator_(scene) {
+    std::vector<curtain::Vec3> nodes;
+    for (std::size_t n = 0; n < at.x.size(); ++n) nodes.emplace_back(at.x[n], at.y[n], at.z[n]);
+    const std::vector<curtain::Problem> problems =
+        simulator_.setState(nodes, std::vector<curtain::Vec3>(nodes.size(), curtain::Vec3::Zero()));
+    if (!problems.empty()) throw std::invalid_argument(curtain::describe(problems));
+  }
+
   void frame() override { simulator_.step(); }
 
   void copyPositions(Points& out) const override {
@@ -71,6 +79,10 @@ ClothStart clothStart(const curtain::Scene& scene, double damping) {
 }
 
 std::unique_ptr<Contestant> makeOurs(const curtain::Scene& scene) { return std::make_unique<Ours>(scene); }
+
+std::unique_ptr<Contestant> makeOurs(const curtain::Scene& scene, const ClothStart& start) {
+  return std::make_unique<Ours>(scene, start.positions);
+}
 
 Entry ourEntry(const std::string& method, int substeps) {
   Entry entry;

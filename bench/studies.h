@@ -32,6 +32,8 @@ void studyScaling(const Options& options);
 void studyStages(const Options& options);
 void studyContact(const Options& options);
 void studyContactFrames(const Options& options);
+void studyGathered(const Options& options);
+void studyFabric(const Options& options);
 void studyClosedForms(const Options& options);
 void studyContactPeers(const Options& options);
 void studyCcd(const Options& options);

@@ -32,6 +32,14 @@ else()
   message(STATUS "curtain_sim: no Bullet (libbullet-dev), btSoftBody takes no part in the benchmark")
 endif()
 
+# An oracle of drape, with nothing of the engine in it; by itself for bench/drape.
+add_library(curtain_shell_drape STATIC bench/shell/shell.cpp)
+target_include_directories(curtain_shell_drape PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
+target_link_libraries(curtain_shell_drape PRIVATE Eigen3::Eigen curtain_warnings)
+target_compile_options(curtain_shell_drape PRIVATE -O3 -march=native -fno-math-errno)
+add_executable(curtain_shell bench/shell/main.cpp)
+target_link_libraries(curtain_shell PRIVATE curtain_shell_drape curtain_warnings)
+
 if(NOT TARGET curtain_weigh)
   include(cmake/cost.cmake)
 endif()
@@ -43,9 +51,5 @@ add_executable(curtain_bench ${bench_sources})
 target_include_directories(curtain_bench PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/test)
 target_compile_definitions(curtain_bench PRIVATE CURTAIN_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}")
 target_compile_options(curtain_bench PRIVATE $<$<CONFIG:Release>:-O2>)
-target_link_libraries(curtain_bench PRIVATE curtain_rivals curtain_weigh curtain_sensing curtain_engine curtain_warnings)
-
-# An oracle of drape (bench/drape), with nothing of the engine in it.
-add_executable(curtain_shell bench/shell/main.cpp)
-target_link_libraries(curtain_shell PRIVATE Eigen3::Eigen curtain_warnings)
-target_compile_options(curtain_shell PRIVATE -O3 -march=native -fno-math-errno)
+target_link_libraries(curtain_bench PRIVATE
+  curtain_rivals curtain_shell_drape curtain_weigh curtain_sensing curtain_fabric curtain_engine curtain_warnings)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // btSoftBody of Bullet Physics as its package installs it. The soft body is stepped by itself, without a world around
-// it: no broad phase, no contacts, nothing that the other rivals need not pay for; but where there is a ball, in a
-// btSoftRigidDynamicsWorld with it. Its links hold both ways, so it takes part only where the weft is never slack.
+// it: no broad phase, no contacts, nothing that the other rivals need not pay for; but where there is something solid,
+// in a btSoftRigidDynamicsWorld with it. Its links hold both ways, so it takes part only where the weft is never slack.
 #include <cmath>
 
 #include "BulletSoftBody/btSoftBody.h"
@@ -18,28 +18,47 @@ btVector3 vector(const std::array<double, 3>& v) {
   return {static_cast<btScalar>(v[0]), static_cast<btScalar>(v[1]), static_cast<btScalar>(v[2])};
 }
 
-// The ball, and what Bullet needs to let a soft body touch it.
+// A floor is a box so thick and wide [m].
+constexpr double kThick = 1.0, kWide = 100.0, kLong = 10.0;
+
+// Of the grid on which it knows a shape's distance [m]; by itself 0.25, in which a bar of 0.2 is lost.
+constexpr btScalar kVoxel = btScalar(0.05);
+
+std::unique_ptr<btCollisionShape> shapeOf(const Solid& solid) {
+  const auto radius = static_cast<btScalar>(solid.radius);
+  switch (solid.shape) {
+    case Solid::Shape::kBall:
+      return std::make_unique<btSphereShape>(radius);
+    case Solid::Shape::kBar:
+      return std::make_unique<btCylinderShape>(btVector3(radius, btScalar(0.5 * kLong), radius));
+    default:
+      return std::make_unique<btBoxShape>(btVector3(btScalar(kWide), btScalar(kWide), btScalar(0.5 * kThick)));
+  }
+}
+
+// What is solid, and what Bullet needs to let a soft body touch it.
 class World {
  public:
   World(const ClothStart& start, btSoftBodyWorldInfo& info)
-      : path_(start.ball),
+      : solid_(start.solid),
         dispatcher_(&configuration_),
         world_(&dispatcher_, &broadphase_, &solver_, &configuration_),
-        shape_(static_cast<btScalar>(start.ball.radius)),
-        ball_(btRigidBody::btRigidBodyConstructionInfo(0, nullptr, &shape_)) {
+        shape_(shapeOf(start.solid)),
+        rigid_(btRigidBody::btRigidBodyConstructionInfo(0, nullptr, shape_.get())) {
     world_.setGravity(info.m_gravity);
     info.m_broadphase = &broadphase_;
     info.m_dispatcher = &dispatcher_;
     info.m_sparsesdf.Initialize();
-    ball_.setCollisionFlags(ball_.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
-    ball_.setActivationState(DISABLE_DEACTIVATION);
-    ball_.setFriction(static_cast<btScalar>(path_.friction));
+    info.m_sparsesdf.setDefaultVoxelsz(kVoxel);
+    rigid_.setCollisionFlags(rigid_.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
+    rigid_.setActivationState(DISABLE_DEACTIVATION);
+    rigid_.setFriction(static_cast<btScalar>(solid_.friction));
     place();
-    world_.addRigidBody(&ball_);
+    world_.addRigidBody(&rigid_);
   }
   ~World() {
     if (body_ != nullptr) world_.removeSoftBody(body_);
-    world_.removeRigidBody(&ball_);
+    world_.removeRigidBody(&rigid_);
   }
   World(const World&) = delete;
   World& operator=(const World&) = delete;
@@ -47,8 +66,8 @@ class World {
   void add(btSoftBody& body) {
     body_ = &body;
     body.m_cfg.collisions = btSoftBody::fCollision::SDF_RS;
-    body.m_cfg.kDF = static_cast<btScalar>(path_.friction);
-    body.getCollisionShape()->setMargin(static_cast<btScalar>(path_.margin));
+    body.m_cfg.kDF = static_cast<btScalar>(solid_.friction);
+    body.getCollisionShape()->setMargin(static_cast<btScalar>(solid_.margin));
     world_.addSoftBody(&body);
   }
 
@@ -59,17 +78,21 @@ class World {
   }
 
  private:
-  void place() { ball_.setWorldTransform(btTransform(btQuaternion::getIdentity(), vector(path_.at(time_)))); }
+  void place() {
+    Solid::Place middle = solid_.at(time_);
+    if (solid_.shape == Solid::Shape::kFloor) middle[2] -= 0.5 * kThick;
+    rigid_.setWorldTransform(btTransform(btQuaternion::getIdentity(), vector(middle)));
+  }
 
-  MovingBall path_;
+  const Solid solid_;
   double time_ = 0.0;
   btSoftBodyRigidBodyCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_;
   btDbvtBroadphase broadphase_;
   btSequentialImpulseConstraintSolver solver_;
   btSoftRigidDynamicsWorld world_;
-  btSphereShape shape_;
-  btRigidBody ball_;
+  std::unique_ptr<btCollisionShape> shape_;
+  btRigidBody rigid_;
   btSoftBody* body_ = nullptr;
 };
 
@@ -95,7 +118,7 @@ class Bullet : public Contestant {
     body_->m_cfg.collisions = 0;
     body_->m_cfg.kDP = static_cast<btScalar>(1.0 - std::exp(-start.damping * h_));
     if (settings.velocity_iterations > 0) body_->m_cfg.m_vsequence.push_back(btSoftBody::eVSolver::Linear);
-    if (start.ball.radius <= 0.0) return;
+    if (start.solid.shape == Solid::Shape::kNone) return;
     world_ = std::make_unique<World>(start, info_);
     world_->add(*body_);
   }

@@ -39,15 +39,13 @@ class Pbd : public ProjectionContestant {
   using ProjectionContestant::ProjectionContestant;
 
  private:
-  void project() override {
+  void projectLinks() override {
     Triple& x = state_.position;
     const std::vector<double>& w = state_.inverse_mass;
-    for (int iteration = 0; iteration < settings_.iterations; ++iteration) {
-      for (const LinkBatch& batch : state_.batches) {
-        const std::size_t a = batch.a, b = batch.b;
-        projectBatch(&x.x[a], &x.y[a], &x.z[a], &w[a], &x.x[b], &x.y[b], &x.z[b], &w[b], batch.rest,
-                     batch.two_sided ? -INFINITY : 0.0, batch.count);
-      }
+    for (const LinkBatch& batch : state_.batches) {
+      const std::size_t a = batch.a, b = batch.b;
+      projectBatch(&x.x[a], &x.y[a], &x.z[a], &w[a], &x.x[b], &x.y[b], &x.z[b], &w[b], batch.rest,
+                   batch.two_sided ? -INFINITY : 0.0, batch.count);
     }
   }
 };

@@ -51,16 +51,15 @@ class Xpbd : public ProjectionContestant {
   }
 
  private:
-  void project() override {
+  void begin() override { std::fill(multiplier_.begin(), multiplier_.end(), 0.0); }
+
+  void projectLinks() override {
     Triple& x = state_.position;
     const std::vector<double>& w = state_.inverse_mass;
-    std::fill(multiplier_.begin(), multiplier_.end(), 0.0);
-    for (int iteration = 0; iteration < settings_.iterations; ++iteration) {
-      for (const LinkBatch& batch : state_.batches) {
-        const std::size_t a = batch.a, b = batch.b;
-        projectBatch(&x.x[a], &x.y[a], &x.z[a], &w[a], &x.x[b], &x.y[b], &x.z[b], &w[b], &multiplier_[batch.first],
-                     batch.rest, batch.two_sided ? INFINITY : 0.0, alpha_, batch.count);
-      }
+    for (const LinkBatch& batch : state_.batches) {
+      const std::size_t a = batch.a, b = batch.b;
+      projectBatch(&x.x[a], &x.y[a], &x.z[a], &w[a], &x.x[b], &x.y[b], &x.z[b], &w[b], &multiplier_[batch.first],
+                   batch.rest, batch.two_sided ? INFINITY : 0.0, alpha_, batch.count);
     }
   }
 
