@@ -6,6 +6,8 @@
 #include <yaml-cpp/yaml.h>
 
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
 
 #include "batch/batch_testing.h"
 #include "curtain_sim/scene_yaml.h"
@@ -91,11 +93,15 @@ TEST(RandomSceneMaker, WhatIsWrittenReadsBack) {
   }
 }
 
+// Items of a list are read alike: the same value is tried in one of them only.
 TEST(RandomSceneParser, NamesTheKeyOfWhatIsWrong) {
+  std::set<std::string> tried;
   for (std::uint64_t n = 0; n < sceneCount(2); ++n) {
     const Scene scene = validScene(n);
     const std::string text = curtain::writeScene(scene);
     for (const Breakage& breakage : curtain_test::breakagesOf(scene)) {
+      static const std::regex item("\\[[0-9]+\\]");
+      if (!tried.insert(std::regex_replace(breakage.key, item, "[]") + ": " + breakage.value).second) continue;
       const std::string broken = curtain_test::breakText(text, breakage);
       const std::vector<Problem> problems = curtain::readSceneText(broken).problems;
       const bool named = std::any_of(problems.begin(), problems.end(),
