@@ -23,20 +23,21 @@ KEYS_HEAD = """# Every key
 
 Made by `docs/make_pages.py` from [config/curtain.yaml](../config/curtain.yaml); do not edit. A test fails when it is out of date.
 
-The node reads its own parameters from its private namespace and the scene from `~scene`. A file for `curtain_batch` has at its
-top level what the node has under `~scene`. Units are SI: m, kg, s, N, Pa, rad. Where a number is wanted, text that is wholly a
-decimal number is that number: `1e-6`, which YAML 1.1 reads as text, and `"0.5"`. In a scene "> 0" means 1e-9 to 1e9 and ">= 0" up
-to 1e9. Lengths that must fit each other may be rounded: what is out by less than 1e-4 of the length fits. Unknown keys, wrong types
-and values out of range are errors; all of them are reported at once.
+The node reads its own parameters from its private namespace and the scene from `~scene`. A scene file for `curtain_batch` has at its
+top level what the node has under `~scene`. Units are SI: m, kg, s, N, Pa, rad. Where a number is expected, text counts as a number if
+all of it is one decimal number: `1e-6`, which YAML 1.1 reads as text, and `"0.5"`. In a scene "> 0" means 1e-9 to 1e9 and ">= 0"
+means 0 to 1e9. Lengths that must fit each other may be rounded: a difference of less than 1e-4 of the length is accepted. Unknown
+keys, wrong types and values out of range are errors; all of them are reported at once. A key that is *live* can be changed while the
+node runs ([live tuning](node.md#live-tuning)); one that is *startup only* is read once, at start.
 
-The value is what the template shows. It is the default, unless the meaning says *required*, *no default* or another default.
-How numbers scale with the size of a scene: [units.md](units.md).
+The column *value* has what the template shows. It is the default, unless the meaning says *required*, *no default* or another default.
+[units.md](units.md) explains how numbers scale with the size of a scene.
 """
 
 MESSAGES_HEAD = """# Messages
 
-Made by `docs/make_pages.py` from [msg](../msg), [action](../action) and [srv](../srv); do not edit. A test fails when it is out of date. Which topic carries what:
-[node.md](node.md).
+Made by `docs/make_pages.py` from [msg](../msg), [action](../action) and [srv](../srv); do not edit. A test fails when it is out of date.
+[node.md](node.md) says which topic, action or service uses which type.
 """
 
 
