@@ -121,7 +121,8 @@ TEST(Readings, PoresLetTheirShareThrough) {
   const int width = patched.params.camera.width;
   for (std::size_t pixel = 0; pixel < readings.size(); ++pixel) {
     const int column = static_cast<int>(pixel % static_cast<std::size_t>(width));
-    if (std::abs(2 * column + 1 - width) > 2) ASSERT_EQ(readings[pixel] > 1.5F, 2 * column < width) << pixel;
+    if (std::abs(2 * column + 1 - width) <= 2) continue;
+    ASSERT_EQ(readings[pixel] > 1.5F, 2 * column < width) << pixel;
   }
   // Two layers: folded cloth would do, a second curtain is simpler to be sure of: a ray passes both by the square.
   wall.scene = curtain_test::ringScene(4, 40, 1.0, 2.0);
