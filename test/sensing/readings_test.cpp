@@ -111,10 +111,10 @@ TEST(Readings, PoresLetTheirShareThrough) {
     for (const float depth : wall.readings()) (depth > 1.5F ? through : stopped) += 1;
     expectShare(through, through + stopped, porosity);
   }
-  // A patch over what is left of the middle column lets all of them through. (5 columns of nodes, 4 of cells.)
+  // A patch of columns 0 and 1 lets all of them through, as far as the cells go that begin there: to the middle of 5.
   Wall patched;
   PatchParams net;
-  net.columns = {0, 2};
+  net.columns = {0, 1};
   net.porosity = 1.0;
   patched.scene.cloth.patches = {net};
   const std::vector<float> readings = patched.readings();
