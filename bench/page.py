@@ -13,6 +13,8 @@ import math
 import os
 import sys
 
+from page_text import figure, markdown, value, values, where
+
 PARSER = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 PARSER.add_argument('folder')
 PARSER.add_argument('--mixed', action='store_true')
@@ -31,37 +33,8 @@ def table(name):
         return list(csv.DictReader(file))
 
 
-def value(row, column):
-    try:
-        return float(row[column])
-    except ValueError:
-        return math.nan
-
-
-def values(rows, column):
-    return list(dict.fromkeys(row[column] for row in rows))
-
-
-def where(rows, **wanted):
-    return [row for row in rows if all(row[key] == text for key, text in wanted.items())]
-
-
-def figure(number, digits=2):
-    """Short and readable: 0.62, 12, 1.3e-07; blown up or missing: a dash."""
-    if not math.isfinite(number) or abs(number) > 1e6:
-        return '–'
-    if number != 0 and not 1e-3 <= abs(number) < 1e5:
-        return f'{number:.{digits - 1}e}'
-    return f'{number:.{digits}g}' if abs(number) < 10 ** digits - 0.5 else f'{number:.0f}'
-
-
 def name(method):
     return method if method in RIVALS else f'**{method}**'
-
-
-def markdown(header, rows):
-    lines = ['| ' + ' | '.join(header) + ' |', '|' + '---|' * len(header)]
-    return '\n'.join(lines + ['| ' + ' | '.join(row) + ' |' for row in rows]) + '\n'
 
 
 def picture(file, text):
@@ -310,7 +283,7 @@ def scaling():
         body.append([row['scene'], f"{row['rows']} x {row['columns']}", row['nodes'], name(row['method']), row['setting'],
                      row['threads'], figure(value(row, 'ms_min')), figure(value(row, 'ms_median')), figure(value(row, 'ms_max')),
                      figure(value(row, 'substeps')), figure(value(row, 'stretch'))])
-    memory = {(row['scene'], row['rows'], row['columns']): f"{row['our_bytes_a_node']}" for row in rows if row['series'] == 'both'}
+    memory = {(row['scene'], row['rows'], row['columns']): row['our_bytes_a_node'] for row in rows if row['series'] == 'both'}
     held = [[scene, f'{height} x {width}', figure(float(of), 3)] for (scene, height, width), of in memory.items()]
     return text + [markdown(['scene', 'grid', 'nodes', 'method', 'setting', 'threads', 'ms a frame, least median', 'median',
                              'most', 'substeps', 'misfit'], body),
@@ -488,7 +461,8 @@ def stamp_text(stamp, stamps):
 def main():
     sections = {'work_precision': work_precision, 'slopes': slopes, 'energy': energy, 'modes': modes, 'nets': nets, 'wind': wind,
                 'hard_spot': hard_spot, 'gusts': gusts, 'scaling': scaling, 'stages': stages, 'contact': contact,
-                'contact_frames': contact_frames, 'contact_peers': contact_peers, 'gathered': gathered, 'fabric': fabric, 'closed_forms': closed_forms, 'engines': engines, 'ccd': ccd,
+                'contact_frames': contact_frames, 'contact_peers': contact_peers, 'gathered': gathered, 'fabric': fabric,
+                'closed_forms': closed_forms, 'engines': engines, 'ccd': ccd,
                 'features': features, 'sensing': sensing}
     all_stamps = {stamp['study']: stamp for stamp in table('stamps')}
     studies = [study for study in sections if table(study)]

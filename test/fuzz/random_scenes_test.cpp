@@ -93,14 +93,14 @@ TEST(RandomSceneMaker, WhatIsWrittenReadsBack) {
   }
 }
 
-// Items of a list are read alike: the same value is tried in one of them only.
+// Items of a list are read alike: of a scene, the same value is tried in one of them only.
 TEST(RandomSceneParser, NamesTheKeyOfWhatIsWrong) {
-  std::set<std::string> tried;
+  const std::regex item("\\[[0-9]+\\]");
   for (std::uint64_t n = 0; n < sceneCount(2); ++n) {
     const Scene scene = validScene(n);
     const std::string text = curtain::writeScene(scene);
+    std::set<std::string> tried;
     for (const Breakage& breakage : curtain_test::breakagesOf(scene)) {
-      static const std::regex item("\\[[0-9]+\\]");
       if (!tried.insert(std::regex_replace(breakage.key, item, "[]") + ": " + breakage.value).second) continue;
       const std::string broken = curtain_test::breakText(text, breakage);
       const std::vector<Problem> problems = curtain::readSceneText(broken).problems;

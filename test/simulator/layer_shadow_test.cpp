@@ -60,6 +60,16 @@ TEST(LayerShadow, LetsThroughTheShareOfThePores) {
   }
 }
 
+// What is left at the nodes of the wind of a fan before the middle, which blows straight on.
+Field shadeStraightOn(const Scene& scene, const ClothPattern& pattern) {
+  WindParams fan = curtain_test::fanAt({0.5, -1.0, 0.5}, 3.0);
+  fan.pressure = 1.0;
+  fan.shadow = true;
+  WindSource source(fan, pattern, Layers(scene), 1);
+  LayerShadow(pattern).cast(makeInitialState(scene, pattern).position, source);
+  return source.shade();
+}
+
 // Level grids, one behind the other, and wind straight on: lines to nodes go through nodes and along edges. A sheet
 // counts once, a fold of it twice.
 TEST(LayerShadow, CountsOnceWhereTrianglesMeet) {
@@ -70,22 +80,18 @@ TEST(LayerShadow, CountsOnceWhereTrianglesMeet) {
   scene.layers[1].hang.from.x() = 0.03;
   scene.layers[1].hang.to.x() = 1.03;
   const ClothPattern pattern = makePattern(scene);
-  const Field3 position = makeInitialState(scene, pattern).position;
-  WindParams fan = curtain_test::fanAt({0.5, -1.0, 0.5}, 3.0);
-  fan.pressure = 1.0;
-  fan.shadow = true;
-  WindSource source(fan, pattern, Layers(scene), 1);
-  LayerShadow(pattern).cast(position, source);
+  const Field shade = shadeStraightOn(scene, pattern);
   for (int i = 1; i < 8; ++i) {
     for (int j = 1; j < 8; ++j) {
-      EXPECT_NEAR(source.shade()[pattern.grid.index(i, j)], 1.0, 1e-12);
-      EXPECT_NEAR(source.shade()[pattern.grid.index(i, 9 + j)], 0.5, 1e-12) << i << " " << j;
-      EXPECT_NEAR(source.shade()[pattern.grid.index(i, 18 + j)], 0.125, 1e-12) << i << " " << j;
+      EXPECT_NEAR(shade[pattern.grid.index(i, j)], 1.0, 1e-12);
+      EXPECT_NEAR(shade[pattern.grid.index(i, 9 + j)], 0.5, 1e-12) << i << " " << j;
+      EXPECT_NEAR(shade[pattern.grid.index(i, 18 + j)], 0.125, 1e-12) << i << " " << j;
     }
   }
 }
 
-// A patch of the sheer passes as much as its own pores do: behind the cells that begin in it.
+// A patch of the sheer passes as much as its own pores do, behind the cells that begin in it. Lines to nodes go through
+// nodes: those of the patch's edge are left out.
 TEST(LayerShadow, KnowsPatches) {
   Scene scene = flatScene(9, 9, 1.0, 1.0);
   scene.cloth.porosity = 0.5;
@@ -95,16 +101,10 @@ TEST(LayerShadow, KnowsPatches) {
   scene.cloth.patches = {net};
   scene.layers = {layerAt("behind", 0.25, 9, 9, 1.0, 1.0)};
   const ClothPattern pattern = makePattern(scene);
-  const Field3 position = makeInitialState(scene, pattern).position;
-  WindParams fan = curtain_test::fanAt({0.5, -1.0, 0.5}, 3.0);
-  fan.pressure = 1.0;
-  fan.shadow = true;
-  WindSource source(fan, pattern, Layers(scene), 1);
-  LayerShadow(pattern).cast(position, source);
+  const Field shade = shadeStraightOn(scene, pattern);
   for (int i = 1; i < 8; ++i) {
-    for (const int j :
-         {1, 2, 3, 5, 6, 7})  // the lines go straight through nodes: those of the patch's edge are left out
-      EXPECT_NEAR(source.shade()[pattern.grid.index(i, 9 + j)], j < 4 ? 0.75 : 0.5, 1e-12) << i << " " << j;
+    for (const int j : {1, 2, 3, 5, 6, 7})
+      EXPECT_NEAR(shade[pattern.grid.index(i, 9 + j)], j < 4 ? 0.75 : 0.5, 1e-12) << i << " " << j;
   }
 }
 
