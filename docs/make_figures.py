@@ -411,6 +411,14 @@ FIGURES = {
 }
 
 
+def unnamed():
+    """Pages that do not name the processor which the studies were measured on."""
+    known = sorted({row["processor"] for row in rows("stamps")} - {"not noted"})
+    named = [name.replace("(R)", "").replace(" Processor", "") for name in known]
+    return ["%s does not name %s" % (path, name) for path in ("README.md", "docs/accuracy.md") for name in named
+            if "an %s" % name not in read(path)]
+
+
 def find(page, text):
     """Where a text of FIGURES stands in a page, wherever its lines break."""
     pattern = NUMBER.join(re.sub(r"(?:\\? )+", r"\\s+", re.escape(part)) for part in text.split("{}"))
@@ -422,7 +430,7 @@ def main():
     """Writes, or says what is wrong."""
     if sys.argv[1:] not in ([], ["--check"]):
         sys.exit(__doc__)
-    wrong = []
+    wrong = unnamed()
     for path, entries in FIGURES.items():
         page = read(path)
         for text, figures in entries:
