@@ -10,7 +10,7 @@
 // change no bit of a result.
 #pragma once
 
-#include "contact/broad_phase/cloth_flatness.h"
+#include "contact/broad_phase/flat_cloths.h"
 #include "contact/broad_phase/self_candidates.h"
 #include "contact/response/impact_zones.h"
 #include "contact/response/obstacle_contacts.h"
@@ -109,7 +109,7 @@ class ClothContact : public ContactFinder {
   ObstacleContacts obstacle_contacts_;
   SelfContacts self_contacts_;
   SelfCandidates self_candidates_;
-  ClothFlatness flatness_;
+  FlatCloths flatness_;
   Candidates candidates_;  // of the motion from the start to the predicted positions, completed by verify()
   ImpactZones zones_;
   Contacts contacts_, last_;       // of this substep; of the last accepted one, those that push, sorted

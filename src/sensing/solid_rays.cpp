@@ -2,12 +2,12 @@
 #include "sensing/solid_rays.h"
 
 #include <cmath>
-#include <limits>
+
+#include "scene/infinity.h"
 
 namespace curtain {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Where the ray goes in and out; never: in > out.
 struct Passage {

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "obstacles/triangle_mesh.h"
+#include "scene/infinity.h"
 #include "testing.h"
 
 namespace curtain_test {
@@ -15,7 +15,7 @@ namespace curtain_test {
 using curtain::ShapeTriangles;
 using curtain::Vec3;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using curtain::kInfinity;
 
 // Coordinates here are below 4 m: a handful of roundings of 4.4e-16 each stay below this [m].
 constexpr double kRounding = 1e-14;

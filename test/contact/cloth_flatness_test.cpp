@@ -8,46 +8,24 @@
 
 #include <cmath>
 
-#include "contact/broad_phase/self_candidates.h"
-#include "contact/response/self_contacts.h"
+#include "contact/nearest_on_way.h"
 #include "testing.h"
 
 namespace curtain {
 namespace {
 
 using curtain_test::flatScene;
+using curtain_test::nearestOnWay;
 using curtain_test::Random;
 using curtain_test::ringScene;
 
 constexpr double kReach = 0.004, kOverlong = 1e-3;
 
-Field3 mixture(const Field3& start, const Field3& end, double share) {
-  Field3 at = start;
-  for (std::size_t n = 0; n < at.x.size(); ++n) at.set(n, (1.0 - share) * start.at(n) + share * end.at(n));
-  return at;
-}
-
-// Distance of the nearest two elements on the way, at instants of it; infinite where no pair is named.
-double nearest(const ClothPattern& pattern, const Field3& start, const Field3& end) {
-  Candidates near;
-  SelfCandidates(pattern).collect(start, end, 2.0 * kReach, near);
-  double least = std::numeric_limits<double>::infinity();
-  for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-    const Field3 at = mixture(start, end, share);
-    const auto look = [&](bool edges, std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
-      least = std::min(least, closestPoints(edges, {at.at(a), at.at(b), at.at(c), at.at(d)}).distance);
-    };
-    for (const VertexTriangle& p : near.vertex_triangles) {
-      look(false, p.vertex, p.triangle[0], p.triangle[1], p.triangle[2]);
-    }
-    for (const EdgeEdge& p : near.edge_edges) look(true, p.first[0], p.first[1], p.second[0], p.second[1]);
-  }
-  return least;
-}
-
 struct Sheet {
   explicit Sheet(const Scene& scene)
-      : pattern(makePattern(scene)), flat(makeInitialState(scene, pattern).position), net(pattern, kOverlong) {}
+      : pattern(makePattern(scene)),
+        flat(makeInitialState(scene, pattern).position),
+        net(pattern, 0, pattern.grid.columns, kOverlong) {}
   bool stays(const Field3& start, const Field3& end) {
     net.invalidate();
     return net.isFlat(start, kReach) && net.staysFlat(end, kReach);
@@ -151,7 +129,7 @@ TEST(ClothFlatness, SaysNothingThatIsNotTrue) {
     const bool stays = sheet.stays(start, end);
     proved += stays ? 1 : 0;
     if (!stays && trial >= kLooked) continue;
-    const double distance = nearest(sheet.pattern, start, end);
+    const double distance = nearestOnWay(sheet.pattern, start, end, 2.0 * kReach);
     folded += distance < kReach ? 1 : 0;
     ASSERT_TRUE(!stays || distance > kReach) << "trial " << trial;
   }

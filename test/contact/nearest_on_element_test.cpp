@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "contact/solids.h"
+#include "scene/infinity.h"
 #include "testing.h"
 
 namespace curtain {
@@ -17,8 +17,6 @@ namespace {
 using namespace curtain_test;
 using Triangle = std::array<Vec3, 3>;
 using Edge = std::array<Vec3, 2>;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <std::size_t N>
 Vec3 pointAt(const std::array<Vec3, N>& corners, const std::array<double, 3>& weights) {

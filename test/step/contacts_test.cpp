@@ -4,14 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "scene/infinity.h"
 #include "step/constants.h"
 
 namespace curtain {
 namespace {
 
-constexpr double kStep = 0.01, kLink = 0.05, kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kStep = 0.01, kLink = 0.05;
 
 Contact pushing() {
   Contact contact;

@@ -51,20 +51,20 @@ CURTAIN_WIDE Extremes extremesOfColumn(const ConstFieldView& from, const ConstFi
 }
 
 // Along the warp [m]; used of regular cloth only, whose columns are alike.
-Field rowsOf(const ClothPattern& pattern) {
+Field rowsOf(const ClothPattern& pattern, int column) {
   Field rows;
-  for (int i = 0; i < pattern.grid.rows; ++i) rows.push_back(pattern.warp_coordinate[pattern.grid.index(i, 0)]);
+  for (int i = 0; i < pattern.grid.rows; ++i) rows.push_back(pattern.warp_coordinate[pattern.grid.index(i, column)]);
   return rows;
 }
 
-// Whether no link of the top row exceeds this squared ratio to its rest length.
-CURTAIN_WIDE bool holdsRow(const ClothPattern& pattern, const Field3& position, double max_square) noexcept {
+// Whether no link of the top row from column `first` to `end` exceeds this squared ratio to its rest length.
+CURTAIN_WIDE bool holdsRow(const ClothPattern& pattern, std::size_t first, std::size_t end, const Field3& position,
+                           double max_square) noexcept {
   const double *const x = position.x.data(), *const y = position.y.data(), *const z = position.z.data();
   const double* const per_square = pattern.weft_per_square.data();
-  const auto columns = static_cast<std::size_t>(pattern.grid.columns);
   double most = 0.0;
 #pragma omp simd reduction(max : most)
-  for (std::size_t j = 1; j < columns; ++j) {
+  for (std::size_t j = first + 1; j < end; ++j) {
     const double dx = x[j] - x[j - 1], dy = y[j] - y[j - 1], dz = z[j] - z[j - 1];
     const double square = (dx * dx + dy * dy + dz * dz) * per_square[j];
     most = most > square ? most : square;
@@ -74,14 +74,21 @@ CURTAIN_WIDE bool holdsRow(const ClothPattern& pattern, const Field3& position, 
 
 }  // namespace
 
-ClothFlatness::ClothFlatness(const ClothPattern& pattern, double overlong)
+ClothFlatness::ClothFlatness(const ClothPattern& pattern, int first, int end, double overlong)
     : pattern_(pattern),
+      first_(first),
+      end_column_(end),
       overlong_(overlong),
-      regular_(isRegular(pattern)),
-      strips_(spansOf(rowsOf(pattern), kMaxRods)),
-      spans_(spansOf(pattern.weft_coordinate, kMaxWefts)) {
+      regular_(isRegular()),
+      strips_(spansOf(rowsOf(pattern, first), kMaxRods)),
+      spans_(spansOf({pattern.weft_coordinate.begin() + first, pattern.weft_coordinate.begin() + end}, kMaxWefts)) {
+  for (Span& span : spans_) {
+    span.first += static_cast<std::size_t>(first);
+    span.last += static_cast<std::size_t>(first);
+  }
   const Grid& grid = pattern.grid;
-  const double per_u = 1.0 / pattern.weft_rest[1], per_v = 1.0 / pattern.warp_rest[grid.index(1, 0)];
+  const double per_u = 1.0 / pattern.weft_rest[grid.index(0, first + 1)];
+  const double per_v = 1.0 / pattern.warp_rest[grid.index(1, first)];
   per_altitude_ = std::sqrt(per_u * per_u + per_v * per_v);
   pinsChanged();
 }
@@ -91,13 +98,13 @@ void ClothFlatness::pinsChanged() noexcept {
   usable_ = regular_;
   checks_top_ = false;
   for (int i = 0; i < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j) {
+    for (int j = first_; j < end_column_; ++j) {
       const std::size_t n = grid.index(i, j);
       if (pattern_.canMove(n)) continue;
       // Links between pins are not bounded by the solve. Those of the top row are checked; for others the proof is not
       // used.
       if (i > 0 && !pattern_.canMove(grid.index(i - 1, j))) usable_ = false;
-      if (j == 0 || pattern_.canMove(n - 1)) continue;
+      if (j == first_ || pattern_.canMove(n - 1)) continue;
       if (i == 0)
         checks_top_ = true;
       else
@@ -106,15 +113,19 @@ void ClothFlatness::pinsChanged() noexcept {
   }
 }
 
-bool ClothFlatness::isRegular(const ClothPattern& pattern) const {
-  const Grid& grid = pattern.grid;
-  if (grid.closed || !grid.slit_row.empty()) return false;
-  const double u = pattern.weft_rest[1], v = pattern.warp_rest[grid.index(1, 0)];
-  bool regular = true;
-  forEachLink(pattern, [&](std::size_t, std::size_t, double rest, bool rod) {
-    regular = regular && std::abs(rest / (rod ? v : u) - 1.0) <= kIrregular;
-  });
-  return regular;
+bool ClothFlatness::isRegular() const {
+  const Grid& grid = pattern_.grid;
+  if (grid.closed) return false;
+  const auto isLike = [](double rest, double first) { return std::abs(rest / first - 1.0) <= kIrregular; };
+  const double u = pattern_.weft_rest[grid.index(0, first_ + 1)], v = pattern_.warp_rest[grid.index(1, first_)];
+  for (int i = 0; i < grid.rows; ++i) {
+    for (int j = first_; j < end_column_; ++j) {
+      const std::size_t n = grid.index(i, j);
+      if (i > 0 && !isLike(pattern_.warp_rest[n], v)) return false;
+      if (j > first_ && !(grid.hasLink(i, j) && isLike(pattern_.weft_rest[n], u))) return false;
+    }
+  }
+  return true;
 }
 
 std::vector<ClothFlatness::Span> ClothFlatness::spansOf(const Field& coordinate, int max_links) {
@@ -138,7 +149,7 @@ void ClothFlatness::Slopes::merge(const Slopes& other) noexcept {
 // Mean of the two warp directions in the middle column that differ most.
 Vec3 ClothFlatness::warpDirection(const Field3& position) const noexcept {
   const Grid& grid = pattern_.grid;
-  const int column = grid.columns / 2;
+  const int column = (first_ + end_column_) / 2;
   const auto line = [&](const Span& strip) {
     const Vec3 slope = position.at(grid.index(static_cast<int>(strip.last), column)) -
                        position.at(grid.index(static_cast<int>(strip.first), column));
@@ -164,9 +175,9 @@ Vec3 ClothFlatness::warpDirection(const Field3& position) const noexcept {
 // False: the cloth has none.
 bool ClothFlatness::chooseDirections(const Field3& position, Projection& projection) const noexcept {
   const Grid& grid = pattern_.grid;
-  const int last = grid.columns - 1, hem = grid.rows - 1;
-  const Vec3 u = position.at(grid.index(0, last)) - position.at(grid.index(0, 0)) + position.at(grid.index(hem, last)) -
-                 position.at(grid.index(hem, 0));
+  const int last = end_column_ - 1, hem = grid.rows - 1;
+  const Vec3 u = position.at(grid.index(0, last)) - position.at(grid.index(0, first_)) +
+                 position.at(grid.index(hem, last)) - position.at(grid.index(hem, first_));
   const Vec3 v = warpDirection(position);
   const double size_u = u.norm(), size_v = v.norm();
   if (!(std::min(size_u, size_v) > 1e-6)) return false;
@@ -192,9 +203,10 @@ ClothFlatness::Slopes ClothFlatness::slopesOf(const Field3& position, const Proj
   const Grid& grid = pattern_.grid;
   Slopes all{1e300, 0.0, 1e300, 0.0};
   for (const Span& strip : strips_) {
-    const auto first = static_cast<int>(strip.first), last = static_cast<int>(strip.last);
-    const Extremes of = extremesOfRow({position, grid.row(first)}, {position, grid.row(last)},
-                                      static_cast<std::size_t>(grid.columns), projection.b, projection.a);
+    const std::size_t from = grid.index(static_cast<int>(strip.first), first_);
+    const std::size_t to = grid.index(static_cast<int>(strip.last), first_);
+    const Extremes of = extremesOfRow({position, from}, {position, to}, static_cast<std::size_t>(end_column_ - first_),
+                                      projection.b, projection.a);
     const double deviation = slopeDeviation(of.min_square, strip);
     all.min_v = std::min(all.min_v, of.least * strip.per_length - deviation);
     all.max_v_across = std::max(all.max_v_across, of.max_across * strip.per_length + deviation);
@@ -218,7 +230,8 @@ bool ClothFlatness::areFlat(const Slopes& slopes, double reach) const noexcept {
 }
 
 bool ClothFlatness::topRowHolds(const Field3& position) const noexcept {
-  return !checks_top_ || holdsRow(pattern_, position, (1.0 + overlong_) * (1.0 + overlong_));
+  return !checks_top_ || holdsRow(pattern_, static_cast<std::size_t>(first_), static_cast<std::size_t>(end_column_),
+                                  position, (1.0 + overlong_) * (1.0 + overlong_));
 }
 
 void ClothFlatness::measure(const Field3& position, Projection& projection) const noexcept {

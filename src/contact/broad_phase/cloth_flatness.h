@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Proof that the whole cloth is too flat for self-contact, from few of its nodes: links do not get longer, so a line of
+// Proof that a cloth is too flat for self-contact, from few of its nodes: links do not get longer, so a line of
 // links whose ends are as far apart as it is long is straight, and the nodes between need not be read.
 //
 // Let m links of lengths l span c m l, 0 < c <= 1, along the unit vector n, none longer than (1 + e) l. Their vectors r
@@ -25,8 +25,8 @@ namespace curtain {
 /// Not thread-safe.
 class ClothFlatness {
  public:
-  /// overlong: largest strain of a link [1].
-  ClothFlatness(const ClothPattern& pattern, double overlong);
+  /// Of the cloth whose columns are [first, end). overlong: largest strain of a link [1].
+  ClothFlatness(const ClothPattern& pattern, int first, int end, double overlong);
 
   /// The pattern's pins have changed.
   void pinsChanged() noexcept;
@@ -37,6 +37,8 @@ class ClothFlatness {
 
   /// After isFlat() returned true for the start: the same during a straight motion of all nodes from there to `end`.
   bool staysFlat(const Field3& end, double reach) noexcept;
+  /// Across the cloth, of about unit length; after isFlat() returned true.
+  Vec3 normal() const { return start_.a.cross(start_.b); }
 
   /// The end of the last staysFlat() is the start of the next isFlat(), whose measurement is kept.
   void advance() noexcept {
@@ -63,7 +65,7 @@ class ClothFlatness {
     double links;             // number of links
   };
   static std::vector<Span> spansOf(const Field& coordinate, int max_links);
-  bool isRegular(const ClothPattern& pattern) const;
+  bool isRegular() const;
   Vec3 warpDirection(const Field3& position) const noexcept;
   // Slopes of the cloth along directions that suit it.
   struct Projection {
@@ -79,8 +81,9 @@ class ClothFlatness {
   bool topRowHolds(const Field3& position) const noexcept;
 
   const ClothPattern& pattern_;
+  int first_, end_column_;
   double overlong_;
-  const bool regular_;
+  bool regular_;
   bool usable_ = false;
   bool checks_top_ = false;  // pins are side by side in the top row, and may be moved apart
   std::vector<Span> strips_, spans_;

@@ -83,7 +83,7 @@ ObstacleCandidates::ObstacleCandidates(const ClothPattern& pattern, const Contac
   elements_wanted_ = std::isfinite(radius) && sagitta > 0.9 * gaps.thickness - gaps.core;
   const std::size_t size = pattern.grid.size(), count = pattern.grid.nodeCount();
   for (Field3* field : {&start_, &end_}) field->assign(size, 0.0);
-  planes_.resize(size);
+  seen_.resize(size);
   distance_.assign(size, thickness());
   nodes_.reserve(count);
   near_.assign(size, 0);
@@ -124,8 +124,7 @@ CURTAIN_WIDE void ObstacleCandidates::toLocal(const Transform& place, const Fiel
 }
 
 void ObstacleCandidates::invalidate() noexcept {
-  std::fill(planes_.begin(), planes_.end(), CachedPlane());
-  std::fill(face_planes_.begin(), face_planes_.end(), CachedPlane());
+  std::fill(face_planes_.begin(), face_planes_.end(), SeenSurface());
   std::fill(queried_at_.begin(), queried_at_.end(), 0U);
   std::fill(triangles_.begin(), triangles_.end(), NearTriangles());
   mesh_clearance_.invalidate();
@@ -168,27 +167,21 @@ void ObstacleCandidates::queryStart(std::size_t node) noexcept {
   if (queried_at_[node] == substep_) return;
   queried_at_[node] = substep_;
   const Vec3 at = start_.at(node);
-  CachedPlane& plane = planes_[node];
-  plane.at = at;
-  plane.kind = CachedPlane::Kind::kFound;
+  SeenSurface& seen = seen_[node];
+  seen.at = at;
   if (const ConvexShape* convex = shape_.convex()) {
-    plane.surface = convex->nearest(at);
+    seen.surface = convex->nearest(at);
   } else {
     const double wanted = nodeReach() + (end_.at(node) - at).norm();
-    if (!query(node, at, at, wanted, plane.surface)) {
-      plane.kind = CachedPlane::Kind::kFar;
-      plane.surface.distance = wanted;
-    }
+    if (!query(node, at, at, wanted, seen.surface)) seen.surface = {wanted, Vec3::Zero()};
   }
-  distance_[node] = plane.surface.distance;
+  distance_[node] = seen.surface.distance;
 }
 
 bool ObstacleCandidates::isNear(std::size_t node, const Eigen::AlignedBox3d& box) noexcept {
   const double reach = nodeReach();
   const Vec3 at = start_.at(node);
   const double displacement = (end_.at(node) - at).norm();
-  const CachedPlane& plane = planes_[node];
-  if (plane.kind != CachedPlane::Kind::kUnknown && plane.lowerBound(at) - displacement > reach) return false;
   if (!Eigen::AlignedBox3d(at).extend(end_.at(node)).intersects(box)) return false;
   queryStart(node);
   return !(distance_[node] - displacement > reach);
@@ -220,8 +213,8 @@ std::vector<ObstacleCandidates::NodeEnd>& ObstacleCandidates::queryEnds(double r
       const std::uint32_t node = nodes_[k];
       const Vec3 from = start_.at(node), to = end_.at(node);
       ends_[k].node = node;
-      const bool found = !isPinned(node) && !planes_[node].isClearOf(from, to, reach) &&
-                         query(node, from, to, reach, ends_[k].surface);
+      const bool found =
+          !isPinned(node) && !seen_[node].isClearOf(from, to, reach) && query(node, from, to, reach, ends_[k].surface);
       found_[k] = found ? 1 : 0;
     }
   });

@@ -6,8 +6,9 @@
 //  start ------------> end  faces    triangles that may come within a reach (convex shapes)
 //     ( obstacle )          pairs    cloth edge x obstacle edge, cloth triangle x obstacle corner (meshes)
 //
-// Candidates are computed for every motion. Only facts about the obstacle are cached, which hold wherever the cloth is:
-// distances and tangent planes found from nodes, planes with the whole obstacle behind them.
+// Candidates are computed for every motion. What is kept from substep to substep are facts about the obstacle, which
+// hold wherever the cloth is: of a convex shape a tangent plane for each face, of a mesh the triangles near each node
+// and the windows of mesh_clearance.h. Each is there because it was measured to pay (docs/method.md, Contact).
 #pragma once
 
 #include <algorithm>
@@ -22,6 +23,7 @@
 #include "contact/narrow_phase/element_pairs.h"
 #include "obstacles/obstacle_set.h"
 #include "obstacles/triangle_mesh.h"
+#include "scene/infinity.h"
 
 namespace curtain {
 
@@ -35,17 +37,15 @@ struct FeaturePair {
   bool edges = false;
 };
 
-/// Cached surface point of the obstacle, found from a position of the cloth.
-struct CachedPlane {
-  Vec3 at = Vec3::Zero();  ///< position it was found from [m]
-  SurfacePoint surface;    ///< if kFar, `distance` is a lower bound and the normal is unset
-  enum class Kind : std::uint8_t { kUnknown, kFar, kFound } kind = Kind::kUnknown;
+/// Surface point of the obstacle, found from a position of the cloth; at first none, which proves nothing.
+struct SeenSurface {
+  Vec3 at = Vec3::Zero();                          ///< position it was found from [m]
+  SurfacePoint surface{-kInfinity, Vec3::Zero()};  ///< without a normal, `distance` is a lower bound
 
   /// Lower bound of the distance from p to the surface, by the triangle inequality [m]; p outside.
   double lowerBound(const Vec3& p) const noexcept { return surface.distance - (p - at).norm(); }
   /// Proof that neither end of the motion is within reach, and that it meets nothing in between.
   bool isClearOf(const Vec3& from, const Vec3& to, double reach) const noexcept {
-    if (kind == Kind::kUnknown) return false;
     const double first = lowerBound(from), last = lowerBound(to);
     return first > 0.0 && last > reach && first + last > (to - from).norm();
   }
@@ -96,11 +96,12 @@ class ObstacleCandidates {
   bool surfaceOf(std::size_t node, const Vec3& position, SurfacePoint& out) noexcept {
     return query(node, start_.at(node), position, nodeReach(), out);
   }
-  CachedPlane& plane(std::size_t node) noexcept { return planes_[node]; }
-  const CachedPlane& plane(std::size_t node) const noexcept { return planes_[node]; }
+  /// What a candidate's node saw last in this substep: at its start or at its predicted end.
+  SeenSurface& seen(std::size_t node) noexcept { return seen_[node]; }
+  const SeenSurface& seen(std::size_t node) const noexcept { return seen_[node]; }
 
-  /// Tangent plane at a face's nearest point, kUnknown before it was computed.
-  CachedPlane& facePlane(const Face& face) noexcept { return face_planes_[face.index]; }
+  /// Tangent plane at a face's nearest point, when that was last computed.
+  SeenSurface& facePlane(const Face& face) noexcept { return face_planes_[face.index]; }
 
   /// Signed distance at the start of the substep, cut at what nodes keep [m].
   double distanceOf(std::size_t node) const noexcept {
@@ -171,8 +172,8 @@ class ObstacleCandidates {
   const TriangleMeshShape* mesh_;
   ObstacleGaps gaps_;
   bool elements_wanted_;
-  Field3 start_, end_;               // of this substep [m]
-  std::vector<CachedPlane> planes_;  // by node
+  Field3 start_, end_;             // of this substep [m]
+  std::vector<SeenSurface> seen_;  // by node; of the substep in queried_at_
   std::vector<double>
       distance_;  // by node: at the start of the substep in queried_at_; a lower bound when the surface was far [m]
   std::uint32_t substep_ = 0;
@@ -184,7 +185,7 @@ class ObstacleCandidates {
   std::vector<NodeEnd> ends_;
   std::vector<std::uint8_t> found_;  // by index in nodes_: its end is in ends_
   std::vector<Face> faces_;
-  std::vector<CachedPlane> face_planes_;  // by face index, of a convex shape
+  std::vector<SeenSurface> face_planes_;  // by face index, of a convex shape
   std::vector<NearTriangles> triangles_;  // by node, of a mesh
   MeshClearance mesh_clearance_;          // of a mesh
   std::vector<FeaturePair> pairs_;

@@ -22,17 +22,16 @@ Eigen::AlignedBox3d ObstacleCandidates::boxOf(const std::array<std::uint32_t, 4>
 
 // Whether one of the cached planes has the whole motion of the face above it.
 bool ObstacleCandidates::staysAbove(const Face& face, double reach) noexcept {
-  const auto isOver = [&](const CachedPlane& plane) {
+  const auto isOver = [&](const SeenSurface& plane) {
     double lowest = std::numeric_limits<double>::infinity();
     for (const std::uint32_t k : face.node)
       lowest = std::min({lowest, plane.height(start_.at(k)), plane.height(end_.at(k))});
     return lowest > reach;
   };
-  const CachedPlane& own = face_planes_[face.index];
-  if (own.kind == CachedPlane::Kind::kFound && isOver(own)) return true;
+  if (isOver(face_planes_[face.index])) return true;
   for (const std::uint32_t node : face.node) {
     queryStart(node);
-    if (isOver(planes_[node])) return true;
+    if (isOver(seen_[node])) return true;
   }
   return false;
 }

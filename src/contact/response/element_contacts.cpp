@@ -211,7 +211,7 @@ void collectFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, O
     const Corners start = startOf(candidates, face.node), end = endOf(candidates, face.node);
     ElementPoint nearest;
     const bool close = shape.nearestOnTriangle(start, candidates.thickness(), nearest);
-    if (close) candidates.facePlane(face) = {mix(nearest.weights, start), nearest.surface, CachedPlane::Kind::kFound};
+    if (close) candidates.facePlane(face) = {mix(nearest.weights, start), nearest.surface};
     if (close && nearest.surface.distance < 0.0) {
       addWithinRoom(PenetratingFace{face.node, nearest}, penetrating);
       continue;

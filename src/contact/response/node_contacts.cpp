@@ -129,7 +129,7 @@ void collectNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, O
     SurfacePoint at_start;
     if (pad && touchesAtStart(candidates, node, at_start)) continue;
     SurfacePoint& surface = end.surface;
-    if (surface.distance >= 0.0) candidates.plane(node) = {to, surface, CachedPlane::Kind::kFound};
+    if (surface.distance >= 0.0) candidates.seen(node) = {to, surface};
     double distance = candidates.distanceOf(node);
     const bool curved = distance >= 0.0;
     if (!curved) {

@@ -292,8 +292,7 @@ double ObstacleContacts::deepest(const Contacts& contacts, const Field3& positio
     if (contact.obstacle == Contact::kCloth || contact.nodes > 1) continue;
     const auto obstacle = static_cast<std::size_t>(contact.obstacle);
     const Vec3 local = moving(obstacle).after.toLocal(position.at(contact.node[0]));
-    const CachedPlane& plane = candidates_[obstacle].plane(contact.node[0]);
-    if (plane.kind != CachedPlane::Kind::kUnknown && plane.lowerBound(local) > 0.0) continue;
+    if (candidates_[obstacle].seen(contact.node[0]).lowerBound(local) > 0.0) continue;
     SurfacePoint surface;
     if (candidates_[obstacle].shape().query(local, local, 0.0, surface)) deepest = std::max(deepest, -surface.distance);
   }
