@@ -33,7 +33,6 @@ using curtain::Simulator;
 using curtain::Vec3;
 using curtain_test::bearable;
 using curtain_test::layOver;
-using curtain_test::massOfRow;
 using curtain_test::Strap;
 using curtain_test::strapScene;
 

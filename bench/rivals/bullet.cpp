@@ -21,8 +21,8 @@ btVector3 vector(const std::array<double, 3>& v) {
 // A floor is a box so thick and wide [m].
 constexpr double kThick = 1.0, kWide = 100.0, kLong = 10.0;
 
-// Of the grid on which it knows a shape's distance [m]; by itself 0.25, in which a bar of 0.2 is lost.
-constexpr btScalar kVoxel = btScalar(0.05);
+// Of the grid on which it knows a shape's distance [m]; by itself 0.25, in which a ball of 0.15 is lost.
+constexpr btScalar kVoxel = btScalar(0.02);
 
 std::unique_ptr<btCollisionShape> shapeOf(const Solid& solid) {
   const auto radius = static_cast<btScalar>(solid.radius);
@@ -50,6 +50,7 @@ class World {
     info.m_dispatcher = &dispatcher_;
     info.m_sparsesdf.Initialize();
     info.m_sparsesdf.setDefaultVoxelsz(kVoxel);
+    info.m_sparsesdf.Reset();  // only from here on it has such cells
     rigid_.setCollisionFlags(rigid_.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
     rigid_.setActivationState(DISABLE_DEACTIVATION);
     rigid_.setFriction(static_cast<btScalar>(solid_.friction));
@@ -66,6 +67,7 @@ class World {
   void add(btSoftBody& body) {
     body_ = &body;
     body.m_cfg.collisions = btSoftBody::fCollision::SDF_RS;
+    body.m_cfg.kKHR = 1;  // by itself it corrects a tenth of what is too deep
     body.m_cfg.kDF = static_cast<btScalar>(solid_.friction);
     body.getCollisionShape()->setMargin(static_cast<btScalar>(solid_.margin));
     world_.addSoftBody(&body);

@@ -46,7 +46,7 @@ class ProjectionContestant : public Contestant {
   double h_ = 0.0;  // [s]
 
  private:
-  // Macklin, Mueller, Chentanez, Kim 2014, "Unified Particle Physics for Real-Time Applications", Sects. 6.1 and Eq.
+  // Macklin, Mueller, Chentanez, Kim 2014, "Unified Particle Physics for Real-Time Applications", Sect. 6.1 and Eq.
   // (24): out of it along the normal, then against the way along it since the substep's start, as far as friction
   // times the depth.
   void keepOut() {
