@@ -3,7 +3,8 @@
 // Membrane   Saint Venant-Kirchhoff in plane stress: E = A / 2 (lambda tr(e)^2 + 2 mu e : e), e = (F^T F - 1) / 2.
 // Bending    E = B A / 2 ((1 - nu) L : L + nu tr(L)^2), with a triangle's shape operator from the dihedral angles theta
 //            at its edges of length l and normal n in its plane, L = sum of theta l / (2 A) n n^T (Grinspun, Gingold,
-//            Reisman, Zorin 2006). Exact for quadratic surfaces on a regular mesh. The rim's edges bear no moment.
+//            Reisman, Zorin 2006). Exact for quadratic surfaces on a regular mesh. The rim's edges bear no moment. At
+//            an edge of the clamp only the triangle outside bends, so that all of the turn is its own, not half of it.
 // Mesh       rings of points as far apart as the rings are, turned at random: no direction is preferred. The two
 //            innermost are clamped, the second of them at the disc's edge.
 #include "bench/shell/shell.h"
@@ -249,6 +250,13 @@ class Shell {
     }
   }
 
+  // Of an edge's turn, what a triangle beside it bends.
+  double shareOf(const Edge& edge, const Triangle& t) const {
+    const auto held = [&](int n) { return held_[at(n)] != 0; };
+    if (!held(edge.from) || !held(edge.to)) return 0.5;
+    return std::all_of(t.corner.begin(), t.corner.end(), held) ? 0.0 : 1.0;
+  }
+
   void bend() {
     for (Edge& edge : edges_) {
       if (edge.triangle[1] < 0) continue;
@@ -266,7 +274,7 @@ class Shell {
         if (edge.triangle[1] < 0)
           free = k;
         else
-          shape += edge.angle * edge.length / (2.0 * t.area) * t.normal[k] * t.normal[k].transpose();
+          shape += shareOf(edge, t) * edge.angle * edge.length / t.area * t.normal[k] * t.normal[k].transpose();
       }
       if (free < 3) {  // turned so far that there is no moment about it
         const Vec2& n = t.normal[free];
@@ -280,7 +288,8 @@ class Shell {
       for (const int index : edge.triangle) {
         const Triangle& t = triangles_[at(index)];
         for (std::size_t k = 0; k < 3; ++k) {
-          if (&edges_[at(t.edge[k])] == &edge) torque += 0.5 * edge.length * t.normal[k].dot(t.moment * t.normal[k]);
+          if (&edges_[at(t.edge[k])] == &edge)
+            torque += shareOf(edge, t) * edge.length * t.normal[k].dot(t.moment * t.normal[k]);
         }
       }
       turn(edge, torque);

@@ -132,8 +132,10 @@ TEST(Drape, IsotropicClothHangsAlikeAlongWarpAndWeft) {
   ClothParams limp = cotton();
   limp.bending_warp = limp.bending_weft = 1.863e-6;
   limp.shear = 20.0;
+  DrapeTest test = quick();
+  test.nodes = 36;  // weft links longer than the bending length, 11.7 mm, buckle
   double warp = 0.0, weft = 0.0;
-  for (const DrapeReading& reading : curtain_fit::drape(limp, quick())) {
+  for (const DrapeReading& reading : curtain_fit::drape(limp, test)) {
     EXPECT_TRUE(reading.at_rest);
     warp += reading.warp_height / 5.0;
     weft += reading.weft_height / 5.0;

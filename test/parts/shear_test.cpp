@@ -78,6 +78,29 @@ TEST(Shear, PullsAtAPictureFrameByItsRigidity) {
   }
 }
 
+// Links of the length l on a cylinder whose axis is along the bias: each goes on by c cos(turn / 2) and across by c.
+TEST(Shear, ClothRolledAlongTheBiasHasNone) {
+  constexpr int kLinks = 8;
+  Fabric fabric(curtain_test::flatScene(kLinks + 1, kLinks + 1, 0.8, 0.8));
+  Shear shear(sheared(fabric), fabric.pattern, fabric.workers);
+  const Grid& grid = fabric.pattern.grid;
+  for (const double turn : {0.01, 0.2, 0.8}) {
+    const double cosine = std::cos(0.5 * turn), across = 0.8 / kLinks / std::sqrt(1.0 + cosine * cosine);
+    const double radius = 0.5 * across / std::sin(0.5 * turn);
+    for (int i = 0; i < grid.rows; ++i) {
+      for (int j = 0; j < grid.columns; ++j)
+        fabric.position.set(grid.index(i, j), {radius * std::sin(turn * (j - i)), radius * std::cos(turn * (j - i)),
+                                               across * cosine * (i + j)});
+    }
+    for (const std::size_t next : {grid.index(3, 5), grid.index(4, 4)})
+      ASSERT_NEAR((fabric.position.at(next) - fabric.position.at(grid.index(3, 4))).norm(), 0.8 / kLinks, 1e-14);
+    double energy = 0.0;
+    const Field3& force = shear.forceAt(fabric.position, energy);
+    EXPECT_NEAR(energy, 0.0, 1e-20) << turn;
+    for (std::size_t n = 0; n < grid.size(); ++n) EXPECT_LT(force.at(n).norm(), 1e-12 * kShearRigidity) << turn;
+  }
+}
+
 TEST(Shear, NoFrequencyIsAboveItsBound) {
   for (const Scene& scene : {curtain_test::flatScene(7, 6), curtain_test::unevenScene(7, 6, false)}) {
     const Fabric fabric(scene);

@@ -86,7 +86,9 @@ TEST(StartsElsewhere, LaidOverSomethingStaysThere) {
     EXPECT_LT(simulator.obstacleDistance(0).distance, 2.0 * simulator.scene().contact.thickness);
     const double energy = energyOf(simulator);
     run(simulator, 120);
-    EXPECT_LE(energyOf(simulator), energy + 1e-9);
+    // Contacts lift by up to the tenth of the gap that they leave cloth in.
+    const double lift = 0.1 * simulator.scene().contact.thickness;
+    EXPECT_LE(energyOf(simulator), energy + massOf(simulator) * kGravity * lift);
     EXPECT_GT(energyOf(simulator), energy - 1e-3 * massOf(simulator) * kGravity * 0.8);
     simulator.copyPositions(after);
     double most = 0.0;

@@ -76,14 +76,13 @@ Shear::Shear(const Layers& layers, const ClothPattern& pattern, const Workers& w
   std::vector<Vec2> flat(grid.size(), Vec2::Zero());
   for (const Layers::Layer& layer : layers) layFlat(pattern, layer, flat);
   forEachCell(grid, [&](int i, int j, int left) {
-    const std::size_t n = grid.index(i, j), below = grid.index(i + 1, j);
+    const std::size_t n = grid.index(i, j);
     const std::array<Vec2, 4> at = flatCell(pattern, flat, i, j, left);
     const Vec2 top = at[1] - at[0], bottom = at[3] - at[2], on_left = at[2] - at[0], on_right = at[3] - at[1];
-    const double per_left = per_warp_[grid.index(i + 1, left)], per_right = per_warp_[below];
-    flat_[0][n] = top.dot(on_left) * per_weft_[n] * per_left;
-    flat_[1][n] = top.dot(on_right) * per_weft_[n] * per_right;
-    flat_[2][n] = bottom.dot(on_left) * per_weft_[below] * per_left;
-    flat_[3][n] = bottom.dot(on_right) * per_weft_[below] * per_right;
+    flat_[0][n] = top.dot(on_left);
+    flat_[1][n] = top.dot(on_right);
+    flat_[2][n] = bottom.dot(on_left);
+    flat_[3][n] = bottom.dot(on_right);
   });
   assign(grid.size());
   cells_.emplace(grid);
@@ -107,11 +106,18 @@ CURTAIN_WIDE void Shear::shearCells(const Field3& position, int row, CellCorners
     const double dx = b.x[j] - b.x[j - 1], dy = b.y[j] - b.y[j - 1], dz = b.z[j] - b.z[j - 1];              // bottom
     const double fx = b.x[j - 1] - a.x[j - 1], fy = b.y[j - 1] - a.y[j - 1], fz = b.z[j - 1] - a.z[j - 1];  // left
     const double gx = b.x[j] - a.x[j], gy = b.y[j] - a.y[j], gz = b.z[j] - a.z[j];                          // right
-    const double k = share * stiffness[j];
-    const double ef = k * ((ex * fx + ey * fy + ez * fz) * per_top[j] * per_warp[j - 1] - flat_ef[j]);
-    const double eg = k * ((ex * gx + ey * gy + ez * gz) * per_top[j] * per_warp[j] - flat_eg[j]);
-    const double df = k * ((dx * fx + dy * fy + dz * fz) * per_bottom[j] * per_warp[j - 1] - flat_df[j]);
-    const double dg = k * ((dx * gx + dy * gy + dz * gz) * per_bottom[j] * per_warp[j] - flat_dg[j]);
+    double ef = ex * fx + ey * fy + ez * fz - flat_ef[j], eg = ex * gx + ey * gy + ez * gz - flat_eg[j];
+    double df = dx * fx + dy * fy + dz * fz - flat_df[j], dg = dx * gx + dy * gy + dz * gz - flat_dg[j];
+    const double warped = 0.25 * (ef - eg - df + dg), k = share * stiffness[j];
+    ef = k * (ef - warped) * per_top[j] * per_warp[j - 1];
+    eg = k * (eg + warped) * per_top[j] * per_warp[j];
+    df = k * (df + warped) * per_bottom[j] * per_warp[j - 1];
+    dg = k * (dg - warped) * per_bottom[j] * per_warp[j];
+    const double rest = 0.25 * (ef - eg - df + dg);  // what moves p moves w; 0 but for tapered cells
+    ef -= rest;
+    eg += rest;
+    df += rest;
+    dg -= rest;
     // Gradients by the edges: of the top ef f + eg g, of the bottom df f + dg g, of the left ef e + df d, of the right.
     tl.x[j] = ef * fx + eg * gx + ef * ex + df * dx;
     tl.y[j] = ef * fy + eg * gy + ef * ey + df * dy;
@@ -135,11 +141,18 @@ void Shear::shearSeam(const Field3& position, int row, CellCorners& corners) con
                     last_below = grid.index(row + 1, grid.columns - 1);
   const Vec3 top = position.at(n) - position.at(last), bottom = position.at(below) - position.at(last_below);
   const Vec3 left = position.at(last_below) - position.at(last), right = position.at(below) - position.at(n);
-  const double k = share() * stiffness_[n];
-  const double ef = k * (top.dot(left) * per_weft_[n] * per_warp_[last_below] - flat_[0][n]);
-  const double eg = k * (top.dot(right) * per_weft_[n] * per_warp_[below] - flat_[1][n]);
-  const double df = k * (bottom.dot(left) * per_weft_[below] * per_warp_[last_below] - flat_[2][n]);
-  const double dg = k * (bottom.dot(right) * per_weft_[below] * per_warp_[below] - flat_[3][n]);
+  double ef = top.dot(left) - flat_[0][n], eg = top.dot(right) - flat_[1][n];
+  double df = bottom.dot(left) - flat_[2][n], dg = bottom.dot(right) - flat_[3][n];
+  const double warped = 0.25 * (ef - eg - df + dg), k = share() * stiffness_[n];
+  ef = k * (ef - warped) * per_weft_[n] * per_warp_[last_below];
+  eg = k * (eg + warped) * per_weft_[n] * per_warp_[below];
+  df = k * (df + warped) * per_weft_[below] * per_warp_[last_below];
+  dg = k * (dg - warped) * per_weft_[below] * per_warp_[below];
+  const double rest = 0.25 * (ef - eg - df + dg);
+  ef -= rest;
+  eg += rest;
+  df += rest;
+  dg -= rest;
   const Vec3 of_top = ef * left + eg * right, of_bottom = df * left + dg * right;
   const Vec3 of_left = ef * top + df * bottom, of_right = eg * top + dg * bottom;
   corners.top_left.set(0, of_top + of_left);
@@ -161,17 +174,17 @@ double Shear::energyAt(const Field3& position) const noexcept {
   double sum = 0.0;
   forEachCell(grid, [&](int i, int j, int left) {
     const std::size_t n = grid.index(i, j);
-    const auto corner = [&](int row, int column, double flat) {
-      const std::size_t weft = grid.index(row, j), warp = grid.index(i + 1, column);
-      const Vec3 e = position.at(weft) - position.at(grid.index(row, left));
-      const Vec3 f = position.at(warp) - position.at(grid.index(i, column));
-      const double per = per_weft_[weft] * per_warp_[warp], s = e.dot(f) * per - flat;
-      sum += 0.5 * share() * stiffness_[n] * s * s / per;
-    };
-    corner(i, left, flat_[0][n]);
-    corner(i, j, flat_[1][n]);
-    corner(i + 1, left, flat_[2][n]);
-    corner(i + 1, j, flat_[3][n]);
+    const std::size_t below = grid.index(i + 1, j), on_left = grid.index(i, left), left_below = grid.index(i + 1, left);
+    const Vec3 top = position.at(n) - position.at(on_left), bottom = position.at(below) - position.at(left_below);
+    const Vec3 before = position.at(left_below) - position.at(on_left), after = position.at(below) - position.at(n);
+    const double ef = top.dot(before) - flat_[0][n], eg = top.dot(after) - flat_[1][n];
+    const double df = bottom.dot(before) - flat_[2][n], dg = bottom.dot(after) - flat_[3][n];
+    const double warped = 0.25 * (ef - eg - df + dg);
+    const auto corner = [&](double p, double per) { sum += 0.5 * share() * stiffness_[n] * p * p * per; };
+    corner(ef - warped, per_weft_[n] * per_warp_[left_below]);
+    corner(eg + warped, per_weft_[n] * per_warp_[below]);
+    corner(df + warped, per_weft_[below] * per_warp_[left_below]);
+    corner(dg - warped, per_weft_[below] * per_warp_[below]);
   });
   return sum;
 }
