@@ -8,7 +8,6 @@
 namespace curtain {
 namespace {
 
-
 // Where the ray goes in and out; never: in > out.
 struct Passage {
   double in = kInfinity, out = -kInfinity;
