@@ -331,7 +331,7 @@ def contact_peers():
     lines = ['## The same ball in the same curtain\n',
              '44 x 40 nodes, hung over their whole width; a ball of 0.3 m goes 0.4 m into it in a second and stays there for two. A frame of',
              'one core, the largest relative misfit of a link, and nodes that are in the ball at any frame (4 mm are to be kept). It is a run',
-             'of its own: *beside other engines* has another one, with other work beside it on the machine. btSoftBody',
+             'of its own: *beside other engines* has another one. btSoftBody',
              'keeps its distance from a field of distances in cells of 0.02 m, and all of its hardness (*kKHR*).\n',
              '| method | setting | median | longest | stretch | nodes inside | deepest |', '|---|---|---|---|---|---|---|']
     for row in table('contact_peers'):
@@ -360,7 +360,7 @@ def engines():
             'The same cloth, wind and ball in NvCloth 1.1.6 (6e86b18), Jolt 5.5.1 (3b47ec3) and Bullet 3.27 (6c888f4), built from their public '
             f'sources for this processor (g++ 12.2, -O3 -march=native), by programs outside of this repository; ours at commit {rows[0]["version"]}, one '
             f'thread, scene files with nothing set but what is named. One core of an {stamp["processor"]} with nothing beside it, all engines in '
-            f'turns, the least of the medians of {stamp["repeats"]} passes, 99 % in brackets; the largest relative misfit of a link '
+            f'turns, the least of the medians of {stamp["repeats"]} {"pass" if stamp["repeats"] == "1" else "passes"}, 99 % in brackets; the largest relative misfit of a link '
             '(of the weft: overlength) and its RMS, nodes nearer to the ball\'s centre than its '
             'radius at any frame\'s end, edges that cross triangles at the end, by brute force. Shown are of each '
             'engine, with self-contact and without, from the fastest setting on those that halve the misfit; [the table](engines.csv) has all.\n',
