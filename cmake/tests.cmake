@@ -82,6 +82,7 @@ add_test(NAME demos_check COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_D
 add_test(NAME robot_check COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/structure/robot_check.py)
 add_test(NAME worked_examples COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/structure/worked_examples.py
   ${CMAKE_CURRENT_BINARY_DIR}/worked_examples $<TARGET_FILE:curtain_batch> -G ${CMAKE_GENERATOR} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER})
+set_tests_properties(worked_examples PROPERTIES COST 300)  # the longest but one: among the last it would be waited for alone
 find_program(DOXYGEN doxygen)
 if(DOXYGEN)
   add_test(NAME doxygen COMMAND sh -c "(cat docs/Doxyfile; echo OUTPUT_DIRECTORY=${CMAKE_CURRENT_BINARY_DIR}/doxygen) | ${DOXYGEN} -"
