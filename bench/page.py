@@ -13,6 +13,7 @@ import math
 import os
 import sys
 
+from page_engines import engines
 from page_text import figure, markdown, value, values, where
 
 PARSER = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -341,65 +342,6 @@ def contact_peers():
     return lines + ['\n']
 
 
-def engines():
-    """Of each engine's settings, from the fastest on, those that halve the overlength."""
-    rows, body = table('engines'), []
-    for scene in values(rows, 'scene'):
-        for engine, alone in ((engine, alone) for engine in values(rows, 'engine') for alone in (False, True)):
-            least = math.inf
-            for row in sorted(where(rows, scene=scene, engine=engine), key=lambda row: value(row, 'ms_median')):
-                if ('without self-contact' in row['setting']) != alone or value(row, 'stretch_max') > 0.5 * least:
-                    continue
-                least = value(row, 'stretch_max')
-                body.append([scene, '**curtain_sim**' if engine == 'curtain_sim' else engine, row['setting'].replace(';', ','),
-                             '%s (%s) ms' % (figure(value(row, 'ms_median')), figure(value(row, 'ms_99'))), figure(least),
-                             figure(value(row, 'stretch_rms')), '%s, %s mm' % (row['nodes_inside'], figure(value(row, 'deepest_mm'))),
-                             row['crossings_end']])
-    stamp = next(row for row in table('stamps') if row['study'] == 'engines')
-    return ['## Beside other engines\n',
-            'The same cloth, wind and ball in NvCloth 1.1.6 (6e86b18), Jolt 5.5.1 (3b47ec3) and Bullet 3.27 (6c888f4), built from their public '
-            f'sources for this processor (g++ 12.2, -O3 -march=native), by programs outside of this repository; ours at commit {rows[0]["version"]}, one '
-            f'thread, scene files with nothing set but what is named. One core of an {stamp["processor"]} with nothing beside it, all engines in '
-            f'turns, the least of the medians of {stamp["repeats"]} {"pass" if stamp["repeats"] == "1" else "passes"}, 99 % in brackets; the largest relative misfit of a link '
-            '(of the weft: overlength) and its RMS, nodes nearer to the ball\'s centre than its '
-            'radius at any frame\'s end, edges that cross triangles at the end, by brute force. Shown are of each '
-            'engine, with self-contact and without, from the fastest setting on those that halve the misfit; [the table](engines.csv) has all.\n',
-            'How near they come, in the same scene and likewise with or without self-contact: the least misfit over ours of a setting that is '
-            'no slower than ours, and the least time over ours of one within ten times our misfit. *none*: none was tried that is. The finest '
-            'settings are chaotic, so factors of two between two of them mean nothing.\n',
-            markdown(['scene', 'self-contact', 'engine', 'misfit over ours, no slower', 'time over ours, within ten times the misfit'],
-                     nearest(rows)),
-            '\nWind and what of the air\'s damping is not linear are computed outside of their clock and given as accelerations of a frame. Links of theirs hold both ways; '
-            'ours across may fold, so ours starts flat and theirs in five waves. NvCloth: the frequency of its solver and its stiffness, tethers, phases from the top '
-            'down or even and odd, self-collision of particles, which are 26 and 47 mm apart (10 and 19 in the finer cloth), so that one can pass between four others, 27 mm from each, at any distance below their spacing. '
-            'Jolt: soft bodies do not collide with themselves; LRA: long range attachments. Bullet: self-collision by clusters, of which one a triangle '
-            'is *self clusters 0*; its field of distances of the ball in cells of 20 mm, or its default of 250 mm.\n',
-            markdown(['scene', 'engine', 'setting', 'frame', 'misfit', 'RMS', 'in the ball', 'crossings'], body)]
-
-
-def nearest(rows):
-    """Of each scene, with and without self-contact, how near the other engines come to our default."""
-    body = []
-    for scene in values(rows, 'scene'):
-        # What does not touch itself is compared with what does not, and Jolt's never does; the ball alone has one way.
-        of_scene = where(rows, scene=scene)
-        ways = [False, True] if any('without self-contact' in row['setting'] for row in of_scene) else [False]
-        for way in ways:
-            fits = [row for row in of_scene
-                    if len(ways) == 1 or ('without self-contact' in row['setting'] or row['engine'] == 'Jolt') == way]
-            ours = next(row for row in fits if row['engine'] == 'curtain_sim' and row['setting'].startswith('default'))
-            ms, misfit = value(ours, 'ms_median'), value(ours, 'stretch_max')
-            for engine in values(fits, 'engine'):
-                if engine == 'curtain_sim':
-                    continue
-                of_it = where(fits, engine=engine)
-                quick = [value(row, 'stretch_max') / misfit for row in of_it if value(row, 'ms_median') <= ms]
-                true = [value(row, 'ms_median') / ms for row in of_it if value(row, 'stretch_max') <= 10.0 * misfit]
-                body.append([scene, '–' if len(ways) == 1 else 'no' if way else 'yes', engine, figure(min(quick)) if quick else 'none',
-                             figure(min(true)) if true else 'none'])
-    return body
-
-
 def ccd():
     body = [[row['set'], row['pair'], row['queries'], row['hits'], row['missed'], row['false_alarms'],
              figure(value(row, 'ns_min')), figure(value(row, 'ns_min_1mm'))] for row in table('ccd')]
@@ -486,7 +428,7 @@ def main():
     sections = {'work_precision': work_precision, 'slopes': slopes, 'energy': energy, 'modes': modes, 'nets': nets, 'wind': wind,
                 'hard_spot': hard_spot, 'gusts': gusts, 'scaling': scaling, 'stages': stages, 'contact': contact,
                 'contact_frames': contact_frames, 'contact_peers': contact_peers, 'gathered': gathered, 'fabric': fabric,
-                'closed_forms': closed_forms, 'engines': engines, 'ccd': ccd,
+                'closed_forms': closed_forms, 'engines': lambda: engines(table('engines'), table('stamps')), 'ccd': ccd,
                 'features': features, 'sensing': sensing}
     all_stamps = {stamp['study']: stamp for stamp in table('stamps')}
     studies = [study for study in sections if table(study)]
