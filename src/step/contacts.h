@@ -85,6 +85,12 @@ struct Contact {
   bool pushes() const noexcept { return push > 0.0 || press > 0.0; }
   /// How far below the plane [m]; negative: above it.
   double depth(const Field3& position) const noexcept { return offset - level.dot(point(position)); }
+  /// All of its nodes are above its plane, and what is between them.
+  bool isAbove(const Field3& position) const noexcept {
+    bool above = true;
+    for (int k = 0; k < nodes; ++k) above = above && level.dot(position.at(node[static_cast<std::size_t>(k)])) >= offset;
+    return above;
+  }
   /// The point is this far from what it touches, whose normal is there `to`: that of a far side is not taken.
   void turnTo(const Vec3& to, double distance, const Field3& position) noexcept {
     if (!(to.dot(normal) > 0.0)) return;

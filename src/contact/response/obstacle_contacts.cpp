@@ -106,13 +106,16 @@ void ObstacleContacts::begin(const Field3& start, const Field3& predicted, const
   begun_ = contacts.size();
 }
 
-// The distance at the end, not that to a plane of before: a node that slides around an edge follows it.
+// The distance at the end, not that to a plane of before: a node that slides around an edge follows it. What neither
+// pushes nor is below its last plane has none to find: that plane bounds what is convex, a feature of a mesh too.
 void ObstacleContacts::relinearise(const Field3& position, Contacts& contacts) noexcept {
   const std::size_t count = contacts.size();
   for (std::size_t n = 0; n < count; ++n) {
     Contact& contact = contacts[n];
     if (!contact.curved || contact.ran_into) continue;
     const auto obstacle = static_cast<std::size_t>(contact.obstacle);
+    const bool convex = contact.nodes > 1 || candidates_[obstacle].shape().convex() != nullptr;
+    if (convex && !contact.pushes() && contact.isAbove(position)) continue;
     const Transform& place = moving(obstacle).after;
     if (contact.nodes > 1) {
       curtain::relinearise(candidates_[obstacle].shape(), place, position, contact);
