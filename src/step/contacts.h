@@ -88,7 +88,8 @@ struct Contact {
   /// All of its nodes are above its plane, and what is between them.
   bool isAbove(const Field3& position) const noexcept {
     bool above = true;
-    for (int k = 0; k < nodes; ++k) above = above && level.dot(position.at(node[static_cast<std::size_t>(k)])) >= offset;
+    for (int k = 0; k < nodes; ++k)
+      above = above && level.dot(position.at(node[static_cast<std::size_t>(k)])) >= offset;
     return above;
   }
   /// The point is this far from what it touches, whose normal is there `to`: that of a far side is not taken.

@@ -80,14 +80,14 @@ int NetRows::changeSet(float goal, NetNodes push) noexcept {
 
 void NetRows::conclude(NetNodes push) noexcept {
   for (Packed& row : rows_) {
-    row.solution = std::max(row.solution, row.least);
+    row.solution = row.bounded();
     row.push(row.solution, push);
   }
 }
 
 void NetRows::unload(double scale, Rows& rows) const noexcept {
   for (const Packed& row : rows_) {
-    const bool within = row.solution > row.least;
+    const bool within = row.bounded() > row.least;
     rows[row.index].change = within ? scale * static_cast<double>(row.solution) : rows[row.index].least;
   }
 }

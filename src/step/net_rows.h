@@ -5,6 +5,8 @@
 // what couples them is left to the gradients. Single precision, like all of NetSolver.
 #pragma once
 
+#include <algorithm>
+
 #include "step/row.h"
 
 namespace curtain {
@@ -101,6 +103,8 @@ class NetRows {
         push.z[node[k]] += share * dz;
       }
     }
+    // What has left is at its bound, to which gradients bring it but for rounding.
+    float bounded() const noexcept { return on > 0.0F ? std::max(solution, least) : least; }
     double aligned() const noexcept { return static_cast<double>(on * residual * residual * per_diagonal); }
   };
 

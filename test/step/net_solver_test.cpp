@@ -265,6 +265,26 @@ TEST_P(NetSolverOf, FindsWhichStringsPull) {
   EXPECT_GT(pull, 10);
 }
 
+// What is asked to give way, and pulls little, gives up that little to the last bit: a rest of it would count as a
+// pull.
+TEST_P(NetSolverOf, LetsRowsGoAtTheirBounds) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  for (int trial = 0; trial < 100; ++trial) {
+    Net net(sceneOf(7, 9, PinKind::kTop, GetParam()));
+    Row row;
+    row.nodes = 1;
+    row.node[0] = static_cast<std::uint32_t>(net.pattern.grid.index(5, 3));
+    row.weight[0] = 1.0;
+    row.direction = Vec3(any(random), any(random), any(random)).normalized();
+    row.violation = -1e-3;
+    row.least = -1e-9 * std::abs(any(random)) / net.pattern.inverse_mass[row.node[0]];
+    net.rows.push_back(row);
+    net.solver.solve(net.violation, net.active, net.rows, {1e-3, 0.0, 1e-2, 50, &net.weft.multiplier}, net.change);
+    EXPECT_EQ(net.rows[0].change, row.least);
+  }
+}
+
 TEST_P(NetSolverOf, GivesTheSameBitsWithAnyNumberOfThreads) {
   const Scene scene = sceneOf(60, 50, PinKind::kTop, GetParam());
   Field first;
