@@ -122,8 +122,10 @@ void ObstacleContacts::relinearise(const Field3& position, Contacts& contacts) n
       continue;
     }
     const std::uint32_t node = contact.node[0];
+    const Vec3 at = place.toLocal(position.at(node));
+    if (!contact.pushes() && candidates_[obstacle].seen(node).lowerBound(at) > contact.asked) continue;
     SurfacePoint surface;
-    if (!candidates_[obstacle].surfaceOf(node, place.toLocal(position.at(node)), surface)) continue;
+    if (!candidates_[obstacle].surfaceOf(node, at, surface)) continue;
     surface.normal = place.rotation * surface.normal;
     faceMet(contact, surface, position, contacts).turnTo(surface.normal, surface.distance, position);
   }
