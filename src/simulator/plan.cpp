@@ -54,7 +54,8 @@ void planSolver(const Motion& motion, const Budget& budget, Plan& plan) {
 }  // namespace
 
 Plan Simulator::plan() const {
-  const Impl& im = *impl_;
+  Impl& im = *impl_;
+  im.motion.step.beginElastic();
   Plan plan;
   const bool sleeps = im.sleep.asleep();
   if (im.scene.solver.rest_speed <= 0.0) {

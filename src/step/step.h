@@ -66,6 +66,8 @@ class Step {
   double elasticEnergy(const Field3& outer, const Field3& position) const noexcept {
     return distances().energy(position) + (elastic_ != nullptr ? elastic_->energyAfter(outer, position) : 0.0);
   }
+  /// From here on elastic parts are as stiff as the last substep bears, by what a snapshot holds.
+  void beginElastic() noexcept;
   /// Elastic force at these positions [N], and its energy [J], as a substep like the last one sees them;
   /// null and 0: limp cloth.
   const Field3* elasticAt(const Field3& position, double& energy) noexcept;

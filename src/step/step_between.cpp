@@ -43,11 +43,14 @@ void Step::projectVelocity(const Field3& position, double share, Field3& out) no
   }
 }
 
-// From what a snapshot holds, so that it is the same after it.
+void Step::beginElastic() noexcept {
+  if (elastic_ != nullptr) elastic_->begin(inertia_, inertia_.masses(), inertia_.tensions().scale, true);
+}
+
 const Field3* Step::elasticAt(const Field3& position, double& energy) noexcept {
   energy = 0.0;
   if (elastic_ == nullptr) return nullptr;
-  elastic_->begin(inertia_, inertia_.masses(), inertia_.tensions().scale, true);
+  beginElastic();
   return &elastic_->forceAt(position, energy);
 }
 
