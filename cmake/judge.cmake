@@ -1,9 +1,7 @@
 # Random scenes as the judge, test/judge: 150 of them in every test run, as many as one likes by test/judge/run.
 file(GLOB judge_sources CONFIGURE_DEPENDS test/judge/*.cpp)
 add_executable(curtain_judge ${judge_sources})
-target_include_directories(curtain_judge PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/test ${CMAKE_CURRENT_SOURCE_DIR}/src)
-target_compile_definitions(curtain_judge PRIVATE CURTAIN_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}")
-target_link_libraries(curtain_judge PRIVATE curtain_engine curtain_warnings)
+target_link_libraries(curtain_judge PRIVATE curtain_drawn curtain_warnings)
 curtain_unite(curtain_judge)
 add_test(NAME judge_everyday COMMAND curtain_judge --everyday 45 --most-nodes 1500)
 add_test(NAME judge_wild COMMAND curtain_judge --wild 30 --most-nodes 300)

@@ -1,5 +1,6 @@
 # One gtest binary a floor, from test/<floor>/*_test.cpp; properties: of whole scenes, see test/properties/seeds.h. Truth figures live in test/truth, see its README.
 find_package(GTest REQUIRED)
+include(cmake/drawn.cmake)
 
 function(curtain_add_tests floor)
   file(GLOB sources CONFIGURE_DEPENDS test/${floor}/*_test.cpp)
@@ -27,8 +28,11 @@ endfunction()
 
 add_compile_definitions($<$<CONFIG:Debug>:CURTAIN_FLOAT_TRAPS>)  # test/float_traps.h
 
-foreach(floor scene cloth step contact parts simulator budget properties batch fuzz)
+foreach(floor scene cloth step contact parts budget properties batch)
   curtain_add_tests(${floor})
+endforeach()
+foreach(floor simulator fuzz)
+  curtain_add_tests(${floor} curtain_drawn)
 endforeach()
 curtain_add_tests(fit curtain_fabric)
 
@@ -58,7 +62,7 @@ if(TARGET test_fit)
   target_compile_definitions(test_fit PRIVATE CURTAIN_FIT="$<TARGET_FILE:curtain_fit>")
 endif()
 if(TARGET test_fuzz)
-  target_sources(test_fuzz PRIVATE test/fuzz/scene_yaml.cpp test/fuzz/mesh.cpp test/fuzz/step.cpp test/fuzz/snapshot.cpp test/fuzz/scene_maker.cpp
+  target_sources(test_fuzz PRIVATE test/fuzz/scene_yaml.cpp test/fuzz/mesh.cpp test/fuzz/step.cpp test/fuzz/snapshot.cpp
     test/fuzz/breakages.cpp)
 endif()
 if(TARGET test_properties)

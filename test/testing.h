@@ -6,39 +6,16 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <random>
 #include <string>
 
 #include "cloth/cloth.h"
+#include "drawn/choices.h"
 #include "scene/pi.h"
 
 namespace curtain_test {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();  // two units of rounding of a number near one
 using curtain::kPi;
-
-/// Numbers from the bits of std::mt19937_64, which the standard fixes (its distributions it does not).
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : bits_(seed) {}
-  double between(double low, double high) {
-    return low + (high - low) * (static_cast<double>(bits_() >> 11U) * 0x1.0p-53);
-  }
-  curtain::Vec3 inBox(double half_edge) {
-    const double x = between(-half_edge, half_edge);
-    const double y = between(-half_edge, half_edge);
-    return {x, y, between(-half_edge, half_edge)};
-  }
-  curtain::Vec3 direction() {
-    for (;;) {
-      const curtain::Vec3 v = inBox(1.0);
-      if (v.norm() > 0.1 && v.norm() <= 1.0) return v.normalized();
-    }
-  }
-
- private:
-  std::mt19937_64 bits_;
-};
 
 /// Flat cloth of width x height [m] in the plane y = 0, its top row from (0, 0, height) along +x.
 inline curtain::Scene flatScene(int rows, int columns, double height = 1.0, double width = 1.0) {

@@ -5,8 +5,8 @@
 
 #include "curtain_sim/scene_yaml.h"
 #include "curtain_sim/simulator.h"
+#include "drawn/choices.h"
 #include "fuzz/checks.h"
-#include "fuzz/choices.h"
 #include "simulator/snapshot_format.h"
 
 namespace curtain_test {

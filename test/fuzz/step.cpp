@@ -6,9 +6,9 @@
 #include "cloth/cloth.h"
 #include "curtain_sim/scene_yaml.h"
 #include "curtain_sim/simulator.h"
+#include "drawn/scene_maker.h"
 #include "fuzz/checks.h"
-#include "fuzz/scene_maker.h"
-#include "scene/ranges.h"
+#include "verdict.h"
 
 namespace curtain_test {
 namespace {
@@ -21,33 +21,12 @@ using curtain::Vec3;
 
 constexpr int kFrames = 2;
 
-void requireFinite(const std::vector<Vec3>& values, const std::string& what) {
-  for (const Vec3& value : values) require(value.allFinite(), what + " are finite");
-}
-
-// Everything that a user may ask for.
-void requireFinite(Simulator& simulator) {
-  std::vector<Vec3> values;
-  simulator.copyPositions(values);
-  requireFinite(values, "positions");
-  simulator.copyVelocities(values);
-  requireFinite(values, "velocities");
-  simulator.copyForces(values);
-  requireFinite(values, "forces");
-  curtain::FineMesh mesh;
-  simulator.copyFineMesh(mesh);
-  requireFinite(mesh.positions, "the fine mesh's nodes");
-  const curtain::Energy energy = simulator.energy();
-  require(std::isfinite(energy.kinetic) && std::isfinite(energy.potential), "energies are finite");
-  require(simulator.statistics().finite, "the statistics say so");
-}
-
 // Where a frame's substeps all settled, its links are as long as they are, within the tolerance that was asked for.
 // What the solver measures is half the relative excess of the squared length, which is a stretch to first order: a
 // length below the tolerance in it is one in the stretch too, and a shorter one is beyond it by a tolerance of the
 // tolerance, which is at most a tenth. Lengths are differences of coordinates: each end is off by half a unit of
 // rounding, and so is every sum on the way to it.
-void requireLength(const Scene& scene, const Statistics& before, const Simulator& simulator) {
+void lookAtLength(const Scene& scene, const Statistics& before, const Simulator& simulator, Verdict& verdict) {
   const Statistics& now = simulator.statistics();
   const bool settled = now.unsettled == before.unsettled && now.stops == before.stops && now.frames > 0 &&
                        now.unfinished_substeps == before.unfinished_substeps &&
@@ -60,21 +39,20 @@ void requireLength(const Scene& scene, const Statistics& before, const Simulator
   for (const Vec3& position : positions) farthest = std::max(farthest, position.cwiseAbs().maxCoeff());
   const double shortest = curtain::shortestLink(curtain::makePattern(scene));
   const double bound = 1.1 * scene.solver.stretch_tolerance + 16.0 * 2.3e-16 * farthest / shortest;
-  const std::string numbers = curtain::formatNumber(now.warp_stretch) + " " +
-                              curtain::formatNumber(now.warp_compression) + " " +
-                              curtain::formatNumber(now.weft_stretch) + " > " + curtain::formatNumber(bound);
-  require(std::max({now.warp_stretch, now.warp_compression, now.weft_stretch}) <= bound,
-          "settled, and links too long: " + numbers);
+  verdict.atMost(bound, "settled, and links too long:", worstLink(now));
 }
 
 void stepWith(const Scene& scene) {
   Simulator simulator(scene, [](const std::string&) { return CURTAIN_SOURCE_DIR "/test/meshes/cube_binary.stl"; });
-  for (int frame = 0; frame < kFrames; ++frame) {
+  Watch watch(simulator);
+  Verdict verdict;
+  for (int frame = 0; frame < kFrames && verdict.holds(); ++frame) {
     const Statistics before = simulator.statistics();
     simulator.step();
-    requireFinite(simulator);
-    requireLength(scene, before, simulator);
+    watch.look(simulator, verdict);
+    lookAtLength(scene, before, simulator, verdict);
   }
+  require(verdict.holds(), verdict.holds() ? "" : verdict.faults.front());
 }
 
 void check(const Scene& scene) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Random scenes for the judge: what a curtain may meet, drawn from a seed over all keys and sizes. The same seed gives
-// the same trial everywhere. A trial is a scene and what a user does to it meanwhile, and is kept as a YAML file.
+// Trials for the judge, from a seed: a scene of any keys and sizes, made up by habit (drawn/), and what a user does to
+// it meanwhile. The same seed gives the same trial everywhere. It is kept as a YAML file.
 #pragma once
 
 #include <cstdint>
@@ -54,9 +54,6 @@ struct Drawn {
 };
 
 Drawn draw(Kind kind, std::uint64_t seed);
-
-/// Trials name meshes by their path in the source folder.
-std::string resolveTrialMesh(const std::string& url);
 
 /// As YAML text, and back; throws std::runtime_error for what is no trial.
 std::string write(const Drawn& drawn);

@@ -16,7 +16,7 @@
 #include <string>
 #include <utility>
 
-#include "judge/verdict.h"
+#include "judge/court.h"
 
 namespace {
 
@@ -96,7 +96,7 @@ std::string partsOf(const Drawn& drawn) {
       {"ring", cloth.closed},
       {"rail", !scene.rail.path.empty()},
       {"lines", !scene.lines.empty() || !scene.tie_back.empty()},
-      {"hands", !drawn.happenings.hands.empty()},
+      {"hands", !drawn.happenings.hands.empty() || !scene.hands.empty()},
       {"relative air", scene.air.law == AirLaw::kRelative}};
   std::string joined;
   for (const auto& [name, has] : parts) {
@@ -120,7 +120,7 @@ class Session {
     Rigour rigour;
     rigour.repeats = options_.repeat_every > 0 && drawn.seed % static_cast<std::uint64_t>(options_.repeat_every) == 0;
     rigour.max_seconds = options_.max_seconds;
-    const Verdict verdict = judge(drawn, rigour);
+    const TrialVerdict verdict = judge(drawn, rigour);
     ++heard_;
     if (!options_.write_to.empty()) std::ofstream(pathIn(options_.write_to, drawn)) << write(drawn);
     record(drawn, verdict);
@@ -151,7 +151,7 @@ class Session {
   static std::string pathIn(const std::string& folder, const Drawn& drawn) {
     return folder + "/" + kindName(drawn.kind) + "_" + std::to_string(drawn.seed) + ".yaml";
   }
-  void record(const Drawn& drawn, const Verdict& v) {
+  void record(const Drawn& drawn, const TrialVerdict& v) {
     if (!csv_.is_open()) return;
     csv_ << kindName(drawn.kind) << ',' << drawn.seed << ',' << toString(drawn.scene.solver.method) << ','
          << partsOf(drawn) << ',' << drawn.scene.cloth.rows << ',' << columnsOf(drawn.scene) << ',' << v.frames << ','

@@ -24,7 +24,7 @@ def main():
         with open(name, newline="", encoding="utf-8") as table:
             rows += list(csv.DictReader(table))
     print("# Random scenes\n")
-    print("Made by `test/judge/run`: scenes drawn from seeds over all keys and sizes (`test/judge/draw.cpp`), simulated, and judged at every "
+    print("Made by `test/judge/run`: scenes drawn from seeds over all keys and sizes (`test/drawn`, `test/judge/draw.cpp`), simulated, and judged at every "
           "frame: numbers finite, no link longer (no rod shorter) than twice the tolerance of 1e-3, at most 2000 solves a frame; nothing "
           "crossed or pierced by brute force, looked for at every frame, of long scenes of large cloth at every n-th; "
           "energy beyond what forces, pins and obstacles supply (not in wild scenes, nor in sudden ones where a step can't foresee it); "

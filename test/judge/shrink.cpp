@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cloth/cloth.h"
-#include "judge/verdict.h"
+#include "judge/court.h"
 
 namespace curtain_test {
 
@@ -66,7 +66,9 @@ Drawn shrink(Drawn drawn, const Rigour& rigour) {
       node.row = node.row * (rows - 1) / (cloth.rows - 1);
       node.column = node.column * (columns - 1) / (cloth.columns - 1);
     };
-    for (DragParams& drag : d.scene.drag) move(*drag.node);
+    for (DragParams& drag : d.scene.drag) {
+      if (drag.node) move(*drag.node);
+    }
     for (NodeIndex& node : d.scene.pins.nodes) move(node);
     for (Hand& hand : d.happenings.hands) move(hand.node);
     cloth.rows = rows;

@@ -33,8 +33,8 @@ class RandomScenes {
   curtain::Scene make(const Wanted& wanted);
 
   double between(double low, double high) { return random_.between(low, high); }
-  int integer(int low, int high) { return low + static_cast<int>(between(0.0, 1.0) * (high - low + 1)); }
-  bool chance(double share) { return between(0.0, 1.0) < share; }
+  int integer(int low, int high) { return random_.integer(low, high); }
+  bool chance(double share) { return random_.chance(share); }
   Random& random() { return random_; }
 
  private:

@@ -17,7 +17,6 @@ namespace {
 
 using curtain_test::ballAt;
 using curtain_test::flatScene;
-using curtain_test::pick;
 using curtain_test::Random;
 using curtain_test::Reading;
 using curtain_test::restoreOrFail;
@@ -232,14 +231,14 @@ TEST_F(Refusal, IsOrNoHarmIsDoneWhenTheChecksumIsRight) {
   for (int k = 0; k < tries; ++k) {
     SCOPED_TRACE(k);
     std::string bytes = snapshot_;
-    for (int changes = pick(random, 1, 3); changes > 0; --changes) {
+    for (int changes = random.integer(1, 3); changes > 0; --changes) {
       const std::size_t at =
           first + static_cast<std::size_t>(random.between(0.0, static_cast<double>(end - first - 8)));
-      const int kind = pick(random, 0, 3);
-      if (kind == 0) std::memcpy(&bytes[at], &numbers[pick(random, 0, 10)], 8);
-      if (kind == 1) std::memcpy(&bytes[at], &counts[pick(random, 0, 7)], 8);
-      if (kind == 2) bytes[at] = static_cast<char>(pick(random, 0, 255));
-      if (kind == 3) bytes.erase(at, static_cast<std::size_t>(pick(random, 1, 16)));
+      const int kind = random.integer(0, 3);
+      if (kind == 0) std::memcpy(&bytes[at], &numbers[random.integer(0, 10)], 8);
+      if (kind == 1) std::memcpy(&bytes[at], &counts[random.integer(0, 7)], 8);
+      if (kind == 2) bytes[at] = static_cast<char>(random.integer(0, 255));
+      if (kind == 3) bytes.erase(at, static_cast<std::size_t>(random.integer(1, 16)));
     }
     const std::uint64_t length = bytes.size();
     std::memcpy(&bytes[32], &length, sizeof length);
@@ -267,7 +266,7 @@ TEST_F(Refusal, IsOfBadHeadersWithARightChecksum) {
     SCOPED_TRACE(k);
     std::string bytes = snapshot_;
     const auto at = static_cast<std::size_t>(random.between(0.0, static_cast<double>(carried)));
-    bytes[at] = static_cast<char>(pick(random, 0, 255));
+    bytes[at] = static_cast<char>(random.integer(0, 255));
     if (bytes == snapshot_) continue;
     bytes = withRightChecksum(bytes);
     // In blanks and in what is set aside a letter may change.

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "curtain_sim/simulator.h"
+#include "drawn/scene_maker.h"
 #include "testing.h"
 
 namespace curtain_test {
@@ -195,133 +196,84 @@ inline void expectContinues(const curtain::Scene& scene, const Life& life, const
 
 inline void expectContinues(const curtain::Scene& scene, const Life& life) { expectContinues(scene, life, scene); }
 
-/// Whole numbers from [low, high].
-inline int pick(Random& random, int low, int high) {
-  return low + static_cast<int>(random.between(0.0, 1.0) * (high - low + 1));
+/// Small cloth with some of everything.
+inline curtain::Scene randomScene(Random& random) {
+  for (;;) {
+    std::optional<curtain::Scene> scene = makeScene(random, Manner::kEveryday, 14);
+    if (!scene) continue;
+    for (curtain::ObstacleParams& obstacle : scene->obstacles) obstacle.mesh = resolveTestMesh(obstacle.mesh);
+    scene->solver.threads = random.integer(1, 2);
+    if (random.chance(0.3)) scene->solver.max_substeps = random.integer(16, 128);
+    if (mayBegin(*scene)) return *scene;
+  }
 }
-inline bool chance(Random& random, double share) { return random.between(0.0, 1.0) < share; }
 
-inline curtain::WindParams randomWind(Random& random, const std::string& id, double start) {
-  curtain::WindParams wind;
-  wind.id = id;
-  wind.position = curtain::Vec3(0.5, chance(random, 0.5) ? -1.0 : 1.0, 1.5) + random.inBox(0.3);
-  wind.direction = curtain::Vec3(0.5, 0.0, 1.5) + random.inBox(0.3) - wind.position;
-  wind.radius = random.between(0.1, 1.5);
-  wind.half_angle = chance(random, 0.5) ? 0.0 : random.between(0.0, 0.5);
-  wind.pressure = chance(random, 0.8) ? random.between(0.0, 30.0) : 0.0;
-  wind.unsteadiness = chance(random, 0.5) ? random.between(0.0, 10.0) : 0.0;
-  wind.correlation_time = random.between(0.02, 0.5);
-  wind.start = start + (chance(random, 0.5) ? 0.0 : random.between(0.0, 0.3));
-  if (chance(random, 0.4)) wind.end = wind.start + random.between(0.05, 0.5);
+inline curtain::Vec3 nearCloth(Random& random, const curtain::Simulator& simulator, double far) {
+  return simulator.position({simulator.rows() / 2, simulator.columns() / 2}) + random.inBox(far);
+}
+
+template <typename Source>
+Source randomSource(Random& random, const std::string& key, const std::string& id,
+                    const curtain::Simulator& simulator) {
+  Source source;
+  SceneMaker(random, Manner::kEveryday).make(key, source);
+  source.id = id;
+  source.start += simulator.time();
+  source.end += source.start;
+  return source;
+}
+
+inline curtain::WindParams randomWind(Random& random, const std::string& id, const curtain::Simulator& simulator) {
+  auto wind = randomSource<curtain::WindParams>(random, "wind[]", id, simulator);
+  wind.direction = random.direction();
+  wind.position = nearCloth(random, simulator, 0.3) - wind.direction;
   return wind;
 }
 
-inline curtain::DragParams randomDrag(Random& random, const std::string& id, double start,
-                                      const curtain::ClothParams& cloth) {
-  curtain::DragParams drag;
-  drag.id = id;
-  if (chance(random, 0.5))
-    drag.node = curtain::NodeIndex{pick(random, 0, cloth.rows - 1), pick(random, 0, cloth.columns - 1)};
+inline curtain::DragParams randomDrag(Random& random, const std::string& id, const curtain::Simulator& simulator) {
+  auto drag = randomSource<curtain::DragParams>(random, "drag[]", id, simulator);
+  drag.path.clear();
+  drag.node.reset();
+  drag.point.reset();
+  if (random.oneIn(2))
+    drag.node = curtain::NodeIndex{random.integer(0, simulator.rows() - 1), random.integer(0, simulator.columns() - 1)};
   else
-    drag.point = curtain::Vec3(0.5, 0.0, 1.5) + random.inBox(0.5);
-  if (chance(random, 0.5))
-    drag.force = random.inBox(1.0);
-  else
-    drag.target = curtain::Vec3(0.5, 0.0, 1.5) + random.inBox(0.7);
-  drag.radius = chance(random, 0.5) ? 0.0 : random.between(0.0, 0.4);
-  drag.start = start + (chance(random, 0.5) ? 0.0 : random.between(0.0, 0.3));
-  if (chance(random, 0.4)) drag.end = drag.start + random.between(0.05, 0.5);
+    drag.point = nearCloth(random, simulator, 0.5);
+  if (drag.target) drag.target = nearCloth(random, simulator, 0.7);
   return drag;
 }
 
-inline curtain::Pose randomPose(Random& random) {
-  curtain::Pose pose;
-  pose.position = curtain::Vec3(0.5, 0.0, 1.5) + random.inBox(0.5);
-  pose.orientation = Eigen::AngleAxisd(random.between(0.0, 3.0), random.direction());
-  return pose;
-}
-
-inline curtain::ObstacleParams randomObstacle(Random& random, const std::string& name) {
-  using curtain::ShapeKind;
-  curtain::ObstacleParams obstacle;
-  obstacle.name = name;
-  obstacle.pose = randomPose(random);
-  obstacle.shape = static_cast<ShapeKind>(pick(random, 0, 5));
-  obstacle.radius = random.between(0.05, 0.25);
-  obstacle.length = random.between(0.1, 0.5);
-  obstacle.size = curtain::Vec3::Constant(0.3) + random.inBox(0.15);
-  if (obstacle.shape == ShapeKind::kMesh) {
-    const char* const mesh = chance(random, 0.5) ? "cube_quads" : "l_prism";
-    obstacle.mesh = std::string(CURTAIN_SOURCE_DIR) + "/test/meshes/" + mesh + ".obj";
-    obstacle.scale = curtain::Vec3::Constant(random.between(0.1, 0.4));
-  }
-  if (obstacle.shape == ShapeKind::kPlane) {
-    obstacle.pose.position.z() = random.between(0.8, 1.4);
-    obstacle.pose.orientation.setIdentity();
-  }
-  if (chance(random, 0.4)) {
-    obstacle.motion = {{0.0, obstacle.pose}, {random.between(0.2, 0.6), randomPose(random)}, {1.0, randomPose(random)}};
-  }
-  return obstacle;
-}
-
-/// Small cloth 1 m x 1 m or so, hung at a height of 2 m, with some of everything.
-inline curtain::Scene randomScene(Random& random) {
-  using namespace curtain;
-  Scene scene = flatScene(pick(random, 2, 18), pick(random, 3, 20));
-  scene.cloth.closed = chance(random, 0.2);
-  scene.hang.from = {0.0, 0.0, 2.0};
-  scene.hang.to = {scene.cloth.closed || chance(random, 0.3) ? 1.0 : random.between(0.5, 0.98), 0.0, 2.0};
-  scene.hang.tilt = scene.cloth.closed ? 0.0 : chance(random, 0.3) ? 0.0 : random.between(0.0, 1.5);
-  scene.pins.kind =
-      chance(random, 0.7) ? PinKind::kTop : static_cast<PinKind>(pick(random, 0, scene.cloth.closed ? 0 : 3));
-  if (chance(random, 0.6)) scene.air.inside = scene.air.border = scene.air.corner = random.between(0.0, 3.0);
-  for (int n = pick(random, -1, 2); n > 0; --n)
-    scene.wind.push_back(randomWind(random, "wind" + std::to_string(n), 0.0));
-  for (int n = pick(random, -1, 2); n > 0; --n) {
-    scene.drag.push_back(randomDrag(random, "drag" + std::to_string(n), 0.0, scene.cloth));
-  }
-  for (int n = pick(random, -1, 2); n > 0; --n)
-    scene.obstacles.push_back(randomObstacle(random, "thing" + std::to_string(n)));
-  scene.contact.self = chance(random, 0.5);
-  scene.contact.thickness = random.between(0.002, 0.02);
-  scene.contact.friction = chance(random, 0.7) ? random.between(0.0, 1.0) : 0.0;
-  scene.solver.method = chance(random, 0.5) ? Method::kAuto : static_cast<Method>(pick(random, 0, 5));
-  if (chance(random, 0.3)) scene.solver.substeps = pick(random, 1, 12);
-  if (chance(random, 0.25)) scene.solver.position_tolerance = random.between(1e-4, 1e-2);
-  if (chance(random, 0.3)) scene.solver.rest_speed = random.between(0.01, 1.0);
-  scene.solver.threads = pick(random, 1, 2);
-  scene.solver.max_substeps = pick(random, 16, 128);
-  scene.solver.frame_rate = chance(random, 0.7) ? 60.0 : random.between(20.0, 120.0);
-  return scene;
+inline curtain::Pose randomPose(Random& random, const curtain::Simulator& simulator) {
+  return {nearCloth(random, simulator, 0.5),
+          curtain::Rotation(Eigen::AngleAxisd(random.between(0.0, 3.0), random.direction()))};
 }
 
 /// A hand near a node, of any kind that the method knows.
 inline curtain::GraspParams randomGrasp(Random& random, const std::string& id, const curtain::Simulator& simulator) {
   const double size = simulator.scene().cloth.height;
-  const curtain::NodeIndex node{pick(random, 0, simulator.rows() - 1), pick(random, 0, simulator.columns() - 1)};
+  const curtain::NodeIndex node{random.integer(0, simulator.rows() - 1), random.integer(0, simulator.columns() - 1)};
   curtain::GraspParams grasp;
   grasp.id = id;
   grasp.frame.position = simulator.position(node) + random.inBox(0.02 * size);
   grasp.frame.orientation = Eigen::AngleAxisd(random.between(0.0, 3.0), random.direction());
-  grasp.region = chance(random, 0.7) ? curtain::GraspRegion::kSphere : curtain::GraspRegion::kBox;
+  grasp.region = random.chance(0.7) ? curtain::GraspRegion::kSphere : curtain::GraspRegion::kBox;
   grasp.radius = random.between(0.03, 0.2) * size;
   grasp.size = curtain::Vec3::Constant(grasp.radius);
   if (simulator.scene().solver.method == curtain::Method::kPaper) return grasp;
-  if (chance(random, 0.3)) grasp.stiffness = std::exp(random.between(0.0, 9.0));
-  if (chance(random, 0.3)) grasp.pinch_force = std::exp(random.between(-3.0, 3.0));
-  if (chance(random, 0.5)) grasp.break_force = std::exp(random.between(-1.0, 4.0));
+  if (random.chance(0.3)) grasp.stiffness = std::exp(random.between(0.0, 9.0));
+  if (random.chance(0.3)) grasp.pinch_force = std::exp(random.between(-3.0, 3.0));
+  if (random.chance(0.5)) grasp.break_force = std::exp(random.between(-1.0, 4.0));
   return grasp;
 }
 
 /// Hands take hold, move and let go.
 inline void moveHands(curtain::Simulator& simulator, Random& random, double often) {
-  const std::string id = "hand" + std::to_string(pick(random, 1, 3));
-  if (chance(random, 0.5 * often)) simulator.setGrasp(randomGrasp(random, id, simulator));
-  if (chance(random, 0.1 * often)) simulator.releaseGrasp(id);
+  const std::string id = "hand" + std::to_string(random.integer(1, 3));
+  if (random.chance(0.5 * often)) simulator.setGrasp(randomGrasp(random, id, simulator));
+  if (random.chance(0.1 * often)) simulator.releaseGrasp(id);
   for (const std::string& hand : simulator.grasps()) {
     const curtain::GraspState state = *simulator.graspState(hand);
-    if (state.nodes.empty() || chance(random, 0.3)) continue;
+    if (state.nodes.empty() || random.chance(0.3)) continue;
     curtain::Pose pose;
     pose.position = simulator.position(state.nodes.front()) + random.inBox(0.03);
     pose.orientation = Eigen::AngleAxisd(random.between(-0.2, 0.2), random.direction());
@@ -334,45 +286,48 @@ inline Deeds randomDeeds(std::uint64_t seed, double often) {
   return [=](curtain::Simulator& simulator, int frame) {
     using curtain::Vec3;
     Random random(seed * 1000003U + static_cast<std::uint64_t>(frame));
-    const double now = simulator.time();
-    while (chance(random, often)) {
-      const std::string id = std::to_string(pick(random, 1, 2));
-      const int obstacle = simulator.obstacleCount() > 0 ? pick(random, 0, simulator.obstacleCount() - 1) : -1;
-      switch (pick(random, 0, 10)) {
+    while (random.chance(often)) {
+      const std::string id = std::to_string(random.integer(1, 2));
+      const int obstacle = simulator.obstacleCount() > 0 ? random.integer(0, simulator.obstacleCount() - 1) : -1;
+      switch (random.integer(0, 10)) {
         case 0:
-          EXPECT_TRUE(simulator.setWind(randomWind(random, "wind" + id, now)).empty());
+          EXPECT_TRUE(simulator.setWind(randomWind(random, "wind" + id, simulator)).empty());
           break;
         case 1:
           simulator.removeWind("wind" + id);
           break;
         case 2:
-          EXPECT_TRUE(simulator.setDrag(randomDrag(random, "drag" + id, now, simulator.scene().cloth)).empty());
+          EXPECT_TRUE(simulator.setDrag(randomDrag(random, "drag" + id, simulator)).empty());
           break;
         case 3:
           simulator.removeDrag("drag" + id);
           break;
         case 4:
-          simulator.setGravity(chance(random, 0.2) ? Vec3(Vec3::Zero())
-                                                   : Vec3(Vec3(0.0, 0.0, -9.0) + random.inBox(2.0)));
+          simulator.setGravity(random.chance(0.2) ? Vec3(Vec3::Zero())
+                                                  : Vec3(Vec3(0.0, 0.0, -9.0) + random.inBox(2.0)));
           break;
         case 5: {
           curtain::AirParams air = simulator.scene().air;
-          air.inside = air.border = random.between(0.0, 2.0);
+          if (air.law == curtain::AirLaw::kRelative)
+            air.normal_drag = random.between(0.0, 2.0);
+          else
+            air.inside = air.border = random.between(0.0, 2.0);
           EXPECT_TRUE(simulator.setAir(air).empty());
           break;
         }
         case 6:
         case 7:
           if (obstacle < 0) break;
-          simulator.setObstaclePose(obstacle, randomPose(random), chance(random, 0.3));
+          simulator.setObstaclePose(obstacle, randomPose(random, simulator), random.chance(0.3));
           break;
         case 8:
           if (obstacle < 0) break;
-          if (!simulator.obstaclePresent(obstacle)) simulator.setObstaclePose(obstacle, randomPose(random), true);
+          if (!simulator.obstaclePresent(obstacle))
+            simulator.setObstaclePose(obstacle, randomPose(random, simulator), true);
           simulator.setObstaclePresent(obstacle, !simulator.obstaclePresent(obstacle));
           break;
         default: {
-          const curtain::NodeIndex node{0, pick(random, 0, simulator.columns() - 1)};
+          const curtain::NodeIndex node{0, random.integer(0, simulator.columns() - 1)};
           simulator.movePin(node, simulator.position(node) + random.inBox(0.05));
         }
       }

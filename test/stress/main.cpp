@@ -57,10 +57,10 @@ std::string describe(const Trial& trial) {
                 "%lld stops, slowest %.1f ms, %.1f s",
                 trial.holds() ? "holds " : "FAILS ", trial.stretch, trial.stretch_after, trial.energy_gain,
                 trial.recovery, trial.recovery_allowed, static_cast<long long>(trial.unsettled),
-                static_cast<long long>(trial.last_resort), static_cast<long long>(trial.stops), trial.milliseconds,
+                static_cast<long long>(trial.last_resort), static_cast<long long>(trial.stops), 1e3 * trial.slowest,
                 trial.seconds);
   std::string line = text;
-  for (const std::string& failure : trial.failures) line += "\n        " + failure;
+  for (const std::string& failure : trial.faults) line += "\n        " + failure;
   return line;
 }
 
@@ -69,7 +69,7 @@ void writeRow(const std::string& name, const std::string& method, const Trial& t
       << trial.stretch << ',' << trial.stretch_allowed << ',' << trial.stretch_after << ',' << trial.energy_gain << ','
       << trial.energy_allowed << ',' << trial.recovery << ',' << trial.recovery_allowed << ','
       << (trial.repeated ? (trial.same_bits ? "1" : "0") : "") << ',' << trial.frames << ',' << trial.unsettled << ','
-      << trial.last_resort << ',' << trial.stops << ',' << trial.milliseconds << '\n';
+      << trial.last_resort << ',' << trial.stops << ',' << 1e3 * trial.slowest << '\n';
 }
 
 }  // namespace

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fuzz/scene_maker.h"
-
+//
+// Values that have a meaning together; what is left over is for validate().
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cloth/cloth.h"
+#include "drawn/places.h"
+#include "drawn/scene_maker.h"
 #include "scene/heading.h"
 #include "scene/layers.h"
-#include "simulator/start/laid_start.h"
 
 namespace curtain_test {
 namespace {
@@ -22,9 +24,6 @@ using curtain::WindParams;
 
 // Rails begin so near that lengths of their pieces count [m].
 constexpr double kFarthestRail = 1e6;
-
-// A magnitude between 10^low and 10^high.
-double magnitude(Choices& choices, double low, double high) { return std::pow(10.0, choices.between(low, high)); }
 
 void putOnGrid(NodeIndex& node, const curtain::ClothParams& cloth) {
   node.row %= cloth.rows;
@@ -149,15 +148,20 @@ void fitPatches(curtain::ClothParams& cloth) {
 }
 
 // Of one cloth, of a scene that has no other.
-void fitCloth(Scene& scene, Choices& choices) {
+void fitCloth(Scene& scene, Choices& choices, Manner manner, int most) {
+  const bool any = manner == Manner::kAny;
   curtain::ClothParams& cloth = scene.cloth;
   if (!scene.rail.path.empty()) cloth.closed = false;
-  cloth.rows = std::min(cloth.rows, kMaxRows);
-  cloth.columns = std::min(cloth.columns, kMaxColumns);
+  cloth.rows = std::min(cloth.rows, any ? kMaxRows : most);
+  cloth.columns = std::min(cloth.columns, any ? kMaxColumns : most);
+  if (cloth.hem_width && !any)
+    cloth.hem_width = std::min(std::max(*cloth.hem_width, 0.4 * cloth.width), 1.6 * cloth.width);
   const int room = (curtain::weftLinkCount(cloth) - 1) / 2;  // strips of two columns
   cloth.slits.resize(std::min(cloth.slits.size(), static_cast<std::size_t>(room)));
+  const int strip =
+      any || cloth.slits.empty() ? 2 : choices.integer(2, 2 * room / static_cast<int>(cloth.slits.size()));
   for (std::size_t i = 0; i < cloth.slits.size(); ++i) {
-    cloth.slits[i] = {2 * static_cast<int>(i) + 1, std::min(std::max(cloth.slits[i].from_row, 0), cloth.rows - 1)};
+    cloth.slits[i] = {strip * static_cast<int>(i) + 1, std::min(std::max(cloth.slits[i].from_row, 0), cloth.rows - 1)};
   }
   resizeUnlessEmpty(cloth.row_spacing, cloth.rows - 1);
   resizeUnlessEmpty(cloth.column_spacing, curtain::weftLinkCount(cloth));
@@ -172,11 +176,12 @@ void fitCloth(Scene& scene, Choices& choices) {
     if (scene.hang.tilt != 0.0) scene.hang.tilt = -choices.between(0.0, 0.02);
   } else {
     scene.hang.radius.reset();
-    placeLine(scene, choices);
+    if (any) placeLine(scene, choices);
   }
   const double fullness = scene.cloth.width / (scene.hang.to - scene.hang.from).norm();
   if (scene.hang.fullness) scene.hang.fullness = fullness;
   if (cloth.closed || !(fullness >= 1.0 && fullness <= 3.0)) scene.hang.fullness.reset();
+  if (!any && !scene.rail.path.empty()) scene.rail.path[0].to = scene.hang.from;
   fitRail(scene, choices);
   for (NodeIndex& pin : scene.pins.nodes) putOnGrid(pin, cloth);
   fitPatches(cloth);
@@ -187,7 +192,7 @@ void fitCloth(Scene& scene, Choices& choices) {
 }
 
 // Beside the first, which is fitted.
-void fitLayers(Scene& scene, Choices& choices) {
+void fitLayers(Scene& scene, Choices& choices, Manner manner, int most) {
   if (scene.cloth.closed) scene.layers.clear();
   for (std::size_t k = 0; k < scene.layers.size(); ++k) {
     curtain::LayerParams& layer = scene.layers[k];
@@ -196,7 +201,8 @@ void fitLayers(Scene& scene, Choices& choices) {
     layer.cloth.folds = scene.cloth.folds;
     layer.cloth.closed = false;
     Scene one = curtain::layerScene(scene, k + 1);
-    fitCloth(one, choices);
+    if (manner != Manner::kAny) placeBeside(scene, choices, one.hang, one.cloth.width);
+    fitCloth(one, choices, manner, most);
     scene.solver.method = one.solver.method;
     layer = {layer.name, one.cloth, one.hang, one.hem, one.pins, one.rail, layer.air};
   }
@@ -207,16 +213,22 @@ void fitLayers(Scene& scene, Choices& choices) {
   if (curtain::validate(first).empty() && !curtain::validate(all).empty()) scene.layers.clear();
 }
 
-// Values that have a meaning together; what is left over is for validate().
-void fitTogether(Scene& scene, Choices& choices) {
+}  // namespace
+
+void fitTogether(Scene& scene, Choices& choices, Manner manner, int most) {
   // Together they say how much a frame may take: their product, times the nodes.
-  for (int* count :
-       {&scene.solver.substeps, &scene.solver.max_substeps, &scene.solver.max_sweeps, &scene.contact.zone_iterations}) {
-    *count = std::min(*count, kMaxRounds);
+  if (manner == Manner::kAny) {
+    for (int* count : {&scene.solver.substeps, &scene.solver.max_substeps, &scene.solver.max_sweeps,
+                       &scene.contact.zone_iterations}) {
+      *count = std::min(*count, kMaxRounds);
+    }
+    scene.solver.threads = std::min(scene.solver.threads, kMaxThreads);
+  } else {
+    placeCloth(scene, choices);
   }
-  scene.solver.threads = std::min(scene.solver.threads, kMaxThreads);
-  fitCloth(scene, choices);
-  fitLayers(scene, choices);
+  fitCloth(scene, choices, manner, most);
+  fitLayers(scene, choices, manner, most);
+  if (manner != Manner::kAny) placeThings(scene, choices);
   const curtain::ClothParams whole = curtain::wholeCloth(scene);
   fitLines(scene, whole);
   for (curtain::ObstacleParams& obstacle : scene.obstacles) {
@@ -246,118 +258,6 @@ void fitTogether(Scene& scene, Choices& choices) {
   }
   fitHands(scene, whole);
   for (curtain::ObstacleParams& obstacle : scene.obstacles) putInOrder(obstacle.motion);
-}
-
-}  // namespace
-
-int SceneMaker::pickInteger(curtain::IntRange range) {
-  // Small: they are the sizes of things and how often something is done.
-  const int spread = choices_.oneIn(4) ? 60 : 7;
-  const int most = range.high - range.low < spread ? range.high : range.low + spread;
-  return range.low + static_cast<int>(choices_.below(static_cast<std::uint64_t>(most - range.low) + 1));
-}
-
-double SceneMaker::pick(const Range& range, double usual) {
-  const std::uint64_t kind = choices_.below(8);
-  if (kind < 2 && range.contains(usual)) return usual;
-  if (kind == 2 && range.contains(range.low)) return range.low;
-  if (kind == 3 && range.contains(range.high)) return range.high;
-  const bool negative = range.low < 0.0 && choices_.oneIn(2);
-  // From a width of a hair to a house; all that is physics; or all there are.
-  const double spread = kind < 6 ? 2.0 : kind == 6 ? 12.0 : 307.0;
-  const double value = (negative ? -1.0 : 1.0) * magnitude(choices_, -spread, spread);
-  if (range.contains(value)) return value;
-  return std::min(std::max(value, range.low), range.high);
-}
-
-void SceneMaker::pickVector(const Range& range, Vec3& value) {
-  for (int i = 0; i < 3; ++i) value[i] = pick(range, choices_.oneIn(2) ? value[i] : 1.0);
-}
-
-NodeIndex SceneMaker::pickNode() {
-  NodeIndex node;
-  node.row = static_cast<int>(choices_.below(kMaxRows));
-  node.column = static_cast<int>(choices_.below(kMaxColumns));
-  return node;
-}
-
-void SceneMaker::rotation(Key, curtain::Rotation& value) {
-  if (choices_.oneIn(2)) return;
-  Eigen::Vector4d q = Eigen::Vector4d::Zero();
-  for (int i = 0; i < 4; ++i) q[i] = choices_.between(-1.0, 1.0);
-  if (q.norm() > 0.01) value = Eigen::Quaterniond(q).normalized();
-}
-
-void SceneMaker::nodes(Key, std::vector<NodeIndex>& values) {
-  for (std::uint64_t left = 1 + choices_.below(4); left > 0; --left) values.push_back(pickNode());
-}
-
-void SceneMaker::numbers(Key, std::vector<double>& values, Range range) {
-  if (!choices_.oneIn(4)) return;
-  for (int i = 0; i < 3; ++i) values.push_back(pick(range, 1.0));
-}
-
-// Their columns are made to fit when the cloth is known.
-void SceneMaker::slits(Key, std::vector<curtain::SlitParams>& values) {
-  if (!choices_.oneIn(4)) return;
-  for (int i = 0; i < 3; ++i) values.push_back({0, static_cast<int>(choices_.below(8))});
-}
-
-void SceneMaker::integers(Key, std::vector<int>& values, curtain::IntRange range) {
-  for (std::uint64_t left = choices_.below(4); left > 1; --left) values.push_back(pickInteger(range));
-}
-
-// Half of the scenes have no rail.
-void SceneMaker::path(Key, std::vector<curtain::RailPiece>& pieces, Range range) {
-  for (std::uint64_t left = choices_.oneIn(2) ? 0 : 2 + choices_.below(3); left > 0; --left) {
-    pieces.emplace_back();
-    pickVector(range, pieces.back().to);
-    if (!choices_.oneIn(3)) continue;
-    pieces.back().centre.emplace(Vec3::Zero());
-    pickVector(range, *pieces.back().centre);
-  }
-}
-
-void SceneMaker::pins(Key, curtain::PinParams& value) {
-  value.kind = static_cast<curtain::PinKind>(choices_.below(curtain::pinNames().size() + 1));
-  if (value.kind != curtain::PinKind::kList) return;
-  for (std::uint64_t left = choices_.below(5); left > 0; --left) value.nodes.push_back(pickNode());
-}
-
-std::optional<Scene> makeScene(Choices& choices) {
-  Scene scene;
-  SceneMaker maker(choices);
-  curtain::visitFields(maker, scene);
-  fitTogether(scene, choices);
-  // Strips overlap where slits cut them from row 0 on, and not by much.
-  const auto for_hangs = [&](const auto& change) {
-    if (curtain::validate(scene).empty()) return;
-    change(scene.hang);
-    for (curtain::LayerParams& layer : scene.layers) change(layer.hang);
-  };
-  for_hangs([](curtain::HangParams& hang) { hang.overlap.reset(); });
-  // Pressed pleats ask for bending, which asks for links that have a length, and another method than the paper's.
-  for_hangs([](curtain::HangParams& hang) { hang.pressed = 0.0; });
-  if (!curtain::validate(scene).empty()) {
-    const auto make_limp = [&](curtain::ClothParams& cloth) {
-      cloth.bending_warp = cloth.bending_weft = cloth.bending_hysteresis = 0.0;
-      if (scene.solver.method == curtain::Method::kPaper) cloth.shear = cloth.bending_bias = 0.0;
-      cloth.patches.clear();
-    };
-    make_limp(scene.cloth);
-    for (curtain::LayerParams& layer : scene.layers) make_limp(layer.cloth);
-  }
-  if (!curtain::validate(scene).empty()) scene.layers.clear();
-  if (!curtain::validate(scene).empty()) return std::nullopt;
-  if (!curtain::problemsAtStart(scene, curtain::makePattern(scene)).empty()) {
-    scene.lines.clear();
-    scene.tie_back.clear();
-  }
-  // Cloths that touch must not begin crossed, or in the same place.
-  const curtain::ClothPattern pattern = curtain::makePattern(scene);
-  if (!curtain::problemOfLayers(scene, pattern, makeInitialState(scene, pattern).position).empty())
-    scene.contact.self = false;
-  return scene;
 }
 
 }  // namespace curtain_test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "judge/verdict.h"
+#include "judge/court.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "clear_caches.h"
 #include "curtain_sim/simulator.h"
-#include "energy_books.h"
+#include "drawn/scene_maker.h"
 #include "testing.h"
 
 namespace curtain_test {
@@ -19,7 +19,7 @@ using namespace curtain;
 
 // Twice the tolerance: motion through contact may leave so much.
 constexpr double kToleranceShare = 2.0;
-constexpr std::int64_t kMaxSolves = 2000;
+constexpr double kMaxSolves = 2000.0;
 // Brute force looks at every frame, but of long trials of large cloth: at so many nodes in a trial, some 2 us each.
 constexpr double kNodesLookedAt = 3e5;
 // Leapfrog knows the energy of what turns or swings at omega to a share of (h omega)^2 / 4: the work of a rod whose
@@ -50,10 +50,10 @@ class Court {
       : drawn_(drawn),
         rigour_(rigour),
         finer_(finer),
-        simulator_(withFrames(drawn.scene, finer), resolveTrialMesh),
+        simulator_(withFrames(drawn.scene, finer), resolveTestMesh),
         carriers_(simulator_.carriers()),
         paper_(drawn.scene.solver.method == Method::kPaper),
-        books_(weightScale(simulator_), 60 * static_cast<std::size_t>(finer)) {
+        watch_(simulator_, 60 * static_cast<std::size_t>(finer)) {
     for (int i = 0; i < simulator_.rows(); ++i) {
       for (int j = 0; j < simulator_.columns(); ++j) {
         if (simulator_.pinned({i, j})) pins_.push_back({{i, j}, simulator_.position({i, j})});
@@ -66,12 +66,11 @@ class Court {
     const Happenings& happenings = drawn.happenings;
     took_.resize(happenings.hands.size());
     taken_at_.resize(happenings.hands.size());
-    pulls_known_ = happenings.hands.empty() &&  // hands put in what they like
+    pulls_known_ = handless() &&  // hands put in what they like
                    ((happenings.pin_swing.isZero() && happenings.pin_jerk.isZero()) || !linksStraightBetweenPins());
     every_ = std::max(1, static_cast<int>(simulator_.rows() * simulator_.columns() * drawn.seconds *
                                           drawn.scene.solver.frame_rate / kNodesLookedAt));
     simulator_.countWork(rigour.energy && !paper_);
-    books_.open(simulator_);
     for (int o = 0; o < simulator_.obstacleCount(); ++o) {
       judged_.push_back(clear(o));
       places_.push_back(simulator_.obstaclePose(o));
@@ -80,24 +79,24 @@ class Court {
   }
 
   /// Once more: interrupted by a snapshot in the middle, and with caches cleared at random.
-  Verdict run(bool once_more) {
+  TrialVerdict run(bool once_more) {
     bool interrupted = !once_more;
     if (once_more) CacheClearing::atRandom(simulator_, drawn_.seed + 1);
     while (simulator_.time() < drawn_.seconds - 1e-9 && verdict_.faults.empty()) {
       if (!interrupted && simulator_.time() > 0.5 * drawn_.seconds) {
         interrupted = true;
         const std::string kept = simulator_.snapshot();
-        Simulator other(drawn_.scene, resolveTrialMesh);
+        Simulator other(drawn_.scene, resolveTestMesh);
         CacheClearing::atRandom(other, drawn_.seed + 2);
         const std::vector<Problem> problems = other.restore(kept);
-        if (!problems.empty()) fault("snapshot refused: " + describe(problems));
+        if (!problems.empty()) verdict_.fault("snapshot refused: " + describe(problems));
         simulator_ = std::move(other);
       }
       happen();
       simulator_.step();
       look();
       if (rigour_.max_seconds > 0.0 && verdict_.seconds > rigour_.max_seconds) {
-        fault("took longer than it may");
+        verdict_.fault("took longer than it may");
       }
     }
     verdict_.hash = simulator_.stateHash();
@@ -160,18 +159,22 @@ class Court {
   // A hand that does not give can pull the cloth apart, and push it through what is in its way. Links that it has
   // pulled too long come back within a while.
   void lookAtHands() {
-    for (std::size_t k = 0; k < took_.size(); ++k) {
-      const Hand& hand = drawn_.happenings.hands[k];
-      if (hand.stiffness > 0.0 || hand.pinch_force > 0.0) continue;
-      const auto state = simulator_.graspState("hand" + std::to_string(k));
-      if (!state || state->nodes.empty()) continue;
+    const auto look = [&](const std::string& id, bool gives) {
+      const auto state = simulator_.graspState(id);
+      if (gives || !state || state->nodes.empty()) return;
       const Statistics& s = simulator_.statistics();
       const bool torn = std::max(s.warp_stretch, s.weft_stretch) > kTorn;
       forced_until_ =
           std::max(forced_until_, torn ? std::numeric_limits<double>::infinity() : simulator_.time() + kComesBack);
       std::fill(judged_.begin(), judged_.end(), false);
-    }
+    };
+    const std::vector<Hand>& hands = drawn_.happenings.hands;
+    for (std::size_t k = 0; k < hands.size(); ++k)
+      look("hand" + std::to_string(k), hands[k].stiffness > 0.0 || hands[k].pinch_force > 0.0);
+    for (const HandParams& hand : drawn_.scene.hands)
+      look(hand.grasp.id, std::isfinite(hand.grasp.stiffness) || std::isfinite(hand.grasp.pinch_force));
   }
+  bool handless() const { return drawn_.happenings.hands.empty() && drawn_.scene.hands.empty(); }
 
   // Links drawn straight between two pins of a column or row: what they pull has no one answer, so the work of pins
   // that move has none.
@@ -263,34 +266,22 @@ class Court {
     for (int j = 0; j < simulator_.columns(); ++j) {
       for (int i = 0; i < simulator_.rows(); ++i) farthest = std::max(farthest, simulator_.position({i, j}).norm());
     }
-    const double worst = std::max(s.warp_stretch, s.warp_compression);
-    if (!(worst <= kPaperRods + 4.0 * kEps * farthest / shortest_rod_)) fault("rods of paper", worst);
+    verdict_.atMost(kPaperRods + 4.0 * kEps * farthest / shortest_rod_, "rods of paper",
+                    std::max(s.warp_stretch, s.warp_compression));
   }
 
   void look() {
     const Statistics& s = simulator_.statistics();
-    verdict_.frames = s.frames;
-    verdict_.substeps = s.substeps;
-    verdict_.sweeps = s.sweeps;
-    verdict_.last_resort = s.last_resort_substeps;
-    verdict_.momentum_cut = s.momentum_cut;
-    verdict_.stops = s.stops;
-    verdict_.max_solves = std::max(verdict_.max_solves, s.substeps_last + s.rejected - verdict_.rejected);
-    verdict_.rejected = s.rejected;
-    verdict_.seconds = s.step_seconds_sum;
-    verdict_.slowest = s.step_seconds_max;
-    if (!s.finite) fault("not finite");
-    const double stretch = std::max({s.warp_stretch, s.warp_compression, s.weft_stretch});
-    verdict_.stretch = std::max(verdict_.stretch, stretch);
+    watch_.look(simulator_, verdict_);
     lookAtHands();
     const bool forced = simulator_.time() <= forced_until_;
-    if (paper_ && took_.empty())
+    if (paper_ && handless())
       lookAtPaper(s);
     else if (!paper_ && forced)
       ++verdict_.links_excused;
-    else if (!paper_ && !(stretch <= kToleranceShare * drawn_.scene.solver.stretch_tolerance))
-      fault("stretch", stretch);
-    if (verdict_.max_solves > kMaxSolves) fault("solves in a frame", static_cast<double>(verdict_.max_solves));
+    else if (!paper_)
+      verdict_.atMost(kToleranceShare * drawn_.scene.solver.stretch_tolerance, "stretch", worstLink(s));
+    verdict_.atMost(kMaxSolves, "solves in a frame", static_cast<double>(verdict_.max_solves));
     if (rigour_.energy || rigour_.brute_force) lookAtObstacles();
     // Cloth that is jammed is pushed at by no known force.
     const bool free = std::all_of(judged_.begin(), judged_.end(), [](bool judged) { return judged; });
@@ -298,27 +289,16 @@ class Court {
     verdict_.obstacles += static_cast<std::int64_t>(judged_.size());
     if (rigour_.energy && !paper_ && free && pulls_known_) {
       ++verdict_.energy_judged;
-      books_.look(simulator_, !drawn_.happenings.gravity.isZero());
-      verdict_.energy_gain = books_.gain();
+      watch_.lookAtEnergy(simulator_, !drawn_.happenings.gravity.isZero(), verdict_);
     }
     if (!rigour_.brute_force || s.frames % every_ != 0) return;
     ++verdict_.brute_forced;
-    if (drawn_.scene.contact.self && !crossed_at_start_ && simulator_.selfCrossings() > 0) fault("crosses itself");
+    if (drawn_.scene.contact.self && !crossed_at_start_ && simulator_.selfCrossings() > 0)
+      verdict_.fault("crosses itself");
     for (int o = 0; o < simulator_.obstacleCount(); ++o) {
       if (judged_[static_cast<std::size_t>(o)] && !clear(o))
-        fault("pierced by " + drawn_.scene.obstacles[static_cast<std::size_t>(o)].name);
+        verdict_.fault("pierced by " + drawn_.scene.obstacles[static_cast<std::size_t>(o)].name);
     }
-  }
-
-  void fault(const std::string& what) {
-    std::ostringstream text;
-    text << what << " at frame " << simulator_.statistics().frames;
-    verdict_.faults.push_back(text.str());
-  }
-  void fault(const std::string& what, double value) {
-    std::ostringstream text;
-    text << what << " " << value;
-    fault(text.str());
   }
 
   const Drawn& drawn_;
@@ -333,7 +313,7 @@ class Court {
   std::vector<Pose> places_;  // by obstacle, a frame ago
   const bool paper_;
   double shortest_rod_ = std::numeric_limits<double>::infinity();  // [m]
-  EnergyBooks books_;
+  Watch watch_;
   bool crossed_at_start_ = false;
   bool happened_ = false;
   bool pulls_known_ = true;
@@ -341,18 +321,18 @@ class Court {
   std::vector<bool> took_;      // by hand
   std::vector<Vec3> taken_at_;  // the same [m]
   double forced_until_ = -1.0;  // [s]
-  Verdict verdict_;
+  TrialVerdict verdict_;
 };
 
 }  // namespace
 
-Verdict judge(const Drawn& drawn, const Rigour& rigour) {
+TrialVerdict judge(const Drawn& drawn, const Rigour& rigour) {
   if (!validate(drawn.scene).empty()) {
-    Verdict verdict;
+    TrialVerdict verdict;
     verdict.faults.push_back("no scene: " + describe(validate(drawn.scene)));
     return verdict;
   }
-  Verdict verdict = Court(drawn, rigour).run(false);
+  TrialVerdict verdict = Court(drawn, rigour).run(false);
   const double links_hide = kSchemeGain + slackGain(kToleranceShare * drawn.scene.solver.stretch_tolerance);
   const double max_gain = drawn.kind == Kind::kEveryday ? links_hide
                           : drawn.kind == Kind::kSudden ? kStepKnows

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "drawn/habits.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace curtain_test {
+namespace {
+
+constexpr Bounds kTurn = {-3.14, 3.14}, kBend = {1e-7, 1e-2}, kBendWild = {1e-7, 1.0}, kStart = {0.0, 1.0};
+constexpr Bounds kShear = {0.3, 300.0}, kShearWild = {0.3, 1e5}, kPull = {1.0, 30.0}, kPullWild = {100.0, 1e6};
+constexpr Bounds kUneven = {0.67, 1.5}, kUnevenWild = {0.2, 5.0}, kSize = {0.02, 0.5}, kOne = {1.0, 1.0};
+
+// Where one pair of bounds stands it is for both.
+constexpr Habit kHabits[] = {
+    {"cloth", 1.0},
+    {"cloth.closed", 0.2},
+    {"cloth.rows", 1.0, {4, 60}, {2, 100}},
+    {"cloth.columns", 1.0, {4, 60}, {2, 100}},
+    {"cloth.height", 1.0, {0.5, 2.5}, {0.05, 50.0}},
+    {"cloth.width", 1.0, {0.5, 2.5}, {0.05, 50.0}},
+    {"cloth.hem_width", 0.15, {0.5, 2.5}},
+    {"cloth.surface_density", 1.0, {0.05, 1.0}, {1e-3, 10.0}},
+    {"cloth.lumping", 0.6},
+    {"cloth.folds", 0.1, {1, 12}, {1, 64}},
+    {"cloth.porosity", 1.0, {0.0, 0.5}},
+    {"cloth.bending_warp", 0.16, kBend, kBendWild},
+    {"cloth.bending_weft", 0.16, kBend, kBendWild},
+    {"cloth.bending_bias", 0.1, kBend, kBendWild},
+    {"cloth.bending_hysteresis", 0.1, {1e-5, 0.1}, {1e-5, 10.0}},
+    {"cloth.shear", 0.16, kShear, kShearWild},
+    {"cloth.patches", 0.15, kOne, {1, 2}},
+    {"cloth.patches[].rows", 0.8},
+    {"cloth.patches[].columns", 0.5},
+    {"cloth.patches[].surface_density", 0.7, {0.05, 1.0}, {1e-3, 10.0}},
+    {"cloth.patches[].porosity", 0.5, {0.0, 1.0}},
+    {"cloth.patches[].bending_warp", 0.5, {1e-7, 1e-3}, kBendWild},
+    {"cloth.patches[].bending_weft", 0.5, {1e-7, 1e-3}, kBendWild},
+    {"cloth.patches[].bending_bias", 0.1, {1e-7, 1e-3}, kBendWild},
+    {"cloth.patches[].bending_hysteresis", 0.4, {1e-5, 0.1}, {1e-5, 10.0}},
+    {"cloth.patches[].shear", 0.5, kShear, kShearWild},
+    {"cloth.slits", 0.1, {0, 60}},
+    {"cloth.row_spacing", 0.2, kUneven, kUnevenWild},
+    {"cloth.column_spacing", 0.2, kUneven, kUnevenWild},
+    {"cloth.row_mass", 0.2, kUneven, kUnevenWild},
+    {"cloth.column_mass", 0.2, kUneven, kUnevenWild},
+    {"hang", 1.0},
+    {"hang.tilt", 0.6, kTurn},
+    {"hang.heading", 0.15},
+    {"hang.pleats", 0.1, {0, 20}},
+    {"hang.pressed", 0.1, {0.01, 1.0}},
+    {"hang.radius", 0.9},
+    {"hang.overlap", 0.1, {1e-3, 0.05}},
+    {"hem", 1.0},
+    {"hem.line_density", 0.1, {0.01, 0.2}},
+    {"hem.weights", 0.1, {0.0, 0.05}},
+    {"pins", 1.0},
+    {"rail", 0.1},
+    {"rail.path", 1.0, {1, 3}},
+    {"rail.carriers", 1.0},
+    {"rail.carriers.every", 1.0, {1, 20}},
+    {"rail.carriers.mass", 0.8, {1e-3, 0.1}, {1e-3, 10.0}},
+    {"rail.carriers.friction", 0.8, {0.0, 0.4}, {0.0, 2.0}},
+    {"rail.opening", 0.5, {0.0, 1.0}},
+    {"rail.drive", 1.0},
+    {"rail.drive.speed", 1.0, {0.1, 1.0}, {0.1, 10.0}},
+    {"rail.drive.force", 1.0, {1.0, 30.0}, {1.0, 1e3}},
+    {"lines", 0.11, {1, 2}},
+    {"lines[].mass", 0.6, {1e-3, 1.0}, {1e-3, 100.0}},
+    {"tie_back", 0.07, kOne},
+    {"tie_back[].radius", 1.0, {0.05, 0.5}},
+    {"tie_back[].speed", 1.0, {0.1, 1.0}, {0.1, 10.0}},
+    {"gravity", 0.1, {0.1, 20.0}, {0.1, 1e3}},
+    {"air", 0.6},
+    {"air.law", 0.9},
+    {"air.inside", 0.7, {0.0, 1.0}},
+    {"air.border", 0.7, {0.0, 1.5}},
+    {"air.corner", 0.7, {0.0, 2.0}},
+    {"air.fast_gain", 0.5, {0.0, 0.3}},
+    {"air.normal_drag", 0.5, {0.0, 2.0}},
+    {"air.tangential_drag", 0.5, {0.0, 0.1}},
+    {"ambient", 1.0},
+    {"ambient.velocity", 0.7, {0.3, 15.0}, {0.3, 100.0}},
+    {"ambient.intensity", 0.5, {0.0, 0.4}, {0.0, 1.0}},
+    {"ambient.length_scale", 1.0, {0.1, 100.0}},
+    {"ambient.spectrum", 0.5},
+    {"wind", 0.67, {1, 2}},
+    {"wind[].radius", 1.0, {0.3, 3.0}},
+    {"wind[].half_angle", 0.5, {0.0, 0.8}},
+    {"wind[].profile", 0.3},
+    {"wind[].pressure", 1.0, {1.0, 100.0}, {1.0, 1e5}},
+    {"wind[].node_force", 0.1, {1e-5, 1e-3}},
+    {"wind[].unsteadiness", 0.4, {0.0, 20.0}, {0.0, 1e3}},
+    {"wind[].shadow", 0.2},
+    {"wind[].start", 0.5, kStart},
+    {"wind[].end", 0.5, {0.1, 2.0}},
+    {"drag", 0.67, {1, 2}},
+    {"drag[].node", 0.8},
+    {"drag[].force", 0.6, kPull, kPullWild},
+    {"drag[].target", 0.4},
+    {"drag[].path", 0.1, {1, 2}},
+    {"drag[].path[].time", 1.0, {0.0, 2.0}},
+    {"drag[].stiffness", 1.0, {1.0, 1e3}},
+    {"drag[].max_force", 1.0, kPull, kPullWild},
+    {"drag[].radius", 0.3, {0.0, 0.5}},
+    {"drag[].start", 0.5, kStart},
+    {"drag[].end", 1.0, {0.1, 1.5}},
+    {"hands", 0.1, {1, 2}},
+    {"hands[].radius", 1.0, {0.02, 0.2}},
+    {"hands[].size", 1.0, {0.02, 0.4}},
+    {"hands[].stiffness", 0.4, {1.0, 100.0}, {0.1, 1e4}},
+    {"hands[].break_force", 0.4, kPull, kPullWild},
+    {"hands[].pinch_force", 0.4, kPull, kPullWild},
+    {"hands[].friction", 0.3, {0.1, 1.0}},
+    {"hands[].start", 0.7, kStart},
+    {"hands[].end", 0.7, {0.1, 2.0}},
+    {"hands[].motion", 0.5, {1, 2}},
+    {"hands[].motion[].time", 1.0, {0.0, 2.0}},
+    {"obstacles", 0.65, {1, 3}},
+    {"obstacles[].shape", 0.95},  // else balls
+    {"obstacles[].radius", 1.0, {0.05, 0.3}},
+    {"obstacles[].length", 1.0, {0.1, 1.0}},
+    {"obstacles[].size", 1.0, kSize},
+    {"obstacles[].orientation", 1.0},
+    {"obstacles[].friction", 0.8, {0.0, 0.8}},
+    {"obstacles[].padding", 0.1, {1e-3, 1e-2}},
+    {"contact", 1.0},
+    {"contact.thickness", 1.0, {0.002, 0.01}},
+    {"contact.friction", 1.0, {0.0, 0.6}},
+    {"contact.self", 0.35},
+    {"contact.recovery_speed", 0.1, {0.03, 0.3}},
+    {"contact.zone_iterations", 0.1, {4, 16}},
+    {"layers", 0.15, kOne},
+    {"solver", 1.0},
+    {"solver.method", 0.4},
+    {"solver.frame_rate", 1.0, {10.0, 240.0}, {5.0, 1000.0}},
+    {"solver.substeps", 0.05, {1, 8}},
+    // Not before its links, which are what is judged; not by the clock; not where the end tells what was asked for.
+    {"solver.stretch_tolerance", 0.0},
+    {"solver.position_tolerance", 0.05, {1e-4, 1e-2}},
+    {"solver.rest_speed", 0.1, {1e-4, 1e-2}},
+    {"solver.budget_ms", 0.0},
+    {"solver.threads", 0.0},
+    {"solver.max_substeps", 0.0},
+    {"solver.max_sweeps", 0.0},
+    // Placed, each where it means something (places.cpp).
+    {"hang.from", 0.0},
+    {"hang.to", 0.0},
+    {"lines[].to", 1.0},
+    {"lines[].length", 0.0},
+    {"drag[].point", 0.3},
+    {"obstacles[].scale", 0.0},
+    {"obstacles[].position", 0.0},
+    {"obstacles[].velocity", 0.0},
+    {"obstacles[].acceleration", 0.0},
+    {"obstacles[].spin", 0.0},
+    {"obstacles[].motion", 0.0},
+    {"obstacles[].press", 0.0},  // pads come in pairs
+    {"pins_motion", 0.0},
+};
+
+}  // namespace
+
+const Habit& habitOf(const std::string& key) {
+  static const Habit unknown;
+  const std::string layers = "layers[].";
+  const std::string plain = key.compare(0, layers.size(), layers) == 0 ? key.substr(layers.size()) : key;
+  const auto* const found =
+      std::find_if(std::begin(kHabits), std::end(kHabits), [&](const Habit& habit) { return plain == habit.key; });
+  return found == std::end(kHabits) ? unknown : *found;
+}
+
+}  // namespace curtain_test
