@@ -61,7 +61,9 @@ void drawHappenings(Choices& choices, bool wild, Drawn& drawn) {
   if (!scene.rail.path.empty() && choices.chance(0.7)) happenings.opening = choices.between(0.0, 1.0);
   if (!scene.tie_back.empty() && choices.chance(0.6)) happenings.tie_back = scene.tie_back[0].closed ? 0 : 1;
   drawHands(choices, wild, drawn);
-  if (!scene.rail.path.empty() || !scene.tie_back.empty()) return;  // what holds there stays
+  const auto slides = [](const LayerParams& layer) { return !layer.rail.path.empty(); };
+  const bool rails = !scene.rail.path.empty() || std::any_of(scene.layers.begin(), scene.layers.end(), slides);
+  if (rails || !scene.tie_back.empty()) return;  // what holds there stays
   if (scene.pins.kind != PinKind::kNone && choices.chance(0.3)) {
     happenings.pin_frequency = choices.magnitude(0.2, wild ? 20.0 : 3.0);
     happenings.pin_swing = choices.between(0.0, wild ? 1.0 : 0.3) * choices.direction();
