@@ -3,11 +3,13 @@
 """Does what some pages of docs say, in a copy of the sources, compiles it and runs its tests and scenes.
 
   worked_examples.py BUILD_FOLDER CURTAIN_BATCH [CMAKE_ARGUMENT ...]
+  worked_examples.py --renew                 writes the pages' diffs anew, for the sources of today
 
 Of a page count: diff blocks, applied in their order; and blocks that name a file after the language, "```cpp PATH". What comes of
 it is built without optimisation; scenes need none of it and are run with the given curtain_batch. Copies are only written where
 they differ, so that a second run compiles nothing.
 """
+import difflib
 import filecmp
 import json
 import os
@@ -61,15 +63,51 @@ def copy_sources(tree):
         (shutil.copytree if os.path.isdir(source) else shutil.copy)(source, target)
 
 
+def read(path):
+    """Text of a file."""
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def files_of(diff):
+    """What a diff changes."""
+    return re.findall(r"^\+\+\+ b/(\S+)", diff, re.M)
+
+
+def apply(diff, tree):
+    """Applies a diff, on lines that have moved and between others than it was made for, too."""
+    run("patch", "-p1", "--forward", "--no-backup-if-mismatch", "-d", tree, input=diff)
+
+
+def as_of_today(page):
+    """A page with the diffs that it would have if they were made now, each after those before it."""
+    def renewed(block):
+        if block["kind"] != "diff":
+            return block[0]
+        names = files_of(block["text"])
+        before = {name: read(os.path.join(tree, name)).splitlines(True) for name in names}
+        apply(block["text"], tree)
+        diffs = [difflib.unified_diff(before[name], read(os.path.join(tree, name)).splitlines(True), "a/" + name, "b/" + name, n=2)
+                 for name in names]
+        return "```diff\n" + "".join(line for diff in diffs for line in diff) + "```"
+
+    with tempfile.TemporaryDirectory() as folder:
+        tree = os.path.join(folder, "tree")
+        copy_sources(tree)
+        return BLOCK.sub(renewed, read(os.path.join(ROOT, page)))
+
+
 def follow(page, tree):
     """Does what a page says. Returns the new files that it names."""
-    with open(os.path.join(ROOT, page), encoding="utf-8") as file:
-        text = file.read()
+    text = read(os.path.join(ROOT, page))
+    places = re.compile(r"^@@ .* @@$", re.M)  # where lines are may change
+    if places.sub("", text) != places.sub("", as_of_today(page)):
+        sys.exit("%s: its diffs are of older sources; worked_examples.py --renew writes them anew" % page)
     created, changed = [], set()
     for block in BLOCK.finditer(text):
         if block["kind"] == "diff":
-            changed.update(re.findall(r"^\+\+\+ b/(\S+)", block["text"], re.M))
-            run("patch", "-p1", "--forward", "--no-backup-if-mismatch", "-d", tree, input=block["text"])
+            changed.update(files_of(block["text"]))
+            apply(block["text"], tree)
         elif block["path"]:
             write(os.path.join(tree, block["path"]), block["text"])
             created.append(block["path"])
@@ -113,6 +151,12 @@ def check_scene(batch, scene):
 
 
 def main():
+    if sys.argv[1:] == ["--renew"]:
+        for page in PAGES:
+            text = as_of_today(page)
+            with open(os.path.join(ROOT, page), "w", encoding="utf-8") as file:
+                file.write(text)
+        return
     if len(sys.argv) < 3:
         sys.exit(__doc__)
     build, batch, arguments = os.path.abspath(sys.argv[1]), sys.argv[2], sys.argv[3:]
@@ -125,7 +169,7 @@ def main():
     tests = [path for path in created if path.endswith("_test.cpp")]
     outer = os.path.join(build, "CMakeLists.txt")
     text = OUTER.format(tests=" ".join("tree/" + path for path in tests))
-    if not os.path.exists(outer) or open(outer, encoding="utf-8").read() != text:
+    if not os.path.exists(outer) or read(outer) != text:
         write(outer, text)
     objects = os.path.join(build, "objects")
     run("cmake", "-S", build, "-B", objects, "-DCMAKE_BUILD_TYPE=None", "-DCMAKE_CXX_FLAGS=-O0", "-DBUILD_TESTING=OFF",
