@@ -186,7 +186,7 @@ int main(int argc, char** argv) try {
     std::uint64_t seed = options.first;
     for (long n = 0; n < options.count[k]; ++seed) {
       const Drawn drawn = draw(kKinds[k], seed);
-      if (drawn.scene.cloth.rows * drawn.scene.cloth.columns > options.max_nodes) continue;
+      if (drawn.scene.cloth.rows * columnsOf(drawn.scene) > options.max_nodes) continue;
       session.hear(drawn, std::string(kindName(kKinds[k])) + " " + std::to_string(seed));
       ++n;
     }
