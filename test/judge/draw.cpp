@@ -77,6 +77,7 @@ void putBeforePlate(Choices& choices, Drawn& drawn) {
   Scene& scene = drawn.scene = Scene();
   scene.cloth = all.cloth;
   scene.cloth.patches.clear();
+  if (scene.cloth.bending_warp == 0.0 && scene.cloth.bending_weft == 0.0) scene.cloth.bending_hysteresis = 0.0;
   scene.cloth.surface_density = choices.magnitude(0.05, 0.5);
   scene.hang.from = all.hang.from;
   scene.hang.to = {all.hang.to.x(), all.hang.to.y(), all.hang.from.z()};
