@@ -228,7 +228,7 @@ void fitTogether(Scene& scene, Choices& choices, Manner manner, int most) {
   }
   fitCloth(scene, choices, manner, most);
   fitLayers(scene, choices, manner, most);
-  if (manner != Manner::kAny) placeThings(scene, choices);
+  if (manner != Manner::kAny) placeThings(scene, choices, manner == Manner::kWild ? 50.0 : 5.0);
   const curtain::ClothParams whole = curtain::wholeCloth(scene);
   fitLines(scene, whole);
   for (curtain::ObstacleParams& obstacle : scene.obstacles) {

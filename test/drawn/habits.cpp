@@ -48,7 +48,7 @@ constexpr Habit kHabits[] = {
     {"hang.tilt", 0.6, kTurn},
     {"hang.heading", 0.15},
     {"hang.pleats", 0.1, {0, 20}},
-    {"hang.pressed", 0.1, {0.01, 1.0}},
+    {"hang.pressed", 0.3, {0.01, 1.0}},
     {"hang.radius", 0.9},
     {"hang.overlap", 0.1, {1e-3, 0.05}},
     {"hem", 1.0},

@@ -79,6 +79,30 @@ void place(DragParams& drag, const Scene& scene, Choices& choices) {
   for (PointKey& key : drag.path) key.position = near(1.0);
 }
 
+// Sends the obstacle through the cloth's middle, from outside all that the cloth can reach at the start, at `fastest`
+// [m/s] at most. A plane is the floor, a way below.
+void sendThrough(ObstacleParams& obstacle, const Scene& scene, double fastest, Choices& choices) {
+  const double size = sizeOf(scene);
+  if (obstacle.shape == ShapeKind::kPlane) {
+    obstacle.pose = {scene.hang.from - Vec3(0.0, 0.0, 2.0 * size + 0.1), Rotation::Identity()};
+    return;
+  }
+  const Vec3 middle = edgeMiddle(scene) - choices.between(0.0, 0.8) * scene.cloth.height * Vec3::UnitZ();
+  const Vec3 direction = choices.direction();
+  const double away = 2.0 * size + reachOf(obstacle, choices) + 0.05;
+  obstacle.pose.position = middle - away * direction;
+  Pose there = obstacle.pose;
+  there.position = middle + away * direction;
+  if (choices.oneIn(2)) {
+    const Rotation turn(Eigen::AngleAxisd(choices.between(0.0, 3.0), choices.direction()));
+    there.orientation = turn * there.orientation;
+  }
+  // It starts so early that it is there within the first second, but not in the cloth's reach.
+  const double half = away / choices.magnitude(0.2, fastest), meets = choices.between(0.1, 0.9);
+  const double start = std::max(0.0, meets - half);
+  obstacle.motion = {{start, obstacle.pose}, {start + 2.0 * half, there}};
+}
+
 }  // namespace
 
 std::string resolveTestMesh(const std::string& url) {
@@ -104,29 +128,7 @@ void placeBeside(const Scene& first, Choices& choices, HangParams& hang, double 
   hang.to = hang.from + choices.between(0.6, 1.0) * width * along;
 }
 
-void sendThrough(ObstacleParams& obstacle, const Scene& scene, Choices& choices) {
-  const double size = sizeOf(scene);
-  if (obstacle.shape == ShapeKind::kPlane) {
-    obstacle.pose = {scene.hang.from - Vec3(0.0, 0.0, 2.0 * size + 0.1), Rotation::Identity()};
-    return;
-  }
-  const Vec3 middle = edgeMiddle(scene) - choices.between(0.0, 0.8) * scene.cloth.height * Vec3::UnitZ();
-  const Vec3 direction = choices.direction();
-  const double away = 2.0 * size + reachOf(obstacle, choices) + 0.05;
-  obstacle.pose.position = middle - away * direction;
-  Pose there = obstacle.pose;
-  there.position = middle + away * direction;
-  if (choices.oneIn(2)) {
-    const Rotation turn(Eigen::AngleAxisd(choices.between(0.0, 3.0), choices.direction()));
-    there.orientation = turn * there.orientation;
-  }
-  // It starts so early that it is there within the first second, but not in the cloth's reach.
-  const double half = away / choices.magnitude(0.2, 5.0), meets = choices.between(0.1, 0.9);
-  const double start = std::max(0.0, meets - half);
-  obstacle.motion = {{start, obstacle.pose}, {start + 2.0 * half, there}};
-}
-
-void placeThings(Scene& scene, Choices& choices) {
+void placeThings(Scene& scene, Choices& choices, double fastest) {
   const ClothParams whole = wholeCloth(scene);
   for (WindParams& wind : scene.wind) {
     wind.direction = choices.direction();
@@ -135,7 +137,7 @@ void placeThings(Scene& scene, Choices& choices) {
   for (LineParams& line : scene.lines) place(line, scene, whole, choices);
   for (TieBackParams& loop : scene.tie_back) place(loop, scene, whole, choices);
   for (DragParams& drag : scene.drag) place(drag, scene, choices);
-  for (ObstacleParams& obstacle : scene.obstacles) sendThrough(obstacle, scene, choices);
+  for (ObstacleParams& obstacle : scene.obstacles) sendThrough(obstacle, scene, fastest, choices);
 }
 
 void placeHands(Scene& scene, Choices& choices, const ClothPattern& pattern, const Field3& start) {

@@ -13,15 +13,11 @@ namespace curtain_test {
 void placeCloth(curtain::Scene& scene, Choices& choices);
 /// Another cloth before or behind the first, so near that they touch.
 void placeBeside(const curtain::Scene& first, Choices& choices, curtain::HangParams& hang, double width);
-/// Winds, drags, lines and obstacles, of cloth that is known.
-void placeThings(curtain::Scene& scene, Choices& choices);
+/// Winds, drags, lines and obstacles, of cloth that is known. fastest: of the obstacles [m/s].
+void placeThings(curtain::Scene& scene, Choices& choices, double fastest);
 /// Hands at nodes, wherever these are at the start. Two that do not give could be drawn through each other with what
 /// they hold: of those there is one, and none beside lines.
 void placeHands(curtain::Scene& scene, Choices& choices, const curtain::ClothPattern& pattern,
                 const curtain::Field3& start);
-
-/// Sends the obstacle through the cloth's middle, from outside all that the cloth can reach at the start. A plane is
-/// the floor, a way below.
-void sendThrough(curtain::ObstacleParams& obstacle, const curtain::Scene& scene, Choices& choices);
 
 }  // namespace curtain_test

@@ -103,7 +103,8 @@ void SceneMaker::numbers(Key key, std::vector<double>& values, Range range) {
 // Their columns are made to fit when the cloth is known.
 void SceneMaker::slits(Key key, std::vector<curtain::SlitParams>& values) {
   if (!wants(key, 4)) return;
-  for (int i = 0; i < 3; ++i) values.push_back({0, static_cast<int>(choices_.below(8))});
+  for (std::uint64_t left = any_ ? 3 : pickSize(); left > 0; --left)
+    values.push_back({0, static_cast<int>(any_ || choices_.oneIn(2) ? choices_.below(8) : choices_.below(64))});
 }
 
 void SceneMaker::integers(Key key, std::vector<int>& values, curtain::IntRange range) {

@@ -30,7 +30,7 @@ constexpr int kMaxThreads = 3;
 enum class Manner {
   kAny,       ///< any values
   kEveryday,  ///< as habits.h says
-  kWild       ///< the same, half of the values by the wilder bounds
+  kWild       ///< the same, three quarters of the values by the wilder bounds
 };
 
 class SceneMaker {

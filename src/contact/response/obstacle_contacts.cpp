@@ -107,7 +107,8 @@ void ObstacleContacts::begin(const Field3& start, const Field3& predicted, const
 }
 
 // The distance at the end, not that to a plane of before: a node that slides around an edge follows it. What neither
-// pushes nor is below its last plane has none to find: that plane bounds what is convex, a feature of a mesh too.
+// pushes nor is below its last plane has none to find: that plane bounds what is convex, a feature of a mesh too. Of a
+// node and a whole mesh the distance that it saw last does.
 void ObstacleContacts::relinearise(const Field3& position, Contacts& contacts) noexcept {
   const std::size_t count = contacts.size();
   for (std::size_t n = 0; n < count; ++n) {
