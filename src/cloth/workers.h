@@ -4,6 +4,8 @@
 // it, and reductions run over the blocks in order, so any number of threads gives the same bits.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <memory>
 
 namespace curtain {
@@ -42,6 +44,14 @@ class Workers {
     }
     share(
         count, [](const void* self, int b) { (*static_cast<const Block*>(self))(b); }, &block);
+  }
+  /// Calls chunk(first, end) for parts of 0 … count - 1, of `at_once` each but the last.
+  template <typename Chunk>
+  void runChunks(std::size_t count, std::size_t at_once, const Chunk& chunk) const {
+    run(static_cast<int>((count + at_once - 1) / at_once), [&](int c) {
+      const std::size_t first = static_cast<std::size_t>(c) * at_once;
+      chunk(first, std::min(first + at_once, count));
+    });
   }
 
  private:

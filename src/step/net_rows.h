@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "cloth/workers.h"
 #include "step/row.h"
 
 namespace curtain {
@@ -29,7 +30,13 @@ class NetRows {
     float damping;           ///< Levenberg-Marquardt, over the diagonal
   };
 
-  void reserve(std::size_t rows) { rows_.reserve(rows); }
+  /// workers must outlive this.
+  explicit NetRows(const Workers& workers) : workers_(workers) {}
+
+  void reserve(std::size_t rows) {
+    rows_.reserve(rows);
+    terms_.reserve(rows);
+  }
 
   /// Takes the rows that are active, and if the active set may change all others. diagonal(row, nodes): by how much its
   /// multiplier moves a row along itself, over the inertia scale; nodes: in NetSolver's numbering.
@@ -67,8 +74,8 @@ class NetRows {
   double aligned() const noexcept { return aligned_; }
   /// Sets the next search direction, and adds its nodal impulses to push.
   void turn(float beta, NetNodes push) noexcept;
-  /// Search direction . (matrix times search direction), from the nodes' moves; zeroes push again.
-  double product(NetNodes move, NetNodes push) noexcept;
+  /// Search direction . (matrix times search direction), from the nodes' moves.
+  double product(NetNodes move) noexcept;
   /// Makes a step along the search direction; returns the largest residual left.
   double advance(float alpha) noexcept;
 
@@ -110,7 +117,9 @@ class NetRows {
 
   void scale(const Frame& frame, const Row& row, Packed& packed) noexcept;
 
+  const Workers& workers_;
   std::vector<Packed> rows_;
+  std::vector<double> terms_;  // of the sum of product()
   double aligned_ = 0.0;
 };
 

@@ -26,7 +26,8 @@ NetSolver::NetSolver(const ClothPattern& pattern, const Workers& workers)
       workers_(workers),
       stride_((static_cast<std::size_t>((pattern.grid.columns + kColumns) / kColumns) | 1U) * kColumns),
       row_blocks_((pattern.grid.rows + kRows - 1) / kRows),
-      column_blocks_((pattern.grid.columns + kColumns - 1) / kColumns) {
+      column_blocks_((pattern.grid.columns + kColumns - 1) / kColumns),
+      rows_(workers) {
   // Whole row blocks, and a row of zeros below the last one; of the ends' rows nothing but nodal values is used.
   const std::size_t size = (static_cast<std::size_t>(row_blocks_ * kRows + 1 + pattern.grid.end_rows)) * stride_;
   for (Values* values : allVectors()) values->assign(size, 0.0F);
@@ -252,7 +253,7 @@ double NetSolver::applySchur() noexcept {
     moveNodes(b);
     if (guided_ != nullptr) keepFreedom(move_, b * kColumns, (b + 1) * kColumns);
   });
-  return sum + rows_.product({move_.x.data(), move_.y.data(), move_.z.data()}, pushes());
+  return sum + rows_.product({move_.x.data(), move_.y.data(), move_.z.data()});
 }
 
 double NetSolver::step(Real alpha) noexcept {

@@ -128,16 +128,17 @@ CURTAIN_WIDE void NetSolver::answerOfRods(int block) noexcept {
   }
 }
 
-// move_ = displacement of a block's nodes, where rows_ are.
+// move_ = displacement of a block's nodes, where rows_ are. Nothing reads push_ after it: zeroed again.
 CURTAIN_WIDE void NetSolver::moveNodes(int block) noexcept {
   const std::size_t first = static_cast<std::size_t>(block) * kColumns;
-  const auto move = [&](std::size_t k, const Values& warp, const Values& weft, const Values& push, Values& out) {
+  const auto move = [&](std::size_t k, const Values& warp, const Values& weft, Values& push, Values& out) {
     const float *const w = &weight_[k], *const p = &pull_[k], *const s = &rods_[k], *const s_below = s + stride_;
-    const float *const n = &warp[k], *const b = n + stride_, *const f = &weft[k], *const by = &push[k];
-    float* const u = &out[k];
+    const float *const n = &warp[k], *const b = n + stride_, *const f = &weft[k];
+    float *const by = &push[k], *const u = &out[k];
 #pragma omp simd
     for (std::size_t j = 0; j < kColumns; ++j) {
       u[j] = w[j] * (p[j + 1] * f[j + 1] - p[j] * f[j] + by[j] + (s[j] * n[j] - s_below[j] * b[j]));
+      by[j] = 0.0F;
     }
   };
   for (int i = 0; i < pattern_.grid.rows; ++i) {
@@ -153,6 +154,7 @@ CURTAIN_WIDE void NetSolver::moveNodes(int block) noexcept {
       move_.x[k] = weight_[k] * push_.x[k];
       move_.y[k] = weight_[k] * push_.y[k];
       move_.z[k] = weight_[k] * push_.z[k];
+      push_.x[k] = push_.y[k] = push_.z[k] = 0.0F;
     }
   }
 }

@@ -207,9 +207,8 @@ void ObstacleCandidates::listNodes() noexcept {
 std::vector<ObstacleCandidates::NodeEnd>& ObstacleCandidates::queryEnds(double reach) noexcept {
   ends_.resize(nodes_.size());
   found_.resize(nodes_.size());
-  workers_.run(static_cast<int>((nodes_.size() + kNodesAtOnce - 1) / kNodesAtOnce), [&](int chunk) {
-    const std::size_t first = static_cast<std::size_t>(chunk) * kNodesAtOnce;
-    for (std::size_t k = first; k < std::min(first + kNodesAtOnce, nodes_.size()); ++k) {
+  workers_.runChunks(nodes_.size(), kNodesAtOnce, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
       const std::uint32_t node = nodes_[k];
       const Vec3 from = start_.at(node), to = end_.at(node);
       ends_[k].node = node;

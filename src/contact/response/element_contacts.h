@@ -48,7 +48,7 @@ double recoveredDistance(double distance, double kept, double recovery) noexcept
 
 /// Contacts of nodes. Refreshes the cached planes.
 void collectNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, ObstacleCandidates& candidates,
-                  const ExitDirection& exit, Contacts& contacts) noexcept;
+                  const ExitDirection& exit, const Workers& workers, Contacts& contacts) noexcept;
 /// Contacts of faces and edges; there may be duplicates. Faces that start inside go to collectPenetratingFaces().
 void collectFaces(const ObstacleSubstep& substep, const ClothPattern& pattern, ObstacleCandidates& candidates,
                   std::vector<PenetratingFace>& penetrating, Contacts& contacts) noexcept;

@@ -14,6 +14,7 @@ namespace {
 // Speed of depenetration inside the obstacle, over that inside the gap around it. Parts that start too close (the
 // obstacle appeared or jumped) must come out slowly, not as a blow.
 constexpr double kFasterInside = 20.0;
+constexpr std::size_t kNodesAtOnce = 64;  // of a task for the workers
 }  // namespace
 
 double ObstacleSubstep::recoveryAt(double distance) const noexcept {
@@ -119,28 +120,38 @@ void collectHeldNodes(const ObstacleSubstep& substep, const ClothPattern& patter
 }  // namespace
 
 void collectNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, ObstacleCandidates& candidates,
-                  const ExitDirection& exit, Contacts& contacts) noexcept {
+                  const ExitDirection& exit, const Workers& workers, Contacts& contacts) noexcept {
   const double reach = candidates.nodeReach();
   const bool pad = substep.moving.press > 0.0;
   if (pad) collectHeldNodes(substep, pattern, candidates, contacts);
-  for (ObstacleCandidates::NodeEnd& end : candidates.queryEnds(reach)) {
-    const std::uint32_t node = end.node;
-    const Vec3 from = candidates.startOf(node), to = candidates.endOf(node);
-    SurfacePoint at_start;
-    if (pad && touchesAtStart(candidates, node, at_start)) continue;
-    SurfacePoint& surface = end.surface;
-    if (surface.distance >= 0.0) candidates.seen(node) = {to, surface};
-    double distance = candidates.distanceOf(node);
-    const bool curved = distance >= 0.0;
-    if (!curved) {
-      const SurfacePoint led = exit.exitSurface(from, surface);
-      if (led.normal != surface.normal) {
-        distance = led.distance;
-        surface = {led.distance + led.normal.dot(to - from), led.normal};
-      }
-    }
-    addWithinRoom(nodeContact(substep, pattern, node, candidates, surface, distance, curved), contacts);
+  std::vector<ObstacleCandidates::NodeEnd>& ends = candidates.queryEnds(reach);
+  if (pad) {
+    const auto held = [&](const ObstacleCandidates::NodeEnd& end) {
+      SurfacePoint at_start;
+      return touchesAtStart(candidates, end.node, at_start);
+    };
+    ends.erase(std::remove_if(ends.begin(), ends.end(), held), ends.end());
   }
+  const std::size_t before = contacts.size();
+  contacts.resize(std::min(before + ends.size(), contacts.capacity()));
+  workers.runChunks(contacts.size() - before, kNodesAtOnce, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+      const std::uint32_t node = ends[k].node;
+      const Vec3 from = candidates.startOf(node), to = candidates.endOf(node);
+      SurfacePoint& surface = ends[k].surface;
+      if (surface.distance >= 0.0) candidates.seen(node) = {to, surface};
+      double distance = candidates.distanceOf(node);
+      const bool curved = distance >= 0.0;
+      if (!curved) {
+        const SurfacePoint led = exit.exitSurface(from, surface);
+        if (led.normal != surface.normal) {
+          distance = led.distance;
+          surface = {led.distance + led.normal.dot(to - from), led.normal};
+        }
+      }
+      contacts[before + k] = nodeContact(substep, pattern, node, candidates, surface, distance, curved);
+    }
+  });
 }
 
 void crossingNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, ObstacleCandidates& candidates,

@@ -12,6 +12,7 @@ namespace {
 
 // Gap of faces and edges, over the thickness: smaller than that of nodes, so that few of them need contacts.
 constexpr double kCore = 0.3;
+constexpr std::size_t kContactsAtOnce = 64;  // of a task for the workers
 // Contacts of one obstacle go by the parts of the cloth that touch, then by what a mirror keeps: it would number the
 // features of a box otherwise.
 bool before(const Contact& a, const Contact& b) {
@@ -38,6 +39,7 @@ void dropDuplicates(Contacts& contacts, std::size_t first) noexcept {
 ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, const ContactParams& params, ObstacleSet& obstacles,
                                    const Workers& workers)
     : pattern_(pattern),
+      workers_(workers),
       thickness_(params.thickness),
       recovery_speed_(params.recovery_speed),
       obstacles_(obstacles),
@@ -56,6 +58,7 @@ ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, const ContactPar
   advected_by_.assign(pattern.grid.size(), -1);
   advected_.reserve(pattern.grid.nodeCount());
   held_.reserve(pattern.grid.nodeCount());
+  met_another_.reserve(pattern.grid.nodeCount());
 }
 
 // The box grown by what may touch beyond it.
@@ -84,6 +87,7 @@ void ObstacleContacts::begin(const Field3& start, const Field3& predicted, const
   act_ = begin.act;
   frictionless_ = begin.frictionless;
   held_.clear();
+  begun_ = contacts.size();
   std::fill(active_.begin(), active_.end(), std::uint8_t{0});
   if (obstacles_.sweptBounds().isEmpty()) return;
   start_box_ = bounds_.around(start);
@@ -98,7 +102,7 @@ void ObstacleContacts::begin(const Field3& start, const Field3& predicted, const
     if (!candidates_[n].pairs().empty()) collectPairs(substep, pattern_, candidates_[n], contacts);
     const ExitDirection exit(pattern_.grid, candidates_[n], penetrating_);
     collectPenetratingFaces(substep, pattern_, candidates_[n], exit, penetrating_, contacts);
-    collectNodes(substep, pattern_, candidates_[n], exit, contacts);
+    collectNodes(substep, pattern_, candidates_[n], exit, workers_, contacts);
     std::sort(contacts.begin() + static_cast<std::ptrdiff_t>(first), contacts.end(), before);
     dropDuplicates(contacts, first);
   }
@@ -106,29 +110,48 @@ void ObstacleContacts::begin(const Field3& start, const Field3& predicted, const
   begun_ = contacts.size();
 }
 
-// The distance at the end, not that to a plane of before: a node that slides around an edge follows it. What neither
-// pushes nor is below its last plane has none to find: that plane bounds what is convex, a feature of a mesh too. Of a
-// node and a whole mesh the distance that it saw last does.
+// Where a contact's plane is now: false if it stays. What neither pushes nor is below its last plane has none to find:
+// that plane bounds what is convex, a feature of a mesh too. Of a node and a whole mesh the distance that it saw last
+// does. That of an edge or a face is set at once.
+bool ObstacleContacts::findSurface(const Field3& position, Contact& contact, SurfacePoint& surface) noexcept {
+  if (!contact.curved || contact.ran_into) return false;
+  ObstacleCandidates& candidates = candidates_[static_cast<std::size_t>(contact.obstacle)];
+  const bool convex = contact.nodes > 1 || candidates.shape().convex() != nullptr;
+  if (convex && !contact.pushes() && contact.isAbove(position)) return false;
+  const Transform& place = obstacles_.moving(contact.obstacle).after;
+  if (contact.nodes > 1) {
+    curtain::relinearise(candidates.shape(), place, position, contact);
+    return false;
+  }
+  const std::uint32_t node = contact.node[0];
+  const Vec3 at = place.toLocal(position.at(node));
+  if (!contact.pushes() && candidates.seen(node).lowerBound(at) > contact.asked) return false;
+  if (!candidates.surfaceOf(node, at, surface)) return false;
+  surface.normal = place.rotation * surface.normal;
+  return true;
+}
+
+// The distance at the end, not that to a plane of before: a node that slides around an edge follows it. Of those that
+// the substep began with a node has one contact with an obstacle, and each is turned by itself. Where one may have met
+// another face, its chunk is gone through again.
 void ObstacleContacts::relinearise(const Field3& position, Contacts& contacts) noexcept {
   const std::size_t count = contacts.size();
-  for (std::size_t n = 0; n < count; ++n) {
-    Contact& contact = contacts[n];
-    if (!contact.curved || contact.ran_into) continue;
-    const auto obstacle = static_cast<std::size_t>(contact.obstacle);
-    const bool convex = contact.nodes > 1 || candidates_[obstacle].shape().convex() != nullptr;
-    if (convex && !contact.pushes() && contact.isAbove(position)) continue;
-    const Transform& place = moving(obstacle).after;
-    if (contact.nodes > 1) {
-      curtain::relinearise(candidates_[obstacle].shape(), place, position, contact);
-      continue;
+  met_another_.assign(begun_ / kContactsAtOnce + 1, 0);
+  workers_.runChunks(begun_, kContactsAtOnce, [&](std::size_t first, std::size_t end) {
+    for (std::size_t n = first; n < end; ++n) {
+      SurfacePoint surface;
+      if (!findSurface(position, contacts[n], surface)) continue;
+      if (contacts[n].isOf(surface.normal))
+        contacts[n].turnTo(surface.normal, surface.distance, position);
+      else
+        met_another_[first / kContactsAtOnce] = 1;
     }
-    const std::uint32_t node = contact.node[0];
-    const Vec3 at = place.toLocal(position.at(node));
-    if (!contact.pushes() && candidates_[obstacle].seen(node).lowerBound(at) > contact.asked) continue;
+  });
+  for (std::size_t n = 0; n < count; ++n) {
+    if (n < begun_ && met_another_[n / kContactsAtOnce] == 0) continue;
     SurfacePoint surface;
-    if (!candidates_[obstacle].surfaceOf(node, at, surface)) continue;
-    surface.normal = place.rotation * surface.normal;
-    faceMet(contact, surface, position, contacts).turnTo(surface.normal, surface.distance, position);
+    if (!findSurface(position, contacts[n], surface)) continue;
+    faceMet(contacts[n], surface, position, contacts).turnTo(surface.normal, surface.distance, position);
   }
 }
 

@@ -96,12 +96,14 @@ class ObstacleContacts {
   void addLoad(int obstacle, const Vec3& point, const Vec3& impulse, bool pushes) noexcept;
   bool anyWithin(const Eigen::AlignedBox3d& box) const noexcept;
   Eigen::AlignedBox3d reached(Eigen::AlignedBox3d box) const noexcept;
+  bool findSurface(const Field3& position, Contact& contact, SurfacePoint& surface) noexcept;
   Contact& faceMet(Contact& first, const SurfacePoint& surface, const Field3& position, Contacts& contacts) noexcept;
   bool activate(const Field3& start, const Field3& end, bool links_hold) noexcept;
   void findCrossings(const Field3& start, const Field3& end, bool links_hold) noexcept;
   bool advectNode(std::uint32_t node, int obstacle, const Field3& start, Field3& end) noexcept;
 
   const ClothPattern& pattern_;
+  const Workers& workers_;
   double thickness_, recovery_speed_;
   double max_recovery_ = std::numeric_limits<double>::infinity();  // in a substep [m]
   ObstacleSet& obstacles_;
@@ -114,7 +116,8 @@ class ObstacleContacts {
   double h_ = 0.0;                              // [s]
   ContactFinder::ForcesAct act_ = ContactFinder::ForcesAct::kAtStart;
   bool full_ = false;
-  std::size_t begun_ = 0;  // contacts that the substep began with
+  std::size_t begun_ = 0;                  // contacts that the substep began with
+  std::vector<std::uint8_t> met_another_;  // by chunk of these: a node may have met another face
   std::vector<Crossing> crossings_;
   std::vector<PenetratingFace> penetrating_;
   std::vector<std::int32_t> advected_by_;  // by node: obstacle it moves with, or -1
