@@ -274,7 +274,7 @@ def gusts():
 def scaling():
     rows = table('scaling')
     text = ['## Scaling\n', 'Default settings of ours; a frame is 1/60 s. 60 frames from the start, or as many as 3 s of '
-            'computing allow.\n']
+            'computing allow. Misfits are of those frames: where the numbers of threads differ in frames, they differ in misfits, too.\n']
     for file in ('scaling_swing.png', 'scaling_curtain.png', 'scaling_shape.png'):
         text.append(picture(file, 'time a frame against nodes'))
     body = []
@@ -283,11 +283,11 @@ def scaling():
             continue
         body.append([row['scene'], f"{row['rows']} x {row['columns']}", row['nodes'], name(row['method']), row['setting'],
                      row['threads'], figure(value(row, 'ms_min')), figure(value(row, 'ms_median')), figure(value(row, 'ms_max')),
-                     figure(value(row, 'substeps')), figure(value(row, 'stretch'))])
+                     figure(value(row, 'substeps')), row['frames'], figure(value(row, 'stretch'))])
     memory = {(row['scene'], row['rows'], row['columns']): row['our_bytes_a_node'] for row in rows if row['series'] == 'both'}
     held = [[scene, f'{height} x {width}', figure(float(of), 3)] for (scene, height, width), of in memory.items()]
     return text + [markdown(['scene', 'grid', 'nodes', 'method', 'setting', 'threads', 'ms a frame, least median', 'median',
-                             'most', 'substeps', 'misfit'], body),
+                             'most', 'substeps', 'frames', 'misfit'], body),
                    'Memory that a simulator holds after its first frame, bytes a node (small grids share pages with what was there):\n',
                    markdown(['scene', 'grid', 'bytes a node'], held)]
 
@@ -402,8 +402,8 @@ def head(stamps):
             'for this processor; Bullet as packaged, its soft body stepped without a world around it. Under *work and '
             'precision* the rivals are swept over their settings; elsewhere they run at a few settings, named in the tables, '
             'that did well there. Same scenes, same stop watch, same error measure; one core unless threads are named. Runs '
-            'are repeated in turns for *work and precision*, *scaling* and the *gathered curtain*; the others are run '
-            'once.\n',
+            'are repeated in turns for *work and precision*, *scaling* and the *gathered curtain*; elsewhere a setting '
+            'is run once, unless its section says otherwise.\n',
             'Unless a section names another:\n',
             '\n'.join(about) + '\n',
             '**The sections are of different engines**: each says of which commit it is. Figures of one are not to be compared with those of '
