@@ -135,6 +135,7 @@ bool ObstacleContacts::findSurface(const Field3& position, Contact& contact, Sur
 // the substep began with a node has one contact with an obstacle, and each is turned by itself. Where one may have met
 // another face, its chunk is gone through again.
 void ObstacleContacts::relinearise(const Field3& position, Contacts& contacts) noexcept {
+  if (candidates_.empty()) return;
   const std::size_t count = contacts.size();
   met_another_.assign(begun_ / kContactsAtOnce + 1, 0);
   workers_.runChunks(begun_, kContactsAtOnce, [&](std::size_t first, std::size_t end) {
