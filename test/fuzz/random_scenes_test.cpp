@@ -103,16 +103,22 @@ bool isLeftOut(const std::string& key) {
 
 // A key that habits.h does not know is drawn, too.
 TEST(RandomSceneMaker, GivesEveryKeyByHabit) {
+  std::vector<std::string> missing;
+  for (const std::string& key : curtain::knownSceneKeys()) {
+    if (!isLeftOut(key)) missing.push_back(key);
+  }
   std::map<std::string, std::set<std::string>> values;
   Random random(1);
-  for (int n = 0; n < 1500; ++n) {
+  for (int n = 0; n < 1500 && !missing.empty(); ++n) {
     const std::optional<Scene> scene = curtain_test::makeScene(random, curtain_test::Manner::kWild);
-    if (scene) note("", YAML::Load(curtain::writeScene(*scene)), values);
+    if (!scene) continue;
+    note("", YAML::Load(curtain::writeScene(*scene)), values);
+    const auto varies = [&values](const std::string& key) {
+      return values[key].size() > 1U || values[key + "[]"].size() > 1U;
+    };
+    missing.erase(std::remove_if(missing.begin(), missing.end(), varies), missing.end());
   }
-  for (const std::string& key : curtain::knownSceneKeys()) {
-    if (isLeftOut(key)) continue;
-    EXPECT_TRUE(values[key].size() > 1U || values[key + "[]"].size() > 1U) << key;
-  }
+  EXPECT_EQ(missing, std::vector<std::string>());
 }
 
 TEST(RandomSceneMaker, EveryKeyIsBroken) {

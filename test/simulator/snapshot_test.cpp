@@ -114,9 +114,9 @@ TEST(Snapshot, GoesOnInRandomScenesAtRandomFrames) {
     Scene other_threads = scene;
     other_threads.solver.threads = random.integer(1, 2);
     Life life;
-    life.saved_at = random.integer(0, 60);
-    life.end = life.saved_at + random.integer(5, 40);
-    life.other_frames = random.integer(0, 40);
+    life.saved_at = random.integer(0, 40);
+    life.end = life.saved_at + random.integer(5, 20);
+    life.other_frames = random.integer(0, 20);
     life.deeds = randomDeeds(seed, random.between(0.0, 0.3));
     life.other = randomDeeds(seed + 777, random.between(0.0, 0.4));
     expectContinues(scene, life, other_threads);
