@@ -93,6 +93,15 @@ if(DOXYGEN)
     WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
 endif()
 
+# Figures that pages quote from tests are those of this run's reports.
+if(catkin_FOUND)
+  add_test(NAME figures_check COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/docs/record_figures.py --check
+    ${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME})
+  set(reporting simulator fit ros)
+  list(TRANSFORM reporting PREPEND _ctest_${PROJECT_NAME}_gtest_test_)
+  set_tests_properties(figures_check PROPERTIES DEPENDS "${reporting}")
+endif()
+
 # The Python module, its types, example and page.
 execute_process(COMMAND ${Python3_EXECUTABLE} -c "import numpy" RESULT_VARIABLE without_numpy ERROR_QUIET)
 if(TARGET curtain_python AND without_numpy EQUAL 0)

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "figures.h"
 #include "over_a_bar.h"
 #include "simulator/scenes.h"
 
@@ -45,6 +46,9 @@ TEST(Scarf, SlidesOffAsItsWeightAsks) {
     const double slid = before - simulator.position({0, 0}).z();
     std::printf("%3.0f Hz: %.4f of the closed form, energy %+.1e of the motion's\n", rate, slid / expected,
                 (energyOf(simulator) - energy) / simulator.energy().kinetic);
+    curtain_test::keepFigure("scarf, of the closed form", slid / expected);
+    curtain_test::keepFigure("scarf, energy over the motion's",
+                             (energyOf(simulator) - energy) / simulator.energy().kinetic);
     EXPECT_NEAR(slid, expected, kChords * expected) << rate;
     EXPECT_LE(most - energy, 1e-3 * simulator.energy().kinetic) << rate;
   }
@@ -68,6 +72,7 @@ TEST(Atwood, SinksAsItsLoadsAsk) {
     const double expected = (more / (2.0 * Strap::kPerLength) + half) * (std::cosh(grows * simulator.time()) - 1.0);
     const double sank = before - simulator.position({0, 0}).z();
     std::printf("%g and %g kg: %.4f of the closed form\n", first, last, sank / expected);
+    curtain_test::keepFigure("Atwood, of the closed form", sank / expected);
     EXPECT_NEAR(sank, expected, kChords * expected);
     EXPECT_EQ(simulator.statistics().last_resort_substeps, 0);
   }
@@ -107,6 +112,7 @@ TEST(Strap, CarriesWhatHangsOnIt) {
     // The pinned row bears half a link itself.
     const double expected = simulator.scene().gravity.norm() * (all - massOfRow(simulator, 0) + pull);
     std::printf("%g kg: the bar bears %.4f of what it must\n", load, sum / expected);
+    curtain_test::keepFigure("force on the bar, of the exact one", sum / expected);
     EXPECT_NEAR(sum, expected, 0.02 * expected) << load;
     EXPECT_EQ(simulator.statistics().last_resort_substeps, before) << load;
   }

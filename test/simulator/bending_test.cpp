@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "figures.h"
 #include "simulator/chains.h"
 #include "simulator/scenes.h"
 #include "simulator/strips.h"
@@ -64,6 +65,8 @@ TEST_P(Elastica, OfFortyRodsIsWithinAThousandthOfItsLength) {
     const Overhang found = elastica(GetParam(), 40, along_warp);
     std::printf("Gamma %g, %s: drop off by %+.1e, reach by %+.1e of the length\n", GetParam(),
                 along_warp ? "warp" : "weft", found.drop - exact.drop, found.reach - exact.reach);
+    curtain_test::keepFigure("elastica of " + std::to_string(static_cast<int>(GetParam())) + ", off by",
+                             std::hypot(found.drop - exact.drop, found.reach - exact.reach));
     EXPECT_NEAR(found.drop, exact.drop, 1e-3);
     EXPECT_NEAR(found.reach, exact.reach, 1e-3);
   }
@@ -75,6 +78,7 @@ TEST_P(Elastica, ConvergesWithTheSquareOfTheRod) {
   const double order = std::log2(std::hypot(coarse.drop - exact.drop, coarse.reach - exact.reach) /
                                  std::hypot(fine.drop - exact.drop, fine.reach - exact.reach));
   std::printf("Gamma %g: order %.3f from 20 to 40 rods\n", GetParam(), order);
+  curtain_test::keepFigure("elastica of " + std::to_string(static_cast<int>(GetParam())) + ", order", order);
   EXPECT_GE(order, 1.9);
 }
 
@@ -148,6 +152,8 @@ TEST(Bending, ClampedStripsRingAtTheirFrequencies) {
     const double periods = std::max(30.0, 8.0 * omega / curtain_test::lowestFrequency(strip));
     const double found = peakNear(ringing(strip, periods * 2.0 * curtain_test::kPi / omega), omega);
     std::printf("mode %d, %d rods: frequency off by %+.1e\n", mode + 1, strip.rods, found / omega - 1.0);
+    curtain_test::keepFigure("clamped strip, mode " + std::to_string(mode + 1) + ", off by",
+                             std::abs(found / omega - 1.0));
     EXPECT_NEAR(found / omega, 1.0, 1e-3 * std::pow(40.0 / kRods, 2)) << "mode " << mode + 1;
   }
 }

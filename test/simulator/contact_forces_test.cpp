@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "curtain_sim/simulator.h"
+#include "figures.h"
 #include "simulator/scenes.h"
 #include "testing.h"
 
@@ -108,6 +109,7 @@ TEST_P(Blows, TakeTheMomentumThatTheClothGivesUp) {
   std::printf("%s: impulse %.4f N s, given up %.4f N s, off by %.1e of what was felt; %d stops\n", blow.name,
               impulse.norm(), given_up.norm(), (impulse - given_up).norm() / felt,
               static_cast<int>(simulator.statistics().stops));
+  curtain_test::keepFigure(std::string("blow ") + blow.name + ", off by", (impulse - given_up).norm() / felt);
   EXPECT_GT(felt, 0.1 * mass) << "it was hit";
   EXPECT_LT((impulse - given_up).norm(), 1e-3 * felt);
 }

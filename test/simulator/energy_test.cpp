@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <tuple>
 
+#include "figures.h"
 #include "simulator/chains.h"
 
 namespace curtain {
@@ -95,6 +96,8 @@ TEST_P(WhipEnergy, IsNotCollected) {
     lowest = std::min(lowest, off);
     highest = std::max(highest, off);
   }
+  curtain_test::keepFigure("a whip's energy, most above the start", highest);
+  curtain_test::keepFigure("a whip's energy, most below the start", lowest);
   EXPECT_LE(highest, 1.01e-2);
   EXPECT_GE(lowest, -0.05);
 }

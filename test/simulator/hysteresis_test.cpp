@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "curtain_sim/simulator.h"
+#include "figures.h"
 #include "testing.h"
 
 namespace curtain {
@@ -44,6 +45,8 @@ TEST(Hysteresis, LosesWhatItDissipates) {
       swings = std::max(swings, simulator.energy().kinetic);
     }
     EXPECT_GT(simulator.work().dissipated, 0.01 * swings);
+    curtain_test::keepFigure(std::string("hysteresis, energy wavers, ") + (substeps > 0 ? "32 substeps" : "auto"),
+                             most / swings);
     EXPECT_LT(most, (substeps > 0 ? 1e-5 : 2e-4) * swings) << substeps;
   }
 }

@@ -8,6 +8,7 @@
 
 #include "curtain_sim/scene_yaml.h"
 #include "curtain_sim/simulator.h"
+#include "figures.h"
 #include "simulator/scenes.h"
 #include "testing.h"
 
@@ -257,6 +258,7 @@ TEST(Layers, SlideByCoulombsLaw) {
     }
     EXPECT_EQ(simulator.selfCrossings(), 0);
     const double lying = weightOf(simulator, simulator.layers()[1]) + force.z();
+    curtain_test::keepFigure("towel over tablecloth, pull over weight less friction", -force.x() / lying - friction);
     EXPECT_NEAR(-force.x(), friction * lying, 0.006 * lying) << friction;
   }
 }

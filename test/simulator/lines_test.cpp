@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "curtain_sim/simulator.h"
+#include "figures.h"
 #include "simulator/scenes.h"
 #include "testing.h"
 
@@ -105,6 +106,7 @@ TEST(Lines, AHangingLoadPullsWithItsWeight) {
   const Vec3 pull = simulator.linePull("line");
   // At rest the links are left within 1e-4 of half of their tolerance, 3.3e-9 m; twelve of them add up, over g h^2 of
   // substeps of 3 ms: 4e-4 of the weight.
+  curtain_test::keepFigure("load on a line, pull off by", std::abs(pull.z() / (0.2 * kG) - 1.0));
   EXPECT_NEAR(pull.z(), 0.2 * kG, 4e-4 * 0.2 * kG);
   EXPECT_LT(pull.head<2>().norm(), 4e-4 * 0.2 * kG);
   EXPECT_TRUE(simulator.statistics().asleep);
@@ -136,6 +138,9 @@ TEST(Lines, AHeavyLoadHangsWithoutBouncing) {
     weakest = std::min(weakest, pull);
     strongest = std::max(strongest, pull);
   }
+  curtain_test::keepFigure("heavy load on a line, moves by [um]", 1e6 * (highest - lowest));
+  curtain_test::keepFigure("heavy load on a line, pull over its weight", weakest / (5.0 * kG));
+  curtain_test::keepFigure("heavy load on a line, pull over its weight", strongest / (5.0 * kG));
   EXPECT_LT(highest - lowest, 1e-3);
   EXPECT_GT(weakest, 0.8 * 5.0 * kG);
   EXPECT_LT(strongest, 1.2 * 5.0 * kG);
@@ -184,6 +189,7 @@ TEST(Lines, AParachuteSinksAsItsDragAsksFor) {
     for (const Vec3& force : forces) air += force.z() / kFrames;
   }
   air += cloth;
+  curtain_test::keepFigure("parachute, force of the air off by", std::abs((cloth + 0.5 * kG) / air - 1.0));
   EXPECT_NEAR(air, cloth + 0.5 * kG, 0.01 * air);
   EXPECT_NEAR((from - simulator.lineEnd("harness")->z()) / 2.0, 2.29, 0.05);
   EXPECT_NEAR(simulator.linePull("harness").z(), 0.5 * kG, 0.02 * 0.5 * kG);

@@ -17,6 +17,7 @@
 #include "contact/narrow_phase/closest_points.h"
 #include "curtain_sim/scene_yaml.h"
 #include "curtain_sim/simulator.h"
+#include "figures.h"
 #include "testing.h"
 
 namespace curtain {
@@ -245,6 +246,8 @@ TEST(MeshReducer, DrawsLessFromFurtherAway) {
     const MeshDetail detail = seenFrom(Vec3(0.3, -distance, 1.2), 1e-3);
     const std::size_t count = reducer.reduce(cloth.mesh, detail).size();
     std::printf("  from %4.0f m: %5zu\n", distance, count);
+    curtain_test::keepFigure("triangles from " + std::to_string(static_cast<int>(distance)) + " m",
+                             static_cast<double>(count));
     EXPECT_LT(count, last);
     last = count;
   }

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "curtain_sim/simulator.h"
+#include "figures.h"
 #include "testing.h"
 
 namespace curtain {
@@ -89,6 +90,7 @@ TEST_P(Padding, IsKept) {
   const Statistics& s = simulator.statistics();
   std::printf("kept %.4f m, at rest %.4f m, contacts %d, sweeps %d a frame, stops %d\n", least, at_rest, s.contacts,
               static_cast<int>(s.sweeps / s.frames), static_cast<int>(s.stops));
+  curtain_test::keepFigure("padding of 20 mm, kept [mm]", 1e3 * least);
   EXPECT_GT(s.contacts, 0);
   EXPECT_GE(least, kPadding);
   EXPECT_LT(at_rest, kPadding + 1.5 * simulator.scene().contact.thickness) << "and it lies there";

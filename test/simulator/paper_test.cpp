@@ -13,6 +13,7 @@
 
 #include "curtain_sim/scene_yaml.h"
 #include "curtain_sim/simulator.h"
+#include "figures.h"
 #include "simulator/chains.h"
 
 namespace curtain {
@@ -43,6 +44,9 @@ double rodError(const Simulator& simulator) {
   return std::max(s.warp_stretch_max, s.warp_compression_max);
 }
 
+std::string nameOf(const ::testing::TestParamInfo<std::string>& test) {
+  return std::filesystem::path(test.param).stem().string();
+}
 class PaperScenes : public ::testing::TestWithParam<std::string> {};
 
 // Everything but contact: rods are at their length at the end of every frame.
@@ -52,10 +56,13 @@ TEST_P(PaperScenes, WithoutContactRodsKeepTheirLength) {
   scene.obstacles.clear();
   Simulator simulator(scene);
   curtain_test::makeFrames(simulator, 300);
+  curtain_test::keepFigure("rods of paper, off by", rodError(simulator));
   EXPECT_LE(rodError(simulator), 1e-12);
   EXPECT_EQ(simulator.statistics().stops, 0);
   std::printf("weft stretch at most %.3f, at the end %.3f\n", simulator.statistics().weft_stretch_max,
               simulator.statistics().weft_stretch);
+  curtain_test::keepFigure("wefts of paper without contact, " + nameOf({GetParam(), 0}),
+                           simulator.statistics().weft_stretch_max);
 }
 
 // With contact a node that is held back leaves its rod off its length, until it is let go. Asked for is what a viewer
@@ -96,9 +103,6 @@ TEST_P(PaperScenes, WeightAloneNeverRaisesTheEnergy) {
   EXPECT_LE(most - start, std::max(0.0, highest - start) + 1e-9 * weight);
 }
 
-std::string nameOf(const ::testing::TestParamInfo<std::string>& test) {
-  return std::filesystem::path(test.param).stem().string();
-}
 INSTANTIATE_TEST_SUITE_P(Repository, PaperScenes, ::testing::ValuesIn(sceneFiles()), nameOf);
 
 class PaperChain : public ::testing::TestWithParam<int> {};
@@ -111,8 +115,10 @@ TEST_P(PaperChain, ConvergesToTheExactMotion) {
   const double coarse = curtain_test::chainErrorAfterASecond(scene, Method::kPaper, 64).position;
   const double fine = curtain_test::chainErrorAfterASecond(scene, Method::kPaper, 128).position;
   EXPECT_NEAR(coarse / fine, 2.0, 0.1);
+  const double error = curtain_test::chainErrorAfterASecond(scene, Method::kPaper, 0).position;
   std::printf("%d rods: %.2f mm at 64 substeps, %.2f mm at 128, %.2f mm at the default\n", rods, 1e3 * coarse,
-              1e3 * fine, 1e3 * curtain_test::chainErrorAfterASecond(scene, Method::kPaper, 0).position);
+              1e3 * fine, 1e3 * error);
+  curtain_test::keepFigure("chain of " + std::to_string(rods) + " by paper, off by [mm]", 1e3 * error);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rods, PaperChain, ::testing::Values(1, 2, 5, 10, 20, 43));

@@ -11,6 +11,7 @@
 #include <string>
 #include <tuple>
 
+#include "figures.h"
 #include "simulator/chains.h"
 
 namespace curtain {
@@ -48,6 +49,7 @@ TEST_P(PositionTolerance, PublishesTheTrueError) {
     makeFrames(simulator, 60);
     const double error = chainError(simulator, chain().degrees).position;
     const double published = simulator.statistics().position_error;
+    curtain_test::keepFigure("true error over the published", error / published);
     EXPECT_LE(error, 3.0 * published) << tolerance;
     EXPECT_GE(error, published / 3.0) << tolerance;
   }

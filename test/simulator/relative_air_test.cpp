@@ -9,6 +9,7 @@
 #include "curtain_sim/plan.h"
 #include "curtain_sim/simulator.h"
 #include "energy_books.h"
+#include "figures.h"
 #include "simulator/scenes.h"
 #include "testing.h"
 #include "truth_table.h"
@@ -62,7 +63,10 @@ TEST_P(EveryExactMethod, FreeSheetFallsAtItsTerminalSpeed) {
     std::vector<Vec3> velocities;
     simulator.copyVelocities(velocities);
     const double expected = floatingSpeed(scene);
-    for (const Vec3& v : velocities) EXPECT_NEAR(-v.z(), expected, 1e-9 * expected) << substeps;
+    for (const Vec3& v : velocities) {
+      curtain_test::keepFigure("terminal speed, off by", std::abs(-v.z() / expected - 1.0));
+      EXPECT_NEAR(-v.z(), expected, 1e-9 * expected) << substeps;
+    }
   }
 }
 
@@ -85,7 +89,9 @@ TEST_P(StripInWind, RestsAtTheAngleOfTheClosedForm) {
   Simulator simulator(scene);
   runSeconds(simulator, 20.0);
   const Vec3 tip = simulator.position({43, 1}) - simulator.position({0, 1});
-  EXPECT_NEAR(std::atan2(tip.y(), -tip.z()), theta, 1e-10);
+  const double angle = std::atan2(tip.y(), -tip.z());
+  curtain_test::keepFigure("strip in relative air, angle off by", std::abs(angle - theta));
+  EXPECT_NEAR(angle, theta, 1e-10);
   EXPECT_LT(fastest(simulator), 1e-8);
 }
 
@@ -168,6 +174,7 @@ TEST_P(EveryExactMethod, StormInCoarseStepsStaysBounded) {
       simulator.copyVelocities(velocities);
       for (const Vec3& v : velocities) squares += v.squaredNorm() / (240.0 * static_cast<double>(velocities.size()));
     }
+    curtain_test::keepFigure("storm in coarse steps, RMS speed [m/s]", std::sqrt(squares));
     EXPECT_LT(std::sqrt(squares), scene.ambient.velocity.norm()) << substeps;
     EXPECT_LT(simulator.statistics().warp_stretch_max, scene.solver.stretch_tolerance) << substeps;
     EXPECT_EQ(simulator.statistics().last_resort_substeps, 0) << substeps;
@@ -286,6 +293,9 @@ TEST(RelativeAirScene, FlagFluttersAboveItAndFasterInFasterWind) {
     const Flutter begun = flutterOf(simulator, 4.0);
     runSeconds(simulator, 6.0);
     const Flutter goes_on = flutterOf(simulator, 4.0);
+    const std::string flag = "flag at " + std::to_string(static_cast<int>(speed)) + " m/s, ";
+    curtain_test::keepFigure(flag + "RMS of its end [mm]", 1e3 * goes_on.size);
+    curtain_test::keepFigure(flag + "frequency [Hz]", goes_on.frequency);
     EXPECT_GT(goes_on.size, 0.02) << speed;
     EXPECT_GT(goes_on.size, 0.5 * begun.size) << speed << ": it does not die out";
     EXPECT_GT(goes_on.frequency, 1.2 * frequency) << speed;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "curtain_sim/simulator.h"
+#include "figures.h"
 #include "testing.h"
 
 namespace curtain {
@@ -56,6 +57,7 @@ void expectRest(const char* name, const Scene& scene, double allowed) {
   }
   std::printf("%s: at most %.2f mm/s after 3 s, energy rises by at most %.1e J (of %.1e)\n", name, 1e3 * speed, rise,
               size);
+  curtain_test::keepFigure(std::string("at rest on a ") + name + ", speed [mm/s]", 1e3 * speed);
   EXPECT_LT(speed, allowed);
   EXPECT_LE(rise, size);
   EXPECT_GT(simulator.statistics().contacts, 100);

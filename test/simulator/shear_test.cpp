@@ -10,6 +10,7 @@
 
 #include "curtain_sim/plan.h"
 #include "curtain_sim/simulator.h"
+#include "figures.h"
 #include "scene/pi.h"
 #include "testing.h"
 
@@ -113,6 +114,8 @@ TEST(Shear, GatheredClothStartsAtRest) {
     ASSERT_LT(simulator.energy().kinetic, free) << "frame " << frame;
   }
   for (int frame = 60; frame < 600 && !simulator.statistics().asleep; ++frame) simulator.step();
+  curtain_test::keepFigure("gathered cloth with shear, asleep after [s]", simulator.time());
+  curtain_test::keepFigure("gathered cloth with shear, folds at rest [mm]", 1e3 * depthOf(simulator));
   EXPECT_TRUE(simulator.statistics().asleep);
   EXPECT_GT(depthOf(simulator), 0.02);
   EXPECT_GT(weftsOf(simulator), 0.98);

@@ -11,6 +11,7 @@
 #include <random>
 
 #include "curtain_sim/simulator.h"
+#include "figures.h"
 #include "scene/pi.h"
 #include "simulator/scenes.h"
 
@@ -113,6 +114,8 @@ TEST(SlidingStrips, GainNoEnergy) {
       above = std::max(above, now - start);
       before = now;
     }
+    curtain_test::keepFigure("sliding strips, a frame's rise", rise / unit);
+    curtain_test::keepFigure("sliding strips, above the start", above / unit);
     EXPECT_LE(rise, kWavers * unit) << "a frame's rise, seed " << seed;
     EXPECT_LE(above, kWavers * unit) << "above the start, seed " << seed;
     worst = std::max(worst, rise / unit);

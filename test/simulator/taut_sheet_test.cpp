@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "curtain_sim/simulator.h"
+#include "figures.h"
 
 namespace curtain {
 namespace {
@@ -34,6 +35,8 @@ TEST_P(TautSheet, ComesToRest) {
   const Statistics& s = simulator.statistics();
   const double substep = 1.0 / (scene.solver.frame_rate * std::max(1, s.substeps_last));
   EXPECT_LE(fastest, 0.3 * scene.gravity.norm() * substep);
+  curtain_test::keepFigure("taut sheet, substeps a frame",
+                           static_cast<double>(s.substeps) / static_cast<double>(s.frames));
   EXPECT_LT(s.substeps / s.frames, 20) << "links were shaken all the time";
 }
 

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "curtain_sim/simulator.h"
+#include "figures.h"
 #include "testing.h"
 
 namespace curtain {
@@ -120,6 +121,7 @@ TEST(Valleys, OfRoughMeshesGiveFallingClothNoEnergy) {
       most = std::max(most, (now - before) / unit);
       before = now;
     }
+    curtain_test::keepFigure("sheets on rough meshes, a frame's rise", most);
     EXPECT_LT(most, kMaxRise) << "seed " << seed;
     EXPECT_LT(simulator.energy().potential, start - 0.3 * unit) << "it fell by at least half of its height";
   }

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "figures.h"
 #include "simulator/sleeping_cloth.h"
 
 namespace curtain {
@@ -198,6 +199,7 @@ TEST(Wake, InTimeForEveryCause) {
     run(reference, kDue);
     EXPECT_TRUE(simulator.statistics().asleep) << cause.name;
     const Comparison result = compare(cause, simulator, reference);
+    curtain_test::keepFigure("woken cloth, late by frames", result.late);
     EXPECT_LT(result.late, 0.25) << cause.name << ", in frames";
     EXPECT_GT(result.moved, cause.moves) << cause.name;
     EXPECT_GT(simulator.statistics().wakes, 0) << cause.name;
