@@ -79,12 +79,21 @@ def matrix(path):
     return lines
 
 
+def stamp(folder, table):
+    """When and of what a table was measured."""
+    with open(os.path.join(folder, "stamps.csv"), newline="", encoding="utf-8") as file:
+        found = [row for row in csv.DictReader(file) if row["table"] == table]
+    if len(found) != 1:
+        sys.exit("%s/stamps.csv does not say of which commit %s.csv is; test/stress/run does" % (folder, table))
+    return ["", "Measured {date} at commit {commit} ({processor}).".format(**found[0])]
+
+
 def soak(path):
     with open(path, newline="") as file:
         rows = list(csv.DictReader(file))
     if not rows:
         return []
-    lines = ["", "## Soak", "", "The demo (curtain, ball, fan) as fast as it goes, half a minute of quiet at the end of every "
+    lines = ["", "The demo (curtain, ball, fan) as fast as it goes, half a minute of quiet at the end of every "
              "interval. One row an hour, of the table in [soak.csv](soak.csv). Heap: what the program has allocated (`mallinfo2`); memory: "
              "what the system keeps for it.", "",
              "| simulated hours | median ms a frame | longest of ten minutes | sweeps a frame | longest link | height at rest [m] | memory [kB] | heap [kB] |",
@@ -99,9 +108,9 @@ def soak(path):
 
 def main():
     folder = sys.argv[1]
-    lines = matrix(os.path.join(folder, "matrix.csv"))
+    lines = matrix(os.path.join(folder, "matrix.csv")) + stamp(folder, "matrix")
     if os.path.exists(os.path.join(folder, "soak.csv")):
-        lines += soak(os.path.join(folder, "soak.csv"))
+        lines += ["", "## Soak"] + stamp(folder, "soak") + soak(os.path.join(folder, "soak.csv"))
     path, page = os.path.join(folder, "README.md"), TEXT + "\n".join(lines) + "\n"
     if sys.argv[2:] != ["--check"]:
         with open(path, "w", encoding="utf-8") as file:

@@ -4,6 +4,7 @@
 
 Run without arguments. Needs no ROS and no build.
 """
+import csv
 import glob
 import os
 import re
@@ -149,6 +150,15 @@ class Figures(unittest.TestCase):
 
     def test_figures_in_the_text(self):
         agrees(self, "docs/make_figures.py")
+
+    def test_every_table_says_of_which_commit_it_is(self):
+        stamps = list(csv.DictReader(read("docs/bench/stamps.csv").splitlines()))
+        self.assertEqual(len({stamp["sources"] for stamp in stamps}), 1, "studies of different sources")
+        for path in find("docs/bench/*.csv"):
+            name = os.path.basename(path)[:-4]
+            stamped = any(name == stamp["study"] or name.startswith(stamp["study"] + "_") for stamp in stamps)
+            with self.subTest(table=path):
+                self.assertTrue(stamped or name == "stamps" or "commit" in read(path).splitlines()[0].split(","))
 
     def test_pages_of_tables(self):
         for program, folder in (("bench/page.py", "docs/bench"), ("test/stress/page.py", "docs/stress")):

@@ -1,0 +1,367 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Reads figures from the tables of the book: docs/bench/*.csv, docs/stress and docs/figures.csv, as the pages tell them."""
+import csv
+import math
+import os
+import re
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+PROBLEMS = ("slope", "belt", "scarf")  # of the closed forms
+RIVALS = ("symplectic Euler", "Runge-Kutta 4", "Baraff-Witkin", "PBD", "XPBD", "btSoftBody")
+
+
+def read(path):
+    """A file of the checkout."""
+    with open(os.path.join(ROOT, path), encoding="utf-8", newline="") as file:
+        return file.read()
+
+
+def rows(table, **wanted):
+    """Rows of a benchmark's table that have what is wanted in these columns, with numbers as such."""
+    lines = csv.DictReader(read("docs/bench/%s.csv" % table).splitlines())
+    found = [row for row in lines if all(row[key] == wanted[key] for key in wanted)]
+    if not found:
+        sys.exit("docs/bench/%s.csv has no row of %s" % (table, wanted))
+    return [{key: number(text) for key, text in row.items()} for row in found]
+
+
+def number(text):
+    """A number as such, other text as it is."""
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def one_row(table, **wanted):
+    """The only row that has what is wanted."""
+    found = rows(table, **wanted)
+    if len(found) != 1:
+        sys.exit("docs/bench/%s.csv has %d rows of %s" % (table, len(found), wanted))
+    return found[0]
+
+
+def one(table, column, **wanted):
+    """A cell."""
+    return one_row(table, **wanted)[column]
+
+
+def short(value, digits=2):
+    """As many digits, all of them where it is larger: 0.50, 35, 569, 5.6e-5."""
+    if abs(value) < 1e-2:
+        return re.sub(r"e-0?", "e-", "%.*e" % (digits - 1, value))
+    return "%.0f" % value if abs(value) >= 10 ** digits - 0.5 else ("%#.*g" % (digits, value)).rstrip(".")
+
+
+def within(value, digits=2):
+    """Rounded up: a bound."""
+    unit = 10.0 ** (math.floor(math.log10(value)) - digits + 1)
+    return short(unit * math.ceil(value / unit * (1.0 - 1e-12)), digits)
+
+
+def fixed(value, decimals=0):
+    """So many decimals, and spaces where there are ten thousands."""
+    text = "%.*f" % (decimals, value)
+    return "{:,}".format(int(text)).replace(",", " ") if decimals == 0 and abs(value) >= 1e4 else text
+
+
+def swing(method, error, column="ms_min"):
+    """The fastest setting of a method, or of any of them, that is at least this true after a second of the swing."""
+    methods = (method,) if isinstance(method, str) else method
+    good = [row for row in rows("work_precision", scene="swing") if row["method"] in methods and row["error_m"] <= error]
+    return min(good, key=lambda row: row["ms_min"])[column]
+
+
+def took(method, error):
+    """Its ms, as they are told."""
+    return short(swing(method, error))
+
+
+def blown(wind):
+    """ms a frame of the gathered curtain in its fan."""
+    return short(one("gusts", "ms_min", wind=wind, method="auto", setting="default"))
+
+
+def seen(view, column="ms_look", digits=2):
+    """ms of a sensor's view."""
+    return short(one("sensing", column, view=view), digits)
+
+
+def energy(method):
+    """Relative drift of our energy after a minute."""
+    return short(one("energy", "drift", method=method, setting="substeps 8", t_s="60"))
+
+
+def refined():
+    """By which factor the errors of cantilevers fall from the coarsest to the finest, with auto."""
+    error = {(row["case"], row["rods"]): row["error"] for row in rows("fabric", test="cantilever", method="auto")}
+    return [error[case, 10.0] / error[case, 80.0] for case in {case for case, _ in error}]
+
+
+def sheet(method, setting, column="ms_median", size="44x40"):
+    """What a sheet hung by two corners and dropped flat takes."""
+    return one("hard_spot", column, sheet=size, method=method, setting=setting)
+
+
+def early(method, setting, size="44x40"):
+    """How far off it is after 0.1 s [m]."""
+    return one("hard_spot_motion", "error_m", sheet=size, method=method, setting=setting, t_s="0.1")
+
+
+def frame(scene, column="ms_median_min"):
+    """A frame in contact [ms]."""
+    return short(one("contact_frames", column, scene=scene))
+
+
+def both(scene):
+    """Median and 99 % of a frame in contact [ms]."""
+    return [frame(scene), frame(scene, "ms_99_min")]
+
+
+def cores(scene):
+    """Median of a frame in contact on one core and on two [ms]."""
+    return [frame(scene + "; one core"), frame(scene + "; two cores")]
+
+
+def engine(scene, name, setting, column="ms_median"):
+    """What an engine takes or leaves in the same scene."""
+    return one("engines", column, scene=scene, engine=name, setting=setting)
+
+
+def peer(name, setting):
+    """ms a frame and overlength of an engine with the ball."""
+    return [short(engine("ball 44 x 40", name, setting)), short(engine("ball 44 x 40", name, setting, "stretch_max"))]
+
+
+def keeps(scene, name, overlength):
+    """ms a frame of an engine's fastest setting that keeps the links so short and the ball out, touching itself if it can, and what crosses."""
+    good = [row for row in rows("engines", scene=scene, engine=name) if row["stretch_max"] <= overlength and row["nodes_inside"] == 0 and
+            (name == "Jolt" or "without self-contact" not in row["setting"])]
+    best = min(good, key=lambda row: row["ms_median"])
+    return [short(best["ms_median"]), fixed(best["crossings_end"])]
+
+
+def apart(name, overlengths=(0.1, 0.01, 0.001)):
+    """The same with the ball, where nothing crosses."""
+    return [keeps(BALL, name, overlength)[0] for overlength in overlengths]
+
+
+def together(scene, name, overlengths=(0.1, 0.01, 0.001)):
+    """The same of cloth that touches itself."""
+    return [text for overlength in overlengths for text in keeps(scene, name, overlength)]
+
+
+def least(problem, method, error=math.inf):
+    """The fastest of a method's settings that is as true of contact in closed form, or, without a bound, the truest."""
+    found = [row for row in rows("closed_forms", problem=problem, method=method) if row["error"] <= error]
+    return min(found, key=lambda row: row["error" if error == math.inf else "ms_median"])
+
+
+def touched(problem, method):
+    """ms a frame of the fastest setting that is off by a hundredth."""
+    return short(least(problem, method, 1e-2)["ms_median"])
+
+
+def drapes(fabric):
+    """Coefficients of the shell and of our grids [%]."""
+    return ["%.0f" % (100.0 * row["coefficient"]) for row in rows("fabric_drape", fabric=fabric)]
+
+
+def per_frame(feature, state, column="instructions"):
+    """Instructions or ns a frame of the 44 x 40 nodes."""
+    return 44 * 40 * one("features", column, feature=feature, state=state)
+
+
+def ratio(feature, decimals=3, state="idle"):
+    """Instructions with a feature over those without."""
+    return fixed(per_frame(feature, state) / per_frame(feature, "off"), decimals)
+
+
+def largest(table, column, **wanted):
+    """The largest of a column, whatever its sign."""
+    return max(abs(row[column]) for row in rows(table, **wanted))
+
+
+def grid(scene, size, threads="1", column="ms_min"):
+    """ms a frame of a scene by its size."""
+    lines, columns = size.split(" x ")
+    return one("scaling", column, scene=scene, series="both", method="auto", threads=threads, rows=lines, columns=columns)
+
+
+def at(size, rival, column="ms_min"):
+    """A rival's ms a frame of the swing by its size; infinite where it takes no part."""
+    lines, columns = size.split(" x ")
+    found = [row for row in rows("scaling", scene="swing", threads="1", rows=lines, columns=columns) if row["method"] == rival]
+    return found[0][column] if found else math.inf
+
+
+def drawn(name):
+    """A row of the table of random scenes: everyday, wild, sudden."""
+    found = re.search(r"^\| \**%s\** \| (.*) \|$" % name, read("docs/stress/random.md"), re.M)
+    if not found:
+        sys.exit("docs/stress/random.md has no row '%s'" % name)
+    return [int(cell.strip("*")) for cell in found[1].split(" | ")]
+
+
+def told(name):
+    """Figures of that table as it tells them: shares [%]."""
+    found = re.search(r"^\| %s \| (.*) \|$" % name, read("docs/stress/random.md"), re.M)
+    if not found:
+        sys.exit("docs/stress/random.md has no row '%s'" % name)
+    return [cell.replace(" %", "") for cell in found[1].split(" | ")]
+
+
+def kept(figure):
+    """Least and largest value of a figure that tests keep."""
+    found = [row for row in csv.DictReader(read("docs/figures.csv").splitlines()) if row["figure"] == figure]
+    if len(found) != 1:
+        sys.exit("docs/figures.csv has %d rows of %s" % (len(found), figure))
+    return [float(found[0]["least"]), float(found[0]["largest"])]
+
+
+def most(figure, digits=2):
+    """Its largest value."""
+    return short(kept(figure)[1], digits)
+
+
+def share(figure):
+    """Least and largest of what should be one, as far as they differ from it."""
+    return [fixed(value, 3 if abs(1.0 - value) > 1e-3 else 4) for value in kept(figure)]
+
+
+def drifts(*methods):
+    """By how much energy of the undamped swing is off after a minute with methods of others, least and largest."""
+    off = [abs(row["drift"]) for row in rows("energy", t_s="60") if row["method"] in methods]
+    return [short(pick(off)) for pick in (min, max)]
+
+
+def nearest_nets():
+    """Of how many nets ours are nearer to the minimum than any rival's setting, of how many."""
+    best = {}
+    for row in rows("nets"):
+        net, whose = (row["case"], row["n"], row["D"]), "rivals" if row["method"] in RIVALS else row["method"]
+        best.setdefault(net, {}).setdefault(whose, []).append(abs(row["relative_error"]))
+    won = sum(min(of["auto"]) < min(of["rivals"]) for of in best.values())
+    return [str(won), str(len(best))]
+
+
+def drape(cloth, nodes):
+    """Coefficient, spread [%] and folds of a sample."""
+    row = one_row("drape", cloth=cloth, nodes=nodes)
+    return ["%.1f" % row[column] for column in ("coefficient", "spread", "folds")]
+
+
+def tortures(*cases, method="", column="energy_gain"):
+    """Of cases of the stress tests, with a method or any of ours, the largest of a column."""
+    found = [float(row[column]) for row in csv.DictReader(read("docs/stress/matrix.csv").splitlines())
+             if row["case"] in cases and row["method"] != "paper" and method in ("", row["method"])]
+    return short(max(found))
+
+
+def part(name):
+    """Of the random scenes with it how many hold, and how many there are."""
+    found = re.search(r"^\| %s \| (\d+) \| (\d+) \|" % name, read("docs/stress/random.md"), re.M)
+    return [found[2], found[1]]
+
+
+def demo(name):
+    """What a frame of a demo's scene takes, and what comes of it."""
+    row = one_row("whole_scenes_demos", demo=name)
+    return (["%.1f" % row[column] for column in ("ms_median", "ms_99", "ms_max", "substeps")] + [short(row["stretch_max"])] +
+            [fixed(row[column]) for column in ("crossings", "piercings", "last_resort")])
+
+
+def tried(family, *wanted):
+    """How many of a family's trials are as all of these say, of how many."""
+    found = rows("trials", family=family)
+    return [str(sum(all(is_so(row) for is_so in wanted) for row in found)), str(len(found))]
+
+
+def falls_asleep(row):
+    """Of a trial."""
+    return row["asleep_s"] != ""
+
+
+def waits(row):
+    """Longer than a frame."""
+    return row["waited_s"] > 0.02
+
+
+def strains(row):
+    """The last resort was needed."""
+    return row["last_resort"] > 0
+
+
+def keeps_straining(row):
+    """It still is in the end."""
+    return row["last_resort_last_second"] > 0
+
+
+def is_light(row):
+    """Of a load."""
+    return row["times_the_cloth"] < 5
+
+
+def folds(shear, *columns, method="auto"):
+    """Columns of the folds of gathered cloth by its shear."""
+    row = one_row("trials", family="folds", shear=shear, what=method)
+    return [fixed(row[column], FOLDS[column]) for column in columns]
+
+
+def stepped(client, listeners, batch):
+    """Frames a second by ~step."""
+    return fixed(one("step_rate", "frames_per_s_median", client=client, listeners=str(listeners), batch=str(batch)))
+
+
+FOLDS = {"depth_mm": 1, "depth_4s_mm": 1, "wefts": 3, "substeps": 1}  # decimals
+DROPPED, STRAIGHT = "sheet dropped by two corners", ("straight row", "straight row of 5 x 5")
+
+
+def whole(scene, method="auto", budget="0", column="ms_median"):
+    """Of a whole scene, bench/whole_scenes."""
+    return one("whole_scenes", column, scene=scene, method=method, budget_ms=budget)
+
+
+def unhurried(scene, method="auto"):
+    """Median and 99 % of a frame [ms]."""
+    return [short(whole(scene, method, column=column)) for column in ("ms_median", "ms_99")]
+
+
+def pair(scene):
+    """The same, of the paper's method and the default."""
+    return unhurried(scene, "paper") + unhurried(scene)
+
+
+def hurried(scene):
+    """99 % of a frame [ms], late frames, motion left out [%] with budgets of 4, 2, 1 ms."""
+    budgets = ("4", "2", "1")
+    return ([short(whole(scene, budget=budget, column="ms_99")) for budget in budgets] +
+            [fixed(whole(scene, budget=budget, column="late_frames")) for budget in budgets] +
+            [short(100.0 * whole(scene, budget=budget, column="left_out")) for budget in budgets])
+
+
+def soaked(column):
+    """A column of the soak's table."""
+    return [float(row[column]) for row in csv.DictReader(read("docs/stress/soak.csv").splitlines())]
+
+
+def held():
+    """Of each kind of random scenes how many held, of how many."""
+    return [str(count) for pair in zip(drawn("hold"), drawn("scenes")) for count in pair]
+
+
+HOUSEHOLD = [("linen napkin", "50 x 50 cm, plate of 30 | linen"), ("linen rag", "35 x 50, 21 | linen"),
+             ("bed sheet", "35 x 40, 21 | cotton broadcloth")]
+BALL, GATHERED, FINE = "ball 44 x 40", "gathered 44 x 40", "gathered 105 x 96"
+PEERS = (peer("NvCloth", "2400 Hz; phases top-down") + peer("Jolt", "LRA; steps a frame 4; iterations 40") +
+         peer("Bullet", "substeps 64; piterations 4"))
+OURS_WITH_BALL = [short(engine(BALL, "curtain_sim", "default")), within(engine(BALL, "curtain_sim", "default", "stretch_max"))]
+ASLEEP, AWAKE = fixed(per_frame("rest: all sleeps", "active")), fixed(round(per_frame("rest: all sleeps", "off"), -3))
+QUICK = "600 Hz; self-collision at 9.00 mm; phases top-down"
+NVCLOTH = "9600 Hz; self-collision at 20.0 mm; phases even/odd"
+CAMERA, NOISE, PORES = "camera 640 x 480", "; nguyen_2012 and dropouts", "; porosity 0.2"
+HANDCRAFTED = rows("ccd", set="handcrafted")
+DUELS = [("auto", "default"), ("XPBD", "substeps 256; iterations 1; compliance 0 m/N"),
+         ("auto", "substeps 16"), ("XPBD", "substeps 1024; iterations 1; compliance 0 m/N")]
+BOUNDS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
