@@ -9,15 +9,24 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
-def keep(name, columns, rows):
-    """Writes docs/bench/NAME.csv, each row with its commit, date and processor."""
-    def git(*words):
-        return subprocess.run(("git",) + words, check=True, stdout=subprocess.PIPE, universal_newlines=True, cwd=ROOT).stdout.strip()
+def git(*words):
+    """What it says."""
+    return subprocess.run(("git",) + words, check=True, stdout=subprocess.PIPE, universal_newlines=True, cwd=ROOT).stdout.strip()
 
+
+def stamp():
+    """Commit, date and processor."""
     if git("status", "--porcelain", "--", "src", "include", "CMakeLists.txt", "cmake"):
         sys.exit("changes of the sources are not committed, so no commit tells what is measured")
     with open("/proc/cpuinfo", encoding="utf-8") as file:
         processor = next((line.split(":")[1].strip() for line in file if line.startswith("model name")), "not noted")
-    stamp = [git("rev-parse", "--short=8", "HEAD"), datetime.date.today().isoformat(), processor]
+    return [git("rev-parse", "--short=8", "HEAD"), datetime.datetime.utcnow().date().isoformat(), processor]
+
+
+STAMP = stamp()  # before anything is measured
+
+
+def keep(name, columns, rows):
+    """Writes docs/bench/NAME.csv, each row with its stamp. What is measured is to be a build of this checkout."""
     with open(os.path.join(ROOT, "docs", "bench", name + ".csv"), "w", encoding="utf-8", newline="") as file:
-        csv.writer(file, lineterminator="\n").writerows([columns + ["commit", "date", "processor"]] + [row + stamp for row in rows])
+        csv.writer(file, lineterminator="\n").writerows([columns + ["commit", "date", "processor"]] + [row + STAMP for row in rows])

@@ -220,8 +220,13 @@ def kept(figure):
     return [float(found[0]["least"]), float(found[0]["largest"])]
 
 
-def most(figure, digits=2):
-    """Its largest value."""
+def most(figure):
+    """A bound on it: its largest value, rounded up."""
+    return within(kept(figure)[1])
+
+
+def told_by(figure, digits=2):
+    """The value of a figure that is kept once."""
     return short(kept(figure)[1], digits)
 
 
@@ -262,6 +267,8 @@ def tortures(*cases, method="", column="energy_gain"):
 def part(name):
     """Of the random scenes with it how many hold, and how many there are."""
     found = re.search(r"^\| %s \| (\d+) \| (\d+) \|" % name, read("docs/stress/random.md"), re.M)
+    if not found:
+        sys.exit("docs/stress/random.md has no row of scenes with %s" % name)
     return [found[2], found[1]]
 
 
