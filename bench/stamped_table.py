@@ -20,7 +20,7 @@ def stamp():
         sys.exit("changes of the sources are not committed, so no commit tells what is measured")
     with open("/proc/cpuinfo", encoding="utf-8") as file:
         processor = next((line.split(":")[1].strip() for line in file if line.startswith("model name")), "not noted")
-    return [git("rev-parse", "--short=8", "HEAD"), datetime.datetime.utcnow().date().isoformat(), processor]
+    return [git("rev-parse", "--short=8", "HEAD"), datetime.datetime.now(datetime.timezone.utc).date().isoformat(), processor]
 
 
 STAMP = stamp()  # before anything is measured
