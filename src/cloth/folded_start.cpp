@@ -10,7 +10,7 @@
 namespace curtain {
 namespace {
 
-constexpr double kSteepestRod = 0.9;  // sine of the steepest rod, as of cloth without folds (scene/check_start.cpp)
+constexpr double kSteepestRod = 0.9;  // sine of the steepest rod
 constexpr int kSizeHalvings = 40;     // of an interval of angles: to 1e-11 of it
 constexpr int kNewtonSteps = 8;
 constexpr double kMinDepth = 1e-2;      // of their depth that folds are tried with
@@ -309,13 +309,11 @@ class FoldedStart {
     return true;
   }
 
-  // None is longer than it is, or than it was without folds.
+  // None is longer than it is.
   bool noneIsOverlong(int row, const Fold& fold) const {
     for (int j = fold.first + 1; j <= fold.last; ++j) {
-      const std::size_t n = at(row, j), left = at(row, j - 1);
-      const double plain = (plain_.at(n) - plain_.at(left)).norm();
-      if ((position_.at(n) - position_.at(left)).norm() > (1.0 + kLengthSlack) * std::max(plain, rest(row, j)))
-        return false;
+      const double length = (position_.at(at(row, j)) - position_.at(at(row, j - 1))).norm();
+      if (length > (1.0 + kLengthSlack) * rest(row, j)) return false;
     }
     return true;
   }

@@ -5,6 +5,7 @@
 
 #include "cloth/cloth.h"
 #include "cloth/folded_start.h"
+#include "scene/fan.h"
 #include "scene/heading.h"
 #include "scene/pi.h"
 #include "scene/ring_start.h"
@@ -41,7 +42,7 @@ struct HungColumns {
 HungColumns hungColumns(const Scene& scene, const ClothPattern& pattern) {
   HungColumns hung{pattern.weft_coordinate, Field(pattern.weft_coordinate.size(), 0.0)};
   if (!scene.hang.overlap) return hung;
-  const std::vector<double> widths = overlappedWidths(scene);
+  const std::vector<double> widths = edgeWidths(scene);
   std::partial_sum(widths.begin(), widths.end(), hung.along.begin() + 1);
   const std::vector<int> strips = stripNumbers(scene.cloth);
   for (std::size_t j = 0; j < strips.size(); ++j)
@@ -49,31 +50,24 @@ HungColumns hungColumns(const Scene& scene, const ClothPattern& pattern) {
   return hung;
 }
 
-// A row starts as wide as the hung edge is, or as its own weft if that is shorter; the rods keep their lengths.
+// As wide as the hung edge all the way down, or as a fan (scene/fan.h).
 void placeFlat(const Scene& scene, const ClothPattern& pattern, Field3& position) {
   const Grid& grid = pattern.grid;
   const HangFrame frame = hangFrame(scene.hang);
-  const double span = (scene.hang.to - scene.hang.from).norm();
+  // Laid cloth (hang.start.over) hangs nowhere, and may have no fan along this line.
+  const double span = std::min((scene.hang.to - scene.hang.from).norm(), longestEdge(scene));
+  const double hem = startingHem(scene, span).value_or(span);
   const Vec3 middle = 0.5 * (scene.hang.from + scene.hang.to);
   const Vec3 to_front = frame.along.cross(frame.down);
   const HungColumns hung = hungColumns(scene, pattern);
   const double top_width = hung.along.back();
-  const double narrower = scene.hang.overlap ? top_width / scene.cloth.width : 1.0;
   for (int j = 0; j < grid.columns; ++j) {
     const double share = hung.along[static_cast<std::size_t>(j)] / top_width - 0.5;
+    const double lean = share * (span - hem) / scene.cloth.height, upright = std::sqrt(1.0 - lean * lean);
     const Vec3 line = middle + hung.front[static_cast<std::size_t>(j)] * to_front;
-    double down = 0.0;
-    double last_across = 0.0;
     for (int i = 0; i < grid.rows; ++i) {
-      const double depth = pattern.warp_coordinate[grid.index(i, j)] / scene.cloth.height;
-      const double across = share * std::min(span, narrower * rowWidth(scene.cloth, depth));
-      if (i > 0) {
-        const double rest = pattern.warp_rest[grid.index(i, j)];
-        const double slant = across - last_across;
-        down += std::sqrt(rest * rest - slant * slant);
-      }
-      last_across = across;
-      position.set(grid.index(i, j), line + across * frame.along + down * frame.down);
+      const double depth = pattern.warp_coordinate[grid.index(i, j)];
+      position.set(grid.index(i, j), line + (share * span - depth * lean) * frame.along + depth * upright * frame.down);
     }
   }
 }

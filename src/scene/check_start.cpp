@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Checks that the links can have their lengths where `hang` puts the cloth. Flat cloth hangs from a straight line, each
-// row as wide as that line or its own weft, whichever is shorter; closed cloth starts as a cone around the vertical:
+// Checks that the links can have their lengths where `hang` puts the cloth. Flat cloth hangs from a straight line, as a
+// fan where it narrows (scene/fan.h); closed cloth starts as a cone around the vertical:
 //
 //        r_0 ______                  row i, at s_i along the warp, is a ring of radius r_0 + s_i sin(tilt);
 //           /      |                 the chord between neighbours must not be longer than their weft link.
@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "scene/checks.h"
+#include "scene/fan.h"
 #include "scene/heading.h"
 #include "scene/names.h"
 #include "scene/pi.h"
@@ -52,6 +53,16 @@ void checkOverlap(const Scene& scene, ProblemLog& log) {
                                 formatNumber(*scene.hang.overlap));
 }
 
+// The narrowest hem, up to a thousandth, that flat cloth can have where the hung edge is as wide as `span` [m].
+double narrowestHem(Scene scene, double span) {
+  double least = hemWidth(scene.cloth), most = std::max(least, scene.cloth.width);
+  while (most - least > 1e-3 * most) {
+    scene.cloth.hem_width = 0.5 * (least + most);
+    (startingHem(scene, span) ? most : least) = *scene.cloth.hem_width;
+  }
+  return most;
+}
+
 void checkFlat(const Scene& scene, ProblemLog& log) {
   const ClothParams& cloth = scene.cloth;
   const HangParams& hang = scene.hang;
@@ -73,21 +84,12 @@ void checkFlat(const Scene& scene, ProblemLog& log) {
     log.add("hang.fullness", "must be cloth.width / |to - from| = " + formatNumber(cloth.width / span) + ", is " +
                                  formatNumber(*hang.fullness) + "; give one of the two keys");
   }
-  // Rows narrower than the line make the warp rods slant, most in the outermost columns.
-  constexpr double kSteepestRow = 0.9;
-  const std::vector<double> rods = shareOut(1.0, cloth.row_spacing, cloth.rows - 1);
-  const auto rowSpan = [&](double depth) { return std::min(span, longest / cloth.width * rowWidth(cloth, depth)); };
-  double down = 0.0;
-  for (std::size_t i = 0; i < rods.size(); ++i) {
-    const double slant = 0.5 * std::abs(rowSpan(down + rods[i]) - rowSpan(down));
-    if (slant > kSteepestRow * (1.0 + kTypedRounding) * rods[i] * cloth.height) {
-      log.add("cloth.hem_width", "must taper the cloth by less than its warp rods are long: is " +
-                                     formatNumber(hemWidth(cloth)) + ", so that the outer rod to row " +
-                                     std::to_string(i + 1) + " would have to slant by more than 0.9 of its length");
-      return;
-    }
-    down += rods[i];
-  }
+  const double hung = hangs ? std::min(span, longest) : longest;
+  if (startingHem(scene, hung)) return;
+  log.add("cloth.hem_width", "must be at least " + formatNumber(narrowestHem(scene, hung)) + " m, is " +
+                                 formatNumber(hemWidth(cloth)) + ": the cloth hangs along a straight line of " +
+                                 formatNumber(hung) + " m and is " + formatNumber(cloth.height) +
+                                 " m high, and its wefts would start longer than they are");
 }
 
 void checkHeading(const Scene& scene, ProblemLog& log) {

@@ -27,9 +27,10 @@ inline std::vector<int> stripNumbers(const ClothParams& cloth) {
 }
 
 /// Distances of neighbouring columns along the hung edge [m], shape [columns - 1]: the links' lengths, and minus the
-/// overlap where a strip begins. hang.overlap is given.
-inline std::vector<double> overlappedWidths(const Scene& scene) {
+/// overlap, if there is one, where a strip begins.
+inline std::vector<double> edgeWidths(const Scene& scene) {
   std::vector<double> widths = edgeLinks(scene.cloth);
+  if (!scene.hang.overlap) return widths;
   const std::vector<int> strips = stripNumbers(scene.cloth);
   for (std::size_t j = 0; j < widths.size(); ++j) {
     if (strips[j + 1] != strips[j]) widths[j] = -*scene.hang.overlap;
@@ -40,7 +41,7 @@ inline std::vector<double> overlappedWidths(const Scene& scene) {
 /// Length of the line that flat cloth hangs along at most [m].
 inline double longestEdge(const Scene& scene) {
   if (!scene.hang.overlap) return scene.cloth.width;
-  const std::vector<double> widths = overlappedWidths(scene);
+  const std::vector<double> widths = edgeWidths(scene);
   return std::accumulate(widths.begin(), widths.end(), 0.0);
 }
 

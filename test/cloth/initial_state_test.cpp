@@ -109,21 +109,105 @@ TEST(InitialState, SlopingAndUprightHungEdgesStillHangAsRodsOfTheirLength) {
   EXPECT_LT(Start(scene).at(3, 2).z(), Start(scene).at(0, 2).z()) << "and down is down";
 }
 
-TEST(InitialState, TaperedSheetKeepsItsRodsAndNoWeftIsOverlong) {
-  for (const double hem : {0.4, 1.7}) {
-    Scene scene = flatScene(21, 9, 2.0, 1.0);
-    scene.cloth.hem_width = hem;
-    const Start start(scene);
-    expectRodsKeepTheirLength(start);
-    const Grid& grid = start.pattern.grid;
-    for (int i = 0; i < grid.rows; ++i) {
-      // Slanting rods lift the outer columns of narrowing cloth, so a row is no straight line; its span still is the
-      // smaller of the hung line and its own weft.
-      const double row_width = 1.0 + (hem - 1.0) * i / 20.0;
-      EXPECT_NEAR(start.at(i, 8).x() - start.at(i, 0).x(), std::min(1.0, row_width), kRounding);
-      EXPECT_NEAR(0.5 * (start.at(i, 8).x() + start.at(i, 0).x()), 0.5, kRounding) << "symmetric";
+// Of all wefts, over their own lengths.
+double longestWeft(const Start& start) {
+  double longest = 0.0;
+  forEachLink(start.pattern, [&](std::size_t a, std::size_t b, double rest, bool rod) {
+    if (!rod) longest = std::max(longest, (start.state.position.at(a) - start.state.position.at(b)).norm() / rest);
+  });
+  return longest;
+}
+
+TEST(InitialState, NarrowingSheetStartsAsAFanWhoseHemIsTaut) {
+  Scene scene = flatScene(21, 9, 2.0, 1.0);
+  scene.cloth.hem_width = 0.4;
+  const Start start(scene);
+  expectRodsKeepTheirLength(start);
+  EXPECT_NEAR(longestWeft(start), 1.0, 1e-12) << "no narrower than it must be";
+  const double hem = start.at(20, 8).x() - start.at(20, 0).x();
+  EXPECT_LT(hem, 0.4);
+  for (int i = 0; i < 21; ++i) {
+    EXPECT_NEAR(start.at(i, 8).x() - start.at(i, 0).x(), 1.0 + (hem - 1.0) * i / 20.0, kRounding);
+    EXPECT_NEAR(0.5 * (start.at(i, 8).x() + start.at(i, 0).x()), 0.5, kRounding) << "symmetric";
+  }
+}
+
+TEST(InitialState, SheetWithAWiderHemHangsPlumb) {
+  Scene scene = flatScene(21, 9, 2.0, 1.0);
+  scene.cloth.hem_width = 1.7;
+  const Start start(scene);
+  expectRodsKeepTheirLength(start);
+  for (int j = 0; j < 9; ++j) EXPECT_LE((start.at(20, j) - start.at(0, j) - Vec3(0.0, 0.0, -2.0)).norm(), kRounding);
+}
+
+// Whether a hem of this width in plan leaves every weft of every row its length.
+bool fits(const Scene& scene, const ClothPattern& pattern, double hem) {
+  const double span = (scene.hang.to - scene.hang.from).norm(), height = scene.cloth.height;
+  for (int j = 1; j < pattern.grid.columns; ++j) {
+    const auto lean = [&](int column) {
+      const double share = pattern.weft_coordinate[static_cast<std::size_t>(column)] / scene.cloth.width - 0.5;
+      return share * (span - hem) / height;
+    };
+    const double left = lean(j - 1), right = lean(j);
+    if (std::abs(left) > 1.0 || std::abs(right) > 1.0) return false;
+    const double share = (pattern.weft_coordinate[static_cast<std::size_t>(j)] -
+                          pattern.weft_coordinate[static_cast<std::size_t>(j - 1)]) /
+                         scene.cloth.width;
+    for (int i = 0; i < pattern.grid.rows; ++i) {
+      const double depth = pattern.warp_coordinate[pattern.grid.index(i, j)];
+      const double across = share * (span + (hem - span) * depth / height);
+      const double rise = depth * (std::sqrt(1.0 - left * left) - std::sqrt(1.0 - right * right));
+      if (std::hypot(across, rise) > (1.0 - 1e-9) * pattern.weft_rest[pattern.grid.index(i, j)]) return false;
     }
   }
+  return true;
+}
+
+// Steep and mild tapers, with rows and columns of any width, gathered or taut: no weft starts too long, and what is
+// refused has no fan of any width.
+TEST(InitialState, NoWeftOfATaperedSheetStartsTooLong) {
+  Random random(20261128);
+  int started = 0, refused = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    const int rows = static_cast<int>(random.between(2.0, 14.0)), columns = static_cast<int>(random.between(2.0, 20.0));
+    const double width = random.between(0.3, 3.0);
+    Scene scene = flatScene(rows, columns, random.between(0.2, 3.0), width);
+    scene.cloth.hem_width = width * std::pow(10.0, random.between(-2.0, 0.2));
+    scene.hang.to = scene.hang.from + random.between(0.3, 1.0) * width * Vec3(0.8, 0.6, 0.0);
+    if (random.between(0.0, 1.0) < 0.5) {
+      for (int j = 0; j + 1 < columns; ++j) scene.cloth.column_spacing.push_back(random.between(0.2, 3.0));
+      for (int i = 0; i + 1 < rows; ++i) scene.cloth.row_spacing.push_back(random.between(0.2, 3.0));
+    }
+    SCOPED_TRACE("trial " + std::to_string(trial));
+    if (validate(scene).empty()) {
+      ++started;
+      const Start start(scene);
+      expectRodsKeepTheirLength(start);
+      ASSERT_LE(longestWeft(start), 1.0 + 1e-11);
+      continue;
+    }
+    ++refused;
+    const ClothPattern pattern = makePattern(scene);
+    const double most = std::min((scene.hang.to - scene.hang.from).norm(), *scene.cloth.hem_width);
+    for (int k = 0; k <= 1000; ++k)
+      ASSERT_FALSE(fits(scene, pattern, 1e-3 * k * most)) << "a hem of " << k << " / 1000";
+  }
+  EXPECT_GT(started, 200);
+  EXPECT_GT(refused, 60);
+}
+
+// Its strips lean as one, and overlap as they do at the top, by their share of the width.
+TEST(InitialState, OverlappingStripsOfANarrowingSheetKeepTheirWefts) {
+  Scene scene = flatScene(9, 9, 2.0, 0.7);
+  scene.cloth.hem_width = 0.5;
+  scene.cloth.slits = {{2, 0}, {5, 0}};
+  scene.contact.thickness = 0.003;
+  scene.hang.overlap = 0.04;
+  scene.hang.to = scene.hang.from + Vec3(0.0, 0.3, 0.0);
+  ASSERT_TRUE(validate(scene).empty()) << describe(validate(scene));
+  const Start start(scene);
+  expectRodsKeepTheirLength(start);
+  EXPECT_LE(longestWeft(start), 1.0 + 1e-12);
 }
 
 // Three strips of 0.2 m: 0.6 m less two overlaps. The middle one hangs behind the others.

@@ -44,11 +44,17 @@ TEST(WeftPush, ForceIsTheEnergysSlopeAndLeavesNoMomentum) {
   }
 }
 
-// Flat cloth, tapered or not, is at rest.
+// Flat cloth is at rest, and so is tapered cloth whose rows all have their own width.
 TEST(Shear, FlatClothHasNone) {
   for (const Scene& scene : curtain_test::fabricScenes()) {
     if (scene.cloth.closed) continue;  // it starts around, not flat
-    const Fabric fabric(scene);
+    Fabric fabric(scene);
+    const ClothPattern& pattern = fabric.pattern;
+    for (std::size_t n = 0; scene.cloth.hem_width && n < pattern.grid.size(); ++n) {
+      const double share = pattern.weft_coordinate[n % static_cast<std::size_t>(pattern.grid.stride)] - 0.5;
+      const double depth = pattern.warp_coordinate[n], lean = share * (1.0 - *scene.cloth.hem_width);
+      fabric.position.set(n, Vec3(share - depth * lean, 0.0, -depth * std::sqrt(1.0 - lean * lean)));
+    }
     Shear shear(sheared(fabric), fabric.pattern, fabric.workers);
     double energy = 0.0;
     const Field3& force = shear.forceAt(fabric.position, energy);

@@ -253,12 +253,17 @@ TEST(BadInput, HangLineLongerThanTheClothIsWideIsNamed) {
   expectProblem(with("hang: {from: [0, 0, 2], to: [1.0002, 0, 2]}"), "hang.to", {"1 m", "is 1.0002 m away"});
 }
 
-TEST(BadInput, HemThatTapersFasterThanTheRodsAreLongIsNamed) {
-  // Rods of 2/3 m; the outer one would have to lean over by half of the rows' difference, 1 m.
-  const std::string text =
-      "cloth: {rows: 4, columns: 3, width: 7.0, hem_width: 1.0}\nhang: {from: [0, 0, 2], to: [7, 0, 2]}";
-  expectProblem(text, "cloth.hem_width", {"taper", "is 1", "row 1"});
-  // Hung from a line as short as the hem nothing slants; a hem wider than the line does not either.
+TEST(BadInput, HemThatTapersTooSteeplyIsNamed) {
+  const std::string line = "\nhang: {from: [0, 0, 2], to: [7, 0, 2]}";
+  const auto cloth = [&](const std::string& hem) {
+    return "cloth: {rows: 4, columns: 3, width: 7.0, hem_width: " + hem + "}" + line;
+  };
+  // Where the hem is w wide in plan, its halves rise by h = 2 - sqrt(4 - (7 - w)^2 / 4) to the sides, and are
+  // sqrt(w^2 / 4 + h^2) long: 4.0623 / 2 at least, at w = 3.527.
+  expectProblem(cloth("1.0"), "cloth.hem_width", {"must be at least 4.0", "is 1:", "7 m", "2 m high"});
+  expectProblem(cloth("4.062"), "cloth.hem_width", {"must be at least 4.06"});
+  expectScene(cloth("4.08"));
+  // Hung from a line as short as the hem nothing leans; a hem wider than the line does not either.
   expectScene("cloth: {rows: 4, columns: 3, width: 7.0, hem_width: 1.0}");
   expectScene("cloth: {rows: 4, columns: 3, hem_width: 9.0}");
 }
