@@ -32,13 +32,11 @@ else()
   message(STATUS "curtain_sim: no Bullet (libbullet-dev), btSoftBody takes no part in the benchmark")
 endif()
 
-# An oracle of drape, with nothing of the engine in it; by itself for bench/drape.
+# An oracle of drape, with nothing of the engine in it.
 add_library(curtain_shell_drape STATIC bench/shell/shell.cpp)
 target_include_directories(curtain_shell_drape PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(curtain_shell_drape PRIVATE Eigen3::Eigen curtain_warnings)
 target_compile_options(curtain_shell_drape PRIVATE -O3 -march=native -fno-math-errno)
-add_executable(curtain_shell bench/shell/main.cpp)
-target_link_libraries(curtain_shell PRIVATE curtain_shell_drape curtain_warnings)
 
 if(NOT TARGET curtain_weigh)
   include(cmake/cost.cmake)

@@ -45,6 +45,8 @@ class Workers {
     share(
         count, [](const void* self, int b) { (*static_cast<const Block*>(self))(b); }, &block);
   }
+  /// Items of a loop that one thread takes at a time where each is a search of a microsecond or so.
+  static constexpr std::size_t kSearchesAtOnce = 64;
   /// Calls chunk(first, end) for parts of 0 … count - 1, of `at_once` each but the last.
   template <typename Chunk>
   void runChunks(std::size_t count, std::size_t at_once, const Chunk& chunk) const {

@@ -19,8 +19,6 @@ constexpr int kAdvectionRounds = 64;
 // Candidates for crossings, over the gap: twice the share that counts as crossing, for uncertainty of the time of
 // impact.
 constexpr double kCrossingReach = 2.0 * SelfContacts::kMinShare;
-// Capacity for contacts, per node.
-constexpr std::size_t kContactsPerNode = 8;
 
 }  // namespace
 
@@ -36,8 +34,8 @@ ClothContact::ClothContact(const ClothPattern& pattern, const ContactParams& par
       flatness_(pattern, stretch_tolerance),
       zones_(pattern) {
   if (obstacles.count() == 0 && !params.self) return;
-  contacts_.reserve(kContactsPerNode * pattern.grid.nodeCount());
-  last_.reserve(kContactsPerNode * pattern.grid.nodeCount());
+  contacts_.reserve(ObstacleContacts::kRoomPerNode * pattern.grid.nodeCount());
+  last_.reserve(ObstacleContacts::kRoomPerNode * pattern.grid.nodeCount());
   if (!params.self) return;
   self_candidates_.reserve(candidates_);
 }

@@ -19,8 +19,6 @@ constexpr std::size_t kPairsPerFeature = 4;
 // any number of threads, and so is what there is room for.
 constexpr std::size_t kShares = 8;
 constexpr std::size_t kSharesThatFit = 2;
-// Nodes that one worker takes at a time.
-constexpr std::size_t kNodesAtOnce = 64;
 
 // Upper bound of a diagonal, which no link holds.
 double longestEdge(const ClothPattern& pattern) {
@@ -207,7 +205,7 @@ void ObstacleCandidates::listNodes() noexcept {
 std::vector<ObstacleCandidates::NodeEnd>& ObstacleCandidates::queryEnds(double reach) noexcept {
   ends_.resize(nodes_.size());
   found_.resize(nodes_.size());
-  workers_.runChunks(nodes_.size(), kNodesAtOnce, [&](std::size_t first, std::size_t last) {
+  workers_.runChunks(nodes_.size(), Workers::kSearchesAtOnce, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       const std::uint32_t node = nodes_[k];
       const Vec3 from = start_.at(node), to = end_.at(node);

@@ -14,7 +14,6 @@ namespace {
 // Speed of depenetration inside the obstacle, over that inside the gap around it. Parts that start too close (the
 // obstacle appeared or jumped) must come out slowly, not as a blow.
 constexpr double kFasterInside = 20.0;
-constexpr std::size_t kNodesAtOnce = 64;  // of a task for the workers
 }  // namespace
 
 double ObstacleSubstep::recoveryAt(double distance) const noexcept {
@@ -134,7 +133,7 @@ void collectNodes(const ObstacleSubstep& substep, const ClothPattern& pattern, O
   }
   const std::size_t before = contacts.size();
   contacts.resize(std::min(before + ends.size(), contacts.capacity()));
-  workers.runChunks(contacts.size() - before, kNodesAtOnce, [&](std::size_t first, std::size_t last) {
+  workers.runChunks(contacts.size() - before, Workers::kSearchesAtOnce, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       const std::uint32_t node = ends[k].node;
       const Vec3 from = candidates.startOf(node), to = candidates.endOf(node);

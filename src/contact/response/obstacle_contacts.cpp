@@ -12,7 +12,6 @@ namespace {
 
 // Gap of faces and edges, over the thickness: smaller than that of nodes, so that few of them need contacts.
 constexpr double kCore = 0.3;
-constexpr std::size_t kContactsAtOnce = 64;  // of a task for the workers
 // Contacts of one obstacle go by the parts of the cloth that touch, then by what a mirror keeps: it would number the
 // features of a box otherwise.
 bool before(const Contact& a, const Contact& b) {
@@ -58,7 +57,7 @@ ObstacleContacts::ObstacleContacts(const ClothPattern& pattern, const ContactPar
   advected_by_.assign(pattern.grid.size(), -1);
   advected_.reserve(pattern.grid.nodeCount());
   held_.reserve(pattern.grid.nodeCount());
-  met_another_.reserve(pattern.grid.nodeCount());
+  met_another_.reserve(kRoomPerNode * pattern.grid.nodeCount());
 }
 
 // The box grown by what may touch beyond it.
@@ -132,24 +131,24 @@ bool ObstacleContacts::findSurface(const Field3& position, Contact& contact, Sur
 }
 
 // The distance at the end, not that to a plane of before: a node that slides around an edge follows it. Of those that
-// the substep began with a node has one contact with an obstacle, and each is turned by itself. Where one may have met
-// another face, its chunk is gone through again.
+// the substep began with a node has one contact with an obstacle, and each is turned by itself, but where it has met
+// another face.
 void ObstacleContacts::relinearise(const Field3& position, Contacts& contacts) noexcept {
   if (candidates_.empty()) return;
   const std::size_t count = contacts.size();
-  met_another_.assign(begun_ / kContactsAtOnce + 1, 0);
-  workers_.runChunks(begun_, kContactsAtOnce, [&](std::size_t first, std::size_t end) {
+  met_another_.assign(begun_, 0);
+  workers_.runChunks(begun_, Workers::kSearchesAtOnce, [&](std::size_t first, std::size_t end) {
     for (std::size_t n = first; n < end; ++n) {
       SurfacePoint surface;
       if (!findSurface(position, contacts[n], surface)) continue;
       if (contacts[n].isOf(surface.normal))
         contacts[n].turnTo(surface.normal, surface.distance, position);
       else
-        met_another_[first / kContactsAtOnce] = 1;
+        met_another_[n] = 1;
     }
   });
   for (std::size_t n = 0; n < count; ++n) {
-    if (n < begun_ && met_another_[n / kContactsAtOnce] == 0) continue;
+    if (n < begun_ && met_another_[n] == 0) continue;
     SurfacePoint surface;
     if (!findSurface(position, contacts[n], surface)) continue;
     faceMet(contacts[n], surface, position, contacts).turnTo(surface.normal, surface.distance, position);

@@ -29,6 +29,9 @@ enum class ObstacleStanding { kAbsent, kFar, kNear };
 
 class ObstacleContacts {
  public:
+  /// Contacts that there is room for, per node: more make a substep allocate.
+  static constexpr std::size_t kRoomPerNode = 8;
+
   /// Uses thickness and recovery_speed of params; pattern, obstacles and workers must outlive this.
   ObstacleContacts(const ClothPattern& pattern, const ContactParams& params, ObstacleSet& obstacles,
                    const Workers& workers);
@@ -117,7 +120,7 @@ class ObstacleContacts {
   ContactFinder::ForcesAct act_ = ContactFinder::ForcesAct::kAtStart;
   bool full_ = false;
   std::size_t begun_ = 0;                  // contacts that the substep began with
-  std::vector<std::uint8_t> met_another_;  // by chunk of these: a node may have met another face
+  std::vector<std::uint8_t> met_another_;  // by these: the node has met another face
   std::vector<Crossing> crossings_;
   std::vector<PenetratingFace> penetrating_;
   std::vector<std::int32_t> advected_by_;  // by node: obstacle it moves with, or -1
