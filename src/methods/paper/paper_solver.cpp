@@ -137,19 +137,24 @@ void PaperSolver::adjustBetweenPins(Field3& position) noexcept {
   }
 }
 
-// Cheng 2000, Sect. 3.1, step (5), from the top: x_i = x_(i-1) + l R(omega dt) n.
+// Cheng 2000, Sect. 3.1, step (5), from the top: x_i = x_(i-1) + l R(omega dt) n. Places are counted from the anchor
+// until it is known where that ends, so that however far a step predicts a loose chain, its rods have the rounding of
+// where it is.
 void PaperSolver::rebuild(const Chain& chain, double h, ClothState& state) const noexcept {
   Field3& position = state.position;
-  if (chain.loose) state.velocity.set(chain.anchor, (position.at(chain.anchor) - start_.at(chain.anchor)) / h);
+  Vec3 anchor = position.at(chain.anchor);
+  if (chain.loose) state.velocity.set(chain.anchor, (anchor - start_.at(chain.anchor)) / h);
   Vec3 moved = Vec3::Zero();  // [kg m]
+  Vec3 from_anchor = Vec3::Zero();
   double mass = pattern_.mass[chain.anchor];
   for (int k = 1; k <= chain.rods; ++k) {
     const std::size_t node = chain.node(k);
     const std::size_t above = chain.node(k - 1);
     const Vec3 predicted = position.at(node);
-    const Vec3 place = position.at(above) + rodLength(chain, k) * directionOf(predicted - position.at(above));
+    from_anchor += rodLength(chain, k) * directionOf(predicted - (anchor + from_anchor));
+    position.set(node, from_anchor);
+    const Vec3 place = anchor + from_anchor;
     const Vec3 impulse = pattern_.mass[node] * (place - predicted);  // of the rod, times h
-    position.set(node, place);
     state.velocity.set(node, (place - start_.at(node)) / h);
     // Mueller 2012, Eq. (9), with s = 1 and nodes of different mass. With s = 0.95 the swing's error stops falling with
     // the step; below 0.8 its energy grows.
@@ -157,9 +162,9 @@ void PaperSolver::rebuild(const Chain& chain, double h, ClothState& state) const
     moved += impulse;
     mass += pattern_.mass[node];
   }
-  if (!chain.loose) return;
-  // Rods do not move the centre of mass.
-  for (int k = 0; k <= chain.rods; ++k) position.add(chain.node(k), -moved / mass);
+  if (chain.loose) anchor -= moved / mass;  // rods do not move the centre of mass
+  position.set(chain.anchor, anchor);
+  for (int k = 1; k <= chain.rods; ++k) position.add(chain.node(k), anchor);
 }
 
 // Adds the mass-weighted sum over a chain, and its mass.
