@@ -134,7 +134,7 @@ class SceneMaker {
 /// made-up names; else they are files, named as resolveTestMesh() knows. most: rows, and columns of each cloth.
 std::optional<curtain::Scene> makeScene(Choices& choices, Manner manner = Manner::kAny, int most = 100);
 
-/// The cloth begins neither in itself nor with torn wefts, and its links are long enough to bend.
+/// The cloth does not begin in itself, and its links are long enough to bend.
 bool mayBegin(const curtain::Scene& scene);
 
 /// Makes what goes together fit.
