@@ -34,9 +34,10 @@ double steepestRise(const Scene& scene, double narrower) {
 
 }  // namespace
 
-// At a share s of the height the square of a link over that of its share of the width is the row's width squared and
-// (s steepestRise)^2. Its root is convex in s and the links' own length is linear, so the hem decides. Each round takes
-// the width that the last one's rise leaves of it: this leads down to the largest hem, since a narrower one rises more.
+// Over its share of the width, a link at a share s of the height is as long as the root of the row's width squared and
+// of (s times the hem's rise) squared. That is convex in s, the link's own length is linear, and the top row fits: so
+// where the hem fits, all rows do. Each round takes the width that the last one's rise leaves of the hem. This leads
+// down to the widest that fits, since a narrower hem rises more.
 std::optional<double> startingHem(const Scene& scene, double span) {
   const double own = hemWidth(scene.cloth) / scene.cloth.width * longestEdge(scene);
   double hem = std::min(span, own);
