@@ -11,7 +11,7 @@ namespace curtain {
 // Tolerance used inside the solver, as a share of the user's: what the last half-sweep disturbs must still fit.
 constexpr double kInnerTolerance = 0.5;
 // Share of the user's tolerance that the compliance of links may take.
-constexpr double kMaxGive = 0.1;
+constexpr double kMaxGive = 0.2;
 // Share of the tolerance below which strings and contacts are not corrected in the first sweep. Far below 1: a link
 // that drifts through the whole tolerance and is then corrected at once gets a velocity jump.
 constexpr double kFirstSweepShare = 1e-4;

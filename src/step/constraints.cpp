@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "step/constraints.h"
 
+#include <numeric>
+
 #include "cloth/wide.h"
 
 namespace curtain {
@@ -21,6 +23,8 @@ Constraints::Constraints(const ClothPattern& pattern, const SolverParts& parts, 
       workers_(workers),
       net_(pattern, workers),
       guide_(parts.guide),
+      mean_mass_(std::accumulate(pattern.mass.begin(), pattern.mass.end(), 0.0) /
+                 static_cast<double>(pattern.grid.nodeCount())),
       middle_rest_(middleRestOf(pattern)),
       distances_(pattern, parts.rows, tolerance, middle_rest_),
       contacts_(middle_rest_) {
@@ -61,7 +65,10 @@ void Constraints::reset() noexcept {
 
 // ---- Begin and end of a substep
 
-void Constraints::begin(const SubstepStart& start, const ClothState& state, double ratio, bool drives) noexcept {
+void Constraints::begin(const SubstepStart& start, const ClothState& state, double ratio, bool drives,
+                        double gravity) noexcept {
+  weight_ = mean_mass_ * gravity;
+  per_scale_ = 1.0 / (start.h * start.kick);
   if (guide_ != nullptr) beginGuide(start, state);
   const LineSolve warp = rods(), weft = wefts();
   directions_set_ = measured_ = false;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "step/distance_rows.h"
@@ -37,7 +38,7 @@ class Constraints {
 
   /// Predicts, and warm-starts with the last substep's multipliers times ratio. state: at the start of the substep;
   /// drives: parts do.
-  void begin(const SubstepStart& start, const ClothState& state, double ratio, bool drives) noexcept;
+  void begin(const SubstepStart& start, const ClothState& state, double ratio, bool drives, double gravity) noexcept;
   /// Accepts the substep: sets velocities and loads (returns the largest load over its mass) and keeps the multipliers.
   /// tells_turning: compute WarpMotion::turning.
   double commit(const SubstepStart& start, bool tells_turning, ClothState& state, Field& load) noexcept;
@@ -81,7 +82,8 @@ class Constraints {
   /// A substep is solved again when contacts are added.
   void beginSolve() noexcept {
     net_ready_ = false;
-    weft_.compliance = contacts_.all().empty() ? kStraightCompliance : kWeftCompliance;
+    const double gives = contacts_.all().empty() ? kStraightCompliance : kWeftCompliance;
+    weft_.compliance = weight_ > 0.0 ? gives * middle_rest_ * std::abs(per_scale_) / weight_ : 0.0;
   }
 
   struct RodsAim {
@@ -211,7 +213,9 @@ class Constraints {
   const Workers& workers_;
   NetSolver net_;
   GuidePart* guide_;
-  double middle_rest_;
+  double mean_mass_;     // of a node [kg]
+  double weight_ = 0.0;  // of such a node, in the substep being made [N]
+  double middle_rest_;   // of a link of the top row [m]
   DistanceRows distances_;
   ContactRows contacts_;
   std::array<RowMaker*, 2> makers_{&distances_, &contacts_};

@@ -8,7 +8,6 @@ namespace curtain {
 
 void Constraints::beginGuide(const SubstepStart& start, const ClothState& state) noexcept {
   guide_->begin(start, state, inertia_.inverse());
-  per_scale_ = 1.0 / (start.h * start.kick);
   other_force_ = &start.force;
   presses_ = 0;
 }

@@ -116,11 +116,9 @@ void Constraints::solveNet(const NetAim& aim) noexcept {
   if (!measured_) measureStrings();
   measured_ = false;
   const Field* const multiplier = aim.newton ? &weft_.multiplier : nullptr;
-  // kStraightCompliance is as small as the rounding of NetSolver's numbers.
-  const Field* const compliance = contacts_.all().empty() ? nullptr : &compliance_;
   makeRows(next, false);
   net_.solve(violation_, active_, rows_,
-             {aim.residual * middle_rest_, aim.damping, aim.enough, kGradientIterations, multiplier, compliance},
+             {aim.residual * middle_rest_, aim.damping, aim.enough, kGradientIterations, multiplier, &compliance_},
              change_);
   const double share = !rows_.empty() ? applyTogether() : applyStringChange(aim.residual);
   for (RowMaker* maker : makers_) maker->applyChange(rows_, share, inertia_.inverse(), next);

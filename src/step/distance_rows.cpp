@@ -5,9 +5,14 @@
 #include <cmath>
 #include <limits>
 
-#include "step/weft_links.h"
-
 namespace curtain {
+namespace {
+
+// Relative overlength of a row for each unit of its multiplier times (w_a + w_b): it keeps rows that are taut against
+// each other, a singular system, solvable.
+constexpr double kCompliance = 1e-7;
+
+}  // namespace
 
 DistanceRows::DistanceRows(const ClothPattern& pattern, std::vector<RowPart*> parts, double max_give, double links)
     : pattern_(pattern), parts_(std::move(parts)), max_give_(max_give), links_(links) {
@@ -55,12 +60,11 @@ double DistanceRows::givesPerMultiplier(const DistanceRow& row, double distance)
   return 0.5 * row.compliance * row.direction.norm() * (distance + row.length) / scale_;
 }
 
-// The same compliance as the weft's, for rows that are taut against each other.
 double DistanceRows::measure(const Field& inverse, const Field3& position) noexcept {
   double worst = 0.0;
   for (DistanceRow& row : all_) {
     const double square = (position.at(row.other) - position.at(row.node)).squaredNorm();
-    const double load = kStraightCompliance * (inverse[row.node] + inverse[row.other]) * row.multiplier;
+    const double load = kCompliance * (inverse[row.node] + inverse[row.other]) * row.multiplier;
     const double give = std::min(load, max_give_) * row.length * row.length;
     row.violation = row.holds ? 0.5 * (square - row.length * row.length) - give : 0.0;
     if (row.compliance > 0.0 && row.holds) row.violation -= givesPerMultiplier(row, std::sqrt(square)) * row.multiplier;

@@ -20,8 +20,8 @@ namespace curtain {
 struct LinkSet {
   Field3 direction;                                           ///< [m], shape [(rows + 1) * stride]
   Field multiplier;                                           ///< [kg], shape [(rows + 1) * stride]
-  double compliance = 0.0;                                    ///< overlength by a multiplier times (w_a + w_b)
-  double max_give = std::numeric_limits<double>::infinity();  ///< bound of the relative overlength by compliance
+  double compliance = 0.0;                                    ///< relative overlength by a small multiplier [1/kg]
+  double max_give = std::numeric_limits<double>::infinity();  ///< what the relative overlength by compliance tends to
 
   void assign(const Grid& grid) {
     const std::size_t size = grid.size() + static_cast<std::size_t>(grid.stride);

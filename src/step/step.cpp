@@ -115,7 +115,7 @@ Step::Attempt Step::predict(const SubstepPlan& plan, const NodeForces& forces, C
   const double ratio = !rules.follows && before != 0.0 ? scale / before : 0.0;
   const Scheme::Task task{plan, kick, forces, inertia_, elastic_};
   const Attempt attempt{plan, forces, finder, state, clock, scheme, kick, ratio, scheme.start(task, state, outcome)};
-  constraints_.begin(attempt.start, state, ratio, !plan.isLastResort());
+  constraints_.begin(attempt.start, state, ratio, !plan.isLastResort(), forces.gravity.norm());
   clock.lap(Stage::kPredict);
   return attempt;
 }

@@ -29,7 +29,7 @@ struct LinkRow {
 struct Link {
   double violation;  // relative; 0 where no end can move
   double active;
-  double compliance;  // by how much more it may be too long for each unit of multiplier * (w_a + w_b)
+  double compliance;  // WeftFields::compliance
   double not_finite;  // 0, or NaN when a position at its ends is not finite
 };
 
@@ -42,12 +42,13 @@ struct Size {
 CURTAIN_INTO_WIDE Link linkAt(const LinkRow& row, std::size_t left, std::size_t right) {
   const double rx = row.x[right] - row.x[left], ry = row.y[right] - row.y[left], rz = row.z[right] - row.z[left];
   const double both = row.w[right] + row.w[left];
-  const double load = row.compliance * both * row.s[right];
-  const double give = load < row.max_give ? load : row.max_give;
+  const double load = row.compliance * row.s[right];
+  const double stiff = 1.0 / (1.0 + load / row.max_give), give = stiff * load;
   const double c = 0.5 * ((rx * rx + ry * ry + rz * rz) * row.per_square[right] - 1.0) - give;
   const double active = ((both > 0.0) & ((c > 0.0) | (row.s[right] > 0.0))) ? 1.0 : 0.0;
-  const double compliance = load < row.max_give ? row.compliance : 0.0;
-  return {both > 0.0 ? c : 0.0, active, compliance, 0.0 * c};  // 0 * x is NaN for NaN and infinity alike
+  const double compliance = stiff * stiff * row.compliance / both;
+  const double not_finite = 0.0 * c;  // 0 * x is NaN for NaN and infinity alike
+  return {both > 0.0 ? c : 0.0, active, both > 0.0 ? compliance : 0.0, not_finite};
 }
 
 // Largest sizeOf(left, right) of a row's links, called once for each; infinite when a position is not finite.

@@ -9,15 +9,17 @@
 
 namespace curtain {
 
-/// Relative overlength of a weft link per unit of multiplier * (w_a + w_b), at most LinkSet::max_give, in cloth that
-/// touches something; it vanishes with the square of the substep. A net has about as many links as degrees of freedom
-/// in its plane, so some combinations of pulls hardly move anything. With contacts, whose rows are damped, the solve
-/// does not determine them without compliance: lengths come and go by more than the aim from sweep to sweep, and draped
-/// cloth trembles for ever. With 3e-4 fewer drapes come to rest.
-constexpr double kWeftCompliance = 1e-3;
-/// The same where nothing touches, and of distances that parts bound: it keeps a straight row between two pins (a
-/// singular system) solvable.
-constexpr double kStraightCompliance = 1e-7;
+/// Relative overlength of a weft link for each pull of a node's weight (mean mass times gravity), as of links of the
+/// mean length: the same in any substep, so that links that give hold no energy that comes and goes with its length. It
+/// tends to LinkSet::max_give; without gravity there is none. Of cloth that touches something: a net has about as many
+/// links as degrees of freedom in its plane, so some combinations of pulls hardly move anything. With contacts, whose
+/// rows are damped, the solve does not determine them without compliance: lengths come and go by more than the aim from
+/// sweep to sweep, and draped cloth trembles for ever.
+constexpr double kWeftCompliance = 4e-4;
+/// The same where nothing touches: without it a straight row between two pins (a singular system) would pull without
+/// bounds, and what sags at all within the tolerance would be drawn up again in the next substep. With 1e-9 cloth hung
+/// by two corners needs the last resort more often; with 5e-9 hysteresis gains the energy that links give.
+constexpr double kStraightCompliance = 1e-9;
 
 /// Sets the directions of a row's links from the positions.
 void setWeftDirections(const Grid& grid, int row, const Field3& position, Field3& direction) noexcept;
@@ -32,7 +34,8 @@ double weftSquare(const Grid& grid, int row, const Field3& position, const Field
 struct WeftFields {
   Field& violation;   ///< C = (|r|^2 - l^2) / 2 less what it gives [m^2], negative where it is slack
   Field& active;      ///< 1: it takes part, 0: it does not
-  Field& compliance;  ///< by how much more it gives, as kWeftCompliance; 0 where it gives all that it may
+  Field& compliance;  ///< by how much more it gives for each unit of multiplier * (w_a + w_b); 0 where it gives all
+                      ///< that it may
 };
 
 /// Sets these for a row. Returns the largest relative violation of the links that take part, infinite when a position

@@ -91,9 +91,8 @@ TEST(Rest, ComesOnTheFloor) {
   expectRest("floor", sheetAbove(0.05, floor), 1e-3);
 }
 
-// Limp sheets that hang over something, with folds that touch each other. The one on the plate trembles where links
-// that touch do not give (kWeftCompliance); the others did where friction of the cloth with itself lagged behind its
-// pushes.
+// Limp sheets that hang over something, with folds that touch each other. The one on the plate trembled where links did
+// not give (kWeftCompliance); the others did where friction of the cloth with itself lagged behind its pushes.
 TEST(Rest, ComesToDrapes) {
   struct Drape {
     int nodes;

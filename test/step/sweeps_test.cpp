@@ -29,7 +29,7 @@ struct Solve {
     force.assign(pattern.grid.size(), 0.0);
     forces.force = &force;
     inertia.set(forces, kStep, kStep * kStep, 0.0, false);
-    constraints.begin({state, force, nullptr, nullptr, kStep, kStep}, state, 0.0, true);
+    constraints.begin({state, force, nullptr, nullptr, kStep, kStep}, state, 0.0, true, 9.81);
   }
   SweepOutcome run(bool last_resort = false) {
     const SweepTask task{state.position, last_resort, last_resort, false, 0.0, 0.0};
