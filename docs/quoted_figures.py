@@ -292,6 +292,9 @@ FIGURES = {
          [told_by("wefts of paper without contact, " + scene) for scene in ("curtain", "skirt", "sheet", "flag", "parachute")]),
         ("With it they gain {} at rest and {} while their pins shake", [tortures(*STRAIGHT), tortures("straight row of shaking pins")]),
         ("come to rest, awake at {} to {} substeps a frame", [fixed(value) for value in kept("taut sheet, substeps a frame")]),
+        ("those of 0.9999 to all of it at {} to {}, and at most {} % of the substeps are of the last resort",
+         [fixed(value) for value in kept("sheet at its full width, substeps a frame")] +
+         ["%.1f" % (100.0 * kept("taut sheet, share of the last resort")[1])]),
         ("four methods, 1 and 8 substeps | off by {} at most |", [most("terminal speed, off by")]),
         ("r = 0.1 to 1 | off by {} at most |", [most("strip in relative air, angle off by")]),
         ("| mm | {} | {} | {} |", ["%.0f" % kept("flag at %d m/s, RMS of its end [mm]" % speed)[0] for speed in (2, 4, 8)]),
