@@ -141,7 +141,7 @@ FIGURES = {
         ("its slowest frames take {} to {} ms (105 x 96", sorted(
             frame("over a mesh 105 x 96; %s; settling; one core" % mesh, "ms_longest_min") for mesh in ("smooth", "bumpy"))),
         ("move at up to {} mm/s RMS after 3 s.", [most("at rest on a smaller table, speed [mm/s]")]),
-        ("sag and swing, with up to {} of m g H more energy than it had ({} while its pins shake)",
+        ("swings with up to {} of m g H more energy than it had ({} while its pins shake)",
          [tortures(*STRAIGHT), tortures("straight row of shaking pins")]),
         ("(a whip: {}, with `leapfrog4` in the [stress tests](stress/README.md) {}), but may lose some and regain it ({} of 12 x 10",
          [most("a whip's energy, most above the start"), tortures("no air", method="leapfrog4"),
