@@ -1,8 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes docs/stress/random.md: page.py OF_WHAT TABLE..., OF_WHAT a line on the run, TABLE of curtain_judge --csv."""
+"""Writes FOLDER/random.md from random.csv.gz and stamps.csv there: page.py FOLDER [--check]; --check compares instead, exit code 1 when it differs."""
+import contextlib
 import csv
+import io
+import os
 import sys
+
+from table import rows_of
 
 KINDS = {
     "everyday": "cloth of 0.05 to 1 kg/m², 4 to 60 rows and columns, pulls of up to 30 N, wind of up to 100 Pa, balls and other shapes "
@@ -18,11 +23,7 @@ def share(part, whole):
     return f"{100.0 * part / whole:.1f} %" if whole else "–"
 
 
-def main():
-    rows = []
-    for name in sys.argv[2:]:
-        with open(name, newline="", encoding="utf-8") as table:
-            rows += list(csv.DictReader(table))
+def page(rows, stamp):
     print("# Random scenes\n")
     print("Made by `test/judge/run`: scenes drawn from seeds over all keys and sizes (`test/drawn`, `test/judge/draw.cpp`), simulated, and judged at every "
           "frame: numbers finite, no link longer (no rod shorter) than twice the tolerance of 1e-3, at most 2000 solves a frame; nothing "
@@ -31,7 +32,10 @@ def main():
           "of the paper's method that numbers are finite, nothing is crossed or pierced, and rods keep their lengths where nothing touches (wefts are not judged); "
           "and in some scenes that a second run, continued from a snapshot in its middle and with its caches cleared at random, ends with the same bits. "
           "[Which scenes are excused from what](../accuracy.md#random-scenes). Seeds that once failed are kept, made as small as they would go, in `test/judge/cases`.\n")
-    print(sys.argv[1] + "\n")
+    processors = sorted({row["processor"] for row in rows})
+    print("Commit {commit}, {date}: {scenes} scenes, of seeds from {first} on, on {processors}. `test/judge/run` goes on with them up to 20 010. "
+          "The same anywhere but for times; all scenes in [random.csv.gz](random.csv.gz).\n".format(
+              scenes=len(rows), first=min(int(row["seed"]) for row in rows), processors=" and ".join(processors), **stamp))
     for kind, what in KINDS.items():
         print(f"- **{kind}**: {what}.")
     print("\n| | " + " | ".join(KINDS) + " |\n|---" * 1 + "|---" * len(KINDS) + "|")
@@ -83,4 +87,23 @@ def main():
         print("\nDid not hold when they were drawn; since then mended, or described in docs/accuracy.md: " + ", ".join(failed) + ".")
 
 
-main()
+
+def main():
+    folder = sys.argv[1]
+    with open(os.path.join(folder, "stamps.csv"), newline="", encoding="utf-8") as stamps:
+        stamp, = [row for row in csv.DictReader(stamps) if row["table"] == "random"]
+    text = io.StringIO()
+    with contextlib.redirect_stdout(text):
+        page(rows_of(os.path.join(folder, "random.csv.gz")), stamp)
+    path = os.path.join(folder, "random.md")
+    if sys.argv[2:] != ["--check"]:
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text.getvalue())
+        return
+    with open(path, encoding="utf-8") as file:
+        if file.read() != text.getvalue():
+            sys.exit("%s is not what the table beside it says: run test/judge/page.py %s" % (path, folder))
+
+
+if __name__ == "__main__":
+    main()

@@ -161,7 +161,7 @@ class Figures(unittest.TestCase):
                 self.assertTrue(stamped or name == "stamps" or "commit" in read(path).splitlines()[0].split(","))
 
     def test_pages_of_tables(self):
-        for program, folder in (("bench/page.py", "docs/bench"), ("test/stress/page.py", "docs/stress")):
+        for program, folder in (("bench/page.py", "docs/bench"), ("test/stress/page.py", "docs/stress"), ("test/judge/page.py", "docs/stress")):
             with self.subTest(folder=folder):
                 agrees(self, program, folder)
 
