@@ -1,11 +1,11 @@
-# Random scenes as the judge, test/judge: 150 of them in every test run, as many as one likes by test/judge/run.
+# Random scenes as the judge, test/judge: 100 of them in every test run, as many as one likes by test/judge/run.
 file(GLOB judge_sources CONFIGURE_DEPENDS test/judge/*.cpp)
 add_executable(curtain_judge ${judge_sources})
 target_link_libraries(curtain_judge PRIVATE curtain_drawn curtain_warnings)
 curtain_unite(curtain_judge)
-add_test(NAME judge_everyday COMMAND curtain_judge --everyday 45 --most-nodes 1500)
-add_test(NAME judge_wild COMMAND curtain_judge --wild 30 --most-nodes 300)
-add_test(NAME judge_sudden COMMAND curtain_judge --sudden 75)
+add_test(NAME judge_everyday COMMAND curtain_judge --everyday 30 --most-nodes 1500)
+add_test(NAME judge_wild COMMAND curtain_judge --wild 20 --most-nodes 300)
+add_test(NAME judge_sudden COMMAND curtain_judge --sudden 50)
 file(GLOB judge_cases CONFIGURE_DEPENDS test/judge/cases/*.yaml)
 set(judge_case_options)
 foreach(case IN LISTS judge_cases)
