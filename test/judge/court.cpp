@@ -344,7 +344,7 @@ TrialVerdict judge(const Drawn& drawn, const Rigour& rigour) {
   if (verdict.holds() && verdict.stops == 0 && !(verdict.energy_gain <= max_gain)) {
     Rigour of_energy;
     of_energy.brute_force = false;
-    of_energy.max_seconds = rigour.max_seconds;
+    of_energy.max_seconds = kFiner * rigour.max_seconds;
     verdict.energy_finer = Court(drawn, of_energy, kFiner).run(false).energy_gain;
     if (!(verdict.energy_finer <= max_gain)) {
       std::ostringstream text;
