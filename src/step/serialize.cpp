@@ -66,6 +66,7 @@ void StepControl::serialize(Archive& archive) {
   archive.put(frame_, frame);
   archive.number("omega", omega_);
   archive.number("turning", turning_);
+  archive.number("last_step", last_step_);
   archive.number("heavier_step", scaled_step_);
   archive.number("surface_step", surface_step_);
   archive.number("limit", limit_);

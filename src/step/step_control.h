@@ -49,6 +49,7 @@ class StepControl {
  private:
   double stretch(double wanted, double remaining, double bears) noexcept;
   double stepOfElastic(bool leapfrog, const Step& solver) const noexcept;
+  double stepForTurn(double remaining) const noexcept;
   double stepFromTensions(bool frame_begins, const Step& solver) noexcept;
 
   double frame_;
@@ -59,6 +60,7 @@ class StepControl {
   double initial_omega_;  // of the cloth hanging by its weight [1/s]
   double omega_;          // from the last tensions [1/s]
   double turning_;        // of the last substep [1/s]
+  double last_step_;      // accepted [s]; infinite: none since reset()
   double scaled_step_;    // allowed by mass scaling, found when the frame began [s]; 0: not looked for
   double surface_step_;   // SubstepOutcome::longest_step [s]
   double limit_;          // longest step after rejections [s]

@@ -179,8 +179,11 @@ class RobotTest(DrivenCurtain):
         pressed = sum(p.normal_force * p.normal.z - p.friction_force.z for p in message.points)
         self.assertAlmostEqual(pressed, WEIGHT, delta=1e-3 * WEIGHT)
         listener = Listener("/curtain/markers", MarkerArray)
-        self.run_frames(10)
-        arrows = [m for m in wait_until(listener.last, "markers come").markers if m.ns == "contacts"]
+
+        def shown():
+            self.run_frames(10)  # none is shown to those who are not connected yet
+            return listener.last()
+        arrows = [m for m in wait_until(shown, "markers come").markers if m.ns == "contacts"]
         listener.close()
         self.assertEqual([m.action for m in arrows], [Marker.ADD])
         self.assertEqual(len(arrows[0].points) % 6, 0)
