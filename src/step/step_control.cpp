@@ -87,18 +87,18 @@ double StepControl::stepFromTensions(bool frame_begins, const Step& solver) noex
   return std::isfinite(scaled_step_) ? std::max(for_phase, scaled_step_) : for_phase;
 }
 
-// The longest share of the rest of the frame in which links turn by no more than kTurnPerStep. With a step h leapfrog
+// The longest share of the rest of the frame in which links turn by no more than kTurnPerStep. With steps h leapfrog
 // conserves v^2 + (1 - (h omega)^2 / 4) (omega x)^2 of what oscillates, so that a longer one h' may make it swing wider
-// by sqrt((4 - (h omega)^2) / (4 - (h' omega)^2)), and turn faster. It is taken only where that leaves it short enough.
-// Otherwise cloth that comes to rest goes to and fro between two steps, is given energy by the changes, and trembles
-// on.
+// by sqrt((4 - (h omega)^2) / (4 - (h' omega)^2)), and turn faster. It is taken only where it stays short enough if
+// that comes twice. Otherwise cloth that comes to rest goes to and fro between two steps, is given energy by the
+// changes, and trembles on.
 double StepControl::stepForTurn(double remaining) const noexcept {
   const double longest = kTurnPerStep / turning_;
   const auto left = [this](double h) { return std::max(0.0, 4.0 - h * h * omega_ * omega_); };
   for (double substeps = std::max(1.0, std::ceil(remaining / longest - 1e-6));; ++substeps) {
     const double h = remaining / substeps;
     const bool longer = h > (1.0 + 1e-6) * last_step_;
-    if (!longer || longest * longest * left(h) >= h * h * left(last_step_)) return h;
+    if (!longer || longest * left(h) >= h * left(last_step_)) return h;
   }
 }
 
