@@ -63,22 +63,15 @@ TEST(Sleep, NotWhatMovesNorWithoutGravityNorWhenNotWanted) {
   }
 }
 
-// Long columns in few substeps: changes between two lengths of these kept such curtains trembling, by 1 cm/s RMS.
-TEST(Sleep, ComesToCurtainsThatTheWindHasLeft) {
-  Scene shipped = shippedScene("curtain");
-  shipped.obstacles.clear();
-  Scene fine = flatScene(58, 36, 1.9);
-  fine.hang.to.x() = 0.6;
-  fine.air.inside = fine.air.border = fine.air.corner = 0.46;
-  fine.wind = shipped.wind;
-  fine.solver.frame_rate = 160.0;
-  for (const Scene& scene : {shipped, fine}) {
-    Simulator simulator(scene);
-    const int second = static_cast<int>(scene.solver.frame_rate);
-    run(simulator, 5 * second);
-    simulator.clearWinds();
-    EXPECT_TRUE(sleepsWithin(simulator, 30 * second)) << scene.cloth.rows << " rows";
-  }
+// Long columns in few substeps: changes between two lengths of these kept it trembling, by 1 cm/s RMS.
+TEST(Sleep, ComesToACurtainThatTheWindHasLeft) {
+  Scene scene = shippedScene("curtain");
+  scene.obstacles.clear();
+  Simulator simulator(scene);
+  const int second = static_cast<int>(scene.solver.frame_rate);
+  run(simulator, 5 * second);
+  simulator.clearWinds();
+  EXPECT_TRUE(sleepsWithin(simulator, 30 * second));
 }
 
 // Overdamped cloth creeps: slow is not at rest.
