@@ -28,11 +28,16 @@ Bounds SceneMaker::bounds() {
   return wild ? habit_->wild : habit_->everyday;
 }
 
+// Evenly, or in the logarithm between bounds that are further apart than a factor of ten: there are as many ways to be
+// small as to be large, and what is small takes less time.
+double SceneMaker::pickWithin(const Bounds& of) {
+  const bool far = of.low > 0.0 && of.high > 10.0 * of.low;
+  return far ? choices_.magnitude(of.low, of.high) : choices_.between(of.low, of.high);
+}
+
 std::uint64_t SceneMaker::pickSize() {
   const Bounds of = bounds();
-  return of.high > 0.0
-             ? static_cast<std::uint64_t>(choices_.integer(static_cast<int>(of.low), static_cast<int>(of.high)))
-             : 1;
+  return of.high > 0.0 ? static_cast<std::uint64_t>(pickWithin({of.low, of.high + 1.0})) : 1;
 }
 
 int SceneMaker::pickInteger(curtain::IntRange range) {
@@ -58,13 +63,10 @@ double SceneMaker::pick(const Range& range, double usual) {
   return std::min(std::max(value, range.low), range.high);
 }
 
-// Evenly, or in the logarithm between bounds that are further apart than a factor of ten.
 double SceneMaker::pickByHabit(const Range& range, double usual) {
   Bounds of = bounds();
   if (of.high == 0.0) of = usual > 0.0 && std::isfinite(usual) ? Bounds{0.5 * usual, 2.0 * usual} : Bounds{1e-3, 1.0};
-  const bool far = of.low > 0.0 && of.high > 10.0 * of.low;
-  const double value = far ? choices_.magnitude(of.low, of.high) : choices_.between(of.low, of.high);
-  return std::min(std::max(value, range.low), range.high);
+  return std::min(std::max(pickWithin(of), range.low), range.high);
 }
 
 void SceneMaker::pickVector(const Range& range, Vec3& value) {

@@ -115,6 +115,7 @@ class SceneMaker {
   /// Of any values one in so many is given.
   bool wants(Key key, std::uint64_t one_in = 1);
   Bounds bounds();
+  double pickWithin(const Bounds& of);
   std::uint64_t pickSize();
   int pickInteger(curtain::IntRange range);
   double pick(const curtain::Range& range, double usual);
