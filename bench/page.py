@@ -111,7 +111,7 @@ def closed_forms():
             'Fastest setting that keeps the error below a bound: median of a frame [ms], one core, 60 frames a second. The error is relative; '
             'of the belt it is the creep in 3 s, in which the belt goes 20 m [m].\n',
             '- scarf: slides off a bar without friction, links of 15 mm; Atwood: a strap over such a bar with 75 and 50 g at its ends. Both '
-            'sink as cosh; links that are chords of the bar are good for 2 %.',
+            'sink as cosh; links on the bar are chords of it, which alone may put the result off by 2 %.',
             '- slope: a sheet slides down 30 degrees with friction 0.3 for half a second.',
             '- belt: a sheet on a belt that speeds up with 0.45 g, friction 0.5.',
             '- capstan: the largest load that a strap over a bar of friction 0.3 holds with 50 g at its other end, over Euler\'s e^(mu pi) with '
@@ -127,8 +127,8 @@ def gathered():
     text = ['## A gathered curtain that touches itself\n',
             '44 x 40 nodes, 2 m x 1 m, on 0.5 m, in a fan that gusts; limp, and of a fabric of a light cotton\'s weight, shear and bending. Means over '
             '15 s from the third second on, with the standard error of means of a second each.\n',
-            '- apart: distance of the nodes from those of the finest run (the first row), RMS, after so long. Both have turned far by then: '
-            'the motion is chaotic, and no run is near any other for long.',
+            '- apart: distance of the nodes from those of the finest run (the first row), RMS, after the time in the header. It grows quickly: '
+            'the motion is chaotic, and no run stays near another for long.',
             '- drag: force of the air along the fan\'s axis. depth: of the folds, RMS of the nodes off their row\'s mean. motion: kinetic energy. '
             'fine: what of it is in waves across the cloth shorter than eight links.',
             '- off: the largest difference of the four means from those of the finest run, in standard errors of the difference; some 2 is chance.\n']
@@ -237,9 +237,9 @@ def hard_spot():
 
     text = ['## The hard spot: a two-corner sheet dropped flat\n',
             'Hung by two corners at 0.9 of its width. Distance: from our finest run (leapfrog, 256 substeps) at the last frame '
-            'before the first snap, and at 0.1 s. That run is ours, which favours ours at the snap: strings that '
-            'are caught before it are small impacts, which springs give back and rods do not, and there methods part that '
-            'agree at 0.1 s, whatever their step. Misfit: largest of any link at any frame\'s end, relative. Energy rise: above the start, '
+            'before the first snap, and at 0.1 s. That run is ours, which favours our methods at the snap: strings that '
+            'become taut before it cause small impacts, which springs give back and rods do not. From there on, methods that '
+            'agree at 0.1 s diverge, whatever their step. Misfit: largest of any link at any frame\'s end, relative. Energy rise: above the start, '
             'at any frame.\n']
     for sheet in values(rows, 'sheet'):
         here = where(rows, sheet=sheet)
@@ -318,7 +318,7 @@ def contact():
 
 def contact_frames():
     lines = ['## What frames take in contact\n',
-             'Least of two runs, or of one that took a minute: of the medians, of the frames that all but one in a hundred are below, of the longest. Substeps and',
+             'Median, 99th percentile and longest frame, each the least of two runs (one run if it takes a minute). Substeps and',
              'sweeps: means of a frame; contacts: most at a frame\'s end. Sizes: frames 30 to 60 of a gathered curtain, blown.\n',
              '| scene | median | 99 % | longest | substeps | sweeps | contacts |', '|---|---|---|---|---|---|---|']
     for row in table('contact_frames'):
@@ -333,7 +333,7 @@ def contact_peers():
              '44 x 40 nodes, hung over their whole width; a ball of 0.3 m goes 0.4 m into it in a second and stays there for two. A frame of',
              'one core, the largest relative misfit of a link, and nodes that are in the ball at any frame (4 mm are to be kept). It is a run',
              'of its own: *beside other engines* has another one. btSoftBody',
-             'keeps its distance from a field of distances in cells of 0.02 m, and all of its hardness (*kKHR*).\n',
+             'takes the distance to the ball from a distance field with cells of 0.02 m, and corrects all of a penetration at once (*kKHR* = 1).\n',
              '| method | setting | median | longest | stretch | nodes inside | deepest |', '|---|---|---|---|---|---|---|']
     for row in table('contact_peers'):
         lines.append('| %s | %s | %s ms | %s ms | %s | %s | %s mm |' % (
@@ -346,7 +346,7 @@ def ccd():
     body = [[row['set'], row['pair'], row['queries'], row['hits'], row['missed'], row['false_alarms'],
              figure(value(row, 'ns_min')), figure(value(row, 'ns_min_1mm'))] for row in table('ccd')]
     return ['## Continuous collision detection\n',
-            'Public queries with exact answers (test/truth/ccd), a sixth of those of cloth and few of the others impacts; the '
+            'Public queries with exact answers (test/truth/ccd), a sixth of those of cloth and few of the others are impacts; the '
             'handcrafted ones touch and graze on purpose. Least of two runs, one core.\n',
             markdown(['set', 'pair', 'queries', 'impacts', 'missed', 'false alarms', 'ns a query', 'at 1 mm'], body)]
 
@@ -368,8 +368,8 @@ def features():
         body.append([feature, f'{off:.1f}', figure(value(state['off'], 'ns_min'))] + cells('idle') + cells('active'))
     return ['## What features cost\n',
             'Instructions per node and frame (callgrind; they repeat) and ns per node and frame (median of the frames, least of the '
-            'repeats), 44 x 40 nodes, one thread. Without the feature; with it but in vain, which moves the cloth to the same '
-            'bits; at work, which moves it otherwise and costs what follows from that, too. *Gathered to 60 %* hangs in a '
+            'repeats), 44 x 40 nodes, one thread. Without the feature; with it but without effect (*in vain*: the motion is the same '
+            'to the bit); at work, where the motion differs, and the cost of that difference is included. *Gathered to 60 %* hangs in a '
             'steady fan, where touching itself costs less than in the gusts of *what contact costs*. Where no other scene is named it '
             'is the swing: gravity alone, the cheapest motion there is. test/cost fails where a feature in vain costs more '
             'than its bound (1.02 unless bench/cost/features.cpp says why not).\n',
@@ -408,7 +408,7 @@ def head(stamps):
             '\n'.join(about) + '\n',
             '**The sections are of different engines**: each says of which commit it is. Figures of one are not to be compared with those of '
             'another, nor are they those of the engine beside this page.\n' if differ(stamps) else '',
-            'Bullet\'s links hold both ways, so it takes part only where the weft is never slack; no rival has wind. Springs '
+            'Bullet\'s links also resist shortening, so it takes part only where the weft is never slack; no rival has wind. Springs '
             'are as stiff as the step allows (dt*omega = 2 is the limit of symplectic Euler, 2.8 of Runge-Kutta 4). XPBD '
             'without compliance is PBD of stiffness 1 with the multipliers written down.\n']
 

@@ -26,18 +26,18 @@ def engines(rows, stamps):
             f'thread, scene files with nothing set but what is named. One core of an {stamp["processor"]} with nothing beside it, all engines in '
             f'turns, the least of the medians of {stamp["repeats"]} {"pass" if stamp["repeats"] == "1" else "passes"}, 99 % in brackets; the largest relative misfit of a link '
             '(of the weft: overlength) and its RMS, nodes nearer to the ball\'s centre than its '
-            'radius at any frame\'s end, edges that cross triangles at the end, by brute force. Shown are of each '
-            'engine, with self-contact and without, from the fastest setting on those that halve the misfit; [the table](engines.csv) has all.\n',
+            'radius at any frame\'s end, edges that cross triangles at the end, by brute force. The table shows, for each '
+            'engine with and without self-contact, its fastest setting and then each slower one that at least halves the misfit; [engines.csv](engines.csv) has all.\n',
             'How near they come, in the same scene and likewise with or without self-contact: the least misfit over ours of a setting that is '
-            'no slower than ours, and the least time over ours of one within ten times our misfit. *none*: none was tried that is. The finest '
+            'no slower than ours, and the least time over ours of one within ten times our misfit. *none*: no such setting was found. The finest '
             'settings are chaotic, so factors of two between two of them mean nothing.\n',
             markdown(['scene', 'self-contact', 'engine', 'misfit over ours, no slower', 'time over ours, within ten times the misfit'],
                      nearest(rows)),
-            '\nWind and what of the air\'s damping is not linear are computed outside of their clock and given as accelerations of a frame. Links of theirs hold both ways; '
-            'ours across may fold, so ours starts flat and theirs in five waves. NvCloth: the frequency of its solver and its stiffness, tethers, phases from the top '
+            '\nWind and the nonlinear part of air damping are computed outside of their timing and passed to them as accelerations of a frame. Their links also resist shortening; '
+            'our wefts may fold, so our cloth starts flat and theirs in five waves. NvCloth: the frequency of its solver and its stiffness, tethers, phases from the top '
             'down or even and odd, self-collision of particles, which are 26 and 47 mm apart (10 and 19 in the finer cloth), so that one can pass between four others, 27 mm from each, at any distance below their spacing. '
-            'Jolt: soft bodies do not collide with themselves; LRA: long range attachments. Bullet: self-collision by clusters, of which one a triangle '
-            'is *self clusters 0*; its field of distances of the ball in cells of 20 mm, or its default of 250 mm.\n',
+            'Jolt: soft bodies do not collide with themselves; LRA: long range attachments. Bullet: self-collision by clusters (*self clusters 0*: one per '
+            'triangle); its distance field of the ball has cells of 20 mm, or of 250 mm, the default.\n',
             markdown(['scene', 'engine', 'setting', 'frame', 'misfit', 'RMS', 'in the ball', 'crossings'], body)]
 
 

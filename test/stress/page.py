@@ -14,10 +14,10 @@ in air that damps a swing by 0.8 of critical, unless the case says otherwise; `t
 happens, and what is allowed where that is not the rule.
 
 A case holds when every number stays finite, no link is longer than allowed at any frame's end (2e-3, twice the tolerance, while
-substeps settle; more where pins or obstacles leave it no choice), the energy never rises by more than what is put in
-and 1e-2 of what moves: m g H, the kinetic energy meanwhile and the works of the last 60 frames (gravity, winds, drags, pins and obstacles
-accounted for substep by substep: `Simulator::work()`; the work of the air is not added, so a rise that the air takes away in the same frame
-is not seen), it is back at rest for half a second in the time that the air allows, and a second run gives the same bits. `paper` corrects
+substeps settle; more where pins or obstacles leave it no choice), the energy never rises by more than the work that is put in
+plus 1e-2 of the sum of m g H, the kinetic energy at that time and the work of the last 60 frames (gravity, winds, drags, pins and obstacles,
+substep by substep: `Simulator::work()`; the work of the air is not added, so a rise that the air takes away in the same frame is not seen),
+the cloth is back at rest for half a second in the time that the air allows, and a second run gives the same bits. `paper` corrects
 wefts once, leaves the remaining error, and counts no work of pins; of its results only finite numbers are required. Where a row is drawn
 straight its kinetic energy is bounded, too (by the sag that links within their tolerance permit).
 
@@ -26,8 +26,7 @@ A case holds also where the last resort had to cut the motion: `last_resort` and
 The quick cases were run with every method, the slow ones (grids of up to a million nodes, a million frames, more random seeds) with the
 default; `--long` runs them with the others, too. Empty cells were not run.
 
-Each cell: largest overlength of a link (or shortness of a rod) / rise of the energy / time back to rest [s] (– where it is not asked
-for). In parentheses: reported, not judged, because the start or the pins leave no choice. **Bold**: does not hold.
+Each cell: largest overlength of a link (or shortness of a rod) / rise of the energy / time back to rest [s] (–: not tested). In parentheses: reported, not judged, because the start or the pins leave no choice. **Bold**: does not hold.
 
 """
 
