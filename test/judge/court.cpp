@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -96,8 +97,13 @@ class Court {
         simulator_ = std::move(other);
       }
       happen();
+      const std::clock_t before = std::clock();
       simulator_.step();
+      const double took = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
       look();
+      seconds_ += took;
+      verdict_.seconds = seconds_;  // of the processor: what else runs does not count
+      verdict_.slowest = slowest_ = std::max(slowest_, took);
       if (rigour_.max_seconds > 0.0 && verdict_.seconds > rigour_.max_seconds) {
         verdict_.fault("took longer than it may");
       }
@@ -324,6 +330,7 @@ class Court {
   std::vector<bool> took_;      // by hand
   std::vector<Vec3> taken_at_;  // the same [m]
   double forced_until_ = -1.0;  // [s]
+  double seconds_ = 0.0, slowest_ = 0.0;
   TrialVerdict verdict_;
 };
 

@@ -76,10 +76,10 @@ def page(rows, stamp):
          lambda some: (lambda cut: f"{cut[len(cut) // 2]:.2g}" if cut else "–")(sorted(number(row, "momentum_cut") for row in some if number(row, "momentum_cut") > 0)))
     line("most solves in a frame", lambda some: f"{most(some, 'max_solves'):.0f}")
     line("rejected, of all solves", lambda some: share(total(some, "rejected"), total(some, "rejected") + total(some, "substeps")))
-    line("computing time, s", lambda some: f"{total(some, 'seconds'):.0f}")
+    line("processor time, s", lambda some: f"{total(some, 'seconds'):.0f}")
     parts = sorted({part for row in rows for part in row["parts"].split("+") if part})
     print("\nBy what scenes have, of all kinds together:\n")
-    print("| with | scenes | hold | substeps of the last resort | us a frame and node, median |\n|---|---|---|---|---|")
+    print("| with | scenes | hold | substeps of the last resort | us of the processor a frame and node, median |\n|---|---|---|---|---|")
     for part in ["anything or nothing", *parts]:
         some = [row for row in rows if part not in parts or part in row["parts"].split("+")]
         cost = sorted(1e6 * number(row, "seconds") / (number(row, "frames") * number(row, "rows") * number(row, "columns")) for row in some)
