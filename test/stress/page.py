@@ -95,13 +95,13 @@ def soak(path):
     lines = ["", "The demo (curtain, ball, fan) as fast as it goes, half a minute of quiet at the end of every "
              "interval. One row an hour, of the table in [soak.csv](soak.csv). Heap: what the program has allocated (`mallinfo2`); memory: "
              "what the system keeps for it.", "",
-             "| simulated hours | median ms a frame | longest of ten minutes | sweeps a frame | longest link | height at rest [m] | memory [kB] | heap [kB] |",
+             "| simulated hours | median ms a frame | longest of ten minutes | sweeps a frame | longest link | height, speed at rest [m, m/s] | memory [kB] | heap [kB] |",
              "|---|---|---|---|---|---|---|---|"]
     shown = rows[:1] + rows[5::6] + ([] if len(rows) % 6 == 0 else rows[-1:])
     for row in shown:
-        lines.append("| %.2f | %.2f | %.0f | %.2f | %s | %s | %s | %s |" % (
+        lines.append("| %.2f | %.2f | %.0f | %.2f | %s | %s, %s | %s | %s |" % (
             float(row["hours"]), float(row["median_ms"]), float(row["longest_ms"]), float(row["sweeps_per_frame"]), row["stretch_max"],
-            row["rest_height_m"], row["resident_kb"], row["heap_kb"]))
+            row["rest_height_m"], row["rest_speed_m_s"], row["resident_kb"], row["heap_kb"]))
     return lines
 
 
