@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/engines/scenes.h"
+
+#include "bench/contact_scenes.h"
+#include "bench/engines/waves.h"
+#include "bench/line_up.h"
+#include "obstacles/pose_curve.h"
+
+namespace curtain_bench {
+namespace {
+
+using curtain::ObstacleParams;
+using curtain::Scene;
+
+// The ball of bench/study_contact_peers.cpp, which moves into the cloth for a second and stays there.
+ObstacleParams ballThatComes() {
+  ObstacleParams ball = ballAt({0.5, -0.5, 1.1});
+  curtain::PoseKey from, to;
+  from.pose = ball.pose;
+  to.time = 1.0;
+  to.pose.position = {0.5, -0.1, 1.1};
+  ball.motion = {from, to};
+  return ball;
+}
+
+// The ball of the scene, if it has one.
+Solid solidOf(const Scene& scene) {
+  Solid solid;
+  solid.margin = scene.contact.thickness;
+  solid.friction = scene.contact.friction;
+  if (scene.obstacles.empty()) return solid;
+  const ObstacleParams& ball = scene.obstacles.front();
+  solid.shape = Solid::Shape::kBall;
+  solid.radius = ball.radius;
+  solid.at = [motion = curtain::ScriptedMotion(ball, ball.radius)](double time) {
+    const curtain::Vec3 place = motion.at(time).position;
+    return Solid::Place{place.x(), place.y(), place.z()};
+  };
+  return solid;
+}
+
+// Of slow cloth, by bench/engines/air.h [1/s].
+double dampingOf(const Scene& scene) { return scene.air.density * scene.air.inside / scene.cloth.surface_density; }
+
+EngineScene made(const std::string& name, const Scene& scene, int frames) {
+  EngineScene made;
+  made.name = name;
+  made.scene = scene;
+  Scene bare = scene;
+  bare.obstacles.clear();
+  bare.wind.clear();
+  made.flat = clothStart(bare, dampingOf(scene));
+  made.flat.solid = solidOf(scene);
+  const bool gathered = (scene.hang.to - scene.hang.from).norm() < scene.cloth.width;
+  made.waves = gathered ? inWaves(made.flat) : made.flat;
+  made.frames = frames;
+  made.touches_itself = scene.contact.self;
+  return made;
+}
+
+Scene gathered(int rows, int columns) { return blown(touchingItself(curtainOf(rows, columns, 0.6, 0.0))); }
+
+}  // namespace
+
+std::vector<EngineScene> engineScenes() {
+  constexpr int kFrames = 180;
+  return {made("ball and itself 44 x 40", with(gathered(44, 40), swingingBall()), kFrames),
+          made("gathered 44 x 40", gathered(44, 40), kFrames), made("gathered 105 x 96", gathered(105, 96), kFrames),
+          made("ball 44 x 40", with(dampedBy(curtainOf(44, 40, 1.0, 0.0), 0.5), ballThatComes()), kFrames)};
+}
+
+}  // namespace curtain_bench
