@@ -42,6 +42,7 @@ JPH::Vec3 vector(double x, double y, double z) {
 }
 JPH::Vec3 vector(const std::array<double, 3>& v) { return vector(v[0], v[1], v[2]); }
 
+// Links in the order of the other engines: warp from the hung edge down, then weft.
 JPH::Ref<JPH::SoftBodySharedSettings> clothOf(const ClothStart& start, bool long_range) {
   using Shared = JPH::SoftBodySharedSettings;
   JPH::Ref<Shared> cloth = new Shared;
@@ -58,18 +59,23 @@ JPH::Ref<JPH::SoftBodySharedSettings> clothOf(const ClothStart& start, bool long
     edge.mRestLength = static_cast<float>(rest);
     cloth->mEdgeConstraints.push_back(edge);
   };
-  for (int i = 0; i < start.rows; ++i) {
+  for (int i = 1; i < start.rows; ++i) {
     for (int j = 0; j < start.columns; ++j) {
-      if (i > 0) link(at(i - 1, j), at(i, j), start.warp_rest);
-      if (j > 0) link(at(i, j - 1), at(i, j), start.weft_rest);
-      if (i > 0 && long_range)
-        cloth->mLRAConstraints.emplace_back(at(0, j), at(i, j), static_cast<float>(i * start.warp_rest));
-      if (i == 0 || j == 0) continue;
+      link(at(i - 1, j), at(i, j), start.warp_rest);
+      if (long_range) cloth->mLRAConstraints.emplace_back(at(0, j), at(i, j), static_cast<float>(i * start.warp_rest));
+    }
+  }
+  for (int i = 0; i < start.rows; ++i) {
+    for (int j = 1; j < start.columns; ++j) {
+      link(at(i, j - 1), at(i, j), start.weft_rest);
+      if (i == 0) continue;
       cloth->AddFace({at(i - 1, j - 1), at(i, j - 1), at(i - 1, j)});
       cloth->AddFace({at(i - 1, j), at(i, j - 1), at(i, j)});
     }
   }
+  const JPH::Array<Shared::Edge> links = cloth->mEdgeConstraints;
   cloth->Optimize();
+  cloth->mEdgeConstraints = links;  // its order is for threads, and where cloth is gathered and blown it gains energy
   return cloth;
 }
 
