@@ -11,14 +11,6 @@ namespace {
 
 using Entries = std::vector<EngineEntry>;
 
-std::string metresAsMm(double distance) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f", 1e3 * distance);
-  std::string shown = text;
-  if (distance >= 0.01) shown.pop_back();  // 3 figures
-  return shown + " mm";
-}
-
 void addOurs(Entries& entries, const EngineScene& scene, const std::string& commit) {
   const auto add = [&](const std::string& setting, std::function<std::unique_ptr<Contestant>()> make) {
     EngineEntry entry;
@@ -43,6 +35,14 @@ void addOurs(Entries& entries, const EngineScene& scene, const std::string& comm
 }
 
 #ifdef CURTAIN_ENGINES_NVCLOTH
+std::string metresAsMm(double distance) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", 1e3 * distance);
+  std::string shown = text;
+  if (distance >= 0.01) shown.pop_back();  // 3 figures
+  return shown + " mm";
+}
+
 void add(Entries& entries, const EngineScene& scene, const NvClothSettings& settings) {
   EngineEntry entry;
   entry.engine = "NvCloth";
