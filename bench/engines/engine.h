@@ -22,7 +22,7 @@ struct NvClothSettings {
   bool tethers = false;        ///< from each node to the top of its column
   bool continuous = false;     ///< continuous collision with the ball
   bool one_sided = false;      ///< wefts may be short
-  double self_distance = 0.0;  ///< that particles keep from each other [m]; 0: they do not
+  double self_distance = 0.0;  ///< that particles keep from each other [m], but neighbours at rest; 0: they do not
   bool even_odd = false;       ///< even warps, then odd ones; else row by row from the top down
 };
 std::unique_ptr<Engine> makeNvCloth(const ClothStart& start, const NvClothSettings& settings);

@@ -117,6 +117,19 @@ void addNvClothAndItself(Entries& entries, const EngineScene& scene) {
       if (distance == 0.0 || (distance == narrow ? of_narrow : of_wide)) add(entries, scene, settings);
     }
   }
+  // Beyond the spacing of the nodes: none fits between its neighbours, so layers do not cross.
+  for (const double distance : {coarse ? 0.03 : 0.012, coarse ? 0.04 : 0.016}) {
+    NvClothSettings settings;
+    settings.self_distance = distance;
+    for (const int frequency : {600, 1200, 2400, 4800}) {
+      settings.frequency = frequency;
+      add(entries, scene, settings);
+    }
+    if (!coarse) continue;
+    settings.frequency = 9600;
+    settings.even_odd = true;
+    add(entries, scene, settings);
+  }
 }
 
 void addNvCloth(Entries& entries, const EngineScene& scene) {

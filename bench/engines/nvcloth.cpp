@@ -10,6 +10,7 @@
 #include <foundation/PxErrorCallback.h>
 #include <foundation/PxVec4.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
@@ -207,6 +208,7 @@ class NvCloth : public Engine {
     cloth_->setFriction(static_cast<float>(start_.solid.friction));
     cloth_->enableContinuousCollision(settings_.continuous);
     cloth_->setSelfCollisionDistance(static_cast<float>(settings_.self_distance));
+    if (settings_.self_distance > std::min(start_.warp_rest, start_.weft_rest)) tellPlacesAtRest();
     std::vector<nv::cloth::PhaseConfig> configs;
     for (std::size_t phase = 0; phase < phases.count(); ++phase) {
       configs.emplace_back(static_cast<std::uint16_t>(phase));
@@ -215,6 +217,16 @@ class NvCloth : public Engine {
       configs.back().mCompressionLimit = 1e-6f;
     }
     cloth_->setPhaseConfig(rangeOf(configs));
+  }
+
+  // Particles that are neighbours at rest then do not push each other apart.
+  void tellPlacesAtRest() {
+    std::vector<PxVec4> places;
+    for (int i = 0; i < start_.rows; ++i) {
+      for (int j = 0; j < start_.columns; ++j)
+        places.push_back(vector(j * start_.weft_rest, i * start_.warp_rest, 0.0, 0.0));
+    }
+    cloth_->setRestPositions(rangeOf(places));
   }
 
   const ClothStart start_;
