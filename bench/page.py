@@ -23,7 +23,7 @@ PARSER.add_argument('--check', action='store_true')
 OPTIONS = PARSER.parse_args()
 FOLDER = OPTIONS.folder
 RIVALS = ('symplectic Euler', 'Runge-Kutta 4', 'Baraff-Witkin', 'PBD', 'XPBD', 'btSoftBody')
-ELSEWHERE = ('engines',)  # measured by programs outside of this repository, so never of the page's commit, which its text says
+ELSEWHERE = ('engines',)  # made by bench/engines/run of sources that bench/run lacks, so not always of the other studies' engine; its text says of which
 
 
 def table(name):

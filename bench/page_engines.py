@@ -22,8 +22,8 @@ def engines(rows, stamps):
     stamp = where(stamps, study='engines')[0]
     return ['## Beside other engines\n',
             'The same cloth, wind and ball in NvCloth 1.1.6 (6e86b18), Jolt 5.5.1 (3b47ec3) and Bullet 3.27 (6c888f4), built from their public '
-            f'sources for this processor ({stamp["compiler"]}; -O3 -march=native, which this package itself is not built with), by programs outside of this repository; ours at commit {rows[0]["version"]}, one '
-            f'thread, scene files with nothing set but what is named. One core of an {stamp["processor"]} with nothing beside it, all engines in '
+            f'sources for this processor ({stamp["compiler"]}; -O3 -march=native, which this package itself is not built with), by the programs of [bench/engines](../../bench/engines/README.md); ours at commit {rows[0]["version"]}, one '
+            f'thread, scene files with nothing set but what is named. One core of an {stamp["processor"]} all engines in '
             f'turns, the least of the medians of {stamp["repeats"]} {"pass" if stamp["repeats"] == "1" else "passes"}, 99 % in brackets; the largest relative misfit of a link '
             '(of the weft: overlength) and its RMS, nodes nearer to the ball\'s centre than its '
             'radius at any frame\'s end, edges that cross triangles at the end, by brute force. The table shows, for each '
@@ -35,7 +35,7 @@ def engines(rows, stamps):
                      nearest(rows)),
             '\nWind and the nonlinear part of air damping are computed outside of their timing and passed to them as accelerations of a frame. Their links also resist shortening; '
             'our wefts may fold, so our cloth starts flat and theirs in five waves. NvCloth: the frequency of its solver and its stiffness, tethers, phases from the top '
-            'down or even and odd, self-collision of particles, which are 26 and 47 mm apart (10 and 19 in the finer cloth), so that one can pass between four others, 27 mm from each, at any distance below their spacing. '
+            'down or even and odd, self-collision of particles, which are 26 and 47 mm apart (10 and 19 in the finer cloth), so that one can pass between four others, 27 mm from each, at any distance below their spacing; beyond it (30 and 40 mm, 12 and 16) their places at rest are told, so that neighbours do not push each other. '
             'Jolt: soft bodies do not collide with themselves; LRA: long range attachments. Bullet: self-collision by clusters (*self clusters 0*: one per '
             'triangle); its distance field of the ball has cells of 20 mm, or of 250 mm, the default.\n',
             markdown(['scene', 'engine', 'setting', 'frame', 'misfit', 'RMS', 'in the ball', 'crossings'], body)]
