@@ -23,7 +23,7 @@ def engines(rows, stamps):
     return ['## Beside other engines\n',
             'The same cloth, wind and ball in NvCloth 1.1.6 (6e86b18), Jolt 5.5.1 (3b47ec3) and Bullet 3.27 (6c888f4), built from their public '
             f'sources for this processor ({stamp["compiler"]}; -O3 -march=native, which this package itself is not built with), by the programs of [bench/engines](../../bench/engines/README.md); ours at commit {rows[0]["version"]}, one '
-            f'thread, scene files with nothing set but what is named. One core of an {stamp["processor"]} all engines in '
+            f'thread, scene files with nothing set but what is named. One core of an {stamp["processor"]}, all engines in '
             f'turns, the least of the medians of {stamp["repeats"]} {"pass" if stamp["repeats"] == "1" else "passes"}, 99 % in brackets; the largest relative misfit of a link '
             '(of the weft: overlength) and its RMS, nodes nearer to the ball\'s centre than its '
             'radius at any frame\'s end, edges that cross triangles at the end, by brute force. The table shows, for each '

@@ -2,7 +2,6 @@
 """What pages quote: by page, a text as it stands there once, with {} for each figure, and where these are from. Who rewrites such a
 text, rewrites it here, too."""
 import math
-import re
 
 from quoted_tables import (ASLEEP, AWAKE, BALL, BOUNDS, CAMERA, DROPPED, DUELS, FINE, GATHERED, HANDCRAFTED, HOUSEHOLD, NOISE,
                            OURS_WITH_BALL, PEERS, PORES, PROBLEMS, QUICK, RIVALS, STRAIGHT, apart, at, blown, both, clear, clears, cores, demo, drape,
@@ -211,7 +210,7 @@ FIGURES = {
          "{}, {} and {} % of the frames.", told("obstacles excused, of all frames of all") + told("frames looked at by brute force")),
         ("- {} of the scenes are of the method `paper`", [str(sum(drawn("of the paper's method")))]),
         ("the worst that no hand may have pulled apart was off by {}.",
-         [re.sub("e-0", "e-", max(told("worst link of the others that no hand may have pulled apart"), key=float))]),
+         [short(max(float(text) for text in told("worst link of the others that no hand may have pulled apart")), 3)]),
         ("5 to 1000 Hz; up to {} nodes)", told("largest cloth, nodes")[1:2]),
         ("{} % of the everyday scenes needed the last resort, in {} % of all their substeps, and in {} % of the scenes the cloth was stopped for some "
          "substeps ({} % of all); of the wild ones {} % and {} %.",

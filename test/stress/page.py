@@ -26,7 +26,8 @@ A case holds also where the last resort had to cut the motion: `last_resort` and
 The quick cases were run with every method, the slow ones (grids of up to a million nodes, a million frames, more random seeds) with the
 default; `--long` runs them with the others, too. Empty cells were not run.
 
-Each cell: largest overlength of a link (or shortness of a rod) / rise of the energy / time back to rest [s] (–: not tested). In parentheses: reported, not judged, because the start or the pins leave no choice. **Bold**: does not hold.
+Each cell: largest overlength of a link (or shortness of a rod) / rise of the energy / time back to rest [s] (–: not tested).
+In parentheses: reported, not judged, because the start or the pins leave no choice. **Bold**: does not hold.
 
 """
 
