@@ -27,7 +27,7 @@ namespace curtain {
 
 /// To be raised with every change of what is serialized, or of its meaning (checked by
 /// test/simulator/snapshot_test.cpp).
-constexpr std::uint32_t kSnapshotVersion = 20;
+constexpr std::uint32_t kSnapshotVersion = 21;
 
 /// Bytes before the scene.
 constexpr std::size_t kSnapshotHeader = 48;

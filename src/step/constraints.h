@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "step/distance_rows.h"
+#include "step/energy_account.h"
 #include "step/net_solver.h"
 #include "step/node_inertia.h"
 #include "step/solver_parts.h"
@@ -144,8 +145,9 @@ class Constraints {
 
   /// Projects the velocities on the constraints: no rod or pulling string changes its length, no pushing contact
   /// penetrates. Starts from `share` of the last substep's forces between nodes, so friction goes on and cloth at rest
-  /// is a fixed point. Guided nodes: after GuidePart::beginRates().
-  void project(const Field3& position, double share, Field3& velocity) noexcept;
+  /// is a fixed point. Guided nodes: after GuidePart::beginRates(). most: what the account lets the velocities have.
+  void project(const Field3& position, double share, const EnergyAccount& account, double most,
+               Field3& velocity) noexcept;
   /// Adds what links and rows acted by in the last substep, along their directions at these positions, times share and
   /// over the nodes' masses. Between substeps only.
   void addPulls(const Field3& position, double share, Field3& velocity) noexcept;
@@ -191,6 +193,7 @@ class Constraints {
   double measureStrings() noexcept;
   double loadStrings(Field& load) noexcept;
   void spreadForces(const LineSolve& warp, const LineSolve& weft, double share) noexcept;
+  void undoRound(Field3& velocity) noexcept;
   // Nodes that are guided in this substep; null: none.
   GuidedNodes* guided() noexcept { return guide_ != nullptr && guide_->moves() ? guide_ : nullptr; }
   LineSolve rods() noexcept { return {pattern_, inertia_.inverse(), warp_, next, guided()}; }

@@ -28,7 +28,15 @@ void Constraints::addPulls(const Field3& position, double share, Field3& velocit
   spreadForces({pattern_, inertia_.masses(), warp_, velocity}, {pattern_, inertia_.masses(), weft_, velocity}, share);
 }
 
-void Constraints::project(const Field3& position, double share, Field3& velocity) noexcept {
+// Back to what the round began with; contacts forget what they took up in it.
+void Constraints::undoRound(Field3& velocity) noexcept {
+  for (Row& row : rows_) row.change = -row.change;
+  for (RowMaker* maker : makers_) maker->moveBy(rows_, inertia_.masses(), velocity);
+  velocity = best_.position;
+}
+
+void Constraints::project(const Field3& position, double share, const EnergyAccount& account, double most,
+                          Field3& velocity) noexcept {
   setWarpDirections(pattern_.grid, position, warp_.direction);
 
   const LineSolve warp{pattern_, inertia_.masses(), warp_, velocity, guide_};
@@ -49,12 +57,14 @@ void Constraints::project(const Field3& position, double share, Field3& velocity
   solveRods();
   if (alone) return;
   net_.begin(position, inertia_.masses(), guide_);
+  const int rounds = presses ? kContactRounds : kVelocityRounds;
   double first_rate = 0.0;
-  for (int round = 0; round < (presses ? kContactRounds : kVelocityRounds); ++round) {
+  for (int round = 0; round < rounds; ++round) {
     double rate = worstOfRows([&](int i) { return measureWeftRates(weft, i, violation_, active_); });
     for (RowMaker* maker : makers_) rate = std::max(rate, maker->measureRates(velocity));
     if (round == 0) first_rate = rate;
     if (rate == 0.0 || (round > 0 && rate <= kVelocityReduction * first_rate)) break;
+    best_.position = velocity;
     makeRows(velocity, true);
     net_.solve(violation_, active_, rows_,
                {rate * middle_rest_, kVelocityDamping, kVelocityReduction, kVelocityIterations}, change_);
@@ -62,6 +72,11 @@ void Constraints::project(const Field3& position, double share, Field3& velocity
     for (RowMaker* maker : makers_) maker->moveBy(rows_, inertia_.masses(), velocity);
     settle();
     solveRods();
+    // Where the rods leave nodes hardly any mobility, the net's single precision may make rates grow with every round.
+    if (account.exceeds(most, velocity)) {
+      undoRound(velocity);
+      break;
+    }
   }
   if (weft_pulls_) std::fill(weft_.multiplier.begin(), weft_.multiplier.end(), 0.0);
 }

@@ -131,7 +131,7 @@ double DistanceRows::energy(const Field3& position) const noexcept {
 
 double DistanceRows::speed() const noexcept {
   double fastest = 0.0;
-  for (const RowPart* part : parts_) fastest = std::max(fastest, part->speed());
+  for (const DistanceRow& row : all_) fastest = std::max(fastest, std::abs(row.rate));
   return fastest;
 }
 

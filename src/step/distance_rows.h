@@ -40,7 +40,7 @@ class DistanceRows final : public RowMaker {
   void restoreIterate() noexcept override;
   /// Work of the rows that give in a substep to `next` [J], by their present multipliers.
   double elasticWork(const SubstepStart& start, const Field3& next) const noexcept;
-  /// Speed of the fastest part that drives in this substep [m/s]; 0: none.
+  /// The largest rate at which parts drive a length [m/s]; 0: none does.
   double speed() const noexcept;
 
   /// Accepts: parts set their state; adds to the loads of nodes. Returns the largest load over its mass.

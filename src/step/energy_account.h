@@ -68,6 +68,10 @@ class EnergyAccount {
               const Drive& drive) const noexcept;
   /// The same for velocities [m/s] before their projection; surface: largest speed of what is touched [m/s].
   double most(const Field3& velocity, double surface) const noexcept;
+  /// The free nodes' velocities have more.
+  bool exceeds(double most, const Field3& velocity) const noexcept {
+    return !(kineticOf(velocity, frameOf(velocity)) <= most);
+  }
   /// Scales the free nodes' velocities in the world down until the excess over that is gone.
   void bound(double most, Field3& velocity) const noexcept;
 

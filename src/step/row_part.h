@@ -20,7 +20,7 @@ struct DistanceRow {
   double compliance = 0.0;          ///< [m/N], >= 0; 0: it does not give, and is a constraint
   // Set by its part before every substep.
   double length = 1.0;  ///< at the end of the substep [m]
-  double rate = 0.0;    ///< at which it changes [m/s]
+  double rate = 0.0;    ///< at which the part that drives changes it [m/s]
   bool holds = false;   ///< it has a bound, and an end that can move
   // The solver's.
   Vec3 direction = Vec3::Zero();  ///< [m]
@@ -48,8 +48,6 @@ class RowPart {
   virtual void commit(const SubstepStart& /*start*/, const Field3& /*next*/, ClothState& /*state*/) noexcept {}
   /// Between substeps, after one that was not accepted or when `state` comes from elsewhere: sets its rows.
   virtual void resume(const ClothState& /*state*/) noexcept {}
-  /// How fast it drives nodes in this substep [m/s]; 0: it does not.
-  virtual double speed() const noexcept { return 0.0; }
   /// Work of what drives in the last substep, which took the velocities from `before` to `after` [J]; per_h: force over
   /// multiplier, times the time that it acted for [1/s]. Rows of constant length do none.
   virtual double work(const Field3& /*before*/, const Field3& /*after*/, double /*per_h*/) const noexcept {

@@ -2,6 +2,7 @@
 //
 // Between substeps: velocities at the time of the positions, pulls, the account's books, and what is kept for trial
 // runs.
+#include <algorithm>
 #include <cmath>
 
 #include "cloth/free_body.h"
@@ -24,16 +25,17 @@ void Step::currentVelocities(const ClothState& state, const NodeForces& forces, 
   if (age == 0.0) return;
   if (constraints_.guide() != nullptr) constraints_.guide()->beginRates(state, age, out);
   constraints_.contacts().show(contacts);
-  const double most = account_.most(out, fastestSurface(constraints_.contacts().all()));
   projectVelocity(state.position, age / inertia_.tensions().scale, out);
-  account_.bound(most, out);
 }
 
-// Keeps the momentum of cloth without pins.
+// Adds no energy but what the parts and surfaces drive. Keeps the momentum of cloth without pins.
 void Step::projectVelocity(const Field3& position, double share, Field3& out) noexcept {
+  const Contacts& touching = constraints_.contacts().all();
+  const double most = account_.most(out, std::max(constraints_.distances().speed(), fastestSurface(touching)));
   const bool keeps = free_ && !pressesOnObstacle(contacts());
   const Momentum before = keeps ? momentumOf(pattern_, position, out) : Momentum();
-  constraints_.project(position, share, out);
+  constraints_.project(position, share, account_, most, out);
+  account_.bound(most, out);
   if (!keeps) return;
   const Momentum after = momentumOf(pattern_, position, out);
   const RigidMotion motion =

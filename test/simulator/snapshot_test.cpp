@@ -175,11 +175,11 @@ TEST(Snapshot, HasAVersionForEveryLayout) {
   SnapshotParts parts;
   const std::string snapshot = Simulator(all).snapshot();
   ASSERT_FALSE(unpackSnapshot(snapshot, parts).has_value());
-  EXPECT_EQ(kSnapshotVersion, 20U);
-  EXPECT_EQ(parts.layout, 701848846U);
+  EXPECT_EQ(kSnapshotVersion, 21U);
+  EXPECT_EQ(parts.layout, 822323291U);
   const std::string plain = Simulator(flatScene(4, 5)).snapshot();
   ASSERT_FALSE(unpackSnapshot(plain, parts).has_value());
-  EXPECT_EQ(parts.layout, 2163457137U);
+  EXPECT_EQ(parts.layout, 1985687758U);
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ void Cords::setLengths(const ClothState& state) noexcept {
     reach_[k] = state.reach[k];
     for (std::size_t c = end.first; c < end.last; ++c) {
       rows_[c].length = reach_[k];
-      rows_[c].rate = closed_[k] != 0 && reach_[k] > loop.radius ? -loop.speed : 0.0;
+      rows_[c].rate = draws_ && closed_[k] != 0 && reach_[k] > loop.radius ? -loop.speed : 0.0;
     }
   }
 }
@@ -93,17 +93,14 @@ void Cords::setHolds(const Field& inverse) noexcept {
 
 void Cords::begin(const SubstepStart& start, const ClothState& state, const Field& inverse, bool drives,
                   Field3& next) noexcept {
+  draws_ = drives;
   setLengths(state);
   setHolds(inverse);
-  closing_speed_ = 0.0;
   for (std::size_t k = 0; k < closed_.size(); ++k) {
     const LoopPattern& loop = pattern_.cords.loops[k];
     const CordEnd& end = pattern_.cords.ends[loop.end];
     const double shrunk = std::max(loop.radius, reach_[k] - std::abs(loop.speed * start.h));
-    if (closed_[k] != 0 && drives && shrunk < reach_[k]) {
-      reach_[k] = shrunk;
-      closing_speed_ = std::max(closing_speed_, loop.speed);
-    }
+    if (closed_[k] != 0 && drives && shrunk < reach_[k]) reach_[k] = shrunk;
     for (std::size_t c = end.first; c < end.last; ++c) rows_[c].length = reach_[k];
   }
   predict(start, inverse, next);
@@ -149,6 +146,9 @@ double Cords::work(const Field3& before, const Field3& after, double per_h) cons
   return sum;
 }
 
-void Cords::serialize(Archive& archive) { archive.flags("closed", closed_); }
+void Cords::serialize(Archive& archive) {
+  archive.flags("closed", closed_);
+  archive.flag("draws", draws_);
+}
 
 }  // namespace curtain

@@ -46,7 +46,6 @@ class Cords final : public RowPart, public Part {
   void commit(const SubstepStart& start, const Field3& next, ClothState& state) noexcept override;
   using Part::resume;
   void resume(const ClothState& state) noexcept override;
-  double speed() const noexcept override { return closing_speed_; }
   double work(const Field3& before, const Field3& after, double per_h) const noexcept override;
 
  private:
@@ -58,7 +57,7 @@ class Cords final : public RowPart, public Part {
   DistanceRow* rows_ = nullptr;       // in the order of the pattern's cords
   std::vector<std::uint8_t> closed_;  // by loop
   std::vector<double> reach_;         // of the loops at the end of the substep [m]
-  double closing_speed_ = 0.0;        // of the fastest loop that shrinks in this substep [m/s]; 0: none
+  bool draws_ = true;                 // loops that are to shrink did so in the last substep
 };
 
 }  // namespace curtain
