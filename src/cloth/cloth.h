@@ -37,6 +37,8 @@ struct RailPattern {
   double gap = 0.0;                    ///< least distance of neighbours [m]
 
   std::size_t size() const { return columns.size(); }
+  /// Where a carrier at a place can go: the tangent there; zero: it is fastened.
+  Vec3 freedomOf(std::size_t carrier, double place) const;
 };
 
 /// The part of a cloth that does not move. Constant but for what follows from its pins (pinBeside()).
@@ -93,7 +95,7 @@ void fillTurningLengths(const ClothPattern& pattern, Field& warp, Field& weft) n
 
 /// Pins these nodes beside those of the scene, and frees all others; inverse masses and bending follow. Whoever keeps
 /// something that depends on them must update it: Simulator::Impl::pinsChanged() tells all of them.
-///   held  by node, kFree or how it is held; read where scene_pins has kFree
+///   held  by node, kFree or how it is held; read where scene_pins has kFree, and kHeld where it has kGuided
 void pinBeside(const std::vector<std::uint8_t>& held, const Layers& layers, ClothPattern& pattern) noexcept;
 
 /// Rest lengths, masses, pins and bending of a validated scene.

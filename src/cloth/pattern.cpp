@@ -225,6 +225,10 @@ Grid makeGrid(const ClothParams& cloth) {
   return grid;
 }
 
+Vec3 RailPattern::freedomOf(std::size_t carrier, double place) const {
+  return fastened[carrier] != 0 ? Vec3::Zero() : path.at(place).tangent;
+}
+
 ClothPattern makeLayerPattern(const Scene& scene) {
   ClothPattern pattern;
   pattern.grid = makeGrid(scene.cloth);
@@ -261,6 +265,7 @@ void pinBeside(const std::vector<std::uint8_t>& held, const Layers& layers, Clot
   const Grid& grid = pattern.grid;
   for (int i = 0; i < grid.rows; ++i) {
     for (std::size_t n = grid.index(i, 0); n < grid.index(i, grid.columns); ++n) {
+      if (pattern.scene_pins[n] == kGuided) pattern.pinned[n] = held[n] == kHeld ? kHeld : kGuided;
       if (pattern.scene_pins[n] != kFree) continue;
       pattern.pinned[n] = held[n];
       pattern.inverse_mass[n] = held[n] == kPinned ? 0.0 : 1.0 / pattern.mass[n];

@@ -26,7 +26,7 @@ void fill(const ClothPattern& pattern, bool guided_move, Field& inverse) {
     if (pattern.pinned[n] == kHeld) inverse[n] = 0.0;
   }
   if (!guided_move) return;
-  for (const std::size_t n : pattern.guided) inverse[n] = 1.0 / pattern.mass[n];
+  for (const std::size_t n : pattern.guided) inverse[n] = pattern.pinned[n] == kHeld ? 0.0 : 1.0 / pattern.mass[n];
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "curtain_sim/simulator.h"
+#include "rail_scenes.h"
 #include "testing.h"
 
 namespace curtain {
@@ -75,6 +76,47 @@ TEST(TautColumns, AreFreeWhenTheyAreSlack) {
   go(foot);
   EXPECT_LT(bulge(simulator), 0.03);  // within the tolerance of its links
   EXPECT_GT(bulge(restored), 0.04);
+}
+
+// A curtain on a rail, pinned below two of its carriers, as far below as it is long: neither its columns nor those
+// carriers can move, however the others are drawn.
+Scene pinnedBelowCarriers() {
+  Scene scene = curtain_test::railScene(kRows, 7, 3, 0.6, 1.0);
+  scene.pins.kind = PinKind::kList;
+  scene.pins.nodes = {{kRows - 1, 0}, {kRows - 1, 3}};
+  scene.air.inside = scene.air.border = scene.air.corner = 1.0;
+  return scene;
+}
+
+TEST(TautColumns, HoldTheCarriersTheyHangFrom) {
+  Simulator simulator(pinnedBelowCarriers());
+  const Vec3 held = simulator.position({0, 3});
+  const double free = curtain_test::carrierX(simulator, 6);
+  simulator.setOpening(1.0);
+  for (int frame = 0; frame < 240; ++frame) {
+    simulator.step();
+    ASSERT_EQ(simulator.position({0, 3}), held) << frame;
+    ASSERT_LT(bulge(simulator), 1e-12) << frame;
+    curtain_test::expectOnRail(simulator);
+  }
+  EXPECT_GT(std::abs(curtain_test::carrierX(simulator, 6) - free), 0.05);
+  EXPECT_EQ(simulator.statistics().last_resort_substeps, 0);
+}
+
+// A pin that moves along the rail takes the carrier along, and one that rises lets the column sag.
+TEST(TautColumns, LetCarriersGoWithTheirPins) {
+  Scene scene = pinnedBelowCarriers();
+  scene.pins.nodes = {{kRows - 1, 6}};
+  scene.rail.carriers.friction = 0.0;
+  Simulator simulator(scene);
+  const Vec3 foot = simulator.position({kRows - 1, 6});
+  const double before = curtain_test::carrierX(simulator, 6);
+  for (int frame = 1; frame <= 120; ++frame) {
+    ASSERT_TRUE(simulator.movePin({kRows - 1, 6}, foot + Vec3(-0.2 * frame / 120.0, 0.0, 0.1 * frame / 120.0)));
+    simulator.step();
+  }
+  EXPECT_LT(curtain_test::carrierX(simulator, 6), before - 0.05);
+  EXPECT_LT(simulator.statistics().warp_stretch, 2.0 * scene.solver.stretch_tolerance);
 }
 
 // Snapshots of held columns go on to the same bits.

@@ -59,7 +59,8 @@ void Rail::begin(const SubstepStart& substep, const ClothState& state, const Fie
   for (std::size_t k = 0; k < all_.size(); ++k) {
     Carrier& carrier = all_[k];
     RailRow& row = rows_[k];
-    carrier.inverse = carrier.mobility = inverse[node(carrier)];
+    carrier.mobility = inverse[node(carrier)];
+    carrier.inverse = isHeld(k) ? 1.0 / pattern_.mass[node(carrier)] : carrier.mobility;
     stands_ = stands_ || !(carrier.inverse > 0.0);
     carrier.along = carrier.now = pathOf(k).at(start.place[k]).tangent;
     carrier.point = start.position.at(node(carrier));

@@ -132,7 +132,9 @@ class Rail final : public GuidePart, public Part {
   const DriveParams& driveOf(const Track& track) const noexcept;
   bool hasArrived(const Track& track, const ClothState& state) const noexcept;
   const RailPath& pathOf(std::size_t k) const noexcept { return tracks_[track_of_[k]].rail.path; }
-  bool isFastened(std::size_t k) const noexcept { return fastened_[k] != 0; }
+  // Its column is taut (TautColumns).
+  bool isHeld(std::size_t k) const noexcept { return pattern_.pinned[node(all_[k])] == kHeld; }
+  bool isFastened(std::size_t k) const noexcept { return fastened_[k] != 0 || isHeld(k); }
   void put(std::size_t k, double place, Field3& position) noexcept;
   void setFreedom(std::size_t k) noexcept;
   void bindFriction(std::size_t k, const Vec3& force) noexcept;

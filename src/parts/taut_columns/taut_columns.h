@@ -3,6 +3,9 @@
 // Columns that are straight between two pins. Rods keep their lengths, so a column whose pins are as far apart as it is
 // long can't move: to sag it would have to be longer. Its rods' equations are singular, and no load on it has a finite
 // tension. So its nodes are held, and move with the line between the two, as long as it is straight.
+//
+// The same holds below a carrier that comes no nearer to the pin wherever it goes on its rail: it is held, too, unless
+// the pin moves.
 #pragma once
 
 #include <vector>
@@ -25,7 +28,7 @@ class TautColumns final : public Part {
   bool endFrame(const FrameEnd& end, ClothState& state) noexcept override;
 
  private:
-  /// The rods between two pins that follow each other in a column, with nodes in between.
+  /// The rods between two pins that follow each other in a column, with nodes in between. The first may be a carrier.
   struct Span {
     std::size_t first, last;  // its pins
     double length;            // [m]
@@ -33,9 +36,11 @@ class TautColumns final : public Part {
 
   bool isHeld(std::size_t node) const noexcept { return held_[node] != 0 && pattern_.pinned[node] == kHeld; }
   void findSpans(const std::vector<std::uint8_t>& pinned) const noexcept;
-  bool isStraight(const Span& span, const Vec3& apart) const noexcept {
-    return apart.norm() >= (1.0 - scene_.solver.stretch_tolerance) * span.length;
-  }
+  bool hangsFromCarrier(const Span& span) const noexcept { return pattern_.scene_pins[span.first] == kGuided; }
+  Vec3 freedomOf(const Span& span, const ClothState& state) const noexcept;
+  bool isStraight(const Span& span, const ClothState& state, const Vec3& moved) const noexcept;
+  template <typename Visit>
+  void forEachHeld(const Span& span, const Visit& visit) const;
   bool rodsHold(const Span& span, const Field3& position) const noexcept;
   bool find(const ClothState& state) noexcept;
   void list() noexcept;
