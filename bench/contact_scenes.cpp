@@ -117,6 +117,16 @@ ObstacleParams ballAt(const Vec3& position, double radius) {
   return ball;
 }
 
+ObstacleParams ballThatComes() {
+  ObstacleParams ball = ballAt({0.5, -0.5, 1.1});
+  curtain::PoseKey from, to;
+  from.pose = ball.pose;
+  to.time = 1.0;
+  to.pose.position = {0.5, -0.1, 1.1};
+  ball.motion = {from, to};
+  return ball;
+}
+
 ObstacleParams swingingBall() {
   ObstacleParams ball = ballAt({0.3, 0.6, 1.2}, 0.15);
   for (int k = 0; k <= 40; ++k) {

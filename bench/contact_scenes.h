@@ -18,6 +18,8 @@ curtain::Scene blown(curtain::Scene scene);
 /// 6 Pa everywhere, three times the cloth's weight, for good.
 curtain::Scene inSteadyWind(curtain::Scene scene);
 curtain::ObstacleParams ballAt(const curtain::Vec3& position, double radius = 0.3);
+/// A ball that moves into a curtain of 1 m for a second, and stays there.
+curtain::ObstacleParams ballThatComes();
 /// A ball that swings through a curtain of 0.6 m.
 curtain::ObstacleParams swingingBall();
 /// A ball, or a plate edge-on, through the middle of a curtain of 1 m at a speed [m/s].

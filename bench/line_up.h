@@ -17,6 +17,8 @@ namespace curtain_bench {
 /// The start of a scene as the simulator makes it. The scene must be open, of equal links, without wind and drags: that
 /// is what the rivals know. `damping` is theirs, ours have the scene's air.
 ClothStart clothStart(const curtain::Scene& scene, double damping = 0.0);
+/// The ball of a scene whose first obstacle is one; none, if it has no obstacle.
+Solid solidOf(const curtain::Scene& scene);
 
 /// The simulator itself, at the scene's own solver settings.
 std::unique_ptr<Contestant> makeOurs(const curtain::Scene& scene);

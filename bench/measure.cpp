@@ -13,7 +13,9 @@ double squaredDistance(const Points& a, std::size_t i, const Points& b, std::siz
   return dx * dx + dy * dy + dz * dz;
 }
 
-bool soundPositions(const Points& positions) {
+}  // namespace
+
+bool isSound(const Points& positions) {
   constexpr double kFar = 1e3;  // [m] no scene is larger; what is further off has blown up
   for (const auto* values : {&positions.x, &positions.y, &positions.z}) {
     for (const double value : *values) {
@@ -23,7 +25,18 @@ bool soundPositions(const Points& positions) {
   return true;
 }
 
-}  // namespace
+Inside insideOf(const ClothStart& start, double time, const Points& positions) {
+  Inside inside;
+  if (start.solid.shape != Solid::Shape::kBall) return inside;
+  const Solid::Place middle = start.solid.at(time);
+  Solid::Place normal{};
+  for (std::size_t n = 0; n < start.count(); ++n) {
+    const double depth = -start.solid.distance(middle, {positions.x[n], positions.y[n], positions.z[n]}, normal);
+    inside.nodes += depth > 0.0;
+    inside.deepest = std::max(inside.deepest, depth);
+  }
+  return inside;
+}
 
 double largestStretch(const ClothStart& start, const Points& positions) {
   double worst = 0.0;
@@ -101,7 +114,7 @@ Run run(const ClothStart& start, Contestant& contestant, int frames, double budg
     result.frames = frame;
     result.substeps += contestant.substeps();
     contestant.copyPositions(result.end);
-    result.sound = soundPositions(result.end);
+    result.sound = isSound(result.end);
     if (!result.sound) break;
     result.stretch = std::max(result.stretch, largestStretch(start, result.end));
     if (call) call(frame, contestant, result.end);

@@ -10,6 +10,16 @@
 
 namespace curtain_bench {
 
+/// No node is beyond numbers, or a kilometre off.
+bool isSound(const Points& positions);
+
+/// What of the cloth is in the scene's ball; without one, nothing.
+struct Inside {
+  int nodes = 0;
+  double deepest = 0.0;  ///< [m]
+};
+Inside insideOf(const ClothStart& start, double time, const Points& positions);
+
 /// Largest relative misfit of any link: of rods both ways, of weft links what they are too long.
 double largestStretch(const ClothStart& start, const Points& positions);
 
@@ -31,7 +41,7 @@ struct Run {
   double stretch = 0.0;       ///< largest at any frame's end
   int substeps = 0;           ///< of all frames
   int frames = 0;             ///< made; fewer than asked for when cut short
-  bool sound = true;          ///< no node beyond numbers or a kilometre off
+  bool sound = true;          ///< isSound() after every frame
   bool cut = false;           ///< it took longer than its budget
   Points end;
 };

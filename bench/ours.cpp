@@ -5,6 +5,7 @@
 
 #include "bench/line_up.h"
 #include "curtain_sim/simulator.h"
+#include "obstacles/pose_curve.h"
 
 namespace curtain_bench {
 namespace {
@@ -51,6 +52,21 @@ class Ours : public Contestant {
 };
 
 }  // namespace
+
+Solid solidOf(const curtain::Scene& scene) {
+  Solid solid;
+  solid.margin = scene.contact.thickness;
+  solid.friction = scene.contact.friction;
+  if (scene.obstacles.empty()) return solid;
+  const curtain::ObstacleParams& ball = scene.obstacles.front();
+  solid.shape = Solid::Shape::kBall;
+  solid.radius = ball.radius;
+  solid.at = [motion = curtain::ScriptedMotion(ball, ball.radius)](double time) {
+    const curtain::Vec3 place = motion.at(time).position;
+    return Solid::Place{place.x(), place.y(), place.z()};
+  };
+  return solid;
+}
 
 ClothStart clothStart(const curtain::Scene& scene, double damping) {
   const curtain::ClothParams& cloth = scene.cloth;

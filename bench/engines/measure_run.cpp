@@ -37,19 +37,6 @@ class MeanSquare {
   double sum_ = 0.0, links_ = 0.0;
 };
 
-void look(const ClothStart& start, double time, const Points& positions, Figures& figures) {
-  if (start.solid.shape != Solid::Shape::kBall) return;
-  const Solid::Place middle = start.solid.at(time);
-  Solid::Place normal{};
-  int inside = 0;
-  for (std::size_t n = 0; n < start.count(); ++n) {
-    const double depth = -start.solid.distance(middle, {positions.x[n], positions.y[n], positions.z[n]}, normal);
-    inside += depth > 0.0;
-    figures.deepest = std::max(figures.deepest, depth);
-  }
-  figures.nodes_inside = std::max(figures.nodes_inside, inside);
-}
-
 std::int64_t crossingsOf(const ClothStart& start, const Points& positions) {
   const curtain::Grid grid(start.rows, start.columns, false);
   curtain::Field3 field;
@@ -60,14 +47,6 @@ std::int64_t crossingsOf(const ClothStart& start, const Points& positions) {
       field.set(grid.index(i, j), {positions.x[n], positions.y[n], positions.z[n]});
   }
   return curtain::countSelfCrossings(grid, field);
-}
-
-bool sound(const Points& positions) {
-  constexpr double kFar = 1e3;  // [m], as bench/measure.cpp has it
-  for (const auto* values : {&positions.x, &positions.y, &positions.z}) {
-    if (!std::all_of(values->begin(), values->end(), [](double value) { return std::abs(value) < kFar; })) return false;
-  }
-  return true;
 }
 
 // Makes an engine's accelerations for its next frame. Velocities are means over the last one: at its end those of stiff
@@ -117,11 +96,13 @@ Figures figuresOf(const ClothStart& start, const curtain::Scene& scene, int fram
     if (blower != nullptr) blower->blow((frame - 1) * start.frame_seconds);
     ms.push_back(millisecondsOf(contestant));
     contestant.copyPositions(positions);
-    is_sound = sound(positions);
+    is_sound = isSound(positions);
     if (!is_sound) break;
     figures.stretch_max = std::max(figures.stretch_max, largestStretch(start, positions));
     square.add(start, positions);
-    look(start, frame * start.frame_seconds, positions, figures);
+    const Inside inside = insideOf(start, frame * start.frame_seconds, positions);
+    figures.nodes_inside = std::max(figures.nodes_inside, inside.nodes);
+    figures.deepest = std::max(figures.deepest, inside.deepest);
   }
   std::sort(ms.begin(), ms.end());
   figures.ms_median = median(ms);

@@ -4,40 +4,11 @@
 #include "bench/contact_scenes.h"
 #include "bench/engines/waves.h"
 #include "bench/line_up.h"
-#include "obstacles/pose_curve.h"
 
 namespace curtain_bench {
 namespace {
 
-using curtain::ObstacleParams;
 using curtain::Scene;
-
-// The ball of bench/study_contact_peers.cpp, which moves into the cloth for a second and stays there.
-ObstacleParams ballThatComes() {
-  ObstacleParams ball = ballAt({0.5, -0.5, 1.1});
-  curtain::PoseKey from, to;
-  from.pose = ball.pose;
-  to.time = 1.0;
-  to.pose.position = {0.5, -0.1, 1.1};
-  ball.motion = {from, to};
-  return ball;
-}
-
-// The ball of the scene, if it has one.
-Solid solidOf(const Scene& scene) {
-  Solid solid;
-  solid.margin = scene.contact.thickness;
-  solid.friction = scene.contact.friction;
-  if (scene.obstacles.empty()) return solid;
-  const ObstacleParams& ball = scene.obstacles.front();
-  solid.shape = Solid::Shape::kBall;
-  solid.radius = ball.radius;
-  solid.at = [motion = curtain::ScriptedMotion(ball, ball.radius)](double time) {
-    const curtain::Vec3 place = motion.at(time).position;
-    return Solid::Place{place.x(), place.y(), place.z()};
-  };
-  return solid;
-}
 
 // Of slow cloth, by bench/engines/air.h [1/s].
 double dampingOf(const Scene& scene) { return scene.air.density * scene.air.inside / scene.cloth.surface_density; }
