@@ -24,7 +24,7 @@ def engines(rows, stamps):
             'The same cloth, wind and ball in NvCloth 1.1.6 (6e86b18), Jolt 5.5.1 (3b47ec3) and Bullet 3.27 (6c888f4), built from their public '
             f'sources for this processor ({stamp["compiler"]}; -O3 -march=native, which this package itself is not built with), by the programs of [bench/engines](../../bench/engines/README.md); ours at commit {rows[0]["version"]}, one '
             f'thread, scene files with nothing set but what is named. One core of an {stamp["processor"]}, all engines in '
-            f'turns, the least of the medians of {stamp["repeats"]} {"pass" if stamp["repeats"] == "1" else "passes"}, 99 % in brackets; the largest relative misfit of a link '
+            f'turns, the least of the medians of {stamp["repeats"]} {"pass" if stamp["repeats"] == "1" else "passes"} ({spread(rows)}), 99 % in brackets; the largest relative misfit of a link '
             '(of the weft: overlength) and its RMS, nodes nearer to the ball\'s centre than its '
             'radius at any frame\'s end, edges that cross triangles at the end, by brute force. The table shows, for each '
             'engine with and without self-contact, its fastest setting and then each slower one that at least halves the misfit; [engines.csv](engines.csv) has all.\n',
@@ -41,6 +41,13 @@ def engines(rows, stamps):
             markdown(['scene', 'engine', 'setting', 'frame', 'misfit', 'RMS', 'in the ball', 'crossings'], body)]
 
 
+def spread(rows):
+    """By how much the medians of a setting's passes differ."""
+    ratios = sorted(value(row, 'ms_median_most') / value(row, 'ms_median') for row in rows)
+    return 'the greatest is %s times as large at most, and %s times in nine of ten settings' % (
+        figure(ratios[-1]), figure(ratios[9 * len(ratios) // 10]))
+
+
 def nearest(rows):
     """Of each scene, with and without self-contact, how near the other engines come to our default."""
     body = []
@@ -51,7 +58,7 @@ def nearest(rows):
         for way in ways:
             fits = [row for row in of_scene
                     if len(ways) == 1 or ('without self-contact' in row['setting'] or row['engine'] == 'Jolt') == way]
-            ours = next(row for row in fits if row['engine'] == 'curtain_sim' and row['setting'].startswith('default'))
+            ours = next(row for row in fits if row['engine'] == 'curtain_sim' and row['setting'] in ('default', 'default; without self-contact; five waves'))
             ms, misfit = value(ours, 'ms_median'), value(ours, 'stretch_max')
             for engine in values(fits, 'engine'):
                 if engine == 'curtain_sim':

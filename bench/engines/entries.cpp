@@ -32,6 +32,7 @@ void addOurs(Entries& entries, const EngineScene& scene, const std::string& comm
     alone.contact.self = false;
     return makeOurs(alone, scene.waves);
   });
+  add("default; five waves", [&scene] { return makeOurs(scene.scene, scene.waves); });
 }
 
 #ifdef CURTAIN_ENGINES_NVCLOTH
