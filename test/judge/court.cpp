@@ -330,7 +330,7 @@ class Court {
   std::vector<bool> took_;      // by hand
   std::vector<Vec3> taken_at_;  // the same [m]
   double forced_until_ = -1.0;  // [s]
-  double seconds_ = 0.0, slowest_ = 0.0;
+  double seconds_ = 0.0, slowest_ = 0.0;  // of the processor, for all frames and for the slowest [s]
   TrialVerdict verdict_;
 };
 
