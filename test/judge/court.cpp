@@ -211,20 +211,27 @@ class Court {
     return found.nodes + found.edges + found.faces == 0;
   }
 
-  // A pin is so near, here or on the way here, that what hangs on it may have no room.
+  bool pinsStand() const {
+    return carriers_.empty() && drawn_.happenings.pin_swing.isZero() && drawn_.happenings.pin_jerk.isZero();
+  }
+
+  // A pin is so near, here or on the way here, that what hangs on it may have no room. Where both stand there is the
+  // room that there was at the start.
   bool reachesPins(int obstacle) const {
     const Pose &from = places_[static_cast<std::size_t>(obstacle)], &to = simulator_.obstaclePose(obstacle);
     const ClothParams& cloth = drawn_.scene.cloth;
-    const double link = 2.0 * (cloth.height / (cloth.rows - 1) + cloth.width / (cloth.columns - 1)) +
-                        2.0 * drawn_.scene.contact.thickness;
+    const double gap = 2.0 * drawn_.scene.contact.thickness;
+    const double links = 2.0 * (cloth.height / (cloth.rows - 1) + cloth.width / (cloth.columns - 1));
     const double way = (to.position - from.position).norm();
-    const int looks = static_cast<int>(std::clamp(way / link, 1.0, 1000.0));
+    const bool stands = way == 0.0 && to.orientation.coeffs() == from.orientation.coeffs();
+    const double near = stands && pinsStand() ? gap : links + gap;
+    const int looks = static_cast<int>(std::clamp(way / near, 1.0, 1000.0));
     for (int look = 1; look <= looks; ++look) {
       const double share = static_cast<double>(look) / looks;
       if (isNearPins(
               obstacle,
               {from.position + share * (to.position - from.position), from.orientation.slerp(share, to.orientation)},
-              link))
+              near))
         return true;
     }
     return false;
@@ -327,9 +334,9 @@ class Court {
   bool happened_ = false;
   bool pulls_known_ = true;
   int every_ = 1;
-  std::vector<bool> took_;      // by hand
-  std::vector<Vec3> taken_at_;  // the same [m]
-  double forced_until_ = -1.0;  // [s]
+  std::vector<bool> took_;                // by hand
+  std::vector<Vec3> taken_at_;            // the same [m]
+  double forced_until_ = -1.0;            // [s]
   double seconds_ = 0.0, slowest_ = 0.0;  // of the processor, for all frames and for the slowest [s]
   TrialVerdict verdict_;
 };
