@@ -44,8 +44,8 @@ def engines(rows, stamps):
 def spread(rows):
     """By how much the medians of a setting's passes differ."""
     ratios = sorted(value(row, 'ms_median_most') / value(row, 'ms_median') for row in rows)
-    return 'the greatest is %s times as large at most, and %s times in nine of ten settings' % (
-        figure(ratios[-1]), figure(ratios[9 * len(ratios) // 10]))
+    return 'the greatest is %.0f %% larger at most, in nine of ten settings %.0f %%' % (
+        100.0 * (ratios[-1] - 1.0), 100.0 * (ratios[9 * len(ratios) // 10] - 1.0))
 
 
 def nearest(rows):
