@@ -11,6 +11,7 @@
 #include "clear_caches.h"
 #include "curtain_sim/simulator.h"
 #include "drawn/scene_maker.h"
+#include "judge/held_crossings.h"
 #include "testing.h"
 
 namespace curtain_test {
@@ -79,7 +80,7 @@ class Court {
       judged_.push_back(clear(o));
       places_.push_back(simulator_.obstaclePose(o));
     }
-    crossed_at_start_ = drawn.scene.contact.self && simulator_.selfCrossings() > 0;
+    crossings_judged_ = drawn.scene.contact.self && simulator_.selfCrossings() == 0;
   }
 
   /// Once more: interrupted by a snapshot in the middle, and with caches cleared at random.
@@ -286,6 +287,17 @@ class Court {
                     std::max(s.warp_stretch, s.warp_compression));
   }
 
+  // Cloth that is crossed stays so: from then on it is not judged.
+  void lookAtCrossings() {
+    if (!drawn_.scene.contact.self) return;
+    ++verdict_.crossings;
+    if (crossings_judged_ && simulator_.selfCrossings() > 0) {
+      crossings_judged_ = !heldPartsCross(simulator_);
+      if (crossings_judged_) verdict_.fault("crosses itself");
+    }
+    if (!crossings_judged_) ++verdict_.crossings_excused;
+  }
+
   void look() {
     const Statistics& s = simulator_.statistics();
     watch_.look(simulator_, verdict_);
@@ -309,8 +321,7 @@ class Court {
     }
     if (!rigour_.brute_force || s.frames % every_ != 0) return;
     ++verdict_.brute_forced;
-    if (drawn_.scene.contact.self && !crossed_at_start_ && simulator_.selfCrossings() > 0)
-      verdict_.fault("crosses itself");
+    lookAtCrossings();
     for (int o = 0; o < simulator_.obstacleCount(); ++o) {
       if (judged_[static_cast<std::size_t>(o)] && !clear(o))
         verdict_.fault("pierced by " + drawn_.scene.obstacles[static_cast<std::size_t>(o)].name);
@@ -330,7 +341,7 @@ class Court {
   const bool paper_;
   double shortest_rod_ = std::numeric_limits<double>::infinity();  // [m]
   Watch watch_;
-  bool crossed_at_start_ = false;
+  bool crossings_judged_ = false;  // the cloth started clear of itself, and no held parts of it have met
   bool happened_ = false;
   bool pulls_known_ = true;
   int every_ = 1;

@@ -11,8 +11,10 @@ namespace curtain_test {
 struct TrialVerdict : Verdict {
   double energy_finer = 0.0;  ///< gained in finer steps, where it was looked at
   // What was judged, of the frames.
-  std::int64_t brute_forced = 0;   ///< looked at by brute force
-  std::int64_t links_excused = 0;  ///< hands that do not give may have pulled links apart
+  std::int64_t brute_forced = 0;  ///< looked at by brute force
+  std::int64_t crossings = 0,
+               crossings_excused = 0;  ///< of them, with self-contact; not judged: Court::crossings_judged_
+  std::int64_t links_excused = 0;      ///< hands that do not give may have pulled links apart
   std::int64_t energy_judged = 0;
   std::int64_t obstacles = 0, obstacles_excused = 0;  ///< over all obstacles: of them not judged, as Court::judged_
   std::uint64_t hash = 0;                             ///< of where it ends

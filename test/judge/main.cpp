@@ -112,7 +112,8 @@ class Session {
     csv_.open(options.csv);
     csv_ << "kind,seed,method,parts,rows,columns,frames,substeps,rejected,sweeps,last_resort,stops,momentum_cut,max_"
             "solves,"
-            "stretch,energy_gain,energy_finer,brute_forced,links_excused,energy_judged,obstacles,obstacles_excused,"
+            "stretch,energy_gain,energy_finer,brute_forced,crossings,crossings_excused,links_excused,energy_judged,"
+            "obstacles,obstacles_excused,"
             "seconds,slowest_frame_s,holds\n";
   }
 
@@ -157,8 +158,9 @@ class Session {
          << partsOf(drawn) << ',' << drawn.scene.cloth.rows << ',' << columnsOf(drawn.scene) << ',' << v.frames << ','
          << v.substeps << ',' << v.rejected << ',' << v.sweeps << ',' << v.last_resort << ',' << v.stops << ','
          << v.momentum_cut << ',' << v.max_solves << ',' << v.stretch << ',' << v.energy_gain << ',' << v.energy_finer
-         << ',' << v.brute_forced << ',' << v.links_excused << ',' << v.energy_judged << ',' << v.obstacles << ','
-         << v.obstacles_excused << ',' << v.seconds << ',' << v.slowest << ',' << v.holds() << '\n';
+         << ',' << v.brute_forced << ',' << v.crossings << ',' << v.crossings_excused << ',' << v.links_excused << ','
+         << v.energy_judged << ',' << v.obstacles << ',' << v.obstacles_excused << ',' << v.seconds << ',' << v.slowest
+         << ',' << v.holds() << '\n';
     csv_.flush();
   }
 
