@@ -64,6 +64,7 @@ def page(rows, stamp):
         lower = edge
     # What the verdict is of.
     line("frames looked at by brute force", lambda some: share(total(some, "brute_forced"), total(some, "frames")))
+    line("of these, with self-contact, whose crossings are excused", lambda some: share(total(some, "crossings_excused"), total(some, "crossings")))
     line("frames of the others in which a hand may have pulled links apart", lambda some: share(total(exact(some), "links_excused"), total(exact(some), "frames")))
     line("obstacles excused, of all frames of all", lambda some: share(total(some, "obstacles_excused"), total(some, "obstacles")))
     line("frames of the others whose energy is judged", lambda some: "none" if some[0]["kind"] == "wild" else
