@@ -5,8 +5,9 @@ import math
 from page_text import figure, markdown, value, values, where
 
 
-def engines(rows, stamps):
+def engines(folder):
     """Of each engine's settings, from the fastest on, those that halve the overlength."""
+    rows, stamps = folder.table('engines'), folder.table('stamps')
     body = []
     for scene in values(rows, 'scene'):
         for engine, alone in ((engine, alone) for engine in values(rows, 'engine') for alone in (False, True)):
