@@ -287,7 +287,7 @@ FIGURES = {
     ],
     "docs/layers.md": [
         ("cost {} of what they cost alone", [ratio("layers: each by itself", 2, "active")]),
-        ("with `contact.self` {} times as much, while one cloth that is flat costs {}:", [ratio("layers: self-contact", 1), ratio("self-contact", 2)]),
+        ("with `contact.self` they cost {} times as much as without, and one flat cloth {} times as much:", [ratio("layers: self-contact", 1), ratio("self-contact", 2)]),
     ],
     "docs/method.md": [
         ("No misses on {} public queries with exact answers, {} and {} ns a query",
@@ -310,7 +310,7 @@ FIGURES = {
         ("r = 0.1 to 1 | off by {} at most |", [most("strip in relative air, angle off by")]),
         ("| mm | {} | {} | {} |", ["%.0f" % kept("flag at %d m/s, RMS of its end [mm]" % speed)[0] for speed in (2, 4, 8)]),
         ("| Hz | {} | {} | {} |", [told_by("flag at %d m/s, frequency [Hz]" % speed) for speed in (2, 4, 8)]),
-        ("hangs within {} um, its pull {} to {} of its weight;",
+        ("then moves by {} um at most, and its pull is {} to {} of its weight;",
          [most("heavy load on a line, moves by [um]")] + share("heavy load on a line, pull over its weight")),
         ("pull of a hanging load within {} of its weight; the air's force on a parachute that glides within {} of the weight",
          [most("load on a line, pull off by"), most("parachute, force of the air off by")]),

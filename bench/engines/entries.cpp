@@ -126,10 +126,11 @@ void addNvClothAndItself(Entries& entries, const EngineScene& scene) {
       settings.frequency = frequency;
       add(entries, scene, settings);
     }
-    if (!coarse) continue;
-    settings.frequency = 9600;
     settings.even_odd = true;
-    add(entries, scene, settings);
+    for (const int frequency : {9600, 19200}) {
+      settings.frequency = frequency;
+      add(entries, scene, settings);
+    }
   }
 }
 
@@ -145,9 +146,7 @@ void addJolt(Entries& entries, const EngineScene& scene) {
   std::vector<JoltSettings> all;
   for (const bool long_range : {true, false}) {
     for (const int iterations : {2, 5, 10, 20, 40, 80, 160}) all.push_back({long_range, 1, iterations});
-    for (const int steps : {4, 8}) {
-      if (scene.flat.columns <= 40 && (steps == 4 || !scene.touches_itself)) all.push_back({long_range, steps, 40});
-    }
+    for (const int steps : {4, 8}) all.push_back({long_range, steps, 40});
   }
   for (const JoltSettings& settings : all) {
     EngineEntry entry;
@@ -199,9 +198,9 @@ void addBullet(Entries& entries, const EngineScene& scene) {
     add(entries, scene, BulletWorldSettings{4, iterations, false, coarse ? 64 : 1000});
     if (coarse) add(entries, scene, BulletWorldSettings{4, iterations, false, 0});
   }
-  if (!coarse) return;
-  add(entries, scene, BulletWorldSettings{4, 16, false, 256});
-  add(entries, scene, BulletWorldSettings{16, 16, false, 64});
+  add(entries, scene, BulletWorldSettings{16, 16, false, coarse ? 64 : 1000});
+  add(entries, scene, BulletWorldSettings{64, 4, false, coarse ? 64 : 1000});
+  if (coarse) add(entries, scene, BulletWorldSettings{4, 16, false, 256});
 }
 #else
 void addBullet(Entries&, const EngineScene&) {}

@@ -2,10 +2,10 @@
 //
 // The obstacles of a scene and their poses: at the start and the end of the frame, and on a curve in between.
 //
-// Where an obstacle moves in a substep is worked out for those alone that somebody asks for (moving()). Whether it may
-// be near is decided by a box around its whole motion in the frame, at first around the ball that it can turn in: a
-// robot out of reach costs such a box a moving link and frame, and none where it stands still. What is near is looked
-// for in a box somewhat larger than asked for, and again when the cloth leaves that.
+// The motion in a substep is computed only for obstacles that are asked for (moving()). An obstacle can be near only if
+// the box around its whole motion in the frame is; the first test uses the ball that contains it in any orientation. So
+// a robot out of reach costs one such box for each moving link in a frame, and nothing while it stands still. The
+// search for near obstacles uses a box somewhat larger than asked for, and is repeated when the cloth leaves that box.
 #pragma once
 
 #include <cstdint>
@@ -21,10 +21,10 @@ namespace curtain {
 
 class Archive;
 
-/// What fell behind its target, because a frame ended early or the cloth could not give way, follows no faster than
-/// this many times the fastest that its target has moved since. Much faster than it ever was it would be a blow to the
-/// cloth, and substeps would have to be so much shorter that a frame gets it no further. With 1 it would never catch up
-/// with a target that moves evenly.
+/// An obstacle or pin can fall behind its target, because a frame ended early or the cloth could not give way. It then
+/// follows at no more than this factor times the highest speed of the target since. If it were much faster, it would
+/// hit the cloth like a blow, and substeps would have to be so short that it gets no further in a frame. With 1 it
+/// would never catch up with a target that moves evenly.
 constexpr double kCatchUp = 1.5;
 
 /// A rigid transform as a matrix, for many points.

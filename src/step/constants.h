@@ -140,10 +140,10 @@ constexpr double kMassScalingShare = 0.02;
 // h * omega at which mass scaling sets in, below leapfrog's limit of 2. At 1.7 a swing in two fixed substeps
 // gains 2.5e-2 of its energy in 20 s.
 constexpr double kStablePhase = 1.9;
-// Share of both with ends beside the cloth (Grid::end_rows). A load there keeps its lines as taut as its weight, so
-// that transverse oscillations reach the bound, and they are steep in energy: where it has to be bounded, velocities
-// are lost, and what is left to a substep, x' = (1 - (h omega)^2) x, is stable below sqrt(2) only. With 1 a load of 25
-// times the cloth's mass shook.
+// Factor on kPhasePerStep, kStablePhase and kLongestPhase for cloth with lines or tie-backs (Grid::end_rows). A load
+// keeps its lines as taut as its weight, so that transverse oscillations reach the bound of h * omega. Where the energy
+// has to be bounded, a substep loses its velocities; what is left, x' = (1 - (h omega)^2) x, is stable only for
+// h * omega below sqrt(2). With 1 a load of 25 times the cloth's mass shook.
 constexpr double kShareWithEnds = 0.73;
 // h * turning rate that substeps are chosen for where only rods act and the motion is smooth. Leapfrog's error is about
 // (h * turning)^2 / 24 of the displacement: 1 mm in 5 m at 0.07. Chains of 2 m then end a second's fall with 0.2 to 0.9

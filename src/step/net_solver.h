@@ -60,11 +60,10 @@ class NetSolver {
   };
   /// violation  C = (|r|^2 - l^2) / 2 [m^2] (or its rate) of the links; shape of the grid, stored at the right node
   /// active     1 for the links that take part, 0 for the others; with Aim::multiplier, at the start
-  /// rows       the further rows; their changes are set. Rows that are not active may join with Aim::multiplier, if
-  /// none
-  ///            of the rows has a least damping: such rows are damped too much to find the active set
+  /// rows       the further rows; their changes are set. With Aim::multiplier, rows that are not active may join if no
+  ///            row has a least damping: such rows are damped too much to find the active set
   /// change     out: change of the strings' multipliers [kg] (or its rate) that removes the violations while the rods
-  /// keep theirs
+  ///            keep theirs
   Outcome solve(const Field& violation, const Field& active, Rows& rows, const Aim& aim, Field& change) noexcept;
 
   /// The change of the rods' multipliers [kg] that keeps their lengths under these changes of strings, the last

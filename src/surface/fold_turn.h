@@ -2,11 +2,10 @@
 //
 // The least turn of a fold about its chord that is accepted. Angles count towards the next row of the cloth, "down".
 //
-//       bow of a fold that must not        Down is preferred until it is kPreference times as far as up. Cloth lies on
-//       an point into the obstacle            obstacle with its normal along the obstacle's, so a fold that bows into
-//       it
-//                                          mostly needs the same turn either way, and the shorter one would change with
-//      up <--- o ---> down                 every tremble. With the preference the change is where cloth rarely is.
+//   bow of a fold that must not        Down is preferred until it is kPreference times as far as up. Cloth lies on an
+//   point into the obstacle            obstacle with its normal along the obstacle's, so a fold that bows into it
+//                                      mostly needs the same turn either way, and the shorter one would change with
+//      up <--- o ---> down             every tremble. With the preference the change is where cloth rarely is.
 //              | bow
 //      ========v========= obstacle
 #pragma once

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Finger pads: obstacles that press cloth against each other by a given force (ObstacleParams::press). Where a node
-// lies between two of them, their two contacts become one, which is two-sided (solver/contacts.h).
+// lies between two of them, their two contacts become one, which is two-sided (step/contacts.h).
 #pragma once
 
 #include <vector>

@@ -2,9 +2,9 @@
 //
 // Bending in a substep: a force that is added to the others before the links are solved for.
 //
-// It is taken as implicitly as stability asks, and no more. A step of `scale` = h * kick bears a stiffness of
-// limit * m / scale at a node of mass m, of which the links' tensions take their part (Gershgorin, as in
-// NodeInertia). Where the line is stiffer its nodes give way (bending_lines.h) until it is not:
+// It is only as implicit as stability requires. A step of `scale` = h * kick tolerates a stiffness of
+// limit * m / scale at a node of mass m. The links' tensions use a part of that (Gershgorin, as in NodeInertia), and E
+// is the rest. Where the line is stiffer than E, its nodes give way (bending_lines.h) just enough:
 //     D = 1 / E - 1 / bound of K,   A = (K^-1 + D)^-1 <= E.
 // With D = scale / (4 m) that is the implicit-explicit variational integrator of Stern, Grinspun 2009: midpoint
 // bending, explicit everything else. A is symmetric, so the force has a potential (but for what taut weft links are

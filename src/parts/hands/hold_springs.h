@@ -5,10 +5,10 @@
 // u being the target's velocity. As the spring of a drag (drag_force.h) it is implicit: target and x are those at the
 // end of the substep, x + h v', so that no stiffness is too large for it.
 //
-// All of a hand's springs together pull with 2 mu N at most, Coulomb's limit for cloth between two pads. Beyond it they
-// are softer ones, by a common share, and their places slide after the nodes until they pull with just that: a spring
-// and a slider in series (Prandtl 1928; Cundall, Strack 1979). Stuck cloth does not creep, sliding cloth is pulled at
-// by the limit whatever hangs on it.
+// All of a hand's springs together pull with 2 mu N at most, Coulomb's limit for cloth between two pads. Where they
+// would pull harder, all are softened by a common factor, and their targets slide after the nodes until the pull is
+// that limit: spring and slider in series (Prandtl 1928; Cundall, Strack 1979). Stuck cloth does not creep; sliding
+// cloth is pulled with the limit force, whatever hangs on it.
 #pragma once
 
 #include <vector>

@@ -5,8 +5,9 @@
 // s is that of node and carrier, on arcs too. A force f moves it by w (f . tangent): its inverse inertia is the matrix
 // w tangent tangent^T (GuidedNodes).
 //
-// What a loop over nodes moved it by counts along the tangent only, as a change of the wished place, where a carrier
-// would be without the rail's forces, and RailLaw says where it is. So it is on the rail whatever happens.
+// Each carrier has a wished place: where it would be without the rail's forces. When a loop over all nodes has moved
+// the carrier's node, the part of that move along the tangent is added to the wished place, and RailLaw finds the place
+// from it. So a carrier is on the rail whatever happens.
 //
 // Once asked, the drive draws the masters to their places and keeps them there, with its force at most, until it lets
 // go. In a substep they move towards their goals by its speed at most.

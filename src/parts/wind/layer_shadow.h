@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What cloths leave of a source's wind to each other: WindParams::shadow. Of what presses on a cloth its pores take a
-// share away, c_mu mu of Cheng 2000, Eq. (3); that share goes on, along the line from the node's place on the disc
-// (WindSource::origin()). A node's wind is the product of these shares over all sheets of other cloths that its line
-// crosses: none behind a dense one, all of it beside. Sheets that reach through the disc's plane may be missed there.
+// The shadow that cloths cast on each other in the wind of a source (WindParams::shadow). The pores of a cloth let the
+// share c_mu mu of the pressure through (Cheng 2000, Eq. (3)); that share continues along the line from the node's
+// place on the disc (WindSource::origin()). The share of the wind that reaches a node is the product over all sheets of
+// other cloths that its line crosses: none behind a dense one, all of it beside. Sheets that reach through the disc's
+// plane may be missed there.
 //
 //     disc |        | sheer    | blackout
 //        B *--------|----------|--- C        mu_sheer mu_blackout of the wind, with c_mu = 1

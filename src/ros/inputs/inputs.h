@@ -35,7 +35,6 @@ class Inputs {
   void countAccepted() { ++accepted_; }
   void refuse(const std::string& message, const std::vector<curtain::Problem>& problems);
 
-  /// Applies what arrived, in order, and removes sources whose lifetime is over. Simulation thread.
   /// Applies what arrived, in order, moves winds with their frames, and removes sources whose lifetime is over.
   /// Simulation thread.
   void apply(curtain::Simulator& simulator);
