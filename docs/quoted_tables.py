@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reads figures from the tables of the book: docs/bench/*.csv, docs/stress and docs/figures.csv, as the pages tell them."""
 import csv
+import gzip
 import math
 import os
 import re
@@ -231,6 +232,12 @@ def told(name):
     if not found:
         sys.exit("docs/stress/random.md has no row '%s'" % name)
     return [cell.replace(" %", "") for cell in found[1].split(" | ")]
+
+
+def pulled_apart():
+    """The worst link of all random scenes, over its length."""
+    with gzip.open(os.path.join(ROOT, "docs/stress/random.csv.gz"), "rt", encoding="utf-8") as text:
+        return short(max(float(row["stretch"]) for row in csv.DictReader(text) if row["method"] != "paper"))
 
 
 def kept(figure):
