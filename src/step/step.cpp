@@ -147,15 +147,17 @@ Step::Progress Step::solveAndVerify(const Attempt& attempt) noexcept {
       known = contacts->size();
       if (known > 0 && task.path == 0.0) task.path = plan.h * std::sqrt(meanSquare(attempt.state.velocity));
     }
-    const SweepOutcome solved = sweeps_.run(task, attempt.clock);
+    SweepOutcome solved = sweeps_.run(task, attempt.clock);
     all.sweeps += solved.sweeps;
     all.end = solved.end;
     all.predicted_violation = std::max(all.predicted_violation, solved.predicted_violation);
     all.settled = solved.within;
     all.late = all.late || (solved.end == SweepEnd::kOutOfTime && !solved.within);
     if (contacts == nullptr) return all;
-    if (free_ && !last_resort && attempt.start.keep == nullptr && !pressesOnObstacle(*contacts))
+    if (free_ && !last_resort && attempt.start.keep == nullptr && !pressesOnObstacle(*contacts)) {
       keepMomentum(attempt.start);
+      all.settled = solved.within = solved.within && sweeps_.linksHold();
+    }
     if (!solved.within && (!last_resort || all.late || solved.end == SweepEnd::kDiverged)) return all;
     const ContactFinder::Verdict verdict = finder->verify(from, next, solved.within);
     attempt.clock.lap(Stage::kContact);
@@ -294,7 +296,8 @@ void Step::keepMomentum(const SubstepStart& start) noexcept {
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     if (pattern_.mass[n] > 0.0) next.set(n, carry(next.at(n)));
   }
-  // A rotation by a small angle leaves an error of second order; this correction changes lengths by fourth order.
+  // A rotation by a small angle leaves an error of second order. This correction is no rotation: where links turn far in
+  // the substep it changes their lengths, so it has to be judged with them.
   const RigidMotion rest = rigidMotion(pattern_, from, missing());
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     if (pattern_.mass[n] > 0.0) next.add(n, start.h * rest.at(from.at(n)));

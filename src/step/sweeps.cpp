@@ -85,10 +85,13 @@ bool Sweeps::keepOrUndo(double& residual, const Residual& now, SweepDamping& dam
   return true;
 }
 
-bool Sweeps::isWithin(bool recovers) noexcept {
+bool Sweeps::linksHold() noexcept {
   const double allowed = tolerance_ / kInnerTolerance;
-  return constraints_.contacts().residual(constraints_.next, recovers, max_touch_) <= max_touch_ &&
-         constraints_.rodsResidual() <= allowed && constraints_.checkStrings(true) <= (1.0 - kMaxGive) * allowed;
+  return constraints_.rodsResidual() <= allowed && constraints_.checkStrings(true) <= (1.0 - kMaxGive) * allowed;
+}
+
+bool Sweeps::isWithin(bool recovers) noexcept {
+  return constraints_.contacts().residual(constraints_.next, recovers, max_touch_) <= max_touch_ && linksHold();
 }
 
 SweepOutcome Sweeps::run(const SweepTask& task, StageClock& clock) noexcept {

@@ -84,6 +84,8 @@ class Sweeps {
 
   /// Moves constraints.next to satisfy links and contacts.
   SweepOutcome run(const SweepTask& task, StageClock& clock) noexcept;
+  /// Whether links are within the user's tolerance in constraints.next.
+  bool linksHold() noexcept;
 
  private:
   // What one sweep aims at, and what it does not correct.
