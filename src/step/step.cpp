@@ -296,8 +296,8 @@ void Step::keepMomentum(const SubstepStart& start) noexcept {
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     if (pattern_.mass[n] > 0.0) next.set(n, carry(next.at(n)));
   }
-  // A rotation by a small angle leaves an error of second order. This correction is no rotation: where links turn far in
-  // the substep it changes their lengths, so it has to be judged with them.
+  // A rotation by a small angle leaves an error of second order. This correction is no rotation: where links turn far
+  // in the substep it changes their lengths, so it has to be judged with them.
   const RigidMotion rest = rigidMotion(pattern_, from, missing());
   for (std::size_t n = 0; n < pattern_.grid.size(); ++n) {
     if (pattern_.mass[n] > 0.0) next.add(n, start.h * rest.at(from.at(n)));
