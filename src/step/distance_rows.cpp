@@ -189,16 +189,25 @@ double DistanceRows::work(const Field3& before, const Field3& after, double per_
   return sum;
 }
 
-double DistanceRows::elasticWork(const SubstepStart& start, const Field3& next) const noexcept {
+template <typename Wanted>
+double DistanceRows::workOf(const Wanted& wanted, const SubstepStart& start, const Field3& next) const noexcept {
   const Field3 &from = start.state.position, &before = start.state.velocity;
   double sum = 0.0;
   for (const DistanceRow& row : all_) {
-    if (!(row.compliance > 0.0)) continue;
+    if (!wanted(row)) continue;
     const Vec3 moved = next.at(row.node) - from.at(row.node) - next.at(row.other) + from.at(row.other);
     const Vec3 apart = before.at(row.node) - before.at(row.other) + moved / start.h;
     sum += 0.5 * row.multiplier / start.h * row.direction.dot(apart);
   }
   return sum;
+}
+
+double DistanceRows::elasticWork(const SubstepStart& start, const Field3& next) const noexcept {
+  return workOf([](const DistanceRow& row) { return row.compliance > 0.0; }, start, next);
+}
+
+double DistanceRows::drivenWork(const SubstepStart& start, const Field3& next) const noexcept {
+  return workOf([](const DistanceRow& row) { return row.rate != 0.0; }, start, next);
 }
 
 double DistanceRows::stretch(const Field3& position) const noexcept {

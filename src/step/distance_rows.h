@@ -40,6 +40,8 @@ class DistanceRows final : public RowMaker {
   void restoreIterate() noexcept override;
   /// Work of the rows that give in a substep to `next` [J], by their present multipliers.
   double elasticWork(const SubstepStart& start, const Field3& next) const noexcept;
+  /// The same of the rows whose length a part drives.
+  double drivenWork(const SubstepStart& start, const Field3& next) const noexcept;
   /// The largest rate at which parts drive a length [m/s]; 0: none does.
   double speed() const noexcept;
 
@@ -86,6 +88,8 @@ class DistanceRows final : public RowMaker {
   double unitOf(const DistanceRow& row) const noexcept;
   double givesPerMultiplier(const DistanceRow& row, double distance) const noexcept;
   void move(const DistanceRow& row, double multiplier, const Field& inverse, Field3& value) const noexcept;
+  template <typename Wanted>
+  double workOf(const Wanted& wanted, const SubstepStart& start, const Field3& next) const noexcept;
   Vec3 sumAt(std::size_t node, double DistanceRow::*multiplier) const noexcept;
 
   const ClothPattern& pattern_;

@@ -46,8 +46,8 @@ class EnergyAccount {
   /// What puts energy in beside forces and pins.
   struct Drive {
     double moving = 0.0;  ///< fastest that obstacles and parts move points [m/s]
-    double pushed = 0.0;  ///< the same, or that points come out of what they are too deep in [m/s]
-    double put_in = 0.0;  ///< twice what guides and rows that give did [J]
+    double pushed = 0.0;  ///< fastest obstacle that is touched, or point that is pushed out of one [m/s]
+    double put_in = 0.0;  ///< twice what guides did, and rows that give or whose length a part drives [J]
   };
   struct Entry {
     double most = std::numeric_limits<double>::infinity();  ///< to bound the velocities by; infinite: no need

@@ -185,10 +185,10 @@ bool Step::needsEnergyCheck(const Attempt& attempt, const Progress& progress) co
 void Step::judge(const Attempt& attempt, Progress& progress, SubstepOutcome& outcome) noexcept {
   const bool last_resort = attempt.plan.isLastResort();
   const bool touches = anyPushes(contacts());
-  const double parts = constraints_.distances().speed();
-  const EnergyAccount::Drive drive{std::max(parts, fastestSurface(contacts())),
-                                   std::max(parts, fastestDrive(contacts(), attempt.plan.h)),
-                                   2.0 * constraints_.distances().elasticWork(attempt.start, constraints_.next) +
+  const EnergyAccount::Drive drive{std::max(constraints_.distances().speed(), fastestSurface(contacts())),
+                                   fastestDrive(contacts(), attempt.plan.h),
+                                   2.0 * (constraints_.distances().elasticWork(attempt.start, constraints_.next) +
+                                          constraints_.distances().drivenWork(attempt.start, constraints_.next)) +
                                        (constraints_.guide() != nullptr ? constraints_.guide()->energy() : 0.0)};
   // What moving pins and obstacles put into jammed cloth by its contacts is more than the account knows of.
   const bool driven = touches && (last_resort_.pinsMove() || drive.moving > 0.0);
