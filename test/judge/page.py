@@ -59,14 +59,14 @@ def page(rows, stamp):
     # Links are what the exact methods promise.
     exact = lambda some: [row for row in some if row["method"] != "paper"]
     line("of the paper's method", lambda some: str(len(some) - len(exact(some))))
-    alone = lambda some: [row for row in exact(some) if row["links_excused"] == "0"]
-    line("worst link of the other scenes in which no hand may have pulled links apart", lambda some: f"{most(alone(some), 'stretch'):.2e}")
+    alone = lambda some: [row for row in exact(some) if row["links_excused"] == "0" and row["holds"] == "1"]
+    line("worst link of the other scenes that hold and in which no hand may have pulled links apart", lambda some: f"{most(alone(some), 'stretch'):.2e}")
     lower = 0.0
     for edge in EDGES:
         line(f"worst link of the scene in ({lower:g}, {edge:g}]",
              lambda some, a=lower, b=edge: str(sum(a < number(row, "stretch") <= b or (a == 0.0 and number(row, "stretch") <= b) for row in exact(some))))
         lower = edge
-    line("worst link of the scene beyond that, where a hand may have pulled links apart", lambda some: str(sum(number(row, "stretch") > EDGES[-1] for row in exact(some))))
+    line("worst link of the scene beyond that, where a hand may have pulled links apart", lambda some: str(sum(number(row, "stretch") > EDGES[-1] and row["holds"] == "1" for row in exact(some))))
     # What the verdict is of.
     line("frames looked at by brute force", lambda some: share(total(some, "brute_forced"), total(some, "frames")))
     line("of these, with self-contact, whose crossings are excused", lambda some: share(total(some, "crossings_excused"), total(some, "crossings")))
