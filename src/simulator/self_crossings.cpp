@@ -4,9 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <vector>
-
-#include "cloth/coarse_mesh.h"
 
 namespace curtain {
 namespace {
@@ -31,7 +28,7 @@ bool pierces(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const V
 
 }  // namespace
 
-std::int64_t countSelfCrossings(const Grid& grid, const Field3& position) {
+std::vector<SelfCrossing> findSelfCrossings(const Grid& grid, const Field3& position) {
   const CoarseMesh mesh = makeCoarseMesh(grid);
   struct BoxedEdge {
     Eigen::AlignedBox3d box;
@@ -48,7 +45,7 @@ std::int64_t countSelfCrossings(const Grid& grid, const Field3& position) {
   std::sort(edges.begin(), edges.end(),
             [](const BoxedEdge& a, const BoxedEdge& b) { return a.box.min().x() < b.box.min().x(); });
   const auto beginsBefore = [](const BoxedEdge& edge, double x) { return edge.box.min().x() < x; };
-  std::int64_t crossings = 0;
+  std::vector<SelfCrossing> crossings;
   for (const MeshTriangle& triangle : mesh.triangles) {
     const Vec3 a = position.at(triangle[0]), b = position.at(triangle[1]), c = position.at(triangle[2]);
     Eigen::AlignedBox3d box(a);
@@ -59,7 +56,8 @@ std::int64_t countSelfCrossings(const Grid& grid, const Field3& position) {
       const bool shared = std::any_of(triangle.begin(), triangle.end(), [&](std::uint32_t corner) {
         return corner == edge->edge[0] || corner == edge->edge[1];
       });
-      if (!shared && pierces(position.at(edge->edge[0]), position.at(edge->edge[1]), a, b, c)) ++crossings;
+      if (!shared && pierces(position.at(edge->edge[0]), position.at(edge->edge[1]), a, b, c))
+        crossings.push_back({edge->edge, triangle});
     }
   }
   return crossings;

@@ -46,7 +46,7 @@ class EnergyAccount {
   /// What puts energy in beside forces and pins.
   struct Drive {
     double moving = 0.0;  ///< fastest that obstacles and parts move points [m/s]
-    double pushed = 0.0;  ///< fastest obstacle that is touched, or point that is pushed out of one [m/s]
+    double pushed = 0.0;  ///< of obstacles alone, or of points that come out of what they are in [m/s]
     double put_in = 0.0;  ///< twice what guides did, and rows that give or whose length a part drives [J]
   };
   struct Entry {

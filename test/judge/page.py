@@ -75,6 +75,8 @@ def page(rows, stamp):
     line("frames of the others whose energy is judged", lambda some: "none" if some[0]["kind"] == "wild" else
          share(total(exact(some), "energy_judged"), total(exact(some), "frames")))
     line("scenes in which the energy is judged in no frame", lambda some: "all" if some[0]["kind"] == "wild" else str(sum(row["energy_judged"] == "0" for row in exact(some))))
+    if any(number(row, "energy_finer") > 0 and number(row, "energy_gain") <= MAX_RISE.get(row["kind"], 0.0) for row in rows):
+        sys.exit("a scene was run in finer steps though its energy rose by less than MAX_RISE: it is not what test/judge/court.cpp has")
     rose = lambda some: [row for row in exact(some) if number(row, "energy_judged") > 0 and number(row, "energy_gain") > MAX_RISE.get(row["kind"], math.inf)]
     line("scenes run once more in finer steps, since their energy seemed to rise", lambda some: "–" if some[0]["kind"] == "wild" else
          f"{len(rose(some))}, of more than {MAX_RISE[some[0]['kind']]:g}" + (f": up to {most(rose(some), 'energy_gain'):.2f}; then up to {most(rose(some), 'energy_finer'):.2g}" if rose(some) else ""))
