@@ -37,10 +37,10 @@ void planSolver(const Motion& motion, const Budget& budget, Plan& plan) {
                   pulls ? "strings pull: all taut ones are solved for at once"
                         : "no string pulls: looked at, and nothing more unless one gets taut"});
   const bool estimates = ErrorControl::wanted(solver);
-  plan.push_back(
-      {"estimate", estimates,
-       estimates ? "position_tolerance is asked for: a companion moves one second in four, as far as the budget lets it"
-                 : "no position_tolerance is asked for"});
+  plan.push_back({"estimate", estimates,
+                  estimates ? "position_tolerance is asked for: a reference run moves for one second in four, as far "
+                              "as the budget lets it"
+                            : "no position_tolerance is asked for"});
   plan.push_back({"budget", budget.any(),
                   budget.any() ? formatNumber(solver.budget_ms) + " ms a frame" +
                                      (motion.statistics.shortened_frames > 0 ? "; frames have ended early" : "")
