@@ -12,10 +12,10 @@ from quoted_tables import (ASLEEP, AWAKE, BALL, BOUNDS, CAMERA, DROPPED, DUELS, 
 
 FIGURES = {
     "README.md": [
-        ("off by less than 1 mm | {} ms of computing; the fastest rival takes {} |", [took("auto", 1e-3), took(RIVALS, 1e-3)]),
-        ("off by less than 0.01 mm | {} ms (`leapfrog4`); the fastest rival takes {} |", [took("leapfrog4", 1e-5), took(RIVALS, 1e-5)]),
-        ("median (99 %, longest) of a frame | {} ({}, {}) ms;", both("curtain") + [frame("curtain", "ms_longest_min")]),
-        ("the same without contact | {} ms", [blown("gusts")]),
+        ("off by less than 1 mm (0.01 mm) | {} (`leapfrog4`: {}) ms of computing; the fastest rival takes {} ({}) |",
+         [took("auto", 1e-3), took("leapfrog4", 1e-5), took(RIVALS, 1e-3), took(RIVALS, 1e-5)]),
+        ("median (99 %, longest) of a frame | {} ({}, {}) ms, without contact {};",
+         both("curtain") + [frame("curtain", "ms_longest_min"), blown("gusts")]),
         ("each engine with links within 1e-3 | {} ms a frame; NvCloth {}, Jolt {}, Bullet {}. Within 1e-2: {}; {}, {}, {}. Within",
          [apart(name, (bound,))[0] for bound in (1e-3, 1e-2) for name in ("curtain_sim", "NvCloth", "Jolt", "Bullet")]),
         ("44 x 40, median (99 %) | {} ({}) ms;", [short(engine(GATHERED, "curtain_sim", "default", column)) for column in ("ms_median", "ms_99")]),
