@@ -313,6 +313,13 @@ def demo(name):
             [fixed(row[column]) for column in ("crossings", "piercings", "last_resort")])
 
 
+def demo_in_node(name):
+    """The same of the demo itself, and how many frames were not ready in time."""
+    row = one_row("demos_in_node", demo=name)
+    return (["%.1f" % row[column] for column in ("ms_median", "ms_99", "ms_max")] + [fixed(row[column]) for column in ("dropped", "frames")] +
+            [short(row["stretch_max"])] + [fixed(row[column]) for column in ("crossings", "piercings", "last_resort")])
+
+
 def tried(family, *wanted):
     """How many of a family's trials are as all of these say, of how many."""
     found = rows("trials", family=family)
