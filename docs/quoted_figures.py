@@ -208,7 +208,7 @@ FIGURES = {
         ("before a thin plate | {} of {}, {} of {}, {} of {} held", held()),
         ("- So for an obstacle piercing is not judged in {} % of the frames of everyday scenes, {} % of wild and {} % of sudden ones. Brute force looks at "
          "{}, {} and {} % of the frames.", told("obstacles excused, of all frames of all") + told("frames looked at by brute force")),
-        ("- {} did not hold when they were drawn;", [str(sum(drawn("scenes")) - sum(drawn("hold")))]),
+        ("- {} did not hold when they were drawn.", [str(sum(drawn("scenes")) - sum(drawn("hold")))]),
         ("- {} of the scenes are of the method `paper`", [str(sum(drawn("of the paper's method")))]),
         ("could pull links apart, and the scene holds, the worst was off by {}; in {} other scenes hands did, by up to {} times",
          [short(max(float(text) for text in told("worst link of the other scenes that hold and in which no hand may have pulled links apart")), 3),
@@ -294,7 +294,7 @@ FIGURES = {
     ],
     "docs/gallery.md": [
         (row % name, figures(name))
-        for row, figures in (("| `%s` | {}, {}, {} | {} | {} | {}, {} | {} |", demo), ("| `%s` | {}, {}, {} | {} of {} | {} | {}, {} | {} |", demo_in_node))
+        for row, figures in (("| `%s` | {}, {}, {} | {} | {} | {}, {} | {} |", demo), ("| `%s` | {}, {}, {} | {}, {} | {} | {}, {} | {} |", demo_in_node))
         for name in ("window", "theatre", "hospital", "shower", "layers", "strip_door", "flag", "skirt", "parachute", "sheet", "laundry", "drone",
                      "curtain", "robot_curtain", "robot_door")
     ],
