@@ -6,6 +6,7 @@ import csv
 import io
 import math
 import os
+import statistics
 import sys
 
 from table import rows_of
@@ -29,17 +30,18 @@ def share(part, whole):
 
 def page(rows, stamp):
     print("# Random scenes\n")
-    print("Made by `test/judge/run`: scenes drawn from seeds over all keys and sizes (`test/drawn`, `test/judge/draw.cpp`), simulated, and judged at every "
-          "frame: numbers finite, no link too long (no rod too short) by more than twice the tolerance of 1e-3, at most 2000 solves a frame; nothing "
-          "crossed or pierced by brute force, looked for at every frame, of long scenes of large cloth at every n-th; "
-          "energy beyond what forces, pins and obstacles supply (not in wild scenes, nor in sudden ones where a step can't foresee it); "
-          "of the paper's method that numbers are finite, nothing is crossed or pierced, and rods keep their lengths where nothing touches (wefts are not judged); "
-          "and in some scenes that a second run, continued from a snapshot in its middle and with its caches cleared at random, ends with the same bits. "
-          "[Which scenes are excused from what](../accuracy.md#random-scenes). Seeds that once failed are kept, made as small as they would go, in `test/judge/cases`.\n")
+    print("`test/judge/run` draws scenes from seeds, over all keys and sizes (`test/drawn`, `test/judge/draw.cpp`), simulates them and judges every frame:\n\n"
+          "- Numbers are finite; no link is too long (no rod too short) by more than twice the tolerance of 1e-3; a frame needs at most 2000 solves.\n"
+          "- Nothing crosses or pierces, by brute force at every frame (in long scenes of large cloth at every n-th).\n"
+          "- The energy does not rise above what forces, pins and obstacles supply (not in wild scenes, nor in sudden ones where a step can't foresee it).\n"
+          "- Of the method `paper`: numbers are finite, nothing crosses or pierces, rods keep their lengths where nothing touches; wefts are not judged.\n"
+          "- In some scenes a second run, continued from a snapshot in its middle and with its caches cleared at random, ends with the same bits.\n\n"
+          "[Which checks are left out of which scenes](../accuracy.md#random-scenes). Scenes that failed are kept in `test/judge/cases`, made as small as "
+          "possible.\n")
     processors = sorted({row["processor"] for row in rows})
     print("Commit {commit}, {date}: {scenes} scenes, of seeds from {first} on, on {processors}. The first seed is the time at which the run began, and any "
-          "change of the engine or the judge begins a new table, so no engine was made with these scenes at hand. `test/judge/run` goes on with them "
-          "up to 20 010. The same anywhere but for times; all scenes in [random.csv.gz](random.csv.gz).\n".format(
+          "change of the engine or the judge begins a new table, so the engine cannot have been tuned to these scenes. `test/judge/run` goes on with them "
+          "up to 20 010. They are the same on any machine but for times; [random.csv.gz](random.csv.gz) has all.\n".format(
               scenes=len(rows), first=min(int(row["seed"]) for row in rows), processors=" and ".join(processors), **stamp))
     for kind, what in KINDS.items():
         print(f"- **{kind}**: {what}.")
@@ -54,21 +56,24 @@ def page(rows, stamp):
     most = lambda some, key: max(number(row, key) for row in some)
     line("scenes", lambda some: str(len(some)))
     line("**hold**", lambda some: f"**{sum(row['holds'] == '1' for row in some)}**")
+    middle = lambda values: "%.0f" % statistics.median(values)
+    line("nodes, median", lambda some: middle(int(row["rows"]) * int(row["columns"]) for row in some))
+    line("frames, median", lambda some: middle(int(row["frames"]) for row in some))
     line("cloth of more than 1000 nodes", lambda some: str(sum(int(row["rows"]) * int(row["columns"]) > 1000 for row in some)))
     line("largest cloth, nodes", lambda some: str(max(int(row["rows"]) * int(row["columns"]) for row in some)))
     # Links are what the exact methods promise.
     exact = lambda some: [row for row in some if row["method"] != "paper"]
     line("of the paper's method", lambda some: str(len(some) - len(exact(some))))
     alone = lambda some: [row for row in exact(some) if row["links_excused"] == "0" and row["holds"] == "1"]
-    line("worst link of the other scenes that hold and in which no hand may have pulled links apart", lambda some: f"{most(alone(some), 'stretch'):.2e}")
+    line("`paper` left out: worst link of a scene that holds, where no hand may have pulled links apart", lambda some: f"{most(alone(some), 'stretch'):.2e}")
     lower = 0.0
     for edge in EDGES:
-        line(f"worst link of the scene in ({lower:g}, {edge:g}]",
+        line(f"scenes whose worst link is off by {lower:g} to {edge:g}",
              lambda some, a=lower, b=edge: str(sum(a < number(row, "stretch") <= b or (a == 0.0 and number(row, "stretch") <= b) for row in exact(some))))
         lower = edge
-    line("worst link of the scene beyond that, where a hand may have pulled links apart", lambda some: str(sum(number(row, "stretch") > EDGES[-1] and row["holds"] == "1" for row in exact(some))))
+    line("scenes whose worst link is off by more, where a hand may have pulled links apart", lambda some: str(sum(number(row, "stretch") > EDGES[-1] and row["holds"] == "1" for row in exact(some))))
     # What the verdict is of.
-    line("frames looked at by brute force", lambda some: share(total(some, "brute_forced"), total(some, "frames")))
+    line("frames checked by brute force", lambda some: share(total(some, "brute_forced"), total(some, "frames")))
     line("of these, with self-contact, whose crossings are excused", lambda some: share(total(some, "crossings_excused"), total(some, "crossings")))
     line("frames of the others in which a hand may have pulled links apart", lambda some: share(total(exact(some), "links_excused"), total(exact(some), "frames")))
     line("obstacles excused, of all frames of all", lambda some: share(total(some, "obstacles_excused"), total(some, "obstacles")))
@@ -83,11 +88,15 @@ def page(rows, stamp):
     line("scenes that needed the last resort", lambda some: share(sum(number(row, "last_resort") > 0 for row in some), len(some)))
     line("substeps of the last resort", lambda some: share(total(some, "last_resort"), total(some, "substeps")))
     line("substeps in which the cloth stayed where it was", lambda some: share(total(some, "stops"), total(some, "substeps")))
-    line("scenes in which it did", lambda some: share(sum(number(row, "stops") > 0 for row in some), len(some)))
+    line("scenes with such substeps", lambda some: share(sum(number(row, "stops") > 0 for row in some), len(some)))
+    mostly = lambda some, key: share(sum(2 * number(row, key) > number(row, "substeps") for row in some), len(some))
+    line("scenes with more than half of their substeps of the last resort", lambda some: mostly(some, "last_resort"))
+    line("scenes in which the cloth stayed where it was in more than half of the substeps", lambda some: mostly(some, "stops"))
     line("momentum cut, median of the scenes with any [N s]",
          lambda some: (lambda cut: f"{cut[len(cut) // 2]:.2g}" if cut else "–")(sorted(number(row, "momentum_cut") for row in some if number(row, "momentum_cut") > 0)))
-    line("most solves in a frame", lambda some: f"{most(some, 'max_solves'):.0f}")
+    line("maximum number of solves in a frame", lambda some: f"{most(some, 'max_solves'):.0f}")
     line("rejected, of all solves", lambda some: share(total(some, "rejected"), total(some, "rejected") + total(some, "substeps")))
+    line("slowest frame, s", lambda some: f"{most(some, 'slowest_frame_s'):.2g}")
     line("processor time, s", lambda some: f"{total(some, 'seconds'):.0f}")
     parts = sorted({part for row in rows for part in row["parts"].split("+") if part})
     print("\nBy what scenes have, of all kinds together:\n")
