@@ -272,32 +272,31 @@ FIGURES = {
         ("gathered curtain of 44 x 40 ({} ms, links off by {}; curtain_sim {} ms, {})", rivalled(GATHERED, "NvCloth", 0.01) + rivalled(GATHERED, "curtain_sim", 0.01)),
         ("that was tried: {} times on the gathered curtain of", [fixed(fastest(GATHERED, "NvCloth", 1e-3)["ms_median"] / fastest(GATHERED, "curtain_sim", 1e-3)["ms_median"])]),
         ("With the ball it is {} times, too.", [fixed(fastest(BALL, "NvCloth", 1e-3)["ms_median"] / fastest(BALL, "curtain_sim", 1e-3)["ms_median"])]),
-        ("without that, curtain_sim takes {} ms ({} at 105 x 96).", [short(engine(scene, "curtain_sim", "default; without self-contact; five waves")) for scene in (GATHERED, FINE)]),
+        ("without self-contact curtain_sim takes {} ms ({} at 105 x 96).", [short(engine(scene, "curtain_sim", "default; without self-contact; five waves")) for scene in (GATHERED, FINE)]),
         ("99 % of its frames take up to {} ms (median {}) and at 105 x 96 up to {} ({}); those of NvCloth, at its fastest setting without crossings within "
          "a tenth, {} ({}) and {} ({}).",
          [short(engine(scene, "curtain_sim", "default", column)) for scene in (GATHERED, FINE) for column in ("ms_99", "ms_median")] +
          [short(clear(scene, "NvCloth", 0.1)[column]) for scene in (GATHERED, FINE) for column in ("ms_99", "ms_median")]),
-        ("Within 16.7 ms NvCloth keeps their links within {} ({} edges cross), or within {} with nothing", in_real_time(FINE, "NvCloth")),
+        ("Within 16.7 ms NvCloth keeps their links within {} ({} edges cross), or within {} with nothing crossing; in {} ms it keeps them within {} with", in_real_time(FINE, "NvCloth")),
         ("Ours is {} mm (limp) and {} mm (a light cotton) off after a second", [short(1e3 * one("gathered", "apart_60_m", scene=scene, method="auto", tolerance="0.001")) for scene in ("limp", "cotton")]),
-        ("ours with self-contact takes {} ms from five waves.", [short(engine(GATHERED, "curtain_sim", "default; five waves"))]),
-        ("takes it {} ms, curtain_sim {} ms (", [took("XPBD", 1e-3), took("auto", 1e-3)]),
+        ("Ours with self-contact takes {} ms from five waves.", [short(engine(GATHERED, "curtain_sim", "default; five waves"))]),
+        ("takes it {} ms, curtain_sim {} ms ([work and precision](bench/README.md#work-and-precision)); with half as many substeps XPBD just misses 1 mm ({} mm, {} ms).",
+         [took("XPBD", 1e-3), took("auto", 1e-3), short(1e3 * coarser("XPBD", "error_m")), short(coarser("XPBD", "ms_min"))]),
         ("curtain_sim takes {} ms a frame and is off by {} um after 0.1 s, XPBD {} ms and {} um (",
          [text for method, setting in DUELS[:2] for text in (short(sheet(method, setting)), short(1e6 * early(method, setting)))]),
         ("takes {} ms for a second of the swing, off by less than 10 mm.", [took("btSoftBody", 1e-2)]),
     ],
     "docs/many.md": [
-        ("| one | {} ms | {} % of a core | |", [short(one("many_cost", column, at_once="0", curtains="1")) for column in ("ms_per_frame", "idle_percent")]),
-        ("in turn | {} ms | {} % of a core each | {} times one |",
-         [short(one("many_cost", column, at_once="0", curtains="8")) for column in ("ms_per_frame", "idle_percent", "times_one")]),
-        ("| one | {} ms | {} % | |", [short(one("many_cost", column, at_once="1", curtains="1")) for column in ("ms_per_frame", "idle_percent")]),
-        ("all at once | {} ms | {} % each | {} times one |",
-         [short(one("many_cost", column, at_once="1", curtains="8")) for column in ("ms_per_frame", "idle_percent", "times_one")]),
+        ("%s | 1 | {} ms | {} %% of a core | |\n| the same | 8 | {} ms | {} %% of a core | {} times |" % how,
+         [short(one("many_cost", column, at_once=at_once, curtains=count))
+          for count, columns in (("1", ("ms_per_frame", "idle_percent")), ("8", ("ms_per_frame", "idle_percent", "times_one"))) for column in columns])
+        for how, at_once in (("in turn", "0"), ("at once", "1"))
     ],
     "docs/rviz.md": [
-        ("frames a second | {}, with a new cloth in {} of them | {}, with a new cloth in {} of them |",
+        ("of which with new cloth | {}, {} | {}, {} |",
          [fixed(one("rviz_frames", column, configuration=name)) for name in ("curtain.rviz", "markers.rviz")
           for column in ("frames_per_s", "new_cloth_per_s")]),
-        ("computing a frame | {} ms | {} ms |", [short(one("rviz_frames", "ms_computing", configuration=name)) for name in ("curtain.rviz", "markers.rviz")]),
+        ("computing time of a picture | {} ms | {} ms |", [short(one("rviz_frames", "ms_computing", configuration=name)) for name in ("curtain.rviz", "markers.rviz")]),
     ],
     "docs/python.md": [
         ("| `curtain_batch` | {} |\n| `step(n)`, called once | {} |\n| `step()` | {} |",
@@ -325,7 +324,7 @@ FIGURES = {
     ],
     "docs/layers.md": [
         ("cost {} of what they cost alone", [ratio("layers: each by itself", 2, "active")]),
-        ("with `contact.self` they cost {} times as much as without, and one flat cloth {} times as much:", [ratio("layers: self-contact", 1), ratio("self-contact", 2)]),
+        ("`contact.self` makes them {} times as expensive, and one flat cloth {} times.", [ratio("layers: self-contact", 1), ratio("self-contact", 2)]),
     ],
     "docs/method.md": [
         ("No misses on {} public queries with exact answers, {} and {} ns a query",
