@@ -6,8 +6,8 @@ from page_text import figure, markdown, value
 def contact(folder):
     rows = folder.table('contact')
     lines = ['## What contact costs\n',
-             '44 x 40 nodes, one core, scenes with and without it made frame by frame in turns; medians of the frames, least of',
-             'the repeats. Itself: `contact.self`.\n',
+             '44 x 40 nodes, one core. The scene with contact and the same scene without it are computed frame by frame in turns; figures are the',
+             'lowest of the repeats\' medians. *(itself)*: with `contact.self`.\n',
              '| scene | without | with | added | ratio | longest frame |', '|---|---|---|---|---|---|']
     for row in rows:
         lines.append('| %s | %.3f ms | %.3f ms | %.3f ms | %.2f | %.1f ms |' % (
@@ -18,8 +18,8 @@ def contact(folder):
 
 def contact_frames(folder):
     lines = ['## What frames take in contact\n',
-             'Median, 99th percentile and longest frame, each the least of two runs (one run if it takes a minute). Substeps and',
-             'sweeps: means of a frame; contacts: most at a frame\'s end. Sizes: frames 30 to 60 of a gathered curtain, blown.\n',
+             'Median, 99th percentile and longest frame, each the lower of two runs (one run if it takes a minute). Substeps and sweeps:',
+             'means per frame. Contacts: maximum at a frame\'s end. Rows with *size*: frames 30 to 60 of a gathered curtain, blown.\n',
              '| scene | median | 99 % | longest | substeps | sweeps | contacts |', '|---|---|---|---|---|---|---|']
     for row in folder.table('contact_frames'):
         lines.append('| %s | %s ms | %s ms | %s ms | %.1f | %.0f | %s |' % (
@@ -34,7 +34,7 @@ def contact_peers(folder):
              'one core, the largest relative misfit of a link, and nodes that are in the ball at any frame (4 mm are to be kept). It is a run',
              'of its own: *beside other engines* has another one. btSoftBody',
              'takes the distance to the ball from a distance field with cells of 0.02 m, and corrects all of a penetration at once (*kKHR* = 1).\n',
-             '| method | setting | median | longest | stretch | nodes inside | deepest |', '|---|---|---|---|---|---|---|']
+             '| method | setting | median | longest | largest misfit | nodes inside | deepest |', '|---|---|---|---|---|---|---|']
     for row in folder.table('contact_peers'):
         lines.append('| %s | %s | %s ms | %s ms | %s | %s | %s mm |' % (
             row['method'], row['setting'].replace(';', ','), figure(value(row, 'ms_median')), figure(value(row, 'ms_longest')),
@@ -48,4 +48,4 @@ def ccd(folder):
     return ['## Continuous collision detection\n',
             'Public queries with exact answers (test/truth/ccd), a sixth of those of cloth and few of the others are impacts; the '
             'handcrafted ones touch and graze on purpose. Least of two runs, one core.\n',
-            markdown(['set', 'pair', 'queries', 'impacts', 'missed', 'false alarms', 'ns a query', 'at 1 mm'], body)]
+            markdown(['set', 'pair', 'queries', 'impacts', 'missed', 'false alarms', 'ns a query', 'ns a query with 1 mm of minimum distance'], body)]

@@ -19,8 +19,8 @@ def scaling(folder):
                      figure(value(row, 'substeps')), row['frames'], figure(value(row, 'stretch'))])
     memory = {(row['scene'], row['rows'], row['columns']): row['our_bytes_a_node'] for row in rows if row['series'] == 'both'}
     held = [[scene, f'{height} x {width}', figure(float(each), 3)] for (scene, height, width), each in memory.items()]
-    return text + [markdown(['scene', 'grid', 'nodes', 'method', 'setting', 'threads', 'ms a frame, least median', 'median',
-                             'most', 'substeps', 'frames', 'misfit'], body),
+    return text + [markdown(['scene', 'grid', 'nodes', 'method', 'setting', 'threads', 'frame [ms]: lowest median of the runs',
+                             'median of the runs', 'longest frame of the last run', 'substeps a frame', 'frames', 'misfit'], body),
                    'Memory that a simulator holds after its first frame, bytes a node (small grids share pages with what was there):\n',
                    markdown(['scene', 'grid', 'bytes a node'], held)]
 
@@ -33,7 +33,7 @@ def stages(folder):
         here = where(rows, scene=scene)
         total = sum(value(row, 'ms_per_frame') for row in here)
         body.append([scene, figure(total)] + [f"{100 * value(row, 'share'):.0f} %" for row in here])
-    return ['## Time by stage\n', folder.picture('stages.png', 'time by stage'), markdown(['scene', 'ms a frame'] + names, body)]
+    return ['## Time by stage\n', folder.picture('stages.png', 'time by stage'), 'Means of 300 frames:\n', markdown(['scene', 'frame [ms]'] + names, body)]
 
 
 def features(folder):
@@ -52,20 +52,20 @@ def features(folder):
 
         body.append([feature, f'{off:.1f}', figure(value(state['off'], 'ns_min'))] + cells('idle') + cells('active'))
     return ['## What features cost\n',
-            'Instructions per node and frame (callgrind; they repeat) and ns per node and frame (median of the frames, least of the '
-            'repeats), 44 x 40 nodes, one thread. Without the feature; with it but without effect (*in vain*: the motion is the same '
-            'to the bit); at work, where the motion differs, and the cost of that difference is included. *Gathered to 60 %* hangs in a '
+            'Instructions (counted by callgrind, so they are the same in every run) and ns, per node and frame; 44 x 40 nodes, one thread; times are '
+            'the lowest of the repeats\' medians. Three cases: without the feature; *idle*: with it but without effect, so the motion is the same '
+            'to the bit; *active*: the motion differs, and the cost of that difference is included. *Gathered to 60 %* hangs in a '
             'steady fan, where touching itself costs less than in the gusts of *what contact costs*. Where no other scene is named it '
-            'is the swing: gravity alone, the cheapest motion there is. test/cost fails where a feature in vain costs more '
-            'than its bound (1.02 unless bench/cost/features.cpp says why not).\n',
-            markdown(['feature', 'without', 'ns', 'in vain', 'instructions', 'ratio', 'ns', 'at work', 'instructions', 'ratio',
+            'is the swing: gravity alone, the cheapest motion there is. test/cost fails where an idle feature costs more than its bound: 1.02, or '
+            'more where bench/cost/features.cpp says why (a robot that moves past: 1.11; self-contact of flat cloth: 1.16).\n',
+            markdown(['feature', 'without: instructions', 'ns', 'idle case', 'instructions', 'ratio', 'ns', 'active case', 'instructions', 'ratio',
                       'ns'], body)]
 
 
 def sensing(folder):
     body = [[row['view'].replace(';', ','), row['rays'], row['hits'], figure(value(row, 'ms_hierarchy')), figure(value(row, 'ms_look')),
              figure(value(row, 'ms_points'))] for row in folder.table('sensing')]
-    return ['## What a sensor sees\n',
+    return ['## Cost of a sensor view\n',
             'Views of the curtain that ships, %s triangles, one core, least of the repeats: the hierarchy of boxes alone; a depth image, '
             'with the hierarchy, rays and noise; the points of it besides.\n' % folder.table('sensing')[0]['triangles'],
             markdown(['view', 'rays', 'points', 'hierarchy [ms]', 'depth image [ms]', 'points [ms]'], body)]

@@ -38,14 +38,16 @@ def engines(folder):
                                  row['crossings_end']])
     stamp = where(stamps, study='engines')[0]
     return ['## Beside other engines\n',
-            'The same cloth, wind and ball in NvCloth 1.1.6 (6e86b18), Jolt 5.5.1 (3b47ec3) and Bullet 3.27 (6c888f4), built from their public '
-            f'sources for this processor ({stamp["compiler"]}; -O3 -march=native, which this package itself is not built with), by the programs of [bench/engines](../../bench/engines/README.md); ours at commit {rows[0]["version"]}, one '
-            f'thread, scene files with nothing set but what is named. One core of an {stamp["processor"]}, all engines in '
-            f'turns, the least of the medians of {stamp["repeats"]} {"pass" if stamp["repeats"] == "1" else "passes"} ({spread(rows)}), 99 % in brackets; the largest relative misfit of a link '
-            '(of the weft: overlength) and its RMS, nodes nearer to the ball\'s centre than its '
-            'radius at any frame\'s end, edges that cross triangles at the end, by brute force. The table shows, for each '
-            'engine with and without self-contact, its fastest setting, each slower one that at least halves the misfit, our defaults, and the fastest within 0.1, 0.01 and 0.001, also of those '
-            'where nothing crosses; [engines.csv](engines.csv) has all.\n',
+            'The same cloth, wind and ball in NvCloth 1.1.6 (6e86b18), Jolt 5.5.1 (3b47ec3) and Bullet 3.27 (6c888f4). '
+            '[bench/engines](../../bench/engines/README.md) builds them from their public sources for this processor '
+            f'({stamp["compiler"]}; -O3 -march=native, which this package itself is not built with). Ours is commit {rows[0]["version"]}, with one '
+            f'thread and scene files that set only what is named. All ran in turns on one core of an {stamp["processor"]}.\n',
+            f'- frame: lowest median of {stamp["repeats"]} {"pass" if stamp["repeats"] == "1" else "passes"} ({spread(rows)}), 99th percentile in brackets.',
+            '- misfit, RMS: largest and root mean square misfit of a link (of a weft: its overlength).',
+            '- in the ball: nodes nearer to its centre than its radius at any frame\'s end, and how deep.',
+            '- crossings: edges that cross triangles at the end, by brute force.\n',
+            'For each engine, with and without self-contact, the table shows the fastest setting, each slower one that at least halves the misfit, '
+            'our defaults, and the fastest within 0.1, 0.01 and 0.001, also among those without crossings. [engines.csv](engines.csv) has all.\n',
             'How near they come: two ratios to our default in the same scene, with or without self-contact like theirs. First, the smallest misfit of their '
             'settings that are as fast as ours, over our misfit. Second, the shortest time of their settings with at most ten times our misfit, over our time. '
             '*None*: no setting that was tried is such. The finest settings are chaotic, so factors of two between two of them mean nothing.\n',
@@ -53,7 +55,7 @@ def engines(folder):
                      nearest(rows)),
             '\nWind and the nonlinear part of air damping are computed outside of their timing and passed to them as accelerations of a frame. Their links also resist shortening; '
             'our wefts may fold, so our cloth starts flat and theirs in five waves. NvCloth: the frequency of its solver and its stiffness, tethers, phases from the top '
-            'down or even and odd, self-collision of particles, which are 26 and 47 mm apart (10 and 19 in the finer cloth), so that one can pass between four others, 27 mm from each, at any distance below their spacing; beyond it (30 and 40 mm, 12 and 16) their places at rest are told, so that neighbours do not push each other. '
+            'down or even and odd, self-collision of particles, which are 26 and 47 mm apart (10 and 19 in the finer cloth). A particle can pass between four others, 27 mm from each, if the distance of self-collision is less than that. At larger distances (30 and 40 mm, 12 and 16 in the finer cloth) NvCloth is given the rest positions, so that neighbours do not push each other. '
             'Jolt: soft bodies do not collide with themselves; LRA: long range attachments. Bullet: self-collision by clusters (*self clusters 0*: one per '
             'triangle); its distance field of the ball has cells of 20 mm, or of 250 mm, the default.\n',
             markdown(['scene', 'engine', 'setting', 'frame', 'misfit', 'RMS', 'in the ball', 'crossings'], body)]

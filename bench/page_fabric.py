@@ -10,13 +10,13 @@ def gathered(folder):
     rows = folder.table('gathered')
     looks = [column for column in rows[0] if column.startswith('apart_')]
     text = ['## A gathered curtain that touches itself\n',
-            '44 x 40 nodes, 2 m x 1 m, on 0.5 m, in a fan that gusts; limp, and of a fabric of a light cotton\'s weight, shear and bending. Means over '
-            '15 s from the third second on, with the standard error of means of a second each.\n',
-            '- apart: distance of the nodes from those of the finest run (the first row), RMS, after the time in the header. It grows quickly: '
-            'the motion is chaotic, and no run stays near another for long.',
-            '- drag: force of the air along the fan\'s axis. depth: of the folds, RMS of the nodes off their row\'s mean. motion: kinetic energy. '
-            'fine: what of it is in waves across the cloth shorter than eight links.',
-            '- off: the largest difference of the four means from those of the finest run, in standard errors of the difference; some 2 is chance.\n']
+            '44 x 40 nodes, 2 m x 1 m, hung on 0.5 m, in a gusty fan: once limp, once with the weight, shear and bending of a light cotton. Means '
+            'are over 15 s, from the third second on; ± is their standard error, from means of one second each.\n',
+            '- apart: RMS distance of the nodes from those of the finest run (first row), after the time in the header. It grows quickly because the '
+            'motion is chaotic.',
+            '- drag: force of the air along the fan\'s axis. depth: RMS distance of the nodes from the mean of their row. motion: kinetic energy. '
+            'fine: the part of it in waves across the cloth that are shorter than eight links.',
+            '- off: largest difference of the four means from the finest run, in standard errors; about 2 can be chance.\n']
     for scene in values(rows, 'scene'):
         here = where(rows, scene=scene)
         finest = here[0]
@@ -65,17 +65,16 @@ def hard_spot(folder):
         return figure(value(track[0], 'error_m')) if track else '–'
 
     text = ['## The hard spot: a two-corner sheet dropped flat\n',
-            'Hung by two corners at 0.9 of its width. Distance: from our finest run (leapfrog, 256 substeps) at the last frame '
-            'before the first snap, and at 0.1 s. That run is ours, which favours our methods at the snap: strings that '
-            'become taut before it cause small impacts, which springs give back and rods do not. From there on, methods that '
-            'agree at 0.1 s diverge, whatever their step. Misfit: largest of any link at any frame\'s end, relative. Energy rise: above the start, '
-            'at any frame.\n']
+            'A sheet hung by two corners at 0.9 of its width. The error is the distance from our finest run (leapfrog, 256 substeps), at 0.1 s and at '
+            'the last frame before the first snap. At the snap this reference favours our methods: strings that become taut before it cause small '
+            'impacts, which springs give back and rods do not. After the snap, methods that agree at 0.1 s diverge, whatever their step. Misfit: '
+            'largest of any link at any frame\'s end. Energy rise: above the start, at any frame.\n']
     for sheet in values(rows, 'sheet'):
         here = where(rows, sheet=sheet)
         snap = value(here[0], 't_snap_s')
         text += [f'### {sheet}, first snap after {figure(snap)} s\n', folder.picture(f'hard_spot_{sheet}.png', f'sheet {sheet}')]
         text.append(markdown(
-            ['method', 'setting', 'ms a frame, median', 'most', 'substeps', 'misfit', 'at 0.1 s [m]', 'at the snap [m]', 'energy rise [J]', 'frames'],
+            ['method', 'setting', 'frame, median [ms]', 'frame, longest [ms]', 'substeps a frame', 'misfit', 'error at 0.1 s [m]', 'error at the snap [m]', 'energy rise [J]', 'frames'],
             [[name(row['method']), row['setting'], figure(value(row, 'ms_median')), figure(value(row, 'ms_max')),
               figure(value(row, 'substeps')), figure(value(row, 'stretch')), early(row), figure(value(row, 'error_at_snap_m')),
               figure(value(row, 'energy_rise_J')), row['frames']] for row in here]))
@@ -98,14 +97,14 @@ def closed_forms(folder):
             sound = [value(row, 'error') for row in here if math.isfinite(value(row, 'error'))]
             body.append(cells + [figure(min(sound)) if sound else '–'])
     return ['## Contact against closed forms\n',
-            'Fastest setting that keeps the error below a bound: median of a frame [ms], one core, 60 frames a second. The error is relative; '
-            'of the belt it is the creep in 3 s, in which the belt goes 20 m [m].\n',
-            '- scarf: slides off a bar without friction, links of 15 mm; Atwood: a strap over such a bar with 75 and 50 g at its ends. Both '
-            'sink as cosh; links on the bar are chords of it, which alone may put the result off by 2 %.',
+            'Computing time of a frame (median, [ms]) of the fastest setting with an error below each bound; one core, 60 frames a second. Errors are '
+            'relative; for the belt: how far the cloth creeps in 3 s [m], while the belt moves 20 m.\n',
+            '- scarf: slides off a bar without friction, links of 15 mm; Atwood: a strap over such a bar with 75 and 50 g at its ends. The exact '
+            'motion of both is a cosh. Links on the bar are chords of it, which alone may cost 2 %.',
             '- slope: a sheet slides down 30 degrees with friction 0.3 for half a second.',
             '- belt: a sheet on a belt that speeds up with 0.45 g, friction 0.5.',
-            '- capstan: the largest load that a strap over a bar of friction 0.3 holds with 50 g at its other end, over Euler\'s e^(mu pi) with '
-            'the strap\'s own weight, sought between 0.5 and 1.5 to a thousandth: 0.5 off is nothing held.\n',
+            '- capstan: the largest load that a strap over a bar of friction 0.3 holds with 50 g at its other end, relative to Euler\'s e^(mu pi) with '
+            'the strap\'s own weight. It is searched between 0.5 and 1.5, to a thousandth; an error of 0.5 means that nothing was held.\n',
             'PBD and XPBD push nodes out of what is solid in each iteration, with the friction of Macklin, Mueller, Chentanez, Kim (2014, '
             f'Eq. (24)). Settings tried of each: {tried}.\n',
-            markdown(['problem', 'method'] + [f'{bound:g}' for bound in bounds] + ['least error'], body)]
+            markdown(['problem', 'method'] + [f'{bound:g}' for bound in bounds] + ['smallest error'], body)]

@@ -32,12 +32,12 @@ def work_precision(folder):
     if chains:
         scenes = chains + ['swing']
         text += ['### Chains of 1 to 43 rods, 40 side by side, released at 45°\n', folder.picture('work_precision_chains.png', 'chains'),
-                 'Least ms for one second with an error below 1 mm:\n']
+                 'Shortest computing time [ms] for one second with an error below 1 mm:\n']
         body = []
         for method in values(rows, 'method'):
             best = [cheapest(where(rows, scene=scene, method=method), 1e-3) for scene in scenes]
             body.append([name(method)] + ['–' if row is None else figure(value(row, 'ms_min')) for row in best])
-        text.append(markdown(['rods'] + [s[6:] for s in chains] + ['43'], body))
+        text.append(markdown(['method \\ rods'] + [s[6:] for s in chains] + ['43'], body))
     return text
 
 
@@ -103,7 +103,7 @@ def wind(folder):
             for m in values(rows, 'method')]
     return ['## Wind\n', folder.picture('wind.png', 'chain in the wind'),
             'A chain in a uniform wind: distance of its tip at rest from the closed form, over its length; r = wind force over '
-            'weight.\n', markdown(['r'] + ratios, body)]
+            'weight.\n', markdown(['method \\ r'] + ratios, body)]
 
 
 def gusts(folder):
@@ -120,5 +120,6 @@ def gusts(folder):
             folder.picture('gusts_steady.png', 'curtain in a steady fan'),
             'config/scenes/curtain.yaml without the ball; distance [m] from our finest run after 1 and 2 s. The motion is '
             'chaotic: distances grow with time at any step.\n',
-            markdown(['wind', 'method', 'setting', 'ms a frame, least median', 'median', 'most', 'substeps', 'stretch', '1 s', '2 s'],
+            markdown(['wind', 'method', 'setting', 'frame [ms]: lowest median of the runs', 'median of the runs', 'longest frame of the last run',
+                      'substeps a frame', 'misfit', 'distance after 1 s [m]', 'after 2 s [m]'],
                      body)]
