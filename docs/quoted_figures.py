@@ -4,12 +4,12 @@ text, rewrites it here, too."""
 import math
 
 from quoted_tables import (ASLEEP, AWAKE, BALL, BOUNDS, BUDGETS, CAMERA, COARSE, DROPPED, DUELS, FINE, GATHERED, HANDCRAFTED, HOUSEHOLD,
-                           NOISE, PORES, PROBLEMS, RIVALS, SHAKEN, STRAIGHT, apart, at, blown, both, clear, clears, coarser, cores, demo,
-                           demo_in_node, drape, drapes, drawn, drifts, early, energy, engine, falls_asleep, fastest, fixed, folds, frame,
-                           grid, held, hurried, in_real_time, is_light, keeps_straining, kept, largest, least, most, nearest_nets, one,
-                           pair, part, per_frame, pulled_apart, ratio, refined, rivalled, rows, seen, share, sheet, short, soaked,
-                           stepped, strains, swing, together, told, told_by, took, tortures, touched, tried, unhurried, waits, whole,
-                           within)
+                           NOISE, PACKED, PORES, PROBLEMS, RIVALS, SHAKEN, STRAIGHT, apart, at, blown, both, clear, clears, coarser,
+                           cores, demo, demo_in_node, drape, drapes, drawn, drifts, early, energy, engine, falls_asleep, fastest, fixed,
+                           folds, frame, grid, held, hurried, in_real_time, is_light, keeps_straining, kept, largest, least, megabytes,
+                           most, nearest_nets, one, pair, part, per_frame, pulled_apart, ratio, refined, rivalled, rows, seen, share,
+                           sheet, short, soaked, stepped, strains, swing, together, told, told_by, took, tortures, touched, tried,
+                           unhurried, waits, whole, within)
 
 FIGURES = {
     "README.md": [
@@ -285,6 +285,17 @@ FIGURES = {
         ("curtain_sim takes {} ms a frame and is off by {} um after 0.1 s, XPBD {} ms and {} um (",
          [text for method, setting in DUELS[:2] for text in (short(sheet(method, setting)), short(1e6 * early(method, setting)))]),
         ("takes {} ms for a second of the swing, off by less than 10 mm.", [took("btSoftBody", 1e-2)]),
+    ],
+    "docs/bags.md": [
+        ("while the curtain moves | {} | {} | {} |", [megabytes("~state", how) for how in PACKED]),
+        ("starts rviz | {} | {} | {} |", [megabytes("~state with folds", how, 3) for how in PACKED]),
+        ("a message of `~markers` | {} | {} | {} |", [megabytes("~markers", how) for how in PACKED]),
+        ("a second grows by {} MB/s with lz4",
+         [fixed(1e-6 * (60 * one("file_sizes", "bytes", what="~state with folds", compression="lz4") + 10 * one("file_sizes", "bytes", what="~markers", compression="lz4")))]),
+        ("301 frames) are {} MB.", [megabytes("glTF of 10 s of curtain")]),
+    ],
+    "docs/batch.md": [
+        ("After 10 s it has {} MB for `curtain.yaml` (1760 nodes), and {} MB for", [megabytes("checkpoint of 10 s of " + scene) for scene in ("curtain", "flag")]),
     ],
     "docs/many.md": [
         ("%s | 1 | {} ms | {} %% of a core | |\n| the same | 8 | {} ms | {} %% of a core | {} times |" % how,

@@ -398,6 +398,11 @@ def hurried(scene):
                          short(100.0 * whole(scene, budget=budget, column="left_out")))]
 
 
+def megabytes(what, compression="none", digits=2):
+    """Of what is written of a scene."""
+    return short(1e-6 * one("file_sizes", "bytes", what=what, compression=compression), digits)
+
+
 def soaked(column):
     """A column of the soak's table."""
     return [float(row[column]) for row in csv.DictReader(read("docs/stress/soak.csv").splitlines())]
@@ -417,4 +422,5 @@ HANDCRAFTED = rows("ccd", set="handcrafted")
 DUELS = [("auto", "default"), ("XPBD", "substeps 256; iterations 1; compliance 0 m/N"),
          ("auto", "substeps 16"), ("XPBD", "substeps 1024; iterations 1; compliance 0 m/N")]
 COARSE = ("XPBD", "substeps 64; iterations 1; compliance 0 m/N")
+PACKED = ("none", "lz4", "bz2")
 BOUNDS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
