@@ -4,12 +4,12 @@ text, rewrites it here, too."""
 import math
 
 from quoted_tables import (ASLEEP, AWAKE, BALL, BOUNDS, BUDGETS, CAMERA, COARSE, DROPPED, DUELS, FINE, GATHERED, HANDCRAFTED, HOUSEHOLD,
-                           NOISE, PACKED, PORES, PROBLEMS, RIVALS, SHAKEN, STRAIGHT, apart, at, blown, both, clear, clears, coarser,
-                           cores, demo, demo_in_node, drape, drapes, drawn, drifts, early, energy, engine, falls_asleep, fastest, fixed,
-                           folds, frame, grid, held, hurried, in_real_time, is_light, keeps_straining, kept, largest, least, megabytes,
-                           most, nearest_nets, one, pair, part, per_frame, pulled_apart, ratio, refined, rivalled, rows, seen, share,
-                           sheet, short, soaked, stepped, strains, swing, together, told, told_by, took, tortures, touched, tried,
-                           unhurried, waits, whole, within)
+                           NOISE, PACKED, PORES, PROBLEMS, RIVALS, SHAKEN, STRAIGHT, apart, at, between, blown, both, clear, clears,
+                           coarser, cores, demo, demo_in_node, drape, drapes, drawn, drifts, early, energy, engine, falls_asleep,
+                           fastest, fixed, folds, frame, grid, held, hurried, in_real_time, is_light, keeps_straining, kept, largest,
+                           least, megabytes, most, nearest_nets, one, outwards, pair, part, per_frame, pulled_apart, ratio, refined,
+                           rivalled, rows, seen, share, sheet, short, soaked, stepped, strains, swing, together, told, told_by, took,
+                           tortures, touched, tried, unhurried, waits, whole, within)
 
 FIGURES = {
     "README.md": [
@@ -93,7 +93,7 @@ FIGURES = {
         ("tried gained or lost at least {} of that, position-based and implicit methods lost {} to {}.",
          drifts("symplectic Euler", "Runge-Kutta 4")[:1] + drifts("PBD", "XPBD", "Baraff-Witkin", "btSoftBody", "implicit")),
         ("minimum of their energy: {} of {} are nearer", nearest_nets()),
-        ("| true error {} to {} times the published one", [short(value) for value in kept("true error over the published")]),
+        ("| true error {} to {} times the published one", between("true error over the published")),
         ("which is turned | off by {} of the sheet's weight;", [most("wrench of a sheet on a link, off by")]),
         ("| differ by {}, {}, {} of the sum; `leapfrog4` {}, `implicit` {} |",
          [most("blow %s, off by" % blow) for blow in ("from below", "aslant", "spinning", "leapfrog4", "implicit")]),
@@ -101,7 +101,7 @@ FIGURES = {
         ("whose halves collide | kept to {} |", [most("momentum of colliding halves, off by")]),
         ("RMS of its nodes' speeds at most {}, {} mm/s |", [most("at rest on a %s, speed [mm/s]" % what) for what in ("sphere", "table")]),
         ("30 to 240 Hz | {} to {} of the closed form, energy {} of the motion's |",
-         share("scarf, of the closed form") + [short(kept("scarf, energy over the motion's")[0])]),
+         share("scarf, of the closed form") + between("scarf, energy over the motion's")[:1]),
         ("loads of 4 to 75 g | {} to {} of the closed form |", share("Atwood, of the closed form")),
         ("loads of 10 g to 5 kg | force on the bar {} to {} of the exact one |", share("force on the bar, of the exact one")),
         ("none driven | within a frame energy rises by {} m g L at most; it is never above that of the start by more than {} m g L |",
@@ -150,7 +150,7 @@ FIGURES = {
         ("folds it starts in](method.md#shear), {} mm deep at rest, and is asleep after {} s.",
          [told_by("gathered cloth with shear, folds at rest [mm]"), told_by("gathered cloth with shear, asleep after [s]")]),
         ("that lies on the cloth | off from the friction (why is not known) by {} to {} |",
-         [short(value) for value in kept("towel over tablecloth, pull over weight less friction")]),
+         between("towel over tablecloth, pull over weight less friction")),
         ("| [random scenes](stress/random.md) with several cloths | {} of {} hold |", part("layers")),
         ("did not sleep, within {} frames", [most("woken cloth, late by frames")]),
         ("its slowest frames take {} to {} ms (105 x 96", sorted(
@@ -162,7 +162,7 @@ FIGURES = {
                 one("gathered", "fine", scene="limp", method="leapfrog", substeps="128")) for method in ("auto", "implicit")]),
         ("(a whip: {}); with `leapfrog4` up to {} in the [stress tests](stress/README.md). It may also lose energy and regain it ({} of m g H",
          [most("a whip's energy, most above the start"), tortures("no air", method="leapfrog4"),
-          short(-kept("a whip's energy, most below the start")[0])]),
+          between("a whip's energy, most below the start")[0].lstrip("-")]),
         ("within {} (`auto`; `leapfrog` {}; {} nets)",
          [within(largest("nets", "relative_error", method="auto")), within(largest("nets", "relative_error", method="leapfrog")),
           str(len(rows("nets", method="auto")))]),
@@ -353,7 +353,7 @@ FIGURES = {
         ("come to rest and take {} to {} substeps a frame while awake", [fixed(value) for value in kept("taut sheet, substeps a frame")]),
         ("sheets at 0.9999 to 1 of it take {} to {}, and at most {} % of the substeps are of the last resort",
          [fixed(value) for value in kept("sheet at its full width, substeps a frame")] +
-         ["%.1f" % (100.0 * kept("taut sheet, share of the last resort")[1])]),
+         [outwards(100.0 * kept("taut sheet, share of the last resort")[1], 1.0)]),
         ("four methods, 1 and 8 substeps | off by {} at most |", [most("terminal speed, off by")]),
         ("r = 0.1 to 1 | off by {} at most |", [most("strip in relative air, angle off by")]),
         ("| mm | {} | {} | {} |", ["%.0f" % kept("flag at %d m/s, RMS of its end [mm]" % speed)[0] for speed in (2, 4, 8)]),

@@ -272,9 +272,23 @@ def told_by(figure, digits=2):
     return short(kept(figure)[1], digits)
 
 
+def between(figure):
+    """Bounds of it on both sides: its least value rounded down, its largest rounded up."""
+    return [outwards(kept(figure)[0], -1.0), outwards(kept(figure)[1], 1.0)]
+
+
+def outwards(value, side, digits=2):
+    """Rounded down (-1) or up (1)."""
+    unit = 10.0 ** (math.floor(math.log10(abs(value))) - digits + 1)
+    return short(unit * side * math.ceil(side * value / unit * (1.0 - 1e-12 * math.copysign(1.0, side * value))), digits)
+
+
 def share(figure):
-    """Least and largest of what should be one, as far as they differ from it."""
-    return [fixed(value, 3 if abs(1.0 - value) > 1e-3 else 4) for value in kept(figure)]
+    """Bounds of what should be one, as far as they differ from it."""
+    def rounded(value, side):
+        decimals = 3 if abs(1.0 - value) > 1e-3 else 4
+        return fixed(side * math.ceil(side * value * 10.0 ** decimals - 1e-9) / 10.0 ** decimals, decimals)
+    return [rounded(kept(figure)[0], -1.0), rounded(kept(figure)[1], 1.0)]
 
 
 def drifts(*methods):
