@@ -7,9 +7,9 @@ from quoted_tables import (ASLEEP, AWAKE, BALL, BOUNDS, BUDGETS, CAMERA, COARSE,
                            NOISE, PACKED, PORES, PROBLEMS, RIVALS, SHAKEN, STRAIGHT, apart, at, between, blown, both, clear, clears,
                            coarser, cores, demo, demo_in_node, drape, drapes, drawn, drifts, early, energy, engine, falls_asleep,
                            fastest, fixed, folds, frame, grid, held, hurried, in_real_time, is_light, keeps_straining, kept, largest,
-                           least, megabytes, most, nearest_nets, one, outwards, pair, part, per_frame, pulled_apart, ratio, refined,
-                           rivalled, rows, seen, share, sheet, short, soaked, stepped, strains, swing, together, told, told_by, took,
-                           tortures, touched, tried, unhurried, waits, whole, within)
+                           least, megabytes, most, nearest_nets, one, outwards, pair, part, per_frame, pulled_apart, rarity, ratio,
+                           refined, rivalled, rows, seen, share, sheet, short, soaked, stepped, strains, swing, together, told, told_by,
+                           took, tortures, touched, tried, unhurried, waits, whole, within)
 
 FIGURES = {
     "README.md": [
@@ -225,7 +225,7 @@ FIGURES = {
         ("before a thin plate | {} of {}, {} of {}, {} of {} held", held()),
         ("This leaves out {} % of the frames of everyday scenes, {} % of wild and {} % of sudden ones.", told("obstacles excused, of all frames of all")),
         ("- Brute force checks {}, {} and {} % of the frames:", told("frames checked by brute force")),
-        ("- Scenes that did not hold when they were drawn: {}.", [str(sum(drawn("scenes")) - sum(drawn("hold")))]),
+        ("- Scenes that did not hold when they were drawn: {}. So at most one in {} of such", [str(sum(drawn("scenes")) - sum(drawn("hold"))), rarity()]),
         ("- {} of the scenes are of the method `paper`", [str(sum(drawn("of the paper's method")))]),
         ("could pull links apart, the worst was off by {}. In {} scenes hands did, by up to {} times",
          [short(max(float(text) for text in told("`paper` left out: worst link of a scene that holds, where no hand may have pulled links apart")), 3),

@@ -422,6 +422,15 @@ def soaked(column):
     return [float(row[column]) for row in csv.DictReader(read("docs/stress/soak.csv").splitlines())]
 
 
+def rarity():
+    """One in how many scenes fails at most, with a confidence of 95 %, by Poisson's law: failures of which no more than were seen have a chance of 5 %."""
+    failures = sum(drawn("scenes")) - sum(drawn("hold"))
+    mean, step = 0.0, 1e-3
+    while sum(math.exp(-mean) * mean ** k / math.factorial(k) for k in range(failures + 1)) > 0.05:
+        mean += step
+    return "%.0f" % (10 * math.floor(sum(drawn("scenes")) / mean / 10))
+
+
 def held():
     """Of each kind of random scenes how many held, of how many."""
     return [str(count) for pair in zip(drawn("hold"), drawn("scenes")) for count in pair]
