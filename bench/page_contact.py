@@ -13,7 +13,7 @@ def contact(folder):
         lines.append('| %s | %.3f ms | %.3f ms | %.3f ms | %.2f | %.1f ms |' % (
             row['scene'], float(row['ms_without']), float(row['ms_with']), float(row['ms_added']), float(row['ratio_min']),
             float(row['ms_longest'])))
-    return lines + ['']
+    return lines + ['\n']
 
 
 def contact_frames(folder):
@@ -46,6 +46,6 @@ def ccd(folder):
     body = [[row['set'], row['pair'], row['queries'], row['hits'], row['missed'], row['false_alarms'],
              figure(value(row, 'ns_min')), figure(value(row, 'ns_min_1mm'))] for row in folder.table('ccd')]
     return ['## Continuous collision detection\n',
-            'Public queries with exact answers (test/truth/ccd), a sixth of those of cloth and few of the others are impacts; the '
-            'handcrafted ones touch and graze on purpose. Least of two runs, one core.\n',
+            'Public queries with exact answers (test/truth/ccd). A sixth of those of cloth are impacts, and few of the handcrafted ones, which touch and '
+            'graze on purpose. Times are the lower of two runs, on one core.\n',
             markdown(['set', 'pair', 'queries', 'impacts', 'missed', 'false alarms', 'ns a query', 'ns a query with 1 mm of minimum distance'], body)]

@@ -7,7 +7,7 @@ from page_text import figure, markdown, value, values, where
 def scaling(folder):
     rows = folder.table('scaling')
     text = ['## Scaling\n', 'Default settings of ours; a frame is 1/60 s. 60 frames from the start, or as many as 3 s of '
-            'computing allow. Misfits are of those frames: where the numbers of threads differ in frames, they differ in misfits, too.\n']
+            'computing allow. Misfits are of these frames. Runs with one and with two threads may differ in their number of frames, and then in misfit.\n']
     for file in ('scaling_swing.png', 'scaling_curtain.png', 'scaling_shape.png'):
         text.append(folder.picture(file, 'time a frame against nodes'))
     body = []

@@ -50,7 +50,7 @@ def engines(folder):
             'our defaults, and the fastest within 0.1, 0.01 and 0.001, also among those without crossings. [engines.csv](engines.csv) has all.\n',
             'How near they come: two ratios to our default in the same scene, with or without self-contact like theirs. First, the smallest misfit of their '
             'settings that are as fast as ours, over our misfit. Second, the shortest time of their settings with at most ten times our misfit, over our time. '
-            '*None*: no setting that was tried is such. The finest settings are chaotic, so factors of two between two of them mean nothing.\n',
+            '*None*: no setting that was tried is such. At the finest settings the misfit varies by chance: a factor of two between two of them means nothing.\n',
             markdown(['scene', 'self-contact', 'engine', 'misfit over ours, as fast', 'time over ours, within ten times the misfit'],
                      nearest(rows)),
             '\nWind and the nonlinear part of air damping are computed outside of their timing and passed to them as accelerations of a frame. Their links also resist shortening; '

@@ -8,14 +8,14 @@ import re
 import sys
 
 from quoted_figures import FIGURES
-from quoted_tables import ROOT, read, rows
+from quoted_tables import ROOT, read, rows, stress_stamps
 
 NUMBER = r"(-?\d+(?: \d{3})*(?:\.\d+)?(?:e-?\d+)?)"
 
 
 def unnamed():
     """Pages that do not name the processor which the studies were measured on."""
-    known = sorted({row["processor"] for row in rows("stamps")} - {"not noted"})
+    known = sorted({row["processor"] for row in rows("stamps") + stress_stamps()} - {"not noted"})
     named = [name.replace("(R)", "").replace(" Processor", "") for name in known]
     return ["%s does not name %s" % (path, name) for path in ("README.md", "docs/accuracy.md") for name in named
             if "an %s" % name not in read(path)]

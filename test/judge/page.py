@@ -40,12 +40,12 @@ def page(rows, stamp):
           "possible.\n")
     processors = sorted({row["processor"] for row in rows})
     print("Commit {commit}, {date}: {scenes} scenes, of seeds from {first} on, on {processors}. The first seed is the time at which the run began, and any "
-          "change of the engine or the judge begins a new table, so the engine cannot have been tuned to these scenes. `test/judge/run` goes on with them "
-          "up to 20 010. They are the same on any machine but for times; [random.csv.gz](random.csv.gz) has all.\n".format(
+          "change of the engine or the judge begins a new table, so the engine cannot have been tuned to these scenes. `test/judge/run` continues "
+          "this table up to 20 010 scenes. They are the same on any machine but for times; [random.csv.gz](random.csv.gz) has all.\n".format(
               scenes=len(rows), first=min(int(row["seed"]) for row in rows), processors=" and ".join(processors), **stamp))
     for kind, what in KINDS.items():
         print(f"- **{kind}**: {what}.")
-    print("\n| | " + " | ".join(KINDS) + " |\n|---" * 1 + "|---" * len(KINDS) + "|")
+    print("\n| | " + " | ".join(KINDS) + " |\n|---" + "|---" * len(KINDS) + "|")
     of = {kind: [row for row in rows if row["kind"] == kind] for kind in KINDS}
 
     def line(title, value):
@@ -59,8 +59,8 @@ def page(rows, stamp):
     middle = lambda values: "%.0f" % statistics.median(values)
     line("nodes, median", lambda some: middle(int(row["rows"]) * int(row["columns"]) for row in some))
     line("frames, median", lambda some: middle(int(row["frames"]) for row in some))
-    line("cloth of more than 1000 nodes", lambda some: str(sum(int(row["rows"]) * int(row["columns"]) > 1000 for row in some)))
-    line("largest cloth, nodes", lambda some: str(max(int(row["rows"]) * int(row["columns"]) for row in some)))
+    line("scenes of more than 1000 nodes", lambda some: str(sum(int(row["rows"]) * int(row["columns"]) > 1000 for row in some)))
+    line("largest scene, nodes", lambda some: str(max(int(row["rows"]) * int(row["columns"]) for row in some)))
     # Links are what the exact methods promise.
     exact = lambda some: [row for row in some if row["method"] != "paper"]
     line("of the paper's method", lambda some: str(len(some) - len(exact(some))))
@@ -68,23 +68,25 @@ def page(rows, stamp):
     line("`paper` left out: worst link of a scene that holds, where no hand may have pulled links apart", lambda some: f"{most(alone(some), 'stretch'):.2e}")
     lower = 0.0
     for edge in EDGES:
-        line(f"scenes whose worst link is off by {lower:g} to {edge:g}",
+        line(f"scenes whose worst link is off by {lower:.0e} to {edge:.0e}",
              lambda some, a=lower, b=edge: str(sum(a < number(row, "stretch") <= b or (a == 0.0 and number(row, "stretch") <= b) for row in exact(some))))
         lower = edge
     line("scenes whose worst link is off by more, where a hand may have pulled links apart", lambda some: str(sum(number(row, "stretch") > EDGES[-1] and row["holds"] == "1" for row in exact(some))))
     # What the verdict is of.
     line("frames checked by brute force", lambda some: share(total(some, "brute_forced"), total(some, "frames")))
     line("of these, with self-contact, whose crossings are excused", lambda some: share(total(some, "crossings_excused"), total(some, "crossings")))
-    line("frames of the others in which a hand may have pulled links apart", lambda some: share(total(exact(some), "links_excused"), total(exact(some), "frames")))
-    line("obstacles excused, of all frames of all", lambda some: share(total(some, "obstacles_excused"), total(some, "obstacles")))
-    line("frames of the others whose energy is judged", lambda some: "none" if some[0]["kind"] == "wild" else
+    line("`paper` left out: frames in which a hand may have pulled links apart", lambda some: share(total(exact(some), "links_excused"), total(exact(some), "frames")))
+    line("checks for piercing that are excused (one for each obstacle and frame)", lambda some: share(total(some, "obstacles_excused"), total(some, "obstacles")))
+    line("`paper` left out: frames whose energy is judged", lambda some: "none" if some[0]["kind"] == "wild" else
          share(total(exact(some), "energy_judged"), total(exact(some), "frames")))
     line("scenes in which the energy is judged in no frame", lambda some: "all" if some[0]["kind"] == "wild" else str(sum(row["energy_judged"] == "0" for row in exact(some))))
     if any(number(row, "energy_finer") > 0 and number(row, "energy_gain") <= MAX_RISE.get(row["kind"], 0.0) for row in rows):
         sys.exit("a scene was run in finer steps though its energy rose by less than MAX_RISE: it is not what test/judge/court.cpp has")
     rose = lambda some: [row for row in exact(some) if number(row, "energy_judged") > 0 and number(row, "energy_gain") > MAX_RISE.get(row["kind"], math.inf)]
-    line("scenes run once more in finer steps, since their energy seemed to rise", lambda some: "–" if some[0]["kind"] == "wild" else
-         f"{len(rose(some))}, of more than {MAX_RISE[some[0]['kind']]:g}" + (f": up to {most(rose(some), 'energy_gain'):.2f}; then up to {most(rose(some), 'energy_finer'):.2g}" if rose(some) else ""))
+    line("a rise of the energy counts above", lambda some: f"{MAX_RISE[some[0]['kind']]:g}" if some[0]["kind"] in MAX_RISE else "–")
+    line("scenes run again in finer steps, since their energy rose by more", lambda some: str(len(rose(some))) if some[0]["kind"] in MAX_RISE else "–")
+    line("largest such rise", lambda some: f"{most(rose(some), 'energy_gain'):.2f}" if rose(some) else "–")
+    line("largest rise of these scenes in finer steps", lambda some: f"{most(rose(some), 'energy_finer'):.2g}" if rose(some) else "–")
     line("scenes that needed the last resort", lambda some: share(sum(number(row, "last_resort") > 0 for row in some), len(some)))
     line("substeps of the last resort", lambda some: share(total(some, "last_resort"), total(some, "substeps")))
     line("substeps in which the cloth stayed where it was", lambda some: share(total(some, "stops"), total(some, "substeps")))
@@ -93,7 +95,7 @@ def page(rows, stamp):
     line("scenes with more than half of their substeps of the last resort", lambda some: mostly(some, "last_resort"))
     line("scenes in which the cloth stayed where it was in more than half of the substeps", lambda some: mostly(some, "stops"))
     line("momentum cut, median of the scenes with any [N s]",
-         lambda some: (lambda cut: f"{cut[len(cut) // 2]:.2g}" if cut else "–")(sorted(number(row, "momentum_cut") for row in some if number(row, "momentum_cut") > 0)))
+         lambda some: (lambda cut: f"{statistics.median(cut):.2g}" if cut else "–")([number(row, "momentum_cut") for row in some if number(row, "momentum_cut") > 0]))
     line("maximum number of solves in a frame", lambda some: f"{most(some, 'max_solves'):.0f}")
     line("rejected, of all solves", lambda some: share(total(some, "rejected"), total(some, "rejected") + total(some, "substeps")))
     line("slowest frame, s", lambda some: f"{most(some, 'slowest_frame_s'):.2g}")
@@ -103,13 +105,12 @@ def page(rows, stamp):
     print("| with | scenes | hold | substeps of the last resort | us of the processor a frame and node, median |\n|---|---|---|---|---|")
     for part in ["anything or nothing", *parts]:
         some = [row for row in rows if part not in parts or part in row["parts"].split("+")]
-        cost = sorted(1e6 * number(row, "seconds") / (number(row, "frames") * number(row, "rows") * number(row, "columns")) for row in some)
+        cost = statistics.median(1e6 * number(row, "seconds") / (number(row, "frames") * number(row, "rows") * number(row, "columns")) for row in some)
         print(f"| {part} | {len(some)} | {sum(row['holds'] == '1' for row in some)} | {share(total(some, 'last_resort'), total(some, 'substeps'))} "
-              f"| {cost[len(cost) // 2]:.2g} |")
+              f"| {cost:.2g} |")
     failed = [f"{row['kind']} {row['seed']}" for row in rows if row["holds"] != "1"]
     if failed:
         print("\nDid not hold when they were drawn; since then mended, or described in docs/accuracy.md: " + ", ".join(failed) + ".")
-
 
 
 def main():

@@ -34,7 +34,8 @@ The quick cases were run with every method, the slow ones (grids of up to a mill
 default; `--long` runs them with the others, too. Empty cells were not run.
 
 Each cell: largest overlength of a link (or shortness of a rod) / rise of the energy / time back to rest [s] (–: not tested).
-In parentheses: reported, not judged, because the start or the pins leave no choice. **Bold**: does not hold. *allowed*: the overlength and
+In parentheses: reported, not judged, because the start or the pins leave no choice, or because the method is `paper`. *never*: not within the
+allowed time. **Bold**: does not hold. *allowed*: the overlength and
 the rise that this case may have where that is not the rule (2e-3 / 0.01); any: not judged.
 
 """
@@ -111,7 +112,7 @@ def soak(path):
     if not rows:
         return []
     lines = ["", "The demo (curtain, ball, fan) as fast as it goes, half a minute of quiet at the end of every "
-             "interval. One row an hour, of the table in [soak.csv](soak.csv). Heap: what the program has allocated (`mallinfo2`); memory: "
+             "interval. The first row, then one an hour; [soak.csv](soak.csv) has one every ten minutes. Heap: what the program has allocated (`mallinfo2`); memory: "
              "what the system keeps for it.", "",
              "| simulated hours | median ms a frame | longest of ten minutes | sweeps a frame | longest link | height, speed at rest [m, m/s] | memory [kB] | heap [kB] |",
              "|---|---|---|---|---|---|---|---|"]
