@@ -68,7 +68,7 @@ def page(rows, stamp):
     line("`paper` left out: worst link of a scene that holds, where no hand may have pulled links apart", lambda some: f"{most(alone(some), 'stretch'):.2e}")
     lower = 0.0
     for edge in EDGES:
-        line(f"scenes whose worst link is off by {lower:.0e} to {edge:.0e}",
+        line(f"scenes whose worst link is off by {f'{lower:.0e}' if lower else 0} to {edge:.0e}",
              lambda some, a=lower, b=edge: str(sum(a < number(row, "stretch") <= b or (a == 0.0 and number(row, "stretch") <= b) for row in exact(some))))
         lower = edge
     line("scenes whose worst link is off by more, where a hand may have pulled links apart", lambda some: str(sum(number(row, "stretch") > EDGES[-1] and row["holds"] == "1" for row in exact(some))))
