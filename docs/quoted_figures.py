@@ -30,7 +30,7 @@ FIGURES = {
           clear(GATHERED, "NvCloth", 1e-2)["setting"].split("at ")[1].split(".")[0]]),
         ("brute force, on {} to {} % of the frames), no unexplained gain of energy where it can be judged | {} of {} hold. But in {} to {} % of the scenes,",
          percents("frames checked by brute force") +
-         [str(sum(drawn("hold"))), str(sum(drawn("scenes")))] +
+         [fixed(sum(drawn(name))) for name in ("hold", "scenes")] +
          percents("scenes that needed the last resort")),
         ("the longest frame of ten minutes took {} ms in the median and {} ms at worst,", [short(statistics.median(soaked("longest_ms"))), within(max(soaked("longest_ms")))]),
         ("in {} of {} trials it had not left after 5 s.", tried("appears", lambda row: row["outside"] == 0)),
@@ -237,7 +237,7 @@ FIGURES = {
         ("judged in {} % of the frames of everyday scenes, in {} % of sudden ones; in {} everyday and {} sudden scenes in no frame.",
          told("`paper` left out: frames whose energy is judged")[::2] + told("scenes in which the energy is judged in no frame")[::2]),
         ("A rise counts above {} (everyday) or {} (sudden,", told("a rise of the energy counts above")[::2]),
-        ("5 to 1000 Hz; up to {} nodes)", told("largest scene, nodes")[1:2]),
+        ("5 to 1000 Hz; up to {} nodes)", [fixed(drawn("largest scene, nodes")[1])]),
         ("{} % of the everyday scenes needed the last resort, in {} % of all substeps of everyday scenes; in {} % of the scenes the cloth was stopped ({} % of "
          "the substeps). "
          "Of the wild scenes {} % needed the last resort and in {} % the cloth was stopped. In {} % of the everyday scenes and {} % of the wild ones",
