@@ -283,8 +283,8 @@ class Court {
     for (int j = 0; j < simulator_.columns(); ++j) {
       for (int i = 0; i < simulator_.rows(); ++i) farthest = std::max(farthest, simulator_.position({i, j}).norm());
     }
-    // A place is rounded by half of kEps: at both ends of a rod, there twice, since it is counted from its anchor first,
-    // and a pin's in every substep of its way to where it is put at the frame's end.
+    // A place is rounded by half of kEps: at both ends of a rod, there twice, since it is counted from its anchor
+    // first, and a pin's in every substep of its way to where it is put at the frame's end.
     const double roundings = 4.0 + s.substeps_last;
     verdict_.atMost(kPaperRods + 0.5 * roundings * kEps * farthest / shortest_rod_, "rods of paper",
                     std::max(s.warp_stretch, s.warp_compression));
