@@ -4,13 +4,14 @@ text in a page, change it here as well."""
 import math
 import statistics
 
+from figure_text import fixed, short, within
+from quoted_random import drawn, held, part, percents, pulled_apart, rarity, told
 from quoted_tables import (ASLEEP, AWAKE, BALL, BOUNDS, BUDGETS, CAMERA, COARSE, DROPPED, DUELS, FINE, GATHERED, HANDCRAFTED, HOUSEHOLD,
-                           NOISE, PACKED, PORES, PROBLEMS, RIVALS, SHAKEN, STRAIGHT, apart, at, between, blown, both, bound, clear,
-                           cleared, clears, coarser, cores, demo, demo_in_node, drape, drapes, drawn, drifts, early, energy, engine,
-                           falls_asleep, fastest, fixed, folds, frame, grid, held, hurried, in_real_time, is_light, keeps_straining,
-                           kept, largest, least, megabytes, most, nearest_nets, one, pair, part, per_frame, percents,
-                           pulled_apart, rarity, ratio, refined, rivalled, rows, seen, share, sheet, short, soaked, stepped, strains,
-                           swing, together, told, told_by, took, tortures, touched, tried, unhurried, waits, whole, within)
+                           NOISE, PACKED, PORES, PROBLEMS, RIVALS, SHAKEN, STRAIGHT, apart, at, between, blown, both, clear, cleared,
+                           clears, coarser, cores, demo, demo_in_node, drape, drapes, drifts, early, energy, engine, falls_asleep,
+                           fastest, folds, frame, grid, hurried, in_real_time, is_light, keeps_straining, kept, largest, least,
+                           megabytes, most, nearest_nets, one, pair, per_frame, ratio, refined, rivalled, rows, seen, share, sheet,
+                           soaked, stepped, strains, swing, together, told_by, took, tortures, touched, tried, unhurried, waits, whole)
 
 FIGURES = {
     "README.md": [

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reads figures from the tables of the book: docs/bench/*.csv, docs/stress and docs/figures.csv, as the pages tell them."""
 import csv
-import gzip
 import math
 import os
-import re
 import sys
+
+from figure_text import bound, fixed, outwards, short, within
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 PROBLEMS = ("slope", "belt", "scarf", "Atwood")  # of the closed forms
@@ -46,36 +46,6 @@ def one_row(table, **wanted):
 def one(table, column, **wanted):
     """A cell."""
     return one_row(table, **wanted)[column]
-
-
-def short(value, digits=2):
-    """As many digits, all of them where it is larger: 0.50, 35, 569, 5.6e-5."""
-    if abs(value) < 1e-2:
-        return re.sub(r"e-0?", "e-", "%.*e" % (digits - 1, value))
-    return "%.0f" % value if abs(value) >= 10 ** digits - 0.5 else ("%#.*g" % (digits, value)).rstrip(".")
-
-
-def outwards(value, side, unit):
-    """The next multiple of a unit below (-1) or above (1)."""
-    count = value / unit
-    whole = round(count)  # it is one, but for rounding
-    return unit * (whole if abs(count - whole) < 1e-9 * max(1.0, abs(count)) else math.floor(count) if side < 0 else math.ceil(count))
-
-
-def bound(value, side, digits=2):
-    """Rounded down (-1) or up (1) to as many digits."""
-    return short(outwards(value, side, 10.0 ** (math.floor(math.log10(abs(value))) - digits + 1)), digits) if value else "0"
-
-
-def within(value, digits=2):
-    """An upper bound."""
-    return bound(value, 1, digits)
-
-
-def fixed(value, decimals=0):
-    """So many decimals, and spaces where there are ten thousands."""
-    text = "%.*f" % (decimals, value)
-    return "{:,}".format(int(text)).replace(",", " ") if decimals == 0 and abs(value) >= 1e4 else text
 
 
 def swing(method, error, column="ms_min"):
@@ -249,34 +219,6 @@ def at(size, rival, column="ms_min"):
     return found[0][column] if found else math.inf
 
 
-def drawn(name):
-    """A row of the table of random scenes: everyday, wild, sudden."""
-    found = re.search(r"^\| \**%s\** \| (.*) \|$" % name, read("docs/stress/random.md"), re.M)
-    if not found:
-        sys.exit("docs/stress/random.md has no row '%s'" % name)
-    return [int(cell.strip("*")) for cell in found[1].split(" | ")]
-
-
-def told(name):
-    """Figures of that table as it tells them: shares [%]."""
-    found = re.search(r"^\| %s \| (.*) \|$" % re.escape(name), read("docs/stress/random.md"), re.M)
-    if not found:
-        sys.exit("docs/stress/random.md has no row '%s'" % name)
-    return [cell.replace(" %", "") for cell in found[1].split(" | ")]
-
-
-def percents(name):
-    """Bounds of what that table has of the kinds of scenes [%]."""
-    shares = [float(text) for text in told(name)]
-    return [fixed(outwards(pick(shares), side, 1.0)) for pick, side in ((min, -1), (max, 1))]
-
-
-def pulled_apart():
-    """The worst link of all random scenes, over its length."""
-    with gzip.open(os.path.join(ROOT, "docs/stress/random.csv.gz"), "rt", encoding="utf-8") as text:
-        return short(max(float(row["stretch"]) for row in csv.DictReader(text) if row["method"] != "paper"))
-
-
 def kept(figure):
     """Least and largest value of a figure that tests keep."""
     found = [row for row in csv.DictReader(read("docs/figures.csv").splitlines()) if row["figure"] == figure]
@@ -333,14 +275,6 @@ def tortures(*cases, method=""):
     found = [float(row["energy_gain"]) for row in csv.DictReader(read("docs/stress/matrix.csv").splitlines())
              if row["case"] in cases and row["method"] != "paper" and method in ("", row["method"])]
     return within(max(found))
-
-
-def part(name):
-    """Of the random scenes with it how many hold, and how many there are."""
-    found = re.search(r"^\| %s \| (\d+) \| (\d+) \|" % name, read("docs/stress/random.md"), re.M)
-    if not found:
-        sys.exit("docs/stress/random.md has no row of scenes with %s" % name)
-    return [found[2], found[1]]
 
 
 def demo(name):
@@ -440,22 +374,6 @@ def stress_stamps():
 def soaked(column):
     """A column of the soak's table."""
     return [float(row[column]) for row in csv.DictReader(read("docs/stress/soak.csv").splitlines())]
-
-
-def rarity():
-    """N such that at most one scene in N fails, with a confidence of 95 %: the upper bound of a Poisson mean, rounded down to tens."""
-    failures = sum(drawn("scenes")) - sum(drawn("hold"))
-    low, high = 0.0, 10.0 + 3.0 * failures
-    while high - low > 1e-9:
-        mean = 0.5 * (low + high)
-        seen_or_fewer = sum(math.exp(-mean) * mean ** k / math.factorial(k) for k in range(failures + 1))
-        low, high = (mean, high) if seen_or_fewer > 0.05 else (low, mean)
-    return "%.0f" % outwards(sum(drawn("scenes")) / high, -1, 10.0)
-
-
-def held():
-    """Of each kind of random scenes how many held, of how many."""
-    return [str(count) for kind in zip(drawn("hold"), drawn("scenes")) for count in kind]
 
 
 HOUSEHOLD = [("linen napkin", "50 x 50 cm, on a plate of 30 cm | linen"), ("linen rag", "35 x 50 cm, on 21 cm | linen"),

@@ -72,7 +72,7 @@ class Court {
     took_.resize(happenings.hands.size());
     taken_at_.resize(happenings.hands.size());
     pulls_known_ = handless() &&  // hands put in what they like
-                   ((happenings.pin_swing.isZero() && happenings.pin_jerk.isZero()) || !linksStraightBetweenPins());
+                   (pinsStay() || !linksStraightBetweenPins());
     every_ = std::max(1, static_cast<int>(simulator_.rows() * simulator_.columns() * drawn.seconds *
                                           drawn.scene.solver.frame_rate / kNodesLookedAt));
     simulator_.countWork(rigour.energy && !paper_);
@@ -131,7 +131,7 @@ class Court {
       if (happenings.other_rate > 0.0) simulator_.setFrameRate(std::min(finer_ * happenings.other_rate, kMaxFrames));
     }
     for (std::size_t k = 0; k < happenings.hands.size(); ++k) moveHand(k);
-    if (happenings.pin_swing.isZero() && happenings.pin_jerk.isZero()) return;
+    if (pinsStay()) return;
     const double frame = 1.0 / simulator_.scene().solver.frame_rate;
     Vec3 move = std::sin(2.0 * kPi * happenings.pin_frequency * (time + frame)) * happenings.pin_swing;
     if (after)
@@ -184,6 +184,7 @@ class Court {
     for (const HandParams& hand : drawn_.scene.hands)
       look(hand.grasp.id, std::isfinite(hand.grasp.stiffness) || std::isfinite(hand.grasp.pinch_force));
   }
+  bool pinsStay() const { return drawn_.happenings.pin_swing.isZero() && drawn_.happenings.pin_jerk.isZero(); }
   bool handless() const { return drawn_.happenings.hands.empty() && drawn_.scene.hands.empty(); }
 
   // Links drawn straight between two pins of a column or row: what they pull has no one answer, so the work of pins
@@ -212,9 +213,7 @@ class Court {
     return found.nodes + found.edges + found.faces == 0;
   }
 
-  bool pinsStand() const {
-    return carriers_.empty() && drawn_.happenings.pin_swing.isZero() && drawn_.happenings.pin_jerk.isZero();
-  }
+  bool pinsStand() const { return carriers_.empty() && pinsStay(); }
 
   // A pin is so near, here or on the way here, that what hangs on it may have no room. Where both stand there is the
   // room that there was at the start.
@@ -283,9 +282,9 @@ class Court {
     for (int j = 0; j < simulator_.columns(); ++j) {
       for (int i = 0; i < simulator_.rows(); ++i) farthest = std::max(farthest, simulator_.position({i, j}).norm());
     }
-    // A place is rounded by half of kEps: at both ends of a rod, there twice, since it is counted from its anchor
-    // first, and a pin's in every substep of its way to where it is put at the frame's end.
-    const double roundings = 4.0 + s.substeps_last;
+    // 4 kEps: eight roundings of places, by half of kEps each. Besides, a pin that moves is rounded in every substep of
+    // its way to where it is put at the frame's end.
+    const double roundings = 8.0 + (pinsStay() && scene.pins_motion.empty() ? 0.0 : s.substeps_last);
     verdict_.atMost(kPaperRods + 0.5 * roundings * kEps * farthest / shortest_rod_, "rods of paper",
                     std::max(s.warp_stretch, s.warp_compression));
   }
